@@ -1,0 +1,88 @@
+"""The viewer: what a scene declares of the camera, and the camera of one instant."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field, model_validator
+
+from .declaration import Declaration, Pair, Triple
+
+
+class Stop(Declaration):
+    """One point of a camera path."""
+
+    at: float = Field(ge=0.0, le=36000.0)
+    """When the camera is here [s]."""
+
+    position: Pair
+    """Ground position (x, z) [m]."""
+
+    target: Triple | None = None
+    """Point looked at (x, height above its ground, z) [m]; without it yaw and pitch hold."""
+
+    yaw: float = Field(0.0, ge=-3600.0, le=3600.0)
+    """Viewing direction: 0 looks down -z, positive turns right [degrees]."""
+
+    pitch: float = Field(0.0, ge=-89.0, le=89.0)
+    """Viewing elevation, positive looks up [degrees]."""
+
+
+class CameraSource(Declaration):
+    """Where the scene is looked at from: a fixed place, or a path walked in time."""
+
+    position: Pair = [0.0, 0.0]
+    """Ground position (x, z) [m]."""
+
+    eye: float = Field(1.7, ge=0.1, le=500.0)
+    """Height of the eye above the ground [m]."""
+
+    target: Triple | None = None
+    """Point looked at (x, height above its ground, z) [m]; without it yaw and pitch hold."""
+
+    yaw: float = Field(0.0, ge=-3600.0, le=3600.0)
+    """Viewing direction: 0 looks down -z, positive turns right [degrees]."""
+
+    pitch: float = Field(0.0, ge=-89.0, le=89.0)
+    """Viewing elevation, positive looks up [degrees]."""
+
+    view: float = Field(40.0, ge=5.0, le=120.0)
+    """Vertical angle of view [degrees]."""
+
+    path: list[Stop] = Field(default=[], max_length=1000)
+    """Places walked through in time; the fixed place is where a picture is taken from."""
+
+    @model_validator(mode="after")
+    def _rising_times(self) -> "CameraSource":
+        times = [stop.at for stop in self.path]
+        if any(b <= a for a, b in zip(times, times[1:], strict=False)):
+            raise ValueError("the stops of a path must have rising times")
+        return self
+
+
+@dataclass(frozen=True, slots=True)
+class Camera:
+    """The camera of one instant: right-handed, y up, looking down its own -z."""
+
+    position: tuple[float, float, float]
+    """Eye (x, y, z) [m]."""
+
+    yaw: float
+    """0 looks down -z, positive turns right [rad]."""
+
+    pitch: float
+    """Positive looks up [rad]."""
+
+    view: float
+    """Vertical angle of view [rad]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class View:
+    """The two matrices that a picture is drawn with."""
+
+    view: NDArray[np.float32]
+    """World to eye, shape (4, 4), column vectors: `view @ (x, y, z, 1)`."""
+
+    projection: NDArray[np.float32]
+    """Eye to clip space, shape (4, 4), column vectors."""

@@ -1,0 +1,23 @@
+"""The base of everything a scene file can declare."""
+
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field
+
+
+class Declaration(BaseModel):
+    """A part of a scene file: strict numbers, no unknown keys, no NaN, frozen once read."""
+
+    model_config = ConfigDict(
+        extra="forbid", strict=True, frozen=True, allow_inf_nan=False, use_attribute_docstrings=True
+    )
+
+
+Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
+"""Two numbers; a list rather than a tuple, because schema readers of draft 7 know its length limits."""
+
+Triple = Annotated[list[float], Field(min_length=3, max_length=3)]
+"""Three numbers."""
+
+Color = Annotated[str, Field(pattern=r"^#[0-9a-fA-F]{6}$")]
+"""An sRGB colour written `#rrggbb`."""

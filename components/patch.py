@@ -1,0 +1,116 @@
+"""Patches of grass and their level of detail."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Patch:
+    """One square of the tiling (paper, section 2.2). Its arrays are one row of the `PatchTable`."""
+
+    cell: NDArray[np.int32]
+    """Cell (i, j) of the tiling; it covers [i, i + 1) by [j, j + 1) patch sides in x and z, shape (2,)."""
+
+    model: NDArray[np.int32]
+    """Which patch model stands here, shape (1,)."""
+
+    turn: NDArray[np.int32]
+    """Quarter turns of the model about the vertical axis, shape (1,)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Lod:
+    """The level of detail of a patch. Its arrays are one row of the `PatchTable`."""
+
+    distance: NDArray[np.int32]
+    """Discrete distance: 0 for the viewer's patch, 1 for its eight neighbours, and so on, shape (1,)."""
+
+    representation: NDArray[np.int8]
+    """The `Representation` that the patch has, or is coming to, shape (1,)."""
+
+    previous: NDArray[np.int8]
+    """The `Representation` that it comes from, shape (1,)."""
+
+    progress: NDArray[np.float32]
+    """How far the change has gone, 1 when it is over, shape (1,)."""
+
+    visible: NDArray[np.bool_]
+    """Whether the patch is inside the view cone, shape (1,)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PatchTable:
+    """All patches of a prairie as one structure of arrays, one row per patch that exists.
+
+    The rows form a square window around the viewer that wraps round: the patch of cell (i, j) is always at
+    row (j mod side) * side + (i mod side), so that a step of the viewer replaces one line of rows.
+    """
+
+    side: int
+    """Patches along the window's side."""
+
+    cell: NDArray[np.int32]
+    """Shape (rows, 2)."""
+
+    alive: NDArray[np.bool_]
+    """Whether the row's cell lies on the terrain, shape (rows,)."""
+
+    model: NDArray[np.int32]
+    """Shape (rows,)."""
+
+    turn: NDArray[np.int32]
+    """Shape (rows,)."""
+
+    distance: NDArray[np.int32]
+    """Shape (rows,)."""
+
+    representation: NDArray[np.int8]
+    """Shape (rows,)."""
+
+    previous: NDArray[np.int8]
+    """Shape (rows,)."""
+
+    progress: NDArray[np.float32]
+    """Shape (rows,)."""
+
+    visible: NDArray[np.bool_]
+    """Shape (rows,)."""
+
+    entity: NDArray[np.int64]
+    """The patch's entity, 0 where there is none, shape (rows,)."""
+
+    @classmethod
+    def allocate(cls, side: int) -> "PatchTable":
+        """Return an empty table for a window of `side` by `side` patches."""
+        rows = side * side
+        return cls(
+            side=side,
+            cell=np.full((rows, 2), np.iinfo(np.int32).min, np.int32),
+            alive=np.zeros(rows, np.bool_),
+            model=np.zeros(rows, np.int32),
+            turn=np.zeros(rows, np.int32),
+            distance=np.zeros(rows, np.int32),
+            representation=np.full(rows, -1, np.int8),
+            previous=np.full(rows, -1, np.int8),
+            progress=np.ones(rows, np.float32),
+            visible=np.zeros(rows, np.bool_),
+            entity=np.zeros(rows, np.int64),
+        )
+
+    def patch(self, row: int) -> Patch:
+        """Return the `Patch` component of one row: views, not copies."""
+        only = slice(row, row + 1)
+        return Patch(cell=self.cell[row], model=self.model[only], turn=self.turn[only])
+
+    def lod(self, row: int) -> Lod:
+        """Return the `Lod` component of one row: views, not copies."""
+        only = slice(row, row + 1)
+        return Lod(
+            distance=self.distance[only],
+            representation=self.representation[only],
+            previous=self.previous[only],
+            progress=self.progress[only],
+            visible=self.visible[only],
+        )

@@ -1,0 +1,92 @@
+"""The terrain: what a scene declares of it, and the elevation map it becomes."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field, model_validator
+
+from .declaration import Declaration, Pair
+
+
+class TerrainSource(Declaration):
+    """An elevation map from a file, or one made from a named noise (paper, section 2.2).
+
+    It is centred on the origin; row 0 of the map is the far edge (-z), column 0 the left edge (-x).
+    """
+
+    heights: str | None = None
+    """Elevation map file, relative to the scene file: 16-bit grey .png, .r16 or .raw, .npy, or .tif."""
+
+    noise: Literal["flat", "rolling", "hills", "ridges"] | None = None
+    """A landscape made from noise instead of a file."""
+
+    seed: int = Field(0, ge=0, le=2**31 - 1)
+    """Seed of the noise."""
+
+    size: Pair | None = None
+    """Width (x) and depth (z) of a noise landscape [m]; without it 200 by 200."""
+
+    feature: float = Field(60.0, ge=2.0, le=5000.0)
+    """Distance between neighbouring hills of a noise landscape [m]."""
+
+    cell: float = Field(1.0, ge=0.05, le=1000.0)
+    """Metres per cell."""
+
+    scale: float | None = Field(None, ge=-10000.0, le=10000.0)
+    """Vertical scale [m]: the height of a whole 16-bit range or of the noise, or the factor on a float map."""
+
+    offset: float = Field(0.0, ge=-20000.0, le=20000.0)
+    """Height added to every cell [m]."""
+
+    columns: int | None = Field(None, ge=2, le=8193)
+    """Columns of a headless .r16 or .raw file; without it the map is square."""
+
+    byte_order: Literal["little", "big"] = "little"
+    """Byte order of a headless .r16 or .raw file."""
+
+    flip: bool = False
+    """Whether the file's first row is the near edge (+z) instead of the far one."""
+
+    @model_validator(mode="after")
+    def _one_source(self) -> "TerrainSource":
+        if self.heights is not None and self.noise is not None:
+            raise ValueError("give either heights (a file) or noise, not both")
+        if self.size is not None and not all(5.0 <= side <= 10240.0 for side in self.size):
+            raise ValueError("size must be [width, depth] in metres, between 5 and 10240")
+        return self
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Terrain:
+    """An elevation map whose samples stand at cell corners; between them heights are bilinear."""
+
+    heights: NDArray[np.float32]
+    """Heights [m], row 0 at the far edge (-z), shape (rows, columns)."""
+
+    cell: float
+    """Metres per cell."""
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width (x) and depth (z) [m]."""
+        rows, columns = self.heights.shape
+        return (columns - 1) * self.cell, (rows - 1) * self.cell
+
+    @property
+    def origin(self) -> tuple[float, float]:
+        """Ground position (x, z) of sample [0, 0] [m]."""
+        width, depth = self.size
+        return -width / 2, -depth / 2
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Density:
+    """How densely each kind grows, sampled over the whole terrain."""
+
+    maps: NDArray[np.float32]
+    """Density in [0, 1] of each kind, row 0 at the far edge (-z), shape (kinds, rows, columns)."""
+
+    size: tuple[float, float]
+    """Width (x) and depth (z) of the terrain that the maps are laid over, centred on the origin [m]."""

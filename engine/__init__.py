@@ -1,0 +1,1 @@
+"""What every system stands on: world, phases, plugins, scene files, terrain files and GL."""

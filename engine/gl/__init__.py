@@ -1,0 +1,1 @@
+"""Everything that touches GL: context, guest guard, shaders, buffers."""

@@ -1,0 +1,1 @@
+"""Reading scene files: YAML with positions, problems with carets."""

@@ -1,0 +1,1 @@
+"""Shader parts that several programs include."""

@@ -1,0 +1,1 @@
+"""Elevation and density maps, from files and from noise."""

@@ -1,0 +1,1 @@
+"""Bundled scenes; a scene's name is its file's stem."""

@@ -1,0 +1,1 @@
+"""What happens: growth, tiling, culling, levels of detail, wind and drawing."""

@@ -1,0 +1,1 @@
+"""Drawing: sky, ground, carpet, strips and blades, back to front."""

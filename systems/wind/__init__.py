@@ -1,0 +1,1 @@
+"""Wind: the primitives, and what carries their messages to the receivers."""
