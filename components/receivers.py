@@ -1,0 +1,106 @@
+"""Pools of receivers: all blades and strip edges that feel the wind, as structures of arrays."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float32]
+NOWHERE = np.iinfo(np.int32).min
+"""Stamp of a slot on which nothing stands."""
+
+BLADE = np.dtype(
+    [
+        ("root", "3f4"),
+        ("height", "f4"),
+        ("rest", "2f4"),
+        ("facing", "2f4"),
+        ("width", "f4"),
+        ("variant", "f4"),
+        ("kind", "f4"),
+    ]
+)
+"""What the graphics card is told of a blade: root [m], length [m], lean, face normal (x, z), width at the root [m],
+row of the posture table, and kind. The field names are the shader's attributes."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BladePool:
+    """The blades of all patches near enough to be 3D, one slot per patch and kind.
+
+    Slots form a window that wraps round, as the rows of a `PatchTable` do.
+    """
+
+    side: int
+    """Patches along the window's side."""
+
+    blade: NDArray[np.void]
+    """Records of `BLADE`, shape (side * side, kinds, n)."""
+
+    present: NDArray[np.bool_]
+    """Whether the blade grows at its place's density, shape (side * side, kinds, n)."""
+
+    place: Floats
+    """Receivers' ground positions (x, z) [m], shape (side * side, kinds, n, 2)."""
+
+    message: Floats
+    """Receivers' messages, shape (side * side, kinds, n, 2)."""
+
+    stamp: NDArray[np.int32]
+    """Cell (i, j) that each slot is planted for, shape (side * side, 2)."""
+
+    @classmethod
+    def allocate(cls, side: int, kinds: int, blades: int) -> "BladePool":
+        """Return an empty pool for a window of `side` by `side` patches."""
+        shape = (side * side, kinds, blades)
+        return cls(
+            side=side,
+            blade=np.zeros(shape, BLADE),
+            present=np.zeros(shape, np.bool_),
+            place=np.zeros((*shape, 2), np.float32),
+            message=np.zeros((*shape, 2), np.float32),
+            stamp=np.full((side * side, 2), NOWHERE, np.int32),
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StripPool:
+    """The strips of one ring of 2.5D patches, one slot per patch and kind; an edge is a receiver.
+
+    Strips are stored by rising distance along their stacking axis (+z or +x).
+    """
+
+    side: int
+    """Patches along the window's side."""
+
+    place: Floats
+    """Feet of the vertical edges (x, z) [m], shape (side * side, kinds, strips, columns + 1, 2)."""
+
+    ground: Floats
+    """Height of the ground under each edge [m], shape (side * side, kinds, strips, columns + 1)."""
+
+    message: Floats
+    """Receivers' messages, shape (side * side, kinds, strips, columns + 1, 2)."""
+
+    layer: Floats
+    """Layer of the texture array, shape (side * side, kinds, strips)."""
+
+    present: NDArray[np.bool_]
+    """Whether the kind grows on the patch at all, shape (side * side, kinds)."""
+
+    stamp: NDArray[np.int32]
+    """Cell (i, j) and orientation that each slot is planted for, shape (side * side, 3)."""
+
+    @classmethod
+    def allocate(cls, side: int, kinds: int, strips: int, columns: int) -> "StripPool":
+        """Return an empty pool for a window of `side` by `side` patches."""
+        shape = (side * side, kinds, strips)
+        return cls(
+            side=side,
+            place=np.zeros((*shape, columns + 1, 2), np.float32),
+            ground=np.zeros((*shape, columns + 1), np.float32),
+            message=np.zeros((*shape, columns + 1, 2), np.float32),
+            layer=np.zeros(shape, np.float32),
+            present=np.zeros(shape[:2], np.bool_),
+            stamp=np.full((side * side, 3), NOWHERE, np.int32),
+        )

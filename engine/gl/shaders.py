@@ -1,0 +1,79 @@
+"""Programs composed from the package's shader files."""
+
+import re
+from collections.abc import Mapping
+from functools import lru_cache
+from importlib.resources import files
+
+import moderngl
+
+_INCLUDE = re.compile(r'\s*#include\s+"([^"]+)"')
+_PLACE = re.compile(r"\b\d+:(\d+)\b|\b\d+\((\d+)\)")
+_VERSION = "#version 330 core"
+
+Line = tuple[str, int, str]
+"""File name, line number, text."""
+
+
+class ShaderError(RuntimeError):
+    """A shader file is missing or does not compile; the message names its file and line."""
+
+
+@lru_cache(maxsize=64)
+def _read(name: str) -> tuple[str, ...]:
+    source = files("tallgrass.engine.shaders").joinpath(name)
+    if not source.is_file():
+        raise ShaderError(f"there is no shader file '{name}'")
+    return tuple(source.read_text("utf-8").splitlines())
+
+
+def _gather(name: str, lines: list[Line], seen: set[str]) -> None:
+    seen.add(name)
+    for number, text in enumerate(_read(name), 1):
+        included = _INCLUDE.match(text)
+        if included is None:
+            lines.append((name, number, text))
+        elif included[1] not in seen:
+            _gather(included[1], lines, seen)
+
+
+def compose(name: str, defines: Mapping[str, str | int] | None = None) -> tuple[str, list[Line]]:
+    """Return a shader's source with every include in place once, and where each of its lines comes from."""
+    head = [_VERSION, *(f"#define {key} {value}" for key, value in (defines or {}).items())]
+    lines: list[Line] = [(name, 0, text) for text in head]
+    _gather(name, lines, set())
+    return "\n".join(text for _, _, text in lines) + "\n", lines
+
+
+def locate(message: str, lines: list[Line]) -> str:
+    """Return a driver's message with the places of its composed source put back to files and lines."""
+
+    def place(match: re.Match[str]) -> str:
+        number = int(match[1] or match[2])
+        if not 1 <= number <= len(lines):
+            return match[0]
+        name, line, _ = lines[number - 1]
+        return f"{name}:{line}"
+
+    return _PLACE.sub(place, message)
+
+
+def program(
+    ctx: moderngl.Context,
+    vertex: str,
+    fragment: str | None,
+    *,
+    defines: Mapping[str, str | int] | None = None,
+    varyings: tuple[str, ...] = (),
+) -> moderngl.Program:
+    """Return the program of two shader files; raises `ShaderError` with the file and line of what fails."""
+    sources = {name: compose(name, defines) for name in (vertex, fragment) if name is not None}
+    try:
+        return ctx.program(
+            vertex_shader=sources[vertex][0],
+            fragment_shader=None if fragment is None else sources[fragment][0],
+            varyings=varyings,
+        )
+    except moderngl.Error as error:
+        stage = fragment if fragment is not None and "fragment_shader" in str(error) else vertex
+        raise ShaderError(locate(str(error), sources[stage][1])) from error

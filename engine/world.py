@@ -1,0 +1,56 @@
+"""The entities of one prairie, inside whatever esper world is current: the only module that imports esper."""
+
+from typing import TypeVar
+
+import esper
+
+Component = TypeVar("Component")
+
+
+class World:
+    """A prairie's own entities among a game's.
+
+    It never switches, clears or processes worlds: it lives in the world that was current when it was made, as
+    a guest, and `release` removes exactly what it created.
+    """
+
+    def __init__(self) -> None:
+        self.name = esper.current_world
+        self._entities: set[int] = set()
+
+    def create(self, *components: object) -> int:
+        """Return a new entity that has `components`."""
+        entity = esper.create_entity(*components)
+        self._entities.add(entity)
+        return entity
+
+    def delete(self, entity: int) -> None:
+        """Delete an entity at once; one that the game has deleted already is no error."""
+        self._entities.discard(entity)
+        if esper.entity_exists(entity):
+            esper.delete_entity(entity, immediate=True)
+
+    def add(self, entity: int, component: object) -> None:
+        """Give an entity a component, in place of one of the same type."""
+        esper.add_component(entity, component)
+
+    def get(self, entity: int, kind: type[Component]) -> Component:
+        """Return an entity's component of exactly this type; KeyError if it has none."""
+        return esper.component_for_entity(entity, kind)
+
+    def all(self, kind: type[Component]) -> list[tuple[int, Component]]:
+        """Return every entity that has a component of exactly this type, by rising entity number.
+
+        The order is fixed so that nothing that follows from it depends on how a set is laid out.
+        """
+        return sorted(((entity, component) for entity, component in esper.get_component(kind)), key=lambda row: row[0])
+
+    def __len__(self) -> int:
+        return len(self._entities)
+
+    def release(self) -> None:
+        """Delete every entity created here that still exists."""
+        if esper.current_world == self.name:
+            for entity in list(self._entities):
+                self.delete(entity)
+        self._entities.clear()

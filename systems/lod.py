@@ -1,0 +1,61 @@
+"""Levels of detail: which representation each patch has, and how far a change of it has gone."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..components.patch import PatchTable
+from ..components.quality import Representation
+
+FADE = 0.9
+"""How long a change of representation takes [s]: less than a walker needs to cross a patch (paper, section 4.1)."""
+
+SLACK = 1
+"""How many patches farther a patch must be to go to the coarser representation than to come back from it."""
+
+
+def wanted_representation(
+    distance: NDArray[np.int32], current: NDArray[np.int8], /, *, reach: tuple[int, int, int]
+) -> NDArray[np.int8]:
+    """Return the representation due at each discrete distance, shape (n,).
+
+    A patch keeps a finer representation for `SLACK` patches beyond its reach, so that a walker who stands on a
+    limit leaves nothing in transition (paper, section 4.1). `current` is -1 for a patch that has none yet.
+    """
+    blades, strips, _ = reach
+    due = (distance > blades).astype(np.int8) + (distance > strips).astype(np.int8)
+    late = (distance > blades + SLACK).astype(np.int8) + (distance > strips + SLACK).astype(np.int8)
+    keeps = (current >= 0) & (current < due)
+    return np.where(keeps, np.maximum(late, current), due).astype(np.int8)
+
+
+def schedule(table: PatchTable, wanted: NDArray[np.int8], was_visible: NDArray[np.bool_], /, *, dt: float) -> None:
+    """Advance changes of representation and start those that are due (paper, section 4.1).
+
+    A patch that was visible changes over `FADE` seconds; one that was not takes its representation at once. A change
+    that turns back in its middle goes back from where it is.
+    """
+    table.progress[:] = np.minimum(table.progress + np.float32(dt / FADE), 1.0)
+    over = table.progress >= 1.0
+    table.previous[over] = table.representation[over]
+    due = table.alive & (wanted != table.representation)
+    seen = due & was_visible & (table.representation >= 0)
+    back = seen & ~over & (wanted == table.previous)
+    start = seen & over
+    at_once = due & ~was_visible | due & (table.representation < 0)
+    table.previous[back], table.representation[back] = table.representation[back], table.previous[back]
+    table.progress[back] = 1.0 - table.progress[back]
+    table.previous[start] = table.representation[start]
+    table.progress[start] = 0.0
+    table.previous[at_once] = wanted[at_once]
+    table.progress[at_once] = 1.0
+    changed = start | at_once
+    table.representation[changed] = wanted[changed]
+
+
+def weights(table: PatchTable, /) -> NDArray[np.float32]:
+    """Return how much each representation shows on each patch, shape (3, rows): they sum to 1, or 0 where none is."""
+    shown = np.zeros((len(Representation), len(table.progress)), np.float32)
+    for level in Representation:
+        shown[level] = np.where(table.representation == level, table.progress, 0.0)
+        shown[level] += np.where(table.previous == level, 1.0 - table.progress, 0.0)
+    return shown

@@ -1,0 +1,121 @@
+"""Planting: a patch model's blades and strips stood on the terrain of one cell (paper, section 2.2)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..components.growth import Blades, Strips
+from ..components.receivers import BLADE, BladePool, StripPool
+from ..components.terrain import Density, Terrain
+from ..engine.terrain.sample import density_at, height_at
+
+Floats = NDArray[np.float32]
+Ints = NDArray[np.int32]
+
+_COS = np.array([1, 0, -1, 0], np.float32)
+_SIN = np.array([0, 1, 0, -1], np.float32)
+PRESENT = 1.0 / 255.0
+"""Density below which a kind is taken not to grow at all."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ground:
+    """What stands under the grass."""
+
+    terrain: Terrain
+    density: Density
+    patch: float
+    """Side of a patch [m]."""
+
+
+def turned(place: Floats, turn: Ints, /, *, patch: float) -> Floats:
+    """Return positions in a patch (..., 2) after quarter turns about its middle, +x towards +z."""
+    c, s = _COS[turn], _SIN[turn]
+    x, z = place[..., 0] - patch / 2, place[..., 1] - patch / 2
+    return np.stack([c * x - s * z + patch / 2, s * x + c * z + patch / 2], axis=-1).astype(np.float32)
+
+
+def blade_records(blades: Blades, turn: int, /, *, patch: float, kind: int, variants: int) -> NDArray[np.void]:
+    """Return the records of a patch model's blades after quarter turns, roots relative to the patch, shape (n,)."""
+    c, s = _COS[turn], _SIN[turn]
+    records = np.zeros(len(blades.height), BLADE)
+    spun = turned(blades.root, np.int32(turn), patch=patch)
+    records["root"][:, 0], records["root"][:, 2] = spun[:, 0], spun[:, 1]
+    records["height"], records["width"], records["kind"] = blades.height, blades.width, kind
+    records["variant"] = kind * variants + blades.variant
+    records["rest"] = np.stack([c * blades.rest[:, 0] - s * blades.rest[:, 1], s * blades.rest[:, 0] + c * blades.rest[:, 1]], 1)
+    azimuth = blades.facing + turn * (np.pi / 2)
+    records["facing"] = np.stack([np.cos(azimuth), np.sin(azimuth)], 1)
+    return records
+
+
+def plant_blades(
+    pool: BladePool, slots: NDArray[np.int64], cell: Ints, model: Ints, turn: Ints, stock: list[list[NDArray[np.void]]],
+    ranks: list[list[Floats]], ground: Ground, /,
+) -> None:
+    """Stand the blades of each cell (m, 2) in its slot of the pool.
+
+    `stock[kind][model * 4 + turn]` holds a model's records, `ranks[kind][model]` its blades' ranks.
+    """
+    pool.stamp[slots] = cell
+    corner = cell.astype(np.float32) * np.float32(ground.patch)
+    for kind, (records, rank) in enumerate(zip(stock, ranks, strict=True)):
+        count = len(rank[0])
+        chosen = np.stack(records)[model * 4 + turn]
+        chosen["root"][..., 0] += corner[:, None, 0]
+        chosen["root"][..., 2] += corner[:, None, 1]
+        place = np.ascontiguousarray(chosen["root"][..., ::2])
+        chosen["root"][..., 1] = height_at(ground.terrain, place.reshape(-1, 2)).reshape(place.shape[:2])
+        dense = density_at(ground.density, place.reshape(-1, 2))[kind].reshape(place.shape[:2])
+        pool.blade[slots, kind, :count] = chosen
+        pool.place[slots, kind, :count] = place
+        pool.present[slots, kind, :count] = (np.stack(rank)[model] < dense) & (dense > PRESENT)
+
+
+def strip_edges(strips: Strips, columns: int, along: Ints, turn: Ints, /, *, patch: float) -> tuple[Floats, Ints]:
+    """Return the feet of the strips' edges in patches turned by `turn` (m,) whose strips run along axis `along` (m,).
+
+    The first array (m, strips, columns + 1, 2) holds positions in the patch, strips by rising place in their stack;
+    the second (m, strips) says which of the model's planes each strip is.
+    """
+    reach = np.linspace(-strips.margin, patch + strips.margin, columns + 1, dtype=np.float32)
+    u, plane = np.broadcast_arrays(reach[None, :], strips.plane[:, None])
+    own = (along + turn) % 2
+    local = np.where(own[:, None, None, None] == 0, np.stack([u, plane], -1), np.stack([plane, u], -1))
+    spun = turned(local, turn[:, None, None], patch=patch)
+    stack = np.take_along_axis(spun[:, :, 0, :], (1 - along)[:, None, None], axis=2)[..., 0]
+    order = np.argsort(stack, axis=1).astype(np.int32)
+    return np.take_along_axis(spun, order[:, :, None, None], axis=1), order
+
+
+def plant_strips(
+    pool: StripPool, slots: NDArray[np.int64], cell: Ints, model: Ints, turn: Ints, along: Ints,
+    rings: list[Strips], first_layer: list[int], ground: Ground, /,
+) -> None:
+    """Stand the strips of each cell (m, 2), running along axis `along` (m,), in its slot of the pool.
+
+    `rings[kind]` gives the strips' planes, `first_layer[kind]` where the kind's layers start in the texture array:
+    models, then orientations, then strips.
+    """
+    pool.stamp[slots, :2], pool.stamp[slots, 2] = cell, along
+    corner = cell.astype(np.float32) * np.float32(ground.patch)
+    columns = pool.ground.shape[-1] - 1
+    for kind, strips in enumerate(rings):
+        count = len(strips.plane)
+        local, order = strip_edges(strips, columns, along, turn, patch=ground.patch)
+        place = (local + corner[:, None, None, :]).astype(np.float32)
+        flat = place.reshape(-1, 2)
+        pool.place[slots, kind] = place
+        pool.ground[slots, kind] = height_at(ground.terrain, flat).reshape(place.shape[:-1])
+        pool.layer[slots, kind] = first_layer[kind] + ((model * 2 + (along + turn) % 2) * count)[:, None] + order
+        dense = density_at(ground.density, flat)[kind].reshape(len(slots), -1)
+        pool.present[slots, kind] = dense.max(axis=1) > PRESENT
+
+
+def strips_along(cell: Ints, centre: Ints, /) -> Ints:
+    """Return the axis along which each cell's strips run so that none is edge-on: 0 is x, 1 is z (paper, section 2.1)."""
+    apart = np.abs(cell - centre)
+    return (apart[..., 0] > apart[..., 1]).astype(np.int32)
+
+
