@@ -1,0 +1,42 @@
+"""Smooth noise on the ground, read from periodic tables of random numbers."""
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float32]
+PERIOD = 128
+"""Lattice points along a side of a table, after which the noise repeats; a power of two."""
+
+
+@lru_cache(maxsize=64)
+def noise_table(seed: int, stream: int) -> Floats:
+    """Return four independent channels of uniform random numbers in [-1, 1], shape (PERIOD, PERIOD, 4)."""
+    table = np.random.default_rng((seed, stream)).uniform(-1.0, 1.0, (PERIOD, PERIOD, 4)).astype(np.float32)
+    table.setflags(write=False)
+    return table
+
+
+def smooth_noise(table: Floats, place: Floats, /, *, shift: tuple[float, float] = (0.0, 0.0)) -> Floats:
+    """Return four channels of noise in [-1, 1] at `place` + `shift` in lattice units, shape (n, 4).
+
+    `place` has shape (n, 2). The noise has a continuous slope. The shift is reduced by the noise's period first, so
+    that hours of travel cost no precision.
+    """
+    moved = place + np.float32([np.mod(shift[0], PERIOD), np.mod(shift[1], PERIOD)])
+    low = np.floor(moved)
+    part = moved - low
+    part = part * part * (np.float32(3.0) - np.float32(2.0) * part)
+    corner = low.astype(np.int32) & (PERIOD - 1)
+    x, z = corner[:, 0], corner[:, 1]
+    right, below = (x + 1) & (PERIOD - 1), ((z + 1) & (PERIOD - 1)) * PERIOD
+    z = z * PERIOD
+    flat = table.reshape(-1, 4)
+    s, t = part[:, :1], part[:, 1:]
+    far = flat.take(z + x, axis=0)
+    far += s * (flat.take(z + right, axis=0) - far)
+    near = flat.take(below + x, axis=0)
+    near += s * (flat.take(below + right, axis=0) - near)
+    far += t * (near - far)
+    return far
