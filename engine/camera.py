@@ -1,0 +1,171 @@
+"""Matrices of the viewer, and camera paths walked in time."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..components.camera import Camera, CameraSource, Stop
+
+Floats = NDArray[np.float32]
+Doubles = NDArray[np.float64]
+Heights = Callable[[Floats], Floats]
+"""Heights [m], shape (n,), of ground positions (x, z) [m], shape (n, 2)."""
+
+NEAR = 0.1
+"""Distance of the near plane [m]: a viewer stands in the grass."""
+
+FAR = 5000.0
+"""Distance of the far plane [m]; with `NEAR`, 24 bits of depth still part 6 mm at 100 m."""
+
+FARTHEST = 1e6
+"""Largest coordinate that a camera may be placed at [m]."""
+
+
+def forward(yaw: float, pitch: float, /) -> tuple[float, float, float]:
+    """Return the unit vector that a camera of this yaw and pitch [rad] looks along: yaw 0 is -z, positive turns right."""
+    return math.sin(yaw) * math.cos(pitch), math.sin(pitch), -math.cos(yaw) * math.cos(pitch)
+
+
+def view_matrix(camera: Camera, /) -> Floats:
+    """Return the matrix from the world to the eye, shape (4, 4), for column vectors."""
+    ahead = np.array(forward(camera.yaw, camera.pitch))
+    right = np.array([math.cos(camera.yaw), 0.0, math.sin(camera.yaw)])
+    axes = np.stack([right, np.cross(right, ahead), -ahead])
+    matrix = np.eye(4)
+    matrix[:3, :3] = axes
+    matrix[:3, 3] = -axes @ np.array(camera.position)
+    return matrix.astype(np.float32)
+
+
+def projection_matrix(view_angle: float, aspect: float, near: float = NEAR, far: float = FAR, /) -> Floats:
+    """Return the perspective matrix from the eye to clip space, shape (4, 4), for column vectors.
+
+    `view_angle` is the vertical angle of view [rad], `aspect` the image's width over its height, `near` and `far` are
+    distances along the view [m]. Depth follows OpenGL: -1 on the near plane, 1 on the far one.
+    """
+    scale = 1.0 / math.tan(view_angle / 2.0)
+    depth = far - near
+    return np.array(
+        [
+            [scale / aspect, 0.0, 0.0, 0.0],
+            [0.0, scale, 0.0, 0.0],
+            [0.0, 0.0, -(far + near) / depth, -2.0 * far * near / depth],
+            [0.0, 0.0, -1.0, 0.0],
+        ],
+        np.float32,
+    )
+
+
+def camera_at(source: CameraSource, time: float | None, height_at: Heights, /) -> Camera:
+    """Return the camera that a scene declares: on its path at `time` [s], or its fixed place.
+
+    The fixed place is taken where `time` is None or there is no path. Before the first stop and after the last one
+    the path holds. The eye is `source.eye` above the ground; a target's height counts from the ground under it.
+    """
+    if time is None or not source.path:
+        place: Doubles = np.array(source.position, np.float64)
+        eye = _above(place, source.eye, height_at)
+        yaw, pitch = _look(source, eye, height_at)
+    else:
+        times = np.array([stop.at for stop in source.path], np.float64)
+        place = glide(times, np.array([stop.position for stop in source.path], np.float64), time)
+        eye = _above(place, source.eye, height_at)
+        yaw, pitch = _look_on_path(source, times, time, eye, height_at)
+    return Camera((float(eye[0]), float(eye[1]), float(eye[2])), yaw, pitch, math.radians(source.view))
+
+
+def glide(times: Doubles, values: Doubles, time: float, /) -> Doubles:
+    """Return the value at one time on a curve through all `values`, shape (k,), with a continuous first derivative.
+
+    `times` rise, shape (n,); `values` have shape (n, k). Between two stops the curve is a cubic Hermite polynomial
+    whose tangents come from the parabola through a stop and its neighbours; outside it holds the end values.
+    """
+    if len(times) == 1 or time <= times[0]:
+        return values[0].copy()
+    if time >= times[-1]:
+        return values[-1].copy()
+    i = int(np.searchsorted(times, time, side="right")) - 1
+    span = times[i + 1] - times[i]
+    t = (time - times[i]) / span
+    tangents = _tangents(times, values)
+    hold, leave = t * t * (3.0 - 2.0 * t), t * (1.0 - t) ** 2
+    arrive = t * t * (t - 1.0)
+    return np.asarray(
+        (1.0 - hold) * values[i] + hold * values[i + 1] + span * (leave * tangents[i] + arrive * tangents[i + 1])
+    )
+
+
+def parse_camera(text: str, /, *, view: float) -> Camera:
+    """Return the camera written as `X,Y,Z,YAW,PITCH`: metres with an absolute y, and degrees.
+
+    `view` is the vertical angle of view [rad]. Raises ValueError with a sentence that says what is wrong.
+    """
+    parts = text.split(",")
+    if len(parts) != 5:
+        raise ValueError(f"{text!r} is not five numbers X,Y,Z,YAW,PITCH")
+    x, y, z, yaw, pitch = (_number(part) for part in parts)
+    if max(abs(x), abs(y), abs(z)) > FARTHEST:
+        raise ValueError(f"{text!r} lies beyond {FARTHEST:.0f} m")
+    if abs(yaw) > 3600.0:
+        raise ValueError(f"yaw {yaw:g} is not between -3600 and 3600 degrees")
+    if abs(pitch) > 90.0:
+        raise ValueError(f"pitch {pitch:g} is not between -90 and 90 degrees")
+    return Camera((x, y, z), math.radians(yaw), math.radians(pitch), view)
+
+
+def _number(text: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        raise ValueError(f"{text.strip()!r} is not a number") from None
+    if not math.isfinite(number):
+        raise ValueError(f"{text.strip()!r} is not a finite number")
+    return number
+
+
+def _tangents(times: Doubles, values: Doubles) -> Doubles:
+    steps = np.diff(times)[:, None]
+    slopes = np.diff(values, axis=0) / steps
+    inner = (slopes[:-1] * steps[1:] + slopes[1:] * steps[:-1]) / (steps[:-1] + steps[1:])
+    return np.concatenate([slopes[:1], inner, slopes[-1:]])
+
+
+def _above(place: Doubles, height: float, height_at: Heights) -> Doubles:
+    ground = float(height_at(np.array([place], np.float32))[0])
+    return np.array([place[0], ground + height, place[1]])
+
+
+def _target(target: list[float], height_at: Heights) -> Doubles:
+    x, height, z = target
+    return _above(np.array([x, z]), height, height_at)
+
+
+def _angles(eye: Doubles, target: Doubles) -> tuple[float, float]:
+    """Return yaw and pitch [rad] of the look from one point to another; straight up or down, yaw is 0."""
+    x, y, z = (target - eye).tolist()
+    flat = math.hypot(x, z)
+    return (math.atan2(x, -z) if flat > 0.0 else 0.0), math.atan2(y, flat)
+
+
+def _look(stop: CameraSource | Stop, eye: Doubles, height_at: Heights) -> tuple[float, float]:
+    if stop.target is None:
+        return math.radians(stop.yaw), math.radians(stop.pitch)
+    return _angles(eye, _target(stop.target, height_at))
+
+
+def _look_on_path(
+    source: CameraSource, times: Doubles, time: float, eye: Doubles, height_at: Heights
+) -> tuple[float, float]:
+    targets = [_target(stop.target, height_at) for stop in source.path if stop.target is not None]
+    if len(targets) == len(source.path):
+        return _angles(eye, glide(times, np.stack(targets), time))
+    looks: list[tuple[float, float]] = []
+    for stop in source.path:
+        yaw, pitch = _look(stop, _above(np.array(stop.position), source.eye, height_at), height_at)
+        if stop.target is not None and looks:
+            yaw += math.tau * round((looks[-1][0] - yaw) / math.tau)
+        looks.append((yaw, pitch))
+    yaw, pitch = glide(times, np.array(looks), time).tolist()
+    return yaw, max(-math.pi / 2, min(math.pi / 2, pitch))
