@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from .declaration import Declaration, Pair, Triple
+from .declaration import Declaration, DeclarationError, Pair, Triple
 
 
 class Stop(Declaration):
@@ -54,9 +54,9 @@ class CameraSource(Declaration):
 
     @model_validator(mode="after")
     def _rising_times(self) -> "CameraSource":
-        times = [stop.at for stop in self.path]
-        if any(b <= a for a, b in zip(times, times[1:], strict=False)):
-            raise ValueError("the stops of a path must have rising times")
+        for i, (before, stop) in enumerate(zip(self.path, self.path[1:], strict=False), 1):
+            if stop.at <= before.at:
+                raise DeclarationError(f"at must be later than {before.at:g} s, the stop before", "path", i, "at")
         return self
 
 

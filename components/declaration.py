@@ -13,6 +13,18 @@ class Declaration(BaseModel):
     )
 
 
+class DeclarationError(ValueError):
+    """Several values of a declaration do not fit together.
+
+    `where` leads from the declaration to the value that is wrong, as in `"path", 2, "at"`; a reader of scene
+    files points there.
+    """
+
+    def __init__(self, message: str, *where: str | int) -> None:
+        super().__init__(message)
+        self.where = where
+
+
 Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
 """Two numbers; a list rather than a tuple, because schema readers of draft 7 know its length limits."""
 

@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
-from .declaration import Color, Declaration, Pair
+from .declaration import Color, Declaration, DeclarationError, Pair
 
 
 class Place(Declaration):
@@ -60,5 +60,5 @@ class GrassKind(Declaration):
     def _ordered_heights(self) -> "GrassKind":
         low, high = self.height
         if not 0.02 <= low <= high <= 5.0:
-            raise ValueError("height must be [shortest, tallest] in metres, between 0.02 and 5")
+            raise DeclarationError("height must be [shortest, tallest] in metres, between 0.02 and 5", "height")
         return self

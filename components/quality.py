@@ -4,7 +4,7 @@ from enum import IntEnum
 
 from pydantic import Field, model_validator
 
-from .declaration import Declaration
+from .declaration import Declaration, DeclarationError
 
 
 class Representation(IntEnum):
@@ -75,9 +75,14 @@ class Quality(Declaration):
 
     @model_validator(mode="after")
     def _rising_rings(self) -> "Quality":
-        limits = [ring.to for ring in (*self.blade_rings, *self.strip_rings)] + [self.carpet_to]
-        if any(b <= a for a, b in zip(limits, limits[1:], strict=False)):
-            raise ValueError("each ring must reach farther than the one before: blades, then strips, then carpet_to")
+        limits: list[tuple[int, tuple[str | int, ...]]] = [
+            *((ring.to, ("blade_rings", i, "to")) for i, ring in enumerate(self.blade_rings)),
+            *((ring.to, ("strip_rings", i, "to")) for i, ring in enumerate(self.strip_rings)),
+            (self.carpet_to, ("carpet_to",)),
+        ]
+        for (before, _), (to, where) in zip(limits, limits[1:], strict=False):
+            if to <= before:
+                raise DeclarationError(f"{where[-1]} must exceed {before}, where the ring before it ends", *where)
         return self
 
     @property

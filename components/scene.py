@@ -1,8 +1,10 @@
 """A whole scene, as a file declares it."""
 
-from typing import Literal
+from collections.abc import Callable
+from typing import Annotated, Any, Literal, TypedDict
 
-from pydantic import Field
+from pydantic import Discriminator, Field, SerializeAsAny, Tag, ValidationError, ValidationInfo, WrapValidator
+from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from .camera import CameraSource
 from .declaration import Declaration
@@ -16,6 +18,52 @@ FORMAT = 1
 """Version of the scene format that this release writes."""
 
 PresetName = Literal["low", "medium", "high", "ultra", "paper-low", "paper-medium", "paper-high"]
+
+
+class Reading(TypedDict):
+    """The validation context that a scene's winds need: `Scene.model_validate(data, context=Reading(wind=...))`."""
+
+    wind: Callable[[str], type[WindPrimitive]]
+    """Gives the class of a kind, or raises ValueError with a sentence."""
+
+
+def _of_its_kind(value: Any, _: object, info: ValidationInfo) -> WindPrimitive:
+    if isinstance(value, WindPrimitive):
+        return value
+    if not isinstance(value, dict):
+        raise PydanticCustomError("model_type", "a wind must be a mapping of keys")
+    if not info.context:
+        raise PydanticCustomError("no_kinds", "winds written as mappings need the validation context Reading(wind=...)")
+    kind = value.get("kind")
+    if not isinstance(kind, str):
+        raise _at_kind("string_type" if "kind" in value else "missing", kind)
+    try:
+        primitive = info.context["wind"](kind)
+    except ValueError as error:
+        raise _at_kind(PydanticCustomError("unknown_kind", "{why}", {"why": str(error)}), kind) from error
+    return _validated(primitive, value, info)
+
+
+def _at_kind(error: str | PydanticCustomError, value: Any) -> ValidationError:
+    details = InitErrorDetails(type=error, loc=("kind",), input=value)
+    return ValidationError.from_exception_data("WindPrimitive", [details])
+
+
+def _validated(primitive: type[WindPrimitive], value: dict[str, Any], info: ValidationInfo) -> WindPrimitive:
+    try:
+        return primitive.model_validate(value, context=info.context)
+    except ValidationError:
+        raise
+    except Exception as error:  # a plugin's own validators may raise anything
+        raise ValueError(f"kind '{value['kind']}' failed on these values: {type(error).__name__}: {error}") from error
+
+
+Wind = Annotated[SerializeAsAny[WindPrimitive], WrapValidator(_of_its_kind)]
+"""A wind primitive of the class that its `kind` names; classes are asked for when a scene is read."""
+
+
+def _quality_form(value: Any) -> str:
+    return "numbers" if isinstance(value, dict | Quality) else "preset"
 
 
 class Scene(Declaration):
@@ -33,7 +81,7 @@ class Scene(Declaration):
     grass: dict[str, GrassKind] = Field(min_length=1, max_length=4)
     """Grass kinds by name."""
 
-    wind: list[WindPrimitive] = Field(default=[], max_length=200)
+    wind: list[Wind] = Field(default=[], max_length=200)
     """Wind primitives."""
 
     camera: CameraSource = CameraSource()
@@ -42,7 +90,9 @@ class Scene(Declaration):
     light: Light = Light()
     """Sun, sky and haze."""
 
-    quality: PresetName | Quality = "high"
+    quality: Annotated[
+        Annotated[PresetName, Tag("preset")] | Annotated[Quality, Tag("numbers")], Discriminator(_quality_form)
+    ] = "high"
     """A preset, or its numbers."""
 
     def numbers(self, preset: str | None = None) -> Quality:

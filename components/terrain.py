@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from .declaration import Declaration, Pair
+from .declaration import Declaration, DeclarationError, Pair
 
 
 class TerrainSource(Declaration):
@@ -52,9 +52,9 @@ class TerrainSource(Declaration):
     @model_validator(mode="after")
     def _one_source(self) -> "TerrainSource":
         if self.heights is not None and self.noise is not None:
-            raise ValueError("give either heights (a file) or noise, not both")
+            raise DeclarationError("give either heights (a file) or noise, not both", "noise")
         if self.size is not None and not all(5.0 <= side <= 10240.0 for side in self.size):
-            raise ValueError("size must be [width, depth] in metres, between 5 and 10240")
+            raise DeclarationError("size must be [width, depth] in metres, between 5 and 10240", "size")
         return self
 
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field
+from pydantic import Field, model_validator
 
-from .declaration import Declaration
+from .declaration import Declaration, DeclarationError
 
 Floats = NDArray[np.float32]
 
@@ -30,6 +30,12 @@ class WindPrimitive(Declaration):
 
     stop: float | None = Field(None, ge=0.0, le=36000.0)
     """When it ends [s]; without it, never."""
+
+    @model_validator(mode="after")
+    def _stop_after_start(self) -> "WindPrimitive":
+        if self.stop is not None and self.stop <= self.start:
+            raise DeclarationError(f"stop must be later than start, which is {self.start:g} s", "stop")
+        return self
 
     @abstractmethod
     def mask(self, place: Floats, /, *, time: float) -> Floats:
