@@ -1,0 +1,118 @@
+"""What all tests share: numbers that fail loudly, one headless GL context, a private world, a display."""
+
+import ctypes
+import os
+import shutil
+import subprocess
+from collections.abc import Iterator
+from itertools import count
+
+import esper
+import moderngl
+import numpy as np
+import pytest
+from hypothesis import settings
+
+from tallgrass.engine.world import World
+
+# The floor of what is supported, so that nothing newer is used by accident; only Mesa reads these.
+os.environ.setdefault("MESA_GL_VERSION_OVERRIDE", "3.3FC")
+os.environ.setdefault("MESA_GLSL_VERSION_OVERRIDE", "330")
+
+# The same examples on every machine, however slow it is.
+settings.register_profile("tallgrass", deadline=None, derandomize=True)
+settings.load_profile("tallgrass")
+
+_worlds = count()
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark what draws, and run what opens windows last: a window takes the current GL context away."""
+    for item in items:
+        if "ctx" in getattr(item, "fixturenames", ()):
+            item.add_marker(pytest.mark.gl)
+    items.sort(key=lambda item: item.get_closest_marker("window") is not None)
+
+
+def _do_without(reason: str) -> None:
+    """Skip a test that cannot run on this machine, or fail it where everything has to run."""
+    if os.environ.get("TALLGRASS_REQUIRE_GL") == "1":
+        pytest.fail(f"TALLGRASS_REQUIRE_GL=1, but {reason}")
+    pytest.skip(reason)
+
+
+@pytest.fixture(autouse=True)
+def _numbers_fail_loudly() -> Iterator[None]:
+    # An underflow to zero is what exponential fall-offs are meant to end in.
+    with np.errstate(divide="raise", over="raise", invalid="raise", under="ignore"):
+        yield
+
+
+@pytest.fixture(scope="session")
+def ctx() -> Iterator[moderngl.Context]:
+    """A headless GL context that all tests draw in."""
+    try:
+        context = moderngl.create_context(standalone=True, backend="egl", require=330)
+    except Exception as error:  # noqa: BLE001 - the loader raises nothing narrower
+        _do_without(f"there is no headless GL: {error} (tallgrass doctor says what to install)")
+        return
+    yield context
+    context.release()
+
+
+@pytest.fixture(autouse=True)
+def _gl_is_left_without_errors(request: pytest.FixtureRequest) -> Iterator[None]:
+    yield
+    if "ctx" in request.fixturenames:
+        assert request.getfixturevalue("ctx").error == "GL_NO_ERROR"
+
+
+@pytest.fixture
+def world() -> Iterator[World]:
+    """A prairie's world inside an esper world that no other test sees."""
+    name = f"test-{next(_worlds)}"
+    esper.switch_world(name)
+    yield World()
+    esper.switch_world("default")
+    esper.delete_world(name)
+
+
+@pytest.fixture(scope="session")
+def _xvfb() -> Iterator[str]:
+    program = shutil.which("Xvfb")
+    if program is None:
+        _do_without("there is neither a display nor Xvfb (apt-get install --no-install-recommends xvfb xauth)")
+        return
+    command = [program, "-displayfd", "1", "-screen", "0", "1280x1024x24", "-nolisten", "tcp"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as server:
+        assert server.stdout is not None
+        yield f":{server.stdout.readline().strip()}"
+        server.terminate()
+
+
+@pytest.fixture(scope="session")
+def display(request: pytest.FixtureRequest) -> str:
+    """The name of a display that windows can open on: the one there is, or an Xvfb of our own."""
+    name = os.environ.get("DISPLAY") or request.getfixturevalue("_xvfb")
+    os.environ["DISPLAY"] = name
+    return name
+
+
+@pytest.fixture(autouse=True)
+def _windows_have_a_display(request: pytest.FixtureRequest) -> None:
+    if request.node.get_closest_marker("window") is not None:
+        request.getfixturevalue("display")
+        _let_the_headless_context_go()
+
+
+def _let_the_headless_context_go() -> None:
+    """Leave this thread without a GL context: a window cannot take it over from EGL."""
+    try:
+        egl = ctypes.CDLL("libEGL.so.1")
+    except OSError:
+        return
+    egl.eglGetCurrentDisplay.restype = ctypes.c_void_p
+    egl.eglMakeCurrent.argtypes = [ctypes.c_void_p] * 4
+    screen = egl.eglGetCurrentDisplay()
+    if screen is not None:
+        egl.eglMakeCurrent(screen, None, None, None)
