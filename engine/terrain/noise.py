@@ -1,0 +1,90 @@
+"""Landscapes made from noise."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..random import hash3, unit
+from .resample import b_spline, resample
+
+Floats = NDArray[np.float32]
+Doubles = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Landscape:
+    """How a named landscape is made: octaves of noise, each finer than the one before."""
+
+    octaves: tuple[float, ...]
+    """Strength of each octave; wavelengths fall by `LACUNARITY` from one to the next."""
+
+    ridged: bool
+    """Whether the first octave is folded along its zero line, which becomes a crest."""
+
+    contrast: float
+    """How soon heights level off towards the lowest and the highest."""
+
+    scale: float
+    """Height between the lowest and the highest ground, where a scene gives none [m]."""
+
+    feature: float
+    """Distance between neighbouring hills, where a scene gives none [m]."""
+
+
+LANDSCAPES = {
+    "rolling": Landscape((1.0, 0.1), ridged=False, contrast=0.5, scale=4.0, feature=60.0),
+    "hills": Landscape((1.0, 0.14, 0.02), ridged=False, contrast=0.5, scale=14.0, feature=90.0),
+    "ridges": Landscape((1.0, 0.16, 0.02), ridged=True, contrast=0.8, scale=30.0, feature=160.0),
+}
+"""The landscapes by name; a flat one needs no noise."""
+
+LACUNARITY = 2.17
+"""Ratio of the wavelengths of successive octaves; no whole number, so that their lattices never line up."""
+
+SPACING = 2.62
+"""Mean distance between neighbouring hilltops of `spline_noise`, in lattice units (measured)."""
+
+DEVIATION = np.float32(0.348)
+"""Standard deviation of `spline_noise` (measured)."""
+
+MIDDLE, ROUNDING = np.float32(0.8), np.float32(0.06)
+"""What folded noise is measured from, and how far its crests are rounded, in standard deviations."""
+
+
+def landscape(name: str, x: Doubles, z: Doubles, /, *, seed: int, feature: float) -> Floats:
+    """Return a landscape on the grid of places `x` (columns,) and `z` (rows,) [m], in [0, 1], shape (rows, columns).
+
+    It is a function of place, `seed` and `feature` alone: a wider grid shows more of the same land. Slope and
+    curvature are continuous.
+    """
+    kind = LANDSCAPES[name]
+    total = np.zeros((len(z), len(x)), np.float32)
+    for number, strength in enumerate(kind.octaves):
+        lattice = feature / SPACING / LACUNARITY**number
+        key, shift_x, shift_z = (int(drawn) for drawn in hash3(seed, number, np.arange(3)))
+        octave = spline_noise(x / lattice + shift_x % 997 / 997, z / lattice + shift_z % 997 / 997, seed=key)
+        octave /= DEVIATION
+        if number == 0 and kind.ridged:
+            octave = MIDDLE - np.sqrt(octave * octave + ROUNDING)
+        total += np.float32(strength) * octave
+    total *= np.float32(kind.contrast)
+    np.tanh(total, out=total)
+    total += np.float32(1.0)
+    total *= np.float32(0.5)
+    return total
+
+
+def spline_noise(x: Doubles, z: Doubles, /, *, seed: int) -> Floats:
+    """Return noise on the grid of `x` (columns,) by `z` (rows,), in lattice units, shape (rows, columns).
+
+    Random numbers of the lattice points, less half of their surroundings' mean so that no hill outgrows the others,
+    are the coefficients of a bicubic B-spline: no direction stands out as it does in gradient noise, and slope and
+    curvature are continuous. Values lie in [-1.5, 1.5] about 0.
+    """
+    i, j = (np.arange(np.floor(axis.min()) - 2, np.floor(axis.max()) + 4, dtype=np.int64) for axis in (x, z))
+    drawn = unit(hash3(seed, i[None, :], j[:, None])) * np.float32(12**0.5) - np.float32(3**0.5)
+    rows = drawn[:-2] + 2 * drawn[1:-1] + drawn[2:]
+    around = (rows[:, :-2] + 2 * rows[:, 1:-1] + rows[:, 2:]) / np.float32(16.0)
+    coefficients = drawn[1:-1, 1:-1] - np.float32(0.5) * around
+    return resample(coefficients, z - j[1], x - i[1], kernel=b_spline)

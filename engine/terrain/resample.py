@@ -1,0 +1,63 @@
+"""Smooth reading of maps between their samples, one axis after the other."""
+
+from collections.abc import Callable
+from math import ceil
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float32]
+Doubles = NDArray[np.float64]
+Kernel = Callable[[Doubles], Doubles]
+"""Weights of samples by their distance, in samples; nothing from 2 on."""
+
+_BLOCK = 64
+
+
+def catmull_rom(distance: Doubles, /) -> Doubles:
+    """Return the weights of Catmull and Rom's cubic, which passes through the samples."""
+    d = np.abs(distance)
+    near = (1.5 * d - 2.5) * d * d + 1.0
+    far = ((-0.5 * d + 2.5) * d - 4.0) * d + 2.0
+    return np.where(d < 1.0, near, np.where(d < 2.0, far, 0.0))
+
+
+def b_spline(distance: Doubles, /) -> Doubles:
+    """Return the weights of the cubic B-spline, which passes beside the samples and has a continuous curvature."""
+    d = np.abs(distance)
+    near = (0.5 * d - 1.0) * d * d + 2.0 / 3.0
+    far = np.maximum(2.0 - d, 0.0) ** 3 / 6.0
+    return np.where(d < 1.0, near, far)
+
+
+def resample(map: Floats, rows: Doubles, columns: Doubles, /, *, kernel: Kernel = catmull_rom) -> Floats:
+    """Return `map` read at fractional `rows` (r,) and `columns` (c,), in samples, shape (r, c).
+
+    Planes are kept exactly and slopes are continuous; outside, the map goes on by point reflection. Where the places
+    lie farther apart than the samples, the kernel widens as much, so that what is too fine to show does not turn
+    into noise.
+    """
+    across = _along_rows(np.ascontiguousarray(map.T), columns, kernel)
+    return _along_rows(np.ascontiguousarray(across.T), rows, kernel)
+
+
+def _along_rows(map: Floats, places: Doubles, kernel: Kernel) -> Floats:
+    taps, weights = _taps(places, kernel)
+    margin = max(0, -int(taps.min()), int(taps.max()) - (len(map) - 1))
+    padded = np.pad(map, ((margin, margin), (0, 0)), mode="reflect", reflect_type="odd") if margin else map
+    result = np.zeros((len(places), map.shape[1]), np.float32)
+    for start in range(0, len(places), _BLOCK):
+        block = slice(start, start + _BLOCK)
+        for k in range(taps.shape[1]):
+            result[block] += weights[block, k, None] * padded[taps[block, k] + margin]
+    return result
+
+
+def _taps(places: Doubles, kernel: Kernel) -> tuple[NDArray[np.int64], Floats]:
+    """Return the samples that each place is read from and their weights, both of shape (places, taps)."""
+    stretch = max(1.0, float(np.diff(places).max(initial=0.0)))
+    reach = ceil(2.0 * stretch)
+    taps = np.floor(places).astype(np.int64)[:, None] + np.arange(1 - reach, reach + 1)
+    weights = kernel((taps - places[:, None]) / stretch)
+    weights /= weights.sum(axis=1, keepdims=True)
+    return taps, weights.astype(np.float32)

@@ -1,0 +1,115 @@
+"""Heights, slopes and densities at any place, bilinear between the samples of a map."""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.terrain import Density, Terrain
+
+Floats = NDArray[np.float32]
+
+_BLOCK = 12288
+"""Places worked on at a time: few enough that allocators keep the memory at hand, which makes it twice as fast."""
+
+
+def height_at(terrain: Terrain, place: Floats, /) -> Floats:
+    """Return the ground's height [m] at ground positions (x, z) [m] of shape (n, 2), shape (n,).
+
+    Beyond the terrain the height of its nearest edge holds.
+    """
+    flat = terrain.heights.reshape(-1)
+    result = np.empty(len(place), np.float32)
+    for block in _blocks(len(place)):
+        at = _within_terrain(terrain, place[block])
+        far, near = _rows(flat, at)
+        result[block] = far + at.down * (near - far)
+    return result
+
+
+def slope_at(terrain: Terrain, place: Floats, /) -> Floats:
+    """Return the ground's slope (dh/dx, dh/dz) at ground positions (x, z) [m], both of shape (n, 2).
+
+    It is the exact slope of `height_at`, so it changes by a little step from cell to cell. Beyond the terrain the
+    slope of its nearest edge holds.
+    """
+    flat = terrain.heights.reshape(-1)
+    slope = np.empty((len(place), 2), np.float32)
+    for block in _blocks(len(place)):
+        at = _within_terrain(terrain, place[block])
+        low = at.corner + at.stride
+        a, b, c, d = flat.take(at.corner), flat.take(at.corner + 1), flat.take(low), flat.take(low + 1)
+        slope[block, 0] = (b - a) + at.down * ((d - c) - (b - a))
+        slope[block, 1] = (c - a) + at.right * ((d - b) - (c - a))
+    slope *= np.float32(1.0 / terrain.cell)
+    return slope
+
+
+def density_at(density: Density, place: Floats, /) -> Floats:
+    """Return each kind's density in [0, 1] at ground positions (x, z) [m] of shape (n, 2), shape (kinds, n).
+
+    It is what a texture laid over the terrain gives: pixels have their value in their middle, and beyond the middle
+    of the outermost pixels that value holds.
+    """
+    kinds, rows, columns = density.maps.shape
+    width, depth = density.size
+    result = np.empty((kinds, len(place)), np.float32)
+    for block in _blocks(len(place)):
+        at = _within(place[block], (width, depth), (columns / width, rows / depth), (columns, rows), -0.5)
+        for kind, map in enumerate(density.maps):
+            far, near = _rows(map.reshape(-1), at)
+            result[kind, block] = far + at.down * (near - far)
+    return result
+
+
+def _blocks(count: int) -> Iterator[slice]:
+    return (slice(start, start + _BLOCK) for start in range(0, count, _BLOCK))
+
+
+class _Within(NamedTuple):
+    """Where places lie in a map."""
+
+    corner: NDArray[np.intp]
+    """Flat index of the sample at the cell's far left, shape (n,)."""
+
+    right: Floats
+    """How far towards the next column, in [0, 1], shape (n,)."""
+
+    down: Floats
+    """How far towards the next row, in [0, 1], shape (n,)."""
+
+    stride: int
+    """From a row to the next in the flat map."""
+
+
+def _within_terrain(terrain: Terrain, place: Floats) -> _Within:
+    rows, columns = terrain.heights.shape
+    return _within(place, terrain.size, (1.0 / terrain.cell, 1.0 / terrain.cell), (columns, rows), 0.0)
+
+
+def _within(
+    place: Floats, size: tuple[float, float], scale: tuple[float, float], count: tuple[int, int], shift: float
+) -> _Within:
+    cells, parts = [], []
+    for axis in (0, 1):
+        u = place[:, axis] * np.float32(scale[axis])
+        u += np.float32(size[axis] / 2 * scale[axis] + shift)
+        np.clip(u, 0.0, count[axis] - 1, out=u)
+        cell = np.floor(u)
+        np.minimum(cell, np.float32(max(count[axis] - 2, 0)), out=cell)
+        u -= cell
+        cells.append(cell.astype(np.intp))
+        parts.append(u)
+    cells[1] *= count[0]
+    cells[1] += cells[0]
+    return _Within(cells[1], parts[0], parts[1], count[0])
+
+
+def _rows(flat: Floats, at: _Within) -> tuple[Floats, Floats]:
+    """Return the values between the two columns around each place, in the row above it and in the row below."""
+    low = at.corner + at.stride
+    far, near = flat.take(at.corner), flat.take(low)
+    far += at.right * (flat.take(at.corner + 1) - far)
+    near += at.right * (flat.take(low + 1) - near)
+    return far, near
