@@ -24,7 +24,7 @@ FARTHEST = 1e6
 
 
 def forward(yaw: float, pitch: float, /) -> tuple[float, float, float]:
-    """Return the unit vector that a camera of this yaw and pitch [rad] looks along: yaw 0 is -z, positive turns right."""
+    """Return the unit vector that a camera of this yaw and pitch [rad] looks along: yaw 0 is -z, 90° is +x."""
     return math.sin(yaw) * math.cos(pitch), math.sin(pitch), -math.cos(yaw) * math.cos(pitch)
 
 
@@ -83,9 +83,9 @@ def glide(times: Doubles, values: Doubles, time: float, /) -> Doubles:
     whose tangents come from the parabola through a stop and its neighbours; outside it holds the end values.
     """
     if len(times) == 1 or time <= times[0]:
-        return values[0].copy()
+        return np.array(values[0])
     if time >= times[-1]:
-        return values[-1].copy()
+        return np.array(values[-1])
     i = int(np.searchsorted(times, time, side="right")) - 1
     span = times[i + 1] - times[i]
     t = (time - times[i]) / span

@@ -1,0 +1,189 @@
+"""The command `tallgrass`: what each of its commands takes, and how it ends.
+
+Every command exits with 0 on success, with 2 on bad input (one line per problem), and with 1 on a failure of its own.
+"""
+
+import math
+import os
+import sys
+from typing import Annotated
+
+import typer
+
+from .. import __version__
+from ..components.camera import Camera
+from ..components.scene import PresetName
+from ..engine.camera import parse_camera
+from .errors import InputError, MachineError
+from .take import LodName, Take, parse_size
+
+app = typer.Typer(
+    help="Grow, animate and draw whole prairies in real time.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+bench = typer.Typer(help="Measure: how long a frame takes, how true a picture is.", no_args_is_help=True)
+app.add_typer(bench, name="bench")
+
+Scene = Annotated[str, typer.Argument(metavar="SCENE", help="A scene file, or the name of a bundled scene.")]
+Size = Annotated[str, typer.Option(metavar="WxH", help="Width and height in pixels.")]
+Preset = Annotated[PresetName | None, typer.Option(help="Quality, in place of the scene's own.")]
+Reference = Annotated[bool, typer.Option("--reference", help="Draw every blade in 3D, supersampled.")]
+Output = Annotated[str, typer.Option("-o", "--output", help="Where it is written.")]
+Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+
+
+def main() -> None:
+    """Run the command line and leave Python with its exit status."""
+    sys.exit(run(sys.argv[1:]))
+
+
+def run(arguments: list[str], /) -> int:
+    """Run one command and return its exit status; what went wrong is told on standard error, without a traceback.
+
+    With `TALLGRASS_TRACEBACK` in the environment, failures of our own keep theirs.
+    """
+    try:
+        status = typer.main.get_command(app).main(arguments, prog_name="tallgrass", standalone_mode=False)
+        return int(status or 0)
+    except typer.TyperException as error:
+        return _tell(error.format_message().replace("Value error, ", ""), status=2)
+    except typer.Abort:
+        return _tell("stopped", status=130)
+    except InputError as error:
+        return _tell(str(error), status=2)
+    except MachineError as error:
+        return _tell(str(error), status=1)
+    except Exception as error:
+        return _unexpected(error)
+
+
+@app.command()
+def walk(
+    scene: Scene = "meadow",
+    size: Size = "1280x720",
+    preset: Preset = None,
+    fullscreen: Annotated[bool, typer.Option("--fullscreen", help="Fill the screen.")] = False,
+    seconds: Annotated[float | None, typer.Option(min=0.1, max=36000.0, help="Close by itself after so long.")] = None,
+) -> None:
+    """Walk through a scene in a window; F1 shows the keys."""
+    take = Take(scene, _size(size), preset)
+    from .window import walk_in
+
+    walk_in(take, fullscreen=fullscreen, seconds=seconds)
+
+
+@app.command()
+def shot(
+    output: Output,
+    scene: Scene = "meadow",
+    time: Annotated[float, typer.Option(min=0.0, max=36000.0, help="Instant of the scene, in seconds.")] = 0.0,
+    size: Size = "1280x720",
+    preset: Preset = None,
+    lod: Annotated[LodName, typer.Option(help="Representation, the same one everywhere unless auto.")] = "auto",
+    reference: Reference = False,
+    camera: Annotated[str | None, typer.Option(metavar="X,Y,Z,YAW,PITCH", help="Metres and degrees.")] = None,
+) -> None:
+    """Draw one picture, without a window."""
+    take = Take(scene, _size(size), preset, lod, reference)
+    place = None if camera is None else _camera(camera)
+    from .shot import shot
+
+    shot(take, output, time=time, camera=place)
+
+
+@app.command()
+def film(
+    output: Output,
+    scene: Scene = "meadow",
+    seconds: Annotated[float | None, typer.Option(min=0.0, max=36000.0, help="How long it lasts.")] = None,
+    fps: Annotated[int, typer.Option(min=1, max=120, help="Frames per second.")] = 24,
+    size: Size = "640x360",
+    preset: Preset = None,
+    reference: Reference = False,
+) -> None:
+    """Film a scene along its camera's path, without a window: .webp, .gif, .mp4, or a folder of pictures."""
+    take = Take(scene, _size(size), preset, reference=reference)
+    from .film import film
+
+    film(take, output, seconds=seconds, fps=fps)
+
+
+@app.command()
+def check(scenes: Annotated[list[str], typer.Argument(metavar="SCENE...", help="Files or bundled names.")]) -> int:
+    """Validate scenes, and tell every problem of each."""
+    from .check import check
+
+    return check(scenes)
+
+
+@app.command()
+def doctor() -> int:
+    """Tell what this machine has, and for each thing missing the line that installs it."""
+    from .doctor import doctor
+
+    return doctor()
+
+
+@bench.command("frame")
+def frame(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720", json: Json = False) -> int:
+    """Measure how long a frame takes, and what it is made of."""
+    from .bench.frame import bench_frame
+
+    return bench_frame(scene, preset=preset, size=_size(size), json=json)
+
+
+@bench.command("picture")
+def picture(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720", json: Json = False) -> int:
+    """Measure how far a picture is from every blade in 3D, supersampled."""
+    from .bench.picture import bench_picture
+
+    return bench_picture(scene, preset=preset, size=_size(size), json=json)
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        print(f"tallgrass {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", is_eager=True, callback=_print_version, help="Print the version.")
+    ] = False,
+) -> None:
+    pass
+
+
+def _size(text: str) -> tuple[int, int]:
+    try:
+        return parse_size(text)
+    except ValueError as error:
+        raise InputError(f"--size: {error}") from None
+
+
+def _camera(text: str) -> Camera:
+    try:
+        return parse_camera(text, view=math.radians(40.0))
+    except ValueError as error:
+        raise InputError(f"--camera: {error}") from None
+
+
+def _tell(text: str, *, status: int) -> int:
+    if text:
+        print(text, file=sys.stderr)
+    return status
+
+
+def _unexpected(error: Exception) -> int:
+    from ..engine.scene import SceneError
+
+    if isinstance(error, SceneError):
+        lines = [str(problem) if sys.stderr.isatty() else str(problem).splitlines()[0] for problem in error.problems]
+        return _tell("\n".join(lines), status=2)
+    if "TALLGRASS_TRACEBACK" in os.environ:
+        raise error
+    what = str(error).splitlines()[0] if str(error) else "no more is known"
+    return _tell(f"tallgrass failed: {type(error).__name__}: {what} (tallgrass doctor may know why)", status=1)

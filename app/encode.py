@@ -1,0 +1,180 @@
+"""Writing pictures and films to files."""
+
+import importlib
+import os
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import ExifTags, Image
+from PIL.PngImagePlugin import PngInfo
+
+from .errors import InputError, MachineError
+
+Picture = NDArray[np.uint8]
+"""sRGB, top row first, shape (height, width, 3)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Reel:
+    """The frames of a film, drawn as they are asked for."""
+
+    frames: Iterator[Picture]
+    """Pictures of one size, `count` of them."""
+
+    count: int
+    """How many frames there are."""
+
+    fps: int
+    """Frames per second."""
+
+    about: Mapping[str, str]
+    """What the film says of itself: `seed`, `scene`, `version` and the like."""
+
+
+def picture_writer(output: str, /) -> Callable[[Picture, Mapping[str, str]], None]:
+    """Return what writes a picture to `output` as PNG, with text entries that say how it was made.
+
+    Raises InputError where `output` does not end in .png or cannot be written.
+    """
+    path = Path(output)
+    if path.suffix.lower() != ".png":
+        raise InputError(f"-o: {output}: a picture ends in .png")
+    _make_room(path)
+    return lambda picture, about: _write_png(picture, path, about)
+
+
+def film_writer(output: str, size: tuple[int, int], fps: int, /) -> Callable[[Reel], None]:
+    """Return what writes a film of this size to `output`, by its ending; a folder takes numbered PNG files.
+
+    Raises InputError where `output` cannot be written or hold such a film, MachineError where its encoder is missing.
+    """
+    path = Path(output)
+    ending = path.suffix.lower()
+    write: Callable[[Reel], None]
+    if output.endswith(("/", os.sep)) or path.is_dir() or ending == "":
+        _make_folder(path)
+        return lambda reel: _write_folder(reel, path)
+    if ending == ".webp":
+        write = partial(_write_webp, path=path)
+    elif ending == ".gif":
+        if fps > 50:
+            raise InputError(f"--fps: {fps}: a .gif shows at most 50 frames per second")
+        write = partial(_write_gif, path=path)
+    elif ending == ".mp4":
+        if size[0] % 2 or size[1] % 2:
+            raise InputError(f"--size: {size[0]}x{size[1]}: an .mp4 needs an even width and height")
+        write = partial(_write_mp4, path=path, size=size, ffmpeg=_ffmpeg())
+    else:
+        raise InputError(f"-o: {output}: a film ends in .webp, .gif or .mp4, or is a folder")
+    _make_room(path)
+    return write
+
+
+class _Animation(Image.Image):
+    """An image of many frames that draws the next one when an encoder seeks it, so that they are never all kept."""
+
+    def __init__(self, reel: Reel) -> None:
+        super().__init__()
+        self._reel = reel
+        self._at = -1
+        self.n_frames = reel.count
+        self.is_animated = True
+        self.seek(0)
+
+    def seek(self, frame: int) -> None:
+        if frame >= self.n_frames:
+            raise EOFError
+        while self._at < frame:
+            image = Image.fromarray(next(self._reel.frames))
+            self.im, self._mode, self._size = image.im, image.mode, image.size
+            self._at += 1
+
+    def tell(self) -> int:
+        return self._at
+
+
+def _make_folder(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except FileExistsError as error:
+        raise InputError(f"-o: {error.filename}: is a file, not a folder") from None
+    except OSError as error:
+        raise InputError(f"-o: {error.filename}: {error.strerror}") from None
+    if not os.access(folder, os.W_OK):
+        raise InputError(f"-o: {folder}: this folder cannot be written to")
+
+
+def _make_room(path: Path) -> None:
+    _make_folder(path.parent)
+    if path.is_dir():
+        raise InputError(f"-o: {path}: is a folder, not a file")
+
+
+def _write_png(picture: Picture, path: Path, about: Mapping[str, str]) -> None:
+    info = PngInfo()
+    for key, text in about.items():
+        info.add_itxt(key, text)
+    with _whole(path) as part:
+        Image.fromarray(picture).save(part, "PNG", pnginfo=info)
+
+
+def _write_folder(reel: Reel, folder: Path) -> None:
+    for number, picture in enumerate(reel.frames):
+        _write_png(picture, folder / f"{number:05d}.png", {**reel.about, "time": f"{number / reel.fps:.6g}"})
+
+
+def _write_webp(reel: Reel, path: Path) -> None:
+    exif = Image.Exif()
+    exif[ExifTags.Base.ImageDescription] = _sentence(reel.about)
+    duration = 1000.0 / reel.fps
+    with _whole(path) as part:
+        _Animation(reel).save(part, "WEBP", save_all=True, duration=duration, loop=0, quality=80, method=4, exif=exif)
+
+
+def _write_gif(reel: Reel, path: Path) -> None:
+    ticks = [round(100.0 * k / reel.fps) for k in range(reel.count + 1)]
+    durations = [10 * (after - before) for before, after in pairwise(ticks)]
+    comment = _sentence(reel.about).encode()
+    with _whole(path) as part:
+        _Animation(reel).save(part, "GIF", save_all=True, duration=durations, loop=0, comment=comment)
+
+
+def _write_mp4(reel: Reel, path: Path, size: tuple[int, int], ffmpeg: ModuleType) -> None:
+    about = ["-crf", "20", "-metadata", f"comment={_sentence(reel.about)}"]
+    with _whole(path) as part:
+        sink = ffmpeg.write_frames(
+            str(part), size, fps=reel.fps, codec="libx264", macro_block_size=1, quality=None, output_params=about
+        )
+        sink.send(None)
+        for picture in reel.frames:
+            sink.send(picture)
+        sink.close()
+
+
+def _ffmpeg() -> ModuleType:
+    try:
+        return importlib.import_module("imageio_ffmpeg")
+    except ImportError:
+        raise MachineError("an .mp4 is written by ffmpeg: pip install 'tallgrass[video]', or choose .webp") from None
+
+
+def _sentence(about: Mapping[str, str]) -> str:
+    return ", ".join(f"{key} {text}" for key, text in about.items())
+
+
+@contextmanager
+def _whole(path: Path) -> Iterator[Path]:
+    """Yield a file to write, which takes the place of `path` only once it is whole."""
+    part = path.with_name(f".{path.stem}.part{path.suffix}")
+    try:
+        yield part
+        os.replace(part, path)
+    finally:
+        part.unlink(missing_ok=True)

@@ -1,0 +1,66 @@
+"""Drawing into memory, without a window and without a display."""
+
+from types import TracebackType
+from typing import Any, Self
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Offscreen:
+    """A framebuffer of 8-bit RGBA colour and depth, to draw pictures into; a context manager.
+
+    Without `ctx` it makes a context of its own, by EGL or else by GLX, and gives it back at the end. `size` is
+    (width, height) [pixels]. Raises RuntimeError where there is no OpenGL 3.3.
+    """
+
+    def __init__(self, size: tuple[int, int], ctx: moderngl.Context | None = None) -> None:
+        self.size = size
+        self._owned = ctx is None
+        self.ctx = standalone_context() if ctx is None else ctx
+        self._color = self.ctx.texture(size, 4)
+        self._depth = self.ctx.depth_renderbuffer(size)
+        self._target = self.ctx.framebuffer([self._color], self._depth)
+
+    def __enter__(self) -> Self:
+        self.begin()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.release()
+
+    def begin(self) -> None:
+        """Bind the framebuffer and clear it: what is drawn next goes into it."""
+        self._target.use()
+        self._target.clear(0.0, 0.0, 0.0, 1.0, depth=1.0)
+
+    def read(self) -> NDArray[np.uint8]:
+        """Return what has been drawn, top row first, shape (height, width, 3)."""
+        width, height = self.size
+        data = self._target.read(components=3, alignment=1)
+        return np.ascontiguousarray(np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1])
+
+    def release(self) -> None:
+        """Free the framebuffer, and the context if it is an own one."""
+        for item in (self._target, self._color, self._depth):
+            item.release()
+        if self._owned:
+            self.ctx.release()
+
+
+def standalone_context() -> moderngl.Context:
+    """Return a new context without a window: EGL, which needs no display, or else the platform's own.
+
+    Raises RuntimeError with what each of them said where neither works.
+    """
+    complaints: list[str] = []
+    backends: tuple[dict[str, Any], ...] = ({"backend": "egl"}, {})
+    for backend in backends:
+        try:
+            return moderngl.create_context(require=330, standalone=True, **backend)
+        except Exception as error:  # the backends raise plain Exception
+            complaints.append(str(error))
+    raise RuntimeError(f"no OpenGL 3.3 without a window: {'; '.join(dict.fromkeys(complaints))}")

@@ -1,0 +1,58 @@
+"""A prairie before a camera, without a window: what stills and films are made with."""
+
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from .. import __version__
+from ..components.camera import Camera
+from ..engine.camera import camera_at, projection_matrix, view_matrix
+from ..systems.prairie import Prairie
+from ..systems.reference import draw_reference
+from .encode import Picture
+from .offscreen import Offscreen
+from .take import Take
+
+
+class Studio:
+    """A prairie, and a framebuffer to draw it into; a context manager.
+
+    Raises `SceneError` where the scene is wrong, RuntimeError where there is no OpenGL.
+    """
+
+    def __init__(self, take: Take) -> None:
+        self.take = take
+        self.prairie = Prairie.load(take.scene, preset=take.preset, lod=take.lod)
+        self._offscreen = Offscreen(take.size)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.prairie.release()
+        self._offscreen.release()
+
+    def camera(self, time: float | None) -> Camera:
+        """Return the scene's camera: on its path at `time` [s], or with None its fixed place."""
+        return camera_at(self.prairie.scene.camera, time, self.prairie.height_at)
+
+    def picture(self, camera: Camera) -> Picture:
+        """Return what the camera sees at this instant of the prairie."""
+        width, height = self.take.size
+        view, projection = view_matrix(camera), projection_matrix(camera.view, width / height)
+        if self.take.reference:
+            return draw_reference(self.prairie, view, projection, self.take.size)
+        self._offscreen.begin()
+        self.prairie.draw(view, projection)
+        return self._offscreen.read()
+
+    def about(self) -> dict[str, str]:
+        """Return what a file says of how it was made."""
+        return {
+            "Software": f"tallgrass {__version__}",
+            "version": __version__,
+            "scene": Path(self.take.scene).stem,
+            "seed": str(self.prairie.scene.seed),
+        }

@@ -1,0 +1,42 @@
+"""What a picture or a film is asked to show."""
+
+import re
+from dataclasses import dataclass
+from typing import Literal
+
+LodName = Literal["auto", "blades", "strips", "carpet"]
+"""Which representation is drawn: the one due at each distance, or one everywhere."""
+
+LARGEST = 16384
+"""Most pixels along a side of a picture."""
+
+
+@dataclass(frozen=True, slots=True)
+class Take:
+    """What is to be seen, and how."""
+
+    scene: str
+    """Path or bundled name."""
+
+    size: tuple[int, int]
+    """Width and height [pixels]."""
+
+    preset: str | None = None
+    """Name of the quality; without it the scene's own."""
+
+    lod: LodName = "auto"
+    """Which representation is drawn."""
+
+    reference: bool = False
+    """Whether every blade is drawn in 3D, supersampled."""
+
+
+def parse_size(text: str, /) -> tuple[int, int]:
+    """Return width and height [pixels] written as `WxH`; raises ValueError with a sentence that says what is wrong."""
+    match = re.fullmatch(r"([0-9]{1,9})x([0-9]{1,9})", text.strip(), re.IGNORECASE)
+    if match is None:
+        raise ValueError(f"{text!r} is not a size like 1280x720")
+    width, height = int(match[1]), int(match[2])
+    if not (1 <= width <= LARGEST and 1 <= height <= LARGEST):
+        raise ValueError(f"{text!r}: each side must be from 1 to {LARGEST} pixels")
+    return width, height
