@@ -1,6 +1,7 @@
 """The viewer: what a scene declares of the camera, and the camera of one instant."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,7 +32,7 @@ class Stop(Declaration):
 class CameraSource(Declaration):
     """Where the scene is looked at from: a fixed place, or a path walked in time."""
 
-    position: Pair = [0.0, 0.0]
+    position: Pair = Field(default=[0.0, 0.0])
     """Ground position (x, z) [m]."""
 
     eye: float = Field(1.7, ge=0.1, le=500.0)
@@ -54,7 +55,7 @@ class CameraSource(Declaration):
 
     @model_validator(mode="after")
     def _rising_times(self) -> "CameraSource":
-        for i, (before, stop) in enumerate(zip(self.path, self.path[1:], strict=False), 1):
+        for i, (before, stop) in enumerate(pairwise(self.path), 1):
             if stop.at <= before.at:
                 raise DeclarationError(f"at must be later than {before.at:g} s, the stop before", "path", i, "at")
         return self

@@ -20,7 +20,7 @@ class Place(Declaration):
 class GrassKind(Declaration):
     """A kind of grass, from which postures and patch models are grown (paper, sections 2.1 and 3.2)."""
 
-    height: Pair = [0.4, 0.7]
+    height: Pair = Field(default=[0.4, 0.7])
     """Shortest and tallest blade, measured along the blade [m]."""
 
     width: float = Field(0.012, gt=0.0005, le=0.2)
@@ -60,5 +60,5 @@ class GrassKind(Declaration):
     def _ordered_heights(self) -> "GrassKind":
         low, high = self.height
         if not 0.02 <= low <= high <= 5.0:
-            raise DeclarationError("height must be [shortest, tallest] in metres, between 0.02 and 5", "height")
+            raise DeclarationError("height must be [shortest, tallest], rising, between 0.02 and 5 m", "height")
         return self

@@ -1,6 +1,7 @@
 """Quality: how fine each representation is, and up to which discrete distance it reaches."""
 
 from enum import IntEnum
+from itertools import pairwise
 
 from pydantic import Field, model_validator
 
@@ -80,7 +81,7 @@ class Quality(Declaration):
             *((ring.to, ("strip_rings", i, "to")) for i, ring in enumerate(self.strip_rings)),
             (self.carpet_to, ("carpet_to",)),
         ]
-        for (before, _), (to, where) in zip(limits, limits[1:], strict=False):
+        for (before, _), (to, where) in pairwise(limits):
             if to <= before:
                 raise DeclarationError(f"{where[-1]} must exceed {before}, where the ring before it ends", *where)
         return self
@@ -108,8 +109,12 @@ def _quality(
 PRESETS: dict[str, Quality] = {
     "low": _quality(160, [(1, 3), (2, 2)], [(4, 3, 2, 2, 0.008), (8, 2, 1, 1, 0.016)], 32),
     "medium": _quality(320, [(1, 4), (3, 3)], [(6, 4, 2, 3, 0.008), (12, 2, 1, 2, 0.016)], 36),
-    "high": _quality(500, [(1, 8), (2, 5), (4, 3)], [(7, 6, 2, 3, 0.006), (11, 3, 2, 2, 0.012), (20, 2, 1, 1, 0.016)], 40),
-    "ultra": _quality(800, [(2, 8), (4, 6), (6, 4)], [(10, 8, 2, 3, 0.006), (16, 4, 2, 2, 0.012), (28, 3, 1, 2, 0.016)], 48),
+    "high": _quality(
+        500, [(1, 8), (2, 5), (4, 3)], [(7, 6, 2, 3, 0.006), (11, 3, 2, 2, 0.012), (20, 2, 1, 1, 0.016)], 40
+    ),
+    "ultra": _quality(
+        800, [(2, 8), (4, 6), (6, 4)], [(10, 8, 2, 3, 0.006), (16, 4, 2, 2, 0.012), (28, 3, 1, 2, 0.016)], 48
+    ),
     "paper-low": _quality(160, [(2, 3)], [(8, 8, 2, 3, 0.008)], 32),
     "paper-medium": _quality(320, [(1, 4)], [(12, 8, 2, 3, 0.008)], 36),
     "paper-high": _quality(500, [(2, 8)], [(20, 8, 2, 3, 0.008)], 40),

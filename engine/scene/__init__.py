@@ -1,1 +1,6 @@
 """Reading scene files: YAML with positions, problems with carets."""
+
+from .problem import Problem, SceneError
+from .read import LoadedScene, bundled_scenes, parse_scene, read_scene
+
+__all__ = ["LoadedScene", "Problem", "SceneError", "bundled_scenes", "parse_scene", "read_scene"]

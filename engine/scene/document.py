@@ -1,0 +1,73 @@
+"""The values of a scene file, each of which knows its place."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from .problem import Problem
+
+_LONGEST = 400
+
+Where = Sequence[str | int]
+"""A way from the root to a value, as in `("wind", 0, "kind")`."""
+
+
+@dataclass(slots=True, eq=False)
+class Node:
+    """A value of the file."""
+
+    line: int
+    """From 0."""
+
+    column: int
+    """From 0, in characters."""
+
+    data: Any
+    """The plain value: text, number, true, false, null, list or mapping."""
+
+    below: dict[str | int, "Node"] = field(default_factory=dict)
+    """The values of a mapping by key, or of a list by index."""
+
+    keys: dict[str, "Node"] = field(default_factory=dict)
+    """The keys of a mapping."""
+
+    depth: int = 1
+    """Levels, itself included."""
+
+    count: int = 1
+    """Values, itself included, each as often as aliases repeat it."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Document:
+    """The values of one file, and the problems that did not stop the reading."""
+
+    file: str
+    """The file, as the person called it."""
+
+    lines: list[str]
+    root: Node
+    problems: list[Problem]
+
+    def node(self, where: Where) -> Node:
+        """Return the value at `where`; steps that the file does not have are skipped."""
+        node = self.root
+        for step in where:
+            node = node.below.get(step, node)
+        return node
+
+    def problem(self, where: Where, message: str, *, at_key: bool = False) -> Problem:
+        """Return a problem at the value at `where`, or at its key."""
+        node = self.node(where)
+        if at_key and where:
+            node = self.node(where[:-1]).keys.get(str(where[-1]), node)
+        return problem_at(self.file, self.lines, node.line, node.column, message)
+
+
+def problem_at(file: str, lines: list[str], line: int, column: int, message: str) -> Problem:
+    """Return a problem at a place counted from 0; its message becomes one line of printable characters."""
+    text = " ".join(message.split())
+    text = "".join(character if character.isprintable() else "\N{REPLACEMENT CHARACTER}" for character in text)
+    if len(text) > _LONGEST:
+        text = text[:_LONGEST] + "..."
+    return Problem(file, line + 1, column + 1, text, lines[line] if line < len(lines) else "")

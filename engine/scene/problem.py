@@ -1,0 +1,44 @@
+"""Problems of scene files: where, what, and the line itself."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+_WIDEST = 120
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """One thing wrong in a scene file; its text is `file:line:column: what`, the line, and a caret."""
+
+    file: str
+    """The file, as the person called it."""
+
+    line: int
+    """From 1."""
+
+    column: int
+    """From 1, in characters."""
+
+    message: str
+    """What is wrong, in one sentence."""
+
+    source_line: str = ""
+    """The line as it stands in the file; empty where there is none to show."""
+
+    def __str__(self) -> str:
+        head = f"{self.file}:{self.line}:{self.column}: {self.message}"
+        if not self.source_line:
+            return head
+        start = max(0, self.column - _WIDEST) and self.column - 1 - _WIDEST // 2
+        shown = self.source_line[start : start + _WIDEST]
+        before = shown[: self.column - 1 - start]
+        pad = "".join("\t" if character == "\t" else " " for character in before)
+        return f"{head}\n    {shown}\n    {pad}^"
+
+
+class SceneError(ValueError):
+    """A scene cannot be read; `problems` holds every problem found, in the order of the file."""
+
+    def __init__(self, problems: Iterable[Problem]) -> None:
+        self.problems = sorted(problems, key=lambda problem: (problem.line, problem.column))
+        super().__init__("\n".join(map(str, self.problems)))

@@ -1,0 +1,127 @@
+"""Reading scenes, by path or by the name of a bundled one."""
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from importlib.resources import files
+from pathlib import Path
+
+from ... import scenes
+from ...components.scene import Scene
+from ..plugins import wind_kinds
+from .compose import MOST_BYTES, decode, read_document
+from .document import Document, Where
+from .problem import Problem, SceneError
+from .validate import validate
+
+SUFFIXES = (".yaml", ".yml")
+"""What a scene file's name ends with."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LoadedScene:
+    """A scene, and the file it was read from."""
+
+    scene: Scene
+    path: Path
+
+    folder: Path
+    """What the scene's own file names are relative to."""
+
+    document: Document = field(repr=False)
+    """The file's values with their places, for problems that show later."""
+
+
+def bundled_scenes() -> dict[str, Path]:
+    """Return the bundled scenes: name and file."""
+    folder = Path(str(files(scenes)))
+    return {path.stem: path for path in sorted(folder.glob("*.yaml"))}
+
+
+def read_scene(scene: str | Path, /) -> LoadedScene:
+    """Return the scene in a file, or the bundled scene of that name.
+
+    The files that the scene names must exist; `load_maps` reads them. Raises SceneError with all problems.
+    """
+    path = _path(scene)
+    document = read_document(decode(_bytes(path), file=str(path)), file=str(path))
+    missing = list(_missing_files(document, path.parent))
+    try:
+        read = validate(document, find=wind_kinds().find)
+    except SceneError as error:
+        raise SceneError(error.problems + missing) from error
+    if missing:
+        raise SceneError(missing)
+    return LoadedScene(read, path, path.parent, document)
+
+
+def parse_scene(text: str, /, *, file: str = "<scene>") -> Scene:
+    """Return the scene that a text declares; the files it names are not looked for. Raises SceneError."""
+    return validate(read_document(text, file=file), find=wind_kinds().find)
+
+
+def _path(scene: str | Path) -> Path:
+    text = str(scene)
+    is_name = isinstance(scene, str) and not text.endswith(SUFFIXES) and not {"/", os.sep} & set(text)
+    bundled = bundled_scenes()
+    if is_name and text in bundled:
+        return bundled[text]
+    path = Path(scene)
+    if _is_file(path):
+        return path
+    if is_name:
+        near = get_close_matches(text, bundled, n=1)
+        guess = f"; did you mean '{near[0]}'?" if near else ";"
+        raise _no_file(text, f"no scene file '{text}'{guess} bundled: {', '.join(bundled)}")
+    if path.is_dir():
+        raise _no_file(text, "this is a folder, not a scene file")
+    raise _no_file(text, f"no scene file '{text}'{_guess(path)}")
+
+
+def _no_file(file: str, message: str) -> SceneError:
+    return SceneError([Problem(file, 1, 1, message)])
+
+
+def _bytes(path: Path) -> bytes:
+    try:
+        with path.open("rb") as stream:
+            return stream.read(MOST_BYTES + 1)
+    except OSError as error:
+        raise _no_file(str(path), f"the file cannot be read: {error.strerror}") from error
+
+
+def _missing_files(document: Document, folder: Path) -> Iterator[Problem]:
+    for where, name in _named_files(document.root.data):
+        if not _is_file(folder / name):
+            message = f"no file '{name}' relative to the scene{_guess(folder / name)}"
+            yield document.problem(where, message)
+
+
+def _named_files(values: object) -> Iterator[tuple[Where, str]]:
+    match values:
+        case {"terrain": {"heights": str(name)}} if name:
+            yield ("terrain", "heights"), name
+    match values:
+        case {"grass": dict(kinds)}:
+            for kind, declared in kinds.items():
+                match declared:
+                    case {"place": {"map": str(name)}} if name:
+                        yield ("grass", kind, "place", "map"), name
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except OSError:  # a name longer than the file system allows
+        return False
+
+
+def _guess(path: Path) -> str:
+    """Return what follows a missing file's name: the file beside it whose name is near."""
+    try:
+        names = [other.name for other in path.parent.iterdir()]
+    except (OSError, ValueError):
+        names = []
+    near = get_close_matches(path.name, names, n=1, cutoff=0.8)
+    return f", did you mean '{near[0]}'?" if near else ""

@@ -1,0 +1,77 @@
+"""From a scene file's values to its `Scene`, or to every problem they have."""
+
+from collections.abc import Iterator
+from typing import Any, TypeGuard
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from ...components.declaration import DeclarationError
+from ...components.scene import FORMAT, Reading, Scene
+from .document import Document, Where
+from .fields import FindKind, field_at
+from .problem import Problem, SceneError
+from .version import FIRST, upgrade
+from .words import found, sentence
+
+MOST_PROBLEMS = 200
+"""Most problems told of one file; one more then says how many are left."""
+
+
+def validate(document: Document, /, *, find: FindKind) -> Scene:
+    """Return the scene of a file. Raises SceneError with every problem of the file."""
+    if not isinstance(document.root.data, dict):
+        message = f"{FIRST}, then its keys; this is {found(document.root.data)}"
+        raise SceneError([*document.problems, document.problem((), message)])
+    problems = [*document.problems, *_of_version(document)]
+    values = _upgraded(document)
+    try:
+        scene = Scene.model_validate(values | {"tallgrass": FORMAT}, context=Reading(wind=find))
+    except ValidationError as error:
+        raise SceneError(_all(document, problems, error.errors(include_url=False), find)) from error
+    if problems:
+        raise SceneError(problems)
+    return scene
+
+
+def _of_version(document: Document) -> Iterator[Problem]:
+    version = document.root.data.get("tallgrass")
+    if "tallgrass" not in document.root.data:
+        yield document.problem((), FIRST)
+    elif not _is_whole(version):
+        yield document.problem(("tallgrass",), f"tallgrass must be the number {FORMAT}, found {found(version)}")
+    elif next(iter(document.root.keys)) != "tallgrass":
+        yield document.problem(("tallgrass",), FIRST, at_key=True)
+
+
+def _upgraded(document: Document) -> dict[str, Any]:
+    values: dict[str, Any] = document.root.data
+    version = values.get("tallgrass")
+    try:
+        return upgrade(values, version if _is_whole(version) else FORMAT)
+    except ValueError as error:
+        raise SceneError([*document.problems, document.problem(("tallgrass",), str(error))]) from error
+
+
+def _is_whole(version: object) -> TypeGuard[int]:
+    return isinstance(version, int) and not isinstance(version, bool)
+
+
+def _all(document: Document, problems: list[Problem], errors: list[ErrorDetails], find: FindKind) -> list[Problem]:
+    told = {(problem.line, problem.column) for problem in document.problems}
+    new = [_problem(document, error, find) for error in errors[:MOST_PROBLEMS]]
+    result = problems + [problem for problem in new if (problem.line, problem.column) not in told]
+    left = len(errors) - MOST_PROBLEMS
+    if left > 0:
+        last = Problem(document.file, len(document.lines), 1, f"and {left} more problems")
+        result.append(last)
+    return result
+
+
+def _problem(document: Document, error: ErrorDetails, find: FindKind) -> Problem:
+    where: Where = error["loc"]
+    field = field_at(document.root, where, find=find)
+    reason = error.get("ctx", {}).get("error")
+    if isinstance(reason, DeclarationError):
+        where = (*where, *reason.where)
+    return document.problem(where, sentence(error, field), at_key=error["type"] == "extra_forbidden")

@@ -1,0 +1,162 @@
+"""What pydantic finds wrong with a value, in plain sentences."""
+
+import re
+from collections.abc import Callable, Iterable
+from difflib import get_close_matches
+from typing import Any, get_args
+
+from pydantic_core import ErrorDetails
+
+from .fields import Field
+
+_WANTED = {
+    "float_type": "a number",
+    "int_type": "a whole number",
+    "int_from_float": "a whole number",
+    "string_type": "text",
+    "bool_type": "true or false",
+    "list_type": "a list",
+    "dict_type": "a mapping of keys",
+    "model_type": "a mapping of keys",
+    "finite_number": "a finite number",
+}
+_COLOR = "#[0-9a-fA-F]{6}"
+_UNIT = re.compile(r"\[([a-z/]{1,12})\]\.?$")
+_DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+")
+_WITH_UNIT = re.compile(r"([-+]?[\d.]+)\s*[a-zA-Z°%/]+")
+
+
+def sentence(error: ErrorDetails, field: Field, /) -> str:
+    """Return what an error says, in one sentence in words of the scene file."""
+    kind = error["type"]
+    if kind in _WANTED:
+        return _of_type(error, field)
+    say = _SENTENCES.get(kind)
+    return say(error, field) if say else f"{field.name}: {error['msg']}"
+
+
+def suggestion(word: str, known: Iterable[str], /) -> str:
+    """Return what follows an unknown word: the known one it resembles, or else all that are known."""
+    words = sorted(known)
+    near = get_close_matches(word, words, n=1)
+    if near:
+        return f", did you mean '{near[0]}'?"
+    return f"; known: {', '.join(words)}" if words else ""
+
+
+def found(value: object, /) -> str:
+    """Return how a sentence calls a value of a scene file."""
+    match value:
+        case None:
+            return "nothing"
+        case bool():
+            return str(value).lower()
+        case str():
+            return f"the text '{value}'" if len(value) <= 40 else f"the text '{value[:40]}...'"
+        case list():
+            return f"a list of {len(value)}"
+        case dict():
+            return "a mapping of keys"
+        case _:
+            return str(value)
+
+
+def _of_type(error: ErrorDetails, field: Field) -> str:
+    kind, value = error["type"], error["input"]
+    wanted = _list(field) if kind == "list_type" else _WANTED[kind]
+    return f"{field.name} must be {wanted}, found {found(value)}{_hint(kind, value, field)}"
+
+
+def _unknown_key(error: ErrorDetails, field: Field) -> str:
+    key = str(error["loc"][-1])
+    return f"unknown key '{key}'{suggestion(key, field.keys)}"
+
+
+def _not_among(error: ErrorDetails, field: Field) -> str:
+    value, choices = error["input"], re.findall(r"'([^']*)'", error["ctx"]["expected"])
+    near = get_close_matches(value, choices, n=1) if isinstance(value, str) else []
+    guess = f", did you mean '{near[0]}'?" if near else ""
+    return f"{field.name} must be one of {', '.join(choices)}; found {found(value)}{guess}"
+
+
+def _out_of_range(error: ErrorDetails, field: Field) -> str:
+    bounds = _limits(field) | error["ctx"]
+    if "ge" in bounds and "le" in bounds:
+        text = f"between {_number(bounds['ge'])} and {_number(bounds['le'])}"
+    else:
+        words = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}
+        text = " and ".join(f"{words[name]} {_number(bounds[name])}" for name in words if name in bounds)
+    unit = _UNIT.search((field.declared and field.declared.description) or "")
+    return f"{field.name} must be {text}{' ' + unit[1] if unit else ''}, found {found(error['input'])}"
+
+
+def _of_length(error: ErrorDetails, field: Field) -> str:
+    value, limits = error["input"], _limits(field) | error["ctx"]
+    if isinstance(value, list):
+        return f"{field.name} must be {_list(field)}, found {len(value)}"
+    least, most = limits.get("min_length", 0), limits.get("max_length", "any number of")
+    return f"{field.name} must have {least} to {most} entries, found {len(value)}"
+
+
+def _of_pattern(error: ErrorDetails, field: Field) -> str:
+    pattern = error["ctx"]["pattern"]
+    wanted = "a colour such as '#2f4019'" if _COLOR in pattern else f"text of the form {pattern}"
+    return f"{field.name} must be {wanted}, found {found(error['input'])}"
+
+
+def _number(value: float) -> str:
+    return str(value) if isinstance(value, int) else format(value, ".12g")
+
+
+def _list(field: Field) -> str:
+    limits = _limits(field)
+    least, most = limits.get("min_length", 0), limits.get("max_length")
+    things = "numbers" if field.declared and _is_numeric(field.declared.annotation) else "entries"
+    if least == most:
+        return f"a list of {least} {things}"
+    return f"a list of {least} to {most} {things}" if most else "a list"
+
+
+def _limits(field: Field) -> dict[str, Any]:
+    """Return the declared limits of a value, of `X | None` too."""
+    if field.declared is None:
+        return {}
+    limits = [*field.declared.metadata]
+    for argument in get_args(field.declared.annotation):
+        limits += [limit for inner in getattr(argument, "__metadata__", ()) for limit in getattr(inner, "metadata", ())]
+    names = ("ge", "gt", "le", "lt", "min_length", "max_length", "pattern")
+    return {name: getattr(limit, name) for limit in limits for name in names if hasattr(limit, name)}
+
+
+def _is_numeric(annotation: Any) -> bool:
+    return annotation in (int, float) or any(_is_numeric(argument) for argument in get_args(annotation))
+
+
+def _hint(kind: str, value: object, field: Field) -> str:
+    if value is None and kind == "string_type" and _COLOR in _limits(field).get("pattern", ""):
+        return "; a colour needs quotes, '#2f4019', because # begins a comment"
+    if value is None and kind == "model_type":
+        return "; write {} to leave everything at its default"
+    if isinstance(value, str) and kind in ("float_type", "int_type"):
+        if _DECIMAL_COMMA.fullmatch(value):
+            return f"; write it with a point, {value.replace(',', '.')}"
+        number = _WITH_UNIT.fullmatch(value)
+        return f"; leave the unit out, {number[1]}" if number else ""
+    return ""
+
+
+_SENTENCES: dict[str, Callable[[ErrorDetails, Field], str]] = {
+    "extra_forbidden": _unknown_key,
+    "missing": lambda error, _: f"the key '{error['loc'][-1]}' is missing",
+    "literal_error": _not_among,
+    "greater_than": _out_of_range,
+    "greater_than_equal": _out_of_range,
+    "less_than": _out_of_range,
+    "less_than_equal": _out_of_range,
+    "too_short": _of_length,
+    "too_long": _of_length,
+    "string_too_short": lambda _, field: f"{field.name} must not be empty",
+    "string_pattern_mismatch": _of_pattern,
+    "value_error": lambda error, _: str(error["ctx"]["error"]),
+    "unknown_kind": lambda error, _: error["msg"],
+}
