@@ -39,11 +39,12 @@ def rasterise(
     """Return what each sample of an image shows of triangles: the nearest one.
 
     `corners` are (x, y) in samples, shape (n, 3, 2): sample (row, column) lies at y = row + 0.5 and somewhere
-    between x = column and column + 1, staggered from row to row over every four rows; `nearness` is larger nearer to the eye, shape (n, 3). With `wrap` the image is a torus; without it, what
-    lies outside is cut off. `chunk` bounds the fragments that are held at a time.
+    between x = column and column + 1, staggered from row to row over every four rows. `nearness` is larger
+    nearer to the eye, shape (n, 3). With `wrap` the image is a torus; without it, what lies outside is cut
+    off. `chunk` bounds the fragments that are held at a time.
     """
     planes = plane_of(corners, nearness)
-    spans = _row_spans(corners, shape, wrap)
+    spans = _row_spans(corners, shape, wrap=wrap)
     low, high = (float(nearness.min()), float(nearness.max())) if nearness.size else (0.0, 0.0)
     scale = (2.0**32 - 1.0) / max(high - low, 1e-12)
     best = np.zeros(shape[0] * shape[1], np.uint64)
@@ -52,7 +53,7 @@ def rasterise(
         span, column = _expand(spans.length[start:stop])
         span += start
         triangle, row, column = spans.triangle[span], spans.row[span], column + spans.first[span]
-        near = _value(planes, triangle, _across(row, column), row + 0.5)
+        near = _value(planes, triangle, _across(row, column), _centre(row))
         steps = np.clip((near - low) * scale, 0.0, 2.0**32 - 1.0).astype(np.uint64)
         key = (steps << np.uint64(32)) | (triangle + 1).astype(np.uint64)
         sample = (row % shape[0]) * shape[1] + column % shape[1]
@@ -95,7 +96,7 @@ class _Spans:
     length: Integers
 
 
-def _row_spans(corners: Doubles, shape: tuple[int, int], wrap: bool, /) -> _Spans:
+def _row_spans(corners: Doubles, shape: tuple[int, int], /, *, wrap: bool) -> _Spans:
     """Return the samples inside each triangle as runs along the rows."""
     ordered = np.take_along_axis(corners, np.argsort(corners[:, :, 1], axis=1, kind="stable")[:, :, None], axis=1)
     low = np.ceil(ordered[:, 0, 1] - 0.5).astype(np.int64)
@@ -104,7 +105,7 @@ def _row_spans(corners: Doubles, shape: tuple[int, int], wrap: bool, /) -> _Span
         low, high = np.clip(low, 0, shape[0]), np.clip(high, 0, shape[0])
     triangle, offset = _expand(np.maximum(high - low, 0))
     row = low[triangle] + offset
-    ends = _crossings(ordered, triangle, row + 0.5)
+    ends = _crossings(ordered, triangle, _centre(row))
     first, last = (np.ceil(end - _STAGGER[row % 4]).astype(np.int64) for end in ends)
     if not wrap:
         first, last = np.clip(first, 0, shape[1]), np.clip(last, 0, shape[1])
@@ -148,6 +149,10 @@ def _value(planes: Doubles, triangle: Integers, x: Doubles, y: Doubles, /) -> Do
     return np.asarray(planes[triangle, 0] + planes[triangle, 1] * x + planes[triangle, 2] * y)
 
 
+def _centre(row: Integers, /) -> Doubles:
+    return np.asarray(row + 0.5, np.float64)
+
+
 def _across(row: Integers, column: Integers, /) -> Doubles:
     return np.asarray(column + _STAGGER[row % 4])
 
@@ -160,7 +165,8 @@ def _winners(
         return Fragments(nothing, nothing, nowhere, nowhere)
     sample, key, row, column = (np.concatenate(parts) for parts in zip(*kept, strict=True))
     wins = np.flatnonzero(best[sample] == key)
-    sample, first = np.unique(sample[wins], return_index=True)
-    wins = wins[first]
-    triangle = (key[wins] & np.uint64(0xFFFFFFFF)).astype(np.int64) - 1
-    return Fragments(sample, triangle, _across(row[wins], column[wins]), row[wins] + 0.5)
+    owner = np.full(best.shape[0], -1)
+    owner[sample[wins]] = wins
+    owner = owner[owner >= 0]
+    triangle = (key[owner] & np.uint64(0xFFFFFFFF)).astype(np.int64) - 1
+    return Fragments(sample[owner], triangle, _across(row[owner], column[owner]), _centre(row[owner]))

@@ -107,7 +107,7 @@ class _Sheet:
         texel = (seen.sample // shape[1] // fine) * w + seen.sample % shape[1] // fine
         sums = [np.bincount(texel, weights=value, minlength=self._strips * h * w) for value in values]
         covered = sums[-1]
-        texels = np.stack(sums[:-2] + [covered], axis=1) * (255.0 / fine**2)
+        texels = np.stack([*sums[:-2], covered], axis=1) * (255.0 / fine**2)
         rank = fill_ranks((sums[-2] / np.maximum(covered, 1.0)).reshape(-1, h, w), (covered > 0).reshape(-1, h, w))
         return np.rint(texels).astype(np.uint8).reshape(-1, h, w, 4), rank
 
