@@ -32,6 +32,7 @@ Preset = Annotated[PresetName | None, typer.Option(help="Quality, in place of th
 Reference = Annotated[bool, typer.Option("--reference", help="Draw every blade in 3D, supersampled.")]
 Output = Annotated[str, typer.Option("-o", "--output", help="Where it is written.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+Fullscreen = Annotated[bool, typer.Option("--fullscreen", help="Fill the screen.")]
 
 
 def main() -> None:
@@ -55,7 +56,7 @@ def run(arguments: list[str], /) -> int:
         return _tell(str(error), status=2)
     except MachineError as error:
         return _tell(str(error), status=1)
-    except Exception as error:
+    except Exception as error:  # noqa: BLE001 - whatever it is, it gets a sentence
         return _unexpected(error)
 
 
@@ -64,7 +65,8 @@ def walk(
     scene: Scene = "meadow",
     size: Size = "1280x720",
     preset: Preset = None,
-    fullscreen: Annotated[bool, typer.Option("--fullscreen", help="Fill the screen.")] = False,
+    *,
+    fullscreen: Fullscreen = False,
     seconds: Annotated[float | None, typer.Option(min=0.1, max=36000.0, help="Close by itself after so long.")] = None,
 ) -> None:
     """Walk through a scene in a window; F1 shows the keys."""
@@ -82,6 +84,7 @@ def shot(
     size: Size = "1280x720",
     preset: Preset = None,
     lod: Annotated[LodName, typer.Option(help="Representation, the same one everywhere unless auto.")] = "auto",
+    *,
     reference: Reference = False,
     camera: Annotated[str | None, typer.Option(metavar="X,Y,Z,YAW,PITCH", help="Metres and degrees.")] = None,
 ) -> None:
@@ -101,6 +104,7 @@ def film(
     fps: Annotated[int, typer.Option(min=1, max=120, help="Frames per second.")] = 24,
     size: Size = "640x360",
     preset: Preset = None,
+    *,
     reference: Reference = False,
 ) -> None:
     """Film a scene along its camera's path, without a window: .webp, .gif, .mp4, or a folder of pictures."""
@@ -127,7 +131,7 @@ def doctor() -> int:
 
 
 @bench.command("frame")
-def frame(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720", json: Json = False) -> int:
+def frame(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720", *, json: Json = False) -> int:
     """Measure how long a frame takes, and what it is made of."""
     from .bench.frame import bench_frame
 
@@ -135,14 +139,14 @@ def frame(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720
 
 
 @bench.command("picture")
-def picture(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720", json: Json = False) -> int:
+def picture(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720", *, json: Json = False) -> int:
     """Measure how far a picture is from every blade in 3D, supersampled."""
     from .bench.picture import bench_picture
 
     return bench_picture(scene, preset=preset, size=_size(size), json=json)
 
 
-def _print_version(wanted: bool) -> None:
+def _print_version(wanted: bool) -> None:  # noqa: FBT001 - typer passes it by place
     if wanted:
         print(f"tallgrass {__version__}")
         raise typer.Exit
@@ -150,6 +154,7 @@ def _print_version(wanted: bool) -> None:
 
 @app.callback()
 def _options(
+    *,
     version: Annotated[
         bool, typer.Option("--version", is_eager=True, callback=_print_version, help="Print the version.")
     ] = False,

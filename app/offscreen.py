@@ -61,6 +61,6 @@ def standalone_context() -> moderngl.Context:
     for backend in backends:
         try:
             return moderngl.create_context(require=330, standalone=True, **backend)
-        except Exception as error:  # the backends raise plain Exception
+        except Exception as error:  # noqa: BLE001 - the backends raise nothing narrower
             complaints.append(str(error))
     raise RuntimeError(f"no OpenGL 3.3 without a window: {'; '.join(dict.fromkeys(complaints))}")

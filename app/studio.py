@@ -42,10 +42,10 @@ class Studio:
         """Return what the camera sees at this instant of the prairie."""
         width, height = self.take.size
         view, projection = view_matrix(camera), projection_matrix(camera.view, width / height)
-        if self.take.reference:
-            return draw_reference(self.prairie, view, projection, self.take.size)
         self._offscreen.begin()
         self.prairie.draw(view, projection)
+        if self.take.reference:
+            return draw_reference(self.prairie, view, projection, self.take.size)
         return self._offscreen.read()
 
     def about(self) -> dict[str, str]:

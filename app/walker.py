@@ -1,7 +1,7 @@
 """How the viewer of the window moves: pure functions from what is pressed to where it stands."""
 
 import math
-from collections.abc import Set
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -89,7 +89,7 @@ def turned(walker: Walker, /, *, right: float, up: float) -> Walker:
     return replace(walker, yaw=yaw, pitch=_bounded(walker.pitch + up))
 
 
-def asked_velocity(walker: Walker, held: Set[Move], /) -> tuple[float, float, float]:
+def asked_velocity(walker: Walker, held: AbstractSet[Move], /) -> tuple[float, float, float]:
     """Return the velocity (x, y, z) [m/s] that the held keys ask for; opposite keys cancel, diagonals are no faster."""
     across = ("right" in held) - ("left" in held)
     along = ("ahead" in held) - ("back" in held)
@@ -105,9 +105,8 @@ def asked_velocity(walker: Walker, held: Set[Move], /) -> tuple[float, float, fl
     return wish[0] * speed, wish[1] * speed, wish[2] * speed
 
 
-def moved(walker: Walker, held: Set[Move], dt: float, ground: Ground, /) -> Walker:
-    """Return the walker after `dt` [s] of the held keys: it speeds up and slows down smoothly, stands on the ground
-    and stays on the terrain.
+def moved(walker: Walker, held: AbstractSet[Move], dt: float, ground: Ground, /) -> Walker:
+    """Return the walker after `dt` [s] of the held keys: eased in speed, on the ground, and on the terrain.
 
     The result does not depend on how the time is cut into frames, as long as the keys and the look stay.
     """
