@@ -1,0 +1,211 @@
+"""What this machine has for a prairie, and for each thing missing the exact line that installs it."""
+
+import json
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from importlib.metadata import EntryPoint, PackageNotFoundError, entry_points, requires, version
+from typing import Literal
+
+from ..engine.plugins import GROUP, PluginError, WindKinds, wind_kinds
+
+_DISTRIBUTION = "tallgrass"
+_OPTIONAL = re.compile(r"extra\s*==\s*.(bench|video)\b")
+_SOFTWARE = re.compile(r"llvmpipe|softpipe|swrast|swiftshader|software|gdi generic", re.IGNORECASE)
+_NEWER_DRIVER = "update the graphics driver, or draw in software: LIBGL_ALWAYS_SOFTWARE=1"
+
+_OTHER_CURES = (
+    (r"externally-managed-environment", "python3 -m venv .venv && .venv/bin/pip install tallgrass"),
+    (r"eglCreateContext failed|Could not create GL context|OpenGL version", _NEWER_DRIVER),
+)
+
+_DEBIAN_PACKAGES = (
+    (r"libGL\S* not (found|loaded)|library libGL|Library \"GL\"", "libegl1 libgl1"),
+    (r"libEGL\S* not (found|loaded)|Library \"EGL\"", "libegl1"),
+    (r"found 0 devices", "libegl-mesa0 libgl1-mesa-dri"),
+    (r"eglInitialize failed|NoSuchConfigException", "libgl1-mesa-dri"),
+    (r"Library \"(freetype|fontconfig)\"", "libfontconfig1 libfreetype6"),
+    (r"XRenderFindVisualFormat", "libxrender1"),
+    (r"Library \"X11\"|libX11\S* not (found|loaded)", "libx11-6"),
+    (r"cannot open display|NoSuchDisplayException|Cannot connect to", "xvfb xauth"),
+    (r"ensurepip is not available|No module named '?ensurepip", "python3-venv"),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One thing that was looked at."""
+
+    part: str
+    """What it is about: `python`, a package, `OpenGL`, `window`, or a kind of wind."""
+
+    level: Literal["ok", "note", "missing"]
+    """`missing` keeps prairies from being drawn or walked; a `note` does not."""
+
+    text: str
+    """What was found."""
+
+    cure: str | None = None
+    """The line that installs what is missing."""
+
+
+def doctor() -> int:
+    """Print what this machine has and lacks; return 0 if a prairie can be drawn here, and 1 if not."""
+    return tell(diagnose())
+
+
+def diagnose() -> list[Finding]:
+    """Return what was found of Python, packages, OpenGL, windows and wind plugins."""
+    installed = [*entry_points(group=GROUP)]
+    return [
+        Finding("python", "ok", f"{sys.version.split()[0]} ({sys.executable})"),
+        *packages(requires(_DISTRIBUTION) or []),
+        drawing(_probe("draw")),
+        window(_probe("window"), has_display=_has_display()),
+        *winds(wind_kinds(), installed),
+    ]
+
+
+def tell(findings: Sequence[Finding]) -> int:
+    """Print findings, each cure below its own; return the exit status they amount to."""
+    for finding in findings:
+        print(f"{finding.level:8}{finding.part}: {finding.text}")
+        if finding.cure is not None:
+            print(f"{'':8}-> {finding.cure}")
+    missing = [finding.part for finding in findings if finding.level == "missing"]
+    print(f"missing: {', '.join(missing)}" if missing else "a prairie can be drawn here")
+    return 1 if missing else 0
+
+
+def cure(message: str, /) -> str | None:
+    """Return the line that mends what a loader, a driver or an installer complained of; None if it is unknown."""
+    for pattern, line in _OTHER_CURES:
+        if re.search(pattern, message):
+            return line
+    return next((_debian(names) for pattern, names in _DEBIAN_PACKAGES if re.search(pattern, message)), None)
+
+
+def packages(requirements: Sequence[str], /) -> list[Finding]:
+    """Return what is installed of `requirements`, which are written as in a distribution's metadata."""
+    findings = []
+    for requirement in requirements:
+        need, _, marker = (part.strip() for part in requirement.partition(";"))
+        if _OPTIONAL.search(marker):
+            findings.append(_package(need, "note"))
+        elif "extra" not in marker:
+            findings.append(_package(need, "missing"))
+    return findings
+
+
+def _package(need: str, otherwise: Literal["note", "missing"]) -> Finding:
+    name = re.split(r"[^\w.-]", need, maxsplit=1)[0]
+    try:
+        return Finding(name, "ok", version(name))
+    except PackageNotFoundError:
+        return Finding(name, otherwise, "not installed", _pip(need))
+
+
+def drawing(answer: dict[str, str], /) -> Finding:
+    """Return what the probe of headless OpenGL says."""
+    if "error" in answer:
+        return Finding("OpenGL", "missing", answer["error"], cure(answer["error"]))
+    text = "{version}, {renderer}, {vendor}".format(**answer)
+    if _SOFTWARE.search(answer["renderer"]):
+        return Finding("OpenGL", "note", f"{text}; a software rasteriser draws right, but slowly")
+    return Finding("OpenGL", "ok", text)
+
+
+def window(answer: dict[str, str], /, *, has_display: bool) -> Finding:
+    """Return what the probe of windows says; without a display, films and pictures still work."""
+    if "error" not in answer:
+        return Finding("window", "ok", "{version}, {renderer}".format(**answer))
+    if has_display:
+        return Finding("window", "missing", answer["error"], cure(answer["error"]))
+    return Finding("window", "note", "there is no display: films and pictures only", _virtual_display())
+
+
+def winds(kinds: WindKinds, entries: Sequence[EntryPoint], /) -> list[Finding]:
+    """Return which kinds of wind a scene can use; a broken one costs only the scenes that use it."""
+    owner = {entry.name: entry.dist.name for entry in entries if entry.dist is not None}
+    findings = []
+    for kind in kinds.names():
+        name = owner.get(kind, "the game")
+        try:
+            kinds.find(kind)
+        except PluginError as error:
+            findings.append(Finding(f"wind {kind}", "note", str(error), _pip(name) if kind in owner else None))
+        else:
+            findings.append(Finding(f"wind {kind}", "ok", f"from {name}"))
+    return findings
+
+
+def _pip(requirement: str) -> str:
+    return shlex.join([sys.executable, "-m", "pip", "install", "--upgrade", requirement])
+
+
+def _debian(names: str) -> str:
+    if shutil.which("apt-get") is None:
+        return f"install what Debian calls {names}"
+    root = "" if hasattr(os, "geteuid") and os.geteuid() == 0 else "sudo "
+    return f"{root}apt-get install -y --no-install-recommends {names}"
+
+
+def _virtual_display() -> str:
+    run = "xvfb-run -a tallgrass walk"
+    return run if shutil.which("xvfb-run") else f"{_debian('xvfb xauth')} && {run}"
+
+
+def _has_display() -> bool:
+    unix = sys.platform not in {"darwin", "win32"}
+    return not unix or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def _probe(name: str) -> dict[str, str]:
+    """Return what a probe answers from a process of its own: a broken driver may take its process down."""
+    command = [sys.executable, "-P", "-m", __name__, name]
+    try:
+        run = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)  # noqa: S603 - our own
+    except subprocess.TimeoutExpired:
+        return {"error": "no answer within two minutes"}
+    try:
+        answer: dict[str, str] = json.loads(run.stdout)
+    except ValueError:
+        last = run.stderr.strip().splitlines()[-1:]
+        return {"error": f"it crashed with status {run.returncode}: {''.join(last)}"}
+    return answer
+
+
+def _draw_once() -> dict[str, str]:
+    from .offscreen import standalone_context
+
+    info = standalone_context().info
+    return {"version": info["GL_VERSION"], "renderer": info["GL_RENDERER"], "vendor": info["GL_VENDOR"]}
+
+
+def _open_window_once() -> dict[str, str]:
+    import pyglet
+
+    shown = pyglet.window.Window(64, 64, visible=False)
+    pyglet.text.Label("grass").draw()
+    info = shown.context.get_info()
+    shown.close()
+    return {"version": info.get_version_string(), "renderer": info.get_renderer()}
+
+
+_PROBES: dict[str, Callable[[], dict[str, str]]] = {"draw": _draw_once, "window": _open_window_once}
+
+
+def _answer(name: str) -> dict[str, str]:
+    try:
+        return _PROBES[name]()
+    except Exception as error:  # noqa: BLE001 - whatever goes wrong is the answer
+        return {"error": f"{type(error).__name__}: {error}"}
+
+
+if __name__ == "__main__":
+    print(json.dumps(_answer(sys.argv[1])))
