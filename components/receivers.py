@@ -52,14 +52,19 @@ class BladePool:
     @classmethod
     def allocate(cls, side: int, kinds: int, blades: int) -> "BladePool":
         """Return an empty pool for a window of `side` by `side` patches."""
-        shape = (side * side, kinds, blades)
+        return cls.allocate_slots(side * side, kinds, blades, side=side)
+
+    @classmethod
+    def allocate_slots(cls, slots: int, kinds: int, blades: int, *, side: int = 0) -> "BladePool":
+        """Return an empty pool of any number of slots, which need not form a window."""
+        shape = (slots, kinds, blades)
         return cls(
             side=side,
             blade=np.zeros(shape, BLADE),
             present=np.zeros(shape, np.bool_),
             place=np.zeros((*shape, 2), np.float32),
             message=np.zeros((*shape, 2), np.float32),
-            stamp=np.full((side * side, 2), NOWHERE, np.int32),
+            stamp=np.full((slots, 2), NOWHERE, np.int32),
         )
 
 

@@ -5,7 +5,7 @@ from math import atan, pi, tan
 import numpy as np
 from numpy.typing import NDArray
 
-from ..components.camera import Camera
+from ..components.camera import Camera, View
 
 Floats = NDArray[np.float32]
 
@@ -52,3 +52,13 @@ def far_to_near(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArra
     apart = np.abs(cell - centre)
     order: NDArray[np.int64] = np.lexsort((-apart.min(axis=-1), -apart.max(axis=-1)))
     return order
+
+
+def camera_of(view: View, /) -> tuple[Camera, float]:
+    """Return the camera that two matrices were made of, and the image's width over its height."""
+    turn, shift = view.view[:3, :3].astype(np.float64), view.view[:3, 3].astype(np.float64)
+    x, y, z = (-(turn.T @ shift)).tolist()
+    ahead = -turn[2]
+    yaw, pitch = float(np.arctan2(ahead[0], -ahead[2])), float(np.arcsin(np.clip(ahead[1], -1.0, 1.0)))
+    tall = float(view.projection[1, 1])
+    return Camera((x, y, z), yaw, pitch, 2.0 * atan(1.0 / tall)), tall / float(view.projection[0, 0])

@@ -1,0 +1,56 @@
+"""A guest's manners: drawing into the host's framebuffer and leaving its GL state as it was."""
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import moderngl
+
+UNITS = 12
+"""Texture units that are used, from 0."""
+
+
+def host_context(ctx: moderngl.Context | None) -> moderngl.Context:
+    """Return `ctx`, or the context that is current now; RuntimeError if the host has no window yet."""
+    found = ctx if ctx is not None else moderngl.get_context()
+    if found.screen is not None and found.screen.size == (1, 1):
+        raise RuntimeError("there is no window yet: create the window before the prairie is first drawn")
+    return found
+
+
+def _pyglet_gl() -> Any | None:
+    """Return pyglet's GL module if the host draws with pyglet, without ever loading it."""
+    module = sys.modules.get("pyglet.gl")
+    return module if module is not None and getattr(module, "current_context", None) is not None else None
+
+
+@contextmanager
+def guest(ctx: moderngl.Context) -> Iterator[moderngl.Framebuffer]:
+    """Draw as a guest: yields the framebuffer that the host has bound, whole and with a known state.
+
+    On leaving, the host's framebuffer, viewport and scissor are as they were, nothing is enabled, and no vertex
+    array, program, texture unit or sampler of ours stays bound. Never touches uniform binding point 0.
+    """
+    target = ctx.detect_framebuffer()
+    viewport, scissor = target.viewport, target.scissor
+    ctx.wireframe = False
+    ctx.blend_equation = moderngl.FUNC_ADD
+    ctx.front_face = "ccw"
+    ctx.depth_func = "<="
+    target.color_mask = (True, True, True, True)
+    target.depth_mask = True
+    target.use()
+    try:
+        yield target
+    finally:
+        target.depth_mask = True
+        target.viewport, target.scissor = viewport, scissor
+        target.use()
+        ctx.enable_only(moderngl.NOTHING)
+        ctx.clear_samplers(0, UNITS)
+        gl = _pyglet_gl()
+        if gl is not None:
+            gl.glBindVertexArray(0)
+            gl.glUseProgram(0)
+            gl.glActiveTexture(gl.GL_TEXTURE0)

@@ -1,0 +1,50 @@
+"""Buffers that are filled anew every frame."""
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+
+def attributes(record: np.dtype[np.void]) -> tuple[str, list[str]]:
+    """Return the buffer format and the attribute names of a record of float32 fields."""
+    names = list(record.names or ())
+    counts = [int(np.prod(record[name].shape, dtype=int)) for name in names]
+    return " ".join(f"{count}f" for count in counts), names
+
+
+class Stream:
+    """A vertex buffer of records, one per instance, that grows as it must.
+
+    `record` is a dtype of float32 fields whose names are the shader's attributes.
+    """
+
+    def __init__(self, ctx: moderngl.Context, record: np.dtype[np.void]) -> None:
+        self.ctx = ctx
+        self.record = record
+        self.buffer = ctx.buffer(reserve=1024 * record.itemsize, dynamic=True)
+        self.count = 0
+
+    def write(self, rows: NDArray[np.void]) -> None:
+        """Replace the contents by `rows`, shape (n,)."""
+        self.count = len(rows)
+        size = rows.nbytes
+        if size > self.buffer.size:
+            self.buffer.orphan(size * 3 // 2)
+        elif size:
+            self.buffer.orphan()
+        if size:
+            self.buffer.write(np.ascontiguousarray(rows))
+
+    def binding(self, program: moderngl.Program) -> tuple[moderngl.Buffer | str, ...]:
+        """Return the stream as a vertex array's per-instance content; fields the program drops are skipped over."""
+        form, names = attributes(self.record)
+        parts = form.split()
+        kept = [name for name in names if name in program]
+        padded = [
+            part if name in program else f"{int(part[:-1]) * 4}x" for part, name in zip(parts, names, strict=True)
+        ]
+        return self.buffer, " ".join(padded) + "/i", *kept
+
+    def release(self) -> None:
+        """Give the buffer back."""
+        self.buffer.release()

@@ -1,0 +1,80 @@
+#include "lib/light.glsl"
+#include "lib/terrain.glsl"
+#include "lib/random.glsl"
+
+uniform sampler2DArray images;  // place along the blade, height, normal, coverage; premultiplied
+uniform sampler2D shares;
+uniform ivec4 window;
+uniform float slopes[SLOPES];
+uniform vec4 first;             // by kind: first layer of the images
+uniform ivec2 stock;            // patch models; seed
+
+in vec3 place;
+in vec3 soil_color;
+in float carpet;
+
+out vec4 pixel;
+
+float share_here(ivec2 cell) {
+    ivec2 apart = abs(cell - window.xy);
+    if (max(apart.x, apart.y) > window.z)
+        return 1.0;
+    ivec2 side = textureSize(shares, 0);
+    return texelFetch(shares, (cell + 4096 * side) % side, 0).r;
+}
+
+vec2 spun(vec2 v, int turns) {
+    return turns == 0 ? v : turns == 1 ? vec2(-v.y, v.x) : turns == 2 ? -v : vec2(v.y, -v.x);
+}
+
+// What a ray that meets the carpet here sees of one kind: blended between the nearest images by viewing angle.
+vec4 carpet_image(float layer, vec2 at, vec2 heading, float slope, vec2 dx, vec2 dy) {
+    int low = 0;
+    for (int i = 1; i < SLOPES - 1; i++)
+        low = slope >= slopes[i] ? i : low;
+    float part = clamp((slope - slopes[low]) / (slopes[low + 1] - slopes[low]), 0.0, 1.0);
+    vec2 share = heading * heading;
+    float across = layer + float(low * 4) + (heading.x > 0.0 ? 1.0 : 3.0);
+    float along = layer + float(low * 4) + (heading.y > 0.0 ? 2.0 : 0.0);
+    vec4 near = share.x * textureGrad(images, vec3(at, across), dx, dy) + share.y * textureGrad(images, vec3(at, along), dx, dy);
+    vec4 steep = share.x * textureGrad(images, vec3(at, across + 4.0), dx, dy)
+               + share.y * textureGrad(images, vec3(at, along + 4.0), dx, dy);
+    return mix(near, steep, part);
+}
+
+vec3 carpet_light() {
+    ivec2 cell = ivec2(floor(place.xz / soil.w));
+    uint drawn = hash3(stock.y, cell.x, cell.y);
+    int model = int(drawn % uint(stock.x)), turn = int((drawn >> 16u) % 4u);
+    vec2 at = spun(place.xz / soil.w - vec2(cell) - 0.5, (4 - turn) % 4) + 0.5;
+    vec2 dx = spun(dFdx(place.xz), (4 - turn) % 4) / soil.w, dy = spun(dFdy(place.xz), (4 - turn) % 4) / soil.w;
+    vec3 ray = place - eye.xyz;
+    float reach = max(length(ray.xz), 1e-4);
+    vec2 heading = ray.xz / reach;
+    vec2 relief = 2.0 * textureLod(tone, on_map(place.xz), 0.0).xy - 1.0;
+    float slope = max(dot(relief, heading) - ray.y / reach, slopes[0]);
+    vec4 grows = textureLod(density, on_map(place.xz), 0.0);
+    float total = max(dot(grows, vec4(1.0)), 1.0);
+    float lifted = lift(vec2(0.0), place);
+    vec3 here = place_tone(place.xz);
+    vec4 sum = vec4(0.0);
+    for (int kind = 0; kind < KINDS; kind++) {
+        if (grows[kind] < 0.004)
+            continue;
+        float layer = first[kind] + float(model * SLOPES * 4);
+        vec4 image = carpet_image(layer, at, spun(heading, (4 - turn) % 4), slope, dx, dy);
+        vec3 grass = root[kind].rgb * image.a + (tip[kind].rgb - root[kind].rgb) * image.r;
+        float h = image.g / max(image.a, 1e-3);
+        sum += grows[kind] / total * vec4(grass * here * canopy(h, lifted), image.a);
+    }
+    return sum.rgb + soil_color * (1.0 - min(sum.a, 1.0));
+}
+
+void main() {
+    vec3 color = soil_color;
+    if (carpet > 0.0) {
+        float share = share_here(ivec2(floor(place.xz / soil.w)));
+        color = mix(color, carpet_light(), share);
+    }
+    pixel = vec4(mix(color, haze.rgb, haze_at(place)), 1.0);
+}

@@ -1,0 +1,49 @@
+// The one light function: blades, strips, carpet and ground all take their colours from here, in display space.
+#include "lib/frame.glsl"
+
+uniform sampler2D tone;     // over the terrain: slope x, z and two slow noises, each as 0.5 + 0.5 n
+uniform sampler2D density;  // over the terrain: how densely each kind grows
+
+const float SHADE = 0.36;   // brightness at the foot of the grass, of that at its top
+const float SLOPE = 1.1;    // how much a hillside that faces the sun is brighter
+const float SHEEN = 0.30;   // how much grass bent flat is brighter
+const float THROUGH = 0.55; // how much grass is brighter with the sun behind it
+
+vec2 on_map(vec2 place) {
+    return (place - terrain.xy) / field.xy;
+}
+
+// Colour factor of a place: the lie of the land to the sun, and drier and fresher stretches.
+vec3 place_tone(vec2 place) {
+    vec4 here = 2.0 * textureLod(tone, on_map(place), 0.0) - 1.0;
+    float relief = 1.0 - SLOPE * dot(here.xy, sun.xz);
+    return relief * (1.0 + 0.16 * here.z + 0.14 * here.w * vec3(1.0, 0.1, -0.9));
+}
+
+// How much brighter the tops are than the plain shade: bent by `message`, or seen against the sun.
+float lift(vec2 message, vec3 place) {
+    vec3 ray = normalize(place - eye.xyz);
+    float facing = max(dot(ray, sun.xyz), 0.0);
+    facing *= facing;
+    return SHEEN * dot(message, message) + THROUGH * sun.w * facing * facing;
+}
+
+// Brightness at height `h` (1 is the top of the canopy).
+float canopy(float h, float lifted) {
+    return mix(SHADE, 1.0, h) * (1.0 + lifted * h);
+}
+
+float haze_at(vec3 place) {
+    return 1.0 - exp(-distance(place, eye.xyz) * haze.w);
+}
+
+// Bare ground, darkened where grass stands on it.
+vec3 soil_light(vec2 place) {
+    vec4 grows = textureLod(density, on_map(place), 0.0);
+    float total = min(dot(grows, vec4(1.0)), 1.0);
+    vec3 under = vec3(0.0);
+    for (int kind = 0; kind < 4; kind++)
+        under += grows[kind] * root[kind].rgb;
+    under /= max(dot(grows, vec4(1.0)), 1e-3);
+    return place_tone(place) * mix(soil.rgb, mix(soil.rgb, under, 0.6) * SHADE, total);
+}

@@ -1,0 +1,52 @@
+// One instance is one polygon strip between two vertical edges, SECTIONS quads high.
+#include "lib/light.glsl"
+#include "lib/posture.glsl"
+
+in vec3 a;
+in vec3 b;
+in vec4 wind;
+in vec2 u;
+in float layer;
+in float kind;
+in float turn;
+in float fade;
+
+uniform vec4 tall;  // by kind: height of the strips [m]
+uniform float top;  // height of the texture [m]
+
+out vec2 at;
+out float h;
+out float rate;
+flat out float sheet;
+out vec3 foot_color;
+out vec3 rise_color;
+out vec3 veil;
+flat out vec3 grain_u;
+flat out vec3 grain_v;
+flat out float shown;
+out float grows;
+
+void main() {
+    float t = float(gl_VertexID / 2) / float(SECTIONS);
+    bool right = (gl_VertexID & 1) == 1;
+    vec3 foot = right ? b : a;
+    vec2 message = right ? wind.zw : wind.xy;
+    int k = int(kind);
+    vec3 spine = posture(float(k) * field.w, message, t) * tall[k];
+    gl_Position = clip * vec4(foot + spine, 1.0);
+    at = vec2(right ? u.y : u.x, t * tall[k] / top);
+    sheet = layer;
+    h = spine.y / root[k].w;
+    rate = lift(message, foot);
+    vec3 here = place_tone(foot.xz);
+    float hidden = haze_at(foot);
+    foot_color = root[k].rgb * here * (1.0 - hidden);
+    rise_color = (tip[k].rgb - root[k].rgb) * here * (1.0 - hidden);
+    veil = haze.rgb * hidden;
+    float c = turn == 0.0 ? 1.0 : turn == 2.0 ? -1.0 : 0.0;
+    float s = turn == 1.0 ? 1.0 : turn == 3.0 ? -1.0 : 0.0;
+    grain_u = c * grain_x[k].rgb + s * grain_z[k].rgb;
+    grain_v = c * grain_z[k].rgb - s * grain_x[k].rgb;
+    shown = fade;
+    grows = textureLod(density, on_map(foot.xz), 0.0)[k];
+}

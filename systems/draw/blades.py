@@ -1,0 +1,55 @@
+"""Drawing 3D blades: one instanced draw per sub-level."""
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.receivers import BLADE
+from ...engine.gl.shaders import program
+from ...engine.gl.stream import Stream
+from .frame import FrameBlock
+
+MOVED = np.dtype([("message", "2f4"), ("fade", "f4")])
+"""What changes each frame about a blade: its receiver's message, and how much it shows."""
+
+ROUND = 0.35
+"""How far the face normal turns towards a blade's edges, as if it were rounded."""
+
+SHADER_BLADE = np.dtype([(name if name != "root" else "root_at", BLADE[name]) for name in BLADE.names or ()])
+"""`BLADE` under the shader's names: `root` alone is a colour there."""
+
+
+class BladePainter:
+    """Draws blades with a given number of segments."""
+
+    def __init__(self, ctx: moderngl.Context, block: FrameBlock, segments: int, units: dict[str, int]) -> None:
+        self.segments = segments
+        self.program = program(ctx, "blades.vert", "blades.frag", defines={"SEGMENTS": segments, "ROUND": ROUND})
+        block.join(self.program)
+        for name, unit in units.items():
+            if name in self.program:
+                self.program[name] = unit
+        self.blades = Stream(ctx, SHADER_BLADE)
+        self.moved = Stream(ctx, MOVED)
+        self.array = ctx.vertex_array(
+            self.program, [self.blades.binding(self.program), self.moved.binding(self.program)], skip_errors=False
+        )
+
+    def write(self, blades: NDArray[np.void], message: NDArray[np.float32], fade: NDArray[np.float32]) -> None:
+        """Send the blades (n,), their messages (n, 2) and how much each shows (n,)."""
+        moved = np.empty(len(blades), MOVED)
+        moved["message"], moved["fade"] = message, fade
+        self.blades.write(blades.view(SHADER_BLADE))
+        self.moved.write(moved)
+
+    def draw(self) -> int:
+        """Draw what was written; return the number of draw calls."""
+        if not self.blades.count:
+            return 0
+        self.array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.segments + 1, instances=self.blades.count)
+        return 1
+
+    def release(self) -> None:
+        """Give everything back."""
+        for thing in (self.array, self.program, self.blades, self.moved):
+            thing.release()

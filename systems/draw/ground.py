@@ -1,0 +1,118 @@
+"""Drawing the ground, and on it the 2D carpet: square tiles that grow coarser with distance."""
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.growth import Growth
+from ...components.terrain import Terrain
+from ...engine.gl.shaders import program
+from ...engine.gl.stream import Stream
+from ..cull import inside_cone
+from .frame import FrameBlock
+
+TILE = np.dtype([("tile", "4f4")])
+GRID = 8
+"""Quads along a side of a tile."""
+
+SPREAD = 7.0
+"""Distance at which a spacing gives way to the next, in tile sides: the farthest corner of a tile of twice the side
+that is split must lie inside it."""
+
+
+def ground_tiles(
+    terrain: Terrain, eye: tuple[float, float, float], cone: tuple[float, float], /, *, spacing: float
+) -> NDArray[np.void]:
+    """Return the tiles that cover what is seen of the terrain, records of `TILE`, near ones first.
+
+    A tile of `GRID` quads is split in four while it is nearer than `SPREAD` sides of its quarters, down to
+    `spacing` [m] between grid points.
+    """
+    side = spacing * GRID
+    levels = max(0, int(np.ceil(np.log2(max(terrain.size) / side))))
+    side *= 2.0**levels
+    low = np.floor(np.asarray(terrain.origin) / side) * side
+    counts = np.ceil((np.asarray(terrain.origin) + terrain.size - low) / side).astype(int)
+    corners = low + side * np.stack(np.meshgrid(*map(np.arange, counts)), -1).reshape(-1, 2)
+    done: list[NDArray[np.float64]] = []
+    for level in range(levels, -1, -1):
+        corners = corners[_seen(corners, side, terrain, eye, cone)]
+        split = (_nearest(corners, side, eye) < SPREAD * side / 2) if level else np.zeros(len(corners), np.bool_)
+        kept = corners[~split]
+        done.append(np.column_stack([kept, np.full(len(kept), side / GRID), np.full(len(kept), SPREAD * side)]))
+        side /= 2.0
+        corners = (corners[split][:, None, :] + side * np.array([[0, 0], [1, 0], [0, 1], [1, 1]])).reshape(-1, 2)
+    tiles = np.zeros(sum(map(len, done)), TILE)
+    tiles["tile"] = np.concatenate(done[::-1])
+    return tiles
+
+
+def _nearest(corners: NDArray[np.float64], side: float, eye: tuple[float, float, float]) -> NDArray[np.float64]:
+    here = np.array([eye[0], eye[2]])
+    away: NDArray[np.float64] = np.linalg.norm(here - np.clip(here, corners, corners + side), axis=1)
+    return away
+
+
+def _seen(
+    corners: NDArray[np.float64], side: float, terrain: Terrain, eye: tuple[float, float, float], cone: tuple[float, float]
+) -> NDArray[np.bool_]:
+    edge = np.asarray(terrain.origin)
+    over = ((corners < edge + terrain.size) & (corners + side > edge)).all(axis=1)
+    middle = (corners + side / 2).astype(np.float32)
+    return over & inside_cone(middle, apex=(eye[0], eye[2]), cone=cone, radius=side * 0.75)
+
+
+def _grid() -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+    line = np.arange(GRID + 1)
+    corners = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2).astype(np.float32)
+    first = (np.arange(GRID)[:, None] * (GRID + 1) + np.arange(GRID)).reshape(-1, 1)
+    quad = np.array([0, GRID + 1, 1, 1, GRID + 1, GRID + 2])
+    return corners, (first + quad).astype(np.int32)
+
+
+class GroundPainter:
+    """Draws ground and carpet."""
+
+    def __init__(
+        self, ctx: moderngl.Context, block: FrameBlock, growths: list[Growth], units: dict[str, int], *, side: int, seed: int
+    ) -> None:
+        carpets = [growth.models[0].carpet for growth in growths]
+        slopes = carpets[0].slope
+        self.program = program(
+            ctx, "ground.vert", "ground.frag", defines={"SLOPES": len(slopes), "KINDS": len(growths)}
+        )
+        block.join(self.program)
+        for name, unit in units.items():
+            if name in self.program:
+                self.program[name] = unit
+        images = [len(growth.models) * len(slopes) * 4 for growth in growths]
+        self.program["slopes"] = slopes.tolist()
+        self.program["first"] = tuple([sum(images[:index]) for index in range(len(images))] + [0] * (4 - len(images)))
+        self.program["stock"] = (len(growths[0].models), seed)
+        self.program["raised"] = float(np.mean([carpet.offset for carpet in carpets]))
+        self.shares = ctx.texture((side, side), 1, alignment=1)
+        self.shares.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        self.unit = units["shares"]
+        corners, indices = _grid()
+        self.corners, self.indices = ctx.buffer(corners), ctx.buffer(indices)
+        self.stream = Stream(ctx, TILE)
+        self.array = ctx.vertex_array(
+            self.program, [(self.corners, "2f", "corner"), self.stream.binding(self.program)], index_buffer=self.indices
+        )
+
+    def write(self, tiles: NDArray[np.void], shares: NDArray[np.float32], centre: NDArray[np.int32], *, carpet: bool) -> None:
+        """Send the tiles, and how much the carpet shows on each row of the patch table (rows,)."""
+        self.stream.write(tiles)
+        self.shares.write(np.round(shares * 255.0).astype(np.uint8))
+        self.program["window"] = (int(centre[0]), int(centre[1]), self.shares.width // 2, int(carpet))
+
+    def draw(self) -> int:
+        """Draw what was written; return the number of draw calls."""
+        self.shares.use(self.unit)
+        self.array.render(moderngl.TRIANGLES, instances=self.stream.count)
+        return 1
+
+    def release(self) -> None:
+        """Give everything back."""
+        for thing in (self.array, self.program, self.stream, self.corners, self.indices, self.shares):
+            thing.release()

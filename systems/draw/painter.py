@@ -1,0 +1,147 @@
+"""Drawing a whole frame: sky, ground and carpet, strips, blades, from back to front."""
+
+from collections.abc import Iterable
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.camera import View
+from ...components.quality import Representation
+from ...engine.gl.guest import guest
+from ...engine.gl.shaders import program
+from ..field import Field
+from ..gather import gather_blades, gather_strips
+from ..lod import weights
+from ..receive import Shown
+from .blades import BladePainter
+from .frame import FrameBlock, aim, frame_record
+from .ground import GroundPainter, ground_tiles
+from .strips import StripPainter
+from .textures import (
+    carpet_texture,
+    density_texture,
+    height_texture,
+    posture_texture,
+    strip_stock,
+    tone_texture,
+)
+
+NAMES = ("postures", "tone", "density", "heights", "images", "shares", "atlas", "ranks")
+UNITS = {name: unit for unit, name in enumerate(NAMES)}
+"""The texture unit of each sampler."""
+
+OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
+
+
+class Painter:
+    """Everything that one GL context holds of a field, and the drawing of it."""
+
+    def __init__(self, ctx: moderngl.Context, field: Field) -> None:
+        self.ctx = ctx
+        self.field = field
+        self.record = frame_record(field.scene, field.growths, field.terrain, field.quality.patch)
+        self.block = FrameBlock(ctx)
+        self.textures: dict[str, moderngl.Texture | moderngl.TextureArray] = {
+            "postures": posture_texture(ctx, field.growths),
+            "tone": tone_texture(ctx, field.terrain, seed=field.scene.seed),
+            "density": density_texture(ctx, field.density),
+            "heights": height_texture(ctx, field.terrain),
+            "images": carpet_texture(ctx, field.growths),
+        }
+        self.sky = program(ctx, "sky.vert", "sky.frag")
+        self.block.join(self.sky)
+        self.sky_array = ctx.vertex_array(self.sky, [])
+        self.ground = GroundPainter(
+            ctx, self.block, field.growths, UNITS, side=field.table.side, seed=field.scene.seed
+        )
+        self.strips = [
+            StripPainter(ctx, self.block, ring, strip_stock(field.growths, number), UNITS)
+            for number, ring in enumerate(field.quality.strip_rings)
+        ]
+        self.blades = [self.blade_painter(ring.segments) for ring in field.quality.blade_rings]
+        self.fading = [self.blade_painter(ring.segments) for ring in field.quality.blade_rings]
+        self.draw_calls = 0
+
+    def blade_painter(self, segments: int) -> BladePainter:
+        """Return a painter of blades with this many segments."""
+        return BladePainter(self.ctx, self.block, segments, UNITS)
+
+    def write_blades(self, shown: list[Shown]) -> int:
+        """Send the blades that are seen; return how many."""
+        sent = 0
+        for ring, solid, fading in zip(shown, self.blades, self.fading, strict=True):
+            whole = ring.fade >= 1.0
+            for painter, chosen in ((solid, whole), (fading, ~whole)):
+                part = Shown(ring.rows[chosen], ring.slots[chosen], ring.fade[chosen], ring.along[chosen])
+                painter.write(*gather_blades(self.field.blades, part))
+                sent += painter.blades.count
+        return sent
+
+    def write_strips(self, shown: list[Shown]) -> None:
+        """Send the strips that are seen."""
+        field = self.field
+        for pool, ring, painter in zip(field.strips, shown, self.strips, strict=True):
+            painter.write(gather_strips(pool, ring, field.table, field.sight.centre))
+
+    def write_ground(self, *, carpet: bool) -> None:
+        """Send the tiles of the ground, and where the carpet lies on it."""
+        field, sight = self.field, self.field.sight
+        tiles = ground_tiles(field.terrain, sight.eye, sight.cone, spacing=field.quality.patch / 2)
+        self.ground.write(tiles, weights(field.table)[Representation.CARPET], sight.centre, carpet=carpet)
+
+    def draw(self, view: View, *, time: float, blades: Iterable[BladePainter] | None = None) -> None:
+        """Draw the frame into the framebuffer that the host has bound.
+
+        With `blades`, these alone stand on the ground: no strips and no carpet.
+        """
+        aim(self.record, view, time=time)
+        ctx = self.ctx
+        with guest(ctx) as target:
+            self.block.write(self.record)
+            for name, texture in self.textures.items():
+                texture.use(UNITS[name])
+            ctx.enable_only(moderngl.DEPTH_TEST)
+            target.depth_mask = False
+            self.sky_array.render(moderngl.TRIANGLES, vertices=3)
+            target.depth_mask = True
+            self.draw_calls = 1 + self.ground.draw()
+            if blades is None:
+                self._draw_grass(target)
+            else:
+                self.draw_calls += sum(painter.draw() for painter in blades)
+
+    def _draw_grass(self, target: moderngl.Framebuffer) -> None:
+        self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND)
+        self.ctx.blend_func = OVER
+        target.depth_mask = False
+        self.draw_calls += sum(painter.draw() for painter in reversed(self.strips))
+        target.depth_mask = True
+        self.draw_calls += sum(painter.draw() for painter in reversed(self.fading))
+        self.ctx.enable_only(moderngl.DEPTH_TEST)
+        self.draw_calls += sum(painter.draw() for painter in self.blades)
+
+    def release(self) -> None:
+        """Give everything back to the context."""
+        for painter in (*self.blades, *self.fading, *self.strips, self.ground, self.block):
+            painter.release()
+        for thing in (self.sky_array, self.sky, *self.textures.values()):
+            thing.release()
+
+
+def view_of(view: object, projection: object) -> View:
+    """Return the two matrices as numpy arrays for column vectors.
+
+    Each is a 4x4 array, or pyglet's `Mat4`, whose 16 numbers run column by column. Raises ValueError for anything
+    that has not 16 finite numbers.
+    """
+    return View(_matrix(view, "view"), _matrix(projection, "projection"))
+
+
+def _matrix(matrix: object, name: str) -> NDArray[np.float32]:
+    array = np.asarray(matrix, np.float32)
+    if array.shape == (16,):
+        array = array.reshape(4, 4).T
+    if array.shape != (4, 4) or not np.isfinite(array).all():
+        raise ValueError(f"the {name} matrix must have 4 x 4 finite numbers, not {np.shape(matrix)}")
+    return array

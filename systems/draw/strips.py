@@ -1,0 +1,71 @@
+"""Drawing 2.5D strips: one instanced draw per ring, back to front."""
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.growth import Strips
+from ...components.quality import StripRing
+from ...engine.gl.shaders import program
+from ...engine.gl.stream import Stream
+from .frame import FrameBlock
+from .textures import strip_textures
+
+STRIP = np.dtype(
+    [
+        ("a", "3f4"),
+        ("b", "3f4"),
+        ("wind", "4f4"),
+        ("u", "2f4"),
+        ("layer", "f4"),
+        ("kind", "f4"),
+        ("turn", "f4"),
+        ("fade", "f4"),
+    ]
+)
+"""A polygon strip: the feet of its two edges [m], their messages, its span of the texture, layer, kind, the patch's
+quarter turns, and how much it shows. The field names are the shader's attributes."""
+
+
+class StripPainter:
+    """Draws the strips of one ring; it owns the ring's textures."""
+
+    def __init__(
+        self, ctx: moderngl.Context, block: FrameBlock, ring: StripRing, stock: list[list[Strips]], units: dict[str, int]
+    ) -> None:
+        self.sections = ring.sections
+        self.units = units
+        self.program = program(ctx, "strips.vert", "strips.frag", defines={"SECTIONS": ring.sections})
+        block.join(self.program)
+        for name, unit in units.items():
+            if name in self.program:
+                self.program[name] = unit
+        self.atlas, self.ranks = strip_textures(ctx, stock)
+        heights = [models[0].height for models in stock]
+        self.program["tall"] = tuple(heights + [0.0] * (4 - len(heights)))
+        self.program["top"] = self._top(stock)
+        self.stream = Stream(ctx, STRIP)
+        self.array = ctx.vertex_array(self.program, [self.stream.binding(self.program)])
+
+    @staticmethod
+    def _top(stock: list[list[Strips]]) -> float:
+        tallest = max((models[0] for models in stock), key=lambda strips: strips.texels.shape[2])
+        return tallest.height
+
+    def write(self, strips: NDArray[np.void]) -> None:
+        """Send the ring's polygon strips (n,), far to near."""
+        self.stream.write(strips)
+
+    def draw(self) -> int:
+        """Draw what was written; return the number of draw calls."""
+        if not self.stream.count:
+            return 0
+        self.atlas.use(self.units["atlas"])
+        self.ranks.use(self.units["ranks"])
+        self.array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.sections + 2, instances=self.stream.count)
+        return 1
+
+    def release(self) -> None:
+        """Give everything back."""
+        for thing in (self.array, self.program, self.stream, self.atlas, self.ranks):
+            thing.release()

@@ -1,0 +1,121 @@
+"""Textures made from what was grown and from the terrain."""
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.growth import Growth, Strips
+from ...components.terrain import Density, Terrain
+from ..wind.noise import noise_table, smooth_noise
+
+FINEST_MAP = 1024
+"""Samples along a side of the maps laid over the terrain."""
+
+
+def posture_texture(ctx: moderngl.Context, growths: list[Growth]) -> moderngl.TextureArray:
+    """Return all kinds' posture tables, one layer per kind and variant; columns are points, rows are indices."""
+    table = np.ascontiguousarray(np.concatenate([growth.postures.shape for growth in growths]), np.float32)
+    layers, rows, points, _ = table.shape
+    texture = ctx.texture_array((points, rows, layers), 2, table.tobytes(), dtype="f4")
+    texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
+    texture.repeat_x = texture.repeat_y = False
+    return texture
+
+
+def strip_stock(growths: list[Growth], ring: int) -> list[list[Strips]]:
+    """Return a ring's strips by kind and model."""
+    return [[model.strips[ring] for model in growth.models] for growth in growths]
+
+
+def first_layers(stock: list[list[Strips]]) -> list[int]:
+    """Return where each kind's layers start in a ring's texture array."""
+    counts = [len(models) * 2 * len(models[0].plane) for models in stock]
+    return [sum(counts[:index]) for index in range(len(counts))]
+
+
+def strip_textures(ctx: moderngl.Context, stock: list[list[Strips]]) -> tuple[moderngl.TextureArray, moderngl.TextureArray]:
+    """Return a ring's atlas and ranks: kinds, models, orientations and strips are layers, in this order."""
+    height = max(models[0].texels.shape[2] for models in stock)
+    atlas = np.concatenate([_padded(strips.texels, height, 0) for models in stock for strips in models])
+    ranks = np.concatenate([_padded(strips.rank, height, 255) for models in stock for strips in models])
+    layers, rows, columns, _ = atlas.shape
+    made = (
+        ctx.texture_array((columns, rows, layers), 4, np.ascontiguousarray(atlas).tobytes(), alignment=1),
+        ctx.texture_array((columns, rows, layers), 1, np.ascontiguousarray(ranks).tobytes(), alignment=1),
+    )
+    for texture in made:
+        texture.build_mipmaps()
+        texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
+        texture.repeat_x = texture.repeat_y = False
+    return made
+
+
+def _padded(texels: NDArray[np.uint8], height: int, value: int) -> NDArray[np.uint8]:
+    flat = texels.reshape(-1, *texels.shape[2:])
+    above = [(0, 0), (0, height - flat.shape[1]), (0, 0), (0, 0)][: flat.ndim]
+    padded: NDArray[np.uint8] = np.pad(flat, above, constant_values=value)
+    return padded
+
+
+def carpet_texture(ctx: moderngl.Context, growths: list[Growth]) -> moderngl.TextureArray:
+    """Return all carpet images; kinds, models, slopes and directions are layers, in this order."""
+    images = np.concatenate([
+        model.carpet.texels.reshape(-1, *model.carpet.texels.shape[2:]) for growth in growths for model in growth.models
+    ])
+    layers, rows, columns, _ = images.shape
+    texture = ctx.texture_array((columns, rows, layers), 4, np.ascontiguousarray(images).tobytes())
+    texture.build_mipmaps()
+    texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
+    return texture
+
+
+def height_texture(ctx: moderngl.Context, terrain: Terrain) -> moderngl.Texture:
+    """Return the elevation map, for exact fetches."""
+    rows, columns = terrain.heights.shape
+    texture = ctx.texture((columns, rows), 1, np.ascontiguousarray(terrain.heights).tobytes(), dtype="f4")
+    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+    return texture
+
+
+def _map_shape(size: tuple[float, float]) -> tuple[int, int]:
+    """Return rows and columns of a map over a terrain of `size` [m]: about one sample per metre."""
+    columns, rows = (int(np.clip(np.ceil(side), 16, FINEST_MAP)) for side in size)
+    return rows, columns
+
+
+def tone_map(terrain: Terrain, *, seed: int) -> NDArray[np.uint8]:
+    """Return the terrain's slope (x, z) and two slow noises, each as 0.5 + 0.5 n, shape (rows, columns, 4)."""
+    from ...engine.terrain.sample import slope_at
+
+    rows, columns = _map_shape(terrain.size)
+    (width, depth), (left, far) = terrain.size, terrain.origin
+    x = left + (np.arange(columns) + 0.5) / columns * width
+    z = far + (np.arange(rows) + 0.5) / rows * depth
+    place = np.stack(np.meshgrid(x, z), axis=-1).reshape(-1, 2).astype(np.float32)
+    wide = smooth_noise(noise_table(seed, 16), place / np.float32(23.0))
+    close = smooth_noise(noise_table(seed, 17), place / np.float32(6.0))
+    slow = 0.6 * wide[:, :2] + 0.4 * close[:, :2]
+    values = np.concatenate([slope_at(terrain, place), slow], axis=1)
+    packed = np.clip(np.round((0.5 + 0.5 * values) * 255.0), 0, 255).astype(np.uint8)
+    return packed.reshape(rows, columns, 4)
+
+
+def tone_texture(ctx: moderngl.Context, terrain: Terrain, *, seed: int) -> moderngl.Texture:
+    """Return `tone_map` as a texture over the terrain."""
+    return _laid_over(ctx, tone_map(terrain, seed=seed))
+
+
+def density_texture(ctx: moderngl.Context, density: Density) -> moderngl.Texture:
+    """Return the kinds' densities as the channels of a texture over the terrain."""
+    kinds, rows, columns = density.maps.shape
+    packed = np.zeros((rows, columns, 4), np.uint8)
+    packed[..., :kinds] = np.round(np.moveaxis(density.maps, 0, -1) * 255.0)
+    return _laid_over(ctx, packed)
+
+
+def _laid_over(ctx: moderngl.Context, texels: NDArray[np.uint8]) -> moderngl.Texture:
+    rows, columns, _ = texels.shape
+    texture = ctx.texture((columns, rows), 4, np.ascontiguousarray(texels).tobytes())
+    texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
+    texture.repeat_x = texture.repeat_y = False
+    return texture

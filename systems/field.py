@@ -1,0 +1,143 @@
+"""The state of a prairie without any GL: what was loaded and grown, and where each patch stands."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..components.growth import Growth, Strips
+from ..components.patch import PatchTable
+from ..components.quality import Quality
+from ..components.receivers import BladePool, StripPool
+from ..components.scene import Scene
+from ..components.terrain import Density, Terrain
+from .lod import SLACK
+from .plant import Ground, blade_records
+
+Floats = NDArray[np.float32]
+
+
+@dataclass(slots=True, eq=False)
+class Sight:
+    """Where the prairie is looked at from in this frame."""
+
+    eye: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """(x, y, z) [m]."""
+
+    cone: tuple[float, float] = (0.0, np.pi)
+    """Azimuths of the view cone: middle and half width [rad]."""
+
+    centre: NDArray[np.int32] = field(default_factory=lambda: np.zeros(2, np.int32))
+    """The viewer's cell (i, j), shape (2,)."""
+
+    dt: float = 0.0
+    """Time since the frame before [s]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stock:
+    """Patch models made ready to be stood on the terrain."""
+
+    records: list[list[NDArray[np.void]]]
+    """By kind: records of a model's blades, at index model * 4 + quarter turns."""
+
+    ranks: list[list[Floats]]
+    """By kind and model: the blades' ranks."""
+
+    strips: list[list[Strips]]
+    """By ring and kind: strips whose planes hold for all the kind's models."""
+
+    first_layer: list[list[int]]
+    """By ring and kind: where the kind's layers start in the ring's texture array."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Field:
+    """A prairie's data: what systems read and write."""
+
+    scene: Scene
+    quality: Quality
+    reach: tuple[int, int, int]
+    """Largest discrete distance of each representation."""
+
+    terrain: Terrain
+    density: Density
+    growths: list[Growth]
+    stock: Stock
+    ground: Ground
+    table: PatchTable
+    blades: BladePool
+    strips: list[StripPool]
+    """By ring."""
+
+    sight: Sight
+
+    @property
+    def blade_limits(self) -> NDArray[np.int32]:
+        """Largest discrete distance of each blade ring but the last, for `np.searchsorted`."""
+        return np.array([ring.to for ring in self.quality.blade_rings[:-1]], np.int32)
+
+    @property
+    def strip_limits(self) -> NDArray[np.int32]:
+        """Largest discrete distance of each strip ring but the last, for `np.searchsorted`."""
+        return np.array([ring.to for ring in self.quality.strip_rings[:-1]], np.int32)
+
+
+def reach_of(quality: Quality, lod: str) -> tuple[int, int, int]:
+    """Return the reach of each representation; `lod` forces one of them, or is `auto`."""
+    blades, strips, carpet = quality.reach
+    forced = {"auto": (blades, strips), "blades": (strips, strips), "strips": (-SLACK - 1, strips), "carpet": (-SLACK - 1,) * 2}
+    return (*forced[lod], carpet)  # type: ignore[return-value]
+
+
+def stock_up(growths: list[Growth], patch: float) -> Stock:
+    """Return the patch models' blades in all four turns, and where each strip's texture layer is."""
+    records, ranks = [], []
+    for kind, growth in enumerate(growths):
+        variants = growth.postures.shape.shape[0]
+        records.append([
+            blade_records(model.blades, turn, patch=patch, kind=kind, variants=variants)
+            for model in growth.models
+            for turn in range(4)
+        ])
+        ranks.append([model.blades.rank for model in growth.models])
+    rings = range(len(growths[0].models[0].strips))
+    strips = [[growth.models[0].strips[ring] for growth in growths] for ring in rings]
+    layers = [[len(growth.models) * 2 * len(growth.models[0].strips[ring].plane) for growth in growths] for ring in rings]
+    first = [[sum(counts[:kind]) for kind in range(len(counts))] for counts in layers]
+    return Stock(records=records, ranks=ranks, strips=strips, first_layer=first)
+
+
+def lay_out(scene: Scene, quality: Quality, terrain: Terrain, density: Density, growths: list[Growth], *, lod: str) -> Field:
+    """Return the field of a scene: its patch models in stock, its pools empty."""
+    reach = reach_of(quality, lod)
+    stock = stock_up(growths, quality.patch)
+    side = [2 * (limit + SLACK) + 1 for limit in reach]
+    most = max(len(growth.models[0].blades.height) for growth in growths)
+    return Field(
+        scene=scene,
+        quality=quality,
+        reach=reach,
+        terrain=terrain,
+        density=density,
+        growths=growths,
+        stock=stock,
+        ground=Ground(terrain, density, quality.patch),
+        table=PatchTable.allocate(2 * reach[2] + 1),
+        blades=BladePool.allocate(max(side[0], 1), len(growths), most),
+        strips=[
+            StripPool.allocate(max(side[1], 1), len(growths), len(strips[0].plane), ring.columns)
+            for strips, ring in zip(stock.strips, quality.strip_rings, strict=True)
+        ],
+        sight=Sight(),
+    )
+
+
+def blades_in_field(field: Field) -> int:
+    """Return how many blades grow on the whole terrain, from the kinds' mean densities."""
+    width, depth = field.terrain.size
+    patches = width * depth / field.quality.patch**2
+    counts = [len(growth.models[0].blades.height) for growth in field.growths]
+    return round(patches * float(np.dot(counts, field.density.maps.mean(axis=(1, 2)))))
+
+

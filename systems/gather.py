@@ -1,0 +1,50 @@
+"""Gathering: what is seen of the pools, laid out for the graphics card."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..components.patch import PatchTable
+from ..components.receivers import BladePool, StripPool
+from .draw.strips import STRIP
+from .receive import Shown
+
+Floats = NDArray[np.float32]
+
+
+def gather_blades(pool: BladePool, shown: Shown, /) -> tuple[NDArray[np.void], Floats, Floats]:
+    """Return the records (n,), messages (n, 2) and fades (n,) of the blades that grow on the patches shown."""
+    present = pool.present[shown.slots]
+    fade = np.broadcast_to(shown.fade[:, None, None], present.shape)
+    if present.all():
+        return pool.blade[shown.slots].reshape(-1), pool.message[shown.slots].reshape(-1, 2), fade.reshape(-1)
+    return pool.blade[shown.slots][present], pool.message[shown.slots][present], fade[present]
+
+
+def gather_strips(
+    pool: StripPool, shown: Shown, table: PatchTable, centre: NDArray[np.int32], /
+) -> NDArray[np.void]:
+    """Return the polygon strips of the patches shown, far to near, records of `STRIP`, shape (n,).
+
+    Strips are stored by rising place in their stack; where the viewer is on the low side they are walked backwards.
+    """
+    cell = table.cell[shown.rows]
+    ahead = np.take_along_axis(cell - centre, 1 - shown.along[:, None], axis=1)[:, 0] > 0
+    slots = shown.slots[:, None]
+    count = pool.layer.shape[2]
+    order = np.where(ahead[:, None], np.arange(count)[::-1], np.arange(count))
+    place = pool.place[slots, :, order]
+    columns = place.shape[3] - 1
+    records = np.zeros((*place.shape[:3], columns), STRIP)
+    ground, message = pool.ground[slots, :, order], pool.message[slots, :, order]
+    for side, edge in (("a", slice(None, -1)), ("b", slice(1, None))):
+        records[side][..., ::2] = place[..., edge, :]
+        records[side][..., 1] = ground[..., edge]
+        records["wind"][..., slice(0, 2) if side == "a" else slice(2, 4)] = message[..., edge, :]
+    span = np.linspace(0.0, 1.0, columns + 1, dtype=np.float32)
+    records["u"] = np.stack([span[:-1], span[1:]], axis=-1)
+    records["layer"] = pool.layer[slots, :, order][..., None]
+    records["kind"] = np.arange(place.shape[2], dtype=np.float32)[:, None]
+    records["turn"] = table.turn[shown.rows][:, None, None, None]
+    records["fade"] = shown.fade[:, None, None, None]
+    grows = np.broadcast_to(pool.present[slots, :], place.shape[:3])
+    return records[grows].reshape(-1)

@@ -1,0 +1,230 @@
+"""A prairie: what a game loads, advances and draws."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from time import perf_counter
+from typing import Literal
+
+import moderngl
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..components.quality import PRESETS, Representation
+from ..components.scene import Scene
+from ..components.wind import WindPrimitive, WindSource
+from ..engine.gl.guest import host_context
+from ..engine.phases import Phase, Schedule
+from ..engine.scene.load import LoadedScene, read_scene
+from ..engine.terrain.load import load_density, load_terrain
+from ..engine.terrain.sample import height_at
+from ..engine.world import World
+from .cull import camera_of, discrete_distance, inside_cone, view_cone
+from .draw.painter import Painter, view_of
+from .field import Field, blades_in_field, lay_out
+from .growth.cache import grow_cached
+from .lod import schedule, wanted_representation
+from .receive import Shown, blow, plant_shown_blades, plant_shown_strips, shown_patches
+from .receivers import ReceiverEntities
+from .tile import cell_of, tile
+from .wind.blow import blowing, messages
+
+Floats = NDArray[np.float32]
+Lod = Literal["auto", "blades", "strips", "carpet"]
+SWAY = 0.8
+"""How far grass may reach beyond its patch, leaning and blown [m]."""
+
+
+@dataclass(slots=True)
+class Statistics:
+    """What the last frame took and held."""
+
+    systems_ms: dict[str, float] = field(default_factory=dict)
+    """Time of each system [ms]."""
+
+    draw_ms: float = 0.0
+    """Time of the draw calls, without waiting for the graphics card [ms]."""
+
+    blades_field: int = 0
+    """Blades that grow on the whole terrain."""
+
+    blades_considered: int = 0
+    """Blades on the patches inside the view cone, whatever their representation."""
+
+    blades_submitted: int = 0
+    """Blades drawn as geometry."""
+
+    receivers: int = 0
+    """Receivers that heard the wind."""
+
+    draw_calls: int = 0
+
+    patches: dict[str, int] = field(default_factory=dict)
+    """Visible patches by representation."""
+
+
+class Prairie:
+    """A prairie in the current esper world: grown at once, drawn once there is a GL context."""
+
+    def __init__(self, loaded: LoadedScene, *, ctx: moderngl.Context | None, preset: str | None, lod: Lod) -> None:
+        scene = loaded.scene
+        quality = scene.numbers(preset)
+        terrain = load_terrain(scene.terrain, loaded.folder)
+        density = load_density(scene.grass, terrain, loaded.folder)
+        growths = [grow_cached(kind, quality, seed=scene.seed + number) for number, kind in enumerate(scene.grass.values())]
+        self.scene: Scene = scene
+        self.path = loaded.path
+        self.time = 0.0
+        self.lod: Lod = lod
+        self.statistics = Statistics()
+        self.field: Field = lay_out(scene, quality, terrain, density, growths, lod=lod)
+        self.world = World()
+        self.painter: Painter | None = None
+        self.statistics.blades_field = blades_in_field(self.field)
+        self._ctx = ctx
+        self._drawn_at: float | None = None
+        self._receivers = ReceiverEntities(self.world, self.field)
+        self._blades: list[Shown] = []
+        self._strips: list[Shown] = []
+        self._schedule = self._systems()
+        for number, primitive in enumerate(scene.wind):
+            self.world.create(WindSource(primitive, f"wind[{number}] {primitive.kind}"))
+
+    @classmethod
+    def load(
+        cls, scene: str | Path, *, ctx: moderngl.Context | None = None, preset: str | None = None, lod: Lod = "auto"
+    ) -> "Prairie":
+        """Return the prairie of a scene file, or of a bundled scene by its name.
+
+        `ctx` is the context to draw in; without it the one that is current at the first draw. `preset` overrides
+        the scene's quality, `lod` shows everything in one representation. Raises `SceneError` with every problem of
+        the file, `MapError` for an elevation or density map that cannot be used, ValueError for an unknown preset.
+        """
+        if preset is not None and preset not in PRESETS:
+            raise ValueError(f"unknown preset '{preset}'; there are {', '.join(PRESETS)}")
+        return cls(read_scene(scene), ctx=ctx, preset=preset, lod=lod)
+
+    def advance(self, dt: float) -> None:
+        """Move time on by `dt` [s]; negative or non-finite steps raise ValueError."""
+        if not (np.isfinite(dt) and dt >= 0.0):
+            raise ValueError(f"a prairie advances by 0 s or more, not by {dt}")
+        self.time += dt
+
+    def draw(self, view: object, projection: object) -> None:
+        """Draw the prairie into the framebuffer that is bound, and leave the host's GL state as it was.
+
+        Both matrices are 4x4 numpy arrays for column vectors, or `pyglet.math.Mat4`.
+        """
+        seen = view_of(view, projection)
+        if self.painter is None:
+            self.painter = Painter(host_context(self._ctx), self.field)
+        camera, aspect = camera_of(seen)
+        sight = self.field.sight
+        sight.eye = camera.position
+        sight.cone = view_cone(camera, aspect=aspect)
+        sight.centre = cell_of(np.float32([camera.position[0], camera.position[2]]), patch=self.field.quality.patch)
+        sight.dt = 1e9 if self._drawn_at is None else self.time - self._drawn_at
+        self._drawn_at = self.time
+        self._schedule.run()
+        start = perf_counter()
+        self.painter.draw(seen, time=self.time)
+        self._count(1000.0 * (perf_counter() - start))
+
+    def height_at(self, xz: ArrayLike) -> Floats:
+        """Return the height of the ground [m], shape (n,), at ground positions (x, z) [m], shape (n, 2)."""
+        return height_at(self.field.terrain, np.asarray(xz, np.float32).reshape(-1, 2))
+
+    def wind_at(self, xz: ArrayLike, time: float | None = None) -> Floats:
+        """Return what grass at ground positions (x, z) [m], shape (n, 2), feels at `time` [s], or now.
+
+        Messages of shape (n, 2): vectors along the bending direction whose norm is the posture index, in [0, 1].
+        """
+        moment = self.time if time is None else time
+        place = np.asarray(xz, np.float32).reshape(-1, 2)
+        return messages(blowing(self.sources(), time=moment), place, time=moment, seed=self.scene.seed)
+
+    def sources(self) -> list[WindSource]:
+        """Return the winds there are."""
+        return [source for _, source in self.world.all(WindSource)]
+
+    def add(self, primitive: WindPrimitive) -> int:
+        """Add a wind and return its entity, a handle that `remove` takes."""
+        entity = self.world.create(WindSource(primitive, primitive.kind))
+        return entity
+
+    def remove(self, handle: int) -> None:
+        """Take a wind away that `add` returned."""
+        self.world.delete(handle)
+
+    def release(self) -> None:
+        """Give back everything: GL objects and entities. The prairie cannot be drawn afterwards."""
+        if self.painter is not None:
+            self.painter.release()
+            self.painter = None
+        self.world.release()
+
+    def _systems(self) -> Schedule:
+        plan = Schedule()
+        systems: tuple[tuple[Phase, str, Callable[[], None]], ...] = (
+            (Phase.TILE, "tile", self._tile),
+            (Phase.SEE, "cull", self._cull),
+            (Phase.SEE, "lod", self._lod),
+            (Phase.BLOW, "plant", self._plant),
+            (Phase.BLOW, "wind", self._wind),
+            (Phase.DRAW, "gather", self._gather),
+        )
+        for phase, name, system in systems:
+            plan.add(phase, name, system)
+        return plan
+
+    def _tile(self) -> None:
+        field = self.field
+        tile(
+            field.table, field.sight.centre, field.terrain, self.world,
+            patch=field.quality.patch, seed=field.scene.seed, models=field.quality.models,
+        )  # fmt: skip
+        field.table.distance[:] = discrete_distance(field.table.cell, field.sight.centre)
+
+    def _cull(self) -> None:
+        table, sight, patch = self.field.table, self.field.sight, self.field.quality.patch
+        middles = (table.cell + np.float32(0.5)) * np.float32(patch)
+        self._was_visible = table.visible.copy()
+        radius = patch * 0.7072 + SWAY
+        table.visible[:] = inside_cone(middles, apex=(sight.eye[0], sight.eye[2]), cone=sight.cone, radius=radius)
+
+    def _lod(self) -> None:
+        table = self.field.table
+        wanted = wanted_representation(table.distance, table.representation, reach=self.field.reach)
+        schedule(table, wanted, self._was_visible & table.visible, dt=self.field.sight.dt)
+
+    def _plant(self) -> None:
+        field = self.field
+        self._blades = shown_patches(field, Representation.BLADES, field.blade_limits, field.blades.side)
+        self._strips = shown_patches(field, Representation.STRIPS, field.strip_limits, field.strips[0].side)
+        plant_shown_blades(field, self._blades)
+        for ring, shown in enumerate(self._strips):
+            plant_shown_strips(field, ring, shown)
+        self._receivers.follow(self._blades, self._strips)
+
+    def _wind(self) -> None:
+        sources = blowing(self.sources(), time=self.time)
+        self.statistics.receivers = blow(self.field, self._blades, self._strips, sources, time=self.time)
+
+    def _gather(self) -> None:
+        assert self.painter is not None
+        self.statistics.blades_submitted = self.painter.write_blades(self._blades)
+        self.painter.write_strips(self._strips)
+        self.painter.write_ground(carpet=True)
+
+    def _count(self, draw_ms: float) -> None:
+        assert self.painter is not None
+        stats, table = self.statistics, self.field.table
+        visible = table.alive & table.visible
+        stats.systems_ms = dict(self._schedule.milliseconds)
+        stats.draw_ms = draw_ms
+        stats.draw_calls = self.painter.draw_calls
+        share = stats.blades_field * self.field.quality.patch**2 / max(np.prod(self.field.terrain.size), 1e-9)
+        stats.blades_considered = round(float(share) * int(visible.sum()))
+        stats.patches = {
+            level.name.lower(): int((visible & (table.representation == level)).sum()) for level in Representation
+        }

@@ -1,0 +1,118 @@
+"""The truth to compare with: every blade in 3D at the finest level, supersampled."""
+
+from collections.abc import Iterator
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ..components.camera import View
+from ..components.receivers import BladePool
+from .cull import inside_cone
+from .draw.blades import BladePainter
+from .draw.painter import Painter, view_of
+from .field import Field
+from .gather import gather_blades
+from .plant import plant_blades
+from .prairie import SWAY, Prairie
+from .receive import Shown
+from .tile import cell_of, cells_on, patch_models
+from .wind.blow import blowing, messages
+
+Ints = NDArray[np.int32]
+CHUNK = 400
+"""Patches drawn at a time in a reference, so that a large terrain needs no large buffers."""
+
+
+def terrain_cells(field: Field, /) -> Ints:
+    """Return every cell of the terrain, shape (n, 2)."""
+    patch = field.quality.patch
+    low = np.asarray(field.terrain.origin, np.float32)
+    first, last = cell_of(low, patch=patch), cell_of(low + np.float32(field.terrain.size), patch=patch)
+    cells = np.stack(np.meshgrid(*(np.arange(a, b + 1) for a, b in zip(first, last, strict=True))), -1)
+    flat: Ints = cells.reshape(-1, 2).astype(np.int32)
+    return flat[cells_on(field.terrain, flat, patch=patch)]
+
+
+def seen_cells(field: Field, /) -> Ints:
+    """Return the cells of the terrain inside the view cone, shape (n, 2)."""
+    cells, patch, sight = terrain_cells(field), field.quality.patch, field.sight
+    middles = (cells + np.float32(0.5)) * np.float32(patch)
+    radius = patch * 0.7072 + SWAY
+    return cells[inside_cone(middles, apex=(sight.eye[0], sight.eye[2]), cone=sight.cone, radius=radius)]
+
+
+def stand_all(prairie: Prairie, cells: Ints, painter: BladePainter, /) -> int:
+    """Send all blades of `cells` (n, 2) to a painter, bent by the wind of now; return how many."""
+    field = prairie.field
+    pool = BladePool.allocate_slots(len(cells), *field.blades.present.shape[1:])
+    slots = np.arange(len(cells))
+    model, turn = patch_models(cells, seed=field.scene.seed, models=field.quality.models)
+    plant_blades(pool, slots, cells, model, turn, field.stock.records, field.stock.ranks, field.ground)
+    place = pool.place.reshape(-1, 2)
+    sources = blowing(prairie.sources(), time=prairie.time)
+    pool.message[:] = messages(sources, place, time=prairie.time, seed=field.scene.seed).reshape(pool.message.shape)
+    painter.write(*gather_blades(pool, Shown(slots, slots, np.ones(len(cells), np.float32), np.zeros_like(model))))
+    return painter.blades.count
+
+
+class EveryBlade:
+    """Draws a prairie with every blade in 3D at the finest level; shares the prairie's painter.
+
+    The prairie must have been drawn once, so that it knows where it is looked at from.
+    """
+
+    def __init__(self, prairie: Prairie) -> None:
+        if prairie.painter is None:
+            raise RuntimeError("draw the prairie once before its reference")
+        self.prairie = prairie
+        self.painter: Painter = prairie.painter
+        self.blades = self.painter.blade_painter(max(ring.segments for ring in prairie.field.quality.blade_rings))
+
+    def draw(self, view: View, cells: Ints) -> None:
+        """Draw sky, ground and all blades of `cells` (n, 2) into the framebuffer that is bound."""
+        self.painter.write_ground(carpet=False)
+        self.painter.draw(view, time=self.prairie.time, blades=self._chunks(cells))
+
+    def _chunks(self, cells: Ints) -> Iterator[BladePainter]:
+        for start in range(0, len(cells), CHUNK):
+            stand_all(self.prairie, cells[start : start + CHUNK], self.blades)
+            yield self.blades
+
+    def release(self) -> None:
+        """Give everything back."""
+        self.blades.release()
+
+
+def draw_reference(
+    prairie: Prairie, view: object, projection: object, size: tuple[int, int], *, samples: int = 4
+) -> NDArray[np.uint8]:
+    """Return the reference picture of a prairie that has been drawn, top row first, shape (height, width, 3).
+
+    Each pixel is the mean of `samples` by `samples` of a larger picture, in display space as blending is.
+    """
+    seen = view_of(view, projection)
+    every = EveryBlade(prairie)
+    ctx, (width, height) = every.painter.ctx, size
+    host = ctx.detect_framebuffer()
+    large = (width * samples, height * samples)
+    color, depth = ctx.texture(large, 3, alignment=1), ctx.depth_renderbuffer(large)
+    target = ctx.framebuffer([color], depth)
+    try:
+        target.use()
+        target.clear(depth=1.0)
+        every.draw(seen, seen_cells(prairie.field))
+        return box_filtered(target, size, samples)
+    finally:
+        host.use()
+        for thing in (target, color, depth, every):
+            thing.release()
+
+
+def box_filtered(target: moderngl.Framebuffer, size: tuple[int, int], samples: int) -> NDArray[np.uint8]:
+    """Return a framebuffer's picture with `samples` by `samples` pixels averaged into each, top row first."""
+    width, height = size
+    fine = np.frombuffer(target.read(components=3, alignment=1), np.uint8)
+    fine = fine.reshape(height, samples, width, samples, 3)
+    mean = fine.astype(np.uint16).sum(axis=(1, 3)) if samples <= 16 else fine.mean(axis=(1, 3))
+    return np.ascontiguousarray(np.round(mean / (samples * samples)).astype(np.uint8)[::-1])
