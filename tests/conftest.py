@@ -6,6 +6,7 @@ import shutil
 import subprocess
 from collections.abc import Iterator
 from itertools import count
+from typing import Any
 
 import esper
 import moderngl
@@ -22,6 +23,9 @@ os.environ.setdefault("MESA_GLSL_VERSION_OVERRIDE", "330")
 # The same examples on every machine, however slow it is.
 settings.register_profile("tallgrass", deadline=None, derandomize=True)
 settings.load_profile("tallgrass")
+
+# The stubs give the backend another type than the loader takes.
+_HEADLESS: dict[str, Any] = {"standalone": True, "backend": "egl", "require": 330}
 
 _worlds = count()
 
@@ -52,7 +56,7 @@ def _numbers_fail_loudly() -> Iterator[None]:
 def ctx() -> Iterator[moderngl.Context]:
     """A headless GL context that all tests draw in."""
     try:
-        context = moderngl.create_context(standalone=True, backend="egl", require=330)
+        context = moderngl.create_context(**_HEADLESS)
     except Exception as error:  # noqa: BLE001 - the loader raises nothing narrower
         _do_without(f"there is no headless GL: {error} (tallgrass doctor says what to install)")
         return
