@@ -17,10 +17,12 @@ class TerrainSource(Declaration):
     """
 
     heights: str | None = None
-    """Elevation map file, relative to the scene file: 16-bit grey .png, .r16 or .raw, .npy, or .tif."""
+    """Elevation map file, relative to the scene file: 16-bit grey .png, .r16 or .raw, .npy, or .tif (GeoTIFF too).
+
+    Cells longer than 2.5 m are divided by a smooth surface; a map wider than 10240 m is cut to its middle."""
 
     noise: Literal["flat", "rolling", "hills", "ridges"] | None = None
-    """A landscape made from noise instead of a file."""
+    """A landscape made from noise instead of a file; without either, the ground is flat."""
 
     seed: int = Field(0, ge=0, le=2**31 - 1)
     """Seed of the noise."""
@@ -28,14 +30,17 @@ class TerrainSource(Declaration):
     size: Pair | None = None
     """Width (x) and depth (z) of a noise landscape [m]; without it 200 by 200."""
 
-    feature: float = Field(60.0, ge=2.0, le=5000.0)
-    """Distance between neighbouring hills of a noise landscape [m]."""
+    feature: float | None = Field(None, ge=2.0, le=5000.0)
+    """Distance between neighbouring hills of a noise landscape [m]; without it 60 for rolling, 90 for hills, 160 for
+    ridges."""
 
     cell: float = Field(1.0, ge=0.05, le=1000.0)
-    """Metres per cell."""
+    """Metres per cell; a GeoTIFF says so itself where the scene does not."""
 
     scale: float | None = Field(None, ge=-10000.0, le=10000.0)
-    """Vertical scale [m]: the height of a whole 16-bit range or of the noise, or the factor on a float map."""
+    """Vertical scale [m]. For a map of unsigned integers the height of their whole range, without it 100; for floats
+    and signed integers, which are metres, a factor, without it 1; for noise the height between the lowest and the
+    highest ground, without it 4 for rolling, 14 for hills, 30 for ridges."""
 
     offset: float = Field(0.0, ge=-20000.0, le=20000.0)
     """Height added to every cell [m]."""
@@ -55,12 +60,17 @@ class TerrainSource(Declaration):
             raise DeclarationError("give either heights (a file) or noise, not both", "noise")
         if self.size is not None and not all(5.0 <= side <= 10240.0 for side in self.size):
             raise DeclarationError("size must be [width, depth] in metres, between 5 and 10240", "size")
+        if self.size is not None and self.heights is not None:
+            raise DeclarationError("size is for noise; a file is as wide as its cells times cell", "size")
         return self
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Terrain:
-    """An elevation map whose samples stand at cell corners; between them heights are bilinear."""
+    """An elevation map whose samples stand at cell corners; between them heights are bilinear.
+
+    It has at least 2 by 2 samples and is centred on the origin.
+    """
 
     heights: NDArray[np.float32]
     """Heights [m], row 0 at the far edge (-z), shape (rows, columns)."""
@@ -86,7 +96,9 @@ class Density:
     """How densely each kind grows, sampled over the whole terrain."""
 
     maps: NDArray[np.float32]
-    """Density in [0, 1] of each kind, row 0 at the far edge (-z), shape (kinds, rows, columns)."""
+    """Density in [0, 1] of each kind, row 0 at the far edge (-z), shape (kinds, rows, columns), at least 2 by 2.
+
+    A pixel's density stands in its middle, as in a texture laid over the terrain."""
 
     size: tuple[float, float]
     """Width (x) and depth (z) of the terrain that the maps are laid over, centred on the origin [m]."""

@@ -8,7 +8,6 @@ from numpy.typing import ArrayLike, NDArray
 
 UInts = NDArray[np.uint32]
 
-_WORD = 0xFFFFFFFF
 _GOLDEN = np.uint32(0x9E3779B9)
 _FIRST = np.uint32(0x7FEB352D)
 _SECOND = np.uint32(0x846CA68B)
@@ -47,6 +46,4 @@ def unit(hashed: UInts, /) -> NDArray[np.float32]:
 
 
 def _word(value: ArrayLike) -> UInts:
-    if isinstance(value, int):
-        return np.asarray(value & _WORD, np.uint32)
     return np.asarray(value).astype(np.uint32)

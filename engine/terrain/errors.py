@@ -6,5 +6,5 @@ from pathlib import Path
 class MapError(ValueError):
     """A terrain or density map cannot be used; the message is one sentence that names it and says what is wrong."""
 
-    def __init__(self, map: Path | str, problem: str) -> None:
-        super().__init__(f"{map.name if isinstance(map, Path) else map}: {problem}")
+    def __init__(self, path: Path, problem: str) -> None:
+        super().__init__(f"{path.name}: {problem}")

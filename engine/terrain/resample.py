@@ -30,22 +30,22 @@ def b_spline(distance: Doubles, /) -> Doubles:
     return np.where(d < 1.0, near, far)
 
 
-def resample(map: Floats, rows: Doubles, columns: Doubles, /, *, kernel: Kernel = catmull_rom) -> Floats:
-    """Return `map` read at fractional `rows` (r,) and `columns` (c,), in samples, shape (r, c).
+def resample(values: Floats, rows: Doubles, columns: Doubles, /, *, kernel: Kernel = catmull_rom) -> Floats:
+    """Return the map `values` read at fractional `rows` (r,) and `columns` (c,), in samples, shape (r, c).
 
     Planes are kept exactly and slopes are continuous; outside, the map goes on by point reflection. Where the places
     lie farther apart than the samples, the kernel widens as much, so that what is too fine to show does not turn
     into noise.
     """
-    across = _along_rows(np.ascontiguousarray(map.T), columns, kernel)
+    across = _along_rows(np.ascontiguousarray(values.T), columns, kernel)
     return _along_rows(np.ascontiguousarray(across.T), rows, kernel)
 
 
-def _along_rows(map: Floats, places: Doubles, kernel: Kernel) -> Floats:
+def _along_rows(values: Floats, places: Doubles, kernel: Kernel) -> Floats:
     taps, weights = _taps(places, kernel)
-    margin = max(0, -int(taps.min()), int(taps.max()) - (len(map) - 1))
-    padded = np.pad(map, ((margin, margin), (0, 0)), mode="reflect", reflect_type="odd") if margin else map
-    result = np.zeros((len(places), map.shape[1]), np.float32)
+    margin = max(0, -int(taps.min()), int(taps.max()) - (len(values) - 1))
+    padded = np.pad(values, ((margin, margin), (0, 0)), mode="reflect", reflect_type="odd") if margin else values
+    result = np.zeros((len(places), values.shape[1]), np.float32)
     for start in range(0, len(places), _BLOCK):
         block = slice(start, start + _BLOCK)
         for k in range(taps.shape[1]):

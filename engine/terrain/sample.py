@@ -57,8 +57,8 @@ def density_at(density: Density, place: Floats, /) -> Floats:
     result = np.empty((kinds, len(place)), np.float32)
     for block in _blocks(len(place)):
         at = _within(place[block], (width, depth), (columns / width, rows / depth), (columns, rows), -0.5)
-        for kind, map in enumerate(density.maps):
-            far, near = _rows(map.reshape(-1), at)
+        for kind, values in enumerate(density.maps):
+            far, near = _rows(values.reshape(-1), at)
             result[kind, block] = far + at.down * (near - far)
     return result
 

@@ -1,0 +1,79 @@
+"""Density maps: where each kind of grass grows, and how densely."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from ...components.grass import GrassKind, Place
+from ...components.terrain import Density, Terrain
+from .elevation import reading
+from .errors import MapError
+
+Floats = NDArray[np.float32]
+Channels = Mapping[str, Floats]
+"""Densities in [0, 1] by channel name, each of shape (rows, columns)."""
+
+MOST = 4097
+"""Most pixels along a side of a density map."""
+
+_NAMES = ("red", "green", "blue", "alpha")
+
+
+def load_density(kinds: Mapping[str, GrassKind], terrain: Terrain, folder: Path, /) -> Density:
+    """Return how densely each kind grows on the terrain, in the order of `kinds`; map files lie in `folder`.
+
+    Kinds with a place have what is painted; where their sum passes 1 it is brought down to 1. Kinds without one
+    share equally what the others leave, so that with such a kind the prairie is full everywhere. Maps of different
+    sizes are brought to the longest sides among them. Raises `MapError` where a file cannot be used.
+    """
+    files = {kind.place.map for kind in kinds.values() if kind.place is not None}
+    pictures = {name: _read_picture(folder / name) for name in sorted(files)}
+    painted = {name: _channel(folder, kind.place, pictures) for name, kind in kinds.items() if kind.place is not None}
+    rows, columns = (max([2, *(picture.shape[axis] for picture in painted.values())]) for axis in (0, 1))
+    maps = np.empty((len(kinds), rows, columns), np.float32)
+    for number, name in enumerate(kinds):
+        maps[number] = _stretch(painted[name], rows, columns) if name in painted else 0.0
+    placed = np.array([name in painted for name in kinds])
+    maps[placed] /= np.maximum(maps.sum(axis=0), np.float32(1.0))
+    if not placed.all():
+        maps[~placed] = np.maximum(1.0 - maps[placed].sum(axis=0), 0.0) / np.float32((~placed).sum())
+    return Density(maps, terrain.size)
+
+
+def _channel(folder: Path, place: Place, pictures: Mapping[str, Channels]) -> Floats:
+    channels = pictures[place.map]
+    if place.channel not in channels:
+        raise MapError(folder / place.map, f"it has no {place.channel} channel, only {', '.join(channels)}")
+    return channels[place.channel]
+
+
+def _read_picture(path: Path) -> Channels:
+    with reading(path, "a picture"):
+        if not path.is_file():
+            raise MapError(path, "there is no such file")
+        with Image.open(path) as image:
+            if max(image.size) > MOST:
+                width, height = image.size
+                raise MapError(path, f"it is {width} by {height} pixels; a density map has at most {MOST} a side")
+            if image.mode in ("I;16", "I;16B", "I;16L"):
+                return dict.fromkeys(_NAMES[:3], np.asarray(image).astype(np.float32) / np.float32(65535.0))
+            if image.mode not in ("1", "L", "LA", "P", "PA", "RGB", "RGBA"):
+                raise MapError(path, f"its mode is {image.mode}; a density map is a grey, RGB or RGBA picture")
+            clear = image.mode in ("LA", "PA", "RGBA") or "transparency" in image.info
+            values = np.asarray(image.convert("RGBA" if clear else "RGB"), np.float32) / np.float32(255.0)
+    return {name: values[..., number] for number, name in enumerate(_NAMES[: values.shape[2]])}
+
+
+def _stretch(values: Floats, rows: int, columns: int) -> Floats:
+    """Return a map with more pixels, as a texture is magnified."""
+    for axis, count in enumerate((rows, columns)):
+        own = values.shape[axis]
+        place = np.clip((np.arange(count) + 0.5) * (own / count) - 0.5, 0.0, own - 1.0)
+        low = np.minimum(place.astype(np.intp), max(own - 2, 0))
+        part = np.expand_dims((place - low).astype(np.float32), 1 - axis)
+        high = np.minimum(low + 1, own - 1)
+        values = values.take(low, axis) * (1 - part) + values.take(high, axis) * part
+    return values

@@ -1,0 +1,66 @@
+"""An elevation map as its file holds it, and what is refused of any."""
+
+import struct
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+from warnings import catch_warnings, simplefilter
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from .errors import MapError
+
+MOST = 8193
+"""Most cells along a side of a map."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Elevation:
+    """An elevation map as its file holds it."""
+
+    values: NDArray[Any]
+    """Numbers of any real kind, row 0 first in the file, shape (rows, columns)."""
+
+    whole: float | None
+    """Number that stands for the whole vertical scale; None where the numbers are metres already."""
+
+    cell: tuple[float, float] | None = None
+    """Metres per cell in x and z, where the file says so."""
+
+    void: NDArray[np.bool_] | None = None
+    """Where the file holds no height, shape (rows, columns)."""
+
+
+@contextmanager
+def reading(path: Path, kind: str) -> Iterator[None]:
+    """Turn what a reader raises on a broken file into a `MapError`."""
+    try:
+        with catch_warnings():
+            simplefilter("error", Image.DecompressionBombWarning)
+            simplefilter("ignore", UserWarning)
+            yield
+    except MapError:
+        raise
+    except (Image.DecompressionBombWarning, Image.DecompressionBombError) as error:
+        raise MapError(path, f"it has more than {MOST} cells a side, the most there may be") from error
+    except (OSError, SyntaxError, ValueError, EOFError, TypeError, KeyError, struct.error, zlib.error) as error:
+        raise MapError(path, f"it cannot be read as {kind}: {error}") from error
+
+
+def check_size(path: Path, shape: tuple[int, ...]) -> None:
+    """Raise `MapError` where a map is no map of 2 to `MOST` cells a side."""
+    if len(shape) != 2:
+        raise MapError(path, f"it must be an array of rows and columns, not of {len(shape)} dimensions")
+    rows, columns = shape
+    if min(rows, columns) < 2 or max(rows, columns) > MOST:
+        raise MapError(path, f"it is {columns} by {rows} cells, and a map has 2 to {MOST} a side")
+
+
+def eight_bit(path: Path) -> MapError:
+    """Return why 8-bit heights are refused."""
+    return MapError(path, "8 bits hold only 256 heights, which would make terraces; export 16-bit grey")

@@ -1,0 +1,139 @@
+"""Terrains from elevation map files and from noise."""
+
+from logging import getLogger
+from math import ceil
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.terrain import Terrain, TerrainSource
+from .elevation import Elevation
+from .errors import MapError
+from .noise import LANDSCAPES, landscape
+from .read import read_elevation
+from .resample import resample
+from .voids import fill_voids
+
+Floats = NDArray[np.float32]
+Doubles = NDArray[np.float64]
+
+WIDEST = 10240.0
+"""Longest side of a terrain [m]; farther out, 32-bit places are too coarse for blades of grass."""
+
+NARROWEST = 5.0
+"""Shortest side of a terrain [m]."""
+
+SMOOTH = 2.5
+"""Longest side of a terrain's cell [m], so that its bilinear surface does not look faceted."""
+
+SIDE = 4097
+"""Most samples along a side of a terrain; only a wider terrain than `SMOOTH` allows for has longer cells."""
+
+HIGHEST = 50_000.0
+"""Height beyond which a map is taken to be wrong, to either side of 0 [m]."""
+
+RANGE = 100.0
+"""Height of a whole 16-bit range, where a scene gives none [m]."""
+
+_log = getLogger(__name__)
+
+
+def load_terrain(source: TerrainSource, folder: Path, /) -> Terrain:
+    """Return the terrain that a scene in `folder` declares.
+
+    Cells longer than 2.5 m are divided by a smooth surface through their corners, and a map wider than 10240 m is
+    cut to its middle. Voids that an elevation model marks are filled from around them. Raises `MapError` where the
+    file cannot be used.
+    """
+    if source.heights is None:
+        return _noise(source)
+    path = folder / source.heights
+    elevation = read_elevation(path, source)
+    heights = _metres(path, elevation, source)
+    if source.flip:
+        heights = heights[::-1]
+    return _spread(path, heights, elevation.cell or (source.cell, source.cell))
+
+
+def _metres(path: Path, elevation: Elevation, source: TerrainSource) -> Floats:
+    """Return an elevation map's heights [m], with its voids filled."""
+    values, void = elevation.values, elevation.void
+    _check_finite(path, values, void)
+    if elevation.whole is None:
+        factor = 1.0 if source.scale is None else source.scale
+    else:
+        factor = (RANGE if source.scale is None else source.scale) / elevation.whole
+    with np.errstate(over="ignore", invalid="ignore"):
+        heights = values.astype(np.float32)
+        heights *= np.float32(factor)
+        heights += np.float32(source.offset)
+    if void is not None and void.any():
+        if void.mean() > 0.5:
+            raise MapError(path, f"{void.mean():.0%} of it has no height; at most half may be filled from around")
+        heights = fill_voids(heights, void)
+    low, high = float(heights.min()), float(heights.max())
+    if max(-low, high) > HIGHEST:
+        raise MapError(path, f"its heights go from {low:.6g} to {high:.6g} m; scale them, or mark its voids")
+    return heights
+
+
+def _check_finite(path: Path, values: NDArray[Any], void: NDArray[np.bool_] | None) -> None:
+    if values.dtype.kind != "f":
+        return
+    wrong = ~np.isfinite(values)
+    if void is not None:
+        wrong &= ~void
+    count = int(wrong.sum())
+    if count:
+        row, column = divmod(int(wrong.argmax()), values.shape[1])
+        cells = "height is no number" if count == 1 else "heights are no numbers"
+        raise MapError(path, f"{count} {cells}, the first at row {row}, column {column}, counted from 0")
+
+
+def _spread(path: Path, heights: Floats, cells: tuple[float, float]) -> Terrain:
+    """Return the terrain of `heights` whose cells are `cells` long in x and z [m]."""
+    counts = heights.shape[::-1]
+    size = [(count - 1) * cell for count, cell in zip(counts, cells, strict=True)]
+    if min(size) < NARROWEST:
+        raise MapError(path, f"it is only {size[0]:.3g} by {size[1]:.3g} m; give a larger cell, in metres")
+    if max(size) > WIDEST * 1.0001:
+        _log.warning("%s is %.0f by %.0f m; only its middle %.0f m are used", path.name, *size, WIDEST)
+    sides = [min(side, WIDEST) for side in size]
+    cell = min(cells)
+    cell = max(cell / ceil(cell / SMOOTH - 1e-6), max(sides) / (SIDE - 1))
+    columns, rows = (
+        _places(side, cell) / own + (count - 1) / 2 for side, own, count in zip(sides, cells, counts, strict=True)
+    )
+    if cells == (cell, cell) and (len(rows), len(columns)) == heights.shape:
+        return Terrain(np.ascontiguousarray(heights), cell)
+    return Terrain(_resample_part(heights, rows, columns), cell)
+
+
+def _resample_part(heights: Floats, rows: Doubles, columns: Doubles) -> Floats:
+    """Return `heights` at `rows` and `columns`, reading only what lies around them."""
+    margin = 8
+    top, left = (max(0, int(axis[0]) - margin) for axis in (rows, columns))
+    part = heights[top : int(rows[-1]) + margin, left : int(columns[-1]) + margin]
+    return resample(part, rows - top, columns - left)
+
+
+def _places(side: float, cell: float) -> Doubles:
+    """Return places `cell` apart that fill `side` [m], symmetric about 0."""
+    count = int(side / cell + 1e-6) + 1
+    return np.asarray((np.arange(count) - (count - 1) / 2) * cell, np.float64)
+
+
+def _noise(source: TerrainSource) -> Terrain:
+    size = source.size or [200.0, 200.0]
+    kind = LANDSCAPES.get(source.noise or "flat")
+    feature = source.feature or (kind.feature if kind else WIDEST)
+    cell = min(source.cell, SMOOTH, feature / 8) if kind else max(source.cell, max(size) / 1024)
+    cell = max(size) / min(ceil(max(size) / cell), SIDE - 1)
+    x, z = (_places(max(round(side / cell), 1) * cell, cell) for side in size)
+    heights = np.full((len(z), len(x)), source.offset, np.float32)
+    if source.noise is not None and kind is not None:
+        scale = kind.scale if source.scale is None else source.scale
+        heights += landscape(source.noise, x, z, seed=source.seed, feature=feature) * np.float32(scale)
+    return Terrain(heights, cell)
