@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.growth import Blades, Bytes, Floats, Postures, Strips
-from .bend import Doubles, ribbon, segment_normals, spine
+from .bend import Doubles, ribbon, spine
 from .raster import Fragments, interpolate, rasterise, ribbon_triangles
 
 _SEGMENTS = 12
@@ -26,8 +26,8 @@ def grow_strips(
     """Return the strips of a patch model, drawn from its blades at rest.
 
     A strip shows the blades whose roots lie in its slice, along the slice's normal, the nearest to the side of
-    larger z (orientation 0) or x (orientation 1) in front; face normals are turned to that side. The texture
-    reaches from -`margin` to `patch` + `margin`, and from the ground to `height` [m] (without it, over the
+    larger z (orientation 0) or x (orientation 1) in front. Face normals are the blades' own, whichever side is seen:
+    light is linear in them, so that the mean of many is right. The texture reaches from -`margin` to `patch` + `margin`, and from the ground to `height` [m] (without it, over the
     highest tip); its texels are square but for rounding, `texel` metres wide at most. Where nothing is painted,
     ranks are those of what is painted nearby, or else 255.
     """
@@ -83,7 +83,6 @@ class _Sheet:
         self._patch, self._margin, self._height = patch, margin, height
         left, right = ribbon(blades, postures, (0.0, 0.0), points=_SEGMENTS + 1, taper=taper)
         self._ribbons = ribbon_triangles(left.astype(np.float64), right.astype(np.float64))
-        self._normals = segment_normals(blades, 0.5 * (left + right))
         self._fine = int(np.clip(np.ceil(4.0 * height / size[0] / float(blades.width.mean())), 4, 10))
 
     def slice(self, orientation: int, /) -> NDArray[np.int32]:
@@ -103,7 +102,7 @@ class _Sheet:
         corners[:, :, 1] += np.repeat(self.slice(orientation), span)[:, None] * float(h * fine)
         shape = self._strips * h * fine, w * fine
         seen = rasterise(corners, self._ribbons[:, :, depth], shape=shape)
-        values = self._meaning(corners, seen, depth)
+        values = self._meaning(corners, seen)
         texel = (seen.sample // shape[1] // fine) * w + seen.sample % shape[1] // fine
         sums = [np.bincount(texel, weights=value, minlength=self._strips * h * w) for value in values]
         covered = sums[-1]
@@ -111,17 +110,16 @@ class _Sheet:
         rank = fill_ranks((sums[-2] / np.maximum(covered, 1.0)).reshape(-1, h, w), (covered > 0).reshape(-1, h, w))
         return np.rint(texels).astype(np.uint8).reshape(-1, h, w, 4), rank
 
-    def _meaning(self, corners: Doubles, seen: Fragments, depth: int, /) -> list[Doubles]:
+    def _meaning(self, corners: Doubles, seen: Fragments, /) -> list[Doubles]:
         """Return at each sample: place along the blade, normal x and z, rank, and 1."""
         count = self._blades.root.shape[0]
         place = np.linspace(0.0, 1.0, _SEGMENTS + 1)
         ends = np.broadcast_to(place[None, :, None], (count, _SEGMENTS + 1, 1))
         along = interpolate(corners, ribbon_triangles(ends, ends)[:, :, 0], seen)
         segment = seen.triangle // 2
-        normal = self._normals.reshape(-1, 3)[segment]
-        normal *= np.where(normal[:, depth] < 0.0, -1.0, 1.0)[:, None]
-        rank = self._blades.rank[segment // _SEGMENTS].astype(np.float64)
-        return [along, 0.5 + 0.5 * normal[:, 0], 0.5 + 0.5 * normal[:, 2], rank, np.ones_like(along)]
+        blade = segment // _SEGMENTS
+        facing, rank = self._blades.facing[blade].astype(np.float64), self._blades.rank[blade].astype(np.float64)
+        return [along, 0.5 + 0.5 * np.cos(facing), 0.5 + 0.5 * np.sin(facing), rank, np.ones_like(along)]
 
 
 def fill_ranks(rank: Doubles, covered: NDArray[np.bool_], /) -> Bytes:
