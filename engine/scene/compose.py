@@ -187,7 +187,8 @@ class _Composer:
 
     def _refuse_tag(self, event: yaml.ScalarEvent | yaml.CollectionStartEvent) -> None:
         if event.tag is not None:
-            message = f"the tag '{event.tag}' is not read; leave it out, values are plain text and numbers"
+            tag = event.tag.replace("tag:yaml.org,2002:", "!!")
+            message = f"the tag '{tag}' is not read; leave it out, values are plain text and numbers"
             self._report(*_place(event), message)
 
     def _report(self, line: int, column: int, message: str) -> None:

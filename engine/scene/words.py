@@ -21,7 +21,7 @@ _WANTED = {
     "finite_number": "a finite number",
 }
 _COLOR = "#[0-9a-fA-F]{6}"
-_UNIT = re.compile(r"\[([a-z/]{1,12})\]\.?$")
+_UNIT = re.compile(r"\[([a-z/]{1,12})\]")
 _DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+")
 _WITH_UNIT = re.compile(r"([-+]?[\d.]+)\s*[a-zA-Z°%/]+")
 

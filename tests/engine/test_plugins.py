@@ -1,0 +1,169 @@
+"""The registry of wind kinds, against distributions as pip leaves them on disk."""
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from importlib.metadata import EntryPoint, distributions, entry_points
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tallgrass.components.wind import Floats, WindPrimitive
+from tallgrass.engine.plugins import GROUP, PluginError, WindKinds, wind, wind_kinds
+from tallgrass.engine.scene import parse_scene
+
+VORTEX = """
+from tallgrass.components.wind import WindPrimitive
+
+class Vortex(WindPrimitive):
+    radius: float = 3.0
+    def mask(self, place, /, *, time): return place[:, 0] * 0 + 1
+    def action(self, place, /, *, time, seed): return place * 0
+"""
+
+
+class Calm(WindPrimitive):
+    """A wind that hardly moves anything."""
+
+    def mask(self, place: Floats, /, *, time: float) -> Floats:
+        return np.full(len(place), time >= self.start, np.float32)
+
+    def action(self, place: Floats, /, *, time: float, seed: int) -> Floats:
+        return np.full_like(place, 0.01 * np.cos(time + seed))
+
+
+@pytest.fixture(autouse=True)
+def _kinds_of_this_test() -> Iterator[None]:
+    wind_kinds.cache_clear()
+    yield
+    wind_kinds.cache_clear()
+
+
+def install(folder: Path, name: str, kinds: dict[str, str], modules: dict[str, str]) -> list[EntryPoint]:
+    """Install a distribution into a folder, as pip would leave it there, and return its entry points."""
+    info = folder / name / f"{name.replace('-', '_')}-0.3.1.dist-info"
+    info.mkdir(parents=True)
+    (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 0.3.1\n")
+    lines = [f"[{GROUP}]", *(f"{kind} = {value}" for kind, value in kinds.items())]
+    (info / "entry_points.txt").write_text("\n".join(lines) + "\n")
+    for module, text in modules.items():
+        (info.parent / f"{module}.py").write_text(text)
+    return [entry for found in distributions(path=[str(info.parent)]) for entry in found.entry_points]
+
+
+@pytest.fixture
+def dust(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> WindKinds:
+    """The kinds of a distribution of which `vortex` is right and all others are wrong."""
+    kinds = {
+        "vortex": "dust_vortex:Vortex",
+        "gone": "dust_gone:Gone",
+        "faulty": "dust_faulty:Faulty",
+        "text": "dust_vortex:__name__",
+        "half": "tallgrass.components.wind:WindPrimitive",
+    }
+    entries = install(tmp_path, "tallgrass-dust", kinds, {"dust_vortex": VORTEX, "dust_faulty": "1 / 0"})
+    monkeypatch.syspath_prepend(str(tmp_path / "tallgrass-dust"))
+    monkeypatch.delitem(sys.modules, "dust_vortex", raising=False)
+    return WindKinds(entries)
+
+
+def test_d5_the_built_in_breeze_comes_through_its_entry_point() -> None:
+    assert [entry.dist.name for entry in entry_points(group=GROUP) if entry.dist and entry.name == "breeze"] == [
+        "tallgrass"
+    ]
+    assert wind_kinds().find("breeze").__module__ == "tallgrass.systems.wind.breeze"
+
+
+def test_the_registry_imports_no_system_until_a_kind_is_asked_for() -> None:
+    code = (
+        "import sys; from tallgrass.engine.plugins import wind_kinds; names = wind_kinds().names(); "
+        "assert 'breeze' in names, names; assert 'tallgrass.systems' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_d5_an_installed_kind_is_imported_when_first_asked_for(dust: WindKinds) -> None:
+    assert "vortex" in dust.names()
+    assert "dust_vortex" not in sys.modules
+    primitive = dust.find("vortex")
+    assert primitive.model_validate({"kind": "vortex", "radius": 2.0}).kind == "vortex"
+    assert dust.find("vortex") is primitive
+
+
+def test_an_unknown_kind_names_the_one_it_resembles(dust: WindKinds) -> None:
+    with pytest.raises(PluginError) as refusal:
+        dust.find("vortx")
+    known = "faulty, gone, half, text, vortex"
+    assert str(refusal.value) == f"unknown kind 'vortx', did you mean 'vortex'? known: {known}"
+    with pytest.raises(PluginError, match="unknown kind 'zzz'; known: faulty, gone"):
+        dust.find("zzz")
+
+
+@pytest.mark.parametrize(
+    ("kind", "why"),
+    [
+        ("gone", "cannot be loaded: ModuleNotFoundError: No module named 'dust_gone'"),
+        ("faulty", "cannot be loaded: ZeroDivisionError: division by zero"),
+        ("text", "must be a class that derives from WindPrimitive"),
+        ("half", "lacks action and mask"),
+    ],
+)
+def test_a_broken_plugin_is_named_with_its_distribution(dust: WindKinds, kind: str, why: str) -> None:
+    with pytest.raises(PluginError) as refusal:
+        dust.find(kind)
+    assert str(refusal.value) == f"kind '{kind}' of tallgrass-dust 0.3.1 {why}"
+
+
+def test_a_broken_plugin_costs_no_other_kind(dust: WindKinds) -> None:
+    with pytest.raises(PluginError):
+        dust.find("faulty")
+    assert dust.find("vortex").__name__ == "Vortex"
+
+
+@pytest.mark.usefixtures("dust")
+def test_two_distributions_with_one_kind_are_both_named(tmp_path: Path) -> None:
+    twice = [
+        *install(tmp_path, "tallgrass-storm", {"vortex": "dust_vortex:Vortex"}, {}),
+        *install(tmp_path, "other-winds", {"vortex": "dust_vortex:Vortex", "calm": "dust_vortex:Vortex"}, {}),
+    ]
+    kinds = WindKinds(twice)
+    with pytest.raises(PluginError, match=r"'vortex' is claimed by tallgrass-storm 0\.3\.1 and other-winds 0\.3\.1"):
+        kinds.find("vortex")
+    assert kinds.find("calm").__name__ == "Vortex"
+
+
+def test_d5_a_games_own_class_becomes_a_kind_of_scene_files() -> None:
+    assert wind("test-calm")(Calm) is Calm
+    scene = parse_scene("tallgrass: 1\ngrass: { lawn: {} }\nwind: [{ kind: test-calm, stop: 4 }]")
+    assert type(scene.wind[0]) is Calm
+    assert scene.wind[0].stop == 4
+
+
+def test_a_reloaded_module_may_replace_its_own_kind_but_no_other() -> None:
+    kinds = WindKinds([])
+    kinds.add("calm", Calm)
+    again = type("Calm", (Calm,), {"__module__": Calm.__module__, "__qualname__": "Calm"})
+    kinds.add("calm", again)
+    assert kinds.find("calm") is again
+    with pytest.raises(PluginError, match=r"claimed by both .*Calm and .*Other"):
+        kinds.add("calm", type("Other", (Calm,), {"__module__": "game", "__qualname__": "Other"}))
+
+
+def test_what_is_installed_cannot_be_shadowed() -> None:
+    with pytest.raises(PluginError, match="kind 'breeze' already comes with tallgrass "):
+        wind("breeze")(Calm)
+
+
+@pytest.mark.parametrize("kind", ["", "Calm", "two words", "os.path:join", "1st"])
+def test_a_malformed_kind_is_refused(kind: str) -> None:
+    with pytest.raises(PluginError, match="lower-case letters"):
+        WindKinds([]).add(kind, Calm)
+
+
+def test_an_incomplete_class_is_refused_where_it_is_added() -> None:
+    class Half(WindPrimitive):
+        pass
+
+    with pytest.raises(PluginError, match="the class for kind 'half' lacks action and mask"):
+        WindKinds([]).add("half", Half)
