@@ -1,6 +1,7 @@
 """Reading scene files: YAML with positions, problems with carets."""
 
+from .maps import load_maps
 from .problem import Problem, SceneError
 from .read import LoadedScene, bundled_scenes, parse_scene, read_scene
 
-__all__ = ["LoadedScene", "Problem", "SceneError", "bundled_scenes", "parse_scene", "read_scene"]
+__all__ = ["LoadedScene", "Problem", "SceneError", "bundled_scenes", "load_maps", "parse_scene", "read_scene"]

@@ -1,0 +1,56 @@
+"""Loading the maps that a scene names, with problems at the keys that name them."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ...components.terrain import Density, Terrain
+from ..terrain.density import load_density
+from ..terrain.errors import MapError
+from ..terrain.load import load_terrain
+from .document import Where
+from .problem import Problem, SceneError
+from .read import LoadedScene
+
+_NOWHERE = Terrain(np.zeros((2, 2), np.float32), 100.0)
+
+
+def load_maps(loaded: LoadedScene, /) -> tuple[Terrain, Density]:
+    """Return a scene's elevation and density maps.
+
+    Raises SceneError with every map that cannot be used and every place of the camera that is off the terrain.
+    """
+    scene, folder = loaded.scene, loaded.folder
+    try:
+        terrain = load_terrain(scene.terrain, folder)
+    except MapError as error:
+        where = ("terrain", "noise" if scene.terrain.heights is None else "heights")
+        problem = loaded.document.problem(where, str(error))
+        raise SceneError([problem, *_bad_densities(loaded, _NOWHERE)]) from error
+    outside = list(_outside(loaded, terrain))
+    try:
+        density = load_density(scene.grass, terrain, folder)
+    except MapError as error:
+        raise SceneError([*outside, *_bad_densities(loaded, terrain)]) from error
+    if outside:
+        raise SceneError(outside)
+    return terrain, density
+
+
+def _bad_densities(loaded: LoadedScene, terrain: Terrain) -> Iterator[Problem]:
+    for name, kind in loaded.scene.grass.items():
+        try:
+            load_density({name: kind}, terrain, loaded.folder)
+        except MapError as error:
+            yield loaded.document.problem(("grass", name, "place", "map"), str(error))
+
+
+def _outside(loaded: LoadedScene, terrain: Terrain) -> Iterator[Problem]:
+    camera = loaded.scene.camera
+    places: list[tuple[Where, list[float]]] = [(("camera", "position"), camera.position)]
+    places += [(("camera", "path", i, "position"), stop.position) for i, stop in enumerate(camera.path)]
+    width, depth = terrain.size
+    for where, (x, z) in places:
+        if abs(x) > width / 2 or abs(z) > depth / 2:
+            extent = f"x from {-width / 2:g} to {width / 2:g} and z from {-depth / 2:g} to {depth / 2:g} m"
+            yield loaded.document.problem(where, f"position is off the terrain, which spans {extent}")
