@@ -1,0 +1,80 @@
+"""What is built is what works: the tests pass against the wheel, where no checkout is in reach."""
+
+import os
+import shutil
+import subprocess
+import sys
+import sysconfig
+import venv
+from pathlib import Path
+from zipfile import ZipFile
+
+import pytest
+
+pytestmark = pytest.mark.packaging
+
+ROOT = Path(__file__).parents[2]
+SOURCES = ("app", "components", "engine", "scenes", "systems")
+QUICK = "not gl and not window and not golden and not packaging"
+PLACE = """
+from importlib.util import find_spec
+from pathlib import Path
+
+import tallgrass
+
+
+def test_the_wheel_is_what_is_tested() -> None:
+    assert Path(tallgrass.__file__).is_relative_to({site!r})
+    assert find_spec("tallgrass.tests") is None
+"""
+
+
+def run(*command: str | Path, cwd: Path) -> str:
+    outside = {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "PYTEST"))}
+    done = subprocess.run(command, cwd=cwd, env=outside, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The wheel, built from the source distribution of a copy: building in place leaves files that get shipped."""
+    copy = tmp_path_factory.mktemp("source") / "tallgrass"
+    shutil.copytree(
+        ROOT, copy, ignore=shutil.ignore_patterns(".*", "__pycache__", "*.egg-info", "build", "dist", "out")
+    )
+    out = copy.parent / "dist"
+    run(sys.executable, "-m", "build", "--no-isolation", "--outdir", out, copy, cwd=copy.parent)
+    assert [file.suffix for file in sorted(out.iterdir())] == [".whl", ".gz"]
+    return next(out.glob("*.whl"))
+
+
+@pytest.fixture(scope="module")
+def site(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The site folder of an environment that has the wheel, and this one's packages except the editable project."""
+    home = tmp_path_factory.mktemp("installed")
+    venv.create(home, with_pip=False)
+    place = Path(sysconfig.get_path("purelib", "venv", {"base": str(home), "platbase": str(home)}))
+    place.joinpath("dependencies.pth").write_text(f"{sysconfig.get_path('purelib')}\n", "utf-8")
+    pip = (sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index")
+    run(*pip, "--disable-pip-version-check", "--target", place, wheel, cwd=home)
+    return place
+
+
+def test_the_wheel_holds_every_source_and_nothing_else(wheel: Path) -> None:
+    with ZipFile(wheel) as archive:
+        shipped = {name for name in archive.namelist() if ".dist-info/" not in name}
+    sources = {file for folder in SOURCES for file in (ROOT / folder).rglob("*") if file.is_file()}
+    wanted = {f"tallgrass/{file.relative_to(ROOT)}" for file in sources if "__pycache__" not in file.parts}
+    assert shipped == wanted | {"tallgrass/__init__.py", "tallgrass/py.typed"}
+
+
+def test_the_tests_pass_against_the_wheel_outside_the_checkout(site: Path, tmp_path: Path) -> None:
+    tests = tmp_path / "tests"
+    skipped = shutil.ignore_patterns("__pycache__", "packaging", "golden", "docs", "examples")
+    shutil.copytree(ROOT / "tests", tests, ignore=skipped)
+    shutil.copy(ROOT / "pyproject.toml", tmp_path)
+    tests.joinpath("test_place.py").write_text(PLACE.format(site=str(site)), "utf-8")
+    python = site.parents[2] / "bin" / "python"
+    told = run(python, "-P", "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "-m", QUICK, tests, cwd=tmp_path)
+    assert " passed" in told.splitlines()[-1]
