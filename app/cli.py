@@ -71,6 +71,9 @@ def walk(
 ) -> None:
     """Walk through a scene in a window; F1 shows the keys."""
     take = Take(scene, _size(size), preset)
+    from .display import need_display
+
+    need_display()
     from .window import walk_in
 
     walk_in(take, fullscreen=fullscreen, seconds=seconds)
@@ -184,10 +187,13 @@ def _tell(text: str, *, status: int) -> int:
 
 def _unexpected(error: Exception) -> int:
     from ..engine.scene import SceneError
+    from ..engine.terrain.errors import MapError
 
     if isinstance(error, SceneError):
         lines = [str(problem) if sys.stderr.isatty() else str(problem).splitlines()[0] for problem in error.problems]
         return _tell("\n".join(lines), status=2)
+    if isinstance(error, MapError):
+        return _tell(str(error), status=2)
     if "TALLGRASS_TRACEBACK" in os.environ:
         raise error
     what = str(error).splitlines()[0] if str(error) else "no more is known"

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from .encode import Picture, Reel, film_writer
 from .progress import busy, counted
-from .studio import Studio
+from .studio import Studio, about
 from .take import Take
 
 STILL_SECONDS = 8.0
@@ -23,7 +23,7 @@ def film(take: Take, output: str, *, seconds: float | None = None, fps: int = 24
     with studio:
         count = max(1, round((_length(studio) if seconds is None else seconds) * fps))
         frames = counted(_frames(studio, count, fps), total=count, doing="filming")
-        write(Reel(frames, count, fps, {**studio.about(), "fps": str(fps)}))
+        write(Reel(frames, count, fps, about(studio.prairie, take)))
 
 
 def _length(studio: Studio) -> float:

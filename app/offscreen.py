@@ -7,17 +7,20 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from .errors import MachineError
+
 
 class Offscreen:
     """A framebuffer of 8-bit RGBA colour and depth, to draw pictures into; a context manager.
 
     Without `ctx` it makes a context of its own, by EGL or else by GLX, and gives it back at the end. `size` is
-    (width, height) [pixels]. Raises RuntimeError where there is no OpenGL 3.3.
+    (width, height) [pixels]. With `ctx`, what was bound in it is bound again at the end. Raises MachineError where
+    there is no OpenGL 3.3.
     """
 
     def __init__(self, size: tuple[int, int], ctx: moderngl.Context | None = None) -> None:
         self.size = size
-        self._owned = ctx is None
+        self._host = None if ctx is None else ctx.detect_framebuffer()
         self.ctx = standalone_context() if ctx is None else ctx
         self._color = self.ctx.texture(size, 4)
         self._depth = self.ctx.depth_renderbuffer(size)
@@ -44,17 +47,19 @@ class Offscreen:
         return np.ascontiguousarray(np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1])
 
     def release(self) -> None:
-        """Free the framebuffer, and the context if it is an own one."""
+        """Give the framebuffer back, and the context if it is an own one."""
+        if self._host is not None:
+            self._host.use()
         for item in (self._target, self._color, self._depth):
             item.release()
-        if self._owned:
+        if self._host is None:
             self.ctx.release()
 
 
 def standalone_context() -> moderngl.Context:
     """Return a new context without a window: EGL, which needs no display, or else the platform's own.
 
-    Raises RuntimeError with what each of them said where neither works.
+    Raises MachineError with what each of them said where neither works.
     """
     complaints: list[str] = []
     backends: tuple[dict[str, Any], ...] = ({"backend": "egl"}, {})
@@ -63,4 +68,5 @@ def standalone_context() -> moderngl.Context:
             return moderngl.create_context(require=330, standalone=True, **backend)
         except Exception as error:  # noqa: BLE001 - the backends raise nothing narrower
             complaints.append(str(error))
-    raise RuntimeError(f"no OpenGL 3.3 without a window: {'; '.join(dict.fromkeys(complaints))}")
+    said = "; ".join(dict.fromkeys(complaints))
+    raise MachineError(f"no OpenGL 3.3 without a window: {said} (tallgrass doctor says what to install)")

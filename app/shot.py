@@ -6,7 +6,7 @@ from dataclasses import replace
 from ..components.camera import Camera
 from .encode import picture_writer
 from .progress import busy
-from .studio import Studio
+from .studio import Studio, about, written
 from .take import Take
 
 
@@ -20,5 +20,5 @@ def shot(take: Take, output: str, *, time: float = 0.0, camera: Camera | None = 
     with busy("growing the prairie"), Studio(take) as studio:
         studio.prairie.advance(time)
         view = math.radians(studio.prairie.scene.camera.view)
-        picture = studio.picture(studio.camera(None) if camera is None else replace(camera, view=view))
-        write(picture, {**studio.about(), "time": f"{time:.6g}"})
+        place = studio.camera(None) if camera is None else replace(camera, view=view)
+        write(studio.picture(place), {**about(studio.prairie, take), "camera": written(place)})

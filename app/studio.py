@@ -1,5 +1,6 @@
 """A prairie before a camera, without a window: what stills and films are made with."""
 
+import math
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -48,11 +49,19 @@ class Studio:
             return draw_reference(self.prairie, view, projection, self.take.size)
         return self._offscreen.read()
 
-    def about(self) -> dict[str, str]:
-        """Return what a file says of how it was made."""
-        return {
-            "Software": f"tallgrass {__version__}",
-            "version": __version__,
-            "scene": Path(self.take.scene).stem,
-            "seed": str(self.prairie.scene.seed),
-        }
+
+def about(prairie: Prairie, take: Take) -> dict[str, str]:
+    """Return what a file says of how it was made."""
+    return {
+        "Software": f"tallgrass {__version__}",
+        "version": __version__,
+        "scene": Path(take.scene).stem,
+        "seed": str(prairie.scene.seed),
+        "time": f"{prairie.time:.6g}",
+    }
+
+
+def written(camera: Camera) -> str:
+    """Return a camera as `tallgrass shot --camera` takes it."""
+    looks = (*camera.position, math.degrees(camera.yaw), math.degrees(camera.pitch))
+    return ",".join(f"{number:.6g}" for number in looks)

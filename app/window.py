@@ -1,0 +1,286 @@
+"""A window to walk through a prairie in."""
+
+from collections import deque
+from itertools import count
+from math import radians
+from pathlib import Path
+from statistics import median
+
+import moderngl
+import numpy as np
+import pyglet
+from numpy.typing import NDArray
+from pyglet.window import key
+
+from ..components.camera import Camera
+from ..engine.camera import camera_at, projection_matrix, view_matrix
+from ..engine.scene import SceneError
+from ..engine.terrain.errors import MapError
+from ..systems.prairie import Prairie
+from .display import no_window
+from .encode import picture_writer
+from .errors import InputError, MachineError
+from .offscreen import Offscreen
+from .overlay import HELP, Note, statistics_lines
+from .progress import busy
+from .studio import about, written
+from .take import Take
+from .walker import Ground, Move, moved, settled, start, toggled, turned
+
+Floats = NDArray[np.float32]
+
+MOVES: dict[int, Move] = {
+    key.W: "ahead", key.UP: "ahead", key.S: "back", key.DOWN: "back",
+    key.A: "left", key.LEFT: "left", key.D: "right", key.RIGHT: "right",
+    key.E: "up", key.Q: "down", key.LSHIFT: "run", key.RSHIFT: "run",
+}  # fmt: skip
+"""What a held key asks for."""
+
+SENSITIVITY = 0.0022
+"""How far the look turns for a pixel of the mouse [rad]."""
+
+LONGEST_STEP = 0.1
+"""Longest step of a frame [s]: after the whole program was held up, the prairie goes on and does not leap."""
+
+RATE = 120
+"""Most frames per second, where the display does not set the pace."""
+
+PATIENCE = 6.0
+"""How long a message stands [s]."""
+
+
+def walk_in(take: Take, /, *, fullscreen: bool = False, seconds: float | None = None) -> None:
+    """Open a window on a scene and return when it is closed: by the user, or after `seconds` by itself.
+
+    Raises `SceneError` where the scene is wrong, MachineError where no window can be opened.
+    """
+    with busy("growing the prairie"):
+        prairie = Prairie.load(take.scene, preset=take.preset)
+    Walk(open_window(take.size, fullscreen=fullscreen), prairie, take).run(seconds)
+
+
+def open_window(size: tuple[int, int], /, *, fullscreen: bool = False) -> pyglet.window.Window:
+    """Return a new window of this size [pixels]; raises MachineError with a sentence where there can be none."""
+    try:
+        if fullscreen:
+            return pyglet.window.Window(caption="tallgrass", fullscreen=True)
+        return pyglet.window.Window(*size, caption="tallgrass", resizable=True)
+    except Exception as error:  # pyglet's backends share no narrower one
+        raise MachineError(no_window(error)) from error
+
+
+class Walk:
+    """A prairie in a window, and the viewer in it: an object of pyglet's events.
+
+    It owns the window and the prairie, and gives both back when the window closes.
+    """
+
+    def __init__(self, window: pyglet.window.Window, prairie: Prairie, take: Take) -> None:
+        self.window = window
+        self.prairie = prairie
+        self.take = take
+        self.ctx = moderngl.create_context(require=330)
+        self.walker = start(camera_at(prairie.scene.camera, None, prairie.height_at), self.ground)
+        self.paused = False
+        self.captured = False
+        self.helping = False
+        self.counting = False
+        self.leaving = False
+        self.closed = False
+        self._held: set[int] = set()
+        self._frames: deque[float] = deque(maxlen=60)
+        self._age = 0.0
+        self._told = 0.0
+        self._top, self._bottom = Note(top=True), Note(top=False)
+        self.tell(["F1 shows the keys"])
+        window.push_handlers(self)
+
+    @property
+    def ground(self) -> Ground:
+        """The ground of the prairie that is walked in."""
+        return Ground(self.prairie.height_at, self.prairie.field.terrain.size)
+
+    @property
+    def camera(self) -> Camera:
+        """The camera of this instant."""
+        return self.walker.camera(radians(self.prairie.scene.camera.view))
+
+    def run(self, seconds: float | None = None) -> None:
+        """Walk until the window closes: by the user, or after `seconds`."""
+        pyglet.clock.schedule_interval(self.frame, 1.0 / RATE)
+        if seconds is not None:
+            pyglet.clock.schedule_once(self._time_is_up, seconds)
+        try:
+            pyglet.app.run(interval=None)
+        finally:
+            self.close()
+
+    def frame(self, dt: float) -> None:
+        """Move everything on by `dt` [s] and draw the window once, or close it where that was asked for."""
+        if self.leaving:
+            self.close()
+        else:
+            self.step(dt)
+            self.window.draw(dt)
+
+    def step(self, dt: float) -> None:
+        """Move the viewer, and the prairie unless it is paused, on by `dt` [s]; at most by `LONGEST_STEP`."""
+        self._frames.append(1000.0 * dt)
+        self._age += dt
+        step = min(dt, LONGEST_STEP)
+        self.walker = moved(self.walker, {MOVES[symbol] for symbol in self._held}, step, self.ground)
+        if not self.paused:
+            self.prairie.advance(step)
+
+    def tell(self, lines: list[str]) -> None:
+        """Show a message for a while."""
+        self._told = self._age
+        self._bottom.write(lines)
+
+    def reload(self) -> None:
+        """Read the scene again at the same time and place; a broken one is told of, and the old one stays."""
+        try:
+            fresh = Prairie.load(self.take.scene, preset=self.take.preset)
+        except (SceneError, MapError) as error:
+            self.tell(str(error).splitlines())
+            return
+        fresh.advance(self.prairie.time)
+        self.prairie.release()
+        self.prairie = fresh
+        self.walker = settled(self.walker, self.ground)
+        self.tell([f"{self.take.scene} is read again"])
+
+    def escape(self) -> None:
+        """Let the mouse go, or else leave."""
+        if self.captured:
+            self._capture(caught=False)
+        else:
+            self.leaving = True
+
+    def pause(self) -> None:
+        """Stop the prairie's time, or start it again."""
+        self.paused = not self.paused
+
+    def fly(self) -> None:
+        """Take off, or land."""
+        self.walker = toggled(self.walker)
+
+    def show_help(self) -> None:
+        """Show the keys, or hide them."""
+        self.helping = not self.helping
+
+    def show_statistics(self) -> None:
+        """Show what a frame takes, or hide it."""
+        self.counting = not self.counting
+
+    def save_picture(self) -> None:
+        """Write what is seen, without the overlays, as the next numbered PNG in the working folder."""
+        name = _free_name(Path(self.take.scene).stem)
+        with Offscreen(self.window.get_framebuffer_size(), self.ctx) as offscreen:
+            offscreen.begin()
+            self._draw_prairie(offscreen.size)
+            picture = offscreen.read()
+        try:
+            picture_writer(name)(picture, {**about(self.prairie, self.take), "camera": written(self.camera)})
+            self.tell([f"{name} is written"])
+        except (InputError, OSError) as error:
+            self.tell([str(error)])
+
+    def close(self) -> None:
+        """Give back the prairie and the window; a second time does nothing."""
+        if self.closed:
+            return
+        self.leaving = self.closed = True
+        pyglet.clock.unschedule(self.frame)
+        pyglet.clock.unschedule(self._time_is_up)
+        self.window.switch_to()
+        self.prairie.release()
+        self._top.release()
+        self._bottom.release()
+        self.window.close()
+
+    def on_draw(self) -> None:
+        """Draw the prairie, then the overlays."""
+        self.window.clear()
+        self._draw_prairie(self.window.get_framebuffer_size())
+        self._write_notes()
+        for note in (self._top, self._bottom):
+            note.draw(*self.window.get_size())
+
+    def on_key_press(self, symbol: int, modifiers: int) -> bool:
+        """Hold a key down, or do what it stands for; always handled, so that Escape is ours."""
+        del modifiers
+        if symbol in MOVES:
+            self._held.add(symbol)
+        elif symbol in _ACTIONS:
+            _ACTIONS[symbol](self)
+        return pyglet.event.EVENT_HANDLED
+
+    def on_key_release(self, symbol: int, modifiers: int) -> None:
+        """Let a key go."""
+        del modifiers
+        self._held.discard(symbol)
+
+    def on_mouse_press(self, x: int, y: int, button: int, modifiers: int) -> None:
+        """Catch the mouse."""
+        del x, y, button, modifiers
+        self._capture(caught=True)
+
+    def on_mouse_motion(self, x: int, y: int, dx: int, dy: int) -> None:
+        """Look around."""
+        del x, y
+        if self.captured:
+            self.walker = turned(self.walker, right=dx * SENSITIVITY, up=dy * SENSITIVITY)
+
+    def on_mouse_drag(self, x: int, y: int, dx: int, dy: int, buttons: int, modifiers: int) -> None:
+        """Look around with a button held as well."""
+        del buttons, modifiers
+        self.on_mouse_motion(x, y, dx, dy)
+
+    def on_deactivate(self) -> None:
+        """Let go of everything when another window takes over."""
+        self._held.clear()
+        self._capture(caught=False)
+
+    def on_close(self) -> bool:
+        """Leave: the window closes with the next frame, when no event of its own is under way."""
+        self.leaving = True
+        return pyglet.event.EVENT_HANDLED
+
+    def _time_is_up(self, dt: float) -> None:
+        del dt
+        self.leaving = True
+
+    def _capture(self, *, caught: bool) -> None:
+        self.captured = caught
+        self.window.set_exclusive_mouse(caught)
+
+    def _draw_prairie(self, size: tuple[int, int]) -> None:
+        camera = self.camera
+        aspect = size[0] / max(1, size[1])
+        self.prairie.draw(view_matrix(camera), projection_matrix(camera.view, aspect))
+
+    def _write_notes(self) -> None:
+        lines: list[str] = list(HELP) if self.helping else []
+        if self.counting:
+            frame_ms = median(self._frames) if self._frames else 0.0
+            lines += [""] * bool(lines)
+            lines += statistics_lines(self.prairie.statistics, frame_ms=frame_ms, time=self.prairie.time)
+        self._top.write(lines)
+        if self._age - self._told > PATIENCE:
+            self._bottom.write([])
+
+
+_ACTIONS = {
+    key.ESCAPE: Walk.escape,
+    key.SPACE: Walk.pause,
+    key.F: Walk.fly,
+    key.F1: Walk.show_help,
+    key.F3: Walk.show_statistics,
+    key.F5: Walk.reload,
+    key.F12: Walk.save_picture,
+}
+
+
+def _free_name(stem: str) -> str:
+    return next(name for k in count(1) if not Path(name := f"tallgrass-{stem}-{k:03d}.png").exists())
