@@ -93,6 +93,9 @@ class StripPool:
     present: NDArray[np.bool_]
     """Whether the kind grows on the patch at all, shape (side * side, kinds)."""
 
+    least: Floats
+    """Density at each slot's thinnest edge, of the kinds that grow there at all, shape (side * side,)."""
+
     stamp: NDArray[np.int32]
     """Cell (i, j) and orientation that each slot is planted for, shape (side * side, 3)."""
 
@@ -107,5 +110,6 @@ class StripPool:
             message=np.zeros((*shape, columns + 1, 2), np.float32),
             layer=np.zeros(shape, np.float32),
             present=np.zeros(shape[:2], np.bool_),
+            least=np.zeros(side * side, np.float32),
             stamp=np.full((side * side, 3), NOWHERE, np.int32),
         )

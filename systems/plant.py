@@ -101,6 +101,7 @@ def plant_strips(
     pool.stamp[slots, :2], pool.stamp[slots, 2] = cell, along
     corner = cell.astype(np.float32) * np.float32(ground.patch)
     columns = pool.ground.shape[-1] - 1
+    pool.least[slots] = 1.0
     for kind, strips in enumerate(rings):
         count = len(strips.plane)
         local, order = strip_edges(strips, columns, along, turn, patch=ground.patch)
@@ -110,7 +111,9 @@ def plant_strips(
         pool.ground[slots, kind] = height_at(ground.terrain, flat).reshape(place.shape[:-1])
         pool.layer[slots, kind] = first_layer[kind] + ((model * 2 + (along + turn) % 2) * count)[:, None] + order
         dense = density_at(ground.density, flat)[kind].reshape(len(slots), -1)
-        pool.present[slots, kind] = dense.max(axis=1) > PRESENT
+        grows = dense.max(axis=1) > PRESENT
+        pool.present[slots, kind] = grows
+        pool.least[slots] = np.where(grows, np.minimum(pool.least[slots], dense.min(axis=1)), pool.least[slots])
 
 
 def strips_along(cell: Ints, centre: Ints, /) -> Ints:

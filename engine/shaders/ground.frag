@@ -1,27 +1,21 @@
 #include "lib/light.glsl"
-#include "lib/terrain.glsl"
+
+in vec3 place;
+in vec3 soil_color;
+in float veiled;
+
+out vec4 pixel;
+
+#ifdef CARPET
 #include "lib/random.glsl"
+#include "lib/shares.glsl"
 
 uniform sampler2DArray images;  // place along the blade, height, normal, coverage; premultiplied
-uniform sampler2D shares;
-uniform ivec4 window;
 uniform float slopes[SLOPES];
 uniform vec4 first;             // by kind: first layer of the images
 uniform ivec2 stock;            // patch models; seed
 
-in vec3 place;
-in vec3 soil_color;
 in float carpet;
-
-out vec4 pixel;
-
-float share_here(ivec2 cell) {
-    ivec2 apart = abs(cell - window.xy);
-    if (max(apart.x, apart.y) > window.z)
-        return 1.0;
-    ivec2 side = textureSize(shares, 0);
-    return texelFetch(shares, (cell + 4096 * side) % side, 0).r;
-}
 
 vec2 spun(vec2 v, int turns) {
     return turns == 0 ? v : turns == 1 ? vec2(-v.y, v.x) : turns == 2 ? -v : vec2(v.y, -v.x);
@@ -70,11 +64,12 @@ vec3 carpet_light() {
     return sum.rgb + soil_color * (1.0 - min(sum.a, 1.0));
 }
 
+#endif
+
 void main() {
     vec3 color = soil_color;
-    if (carpet > 0.0) {
-        float share = share_here(ivec2(floor(place.xz / soil.w)));
-        color = mix(color, carpet_light(), share);
-    }
-    pixel = vec4(mix(color, haze.rgb, haze_at(place)), 1.0);
+#ifdef CARPET
+    color = mix(color, carpet_light(), carpet > 0.0 ? share_at(ivec2(floor(place.xz / soil.w))) : 0.0);
+#endif
+    pixel = vec4(mix(color, haze.rgb, veiled), 1.0);
 }

@@ -4,38 +4,44 @@ uniform sampler2DArray atlas;  // place along the blade, face normal x and z, co
 uniform sampler2DArray ranks;
 
 in vec2 at;
-in float h;
-in float rate;
-flat in float sheet;
-in vec3 foot_color;
-in vec3 rise_color;
-in vec3 veil;
+noperspective in float h;
+noperspective in float rate;
+noperspective in vec3 here;
+flat in vec3 foot_color;
+flat in vec3 rise_color;
 flat in vec3 grain_u;
 flat in vec3 grain_v;
+flat in float sheet;
+flat in float hidden;
 flat in float shown;
-in float grows;
+#ifdef THIN
+noperspective in float grows;
+#endif
 
 out vec4 pixel;
 
+#ifdef THIN
 // How much of a texel stays where its kind grows thinly: its blades above the density go, sharply where the texel is
 // one blade, in proportion where it is the mean of many.
-float thinned(float level) {
+float thinned() {
+    vec2 step = fwidth(at) * vec2(textureSize(ranks, 0).xy);
+    float soft = clamp(0.35 * log2(max(max(step.x, step.y), 1.0)), 0.06, 1.0);
     float rank = texture(ranks, vec3(at, sheet)).r;
-    float soft = clamp(level * 0.35, 0.06, 1.0);
-    return clamp((grows - rank) / soft + 0.5, 0.0, 1.0);
+    return grows > 0.995 ? 1.0 : clamp((grows - rank) / soft + 0.5, 0.0, 1.0);
 }
+#endif
 
 void main() {
     vec4 texel = texture(atlas, vec3(at, sheet));
     if (texel.a < 0.008)
         discard;
     vec2 normal = 2.0 * texel.gb / texel.a - 1.0;
-    vec3 grass = foot_color * texel.a + rise_color * texel.r;
+    vec3 grass = (foot_color * texel.a + rise_color * texel.r) * here;
     grass *= (1.0 + grain_u * normal.x + grain_v * normal.y) * canopy(h, rate);
+#ifdef THIN
+    float stays = shown * thinned();
+#else
     float stays = shown;
-    if (grows < 0.995) {
-        vec2 step = fwidth(at) * vec2(textureSize(ranks, 0).xy);
-        stays *= thinned(max(log2(max(step.x, step.y)), 0.0));
-    }
-    pixel = vec4(grass + veil * texel.a, texel.a) * stays;
+#endif
+    pixel = vec4(mix(grass, haze.rgb * texel.a, hidden), texel.a) * stays;
 }

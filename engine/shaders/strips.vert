@@ -15,16 +15,19 @@ uniform vec4 tall;  // by kind: height of the strips [m]
 uniform float top;  // height of the texture [m]
 
 out vec2 at;
-out float h;
-out float rate;
-flat out float sheet;
-out vec3 foot_color;
-out vec3 rise_color;
-out vec3 veil;
+noperspective out float h;
+noperspective out float rate;
+noperspective out vec3 here;
+flat out vec3 foot_color;
+flat out vec3 rise_color;
 flat out vec3 grain_u;
 flat out vec3 grain_v;
+flat out float sheet;
+flat out float hidden;
 flat out float shown;
-out float grows;
+#ifdef THIN
+noperspective out float grows;
+#endif
 
 void main() {
     float t = float(gl_VertexID / 2) / float(SECTIONS);
@@ -38,15 +41,16 @@ void main() {
     sheet = layer;
     h = spine.y / root[k].w;
     rate = lift(message, foot);
-    vec3 here = place_tone(foot.xz);
-    float hidden = haze_at(foot);
-    foot_color = root[k].rgb * here * (1.0 - hidden);
-    rise_color = (tip[k].rgb - root[k].rgb) * here * (1.0 - hidden);
-    veil = haze.rgb * hidden;
+    here = place_tone(foot.xz);
+    hidden = haze_at(foot);
+    foot_color = root[k].rgb;
+    rise_color = tip[k].rgb - root[k].rgb;
     float c = turn == 0.0 ? 1.0 : turn == 2.0 ? -1.0 : 0.0;
     float s = turn == 1.0 ? 1.0 : turn == 3.0 ? -1.0 : 0.0;
     grain_u = c * grain_x[k].rgb + s * grain_z[k].rgb;
     grain_v = c * grain_z[k].rgb - s * grain_x[k].rgb;
     shown = fade;
+#ifdef THIN
     grows = textureLod(density, on_map(foot.xz), 0.0)[k];
+#endif
 }

@@ -5,14 +5,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.receivers import BLADE
-from ...engine.gl.shaders import program
 from ...engine.gl.stream import Stream
-from .frame import FrameBlock
+from .frame import FrameBlock, joined
 
 MOVED = np.dtype([("message", "2f4"), ("fade", "f4")])
 """What changes each frame about a blade: its receiver's message, and how much it shows."""
 
-ROUND = 0.35
+ROUND = "0.35"
 """How far the face normal turns towards a blade's edges, as if it were rounded."""
 
 SHADER_BLADE = np.dtype([(name if name != "root" else "root_at", BLADE[name]) for name in BLADE.names or ()])
@@ -24,15 +23,12 @@ class BladePainter:
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, segments: int, units: dict[str, int]) -> None:
         self.segments = segments
-        self.program = program(ctx, "blades.vert", "blades.frag", defines={"SEGMENTS": segments, "ROUND": ROUND})
-        block.join(self.program)
-        for name, unit in units.items():
-            if name in self.program:
-                self.program[name] = unit
+        defines = {"SEGMENTS": segments, "ROUND": ROUND}
+        self.program = joined(ctx, block, units, "blades.vert", "blades.frag", defines)
         self.blades = Stream(ctx, SHADER_BLADE)
         self.moved = Stream(ctx, MOVED)
         self.array = ctx.vertex_array(
-            self.program, [self.blades.binding(self.program), self.moved.binding(self.program)], skip_errors=False
+            self.program, [self.blades.binding(self.program), self.moved.binding(self.program)]
         )
 
     def write(self, blades: NDArray[np.void], message: NDArray[np.float32], fade: NDArray[np.float32]) -> None:

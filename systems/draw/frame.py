@@ -1,5 +1,6 @@
 """What every program knows of a frame, in one uniform block."""
 
+from collections.abc import Mapping
 from math import cos, radians
 
 import moderngl
@@ -10,6 +11,7 @@ from ...components.camera import View
 from ...components.growth import Growth
 from ...components.scene import Scene
 from ...components.terrain import Terrain
+from ...engine.gl.shaders import program
 from ..cull import camera_of
 from .light import daylight, display, grain, linear, lit_kind, to_sun
 
@@ -88,3 +90,15 @@ class FrameBlock:
     def release(self) -> None:
         """Give the buffer back."""
         self.buffer.release()
+
+
+def joined(
+    ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], vertex: str, fragment: str, defines: Mapping[str, str | int]
+) -> moderngl.Program:
+    """Return a program that knows where the block and the textures are; `units` gives each sampler its unit."""
+    made = program(ctx, vertex, fragment, defines=defines)
+    block.join(made)
+    for name, unit in units.items():
+        if name in made:
+            made[name] = unit
+    return made

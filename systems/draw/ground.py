@@ -6,10 +6,9 @@ from numpy.typing import NDArray
 
 from ...components.growth import Growth
 from ...components.terrain import Terrain
-from ...engine.gl.shaders import program
 from ...engine.gl.stream import Stream
 from ..cull import inside_cone
-from .frame import FrameBlock
+from .frame import FrameBlock, joined
 
 TILE = np.dtype([("tile", "4f4")])
 GRID = 8
@@ -47,6 +46,14 @@ def ground_tiles(
     return tiles
 
 
+def within(tiles: NDArray[np.void], centre: NDArray[np.int32], /, *, patch: float, reach: int) -> NDArray[np.bool_]:
+    """Return which tiles (n,) lie wholly within the discrete distance `reach` of the viewer's cell, shape (n,)."""
+    low, high = (centre - reach) * patch, (centre + reach + 1) * patch
+    corner, side = tiles["tile"][:, :2], tiles["tile"][:, 2:3] * GRID
+    inside: NDArray[np.bool_] = ((corner >= low - 1e-3) & (corner + side <= high + 1e-3)).all(axis=1)
+    return inside
+
+
 def _nearest(corners: NDArray[np.float64], side: float, eye: tuple[float, float, float]) -> NDArray[np.float64]:
     here = np.array([eye[0], eye[2]])
     away: NDArray[np.float64] = np.linalg.norm(here - np.clip(here, corners, corners + side), axis=1)
@@ -78,41 +85,47 @@ class GroundPainter:
     ) -> None:
         carpets = [growth.models[0].carpet for growth in growths]
         slopes = carpets[0].slope
-        self.program = program(
-            ctx, "ground.vert", "ground.frag", defines={"SLOPES": len(slopes), "KINDS": len(growths)}
-        )
-        block.join(self.program)
-        for name, unit in units.items():
-            if name in self.program:
-                self.program[name] = unit
         images = [len(growth.models) * len(slopes) * 4 for growth in growths]
-        self.program["slopes"] = slopes.tolist()
-        self.program["first"] = tuple([sum(images[:index]) for index in range(len(images))] + [0] * (4 - len(images)))
-        self.program["stock"] = (len(growths[0].models), seed)
-        self.program["raised"] = float(np.mean([carpet.offset for carpet in carpets]))
+        defines = {"CARPET": 1, "SLOPES": len(slopes), "KINDS": len(growths)}
+        self.bare = joined(ctx, block, units, "ground.vert", "ground.frag", {})
+        self.laid = joined(ctx, block, units, "ground.vert", "ground.frag", defines)
+        self.laid["slopes"] = slopes.tolist()
+        self.laid["first"] = tuple([sum(images[:index]) for index in range(len(images))] + [0] * (4 - len(images)))
+        self.laid["stock"] = (len(growths[0].models), seed)
+        self.laid["raised"] = float(np.mean([carpet.offset for carpet in carpets]))
         self.shares = ctx.texture((side, side), 1, alignment=1)
         self.shares.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self.unit = units["shares"]
         corners, indices = _grid()
         self.corners, self.indices = ctx.buffer(corners), ctx.buffer(indices)
-        self.stream = Stream(ctx, TILE)
-        self.array = ctx.vertex_array(
-            self.program, [(self.corners, "2f", "corner"), self.stream.binding(self.program)], index_buffer=self.indices
-        )
+        self.parts = [(made, Stream(ctx, TILE)) for made in (self.bare, self.laid)]
+        self.arrays = [
+            ctx.vertex_array(made, [(self.corners, "2f", "corner"), stream.binding(made)], index_buffer=self.indices)
+            for made, stream in self.parts
+        ]
 
-    def write(self, tiles: NDArray[np.void], shares: NDArray[np.float32], centre: NDArray[np.int32], *, carpet: bool) -> None:
-        """Send the tiles, and how much the carpet shows on each row of the patch table (rows,)."""
-        self.stream.write(tiles)
+    def write(self, tiles: NDArray[np.void], laid: NDArray[np.bool_]) -> None:
+        """Send the tiles (n,), and on which of them carpet may lie."""
+        for (_, stream), chosen in zip(self.parts, (~laid, laid), strict=True):
+            stream.write(tiles[chosen])
+
+    def write_shares(self, shares: NDArray[np.float32], centre: NDArray[np.int32]) -> None:
+        """Send how much the carpet shows on each row of the patch table (rows,) around the viewer's cell."""
         self.shares.write(np.round(shares * 255.0).astype(np.uint8))
-        self.program["window"] = (int(centre[0]), int(centre[1]), self.shares.width // 2, int(carpet))
+        self.laid["window"] = (int(centre[0]), int(centre[1]), self.shares.width // 2)
 
     def draw(self) -> int:
         """Draw what was written; return the number of draw calls."""
         self.shares.use(self.unit)
-        self.array.render(moderngl.TRIANGLES, instances=self.stream.count)
-        return 1
+        calls = 0
+        for array, (_, stream) in zip(self.arrays, self.parts, strict=True):
+            if stream.count:
+                array.render(moderngl.TRIANGLES, instances=stream.count)
+                calls += 1
+        return calls
 
     def release(self) -> None:
         """Give everything back."""
-        for thing in (self.array, self.program, self.stream, self.corners, self.indices, self.shares):
+        streams = [stream for _, stream in self.parts]
+        for thing in (*self.arrays, self.bare, self.laid, *streams, self.corners, self.indices, self.shares):
             thing.release()

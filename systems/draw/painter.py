@@ -16,7 +16,7 @@ from ..lod import weights
 from ..receive import Shown
 from .blades import BladePainter
 from .frame import FrameBlock, aim, frame_record
-from .ground import GroundPainter, ground_tiles
+from .ground import GroundPainter, ground_tiles, within
 from .strips import StripPainter
 from .textures import (
     carpet_texture,
@@ -82,13 +82,16 @@ class Painter:
         """Send the strips that are seen."""
         field = self.field
         for pool, ring, painter in zip(field.strips, shown, self.strips, strict=True):
-            painter.write(gather_strips(pool, ring, field.table, field.sight.centre))
+            thin = bool((pool.least[ring.slots] < 0.995).any())
+            painter.write(gather_strips(pool, ring, field.table, field.sight.centre), thin=thin)
 
     def write_ground(self, *, carpet: bool) -> None:
         """Send the tiles of the ground, and where the carpet lies on it."""
         field, sight = self.field, self.field.sight
         tiles = ground_tiles(field.terrain, sight.eye, sight.cone, spacing=field.quality.patch / 2)
-        self.ground.write(tiles, weights(field.table)[Representation.CARPET], sight.centre, carpet=carpet)
+        near = within(tiles, sight.centre, patch=field.quality.patch, reach=max(field.reach[1], 0))
+        self.ground.write(tiles, ~near if carpet else np.zeros_like(near))
+        self.ground.write_shares(weights(field.table)[Representation.CARPET], sight.centre)
 
     def draw(self, view: View, *, time: float, blades: Iterable[BladePainter] | None = None) -> None:
         """Draw the frame into the framebuffer that the host has bound.
@@ -102,10 +105,10 @@ class Painter:
             for name, texture in self.textures.items():
                 texture.use(UNITS[name])
             ctx.enable_only(moderngl.DEPTH_TEST)
+            self.draw_calls = 1 + self.ground.draw()
             target.depth_mask = False
             self.sky_array.render(moderngl.TRIANGLES, vertices=3)
             target.depth_mask = True
-            self.draw_calls = 1 + self.ground.draw()
             if blades is None:
                 self._draw_grass(target)
             else:

@@ -6,9 +6,8 @@ from numpy.typing import NDArray
 
 from ...components.growth import Strips
 from ...components.quality import StripRing
-from ...engine.gl.shaders import program
 from ...engine.gl.stream import Stream
-from .frame import FrameBlock
+from .frame import FrameBlock, joined
 from .textures import strip_textures
 
 STRIP = np.dtype(
@@ -35,26 +34,22 @@ class StripPainter:
     ) -> None:
         self.sections = ring.sections
         self.units = units
-        self.program = program(ctx, "strips.vert", "strips.frag", defines={"SECTIONS": ring.sections})
-        block.join(self.program)
-        for name, unit in units.items():
-            if name in self.program:
-                self.program[name] = unit
         self.atlas, self.ranks = strip_textures(ctx, stock)
-        heights = [models[0].height for models in stock]
-        self.program["tall"] = tuple(heights + [0.0] * (4 - len(heights)))
-        self.program["top"] = self._top(stock)
         self.stream = Stream(ctx, STRIP)
-        self.array = ctx.vertex_array(self.program, [self.stream.binding(self.program)])
-
-    @staticmethod
-    def _top(stock: list[list[Strips]]) -> float:
+        heights = [models[0].height for models in stock]
         tallest = max((models[0] for models in stock), key=lambda strips: strips.texels.shape[2])
-        return tallest.height
+        whole, thin = {"SECTIONS": ring.sections}, {"SECTIONS": ring.sections, "THIN": 1}
+        self.programs = [joined(ctx, block, units, "strips.vert", "strips.frag", defines) for defines in (whole, thin)]
+        for made in self.programs:
+            made["tall"] = tuple(heights + [0.0] * (4 - len(heights)))
+            made["top"] = tallest.height
+        self.arrays = [ctx.vertex_array(made, [self.stream.binding(made)]) for made in self.programs]
+        self.thin = False
 
-    def write(self, strips: NDArray[np.void]) -> None:
-        """Send the ring's polygon strips (n,), far to near."""
+    def write(self, strips: NDArray[np.void], *, thin: bool) -> None:
+        """Send the ring's polygon strips (n,), far to near; `thin` says that a kind grows thinly on some of them."""
         self.stream.write(strips)
+        self.thin = thin
 
     def draw(self) -> int:
         """Draw what was written; return the number of draw calls."""
@@ -62,10 +57,10 @@ class StripPainter:
             return 0
         self.atlas.use(self.units["atlas"])
         self.ranks.use(self.units["ranks"])
-        self.array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.sections + 2, instances=self.stream.count)
+        self.arrays[self.thin].render(moderngl.TRIANGLE_STRIP, vertices=2 * self.sections + 2, instances=self.stream.count)
         return 1
 
     def release(self) -> None:
         """Give everything back."""
-        for thing in (self.array, self.program, self.stream, self.atlas, self.ranks):
+        for thing in (*self.arrays, *self.programs, self.stream, self.atlas, self.ranks):
             thing.release()
