@@ -1,6 +1,6 @@
 """Checking scene files, their maps included."""
 
-from ..engine.scene import SceneError, load_maps, read_scene
+from ..engine.scene import SceneError, load_maps, printable, read_scene
 
 
 def check(scenes: list[str]) -> int:
@@ -16,5 +16,5 @@ def check(scenes: list[str]) -> int:
             print(error)
             status = 2
         else:
-            print(f"{scene}: ok")
+            print(f"{printable(scene)}: ok")
     return status

@@ -1,7 +1,16 @@
 """Reading scene files: YAML with positions, problems with carets."""
 
 from .maps import load_maps
-from .problem import Problem, SceneError
+from .problem import Problem, SceneError, printable
 from .read import LoadedScene, bundled_scenes, parse_scene, read_scene
 
-__all__ = ["LoadedScene", "Problem", "SceneError", "bundled_scenes", "load_maps", "parse_scene", "read_scene"]
+__all__ = [
+    "LoadedScene",
+    "Problem",
+    "SceneError",
+    "bundled_scenes",
+    "load_maps",
+    "parse_scene",
+    "printable",
+    "read_scene",
+]

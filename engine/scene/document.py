@@ -65,9 +65,8 @@ class Document:
 
 
 def problem_at(file: str, lines: list[str], line: int, column: int, message: str) -> Problem:
-    """Return a problem at a place counted from 0; its message becomes one line of printable characters."""
+    """Return a problem at a place counted from 0; its message becomes one line of a sensible length."""
     text = " ".join(message.split())
-    text = "".join(character if character.isprintable() else "\N{REPLACEMENT CHARACTER}" for character in text)
     if len(text) > _LONGEST:
         text = text[:_LONGEST] + "..."
     return Problem(file, line + 1, column + 1, text, lines[line] if line < len(lines) else "")

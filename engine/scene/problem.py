@@ -1,7 +1,10 @@
 """Problems of scene files: where, what, and the line itself."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+MOST_PROBLEMS = 200
+"""Most problems told of one file."""
 
 _WIDEST = 120
 
@@ -26,7 +29,7 @@ class Problem:
     """The line as it stands in the file; empty where there is none to show."""
 
     def __str__(self) -> str:
-        head = f"{self.file}:{self.line}:{self.column}: {self.message}"
+        head = f"{printable(self.file)}:{self.line}:{self.column}: {printable(self.message)}"
         if not self.source_line:
             return head
         start = max(0, self.column - _WIDEST) and self.column - 1 - _WIDEST // 2
@@ -36,9 +39,23 @@ class Problem:
         return f"{head}\n    {shown}\n    {pad}^"
 
 
-class SceneError(ValueError):
-    """A scene cannot be read; `problems` holds every problem found, in the order of the file."""
+def printable(text: str, /) -> str:
+    """Return a text with a mark for each character that cannot be printed on one line."""
+    return "".join(character if character.isprintable() else "\N{REPLACEMENT CHARACTER}" for character in text)
 
-    def __init__(self, problems: Iterable[Problem]) -> None:
-        self.problems = sorted(problems, key=lambda problem: (problem.line, problem.column))
+
+class SceneError(ValueError):
+    """A scene cannot be read; `problems` holds every problem found, in the order of the file.
+
+    Of very many problems it holds the first `MOST_PROBLEMS`, and one that counts the rest; `more` is how many
+    there are beside those given.
+    """
+
+    def __init__(self, problems: Iterable[Problem], *, more: int = 0) -> None:
+        ordered = sorted(problems, key=lambda problem: (problem.line, problem.column))
+        self.problems = ordered[:MOST_PROBLEMS]
+        more += len(ordered) - len(self.problems)
+        if more:
+            last = replace(self.problems[-1], message=f"and {more} more problems", source_line="")
+            self.problems.append(last)
         super().__init__("\n".join(map(str, self.problems)))

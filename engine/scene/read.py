@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 from importlib.resources import files
 from pathlib import Path
+from stat import S_ISDIR, S_ISREG
 
 from ... import scenes
 from ...components.scene import Scene
@@ -46,14 +47,8 @@ def read_scene(scene: str | Path, /) -> LoadedScene:
     """
     path = _path(scene)
     document = read_document(decode(_bytes(path), file=str(path)), file=str(path))
-    missing = list(_missing_files(document, path.parent))
-    try:
-        read = validate(document, find=wind_kinds().find)
-    except SceneError as error:
-        raise SceneError(error.problems + missing) from error
-    if missing:
-        raise SceneError(missing)
-    return LoadedScene(read, path, path.parent, document)
+    missing = _missing_files(document, path.parent)
+    return LoadedScene(validate(document, find=wind_kinds().find, also=missing), path, path.parent, document)
 
 
 def parse_scene(text: str, /, *, file: str = "<scene>") -> Scene:
@@ -68,13 +63,13 @@ def _path(scene: str | Path) -> Path:
     if is_name and text in bundled:
         return bundled[text]
     path = Path(scene)
-    if _is_file(path):
+    if S_ISREG(_mode(path)):
         return path
     if is_name:
         near = get_close_matches(text, bundled, n=1)
         guess = f"; did you mean '{near[0]}'?" if near else ";"
         raise _no_file(text, f"no scene file '{text}'{guess} bundled: {', '.join(bundled)}")
-    if path.is_dir():
+    if S_ISDIR(_mode(path)):
         raise _no_file(text, "this is a folder, not a scene file")
     raise _no_file(text, f"no scene file '{text}'{_guess(path)}")
 
@@ -93,7 +88,7 @@ def _bytes(path: Path) -> bytes:
 
 def _missing_files(document: Document, folder: Path) -> Iterator[Problem]:
     for where, name in _named_files(document.root.data):
-        if not _is_file(folder / name):
+        if not S_ISREG(_mode(folder / name)):
             message = f"no file '{name}' relative to the scene{_guess(folder / name)}"
             yield document.problem(where, message)
 
@@ -110,11 +105,12 @@ def _named_files(values: object) -> Iterator[tuple[Where, str]]:
                         yield ("grass", kind, "place", "map"), name
 
 
-def _is_file(path: Path) -> bool:
+def _mode(path: Path) -> int:
+    """Return what a path is, as `stat` tells it; 0 where there is nothing or where no file can be."""
     try:
-        return path.is_file()
-    except OSError:  # a name longer than the file system allows
-        return False
+        return path.stat().st_mode
+    except (OSError, ValueError):
+        return 0
 
 
 def _guess(path: Path) -> str:

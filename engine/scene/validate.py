@@ -1,6 +1,6 @@
 """From a scene file's values to its `Scene`, or to every problem they have."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any, TypeGuard
 
 from pydantic import ValidationError
@@ -10,25 +10,22 @@ from ...components.declaration import DeclarationError
 from ...components.scene import FORMAT, Reading, Scene
 from .document import Document, Where
 from .fields import FindKind, field_at
-from .problem import Problem, SceneError
+from .problem import MOST_PROBLEMS, Problem, SceneError
 from .version import FIRST, upgrade
 from .words import found, sentence
 
-MOST_PROBLEMS = 200
-"""Most problems told of one file; one more then says how many are left."""
 
-
-def validate(document: Document, /, *, find: FindKind) -> Scene:
-    """Return the scene of a file. Raises SceneError with every problem of the file."""
+def validate(document: Document, /, *, find: FindKind, also: Iterable[Problem] = ()) -> Scene:
+    """Return the scene of a file. Raises SceneError with every problem of the file, those in `also` among them."""
     if not isinstance(document.root.data, dict):
         message = f"{FIRST}, then its keys; this is {found(document.root.data)}"
         raise SceneError([*document.problems, document.problem((), message)])
-    problems = [*document.problems, *_of_version(document)]
+    problems = [*document.problems, *also, *_of_version(document)]
     values = _upgraded(document)
     try:
         scene = Scene.model_validate(values | {"tallgrass": FORMAT}, context=Reading(wind=find))
     except ValidationError as error:
-        raise SceneError(_all(document, problems, error.errors(include_url=False), find)) from error
+        raise _refusal(document, problems, error.errors(include_url=False), find) from error
     if problems:
         raise SceneError(problems)
     return scene
@@ -57,15 +54,11 @@ def _is_whole(version: object) -> TypeGuard[int]:
     return isinstance(version, int) and not isinstance(version, bool)
 
 
-def _all(document: Document, problems: list[Problem], errors: list[ErrorDetails], find: FindKind) -> list[Problem]:
+def _refusal(document: Document, problems: list[Problem], errors: list[ErrorDetails], find: FindKind) -> SceneError:
     told = {(problem.line, problem.column) for problem in document.problems}
     new = [_problem(document, error, find) for error in errors[:MOST_PROBLEMS]]
-    result = problems + [problem for problem in new if (problem.line, problem.column) not in told]
-    left = len(errors) - MOST_PROBLEMS
-    if left > 0:
-        last = Problem(document.file, len(document.lines), 1, f"and {left} more problems")
-        result.append(last)
-    return result
+    problems += [problem for problem in new if (problem.line, problem.column) not in told]
+    return SceneError(problems, more=len(errors[MOST_PROBLEMS:]))
 
 
 def _problem(document: Document, error: ErrorDetails, find: FindKind) -> Problem:

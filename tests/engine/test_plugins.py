@@ -166,4 +166,4 @@ def test_an_incomplete_class_is_refused_where_it_is_added() -> None:
         pass
 
     with pytest.raises(PluginError, match="the class for kind 'half' lacks action and mask"):
-        WindKinds([]).add("half", Half)
+        WindKinds([]).add("half", Half)  # type: ignore[type-abstract]

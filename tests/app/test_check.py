@@ -1,0 +1,60 @@
+"""The command that checks scene files."""
+
+from pathlib import Path
+
+import pytest
+
+from tallgrass.app.check import check
+
+GOOD = "tallgrass: 1\ngrass: { lawn: {} }\n"
+
+
+def test_what_is_right_is_called_ok_and_ends_with_0(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "lawn.yaml"
+    path.write_text(GOOD)
+    assert check([str(path), "plain"]) == 0
+    assert capsys.readouterr().out == f"{path}: ok\nplain: ok\n"
+
+
+def test_one_bad_scene_among_good_ones_ends_with_2(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    bad, good = tmp_path / "bad.yaml", tmp_path / "good.yaml"
+    bad.write_text(GOOD + "sed: 3\n")
+    good.write_text(GOOD)
+    assert check([str(bad), str(good)]) == 2
+    assert capsys.readouterr().out.splitlines() == [
+        f"{bad}:3:1: unknown key 'sed', did you mean 'seed'?",
+        "    sed: 3",
+        "    ^",
+        f"{good}: ok",
+    ]
+
+
+def test_a_name_that_cannot_be_printed_stops_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    good, bad = tmp_path / "a\udcff\n.yaml", tmp_path / "b\udcff\n.yaml"
+    good.write_text(GOOD)
+    assert check([str(good), str(bad)]) == 2
+    ok, *problem = capsys.readouterr().out.splitlines()
+    assert ok == f"{tmp_path}/a\ufffd\ufffd.yaml: ok"
+    assert len(problem) == 1
+
+
+@pytest.mark.parametrize(
+    ("scene", "told"),
+    [
+        ("medow", "no scene file 'medow'; did you mean 'meadow'? bundled: hills, meadow, plain"),
+        ("zzz", "no scene file 'zzz'; bundled: hills, meadow, plain"),
+        ("{folder}/medow.yaml", "no scene file '{folder}/medow.yaml', did you mean 'meadow.yaml'?"),
+        ("{folder}", "this is a folder, not a scene file"),
+        ("{folder}/latin.yaml", "byte 0xe9 is not UTF-8; save the file as UTF-8"),
+        ("{folder}/" + "a" * 300 + ".yaml", "no scene file"),
+    ],
+)
+def test_what_is_no_scene_file_is_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], scene: str, told: str
+) -> None:
+    (tmp_path / "meadow.yaml").write_text(GOOD)
+    (tmp_path / "latin.yaml").write_bytes(b"\xe9")
+    scene = scene.format(folder=tmp_path)
+    assert check([scene]) == 2
+    (line,) = capsys.readouterr().out.splitlines()
+    assert line.startswith(f"{scene}:1:1: {told.format(folder=tmp_path)}")
