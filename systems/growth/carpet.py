@@ -12,7 +12,7 @@ SLOPES = (0.02, 0.06, 0.2, 0.6, 2.0)
 """Tangents of the viewing elevations."""
 
 _SEGMENTS = 8
-_ACROSS = 8
+_SAMPLES_PER_WIDTH = 5.0
 _HEADINGS = np.array([[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]])
 
 
@@ -39,7 +39,8 @@ def grow_carpet(
     )
     centre = spine(blades, postures, (0.0, 0.0), points=_SEGMENTS + 1)
     height = canopy_height(centre, 0.01) if height is None else height
-    field = _Field(ribbon_triangles(left, right), segment_normals(blades, centre), patch, height, texels)
+    width = float(blades.width.mean())
+    field = _Field(ribbon_triangles(left, right), segment_normals(blades, centre), width, patch, height, texels)
     images = [[field.draw(heading, slope) for heading in _HEADINGS] for slope in slopes]
     return Carpet(
         slope=np.asarray(slopes, np.float32),
@@ -52,7 +53,10 @@ def grow_carpet(
 class _Field:
     """The triangles of a patch's blades, and how to draw the endless field that repeats them."""
 
-    def __init__(self, ribbons: Doubles, normals: Doubles, patch: float, height: float, texels: int, /) -> None:
+    def __init__(
+        self, ribbons: Doubles, normals: Doubles, width: float, patch: float, height: float, texels: int, /
+    ) -> None:
+        self._fine = int(np.clip(np.ceil(_SAMPLES_PER_WIDTH * patch / texels / width), 6, 64))
         self._ribbons, self._patch, self._height, self._texels = ribbons, patch, height, texels
         self._normals = np.repeat(normals.reshape(-1, 3), 2, axis=0)
         place = np.linspace(0.0, 1.0, _SEGMENTS + 1)
@@ -61,7 +65,7 @@ class _Field:
 
     def draw(self, heading: NDArray[np.float64], slope: float, /) -> Bytes:
         """Return one image, shape (texels, texels, 4): rows along z, columns along x."""
-        rows, columns = self._texels * _ACROSS, self._columns(slope)
+        rows, columns = self._texels * self._fine, self._columns(slope)
         ground = self._ribbons[:, :, ::2] + heading * ((self._ribbons[:, :, 1:2] - 0.5 * self._height) / slope)
         turned = heading[0] == 0.0
         along, across = (1, 0) if turned else (0, 1)

@@ -1,19 +1,18 @@
 """Postures and response of a kind of grass, taken from the simulation of its blades (paper, sections 3.2, 3.3)."""
 
-from dataclasses import replace
-
 import numpy as np
 
 from ...components.grass import GrassKind
 from ...components.growth import Postures
-from .simulate import LINKS, Chain, Doubles, build_chain, place_links, simulate
+from .simulate import LINKS, Chain, Doubles, build_chain, damp, lowest_swing, place_links, simulate
 
 NEAR_FLAT = np.radians(83.0)
 """Angle of the tip from the vertical at posture index 1 [rad]."""
 
+_GOLDEN = 0.618
 _CALM, _STORM = 0.02, 400.0
-_STEPS, _STEP = 1200, 0.05
-_HEAVY = 8.0
+_STEPS, _LONGEST_STEP, _ANGLE_STEP = 1200, 0.1, 0.15
+_HEAVY = 0.7
 
 
 def grow_postures(kind: GrassKind, /, *, variants: int = 4, rows: int = 129, seed: int = 0) -> Postures:
@@ -43,12 +42,13 @@ def bend_slowly(chain: Chain, /) -> tuple[Doubles, Doubles]:
     damped heavily, so that no blade swings on its way.
     """
     batch, links = chain.stiffness.shape
-    heavy = replace(chain, damping=chain.damping * _HEAVY)
+    heavy = damp(chain, ratio=_HEAVY)
+    step = min(_ANGLE_STEP / float(lowest_swing(chain)[0]), _LONGEST_STEP)
     scale = np.sqrt(chain.stiffness[:, 0] / (links * chain.area.sum()))
     wind = np.sqrt(np.geomspace(_CALM, _STORM, _STEPS))[:, None] * scale
     angle, rate = np.zeros((1, batch, links)), np.zeros((batch, links))
     for start in range(0, _STEPS, 100):
-        more, rate = simulate(heavy, angle[-1], rate, wind[start : start + 100], step=_STEP)
+        more, rate = simulate(heavy, angle[-1], rate, wind[start : start + 100], step=step)
         angle = np.concatenate([angle, more[1:]])
         if (angle[:, :, -1].max(axis=0) >= NEAR_FLAT).all():
             break
@@ -80,7 +80,7 @@ def _random_factors(variants: int, seed: int, /) -> Doubles:
     """Return stiffness factors of the joints, shape (variants, links): 1 in variant 0, random in the others."""
     random = np.random.default_rng([seed, 0x706F7374])
     along = np.linspace(-1.0, 1.0, LINKS)
-    slope = np.linspace(1.4, -1.4, variants)[:, None] + random.normal(0.0, 0.3, (variants, 1))
-    factors = np.exp(slope * along + random.normal(0.0, 0.5, (variants, LINKS)))
+    slope = 1.7 * (2.0 * (_GOLDEN * np.arange(variants)[:, None] % 1.0) - 1.0)
+    factors = np.exp(slope * along + random.normal(0.0, 0.55, (variants, LINKS)))
     factors[0] = 1.0
     return factors

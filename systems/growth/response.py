@@ -7,7 +7,7 @@ import numpy as np
 from ...components.grass import GrassKind
 from ...components.growth import Response
 from .postures import bend_slowly, chord_angle, flat_step
-from .simulate import LINKS, Chain, Doubles, build_chain, lowest_swing, simulate
+from .simulate import LINKS, Chain, Doubles, build_chain, damp, lowest_swing, simulate
 
 SAMPLES = 256
 
@@ -17,7 +17,7 @@ _FINAL = 0.55
 _REST = 0.01
 _CYCLES, _LONGEST = 4.0, 16.0
 _STEPS_PER_SWING = 240
-_HEAVY = 6.0
+_HEAVY = 0.7
 
 
 def grow_response(kind: GrassKind, /, *, samples: int = SAMPLES) -> Response:
@@ -48,9 +48,8 @@ def _bent(chain: Chain, angle: Doubles, wind: Doubles, step: float, /) -> tuple[
     """Return the blade at rest in a constant wind, shape (links,), and the wind's speed."""
     chord = np.maximum.accumulate(chord_angle(angle))
     number = int(np.argmax(chord >= _FINAL * chord[flat_step(angle)]))
-    heavy = replace(chain, damping=chain.damping * _HEAVY)
     steady = np.full((int(_STEPS_PER_SWING * _CYCLES), 1), wind[number])
-    settled, _ = simulate(heavy, angle[None, number], np.zeros((1, LINKS)), steady, step=step)
+    settled, _ = simulate(damp(chain, ratio=_HEAVY), angle[None, number], np.zeros((1, LINKS)), steady, step=step)
     return settled[-1, 0], float(wind[number])
 
 

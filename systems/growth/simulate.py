@@ -70,7 +70,12 @@ def build_chain(kind: GrassKind, factors: Doubles, /) -> Chain:
     profile /= _least_load(profile, mass)[:, None]
     stiffness = profile * (1.0 + _MARGIN * kind.stiffness * thickness**2)
     chain = Chain(mass, mass * _DRAG * length / density, stiffness, stiffness, float(np.sqrt(GRAVITY / length)))
-    return replace(chain, damping=stiffness * (2.0 * _DAMPING_RATIO * kind.damping / lowest_swing(chain))[:, None])
+    return damp(chain, ratio=_DAMPING_RATIO * kind.damping)
+
+
+def damp(chain: Chain, /, *, ratio: float) -> Chain:
+    """Return the chains with joints that give the slowest swing this share of critical damping."""
+    return replace(chain, damping=chain.stiffness * (2.0 * ratio / lowest_swing(chain))[:, None])
 
 
 def place_links(angle: Doubles, /) -> Doubles:

@@ -26,10 +26,11 @@ def grow_strips(
     """Return the strips of a patch model, drawn from its blades at rest.
 
     A strip shows the blades whose roots lie in its slice, along the slice's normal, the nearest to the side of
-    larger z (orientation 0) or x (orientation 1) in front. Face normals are the blades' own, whichever side is seen:
-    light is linear in them, so that the mean of many is right. The texture reaches from -`margin` to `patch` + `margin`, and from the ground to `height` [m] (without it, over the
-    highest tip); its texels are square but for rounding, `texel` metres wide at most. Where nothing is painted,
-    ranks are those of what is painted nearby, or else 255.
+    larger z (orientation 0) or x (orientation 1) in front. Face normals are the blades' own, whichever side is
+    seen: light is linear in them, so that the mean of many is right. The texture reaches from -`margin` to
+    `patch` + `margin`, and from the ground to `height` [m] (without it, over the highest tip); its texels are
+    square but for rounding, `texel` metres wide at most. Where nothing is painted, ranks are those of what is
+    painted nearby, or else 255.
     """
     centre = spine(blades, postures, (0.0, 0.0), points=postures.shape.shape[2])
     height = canopy_height(centre, texel) if height is None else height

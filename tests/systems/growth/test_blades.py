@@ -1,0 +1,94 @@
+"""The blades of a patch (paper, section 2.2)."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tallgrass.components.grass import GrassKind
+from tallgrass.systems.growth.blades import grow_blades
+
+PATCH = 2.5
+
+
+def meadow(seed=1, count=500, kind=None):
+    return grow_blades(kind or GrassKind(), count=count, patch=PATCH, variants=4, seed=seed)
+
+
+def fields(blades):
+    return [blades.root, blades.height, blades.width, blades.facing, blades.rest, blades.variant, blades.rank]
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.integers(1, 700), st.integers(0, 2**63 - 1), st.floats(0.0, 0.9), st.floats(0.5, 20.0), st.integers(1, 6))
+def test_g1_any_patch_has_its_blades_inside_and_within_the_kinds_limits(count, seed, lean, patch, variants):
+    kind = GrassKind(lean=lean)
+    blades = grow_blades(kind, count=count, patch=patch, variants=variants, seed=seed)
+    assert all(array.shape[0] == count and array.flags.c_contiguous for array in fields(blades))
+    assert all(array.dtype == np.float32 for array in fields(blades) if array is not blades.variant)
+    assert (blades.root >= 0.0).all()
+    assert (blades.root < np.float32(patch)).all()
+    assert (blades.height >= np.float32(0.4)).all()
+    assert (blades.height <= np.float32(0.7)).all()
+    assert np.linalg.norm(blades.rest, axis=1).max() <= lean + 1e-6
+    assert (blades.variant < variants).all()
+    assert (np.abs(blades.facing) <= np.float32(np.pi)).all()
+
+
+def test_g1_the_same_seed_is_the_same_patch_and_another_seed_another():
+    for one, two, other in zip(fields(meadow(3)), fields(meadow(3)), fields(meadow(4)), strict=True):
+        np.testing.assert_array_equal(one, two)
+        if one.size and one.ndim:
+            assert np.array_equal(one, other) == (one.shape == (500,) and np.array_equal(one, meadow(3).rank))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_blades_are_spread_evenly_at_every_density(seed):
+    blades = meadow(seed)
+    for kept in (500, 250, 100):
+        root = blades.root[blades.rank < kept / 500]
+        assert root.shape[0] == kept
+        for side in (3, 5):
+            cell = (root / PATCH * side).astype(int)
+            number = np.bincount(cell[:, 0] * side + cell[:, 1], minlength=side * side)
+            chance = kept / side**2
+            assert ((number - chance) ** 2 / chance).mean() < 0.8
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_neither_edges_nor_corners_of_a_patch_are_thin_or_crowded(seed):
+    root = np.concatenate([meadow(seed * 10 + number).root for number in range(10)])
+    rim = (np.minimum(root, PATCH - root).min(axis=1) < 0.125 * PATCH).mean()
+    assert rim == pytest.approx(1.0 - 0.75**2, abs=0.03)
+
+
+def test_ranks_are_a_permutation():
+    blades = meadow(count=320)
+    np.testing.assert_allclose(np.sort(blades.rank) * 320, np.arange(320), atol=1e-3)
+
+
+def test_neighbours_are_alike_in_height():
+    apart, near = [], []
+    for seed in range(6):
+        blades = meadow(seed)
+        away = blades.root[:, None] - blades.root[None]
+        distance = np.linalg.norm(away - PATCH * np.round(away / PATCH), axis=2)
+        difference = np.abs(blades.height[:, None] - blades.height[None])
+        near.append(difference[(distance < 0.15) & (distance > 0.0)].mean())
+        apart.append(difference[distance > 0.6].mean())
+    assert np.mean(near) < 0.97 * np.mean(apart)
+
+
+def test_heights_use_the_whole_range_and_lean_never_stops():
+    blades = meadow()
+    assert np.ptp(blades.height) > 0.25
+    lean = np.linalg.norm(blades.rest, axis=1)
+    assert lean.min() >= 0.05 - 1e-6
+    assert lean.max() > 0.28
+
+
+def test_lean_and_facing_point_everywhere():
+    blades = meadow()
+    for angle in (blades.facing, np.arctan2(blades.rest[:, 1], blades.rest[:, 0])):
+        assert abs(np.exp(1j * angle).mean()) < 0.15
+        assert np.histogram(angle, 8, (-np.pi, np.pi))[0].min() > 35

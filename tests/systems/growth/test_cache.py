@@ -1,0 +1,234 @@
+"""Growth kept on disk."""
+
+import io
+import os
+import sys
+from hashlib import blake2b
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from tallgrass.components.grass import GrassKind, Place
+from tallgrass.components.quality import BladeRing, Quality, StripRing
+from tallgrass.systems.growth import cache
+from tallgrass.systems.growth.archive import pack, unpack
+from tallgrass.systems.growth.cache import cache_folder, cached_growth, growth_key
+from tallgrass.systems.growth.models import grow
+
+KIND = GrassKind(width=0.03)
+SMALL = Quality(
+    patch=1.0,
+    blades=12,
+    models=1,
+    blade_rings=[BladeRing(to=1, segments=4)],
+    strip_rings=[StripRing(to=3, strips=2, texel=0.04)],
+    carpet_to=9,
+    carpet=8,
+)
+GROWN = grow(KIND, SMALL, seed=5)
+PACKED = pack(GROWN, key="key")
+
+
+@pytest.fixture
+def grows(monkeypatch):
+    """Count how often something is grown."""
+    calls = []
+
+    def count(kind, quality, /, *, seed):
+        calls.append((kind, quality, seed))
+        return GROWN
+
+    monkeypatch.setattr(cache, "grow", count)
+    return calls
+
+
+def stored(folder):
+    return [path for path in folder.iterdir() if path.is_file()]
+
+
+def same(one, two):
+    return pack(one, key="") == pack(two, key="")
+
+
+def test_what_was_grown_once_is_read_the_next_time(tmp_path, grows):
+    first = cached_growth(KIND, SMALL, seed=5, folder=tmp_path / "new" / "folder")
+    second = cached_growth(KIND, SMALL, seed=5, folder=tmp_path / "new" / "folder")
+    assert len(grows) == 1
+    assert first is GROWN
+    assert same(second, GROWN)
+    assert second.models[0].strips[0].height == GROWN.models[0].strips[0].height
+    assert [path.suffix for path in stored(tmp_path / "new" / "folder")] == [".growth"]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"height": [0.4, 0.71]},
+        {"width": 0.031},
+        {"stiffness": 1.1},
+        {"damping": 1.1},
+        {"lean": 0.31},
+        {"taper": 1.1},
+        {"blades": 13},
+    ],
+)
+def test_another_kind_is_grown_anew(change):
+    other = KIND.model_copy(update=change)
+    assert growth_key(other, SMALL, seed=5) != growth_key(KIND, SMALL, seed=5)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"patch": 1.5},
+        {"blades": 13},
+        {"models": 2},
+        {"carpet": 16},
+        {"strip_rings": [StripRing(to=3, strips=3, texel=0.04)]},
+        {"strip_rings": [StripRing(to=3, strips=2, texel=0.05)]},
+    ],
+)
+def test_another_quality_is_grown_anew(change):
+    other = SMALL.model_copy(update=change)
+    assert growth_key(KIND, other, seed=5) != growth_key(KIND, SMALL, seed=5)
+
+
+def test_another_seed_or_other_code_is_grown_anew(monkeypatch):
+    keys = {growth_key(KIND, SMALL, seed=seed) for seed in (5, 6)}
+    monkeypatch.setattr(cache, "_version", lambda: "other")
+    keys.add(growth_key(KIND, SMALL, seed=5))
+    assert len(keys) == 3
+
+
+def test_colours_places_and_ranges_need_no_growing():
+    kind = KIND.model_copy(update={"root": "#000000", "variety": 0.5, "segments": 3, "place": Place(map="a.png")})
+    quality = SMALL.model_copy(update={"carpet_to": 30, "blade_rings": [BladeRing(to=2, segments=7)]})
+    assert growth_key(kind, quality, seed=5) == growth_key(KIND, SMALL, seed=5)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, len(PACKED) - 1), st.integers(1, 255))
+def test_a_file_with_any_byte_changed_is_never_believed(place, change):
+    data = bytearray(PACKED)
+    data[place] ^= change
+    assert unpack(bytes(data), key="key", quality=SMALL, blades=12) is None
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.one_of(st.binary(max_size=400), st.integers(0, len(PACKED) - 1).map(lambda end: PACKED[:end])))
+def test_a_file_that_is_cut_off_or_not_ours_is_never_believed(data):
+    assert unpack(data, key="key", quality=SMALL, blades=12) is None
+
+
+def test_a_file_under_another_name_is_never_believed():
+    assert unpack(PACKED, key="key", quality=SMALL, blades=12) is not None
+    assert unpack(PACKED, key="other", quality=SMALL, blades=12) is None
+
+
+@pytest.mark.parametrize(("change", "blades"), [({}, 13), ({"carpet": 16}, 12), ({"models": 2}, 12)])
+def test_a_whole_file_that_does_not_fit_is_never_believed(change, blades):
+    assert unpack(PACKED, key="key", quality=SMALL.model_copy(update=change), blades=blades) is None
+
+
+class Trap:
+    def __reduce__(self):
+        return (sys.exit, ("unpickled",))
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"growth.postures.index": np.array([Trap()], dtype=object)},
+        {"growth.postures.index": np.zeros(129)},
+        {"growth.postures.index": np.full(129, np.nan, np.float32)},
+        {},
+    ],
+)
+def test_a_file_with_the_right_checksum_but_wrong_arrays_is_never_believed(values):
+    buffer = io.BytesIO()
+    np.savez(buffer, **values)
+    forged = forge(buffer.getvalue())
+    assert unpack(forged, key="key", quality=SMALL, blades=12) is None
+
+
+def forge(data):
+    return blake2b(data, digest_size=32, key=b"key").digest() + data
+
+
+def test_a_forgery_of_the_real_thing_would_be_believed():
+    assert same(unpack(forge(PACKED[32:]), key="key", quality=SMALL, blades=12), GROWN)
+
+
+@settings(max_examples=10, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(junk=st.binary(max_size=64))
+def test_a_broken_file_is_grown_again_and_replaced(tmp_path, grows, junk):
+    cached_growth(KIND, SMALL, seed=5, folder=tmp_path)
+    (path,) = stored(tmp_path)
+    path.write_bytes(junk)
+    before = len(grows)
+    cached_growth(KIND, SMALL, seed=5, folder=tmp_path)
+    cached_growth(KIND, SMALL, seed=5, folder=tmp_path)
+    assert len(grows) == before + 1
+
+
+def test_a_folder_that_is_a_file_is_no_error(tmp_path, grows):
+    (tmp_path / "file").write_text("in the way")
+    for _ in range(2):
+        assert cached_growth(KIND, SMALL, seed=5, folder=tmp_path / "file") is GROWN
+    assert len(grows) == 2
+
+
+def test_a_place_where_nothing_can_be_written_is_no_error(tmp_path, grows, monkeypatch):
+    def refuse(*_args, **_options):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(cache.tempfile, "mkstemp", refuse)
+    assert cached_growth(KIND, SMALL, seed=5, folder=tmp_path) is GROWN
+    assert stored(tmp_path) == []
+
+
+def test_a_full_disk_leaves_nothing_behind(tmp_path, grows, monkeypatch):
+    def refuse(_self, _target):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(cache.Path, "replace", refuse)
+    assert cached_growth(KIND, SMALL, seed=5, folder=tmp_path) is GROWN
+    assert stored(tmp_path) == []
+
+
+def test_what_was_not_used_for_longest_is_forgotten(tmp_path, grows):
+    for number in range(60):
+        (tmp_path / f"{number}.growth").write_bytes(b"")
+        os.utime(tmp_path / f"{number}.growth", (number, number))
+    (tmp_path / "mine.txt").write_text("not ours")
+    cached_growth(KIND, SMALL, seed=5, folder=tmp_path)
+    names = {path.name for path in stored(tmp_path)}
+    assert len(names) == 49
+    assert {"mine.txt", "59.growth"} < names
+    assert "5.growth" not in names
+
+
+def test_the_folder_is_where_people_say_it_is(monkeypatch, tmp_path):
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    monkeypatch.delenv("TALLGRASS_CACHE", raising=False)
+    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
+    assert cache_folder() == tmp_path / "home" / ".cache" / "tallgrass"
+    monkeypatch.setenv("XDG_CACHE_HOME", "relative")
+    assert cache_folder() == tmp_path / "home" / ".cache" / "tallgrass"
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "xdg"))
+    assert cache_folder() == tmp_path / "xdg" / "tallgrass"
+    monkeypatch.setenv("TALLGRASS_CACHE", str(tmp_path / "own"))
+    assert cache_folder() == tmp_path / "own"
+
+
+def test_without_a_home_there_is_no_cache_and_no_error(monkeypatch, grows):
+    def nowhere():
+        raise RuntimeError("Could not determine home directory.")
+
+    monkeypatch.delenv("TALLGRASS_CACHE", raising=False)
+    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
+    monkeypatch.setattr(cache.Path, "home", nowhere)
+    assert cache_folder() is None
+    assert cached_growth(KIND, SMALL, seed=5) is GROWN

@@ -1,0 +1,154 @@
+"""The carpet: images of an endless field from several angles (paper, section 2.2)."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from tallgrass.components.grass import GrassKind
+from tallgrass.systems.growth.bend import ribbon, segment_normals, spine
+from tallgrass.systems.growth.blades import grow_blades
+from tallgrass.systems.growth.carpet import grow_carpet
+from tallgrass.systems.growth.postures import grow_postures
+
+PATCH, TEXELS, SEGMENTS = 1.0, 128, 8
+KIND = GrassKind(height=[0.25, 0.4], width=0.014)
+HEADINGS = np.array([[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]])
+POSTURES = grow_postures(KIND, seed=4)
+BLADES = grow_blades(KIND, count=60, patch=PATCH, variants=4, seed=4)
+
+
+@pytest.fixture(scope="module")
+def carpet():
+    return grow_carpet(BLADES, POSTURES, patch=PATCH, texels=TEXELS, taper=KIND.taper)
+
+
+@cache
+def soup():
+    """Return the corners (n, 3, 3), places (n, 3) and normals (n, 3) of every triangle of the patch."""
+    left, right = ribbon(BLADES, POSTURES, (0.0, 0.0), points=SEGMENTS + 1, taper=KIND.taper)
+    normal = segment_normals(BLADES, spine(BLADES, POSTURES, (0.0, 0.0), points=SEGMENTS + 1))
+    corners, places, normals = [], [], []
+    for blade in range(left.shape[0]):
+        for k in range(SEGMENTS):
+            low, high = k / SEGMENTS, (k + 1) / SEGMENTS
+            corners += [[left[blade, k], right[blade, k], right[blade, k + 1]]]
+            places += [[low, low, high]]
+            corners += [[left[blade, k], right[blade, k + 1], left[blade, k + 1]]]
+            places += [[low, high, high]]
+            normals += [normal[blade, k]] * 2
+    return np.array(corners, np.float64), np.array(places), np.array(normals)
+
+
+def cast(origin, ray, corners):
+    """Return the distance along the ray and the weights of the first triangle that it meets, and which; or None."""
+    a, edge, side = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    cross = np.cross(ray, side)
+    scale = (edge * cross).sum(axis=1)
+    flat = np.abs(scale) < 1e-14
+    scale = np.where(flat, 1.0, scale)
+    away = origin - a
+    u = (away * cross).sum(axis=1) / scale
+    turned = np.cross(away, edge)
+    v = (turned @ ray) / scale
+    far = (side * turned).sum(axis=1) / scale
+    far = np.where(~flat & (u >= 0) & (v >= 0) & (u + v <= 1), far, np.inf)
+    first = int(far.argmin())
+    return None if np.isinf(far[first]) else (first, u[first], v[first])
+
+
+def meet(start, heading, slope, carpet):
+    """Return what a ray through a point of the plane at mid-height meets: place, height, normal along it, coverage."""
+    corners, places, normals = soup()
+    reach = carpet.height / slope
+    ray = np.array([heading[0], -slope, heading[1]])
+    origin = np.array([start[0], carpet.offset, start[1]]) - ray * (carpet.height - carpet.offset) / slope
+    middle = origin[[0, 2]] + heading * reach / 2
+    low = np.floor(middle / PATCH - np.abs(heading) * reach / PATCH / 2 - 1).astype(int)
+    high = np.ceil(middle / PATCH + np.abs(heading) * reach / PATCH / 2 + 1).astype(int)
+    shifts = np.array([(i * PATCH, 0.0, j * PATCH) for i in range(low[0], high[0]) for j in range(low[1], high[1])])
+    lateral = np.array([-heading[1], heading[0]])
+    field = (corners[None] + shifts[:, None, None]).reshape(-1, 3, 3)
+    offset = (field[:, :, [0, 2]] - start) @ lateral
+    near = np.flatnonzero((offset.min(axis=1) <= 0.0) & (offset.max(axis=1) >= 0.0))
+    hit = cast(origin, ray, field[near]) if near.size else None
+    if hit is None:
+        return [0.0, 0.0, 0.0, 0.0]
+    number, u, v = hit
+    triangle = near[number] % corners.shape[0]
+    weights = np.array([1.0 - u - v, u, v])
+    normal = normals[triangle] * (-1.0 if normals[triangle] @ ray > 0.0 else 1.0)
+    height = weights @ corners[triangle, :, 1] / carpet.height
+    return [weights @ places[triangle], height, 0.5 - 0.5 * (normal[[0, 2]] @ heading), 1.0]
+
+
+@pytest.mark.parametrize("direction", range(4))
+@pytest.mark.parametrize("row", range(5))
+def test_g4_the_carpet_means_what_rays_through_the_field_meet(carpet, row, direction):
+    spots = np.random.default_rng(row).random((60, 2)) * PATCH
+    truth = np.array([meet(spot, HEADINGS[direction], float(carpet.slope[row]), carpet) for spot in spots])
+    image = carpet.texels[row, direction] / 255.0
+    column, line = (spots / PATCH * TEXELS).astype(int).T
+    error = image[line, column] - truth
+    spread = error.std(axis=0) / np.sqrt(spots.shape[0])
+    assert (np.abs(error.mean(axis=0)) < 4.0 * spread + 0.004).all()
+
+
+def test_g4_a_carpet_of_fine_texels_shows_each_ray_what_it_meets():
+    fine = grow_carpet(BLADES, POSTURES, patch=PATCH, texels=400, taper=1.0, slopes=(0.4,))
+    spots = np.random.default_rng(7).random((150, 2)) * PATCH
+    truth = np.array([meet(spot, HEADINGS[1], 0.4, fine) for spot in spots])
+    column, row = (spots / PATCH * 400).astype(int).T
+    found = fine.texels[0, 1, row, column] / 255.0
+    assert (np.abs(found - truth).max(axis=1) < 0.05).mean() > 0.8
+    assert np.corrcoef(found[:, 1], truth[:, 1])[0, 1] > 0.85
+
+
+def test_g4_a_flatter_view_sees_less_ground_and_more_of_the_tips(carpet):
+    texels = carpet.texels.astype(float).mean(axis=(1, 2, 3))
+    assert (np.diff(carpet.slope) > 0.0).all()
+    assert (np.diff(texels[:, 3]) < 0.0).all()
+    assert (np.diff(texels[:, 1] / texels[:, 3]) < 0.0).all()
+
+
+def test_g4_the_view_from_behind_sees_as_much_as_the_view_from_before(carpet):
+    coverage = carpet.texels[..., 3].mean(axis=(2, 3)) / 255.0
+    np.testing.assert_allclose(coverage[:3, 0], coverage[:3, 2], rtol=0.03)
+    np.testing.assert_allclose(coverage[:3, 1], coverage[:3, 3], rtol=0.03)
+
+
+def test_g4_the_images_repeat_without_a_seam(carpet):
+    image = carpet.texels[2, :, :, :, 3].astype(float)
+    for axis in (1, 2):
+        inner = np.abs(np.diff(image, axis=axis)).mean()
+        seam = np.abs(np.take(image, 0, axis=axis) - np.take(image, -1, axis=axis)).mean()
+        assert seam < 1.3 * inner
+
+
+def test_g1_the_carpet_shows_the_roots_of_the_same_blades():
+    texels = grow_carpet(BLADES, POSTURES, patch=PATCH, texels=256, taper=1.0, slopes=(50.0,)).texels[0, 0]
+    column, row = (BLADES.root / PATCH * 256).astype(int).T
+    near = np.max([texels[(row + i) % 256, (column + j) % 256, 3] for i in (-1, 0, 1) for j in (-1, 0, 1)], axis=0)
+    assert (near > 0).mean() > 0.9
+    assert (texels[..., 3] > 0).mean() < 0.3
+
+
+def test_what_is_painted_is_premultiplied_and_without_blades_there_is_nothing(carpet):
+    texels = carpet.texels.astype(int)
+    assert (texels[..., :3] <= texels[..., 3:] + 1).all()
+    assert not texels[texels[..., 3] == 0].any()
+
+
+def test_the_plane_is_at_mid_height(carpet):
+    tips = spine(BLADES, POSTURES, (0.0, 0.0), points=9)[:, :, 1].max()
+    assert 0.0 < carpet.height - tips <= 0.011
+    assert carpet.offset == pytest.approx(carpet.height / 2)
+
+
+@pytest.mark.parametrize("texels", [8, 50, 96])
+def test_g5_a_coarser_carpet_has_the_same_means(carpet, texels):
+    other = grow_carpet(BLADES, POSTURES, patch=PATCH, texels=texels, taper=1.0)
+    assert other.texels.shape == (5, 4, texels, texels, 4)
+    np.testing.assert_allclose(
+        other.texels.mean(axis=(2, 3)) / 255.0, carpet.texels.mean(axis=(2, 3)) / 255.0, atol=0.02
+    )

@@ -1,0 +1,133 @@
+"""All that is grown for one kind of grass."""
+
+import os
+import subprocess
+import sys
+from dataclasses import fields, is_dataclass
+from hashlib import blake2b
+
+import numpy as np
+import pytest
+
+from tallgrass.components.grass import GrassKind
+from tallgrass.components.quality import PRESETS, BladeRing, Quality, StripRing
+from tallgrass.systems.growth.bend import spine
+from tallgrass.systems.growth.models import grow, precompute_bytes
+
+SMALL = Quality(
+    patch=1.5,
+    blades=40,
+    models=2,
+    blade_rings=[BladeRing(to=1, segments=4)],
+    strip_rings=[StripRing(to=3, strips=3, texel=0.02), StripRing(to=6, strips=1, texel=0.05)],
+    carpet_to=9,
+    carpet=24,
+)
+KIND = GrassKind(width=0.02)
+
+
+def arrays(record):
+    if isinstance(record, np.ndarray):
+        return [record]
+    if isinstance(record, tuple):
+        return [array for part in record for array in arrays(part)]
+    if is_dataclass(record):
+        return [array for field in fields(record) for array in arrays(getattr(record, field.name))]
+    return [np.asarray(record)]
+
+
+def digest(growth):
+    return blake2b(b"".join(array.tobytes() for array in arrays(growth))).hexdigest()
+
+
+@pytest.fixture(scope="module")
+def growth():
+    return grow(KIND, SMALL, seed=11)
+
+
+@pytest.fixture(scope="module")
+def high():
+    return grow(GrassKind(), PRESETS["high"], seed=1)
+
+
+def test_g5_a_growth_is_as_fine_as_its_quality_says(growth):
+    assert len(growth.models) == 2
+    for model in growth.models:
+        assert model.blades.root.shape == (40, 2)
+        assert [strips.plane.size for strips in model.strips] == [3, 1]
+        assert model.carpet.texels.shape[2:4] == (24, 24)
+
+
+def test_a_kinds_own_number_of_blades_goes_before_the_qualitys():
+    growth = grow(KIND.model_copy(update={"blades": 7}), SMALL, seed=1)
+    assert growth.models[0].blades.root.shape == (7, 2)
+
+
+def test_g1_every_blade_is_in_all_three_representations(growth):
+    for model in growth.models:
+        tips = spine(model.blades, growth.postures, (0.0, 0.0), points=17)
+        for strips in model.strips:
+            assert strips.slice.shape == (2, 40)
+            assert strips.targets.shape[:2] == (2, 40)
+            np.testing.assert_allclose(strips.targets[:, :, :, 1] * strips.height, [tips[:, :, 1]] * 2, atol=1e-5)
+        assert model.carpet.height >= tips[:, :, 1].max()
+
+
+def test_g1_nothing_leans_out_of_the_textures(growth):
+    for model in growth.models:
+        for strips in model.strips:
+            assert (strips.targets >= 0.0).all()
+            assert (strips.targets <= 1.0).all()
+
+
+def test_textures_of_all_models_have_one_size(growth):
+    first, second = growth.models
+    for one, two in zip(first.strips, second.strips, strict=True):
+        assert one.texels.shape == two.texels.shape
+        assert (one.height, one.margin) == (two.height, two.margin)
+    assert first.carpet.height == second.carpet.height
+
+
+def test_models_differ(growth):
+    first, second = growth.models
+    assert np.abs(first.blades.root - second.blades.root).max() > 0.1
+
+
+def test_growing_is_the_same_in_every_process(growth):
+    code = (
+        "import importlib.util, sys\n"
+        f"spec = importlib.util.spec_from_file_location('growing', {__file__!r})\n"
+        "growing = importlib.util.module_from_spec(spec)\n"
+        "spec.loader.exec_module(growing)\n"
+        "print(growing.digest(growing.grow(growing.KIND, growing.SMALL, seed=11)))\n"
+    )
+    environment = os.environ | {"PYTHONHASHSEED": "12345", "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=environment)
+    assert run.stdout.strip() == digest(growth)
+
+
+def test_another_seed_is_another_field(growth):
+    assert digest(grow(KIND, SMALL, seed=12)) != digest(growth)
+
+
+def test_r3_the_high_preset_takes_less_than_twenty_megabytes_a_kind(high):
+    texture = high.models[0].strips[0]
+    assert precompute_bytes(high) > 3 * (texture.texels.nbytes + texture.rank.nbytes)
+    assert precompute_bytes(high) < 20e6
+
+
+def test_tall_kinds_have_coarser_texels_so_that_they_take_no_more():
+    kind = GrassKind(height=[1.5, 2.5], width=0.03, blades=60)
+    assert precompute_bytes(grow(kind, PRESETS["high"], seed=1)) < 20e6
+
+
+def test_g1_blades_and_strips_cover_the_same_in_every_ring(high):
+    model = high.models[0]
+    area = [strips.texels[..., 3].mean() / 255.0 * strips.plane.size for strips in model.strips]
+    assert area[0] > area[1] > area[2] > 0.8 * area[0]
+
+
+def test_arrays_are_what_the_graphics_card_takes(growth):
+    for array in arrays(growth):
+        assert array.ndim == 0 or array.flags.c_contiguous
+        assert array.dtype in (np.float32, np.int32, np.uint8) or array.ndim == 0
