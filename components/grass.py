@@ -38,10 +38,10 @@ class GrassKind(Declaration):
     taper: float = Field(1.0, ge=0.2, le=4.0)
     """How the width falls from root to tip: 1 is a triangle, below 1 keeps it broad for longer."""
 
-    root: Color = "#2f4019"
+    root: Color = "#4b6128"
     """Colour at the root."""
 
-    tip: Color = "#a9b45c"
+    tip: Color = "#a8b65a"
     """Colour at the tip."""
 
     variety: float = Field(0.15, ge=0.0, le=0.6)

@@ -47,7 +47,7 @@ class BladePool:
     """Receivers' messages, shape (side * side, kinds, n, 2)."""
 
     stamp: NDArray[np.int32]
-    """Cell (i, j) that each slot is planted for, shape (side * side, 2)."""
+    """Cell (i, j) and heading that each slot is planted for, shape (side * side, 3)."""
 
     @classmethod
     def allocate(cls, side: int, kinds: int, blades: int) -> "BladePool":
@@ -64,7 +64,7 @@ class BladePool:
             present=np.zeros(shape, np.bool_),
             place=np.zeros((*shape, 2), np.float32),
             message=np.zeros((*shape, 2), np.float32),
-            stamp=np.full((slots, 2), NOWHERE, np.int32),
+            stamp=np.full((slots, 3), NOWHERE, np.int32),
         )
 
 

@@ -12,7 +12,7 @@ from ..components.receivers import BladePool, StripPool
 from ..components.scene import Scene
 from ..components.terrain import Density, Terrain
 from .lod import SLACK
-from .plant import Ground, blade_records
+from .plant import BladeStock, Ground, blade_records, far_to_near_blades
 
 Floats = NDArray[np.float32]
 
@@ -38,11 +38,7 @@ class Sight:
 class Stock:
     """Patch models made ready to be stood on the terrain."""
 
-    records: list[list[NDArray[np.void]]]
-    """By kind: records of a model's blades, at index model * 4 + quarter turns."""
-
-    ranks: list[list[Floats]]
-    """By kind and model: the blades' ranks."""
+    blades: BladeStock
 
     strips: list[list[Strips]]
     """By ring and kind: strips whose planes hold for all the kind's models."""
@@ -73,6 +69,11 @@ class Field:
     sight: Sight
 
     @property
+    def finest(self) -> int:
+        """Line segments per blade at the finest level."""
+        return max(ring.segments for ring in self.quality.blade_rings)
+
+    @property
     def blade_limits(self) -> NDArray[np.int32]:
         """Largest discrete distance of each blade ring but the last, for `np.searchsorted`."""
         return np.array([ring.to for ring in self.quality.blade_rings[:-1]], np.int32)
@@ -92,20 +93,24 @@ def reach_of(quality: Quality, lod: str) -> tuple[int, int, int]:
 
 def stock_up(growths: list[Growth], patch: float) -> Stock:
     """Return the patch models' blades in all four turns, and where each strip's texture layer is."""
-    records, ranks = [], []
-    for kind, growth in enumerate(growths):
-        variants = growth.postures.shape.shape[0]
-        records.append([
-            blade_records(model.blades, turn, patch=patch, kind=kind, variants=variants)
+    records = [
+        np.stack([
+            blade_records(model.blades, turn, patch=patch, kind=kind, variants=growth.postures.shape.shape[0])
             for model in growth.models
             for turn in range(4)
         ])
-        ranks.append([model.blades.rank for model in growth.models])
+        for kind, growth in enumerate(growths)
+    ]
+    blades = BladeStock(
+        records=records,
+        ranks=[np.stack([model.blades.rank for model in growth.models]) for growth in growths],
+        orders=[np.stack([far_to_near_blades(row) for row in rows]) for rows in records],
+    )
     rings = range(len(growths[0].models[0].strips))
     strips = [[growth.models[0].strips[ring] for growth in growths] for ring in rings]
     layers = [[len(growth.models) * 2 * len(growth.models[0].strips[ring].plane) for growth in growths] for ring in rings]
     first = [[sum(counts[:kind]) for kind in range(len(counts))] for counts in layers]
-    return Stock(records=records, ranks=ranks, strips=strips, first_layer=first)
+    return Stock(blades=blades, strips=strips, first_layer=first)
 
 
 def lay_out(scene: Scene, quality: Quality, terrain: Terrain, density: Density, growths: list[Growth], *, lod: str) -> Field:

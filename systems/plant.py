@@ -13,6 +13,9 @@ from ..engine.terrain.sample import density_at, height_at
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
 
+HEADINGS = 8
+"""Azimuths that blades are put in order for."""
+
 _COS = np.array([1, 0, -1, 0], np.float32)
 _SIN = np.array([0, 1, 0, -1], np.float32)
 PRESENT = 1.0 / 255.0
@@ -27,6 +30,20 @@ class Ground:
     density: Density
     patch: float
     """Side of a patch [m]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BladeStock:
+    """The blades of all patch models, ready to be stood on the terrain; lists are by kind."""
+
+    records: list[NDArray[np.void]]
+    """Records at row model * 4 + quarter turns, shape (models * 4, n)."""
+
+    ranks: list[Floats]
+    """The blades' ranks, shape (models, n)."""
+
+    orders: list[NDArray[np.intp]]
+    """Far to near by heading, rows as the records', shape (models * 4, HEADINGS, n)."""
 
 
 def turned(place: Floats, turn: Ints, /, *, patch: float) -> Floats:
@@ -50,19 +67,34 @@ def blade_records(blades: Blades, turn: int, /, *, patch: float, kind: int, vari
     return records
 
 
-def plant_blades(
-    pool: BladePool, slots: NDArray[np.int64], cell: Ints, model: Ints, turn: Ints, stock: list[list[NDArray[np.void]]],
-    ranks: list[list[Floats]], ground: Ground, /,
-) -> None:
-    """Stand the blades of each cell (m, 2) in its slot of the pool.
+def far_to_near_blades(records: NDArray[np.void], /) -> NDArray[np.intp]:
+    """Return the orders of blades (n,) from far to near, seen towards each of `HEADINGS` azimuths, (HEADINGS, n).
 
-    `stock[kind][model * 4 + turn]` holds a model's records, `ranks[kind][model]` its blades' ranks.
+    They are found once, when a model is stocked; drawing sorts nothing (paper, section 2.2).
     """
-    pool.stamp[slots] = cell
+    azimuth = np.arange(HEADINGS) * (2.0 * np.pi / HEADINGS)
+    away = np.stack([np.cos(azimuth), np.sin(azimuth)], axis=1) @ records["root"][:, ::2].T
+    return np.argsort(-away, axis=1, kind="stable")
+
+
+def heading_of(cell: Ints, centre: Ints, /) -> Ints:
+    """Return which of `HEADINGS` azimuths each cell (m, 2) is seen towards from the viewer's, shape (m,)."""
+    away = (cell - centre).astype(np.float64)
+    turns = np.arctan2(away[:, 1], away[:, 0]) * (HEADINGS / (2.0 * np.pi))
+    return np.mod(np.round(turns), HEADINGS).astype(np.int32)
+
+
+def plant_blades(
+    pool: BladePool, slots: NDArray[np.int64], cell: Ints, model: Ints, turn: Ints, heading: Ints, stock: BladeStock,
+    ground: Ground, /,
+) -> None:
+    """Stand the blades of each cell (m, 2) in its slot of the pool, in the order that goes with its `heading` (m,)."""
+    pool.stamp[slots, :2], pool.stamp[slots, 2] = cell, heading
     corner = cell.astype(np.float32) * np.float32(ground.patch)
-    for kind, (records, rank) in enumerate(zip(stock, ranks, strict=True)):
-        count = len(rank[0])
-        chosen = np.stack(records)[model * 4 + turn]
+    for kind, (records, ranks, orders) in enumerate(zip(stock.records, stock.ranks, stock.orders, strict=True)):
+        count = records.shape[1]
+        order = orders[model * 4 + turn, heading]
+        chosen = records[(model * 4 + turn)[:, None], order]
         chosen["root"][..., 0] += corner[:, None, 0]
         chosen["root"][..., 2] += corner[:, None, 1]
         place = np.ascontiguousarray(chosen["root"][..., ::2])
@@ -70,7 +102,7 @@ def plant_blades(
         dense = density_at(ground.density, place.reshape(-1, 2))[kind].reshape(place.shape[:2])
         pool.blade[slots, kind, :count] = chosen
         pool.place[slots, kind, :count] = place
-        pool.present[slots, kind, :count] = (np.stack(rank)[model] < dense) & (dense > PRESENT)
+        pool.present[slots, kind, :count] = (ranks[model[:, None], order] < dense) & (dense > PRESENT)
 
 
 def strip_edges(strips: Strips, columns: int, along: Ints, turn: Ints, /, *, patch: float) -> tuple[Floats, Ints]:

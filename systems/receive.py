@@ -15,7 +15,7 @@ from ..components.wind import WindSource
 from .cull import far_to_near
 from .field import Field
 from .lod import weights
-from .plant import plant_blades, plant_strips, strips_along
+from .plant import heading_of, plant_blades, plant_strips, strips_along
 from .tile import window_rows
 from .wind.blow import messages
 
@@ -59,14 +59,15 @@ def shown_patches(field: Field, level: Representation, limits: Ints, side: int) 
 
 def plant_shown_blades(field: Field, shown: list[Shown]) -> Rows:
     """Plant the patches in `shown` whose slot holds another's blades; return the rows planted."""
-    rows, slots = (np.concatenate([getattr(ring, name) for ring in shown]) for name in ("rows", "slots"))
-    stale = (field.blades.stamp[slots] != field.table.cell[rows]).any(axis=1)
-    rows, slots = rows[stale], slots[stale]
+    table, centre = field.table, field.sight.centre
+    rows = np.concatenate([ring.rows for ring in shown])
+    slots = np.concatenate([ring.slots for ring in shown])
+    heading = heading_of(table.cell[rows], centre)
+    stale = (field.blades.stamp[slots] != np.column_stack([table.cell[rows], heading])).any(axis=1)
+    rows, slots, heading = rows[stale], slots[stale], heading[stale]
     if rows.size:
-        table, stock = field.table, field.stock
-        plant_blades(
-            field.blades, slots, table.cell[rows], table.model[rows], table.turn[rows], stock.records, stock.ranks, field.ground
-        )
+        cell, model, turn = table.cell[rows], table.model[rows], table.turn[rows]
+        plant_blades(field.blades, slots, cell, model, turn, heading, field.stock.blades, field.ground)
     return rows
 
 

@@ -48,7 +48,7 @@ def stand_all(prairie: Prairie, cells: Ints, painter: BladePainter, /) -> int:
     pool = BladePool.allocate_slots(len(cells), *field.blades.present.shape[1:])
     slots = np.arange(len(cells))
     model, turn = patch_models(cells, seed=field.scene.seed, models=field.quality.models)
-    plant_blades(pool, slots, cells, model, turn, field.stock.records, field.stock.ranks, field.ground)
+    plant_blades(pool, slots, cells, model, turn, np.zeros_like(model), field.stock.blades, field.ground)
     place = pool.place.reshape(-1, 2)
     sources = blowing(prairie.sources(), time=prairie.time)
     pool.message[:] = messages(sources, place, time=prairie.time, seed=field.scene.seed).reshape(pool.message.shape)
@@ -67,7 +67,7 @@ class EveryBlade:
             raise RuntimeError("draw the prairie once before its reference")
         self.prairie = prairie
         self.painter: Painter = prairie.painter
-        self.blades = self.painter.blade_painter(max(ring.segments for ring in prairie.field.quality.blade_rings))
+        self.blades = self.painter.blade_painter(prairie.field.finest, soft=False)
 
     def draw(self, view: View, cells: Ints) -> None:
         """Draw sky, ground and all blades of `cells` (n, 2) into the framebuffer that is bound."""

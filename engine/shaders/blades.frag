@@ -1,6 +1,19 @@
-in vec4 color;
+noperspective in vec3 color;
+flat in float shown;
+#ifdef SOFT
+noperspective in float aside;
+noperspective in float half_width;
+#endif
+
 out vec4 pixel;
 
 void main() {
-    pixel = vec4(color.rgb * color.a, color.a);
+#ifdef SOFT
+    float covered = shown * clamp(half_width + 0.5 - abs(aside), 0.0, min(1.0, 2.0 * half_width));
+    if (covered < 0.004)
+        discard;
+    pixel = vec4(color * covered, covered);
+#else
+    pixel = vec4(color * shown, shown);
+#endif
 }

@@ -35,7 +35,7 @@ void main() {
     vec3 foot = right ? b : a;
     vec2 message = right ? wind.zw : wind.xy;
     int k = int(kind);
-    vec3 spine = posture(float(k) * field.w, message, t) * tall[k];
+    vec3 spine = posture(float(k) * field.w, message, t).place * tall[k];
     gl_Position = clip * vec4(foot + spine, 1.0);
     at = vec2(right ? u.y : u.x, t * tall[k] / top);
     sheet = layer;

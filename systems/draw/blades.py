@@ -19,11 +19,16 @@ SHADER_BLADE = np.dtype([(name if name != "root" else "root_at", BLADE[name]) fo
 
 
 class BladePainter:
-    """Draws blades with a given number of segments."""
+    """Draws blades with a given number of segments.
 
-    def __init__(self, ctx: moderngl.Context, block: FrameBlock, segments: int, units: dict[str, int]) -> None:
+    Soft ones have smooth edges and must come from far to near; the others are opaque and may come in any order.
+    """
+
+    def __init__(
+        self, ctx: moderngl.Context, block: FrameBlock, segments: int, units: dict[str, int], *, soft: bool
+    ) -> None:
         self.segments = segments
-        defines = {"SEGMENTS": segments, "ROUND": ROUND}
+        defines: dict[str, str | int] = {"SEGMENTS": segments, "ROUND": ROUND, **({"SOFT": 1} if soft else {})}
         self.program = joined(ctx, block, units, "blades.vert", "blades.frag", defines)
         self.blades = Stream(ctx, SHADER_BLADE)
         self.moved = Stream(ctx, MOVED)
@@ -42,7 +47,7 @@ class BladePainter:
         """Draw what was written; return the number of draw calls."""
         if not self.blades.count:
             return 0
-        self.array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.segments + 1, instances=self.blades.count)
+        self.array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.segments + 2, instances=self.blades.count)
         return 1
 
     def release(self) -> None:

@@ -27,6 +27,7 @@ FRAME = np.dtype(
         ("soil", "4f4"),
         ("terrain", "4f4"),
         ("field", "4f4"),
+        ("screen", "4f4"),
         ("root", "(4,4)f4"),
         ("tip", "(4,4)f4"),
         ("grain_x", "(4,4)f4"),
@@ -62,12 +63,13 @@ def frame_record(scene: Scene, growths: list[Growth], terrain: Terrain, patch: f
     return record
 
 
-def aim(record: NDArray[np.void], view: View, /, *, time: float) -> None:
-    """Write the frame's matrices, eye and time into the block."""
+def aim(record: NDArray[np.void], view: View, size: tuple[int, int], /, *, time: float) -> None:
+    """Write the frame's matrices, eye, time and picture size [pixels] into the block."""
     clip = view.projection.astype(np.float64) @ view.view.astype(np.float64)
     row = record[0]
     row["clip"] = clip.T.reshape(16)
     row["unclip"] = np.linalg.inv(clip).T.reshape(16)
+    row["screen"][:2] = size[0] / 2, size[1] / 2
     row["eye"] = (*camera_of(view)[0].position, time)
 
 

@@ -10,7 +10,7 @@ from ...components.light import Light
 
 Floats = NDArray[np.float32]
 
-SUN_SHARE, SKY_SHARE = 0.95, 0.5
+SUN_SHARE, SKY_SHARE = 1.35, 0.6
 """How much of the sun's and of the sky's light an average leaf receives on a clear day."""
 
 

@@ -59,24 +59,18 @@ class Painter:
             StripPainter(ctx, self.block, ring, strip_stock(field.growths, number), UNITS)
             for number, ring in enumerate(field.quality.strip_rings)
         ]
-        self.blades = [self.blade_painter(ring.segments) for ring in field.quality.blade_rings]
-        self.fading = [self.blade_painter(ring.segments) for ring in field.quality.blade_rings]
+        self.blades = [self.blade_painter(ring.segments, soft=True) for ring in field.quality.blade_rings]
         self.draw_calls = 0
 
-    def blade_painter(self, segments: int) -> BladePainter:
+    def blade_painter(self, segments: int, *, soft: bool) -> BladePainter:
         """Return a painter of blades with this many segments."""
-        return BladePainter(self.ctx, self.block, segments, UNITS)
+        return BladePainter(self.ctx, self.block, segments, UNITS, soft=soft)
 
     def write_blades(self, shown: list[Shown]) -> int:
         """Send the blades that are seen; return how many."""
-        sent = 0
-        for ring, solid, fading in zip(shown, self.blades, self.fading, strict=True):
-            whole = ring.fade >= 1.0
-            for painter, chosen in ((solid, whole), (fading, ~whole)):
-                part = Shown(ring.rows[chosen], ring.slots[chosen], ring.fade[chosen], ring.along[chosen])
-                painter.write(*gather_blades(self.field.blades, part))
-                sent += painter.blades.count
-        return sent
+        for ring, painter in zip(shown, self.blades, strict=True):
+            painter.write(*gather_blades(self.field.blades, ring))
+        return sum(painter.blades.count for painter in self.blades)
 
     def write_strips(self, shown: list[Shown]) -> None:
         """Send the strips that are seen."""
@@ -98,9 +92,9 @@ class Painter:
 
         With `blades`, these alone stand on the ground: no strips and no carpet.
         """
-        aim(self.record, view, time=time)
         ctx = self.ctx
         with guest(ctx) as target:
+            aim(self.record, view, target.viewport[2:], time=time)
             self.block.write(self.record)
             for name, texture in self.textures.items():
                 texture.use(UNITS[name])
@@ -120,13 +114,11 @@ class Painter:
         target.depth_mask = False
         self.draw_calls += sum(painter.draw() for painter in reversed(self.strips))
         target.depth_mask = True
-        self.draw_calls += sum(painter.draw() for painter in reversed(self.fading))
-        self.ctx.enable_only(moderngl.DEPTH_TEST)
-        self.draw_calls += sum(painter.draw() for painter in self.blades)
+        self.draw_calls += sum(painter.draw() for painter in reversed(self.blades))
 
     def release(self) -> None:
         """Give everything back to the context."""
-        for painter in (*self.blades, *self.fading, *self.strips, self.ground, self.block):
+        for painter in (*self.blades, *self.strips, self.ground, self.block):
             painter.release()
         for thing in (self.sky_array, self.sky, *self.textures.values()):
             thing.release()

@@ -13,10 +13,14 @@ FINEST_MAP = 1024
 
 
 def posture_texture(ctx: moderngl.Context, growths: list[Growth]) -> moderngl.TextureArray:
-    """Return all kinds' posture tables, one layer per kind and variant; columns are points, rows are indices."""
-    table = np.ascontiguousarray(np.concatenate([growth.postures.shape for growth in growths]), np.float32)
+    """Return all kinds' posture tables, one layer per kind and variant; columns are points, rows are indices.
+
+    A texel holds a point's place and the blade's direction there, each (along the bending direction, up).
+    """
+    place = np.concatenate([growth.postures.shape for growth in growths]).astype(np.float32)
+    table = np.concatenate([place, np.gradient(place, axis=2)], axis=-1).astype(np.float32)
     layers, rows, points, _ = table.shape
-    texture = ctx.texture_array((points, rows, layers), 2, table.tobytes(), dtype="f4")
+    texture = ctx.texture_array((points, rows, layers), 4, table.tobytes(), dtype="f4")
     texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
     texture.repeat_x = texture.repeat_y = False
     return texture

@@ -3,12 +3,17 @@
 
 uniform sampler2DArray postures;
 
-// Where the point `t` of a blade of length 1 is for a bending vector: along x, up, along z.
-vec3 posture(float variant, vec2 bend, float t) {
+struct Spine {
+    vec3 place;    // of the point, from the root
+    vec3 tangent;  // towards the tip
+};
+
+// The point `t` of a blade of length 1 for a bending vector.
+Spine posture(float variant, vec2 bend, float t) {
     float index = length(bend);
     vec2 heading = bend / max(index, 1e-6);
     float column = (t * terrain.w + 0.5) / (terrain.w + 1.0);
     float row = ((0.5 + 0.5 * min(index, 1.0)) * (field.z - 1.0) + 0.5) / field.z;
-    vec2 spine = textureLod(postures, vec3(column, row, variant), 0.0).xy;
-    return vec3(heading.x * spine.x, spine.y, heading.y * spine.x);
+    vec4 at = textureLod(postures, vec3(column, row, variant), 0.0);
+    return Spine(vec3(heading.x * at.x, at.y, heading.y * at.x), vec3(heading.x * at.z, at.w, heading.y * at.z));
 }
