@@ -15,7 +15,7 @@ from ..components.camera import Camera
 from ..components.scene import PresetName
 from ..engine.camera import parse_camera
 from .errors import InputError, MachineError
-from .take import LodName, Take, parse_size
+from .take import LARGEST, SAMPLES, LodName, Take, parse_size
 
 app = typer.Typer(
     help="Grow, animate and draw whole prairies in real time.",
@@ -92,7 +92,7 @@ def shot(
     camera: Annotated[str | None, typer.Option(metavar="X,Y,Z,YAW,PITCH", help="Metres and degrees.")] = None,
 ) -> None:
     """Draw one picture, without a window."""
-    take = Take(scene, _size(size), preset, lod, reference)
+    take = Take(scene, _size(size, reference=reference), preset, lod, reference)
     place = None if camera is None else _camera(camera)
     from .shot import shot
 
@@ -111,7 +111,7 @@ def film(
     reference: Reference = False,
 ) -> None:
     """Film a scene along its camera's path, without a window: .webp, .gif, .mp4, or a folder of pictures."""
-    take = Take(scene, _size(size), preset, reference=reference)
+    take = Take(scene, _size(size, reference=reference), preset, reference=reference)
     from .film import film
 
     film(take, output, seconds=seconds, fps=fps)
@@ -136,17 +136,19 @@ def doctor() -> int:
 @bench.command("frame")
 def frame(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720", *, json: Json = False) -> int:
     """Measure how long a frame takes, and what it is made of."""
+    pixels = _size(size)
     from .bench.frame import bench_frame
 
-    return bench_frame(scene, preset=preset, size=_size(size), json=json)
+    return bench_frame(scene, preset=preset, size=pixels, json=json)
 
 
 @bench.command("picture")
 def picture(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720", *, json: Json = False) -> int:
     """Measure how far a picture is from every blade in 3D, supersampled."""
+    pixels = _size(size)
     from .bench.picture import bench_picture
 
-    return bench_picture(scene, preset=preset, size=_size(size), json=json)
+    return bench_picture(scene, preset=preset, size=pixels, json=json)
 
 
 def _print_version(wanted: bool) -> None:  # noqa: FBT001 - typer passes it by place
@@ -165,11 +167,14 @@ def _options(
     pass
 
 
-def _size(text: str) -> tuple[int, int]:
+def _size(text: str, *, reference: bool = False) -> tuple[int, int]:
     try:
-        return parse_size(text)
+        size = parse_size(text)
     except ValueError as error:
         raise InputError(f"--size: {error}") from None
+    if reference and max(size) > LARGEST // SAMPLES:
+        raise InputError(f"--size: {text}: with --reference each side must be at most {LARGEST // SAMPLES} pixels")
+    return size
 
 
 def _camera(text: str) -> Camera:
@@ -198,3 +203,7 @@ def _unexpected(error: Exception) -> int:
         raise error
     what = str(error).splitlines()[0] if str(error) else "no more is known"
     return _tell(f"tallgrass failed: {type(error).__name__}: {what} (tallgrass doctor may know why)", status=1)
+
+
+if __name__ == "__main__":
+    main()

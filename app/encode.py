@@ -62,6 +62,8 @@ def film_writer(output: str, size: tuple[int, int], fps: int, /) -> Callable[[Re
         _make_folder(path)
         return lambda reel: _write_folder(reel, path)
     if ending == ".webp":
+        if max(size) > 16383:
+            raise InputError(f"--size: {size[0]}x{size[1]}: a .webp has at most 16383 pixels along a side")
         write = partial(_write_webp, path=path)
     elif ending == ".gif":
         if fps > 50:

@@ -12,7 +12,7 @@ from ..systems.prairie import Prairie
 from ..systems.reference import draw_reference
 from .encode import Picture
 from .offscreen import Offscreen
-from .take import Take
+from .take import SAMPLES, Take
 
 
 class Studio:
@@ -46,7 +46,7 @@ class Studio:
         self._offscreen.begin()
         self.prairie.draw(view, projection)
         if self.take.reference:
-            return draw_reference(self.prairie, view, projection, self.take.size)
+            return draw_reference(self.prairie, view, projection, self.take.size, samples=SAMPLES)
         return self._offscreen.read()
 
 

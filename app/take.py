@@ -10,6 +10,9 @@ LodName = Literal["auto", "blades", "strips", "carpet"]
 LARGEST = 16384
 """Most pixels along a side of a picture."""
 
+SAMPLES = 4
+"""Width and height of a reference's supersampling, in samples per pixel."""
+
 
 @dataclass(frozen=True, slots=True)
 class Take:

@@ -1,0 +1,54 @@
+"""What the tests of the doors share: a small scene, and the command as people run it."""
+
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+SCENE = """\
+tallgrass: 1
+seed: 5
+terrain: { noise: rolling, size: [60, 60], scale: 3 }
+grass:
+  green: { height: [0.3, 0.5] }
+wind:
+  - { kind: breeze, strength: 0.5 }
+camera:
+  position: [0, 20]
+  eye: 1.7
+  pitch: -10
+  path:
+    - { at: 0, position: [0, 20], pitch: -10 }
+    - { at: 1.5, position: [2, 10], pitch: -10, yaw: 30 }
+quality:
+  patch: 2.5
+  blades: 40
+  models: 1
+  blade_rings: [{ to: 1, segments: 2 }]
+  strip_rings: [{ to: 3, strips: 2, columns: 1, sections: 1, texel: 0.02 }]
+  carpet_to: 10
+  carpet: 16
+"""
+
+Tallgrass = Callable[..., subprocess.CompletedProcess[str]]
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Path:
+    """A small scene that is grown in a moment."""
+    path = tmp_path / "little.yaml"
+    path.write_text(SCENE)
+    return path
+
+
+@pytest.fixture
+def tallgrass(tmp_path: Path) -> Tallgrass:
+    """Run the command in a folder of its own and in a process of its own: it takes the current GL context."""
+
+    def run(*arguments: object) -> subprocess.CompletedProcess[str]:
+        words = [sys.executable, "-W", "error", "-m", "tallgrass.app.cli", *map(str, arguments)]
+        return subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
+
+    return run

@@ -1,0 +1,73 @@
+"""One picture from the command line."""
+
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PIL import Image
+
+from tallgrass import __version__
+
+Tallgrass = Callable[..., subprocess.CompletedProcess[str]]
+Take = Callable[..., NDArray[np.uint8]]
+pytestmark = pytest.mark.gl
+
+
+@pytest.fixture
+def take(tallgrass: Tallgrass, scene: Path) -> Take:
+    """Take a small picture of the small scene, with some options."""
+
+    def shoot(*options: object) -> NDArray[np.uint8]:
+        done = tallgrass("shot", scene.name, "-o", "a.png", "--size", "96x54", *options)
+        assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+        with Image.open(scene.parent / "a.png") as image:
+            return np.asarray(image)
+
+    return shoot
+
+
+def difference(a: NDArray[np.uint8], b: NDArray[np.uint8]) -> float:
+    return float(np.abs(a.astype(float) - b).mean())
+
+
+def test_n5_a_shot_has_its_size_and_its_story_and_comes_out_the_same_again(take: Take, scene: Path) -> None:
+    first = take("--time", 1.5)
+    assert first.shape == (54, 96, 3)
+    assert first.std() > 5
+    with Image.open(scene.parent / "a.png") as image:
+        story = dict(image.info)
+    assert story["seed"] == "5"
+    assert (story["scene"], story["time"], story["version"]) == ("little", "1.5", __version__)
+    again = take("--time", 1.5)
+    np.testing.assert_array_equal(first, again)
+    np.testing.assert_array_equal(first, take("--time", 1.5, "--camera", story["camera"]))
+
+
+def test_the_wind_and_the_camera_change_the_picture(take: Take) -> None:
+    first = take()
+    assert difference(first, take("--time", 2)) > 0.1
+    assert difference(first, take("--camera", "0,3,20,180,-10")) > 2
+
+
+def test_a_camera_that_looks_up_sees_the_sky(take: Take) -> None:
+    up = take("--camera", "0,3,0,0,80")
+    assert up[..., 2].mean() > up[..., 1].mean()
+
+
+def test_each_representation_can_be_shown_alone(take: Take) -> None:
+    pictures = [take("--lod", lod) for lod in ("auto", "blades", "strips", "carpet")]
+    apart = [difference(a, b) for i, a in enumerate(pictures) for b in pictures[:i]]
+    assert min(apart) > 0.5
+
+
+def test_n3_the_reference_is_every_blade_supersampled(take: Take) -> None:
+    reference = take("--reference")
+    assert reference.shape == (54, 96, 3)
+    assert difference(reference, take("--lod", "blades")) < difference(reference, take("--camera", "0,3,20,180,-10"))
+
+
+def test_r1_a_preset_takes_the_place_of_the_scenes_quality(take: Take) -> None:
+    assert difference(take(), take("--preset", "paper-low")) > 0.5

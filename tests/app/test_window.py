@@ -1,0 +1,235 @@
+"""The window to walk in, on a display of its own.
+
+What opens windows is imported inside the tests: there has to be a display first.
+"""
+
+# ruff: noqa: PLC0415
+
+import ctypes
+import subprocess
+from collections.abc import Callable, Iterator
+from math import radians
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PIL import Image
+
+from tallgrass.app.take import Take
+from tallgrass.systems.prairie import Prairie
+
+if TYPE_CHECKING:
+    from tallgrass.app.window import Walk
+
+Tallgrass = Callable[..., subprocess.CompletedProcess[str]]
+pytestmark = [pytest.mark.window, pytest.mark.gl]
+SIZE = (160, 90)
+
+
+@pytest.fixture
+def walk(scene: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator["Walk"]:
+    """A walk through the small scene, drawn once; pyglet checks every GL call."""
+    monkeypatch.setenv("PYGLET_DEBUG_GL", "1")
+    monkeypatch.chdir(scene.parent)
+    from tallgrass.app.display import need_display
+
+    need_display()
+    from tallgrass.app.window import Walk, open_window
+
+    started = Walk(open_window(SIZE), Prairie.load(scene), Take(str(scene), SIZE))
+    started.frame(1 / 60)
+    yield started
+    if not started.closed:
+        assert started.ctx.error == "GL_NO_ERROR"
+    started.close()
+
+
+def press(walk: "Walk", *names: str) -> None:
+    from pyglet.window import key
+
+    for name in names:
+        walk.window.dispatch_event("on_key_press", getattr(key, name), 0)
+        walk.window.dispatch_events()
+
+
+def let_go(walk: "Walk", name: str) -> None:
+    from pyglet.window import key
+
+    walk.window.dispatch_event("on_key_release", getattr(key, name), 0)
+    walk.window.dispatch_events()
+
+
+def click(walk: "Walk") -> None:
+    walk.window.dispatch_event("on_mouse_press", 5, 5, 1, 0)
+    walk.window.dispatch_events()
+
+
+def seen(walk: "Walk") -> NDArray[np.uint8]:
+    """Draw the window once more without moving, and return what is in it."""
+    from pyglet import gl
+
+    walk.window.switch_to()
+    walk.on_draw()
+    width, height = walk.window.get_framebuffer_size()
+    data = (ctypes.c_ubyte * (3 * width * height))()
+    gl.glReadBuffer(gl.GL_BACK)
+    gl.glPixelStorei(gl.GL_PACK_ALIGNMENT, 1)
+    gl.glReadPixels(0, 0, width, height, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, data)
+    walk.window.flip()
+    return np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1]
+
+
+def test_r4_keys_walk_over_the_ground_and_the_picture_changes(walk: "Walk") -> None:
+    before, start = seen(walk), walk.walker.position
+    press(walk, "W", "LSHIFT")
+    for _ in range(30):
+        walk.frame(1 / 30)
+    let_go(walk, "W")
+    x, y, z = walk.walker.position
+    assert z < start[2] - 3.0
+    assert y == pytest.approx(float(walk.prairie.height_at([[x, z]])[0]) + 1.7, abs=1e-4)
+    assert np.abs(seen(walk).astype(float) - before).mean() > 2.0
+    for _ in range(60):
+        walk.frame(1 / 30)
+    assert abs(walk.walker.velocity[2]) < 0.01
+
+
+def test_the_window_shows_what_is_drawn_headless(walk: "Walk", tallgrass: Tallgrass, scene: Path) -> None:
+    press(walk, "F12")
+    name = "tallgrass-little-001.png"
+    with Image.open(scene.parent / name) as image:
+        picture, story = np.asarray(image), dict(image.info)
+    walk.tell([])
+    np.testing.assert_array_equal(seen(walk), picture)
+    options = ("--time", story["time"], "--camera", story["camera"], "--size", "160x90")
+    assert tallgrass("shot", scene, "-o", "a.png", *options).returncode == 0
+    with Image.open(scene.parent / "a.png") as image:
+        assert np.abs(np.asarray(image).astype(float) - picture).mean() < 1.0
+
+
+def test_pictures_are_numbered(walk: "Walk", scene: Path) -> None:
+    press(walk, "F12", "F12")
+    assert sorted(path.name for path in scene.parent.glob("*.png")) == [
+        "tallgrass-little-001.png",
+        "tallgrass-little-002.png",
+    ]
+
+
+def test_space_stops_the_wind_and_starts_it_again(walk: "Walk") -> None:
+    press(walk, "SPACE")
+    time = walk.prairie.time
+    walk.frame(0.05)
+    assert walk.prairie.time == time
+    press(walk, "SPACE")
+    walk.frame(0.05)
+    assert walk.prairie.time == pytest.approx(time + 0.05)
+
+
+def test_a_long_hold_up_is_no_leap_in_time(walk: "Walk") -> None:
+    time = walk.prairie.time
+    walk.frame(30.0)
+    assert walk.prairie.time - time <= 0.1 + 1e-9
+
+
+def test_the_mouse_turns_the_look_only_once_it_is_caught(walk: "Walk") -> None:
+    def move() -> None:
+        walk.window.dispatch_event("on_mouse_motion", 5, 5, 100, -20)
+        walk.window.dispatch_events()
+
+    yaw, pitch = walk.walker.yaw, walk.walker.pitch
+    move()
+    assert (walk.walker.yaw, walk.walker.pitch) == (yaw, pitch)
+    click(walk)
+    move()
+    assert walk.walker.yaw - yaw == pytest.approx(0.22)
+    assert walk.walker.pitch - pitch == pytest.approx(-0.044)
+
+
+def test_the_first_escape_lets_the_mouse_go_and_the_second_closes(walk: "Walk") -> None:
+    click(walk)
+    press(walk, "ESCAPE")
+    walk.frame(1 / 60)
+    assert (walk.captured, walk.closed) == (False, False)
+    press(walk, "ESCAPE")
+    walk.frame(1 / 60)
+    assert walk.closed
+    assert walk.prairie.painter is None
+
+
+def test_help_and_statistics_are_shown_and_hidden(walk: "Walk") -> None:
+    walk.tell([])
+    plain = seen(walk)
+    for name in ("F1", "F3"):
+        press(walk, name)
+        covered = (seen(walk) != plain).any(axis=2).mean()
+        assert covered > 0.1
+        press(walk, name)
+        np.testing.assert_array_equal(seen(walk), plain)
+
+
+def test_f_takes_off_and_lands(walk: "Walk") -> None:
+    press(walk, "F", "E")
+    for _ in range(20):
+        walk.frame(1 / 30)
+    let_go(walk, "E")
+    x, y, z = walk.walker.position
+    ground = float(walk.prairie.height_at([[x, z]])[0])
+    assert y > ground + 3.0
+    press(walk, "F")
+    for _ in range(60):
+        walk.frame(1 / 30)
+    assert walk.walker.position[1] == pytest.approx(ground + 1.7, abs=0.05)
+
+
+def test_n7_reading_the_scene_again_keeps_time_and_place(walk: "Walk", scene: Path) -> None:
+    for _ in range(5):
+        walk.frame(0.1)
+    old, time, place = walk.prairie, walk.prairie.time, walk.walker
+    scene.write_text(scene.read_text().replace("seed: 5", "seed: 6"))
+    press(walk, "F5")
+    assert walk.prairie is not old
+    assert walk.prairie.scene.seed == 6
+    assert walk.prairie.time == pytest.approx(time)
+    assert walk.walker.position == pytest.approx(place.position)
+    assert old.painter is None
+    walk.frame(1 / 60)
+
+
+def test_a_broken_scene_is_told_and_the_old_one_stays(walk: "Walk", scene: Path) -> None:
+    old = walk.prairie
+    walk.tell([])
+    plain = seen(walk)
+    scene.write_text(scene.read_text().replace("eye: 1.7", "eye: low"))
+    press(walk, "F5")
+    assert walk.prairie is old
+    assert (seen(walk) != plain).any()
+    walk.frame(1 / 60)
+
+
+def test_another_window_in_front_lets_go_of_keys_and_mouse(walk: "Walk") -> None:
+    click(walk)
+    press(walk, "W")
+    walk.window.dispatch_event("on_deactivate")
+    walk.window.dispatch_events()
+    before = walk.walker.position
+    walk.frame(0.1)
+    assert walk.walker.position == before
+    assert not walk.captured
+
+
+def test_a_resized_window_is_filled(walk: "Walk") -> None:
+    walk.window.set_size(240, 80)
+    for _ in range(3):
+        walk.window.dispatch_events()
+        walk.frame(1 / 60)
+    picture = seen(walk)
+    assert picture.shape == (80, 240, 3)
+    assert picture[:, 200:].std() > 2.0
+    assert walk.camera.view == pytest.approx(radians(40.0))
+
+
+def test_walk_opens_a_window_and_closes_by_itself(tallgrass: Tallgrass, scene: Path) -> None:
+    done = tallgrass("walk", scene, "--size", "160x90", "--preset", "low", "--seconds", 0.5)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
