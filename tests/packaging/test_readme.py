@@ -24,7 +24,7 @@ def block(language: str) -> str:
 
 
 def test_the_scene_is_valid_and_says_what_it_seems_to() -> None:
-    scene = parse_scene(block("yaml")).scene
+    scene = parse_scene(block("yaml"))
     assert scene.grass["feather"].height == [0.6, 1.0]
     assert [wind.kind for wind in scene.wind] == ["breeze"]
 
@@ -50,8 +50,9 @@ pyglet.clock.schedule_once(look, 0.5)
 """
     program = block("python").replace("1280, 720", "320, 180").replace("pyglet.app.run()", f"{seen}\npyglet.app.run()")
     (tmp_path / "game.py").write_text(program, "utf-8")
-    told = subprocess.run([sys.executable, "game.py"], cwd=tmp_path, capture_output=True, text=True, check=True).stdout
-    assert int(told) > 1000, "the lower third of the picture has hardly any colours"
+    done = subprocess.run([sys.executable, "game.py"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert int(done.stdout) > 1000, "the lower third of the picture has hardly any colours"
 
 
 def test_every_command_is_in_the_table() -> None:
