@@ -15,7 +15,7 @@ POSTURES = grow_postures(KIND, seed=2)
 BLADES = grow_blades(KIND, count=60, patch=2.5, variants=4, seed=2)
 
 
-def messages():
+def messages() -> st.SearchStrategy[tuple[float, float]]:
     return st.tuples(st.floats(0.0, 1.0), st.floats(-np.pi, np.pi)).map(
         lambda polar: (polar[0] * np.cos(polar[1]), polar[0] * np.sin(polar[1]))
     )
@@ -23,7 +23,7 @@ def messages():
 
 @settings(max_examples=40, deadline=None)
 @given(messages())
-def test_w3_bent_blades_keep_their_lengths_and_their_roots(message):
+def test_w3_bent_blades_keep_their_lengths_and_their_roots(message: tuple[float, float]) -> None:
     centre = spine(BLADES, POSTURES, message, points=17).astype(np.float64)
     length = np.linalg.norm(np.diff(centre, axis=1), axis=2)
     np.testing.assert_allclose(length * 16, np.repeat(BLADES.height[:, None], 16, axis=1), rtol=1e-3)
@@ -32,7 +32,7 @@ def test_w3_bent_blades_keep_their_lengths_and_their_roots(message):
 
 @settings(max_examples=40, deadline=None)
 @given(messages())
-def test_w2_rest_gives_way_to_the_wind_by_what_it_leaves_over(message):
+def test_w2_rest_gives_way_to_the_wind_by_what_it_leaves_over(message: tuple[float, float]) -> None:
     index, direction = posture_of(BLADES.rest, message)
     total = np.asarray(message) + BLADES.rest.astype(np.float64) * (1.0 - np.hypot(*message))
     np.testing.assert_allclose(direction * index[:, None], total, atol=1e-12)
@@ -40,19 +40,19 @@ def test_w2_rest_gives_way_to_the_wind_by_what_it_leaves_over(message):
     np.testing.assert_allclose(np.linalg.norm(direction, axis=1), 1.0, atol=1e-12)
 
 
-def test_a_full_wind_bends_every_blade_along_it_alone():
+def test_a_full_wind_bends_every_blade_along_it_alone() -> None:
     index, direction = posture_of(BLADES.rest, (0.0, -1.0))
     np.testing.assert_allclose(index, 1.0)
     np.testing.assert_allclose(direction, np.tile([0.0, -1.0], (60, 1)), atol=1e-9)
 
 
-def test_a_message_above_one_is_one():
+def test_a_message_above_one_is_one() -> None:
     index, direction = posture_of(BLADES.rest, (3.0, 0.0))
     np.testing.assert_allclose(index, 1.0)
     np.testing.assert_allclose(direction[:, 0], 1.0)
 
 
-def test_each_blade_can_have_its_own_message():
+def test_each_blade_can_have_its_own_message() -> None:
     message = np.random.default_rng(1).uniform(-0.6, 0.6, (60, 2))
     together = spine(BLADES, POSTURES, message, points=9)
     for number in (0, 13, 59):
@@ -60,14 +60,14 @@ def test_each_blade_can_have_its_own_message():
         np.testing.assert_array_equal(together[number], alone[number])
 
 
-def test_upright_blades_without_rest_stand_still():
+def test_upright_blades_without_rest_stand_still() -> None:
     straight = grow_blades(GrassKind(lean=0.0), count=5, patch=1.0, variants=4, seed=1)
     centre = spine(straight, POSTURES, (0.0, 0.0), points=5)
     np.testing.assert_allclose(centre[:, :, ::2], np.repeat(straight.root[:, None], 5, axis=1), atol=1e-6)
     np.testing.assert_allclose(centre[:, -1, 1], straight.height, rtol=1e-6)
 
 
-def test_the_shape_at_a_table_index_is_the_tables():
+def test_the_shape_at_a_table_index_is_the_tables() -> None:
     row = 64 + 40
     index = POSTURES.index[row]
     straight = grow_blades(GrassKind(lean=0.0), count=5, patch=1.0, variants=4, seed=1)
@@ -79,7 +79,7 @@ def test_the_shape_at_a_table_index_is_the_tables():
 
 
 @pytest.mark.parametrize("taper", [0.5, 1.0, 2.0])
-def test_a_ribbon_is_as_wide_as_its_taper_says_across_its_face(taper):
+def test_a_ribbon_is_as_wide_as_its_taper_says_across_its_face(taper: float) -> None:
     left, right = ribbon(BLADES, POSTURES, (0.3, 0.1), points=9, taper=taper)
     side = right.astype(np.float64) - left
     width = BLADES.width[:, None] * (1.0 - np.linspace(0.0, 1.0, 9)) ** taper
@@ -89,7 +89,7 @@ def test_a_ribbon_is_as_wide_as_its_taper_says_across_its_face(taper):
     np.testing.assert_array_equal(side[:, :, 1], 0.0)
 
 
-def test_segment_normals_stand_on_the_ribbon_and_face_where_the_blade_does():
+def test_segment_normals_stand_on_the_ribbon_and_face_where_the_blade_does() -> None:
     centre = spine(BLADES, POSTURES, (0.2, 0.1), points=9)
     left, right = ribbon(BLADES, POSTURES, (0.2, 0.1), points=9, taper=1.0)
     normal = segment_normals(BLADES, centre)
@@ -100,7 +100,7 @@ def test_segment_normals_stand_on_the_ribbon_and_face_where_the_blade_does():
     assert ((normal * face[:, None]).sum(axis=2) > 0.0).all()
 
 
-def test_g2_segments_of_blades_at_rest_all_point_elsewhere():
+def test_g2_segments_of_blades_at_rest_all_point_elsewhere() -> None:
     step = np.diff(spine(BLADES, POSTURES, (0.0, 0.0), points=9).astype(np.float64), axis=1)
     heading = (step / np.linalg.norm(step, axis=2, keepdims=True)).reshape(-1, 3)
     nearest = heading @ heading.T - 2.0 * np.eye(heading.shape[0])

@@ -1,27 +1,33 @@
 """The blades of a patch (paper, section 2.2)."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from tallgrass.components.grass import GrassKind
+from tallgrass.components.growth import Blades
 from tallgrass.systems.growth.blades import grow_blades
 
 PATCH = 2.5
 
 
-def meadow(seed=1, count=500, kind=None):
+def meadow(seed: int = 1, count: int = 500, kind: GrassKind | None = None) -> Blades:
     return grow_blades(kind or GrassKind(), count=count, patch=PATCH, variants=4, seed=seed)
 
 
-def fields(blades):
+def fields(blades: Blades) -> list[NDArray[Any]]:
     return [blades.root, blades.height, blades.width, blades.facing, blades.rest, blades.variant, blades.rank]
 
 
 @settings(max_examples=30, deadline=None)
 @given(st.integers(1, 700), st.integers(0, 2**63 - 1), st.floats(0.0, 0.9), st.floats(0.5, 20.0), st.integers(1, 6))
-def test_g1_any_patch_has_its_blades_inside_and_within_the_kinds_limits(count, seed, lean, patch, variants):
+def test_g1_any_patch_has_its_blades_inside_and_within_the_kinds_limits(
+    count: int, seed: int, lean: float, patch: float, variants: int
+) -> None:
     kind = GrassKind(lean=lean)
     blades = grow_blades(kind, count=count, patch=patch, variants=variants, seed=seed)
     assert all(array.shape[0] == count and array.flags.c_contiguous for array in fields(blades))
@@ -35,7 +41,7 @@ def test_g1_any_patch_has_its_blades_inside_and_within_the_kinds_limits(count, s
     assert (np.abs(blades.facing) <= np.float32(np.pi)).all()
 
 
-def test_g1_the_same_seed_is_the_same_patch_and_another_seed_another():
+def test_g1_the_same_seed_is_the_same_patch_and_another_seed_another() -> None:
     for one, two, other in zip(fields(meadow(3)), fields(meadow(3)), fields(meadow(4)), strict=True):
         np.testing.assert_array_equal(one, two)
         if one.size and one.ndim:
@@ -43,7 +49,7 @@ def test_g1_the_same_seed_is_the_same_patch_and_another_seed_another():
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_blades_are_spread_evenly_at_every_density(seed):
+def test_blades_are_spread_evenly_at_every_density(seed: int) -> None:
     blades = meadow(seed)
     for kept in (500, 250, 100):
         root = blades.root[blades.rank < kept / 500]
@@ -56,18 +62,18 @@ def test_blades_are_spread_evenly_at_every_density(seed):
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_neither_edges_nor_corners_of_a_patch_are_thin_or_crowded(seed):
+def test_neither_edges_nor_corners_of_a_patch_are_thin_or_crowded(seed: int) -> None:
     root = np.concatenate([meadow(seed * 10 + number).root for number in range(10)])
     rim = (np.minimum(root, PATCH - root).min(axis=1) < 0.125 * PATCH).mean()
     assert rim == pytest.approx(1.0 - 0.75**2, abs=0.03)
 
 
-def test_ranks_are_a_permutation():
+def test_ranks_are_a_permutation() -> None:
     blades = meadow(count=320)
     np.testing.assert_allclose(np.sort(blades.rank) * 320, np.arange(320), atol=1e-3)
 
 
-def test_neighbours_are_alike_in_height():
+def test_neighbours_are_alike_in_height() -> None:
     apart, near = [], []
     for seed in range(6):
         blades = meadow(seed)
@@ -79,7 +85,7 @@ def test_neighbours_are_alike_in_height():
     assert np.mean(near) < 0.97 * np.mean(apart)
 
 
-def test_heights_use_the_whole_range_and_lean_never_stops():
+def test_heights_use_the_whole_range_and_lean_never_stops() -> None:
     blades = meadow()
     assert np.ptp(blades.height) > 0.25
     lean = np.linalg.norm(blades.rest, axis=1)
@@ -87,7 +93,7 @@ def test_heights_use_the_whole_range_and_lean_never_stops():
     assert lean.max() > 0.28
 
 
-def test_lean_and_facing_point_everywhere():
+def test_lean_and_facing_point_everywhere() -> None:
     blades = meadow()
     for angle in (blades.facing, np.arctan2(blades.rest[:, 1], blades.rest[:, 0])):
         assert abs(np.exp(1j * angle).mean()) < 0.15

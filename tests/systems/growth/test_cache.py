@@ -3,7 +3,10 @@
 import io
 import os
 import sys
+import tempfile
 from hashlib import blake2b
+from pathlib import Path
+from typing import Any, Never
 
 import numpy as np
 import pytest
@@ -11,6 +14,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from tallgrass.components.grass import GrassKind, Place
+from tallgrass.components.growth import Growth
 from tallgrass.components.quality import BladeRing, Quality, StripRing
 from tallgrass.systems.growth import cache
 from tallgrass.systems.growth.archive import pack, unpack
@@ -32,11 +36,11 @@ PACKED = pack(GROWN, key="key")
 
 
 @pytest.fixture
-def grows(monkeypatch):
+def grows(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
     """Count how often something is grown."""
     calls = []
 
-    def count(kind, quality, /, *, seed):
+    def count(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
         calls.append((kind, quality, seed))
         return GROWN
 
@@ -44,15 +48,15 @@ def grows(monkeypatch):
     return calls
 
 
-def stored(folder):
+def stored(folder: Path) -> list[Path]:
     return [path for path in folder.iterdir() if path.is_file()]
 
 
-def same(one, two):
+def same(one: Growth, two: Growth) -> bool:
     return pack(one, key="") == pack(two, key="")
 
 
-def test_what_was_grown_once_is_read_the_next_time(tmp_path, grows):
+def test_what_was_grown_once_is_read_the_next_time(tmp_path: Path, grows: list[Any]) -> None:
     first = cached_growth(KIND, SMALL, seed=5, folder=tmp_path / "new" / "folder")
     second = cached_growth(KIND, SMALL, seed=5, folder=tmp_path / "new" / "folder")
     assert len(grows) == 1
@@ -74,7 +78,7 @@ def test_what_was_grown_once_is_read_the_next_time(tmp_path, grows):
         {"blades": 13},
     ],
 )
-def test_another_kind_is_grown_anew(change):
+def test_another_kind_is_grown_anew(change: dict[str, Any]) -> None:
     other = KIND.model_copy(update=change)
     assert growth_key(other, SMALL, seed=5) != growth_key(KIND, SMALL, seed=5)
 
@@ -90,19 +94,19 @@ def test_another_kind_is_grown_anew(change):
         {"strip_rings": [StripRing(to=3, strips=2, texel=0.05)]},
     ],
 )
-def test_another_quality_is_grown_anew(change):
+def test_another_quality_is_grown_anew(change: dict[str, Any]) -> None:
     other = SMALL.model_copy(update=change)
     assert growth_key(KIND, other, seed=5) != growth_key(KIND, SMALL, seed=5)
 
 
-def test_another_seed_or_other_code_is_grown_anew(monkeypatch):
+def test_another_seed_or_other_code_is_grown_anew(monkeypatch: pytest.MonkeyPatch) -> None:
     keys = {growth_key(KIND, SMALL, seed=seed) for seed in (5, 6)}
     monkeypatch.setattr(cache, "_version", lambda: "other")
     keys.add(growth_key(KIND, SMALL, seed=5))
     assert len(keys) == 3
 
 
-def test_colours_places_and_ranges_need_no_growing():
+def test_colours_places_and_ranges_need_no_growing() -> None:
     kind = KIND.model_copy(update={"root": "#000000", "variety": 0.5, "segments": 3, "place": Place(map="a.png")})
     quality = SMALL.model_copy(update={"carpet_to": 30, "blade_rings": [BladeRing(to=2, segments=7)]})
     assert growth_key(kind, quality, seed=5) == growth_key(KIND, SMALL, seed=5)
@@ -110,7 +114,7 @@ def test_colours_places_and_ranges_need_no_growing():
 
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, len(PACKED) - 1), st.integers(1, 255))
-def test_a_file_with_any_byte_changed_is_never_believed(place, change):
+def test_a_file_with_any_byte_changed_is_never_believed(place: int, change: int) -> None:
     data = bytearray(PACKED)
     data[place] ^= change
     assert unpack(bytes(data), key="key", quality=SMALL, blades=12) is None
@@ -118,22 +122,22 @@ def test_a_file_with_any_byte_changed_is_never_believed(place, change):
 
 @settings(max_examples=60, deadline=None)
 @given(st.one_of(st.binary(max_size=400), st.integers(0, len(PACKED) - 1).map(lambda end: PACKED[:end])))
-def test_a_file_that_is_cut_off_or_not_ours_is_never_believed(data):
+def test_a_file_that_is_cut_off_or_not_ours_is_never_believed(data: bytes) -> None:
     assert unpack(data, key="key", quality=SMALL, blades=12) is None
 
 
-def test_a_file_under_another_name_is_never_believed():
+def test_a_file_under_another_name_is_never_believed() -> None:
     assert unpack(PACKED, key="key", quality=SMALL, blades=12) is not None
     assert unpack(PACKED, key="other", quality=SMALL, blades=12) is None
 
 
 @pytest.mark.parametrize(("change", "blades"), [({}, 13), ({"carpet": 16}, 12), ({"models": 2}, 12)])
-def test_a_whole_file_that_does_not_fit_is_never_believed(change, blades):
+def test_a_whole_file_that_does_not_fit_is_never_believed(change: dict[str, Any], blades: int) -> None:
     assert unpack(PACKED, key="key", quality=SMALL.model_copy(update=change), blades=blades) is None
 
 
 class Trap:
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, tuple[str]]:
         return (sys.exit, ("unpickled",))
 
 
@@ -146,24 +150,26 @@ class Trap:
         {},
     ],
 )
-def test_a_file_with_the_right_checksum_but_wrong_arrays_is_never_believed(values):
+def test_a_file_with_the_right_checksum_but_wrong_arrays_is_never_believed(values: dict[str, Any]) -> None:
     buffer = io.BytesIO()
     np.savez(buffer, **values)
     forged = forge(buffer.getvalue())
     assert unpack(forged, key="key", quality=SMALL, blades=12) is None
 
 
-def forge(data):
+def forge(data: bytes) -> bytes:
     return blake2b(data, digest_size=32, key=b"key").digest() + data
 
 
-def test_a_forgery_of_the_real_thing_would_be_believed():
-    assert same(unpack(forge(PACKED[32:]), key="key", quality=SMALL, blades=12), GROWN)
+def test_a_forgery_of_the_real_thing_would_be_believed() -> None:
+    found = unpack(forge(PACKED[32:]), key="key", quality=SMALL, blades=12)
+    assert found is not None
+    assert same(found, GROWN)
 
 
 @settings(max_examples=10, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(junk=st.binary(max_size=64))
-def test_a_broken_file_is_grown_again_and_replaced(tmp_path, grows, junk):
+def test_a_broken_file_is_grown_again_and_replaced(tmp_path: Path, grows: list[Any], junk: bytes) -> None:
     cached_growth(KIND, SMALL, seed=5, folder=tmp_path)
     (path,) = stored(tmp_path)
     path.write_bytes(junk)
@@ -173,32 +179,35 @@ def test_a_broken_file_is_grown_again_and_replaced(tmp_path, grows, junk):
     assert len(grows) == before + 1
 
 
-def test_a_folder_that_is_a_file_is_no_error(tmp_path, grows):
+def test_a_folder_that_is_a_file_is_no_error(tmp_path: Path, grows: list[Any]) -> None:
     (tmp_path / "file").write_text("in the way")
     for _ in range(2):
         assert cached_growth(KIND, SMALL, seed=5, folder=tmp_path / "file") is GROWN
     assert len(grows) == 2
 
 
-def test_a_place_where_nothing_can_be_written_is_no_error(tmp_path, grows, monkeypatch):
-    def refuse(*_args, **_options):
+@pytest.mark.usefixtures("grows")
+def test_a_place_where_nothing_can_be_written_is_no_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_args: Any, **_options: Any) -> Never:
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(cache.tempfile, "mkstemp", refuse)
+    monkeypatch.setattr(tempfile, "mkstemp", refuse)
     assert cached_growth(KIND, SMALL, seed=5, folder=tmp_path) is GROWN
     assert stored(tmp_path) == []
 
 
-def test_a_full_disk_leaves_nothing_behind(tmp_path, grows, monkeypatch):
-    def refuse(_self, _target):
+@pytest.mark.usefixtures("grows")
+def test_a_full_disk_leaves_nothing_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(_self: Any, _target: Any) -> Never:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(cache.Path, "replace", refuse)
+    monkeypatch.setattr(Path, "replace", refuse)
     assert cached_growth(KIND, SMALL, seed=5, folder=tmp_path) is GROWN
     assert stored(tmp_path) == []
 
 
-def test_what_was_not_used_for_longest_is_forgotten(tmp_path, grows):
+@pytest.mark.usefixtures("grows")
+def test_what_was_not_used_for_longest_is_forgotten(tmp_path: Path) -> None:
     for number in range(60):
         (tmp_path / f"{number}.growth").write_bytes(b"")
         os.utime(tmp_path / f"{number}.growth", (number, number))
@@ -210,7 +219,7 @@ def test_what_was_not_used_for_longest_is_forgotten(tmp_path, grows):
     assert "5.growth" not in names
 
 
-def test_the_folder_is_where_people_say_it_is(monkeypatch, tmp_path):
+def test_the_folder_is_where_people_say_it_is(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
     monkeypatch.delenv("TALLGRASS_CACHE", raising=False)
     monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
@@ -223,12 +232,13 @@ def test_the_folder_is_where_people_say_it_is(monkeypatch, tmp_path):
     assert cache_folder() == tmp_path / "own"
 
 
-def test_without_a_home_there_is_no_cache_and_no_error(monkeypatch, grows):
-    def nowhere():
+@pytest.mark.usefixtures("grows")
+def test_without_a_home_there_is_no_cache_and_no_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    def nowhere() -> Never:
         raise RuntimeError("Could not determine home directory.")
 
     monkeypatch.delenv("TALLGRASS_CACHE", raising=False)
     monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
-    monkeypatch.setattr(cache.Path, "home", nowhere)
+    monkeypatch.setattr(Path, "home", nowhere)
     assert cache_folder() is None
     assert cached_growth(KIND, SMALL, seed=5) is GROWN

@@ -1,11 +1,14 @@
 """The carpet: images of an endless field from several angles (paper, section 2.2)."""
 
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from tallgrass.components.grass import GrassKind
+from tallgrass.components.growth import Carpet
 from tallgrass.systems.growth.bend import ribbon, segment_normals, spine
 from tallgrass.systems.growth.blades import grow_blades
 from tallgrass.systems.growth.carpet import grow_carpet
@@ -19,12 +22,12 @@ BLADES = grow_blades(KIND, count=60, patch=PATCH, variants=4, seed=4)
 
 
 @pytest.fixture(scope="module")
-def carpet():
+def carpet() -> Carpet:
     return grow_carpet(BLADES, POSTURES, patch=PATCH, texels=TEXELS, taper=KIND.taper)
 
 
 @cache
-def soup():
+def soup() -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
     """Return the corners (n, 3, 3), places (n, 3) and normals (n, 3) of every triangle of the patch."""
     left, right = ribbon(BLADES, POSTURES, (0.0, 0.0), points=SEGMENTS + 1, taper=KIND.taper)
     normal = segment_normals(BLADES, spine(BLADES, POSTURES, (0.0, 0.0), points=SEGMENTS + 1))
@@ -40,7 +43,7 @@ def soup():
     return np.array(corners, np.float64), np.array(places), np.array(normals)
 
 
-def cast(origin, ray, corners):
+def cast(origin: NDArray[Any], ray: NDArray[Any], corners: NDArray[Any]) -> tuple[int, float, float] | None:
     """Return the distance along the ray and the weights of the first triangle that it meets, and which; or None."""
     a, edge, side = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     cross = np.cross(ray, side)
@@ -57,7 +60,7 @@ def cast(origin, ray, corners):
     return None if np.isinf(far[first]) else (first, u[first], v[first])
 
 
-def meet(start, heading, slope, carpet):
+def meet(start: NDArray[Any], heading: NDArray[Any], slope: float, carpet: Carpet) -> list[float]:
     """Return what a ray through a point of the plane at mid-height meets: place, height, normal along it, coverage."""
     corners, places, normals = soup()
     reach = carpet.height / slope
@@ -84,7 +87,7 @@ def meet(start, heading, slope, carpet):
 
 @pytest.mark.parametrize("direction", range(4))
 @pytest.mark.parametrize("row", range(5))
-def test_g4_the_carpet_means_what_rays_through_the_field_meet(carpet, row, direction):
+def test_g4_the_carpet_means_what_rays_through_the_field_meet(carpet: Carpet, row: int, direction: int) -> None:
     spots = np.random.default_rng(row).random((60, 2)) * PATCH
     truth = np.array([meet(spot, HEADINGS[direction], float(carpet.slope[row]), carpet) for spot in spots])
     image = carpet.texels[row, direction] / 255.0
@@ -94,7 +97,7 @@ def test_g4_the_carpet_means_what_rays_through_the_field_meet(carpet, row, direc
     assert (np.abs(error.mean(axis=0)) < 4.0 * spread + 0.004).all()
 
 
-def test_g4_a_carpet_of_fine_texels_shows_each_ray_what_it_meets():
+def test_g4_a_carpet_of_fine_texels_shows_each_ray_what_it_meets() -> None:
     fine = grow_carpet(BLADES, POSTURES, patch=PATCH, texels=400, taper=1.0, slopes=(0.4,))
     spots = np.random.default_rng(7).random((150, 2)) * PATCH
     truth = np.array([meet(spot, HEADINGS[1], 0.4, fine) for spot in spots])
@@ -104,20 +107,20 @@ def test_g4_a_carpet_of_fine_texels_shows_each_ray_what_it_meets():
     assert np.corrcoef(found[:, 1], truth[:, 1])[0, 1] > 0.85
 
 
-def test_g4_a_flatter_view_sees_less_ground_and_more_of_the_tips(carpet):
+def test_g4_a_flatter_view_sees_less_ground_and_more_of_the_tips(carpet: Carpet) -> None:
     texels = carpet.texels.astype(float).mean(axis=(1, 2, 3))
     assert (np.diff(carpet.slope) > 0.0).all()
     assert (np.diff(texels[:, 3]) < 0.0).all()
     assert (np.diff(texels[:, 1] / texels[:, 3]) < 0.0).all()
 
 
-def test_g4_the_view_from_behind_sees_as_much_as_the_view_from_before(carpet):
+def test_g4_the_view_from_behind_sees_as_much_as_the_view_from_before(carpet: Carpet) -> None:
     coverage = carpet.texels[..., 3].mean(axis=(2, 3)) / 255.0
     np.testing.assert_allclose(coverage[:3, 0], coverage[:3, 2], rtol=0.03)
     np.testing.assert_allclose(coverage[:3, 1], coverage[:3, 3], rtol=0.03)
 
 
-def test_g4_the_images_repeat_without_a_seam(carpet):
+def test_g4_the_images_repeat_without_a_seam(carpet: Carpet) -> None:
     image = carpet.texels[2, :, :, :, 3].astype(float)
     for axis in (1, 2):
         inner = np.abs(np.diff(image, axis=axis)).mean()
@@ -125,7 +128,7 @@ def test_g4_the_images_repeat_without_a_seam(carpet):
         assert seam < 1.3 * inner
 
 
-def test_g1_the_carpet_shows_the_roots_of_the_same_blades():
+def test_g1_the_carpet_shows_the_roots_of_the_same_blades() -> None:
     texels = grow_carpet(BLADES, POSTURES, patch=PATCH, texels=256, taper=1.0, slopes=(50.0,)).texels[0, 0]
     column, row = (BLADES.root / PATCH * 256).astype(int).T
     near = np.max([texels[(row + i) % 256, (column + j) % 256, 3] for i in (-1, 0, 1) for j in (-1, 0, 1)], axis=0)
@@ -133,20 +136,20 @@ def test_g1_the_carpet_shows_the_roots_of_the_same_blades():
     assert (texels[..., 3] > 0).mean() < 0.3
 
 
-def test_what_is_painted_is_premultiplied_and_without_blades_there_is_nothing(carpet):
+def test_what_is_painted_is_premultiplied_and_without_blades_there_is_nothing(carpet: Carpet) -> None:
     texels = carpet.texels.astype(int)
     assert (texels[..., :3] <= texels[..., 3:] + 1).all()
     assert not texels[texels[..., 3] == 0].any()
 
 
-def test_the_plane_is_at_mid_height(carpet):
+def test_the_plane_is_at_mid_height(carpet: Carpet) -> None:
     tips = spine(BLADES, POSTURES, (0.0, 0.0), points=9)[:, :, 1].max()
     assert 0.0 < carpet.height - tips <= 0.011
     assert carpet.offset == pytest.approx(carpet.height / 2)
 
 
 @pytest.mark.parametrize("texels", [8, 50, 96])
-def test_g5_a_coarser_carpet_has_the_same_means(carpet, texels):
+def test_g5_a_coarser_carpet_has_the_same_means(carpet: Carpet, texels: int) -> None:
     other = grow_carpet(BLADES, POSTURES, patch=PATCH, texels=texels, taper=1.0)
     assert other.texels.shape == (5, 4, texels, texels, 4)
     np.testing.assert_allclose(

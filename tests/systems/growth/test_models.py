@@ -5,11 +5,14 @@ import subprocess
 import sys
 from dataclasses import fields, is_dataclass
 from hashlib import blake2b
+from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from tallgrass.components.grass import GrassKind
+from tallgrass.components.growth import Growth
 from tallgrass.components.quality import PRESETS, BladeRing, Quality, StripRing
 from tallgrass.systems.growth.bend import spine
 from tallgrass.systems.growth.models import grow, precompute_bytes
@@ -26,7 +29,7 @@ SMALL = Quality(
 KIND = GrassKind(width=0.02)
 
 
-def arrays(record):
+def arrays(record: Any) -> list[NDArray[Any]]:
     if isinstance(record, np.ndarray):
         return [record]
     if isinstance(record, tuple):
@@ -36,21 +39,21 @@ def arrays(record):
     return [np.asarray(record)]
 
 
-def digest(growth):
+def digest(growth: Growth) -> str:
     return blake2b(b"".join(array.tobytes() for array in arrays(growth))).hexdigest()
 
 
 @pytest.fixture(scope="module")
-def growth():
+def growth() -> Growth:
     return grow(KIND, SMALL, seed=11)
 
 
 @pytest.fixture(scope="module")
-def high():
+def high() -> Growth:
     return grow(GrassKind(), PRESETS["high"], seed=1)
 
 
-def test_g5_a_growth_is_as_fine_as_its_quality_says(growth):
+def test_g5_a_growth_is_as_fine_as_its_quality_says(growth: Growth) -> None:
     assert len(growth.models) == 2
     for model in growth.models:
         assert model.blades.root.shape == (40, 2)
@@ -58,12 +61,12 @@ def test_g5_a_growth_is_as_fine_as_its_quality_says(growth):
         assert model.carpet.texels.shape[2:4] == (24, 24)
 
 
-def test_a_kinds_own_number_of_blades_goes_before_the_qualitys():
+def test_a_kinds_own_number_of_blades_goes_before_the_qualitys() -> None:
     growth = grow(KIND.model_copy(update={"blades": 7}), SMALL, seed=1)
     assert growth.models[0].blades.root.shape == (7, 2)
 
 
-def test_g1_every_blade_is_in_all_three_representations(growth):
+def test_g1_every_blade_is_in_all_three_representations(growth: Growth) -> None:
     for model in growth.models:
         tips = spine(model.blades, growth.postures, (0.0, 0.0), points=17)
         for strips in model.strips:
@@ -73,14 +76,14 @@ def test_g1_every_blade_is_in_all_three_representations(growth):
         assert model.carpet.height >= tips[:, :, 1].max()
 
 
-def test_g1_nothing_leans_out_of_the_textures(growth):
+def test_g1_nothing_leans_out_of_the_textures(growth: Growth) -> None:
     for model in growth.models:
         for strips in model.strips:
             assert (strips.targets >= 0.0).all()
             assert (strips.targets <= 1.0).all()
 
 
-def test_textures_of_all_models_have_one_size(growth):
+def test_textures_of_all_models_have_one_size(growth: Growth) -> None:
     first, second = growth.models
     for one, two in zip(first.strips, second.strips, strict=True):
         assert one.texels.shape == two.texels.shape
@@ -88,12 +91,12 @@ def test_textures_of_all_models_have_one_size(growth):
     assert first.carpet.height == second.carpet.height
 
 
-def test_models_differ(growth):
+def test_models_differ(growth: Growth) -> None:
     first, second = growth.models
     assert np.abs(first.blades.root - second.blades.root).max() > 0.1
 
 
-def test_growing_is_the_same_in_every_process(growth):
+def test_growing_is_the_same_in_every_process(growth: Growth) -> None:
     code = (
         "import importlib.util, sys\n"
         f"spec = importlib.util.spec_from_file_location('growing', {__file__!r})\n"
@@ -106,28 +109,28 @@ def test_growing_is_the_same_in_every_process(growth):
     assert run.stdout.strip() == digest(growth)
 
 
-def test_another_seed_is_another_field(growth):
+def test_another_seed_is_another_field(growth: Growth) -> None:
     assert digest(grow(KIND, SMALL, seed=12)) != digest(growth)
 
 
-def test_r3_the_high_preset_takes_less_than_twenty_megabytes_a_kind(high):
+def test_r3_the_high_preset_takes_less_than_twenty_megabytes_a_kind(high: Growth) -> None:
     texture = high.models[0].strips[0]
     assert precompute_bytes(high) > 3 * (texture.texels.nbytes + texture.rank.nbytes)
     assert precompute_bytes(high) < 20e6
 
 
-def test_tall_kinds_have_coarser_texels_so_that_they_take_no_more():
+def test_tall_kinds_have_coarser_texels_so_that_they_take_no_more() -> None:
     kind = GrassKind(height=[1.5, 2.5], width=0.03, blades=60)
     assert precompute_bytes(grow(kind, PRESETS["high"], seed=1)) < 20e6
 
 
-def test_g1_blades_and_strips_cover_the_same_in_every_ring(high):
+def test_g1_blades_and_strips_cover_the_same_in_every_ring(high: Growth) -> None:
     model = high.models[0]
     area = [strips.texels[..., 3].mean() / 255.0 * strips.plane.size for strips in model.strips]
     assert area[0] > area[1] > area[2] > 0.8 * area[0]
 
 
-def test_arrays_are_what_the_graphics_card_takes(growth):
+def test_arrays_are_what_the_graphics_card_takes(growth: Growth) -> None:
     for array in arrays(growth):
         assert array.ndim == 0 or array.flags.c_contiguous
         assert array.dtype in (np.float32, np.int32, np.uint8) or array.ndim == 0

@@ -1,9 +1,14 @@
 """Response: index over time (paper, section 3.3, figure 8)."""
 
+from itertools import pairwise
+from typing import Any
+
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from tallgrass.components.grass import GrassKind
+from tallgrass.components.growth import Response
 from tallgrass.systems.growth.response import grow_response
 
 KINDS = {
@@ -16,16 +21,16 @@ KINDS = {
 
 
 @pytest.fixture(scope="module")
-def responses():
+def responses() -> dict[str, Response]:
     return {name: grow_response(kind) for name, kind in KINDS.items()}
 
 
-def crossings(curve, level):
+def crossings(curve: NDArray[Any], level: float) -> NDArray[Any]:
     return np.flatnonzero(np.diff(np.sign(curve - level)) != 0)
 
 
 @pytest.mark.parametrize("name", KINDS)
-def test_w4_a_wind_that_starts_bends_the_blade_too_far_and_back(responses, name):
+def test_w4_a_wind_that_starts_bends_the_blade_too_far_and_back(responses: dict[str, Response], name: str) -> None:
     rise = responses[name].rise
     assert rise[0] == 0.0
     assert 1.03 < rise.max() < 1.8
@@ -36,7 +41,9 @@ def test_w4_a_wind_that_starts_bends_the_blade_too_far_and_back(responses, name)
 
 
 @pytest.mark.parametrize("name", KINDS)
-def test_w4_a_wind_that_stops_leaves_the_blade_swinging_till_it_rests(responses, name):
+def test_w4_a_wind_that_stops_leaves_the_blade_swinging_till_it_rests(
+    responses: dict[str, Response], name: str
+) -> None:
     fall = responses[name].fall
     assert fall[0] == pytest.approx(1.0, abs=1e-3)
     assert fall.min() < -0.1
@@ -46,34 +53,34 @@ def test_w4_a_wind_that_stops_leaves_the_blade_swinging_till_it_rests(responses,
 
 
 @pytest.mark.parametrize("name", KINDS)
-def test_w4_each_swing_is_smaller_than_the_last(responses, name):
+def test_w4_each_swing_is_smaller_than_the_last(responses: dict[str, Response], name: str) -> None:
     fall = responses[name].fall
     cuts = [0, *crossings(fall, 0.0)]
-    peaks = [np.abs(fall[a : b + 1]).max() for a, b in zip(cuts, cuts[1:], strict=False)]
+    peaks = [np.abs(fall[a : b + 1]).max() for a, b in pairwise(cuts)]
     peaks = [peak for peak in peaks if peak > 0.03]
-    assert all(later < earlier for earlier, later in zip(peaks, peaks[1:], strict=False))
+    assert all(later < earlier for earlier, later in pairwise(peaks))
 
 
-def half_swing(response):
+def half_swing(response: Response) -> float:
     cuts = crossings(response.fall, 0.0)
-    return (cuts[2] - cuts[0]) / 2 * response.step
+    return float((cuts[2] - cuts[0]) / 2 * response.step)
 
 
-def test_w12_stiff_and_short_kinds_swing_faster_than_soft_and_tall_ones(responses):
+def test_w12_stiff_and_short_kinds_swing_faster_than_soft_and_tall_ones(responses: dict[str, Response]) -> None:
     half = {name: half_swing(response) for name, response in responses.items()}
     assert half["stiff"] < half["meadow"] < half["soft"]
     assert half["lawn"] < half["meadow"] < half["reed"]
     assert 0.15 < half["meadow"] < 1.0
 
 
-def test_w12_more_damping_means_fewer_and_smaller_swings(responses):
+def test_w12_more_damping_means_fewer_and_smaller_swings(responses: dict[str, Response]) -> None:
     heavy = grow_response(GrassKind(damping=3.0))
     assert heavy.fall.min() > responses["meadow"].fall.min() + 0.1
     assert heavy.rise.max() < responses["meadow"].rise.max()
 
 
 @pytest.mark.parametrize("damping", [0.02, 100.0])
-def test_w4_the_response_ends_at_rest_however_a_kind_is_damped(damping):
+def test_w4_the_response_ends_at_rest_however_a_kind_is_damped(damping: float) -> None:
     response = grow_response(GrassKind(damping=damping))
     assert np.isfinite(response.rise).all()
     assert np.isfinite(response.fall).all()

@@ -1,14 +1,16 @@
 """The physics of a chain of links."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from tallgrass.components.grass import GrassKind
-from tallgrass.systems.growth.simulate import GRAVITY, LINKS, build_chain, lowest_swing, place_links, simulate
+from tallgrass.systems.growth.simulate import GRAVITY, LINKS, Chain, build_chain, lowest_swing, place_links, simulate
 
 EVEN = np.ones((1, LINKS))
 
@@ -17,7 +19,7 @@ def still(steps: int, batch: int = 1) -> np.ndarray:
     return np.zeros((steps, batch))
 
 
-def energy(chain, angle, rate):
+def energy(chain: Chain, angle: NDArray[Any], rate: NDArray[Any]) -> float:
     """Return the mechanical energy of thin rods, from positions and speeds rather than from any matrix."""
     length = 1.0 / LINKS
     turn = np.stack([np.cos(angle), -np.sin(angle)], axis=-1) * rate[:, None] * length
@@ -26,10 +28,10 @@ def energy(chain, angle, rate):
     spin = chain.mass * length**2 / 12.0 * rate**2
     bend = np.diff(angle, prepend=0.0)
     kinetic = 0.5 * (chain.mass * (speed**2).sum(axis=1) + spin).sum()
-    return kinetic + (chain.mass * height).sum() + 0.5 * (chain.stiffness[0] * bend**2).sum()
+    return float(kinetic + (chain.mass * height).sum() + 0.5 * (chain.stiffness[0] * bend**2).sum())
 
 
-def test_a_blade_without_drag_or_damping_keeps_its_energy():
+def test_a_blade_without_drag_or_damping_keeps_its_energy() -> None:
     chain = build_chain(GrassKind(), EVEN)
     chain = replace(chain, damping=np.zeros((1, LINKS)), area=np.zeros(LINKS))
     angle, rate = np.linspace(0.05, 0.9, LINKS)[None], np.zeros((1, LINKS))
@@ -41,7 +43,7 @@ def test_a_blade_without_drag_or_damping_keeps_its_energy():
         assert energy(chain, angle[0], rate[0]) == pytest.approx(start, abs=0.002 * swing)
 
 
-def test_damping_and_drag_only_ever_take_energy_away():
+def test_damping_and_drag_only_ever_take_energy_away() -> None:
     chain = build_chain(GrassKind(), EVEN)
     angle, rate = np.linspace(0.0, 1.2, LINKS)[None], np.zeros((1, LINKS))
     before = energy(chain, angle[0], rate[0])
@@ -53,7 +55,7 @@ def test_damping_and_drag_only_ever_take_energy_away():
         before = now
 
 
-def test_small_swings_have_the_period_of_the_lowest_mode():
+def test_small_swings_have_the_period_of_the_lowest_mode() -> None:
     chain = build_chain(GrassKind(), EVEN)
     chain = replace(chain, damping=np.zeros((1, LINKS)), area=np.zeros(LINKS))
     step = 0.004
@@ -68,27 +70,30 @@ def test_small_swings_have_the_period_of_the_lowest_mode():
 
 @settings(max_examples=12, deadline=None)
 @given(st.floats(0.05, 2.5), st.floats(0.02, 1.0), st.floats(0.02, 20.0), st.floats(0.1, 10.0), st.floats(0.3, 3.0))
-def test_every_kind_stands_upright_and_swings(tallest, shortest, stiffness, damping, taper):
+def test_every_kind_stands_upright_and_swings(
+    tallest: float, shortest: float, stiffness: float, damping: float, taper: float
+) -> None:
     kind = GrassKind(
         height=[tallest * max(shortest, 0.4), tallest], stiffness=stiffness, damping=damping, taper=taper, width=0.01
     )
     chain = build_chain(kind, EVEN)
     swing = lowest_swing(chain)[0]
     assert swing > 0.0
+    rest, still_rate = np.zeros(LINKS), np.zeros((1, LINKS))
     bent = np.full((1, LINKS), 0.05)
-    history, _ = simulate(chain, bent, np.zeros((1, LINKS)), still(400), step=0.2 / swing)
-    assert np.isfinite(history).all()
+    history, rate = simulate(chain, bent, still_rate, still(400), step=0.2 / swing)
     assert np.abs(history).max() < 0.2
-    assert np.abs(history[-1]).mean() < 0.05
+    upright = energy(chain, rest, rest)
+    assert upright <= energy(chain, history[-1, 0], rate[0]) < energy(chain, bent[0], rest)
 
 
-def test_meadow_grass_swings_about_once_a_second():
+def test_meadow_grass_swings_about_once_a_second() -> None:
     for kind in (GrassKind(), GrassKind(height=[0.1, 0.2], width=0.005), GrassKind(height=[1.0, 1.6], width=0.02)):
         chain = build_chain(kind, EVEN)
         assert 0.4 < lowest_swing(chain)[0] * chain.second / (2.0 * np.pi) < 3.0
 
 
-def test_a_batch_is_the_same_as_one_blade_at_a_time():
+def test_a_batch_is_the_same_as_one_blade_at_a_time() -> None:
     kind = GrassKind()
     factors = np.exp(np.random.default_rng(1).normal(0.0, 0.4, (3, LINKS)))
     wind = np.broadcast_to(np.array([0.3, 1.0, 2.0]), (60, 3))
@@ -104,7 +109,7 @@ def test_a_batch_is_the_same_as_one_blade_at_a_time():
         np.testing.assert_allclose(alone[:, 0], together[:, number], atol=1e-12)
 
 
-def test_the_wind_pushes_the_blade_the_way_it_blows_and_mirrors():
+def test_the_wind_pushes_the_blade_the_way_it_blows_and_mirrors() -> None:
     chain = build_chain(GrassKind(), np.ones((2, LINKS)))
     wind = np.broadcast_to(np.array([1.0, -1.0]), (100, 2))
     history, _ = simulate(chain, np.zeros((2, LINKS)), np.zeros((2, LINKS)), wind, step=0.01)
@@ -112,6 +117,6 @@ def test_the_wind_pushes_the_blade_the_way_it_blows_and_mirrors():
     np.testing.assert_allclose(history[:, 0], -history[:, 1], atol=1e-12)
 
 
-def test_time_runs_in_roots_of_length_over_gravity():
+def test_time_runs_in_roots_of_length_over_gravity() -> None:
     chain = build_chain(GrassKind(height=[GRAVITY / 4, GRAVITY / 4]), EVEN)
     assert chain.second == pytest.approx(2.0)

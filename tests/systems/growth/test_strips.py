@@ -1,9 +1,13 @@
 """Strips: images of the blades between two planes (paper, sections 2.1, 2.2, 4.2)."""
 
+from typing import Any
+
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from tallgrass.components.grass import GrassKind
+from tallgrass.components.growth import Blades, Strips
 from tallgrass.systems.growth.bend import ribbon, spine
 from tallgrass.systems.growth.blades import grow_blades
 from tallgrass.systems.growth.postures import grow_postures
@@ -14,7 +18,7 @@ KIND = GrassKind(width=0.02)
 POSTURES = grow_postures(KIND, seed=2)
 
 
-def grown(kind=KIND, count=120, seed=2, **options):
+def grown(kind: GrassKind = KIND, count: int = 120, seed: int = 2, **options: Any) -> tuple[Blades, Strips]:
     blades = grow_blades(kind, count=count, patch=PATCH, variants=4, seed=seed)
     settings = {"patch": PATCH, "strips": STRIPS, "texel": TEXEL, "taper": kind.taper, "margin": MARGIN} | options
     return blades, grow_strips(blades, POSTURES, **settings)
@@ -23,29 +27,31 @@ def grown(kind=KIND, count=120, seed=2, **options):
 BLADES, SHEET = grown()
 
 
-def triangles(blades, points=13, taper=1.0):
+def triangles(blades: Blades, points: int = 13, taper: float = 1.0) -> NDArray[Any]:
     left, right = ribbon(blades, POSTURES, (0.0, 0.0), points=points, taper=taper)
     both = [left[:, :-1], right[:, :-1], right[:, 1:], left[:, :-1], right[:, 1:], left[:, 1:]]
     return np.stack(both, axis=2).reshape(blades.root.shape[0], points - 1, 2, 3, 3).astype(np.float64)
 
 
-def covered(corners, point):
+def covered(corners: NDArray[Any], point: NDArray[Any]) -> NDArray[Any]:
     """Tell which points (p, 2) lie in any of the triangles (n, 3, 2)."""
     a, b, c = (corners[:, None, k] for k in range(3))
 
-    def side(p, q):
-        return (q[..., 0] - p[..., 0]) * (point[:, 1] - p[..., 1]) - (q[..., 1] - p[..., 1]) * (point[:, 0] - p[..., 0])
+    def side(p: NDArray[Any], q: NDArray[Any]) -> NDArray[Any]:
+        along, away = q - p, point - p
+        return np.asarray(along[..., 0] * away[..., 1] - along[..., 1] * away[..., 0])
 
     one, two, three = side(a, b), side(b, c), side(c, a)
-    return (((one > 0) & (two > 0) & (three > 0)) | ((one < 0) & (two < 0) & (three < 0))).any(axis=0)
+    left, right = (one > 0) & (two > 0) & (three > 0), (one < 0) & (two < 0) & (three < 0)
+    return np.asarray((left | right).any(axis=0))
 
 
-def texel_of(sheet, u, v):
+def texel_of(sheet: Strips, u: NDArray[Any], v: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
     h, w = sheet.texels.shape[2:4]
     return np.clip((v * h).astype(int), 0, h - 1), np.clip((u * w).astype(int), 0, w - 1)
 
 
-def test_g1_every_blade_is_painted_on_the_strip_of_its_slice():
+def test_g1_every_blade_is_painted_on_the_strip_of_its_slice() -> None:
     for orientation, axis in ((0, 1), (1, 0)):
         number = SHEET.slice[orientation]
         low = number * PATCH / STRIPS
@@ -53,7 +59,7 @@ def test_g1_every_blade_is_painted_on_the_strip_of_its_slice():
         np.testing.assert_allclose(SHEET.plane[number], low + PATCH / STRIPS / 2, rtol=1e-6)
 
 
-def test_g1_targets_are_the_blades_control_points_seen_along_the_slices_normal():
+def test_g1_targets_are_the_blades_control_points_seen_along_the_slices_normal() -> None:
     centre = spine(BLADES, POSTURES, (0.0, 0.0), points=17)
     for orientation, axis in ((0, 0), (1, 2)):
         u, v = np.moveaxis(SHEET.targets[orientation], -1, 0)
@@ -62,7 +68,7 @@ def test_g1_targets_are_the_blades_control_points_seen_along_the_slices_normal()
 
 
 @pytest.mark.parametrize("orientation", [0, 1])
-def test_g1_every_blade_is_painted_at_its_targets(orientation):
+def test_g1_every_blade_is_painted_at_its_targets(orientation: int) -> None:
     across = np.abs([-np.sin(BLADES.facing), np.cos(BLADES.facing)][orientation]) * BLADES.width
     shown = 0
     for blade in np.flatnonzero(across > 2.5 * TEXEL * 0.7):
@@ -75,7 +81,7 @@ def test_g1_every_blade_is_painted_at_its_targets(orientation):
 
 
 @pytest.mark.parametrize("orientation", [0, 1])
-def test_g1_a_strip_covers_what_the_blades_of_its_slice_cover(orientation):
+def test_g1_a_strip_covers_what_the_blades_of_its_slice_cover(orientation: int) -> None:
     axis = (0, 2)[orientation]
     ribbons = triangles(BLADES)
     random = np.random.default_rng(orientation)
@@ -93,13 +99,13 @@ def test_g1_a_strip_covers_what_the_blades_of_its_slice_cover(orientation):
         assert truth[painted == 1.0].mean() > 0.97
 
 
-def test_what_is_painted_is_premultiplied_by_coverage():
+def test_what_is_painted_is_premultiplied_by_coverage() -> None:
     texels = SHEET.texels.astype(int)
     assert (texels[..., :3] <= texels[..., 3:] + 1).all()
     assert not texels[texels[..., 3] == 0].any()
 
 
-def test_g1_a_texel_tells_the_place_along_the_blade():
+def test_g1_a_texel_tells_the_place_along_the_blade() -> None:
     texels = SHEET.texels[0].astype(float)
     full = texels[..., 3] == 255
     row = np.nonzero(full)[1]
@@ -110,7 +116,7 @@ def test_g1_a_texel_tells_the_place_along_the_blade():
 
 
 @pytest.mark.parametrize("orientation", [0, 1])
-def test_a_lone_blades_texels_have_its_own_normal(orientation):
+def test_a_lone_blades_texels_have_its_own_normal(orientation: int) -> None:
     shown = 0
     for seed in range(5):
         blades, sheet = grown(GrassKind(width=0.04, lean=0.1), count=1, seed=seed)
@@ -122,7 +128,7 @@ def test_a_lone_blades_texels_have_its_own_normal(orientation):
     assert shown > 100
 
 
-def test_g3_of_two_blades_the_one_nearer_to_the_eye_is_painted():
+def test_g3_of_two_blades_the_one_nearer_to_the_eye_is_painted() -> None:
     blades = grow_blades(GrassKind(width=0.05, lean=0.0), count=2, patch=PATCH, variants=1, seed=1)
     blades.root[:] = [[1.0, 0.1], [1.0, 0.3]]
     blades.facing[:] = [np.pi / 2, np.pi / 2]
@@ -133,14 +139,14 @@ def test_g3_of_two_blades_the_one_nearer_to_the_eye_is_painted():
     np.testing.assert_array_equal(sheet.rank[0, 0, row, column], [128, 0])
 
 
-def test_ranks_thin_a_strip_out_blade_by_blade():
+def test_ranks_thin_a_strip_out_blade_by_blade() -> None:
     rank = SHEET.rank[0][SHEET.texels[0, ..., 3] > 0] / 255.0
     assert np.quantile(rank, 0.5) == pytest.approx(0.5, abs=0.12)
     solid = SHEET.texels[0, ..., 3] == 255
     assert np.unique(SHEET.rank[0][solid]).size > 60
 
 
-def test_ranks_reach_a_little_beyond_what_is_painted():
+def test_ranks_reach_a_little_beyond_what_is_painted() -> None:
     covered_texels = np.zeros((1, 9, 20), bool)
     covered_texels[0, 4, 5] = True
     rank = fill_ranks(np.full((1, 9, 20), 0.2), covered_texels)
@@ -148,7 +154,7 @@ def test_ranks_reach_a_little_beyond_what_is_painted():
     assert (rank[0, :, 12:] == 255).all()
 
 
-def test_the_texture_reaches_over_the_margins_and_the_highest_tip():
+def test_the_texture_reaches_over_the_margins_and_the_highest_tip() -> None:
     centre = spine(BLADES, POSTURES, (0.0, 0.0), points=17)
     assert 0.0 < SHEET.height - centre[:, :, 1].max() <= TEXEL + 1e-6
     h, w = SHEET.texels.shape[2:4]
@@ -157,19 +163,22 @@ def test_the_texture_reaches_over_the_margins_and_the_highest_tip():
 
 
 @pytest.fixture(scope="module")
-def finest():
-    return grown(strips=20, texel=0.01, height=0.8)[1].texels[..., 3].mean() / 255.0 * 20
+def finest() -> float:
+    _, sheet = grown(strips=20, texel=0.01, height=0.8)
+    return float(sheet.texels[..., 3].mean()) / 255.0 * 20
 
 
 @pytest.mark.parametrize(("strips", "texel", "part"), [(1, 0.05, 0.6), (2, 0.02, 0.75), (9, 0.01, 0.92)])
-def test_g5_strips_go_from_fine_to_coarse_and_lose_only_what_hides_behind(finest, strips, texel, part):
+def test_g5_strips_go_from_fine_to_coarse_and_lose_only_what_hides_behind(
+    finest: float, strips: int, texel: float, part: float
+) -> None:
     _, sheet = grown(strips=strips, texel=texel, height=0.8)
     assert sheet.texels.shape[:2] == (2, strips)
     area = sheet.texels[..., 3].mean() / 255.0 * strips
     assert part * finest < area <= 1.02 * finest
 
 
-def test_the_same_blades_make_the_same_strips():
+def test_the_same_blades_make_the_same_strips() -> None:
     _, again = grown()
     for name in ("texels", "rank", "targets", "slice", "plane"):
         np.testing.assert_array_equal(getattr(SHEET, name), getattr(again, name))
