@@ -15,14 +15,13 @@ from ..components.scene import Scene
 from ..components.wind import WindPrimitive, WindSource
 from ..engine.gl.guest import host_context
 from ..engine.phases import Phase, Schedule
-from ..engine.scene.load import LoadedScene, read_scene
-from ..engine.terrain.load import load_density, load_terrain
+from ..engine.scene import LoadedScene, load_maps, read_scene
 from ..engine.terrain.sample import height_at
 from ..engine.world import World
 from .cull import camera_of, discrete_distance, inside_cone, view_cone
 from .draw.painter import Painter, view_of
 from .field import Field, blades_in_field, lay_out
-from .growth.cache import grow_cached
+from .growth.cache import cached_growth
 from .lod import schedule, wanted_representation
 from .receive import Shown, blow, plant_shown_blades, plant_shown_strips, shown_patches
 from .receivers import ReceiverEntities
@@ -69,9 +68,10 @@ class Prairie:
     def __init__(self, loaded: LoadedScene, *, ctx: moderngl.Context | None, preset: str | None, lod: Lod) -> None:
         scene = loaded.scene
         quality = scene.numbers(preset)
-        terrain = load_terrain(scene.terrain, loaded.folder)
-        density = load_density(scene.grass, terrain, loaded.folder)
-        growths = [grow_cached(kind, quality, seed=scene.seed + number) for number, kind in enumerate(scene.grass.values())]
+        terrain, density = load_maps(loaded)
+        growths = [
+            cached_growth(kind, quality, seed=scene.seed + number) for number, kind in enumerate(scene.grass.values())
+        ]
         self.scene: Scene = scene
         self.path = loaded.path
         self.time = 0.0
@@ -98,7 +98,7 @@ class Prairie:
 
         `ctx` is the context to draw in; without it the one that is current at the first draw. `preset` overrides
         the scene's quality, `lod` shows everything in one representation. Raises `SceneError` with every problem of
-        the file, `MapError` for an elevation or density map that cannot be used, ValueError for an unknown preset.
+        the file and its maps, ValueError for an unknown preset.
         """
         if preset is not None and preset not in PRESETS:
             raise ValueError(f"unknown preset '{preset}'; there are {', '.join(PRESETS)}")

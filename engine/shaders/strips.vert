@@ -11,8 +11,9 @@ in float kind;
 in float turn;
 in float fade;
 
-uniform vec4 tall;  // by kind: height of the strips [m]
-uniform float top;  // height of the texture [m]
+uniform vec4 tall;   // by kind: height of the strips [m]
+uniform vec4 wide_to;  // by kind: how far its picture reaches across its layer of the texture
+uniform vec4 high_to;  // by kind: how far up
 
 out vec2 at;
 noperspective out float h;
@@ -37,7 +38,7 @@ void main() {
     int k = int(kind);
     vec3 spine = posture(float(k) * field.w, message, t).place * tall[k];
     gl_Position = clip * vec4(foot + spine, 1.0);
-    at = vec2(right ? u.y : u.x, t * tall[k] / top);
+    at = vec2((right ? u.y : u.x) * wide_to[k], t * high_to[k]);
     sheet = layer;
     h = spine.y / root[k].w;
     rate = lift(message, foot);

@@ -36,13 +36,13 @@ class StripPainter:
         self.units = units
         self.atlas, self.ranks = strip_textures(ctx, stock)
         self.stream = Stream(ctx, STRIP)
-        heights = [models[0].height for models in stock]
-        tallest = max((models[0] for models in stock), key=lambda strips: strips.texels.shape[2])
         whole, thin = {"SECTIONS": ring.sections}, {"SECTIONS": ring.sections, "THIN": 1}
         self.programs = [joined(ctx, block, units, "strips.vert", "strips.frag", defines) for defines in (whole, thin)]
+        kinds = [models[0] for models in stock]
         for made in self.programs:
-            made["tall"] = tuple(heights + [0.0] * (4 - len(heights)))
-            made["top"] = tallest.height
+            made["tall"] = _by_kind([strips.height for strips in kinds])
+            made["wide_to"] = _by_kind([strips.texels.shape[3] / self.atlas.width for strips in kinds])
+            made["high_to"] = _by_kind([strips.texels.shape[2] / self.atlas.height for strips in kinds])
         self.arrays = [ctx.vertex_array(made, [self.stream.binding(made)]) for made in self.programs]
         self.thin = False
 
@@ -64,3 +64,7 @@ class StripPainter:
         """Give everything back."""
         for thing in (*self.arrays, *self.programs, self.stream, self.atlas, self.ranks):
             thing.release()
+
+
+def _by_kind(values: list[float]) -> tuple[float, ...]:
+    return (*values, *[0.0] * (4 - len(values)))

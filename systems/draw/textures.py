@@ -38,10 +38,13 @@ def first_layers(stock: list[list[Strips]]) -> list[int]:
 
 
 def strip_textures(ctx: moderngl.Context, stock: list[list[Strips]]) -> tuple[moderngl.TextureArray, moderngl.TextureArray]:
-    """Return a ring's atlas and ranks: kinds, models, orientations and strips are layers, in this order."""
-    height = max(models[0].texels.shape[2] for models in stock)
-    atlas = np.concatenate([_padded(strips.texels, height, 0) for models in stock for strips in models])
-    ranks = np.concatenate([_padded(strips.rank, height, 255) for models in stock for strips in models])
+    """Return a ring's atlas and ranks: kinds, models, orientations and strips are layers, in this order.
+
+    A kind's pictures stand in the lower left corner of layers that are large enough for every kind's.
+    """
+    size = np.max([models[0].rank.shape[2:] for models in stock], axis=0)
+    atlas = np.concatenate([_padded(strips.texels, size, 0) for models in stock for strips in models])
+    ranks = np.concatenate([_padded(strips.rank, size, 255) for models in stock for strips in models])
     layers, rows, columns, _ = atlas.shape
     made = (
         ctx.texture_array((columns, rows, layers), 4, np.ascontiguousarray(atlas).tobytes(), alignment=1),
@@ -54,10 +57,10 @@ def strip_textures(ctx: moderngl.Context, stock: list[list[Strips]]) -> tuple[mo
     return made
 
 
-def _padded(texels: NDArray[np.uint8], height: int, value: int) -> NDArray[np.uint8]:
+def _padded(texels: NDArray[np.uint8], size: NDArray[np.int64], value: int) -> NDArray[np.uint8]:
     flat = texels.reshape(-1, *texels.shape[2:])
-    above = [(0, 0), (0, height - flat.shape[1]), (0, 0), (0, 0)][: flat.ndim]
-    padded: NDArray[np.uint8] = np.pad(flat, above, constant_values=value)
+    more = [(0, 0), (0, size[0] - flat.shape[1]), (0, size[1] - flat.shape[2]), (0, 0)][: flat.ndim]
+    padded: NDArray[np.uint8] = np.pad(flat, more, constant_values=value)
     return padded
 
 
