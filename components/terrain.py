@@ -37,7 +37,7 @@ class TerrainSource(Declaration):
     cell: float = Field(1.0, ge=0.05, le=1000.0)
     """Metres per cell; a GeoTIFF says so itself where the scene does not."""
 
-    scale: float | None = Field(None, ge=-10000.0, le=10000.0)
+    scale: float | None = Field(None, ge=-100000.0, le=100000.0)
     """Vertical scale [m]. For a map of unsigned integers the height of their whole range, without it 100; for floats
     and signed integers, which are metres, a factor, without it 1; for noise the height between the lowest and the
     highest ground, without it 4 for rolling, 14 for hills, 30 for ridges."""
@@ -62,6 +62,9 @@ class TerrainSource(Declaration):
             raise DeclarationError("size must be [width, depth] in metres, between 5 and 10240", "size")
         if self.size is not None and self.heights is not None:
             raise DeclarationError("size is for noise; a file is as wide as its cells times cell", "size")
+        finest = max(self.size or [200.0]) / 1024
+        if self.feature is not None and self.heights is None and self.feature < finest:
+            raise DeclarationError(f"feature must be at least {finest:.3g} m on ground this wide", "feature")
         return self
 
 

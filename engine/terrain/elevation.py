@@ -7,16 +7,19 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
-from warnings import catch_warnings, simplefilter
+from warnings import catch_warnings, filterwarnings, simplefilter
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
+from PIL import Image, UnidentifiedImageError
 
 from .errors import MapError
 
 MOST = 8193
 """Most cells along a side of a map."""
+
+_BROKEN = ".*(Truncated|[Cc]orrupt)"
+"""What Pillow only warns of, although what it then returns may lack the length of a cell."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,13 +46,18 @@ def reading(path: Path, kind: str) -> Iterator[None]:
         with catch_warnings():
             simplefilter("error", Image.DecompressionBombWarning)
             simplefilter("ignore", UserWarning)
+            filterwarnings("error", _BROKEN)
             yield
     except MapError:
         raise
     except (Image.DecompressionBombWarning, Image.DecompressionBombError) as error:
         raise MapError(path, f"it has more than {MOST} cells a side, the most there may be") from error
+    except UnidentifiedImageError as error:
+        raise MapError(path, f"it cannot be read as {kind}") from error
+    except UserWarning as warning:
+        raise MapError(path, "it is damaged or broken off") from warning
     except (OSError, SyntaxError, ValueError, EOFError, TypeError, KeyError, struct.error, zlib.error) as error:
-        raise MapError(path, f"it cannot be read as {kind}: {error}") from error
+        raise MapError(path, f"it cannot be read as {kind}: {' '.join(str(error).split())}") from error
 
 
 def check_size(path: Path, shape: tuple[int, ...]) -> None:

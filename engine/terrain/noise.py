@@ -55,13 +55,16 @@ MIDDLE, ROUNDING = np.float32(0.8), np.float32(0.06)
 def landscape(name: str, x: Doubles, z: Doubles, /, *, seed: int, feature: float) -> Floats:
     """Return a landscape on the grid of places `x` (columns,) and `z` (rows,) [m], in [0, 1], shape (rows, columns).
 
-    It is a function of place, `seed` and `feature` alone: a wider grid shows more of the same land. Slope and
-    curvature are continuous.
+    It is a function of place, `seed` and `feature` alone: a wider grid shows more of the same land, and a coarser one
+    leaves out the octaves that it cannot show. Slope and curvature are continuous.
     """
     kind = LANDSCAPES[name]
     total = np.zeros((len(z), len(x)), np.float32)
+    step = max(float(np.diff(axis).max(initial=0.0)) for axis in (x, z))
     for number, strength in enumerate(kind.octaves):
         lattice = feature / SPACING / LACUNARITY**number
+        if lattice < step:
+            break
         key, shift_x, shift_z = (int(drawn) for drawn in hash3(seed, number, np.arange(3)))
         octave = spline_noise(x / lattice + shift_x % 997 / 997, z / lattice + shift_z % 997 / 997, seed=key)
         octave /= DEVIATION

@@ -55,6 +55,7 @@ def _read_npy(path: Path, _: TerrainSource) -> Elevation:
     with reading(path, "a NumPy array"):
         values = np.load(path, mmap_mode="r", allow_pickle=False)
         if not isinstance(values, np.ndarray):
+            values.close()
             raise MapError(path, "it is an archive of arrays, not one array")
         kind = values.dtype.kind
         if kind not in "fiu":

@@ -58,6 +58,10 @@ def _taps(places: Doubles, kernel: Kernel) -> tuple[NDArray[np.int64], Floats]:
     stretch = max(1.0, float(np.diff(places).max(initial=0.0)))
     reach = ceil(2.0 * stretch)
     taps = np.floor(places).astype(np.int64)[:, None] + np.arange(1 - reach, reach + 1)
-    weights = kernel((taps - places[:, None]) / stretch)
+    apart = taps - places[:, None]
+    weights = kernel(apart / stretch)
     weights /= weights.sum(axis=1, keepdims=True)
+    tilt = (weights * apart).sum(axis=1)  # a widened kernel would make ripples of an even slope
+    weights[:, reach - 1] += tilt
+    weights[:, reach] -= tilt
     return taps, weights.astype(np.float32)
