@@ -78,6 +78,12 @@ class PatchTable:
     visible: NDArray[np.bool_]
     """Shape (rows,)."""
 
+    height: NDArray[np.float32]
+    """Height of the ground in the patch's middle [m], shape (rows,)."""
+
+    slope: NDArray[np.float32]
+    """Rise of the ground there along x and z, shape (rows, 2)."""
+
     entity: NDArray[np.int64]
     """The patch's entity, 0 where there is none, shape (rows,)."""
 
@@ -96,6 +102,8 @@ class PatchTable:
             previous=np.full(rows, -1, np.int8),
             progress=np.ones(rows, np.float32),
             visible=np.zeros(rows, np.bool_),
+            height=np.zeros(rows, np.float32),
+            slope=np.zeros((rows, 2), np.float32),
             entity=np.zeros(rows, np.int64),
         )
 

@@ -73,16 +73,6 @@ class Field:
         """Line segments per blade at the finest level."""
         return max(ring.segments for ring in self.quality.blade_rings)
 
-    @property
-    def blade_limits(self) -> NDArray[np.int32]:
-        """Largest discrete distance of each blade ring but the last, for `np.searchsorted`."""
-        return np.array([ring.to for ring in self.quality.blade_rings[:-1]], np.int32)
-
-    @property
-    def strip_limits(self) -> NDArray[np.int32]:
-        """Largest discrete distance of each strip ring but the last, for `np.searchsorted`."""
-        return np.array([ring.to for ring in self.quality.strip_rings[:-1]], np.int32)
-
 
 def reach_of(quality: Quality, lod: str) -> tuple[int, int, int]:
     """Return the reach of each representation; `lod` forces one of them, or is `auto`."""

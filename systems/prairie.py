@@ -23,7 +23,7 @@ from .draw.painter import Painter, view_of
 from .field import Field, blades_in_field, lay_out
 from .growth.cache import cached_growth
 from .lod import schedule, wanted_representation
-from .receive import Shown, blow, plant_shown_blades, plant_shown_strips, shown_patches
+from .receive import Shown, blow, plant_shown_blades, plant_shown_strips, shown_blades, shown_strips
 from .receivers import ReceiverEntities
 from .tile import cell_of, tile
 from .wind.blow import blowing, messages
@@ -199,8 +199,7 @@ class Prairie:
 
     def _plant(self) -> None:
         field = self.field
-        self._blades = shown_patches(field, Representation.BLADES, field.blade_limits, field.blades.side)
-        self._strips = shown_patches(field, Representation.STRIPS, field.strip_limits, field.strips[0].side)
+        self._blades, self._strips = shown_blades(field), shown_strips(field)
         plant_shown_blades(field, self._blades)
         for ring, shown in enumerate(self._strips):
             plant_shown_strips(field, ring, shown)

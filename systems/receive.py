@@ -41,15 +41,57 @@ class Shown:
     """Axis along which each patch's strips run, shape (m,)."""
 
 
-def shown_patches(field: Field, level: Representation, limits: Ints, side: int) -> list[Shown]:
-    """Return the visible patches of a representation by ring: `limits` are the rings' reaches but the last's."""
+def viewing_slope(field: Field, rows: Rows, /) -> Floats:
+    """Return the tangent of the angle between the line of sight and the ground on each patch, shape (n,)."""
+    table, eye, patch = field.table, field.sight.eye, field.quality.patch
+    away = (table.cell[rows] + np.float32(0.5)) * np.float32(patch) - np.float32([eye[0], eye[2]])
+    reach = np.maximum(np.hypot(away[:, 0], away[:, 1]), np.float32(0.5 * patch))
+    rise = np.einsum("ij,ij->i", table.slope[rows], away)
+    slope: Floats = (np.float32(eye[1]) - table.height[rows] + rise) / reach
+    return slope
+
+
+def strip_ring(distance: Ints, slope: Floats, limits: Ints, spacing: Floats, /, *, height: float) -> NDArray[np.int64]:
+    """Return the ring of each 2.5D patch (n,): by discrete distance, but finer where it is seen from above.
+
+    A line of sight shall cross at least two strips on its way through grass of this `height` [m], or they show as
+    rows on hillsides that face the viewer. `spacing` is the distance between each ring's strips [m].
+    """
+    by_distance = np.searchsorted(limits, distance)
+    widest = height / (2.0 * np.maximum(slope, 1e-3))
+    by_slope = np.searchsorted(spacing, widest, side="right") - 1
+    return np.clip(np.minimum(by_distance, by_slope), 0, len(spacing) - 1)
+
+
+def shown_blades(field: Field, /) -> list[Shown]:
+    """Return the visible 3D patches by ring."""
+    rows, share = _visible(field, Representation.BLADES)
+    limits = np.array([ring.to for ring in field.quality.blade_rings[:-1]], np.int32)
+    return _by_ring(field, rows, share, np.searchsorted(limits, field.table.distance[rows]), field.blades.side, len(limits) + 1)
+
+
+def shown_strips(field: Field, /) -> list[Shown]:
+    """Return the visible 2.5D patches by ring."""
+    rows, share = _visible(field, Representation.STRIPS)
+    rings = field.quality.strip_rings
+    limits = np.array([ring.to for ring in rings[:-1]], np.int32)
+    spacing = np.array([field.quality.patch / ring.strips for ring in rings], np.float32)
+    height = min(strips.height for strips in field.stock.strips[0])
+    ring = strip_ring(field.table.distance[rows], viewing_slope(field, rows), limits, spacing, height=height)
+    return _by_ring(field, rows, share, ring, field.strips[0].side, len(rings))
+
+
+def _visible(field: Field, level: Representation) -> tuple[Rows, Floats]:
     table = field.table
     share = weights(table)[level]
     rows = np.flatnonzero(table.alive & table.visible & (share > 0.0))
-    rows = rows[far_to_near(table.cell[rows], field.sight.centre)]
-    ring = np.searchsorted(limits, table.distance[rows])
+    return rows[far_to_near(table.cell[rows], field.sight.centre)], share
+
+
+def _by_ring(field: Field, rows: Rows, share: Floats, ring: NDArray[np.int64], side: int, rings: int) -> list[Shown]:
+    table = field.table
     shown = []
-    for number in range(len(limits) + 1):
+    for number in range(rings):
         chosen = rows[ring == number]
         cells = table.cell[chosen]
         slots = window_rows(cells, side=side)

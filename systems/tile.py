@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 from ..components.patch import PatchTable
 from ..components.terrain import Terrain
 from ..engine.random import hash3
+from ..engine.terrain.sample import height_at, slope_at
 from ..engine.world import World
 
 Ints = NDArray[np.int32]
@@ -65,6 +66,8 @@ def tile(
     table.cell[changed] = fresh
     table.alive[changed] = cells_on(terrain, fresh, patch=patch)
     table.model[changed], table.turn[changed] = patch_models(fresh, seed=seed, models=models)
+    middle = (fresh.astype(np.float32) + np.float32(0.5)) * np.float32(patch)
+    table.height[changed], table.slope[changed] = height_at(terrain, middle), slope_at(terrain, middle)
     table.representation[changed] = table.previous[changed] = -1
     table.progress[changed] = 1.0
     table.visible[changed] = False

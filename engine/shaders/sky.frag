@@ -13,5 +13,7 @@ void main() {
     float wide = near_sun * near_sun;
     wide *= wide;
     sky += glow.rgb * (0.22 * wide * wide + 0.9 * smoothstep(0.99955, 0.9998, near_sun));
-    pixel = vec4(mix(sky, haze.rgb, smoothstep(0.0, -0.02, toward.y)), 1.0);
+    sky = mix(sky, haze.rgb, smoothstep(0.0, -0.02, toward.y));
+    float grit = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5;
+    pixel = vec4(sky + grit / 255.0, 1.0);
 }

@@ -4,8 +4,8 @@
 uniform sampler2D tone;     // over the terrain: slope x, z and two slow noises, each as 0.5 + 0.5 n
 uniform sampler2D density;  // over the terrain: how densely each kind grows
 
-const float SHADE = 0.52;   // brightness at the foot of the grass, of that at its top
-const float SLOPE = 1.1;    // how much a hillside that faces the sun is brighter
+const float SHADE = 0.56;   // brightness at the foot of the grass, of that at its top
+const float SLOPE = 0.8;    // how much a hillside that faces the sun is brighter
 const float SHEEN = 0.30;   // how much grass bent flat is brighter
 const float THROUGH = 0.55; // how much grass is brighter with the sun behind it
 
