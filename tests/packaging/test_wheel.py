@@ -15,7 +15,9 @@ pytestmark = pytest.mark.packaging
 
 ROOT = Path(__file__).parents[2]
 SOURCES = ("app", "components", "engine", "scenes", "systems")
+# What takes long, or reads the checkout, is tested in the checkout.
 QUICK = "not gl and not window and not golden and not packaging"
+ELSEWHERE = ("packaging", "golden", "docs", "examples", "growth")
 PLACE = """
 from importlib.util import find_spec
 from pathlib import Path
@@ -71,8 +73,7 @@ def test_the_wheel_holds_every_source_and_nothing_else(wheel: Path) -> None:
 
 def test_the_tests_pass_against_the_wheel_outside_the_checkout(site: Path, tmp_path: Path) -> None:
     tests = tmp_path / "tests"
-    skipped = shutil.ignore_patterns("__pycache__", "packaging", "golden", "docs", "examples")
-    shutil.copytree(ROOT / "tests", tests, ignore=skipped)
+    shutil.copytree(ROOT / "tests", tests, ignore=shutil.ignore_patterns("__pycache__", *ELSEWHERE))
     shutil.copy(ROOT / "pyproject.toml", tmp_path)
     tests.joinpath("test_place.py").write_text(PLACE.format(site=str(site)), "utf-8")
     python = site.parents[2] / "bin" / "python"
