@@ -7,6 +7,8 @@ from typing import Any
 
 import moderngl
 
+Box = tuple[int, int, int, int]
+
 UNITS = 12
 """Texture units that are used, from 0."""
 
@@ -25,6 +27,29 @@ def _pyglet_gl() -> Any | None:
     return module if module is not None and getattr(module, "current_context", None) is not None else None
 
 
+def _boxes(target: moderngl.Framebuffer, gl: Any | None) -> tuple[Box, Box | None]:
+    """Return the host's viewport and scissor box, None where nothing is cut off.
+
+    moderngl remembers the size that a window had when it first saw it, so these are asked of GL itself.
+    """
+    if gl is None:
+        return target.viewport, None
+    viewport, scissor = (gl.GLint * 4)(), (gl.GLint * 4)()
+    gl.glGetIntegerv(gl.GL_VIEWPORT, viewport)
+    gl.glGetIntegerv(gl.GL_SCISSOR_BOX, scissor)
+    return _box(viewport), _box(scissor) if gl.glIsEnabled(gl.GL_SCISSOR_TEST) else None
+
+
+def _aim(target: moderngl.Framebuffer, viewport: Box, scissor: Box | None) -> None:
+    target.viewport = viewport
+    target.scissor = scissor  # type: ignore[assignment]
+
+
+def _box(numbers: Any) -> Box:
+    x, y, width, height = numbers
+    return int(x), int(y), int(width), int(height)
+
+
 @contextmanager
 def guest(ctx: moderngl.Context) -> Iterator[moderngl.Framebuffer]:
     """Draw as a guest: yields the framebuffer that the host has bound, whole and with a known state.
@@ -32,8 +57,9 @@ def guest(ctx: moderngl.Context) -> Iterator[moderngl.Framebuffer]:
     On leaving, the host's framebuffer, viewport and scissor are as they were, nothing is enabled, and no vertex
     array, program, texture unit or sampler of ours stays bound. Never touches uniform binding point 0.
     """
-    target = ctx.detect_framebuffer()
-    viewport, scissor = target.viewport, target.scissor
+    target, gl = ctx.detect_framebuffer(), _pyglet_gl()
+    viewport, scissor = _boxes(target, gl)
+    _aim(target, viewport, scissor)
     ctx.wireframe = False
     ctx.blend_equation = moderngl.FUNC_ADD
     ctx.front_face = "ccw"
@@ -45,11 +71,10 @@ def guest(ctx: moderngl.Context) -> Iterator[moderngl.Framebuffer]:
         yield target
     finally:
         target.depth_mask = True
-        target.viewport, target.scissor = viewport, scissor
+        _aim(target, viewport, scissor)
         target.use()
         ctx.enable_only(moderngl.NOTHING)
         ctx.clear_samplers(0, UNITS)
-        gl = _pyglet_gl()
         if gl is not None:
             gl.glBindVertexArray(0)
             gl.glUseProgram(0)
