@@ -64,4 +64,4 @@ def about(prairie: Prairie, take: Take) -> dict[str, str]:
 def written(camera: Camera) -> str:
     """Return a camera as `tallgrass shot --camera` takes it."""
     looks = (*camera.position, math.degrees(camera.yaw), math.degrees(camera.pitch))
-    return ",".join(f"{number:.6g}" for number in looks)
+    return ",".join(f"{number:.10g}" for number in looks)

@@ -18,10 +18,10 @@ wind:
 camera:
   position: [0, 20]
   eye: 1.7
-  pitch: -10
+  pitch: -25
   path:
-    - { at: 0, position: [0, 20], pitch: -10 }
-    - { at: 1.5, position: [2, 10], pitch: -10, yaw: 30 }
+    - { at: 0, position: [0, 20], pitch: -25 }
+    - { at: 1.5, position: [2, 10], pitch: -25, yaw: 30 }
 quality:
   patch: 2.5
   blades: 40
