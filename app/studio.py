@@ -5,6 +5,10 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
 from .. import __version__
 from ..components.camera import Camera
 from ..engine.camera import camera_at, projection_matrix, view_matrix
@@ -13,6 +17,8 @@ from ..systems.reference import draw_reference
 from .encode import Picture
 from .offscreen import Offscreen
 from .take import SAMPLES, Take
+
+Matrix = NDArray[np.float32]
 
 
 class Studio:
@@ -39,15 +45,32 @@ class Studio:
         """Return the scene's camera: on its path at `time` [s], or with None its fixed place."""
         return camera_at(self.prairie.scene.camera, time, self.prairie.height_at)
 
+    @property
+    def ctx(self) -> moderngl.Context:
+        """The context that is drawn in."""
+        return self._offscreen.ctx
+
+    def matrices(self, camera: Camera) -> tuple[Matrix, Matrix]:
+        """Return the camera's view and projection matrices for pictures of the take's size."""
+        width, height = self.take.size
+        return view_matrix(camera), projection_matrix(camera.view, width / height)
+
+    def begin(self) -> None:
+        """Bind the framebuffer and clear it."""
+        self._offscreen.begin()
+
+    def read(self) -> Picture:
+        """Return what has been drawn."""
+        return self._offscreen.read()
+
     def picture(self, camera: Camera) -> Picture:
         """Return what the camera sees at this instant of the prairie."""
-        width, height = self.take.size
-        view, projection = view_matrix(camera), projection_matrix(camera.view, width / height)
-        self._offscreen.begin()
+        view, projection = self.matrices(camera)
+        self.begin()
         self.prairie.draw(view, projection)
         if self.take.reference:
             return draw_reference(self.prairie, view, projection, self.take.size, samples=SAMPLES)
-        return self._offscreen.read()
+        return self.read()
 
 
 def about(prairie: Prairie, take: Take) -> dict[str, str]:

@@ -1,7 +1,7 @@
 """A prairie: what a game loads, advances and draws."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from time import perf_counter
 from typing import Literal
@@ -65,7 +65,9 @@ class Statistics:
 class Prairie:
     """A prairie in the current esper world: grown at once, drawn once there is a GL context."""
 
-    def __init__(self, loaded: LoadedScene, *, ctx: moderngl.Context | None, preset: str | None, lod: Lod) -> None:
+    def __init__(
+        self, loaded: LoadedScene, *, ctx: moderngl.Context | None = None, preset: str | None = None, lod: Lod = "auto"
+    ) -> None:
         scene = loaded.scene
         quality = scene.numbers(preset)
         terrain, density = load_maps(loaded)
@@ -81,6 +83,8 @@ class Prairie:
         self.world = World()
         self.painter: Painter | None = None
         self.statistics.blades_field = blades_in_field(self.field)
+        self._loaded = loaded
+        self._preset = preset
         self._ctx = ctx
         self._drawn_at: float | None = None
         self._receivers = ReceiverEntities(self.world, self.field)
@@ -103,6 +107,11 @@ class Prairie:
         if preset is not None and preset not in PRESETS:
             raise ValueError(f"unknown preset '{preset}'; there are {', '.join(PRESETS)}")
         return cls(read_scene(scene), ctx=ctx, preset=preset, lod=lod)
+
+    def reseeded(self, seed: int) -> "Prairie":
+        """Return another prairie of the same scene, quality and terrain, with other grass."""
+        scene = self.scene.model_copy(update={"seed": seed})
+        return Prairie(replace(self._loaded, scene=scene), ctx=self._ctx, preset=self._preset, lod=self.lod)
 
     def advance(self, dt: float) -> None:
         """Move time on by `dt` [s]; negative or non-finite steps raise ValueError."""

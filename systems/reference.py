@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ..components.camera import View
 from ..components.receivers import BladePool
-from .cull import inside_cone
+from .cull import discrete_distance, inside_cone
 from .draw.blades import BladePainter
 from .draw.painter import Painter, view_of
 from .field import Field
@@ -82,6 +82,43 @@ class EveryBlade:
     def release(self) -> None:
         """Give everything back."""
         self.blades.release()
+
+
+def patch_distances(prairie: Prairie, view: object, projection: object, size: tuple[int, int]) -> NDArray[np.int32]:
+    """Return the discrete distance of what each pixel shows, top row first, shape (height, width); -1 is sky.
+
+    What a pixel shows is taken at the carpet's height, about the middle of the grass.
+    """
+    seen, every = view_of(view, projection), prairie.painter
+    if every is None:
+        raise RuntimeError("draw the prairie once before asking what its picture shows")
+    ctx, (width, height) = every.ctx, size
+    host = ctx.detect_framebuffer()
+    depth = ctx.depth_texture(size)
+    target = ctx.framebuffer([ctx.renderbuffer(size)], depth)
+    try:
+        target.use()
+        target.clear(depth=1.0)
+        every.draw_carpet_everywhere(seen, time=prairie.time)
+        fine = np.frombuffer(depth.read(alignment=1), np.float32).reshape(height, width)[::-1]
+    finally:
+        host.use()
+        target.color_attachments[0].release()
+        for thing in (target, depth):
+            thing.release()
+    return _distances(fine.astype(np.float64), seen, prairie.field)
+
+
+def _distances(depth: NDArray[np.float64], seen: View, field: Field) -> NDArray[np.int32]:
+    height, width = depth.shape
+    across = (np.arange(width) + 0.5) / width * 2.0 - 1.0
+    up = 1.0 - (np.arange(height) + 0.5) / height * 2.0
+    x, y = np.meshgrid(across, up)
+    clip = np.stack([x, y, depth * 2.0 - 1.0, np.ones_like(x)], axis=-1)
+    world = clip @ np.linalg.inv(seen.projection.astype(np.float64) @ seen.view.astype(np.float64)).T
+    ground = np.stack([world[..., 0] / world[..., 3], world[..., 2] / world[..., 3]], axis=-1)
+    cell = cell_of(np.clip(ground, -1e6, 1e6), patch=field.quality.patch)
+    return np.where(depth < 1.0, discrete_distance(cell, field.sight.centre), -1).astype(np.int32)
 
 
 def draw_reference(

@@ -79,6 +79,14 @@ class Painter:
             thin = bool((pool.least[ring.slots] < 0.995).any())
             painter.write(gather_strips(pool, ring, field.table, field.sight.centre), thin=thin)
 
+    def draw_carpet_everywhere(self, view: View, *, time: float) -> None:
+        """Draw nothing but the carpet, over the whole terrain, into the framebuffer that the host has bound."""
+        field = self.field
+        tiles = ground_tiles(field.terrain, field.sight.eye, field.sight.cone, spacing=field.quality.patch / 2)
+        self.ground.write(tiles, np.ones(len(tiles), np.bool_))
+        self.ground.write_shares(np.ones(len(field.table.progress), np.float32), field.sight.centre)
+        self.draw(view, time=time, blades=[])
+
     def write_ground(self, *, carpet: bool) -> None:
         """Send the tiles of the ground, and where the carpet lies on it."""
         field, sight = self.field, self.field.sight

@@ -1,0 +1,1 @@
+"""Measurements: how long a frame takes, and how true a picture is."""

@@ -1,0 +1,47 @@
+"""What every benchmark says of the machine it ran on."""
+
+import json
+import os
+import platform
+from collections.abc import Mapping
+
+import moderngl
+
+from ... import __version__
+
+
+def machine(ctx: moderngl.Context, /) -> dict[str, str | int]:
+    """Return the machine's renderer, GL version, processor, cores, Python and tallgrass versions."""
+    return {
+        "renderer": str(ctx.info["GL_RENDERER"]),
+        "gl": str(ctx.info["GL_VERSION"]),
+        "cpu": _processor(),
+        "cores": os.cpu_count() or 1,
+        "python": platform.python_version(),
+        "version": __version__,
+    }
+
+
+def _processor() -> str:
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8") as lines:
+            names = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
+    except OSError:
+        names = []
+    return names[0] if names else platform.processor() or platform.machine()
+
+
+def tell(result: Mapping[str, object], *, as_json: bool) -> None:
+    """Print a benchmark's result: as JSON, or a line per figure for people."""
+    if as_json:
+        print(json.dumps(result, indent=2))
+        return
+    for name, value in result.items():
+        if isinstance(value, list) and value and isinstance(value[0], dict):
+            print(f"{name}:")
+            for row in value:
+                print("  " + "  ".join(f"{key} {figure}" for key, figure in row.items()))
+        elif isinstance(value, dict):
+            print(f"{name}: " + "  ".join(f"{key} {figure}" for key, figure in value.items()))
+        else:
+            print(f"{name}: {value}")
