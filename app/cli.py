@@ -192,13 +192,10 @@ def _tell(text: str, *, status: int) -> int:
 
 def _unexpected(error: Exception) -> int:
     from ..engine.scene import SceneError
-    from ..engine.terrain.errors import MapError
 
     if isinstance(error, SceneError):
         lines = [str(problem) if sys.stderr.isatty() else str(problem).splitlines()[0] for problem in error.problems]
         return _tell("\n".join(lines), status=2)
-    if isinstance(error, MapError):
-        return _tell(str(error), status=2)
     if "TALLGRASS_TRACEBACK" in os.environ:
         raise error
     what = str(error).splitlines()[0] if str(error) else "no more is known"

@@ -15,7 +15,6 @@ from pyglet.window import key
 from ..components.camera import Camera
 from ..engine.camera import camera_at, projection_matrix, view_matrix
 from ..engine.scene import SceneError
-from ..engine.terrain.errors import MapError
 from ..systems.prairie import Prairie
 from .display import no_window
 from .encode import picture_writer
@@ -141,7 +140,7 @@ class Walk:
         """Read the scene again at the same time and place; a broken one is told of, and the old one stays."""
         try:
             fresh = Prairie.load(self.take.scene, preset=self.take.preset)
-        except (SceneError, MapError) as error:
+        except SceneError as error:
             self.tell(str(error).splitlines())
             return
         fresh.advance(self.prairie.time)
