@@ -24,17 +24,20 @@ def view_cone(camera: Camera, /, *, aspect: float) -> tuple[float, float]:
     return camera.yaw, min(pi, float(atan(wide / max(nearest, 1e-6))))
 
 
-def inside_cone(place: Floats, /, *, apex: tuple[float, float], cone: tuple[float, float], radius: float) -> NDArray[np.bool_]:
+def inside_cone(
+    place: Floats, /, *, apex: tuple[float, float], cone: tuple[float, float], radius: float
+) -> NDArray[np.bool_]:
     """Return whether discs of `radius` [m] around ground positions (n, 2) touch the view cone, shape (n,)."""
     middle, half = cone
     away = place - np.asarray(apex, np.float32)
     if half >= pi:
         return np.ones(len(away), np.bool_)
-    ahead, aside = np.float32([np.sin(middle), -np.cos(middle)]), np.float32([np.cos(middle), np.sin(middle)])
+    sine, cosine = np.float32(np.sin(middle)), np.float32(np.cos(middle))
+    ahead, aside = np.array([sine, -cosine]), np.array([cosine, sine])
     along, across = away @ ahead, np.abs(away @ aside)
     outside = across * np.float32(np.cos(half)) - along * np.float32(np.sin(half))
-    near: NDArray[np.bool_] = np.einsum("ij,ij->i", away, away) <= radius * radius
-    return near | (outside <= radius)
+    near = np.einsum("ij,ij->i", away, away) <= radius * radius
+    return np.asarray(near | (outside <= radius))
 
 
 def discrete_distance(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArray[np.int32]:

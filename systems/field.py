@@ -77,18 +77,25 @@ class Field:
 def reach_of(quality: Quality, lod: str) -> tuple[int, int, int]:
     """Return the reach of each representation; `lod` forces one of them, or is `auto`."""
     blades, strips, carpet = quality.reach
-    forced = {"auto": (blades, strips), "blades": (strips, strips), "strips": (-SLACK - 1, strips), "carpet": (-SLACK - 1,) * 2}
-    return (*forced[lod], carpet)  # type: ignore[return-value]
+    forced = {
+        "auto": (blades, strips),
+        "blades": (strips, strips),
+        "strips": (-SLACK - 1, strips),
+        "carpet": (-SLACK - 1,) * 2,
+    }
+    return (*forced[lod], carpet)
 
 
 def stock_up(growths: list[Growth], patch: float) -> Stock:
     """Return the patch models' blades in all four turns, and where each strip's texture layer is."""
     records = [
-        np.stack([
-            blade_records(model.blades, turn, patch=patch, kind=kind, variants=growth.postures.shape.shape[0])
-            for model in growth.models
-            for turn in range(4)
-        ])
+        np.stack(
+            [
+                blade_records(model.blades, turn, patch=patch, kind=kind, variants=growth.postures.shape.shape[0])
+                for model in growth.models
+                for turn in range(4)
+            ]
+        )
         for kind, growth in enumerate(growths)
     ]
     blades = BladeStock(
@@ -98,12 +105,16 @@ def stock_up(growths: list[Growth], patch: float) -> Stock:
     )
     rings = range(len(growths[0].models[0].strips))
     strips = [[growth.models[0].strips[ring] for growth in growths] for ring in rings]
-    layers = [[len(growth.models) * 2 * len(growth.models[0].strips[ring].plane) for growth in growths] for ring in rings]
+    layers = [
+        [2 * len(growth.models) * len(growth.models[0].strips[ring].plane) for growth in growths] for ring in rings
+    ]
     first = [[sum(counts[:kind]) for kind in range(len(counts))] for counts in layers]
     return Stock(blades=blades, strips=strips, first_layer=first)
 
 
-def lay_out(scene: Scene, quality: Quality, terrain: Terrain, density: Density, growths: list[Growth], *, lod: str) -> Field:
+def lay_out(
+    scene: Scene, quality: Quality, terrain: Terrain, density: Density, growths: list[Growth], *, lod: str
+) -> Field:
     """Return the field of a scene: its patch models in stock, its pools empty."""
     reach = reach_of(quality, lod)
     stock = stock_up(growths, quality.patch)
@@ -134,5 +145,3 @@ def blades_in_field(field: Field) -> int:
     patches = width * depth / field.quality.patch**2
     counts = [len(growth.models[0].blades.height) for growth in field.growths]
     return round(patches * float(np.dot(counts, field.density.maps.mean(axis=(1, 2)))))
-
-

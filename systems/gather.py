@@ -20,9 +20,7 @@ def gather_blades(pool: BladePool, shown: Shown, /) -> tuple[NDArray[np.void], F
     return pool.blade[shown.slots][present], pool.message[shown.slots][present], fade[present]
 
 
-def gather_strips(
-    pool: StripPool, shown: Shown, table: PatchTable, centre: NDArray[np.int32], /
-) -> NDArray[np.void]:
+def gather_strips(pool: StripPool, shown: Shown, table: PatchTable, centre: NDArray[np.int32], /) -> NDArray[np.void]:
     """Return the polygon strips of the patches shown, far to near, records of `STRIP`, shape (n,).
 
     Strips are stored by rising place in their stack; where the viewer is on the low side they are walked backwards.

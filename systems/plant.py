@@ -57,11 +57,12 @@ def blade_records(blades: Blades, turn: int, /, *, patch: float, kind: int, vari
     """Return the records of a patch model's blades after quarter turns, roots relative to the patch, shape (n,)."""
     c, s = _COS[turn], _SIN[turn]
     records = np.zeros(len(blades.height), BLADE)
-    spun = turned(blades.root, np.int32(turn), patch=patch)
+    spun = turned(blades.root, np.asarray(turn, np.int32), patch=patch)
     records["root"][:, 0], records["root"][:, 2] = spun[:, 0], spun[:, 1]
     records["height"], records["width"], records["kind"] = blades.height, blades.width, kind
     records["variant"] = kind * variants + blades.variant
-    records["rest"] = np.stack([c * blades.rest[:, 0] - s * blades.rest[:, 1], s * blades.rest[:, 0] + c * blades.rest[:, 1]], 1)
+    lean_x, lean_z = blades.rest.T
+    records["rest"] = np.stack([c * lean_x - s * lean_z, s * lean_x + c * lean_z], 1)
     azimuth = blades.facing + turn * (np.pi / 2)
     records["facing"] = np.stack([np.cos(azimuth), np.sin(azimuth)], 1)
     return records
@@ -85,8 +86,15 @@ def heading_of(cell: Ints, centre: Ints, /) -> Ints:
 
 
 def plant_blades(
-    pool: BladePool, slots: NDArray[np.int64], cell: Ints, model: Ints, turn: Ints, heading: Ints, stock: BladeStock,
-    ground: Ground, /,
+    pool: BladePool,
+    slots: NDArray[np.int64],
+    cell: Ints,
+    model: Ints,
+    turn: Ints,
+    heading: Ints,
+    stock: BladeStock,
+    ground: Ground,
+    /,
 ) -> None:
     """Stand the blades of each cell (m, 2) in its slot of the pool, in the order that goes with its `heading` (m,)."""
     pool.stamp[slots, :2], pool.stamp[slots, 2] = cell, heading
@@ -122,8 +130,16 @@ def strip_edges(strips: Strips, columns: int, along: Ints, turn: Ints, /, *, pat
 
 
 def plant_strips(
-    pool: StripPool, slots: NDArray[np.int64], cell: Ints, model: Ints, turn: Ints, along: Ints,
-    rings: list[Strips], first_layer: list[int], ground: Ground, /,
+    pool: StripPool,
+    slots: NDArray[np.int64],
+    cell: Ints,
+    model: Ints,
+    turn: Ints,
+    along: Ints,
+    rings: list[Strips],
+    first_layer: list[int],
+    ground: Ground,
+    /,
 ) -> None:
     """Stand the strips of each cell (m, 2), running along axis `along` (m,), in its slot of the pool.
 
@@ -149,8 +165,6 @@ def plant_strips(
 
 
 def strips_along(cell: Ints, centre: Ints, /) -> Ints:
-    """Return the axis along which each cell's strips run so that none is edge-on: 0 is x, 1 is z (paper, section 2.1)."""
+    """Return the axis that each cell's strips run along, so that none is edge-on (paper, section 2.1): 0 is x."""
     apart = np.abs(cell - centre)
-    return (apart[..., 0] > apart[..., 1]).astype(np.int32)
-
-
+    return np.asarray(apart[..., 0] > apart[..., 1], np.int32)

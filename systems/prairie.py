@@ -131,7 +131,8 @@ class Prairie:
         sight = self.field.sight
         sight.eye = camera.position
         sight.cone = view_cone(camera, aspect=aspect)
-        sight.centre = cell_of(np.float32([camera.position[0], camera.position[2]]), patch=self.field.quality.patch)
+        place = np.array([camera.position[0], camera.position[2]], np.float32)
+        sight.centre = cell_of(place, patch=self.field.quality.patch)
         sight.dt = 1e9 if self._drawn_at is None else self.time - self._drawn_at
         self._drawn_at = self.time
         self._schedule.run()
@@ -158,8 +159,7 @@ class Prairie:
 
     def add(self, primitive: WindPrimitive) -> int:
         """Add a wind and return its entity, a handle that `remove` takes."""
-        entity = self.world.create(WindSource(primitive, primitive.kind))
-        return entity
+        return self.world.create(WindSource(primitive, primitive.kind))
 
     def remove(self, handle: int) -> None:
         """Take a wind away that `add` returned."""
@@ -231,8 +231,9 @@ class Prairie:
         stats.systems_ms = dict(self._schedule.milliseconds)
         stats.draw_ms = draw_ms
         stats.draw_calls = self.painter.draw_calls
-        share = stats.blades_field * self.field.quality.patch**2 / max(np.prod(self.field.terrain.size), 1e-9)
-        stats.blades_considered = round(float(share) * int(visible.sum()))
+        width, depth = self.field.terrain.size
+        share = stats.blades_field * self.field.quality.patch**2 / (width * depth)
+        stats.blades_considered = round(share * int(visible.sum()))
         stats.patches = {
             level.name.lower(): int((visible & (table.representation == level)).sum()) for level in Representation
         }

@@ -44,7 +44,7 @@ class Shown:
 def viewing_slope(field: Field, rows: Rows, /) -> Floats:
     """Return the tangent of the angle between the line of sight and the ground on each patch, shape (n,)."""
     table, eye, patch = field.table, field.sight.eye, field.quality.patch
-    away = (table.cell[rows] + np.float32(0.5)) * np.float32(patch) - np.float32([eye[0], eye[2]])
+    away = (table.cell[rows] + np.float32(0.5)) * np.float32(patch) - np.array([eye[0], eye[2]], np.float32)
     reach = np.maximum(np.hypot(away[:, 0], away[:, 1]), np.float32(0.5 * patch))
     rise = np.einsum("ij,ij->i", table.slope[rows], away)
     slope: Floats = (np.float32(eye[1]) - table.height[rows] + rise) / reach
@@ -67,7 +67,8 @@ def shown_blades(field: Field, /) -> list[Shown]:
     """Return the visible 3D patches by ring."""
     rows, share = _visible(field, Representation.BLADES)
     limits = np.array([ring.to for ring in field.quality.blade_rings[:-1]], np.int32)
-    return _by_ring(field, rows, share, np.searchsorted(limits, field.table.distance[rows]), field.blades.side, len(limits) + 1)
+    ring = np.searchsorted(limits, field.table.distance[rows])
+    return _by_ring(field, rows, share, ring, field.blades.side, len(limits) + 1)
 
 
 def shown_strips(field: Field, /) -> list[Shown]:
@@ -102,7 +103,7 @@ def _by_ring(field: Field, rows: Rows, share: Floats, ring: NDArray[np.int64], s
 def plant_shown_blades(field: Field, shown: list[Shown]) -> Rows:
     """Plant the patches in `shown` whose slot holds another's blades; return the rows planted."""
     table, centre = field.table, field.sight.centre
-    rows = np.concatenate([ring.rows for ring in shown])
+    rows: Rows = np.concatenate([ring.rows for ring in shown])
     slots = np.concatenate([ring.slots for ring in shown])
     heading = heading_of(table.cell[rows], centre)
     stale = (field.blades.stamp[slots] != np.column_stack([table.cell[rows], heading])).any(axis=1)
@@ -118,7 +119,7 @@ def plant_shown_strips(field: Field, ring: int, shown: Shown) -> Rows:
     pool, table, stock = field.strips[ring], field.table, field.stock
     wanted = np.column_stack([table.cell[shown.rows], shown.along])
     stale = (pool.stamp[shown.slots] != wanted).any(axis=1)
-    rows = shown.rows[stale]
+    rows: Rows = shown.rows[stale]
     if rows.size:
         plant_strips(
             pool, shown.slots[stale], table.cell[rows], table.model[rows], table.turn[rows], shown.along[stale],
@@ -127,9 +128,7 @@ def plant_shown_strips(field: Field, ring: int, shown: Shown) -> Rows:
     return rows
 
 
-def blow(
-    field: Field, blades: list[Shown], strips: list[Shown], sources: list[WindSource], /, *, time: float
-) -> int:
+def blow(field: Field, blades: list[Shown], strips: list[Shown], sources: list[WindSource], /, *, time: float) -> int:
     """Let every receiver that is seen hear the wind, in one pass over them all; return how many there are."""
     pools: list[tuple[BladePool | StripPool, Rows]] = [(field.blades, np.concatenate([ring.slots for ring in blades]))]
     pools += [(pool, ring.slots) for pool, ring in zip(field.strips, strips, strict=True)]

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..components.receivers import BladePool, StripPool
 from ..components.wind import Receivers
 from ..engine.world import World
 from .field import Field
@@ -18,7 +19,7 @@ class ReceiverEntities:
     def __init__(self, world: World, field: Field) -> None:
         self._world = world
         self._field = field
-        self._pools = [field.blades, *field.strips]
+        self._pools: list[BladePool | StripPool] = [field.blades, *field.strips]
         self._entity = [np.zeros(pool.side * pool.side, np.int64) for pool in self._pools]
         self._owner = [np.zeros(pool.side * pool.side, np.int64) for pool in self._pools]
 

@@ -28,7 +28,7 @@ def terrain_cells(field: Field, /) -> Ints:
     """Return every cell of the terrain, shape (n, 2)."""
     patch = field.quality.patch
     low = np.asarray(field.terrain.origin, np.float32)
-    first, last = cell_of(low, patch=patch), cell_of(low + np.float32(field.terrain.size), patch=patch)
+    first, last = cell_of(low, patch=patch), cell_of(low + np.array(field.terrain.size, np.float32), patch=patch)
     cells = np.stack(np.meshgrid(*(np.arange(a, b + 1) for a, b in zip(first, last, strict=True))), -1)
     flat: Ints = cells.reshape(-1, 2).astype(np.int32)
     return flat[cells_on(field.terrain, flat, patch=patch)]

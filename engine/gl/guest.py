@@ -61,7 +61,7 @@ def guest(ctx: moderngl.Context) -> Iterator[moderngl.Framebuffer]:
     viewport, scissor = _boxes(target, gl)
     _aim(target, viewport, scissor)
     ctx.wireframe = False
-    ctx.blend_equation = moderngl.FUNC_ADD
+    ctx.blend_equation = moderngl.FUNC_ADD, moderngl.FUNC_ADD
     ctx.front_face = "ccw"
     ctx.depth_func = "<="
     target.color_mask = (True, True, True, True)

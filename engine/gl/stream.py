@@ -1,8 +1,23 @@
 """Buffers that are filled anew every frame."""
 
+from typing import Protocol
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
+
+
+class Releasable(Protocol):
+    """Anything that holds GL objects: a painter, a stream, or an object of the context itself."""
+
+    def release(self) -> None:
+        """Give everything back to the context."""
+
+
+def release_all(*things: Releasable) -> None:
+    """Give everything that `things` hold back to the context."""
+    for thing in things:
+        thing.release()
 
 
 def attributes(record: np.dtype[np.void]) -> tuple[str, list[str]]:

@@ -5,7 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.receivers import BLADE
-from ...engine.gl.stream import Stream
+from ...engine.gl.stream import Stream, release_all
 from .frame import FrameBlock, joined
 
 MOVED = np.dtype([("message", "2f4"), ("fade", "f4")])
@@ -52,5 +52,4 @@ class BladePainter:
 
     def release(self) -> None:
         """Give everything back."""
-        for thing in (self.array, self.program, self.blades, self.moved):
-            thing.release()
+        release_all(self.array, self.program, self.blades, self.moved)

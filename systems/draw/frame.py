@@ -95,7 +95,12 @@ class FrameBlock:
 
 
 def joined(
-    ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], vertex: str, fragment: str, defines: Mapping[str, str | int]
+    ctx: moderngl.Context,
+    block: FrameBlock,
+    units: Mapping[str, int],
+    vertex: str,
+    fragment: str,
+    defines: Mapping[str, str | int],
 ) -> moderngl.Program:
     """Return a program that knows where the block and the textures are; `units` gives each sampler its unit."""
     made = program(ctx, vertex, fragment, defines=defines)

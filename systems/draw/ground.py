@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from ...components.growth import Growth
 from ...components.terrain import Terrain
-from ...engine.gl.stream import Stream
+from ...engine.gl.stream import Stream, release_all
 from ..cull import inside_cone
 from .frame import FrameBlock, joined
 
@@ -61,7 +61,11 @@ def _nearest(corners: NDArray[np.float64], side: float, eye: tuple[float, float,
 
 
 def _seen(
-    corners: NDArray[np.float64], side: float, terrain: Terrain, eye: tuple[float, float, float], cone: tuple[float, float]
+    corners: NDArray[np.float64],
+    side: float,
+    terrain: Terrain,
+    eye: tuple[float, float, float],
+    cone: tuple[float, float],
 ) -> NDArray[np.bool_]:
     edge = np.asarray(terrain.origin)
     over = ((corners < edge + terrain.size) & (corners + side > edge)).all(axis=1)
@@ -81,7 +85,14 @@ class GroundPainter:
     """Draws ground and carpet."""
 
     def __init__(
-        self, ctx: moderngl.Context, block: FrameBlock, growths: list[Growth], units: dict[str, int], *, side: int, seed: int
+        self,
+        ctx: moderngl.Context,
+        block: FrameBlock,
+        growths: list[Growth],
+        units: dict[str, int],
+        *,
+        side: int,
+        seed: int,
     ) -> None:
         carpets = [growth.models[0].carpet for growth in growths]
         slopes = carpets[0].slope
@@ -127,5 +138,4 @@ class GroundPainter:
     def release(self) -> None:
         """Give everything back."""
         streams = [stream for _, stream in self.parts]
-        for thing in (*self.arrays, self.bare, self.laid, *streams, self.corners, self.indices, self.shares):
-            thing.release()
+        release_all(*self.arrays, self.bare, self.laid, *streams, self.corners, self.indices, self.shares)

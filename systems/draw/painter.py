@@ -10,6 +10,7 @@ from ...components.camera import View
 from ...components.quality import Representation
 from ...engine.gl.guest import guest
 from ...engine.gl.shaders import program
+from ...engine.gl.stream import release_all
 from ..field import Field
 from ..gather import gather_blades, gather_strips
 from ..lod import weights
@@ -52,9 +53,7 @@ class Painter:
         self.sky = program(ctx, "sky.vert", "sky.frag")
         self.block.join(self.sky)
         self.sky_array = ctx.vertex_array(self.sky, [])
-        self.ground = GroundPainter(
-            ctx, self.block, field.growths, UNITS, side=field.table.side, seed=field.scene.seed
-        )
+        self.ground = GroundPainter(ctx, self.block, field.growths, UNITS, side=field.table.side, seed=field.scene.seed)
         self.strips = [
             StripPainter(ctx, self.block, ring, strip_stock(field.growths, number), UNITS)
             for number, ring in enumerate(field.quality.strip_rings)
@@ -126,10 +125,9 @@ class Painter:
 
     def release(self) -> None:
         """Give everything back to the context."""
-        for painter in (*self.blades, *self.strips, self.ground, self.block):
-            painter.release()
-        for thing in (self.sky_array, self.sky, *self.textures.values()):
-            thing.release()
+        release_all(
+            *self.blades, *self.strips, self.ground, self.block, self.sky_array, self.sky, *self.textures.values()
+        )
 
 
 def view_of(view: object, projection: object) -> View:
@@ -146,5 +144,5 @@ def _matrix(matrix: object, name: str) -> NDArray[np.float32]:
     if array.shape == (16,):
         array = array.reshape(4, 4).T
     if array.shape != (4, 4) or not np.isfinite(array).all():
-        raise ValueError(f"the {name} matrix must have 4 x 4 finite numbers, not {np.shape(matrix)}")
+        raise ValueError(f"the {name} matrix must have 4 x 4 finite numbers, not {array.shape}")
     return array

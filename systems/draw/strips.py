@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from ...components.growth import Strips
 from ...components.quality import StripRing
-from ...engine.gl.stream import Stream
+from ...engine.gl.stream import Stream, release_all
 from .frame import FrameBlock, joined
 from .textures import strip_textures
 
@@ -30,7 +30,12 @@ class StripPainter:
     """Draws the strips of one ring; it owns the ring's textures."""
 
     def __init__(
-        self, ctx: moderngl.Context, block: FrameBlock, ring: StripRing, stock: list[list[Strips]], units: dict[str, int]
+        self,
+        ctx: moderngl.Context,
+        block: FrameBlock,
+        ring: StripRing,
+        stock: list[list[Strips]],
+        units: dict[str, int],
     ) -> None:
         self.sections = ring.sections
         self.units = units
@@ -57,13 +62,14 @@ class StripPainter:
             return 0
         self.atlas.use(self.units["atlas"])
         self.ranks.use(self.units["ranks"])
-        self.arrays[self.thin].render(moderngl.TRIANGLE_STRIP, vertices=2 * self.sections + 2, instances=self.stream.count)
+        self.arrays[self.thin].render(
+            moderngl.TRIANGLE_STRIP, vertices=2 * self.sections + 2, instances=self.stream.count
+        )
         return 1
 
     def release(self) -> None:
         """Give everything back."""
-        for thing in (*self.arrays, *self.programs, self.stream, self.atlas, self.ranks):
-            thing.release()
+        release_all(*self.arrays, *self.programs, self.stream, self.atlas, self.ranks)
 
 
 def _by_kind(values: list[float]) -> tuple[float, ...]:

@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 
 from ...components.growth import Growth, Strips
 from ...components.terrain import Density, Terrain
+from ...engine.terrain.sample import slope_at
 from ..wind.noise import noise_table, smooth_noise
 
 FINEST_MAP = 1024
@@ -37,7 +38,9 @@ def first_layers(stock: list[list[Strips]]) -> list[int]:
     return [sum(counts[:index]) for index in range(len(counts))]
 
 
-def strip_textures(ctx: moderngl.Context, stock: list[list[Strips]]) -> tuple[moderngl.TextureArray, moderngl.TextureArray]:
+def strip_textures(
+    ctx: moderngl.Context, stock: list[list[Strips]]
+) -> tuple[moderngl.TextureArray, moderngl.TextureArray]:
     """Return a ring's atlas and ranks: kinds, models, orientations and strips are layers, in this order.
 
     A kind's pictures stand in the lower left corner of layers that are large enough for every kind's.
@@ -66,9 +69,13 @@ def _padded(texels: NDArray[np.uint8], size: NDArray[np.int64], value: int) -> N
 
 def carpet_texture(ctx: moderngl.Context, growths: list[Growth]) -> moderngl.TextureArray:
     """Return all carpet images; kinds, models, slopes and directions are layers, in this order."""
-    images = np.concatenate([
-        model.carpet.texels.reshape(-1, *model.carpet.texels.shape[2:]) for growth in growths for model in growth.models
-    ])
+    images = np.concatenate(
+        [
+            model.carpet.texels.reshape(-1, *model.carpet.texels.shape[2:])
+            for growth in growths
+            for model in growth.models
+        ]
+    )
     layers, rows, columns, _ = images.shape
     texture = ctx.texture_array((columns, rows, layers), 4, np.ascontiguousarray(images).tobytes())
     texture.build_mipmaps()
@@ -92,8 +99,6 @@ def _map_shape(size: tuple[float, float]) -> tuple[int, int]:
 
 def tone_map(terrain: Terrain, *, seed: int) -> NDArray[np.uint8]:
     """Return the terrain's slope (x, z) and two slow noises, each as 0.5 + 0.5 n, shape (rows, columns, 4)."""
-    from ...engine.terrain.sample import slope_at
-
     rows, columns = _map_shape(terrain.size)
     (width, depth), (left, far) = terrain.size, terrain.origin
     x = left + (np.arange(columns) + 0.5) / columns * width

@@ -17,7 +17,7 @@ WAVE = 7.0
 RIPPLE = 0.45
 """Distance over which neighbouring blades swing alike [m]."""
 
-PACES = 2.0 * np.pi * np.float32([1.3, 0.9, 2.1])
+PACES = 2.0 * np.pi * np.array([1.3, 0.9, 2.1], np.float32)
 """How fast blades swing: along the wind, across it, and a second time along it [rad/s]."""
 
 
@@ -42,7 +42,7 @@ class Breeze(WindPrimitive):
     swing: float = Field(0.12, ge=0.0, le=0.5)
     """Largest posture index of a blade's own small oscillations."""
 
-    def mask(self, place: Floats, /, *, time: float) -> Floats:
+    def mask(self, place: Floats, /, *, time: float) -> Floats:  # noqa: ARG002 - it holds at any time
         """Return 1 everywhere: a breeze has no edge."""
         return np.ones(len(place), np.float32)
 
@@ -56,7 +56,8 @@ class Breeze(WindPrimitive):
         ripple = smooth_noise(noise_table(seed, 1), place / np.float32(RIPPLE))
         beat = np.sin(np.float32(np.pi) * ripple[:, :3] + np.float32(np.mod(PACES * np.float64(time), 2.0 * np.pi)))
         own = np.float32(self.swing) * (np.float32(0.6) + np.float32(0.4) * ripple[:, 3])
-        index = np.float32(self.strength) * (1 + np.float32(self.gustiness) * (wave[:, 0] + np.float32(0.5) * wave[:, 1]))
+        drift = np.float32(self.gustiness) * (wave[:, 0] + np.float32(0.5) * wave[:, 1])
+        index = np.float32(self.strength) * (1 + drift)
         index += own * (beat[:, 0] + np.float32(0.5) * beat[:, 2])
         angle = np.float32(heading) + np.float32(0.7 * self.gustiness) * wave[:, 2] + np.float32(2.5) * own * beat[:, 1]
         index = np.clip(index, 0.0, 1.0)

@@ -24,7 +24,7 @@ def smooth_noise(table: Floats, place: Floats, /, *, shift: tuple[float, float] 
     `place` has shape (n, 2). The noise has a continuous slope. The shift is reduced by the noise's period first, so
     that hours of travel cost no precision.
     """
-    moved = place + np.float32([np.mod(shift[0], PERIOD), np.mod(shift[1], PERIOD)])
+    moved = place + np.mod(shift, PERIOD).astype(np.float32)
     low = np.floor(moved)
     part = moved - low
     part = part * part * (np.float32(3.0) - np.float32(2.0) * part)
@@ -34,7 +34,7 @@ def smooth_noise(table: Floats, place: Floats, /, *, shift: tuple[float, float] 
     z = z * PERIOD
     flat = table.reshape(-1, 4)
     s, t = part[:, :1], part[:, 1:]
-    far = flat.take(z + x, axis=0)
+    far: Floats = flat.take(z + x, axis=0)
     far += s * (flat.take(z + right, axis=0) - far)
     near = flat.take(below + x, axis=0)
     near += s * (flat.take(below + right, axis=0) - near)
