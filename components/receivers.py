@@ -26,7 +26,9 @@ row of the posture table, and kind. The field names are the shader's attributes.
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BladePool:
-    """The blades of all patches near enough to be 3D, one slot per patch and kind.
+    """The blades of all patches near enough to be 3D, one slot per patch.
+
+    Within a slot the blades of all kinds stand in one order, far to near.
 
     Slots form a window that wraps round, as the rows of a `PatchTable` do.
     """
@@ -35,29 +37,29 @@ class BladePool:
     """Patches along the window's side."""
 
     blade: NDArray[np.void]
-    """Records of `BLADE`, shape (side * side, kinds, n)."""
+    """Records of `BLADE`, shape (side * side, n)."""
 
     present: NDArray[np.bool_]
-    """Whether the blade grows at its place's density, shape (side * side, kinds, n)."""
+    """Whether the blade grows at its place's density, shape (side * side, n)."""
 
     place: Floats
-    """Receivers' ground positions (x, z) [m], shape (side * side, kinds, n, 2)."""
+    """Receivers' ground positions (x, z) [m], shape (side * side, n, 2)."""
 
     message: Floats
-    """Receivers' messages, shape (side * side, kinds, n, 2)."""
+    """Receivers' messages, shape (side * side, n, 2)."""
 
     stamp: NDArray[np.int32]
     """Cell (i, j) and heading that each slot is planted for, shape (side * side, 3)."""
 
     @classmethod
-    def allocate(cls, side: int, kinds: int, blades: int) -> "BladePool":
+    def allocate(cls, side: int, blades: int) -> "BladePool":
         """Return an empty pool for a window of `side` by `side` patches."""
-        return cls.allocate_slots(side * side, kinds, blades, side=side)
+        return cls.allocate_slots(side * side, blades, side=side)
 
     @classmethod
-    def allocate_slots(cls, slots: int, kinds: int, blades: int, *, side: int = 0) -> "BladePool":
+    def allocate_slots(cls, slots: int, blades: int, *, side: int = 0) -> "BladePool":
         """Return an empty pool of any number of slots, which need not form a window."""
-        shape = (slots, kinds, blades)
+        shape = (slots, blades)
         return cls(
             side=side,
             blade=np.zeros(shape, BLADE),

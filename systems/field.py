@@ -88,20 +88,12 @@ def reach_of(quality: Quality, lod: str) -> tuple[int, int, int]:
 
 def stock_up(growths: list[Growth], patch: float) -> Stock:
     """Return the patch models' blades in all four turns, and where each strip's texture layer is."""
-    records = [
-        np.stack(
-            [
-                blade_records(model.blades, turn, patch=patch, kind=kind, variants=growth.postures.shape.shape[0])
-                for model in growth.models
-                for turn in range(4)
-            ]
-        )
-        for kind, growth in enumerate(growths)
-    ]
+    models = range(len(growths[0].models))
+    records = np.stack([_turned_records(growths, model, turn, patch) for model in models for turn in range(4)])
     blades = BladeStock(
         records=records,
-        ranks=[np.stack([model.blades.rank for model in growth.models]) for growth in growths],
-        orders=[np.stack([far_to_near_blades(row) for row in rows]) for rows in records],
+        rank=np.stack([np.concatenate([growth.models[model].blades.rank for growth in growths]) for model in models]),
+        order=np.stack([far_to_near_blades(row) for row in records]),
     )
     rings = range(len(growths[0].models[0].strips))
     strips = [[growth.models[0].strips[ring] for growth in growths] for ring in rings]
@@ -112,6 +104,15 @@ def stock_up(growths: list[Growth], patch: float) -> Stock:
     return Stock(blades=blades, strips=strips, first_layer=first)
 
 
+def _turned_records(growths: list[Growth], model: int, turn: int, patch: float) -> NDArray[np.void]:
+    return np.concatenate([
+        blade_records(
+            growth.models[model].blades, turn, patch=patch, kind=kind, variants=growth.postures.shape.shape[0]
+        )
+        for kind, growth in enumerate(growths)
+    ])  # fmt: skip
+
+
 def lay_out(
     scene: Scene, quality: Quality, terrain: Terrain, density: Density, growths: list[Growth], *, lod: str
 ) -> Field:
@@ -119,7 +120,7 @@ def lay_out(
     reach = reach_of(quality, lod)
     stock = stock_up(growths, quality.patch)
     side = [2 * (limit + SLACK) + 1 for limit in reach]
-    most = max(len(growth.models[0].blades.height) for growth in growths)
+    together = stock.blades.records.shape[1]
     return Field(
         scene=scene,
         quality=quality,
@@ -130,7 +131,7 @@ def lay_out(
         stock=stock,
         ground=Ground(terrain, density, quality.patch),
         table=PatchTable.allocate(2 * reach[2] + 1),
-        blades=BladePool.allocate(max(side[0], 1), len(growths), most),
+        blades=BladePool.allocate(max(side[0], 1), together),
         strips=[
             StripPool.allocate(max(side[1], 1), len(growths), len(strips[0].plane), ring.columns)
             for strips, ring in zip(stock.strips, quality.strip_rings, strict=True)

@@ -14,7 +14,7 @@ Floats = NDArray[np.float32]
 def gather_blades(pool: BladePool, shown: Shown, /) -> tuple[NDArray[np.void], Floats, Floats]:
     """Return the records (n,), messages (n, 2) and fades (n,) of the blades that grow on the patches shown."""
     present = pool.present[shown.slots]
-    fade = np.broadcast_to(shown.fade[:, None, None], present.shape)
+    fade = np.broadcast_to(shown.fade[:, None], present.shape)
     if present.all():
         return pool.blade[shown.slots].reshape(-1), pool.message[shown.slots].reshape(-1, 2), fade.reshape(-1)
     return pool.blade[shown.slots][present], pool.message[shown.slots][present], fade[present]

@@ -34,15 +34,15 @@ class Ground:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BladeStock:
-    """The blades of all patch models, ready to be stood on the terrain; lists are by kind."""
+    """The blades of all patch models, those of all kinds together, ready to be stood on the terrain."""
 
-    records: list[NDArray[np.void]]
+    records: NDArray[np.void]
     """Records at row model * 4 + quarter turns, shape (models * 4, n)."""
 
-    ranks: list[Floats]
+    rank: Floats
     """The blades' ranks, shape (models, n)."""
 
-    orders: list[NDArray[np.intp]]
+    order: NDArray[np.intp]
     """Far to near by heading, rows as the records', shape (models * 4, HEADINGS, n)."""
 
 
@@ -98,19 +98,18 @@ def plant_blades(
 ) -> None:
     """Stand the blades of each cell (m, 2) in its slot of the pool, in the order that goes with its `heading` (m,)."""
     pool.stamp[slots, :2], pool.stamp[slots, 2] = cell, heading
+    row = model * 4 + turn
+    order = stock.order[row, heading]
+    chosen = stock.records[row[:, None], order]
     corner = cell.astype(np.float32) * np.float32(ground.patch)
-    for kind, (records, ranks, orders) in enumerate(zip(stock.records, stock.ranks, stock.orders, strict=True)):
-        count = records.shape[1]
-        order = orders[model * 4 + turn, heading]
-        chosen = records[(model * 4 + turn)[:, None], order]
-        chosen["root"][..., 0] += corner[:, None, 0]
-        chosen["root"][..., 2] += corner[:, None, 1]
-        place = np.ascontiguousarray(chosen["root"][..., ::2])
-        chosen["root"][..., 1] = height_at(ground.terrain, place.reshape(-1, 2)).reshape(place.shape[:2])
-        dense = density_at(ground.density, place.reshape(-1, 2))[kind].reshape(place.shape[:2])
-        pool.blade[slots, kind, :count] = chosen
-        pool.place[slots, kind, :count] = place
-        pool.present[slots, kind, :count] = (ranks[model[:, None], order] < dense) & (dense > PRESENT)
+    chosen["root"][..., ::2] += corner[:, None, :]
+    place = np.ascontiguousarray(chosen["root"][..., ::2])
+    flat = place.reshape(-1, 2)
+    chosen["root"][..., 1] = height_at(ground.terrain, flat).reshape(order.shape)
+    kind = chosen["kind"].astype(np.intp).reshape(1, -1)
+    dense = np.take_along_axis(density_at(ground.density, flat), kind, axis=0).reshape(order.shape)
+    pool.blade[slots], pool.place[slots] = chosen, place
+    pool.present[slots] = (stock.rank[model[:, None], order] < dense) & (dense > PRESENT)
 
 
 def strip_edges(strips: Strips, columns: int, along: Ints, turn: Ints, /, *, patch: float) -> tuple[Floats, Ints]:

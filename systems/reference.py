@@ -45,7 +45,7 @@ def seen_cells(field: Field, /) -> Ints:
 def stand_all(prairie: Prairie, cells: Ints, painter: BladePainter, /) -> int:
     """Send all blades of `cells` (n, 2) to a painter, bent by the wind of now; return how many."""
     field = prairie.field
-    pool = BladePool.allocate_slots(len(cells), *field.blades.present.shape[1:])
+    pool = BladePool.allocate_slots(len(cells), field.blades.present.shape[1])
     slots = np.arange(len(cells))
     model, turn = patch_models(cells, seed=field.scene.seed, models=field.quality.models)
     plant_blades(pool, slots, cells, model, turn, np.zeros_like(model), field.stock.blades, field.ground)

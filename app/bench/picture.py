@@ -100,7 +100,11 @@ def flip(picture: Picture, reference: Picture) -> float:
 
 
 def bands(pictures: Pictures, quality: Quality) -> list[dict[str, object]]:
-    """Return how brightness and hue of each ring of distance compare with the reference's."""
+    """Return how brightness and hue of each ring of distance compare with the reference's.
+
+    A band's colour is the mean of its pixels in display space, where all averages of pixels are taken; its luminance
+    and hue are those of the linear light of that colour.
+    """
     edges = [ring.to for ring in (*quality.blade_rings, *quality.strip_rings)]
     edges += [quality.carpet_to, int(pictures.distance.max())]
     rows: list[dict[str, object]] = []
@@ -108,7 +112,7 @@ def bands(pictures: Pictures, quality: Quality) -> list[dict[str, object]]:
     for number, end in enumerate(edges):
         inside = (pictures.distance >= start) & (pictures.distance <= end)
         if inside.sum() >= FEWEST:
-            drawn, true = linear(pictures.lod[inside]).mean(axis=0), linear(pictures.reference[inside]).mean(axis=0)
+            drawn, true = (linear(picture[inside].mean(axis=0)) for picture in (pictures.lod, pictures.reference))
             rows.append({
                 "distance": [start, end],
                 "representation": _representation(number, quality),
@@ -125,8 +129,8 @@ def _representation(number: int, quality: Quality) -> str:
     return level.name.lower()
 
 
-def linear(picture: NDArray[np.uint8]) -> NDArray[np.float64]:
-    """Return sRGB bytes as linear light in [0, 1], same shape."""
+def linear(picture: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return sRGB colours of [0, 255] as linear light in [0, 1], same shape."""
     c = picture / 255.0
     return np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
 
