@@ -6,7 +6,7 @@ import shutil
 import subprocess
 from collections.abc import Iterator
 from itertools import count
-from typing import Any
+from typing import Any, NoReturn
 
 import esper
 import moderngl
@@ -27,6 +27,8 @@ settings.load_profile("tallgrass")
 # The stubs give the backend another type than the loader takes.
 _HEADLESS: dict[str, Any] = {"standalone": True, "backend": "egl", "require": 330}
 
+_HOME = pytest.StashKey[moderngl.Framebuffer]()
+
 _worlds = count()
 
 
@@ -38,7 +40,16 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=lambda item: item.get_closest_marker("window") is not None)
 
 
-def _do_without(reason: str) -> None:
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Make the shared context and its framebuffer current again: an earlier test may have left others."""
+    if _HOME in item.config.stash and "ctx" in getattr(item, "fixturenames", ()):
+        home = item.config.stash[_HOME]
+        home.ctx.__enter__()  # type: ignore[no-untyped-call]
+        home.use()
+
+
+def _do_without(reason: str) -> NoReturn:
     """Skip a test that cannot run on this machine, or fail it where everything has to run."""
     if os.environ.get("TALLGRASS_REQUIRE_GL") == "1":
         pytest.fail(f"TALLGRASS_REQUIRE_GL=1, but {reason}")
@@ -53,13 +64,14 @@ def _numbers_fail_loudly() -> Iterator[None]:
 
 
 @pytest.fixture(scope="session")
-def ctx() -> Iterator[moderngl.Context]:
+def ctx(pytestconfig: pytest.Config) -> Iterator[moderngl.Context]:
     """A headless GL context that all tests draw in."""
     try:
         context = moderngl.create_context(**_HEADLESS)
     except Exception as error:  # noqa: BLE001 - the loader raises nothing narrower
         _do_without(f"there is no headless GL: {error} (tallgrass doctor says what to install)")
-        return
+    pytestconfig.stash[_HOME] = context.simple_framebuffer((1, 1))
+    pytestconfig.stash[_HOME].use()
     yield context
     context.release()
 
@@ -68,7 +80,9 @@ def ctx() -> Iterator[moderngl.Context]:
 def _gl_is_left_without_errors(request: pytest.FixtureRequest) -> Iterator[None]:
     yield
     if "ctx" in request.fixturenames:
-        assert request.getfixturevalue("ctx").error == "GL_NO_ERROR"
+        context = request.getfixturevalue("ctx")
+        with context:
+            assert context.error == "GL_NO_ERROR"
 
 
 @pytest.fixture
@@ -86,7 +100,6 @@ def _xvfb() -> Iterator[str]:
     program = shutil.which("Xvfb")
     if program is None:
         _do_without("there is neither a display nor Xvfb (apt-get install --no-install-recommends xvfb xauth)")
-        return
     command = [program, "-displayfd", "1", "-screen", "0", "1280x1024x24", "-nolisten", "tcp"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as server:
         assert server.stdout is not None
