@@ -11,7 +11,8 @@ class World:
     """A prairie's own entities among a game's.
 
     It never switches, clears or processes worlds: it lives in the world that was current when it was made, as
-    a guest, and `release` removes exactly what it created.
+    a guest, and `release` removes exactly what it created. Worlds number their entities alike, so while the game has
+    another world current, everything but `release` raises RuntimeError.
     """
 
     def __init__(self) -> None:
@@ -20,22 +21,26 @@ class World:
 
     def create(self, *components: object) -> int:
         """Return a new entity that has `components`."""
+        self._must_be_current()
         entity = esper.create_entity(*components)
         self._entities.add(entity)
         return entity
 
     def delete(self, entity: int) -> None:
         """Delete an entity at once; one that the game has deleted already is no error."""
+        self._must_be_current()
         self._entities.discard(entity)
         if esper.entity_exists(entity):
             esper.delete_entity(entity, immediate=True)
 
     def add(self, entity: int, component: object) -> None:
         """Give an entity a component, in place of one of the same type."""
+        self._must_be_current()
         esper.add_component(entity, component)
 
     def get(self, entity: int, kind: type[Component]) -> Component:
         """Return an entity's component of exactly this type; KeyError if it has none."""
+        self._must_be_current()
         return esper.component_for_entity(entity, kind)
 
     def all(self, kind: type[Component]) -> list[tuple[int, Component]]:
@@ -43,14 +48,21 @@ class World:
 
         The order is fixed so that nothing that follows from it depends on how a set is laid out.
         """
+        self._must_be_current()
         return sorted(((entity, component) for entity, component in esper.get_component(kind)), key=lambda row: row[0])
 
     def __len__(self) -> int:
         return len(self._entities)
 
     def release(self) -> None:
-        """Delete every entity created here that still exists."""
+        """Delete every entity created here that still exists; while another world is current, just forget them."""
         if esper.current_world == self.name:
             for entity in list(self._entities):
                 self.delete(entity)
         self._entities.clear()
+
+    def _must_be_current(self) -> None:
+        if esper.current_world != self.name:
+            raise RuntimeError(
+                f"this prairie lives in esper world '{self.name}', but '{esper.current_world}' is current"
+            )

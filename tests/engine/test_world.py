@@ -1,0 +1,133 @@
+"""A prairie's entities: guests in the game's own world (D2, D6)."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import esper
+import pytest
+
+from tallgrass.engine.world import World
+
+
+@dataclass
+class Grass:
+    height: float
+
+
+@dataclass
+class Reed(Grass):
+    pass
+
+
+@dataclass
+class Score:
+    points: int
+
+
+@pytest.fixture
+def elsewhere(world: World) -> Iterator[str]:
+    """The game shows its menu, which is another world."""
+    esper.switch_world("menu")
+    yield "menu"
+    esper.switch_world(world.name)
+    esper.delete_world("menu")
+
+
+def test_d2_an_entity_has_the_components_it_was_created_with(world: World) -> None:
+    entity = world.create(Grass(0.5), Score(3))
+    assert world.get(entity, Grass).height == 0.5
+    assert world.get(entity, Score).points == 3
+    assert esper.component_for_entity(entity, Grass) is world.get(entity, Grass)
+
+
+def test_a_component_added_again_takes_the_old_ones_place(world: World) -> None:
+    entity = world.create(Grass(0.5))
+    world.add(entity, Grass(0.7))
+    assert [grass.height for _, grass in world.all(Grass)] == [0.7]
+
+
+def test_a_missing_component_is_a_key_error(world: World) -> None:
+    with pytest.raises(KeyError):
+        world.get(world.create(Grass(0.5)), Score)
+
+
+def test_components_are_found_by_their_exact_type_and_by_rising_entity(world: World) -> None:
+    entities = [world.create(Grass(number / 10)) for number in range(20)]
+    world.create(Reed(2.0))
+    for gone in entities[3:12:2]:
+        world.delete(gone)
+    entities += [world.create(Grass(number / 10)) for number in range(20, 25)]
+    kept = [entity for entity in entities if entity not in entities[3:12:2]]
+    assert [entity for entity, _ in world.all(Grass)] == kept
+    assert [grass.height for _, grass in world.all(Grass)] == [entities.index(entity) / 10 for entity in kept]
+
+
+def test_d2_the_games_own_entities_with_our_components_are_found_too(world: World) -> None:
+    theirs = esper.create_entity(Grass(0.9))
+    assert world.all(Grass) == [(theirs, Grass(0.9))]
+    assert len(world) == 0
+
+
+def test_what_is_asked_for_may_be_kept_while_the_world_changes(world: World) -> None:
+    world.create(Grass(0.5))
+    found = world.all(Grass)
+    found.clear()
+    world.create(Grass(0.6))
+    assert len(world.all(Grass)) == 2
+
+
+def test_d2_a_deleted_entity_is_gone_at_once(world: World) -> None:
+    entity = world.create(Grass(0.5))
+    world.delete(entity)
+    assert not esper.entity_exists(entity)
+    assert world.all(Grass) == []
+    assert len(world) == 0
+
+
+def test_an_entity_that_the_game_has_deleted_may_be_deleted_again(world: World) -> None:
+    entity = world.create(Grass(0.5))
+    esper.delete_entity(entity, immediate=True)
+    world.delete(entity)
+    world.delete(entity)
+    esper.process()
+    assert len(world) == 0
+
+
+def test_d2_release_removes_our_entities_and_leaves_the_games_own(world: World) -> None:
+    theirs = [esper.create_entity(Score(number)) for number in range(3)]
+    for _ in range(5):
+        world.create(Grass(0.5), Score(0))
+    world.release()
+    assert len(world) == 0
+    assert sorted(esper.get_entities()) == theirs
+    assert [score.points for _, score in esper.get_component(Score)] == [0, 1, 2]
+    assert esper.get_component(Grass) == []
+
+
+def test_two_prairies_in_one_world_release_each_its_own(world: World) -> None:
+    other = World()
+    mine, others = world.create(Grass(0.5)), other.create(Grass(0.6))
+    world.release()
+    assert not esper.entity_exists(mine)
+    assert esper.entity_exists(others)
+    other.release()
+
+
+def test_our_entities_go_through_the_worlds_own_processing(world: World) -> None:
+    entity = world.create(Grass(0.5))
+    esper.process()
+    assert world.get(entity, Grass).height == 0.5
+
+
+def test_no_entity_of_another_world_is_ever_touched(world: World, elsewhere: str) -> None:
+    esper.switch_world(world.name)
+    ours = world.create(Grass(0.5))
+    esper.switch_world(elsewhere)
+    theirs = esper.create_entity(Score(1))
+    assert theirs == ours, "worlds number their entities alike"
+    for act in (lambda: world.delete(ours), lambda: world.create(Grass(0.1)), lambda: world.all(Grass)):
+        with pytest.raises(RuntimeError, match=rf"esper world '{world.name}'.*'{elsewhere}'"):
+            act()
+    world.release()
+    assert esper.component_for_entity(theirs, Score).points == 1
+    assert esper.get_component(Grass) == []
