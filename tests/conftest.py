@@ -63,6 +63,14 @@ def _numbers_fail_loudly() -> Iterator[None]:
         yield
 
 
+@pytest.fixture(scope="session", autouse=True)
+def _own_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Grow into a cache of our own, and leave the user's as it is."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("TALLGRASS_CACHE", str(tmp_path_factory.mktemp("cache")))
+        yield
+
+
 @pytest.fixture(scope="session")
 def ctx(pytestconfig: pytest.Config) -> Iterator[moderngl.Context]:
     """A headless GL context that all tests draw in."""
