@@ -54,7 +54,7 @@ class Machine:
     def dev(self, *arguments: str) -> subprocess.CompletedProcess[str]:
         """Run `./dev` from elsewhere."""
         place = {"PATH": str(self.tools), "HOME": str(self.clone), "CALLS": str(self.calls)}
-        command = [shutil.which("sh") or "sh", self.clone / "dev", *arguments]
+        command: list[str | Path] = [shutil.which("sh") or "sh", self.clone / "dev", *arguments]
         return subprocess.run(command, cwd=self.tools, env=place, capture_output=True, text=True, check=False)
 
     def setup(self) -> list[str]:
