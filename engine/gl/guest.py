@@ -27,17 +27,25 @@ def _pyglet_gl() -> Any | None:
     return module if module is not None and getattr(module, "current_context", None) is not None else None
 
 
-def _boxes(target: moderngl.Framebuffer, gl: Any | None) -> tuple[Box, Box | None]:
+def _boxes(ctx: moderngl.Context, target: moderngl.Framebuffer, gl: Any | None) -> tuple[Box, Box | None]:
     """Return the host's viewport and scissor box, None where nothing is cut off.
 
-    moderngl remembers the size that a window had when it first saw it, so these are asked of GL itself.
+    moderngl remembers the size that a window had when it first saw it, so beside pyglet these are asked of GL itself.
     """
     if gl is None:
-        return target.viewport, None
+        whole = (0, 0, *target.size)
+        viewport, scissor = (whole, whole) if ctx.fbo is None else (_box(ctx.viewport), _box(ctx.scissor))
+        return viewport, scissor if scissor != whole else None
     viewport, scissor = (gl.GLint * 4)(), (gl.GLint * 4)()
     gl.glGetIntegerv(gl.GL_VIEWPORT, viewport)
     gl.glGetIntegerv(gl.GL_SCISSOR_BOX, scissor)
     return _box(viewport), _box(scissor) if gl.glIsEnabled(gl.GL_SCISSOR_TEST) else None
+
+
+def _host_framebuffer(ctx: moderngl.Context, target: moderngl.Framebuffer, gl: Any | None) -> moderngl.Framebuffer:
+    """Return the host's own object for the framebuffer it has bound, with its masks, where it draws with moderngl."""
+    bound = ctx.fbo if gl is None else None
+    return bound if bound is not None and bound.glo == target.glo else target
 
 
 def _aim(target: moderngl.Framebuffer, viewport: Box, scissor: Box | None) -> None:
@@ -58,7 +66,8 @@ def guest(ctx: moderngl.Context) -> Iterator[moderngl.Framebuffer]:
     array, program, texture unit or sampler of ours stays bound. Never touches uniform binding point 0.
     """
     target, gl = ctx.detect_framebuffer(), _pyglet_gl()
-    viewport, scissor = _boxes(target, gl)
+    viewport, scissor = _boxes(ctx, target, gl)
+    host = _host_framebuffer(ctx, target, gl)
     _aim(target, viewport, scissor)
     ctx.wireframe = False
     ctx.blend_equation = moderngl.FUNC_ADD, moderngl.FUNC_ADD
@@ -72,7 +81,7 @@ def guest(ctx: moderngl.Context) -> Iterator[moderngl.Framebuffer]:
     finally:
         target.depth_mask = True
         _aim(target, viewport, scissor)
-        target.use()
+        host.use()
         ctx.enable_only(moderngl.NOTHING)
         ctx.clear_samplers(0, UNITS)
         if gl is not None:

@@ -1,0 +1,203 @@
+"""A guest's manners: the host's framebuffer, and the host's state as it was (D6)."""
+
+import sys
+from collections.abc import Callable, Iterator
+from types import SimpleNamespace
+
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass.engine.gl.guest import UNITS, guest, host_context
+
+SIZE = (40, 30)
+VERTEX = """#version 330
+uniform float depth;
+out vec2 at;
+void main() {
+    vec2 corner = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1)) * 4.0 - 1.0;
+    at = corner;
+    gl_Position = vec4(corner, depth, 1.0);
+}"""
+FRAGMENT = """#version 330
+uniform vec4 color;
+out vec4 pixel;
+void main() { pixel = color; }"""
+
+Fill = Callable[..., None]
+
+
+@pytest.fixture
+def host(ctx: moderngl.Context) -> Iterator[moderngl.Framebuffer]:
+    """What the host has bound: a framebuffer of its own with colour and depth, black and far."""
+    color, depth = ctx.texture(SIZE, 4), ctx.depth_renderbuffer(SIZE)
+    target = ctx.framebuffer([color], depth)
+    target.use()
+    target.clear(depth=1.0)
+    yield target
+    ctx.enable_only(moderngl.NOTHING)
+    ctx.cull_face = "back"
+    for thing in (target, color, depth):
+        thing.release()
+
+
+@pytest.fixture
+def fill(ctx: moderngl.Context) -> Iterator[Fill]:
+    """Plain drawing, as a host does it: one colour over all that viewport, scissor, masks and tests let through."""
+    program = ctx.program(vertex_shader=VERTEX, fragment_shader=FRAGMENT)
+    array = ctx.vertex_array(program, [])
+
+    def draw(*color: float, depth: float = 0.0) -> None:
+        program["color"], program["depth"] = color, depth
+        array.render(moderngl.TRIANGLES, 3)
+
+    yield draw
+    for thing in (array, program):
+        thing.release()
+
+
+def picture(target: moderngl.Framebuffer) -> NDArray[np.uint8]:
+    width, height = SIZE
+    return np.frombuffer(target.read(components=4), np.uint8).reshape(height, width, 4)
+
+
+def misbehave(ctx: moderngl.Context, target: moderngl.Framebuffer, fill: Fill) -> None:
+    """Leave everything in disorder, as a draw that does not tidy up would."""
+    ctx.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND | moderngl.CULL_FACE)
+    ctx.cull_face = "front_and_back"
+    target.depth_mask = False
+    target.viewport = (1, 1, 3, 3)
+    target.scissor = (2, 2, 1, 1)
+    fill(1.0, 0.0, 0.0, 0.5, depth=0.9)
+
+
+def test_d6_what_the_host_draws_next_looks_as_if_no_guest_had_been_there(
+    ctx: moderngl.Context, host: moderngl.Framebuffer, fill: Fill
+) -> None:
+    fill(0.2, 0.4, 0.6, 0.8, depth=0.5)
+    alone = picture(host)
+    host.clear(depth=0.25)
+    with guest(ctx) as target:
+        misbehave(ctx, target, fill)
+    fill(0.2, 0.4, 0.6, 0.8, depth=0.5)
+    np.testing.assert_array_equal(picture(host), alone)
+
+
+def test_d6_a_guest_draws_into_the_framebuffer_that_is_bound(
+    ctx: moderngl.Context, host: moderngl.Framebuffer, fill: Fill
+) -> None:
+    with guest(ctx) as target:
+        assert target.glo == host.glo
+        assert target.viewport == (0, 0, *SIZE)
+        fill(1.0, 1.0, 1.0, 1.0)
+    assert (picture(host) == 255).all()
+    assert ctx.detect_framebuffer().glo == host.glo
+
+
+def test_d6_a_guest_draws_in_the_hosts_viewport_and_scissor(
+    ctx: moderngl.Context, host: moderngl.Framebuffer, fill: Fill
+) -> None:
+    host.viewport, host.scissor = (8, 4, 20, 16), (0, 0, 16, 12)
+    host.use()
+    with guest(ctx) as target:
+        assert target.viewport == (8, 4, 20, 16)
+        fill(1.0, 1.0, 1.0, 1.0)
+    lit = np.zeros(SIZE[::-1], np.bool_)
+    lit[4:12, 8:16] = True
+    np.testing.assert_array_equal(picture(host)[..., 0] == 255, lit)
+
+
+def test_d6_viewport_scissor_and_masks_are_as_before_without_being_set_again(
+    ctx: moderngl.Context, host: moderngl.Framebuffer, fill: Fill
+) -> None:
+    host.viewport, host.scissor = (8, 4, 20, 16), (0, 0, 16, 12)
+    host.color_mask, host.depth_mask = (True, False, True, True), False
+    host.use()
+    with guest(ctx) as target:
+        misbehave(ctx, target, fill)
+    fill(1.0, 1.0, 1.0, 1.0, depth=-1.0)
+    lit = picture(host)[4:12, 8:16]
+    assert (lit == (255, 0, 255, 255)).all()
+    assert (picture(host).reshape(-1, 4).sum(axis=0)[0]) == 255 * 64
+    host.depth_mask, host.color_mask, host.scissor = True, (True,) * 4, None  # type: ignore[assignment]
+    host.use()
+    ctx.enable_only(moderngl.DEPTH_TEST)
+    fill(0.0, 1.0, 0.0, 1.0, depth=0.99)
+    assert (picture(host)[4:20, 8:28, 1] == 255).all(), "no depth was written while the host's mask forbade it"
+
+
+def test_d6_a_guest_is_seen_whatever_the_host_has_masked(
+    ctx: moderngl.Context, host: moderngl.Framebuffer, fill: Fill
+) -> None:
+    host.color_mask, host.depth_mask = (False, False, False, False), False
+    host.use()
+    with guest(ctx):
+        fill(1.0, 1.0, 1.0, 1.0)
+    assert (picture(host) == 255).all()
+    assert host.color_mask == (False, False, False, False)
+    assert host.depth_mask is False
+
+
+def test_d6_nothing_stays_enabled_as_pyglets_drawing_expects(
+    ctx: moderngl.Context, host: moderngl.Framebuffer, fill: Fill
+) -> None:
+    with guest(ctx) as target:
+        misbehave(ctx, target, fill)
+    host.clear(depth=0.0)
+    fill(0.5, 0.5, 0.5, 0.5, depth=0.5)
+    half = 127.5
+    assert (np.abs(picture(host).astype(float) - half) <= 1.0).all(), "neither tested, nor blended, nor culled"
+
+
+def test_d6_the_state_is_given_back_when_drawing_fails(
+    ctx: moderngl.Context, host: moderngl.Framebuffer, fill: Fill
+) -> None:
+    def fail() -> None:
+        with guest(ctx) as target:
+            misbehave(ctx, target, fill)
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        fail()
+    assert host.viewport == (0, 0, *SIZE)
+    fill(1.0, 1.0, 1.0, 1.0, depth=0.5)
+    assert (picture(host) == 255).all()
+
+
+def test_d6_no_sampler_of_ours_stays_on_the_hosts_textures(ctx: moderngl.Context, host: moderngl.Framebuffer) -> None:
+    texture = ctx.texture((2, 1), 1, b"\x00\xff")
+    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+    source = "#version 330\nuniform sampler2D t; out vec4 p; void main() { p = texture(t, vec2(0.45, 0.5)); }"
+    program = ctx.program(vertex_shader=VERTEX, fragment_shader=source)
+    array, smooth = ctx.vertex_array(program, []), ctx.sampler(filter=(moderngl.LINEAR, moderngl.LINEAR))
+    for unit in range(UNITS):
+        host.clear()
+        texture.use(unit)
+        program["t"] = unit
+        with guest(ctx):
+            smooth.use(unit)
+        array.render(moderngl.TRIANGLES, 3)
+        assert (picture(host)[..., 0] == 0).all(), f"unit {unit} reads between texels"
+    for thing in (array, program, smooth, texture):
+        thing.release()
+
+
+def test_a_context_that_is_given_is_taken(ctx: moderngl.Context) -> None:
+    assert host_context(ctx) is ctx
+
+
+def test_drawing_before_there_is_a_window_is_refused_in_a_sentence() -> None:
+    hidden = SimpleNamespace(screen=SimpleNamespace(size=(1, 1)))
+    with pytest.raises(RuntimeError, match="create the window before the prairie is first drawn"):
+        host_context(hidden)  # type: ignore[arg-type]
+
+
+def test_d6_pyglet_is_never_loaded_for_a_host_that_does_without(
+    ctx: moderngl.Context, host: moderngl.Framebuffer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in [name for name in sys.modules if name.split(".")[0] == "pyglet"]:
+        monkeypatch.delitem(sys.modules, name)
+    with guest(ctx) as target:
+        assert target.glo == host.glo
+    assert not any(name.split(".")[0] == "pyglet" for name in sys.modules)
