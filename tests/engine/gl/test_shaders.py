@@ -1,0 +1,129 @@
+"""Programs composed from shader files, and messages that lead back to them."""
+
+from importlib.resources import files
+
+import moderngl
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tallgrass.engine.gl import shaders
+from tallgrass.engine.gl.shaders import ShaderError, compose, locate, program
+
+STAGES = sorted(
+    entry.name for entry in files("tallgrass.engine.shaders").iterdir() if entry.name.endswith((".vert", ".frag"))
+)
+PARTS = sorted(entry.name for entry in files("tallgrass.engine.shaders.lib").iterdir() if entry.name.endswith(".glsl"))
+PLAIN = {
+    "plain.vert": ["void main() {", "    gl_Position = vec4(0.0);", "}"],
+    "plain.frag": ["out vec4 pixel;", "void main() {", "    pixel = vec4(1.0);", "}"],
+}
+
+
+@pytest.fixture
+def library(monkeypatch: pytest.MonkeyPatch) -> dict[str, list[str]]:
+    """Shader files that are not on any disk."""
+    sources = {name: list(lines) for name, lines in PLAIN.items()}
+    monkeypatch.setattr(shaders, "_read", lambda name: tuple(sources[name]))
+    return sources
+
+
+def test_there_are_shaders_to_try() -> None:
+    assert {"blades.vert", "blades.frag", "strips.vert", "strips.frag", "ground.vert", "ground.frag"} < set(STAGES)
+    assert "light.glsl" in PARTS
+
+
+@pytest.mark.parametrize("name", STAGES)
+def test_every_part_is_included_once(name: str) -> None:
+    source, lines = compose(name)
+    assert source.startswith("#version 330 core\n")
+    assert "#include" not in source
+    where = [(file, line) for file, line, _ in lines if line > 0]
+    assert len(where) == len(set(where))
+    for file in {file for file, _ in where}:
+        text = files("tallgrass.engine.shaders").joinpath(file).read_text("utf-8").splitlines()
+        assert [line for other, line, _ in lines if other == file and line > 0] == [
+            number for number, row in enumerate(text, 1) if not row.lstrip().startswith("#include")
+        ]
+
+
+def test_every_part_is_included_by_some_program() -> None:
+    used = {file for name in STAGES for file, _, _ in compose(name)[1]}
+    assert {f"lib/{part}" for part in PARTS} <= used
+
+
+def test_parts_that_include_each_other_are_still_included_once(library: dict[str, list[str]]) -> None:
+    library["a.glsl"] = ['#include "b.glsl"', "float a = 1.0;"]
+    library["b.glsl"] = ['#include "a.glsl"', "float b = 2.0;"]
+    library["plain.vert"][:0] = ['#include "a.glsl"', '#include "b.glsl"']
+    text = [line for _, _, line in compose("plain.vert")[1]]
+    assert text[:3] == ["#version 330 core", "float b = 2.0;", "float a = 1.0;"]
+
+
+def test_definitions_follow_the_version_line() -> None:
+    source, lines = compose("sky.frag", {"SEGMENTS": 3, "ROUND": "0.5"})
+    assert source.splitlines()[:3] == ["#version 330 core", "#define SEGMENTS 3", "#define ROUND 0.5"]
+    assert [line for _, line, _ in lines[:3]] == [0, 0, 0]
+    assert len(source.splitlines()) == len(lines)
+
+
+def test_a_missing_file_is_named() -> None:
+    with pytest.raises(ShaderError, match=r"there is no shader file 'nowhere\.vert'"):
+        compose("nowhere.vert")
+
+
+@given(st.sampled_from(STAGES), st.data())
+def test_any_line_that_a_driver_names_is_put_back_to_its_file(name: str, data: st.DataObject) -> None:
+    _, lines = compose(name, {"A": 1})
+    number = data.draw(st.integers(1, len(lines)))
+    file, line, _ = lines[number - 1]
+    mesa, nvidia, apple = f"0:{number}(12): error: x", f"0({number}) : error C1: x", f"ERROR: 0:{number}: x"
+    assert locate(mesa, lines) == f"{file}:{line}(12): error: x"
+    assert locate(nvidia, lines) == f"{file}:{line} : error C1: x"
+    assert locate(apple, lines) == f"ERROR: {file}:{line}: x"
+
+
+def test_lines_that_are_not_ours_are_left_as_they_are() -> None:
+    _, lines = compose("sky.vert")
+    message = f"0:0: x\n0:{len(lines) + 1}(3): y\nno line here"
+    assert locate(message, lines) == message
+
+
+def test_an_error_in_an_included_file_names_that_file_and_line(
+    ctx: moderngl.Context, library: dict[str, list[str]]
+) -> None:
+    library["lib/one.glsl"] = ["", "float one() {", "    return oops;", "}"]
+    library["plain.vert"][:0] = ["// a first line", '#include "lib/one.glsl"']
+    with pytest.raises(ShaderError, match=r"lib/one\.glsl:3\b"):
+        program(ctx, "plain.vert", "plain.frag", defines={"MANY": 2, "MORE": 3})
+
+
+@pytest.mark.parametrize(("file", "line"), [("plain.vert", 2), ("plain.frag", 3)])
+def test_an_error_names_the_stage_that_it_is_in(
+    ctx: moderngl.Context, library: dict[str, list[str]], file: str, line: int
+) -> None:
+    library[file][line - 1] = "    oops = 1;"
+    with pytest.raises(ShaderError, match=rf"{file}:{line}\b"):
+        program(ctx, "plain.vert", "plain.frag")
+
+
+def test_stages_that_do_not_fit_together_are_a_shader_error(
+    ctx: moderngl.Context, library: dict[str, list[str]]
+) -> None:
+    library["plain.vert"][:] = ["out vec2 shade;", "void main() {", "    gl_Position.xy = shade = vec2(0.0);", "}"]
+    library["plain.frag"][:] = ["in vec3 shade;", "out vec4 pixel;", "void main() {", "    pixel = shade.xyzz;", "}"]
+    with pytest.raises(ShaderError):
+        program(ctx, "plain.vert", "plain.frag")
+
+
+def test_a_program_may_be_asked_what_it_computes(ctx: moderngl.Context, library: dict[str, list[str]]) -> None:
+    library["twice.vert"] = ["in float x;", "out float y;", "void main() {", "    y = FACTOR * x;", "}"]
+    made = program(ctx, "twice.vert", None, defines={"FACTOR": "2.0"}, varyings=("y",))
+    numbers = np.arange(5, dtype=np.float32)
+    source, result = ctx.buffer(numbers), ctx.buffer(reserve=20)
+    array = ctx.vertex_array(made, [(source, "1f", "x")])
+    array.transform(result, vertices=5)
+    np.testing.assert_array_equal(np.frombuffer(result.read(), np.float32), 2.0 * numbers)
+    for thing in (array, source, result, made):
+        thing.release()
