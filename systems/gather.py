@@ -27,22 +27,22 @@ def gather_strips(pool: StripPool, shown: Shown, table: PatchTable, centre: NDAr
     """
     cell = table.cell[shown.rows]
     ahead = np.take_along_axis(cell - centre, 1 - shown.along[:, None], axis=1)[:, 0] > 0
-    slots = shown.slots[:, None]
-    count = pool.layer.shape[2]
-    order = np.where(ahead[:, None], np.arange(count)[::-1], np.arange(count))
-    place = pool.place[slots, :, order]
+    _, kinds, count = pool.layer.shape
+    order = np.where(ahead[:, None], np.arange(count)[::-1], np.arange(count))[..., None]
+    # Strips of several kinds share a plane: each kind comes to lie in front as often as behind.
+    kind = (np.arange(kinds) + order) % kinds
+    at = shown.slots[:, None, None], kind, order
+    place, ground, message = pool.place[at], pool.ground[at], pool.message[at]
     columns = place.shape[3] - 1
     records = np.zeros((*place.shape[:3], columns), STRIP)
-    ground, message = pool.ground[slots, :, order], pool.message[slots, :, order]
     for side, edge in (("a", slice(None, -1)), ("b", slice(1, None))):
         records[side][..., ::2] = place[..., edge, :]
         records[side][..., 1] = ground[..., edge]
         records["wind"][..., slice(0, 2) if side == "a" else slice(2, 4)] = message[..., edge, :]
     span = np.linspace(0.0, 1.0, columns + 1, dtype=np.float32)
     records["u"] = np.stack([span[:-1], span[1:]], axis=-1)
-    records["layer"] = pool.layer[slots, :, order][..., None]
-    records["kind"] = np.arange(place.shape[2], dtype=np.float32)[:, None]
+    records["layer"] = pool.layer[at][..., None]
+    records["kind"] = kind[..., None]
     records["turn"] = table.turn[shown.rows][:, None, None, None]
     records["fade"] = shown.fade[:, None, None, None]
-    grows = np.broadcast_to(pool.present[slots, :], place.shape[:3])
-    return records[grows].reshape(-1)
+    return records[pool.present[at[:2]]].reshape(-1)

@@ -88,6 +88,7 @@ class Prairie:
         self._ctx = ctx
         self._drawn_at: float | None = None
         self._receivers = ReceiverEntities(self.world, self.field)
+        self._blown = 0.0
         self._blades: list[Shown] = []
         self._strips: list[Shown] = []
         self._schedule = self._systems()
@@ -216,13 +217,15 @@ class Prairie:
 
     def _wind(self) -> None:
         sources = blowing(self.sources(), time=self.time)
-        self.statistics.receivers = blow(self.field, self._blades, self._strips, sources, time=self.time)
+        heard = blow(self.field, self._blades, self._strips, sources, time=self.time)
+        self.statistics.receivers = len(heard)
+        self._blown = float(np.linalg.norm(heard, axis=1).mean()) if len(heard) else 0.0
 
     def _gather(self) -> None:
         assert self.painter is not None
         self.statistics.blades_submitted = self.painter.write_blades(self._blades)
         self.painter.write_strips(self._strips)
-        self.painter.write_ground(carpet=True)
+        self.painter.write_ground(carpet=True, blown=self._blown)
 
     def _count(self, draw_ms: float) -> None:
         assert self.painter is not None

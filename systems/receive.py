@@ -54,11 +54,11 @@ def viewing_slope(field: Field, rows: Rows, /) -> Floats:
 def strip_ring(distance: Ints, slope: Floats, limits: Ints, spacing: Floats, /, *, height: float) -> NDArray[np.int64]:
     """Return the ring of each 2.5D patch (n,): by discrete distance, but finer where it is seen from above.
 
-    A line of sight shall cross at least two strips on its way through grass of this `height` [m], or they show as
+    A line of sight shall cross at least three strips on its way through grass of this `height` [m], or they show as
     rows on hillsides that face the viewer. `spacing` is the distance between each ring's strips [m].
     """
     by_distance = np.searchsorted(limits, distance)
-    widest = height / (2.0 * np.maximum(slope, 1e-3))
+    widest = height / (3.0 * np.maximum(slope, 1e-3))
     by_slope = np.searchsorted(spacing, widest, side="right") - 1
     return np.clip(np.minimum(by_distance, by_slope), 0, len(spacing) - 1)
 
@@ -128,8 +128,8 @@ def plant_shown_strips(field: Field, ring: int, shown: Shown) -> Rows:
     return rows
 
 
-def blow(field: Field, blades: list[Shown], strips: list[Shown], sources: list[WindSource], /, *, time: float) -> int:
-    """Let every receiver that is seen hear the wind, in one pass over them all; return how many there are."""
+def blow(field: Field, blades: list[Shown], strips: list[Shown], sources: list[WindSource], /, *, time: float) -> Floats:
+    """Let every receiver that is seen hear the wind, in one pass over them all; return their messages, (n, 2)."""
     pools: list[tuple[BladePool | StripPool, Rows]] = [(field.blades, np.concatenate([ring.slots for ring in blades]))]
     pools += [(pool, ring.slots) for pool, ring in zip(field.strips, strips, strict=True)]
     places = [pool.place[slots].reshape(-1, 2) for pool, slots in pools]
@@ -138,4 +138,4 @@ def blow(field: Field, blades: list[Shown], strips: list[Shown], sources: list[W
     for (pool, slots), place in zip(pools, places, strict=True):
         pool.message[slots] = heard[start : start + len(place)].reshape(len(slots), *pool.message.shape[1:])
         start += len(place)
-    return start
+    return heard

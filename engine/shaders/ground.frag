@@ -16,6 +16,9 @@ uniform vec4 first;             // by kind: first layer of the images
 uniform ivec2 stock;            // patch models; seed
 
 in float carpet;
+in float fuzz;
+uniform vec4 bowed;  // by kind: height of grass in the wind of now, of that at rest
+uniform float blown;  // mean posture index of now
 
 vec2 spun(vec2 v, int turns) {
     return turns == 0 ? v : turns == 1 ? vec2(-v.y, v.x) : turns == 2 ? -v : vec2(v.y, -v.x);
@@ -36,29 +39,32 @@ vec4 carpet_image(float layer, vec2 at, vec2 heading, float slope, vec2 dx, vec2
     return mix(near, steep, part);
 }
 
-vec3 carpet_light() {
+float viewing_slope() {
+    vec3 ray = place - eye.xyz;
+    vec2 relief = 2.0 * textureLod(tone, on_map(place.xz), 0.0).xy - 1.0;
+    return (dot(relief, ray.xz) - ray.y) / max(length(ray.xz), 1e-4);
+}
+
+vec3 carpet_light(float slope) {
     ivec2 cell = ivec2(floor(place.xz / soil.w));
     uint drawn = hash3(stock.y, cell.x, cell.y);
     int model = int(drawn % uint(stock.x)), turn = int((drawn >> 16u) % 4u);
     vec2 at = spun(place.xz / soil.w - vec2(cell) - 0.5, (4 - turn) % 4) + 0.5;
     vec2 dx = spun(dFdx(place.xz), (4 - turn) % 4) / soil.w, dy = spun(dFdy(place.xz), (4 - turn) % 4) / soil.w;
     vec3 ray = place - eye.xyz;
-    float reach = max(length(ray.xz), 1e-4);
-    vec2 heading = ray.xz / reach;
-    vec2 relief = 2.0 * textureLod(tone, on_map(place.xz), 0.0).xy - 1.0;
-    float slope = max(dot(relief, heading) - ray.y / reach, slopes[0]);
+    vec2 heading = ray.xz / max(length(ray.xz), 1e-4);
     vec4 grows = textureLod(density, on_map(place.xz), 0.0);
     float total = max(dot(grows, vec4(1.0)), 1.0);
-    float lifted = lift(vec2(0.0), place);
+    float lifted = lift(vec2(blown, 0.0), place);
     vec3 here = place_tone(place.xz);
     vec4 sum = vec4(0.0);
     for (int kind = 0; kind < KINDS; kind++) {
         if (grows[kind] < 0.004)
             continue;
         float layer = first[kind] + float(model * SLOPES * 4);
-        vec4 image = carpet_image(layer, at, spun(heading, (4 - turn) % 4), slope, dx, dy);
+        vec4 image = carpet_image(layer, at, spun(heading, (4 - turn) % 4), max(slope, slopes[0]), dx, dy);
         vec3 grass = root[kind].rgb * image.a + (tip[kind].rgb - root[kind].rgb) * image.r;
-        float h = image.g / max(image.a, 1e-3);
+        float h = bowed[kind] * image.g / max(image.a, 1e-3);
         sum += grows[kind] / total * vec4(grass * here * canopy(h, lifted), image.a);
     }
     return sum.rgb + soil_color * (1.0 - min(sum.a, 1.0));
@@ -68,8 +74,18 @@ vec3 carpet_light() {
 
 void main() {
     vec3 color = soil_color;
+    float covered = 1.0;
 #ifdef CARPET
-    color = mix(color, carpet_light(), carpet > 0.0 ? share_at(ivec2(floor(place.xz / soil.w))) : 0.0);
+    float slope = viewing_slope();
+    float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / soil.w))) : 0.0;
+    color = mix(color, carpet_light(slope), share);
+    // Near an outline the slope falls like the root of the distance to it on the screen: which gives that distance,
+    // over which single tips let through what is behind them.
+    float below = 0.5 * max(slope, 0.0) / max(length(vec2(dFdx(slope), dFdy(slope))), 1e-6);
+    float tips = fuzz * screen.z / distance(place, eye.xyz);
+    covered = mix(1.0, clamp(below / max(tips, 1.0), 0.0, 1.0), share);
+    if (covered < 0.004)
+        discard;
 #endif
-    pixel = vec4(mix(color, haze.rgb, veiled), 1.0);
+    pixel = vec4(mix(color, haze.rgb, veiled), 1.0) * covered;
 }

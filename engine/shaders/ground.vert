@@ -8,9 +8,11 @@ in vec4 tile;    // x, z [m]; spacing [m]; distance at which the next coarser sp
 
 #ifdef CARPET
 #include "lib/shares.glsl"
-uniform float raised;  // height of the carpet above the ground [m]
+uniform vec4 raised;  // by kind: height of the carpet above the ground [m]
+
 
 out float carpet;
+out float fuzz;  // height of the grass that stands out against what is behind [m]
 
 float lowest_share(vec2 place) {
     ivec2 low = ivec2(floor((place - 0.01) / soil.w)), high = ivec2(floor((place + 0.01) / soil.w));
@@ -30,7 +32,9 @@ void main() {
     place = vec3(flat_at, height_at(flat_at)).xzy;
 #ifdef CARPET
     carpet = lowest_share(flat_at);
-    place.y += raised * carpet;
+    vec4 grows = textureLod(density, on_map(flat_at), 0.0);
+    place.y += carpet * dot(grows, raised) / max(dot(grows, vec4(1.0)), 1.0);
+    fuzz = dot(grows, raised) * 0.5;
 #endif
     soil_color = soil_light(flat_at);
     veiled = haze_at(place);

@@ -1,7 +1,7 @@
 #include "lib/light.glsl"
 
 uniform sampler2DArray atlas;  // place along the blade, face normal x and z, coverage; premultiplied
-uniform sampler2DArray ranks;
+uniform sampler2DArray ranks;  // rank of the blade, premultiplied by coverage
 
 in vec2 at;
 noperspective in float h;
@@ -14,6 +14,7 @@ flat in vec3 grain_v;
 flat in float sheet;
 flat in float hidden;
 flat in float shown;
+flat in float boost;  // of coverage
 #ifdef THIN
 noperspective in float grows;
 #endif
@@ -23,10 +24,10 @@ out vec4 pixel;
 #ifdef THIN
 // How much of a texel stays where its kind grows thinly: its blades above the density go, sharply where the texel is
 // one blade, in proportion where it is the mean of many.
-float thinned() {
+float thinned(float coverage) {
     vec2 step = fwidth(at) * vec2(textureSize(ranks, 0).xy);
     float soft = clamp(0.35 * log2(max(max(step.x, step.y), 1.0)), 0.06, 1.0);
-    float rank = texture(ranks, vec3(at, sheet)).r;
+    float rank = texture(ranks, vec3(at, sheet)).r / coverage;
     return grows > 0.995 ? 1.0 : clamp((grows - rank) / soft + 0.5, 0.0, 1.0);
 }
 #endif
@@ -35,11 +36,12 @@ void main() {
     vec4 texel = texture(atlas, vec3(at, sheet));
     if (texel.a < 0.008)
         discard;
+    texel *= min(boost, 1.0 / texel.a);
     vec2 normal = 2.0 * texel.gb / texel.a - 1.0;
     vec3 grass = (foot_color * texel.a + rise_color * texel.r) * here;
     grass *= (1.0 + grain_u * normal.x + grain_v * normal.y) * canopy(h, rate);
 #ifdef THIN
-    float stays = shown * thinned();
+    float stays = shown * thinned(texel.a);
 #else
     float stays = shown;
 #endif

@@ -26,6 +26,7 @@ flat out vec3 grain_v;
 flat out float sheet;
 flat out float hidden;
 flat out float shown;
+flat out float boost;
 #ifdef THIN
 noperspective out float grows;
 #endif
@@ -51,6 +52,9 @@ void main() {
     grain_u = c * grain_x[k].rgb + s * grain_z[k].rgb;
     grain_v = c * grain_z[k].rgb - s * grain_x[k].rgb;
     shown = fade;
+    // A line of sight that meets strips at an angle crosses fewer of them on the same way through the grass.
+    vec2 run = normalize(b.xz - a.xz), sight = normalize(0.5 * (a.xz + b.xz) - eye.xz);
+    boost = mix(1.0, 1.0 / max(abs(run.x * sight.y - run.y * sight.x), 0.6), 0.7);
 #ifdef THIN
     grows = textureLod(density, on_map(foot.xz), 0.0)[k];
 #endif

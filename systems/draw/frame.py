@@ -1,6 +1,6 @@
 """What every program knows of a frame, in one uniform block."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from math import cos, radians
 
 import moderngl
@@ -69,7 +69,7 @@ def aim(record: NDArray[np.void], view: View, size: tuple[int, int], /, *, time:
     row = record[0]
     row["clip"] = clip.T.reshape(16)
     row["unclip"] = np.linalg.inv(clip).T.reshape(16)
-    row["screen"][:2] = size[0] / 2, size[1] / 2
+    row["screen"][:3] = size[0] / 2, size[1] / 2, size[1] / 2 * view.projection[1, 1]
     row["eye"] = (*camera_of(view)[0].position, time)
 
 
@@ -92,6 +92,11 @@ class FrameBlock:
     def release(self) -> None:
         """Give the buffer back."""
         self.buffer.release()
+
+
+def by_kind(values: Sequence[float]) -> tuple[float, ...]:
+    """Return a figure per kind as the four numbers of a shader's vector."""
+    return (*values, *[0.0] * (4 - len(values)))
 
 
 def joined(

@@ -4,11 +4,11 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.growth import Growth
+from ...components.growth import Growth, Postures
 from ...components.terrain import Terrain
 from ...engine.gl.stream import Stream, release_all
 from ..cull import inside_cone
-from .frame import FrameBlock, joined
+from .frame import FrameBlock, by_kind, joined
 
 TILE = np.dtype([("tile", "4f4")])
 GRID = 8
@@ -22,7 +22,7 @@ that is split must lie inside it."""
 def ground_tiles(
     terrain: Terrain, eye: tuple[float, float, float], cone: tuple[float, float], /, *, spacing: float
 ) -> NDArray[np.void]:
-    """Return the tiles that cover what is seen of the terrain, records of `TILE`, near ones first.
+    """Return the tiles that cover what is seen of the terrain, records of `TILE`, far to near.
 
     A tile of `GRID` quads is split in four while it is nearer than `SPREAD` sides of its quarters, down to
     `spacing` [m] between grid points.
@@ -41,8 +41,10 @@ def ground_tiles(
         done.append(np.column_stack([kept, np.full(len(kept), side / GRID), np.full(len(kept), SPREAD * side)]))
         side /= 2.0
         corners = (corners[split][:, None, :] + side * np.array([[0, 0], [1, 0], [0, 1], [1, 1]])).reshape(-1, 2)
-    tiles = np.zeros(sum(map(len, done)), TILE)
-    tiles["tile"] = np.concatenate(done[::-1])
+    rows = np.concatenate(done)
+    away = np.linalg.norm(rows[:, :2] + rows[:, 2:3] * (GRID / 2) - np.array([eye[0], eye[2]]), axis=1)
+    tiles = np.zeros(len(rows), TILE)
+    tiles["tile"] = rows[np.argsort(-away)]
     return tiles
 
 
@@ -73,6 +75,11 @@ def _seen(
     return over & inside_cone(middle, apex=(eye[0], eye[2]), cone=cone, radius=side * 0.75)
 
 
+def standing_height(postures: Postures, index: float, /) -> float:
+    """Return how high the tip of a blade of length 1 stands at a posture index."""
+    return float(np.interp(index, postures.index, postures.shape[0, :, -1, 1]))
+
+
 def _grid() -> tuple[NDArray[np.float32], NDArray[np.int32]]:
     line = np.arange(GRID + 1)
     corners = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2).astype(np.float32)
@@ -96,20 +103,22 @@ class GroundPainter:
     ) -> None:
         carpets = [growth.models[0].carpet for growth in growths]
         slopes = carpets[0].slope
+        self.growths = growths
         images = [len(growth.models) * len(slopes) * 4 for growth in growths]
         defines = {"CARPET": 1, "SLOPES": len(slopes), "KINDS": len(growths)}
         self.bare = joined(ctx, block, units, "ground.vert", "ground.frag", {})
         self.laid = joined(ctx, block, units, "ground.vert", "ground.frag", defines)
         self.laid["slopes"] = slopes.tolist()
-        self.laid["first"] = tuple([sum(images[:index]) for index in range(len(images))] + [0] * (4 - len(images)))
+        self.laid["first"] = by_kind([sum(images[:index]) for index in range(len(images))])
         self.laid["stock"] = (len(growths[0].models), seed)
-        self.laid["raised"] = float(np.mean([carpet.offset for carpet in carpets]))
+        self.laid["raised"] = by_kind([carpet.offset for carpet in carpets])
+        self.blow(0.0)
         self.shares = ctx.texture((side, side), 1, alignment=1)
         self.shares.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self.unit = units["shares"]
         corners, indices = _grid()
         self.corners, self.indices = ctx.buffer(corners), ctx.buffer(indices)
-        self.parts = [(made, Stream(ctx, TILE)) for made in (self.bare, self.laid)]
+        self.parts = [(made, Stream(ctx, TILE)) for made in (self.laid, self.bare)]
         self.arrays = [
             ctx.vertex_array(made, [(self.corners, "2f", "corner"), stream.binding(made)], index_buffer=self.indices)
             for made, stream in self.parts
@@ -117,23 +126,33 @@ class GroundPainter:
 
     def write(self, tiles: NDArray[np.void], laid: NDArray[np.bool_]) -> None:
         """Send the tiles (n,), and on which of them carpet may lie."""
-        for (_, stream), chosen in zip(self.parts, (~laid, laid), strict=True):
+        for (_, stream), chosen in zip(self.parts, (laid, ~laid), strict=True):
             stream.write(tiles[chosen])
+
+    def blow(self, index: float) -> None:
+        """Tell how far the grass is bent on the mean: the carpet's light follows, though it does not move."""
+        self.laid["blown"] = index
+        self.laid["bowed"] = by_kind([standing_height(growth.postures, index) for growth in self.growths])
 
     def write_shares(self, shares: NDArray[np.float32], centre: NDArray[np.int32]) -> None:
         """Send how much the carpet shows on each row of the patch table (rows,) around the viewer's cell."""
         self.shares.write(np.round(shares * 255.0).astype(np.uint8))
         self.laid["window"] = (int(centre[0]), int(centre[1]), self.shares.width // 2)
 
-    def draw(self) -> int:
-        """Draw what was written; return the number of draw calls."""
+    def draw_bare(self) -> int:
+        """Draw the ground where there is no carpet; return the number of draw calls."""
+        return self._draw(1)
+
+    def draw_carpet(self) -> int:
+        """Draw the ground where there is carpet, from far to near; return the number of draw calls."""
         self.shares.use(self.unit)
-        calls = 0
-        for array, (_, stream) in zip(self.arrays, self.parts, strict=True):
-            if stream.count:
-                array.render(moderngl.TRIANGLES, instances=stream.count)
-                calls += 1
-        return calls
+        return self._draw(0)
+
+    def _draw(self, part: int) -> int:
+        count = self.parts[part][1].count
+        if count:
+            self.arrays[part].render(moderngl.TRIANGLES, instances=count)
+        return int(count > 0)
 
     def release(self) -> None:
         """Give everything back."""

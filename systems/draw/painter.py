@@ -86,8 +86,9 @@ class Painter:
         self.ground.write_shares(np.ones(len(field.table.progress), np.float32), field.sight.centre)
         self.draw(view, time=time, blades=[])
 
-    def write_ground(self, *, carpet: bool) -> None:
-        """Send the tiles of the ground, and where the carpet lies on it."""
+    def write_ground(self, *, carpet: bool, blown: float = 0.0) -> None:
+        """Send the tiles of the ground, where the carpet lies on it, and how far the grass is bent on the mean."""
+        self.ground.blow(blown)
         field, sight = self.field, self.field.sight
         tiles = ground_tiles(field.terrain, sight.eye, sight.cone, spacing=field.quality.patch / 2)
         near = within(tiles, sight.centre, patch=field.quality.patch, reach=max(field.reach[1], 0))
@@ -105,22 +106,28 @@ class Painter:
             self.block.write(self.record)
             for name, texture in self.textures.items():
                 texture.use(UNITS[name])
-            ctx.enable_only(moderngl.DEPTH_TEST)
-            self.draw_calls = 1 + self.ground.draw()
-            target.depth_mask = False
-            self.sky_array.render(moderngl.TRIANGLES, vertices=3)
-            target.depth_mask = True
+            self._draw_land(target)
             if blades is None:
                 self._draw_grass(target)
             else:
+                ctx.enable_only(moderngl.DEPTH_TEST)
                 self.draw_calls += sum(painter.draw() for painter in blades)
+
+    def _draw_land(self, target: moderngl.Framebuffer) -> None:
+        self.ctx.enable_only(moderngl.DEPTH_TEST)
+        self.draw_calls = 1 + self.ground.draw_bare()
+        target.depth_mask = False
+        self.sky_array.render(moderngl.TRIANGLES, vertices=3)
+        target.depth_mask = True
+        self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND)
+        self.ctx.blend_func = OVER
+        self.draw_calls += self.ground.draw_carpet()
 
     def _draw_grass(self, target: moderngl.Framebuffer) -> None:
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND)
         self.ctx.blend_func = OVER
         target.depth_mask = False
         self.draw_calls += sum(painter.draw() for painter in reversed(self.strips))
-        target.depth_mask = True
         self.draw_calls += sum(painter.draw() for painter in reversed(self.blades))
 
     def release(self) -> None:

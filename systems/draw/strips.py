@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from ...components.growth import Strips
 from ...components.quality import StripRing
 from ...engine.gl.stream import Stream, release_all
-from .frame import FrameBlock, joined
+from .frame import FrameBlock, by_kind, joined
 from .textures import strip_textures
 
 STRIP = np.dtype(
@@ -45,9 +45,9 @@ class StripPainter:
         self.programs = [joined(ctx, block, units, "strips.vert", "strips.frag", defines) for defines in (whole, thin)]
         kinds = [models[0] for models in stock]
         for made in self.programs:
-            made["tall"] = _by_kind([strips.height for strips in kinds])
-            made["wide_to"] = _by_kind([strips.texels.shape[3] / self.atlas.width for strips in kinds])
-            made["high_to"] = _by_kind([strips.texels.shape[2] / self.atlas.height for strips in kinds])
+            made["tall"] = by_kind([strips.height for strips in kinds])
+            made["wide_to"] = by_kind([strips.texels.shape[3] / self.atlas.width for strips in kinds])
+            made["high_to"] = by_kind([strips.texels.shape[2] / self.atlas.height for strips in kinds])
         self.arrays = [ctx.vertex_array(made, [self.stream.binding(made)]) for made in self.programs]
         self.thin = False
 
@@ -70,7 +70,3 @@ class StripPainter:
     def release(self) -> None:
         """Give everything back."""
         release_all(*self.arrays, *self.programs, self.stream, self.atlas, self.ranks)
-
-
-def _by_kind(values: list[float]) -> tuple[float, ...]:
-    return (*values, *[0.0] * (4 - len(values)))

@@ -46,8 +46,8 @@ def strip_textures(
     A kind's pictures stand in the lower left corner of layers that are large enough for every kind's.
     """
     size = np.max([models[0].rank.shape[2:] for models in stock], axis=0)
-    atlas = np.concatenate([_padded(strips.texels, size, 0) for models in stock for strips in models])
-    ranks = np.concatenate([_padded(strips.rank, size, 255) for models in stock for strips in models])
+    atlas = np.concatenate([_padded(strips.texels, size) for models in stock for strips in models])
+    ranks = np.concatenate([_padded(_premultiplied_rank(strips), size) for models in stock for strips in models])
     layers, rows, columns, _ = atlas.shape
     made = (
         ctx.texture_array((columns, rows, layers), 4, np.ascontiguousarray(atlas).tobytes(), alignment=1),
@@ -60,10 +60,15 @@ def strip_textures(
     return made
 
 
-def _padded(texels: NDArray[np.uint8], size: NDArray[np.int64], value: int) -> NDArray[np.uint8]:
+def _premultiplied_rank(strips: Strips) -> NDArray[np.uint8]:
+    coverage = strips.texels[..., 3].astype(np.float32)
+    return np.round(strips.rank * (coverage / 255.0)).astype(np.uint8)
+
+
+def _padded(texels: NDArray[np.uint8], size: NDArray[np.int64]) -> NDArray[np.uint8]:
     flat = texels.reshape(-1, *texels.shape[2:])
     more = [(0, 0), (0, size[0] - flat.shape[1]), (0, size[1] - flat.shape[2]), (0, 0)][: flat.ndim]
-    padded: NDArray[np.uint8] = np.pad(flat, more, constant_values=value)
+    padded: NDArray[np.uint8] = np.pad(flat, more)
     return padded
 
 

@@ -25,12 +25,12 @@ def grow_strips(
 ) -> Strips:
     """Return the strips of a patch model, drawn from its blades at rest.
 
-    A strip shows the blades whose roots lie in its slice, along the slice's normal, the nearest to the side of
-    larger z (orientation 0) or x (orientation 1) in front. Face normals are the blades' own, whichever side is
-    seen: light is linear in them, so that the mean of many is right. The texture reaches from -`margin` to
-    `patch` + `margin`, and from the ground to `height` [m] (without it, over the highest tip); its texels are
-    square but for rounding, `texel` metres wide at most. Where nothing is painted, ranks are those of what is
-    painted nearby, or else 255.
+    A strip shows the blades whose roots lie in its slice, along the slice's normal. Where they cross, those of lower
+    rank lie in front: the strip is flat anyway, and a blade that stays where its kind grows thinly must not have been
+    hidden by one that goes. Face normals are the blades' own, whichever side is seen: light is linear in them, so that
+    the mean of many is right. The texture reaches from -`margin` to `patch` + `margin`, and from the ground to
+    `height` [m] (without it, over the highest tip); its texels are square but for rounding, `texel` metres wide at
+    most. Where nothing is painted, ranks are those of what is painted nearby, or else 255.
     """
     centre = spine(blades, postures, (0.0, 0.0), points=postures.shape.shape[2])
     height = canopy_height(centre, texel) if height is None else height
@@ -96,13 +96,14 @@ class _Sheet:
         h, w = self._size
         fine = self._fine
         span = 2 * _SEGMENTS
-        along, depth = (0, 2) if orientation == 0 else (2, 0)
+        along = 2 * orientation
         corners = np.empty((*self._ribbons.shape[:2], 2))
         corners[:, :, 0] = (self._ribbons[:, :, along] + self._margin) * (w * fine / (self._patch + 2.0 * self._margin))
         corners[:, :, 1] = np.minimum(self._ribbons[:, :, 1] / self._height, 1.0) * (h * fine)
         corners[:, :, 1] += np.repeat(self.slice(orientation), span)[:, None] * float(h * fine)
         shape = self._strips * h * fine, w * fine
-        seen = rasterise(corners, self._ribbons[:, :, depth], shape=shape)
+        front = np.repeat(-self._blades.rank.astype(np.float64), span)[:, None].repeat(3, axis=1)
+        seen = rasterise(corners, front, shape=shape)
         values = self._meaning(corners, seen)
         texel = (seen.sample // shape[1] // fine) * w + seen.sample % shape[1] // fine
         sums = [np.bincount(texel, weights=value, minlength=self._strips * h * w) for value in values]

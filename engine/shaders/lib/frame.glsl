@@ -10,7 +10,7 @@ layout(std140) uniform Frame {
     vec4 soil;        // display colour of bare ground in this light; patch side [m]
     vec4 terrain;     // origin x, z [m]; metres per cell; posture links
     vec4 field;       // size x, z [m]; posture rows; variants per kind
-    vec4 screen;      // pixels from the middle to the edge, across and up; unused
+    vec4 screen;      // pixels from the middle to the edge, across and up; pixels of 1 m at 1 m
     vec4 root[4];     // by kind: display colour at the root in this light; canopy height [m]
     vec4 tip[4];      // by kind: display colour at the tip in this light; taper
     vec4 grain_x[4];  // by kind: relative change of colour with a face normal's x
