@@ -1,27 +1,40 @@
 """Culling: which patches the view cone may hold (paper, section 2.2, figure 5)."""
 
-from math import atan, pi, tan
+from math import pi
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..components.camera import Camera, View
+from ..components.camera import View
 
 Floats = NDArray[np.float32]
+Doubles = NDArray[np.float64]
+
+BESIDE = 0.05
+"""How far outside the picture straight up and down still count as seen, in halves of the picture."""
 
 
-def view_cone(camera: Camera, /, *, aspect: float) -> tuple[float, float]:
-    """Return the azimuths (middle, half width) [rad] of everything the camera sees, as if from above.
+def view_cone(seen: View, /) -> tuple[float, float]:
+    """Return the azimuths (middle, half width) [rad] of everything that is seen, as if from above.
 
-    A camera that looks steeply up or down sees all round; then the half width is pi.
+    They are those of the picture's corners, however the camera is turned, banked or shifted. Where straight up or
+    straight down is in the picture, and where there is no perspective, it is all round: then the half width is pi.
     """
-    tall = tan(camera.view / 2)
-    wide = tall * aspect
-    steepest = abs(camera.pitch) + camera.view / 2
-    if steepest >= pi / 2 - 0.05:
-        return camera.yaw, pi
-    nearest = np.cos(camera.pitch) - tall * abs(np.sin(camera.pitch))
-    return camera.yaw, min(pi, float(atan(wide / max(nearest, 1e-6))))
+    projection, axes = seen.projection.astype(np.float64), seen.view[:3, :3].astype(np.float64)
+    if not np.allclose(projection[3], (0.0, 0.0, -1.0, 0.0)) or _shows_pole(projection, axes[:, 1]):
+        return 0.0, pi
+    corners = (np.array([[-1, -1], [-1, 1], [1, -1], [1, 1]]) + projection[:2, 2]) / projection[[0, 1], [0, 1]]
+    rays = np.column_stack([corners, np.full(4, -1.0)]) @ axes
+    azimuth = np.arctan2(rays[:, 0], -rays[:, 2])
+    apart = np.mod(azimuth - azimuth[0] + pi, 2 * pi) - pi
+    return float(azimuth[0] + (apart.max() + apart.min()) / 2), float(apart.max() - apart.min()) / 2
+
+
+def _shows_pole(projection: Doubles, up: Doubles) -> bool:
+    """Return whether straight up or down, given as seen from the eye, is in the picture or just beside it."""
+    pole = up if up[2] < 0.0 else -up
+    across = np.abs(projection[:2, :3] @ pole) / max(-pole[2], 1e-9)
+    return bool((across < 1.0 + BESIDE).all())
 
 
 def inside_cone(
@@ -36,8 +49,7 @@ def inside_cone(
     ahead, aside = np.array([sine, -cosine]), np.array([cosine, sine])
     along, across = away @ ahead, np.abs(away @ aside)
     outside = across * np.float32(np.cos(half)) - along * np.float32(np.sin(half))
-    near = np.einsum("ij,ij->i", away, away) <= radius * radius
-    return np.asarray(near | (outside <= radius))
+    return np.asarray((outside <= radius) & (along >= -radius))
 
 
 def discrete_distance(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArray[np.int32]:
@@ -57,11 +69,7 @@ def far_to_near(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArra
     return order
 
 
-def camera_of(view: View, /) -> tuple[Camera, float]:
-    """Return the camera that two matrices were made of, and the image's width over its height."""
-    turn, shift = view.view[:3, :3].astype(np.float64), view.view[:3, 3].astype(np.float64)
-    x, y, z = (-(turn.T @ shift)).tolist()
-    ahead = -turn[2]
-    yaw, pitch = float(np.arctan2(ahead[0], -ahead[2])), float(np.arcsin(np.clip(ahead[1], -1.0, 1.0)))
-    tall = float(view.projection[1, 1])
-    return Camera((x, y, z), yaw, pitch, 2.0 * atan(1.0 / tall)), tall / float(view.projection[0, 0])
+def eye_of(view: View, /) -> tuple[float, float, float]:
+    """Return where a view is seen from, (x, y, z) [m]."""
+    x, y, z = np.linalg.inv(view.view.astype(np.float64))[:3, 3].tolist()
+    return x, y, z

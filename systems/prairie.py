@@ -18,7 +18,7 @@ from ..engine.phases import Phase, Schedule
 from ..engine.scene import LoadedScene, load_maps, read_scene
 from ..engine.terrain.sample import height_at
 from ..engine.world import World
-from .cull import camera_of, discrete_distance, inside_cone, view_cone
+from .cull import discrete_distance, eye_of, inside_cone, view_cone
 from .draw.painter import Painter, view_of
 from .field import Field, blades_in_field, lay_out
 from .growth.cache import cached_growth
@@ -128,11 +128,10 @@ class Prairie:
         seen = view_of(view, projection)
         if self.painter is None:
             self.painter = Painter(host_context(self._ctx), self.field)
-        camera, aspect = camera_of(seen)
         sight = self.field.sight
-        sight.eye = camera.position
-        sight.cone = view_cone(camera, aspect=aspect)
-        place = np.array([camera.position[0], camera.position[2]], np.float32)
+        sight.eye = eye_of(seen)
+        sight.cone = view_cone(seen)
+        place = np.array([sight.eye[0], sight.eye[2]], np.float32)
         sight.centre = cell_of(place, patch=self.field.quality.patch)
         sight.dt = 1e9 if self._drawn_at is None else self.time - self._drawn_at
         self._drawn_at = self.time

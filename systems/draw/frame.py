@@ -12,7 +12,7 @@ from ...components.growth import Growth
 from ...components.scene import Scene
 from ...components.terrain import Terrain
 from ...engine.gl.shaders import program
-from ..cull import camera_of
+from ..cull import eye_of
 from .light import daylight, display, grain, linear, lit_kind, to_sun
 
 FRAME = np.dtype(
@@ -70,7 +70,7 @@ def aim(record: NDArray[np.void], view: View, size: tuple[int, int], /, *, time:
     row["clip"] = clip.T.reshape(16)
     row["unclip"] = np.linalg.inv(clip).T.reshape(16)
     row["screen"][:3] = size[0] / 2, size[1] / 2, size[1] / 2 * view.projection[1, 1]
-    row["eye"] = (*camera_of(view)[0].position, time)
+    row["eye"] = (*eye_of(view), time)
 
 
 class FrameBlock:

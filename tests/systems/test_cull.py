@@ -1,0 +1,150 @@
+"""Culling, discrete distance and the order of drawing (T2, T3, T5)."""
+
+from math import pi, radians
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from tallgrass.components.camera import Camera, View
+from tallgrass.engine.camera import projection_matrix, view_matrix
+from tallgrass.systems.cull import discrete_distance, eye_of, far_to_near, inside_cone, view_cone
+
+PATCH = 2.5
+AROUND = np.stack(np.meshgrid(np.arange(-12, 13), np.arange(-12, 13)), -1).reshape(-1, 2).astype(np.int32)
+
+cameras = st.builds(
+    Camera,
+    position=st.tuples(st.floats(-9.0, 9.0), st.floats(-3.0, 12.0), st.floats(-9.0, 9.0)),
+    yaw=st.floats(-7.0, 7.0),
+    pitch=st.floats(-1.57, 1.57),
+    view=st.floats(radians(15), radians(100)),
+)
+cells = st.tuples(st.integers(-40, 40), st.integers(-40, 40))
+
+
+def seen_by(camera: Camera, aspect: float = 16 / 9, bank: float = 0.0, shift: tuple[float, float] = (0.0, 0.0)) -> View:
+    """The matrices of a camera that is banked to one side [rad] and whose picture is shifted, as for one eye."""
+    c, s = np.cos(bank), np.sin(bank)
+    roll = np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+    projection = projection_matrix(camera.view, aspect)
+    projection[:2, 2] = shift
+    return View((roll @ view_matrix(camera)).astype(np.float32), projection)
+
+
+def in_picture(seen: View, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Tell which points (..., 3) are in the picture, however far off."""
+    clip = np.concatenate([points, np.ones((*points.shape[:-1], 1))], -1) @ (seen.projection @ seen.view).T.astype(
+        float
+    )
+    x, y, _, w = np.moveaxis(clip, -1, 0)
+    return np.asarray((w > 0.1) & (np.abs(x) < w) & (np.abs(y) < w))
+
+
+def points_of(cell: NDArray[np.int32]) -> NDArray[np.float64]:
+    """Points of each cell (n, 2) and above it, its corners among them, shape (n, points, 3)."""
+    line, up = np.linspace(0.0, 1.0, 4), np.array([-2.0, 0.0, 0.5, 1.0, 6.0])
+    unit = np.stack(np.meshgrid(line, up / PATCH, line, indexing="ij"), -1).reshape(-1, 3)
+    corner = np.stack([cell[:, 0], np.zeros(len(cell)), cell[:, 1]], -1)
+    return np.asarray((corner[:, None] + unit) * PATCH)
+
+
+def kept(seen: View, cell: NDArray[np.int32] = AROUND) -> NDArray[np.bool_]:
+    x, _, z = eye_of(seen)
+    middle = ((cell + 0.5) * PATCH).astype(np.float32)
+    return inside_cone(middle, apex=(x, z), cone=view_cone(seen), radius=PATCH * 0.7072)
+
+
+@given(cameras, st.floats(0.4, 3.0), st.floats(-pi, pi), st.tuples(st.floats(-0.4, 0.4), st.floats(-0.4, 0.4)))
+def test_t2_nothing_that_shows_in_the_picture_is_culled(
+    camera: Camera, aspect: float, bank: float, shift: tuple[float, float]
+) -> None:
+    seen = seen_by(camera, aspect, bank, shift)
+    shows = in_picture(seen, points_of(AROUND)).any(axis=1)
+    assert kept(seen)[shows].all()
+
+
+@given(cameras, st.floats(0.5, 2.0))
+def test_t2_what_is_kept_is_inside_the_view_cone_or_touches_it(camera: Camera, aspect: float) -> None:
+    seen = seen_by(camera, aspect)
+    middle, half = view_cone(seen)
+    if half == pi:
+        assert kept(seen).all()
+        return
+    away = (AROUND + 0.5) * PATCH - np.array(eye_of(seen))[[0, 2]]
+    off = np.abs(np.mod(np.arctan2(away[:, 0], -away[:, 1]) - middle + pi, 2 * pi) - pi)
+    beyond = np.hypot(*away.T) * np.sin(np.clip(off - half, 0.0, pi / 2))
+    assert (beyond[kept(seen)] <= PATCH + 1e-3).all()
+
+
+@given(cameras)
+def test_t2_all_that_is_well_behind_a_level_camera_is_culled(camera: Camera) -> None:
+    level = Camera(camera.position, camera.yaw, 0.2 * camera.pitch, min(camera.view, radians(60)))
+    ahead = np.array([np.sin(level.yaw), -np.cos(level.yaw)])
+    along = ((AROUND + 0.5) * PATCH - np.array(level.position)[[0, 2]]) @ ahead
+    behind = along < -0.75 * PATCH
+    assert behind.sum() > 100
+    assert not kept(seen_by(level))[behind].any()
+
+
+def test_t2_a_common_view_leaves_a_quarter_of_the_field() -> None:
+    walker = Camera((0.6, 1.7, 0.9), 0.7, radians(-5), radians(40))
+    assert 0.1 < kept(seen_by(walker, 16 / 9)).mean() < 0.27
+
+
+@pytest.mark.parametrize("pitch", [-90, -75, 75, 90])
+def test_t2_a_camera_that_looks_straight_down_or_up_sees_all_round(pitch: float) -> None:
+    assert kept(seen_by(Camera((0.0, 30.0, 0.0), 1.0, radians(pitch), radians(50)))).all()
+
+
+def test_t2_without_perspective_nothing_is_culled() -> None:
+    camera = Camera((0.0, 30.0, 0.0), 1.0, -0.3, radians(50))
+    flat = np.diag([0.1, 0.1, -0.01, 1.0]).astype(np.float32)
+    assert kept(View(view_matrix(camera), flat)).all()
+
+
+@given(cameras)
+def test_the_eye_is_found_in_the_matrix_of_a_view(camera: Camera) -> None:
+    np.testing.assert_allclose(eye_of(seen_by(camera, bank=0.4)), camera.position, atol=1e-5)
+
+
+@given(cells, cells)
+def test_t3_distance_is_0_here_1_around_and_grows_by_squares(cell: tuple[int, int], centre: tuple[int, int]) -> None:
+    here, there = np.array([cell], np.int32), np.array(centre, np.int32)
+    assert discrete_distance(here, there)[0] == max(abs(cell[0] - centre[0]), abs(cell[1] - centre[1]))
+
+
+def test_t3_every_ring_has_the_patches_that_share_an_edge_or_vertex_with_the_one_before() -> None:
+    distance = discrete_distance(AROUND, np.zeros(2, np.int32))
+    assert [int((distance == ring).sum()) for ring in range(4)] == [1, 8, 16, 24]
+
+
+@given(
+    st.tuples(st.floats(0.01, 0.99), st.floats(0.01, 0.99)),
+    st.floats(-pi, pi),
+    st.tuples(st.integers(-1000, 1000), st.integers(-1000, 1000)),
+)
+def test_t5_a_ray_meets_patches_in_the_reverse_of_their_drawing_order(
+    start: tuple[float, float], azimuth: float, centre: tuple[int, int]
+) -> None:
+    home = np.array(centre, np.int32)
+    cell = AROUND + home
+    rank = np.empty(len(cell), np.int64)
+    rank[far_to_near(cell, home)] = np.arange(len(cell))
+    place = np.array(start) + np.linspace(0.0, 17.0, 2000)[:, None] * (np.cos(azimuth), np.sin(azimuth))
+    met = np.floor(place).astype(int)
+    met = met[(np.abs(met) <= 12).all(axis=1)]
+    row = (met[:, 1] + 12) * 25 + met[:, 0] + 12
+    drawn = rank[row]
+    assert (np.diff(drawn) <= 0).all()
+    assert drawn[-1] < drawn[0]
+
+
+def test_t5_the_viewers_own_patch_is_drawn_last() -> None:
+    home = np.array([3, -4], np.int32)
+    cell = AROUND + home
+    order = far_to_near(cell, home)
+    assert sorted(order.tolist()) == list(range(len(cell)))
+    assert (cell[order[-1]] == home).all()
