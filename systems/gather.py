@@ -45,4 +45,5 @@ def gather_strips(pool: StripPool, shown: Shown, table: PatchTable, centre: NDAr
     records["kind"] = kind[..., None]
     records["turn"] = table.turn[shown.rows][:, None, None, None]
     records["fade"] = shown.fade[:, None, None, None]
-    return records[pool.present[at[:2]]].reshape(-1)
+    grown: NDArray[np.void] = records[pool.present[at[:2]]].reshape(-1)
+    return grown
