@@ -1,10 +1,12 @@
 """The state of a prairie without any GL: what was loaded and grown, and where each patch stands."""
 
 from dataclasses import dataclass, field
+from itertools import starmap
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..components.grass import GrassKind
 from ..components.growth import Growth, Strips
 from ..components.patch import PatchTable
 from ..components.quality import Quality
@@ -65,6 +67,9 @@ class Field:
     blades: BladePool
     strips: list[StripPool]
     """By ring."""
+
+    sway: float
+    """How far grass may reach beyond its patch, leaning and blown [m]."""
 
     sight: Sight
 
@@ -136,8 +141,14 @@ def lay_out(
             StripPool.allocate(max(side[1], 1), len(growths), len(strips[0].plane), ring.columns)
             for strips, ring in zip(stock.strips, quality.strip_rings, strict=True)
         ],
+        sway=max(starmap(farthest_reach, zip(scene.grass.values(), growths, strict=True))),
         sight=Sight(),
     )
+
+
+def farthest_reach(kind: GrassKind, growth: Growth) -> float:
+    """Return how far the tip of a kind's tallest blade can come to be from its root, along the ground [m]."""
+    return kind.height[1] * float(np.abs(growth.postures.shape[..., 0]).max())
 
 
 def blades_in_field(field: Field) -> int:

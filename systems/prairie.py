@@ -30,8 +30,6 @@ from .wind.blow import blowing, messages
 
 Floats = NDArray[np.float32]
 Lod = Literal["auto", "blades", "strips", "carpet"]
-SWAY = 0.8
-"""How far grass may reach beyond its patch, leaning and blown [m]."""
 
 
 @dataclass(slots=True)
@@ -198,7 +196,7 @@ class Prairie:
         table, sight, patch = self.field.table, self.field.sight, self.field.quality.patch
         middles = (table.cell + np.float32(0.5)) * np.float32(patch)
         self._was_visible = table.visible.copy()
-        radius = patch * 0.7072 + SWAY
+        radius = patch * 0.7072 + self.field.sway
         table.visible[:] = inside_cone(middles, apex=(sight.eye[0], sight.eye[2]), cone=sight.cone, radius=radius)
 
     def _lod(self) -> None:

@@ -14,7 +14,7 @@ from .draw.painter import Painter, view_of
 from .field import Field
 from .gather import gather_blades
 from .plant import plant_blades
-from .prairie import SWAY, Prairie
+from .prairie import Prairie
 from .receive import Shown
 from .tile import cell_of, cells_on, patch_models
 from .wind.blow import blowing, messages
@@ -38,7 +38,7 @@ def seen_cells(field: Field, /) -> Ints:
     """Return the cells of the terrain inside the view cone, shape (n, 2)."""
     cells, patch, sight = terrain_cells(field), field.quality.patch, field.sight
     middles = (cells + np.float32(0.5)) * np.float32(patch)
-    radius = patch * 0.7072 + SWAY
+    radius = patch * 0.7072 + field.sway
     return cells[inside_cone(middles, apex=(sight.eye[0], sight.eye[2]), cone=sight.cone, radius=radius)]
 
 
