@@ -16,8 +16,10 @@ uniform vec4 first;             // by kind: first layer of the images
 uniform ivec2 stock;            // patch models; seed
 
 in float carpet;
+in vec2 rise;
 in float fuzz;
 uniform vec4 bowed;  // by kind: height of grass in the wind of now, of that at rest
+uniform vec4 leaf;    // by kind: leaf area seen from the side, of the ground's area
 uniform float blown;  // mean posture index of now
 
 vec2 spun(vec2 v, int turns) {
@@ -41,8 +43,30 @@ vec4 carpet_image(float layer, vec2 at, vec2 heading, float slope, vec2 dx, vec2
 
 float viewing_slope() {
     vec3 ray = place - eye.xyz;
-    vec2 relief = 2.0 * textureLod(tone, on_map(place.xz), 0.0).xy - 1.0;
-    return (dot(relief, ray.xz) - ray.y) / max(length(ray.xz), 1e-4);
+    return (dot(rise, ray.xz) - ray.y) / max(length(ray.xz), 1e-4);
+}
+
+// How much of what a line of sight meets is of each kind: taller kinds hide the others at a low angle. The grass is
+// taken in four layers from the top; its leaf area falls off linearly with height.
+vec4 kinds_met(vec4 grows, float slope) {
+    float top = 0.0;
+    for (int kind = 0; kind < KINDS; kind++)
+        top = max(top, grows[kind] > 0.004 ? root[kind].w : 0.0);
+    vec4 met = vec4(0.0);
+    float through = 1.0;
+    for (int layer = 0; layer < 4; layer++) {
+        float height = top * (0.875 - 0.25 * float(layer));
+        vec4 stop = vec4(0.0);
+        for (int kind = 0; kind < KINDS; kind++) {
+            float canopy_height = root[kind].w;
+            stop[kind] = grows[kind] * leaf[kind] * 2.0 * max(1.0 - height / canopy_height, 0.0) * top / canopy_height;
+        }
+        float sum = dot(stop, vec4(1.0));
+        float stopped = through * (1.0 - exp(-0.25 * sum / slope));
+        met += stopped * stop / max(sum, 1e-6);
+        through -= stopped;
+    }
+    return met / max(dot(met, vec4(1.0)), 1e-6);
 }
 
 vec3 carpet_light(float slope) {
@@ -54,7 +78,7 @@ vec3 carpet_light(float slope) {
     vec3 ray = place - eye.xyz;
     vec2 heading = ray.xz / max(length(ray.xz), 1e-4);
     vec4 grows = textureLod(density, on_map(place.xz), 0.0);
-    float total = max(dot(grows, vec4(1.0)), 1.0);
+    vec4 met = kinds_met(grows, max(slope, slopes[0])) * min(dot(grows, vec4(1.0)), 1.0);
     float lifted = lift(vec2(blown, 0.0), place);
     vec3 here = place_tone(place.xz);
     vec4 sum = vec4(0.0);
@@ -65,7 +89,7 @@ vec3 carpet_light(float slope) {
         vec4 image = carpet_image(layer, at, spun(heading, (4 - turn) % 4), max(slope, slopes[0]), dx, dy);
         vec3 grass = root[kind].rgb * image.a + (tip[kind].rgb - root[kind].rgb) * image.r;
         float h = bowed[kind] * image.g / max(image.a, 1e-3);
-        sum += grows[kind] / total * vec4(grass * here * canopy(h, lifted), image.a);
+        sum += met[kind] * vec4(grass * here * canopy(h, lifted), image.a);
     }
     return sum.rgb + soil_color * (1.0 - min(sum.a, 1.0));
 }

@@ -12,6 +12,7 @@ uniform vec4 raised;  // by kind: height of the carpet above the ground [m]
 
 
 out float carpet;
+out vec2 rise;   // of the ground, along x and z
 out float fuzz;  // height of the grass that stands out against what is behind [m]
 
 float lowest_share(vec2 place) {
@@ -35,6 +36,8 @@ void main() {
     vec4 grows = textureLod(density, on_map(flat_at), 0.0);
     place.y += carpet * dot(grows, raised) / max(dot(grows, vec4(1.0)), 1.0);
     fuzz = dot(grows, raised) * 0.5;
+    vec2 step = vec2(max(terrain.z, tile.z), 0.0);
+    rise = vec2(height_at(flat_at + step.xy) - height_at(flat_at - step.xy), height_at(flat_at + step.yx) - height_at(flat_at - step.yx)) / (2.0 * step.x);
 #endif
     soil_color = soil_light(flat_at);
     veiled = haze_at(place);

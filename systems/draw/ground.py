@@ -14,6 +14,9 @@ TILE = np.dtype([("tile", "4f4")])
 GRID = 8
 """Quads along a side of a tile."""
 
+RAISED = 1.15
+"""Height of the carpet, of the plane its images were drawn on: the lower half of the grass is rarely seen from afar."""
+
 SPREAD = 7.0
 """Distance at which a spacing gives way to the next, in tile sides: the farthest corner of a tile of twice the side
 that is split must lie inside it."""
@@ -80,6 +83,12 @@ def standing_height(postures: Postures, index: float, /) -> float:
     return float(np.interp(index, postures.index, postures.shape[0, :, -1, 1]))
 
 
+def leaf_area(growth: Growth, patch: float, /) -> float:
+    """Return the area of a kind's blades seen from the side, of the ground's area; `patch` is a patch's side [m]."""
+    blades = growth.models[0].blades
+    return float((blades.height * blades.width).sum() / (np.pi * patch * patch))
+
+
 def _grid() -> tuple[NDArray[np.float32], NDArray[np.int32]]:
     line = np.arange(GRID + 1)
     corners = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2).astype(np.float32)
@@ -100,6 +109,7 @@ class GroundPainter:
         *,
         side: int,
         seed: int,
+        patch: float,
     ) -> None:
         carpets = [growth.models[0].carpet for growth in growths]
         slopes = carpets[0].slope
@@ -111,7 +121,8 @@ class GroundPainter:
         self.laid["slopes"] = slopes.tolist()
         self.laid["first"] = by_kind([sum(images[:index]) for index in range(len(images))])
         self.laid["stock"] = (len(growths[0].models), seed)
-        self.laid["raised"] = by_kind([carpet.offset for carpet in carpets])
+        self.laid["raised"] = by_kind([RAISED * carpet.offset for carpet in carpets])
+        self.laid["leaf"] = by_kind([leaf_area(growth, patch) for growth in growths])
         self.blow(0.0)
         self.shares = ctx.texture((side, side), 1, alignment=1)
         self.shares.filter = (moderngl.NEAREST, moderngl.NEAREST)

@@ -53,7 +53,15 @@ class Painter:
         self.sky = program(ctx, "sky.vert", "sky.frag")
         self.block.join(self.sky)
         self.sky_array = ctx.vertex_array(self.sky, [])
-        self.ground = GroundPainter(ctx, self.block, field.growths, UNITS, side=field.table.side, seed=field.scene.seed)
+        self.ground = GroundPainter(
+            ctx,
+            self.block,
+            field.growths,
+            UNITS,
+            side=field.table.side,
+            seed=field.scene.seed,
+            patch=field.quality.patch,
+        )
         self.strips = [
             StripPainter(ctx, self.block, ring, strip_stock(field.growths, number), UNITS)
             for number, ring in enumerate(field.quality.strip_rings)

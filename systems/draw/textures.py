@@ -9,6 +9,9 @@ from ...components.terrain import Density, Terrain
 from ...engine.terrain.sample import slope_at
 from ..wind.noise import noise_table, smooth_noise
 
+ANISOTROPY = 8.0
+"""How many times longer than wide a pixel's footprint on the carpet may be before it is blurred across."""
+
 FINEST_MAP = 1024
 """Samples along a side of the maps laid over the terrain."""
 
@@ -85,6 +88,7 @@ def carpet_texture(ctx: moderngl.Context, growths: list[Growth]) -> moderngl.Tex
     texture = ctx.texture_array((columns, rows, layers), 4, np.ascontiguousarray(images).tobytes())
     texture.build_mipmaps()
     texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
+    texture.anisotropy = ANISOTROPY
     return texture
 
 
