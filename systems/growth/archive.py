@@ -83,7 +83,8 @@ def _record(kind: type[Record], arrays: Arrays, name: str, /) -> Record:
     values: dict[str, Any] = {}
     for field, hint in get_type_hints(kind).items():
         value = arrays[f"{name}.{field}"]
-        wanted = np.float64 if hint is float else get_args(get_args(hint)[1])[0]
+        last = get_args(hint)[-1:] or (np.float64,)  # from numpy 2.5 on, NDArray[T] is an alias
+        (wanted,) = get_args(*last) or last
         if value.dtype != wanted or not np.isfinite(value).all():
             raise ValueError(f"{name}.{field} is not finite {np.dtype(wanted)}")
         values[field] = float(value) if hint is float else value
