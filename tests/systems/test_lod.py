@@ -1,0 +1,199 @@
+"""Levels of detail: ranges, hysteresis and transitions (T4, X1, X2)."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from tallgrass.components.patch import PatchTable
+from tallgrass.components.quality import PRESETS, Representation
+from tallgrass.systems.lod import FADE, SLACK, schedule, wanted_representation, weights
+
+REACH = (2, 5, 9)
+BLADES, STRIPS, CARPET = Representation
+STEP = 0.05
+
+
+class Walk:
+    """One patch, seen by a viewer who comes and goes."""
+
+    def __init__(self, distance: int, *, alive: bool = True) -> None:
+        self.table = PatchTable.allocate(1)
+        self.table.alive[:] = alive
+        self.was_visible = False
+        self.go(distance, dt=1e9)
+
+    def go(self, distance: int, *, dt: float = STEP, visible: bool = True) -> None:
+        """Let the viewer be at this distance for one frame."""
+        table = self.table
+        table.distance[:] = distance
+        table.visible[:] = visible
+        wanted = wanted_representation(table.distance, table.representation, reach=REACH)
+        schedule(table, wanted, table.visible & self.was_visible, dt=dt)
+        self.was_visible = visible
+
+    @property
+    def shown(self) -> NDArray[np.float32]:
+        return weights(self.table)[:, 0]
+
+    def settled(self) -> bool:
+        return float(self.table.progress[0]) >= 1.0
+
+
+def due(distance: int, current: int = -1) -> int:
+    return int(wanted_representation(np.array([distance], np.int32), np.array([current], np.int8), reach=REACH)[0])
+
+
+def test_t4_each_representation_has_its_range_of_discrete_distance() -> None:
+    assert [due(distance) for distance in range(12)] == [BLADES] * 3 + [STRIPS] * 3 + [CARPET] * 6
+
+
+@given(st.integers(0, 200), st.integers(-1, 2), st.integers(0, 60), st.integers(1, 60))
+def test_x1_a_patch_is_never_coarser_than_due_nor_finer_for_more_than_the_slack(
+    distance: int, current: int, blades: int, more: int
+) -> None:
+    reach = (blades, blades + more, blades + more + 9)
+    place, has = np.array([distance], np.int32), np.array([current], np.int8)
+    wanted = int(wanted_representation(place, has, reach=reach)[0])
+    plain = int(wanted_representation(place, np.array([-1], np.int8), reach=reach)[0])
+    nearer = int(wanted_representation(place - SLACK, np.array([-1], np.int8), reach=reach)[0])
+    assert nearer <= wanted <= plain
+    assert wanted in (plain, nearer, current)
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+@pytest.mark.parametrize("limit", [0, 1])
+def test_x1_pacing_to_and_fro_over_a_limit_leaves_nothing_in_transition(preset: str, limit: int) -> None:
+    reach = PRESETS[preset].reach
+    table = PatchTable.allocate(1)
+    table.alive[:], table.visible[:] = True, True
+    for frame in range(200):
+        table.distance[:] = reach[limit] + (frame // 7) % 2
+        wanted = wanted_representation(table.distance, table.representation, reach=reach)
+        schedule(table, wanted, table.visible, dt=STEP)
+        assert table.progress[0] == 1.0
+    assert table.representation[0] == limit
+
+
+def test_x1_a_visible_patch_whose_distance_crosses_a_limit_changes_slowly() -> None:
+    walk = Walk(REACH[0] + SLACK)
+    assert walk.shown.tolist() == [0, 1, 0]
+    walk.go(REACH[0])
+    assert not walk.settled()
+    strips = []
+    while not walk.settled():
+        strips.append(walk.shown[STRIPS])
+        walk.go(REACH[0])
+    assert len(strips) >= 10
+    assert strips[0] == 1.0
+    assert (np.diff(strips) < 0.0).all()
+    assert (np.diff(strips) > -0.1).all()
+    assert walk.shown.tolist() == [1, 0, 0]
+
+
+def test_x1_going_away_changes_one_patch_later_than_coming_back() -> None:
+    walk = Walk(0)
+    changed = {}
+    for distance in (*range(10), *range(10, -1, -1)):
+        before = int(walk.table.representation[0])
+        for _ in range(30):
+            walk.go(distance)
+        if int(walk.table.representation[0]) != before:
+            changed[(before, int(walk.table.representation[0]))] = distance
+    assert changed == {
+        (BLADES, STRIPS): REACH[0] + SLACK + 1,
+        (STRIPS, CARPET): REACH[1] + SLACK + 1,
+        (CARPET, STRIPS): REACH[1],
+        (STRIPS, BLADES): REACH[0],
+    }
+
+
+@pytest.mark.parametrize("seen_again", [True, False])
+def test_x1_a_patch_that_was_not_visible_takes_its_representation_at_once(*, seen_again: bool) -> None:
+    walk = Walk(0)
+    walk.go(0, visible=False)
+    walk.go(8, visible=seen_again)
+    assert walk.settled()
+    assert walk.shown.tolist() == [0, 0, 1]
+
+
+def test_x1_a_change_that_turns_back_in_its_middle_goes_back_from_where_it_is() -> None:
+    walk = Walk(REACH[0] + 1)
+    for _ in range(8):
+        walk.go(REACH[0])
+    there = walk.shown
+    assert 0.2 < there[BLADES] < 0.8
+    walk.go(REACH[0] + SLACK + 1, dt=0.0)
+    np.testing.assert_allclose(walk.shown, there, atol=1e-6)
+    back = []
+    while not walk.settled():
+        back.append(walk.shown[BLADES])
+        walk.go(REACH[0] + SLACK + 1)
+    assert (np.diff(back) < 0.0).all()
+    assert len(back) == pytest.approx(8, abs=1)
+    assert walk.shown.tolist() == [0, 1, 0]
+
+
+def test_x1_a_leap_over_two_limits_is_one_change() -> None:
+    walk = Walk(0)
+    walk.go(8)
+    for _ in range(6):
+        walk.go(8)
+        assert walk.shown[STRIPS] == 0.0
+        assert 0.0 < walk.shown[CARPET] < 1.0
+
+
+def test_x1_a_third_representation_waits_until_the_change_is_over() -> None:
+    walk = Walk(0)
+    walk.go(REACH[0] + SLACK + 1)
+    walk.go(8)
+    assert walk.shown[CARPET] == 0.0
+    seen = []
+    for _ in range(60):
+        walk.go(8)
+        seen.append(walk.shown)
+    assert np.array(seen)[:, STRIPS].max() > 0.9
+    assert walk.shown.tolist() == [0, 0, 1]
+
+
+def test_x2_a_change_is_over_before_a_walker_has_crossed_a_patch() -> None:
+    speed, patch = 1.0, min(quality.patch for quality in PRESETS.values())
+    walk, time = Walk(REACH[0] + 1), 0.0
+    walk.go(REACH[0])
+    while not walk.settled():
+        walk.go(REACH[0])
+        time += STEP
+    assert time <= min(patch / speed, 20 * STEP)
+    assert time == pytest.approx(FADE, abs=STEP + 1e-9)
+
+
+frames = st.tuples(st.integers(0, 11), st.booleans(), st.floats(0.0, 2.0))
+
+
+@given(st.lists(frames, min_size=1, max_size=40))
+def test_x1_weights_always_sum_to_one_and_never_jump_while_a_patch_stays_visible(
+    story: list[tuple[int, bool, float]],
+) -> None:
+    walk = Walk(0)
+    before, was_visible = walk.shown, False
+    for distance, visible, dt in story:
+        walk.go(distance, dt=dt, visible=visible)
+        assert walk.shown.sum() == pytest.approx(1.0, abs=1e-5)
+        assert (walk.shown >= 0.0).all()
+        if visible and was_visible:
+            assert np.abs(walk.shown - before).max() <= dt / FADE + 1e-5
+        before, was_visible = walk.shown, visible
+
+
+def test_a_row_without_a_patch_shows_nothing() -> None:
+    walk = Walk(0, alive=False)
+    walk.go(3)
+    assert walk.shown.tolist() == [0, 0, 0]
+
+
+def test_t4_a_forced_representation_has_all_the_range() -> None:
+    reach = (-SLACK - 1, 6, 9)
+    distance = np.arange(9, dtype=np.int32)
+    wanted = wanted_representation(distance, np.full(9, BLADES, np.int8), reach=reach)
+    assert (wanted >= STRIPS).all()
