@@ -20,8 +20,12 @@ def gather_blades(pool: BladePool, shown: Shown, /) -> tuple[NDArray[np.void], F
     return pool.blade[shown.slots][present], pool.message[shown.slots][present], fade[present]
 
 
-def gather_strips(pool: StripPool, shown: Shown, table: PatchTable, centre: NDArray[np.int32], /) -> NDArray[np.void]:
-    """Return the polygon strips of the patches shown, far to near, records of `STRIP`, shape (n,).
+def gather_strips(
+    pool: StripPool, shown: Shown, table: PatchTable, centre: NDArray[np.int32], /
+) -> tuple[NDArray[np.void], NDArray[np.int64]]:
+    """Return the polygon strips of the patches shown, far to near, and how many there are on each patch.
+
+    They are records of `STRIP`, shape (n,); the counts have shape (m,).
 
     Strips are stored by rising place in their stack; where the viewer is on the low side they are walked backwards.
     """
@@ -45,5 +49,28 @@ def gather_strips(pool: StripPool, shown: Shown, table: PatchTable, centre: NDAr
     records["kind"] = kind[..., None]
     records["turn"] = table.turn[shown.rows][:, None, None, None]
     records["fade"] = shown.fade[:, None, None, None]
-    grown: NDArray[np.void] = records[pool.present[at[:2]]].reshape(-1)
-    return grown
+    grows = pool.present[at[:2]]
+    grown: NDArray[np.void] = records[grows].reshape(-1)
+    return grown, grows.sum(axis=(1, 2)) * columns
+
+
+def runs(shown: list[Shown], counts: list[NDArray[np.int64]], /) -> list[tuple[int, int, int]]:
+    """Return the draws that show all rings' strips from far to near: ring, first strip, number of strips.
+
+    `counts` are the numbers of strips on each patch, by ring. Patches of one ring that follow one another are drawn
+    at once.
+    """
+    total = sum(len(ring.queue) for ring in shown)
+    ring_of, amount = np.zeros(total, np.int64), np.zeros(total, np.int64)
+    for number, (ring, count) in enumerate(zip(shown, counts, strict=True)):
+        ring_of[ring.queue], amount[ring.queue] = number, count
+    if not total:
+        return []
+    starts = np.flatnonzero(np.diff(ring_of, prepend=-1))
+    done = [0] * len(shown)
+    draws = []
+    for start, end in zip(starts.tolist(), [*starts[1:].tolist(), total], strict=True):
+        number, size = int(ring_of[start]), int(amount[start:end].sum())
+        draws.append((number, done[number], size))
+        done[number] += size
+    return draws

@@ -9,6 +9,9 @@ from ..components.quality import Representation
 FADE = 0.9
 """How long a change of representation takes [s]: less than a walker needs to cross a patch (paper, section 4.1)."""
 
+BORDER = 4.0
+"""Over how many patches the strips give way to the carpet."""
+
 SLACK = 1
 """How many patches farther a patch must be to go to the coarser representation than to come back from it."""
 
@@ -59,3 +62,17 @@ def weights(table: PatchTable, /) -> NDArray[np.float32]:
         shown[level] = np.where(table.representation == level, table.progress, 0.0)
         shown[level] += np.where(table.previous == level, 1.0 - table.progress, 0.0)
     return shown
+
+
+def thinned_out(shown: NDArray[np.float32], away: NDArray[np.float32], /, *, reach: int) -> NDArray[np.float32]:
+    """Return the shares (3, rows) with the strips' outermost `BORDER` patches handed over to the carpet by and by.
+
+    `away` is the patches' distance from the viewer [patch sides], shape (rows,). So no line shows where the strips
+    end, and a patch that changes between the two far away has next to nothing to change.
+    """
+    kept = np.clip((reach + 0.5 - away) / BORDER, 0.0, 1.0).astype(np.float32)
+    handed = shown[Representation.STRIPS] * (1.0 - kept)
+    result = shown.copy()
+    result[Representation.STRIPS] -= handed
+    result[Representation.CARPET] += handed
+    return result

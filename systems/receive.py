@@ -14,7 +14,7 @@ from ..components.receivers import BladePool, StripPool
 from ..components.wind import WindSource
 from .cull import far_to_near
 from .field import Field
-from .lod import weights
+from .lod import thinned_out, weights
 from .plant import heading_of, plant_blades, plant_strips, strips_along
 from .tile import window_rows
 from .wind.blow import messages
@@ -22,6 +22,10 @@ from .wind.blow import messages
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
 Rows = NDArray[np.int64]
+
+
+HASTE = np.array([2.0, 2.0, 1.0], np.float32)
+"""How much sooner than its share in a change each representation shows."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -39,6 +43,20 @@ class Shown:
 
     along: Ints
     """Axis along which each patch's strips run, shape (m,)."""
+
+    queue: Rows
+    """Place of each in the far-to-near order of all rings' patches, shape (m,)."""
+
+
+def shares(field: Field, /) -> Floats:
+    """Return how much each representation shows on each patch of the table, shape (3, rows).
+
+    While blades or strips fade the others are there already: no ground shows through a change.
+    """
+    table, eye, patch = field.table, field.sight.eye, np.float32(field.quality.patch)
+    away = np.abs((table.cell + np.float32(0.5)) * patch - np.array([eye[0], eye[2]], np.float32)).max(axis=1)
+    hasty = np.minimum(weights(table) * HASTE[:, None], np.float32(1.0))
+    return thinned_out(hasty, away / patch, reach=field.reach[Representation.STRIPS])
 
 
 def viewing_slope(field: Field, rows: Rows, /) -> Floats:
@@ -84,7 +102,7 @@ def shown_strips(field: Field, /) -> list[Shown]:
 
 def _visible(field: Field, level: Representation) -> tuple[Rows, Floats]:
     table = field.table
-    share = weights(table)[level]
+    share = shares(field)[level]
     rows = np.flatnonzero(table.alive & table.visible & (share > 0.0))
     return rows[far_to_near(table.cell[rows], field.sight.centre)], share
 
@@ -93,10 +111,11 @@ def _by_ring(field: Field, rows: Rows, share: Floats, ring: NDArray[np.int64], s
     table = field.table
     shown = []
     for number in range(rings):
-        chosen = rows[ring == number]
+        queue = np.flatnonzero(ring == number)
+        chosen = rows[queue]
         cells = table.cell[chosen]
         slots = window_rows(cells, side=side)
-        shown.append(Shown(chosen, slots, share[chosen], strips_along(cells, field.sight.centre)))
+        shown.append(Shown(chosen, slots, share[chosen], strips_along(cells, field.sight.centre), queue))
     return shown
 
 

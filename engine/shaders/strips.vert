@@ -2,14 +2,8 @@
 #include "lib/light.glsl"
 #include "lib/posture.glsl"
 
-in vec3 a;
-in vec3 b;
-in vec4 wind;
-in vec2 u;
-in float layer;
-in float kind;
-in float turn;
-in float fade;
+uniform sampler2D strips;  // four texels for each polygon strip
+uniform int first;
 
 uniform vec4 tall;   // by kind: height of the strips [m]
 uniform vec4 wide_to;  // by kind: how far its picture reaches across its layer of the texture
@@ -32,6 +26,14 @@ noperspective out float grows;
 #endif
 
 void main() {
+    int number = first + gl_InstanceID;
+    ivec2 at_record = ivec2(number % PER_ROW * 4, number / PER_ROW);
+    vec4 part0 = texelFetch(strips, at_record, 0), part1 = texelFetch(strips, at_record + ivec2(1, 0), 0);
+    vec4 wind_u = texelFetch(strips, at_record + ivec2(2, 0), 0), rest = texelFetch(strips, at_record + ivec2(3, 0), 0);
+    vec3 a = part0.xyz, b = vec3(part0.w, part1.xy);
+    vec4 wind = vec4(part1.zw, wind_u.xy);
+    vec2 u = wind_u.zw;
+    float kind = rest.y, turn = rest.z;
     float t = float(gl_VertexID / 2) / float(SECTIONS);
     bool right = (gl_VertexID & 1) == 1;
     vec3 foot = right ? b : a;
@@ -40,7 +42,7 @@ void main() {
     vec3 spine = posture(float(k) * field.w, message, t).place * tall[k];
     gl_Position = clip * vec4(foot + spine, 1.0);
     at = vec2((right ? u.y : u.x) * wide_to[k], t * high_to[k]);
-    sheet = layer;
+    sheet = rest.x;
     h = spine.y / root[k].w;
     rate = lift(message, foot);
     here = place_tone(foot.xz);
@@ -51,7 +53,7 @@ void main() {
     float s = turn == 1.0 ? 1.0 : turn == 3.0 ? -1.0 : 0.0;
     grain_u = c * grain_x[k].rgb + s * grain_z[k].rgb;
     grain_v = c * grain_z[k].rgb - s * grain_x[k].rgb;
-    shown = fade;
+    shown = rest.w;
     // A line of sight that meets strips at an angle crosses fewer of them on the same way through the grass.
     vec2 run = normalize(b.xz - a.xz), sight = normalize(0.5 * (a.xz + b.xz) - eye.xz);
     boost = mix(1.0, 1.0 / max(abs(run.x * sight.y - run.y * sight.x), 0.6), 0.7);

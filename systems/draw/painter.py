@@ -12,9 +12,9 @@ from ...engine.gl.guest import guest
 from ...engine.gl.shaders import program
 from ...engine.gl.stream import release_all
 from ..field import Field
-from ..gather import gather_blades, gather_strips
-from ..lod import weights
-from ..receive import Shown
+from ..gather import gather_blades, gather_strips, runs
+from ..lod import BORDER
+from ..receive import Shown, shares
 from .blades import BladePainter
 from .frame import FrameBlock, aim, frame_record
 from .ground import GroundPainter, ground_tiles, within
@@ -28,7 +28,7 @@ from .textures import (
     tone_texture,
 )
 
-NAMES = ("postures", "tone", "density", "heights", "images", "shares", "atlas", "ranks")
+NAMES = ("postures", "tone", "density", "heights", "images", "shares", "atlas", "ranks", "strips")
 UNITS = {name: unit for unit, name in enumerate(NAMES)}
 """The texture unit of each sampler."""
 
@@ -68,6 +68,7 @@ class Painter:
         ]
         self.blades = [self.blade_painter(ring.segments, soft=True) for ring in field.quality.blade_rings]
         self.draw_calls = 0
+        self.runs: list[tuple[int, int, int]] = []
 
     def blade_painter(self, segments: int, *, soft: bool) -> BladePainter:
         """Return a painter of blades with this many segments."""
@@ -82,9 +83,13 @@ class Painter:
     def write_strips(self, shown: list[Shown]) -> None:
         """Send the strips that are seen."""
         field = self.field
+        counts = []
         for pool, ring, painter in zip(field.strips, shown, self.strips, strict=True):
             thin = bool((pool.least[ring.slots] < 0.995).any())
-            painter.write(gather_strips(pool, ring, field.table, field.sight.centre), thin=thin)
+            records, count = gather_strips(pool, ring, field.table, field.sight.centre)
+            painter.write(records, thin=thin)
+            counts.append(count)
+        self.runs = runs(shown, counts)
 
     def draw_carpet_everywhere(self, view: View, *, time: float) -> None:
         """Draw nothing but the carpet, over the whole terrain, into the framebuffer that the host has bound."""
@@ -99,9 +104,9 @@ class Painter:
         self.ground.blow(blown)
         field, sight = self.field, self.field.sight
         tiles = ground_tiles(field.terrain, sight.eye, sight.cone, spacing=field.quality.patch / 2)
-        near = within(tiles, sight.centre, patch=field.quality.patch, reach=max(field.reach[1], 0))
+        near = within(tiles, sight.centre, patch=field.quality.patch, reach=max(field.reach[1] - int(BORDER) - 1, 0))
         self.ground.write(tiles, ~near if carpet else np.zeros_like(near))
-        self.ground.write_shares(weights(field.table)[Representation.CARPET], sight.centre)
+        self.ground.write_shares(shares(field)[Representation.CARPET], sight.centre)
 
     def draw(self, view: View, *, time: float, blades: Iterable[BladePainter] | None = None) -> None:
         """Draw the frame into the framebuffer that the host has bound.
@@ -135,7 +140,7 @@ class Painter:
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND)
         self.ctx.blend_func = OVER
         target.depth_mask = False
-        self.draw_calls += sum(painter.draw() for painter in reversed(self.strips))
+        self.draw_calls += sum(self.strips[ring].draw(first, count) for ring, first, count in self.runs)
         self.draw_calls += sum(painter.draw() for painter in reversed(self.blades))
 
     def release(self) -> None:
