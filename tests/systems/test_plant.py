@@ -1,0 +1,261 @@
+"""Planting: the same patch stands the same way in every representation (T1, G1, G3, T5)."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from tallgrass.components.growth import Growth
+from tallgrass.components.receivers import BladePool, StripPool
+from tallgrass.components.terrain import Density, Terrain
+from tallgrass.engine.terrain.sample import height_at
+from tallgrass.systems.field import stock_up
+from tallgrass.systems.plant import (
+    HEADINGS,
+    Ground,
+    blade_records,
+    far_to_near_blades,
+    heading_of,
+    plant_blades,
+    plant_strips,
+    strip_edges,
+    strips_along,
+    turned,
+)
+
+PATCH = 2.5
+CELLS = np.array([(-3, 2), (0, 0), (4, -5), (1, 7), (-8, -2), (2, 2), (5, 1), (-1, -1)], np.int32)
+MODELS = np.array([0, 1, 0, 1, 0, 1, 0, 1], np.int32)
+TURNS = np.array([0, 1, 2, 3, 0, 1, 2, 3], np.int32)
+SLOTS = np.array([5, 1, 2, 7, 3, 9, 8, 0])
+EVERYWHERE = np.ones((2, 2, 2), np.float32)
+
+places = st.tuples(st.floats(0.0, PATCH), st.floats(0.0, PATCH)).map(lambda pair: np.array([pair], np.float32))
+quarters = st.integers(0, 3).map(lambda turn: np.array([turn], np.int32))
+
+
+def bilinear(terrain: Terrain, place: NDArray[Any]) -> NDArray[np.float64]:
+    """Heights by the textbook, in double precision, at places (..., 2) on the terrain."""
+    u = (place.astype(np.float64) - terrain.origin) / terrain.cell
+    low = np.minimum(np.floor(u).astype(int), np.array(terrain.heights.shape[::-1]) - 2)
+    i, j = np.moveaxis(low, -1, 0)
+    s, t = np.moveaxis(u - low, -1, 0)
+    h = terrain.heights.astype(np.float64)
+    far, near = h[j, i] * (1 - s) + h[j, i + 1] * s, h[j + 1, i] * (1 - s) + h[j + 1, i + 1] * s
+    return np.asarray(far * (1 - t) + near * t)
+
+
+def planted(
+    growths: list[Growth], terrain: Terrain, maps: NDArray[np.float32] = EVERYWHERE, heading: int = 0
+) -> BladePool:
+    stock = stock_up(growths, PATCH).blades
+    pool = BladePool.allocate_slots(10, stock.records.shape[1])
+    ground = Ground(terrain, Density(maps, terrain.size), PATCH)
+    plant_blades(pool, SLOTS, CELLS, MODELS, TURNS, np.full(8, heading, np.int32), stock, ground)
+    return pool
+
+
+def stripped(
+    growths: list[Growth], terrain: Terrain, along: int, ring: int = 0, maps: NDArray[np.float32] = EVERYWHERE
+) -> StripPool:
+    stock = stock_up(growths, PATCH)
+    strips = stock.strips[ring]
+    pool = StripPool.allocate(4, 2, len(strips[0].plane), 2)
+    ground = Ground(terrain, Density(maps, terrain.size), PATCH)
+    first = stock.first_layer[ring]
+    plant_strips(pool, SLOTS, CELLS, MODELS, TURNS, np.full(8, along, np.int32), strips, first, ground)
+    return pool
+
+
+@given(places, quarters)
+def test_g1_four_quarter_turns_are_none(place: NDArray[np.float32], turn: NDArray[np.int32]) -> None:
+    once = turned(place, turn, patch=PATCH)
+    assert ((once >= -1e-6) & (once <= PATCH + 1e-6)).all()
+    back = turned(once, (4 - turn) % 4, patch=PATCH)
+    np.testing.assert_allclose(back, place, atol=1e-6)
+
+
+@given(places, quarters, quarters)
+def test_g1_turns_add_up(place: NDArray[np.float32], one: NDArray[np.int32], two: NDArray[np.int32]) -> None:
+    both = turned(turned(place, one, patch=PATCH), two, patch=PATCH)
+    np.testing.assert_allclose(both, turned(place, (one + two) % 4, patch=PATCH), atol=1e-6)
+
+
+def test_g1_a_quarter_turn_takes_the_x_axis_to_the_z_axis() -> None:
+    corner = np.array([[PATCH, PATCH / 2]], np.float32)
+    np.testing.assert_allclose(turned(corner, np.array([1]), patch=PATCH), [[PATCH / 2, PATCH]], atol=1e-6)
+
+
+@pytest.mark.parametrize("turn", range(4))
+def test_g1_a_blade_turns_as_a_whole_with_its_patch(growths: list[Growth], turn: int) -> None:
+    blades = growths[0].models[0].blades
+    records = blade_records(blades, turn, patch=PATCH, kind=1, variants=4)
+    spin = np.round(
+        [[np.cos(turn * np.pi / 2), np.sin(turn * np.pi / 2)], [-np.sin(turn * np.pi / 2), np.cos(turn * np.pi / 2)]]
+    )
+    np.testing.assert_allclose(records["root"][:, ::2], (blades.root - PATCH / 2) @ spin + PATCH / 2, atol=1e-6)
+    np.testing.assert_allclose(records["rest"], blades.rest @ spin, atol=1e-6)
+    facing = np.stack([np.cos(blades.facing), np.sin(blades.facing)], 1)
+    np.testing.assert_allclose(records["facing"], facing @ spin, atol=1e-6)
+    np.testing.assert_array_equal(records["height"], blades.height)
+    np.testing.assert_array_equal(records["variant"], 4 + blades.variant)
+    assert (records["kind"] == 1).all()
+
+
+def test_t1_roots_stand_exactly_on_the_bilinear_terrain_on_slopes_too(growths: list[Growth], hills: Terrain) -> None:
+    pool = planted(growths, hills)
+    root = pool.blade["root"][SLOTS].reshape(-1, 3)
+    np.testing.assert_array_equal(root[:, 1], height_at(hills, np.ascontiguousarray(root[:, ::2])))
+    np.testing.assert_allclose(root[:, 1], bilinear(hills, root[:, ::2]), atol=2e-5)
+    np.testing.assert_array_equal(root[:, ::2], pool.place[SLOTS].reshape(-1, 2))
+    assert np.ptp(root[:, 1]) > 3.0
+
+
+def test_t1_the_feet_of_strips_stand_exactly_on_the_bilinear_terrain(growths: list[Growth], hills: Terrain) -> None:
+    for along in (0, 1):
+        pool = stripped(growths, hills, along)
+        place, ground = pool.place[SLOTS].reshape(-1, 2), pool.ground[SLOTS].reshape(-1)
+        np.testing.assert_array_equal(ground, height_at(hills, place))
+        np.testing.assert_allclose(ground, bilinear(hills, place), atol=2e-5)
+        assert np.ptp(ground) > 3.0
+
+
+def test_t1_every_root_lies_in_its_own_patch(growths: list[Growth], hills: Terrain) -> None:
+    place = planted(growths, hills).place[SLOTS]
+    low = CELLS[:, None] * PATCH
+    assert ((place >= low - 1e-5) & (place <= low + PATCH + 1e-5)).all()
+
+
+@pytest.mark.parametrize("ring", [0, 1])
+@pytest.mark.parametrize("along", [0, 1])
+def test_g1_every_blade_stands_within_half_a_slice_of_the_strip_it_is_painted_on(
+    growths: list[Growth], hills: Terrain, along: int, ring: int
+) -> None:
+    pool = stripped(growths, hills, along, ring)
+    for kind, growth in enumerate(growths):
+        for slot, cell, model, turn in zip(SLOTS, CELLS, MODELS, TURNS, strict=True):
+            strips, blades = growth.models[model].strips[ring], growth.models[model].blades
+            own = (along + int(turn)) % 2
+            count = len(strips.plane)
+            layer = pool.layer[slot, kind].astype(int) - stock_up(growths, PATCH).first_layer[ring][kind]
+            assert sorted(layer % count) == list(range(count))
+            assert (layer // count == model * 2 + own).all()
+            stands = np.argsort(layer % count)[strips.slice[own]]
+            feet = pool.place[slot, kind, stands].astype(float)
+            root = turned(blades.root, turn, patch=PATCH) + cell * PATCH
+            run = feet[:, -1] - feet[:, 0]
+            length = np.linalg.norm(run, axis=1)
+            away = root - feet[:, 0]
+            beside = np.abs(run[:, 0] * away[:, 1] - run[:, 1] * away[:, 0]) / length
+            assert (beside <= PATCH / count / 2 + 1e-4).all()
+            u = strips.targets[own, :, 0, 0]
+            painted = feet[:, 0] + u[:, None] * run
+            forward = np.einsum("ij,ij->i", painted - root, run) / length
+            assert np.abs(forward).max() < 1e-3
+            np.testing.assert_allclose(length, PATCH + 2 * strips.margin, atol=1e-4)
+
+
+@pytest.mark.parametrize("turn", range(4))
+@pytest.mark.parametrize("along", [0, 1])
+def test_g3_strips_are_parallel_planes_stored_by_rising_place(growths: list[Growth], along: int, turn: int) -> None:
+    strips = growths[0].models[0].strips[0]
+    feet, order = strip_edges(strips, 2, np.array([along], np.int32), np.array([turn], np.int32), patch=PATCH)
+    assert feet.shape == (1, len(strips.plane), 3, 2)
+    np.testing.assert_allclose(np.ptp(feet[0, :, :, 1 - along], axis=1), 0.0, atol=1e-6)
+    assert (np.diff(feet[0, :, 0, 1 - along]) > 0.0).all()
+    np.testing.assert_allclose(np.diff(feet[0, :, 0, 1 - along]), PATCH / len(strips.plane), atol=1e-5)
+    assert sorted(order[0]) == list(range(len(strips.plane)))
+
+
+def test_t5_blades_stand_from_far_to_near_for_each_of_eight_headings(growths: list[Growth]) -> None:
+    records = blade_records(growths[0].models[0].blades, 1, patch=PATCH, kind=0, variants=4)
+    orders = far_to_near_blades(records)
+    for number, order in enumerate(orders):
+        azimuth = number * 2 * np.pi / HEADINGS
+        away = records["root"][order][:, ::2] @ np.array([np.cos(azimuth), np.sin(azimuth)])
+        assert (np.diff(away) <= 1e-6).all()
+        assert sorted(order) == list(range(len(records)))
+
+
+@pytest.mark.parametrize("heading", range(HEADINGS))
+def test_t5_the_blades_of_all_kinds_are_planted_in_one_order(
+    growths: list[Growth], hills: Terrain, heading: int
+) -> None:
+    pool = planted(growths, hills, heading=heading)
+    azimuth = heading * 2 * np.pi / HEADINGS
+    away = pool.place[SLOTS].astype(float) @ np.array([np.cos(azimuth), np.sin(azimuth)])
+    assert (np.diff(away, axis=1) <= 1e-5).all()
+    assert (pool.stamp[SLOTS, 2] == heading).all()
+    for slot in SLOTS:
+        assert {int(kind) for kind in pool.blade["kind"][slot]} == {0, 1}
+
+
+@given(st.integers(-50, 50), st.integers(-50, 50))
+def test_t5_a_heading_points_from_the_viewer_to_the_patch(i: int, j: int) -> None:
+    heading = heading_of(np.array([[i + 7, j - 9]], np.int32), np.array([7, -9], np.int32))[0]
+    assert 0 <= heading < HEADINGS
+    if (i, j) != (0, 0):
+        off = np.arctan2(j, i) - heading * 2 * np.pi / HEADINGS
+        assert abs((off + np.pi) % (2 * np.pi) - np.pi) <= np.pi / HEADINGS + 1e-9
+
+
+@given(st.integers(-50, 50), st.integers(-50, 50), st.floats(0.05, 0.95), st.floats(0.05, 0.95))
+def test_g3_no_strip_is_shown_edge_on(i: int, j: int, x: float, z: float) -> None:
+    along = int(strips_along(np.array([[i, j]], np.int32), np.zeros(2, np.int32))[0])
+    sight = np.array([i + 0.5 - x, j + 0.5 - z])
+    if max(abs(i), abs(j)) >= 3:
+        across = abs(sight[1 - along]) / np.linalg.norm(sight)
+        assert across > np.sin(np.radians(30.0))
+
+
+def test_g3_turning_the_view_by_ninety_degrees_swaps_the_strips_orientation() -> None:
+    ahead = np.array([(i, -j) for j in range(3, 9) for i in range(-j + 1, j)], np.int32)
+    to_the_right = np.stack([-ahead[:, 1], ahead[:, 0]], -1)
+    home = np.zeros(2, np.int32)
+    assert (strips_along(ahead, home) == 0).all()
+    assert (strips_along(to_the_right, home) == 1).all()
+
+
+def test_a_kind_grows_as_densely_as_the_map_says(growths: list[Growth]) -> None:
+    flat = Terrain(np.zeros((41, 41), np.float32), 1.0)
+    maps = np.zeros((2, 2, 2), np.float32)
+    maps[0], maps[1] = 0.4, 0.0
+    pool = planted(growths, flat, maps)
+    kind = pool.blade["kind"][SLOTS]
+    assert not pool.present[SLOTS][kind == 1].any()
+    assert pool.present[SLOTS][kind == 0].mean() == pytest.approx(0.4, abs=0.02)
+
+
+def test_thinning_takes_the_same_blades_first_wherever_a_patch_stands(growths: list[Growth]) -> None:
+    flat = Terrain(np.zeros((41, 41), np.float32), 1.0)
+    before = np.zeros((10, 42), np.bool_)
+    for density in (0.2, 0.5, 0.8, 1.0):
+        present = planted(growths, flat, np.full((2, 2, 2), density, np.float32)).present
+        assert (present | ~before).all()
+        before = present
+    assert before[SLOTS].all()
+
+
+def test_strips_know_where_their_kind_does_not_grow_and_where_it_is_thin(growths: list[Growth]) -> None:
+    flat = Terrain(np.zeros((41, 41), np.float32), 1.0)
+    maps = np.ones((2, 41, 41), np.float32)
+    maps[0, :, 20:], maps[1, :21] = 0.0, 0.25
+    pool = stripped(growths, flat, 0, maps=maps)
+    grows = pool.present[SLOTS]
+    np.testing.assert_array_equal(grows[:, 0], CELLS[:, 0] < 1)
+    assert grows[:, 1].all()
+    far = CELLS[:, 1] < -1
+    np.testing.assert_allclose(pool.least[SLOTS][far], 0.25, atol=1e-6)
+    near = (CELLS[:, 1] > 0) & (CELLS[:, 0] > 1)
+    assert (pool.least[SLOTS][near] == 1.0).all()
+
+
+def test_only_the_slots_that_are_named_are_planted(growths: list[Growth], hills: Terrain) -> None:
+    pool = planted(growths, hills)
+    rest = np.setdiff1d(np.arange(10), SLOTS)
+    assert (pool.place[rest] == 0.0).all()
+    assert not pool.present[rest].any()
+    np.testing.assert_array_equal(pool.stamp[SLOTS, :2], CELLS)
