@@ -8,12 +8,37 @@ in vec4 tile;    // x, z [m]; spacing [m]; distance at which the next coarser sp
 
 #ifdef CARPET
 #include "lib/shares.glsl"
+#include "lib/carpet.glsl"
 uniform vec4 raised;  // by kind: height of the carpet above the ground [m]
-
+uniform vec4 leaf;    // by kind: leaf area seen from the side, of the ground's area
 
 out float carpet;
 out vec2 rise;   // of the ground, along x and z
+out vec4 met;    // by kind: how much of what a line of sight meets
 out float fuzz;  // height of the grass that stands out against what is behind [m]
+
+// How much of what a line of sight meets is of each kind: taller kinds hide the others at a low angle. The grass is
+// taken in four layers from the top; its leaf area falls off linearly with height.
+vec4 kinds_met(vec4 grows, float slope) {
+    float top = 0.0;
+    for (int kind = 0; kind < KINDS; kind++)
+        top = max(top, grows[kind] > 0.004 ? root[kind].w : 0.0);
+    vec4 met = vec4(0.0);
+    float through = 1.0;
+    for (int layer = 0; layer < 4; layer++) {
+        float height = top * (0.875 - 0.25 * float(layer));
+        vec4 stop = vec4(0.0);
+        for (int kind = 0; kind < KINDS; kind++) {
+            float canopy_height = root[kind].w;
+            stop[kind] = grows[kind] * leaf[kind] * 2.0 * max(1.0 - height / canopy_height, 0.0) * top / canopy_height;
+        }
+        float sum = dot(stop, vec4(1.0));
+        float stopped = through * (1.0 - exp(-0.25 * sum / slope));
+        met += stopped * stop / max(sum, 1e-6);
+        through -= stopped;
+    }
+    return met / max(dot(met, vec4(1.0)), 1e-6) * min(dot(grows, vec4(1.0)), 1.0);
+}
 
 float lowest_share(vec2 place) {
     ivec2 low = ivec2(floor((place - 0.01) / soil.w)), high = ivec2(floor((place + 0.01) / soil.w));
@@ -37,7 +62,9 @@ void main() {
     place.y += carpet * dot(grows, raised) / max(dot(grows, vec4(1.0)), 1.0);
     fuzz = dot(grows, raised) * 0.5;
     vec2 step = vec2(max(terrain.z, tile.z), 0.0);
-    rise = vec2(height_at(flat_at + step.xy) - height_at(flat_at - step.xy), height_at(flat_at + step.yx) - height_at(flat_at - step.yx)) / (2.0 * step.x);
+    rise = vec2(height_at(flat_at + step.xy) - height_at(flat_at - step.xy),
+                height_at(flat_at + step.yx) - height_at(flat_at - step.yx)) / (2.0 * step.x);
+    met = kinds_met(grows, max(viewing_slope(rise, place), 0.02));
 #endif
     soil_color = soil_light(flat_at);
     veiled = haze_at(place);

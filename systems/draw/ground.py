@@ -17,6 +17,9 @@ GRID = 8
 RAISED = 1.15
 """Height of the carpet, of the plane its images were drawn on: the lower half of the grass is rarely seen from afar."""
 
+STRETCH = "5.0"
+"""How many times longer than wide a pixel's footprint on the carpet may be before it is blurred across."""
+
 SPREAD = 7.0
 """Distance at which a spacing gives way to the next, in tile sides: the farthest corner of a tile of twice the side
 that is split must lie inside it."""
@@ -115,7 +118,7 @@ class GroundPainter:
         slopes = carpets[0].slope
         self.growths = growths
         images = [len(growth.models) * len(slopes) * 4 for growth in growths]
-        defines = {"CARPET": 1, "SLOPES": len(slopes), "KINDS": len(growths)}
+        defines: dict[str, str | int] = {"CARPET": 1, "STRETCH": STRETCH, "SLOPES": len(slopes), "KINDS": len(growths)}
         self.bare = joined(ctx, block, units, "ground.vert", "ground.frag", {})
         self.laid = joined(ctx, block, units, "ground.vert", "ground.frag", defines)
         self.laid["slopes"] = slopes.tolist()

@@ -9,9 +9,6 @@ from ...components.terrain import Density, Terrain
 from ...engine.terrain.sample import slope_at
 from ..wind.noise import noise_table, smooth_noise
 
-ANISOTROPY = 8.0
-"""How many times longer than wide a pixel's footprint on the carpet may be before it is blurred across."""
-
 FINEST_MAP = 1024
 """Samples along a side of the maps laid over the terrain."""
 
@@ -87,8 +84,7 @@ def carpet_texture(ctx: moderngl.Context, growths: list[Growth]) -> moderngl.Tex
     layers, rows, columns, _ = images.shape
     texture = ctx.texture_array((columns, rows, layers), 4, np.ascontiguousarray(images).tobytes())
     texture.build_mipmaps()
-    texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
-    texture.anisotropy = ANISOTROPY
+    texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
     return texture
 
 

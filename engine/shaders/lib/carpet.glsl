@@ -1,0 +1,8 @@
+// What a line of sight meets where it enters the grass of the carpet.
+#include "lib/frame.glsl"
+
+// Tangent of the angle between the line of sight and ground that rises by `rise` along x and z.
+float viewing_slope(vec2 rise, vec3 place) {
+    vec3 ray = place - eye.xyz;
+    return (dot(rise, ray.xz) - ray.y) / max(length(ray.xz), 1e-4);
+}
