@@ -128,15 +128,15 @@ def test_a_lone_blades_texels_have_its_own_normal(orientation: int) -> None:
     assert shown > 100
 
 
-def test_g3_of_two_blades_the_one_nearer_to_the_eye_is_painted() -> None:
+def test_g3_of_two_blades_the_one_that_stays_longer_is_painted() -> None:
     blades = grow_blades(GrassKind(width=0.05, lean=0.0), count=2, patch=PATCH, variants=1, seed=1)
     blades.root[:] = [[1.0, 0.1], [1.0, 0.3]]
     blades.facing[:] = [np.pi / 2, np.pi / 2]
     blades.height[:] = [0.7, 0.4]
-    blades.rank[:] = [0.0, 0.5]
+    blades.rank[:] = [0.5, 0.0]
     sheet = grow_strips(blades, POSTURES, patch=PATCH, strips=2, texel=TEXEL, taper=1.0, margin=MARGIN)
     row, column = texel_of(sheet, np.array([1.3 / 2.6]), np.array([0.1, 0.6]) / sheet.height)
-    np.testing.assert_array_equal(sheet.rank[0, 0, row, column], [128, 0])
+    np.testing.assert_array_equal(sheet.rank[0, 0, row, column], [0, 128])
 
 
 def test_ranks_thin_a_strip_out_blade_by_blade() -> None:
