@@ -147,7 +147,9 @@ def plant_shown_strips(field: Field, ring: int, shown: Shown) -> Rows:
     return rows
 
 
-def blow(field: Field, blades: list[Shown], strips: list[Shown], sources: list[WindSource], /, *, time: float) -> Floats:
+def blow(
+    field: Field, blades: list[Shown], strips: list[Shown], sources: list[WindSource], /, *, time: float
+) -> Floats:
     """Let every receiver that is seen hear the wind, in one pass over them all; return their messages, (n, 2)."""
     pools: list[tuple[BladePool | StripPool, Rows]] = [(field.blades, np.concatenate([ring.slots for ring in blades]))]
     pools += [(pool, ring.slots) for pool, ring in zip(field.strips, strips, strict=True)]

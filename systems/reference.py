@@ -52,7 +52,9 @@ def stand_all(prairie: Prairie, cells: Ints, painter: BladePainter, /) -> int:
     place = pool.place.reshape(-1, 2)
     sources = blowing(prairie.sources(), time=prairie.time)
     pool.message[:] = messages(sources, place, time=prairie.time, seed=field.scene.seed).reshape(pool.message.shape)
-    painter.write(*gather_blades(pool, Shown(slots, slots, np.ones(len(cells), np.float32), np.zeros_like(model), slots)))
+    painter.write(
+        *gather_blades(pool, Shown(slots, slots, np.ones(len(cells), np.float32), np.zeros_like(model), slots))
+    )
     return painter.blades.count
 
 

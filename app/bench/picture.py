@@ -144,5 +144,3 @@ def hue_between(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
     """Return the angle between the hues of two linear colours (3,), in [0, 180] degrees."""
     angles = [np.degrees(np.arctan2(np.sqrt(3.0) * (g - bl), 2.0 * r - g - bl)) for r, g, bl in (a, b)]
     return float(abs((angles[0] - angles[1] + 180.0) % 360.0 - 180.0))
-
-
