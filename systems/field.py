@@ -13,7 +13,7 @@ from ..components.quality import Quality
 from ..components.receivers import BladePool, StripPool
 from ..components.scene import Scene
 from ..components.terrain import Density, Terrain
-from .lod import SLACK
+from .lod import SLACK, farthest
 from .plant import BladeStock, Ground, blade_records, far_to_near_blades
 
 Floats = NDArray[np.float32]
@@ -124,7 +124,7 @@ def lay_out(
     """Return the field of a scene: its patch models in stock, its pools empty."""
     reach = reach_of(quality, lod)
     stock = stock_up(growths, quality.patch)
-    side = [2 * (limit + SLACK) + 1 for limit in reach]
+    near, middle = (max(2 * limit + 1, 1) for limit in farthest(reach))
     together = stock.blades.records.shape[1]
     return Field(
         scene=scene,
@@ -136,9 +136,9 @@ def lay_out(
         stock=stock,
         ground=Ground(terrain, density, quality.patch),
         table=PatchTable.allocate(2 * reach[2] + 1),
-        blades=BladePool.allocate(max(side[0], 1), together),
+        blades=BladePool.allocate(near, together),
         strips=[
-            StripPool.allocate(max(side[1], 1), len(growths), len(strips[0].plane), ring.columns)
+            StripPool.allocate(middle, len(growths), len(strips[0].plane), ring.columns)
             for strips, ring in zip(stock.strips, quality.strip_rings, strict=True)
         ],
         sway=max(starmap(farthest_reach, zip(scene.grass.values(), growths, strict=True))),

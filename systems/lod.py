@@ -15,6 +15,10 @@ BORDER = 4.0
 SLACK = 1
 """How many patches farther a patch must be to go to the coarser representation than to come back from it."""
 
+ROOM = 2
+"""How many patches farther than that a patch may still be changing; a viewer who is faster leaves no change unfinished,
+because there is no room for its grass in the pools."""
+
 
 def wanted_representation(
     distance: NDArray[np.int32], current: NDArray[np.int8], /, *, reach: tuple[int, int, int]
@@ -31,20 +35,37 @@ def wanted_representation(
     return np.where(keeps, np.maximum(late, current), due).astype(np.int8)
 
 
-def schedule(table: PatchTable, wanted: NDArray[np.int8], was_visible: NDArray[np.bool_], /, *, dt: float) -> None:
+def farthest(reach: tuple[int, int, int], /) -> tuple[int, int]:
+    """Return the largest discrete distance at which blades, and at which strips, are ever shown."""
+    blades, strips, _ = reach
+    return blades + SLACK + ROOM, strips + SLACK + ROOM
+
+
+def schedule(
+    table: PatchTable,
+    wanted: NDArray[np.int8],
+    was_visible: NDArray[np.bool_],
+    /,
+    *,
+    reach: tuple[int, int, int],
+    dt: float,
+) -> None:
     """Advance changes of representation and start those that are due (paper, section 4.1).
 
-    A patch that was visible changes over `FADE` seconds; one that was not takes its representation at once. A change
-    that turns back in its middle goes back from where it is.
+    A patch that was visible changes over `FADE` seconds; one that was not takes its representation at once, as does one
+    that is left behind farther than `ROOM`. A change that turns back in its middle goes back from where it is.
     """
     table.progress[:] = np.minimum(table.progress + np.float32(dt / FADE), 1.0)
+    behind = _left_behind(table, reach)
+    table.progress[behind] = 1.0
     over = table.progress >= 1.0
     table.previous[over] = table.representation[over]
     due = table.alive & (wanted != table.representation)
-    seen = due & was_visible & (table.representation >= 0)
+    slowly = was_visible & (table.representation >= 0) & ~behind
+    seen = due & slowly
     back = seen & ~over & (wanted == table.previous)
     start = seen & over
-    at_once = due & ~was_visible | due & (table.representation < 0)
+    at_once = due & ~slowly
     table.previous[back], table.representation[back] = table.representation[back], table.previous[back]
     table.progress[back] = 1.0 - table.progress[back]
     table.previous[start] = table.representation[start]
@@ -53,6 +74,13 @@ def schedule(table: PatchTable, wanted: NDArray[np.int8], was_visible: NDArray[n
     table.progress[at_once] = 1.0
     changed = start | at_once
     table.representation[changed] = wanted[changed]
+
+
+def _left_behind(table: PatchTable, reach: tuple[int, int, int]) -> NDArray[np.bool_]:
+    """Return which patches are too far away for a representation that they have or come from, shape (rows,)."""
+    limit = np.array([*farthest(reach), np.iinfo(np.int32).max], np.int32)
+    finest = np.minimum(limit[table.representation], limit[table.previous])
+    return np.asarray(table.distance > finest)
 
 
 def weights(table: PatchTable, /) -> NDArray[np.float32]:
@@ -74,5 +102,5 @@ def thinned_out(shown: NDArray[np.float32], away: NDArray[np.float32], /, *, rea
     handed = shown[Representation.STRIPS] * (1.0 - kept)
     result = shown.copy()
     result[Representation.STRIPS] -= handed
-    result[Representation.CARPET] += handed
+    result[Representation.CARPET] = np.minimum(result[Representation.CARPET] + handed, 1.0)
     return result

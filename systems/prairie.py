@@ -202,7 +202,8 @@ class Prairie:
     def _lod(self) -> None:
         table = self.field.table
         wanted = wanted_representation(table.distance, table.representation, reach=self.field.reach)
-        schedule(table, wanted, self._was_visible & table.visible, dt=self.field.sight.dt)
+        was_visible = self._was_visible & table.visible
+        schedule(table, wanted, was_visible, reach=self.field.reach, dt=self.field.sight.dt)
 
     def _plant(self) -> None:
         field = self.field

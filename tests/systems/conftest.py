@@ -12,8 +12,14 @@ from tallgrass.components.growth import Growth
 from tallgrass.components.quality import BladeRing, Quality, StripRing
 from tallgrass.components.scene import Scene
 from tallgrass.components.terrain import Density, Terrain
+from tallgrass.engine.terrain.sample import height_at
+from tallgrass.engine.world import World
+from tallgrass.systems.cull import discrete_distance, inside_cone
 from tallgrass.systems.field import Field, lay_out
 from tallgrass.systems.growth.models import grow
+from tallgrass.systems.lod import schedule, wanted_representation
+from tallgrass.systems.receive import Shown, plant_shown_blades, plant_shown_strips, shown_blades, shown_strips
+from tallgrass.systems.tile import cell_of, tile
 
 KINDS = {
     "tall": GrassKind(height=[0.6, 1.0], width=0.01, stiffness=0.6, lean=0.4),
@@ -33,6 +39,8 @@ QUALITY = Quality(
 SCENE = Scene(tallgrass=1, seed=3, grass=KINDS, quality=QUALITY)
 
 Laid = Callable[..., Field]
+Seen = tuple[list[Shown], list[Shown]]
+Look = Callable[..., Seen]
 
 
 @pytest.fixture(scope="session")
@@ -60,3 +68,29 @@ def laid(growths: list[Growth], hills: Terrain) -> Laid:
         return field
 
     return make
+
+
+@pytest.fixture
+def look(world: World) -> Look:
+    """Let a field be looked at for one frame, as a prairie does: tile, cull, representations, planting."""
+
+    def at(field: Field, x: float, z: float, *, yaw: float | None = None, dt: float = 1e9) -> Seen:
+        patch, table = field.quality.patch, field.table
+        place = np.array([x, z], np.float32)
+        ground = float(height_at(field.terrain, place[None])[0])
+        field.sight.eye, field.sight.centre = (x, ground + 1.7, z), cell_of(place, patch=patch)
+        field.sight.cone = (0.0, pi) if yaw is None else (yaw, 0.6)
+        tile(table, field.sight.centre, field.terrain, world, patch=patch, seed=3, models=2)
+        table.distance[:] = discrete_distance(table.cell, field.sight.centre)
+        was_visible, middle = table.visible.copy(), (table.cell + np.float32(0.5)) * np.float32(patch)
+        radius = patch * 0.7072 + field.sway
+        table.visible[:] = inside_cone(middle, apex=(x, z), cone=field.sight.cone, radius=radius)
+        wanted = wanted_representation(table.distance, table.representation, reach=field.reach)
+        schedule(table, wanted, was_visible & table.visible, reach=field.reach, dt=dt)
+        seen = shown_blades(field), shown_strips(field)
+        plant_shown_blades(field, seen[0])
+        for ring, shown in enumerate(seen[1]):
+            plant_shown_strips(field, ring, shown)
+        return seen
+
+    return at

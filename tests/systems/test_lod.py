@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from tallgrass.components.patch import PatchTable
 from tallgrass.components.quality import PRESETS, Representation
-from tallgrass.systems.lod import FADE, SLACK, schedule, wanted_representation, weights
+from tallgrass.systems.lod import FADE, SLACK, farthest, schedule, wanted_representation, weights
 
 REACH = (2, 5, 9)
 BLADES, STRIPS, CARPET = Representation
@@ -18,7 +18,8 @@ STEP = 0.05
 class Walk:
     """One patch, seen by a viewer who comes and goes."""
 
-    def __init__(self, distance: int, *, alive: bool = True) -> None:
+    def __init__(self, distance: int, *, alive: bool = True, reach: tuple[int, int, int] = REACH) -> None:
+        self.reach = reach
         self.table = PatchTable.allocate(1)
         self.table.alive[:] = alive
         self.was_visible = False
@@ -29,8 +30,8 @@ class Walk:
         table = self.table
         table.distance[:] = distance
         table.visible[:] = visible
-        wanted = wanted_representation(table.distance, table.representation, reach=REACH)
-        schedule(table, wanted, table.visible & self.was_visible, dt=dt)
+        wanted = wanted_representation(table.distance, table.representation, reach=self.reach)
+        schedule(table, wanted, table.visible & self.was_visible, reach=self.reach, dt=dt)
         self.was_visible = visible
 
     @property
@@ -71,7 +72,7 @@ def test_x1_pacing_to_and_fro_over_a_limit_leaves_nothing_in_transition(preset: 
     for frame in range(200):
         table.distance[:] = reach[limit] + (frame // 7) % 2
         wanted = wanted_representation(table.distance, table.representation, reach=reach)
-        schedule(table, wanted, table.visible, dt=STEP)
+        schedule(table, wanted, table.visible, reach=reach, dt=STEP)
         assert table.progress[0] == 1.0
     assert table.representation[0] == limit
 
@@ -136,25 +137,34 @@ def test_x1_a_change_that_turns_back_in_its_middle_goes_back_from_where_it_is() 
 
 
 def test_x1_a_leap_over_two_limits_is_one_change() -> None:
-    walk = Walk(0)
-    walk.go(8)
+    walk = Walk(0, reach=(2, 3, 9))
+    walk.go(5)
     for _ in range(6):
-        walk.go(8)
+        walk.go(5)
         assert walk.shown[STRIPS] == 0.0
         assert 0.0 < walk.shown[CARPET] < 1.0
 
 
 def test_x1_a_third_representation_waits_until_the_change_is_over() -> None:
-    walk = Walk(0)
-    walk.go(REACH[0] + SLACK + 1)
-    walk.go(8)
+    walk = Walk(0, reach=(2, 3, 9))
+    walk.go(4)
+    walk.go(5)
     assert walk.shown[CARPET] == 0.0
     seen = []
     for _ in range(60):
-        walk.go(8)
+        walk.go(5)
         seen.append(walk.shown)
     assert np.array(seen)[:, STRIPS].max() > 0.9
     assert walk.shown.tolist() == [0, 0, 1]
+
+
+@given(st.lists(st.integers(0, 12), min_size=2, max_size=20))
+def test_x1_a_viewer_who_is_too_fast_leaves_no_finer_grass_behind_than_there_is_room_for(story: list[int]) -> None:
+    walk, (blades, strips) = Walk(0), farthest(REACH)
+    for distance in story:
+        walk.go(distance, dt=0.01)
+        assert walk.shown[BLADES] == 0.0 or distance <= blades
+        assert walk.shown[STRIPS] == 0.0 or distance <= strips
 
 
 def test_x2_a_change_is_over_before_a_walker_has_crossed_a_patch() -> None:
@@ -181,7 +191,7 @@ def test_x1_weights_always_sum_to_one_and_never_jump_while_a_patch_stays_visible
         walk.go(distance, dt=dt, visible=visible)
         assert walk.shown.sum() == pytest.approx(1.0, abs=1e-5)
         assert (walk.shown >= 0.0).all()
-        if visible and was_visible:
+        if visible and was_visible and distance <= farthest(REACH)[BLADES]:
             assert np.abs(walk.shown - before).max() <= dt / FADE + 1e-5
         before, was_visible = walk.shown, visible
 
