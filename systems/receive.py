@@ -59,6 +59,11 @@ def shares(field: Field, /) -> Floats:
     return thinned_out(hasty, away / patch, reach=field.reach[Representation.STRIPS])
 
 
+def carpet_shares(field: Field, /) -> Floats:
+    """Return how much the carpet shows on each patch of the table, shape (rows,); beyond the terrain's edge, whole."""
+    return np.where(field.table.alive, shares(field)[Representation.CARPET], np.float32(1.0))
+
+
 def viewing_slope(field: Field, rows: Rows, /) -> Floats:
     """Return the tangent of the angle between the line of sight and the ground on each patch, shape (n,)."""
     table, eye, patch = field.table, field.sight.eye, field.quality.patch

@@ -18,7 +18,8 @@ uniform ivec2 stock;            // patch models; seed
 
 in float carpet;
 in vec2 rise;
-in float fuzz;
+in float tall;
+in float dense;
 in vec4 met;
 uniform vec4 bowed;  // by kind: height of grass in the wind of now, of that at rest
 uniform float blown;  // mean posture index of now
@@ -39,6 +40,22 @@ vec4 carpet_image(float layer, vec2 at, vec2 heading, float slope, vec2 dx, vec2
     return mix(near, steep, part);
 }
 
+// How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,
+// whose leaf area falls off linearly with height, meets leaves of (deep / tall)^2 times the whole.
+float outline_cover(float slope) {
+    slope = max(slope, 1e-4);
+    vec3 ray = place - eye.xyz;
+    vec2 heading = ray.xz / max(length(ray.xz), 1e-4);
+    vec2 to_edge = (step(0.0, heading) * field.xy + terrain.xy - place.xz) / (heading + 1e-6);
+    float before_edge = min(to_edge.x, to_edge.y) * slope / tall;
+    // Below a crest the slope falls like the root of the distance to the outline on the screen, which gives that
+    // distance.
+    float below = 0.5 * slope / max(length(vec2(dFdx(slope), dFdy(slope))), 1e-7);
+    float before_crest = below * length(ray) / screen.z / tall;
+    float leaves = dense / slope;
+    return (1.0 - exp(-leaves * before_edge * before_edge)) * (1.0 - exp(-5.3 * leaves * before_crest * before_crest));
+}
+
 vec3 carpet_light(float slope) {
     ivec2 cell = ivec2(floor(place.xz / soil.w));
     uint drawn = hash3(stock.y, cell.x, cell.y);
@@ -53,7 +70,9 @@ vec3 carpet_light(float slope) {
     vec3 ray = place - eye.xyz;
     vec2 heading = ray.xz / max(length(ray.xz), 1e-4);
     float lifted = lift(vec2(blown, 0.0), place);
-    vec3 here = place_tone(place.xz);
+    // The leaves that are seen stand deeper in the grass, where the line of sight has met enough of them.
+    float deeper = min(tall * inversesqrt(max(slope, slopes[0]) * max(dense, 0.01)), 15.0);
+    vec3 here = place_tone(place.xz + heading * deeper);
     vec4 sum = vec4(0.0);
     for (int kind = 0; kind < KINDS; kind++) {
         if (met[kind] < 0.004)
@@ -76,11 +95,7 @@ void main() {
     float slope = viewing_slope(rise, place);
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / soil.w))) : 0.0;
     color = mix(color, carpet_light(slope), share);
-    // Near an outline the slope falls like the root of the distance to it on the screen: which gives that distance,
-    // over which single tips let through what is behind them.
-    float below = 0.5 * max(slope, 0.0) / max(length(vec2(dFdx(slope), dFdy(slope))), 1e-6);
-    float tips = fuzz * screen.z / distance(place, eye.xyz);
-    covered = mix(1.0, clamp(below / max(tips, 1.0), 0.0, 1.0), share);
+    covered = mix(1.0, outline_cover(slope), share);
     if (covered < 0.004)
         discard;
 #endif

@@ -15,7 +15,8 @@ uniform vec4 leaf;    // by kind: leaf area seen from the side, of the ground's 
 out float carpet;
 out vec2 rise;   // of the ground, along x and z
 out vec4 met;    // by kind: how much of what a line of sight meets
-out float fuzz;  // height of the grass that stands out against what is behind [m]
+out float tall;  // height of the grass [m]
+out float dense; // leaf area seen from the side, of the ground's area
 
 // How much of what a line of sight meets is of each kind: taller kinds hide the others at a low angle. The grass is
 // taken in four layers from the top; its leaf area falls off linearly with height.
@@ -59,8 +60,9 @@ void main() {
 #ifdef CARPET
     carpet = lowest_share(flat_at);
     vec4 grows = textureLod(density, on_map(flat_at), 0.0);
-    place.y += carpet * dot(grows, raised) / max(dot(grows, vec4(1.0)), 1.0);
-    fuzz = dot(grows, raised) * 0.5;
+    tall = dot(grows, raised) / max(dot(grows, vec4(1.0)), 1.0);
+    dense = dot(grows, leaf);
+    place.y += carpet * tall;
     vec2 step = vec2(max(terrain.z, tile.z), 0.0);
     rise = vec2(height_at(flat_at + step.xy) - height_at(flat_at - step.xy),
                 height_at(flat_at + step.yx) - height_at(flat_at - step.yx)) / (2.0 * step.x);

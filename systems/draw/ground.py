@@ -14,8 +14,8 @@ TILE = np.dtype([("tile", "4f4")])
 GRID = 8
 """Quads along a side of a tile."""
 
-RAISED = 1.15
-"""Height of the carpet, of the plane its images were drawn on: the lower half of the grass is rarely seen from afar."""
+RAISED = 0.55
+"""Height of the carpet, as a part of the grass's: where outlines against the sky stay in their place."""
 
 STRETCH = "5.0"
 """How many times longer than wide a pixel's footprint on the carpet may be before it is blurred across."""
@@ -124,7 +124,7 @@ class GroundPainter:
         self.laid["slopes"] = slopes.tolist()
         self.laid["first"] = by_kind([sum(images[:index]) for index in range(len(images))])
         self.laid["stock"] = (len(growths[0].models), seed)
-        self.laid["raised"] = by_kind([RAISED * carpet.offset for carpet in carpets])
+        self.raise_carpet(RAISED)
         self.laid["leaf"] = by_kind([leaf_area(growth, patch) for growth in growths])
         self.blow(0.0)
         self.shares = ctx.texture((side, side), 1, alignment=1)
@@ -142,6 +142,10 @@ class GroundPainter:
         """Send the tiles (n,), and on which of them carpet may lie."""
         for (_, stream), chosen in zip(self.parts, (laid, ~laid), strict=True):
             stream.write(tiles[chosen])
+
+    def raise_carpet(self, part: float) -> None:
+        """Lay the carpet at this part of the height of the grass."""
+        self.laid["raised"] = by_kind([part * growth.models[0].carpet.height for growth in self.growths])
 
     def blow(self, index: float) -> None:
         """Tell how far the grass is bent on the mean: the carpet's light follows, though it does not move."""

@@ -14,10 +14,10 @@ from ...engine.gl.stream import release_all
 from ..field import Field
 from ..gather import gather_blades, gather_strips, runs
 from ..lod import BORDER
-from ..receive import Shown, shares
+from ..receive import Shown, carpet_shares
 from .blades import BladePainter
 from .frame import FrameBlock, aim, frame_record
-from .ground import GroundPainter, ground_tiles, within
+from .ground import RAISED, GroundPainter, ground_tiles, within
 from .strips import StripPainter
 from .textures import (
     carpet_texture,
@@ -92,12 +92,14 @@ class Painter:
         self.runs = runs(shown, counts)
 
     def draw_carpet_everywhere(self, view: View, *, time: float) -> None:
-        """Draw nothing but the carpet, over the whole terrain, into the framebuffer that the host has bound."""
+        """Draw nothing but the carpet at mid-height over the whole terrain, into the framebuffer that is bound."""
         field = self.field
         tiles = ground_tiles(field.terrain, field.sight.eye, field.sight.cone, spacing=field.quality.patch / 2)
         self.ground.write(tiles, np.ones(len(tiles), np.bool_))
         self.ground.write_shares(np.ones(len(field.table.progress), np.float32), field.sight.centre)
+        self.ground.raise_carpet(0.5)
         self.draw(view, time=time, blades=[])
+        self.ground.raise_carpet(RAISED)
 
     def write_ground(self, *, carpet: bool, blown: float = 0.0) -> None:
         """Send the tiles of the ground, where the carpet lies on it, and how far the grass is bent on the mean."""
@@ -106,7 +108,7 @@ class Painter:
         tiles = ground_tiles(field.terrain, sight.eye, sight.cone, spacing=field.quality.patch / 2)
         near = within(tiles, sight.centre, patch=field.quality.patch, reach=max(field.reach[1] - int(BORDER) - 1, 0))
         self.ground.write(tiles, ~near if carpet else np.zeros_like(near))
-        self.ground.write_shares(shares(field)[Representation.CARPET], sight.centre)
+        self.ground.write_shares(carpet_shares(field), sight.centre)
 
     def draw(self, view: View, *, time: float, blades: Iterable[BladePainter] | None = None) -> None:
         """Draw the frame into the framebuffer that the host has bound.
