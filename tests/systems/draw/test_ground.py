@@ -1,0 +1,172 @@
+"""The ground: tiles that cover what is seen, and meet without cracks (T1, T2)."""
+
+from collections.abc import Callable, Iterator
+from math import pi
+
+import moderngl
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from tallgrass.components.terrain import Terrain
+from tallgrass.engine.gl.shaders import program
+from tallgrass.engine.gl.stream import release_all
+from tallgrass.engine.terrain.sample import height_at
+from tallgrass.systems.draw.frame import FrameBlock, frame_record
+from tallgrass.systems.draw.ground import GRID, TILE, ground_tiles, within
+from tallgrass.systems.draw.textures import density_texture, height_texture, tone_texture
+from tallgrass.systems.field import Field
+
+Laid = Callable[..., Field]
+Corners = Callable[..., NDArray[np.float32]]
+
+WIDE = Terrain(np.zeros((41, 61), np.float32), 10.0)
+ALL_ROUND = (0.0, pi)
+SPACING = 1.25
+
+eyes = st.tuples(st.floats(-310, 310), st.just(1.7), st.floats(-210, 210))
+
+
+def covering(tiles: NDArray[np.void], place: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Count the tiles over each place (n, 2)."""
+    low, side = tiles["tile"][:, :2].astype(float), tiles["tile"][:, 2:3] * GRID
+    inside = (place[:, None] >= low) & (place[:, None] < low + side)
+    return np.asarray(inside.all(axis=2).sum(axis=1))
+
+
+@given(eyes)
+def test_t1_every_place_of_the_terrain_is_under_one_tile(eye: tuple[float, float, float]) -> None:
+    tiles = ground_tiles(WIDE, eye, ALL_ROUND, spacing=SPACING)
+    place = np.random.default_rng(0).uniform((-300, -200), (300, 200), (400, 2))
+    assert (covering(tiles, place) == 1).all()
+
+
+@given(eyes, st.floats(-pi, pi), st.floats(0.1, 1.4))
+def test_t2_every_place_in_the_view_cone_is_under_a_tile(
+    eye: tuple[float, float, float], middle: float, half: float
+) -> None:
+    tiles = ground_tiles(WIDE, eye, (middle, half), spacing=SPACING)
+    place = np.random.default_rng(0).uniform((-300, -200), (300, 200), (400, 2))
+    away = place - (eye[0], eye[2])
+    off = np.abs(np.mod(np.arctan2(away[:, 0], -away[:, 1]) - middle + pi, 2 * pi) - pi)
+    assert (covering(tiles, place[off < half]) == 1).all()
+
+
+def test_t2_looking_one_way_needs_far_fewer_tiles() -> None:
+    eye = (3.0, 1.7, 4.0)
+    everywhere = len(ground_tiles(WIDE, eye, ALL_ROUND, spacing=SPACING))
+    assert len(ground_tiles(WIDE, eye, (0.4, 0.5), spacing=SPACING)) < 0.45 * everywhere
+
+
+@given(eyes)
+def test_tiles_are_fine_near_the_viewer_and_coarser_with_distance(eye: tuple[float, float, float]) -> None:
+    tiles = ground_tiles(WIDE, eye, ALL_ROUND, spacing=SPACING)["tile"].astype(float)
+    low, side = tiles[:, :2], tiles[:, 2:3] * GRID
+    here = np.array([eye[0], eye[2]])
+    nearest = np.linalg.norm(here - np.clip(here, low, low + side), axis=1)
+    assert (tiles[nearest < 20.0, 2] == SPACING).all()
+    assert (tiles[:, 2] <= np.maximum(nearest / 20.0, SPACING)).all()
+
+
+def test_t5_tiles_come_from_far_to_near() -> None:
+    eye = (3.0, 1.7, 4.0)
+    tiles = ground_tiles(WIDE, eye, ALL_ROUND, spacing=SPACING)["tile"].astype(float)
+    middle = tiles[:, :2] + tiles[:, 2:3] * GRID / 2
+    assert (np.diff(np.linalg.norm(middle - (eye[0], eye[2]), axis=1)) <= 1e-3).all()
+
+
+def test_the_number_of_tiles_hardly_grows_with_the_terrain() -> None:
+    counts = [
+        len(ground_tiles(Terrain(np.zeros((9, 9), np.float32), size / 8), (1.0, 1.7, 2.0), ALL_ROUND, spacing=SPACING))
+        for size in (1000.0, 10000.0)
+    ]
+    assert counts[1] < 2 * counts[0]
+
+
+@pytest.mark.parametrize(("reach", "wide"), [(0, 2.5), (1, 7.5), (3, 17.5)])
+def test_tiles_within_a_reach_lie_wholly_in_the_square_around_the_viewers_cell(reach: int, wide: float) -> None:
+    centre = np.array([2, -3], np.int32)
+    line = np.arange(-20, 20)
+    tiles = np.zeros(1600, TILE)
+    tiles["tile"][:, :2] = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2) * 1.25
+    tiles["tile"][:, 2] = 1.25 / GRID
+    chosen = tiles["tile"][within(tiles, centre, patch=2.5, reach=reach)]
+    assert len(chosen) == (wide / 1.25) ** 2
+    low = (centre - reach) * 2.5
+    assert ((chosen[:, :2] >= low) & (chosen[:, :2] + 1.25 <= low + wide)).all()
+
+
+def test_no_tile_is_within_a_negative_reach() -> None:
+    tiles = ground_tiles(WIDE, (1.0, 1.7, 2.0), ALL_ROUND, spacing=SPACING)
+    assert not within(tiles, np.zeros(2, np.int32), patch=25.0, reach=-1).any()
+
+
+@pytest.fixture
+def corners(ctx: moderngl.Context, laid: Laid) -> Iterator[Corners]:
+    """Where the graphics card puts the grid points of tiles (n,), shape (n, GRID + 1, GRID + 1, 3)."""
+    field = laid()
+    record = frame_record(field.scene, field.growths, field.terrain, field.quality.patch)
+    textures = {
+        "heights": height_texture(ctx, field.terrain),
+        "tone": tone_texture(ctx, field.terrain, seed=1),
+        "density": density_texture(ctx, field.density),
+    }
+    made, block = program(ctx, "ground.vert", None, varyings=("place",)), FrameBlock(ctx)
+    block.join(made)
+    line = np.arange(GRID + 1, dtype=np.float32)
+    grid = ctx.buffer(np.stack(np.meshgrid(line, line), -1).reshape(-1, 2))
+
+    def place(tiles: NDArray[np.void], eye: tuple[float, float, float]) -> NDArray[np.float32]:
+        record["eye"][0, :3] = eye
+        block.write(record)
+        for unit, (name, texture) in enumerate(textures.items()):
+            texture.use(unit)
+            if name in made:
+                made[name] = unit
+        points = (GRID + 1) ** 2
+        rows, result = ctx.buffer(tiles), ctx.buffer(reserve=12 * points * len(tiles))
+        array = ctx.vertex_array(made, [(grid, "2f", "corner"), (rows, "4f/i", "tile")])
+        array.transform(result, moderngl.POINTS, vertices=points, instances=len(tiles))
+        found = np.frombuffer(result.read(), np.float32).reshape(len(tiles), GRID + 1, GRID + 1, 3)
+        release_all(array, rows, result)
+        return found
+
+    yield place
+    release_all(made, grid, block, *textures.values())
+
+
+def borders(points: NDArray[np.float32]) -> list[NDArray[np.float32]]:
+    """The four edges of a tile's grid (k, k, 3)."""
+    return [points[0], points[-1], points[:, 0], points[:, -1]]
+
+
+@pytest.mark.parametrize("eye", [(0.3, 3.0, 0.7), (-31.0, 3.0, 17.0), (7.77, 3.0, -22.2)])
+def test_t1_tiles_of_different_fineness_meet_without_cracks(
+    corners: Corners, hills: Terrain, eye: tuple[float, float, float]
+) -> None:
+    tiles = ground_tiles(hills, eye, ALL_ROUND, spacing=0.125)
+    assert len(set(tiles["tile"][:, 2].tolist())) >= 4
+    points = corners(tiles, eye)
+    everything = np.unique(np.round(np.concatenate([np.concatenate(borders(tile)) for tile in points]), 3), axis=0)
+    checked = 0
+    for tile in points:
+        for edge in borders(tile):
+            axis = 0 if np.ptp(edge[:, 0]) < 1e-4 else 2
+            low, high = edge[:, 2 - axis].min(), edge[:, 2 - axis].max()
+            on = np.abs(everything[:, axis] - edge[0, axis]) < 2e-3
+            on &= (everything[:, 2 - axis] > low - 1e-3) & (everything[:, 2 - axis] < high + 1e-3)
+            mine = np.unique(np.round(edge[:, 2 - axis], 3))
+            theirs = np.unique(np.round(everything[on][:, 2 - axis], 3))
+            assert all(np.abs(mine - place).min() < 3e-3 for place in theirs)
+            checked += len(theirs)
+    assert checked > 3000
+
+
+def test_t1_the_points_of_the_ground_lie_on_the_terrain(corners: Corners, hills: Terrain) -> None:
+    eye = (0.3, 3.0, 0.7)
+    points = corners(ground_tiles(hills, eye, ALL_ROUND, spacing=SPACING), eye).reshape(-1, 3)
+    np.testing.assert_allclose(points[:, 1], height_at(hills, np.ascontiguousarray(points[:, ::2])), atol=1e-4)
+    half = np.array(hills.size) / 2
+    assert (np.abs(points[:, ::2]) <= half + 1e-4).all()

@@ -1,0 +1,106 @@
+"""Textures made from what was grown and from the terrain (G1)."""
+
+from collections.abc import Callable
+
+import moderngl
+import numpy as np
+import pytest
+
+from tallgrass.components.growth import Growth
+from tallgrass.components.terrain import Density, Terrain
+from tallgrass.engine.gl.stream import release_all
+from tallgrass.engine.terrain.sample import slope_at
+from tallgrass.systems.draw.textures import (
+    carpet_texture,
+    density_texture,
+    height_texture,
+    posture_texture,
+    strip_stock,
+    strip_textures,
+    tone_map,
+)
+from tallgrass.systems.field import Field
+
+Laid = Callable[..., Field]
+
+
+@pytest.mark.parametrize("ring", [0, 1])
+def test_g1_each_layer_is_the_strip_that_planting_reckons_with(
+    ctx: moderngl.Context, growths: list[Growth], laid: Laid, ring: int
+) -> None:
+    stock = strip_stock(growths, ring)
+    atlas, ranks = strip_textures(ctx, stock)
+    width, height, layers = atlas.size
+    texels = np.frombuffer(atlas.read(), np.uint8).reshape(layers, height, width, 4)
+    rank = np.frombuffer(ranks.read(alignment=1), np.uint8).reshape(layers, height, width)
+    first = laid().stock.first_layer[ring]
+    for kind, models in enumerate(stock):
+        for model, strips in enumerate(models):
+            _, count, h, w, _ = strips.texels.shape
+            for orientation in (0, 1):
+                start = first[kind] + (model * 2 + orientation) * count
+                mine = slice(start, start + count)
+                np.testing.assert_array_equal(texels[mine, :h, :w], strips.texels[orientation])
+                coverage = strips.texels[orientation, ..., 3] / 255.0
+                np.testing.assert_allclose(rank[mine, :h, :w], strips.rank[orientation] * coverage, atol=0.51)
+                assert (texels[mine, h:] == 0).all()
+                assert (texels[mine, :, w:] == 0).all()
+    assert start + count == layers
+    release_all(atlas, ranks)
+
+
+def test_w3_posture_layers_hold_places_and_directions(ctx: moderngl.Context, growths: list[Growth]) -> None:
+    texture = posture_texture(ctx, growths)
+    points, rows, layers = texture.size
+    table = np.frombuffer(texture.read(), np.float32).reshape(layers, rows, points, 4)
+    assert layers == sum(growth.postures.shape.shape[0] for growth in growths)
+    np.testing.assert_array_equal(table[4:, :, :, :2], growths[1].postures.shape)
+    step = np.diff(table[..., :2], axis=2)
+    np.testing.assert_allclose(table[:, :, 1:-1, 2:], (step[:, :, 1:] + step[:, :, :-1]) / 2, atol=1e-6)
+    texture.release()
+
+
+def test_g4_carpet_layers_are_kinds_models_slopes_and_directions(ctx: moderngl.Context, growths: list[Growth]) -> None:
+    texture = carpet_texture(ctx, growths)
+    width, height, layers = texture.size
+    texels = np.frombuffer(texture.read(), np.uint8).reshape(layers, height, width, 4)
+    each = len(growths[0].models[0].carpet.slope) * 4
+    assert layers == 2 * 2 * each
+    for number, growth in enumerate(growths):
+        for model in range(2):
+            start = (number * 2 + model) * each
+            carpet = growth.models[model].carpet.texels
+            np.testing.assert_array_equal(texels[start : start + each], carpet.reshape(each, height, width, 4))
+    texture.release()
+
+
+def test_t1_heights_are_kept_to_the_bit(ctx: moderngl.Context, hills: Terrain) -> None:
+    texture = height_texture(ctx, hills)
+    np.testing.assert_array_equal(np.frombuffer(texture.read(), np.float32), hills.heights.reshape(-1))
+    texture.release()
+
+
+def test_each_kinds_density_is_a_channel(ctx: moderngl.Context) -> None:
+    maps = np.random.default_rng(0).random((3, 5, 7)).astype(np.float32)
+    texture = density_texture(ctx, Density(maps, (70.0, 50.0)))
+    packed = np.frombuffer(texture.read(), np.uint8).reshape(5, 7, 4)
+    np.testing.assert_allclose(packed[..., :3] / 255.0, np.moveaxis(maps, 0, -1), atol=0.5 / 255 + 1e-6)
+    assert (packed[..., 3] == 0).all()
+    texture.release()
+
+
+def test_the_tone_of_a_place_is_its_slope_and_two_slow_noises(hills: Terrain) -> None:
+    gentle = Terrain(hills.heights * np.float32(0.2), hills.cell)
+    packed = tone_map(gentle, seed=4)
+    rows, columns, _ = packed.shape
+    assert (rows, columns) == (70, 90)
+    x = (np.arange(columns) + 0.5) / columns * 90.0 - 45.0
+    z = (np.arange(rows) + 0.5) / rows * 70.0 - 35.0
+    place = np.stack(np.meshgrid(x, z), -1).reshape(-1, 2).astype(np.float32)
+    values = packed.reshape(-1, 4) / 127.5 - 1.0
+    np.testing.assert_allclose(values[:, :2], np.clip(slope_at(gentle, place), -1.0, 1.0), atol=0.006)
+    np.testing.assert_array_equal(tone_map(gentle, seed=4), packed)
+    assert (tone_map(gentle, seed=5)[..., 2:] != packed[..., 2:]).mean() > 0.9
+    for noise in np.moveaxis(values[:, 2:].reshape(rows, columns, 2), -1, 0):
+        assert np.abs(np.diff(noise, axis=0)).max() < 0.35
+        assert noise.std() > 0.1
