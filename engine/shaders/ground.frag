@@ -6,7 +6,7 @@ in float veiled;
 
 out vec4 pixel;
 
-#ifdef CARPET
+#if defined(CARPET) && !defined(UNDER)
 #include "lib/random.glsl"
 #include "lib/shares.glsl"
 #include "lib/carpet.glsl"
@@ -18,6 +18,7 @@ uniform ivec2 stock;            // patch models; seed
 
 in float carpet;
 in vec2 rise;
+in float crest;
 in float tall;
 in float dense;
 in vec4 met;
@@ -48,10 +49,8 @@ float outline_cover(float slope) {
     vec2 heading = ray.xz / max(length(ray.xz), 1e-4);
     vec2 to_edge = (step(0.0, heading) * field.xy + terrain.xy - place.xz) / (heading + 1e-6);
     float before_edge = min(to_edge.x, to_edge.y) * slope / tall;
-    // Below a crest the slope falls like the root of the distance to the outline on the screen, which gives that
-    // distance.
-    float below = 0.5 * slope / max(length(vec2(dFdx(slope), dFdy(slope))), 1e-7);
-    float before_crest = below * length(ray) / screen.z / tall;
+    // Over a crest of this curvature the line of sight would have to be higher by so much.
+    float before_crest = slope * slope / (2.0 * max(crest, 1e-5)) / tall;
     float leaves = dense / slope;
     return (1.0 - exp(-leaves * before_edge * before_edge)) * (1.0 - exp(-5.3 * leaves * before_crest * before_crest));
 }
@@ -91,7 +90,7 @@ vec3 carpet_light(float slope) {
 void main() {
     vec3 color = soil_color;
     float covered = 1.0;
-#ifdef CARPET
+#if defined(CARPET) && !defined(UNDER)
     float slope = viewing_slope(rise, place);
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / soil.w))) : 0.0;
     color = mix(color, carpet_light(slope), share);

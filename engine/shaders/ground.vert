@@ -6,7 +6,7 @@
 in vec2 corner;  // of the grid, 0 .. GRID
 in vec4 tile;    // x, z [m]; spacing [m]; distance at which the next coarser spacing has taken over [m]
 
-#ifdef CARPET
+#ifdef CARPET  // with UNDER, an opaque layer beneath the carpet, which the tips of outlines stand out from
 #include "lib/shares.glsl"
 #include "lib/carpet.glsl"
 uniform vec4 raised;  // by kind: height of the carpet above the ground [m]
@@ -15,6 +15,7 @@ uniform vec4 leaf;    // by kind: leaf area seen from the side, of the ground's 
 out float carpet;
 out vec2 rise;   // of the ground, along x and z
 out vec4 met;    // by kind: how much of what a line of sight meets
+out float crest; // how fast the rise falls off along the line of sight [1/m]
 out float tall;  // height of the grass [m]
 out float dense; // leaf area seen from the side, of the ground's area
 
@@ -62,13 +63,26 @@ void main() {
     vec4 grows = textureLod(density, on_map(flat_at), 0.0);
     tall = dot(grows, raised) / max(dot(grows, vec4(1.0)), 1.0);
     dense = dot(grows, leaf);
+#ifdef UNDER
+    place.y += carpet * tall * 0.5;
+#else
     place.y += carpet * tall;
+#endif
     vec2 step = vec2(max(terrain.z, tile.z), 0.0);
     rise = vec2(height_at(flat_at + step.xy) - height_at(flat_at - step.xy),
                 height_at(flat_at + step.yx) - height_at(flat_at - step.yx)) / (2.0 * step.x);
+    vec2 ahead = normalize(flat_at - eye.xz + 1e-4) * max(4.0 * terrain.z, 2.0 * tile.z);
+    float bulge = 2.0 * height_at(flat_at) - height_at(flat_at + ahead) - height_at(flat_at - ahead);
+    crest = bulge / dot(ahead, ahead);
     met = kinds_met(grows, max(viewing_slope(rise, place), 0.02));
 #endif
     soil_color = soil_light(flat_at);
+#ifdef UNDER
+    vec3 grass = vec3(0.0);
+    for (int kind = 0; kind < KINDS; kind++)
+        grass += met[kind] * mix(root[kind].rgb, tip[kind].rgb, 0.5);
+    soil_color = mix(soil_color, grass * place_tone(flat_at) * canopy(0.6, 0.0), carpet);
+#endif
     veiled = haze_at(place);
     gl_Position = clip * vec4(place, 1.0);
 }

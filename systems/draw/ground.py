@@ -100,6 +100,22 @@ def _grid() -> tuple[NDArray[np.float32], NDArray[np.int32]]:
     return corners, (first + quad).astype(np.int32)
 
 
+class _Layer:
+    """A program that draws tiles of the ground, with the tiles it draws."""
+
+    def __init__(self, made: moderngl.Program, stream: Stream, corners: moderngl.Buffer, indices: moderngl.Buffer) -> None:
+        self.program = made
+        self.stream = stream
+        contents = [(corners, "2f", "corner"), stream.binding(made)]
+        self.array = made.ctx.vertex_array(made, contents, index_buffer=indices)
+
+    def draw(self) -> int:
+        """Draw the tiles; return the number of draw calls."""
+        if self.stream.count:
+            self.array.render(moderngl.TRIANGLES, instances=self.stream.count)
+        return int(self.stream.count > 0)
+
+
 class GroundPainter:
     """Draws ground and carpet."""
 
@@ -114,65 +130,64 @@ class GroundPainter:
         seed: int,
         patch: float,
     ) -> None:
-        carpets = [growth.models[0].carpet for growth in growths]
-        slopes = carpets[0].slope
         self.growths = growths
-        images = [len(growth.models) * len(slopes) * 4 for growth in growths]
-        defines: dict[str, str | int] = {"CARPET": 1, "STRETCH": STRETCH, "SLOPES": len(slopes), "KINDS": len(growths)}
-        self.bare = joined(ctx, block, units, "ground.vert", "ground.frag", {})
-        self.laid = joined(ctx, block, units, "ground.vert", "ground.frag", defines)
-        self.laid["slopes"] = slopes.tolist()
-        self.laid["first"] = by_kind([sum(images[:index]) for index in range(len(images))])
-        self.laid["stock"] = (len(growths[0].models), seed)
-        self.raise_carpet(RAISED)
-        self.laid["leaf"] = by_kind([leaf_area(growth, patch) for growth in growths])
-        self.blow(0.0)
         self.shares = ctx.texture((side, side), 1, alignment=1)
         self.shares.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self.unit = units["shares"]
         corners, indices = _grid()
-        self.corners, self.indices = ctx.buffer(corners), ctx.buffer(indices)
-        self.parts = [(made, Stream(ctx, TILE)) for made in (self.laid, self.bare)]
-        self.arrays = [
-            ctx.vertex_array(made, [(self.corners, "2f", "corner"), stream.binding(made)], index_buffer=self.indices)
-            for made, stream in self.parts
-        ]
+        self.grid = ctx.buffer(corners), ctx.buffer(indices)
+        self.streams = Stream(ctx, TILE), Stream(ctx, TILE)
+        slopes = growths[0].models[0].carpet.slope
+        laid: dict[str, str | int] = {"CARPET": 1, "STRETCH": STRETCH, "SLOPES": len(slopes), "KINDS": len(growths)}
+
+        def layer(defines: dict[str, str | int], stream: Stream) -> _Layer:
+            return _Layer(joined(ctx, block, units, "ground.vert", "ground.frag", defines), stream, *self.grid)
+
+        self.bare = layer({}, self.streams[0])
+        self.under = layer({**laid, "UNDER": 1}, self.streams[1])
+        self.carpet = layer(laid, self.streams[1])
+        images = [len(growth.models) * len(slopes) * 4 for growth in growths]
+        self.carpet.program["slopes"] = slopes.tolist()
+        self.carpet.program["first"] = by_kind([sum(images[:index]) for index in range(len(images))])
+        self.carpet.program["stock"] = (len(growths[0].models), seed)
+        self._tell("leaf", by_kind([leaf_area(growth, patch) for growth in growths]))
+        self.raise_carpet(RAISED)
+        self.blow(0.0)
+
+    def _tell(self, name: str, value: object) -> None:
+        for layer in (self.under, self.carpet):
+            layer.program[name] = value
 
     def write(self, tiles: NDArray[np.void], laid: NDArray[np.bool_]) -> None:
         """Send the tiles (n,), and on which of them carpet may lie."""
-        for (_, stream), chosen in zip(self.parts, (laid, ~laid), strict=True):
+        for stream, chosen in zip(self.streams, (~laid, laid), strict=True):
             stream.write(tiles[chosen])
 
     def raise_carpet(self, part: float) -> None:
         """Lay the carpet at this part of the height of the grass."""
-        self.laid["raised"] = by_kind([part * growth.models[0].carpet.height for growth in self.growths])
+        self._tell("raised", by_kind([part * growth.models[0].carpet.height for growth in self.growths]))
 
     def blow(self, index: float) -> None:
         """Tell how far the grass is bent on the mean: the carpet's light follows, though it does not move."""
-        self.laid["blown"] = index
-        self.laid["bowed"] = by_kind([standing_height(growth.postures, index) for growth in self.growths])
+        self.carpet.program["blown"] = index
+        self.carpet.program["bowed"] = by_kind([standing_height(growth.postures, index) for growth in self.growths])
 
     def write_shares(self, shares: NDArray[np.float32], centre: NDArray[np.int32]) -> None:
         """Send how much the carpet shows on each row of the patch table (rows,) around the viewer's cell."""
         self.shares.write(np.round(shares * 255.0).astype(np.uint8))
-        self.laid["window"] = (int(centre[0]), int(centre[1]), self.shares.width // 2)
+        self._tell("window", (int(centre[0]), int(centre[1]), self.shares.width // 2))
 
-    def draw_bare(self) -> int:
-        """Draw the ground where there is no carpet; return the number of draw calls."""
-        return self._draw(1)
+    def draw_opaque(self) -> int:
+        """Draw the bare ground, and what lies under the carpet; return the number of draw calls."""
+        self.shares.use(self.unit)
+        return self.bare.draw() + self.under.draw()
 
     def draw_carpet(self) -> int:
-        """Draw the ground where there is carpet, from far to near; return the number of draw calls."""
-        self.shares.use(self.unit)
-        return self._draw(0)
-
-    def _draw(self, part: int) -> int:
-        count = self.parts[part][1].count
-        if count:
-            self.arrays[part].render(moderngl.TRIANGLES, instances=count)
-        return int(count > 0)
+        """Draw the carpet, whose outlines let through what is behind them; return the number of draw calls."""
+        return self.carpet.draw()
 
     def release(self) -> None:
         """Give everything back."""
-        streams = [stream for _, stream in self.parts]
-        release_all(*self.arrays, self.bare, self.laid, *streams, self.corners, self.indices, self.shares)
+        layers = (self.bare, self.under, self.carpet)
+        release_all(*(layer.array for layer in layers), *(layer.program for layer in layers))
+        release_all(*self.streams, *self.grid, self.shares)

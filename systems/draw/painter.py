@@ -130,7 +130,7 @@ class Painter:
 
     def _draw_land(self, target: moderngl.Framebuffer) -> None:
         self.ctx.enable_only(moderngl.DEPTH_TEST)
-        self.draw_calls = 1 + self.ground.draw_bare()
+        self.draw_calls = 1 + self.ground.draw_opaque()
         target.depth_mask = False
         self.sky_array.render(moderngl.TRIANGLES, vertices=3)
         target.depth_mask = True

@@ -5,6 +5,7 @@ uniform sampler2D tone;     // over the terrain: slope x, z and two slow noises,
 uniform sampler2D density;  // over the terrain: how densely each kind grows
 
 const float SHADE = 0.56;   // brightness at the foot of the grass, of that at its top
+const float FLOOR = 0.66;   // brightness of the ground under grass, of bare ground's
 const float SLOPE = 0.8;    // how much a hillside that faces the sun is brighter
 const float SHEEN = 0.30;   // how much grass bent flat is brighter
 const float THROUGH = 0.55; // how much grass is brighter with the sun behind it
@@ -45,5 +46,5 @@ vec3 soil_light(vec2 place) {
     for (int kind = 0; kind < 4; kind++)
         under += grows[kind] * root[kind].rgb;
     under /= max(dot(grows, vec4(1.0)), 1e-3);
-    return place_tone(place) * mix(soil.rgb, mix(soil.rgb, under, 0.6) * SHADE, total);
+    return place_tone(place) * mix(soil.rgb, mix(soil.rgb, under, 0.6) * FLOOR, total);
 }
