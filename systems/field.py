@@ -35,6 +35,9 @@ class Sight:
     dt: float = 0.0
     """Time since the frame before [s]."""
 
+    jumped: bool = True
+    """Whether the viewer is somewhere else altogether than in the frame before: then nothing changes by and by."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Stock:

@@ -31,6 +31,9 @@ from .wind.blow import blowing, messages
 Floats = NDArray[np.float32]
 Lod = Literal["auto", "blades", "strips", "carpet"]
 
+LEAP = 2.0
+"""A viewer who moves more than this in one frame has jumped [patch sides]."""
+
 
 @dataclass(slots=True)
 class Statistics:
@@ -127,10 +130,10 @@ class Prairie:
         if self.painter is None:
             self.painter = Painter(host_context(self._ctx), self.field)
         sight = self.field.sight
-        sight.eye = eye_of(seen)
-        sight.cone = view_cone(seen)
-        place = np.array([sight.eye[0], sight.eye[2]], np.float32)
-        sight.centre = cell_of(place, patch=self.field.quality.patch)
+        patch, eye = self.field.quality.patch, eye_of(seen)
+        sight.jumped = float(np.hypot(eye[0] - sight.eye[0], eye[2] - sight.eye[2])) > LEAP * patch
+        sight.eye, sight.cone = eye, view_cone(seen)
+        sight.centre = cell_of(np.array([eye[0], eye[2]], np.float32), patch=patch)
         sight.dt = 1e9 if self._drawn_at is None else self.time - self._drawn_at
         self._drawn_at = self.time
         self._schedule.run()
@@ -202,7 +205,7 @@ class Prairie:
     def _lod(self) -> None:
         table = self.field.table
         wanted = wanted_representation(table.distance, table.representation, reach=self.field.reach)
-        was_visible = self._was_visible & table.visible
+        was_visible = self._was_visible & table.visible & (not self.field.sight.jumped)
         schedule(table, wanted, was_visible, reach=self.field.reach, dt=self.field.sight.dt)
 
     def _plant(self) -> None:
