@@ -20,6 +20,9 @@ RAISED = 0.55
 STRETCH = "5.0"
 """How many times longer than wide a pixel's footprint on the carpet may be before it is blurred across."""
 
+FINE, COARSENESS = 1.25, 0.3
+"""Largest distance between grid points near the viewer: on cells of 1 m and more, and on the smallest cells [m]."""
+
 SPREAD = 7.0
 """Distance at which a spacing gives way to the next, in tile sides: the farthest corner of a tile of twice the side
 that is split must lie inside it."""
@@ -52,6 +55,15 @@ def ground_tiles(
     tiles = np.zeros(len(rows), TILE)
     tiles["tile"] = rows[np.argsort(-away)]
     return tiles
+
+
+def finest_spacing(terrain: Terrain, patch: float, /) -> float:
+    """Return the distance between grid points near the viewer [m], a whole fraction of a patch's side.
+
+    It is fine enough for the terrain's own cells, so that no root stands in the air or in the ground.
+    """
+    enough = min(FINE, max(FINE * terrain.cell, COARSENESS))
+    return float(patch / 2.0 ** max(1, int(np.ceil(np.log2(patch / enough)))))
 
 
 def within(tiles: NDArray[np.void], centre: NDArray[np.int32], /, *, patch: float, reach: int) -> NDArray[np.bool_]:
@@ -103,7 +115,9 @@ def _grid() -> tuple[NDArray[np.float32], NDArray[np.int32]]:
 class _Layer:
     """A program that draws tiles of the ground, with the tiles it draws."""
 
-    def __init__(self, made: moderngl.Program, stream: Stream, corners: moderngl.Buffer, indices: moderngl.Buffer) -> None:
+    def __init__(
+        self, made: moderngl.Program, stream: Stream, corners: moderngl.Buffer, indices: moderngl.Buffer
+    ) -> None:
         self.program = made
         self.stream = stream
         contents = [(corners, "2f", "corner"), stream.binding(made)]

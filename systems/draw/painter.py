@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.camera import View
-from ...components.quality import Representation
 from ...engine.gl.guest import guest
 from ...engine.gl.shaders import program
 from ...engine.gl.stream import release_all
@@ -17,7 +16,7 @@ from ..lod import BORDER
 from ..receive import Shown, carpet_shares
 from .blades import BladePainter
 from .frame import FrameBlock, aim, frame_record
-from .ground import RAISED, GroundPainter, ground_tiles, within
+from .ground import RAISED, GroundPainter, finest_spacing, ground_tiles, within
 from .strips import StripPainter
 from .textures import (
     carpet_texture,
@@ -67,6 +66,7 @@ class Painter:
             for number, ring in enumerate(field.quality.strip_rings)
         ]
         self.blades = [self.blade_painter(ring.segments, soft=True) for ring in field.quality.blade_rings]
+        self.spacing = finest_spacing(field.terrain, field.quality.patch)
         self.draw_calls = 0
         self.runs: list[tuple[int, int, int]] = []
 
@@ -94,7 +94,7 @@ class Painter:
     def draw_carpet_everywhere(self, view: View, *, time: float) -> None:
         """Draw nothing but the carpet at mid-height over the whole terrain, into the framebuffer that is bound."""
         field = self.field
-        tiles = ground_tiles(field.terrain, field.sight.eye, field.sight.cone, spacing=field.quality.patch / 2)
+        tiles = ground_tiles(field.terrain, field.sight.eye, field.sight.cone, spacing=self.spacing)
         self.ground.write(tiles, np.ones(len(tiles), np.bool_))
         self.ground.write_shares(np.ones(len(field.table.progress), np.float32), field.sight.centre)
         self.ground.raise_carpet(0.5)
@@ -105,8 +105,8 @@ class Painter:
         """Send the tiles of the ground, where the carpet lies on it, and how far the grass is bent on the mean."""
         self.ground.blow(blown)
         field, sight = self.field, self.field.sight
-        tiles = ground_tiles(field.terrain, sight.eye, sight.cone, spacing=field.quality.patch / 2)
-        near = within(tiles, sight.centre, patch=field.quality.patch, reach=max(field.reach[1] - int(BORDER) - 1, 0))
+        tiles = ground_tiles(field.terrain, sight.eye, sight.cone, spacing=self.spacing)
+        near = within(tiles, sight.centre, patch=field.quality.patch, reach=field.reach[1] - int(BORDER) - 1)
         self.ground.write(tiles, ~near if carpet else np.zeros_like(near))
         self.ground.write_shares(carpet_shares(field), sight.centre)
 

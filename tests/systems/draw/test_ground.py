@@ -15,7 +15,7 @@ from tallgrass.engine.gl.shaders import program
 from tallgrass.engine.gl.stream import release_all
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.systems.draw.frame import FrameBlock, frame_record
-from tallgrass.systems.draw.ground import GRID, TILE, ground_tiles, within
+from tallgrass.systems.draw.ground import GRID, TILE, finest_spacing, ground_tiles, within
 from tallgrass.systems.draw.textures import density_texture, height_texture, tone_texture
 from tallgrass.systems.field import Field
 
@@ -96,6 +96,17 @@ def test_tiles_within_a_reach_lie_wholly_in_the_square_around_the_viewers_cell(r
     assert len(chosen) == (wide / 1.25) ** 2
     low = (centre - reach) * 2.5
     assert ((chosen[:, :2] >= low) & (chosen[:, :2] + 1.25 <= low + wide)).all()
+
+
+@pytest.mark.parametrize("patch", [0.5, 2.5, 3.7, 20.0])
+@pytest.mark.parametrize("cell", [0.05, 0.5, 1.0, 2.5])
+def test_t1_the_ground_near_the_viewer_is_as_fine_as_the_terrain_whatever_the_patches_are(
+    patch: float, cell: float
+) -> None:
+    spacing = finest_spacing(Terrain(np.zeros((5, 5), np.float32), cell), patch)
+    assert spacing <= min(1.25, max(1.25 * cell, 0.3))
+    assert spacing <= patch / 2
+    assert np.log2(patch / spacing) % 1.0 == 0.0
 
 
 def test_no_tile_is_within_a_negative_reach() -> None:
