@@ -1,0 +1,107 @@
+"""Changes of representation, as they are seen (X1, X4, X5)."""
+
+from collections.abc import Callable
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass.components.camera import Camera
+from tallgrass.systems.lod import FADE
+from tallgrass.systems.prairie import Prairie
+
+Stage = Any
+Load = Callable[..., Prairie]
+Aim = Callable[..., Camera]
+
+STILL = """\
+tallgrass: 1
+terrain: { noise: flat, size: [60, 60] }
+grass:
+  tall: { height: [0.5, 0.9], width: 0.02, root: "#5a5a2c", tip: "#dcc98f" }
+quality:
+  blades: 120
+  models: 2
+  blade_rings: [{ to: 1, segments: 3 }, { to: 2, segments: 2 }]
+  strip_rings: [{ to: 5, strips: 4, columns: 2, sections: 2, texel: 0.02 }]
+  carpet_to: 12
+  carpet: 32
+"""
+STEP = 0.05
+BEFORE, BEHIND = 20.001, 19.999
+"""On either side of a border between patches, at z = 20 m."""
+
+
+@pytest.fixture(scope="module")
+def prairie(load: Load) -> Prairie:
+    """A prairie without wind, so that only levels of detail change the picture."""
+    return load(STILL)
+
+
+def settled(stage: Stage, prairie: Prairie, aim: Camera) -> NDArray[np.float64]:
+    """The picture once nothing is in transition any more."""
+    stage.shot(prairie, aim)
+    prairie.advance(2 * FADE)
+    picture = stage.shot(prairie, aim)
+    assert (prairie.field.table.progress == 1.0).all()
+    return np.asarray(picture)
+
+
+def test_x4_over_a_border_the_picture_changes_by_and_by(stage: Stage, prairie: Prairie, camera: Aim) -> None:
+    there, here = camera(0.6, 1.7, BEFORE, pitch=-10), camera(0.6, 1.7, BEHIND, pitch=-10)
+    story = [settled(stage, prairie, there), stage.shot(prairie, here)]
+    in_transition = int((prairie.field.table.progress < 1.0).sum())
+    for _ in range(24):
+        prairie.advance(STEP)
+        story.append(stage.shot(prairie, here))
+    assert in_transition > 5
+    whole = float(np.abs(story[-1] - story[0]).mean())
+    changes = [float(np.abs(after - before).mean()) for before, after in pairwise(story)]
+    assert whole > 0.1
+    assert changes[0] < 0.5 * whole
+    assert max(changes[1:]) < 0.25 * whole
+    steps = round(FADE / STEP)
+    assert sum(change > 0.0 for change in changes[1:]) >= steps - 1
+    assert sum(changes[steps + 2 :]) == 0.0
+
+
+def test_x1_stepping_back_over_the_border_at_once_starts_nothing(stage: Stage, prairie: Prairie, camera: Aim) -> None:
+    there, here = camera(0.6, 1.7, BEFORE, pitch=-10), camera(0.6, 1.7, BEHIND, pitch=-10)
+    settled(stage, prairie, there)
+    settled(stage, prairie, here)
+    settled(stage, prairie, there)
+    for _ in range(6):
+        for aim in (here, there):
+            prairie.advance(STEP)
+            stage.shot(prairie, aim)
+            assert (prairie.field.table.progress == 1.0).all()
+
+
+def test_x1_what_comes_into_view_is_there_at_once(stage: Stage, prairie: Prairie, camera: Aim) -> None:
+    ahead, behind = camera(0.6, 1.7, 2.0, pitch=-10), camera(0.6, 1.7, 2.0, pitch=-10, yaw=180)
+    settled(stage, prairie, ahead)
+    prairie.advance(STEP)
+    turned = stage.shot(prairie, behind)
+    assert (prairie.field.table.progress == 1.0).all()
+    np.testing.assert_array_equal(settled(stage, prairie, behind), turned)
+
+
+def test_x4_no_ground_flashes_through_a_change(stage: Stage, prairie: Prairie, camera: Aim) -> None:
+    there, here = camera(0.6, 1.7, BEFORE, pitch=-10), camera(0.6, 1.7, BEHIND, pitch=-10)
+    means = [float(settled(stage, prairie, there)[45:].mean()), float(stage.shot(prairie, here)[45:].mean())]
+    for _ in range(20):
+        prairie.advance(STEP)
+        means.append(float(stage.shot(prairie, here)[45:].mean()))
+    low, high = sorted((means[0], means[-1]))
+    assert min(means) > 0.99 * low
+    assert max(means) < 1.03 * high
+
+
+def test_x1_a_viewer_who_leaps_far_finds_everything_settled(stage: Stage, prairie: Prairie, camera: Aim) -> None:
+    settled(stage, prairie, camera(0.6, 1.7, 25.0, pitch=-10))
+    prairie.advance(STEP)
+    leapt = stage.shot(prairie, camera(-20.0, 1.7, -9.0, pitch=-10, yaw=150))
+    prairie.advance(2 * FADE)
+    np.testing.assert_array_equal(stage.shot(prairie, camera(-20.0, 1.7, -9.0, pitch=-10, yaw=150)), leapt)
