@@ -1,4 +1,4 @@
-noperspective in vec3 color;
+in vec3 color;
 flat in float shown;
 #ifdef SOFT
 noperspective in float aside;

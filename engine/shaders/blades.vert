@@ -13,7 +13,7 @@ in float kind;
 in vec2 message;
 in float fade;
 
-noperspective out vec3 color;
+out vec3 color;
 flat out float shown;
 #ifdef SOFT
 noperspective out float aside;  // from the middle line [pixel]

@@ -4,9 +4,9 @@ uniform sampler2DArray atlas;  // place along the blade, face normal x and z, co
 uniform sampler2DArray ranks;  // rank of the blade, premultiplied by coverage
 
 in vec2 at;
-noperspective in float h;
-noperspective in float rate;
-noperspective in vec3 here;
+in float h;
+in float rate;
+in vec3 here;
 flat in vec3 foot_color;
 flat in vec3 rise_color;
 flat in vec3 grain_u;
@@ -16,7 +16,7 @@ flat in float hidden;
 flat in float shown;
 flat in float boost;  // of coverage
 #ifdef THIN
-noperspective in float grows;
+in float grows;
 #endif
 
 out vec4 pixel;

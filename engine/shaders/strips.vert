@@ -10,9 +10,9 @@ uniform vec4 wide_to;  // by kind: how far its picture reaches across its layer 
 uniform vec4 high_to;  // by kind: how far up
 
 out vec2 at;
-noperspective out float h;
-noperspective out float rate;
-noperspective out vec3 here;
+out float h;
+out float rate;
+out vec3 here;
 flat out vec3 foot_color;
 flat out vec3 rise_color;
 flat out vec3 grain_u;
@@ -22,7 +22,7 @@ flat out float hidden;
 flat out float shown;
 flat out float boost;
 #ifdef THIN
-noperspective out float grows;
+out float grows;
 #endif
 
 void main() {
