@@ -41,6 +41,8 @@ vec4 carpet_image(float layer, vec2 at, vec2 heading, float slope, vec2 dx, vec2
     return mix(near, steep, part);
 }
 
+const float CREST = 2.5;  // leaves met over a crest, of those met before an edge as deep: as the reference shows it
+
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,
 // whose leaf area falls off linearly with height, meets leaves of (deep / tall)^2 times the whole.
 float outline_cover(float slope) {
@@ -52,7 +54,7 @@ float outline_cover(float slope) {
     // Over a crest of this curvature the line of sight would have to be higher by so much.
     float before_crest = slope * slope / (2.0 * max(crest, 1e-5)) / tall;
     float leaves = dense / slope;
-    return (1.0 - exp(-leaves * before_edge * before_edge)) * (1.0 - exp(-5.3 * leaves * before_crest * before_crest));
+    return (1.0 - exp(-leaves * before_edge * before_edge)) * (1.0 - exp(-CREST * leaves * before_crest * before_crest));
 }
 
 vec3 carpet_light(float slope) {
