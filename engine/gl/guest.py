@@ -76,6 +76,7 @@ def guest(ctx: moderngl.Context) -> Iterator[moderngl.Framebuffer]:
     target.color_mask = (True, True, True, True)
     target.depth_mask = True
     target.use()
+    ctx.clear_samplers(0, UNITS)
     try:
         yield target
     finally:

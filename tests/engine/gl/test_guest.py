@@ -183,6 +183,25 @@ def test_d6_no_sampler_of_ours_stays_on_the_hosts_textures(ctx: moderngl.Context
         thing.release()
 
 
+def test_d6_no_sampler_of_the_hosts_stays_on_a_guests_textures(
+    ctx: moderngl.Context, host: moderngl.Framebuffer
+) -> None:
+    texture = ctx.texture((2, 1), 1, b"\x00\xff")
+    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+    source = "#version 330\nuniform sampler2D t; out vec4 p; void main() { p = texture(t, vec2(0.45, 0.5)); }"
+    program = ctx.program(vertex_shader=VERTEX, fragment_shader=source)
+    array, smooth = ctx.vertex_array(program, []), ctx.sampler(filter=(moderngl.LINEAR, moderngl.LINEAR))
+    for unit in range(UNITS):
+        smooth.use(unit)
+    with guest(ctx):
+        texture.use(0)
+        program["t"] = 0
+        array.render(moderngl.TRIANGLES, 3)
+    assert (picture(host)[..., 0] == 0).all()
+    for thing in (array, program, smooth, texture):
+        thing.release()
+
+
 def test_a_context_that_is_given_is_taken(ctx: moderngl.Context) -> None:
     assert host_context(ctx) is ctx
 
