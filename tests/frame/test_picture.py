@@ -145,7 +145,7 @@ def test_t1_blades_grow_out_of_the_ground_and_do_not_float(stage: Stage, load: L
         column, row = stage.project(aim, root[None])[0]
         rows, columns = rows[np.abs(columns - column) < 12], columns[np.abs(columns - column) < 12]
         assert len(rows) > 20, "the blade is seen"
-        assert abs(rows.max() + 1 - row) <= 1.0
+        assert abs(rows.max() + 1 - row) <= 1.5, "in pixels of 18 mm"
         assert np.abs(columns[rows > rows.max() - 3].mean() + 0.5 - column) <= 1.0
         seen += 1
     assert seen >= 8

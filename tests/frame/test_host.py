@@ -1,0 +1,205 @@
+"""A prairie in somebody else's program: state, framebuffers, memory (D6)."""
+
+import gc
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import esper
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass.components.camera import Camera
+from tallgrass.engine.camera import camera_at
+from tallgrass.systems.prairie import Prairie
+
+Stage = Any
+Load = Callable[..., Prairie]
+Aim = Callable[..., Camera]
+
+VERTEX = """#version 330
+layout(std140) uniform Host { vec4 place; };
+out vec2 at;
+void main() {
+    at = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1));
+    gl_Position = vec4(place.xy + at * place.zw, 0.0, 1.0);
+}"""
+FRAGMENT = """#version 330
+uniform sampler2D picture;
+in vec2 at;
+out vec4 pixel;
+void main() { pixel = texture(picture, at); }"""
+
+
+class Overlay:
+    """What a host draws over a prairie: a textured square, its uniform block at binding 0, its texture on unit 0."""
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self.ctx = ctx
+        self.program = ctx.program(vertex_shader=VERTEX, fragment_shader=FRAGMENT)
+        texels = np.random.default_rng(1).integers(0, 256, (4, 4, 4), dtype=np.uint8)
+        self.texture = ctx.texture((4, 4), 4, texels.tobytes())
+        self.texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        self.block = ctx.buffer(np.array([-0.5, -0.5, 0.8, 1.1], np.float32))
+        self.block.bind_to_uniform_block(0)
+        self.array = ctx.vertex_array(self.program, [])
+
+    def draw(self) -> None:
+        """Draw as a host does that sets only what it needs: its texture."""
+        self.texture.use(0)
+        self.array.render(moderngl.TRIANGLE_STRIP, 4)
+
+    def release(self) -> None:
+        for thing in (self.array, self.program, self.texture, self.block):
+            thing.release()
+
+
+@pytest.fixture
+def overlay(ctx: moderngl.Context) -> Iterator[Overlay]:
+    made = Overlay(ctx)
+    yield made
+    made.release()
+
+
+def over(stage: Stage, picture: NDArray[np.float64], overlay: Overlay) -> NDArray[np.bool_]:
+    """Where the host's square changed the picture that lies under it."""
+    overlay.draw()
+    return np.asarray((stage.read() != picture).any(axis=-1))
+
+
+def test_d6_what_the_host_draws_over_the_prairie_looks_as_it_does_alone(
+    stage: Stage, load: Load, overlay: Overlay
+) -> None:
+    stage.target.use()
+    stage.target.clear()
+    stage.ctx.enable_only(moderngl.NOTHING)
+    overlay.draw()
+    alone = stage.read()
+    picture = stage.shot(load())
+    changed = over(stage, picture, overlay)
+    square = alone.any(axis=-1)
+    np.testing.assert_array_equal(stage.read()[square], alone[square])
+    assert not changed[~square].any()
+    assert square.sum() > 2000
+
+
+def test_d6_a_prairie_is_drawn_the_same_whatever_state_the_host_left(
+    stage: Stage, load: Load, overlay: Overlay
+) -> None:
+    prairie = load()
+    expected = stage.shot(prairie)
+    ctx = stage.ctx
+    ctx.enable(moderngl.CULL_FACE | moderngl.BLEND)
+    ctx.front_face, ctx.cull_face = "cw", "back"
+    ctx.blend_func, ctx.depth_func = (moderngl.ONE, moderngl.ONE), ">"
+    sampler = ctx.sampler(filter=(moderngl.NEAREST, moderngl.NEAREST))
+    for unit in range(4):
+        sampler.use(unit)
+        overlay.texture.use(unit)
+    found = stage.shot(prairie)
+    ctx.enable_only(moderngl.NOTHING)
+    ctx.front_face, ctx.depth_func = "ccw", "<"
+    ctx.blend_func = moderngl.DEFAULT_BLENDING
+    sampler.release()
+    np.testing.assert_array_equal(found, expected)
+
+
+def test_d6_a_prairie_fills_the_hosts_viewport_and_nothing_else(stage: Stage, load: Load, camera: Aim) -> None:
+    prairie, aim = load(), camera(0.3, 1.9, 12.0, pitch=-14)
+    stage.target.use()
+    stage.target.clear(0.0, 0.0, 1.0, 1.0, depth=1.0)
+    stage.target.viewport = (32, 20, 80, 45)
+    stage.target.use()
+    try:
+        prairie.draw(*stage.matrices(aim))
+    finally:
+        stage.target.viewport = (0, 0, *stage.size)
+    picture = stage.read()
+    inside = np.zeros((90, 160), np.bool_)
+    inside[90 - 65 : 90 - 20, 32:112] = True
+    assert (picture[~inside] == (0, 0, 255)).all()
+    assert (picture[inside] != (0, 0, 255)).any(axis=-1).all()
+    small = picture[inside].reshape(45, 80, 3)
+    large = stage.shot(prairie, aim).reshape(45, 2, 80, 2, 3).mean(axis=(1, 3))
+    assert np.abs(small - large).mean() < 6.0
+
+
+def test_d6_a_prairie_draws_into_the_framebuffer_that_is_bound_and_no_other(
+    ctx: moderngl.Context, stage: Stage, load: Load
+) -> None:
+    prairie = load()
+    expected = stage.shot(prairie)
+    color, depth = ctx.texture(stage.size, 3, alignment=1), ctx.depth_renderbuffer(stage.size)
+    other = ctx.framebuffer([color], depth)
+    stage.target.clear(0.0, 0.0, 1.0)
+    other.use()
+    other.clear(depth=1.0)
+    prairie.draw(*stage.matrices(camera_at(prairie.scene.camera, None, prairie.height_at)))
+    assert ctx.detect_framebuffer().glo == other.glo
+    assert (stage.read() == (0, 0, 255)).all()
+    data = np.frombuffer(other.read(components=3, alignment=1), np.uint8).reshape(90, 160, 3)[::-1]
+    np.testing.assert_array_equal(data, expected)
+    for thing in (other, color, depth):
+        thing.release()
+
+
+def test_d6_without_a_context_of_its_own_a_prairie_takes_the_current_one(
+    stage: Stage, load: Load, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(moderngl, "get_context", lambda: stage.ctx)
+    given = load()
+    found = Prairie(given._loaded)  # noqa: SLF001
+    np.testing.assert_array_equal(stage.shot(found), stage.shot(given))
+    found.release()
+
+
+def resident() -> float:
+    """Memory that this process holds [MB], 0 where the system does not say."""
+    told = Path("/proc/self/statm")
+    return int(told.read_text().split()[1]) * 4096 / 1e6 if told.exists() else 0.0
+
+
+def test_d6_released_a_prairie_leaves_nothing_behind_in_gl(ctx: moderngl.Context, stage: Stage, load: Load) -> None:
+    scene = load()._loaded  # noqa: SLF001
+    before, ctx.gc_mode = ctx.gc_mode, "context_gc"
+    ctx.objects.clear()
+    memory = []
+    try:
+        for _ in range(20):
+            prairie = Prairie(scene, ctx=ctx)
+            stage.shot(prairie)
+            prairie.release()
+            del prairie
+            gc.collect()
+            memory.append(resident())
+        dropped = [thing for thing in ctx.objects if not isinstance(thing, moderngl.InvalidObject)]
+    finally:
+        ctx.gc_mode = before
+        ctx.objects.clear()
+    assert dropped == [], "everything was released by its owner"
+    assert memory[-1] - memory[3] < 25.0, "one prairie of these takes more than 4 MB"
+
+
+def test_d2_released_a_prairie_leaves_no_entity_behind(stage: Stage, load: Load) -> None:
+    kept = load()
+    theirs = esper.create_entity("a game's own")
+    before = set(esper.get_entities())
+    prairie = Prairie(kept._loaded, ctx=stage.ctx)  # noqa: SLF001
+    stage.shot(prairie)
+    assert len(set(esper.get_entities()) - before) > 500
+    prairie.release()
+    prairie.release()
+    assert set(esper.get_entities()) == before
+    assert esper.component_for_entity(theirs, str) == "a game's own"
+    esper.delete_entity(theirs, immediate=True)
+
+
+def test_d6_two_prairies_are_drawn_side_by_side(stage: Stage, load: Load, camera: Aim) -> None:
+    one, two = load(), load("plain", preset="low")
+    aim = camera(0.3, 1.9, 12.0, pitch=-14)
+    first, second = stage.shot(one, aim), stage.shot(two, aim)
+    assert np.abs(first - second).mean() > 2.0
+    np.testing.assert_array_equal(stage.shot(one, aim), first)
+    np.testing.assert_array_equal(stage.shot(two, aim), second)

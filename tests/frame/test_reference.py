@@ -1,0 +1,149 @@
+"""The truth to compare with: every blade in 3D (N3)."""
+
+from collections.abc import Callable
+from typing import Any
+
+import moderngl
+import numpy as np
+import pytest
+
+from tallgrass.components.camera import Camera
+from tallgrass.systems.draw.painter import view_of
+from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.reference import (
+    EveryBlade,
+    box_filtered,
+    draw_reference,
+    patch_distances,
+    seen_cells,
+    stand_all,
+    terrain_cells,
+)
+
+Stage = Any
+Load = Callable[..., Prairie]
+Aim = Callable[..., Camera]
+Pictures = dict[str, Any]
+
+
+@pytest.fixture(scope="module")
+def aim(camera: Aim) -> Camera:
+    return camera(0.3, 1.9, 12.0, pitch=-14)
+
+
+@pytest.fixture(scope="module")
+def prairie(stage: Stage, load: Load, aim: Camera) -> Prairie:
+    """A prairie that has been looked at."""
+    made = load()
+    stage.shot(made, aim)
+    return made
+
+
+def reference(stage: Stage, prairie: Prairie, aim: Camera, samples: int = 3) -> Any:
+    stage.target.use()
+    view, projection = stage.matrices(aim)
+    return draw_reference(prairie, view, projection, stage.size, samples=samples).astype(float)
+
+
+def distances(stage: Stage, prairie: Prairie, aim: Camera) -> Any:
+    view, projection = stage.matrices(aim)
+    return patch_distances(prairie, view, projection, stage.size)
+
+
+def test_n3_the_reference_of_an_instant_is_always_the_same(stage: Stage, prairie: Prairie, aim: Camera) -> None:
+    first = reference(stage, prairie, aim)
+    assert first.shape == (90, 160, 3)
+    np.testing.assert_array_equal(reference(stage, prairie, aim), first)
+    stage.shot(prairie, aim)
+    np.testing.assert_array_equal(reference(stage, prairie, aim), first)
+
+
+def test_n3_what_is_drawn_is_nearer_to_the_truth_than_other_grass_of_the_same_look(
+    stage: Stage, load: Load, camera: Aim
+) -> None:
+    prairie = load()
+    for x, z, pitch, yaw in ((0.3, 12.0, -14, 0), (-3.0, -2.0, -25, 110), (6.0, 1.0, -8, 250)):
+        aim = camera(x, float(prairie.height_at([[x, z]])[0]) + 1.9, z, pitch=pitch, yaw=yaw)
+        drawn = stage.shot(prairie, aim)
+        truth = reference(stage, prairie, aim)
+        other = prairie.reseeded(1234)
+        stage.shot(other, aim)
+        unrelated = reference(stage, other, aim)
+        other.release()
+        assert np.abs(drawn - truth).mean() < 0.8 * np.abs(unrelated - truth).mean()
+        np.testing.assert_allclose(drawn.mean(axis=(0, 1)), truth.mean(axis=(0, 1)), rtol=0.05)
+
+
+def test_n3_every_blade_on_the_terrain_is_drawn_once(prairie: Prairie) -> None:
+    assert prairie.painter is not None
+    every = EveryBlade(prairie)
+    cells = terrain_cells(prairie.field)
+    assert len(cells) == 24 * 24
+    count = stand_all(prairie, cells, every.blades)
+    assert count == pytest.approx(prairie.statistics.blades_field, rel=0.02)
+    assert stand_all(prairie, cells[:5], every.blades) < 5 * 121
+    every.release()
+
+
+def test_n3_the_blades_of_the_reference_stand_where_the_near_ones_are_drawn(prairie: Prairie) -> None:
+    field, every = prairie.field, EveryBlade(prairie)
+    rows = np.flatnonzero((field.blades.stamp[:, 0] > -1000) & field.blades.present.any(axis=1))
+    for slot in rows[:6]:
+        cell = field.blades.stamp[slot, :2]
+        count = stand_all(prairie, cell[None], every.blades)
+        assert count == field.blades.present[slot].sum()
+        data = np.frombuffer(every.blades.blades.buffer.read(), every.blades.blades.record)[:count]
+        near = field.blades.blade[slot][field.blades.present[slot]]["root"]
+        assert {tuple(root) for root in data["root_at"].tolist()} == {tuple(root) for root in near.tolist()}
+    every.release()
+
+
+def test_t2_the_reference_leaves_out_only_what_is_not_seen(stage: Stage, prairie: Prairie, aim: Camera) -> None:
+    every, seen = EveryBlade(prairie), view_of(*stage.matrices(aim))
+    pictures = []
+    for cells in (seen_cells(prairie.field), terrain_cells(prairie.field)):
+        stage.target.use()
+        stage.target.clear(depth=1.0)
+        every.draw(seen, cells)
+        pictures.append(stage.read())
+    every.release()
+    np.testing.assert_array_equal(pictures[0], pictures[1])
+    assert len(seen_cells(prairie.field)) < 0.6 * 24 * 24
+
+
+def test_a_reference_of_what_was_never_drawn_is_refused(load: Load) -> None:
+    fresh = load()
+    with pytest.raises(RuntimeError, match="draw the prairie once"):
+        EveryBlade(fresh)
+    with pytest.raises(RuntimeError, match="draw the prairie once"):
+        patch_distances(fresh, np.eye(4), np.eye(4), (8, 8))
+
+
+def test_t3_each_pixel_knows_the_discrete_distance_of_what_it_shows(stage: Stage, load: Load, camera: Aim) -> None:
+    flat = load("plain", preset="low")
+    aim = camera(0.9, 3.0, 0.4, pitch=-35, yaw=20)
+    stage.shot(flat, aim)
+    told = distances(stage, flat, aim)
+    at = stage.ground(aim, level=0.25)
+    inside = (np.abs(at) < 49.0).all(axis=-1)
+    expected = np.abs(np.floor(at / 2.5)).max(axis=-1)
+    assert inside.mean() > 0.9
+    off = np.abs(told - expected)[inside]
+    assert (off <= 1).mean() > 0.99
+    assert (off == 0).mean() > 0.8
+    level = camera(0.9, 3.0, 0.4, pitch=10)
+    stage.shot(flat, level)
+    sky = distances(stage, flat, level)
+    assert (sky[:40] == -1).all()
+    assert stage.ctx.detect_framebuffer().glo == stage.target.glo
+
+
+def test_supersampling_is_the_mean_of_each_pixels_samples(ctx: moderngl.Context) -> None:
+    fine = np.random.default_rng(0).integers(0, 256, (12, 20, 3), dtype=np.uint8)
+    texture = ctx.texture((20, 12), 3, fine.tobytes(), alignment=1)
+    target = ctx.framebuffer([texture])
+    coarse = box_filtered(target, (5, 3), 4)
+    expected = fine.reshape(3, 4, 5, 4, 3).mean(axis=(1, 3))[::-1]
+    np.testing.assert_allclose(coarse, expected, atol=0.51)
+    target.release()
+    texture.release()
