@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from time import perf_counter
-from typing import Literal
+from typing import Literal, get_args
 
 import moderngl
 import numpy as np
@@ -104,10 +104,12 @@ class Prairie:
 
         `ctx` is the context to draw in; without it the one that is current at the first draw. `preset` overrides
         the scene's quality, `lod` shows everything in one representation. Raises `SceneError` with every problem of
-        the file and its maps, ValueError for an unknown preset.
+        the file and its maps, ValueError for an unknown preset or representation.
         """
         if preset is not None and preset not in PRESETS:
             raise ValueError(f"unknown preset '{preset}'; there are {', '.join(PRESETS)}")
+        if lod not in get_args(Lod):
+            raise ValueError(f"unknown representation '{lod}'; there are {', '.join(get_args(Lod))}")
         return cls(read_scene(scene), ctx=ctx, preset=preset, lod=lod)
 
     def reseeded(self, seed: int) -> "Prairie":
@@ -143,7 +145,7 @@ class Prairie:
 
     def height_at(self, xz: ArrayLike) -> Floats:
         """Return the height of the ground [m], shape (n,), at ground positions (x, z) [m], shape (n, 2)."""
-        return height_at(self.field.terrain, np.asarray(xz, np.float32).reshape(-1, 2))
+        return height_at(self.field.terrain, _places(xz))
 
     def wind_at(self, xz: ArrayLike, time: float | None = None) -> Floats:
         """Return what grass at ground positions (x, z) [m], shape (n, 2), feels at `time` [s], or now.
@@ -151,8 +153,7 @@ class Prairie:
         Messages of shape (n, 2): vectors along the bending direction whose norm is the posture index, in [0, 1].
         """
         moment = self.time if time is None else time
-        place = np.asarray(xz, np.float32).reshape(-1, 2)
-        return messages(blowing(self.sources(), time=moment), place, time=moment, seed=self.scene.seed)
+        return messages(blowing(self.sources(), time=moment), _places(xz), time=moment, seed=self.scene.seed)
 
     def sources(self) -> list[WindSource]:
         """Return the winds there are."""
@@ -241,3 +242,10 @@ class Prairie:
         stats.patches = {
             level.name.lower(): int((visible & (table.representation == level)).sum()) for level in Representation
         }
+
+
+def _places(xz: ArrayLike) -> Floats:
+    places = np.asarray(xz, np.float32)
+    if places.shape[-1:] != (2,) or not np.isfinite(places).all():
+        raise ValueError(f"ground positions are finite (x, z) pairs, not an array of shape {places.shape}")
+    return np.ascontiguousarray(places.reshape(-1, 2))

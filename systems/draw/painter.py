@@ -156,7 +156,7 @@ def view_of(view: object, projection: object) -> View:
     """Return the two matrices as numpy arrays for column vectors.
 
     Each is a 4x4 array, or pyglet's `Mat4`, whose 16 numbers run column by column. Raises ValueError for anything
-    that has not 16 finite numbers.
+    that has not 16 finite numbers or has no inverse.
     """
     return View(_matrix(view, "view"), _matrix(projection, "projection"))
 
@@ -167,4 +167,6 @@ def _matrix(matrix: object, name: str) -> NDArray[np.float32]:
         array = array.reshape(4, 4).T
     if array.shape != (4, 4) or not np.isfinite(array).all():
         raise ValueError(f"the {name} matrix must have 4 x 4 finite numbers, not {array.shape}")
+    if np.linalg.det(array.astype(np.float64)) == 0.0:
+        raise ValueError(f"the {name} matrix has no inverse")
     return array

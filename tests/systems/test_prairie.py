@@ -1,0 +1,211 @@
+"""A prairie without any GL: what a game asks of it (N4, D2, D5, D6)."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Literal
+
+import esper
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass.components.wind import WindPrimitive, WindSource
+from tallgrass.engine.scene import SceneError
+from tallgrass.engine.world import World
+from tallgrass.systems.prairie import Prairie
+
+Floats = NDArray[np.float32]
+Load = Callable[..., Prairie]
+
+SCENE = """\
+tallgrass: 1
+seed: 5
+terrain: { noise: rolling, seed: 2, size: [60, 60], feature: 30, scale: 4 }
+grass: { green: { height: [0.3, 0.5] } }
+wind:
+  - { kind: breeze, strength: 0.4 }
+  - { kind: breeze, strength: 0.8, start: 5, stop: 6, priority: 1 }
+quality:
+  blades: 20
+  models: 1
+  blade_rings: [{ to: 1, segments: 2 }]
+  strip_rings: [{ to: 3, strips: 2, columns: 1, sections: 1, texel: 0.1 }]
+  carpet_to: 5
+  carpet: 8
+"""
+PLACES = np.random.default_rng(0).uniform(-25.0, 25.0, (50, 2)).astype(np.float32)
+
+
+class Blast(WindPrimitive):
+    """A wind that a game brings along: straight up the x axis where x is positive."""
+
+    kind: Literal["test-blast"] = "test-blast"
+    priority: int = 9
+
+    def mask(self, place: Floats, /, *, time: float) -> Floats:
+        return np.asarray(place[:, 0] > 0.0 * time, np.float32)
+
+    def action(self, place: Floats, /, *, time: float, seed: int) -> Floats:
+        return np.tile(np.array([0.9, 0.0], np.float32) + np.float32(0.0 * time * seed), (len(place), 1))
+
+
+@pytest.fixture
+def load(world: World, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Load]:
+    """Load the scene in a world of its own, where GL must not be touched."""
+
+    def no_gl(*_: object, **__: object) -> None:
+        raise AssertionError("GL was touched")
+
+    monkeypatch.setattr(moderngl, "get_context", no_gl)
+    monkeypatch.setattr(moderngl, "create_context", no_gl)
+    path = tmp_path / "scene.yaml"
+    path.write_text(SCENE, "utf-8")
+    assert world.name == esper.current_world
+    loaded: list[Prairie] = []
+
+    def scene(file: str | Path = path, **options: str) -> Prairie:
+        loaded.append(Prairie.load(file, **options))  # type: ignore[arg-type]
+        return loaded[-1]
+
+    yield scene
+    for prairie in loaded:
+        prairie.release()
+
+
+@pytest.fixture
+def prairie(load: Load) -> Prairie:
+    return load()
+
+
+def test_n4_the_wind_and_the_ground_are_there_without_any_gl(prairie: Prairie) -> None:
+    wind, height = prairie.wind_at(PLACES), prairie.height_at(PLACES)
+    assert [wind.shape, height.shape] == [(50, 2), (50,)]
+    assert wind.dtype == height.dtype == np.float32
+    assert 0.1 < np.linalg.norm(wind, axis=1).mean() < 0.8
+    assert np.ptp(height) > 1.0
+
+
+def test_n4_a_single_place_and_plain_lists_may_be_asked_for(prairie: Prairie) -> None:
+    np.testing.assert_array_equal(prairie.wind_at(PLACES[3].tolist()), prairie.wind_at(PLACES[3:4]))
+    np.testing.assert_array_equal(prairie.height_at([PLACES[3].tolist()]), prairie.height_at(PLACES)[3:4])
+
+
+def test_n4_the_wind_of_now_is_that_of_the_prairies_time(prairie: Prairie) -> None:
+    prairie.advance(1.25)
+    prairie.advance(0.5)
+    assert prairie.time == 1.75
+    np.testing.assert_array_equal(prairie.wind_at(PLACES), prairie.wind_at(PLACES, 1.75))
+    assert (prairie.wind_at(PLACES) != prairie.wind_at(PLACES, 0.0)).any()
+
+
+def test_n5_the_wind_of_any_instant_is_known_in_advance(prairie: Prairie) -> None:
+    soon = prairie.wind_at(PLACES, 5.5)
+    prairie.advance(5.5)
+    np.testing.assert_array_equal(prairie.wind_at(PLACES), soon)
+    strength = [float(np.linalg.norm(prairie.wind_at(PLACES, time), axis=1).mean()) for time in (4.9, 5.5, 6.1)]
+    assert strength[1] > 1.3 * max(strength[0], strength[2])
+
+
+def test_d5_a_games_own_wind_may_come_and_go(prairie: Prairie) -> None:
+    before = prairie.wind_at(PLACES)
+    handle = prairie.add(Blast())
+    right = PLACES[:, 0] > 0.0
+    during = prairie.wind_at(PLACES)
+    assert (during[right] == np.array([0.9, 0.0], np.float32)).all()
+    np.testing.assert_array_equal(during[~right], before[~right])
+    assert esper.component_for_entity(handle, WindSource).primitive == Blast()
+    prairie.remove(handle)
+    np.testing.assert_array_equal(prairie.wind_at(PLACES), before)
+    prairie.remove(handle)
+
+
+def test_d2_the_winds_of_a_scene_are_entities_of_the_current_world(prairie: Prairie) -> None:
+    found = [source for _, source in esper.get_component(WindSource)]
+    assert sorted(source.name for source in found) == ["wind[0] breeze", "wind[1] breeze"]
+    assert {source.primitive for source in found} == set(prairie.scene.wind)
+
+
+def test_d2_a_wind_that_a_game_makes_an_entity_of_is_felt(prairie: Prairie) -> None:
+    entity = esper.create_entity(WindSource(Blast(), "mine"))
+    assert (prairie.wind_at([[3.0, 1.0]]) == np.array([0.9, 0.0], np.float32)).all()
+    esper.delete_entity(entity, immediate=True)
+    assert (prairie.wind_at([[3.0, 1.0]]) != np.array([0.9, 0.0], np.float32)).any()
+
+
+def test_two_prairies_in_one_world_have_each_its_own_wind(load: Load) -> None:
+    one = load()
+    alone = one.wind_at(PLACES)
+    two = load()
+    two.add(Blast())
+    np.testing.assert_array_equal(one.wind_at(PLACES), alone)
+    assert (two.wind_at(PLACES) != alone).any()
+
+
+def test_a_reseeded_prairie_has_other_grass_and_the_same_ground(prairie: Prairie) -> None:
+    other = prairie.reseeded(77)
+    np.testing.assert_array_equal(other.height_at(PLACES), prairie.height_at(PLACES))
+    ours, theirs = (made.field.growths[0].models[0].blades.root for made in (prairie, other))
+    assert (ours != theirs).any()
+    assert (other.scene.seed, prairie.scene.seed) == (77, 5)
+    other.release()
+
+
+@pytest.mark.parametrize("dt", [-0.01, float("nan"), float("inf")])
+def test_time_does_not_go_back_or_leap(prairie: Prairie, dt: float) -> None:
+    with pytest.raises(ValueError, match=r"^a prairie advances by 0 s or more, not by "):
+        prairie.advance(dt)
+    assert prairie.time == 0.0
+
+
+@pytest.mark.parametrize(
+    ("option", "sentence"),
+    [
+        ({"preset": "hgih"}, r"^unknown preset 'hgih'; there are low, medium, high, "),
+        ({"lod": "voxels"}, r"^unknown representation 'voxels'; there are auto, blades, strips, carpet$"),
+    ],
+)
+def test_an_unknown_option_is_refused_in_a_sentence(load: Load, option: dict[str, str], sentence: str) -> None:
+    with pytest.raises(ValueError, match=sentence):
+        load(**option)
+
+
+def test_an_unknown_scene_is_refused_in_a_sentence(load: Load) -> None:
+    with pytest.raises(SceneError, match="no scene file 'meadwo'; did you mean 'meadow'"):
+        load("meadwo")
+
+
+GOOD = np.eye(4)
+BAD: list[tuple[object, str]] = [
+    (np.eye(3), r"must have 4 x 4 finite numbers, not \(3, 3\)$"),
+    (np.full((4, 4), np.nan), r"must have 4 x 4 finite numbers, not \(4, 4\)$"),
+    (None, "must have 4 x 4 finite numbers"),
+    (list(range(15)), r"must have 4 x 4 finite numbers, not \(15,\)$"),
+    (np.zeros((4, 4)), "has no inverse$"),
+]
+
+
+@pytest.mark.parametrize(("matrix", "sentence"), BAD)
+def test_a_bad_matrix_is_refused_in_a_sentence_that_names_it(prairie: Prairie, matrix: object, sentence: str) -> None:
+    with pytest.raises(ValueError, match=f"^the view matrix {sentence}"):
+        prairie.draw(matrix, GOOD)
+    with pytest.raises(ValueError, match=f"^the projection matrix {sentence}"):
+        prairie.draw(GOOD, matrix)
+    assert prairie.painter is None
+
+
+@pytest.mark.parametrize("places", [[1.0, 2.0, 3.0], [[1.0, 2.0, 3.0]] * 4, 7.0, [[np.nan, 0.0]]])
+def test_places_that_are_no_pairs_are_refused_in_a_sentence(prairie: Prairie, places: object) -> None:
+    for ask in (prairie.height_at, prairie.wind_at):
+        with pytest.raises(ValueError, match=r"^ground positions are finite \(x, z\) pairs"):
+            ask(places)  # type: ignore[arg-type]
+
+
+def test_d2_released_a_prairie_leaves_the_world_as_it_was(world: World, load: Load) -> None:
+    theirs = [esper.create_entity("a game's own"), esper.create_entity(3)]
+    prairie = load()
+    prairie.add(Blast())
+    assert len(list(esper.get_entities())) == 2 + 3
+    prairie.release()
+    assert sorted(esper.get_entities()) == theirs
+    assert len(world) == 0
