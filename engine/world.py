@@ -1,10 +1,13 @@
 """The entities of one prairie, inside whatever esper world is current: the only module that imports esper."""
 
 from typing import TypeVar
+from weakref import WeakSet
 
 import esper
 
 Component = TypeVar("Component")
+
+_worlds: WeakSet["World"] = WeakSet()
 
 
 class World:
@@ -18,6 +21,7 @@ class World:
     def __init__(self) -> None:
         self.name = esper.current_world
         self._entities: set[int] = set()
+        _worlds.add(self)
 
     def create(self, *components: object) -> int:
         """Return a new entity that has `components`."""
@@ -44,12 +48,18 @@ class World:
         return esper.component_for_entity(entity, kind)
 
     def all(self, kind: type[Component]) -> list[tuple[int, Component]]:
-        """Return every entity that has a component of exactly this type, by rising entity number.
+        """Return every entity with a component of exactly this type, by rising entity number.
 
-        The order is fixed so that nothing that follows from it depends on how a set is laid out.
+        The game's own entities are among them, those of other prairies in the same world are not. The order is fixed
+        so that nothing that follows from it depends on how a set is laid out.
         """
         self._must_be_current()
-        return sorted(((entity, component) for entity, component in esper.get_component(kind)), key=lambda row: row[0])
+        others = [world for world in _worlds if world is not self and world.name == self.name]
+        found = esper.get_component(kind)
+        return sorted((row for row in found if not any(row[0] in world for world in others)), key=lambda row: row[0])
+
+    def __contains__(self, entity: object) -> bool:
+        return entity in self._entities
 
     def __len__(self) -> int:
         return len(self._entities)

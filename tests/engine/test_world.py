@@ -104,6 +104,15 @@ def test_d2_release_removes_our_entities_and_leaves_the_games_own(world: World) 
     assert esper.get_component(Grass) == []
 
 
+def test_two_prairies_in_one_world_do_not_see_each_others_entities(world: World) -> None:
+    other = World()
+    mine, others, theirs = world.create(Grass(0.5)), other.create(Grass(0.6)), esper.create_entity(Grass(0.7))
+    assert [entity for entity, _ in world.all(Grass)] == [mine, theirs]
+    assert [entity for entity, _ in other.all(Grass)] == [others, theirs]
+    other.release()
+    assert [entity for entity, _ in world.all(Grass)] == [mine, theirs]
+
+
 def test_two_prairies_in_one_world_release_each_its_own(world: World) -> None:
     other = World()
     mine, others = world.create(Grass(0.5)), other.create(Grass(0.6))
