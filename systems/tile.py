@@ -58,9 +58,9 @@ def tile(
 
     Patches that leave the window lose their entity; those that come have one with `Patch` and `Lod`.
     """
-    here = table.cell[window_rows(np.asarray(centre, np.int32)[None], side=table.side)[0]]
-    across = table.cell[window_rows(np.asarray(centre, np.int32)[None] - table.side // 2, side=table.side)[0]]
-    if (here == centre).all() and (across == centre - table.side // 2).all():
+    half = table.side // 2
+    corners = np.array([centre - half, centre - half + table.side - 1], np.int32)
+    if (table.cell[window_rows(corners, side=table.side)] == corners).all():
         return np.zeros(0, np.int32)
     cells = window_cells(centre, side=table.side)
     changed = np.flatnonzero((cells != table.cell).any(axis=1)).astype(np.int32)

@@ -4,6 +4,7 @@ import json
 import os
 import platform
 from collections.abc import Mapping
+from pathlib import Path
 
 import moderngl
 
@@ -24,7 +25,7 @@ def machine(ctx: moderngl.Context, /) -> dict[str, str | int]:
 
 def _processor() -> str:
     try:
-        with open("/proc/cpuinfo", encoding="utf-8") as lines:
+        with Path("/proc/cpuinfo").open(encoding="utf-8") as lines:
             names = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
     except OSError:
         names = []

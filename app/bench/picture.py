@@ -105,7 +105,7 @@ def bands(pictures: Pictures, quality: Quality) -> list[dict[str, object]]:
     A band's colour is the mean of its pixels in display space, where all averages of pixels are taken; its luminance
     and hue are those of the linear light of that colour.
     """
-    edges = [ring.to for ring in (*quality.blade_rings, *quality.strip_rings)]
+    edges = [ring.to for ring in quality.blade_rings] + [ring.to for ring in quality.strip_rings]
     edges += [quality.carpet_to, int(pictures.distance.max())]
     rows: list[dict[str, object]] = []
     start = 0
