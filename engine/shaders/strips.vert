@@ -11,8 +11,7 @@ uniform vec4 high_to;  // by kind: how far up
 
 out vec2 at;
 out float h;
-out float rate;
-out vec3 here;
+flat out float rate;
 flat out vec3 foot_color;
 flat out vec3 rise_color;
 flat out vec3 grain_u;
@@ -44,18 +43,19 @@ void main() {
     at = vec2((right ? u.y : u.x) * wide_to[k], t * high_to[k]);
     sheet = rest.x;
     h = spine.y / root[k].w;
-    rate = lift(message, foot);
-    here = place_tone(foot.xz);
-    hidden = haze_at(foot);
-    foot_color = root[k].rgb;
-    rise_color = tip[k].rgb - root[k].rgb;
+    vec3 middle = 0.5 * (a + b);
+    rate = lift(0.5 * (wind.xy + wind.zw), middle);
+    vec3 here = place_tone(middle.xz);
+    hidden = haze_at(middle);
+    foot_color = root[k].rgb * here;
+    rise_color = (tip[k].rgb - root[k].rgb) * here;
     float c = turn == 0.0 ? 1.0 : turn == 2.0 ? -1.0 : 0.0;
     float s = turn == 1.0 ? 1.0 : turn == 3.0 ? -1.0 : 0.0;
     grain_u = c * grain_x[k].rgb + s * grain_z[k].rgb;
     grain_v = c * grain_z[k].rgb - s * grain_x[k].rgb;
     shown = rest.w;
     // A line of sight that meets strips at an angle crosses fewer of them on the same way through the grass.
-    vec2 run = normalize(b.xz - a.xz), sight = normalize(0.5 * (a.xz + b.xz) - eye.xz);
+    vec2 run = normalize(b.xz - a.xz), sight = normalize(middle.xz - eye.xz);
     boost = mix(1.0, 1.0 / max(abs(run.x * sight.y - run.y * sight.x), 0.6), 0.7);
 #ifdef THIN
     grows = textureLod(density, on_map(foot.xz), 0.0)[k];
