@@ -4,11 +4,14 @@ import os
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass, field
 from time import perf_counter
 
 import moderngl
 import numpy as np
+from numpy.typing import ArrayLike
 
+from ...systems.draw.blades import BladePainter
 from ...systems.draw.painter import view_of
 from ...systems.growth.models import precompute_bytes
 from ...systems.prairie import Prairie
@@ -64,6 +67,17 @@ def _first_frame(take: Take) -> float:
         return 1000.0 * (perf_counter() - start)
 
 
+@dataclass(slots=True)
+class _Samples:
+    """Times of every frame measured [ms]."""
+
+    frame: list[float] = field(default_factory=list)
+    draw: list[float] = field(default_factory=list)
+    systems: dict[str, list[float]] = field(default_factory=dict)
+    all_3d: list[float] = field(default_factory=list)
+    floor: list[float] = field(default_factory=list)
+
+
 def _timed(ctx: moderngl.Context, work: Callable[[], object]) -> float:
     ctx.finish()
     start = perf_counter()
@@ -72,59 +86,59 @@ def _timed(ctx: moderngl.Context, work: Callable[[], object]) -> float:
     return 1000.0 * (perf_counter() - start)
 
 
-def _measure(studio: Studio, take: Take, first: dict[str, float]) -> dict[str, object]:
-    prairie, ctx = studio.prairie, studio.ctx
+def _sample(studio: Studio) -> _Samples:
+    """Draw the frames, and now and then every blade in one draw, and the floor: all from the same place."""
+    prairie, ctx, samples = studio.prairie, studio.ctx, _Samples()
     view, projection = studio.matrices(studio.camera(None))
-    frame: list[float] = []
-    draw: list[float] = []
-    systems: dict[str, list[float]] = {}
+    seen = view_of(view, projection)
 
-    def one() -> None:
+    def frame() -> None:
         studio.begin()
         prairie.draw(view, projection)
 
     for _ in range(WARM_UP):
-        one()
+        frame()
         prairie.advance(STEP)
     every = EveryBlade(prairie)
     stand_all(prairie, terrain_cells(prairie.field), every.blades)
-    seen = view_of(view, projection)
 
-    def all_blades() -> None:
-        studio.begin()
-        every.painter.draw(seen, time=prairie.time, blades=[every.blades])
+    def only(blades: list[BladePainter]) -> float:
+        def draw() -> None:
+            studio.begin()
+            every.painter.draw(seen, time=prairie.time, blades=blades)
 
-    def floor() -> None:
-        studio.begin()
-        every.painter.draw(seen, time=prairie.time, blades=[])
+        return _timed(ctx, draw)
 
-    all_3d, floors = [_timed(ctx, all_blades)], [_timed(ctx, floor)]
+    only([every.blades])
     for number in counted(range(FRAMES), total=FRAMES, doing="frames"):
         prairie.advance(STEP)
-        frame.append(_timed(ctx, one))
-        draw.append(prairie.statistics.draw_ms)
+        samples.frame.append(_timed(ctx, frame))
+        samples.draw.append(prairie.statistics.draw_ms)
         for name, milliseconds in prairie.statistics.systems_ms.items():
-            systems.setdefault(name, []).append(milliseconds)
+            samples.systems.setdefault(name, []).append(milliseconds)
         if number % EVERY == EVERY - 1:
-            all_3d.append(_timed(ctx, all_blades))
-            floors.append(_timed(ctx, floor))
+            samples.all_3d.append(only([every.blades]))
+            samples.floor.append(only([]))
     every.release()
-    totals = np.sum(list(systems.values()), axis=0)
-    p50, p95, p99 = np.percentile(frame, [50, 95, 99])
-    stats, field = prairie.statistics, prairie.field
-    kinds = zip(prairie.scene.grass, field.growths, strict=True)
+    return samples
+
+
+def _measure(studio: Studio, take: Take, first: dict[str, float]) -> dict[str, object]:
+    samples, prairie = _sample(studio), studio.prairie
+    stats, kinds = prairie.statistics, zip(prairie.scene.grass, prairie.field.growths, strict=True)
     grown = {name: round(precompute_bytes(growth) / 1e6, 2) for name, growth in kinds}
-    baseline = float(np.median(all_3d[1:]))
+    p50, p95, p99 = np.percentile(samples.frame, [50, 95, 99]).tolist()
+    all_3d = float(np.median(samples.all_3d))
     return {
-        "machine": machine(ctx),
+        "machine": machine(studio.ctx),
         "scene": take.scene,
-        "preset": take.preset or _own_preset(prairie),
+        "preset": take.preset or own_preset(prairie),
         "size": list(take.size),
         "frames": FRAMES,
         "frame_ms": {"p50": _ms(p50), "p95": _ms(p95), "p99": _ms(p99)},
-        "draw_ms": _ms(np.median(draw)),
-        "systems_ms": {name: _ms(np.median(rows)) for name, rows in systems.items()},
-        "systems_total_ms": _ms(np.median(totals)),
+        "draw_ms": _median(samples.draw),
+        "systems_ms": {name: _median(rows) for name, rows in samples.systems.items()},
+        "systems_total_ms": _median(np.sum(list(samples.systems.values()), axis=0)),
         "blades": {
             "field": stats.blades_field,
             "considered": stats.blades_considered,
@@ -132,9 +146,9 @@ def _measure(studio: Studio, take: Take, first: dict[str, float]) -> dict[str, o
         },
         "receivers": stats.receivers,
         "draw_calls": stats.draw_calls,
-        "all_3d_ms": _ms(baseline),
-        "ratio_to_all_3d": round(baseline / float(p50), 2),
-        "floor_ms": _ms(np.median(floors)),
+        "all_3d_ms": _ms(all_3d),
+        "ratio_to_all_3d": round(all_3d / p50, 2),
+        "floor_ms": _median(samples.floor),
         "precompute_mb": round(sum(grown.values()), 2),
         "precompute_mb_by_kind": grown,
         "first_frame_ms": {name: _ms(value) for name, value in first.items()},
@@ -142,10 +156,15 @@ def _measure(studio: Studio, take: Take, first: dict[str, float]) -> dict[str, o
     }
 
 
-def _own_preset(prairie: Prairie) -> str:
+def own_preset(prairie: Prairie) -> str:
+    """Return the name of the quality that a scene asks for itself."""
     quality = prairie.scene.quality
     return quality if isinstance(quality, str) else "custom"
 
 
-def _ms(value: float | np.floating) -> float:
-    return round(float(value), 3)
+def _median(values: ArrayLike) -> float:
+    return _ms(float(np.median(values)))
+
+
+def _ms(value: float) -> float:
+    return round(value, 3)

@@ -7,12 +7,12 @@ from numpy.typing import NDArray
 
 from ...components.quality import Quality, Representation
 from ...systems.draw.painter import view_of
-from ...systems.prairie import Prairie
 from ...systems.reference import EveryBlade, draw_reference, patch_distances, seen_cells
 from ..encode import Picture
 from ..progress import busy
 from ..studio import Studio
 from ..take import SAMPLES, Take
+from .frame import own_preset
 from .machine import machine, tell
 
 MOMENT = 2.0
@@ -43,16 +43,11 @@ def bench_picture(scene: str, *, preset: str | None, size: tuple[int, int], json
     with busy("drawing every blade"):
         with Studio(take) as studio:
             pictures = _draw(studio)
-            head = {"machine": machine(studio.ctx), "scene": scene, "preset": _preset(studio.prairie, take)}
+            head = {"machine": machine(studio.ctx), "scene": scene, "preset": preset or own_preset(studio.prairie)}
             quality = studio.prairie.field.quality
         result = {**head, "size": list(size), "frames": 1, **compare(pictures, quality)}
     tell(result, as_json=json)
     return 0
-
-
-def _preset(prairie: Prairie, take: Take) -> str:
-    own = prairie.scene.quality
-    return take.preset or (own if isinstance(own, str) else "custom")
 
 
 def _draw(studio: Studio) -> Pictures:
