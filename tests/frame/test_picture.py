@@ -193,6 +193,21 @@ def test_t2_a_banked_camera_sees_grass_in_all_its_corners(stage: Stage, load: Lo
         assert min(float(corner.mean()) for corner in corners) > 12.0
 
 
+def test_t5_strips_look_the_same_in_many_draws_as_in_few(stage: Stage, load: Load, camera: Aim) -> None:
+    prairie = load(PURPLE, lod="strips")
+    aim = camera(0.7, 1.7, 20, pitch=-5)
+    picture, painter = stage.shot(prairie, aim), prairie.painter
+    assert painter is not None
+    few = list(painter.runs)
+    painter.runs = [
+        (ring, first + start, min(7, count - start)) for ring, first, count in few for start in range(0, count, 7)
+    ]
+    stage.target.clear(depth=1.0)
+    painter.draw(view_of(*stage.matrices(aim)), time=prairie.time)
+    assert len(painter.runs) > 4 * len(few)
+    np.testing.assert_array_equal(stage.read(), picture)
+
+
 def test_statistics_tell_what_was_drawn(stage: Stage, load: Load) -> None:
     prairie = load()
     stage.shot(prairie)
