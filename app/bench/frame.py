@@ -2,14 +2,14 @@
 
 import os
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from time import perf_counter
 
 import moderngl
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import NDArray
 
 from ...systems.draw.blades import BladePainter
 from ...systems.draw.painter import view_of
@@ -162,7 +162,7 @@ def own_preset(prairie: Prairie) -> str:
     return quality if isinstance(quality, str) else "custom"
 
 
-def _median(values: ArrayLike) -> float:
+def _median(values: Sequence[float] | NDArray[np.float64]) -> float:
     return _ms(float(np.median(values)))
 
 
