@@ -30,7 +30,7 @@ quality:
   carpet: 32
 """
 STEP = 0.05
-BEFORE, BEHIND = 20.001, 19.999
+BEFORE, BEHIND = 20.0001, 19.9999
 """On either side of a border between patches, at z = 20 m."""
 
 
