@@ -90,6 +90,7 @@ class Prairie:
         self._drawn_at: float | None = None
         self._receivers = ReceiverEntities(self.world, self.field)
         self._blown = 0.0
+        self._released = False
         self._blades: list[Shown] = []
         self._strips: list[Shown] = []
         self._schedule = self._systems()
@@ -126,8 +127,11 @@ class Prairie:
     def draw(self, view: object, projection: object) -> None:
         """Draw the prairie into the framebuffer that is bound, and leave the host's GL state as it was.
 
-        Both matrices are 4x4 numpy arrays for column vectors, or `pyglet.math.Mat4`.
+        Both matrices are 4x4 numpy arrays for column vectors, or `pyglet.math.Mat4`. Raises ValueError for others, and
+        RuntimeError after `release`.
         """
+        if self._released:
+            raise RuntimeError("this prairie has been released: load it again to draw it")
         seen = view_of(view, projection)
         if self.painter is None:
             self.painter = Painter(host_context(self._ctx), self.field)
@@ -169,6 +173,7 @@ class Prairie:
 
     def release(self) -> None:
         """Give back everything: GL objects and entities. The prairie cannot be drawn afterwards."""
+        self._released = True
         if self.painter is not None:
             self.painter.release()
             self.painter = None

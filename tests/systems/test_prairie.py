@@ -209,3 +209,9 @@ def test_d2_released_a_prairie_leaves_the_world_as_it_was(world: World, load: Lo
     prairie.release()
     assert sorted(esper.get_entities()) == theirs
     assert len(world) == 0
+
+
+def test_a_released_prairie_says_so_when_it_is_drawn(prairie: Prairie) -> None:
+    prairie.release()
+    with pytest.raises(RuntimeError, match="released"):
+        prairie.draw(np.eye(4), np.eye(4))
