@@ -19,7 +19,8 @@ class TerrainSource(Declaration):
     heights: str | None = None
     """Elevation map file, relative to the scene file: 16-bit grey .png, .r16 or .raw, .npy, or .tif (GeoTIFF too).
 
-    Cells longer than 2.5 m are divided by a smooth surface; a map wider than 10240 m is cut to its middle."""
+    Cells longer than 2.5 m are divided by a smooth surface; a map wider than 10240 m is cut to its middle. What says
+    how noise looks, `seed` and `feature`, may stay beside it and has no effect."""
 
     noise: Literal["flat", "rolling", "hills", "ridges"] | None = None
     """A landscape made from noise instead of a file; without either, the ground is flat."""
@@ -28,7 +29,8 @@ class TerrainSource(Declaration):
     """Seed of the noise."""
 
     size: Pair | None = None
-    """Width (x) and depth (z) of a noise landscape [m]; without it 200 by 200."""
+    """Width (x) and depth (z) [m]: of a noise landscape, without it 200 by 200; of a file, whose middle it keeps,
+    without it all there is."""
 
     feature: float | None = Field(None, ge=2.0, le=5000.0)
     """Distance between neighbouring hills of a noise landscape [m]; without it 60 for rolling, 90 for hills, 160 for
@@ -60,8 +62,6 @@ class TerrainSource(Declaration):
             raise DeclarationError("give either heights (a file) or noise, not both", "noise")
         if self.size is not None and not all(5.0 <= side <= 10240.0 for side in self.size):
             raise DeclarationError("size must be [width, depth] in metres, between 5 and 10240", "size")
-        if self.size is not None and self.heights is not None:
-            raise DeclarationError("size is for noise; a file is as wide as its cells times cell", "size")
         finest = max(self.size or [200.0]) / 1024
         if self.feature is not None and self.heights is None and self.feature < finest:
             raise DeclarationError(f"feature must be at least {finest:.3g} m on ground this wide", "feature")

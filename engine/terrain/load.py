@@ -43,9 +43,9 @@ _log = getLogger(__name__)
 def load_terrain(source: TerrainSource, folder: Path, /) -> Terrain:
     """Return the terrain that a scene in `folder` declares.
 
-    Cells longer than 2.5 m are divided by a smooth surface through their corners, and a map wider than 10240 m is
-    cut to its middle. Voids that an elevation model marks are filled from around them. Raises `MapError` where the
-    file cannot be used.
+    Cells longer than 2.5 m are divided by a smooth surface through their corners, and a map wider than the scene's
+    size, or than 10240 m, is cut to its middle. Voids that an elevation model marks are filled from around them.
+    Raises `MapError` where the file cannot be used.
     """
     if source.heights is None:
         return _noise(source)
@@ -54,7 +54,7 @@ def load_terrain(source: TerrainSource, folder: Path, /) -> Terrain:
     heights = _metres(path, elevation, source)
     if source.flip:
         heights = heights[::-1]
-    return _spread(path, heights, elevation.cell or (source.cell, source.cell))
+    return _spread(path, heights, elevation.cell or (source.cell, source.cell), source.size)
 
 
 def _metres(path: Path, elevation: Elevation, source: TerrainSource) -> Floats:
@@ -92,15 +92,15 @@ def _check_finite(path: Path, values: NDArray[Any], void: NDArray[np.bool_] | No
         raise MapError(path, f"{count} {cells}, the first at row {row}, column {column}, counted from 0")
 
 
-def _spread(path: Path, heights: Floats, cells: tuple[float, float]) -> Terrain:
-    """Return the terrain of `heights` whose cells are `cells` long in x and z [m]."""
+def _spread(path: Path, heights: Floats, cells: tuple[float, float], wanted: list[float] | None) -> Terrain:
+    """Return the terrain of `heights` whose cells are `cells` long in x and z [m], or its middle of a `wanted` size."""
     counts = heights.shape[::-1]
     size = [(count - 1) * cell for count, cell in zip(counts, cells, strict=True)]
     if min(size) < NARROWEST:
         raise MapError(path, f"it is only {size[0]:.3g} by {size[1]:.3g} m; give a larger cell, in metres")
-    if max(size) > WIDEST * 1.0001:
+    if wanted is None and max(size) > WIDEST * 1.0001:
         _log.warning("%s is %.0f by %.0f m; only its middle %.0f m are used", path.name, *size, WIDEST)
-    sides = [min(side, WIDEST) for side in size]
+    sides = [min(side, most) for side, most in zip(size, wanted or (WIDEST, WIDEST), strict=True)]
     cell = min(cells)
     cell = max(cell / ceil(cell / SMOOTH - 1e-6), max(sides) / (SIDE - 1))
     columns, rows = (

@@ -134,6 +134,25 @@ def test_a_map_wider_than_ten_kilometres_is_cut_to_its_middle_and_says_so(
     np.testing.assert_allclose(height_at(terrain, middle), [metres[100, 300], metres[99, 299]], atol=0.05)
 
 
+@pytest.mark.parametrize("size", [[240.0, 180.0], [90.0, 5000.0]])
+def test_a_size_keeps_the_middle_of_a_map_and_no_more_than_there_is(
+    size: list[float], tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    metres = hills(200, 600, 30.0)
+    path = save(tmp_path / "wide.npy", metres)
+    with caplog.at_level(logging.WARNING):
+        terrain = load(path, cell=30.0, size=size)
+    assert caplog.messages == []
+    assert terrain.size == pytest.approx((min(size[0], 17970.0), min(size[1], 5970.0)), abs=2.5)
+    middle = np.array([[15.0, 15.0], [-15.0, -45.0]], np.float32)
+    np.testing.assert_allclose(height_at(terrain, middle), [metres[100, 300], metres[98, 299]], atol=0.05)
+
+
+def test_what_only_noise_needs_may_stay_beside_a_file(tmp_path: Path) -> None:
+    path = save(tmp_path / "map.npy", hills(20, 20, 30.0))
+    np.testing.assert_array_equal(load(path, seed=3, feature=2.5).heights, load(path).heights)
+
+
 def test_more_samples_than_are_kept_are_shrunk_without_moving_the_ground(tmp_path: Path) -> None:
     slope = np.linspace(0, 100, 6001, dtype=np.float32)[None, :].repeat(40, axis=0)
     terrain = load(save(tmp_path / "long.npy", slope), cell=0.5)

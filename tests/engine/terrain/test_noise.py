@@ -129,8 +129,3 @@ def test_hills_too_small_for_ground_this_wide_are_refused_with_the_smallest() ->
     with pytest.raises(ValidationError, match=r"feature must be at least 10 m on ground this wide"):
         noise("hills", feature=3.0, size=[10240.0, 10240.0])
     noise("hills", feature=10.0, size=[10240.0, 10240.0])
-
-
-def test_a_size_is_refused_beside_a_file() -> None:
-    with pytest.raises(ValidationError, match="size is for noise"):
-        TerrainSource(heights="map.tif", size=[100.0, 100.0])
