@@ -85,4 +85,7 @@ void main() {
 #endif
     veiled = haze_at(place);
     gl_Position = clip * vec4(place, 1.0);
+#ifdef UNDER
+    gl_Position.z += 1e-6 * gl_Position.w;  // kilometres away depths are too coarse to part the two layers
+#endif
 }
