@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
 from pathlib import Path
+from tempfile import TemporaryFile
 from types import ModuleType
 
 import numpy as np
@@ -109,8 +110,11 @@ def _make_folder(folder: Path) -> None:
         raise InputError(f"-o: {error.filename}: is a file, not a folder") from None
     except OSError as error:
         raise InputError(f"-o: {error.filename}: {error.strerror}") from None
-    if not os.access(folder, os.W_OK):
-        raise InputError(f"-o: {folder}: this folder cannot be written to")
+    try:
+        with TemporaryFile(dir=folder):
+            pass
+    except OSError:
+        raise InputError(f"-o: {folder}: this folder cannot be written to") from None
 
 
 def _make_room(path: Path) -> None:

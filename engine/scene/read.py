@@ -65,12 +65,12 @@ def _path(scene: str | Path) -> Path:
     path = Path(scene)
     if S_ISREG(_mode(path)):
         return path
+    if S_ISDIR(_mode(path)):
+        raise _no_file(text, "this is a folder, not a scene file")
     if is_name:
         near = get_close_matches(text, bundled, n=1)
         guess = f"; did you mean '{near[0]}'?" if near else ";"
         raise _no_file(text, f"no scene file '{text}'{guess} bundled: {', '.join(bundled)}")
-    if S_ISDIR(_mode(path)):
-        raise _no_file(text, "this is a folder, not a scene file")
     raise _no_file(text, f"no scene file '{text}'{_guess(path)}")
 
 
@@ -88,9 +88,11 @@ def _bytes(path: Path) -> bytes:
 
 def _missing_files(document: Document, folder: Path) -> Iterator[Problem]:
     for where, name in _named_files(document.root.data):
-        if not S_ISREG(_mode(folder / name)):
-            message = f"no file '{name}' relative to the scene{_guess(folder / name)}"
-            yield document.problem(where, message)
+        mode = _mode(folder / name)
+        if S_ISDIR(mode):
+            yield document.problem(where, f"'{name}' is a folder, not a map file")
+        elif not S_ISREG(mode):
+            yield document.problem(where, f"no file '{name}' relative to the scene{_guess(folder / name)}")
 
 
 def _named_files(values: object) -> Iterator[tuple[Where, str]]:

@@ -45,14 +45,17 @@ def test_a_name_that_cannot_be_printed_stops_nothing(tmp_path: Path, capsys: pyt
         ("zzz", "no scene file 'zzz'; bundled: hills, meadow, plain"),
         ("{folder}/medow.yaml", "no scene file '{folder}/medow.yaml', did you mean 'meadow.yaml'?"),
         ("{folder}", "this is a folder, not a scene file"),
+        ("hollow", "this is a folder, not a scene file"),
         ("{folder}/latin.yaml", "byte 0xe9 is not UTF-8; save the file as UTF-8"),
         ("{folder}/" + "a" * 300 + ".yaml", "no scene file"),
     ],
 )
 def test_what_is_no_scene_file_is_one_line(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], scene: str, told: str
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, scene: str, told: str
 ) -> None:
     (tmp_path / "meadow.yaml").write_text(GOOD)
+    monkeypatch.chdir(tmp_path)
+    Path("hollow").mkdir()
     (tmp_path / "latin.yaml").write_bytes(b"\xe9")
     scene = scene.format(folder=tmp_path)
     assert check([scene]) == 2

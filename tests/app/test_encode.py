@@ -138,6 +138,12 @@ def test_where_a_picture_cannot_go_is_told_before_it_is_drawn(tmp_path: Path, na
         picture_writer(str(tmp_path / name))
 
 
+@pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="a folder is needed that not even root can write to")
+def test_a_folder_that_cannot_be_written_to_is_told_before_anything_is_drawn() -> None:
+    with pytest.raises(InputError, match=r"^-o: /proc/self: this folder cannot be written to$"):
+        picture_writer("/proc/self/a.png")
+
+
 def test_without_ffmpeg_an_mp4_says_what_installs_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
     with pytest.raises(MachineError, match=r"pip install 'tallgrass\[video\]'"):
