@@ -4,6 +4,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from . import scenes
     from .components.wind import WindPrimitive
     from .engine.plugins import wind
     from .engine.scene import SceneError
@@ -11,7 +12,7 @@ if TYPE_CHECKING:
 
 __version__ = "0.1.0"
 
-__all__ = ["Prairie", "SceneError", "WindPrimitive", "wind"]
+__all__ = ["Prairie", "SceneError", "WindPrimitive", "scenes", "wind"]
 
 _HOMES = {
     "Prairie": ".systems.prairie",
@@ -23,6 +24,8 @@ _HOMES = {
 
 def __getattr__(name: str) -> object:
     """Load a public name when it is first asked for, so that a command line's help needs no graphics."""
+    if name == "scenes":
+        return import_module(".scenes", __name__)
     if name not in _HOMES:
         raise AttributeError(f"module 'tallgrass' has no attribute '{name}'")
     return getattr(import_module(_HOMES[name], __name__), name)

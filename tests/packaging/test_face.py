@@ -1,0 +1,34 @@
+"""The face of the library: what other people's programs import."""
+
+import subprocess
+import sys
+
+import pytest
+
+import tallgrass
+from tallgrass.components.wind import WindPrimitive
+from tallgrass.engine.plugins import wind
+from tallgrass.engine.scene import SceneError
+from tallgrass.systems.prairie import Prairie
+
+pytestmark = pytest.mark.packaging
+
+
+def test_the_face_shows_what_programs_are_written_with() -> None:
+    assert set(tallgrass.__all__) == {"Prairie", "SceneError", "WindPrimitive", "scenes", "wind"}
+    assert (tallgrass.Prairie, tallgrass.SceneError) == (Prairie, SceneError)
+    assert (tallgrass.WindPrimitive, tallgrass.wind) == (WindPrimitive, wind)
+    methods = {"load", "advance", "draw", "wind_at", "height_at", "add", "release"}
+    assert methods <= set(dir(tallgrass.Prairie))
+
+
+def test_every_name_of_the_face_is_there_right_after_the_import_and_none_loads_another() -> None:
+    program = "import sys, tallgrass; getattr(tallgrass, sys.argv[1]); print('esper' in sys.modules)"
+    for name in tallgrass.__all__:
+        done = subprocess.run([sys.executable, "-c", program, name], capture_output=True, text=True, check=True)
+        assert done.stdout.strip() == str(name == "Prairie"), name
+
+
+def test_a_name_that_is_not_there_is_refused_as_python_does() -> None:
+    with pytest.raises(AttributeError, match="module 'tallgrass' has no attribute 'Meadow'"):
+        tallgrass.Meadow  # noqa: B018 - looking it up is the test
