@@ -12,10 +12,10 @@ import typer
 
 from .. import __version__
 from ..components.camera import Camera
-from ..components.scene import PresetName
+from ..components.scene import LodName, PresetName
 from ..engine.camera import parse_camera
 from .errors import InputError, MachineError
-from .take import LARGEST, SAMPLES, LodName, Take, parse_size
+from .take import LARGEST, SAMPLES, Take, parse_size
 
 app = typer.Typer(
     help="Grow, animate and draw whole prairies in real time.",

@@ -2,10 +2,8 @@
 
 import re
 from dataclasses import dataclass
-from typing import Literal
 
-LodName = Literal["auto", "blades", "strips", "carpet"]
-"""Which representation is drawn: the one due at each distance, or one everywhere."""
+from ..components.scene import LodName
 
 LARGEST = 16384
 """Most pixels along a side of a picture."""

@@ -19,6 +19,9 @@ FORMAT = 1
 
 PresetName = Literal["low", "medium", "high", "ultra", "paper-low", "paper-medium", "paper-high"]
 
+LodName = Literal["auto", "blades", "strips", "carpet"]
+"""Which representation is drawn: the one due at each distance, or one of them everywhere."""
+
 
 class Reading(TypedDict):
     """The validation context that a scene's winds need: `Scene.model_validate(data, context=Reading(wind=...))`."""

@@ -4,14 +4,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from time import perf_counter
-from typing import Literal, get_args
+from typing import get_args
 
 import moderngl
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..components.quality import PRESETS, Representation
-from ..components.scene import Scene
+from ..components.scene import LodName, Scene
 from ..components.wind import WindPrimitive, WindSource
 from ..engine.gl.guest import host_context
 from ..engine.phases import Phase, Schedule
@@ -29,7 +29,6 @@ from .tile import cell_of, tile
 from .wind.blow import blowing, messages
 
 Floats = NDArray[np.float32]
-Lod = Literal["auto", "blades", "strips", "carpet"]
 
 LEAP = 2.0
 """A viewer who moves more than this in one frame has jumped [patch sides]."""
@@ -67,7 +66,12 @@ class Prairie:
     """A prairie in the current esper world: grown at once, drawn once there is a GL context."""
 
     def __init__(
-        self, loaded: LoadedScene, *, ctx: moderngl.Context | None = None, preset: str | None = None, lod: Lod = "auto"
+        self,
+        loaded: LoadedScene,
+        *,
+        ctx: moderngl.Context | None = None,
+        preset: str | None = None,
+        lod: LodName = "auto",
     ) -> None:
         scene = loaded.scene
         quality = scene.numbers(preset)
@@ -78,7 +82,7 @@ class Prairie:
         self.scene: Scene = scene
         self.path = loaded.path
         self.time = 0.0
-        self.lod: Lod = lod
+        self.lod: LodName = lod
         self.statistics = Statistics()
         self.field: Field = lay_out(scene, quality, terrain, density, growths, lod=lod)
         self.world = World()
@@ -99,7 +103,7 @@ class Prairie:
 
     @classmethod
     def load(
-        cls, scene: str | Path, *, ctx: moderngl.Context | None = None, preset: str | None = None, lod: Lod = "auto"
+        cls, scene: str | Path, *, ctx: moderngl.Context | None = None, preset: str | None = None, lod: LodName = "auto"
     ) -> "Prairie":
         """Return the prairie of a scene file, or of a bundled scene by its name.
 
@@ -109,8 +113,8 @@ class Prairie:
         """
         if preset is not None and preset not in PRESETS:
             raise ValueError(f"unknown preset '{preset}'; there are {', '.join(PRESETS)}")
-        if lod not in get_args(Lod):
-            raise ValueError(f"unknown representation '{lod}'; there are {', '.join(get_args(Lod))}")
+        if lod not in get_args(LodName):
+            raise ValueError(f"unknown representation '{lod}'; there are {', '.join(get_args(LodName))}")
         return cls(read_scene(scene), ctx=ctx, preset=preset, lod=lod)
 
     def reseeded(self, seed: int) -> "Prairie":
@@ -144,7 +148,7 @@ class Prairie:
         self._drawn_at = self.time
         self._schedule.run()
         start = perf_counter()
-        self.painter.draw(seen, time=self.time)
+        self.painter.draw(seen)
         self._count(1000.0 * (perf_counter() - start))
 
     def height_at(self, xz: ArrayLike) -> Floats:
