@@ -11,7 +11,7 @@ class Place(Declaration):
     """Where a kind grows: one channel of a density map laid over the whole terrain."""
 
     map: str = Field(min_length=1)
-    """Image file with 8-bit channels, relative to the scene file; 0 is no grass, 255 is full density."""
+    """Picture file, relative to the scene file: in a channel 0 is no grass, its largest number is full density."""
 
     channel: Literal["red", "green", "blue", "alpha"] = "red"
     """The channel that holds this kind's density."""

@@ -18,7 +18,7 @@ class Representation(IntEnum):
     """2.5D: vertical strips with the blades painted on them."""
 
     CARPET = 2
-    """2D: a texture on the terrain, raised to mid-height."""
+    """2D: a textured carpet on the terrain, raised to a part of the grass's height."""
 
 
 class BladeRing(Declaration):

@@ -1,4 +1,4 @@
-"""Receiving: patches that feel wind are planted, their receivers hear the primitives, and what is seen is gathered.
+"""Receiving: patches that are shown are planted, and their receivers hear the primitives.
 
 A `Shown` record names the patches drawn in one representation this frame; everything below works on all of them at
 once, in a few numpy passes.

@@ -74,7 +74,7 @@ class EveryBlade:
     def draw(self, view: View, cells: Ints) -> None:
         """Draw sky, ground and all blades of `cells` (n, 2) into the framebuffer that is bound."""
         self.painter.write_ground(carpet=False)
-        self.painter.draw(view, time=self.prairie.time, blades=self._chunks(cells))
+        self.painter.draw(view, blades=self._chunks(cells))
 
     def _chunks(self, cells: Ints) -> Iterator[BladePainter]:
         for start in range(0, len(cells), CHUNK):
@@ -101,7 +101,7 @@ def patch_distances(prairie: Prairie, view: object, projection: object, size: tu
     try:
         target.use()
         target.clear(depth=1.0)
-        every.draw_carpet_everywhere(seen, time=prairie.time)
+        every.draw_carpet_everywhere(seen)
         fine = np.frombuffer(depth.read(alignment=1), np.float32).reshape(height, width)[::-1]
     finally:
         host.use()

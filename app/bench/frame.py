@@ -105,7 +105,7 @@ def _sample(studio: Studio) -> _Samples:
     def only(blades: list[BladePainter]) -> float:
         def draw() -> None:
             studio.begin()
-            every.painter.draw(seen, time=prairie.time, blades=blades)
+            every.painter.draw(seen, blades=blades)
 
         return _timed(ctx, draw)
 

@@ -63,14 +63,14 @@ def frame_record(scene: Scene, growths: list[Growth], terrain: Terrain, patch: f
     return record
 
 
-def aim(record: NDArray[np.void], view: View, size: tuple[int, int], /, *, time: float) -> None:
-    """Write the frame's matrices, eye, time and picture size [pixels] into the block."""
+def aim(record: NDArray[np.void], view: View, size: tuple[int, int], /) -> None:
+    """Write the frame's matrices, eye and picture size [pixels] into the block."""
     clip = view.projection.astype(np.float64) @ view.view.astype(np.float64)
     row = record[0]
     row["clip"] = clip.T.reshape(16)
     row["unclip"] = np.linalg.inv(clip).T.reshape(16)
-    row["screen"][:3] = size[0] / 2, size[1] / 2, size[1] / 2 * view.projection[1, 1]
-    row["eye"] = (*eye_of(view), time)
+    row["screen"][:2] = size[0] / 2, size[1] / 2
+    row["eye"][:3] = eye_of(view)
 
 
 class FrameBlock:

@@ -1,4 +1,4 @@
-"""Drawing a whole frame: sky, ground and carpet, strips, blades, from back to front."""
+"""Drawing a whole frame: ground, sky and carpet, then strips and blades from far to near."""
 
 from collections.abc import Iterable
 
@@ -91,14 +91,14 @@ class Painter:
             counts.append(count)
         self.runs = runs(shown, counts)
 
-    def draw_carpet_everywhere(self, view: View, *, time: float) -> None:
-        """Draw nothing but the carpet at mid-height over the whole terrain, into the framebuffer that is bound."""
+    def draw_carpet_everywhere(self, view: View) -> None:
+        """Draw the carpet everywhere, at half the height of the grass, into the framebuffer that is bound."""
         field = self.field
         tiles = ground_tiles(field.terrain, field.sight.eye, field.sight.cone, spacing=self.spacing)
         self.ground.write(tiles, np.ones(len(tiles), np.bool_))
         self.ground.write_shares(np.ones(len(field.table.progress), np.float32), field.sight.centre)
         self.ground.raise_carpet(0.5)
-        self.draw(view, time=time, blades=[])
+        self.draw(view, blades=[])
         self.ground.raise_carpet(RAISED)
 
     def write_ground(self, *, carpet: bool, blown: float = 0.0) -> None:
@@ -110,14 +110,14 @@ class Painter:
         self.ground.write(tiles, ~near if carpet else np.zeros_like(near))
         self.ground.write_shares(carpet_shares(field), sight.centre)
 
-    def draw(self, view: View, *, time: float, blades: Iterable[BladePainter] | None = None) -> None:
+    def draw(self, view: View, *, blades: Iterable[BladePainter] | None = None) -> None:
         """Draw the frame into the framebuffer that the host has bound.
 
         With `blades`, these alone stand on the ground: no strips and no carpet.
         """
         ctx = self.ctx
         with guest(ctx) as target:
-            aim(self.record, view, target.viewport[2:], time=time)
+            aim(self.record, view, target.viewport[2:])
             self.block.write(self.record)
             for name, texture in self.textures.items():
                 texture.use(UNITS[name])

@@ -32,12 +32,6 @@ def strip_stock(growths: list[Growth], ring: int) -> list[list[Strips]]:
     return [[model.strips[ring] for model in growth.models] for growth in growths]
 
 
-def first_layers(stock: list[list[Strips]]) -> list[int]:
-    """Return where each kind's layers start in a ring's texture array."""
-    counts = [len(models) * 2 * len(models[0].plane) for models in stock]
-    return [sum(counts[:index]) for index in range(len(counts))]
-
-
 def strip_textures(
     ctx: moderngl.Context, stock: list[list[Strips]]
 ) -> tuple[moderngl.TextureArray, moderngl.TextureArray]:

@@ -54,7 +54,8 @@ def meadow(folder: Path, old: str, new: str) -> Path:
 
 
 def grey(values: NDArray[np.float32]) -> NDArray[np.uint16]:
-    return np.round((values - values.min()) / np.ptp(values) * 65535).astype(np.uint16)
+    grey_levels: NDArray[np.uint16] = np.round((values - values.min()) / np.ptp(values) * 65535).astype(np.uint16)
+    return grey_levels
 
 
 @pytest.mark.parametrize(
