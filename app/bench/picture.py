@@ -1,6 +1,8 @@
 """`tallgrass bench picture`: how true a picture is to every blade in 3D, supersampled."""
 
+import importlib
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,6 +11,7 @@ from ...components.quality import Quality, Representation
 from ...systems.draw.painter import view_of
 from ...systems.reference import EveryBlade, draw_reference, patch_distances, seen_cells
 from ..encode import Picture
+from ..errors import MachineError
 from ..progress import busy
 from ..studio import Studio
 from ..take import SAMPLES, Take
@@ -38,7 +41,11 @@ class Pictures:
 
 
 def bench_picture(scene: str, *, preset: str | None, size: tuple[int, int], json: bool) -> int:
-    """Compare a scene's picture with its reference, print the figures, and return the exit status."""
+    """Compare a scene's picture with its reference, print the figures, and return the exit status.
+
+    Raises MachineError, before anything is drawn, where pictures cannot be compared.
+    """
+    _evaluator()
     take = Take(scene, size, preset=preset)
     with busy("drawing every blade"):
         with Studio(take) as studio:
@@ -91,12 +98,17 @@ def compare(pictures: Pictures, quality: Quality) -> dict[str, object]:
 
 def flip(picture: Picture, reference: Picture) -> float:
     """Return the mean FLIP of a picture against a reference, both (height, width, 3) sRGB bytes."""
-    import flip_evaluator
-
-    _, mean, _ = flip_evaluator.evaluate(
+    _, mean, _ = _evaluator().evaluate(
         reference.astype(np.float32) / 255.0, picture.astype(np.float32) / 255.0, "LDR", applyMagma=False
     )
     return float(mean)
+
+
+def _evaluator() -> Any:
+    try:
+        return importlib.import_module("flip_evaluator")
+    except ImportError:
+        raise MachineError("pictures are compared by flip-evaluator: pip install 'tallgrass[bench]'") from None
 
 
 def bands(pictures: Pictures, quality: Quality) -> list[dict[str, object]]:

@@ -1,6 +1,7 @@
 """The benchmarks: what other people's scripts read, and what the project promises by them."""
 
 import json
+import sys
 
 import pytest
 
@@ -42,3 +43,12 @@ def test_g1_every_representation_is_as_bright_as_its_blades(scene: str, capsys: 
     for band in told["bands"]:
         assert band["luminance_ratio"] == pytest.approx(1.0, abs=0.07), band
         assert band["hue_degrees"] < 5.0, band
+
+
+def test_without_the_evaluator_the_picture_benchmark_says_what_installs_it(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(sys.modules, "flip_evaluator", None)
+    assert run(["bench", "picture", "plain"]) == 1
+    said = "pictures are compared by flip-evaluator: pip install 'tallgrass[bench]'"
+    assert capsys.readouterr().err.strip() == said
