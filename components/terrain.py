@@ -42,7 +42,7 @@ class TerrainSource(Declaration):
     scale: float | None = Field(None, ge=-100000.0, le=100000.0)
     """Vertical scale [m]. For a map of unsigned integers the height of their whole range, without it 100; for floats
     and signed integers, which are metres, a factor, without it 1; for noise the height between the lowest and the
-    highest ground, without it 4 for rolling, 14 for hills, 30 for ridges."""
+    highest ground, without it 7 for rolling, 14 for hills, 30 for ridges."""
 
     offset: float = Field(0.0, ge=-20000.0, le=20000.0)
     """Height added to every cell [m]."""

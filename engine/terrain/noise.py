@@ -33,7 +33,7 @@ class Landscape:
 
 
 LANDSCAPES = {
-    "rolling": Landscape((1.0, 0.1), ridged=False, contrast=0.5, scale=4.0, feature=60.0),
+    "rolling": Landscape((1.0, 0.1), ridged=False, contrast=0.5, scale=7.0, feature=60.0),
     "hills": Landscape((1.0, 0.14, 0.02), ridged=False, contrast=0.5, scale=14.0, feature=90.0),
     "ridges": Landscape((1.0, 0.16, 0.02), ridged=True, contrast=0.8, scale=30.0, feature=160.0),
 }

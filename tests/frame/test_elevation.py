@@ -91,5 +91,9 @@ def test_only_the_word_noise_has_to_go_and_the_size_keeps_the_middle(name: str, 
     path = meadow(tmp_path, "noise: rolling", f"heights: {name}")
     assert check([str(path)]) == 0
     prairie = Prairie.load(path)
-    assert prairie.field.terrain.size == pytest.approx((240.0, 240.0), abs=2.5)
+    terrain = prairie.field.terrain
     prairie.release()
+    assert terrain.size == pytest.approx((240.0, 240.0), abs=2.5)
+    if name == "dem.tif":
+        middle = surveyed()[144:157, 194:207]
+        assert middle.min() - 1.0 < terrain.heights.min() < terrain.heights.max() < middle.max() + 1.0
