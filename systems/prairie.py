@@ -131,7 +131,7 @@ class Prairie:
     def draw(self, view: object, projection: object) -> None:
         """Draw the prairie into the framebuffer that is bound, and leave the host's GL state as it was.
 
-        Ground and carpet write depth; strips and blades are tested against it and write none. So a game draws its
+        Ground, carpet and the nearest blades write depth; strips and other blades only test it. So a game draws its
         own opaque things before the prairie, and its 2D after it.
 
         Both matrices are 4x4 numpy arrays for column vectors, or `pyglet.math.Mat4`. Raises ValueError for others, and

@@ -11,6 +11,12 @@ from .frame import FrameBlock, joined
 MOVED = np.dtype([("message", "2f4"), ("fade", "f4")])
 """What changes each frame about a blade: its receiver's message, and how much it shows."""
 
+LEAST = 0.004
+"""Coverage below which a pixel is not drawn."""
+
+HALF = 0.5
+"""Coverage from which a pixel of a near blade counts as hidden behind it."""
+
 ROUND = "0.35"
 """How far the face normal turns towards a blade's edges, as if it were rounded."""
 
@@ -28,6 +34,7 @@ class BladePainter:
         self, ctx: moderngl.Context, block: FrameBlock, segments: int, units: dict[str, int], *, soft: bool
     ) -> None:
         self.segments = segments
+        self.soft = soft
         defines: dict[str, str | int] = {"SEGMENTS": segments, "ROUND": ROUND, **({"SOFT": 1} if soft else {})}
         self.program = joined(ctx, block, units, "blades.vert", "blades.frag", defines)
         self.blades = Stream(ctx, SHADER_BLADE)
@@ -43,10 +50,15 @@ class BladePainter:
         self.blades.write(blades.view(SHADER_BLADE))
         self.moved.write(moved)
 
-    def draw(self) -> int:
-        """Draw what was written; return the number of draw calls."""
+    def draw(self, between: tuple[float, float] = (LEAST, 2.0)) -> int:
+        """Draw what was written; return the number of draw calls.
+
+        Of soft blades only pixels are drawn whose coverage is `between` these, the upper one not included.
+        """
         if not self.blades.count:
             return 0
+        if self.soft:
+            self.program["between"] = between
         self.array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.segments + 2, instances=self.blades.count)
         return 1
 

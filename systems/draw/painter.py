@@ -14,7 +14,7 @@ from ..field import Field
 from ..gather import gather_blades, gather_strips, runs
 from ..lod import BORDER
 from ..receive import Shown, carpet_shares
-from .blades import BladePainter
+from .blades import HALF, LEAST, BladePainter
 from .frame import FrameBlock, aim, frame_record
 from .ground import RAISED, GroundPainter, finest_spacing, ground_tiles, within
 from .strips import StripPainter
@@ -143,7 +143,13 @@ class Painter:
         self.ctx.blend_func = OVER
         target.depth_mask = False
         self.draw_calls += sum(self.strips[ring].draw(first, count) for ring, first, count in self.runs)
-        self.draw_calls += sum(painter.draw() for painter in reversed(self.blades))
+        self.draw_calls += sum(painter.draw() for painter in reversed(self.blades[1:]))
+        # Around the viewer no order is right for every direction: there blades are parted by depth, and then edged.
+        near = self.blades[0]
+        target.depth_mask = True
+        self.draw_calls += near.draw((HALF, 2.0))
+        target.depth_mask = False
+        self.draw_calls += near.draw((LEAST, HALF))
 
     def release(self) -> None:
         """Give everything back to the context."""
