@@ -147,3 +147,25 @@ def test_supersampling_is_the_mean_of_each_pixels_samples(ctx: moderngl.Context)
     np.testing.assert_allclose(coarse, expected, atol=0.51)
     target.release()
     texture.release()
+
+
+@pytest.mark.parametrize("yaw", [20, 110, 200, 290])
+def test_t5_blades_around_the_viewer_hide_one_another_as_in_the_reference(
+    stage: Stage, load: Load, camera: Aim, yaw: float
+) -> None:
+    dense = load("""\
+tallgrass: 1
+terrain: { noise: flat, size: [20, 20] }
+grass:
+  broad: { height: [0.5, 0.9], width: 0.05, root: "#102040", tip: "#ffe080", variety: 0.6 }
+quality:
+  blades: 300
+  models: 1
+  blade_rings: [{ to: 2, segments: 4 }]
+  strip_rings: [{ to: 3, strips: 2, texel: 0.03 }]
+  carpet_to: 4
+  carpet: 16
+""")
+    aim = camera(1.2, 1.3, 1.1, yaw=yaw, pitch=-35)
+    error = np.abs(stage.shot(dense, aim) - reference(stage, dense, aim)).mean()
+    assert error < 7.0
