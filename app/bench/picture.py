@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.quality import Quality, Representation
+from ...systems.draw.light import decoded
 from ...systems.draw.painter import view_of
 from ...systems.reference import EveryBlade, draw_reference, patch_distances, seen_cells
 from ..encode import Picture
@@ -124,7 +125,7 @@ def bands(pictures: Pictures, quality: Quality) -> list[dict[str, object]]:
     for number, end in enumerate(edges):
         inside = (pictures.distance >= start) & (pictures.distance <= end)
         if inside.sum() >= FEWEST:
-            drawn, true = (linear(picture[inside].mean(axis=0)) for picture in (pictures.lod, pictures.reference))
+            drawn, true = (decoded(each[inside].mean(axis=0) / 255.0) for each in (pictures.lod, pictures.reference))
             rows.append({
                 "distance": [start, end],
                 "representation": _representation(number, quality),
@@ -139,12 +140,6 @@ def _representation(number: int, quality: Quality) -> str:
     blades, strips = len(quality.blade_rings), len(quality.strip_rings)
     level = Representation((number >= blades) + (number >= blades + strips))
     return level.name.lower()
-
-
-def linear(picture: NDArray[np.floating]) -> NDArray[np.float64]:
-    """Return sRGB colours of [0, 255] as linear light in [0, 1], same shape."""
-    c = picture / 255.0
-    return np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
 
 
 def luminance(light: NDArray[np.float64]) -> float:

@@ -5,7 +5,7 @@ uniform sampler2DArray ranks;  // rank of the blade, premultiplied by coverage
 
 in vec2 at;
 in float h;
-flat in float rate;
+flat in float lifted;
 flat in vec3 foot_color;
 flat in vec3 rise_color;
 flat in vec3 grain_u;
@@ -38,7 +38,7 @@ void main() {
     texel *= min(boost, 1.0 / texel.a);
     vec2 normal = 2.0 * texel.gb / texel.a - 1.0;
     vec3 grass = foot_color * texel.a + rise_color * texel.r;
-    grass *= (1.0 + grain_u * normal.x + grain_v * normal.y) * canopy(h, rate);
+    grass *= (1.0 + grain_u * normal.x + grain_v * normal.y) * canopy(h, lifted);
 #ifdef THIN
     float stays = shown * thinned(texel.a);
 #else

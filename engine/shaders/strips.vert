@@ -11,7 +11,7 @@ uniform vec4 high_to;  // by kind: how far up
 
 out vec2 at;
 out float h;
-flat out float rate;
+flat out float lifted;
 flat out vec3 foot_color;
 flat out vec3 rise_color;
 flat out vec3 grain_u;
@@ -44,7 +44,7 @@ void main() {
     sheet = rest.x;
     h = spine.y / root[k].w;
     vec3 middle = 0.5 * (a + b);
-    rate = lift(0.5 * (wind.xy + wind.zw), middle);
+    lifted = lift(0.5 * (wind.xy + wind.zw), middle);
     vec3 here = place_tone(middle.xz);
     hidden = haze_at(middle);
     foot_color = root[k].rgb * here;

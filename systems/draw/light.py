@@ -14,10 +14,14 @@ SUN_SHARE, SKY_SHARE = 1.35, 0.6
 """How much of the sun's and of the sky's light an average leaf receives on a clear day."""
 
 
+def decoded(color: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return sRGB colours of [0, 1] as linear light in [0, 1], same shape."""
+    return np.where(color <= 0.04045, color / 12.92, ((color + 0.055) / 1.055) ** 2.4)
+
+
 def linear(color: str) -> NDArray[np.float64]:
     """Return an sRGB colour `#rrggbb` as linear light, shape (3,)."""
-    c = np.array([int(color[i : i + 2], 16) for i in (1, 3, 5)]) / 255.0
-    return np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
+    return decoded(np.array([int(color[i : i + 2], 16) for i in (1, 3, 5)]) / 255.0)
 
 
 def display(light: NDArray[np.float64]) -> NDArray[np.float64]:
