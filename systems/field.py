@@ -13,6 +13,7 @@ from ..components.quality import Quality
 from ..components.receivers import BladePool, StripPool
 from ..components.scene import Scene
 from ..components.terrain import Density, Terrain
+from ..components.transition import SEAMLESS, Transitions
 from .lod import SLACK, farthest
 from .plant import BladeStock, Ground, blade_records, far_to_near_blades
 
@@ -75,6 +76,7 @@ class Field:
     """How far grass may reach beyond its patch, leaning and blown [m]."""
 
     sight: Sight
+    transitions: Transitions = SEAMLESS
 
     @property
     def finest(self) -> int:
@@ -122,7 +124,14 @@ def _turned_records(growths: list[Growth], model: int, turn: int, patch: float) 
 
 
 def lay_out(
-    scene: Scene, quality: Quality, terrain: Terrain, density: Density, growths: list[Growth], *, lod: str
+    scene: Scene,
+    quality: Quality,
+    terrain: Terrain,
+    density: Density,
+    growths: list[Growth],
+    *,
+    lod: str,
+    transitions: Transitions = SEAMLESS,
 ) -> Field:
     """Return the field of a scene: its patch models in stock, its pools empty."""
     reach = reach_of(quality, lod)
@@ -146,6 +155,7 @@ def lay_out(
         ],
         sway=max(starmap(farthest_reach, zip(scene.grass.values(), growths, strict=True))),
         sight=Sight(),
+        transitions=transitions,
     )
 
 

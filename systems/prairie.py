@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..components.quality import PRESETS, Representation
 from ..components.scene import LodName, Scene
+from ..components.transition import SEAMLESS, Transitions
 from ..components.wind import WindPrimitive, WindSource
 from ..engine.gl.guest import host_context
 from ..engine.phases import Phase, Schedule
@@ -61,6 +62,9 @@ class Statistics:
     patches: dict[str, int] = field(default_factory=dict)
     """Visible patches by representation."""
 
+    transitions: int = 0
+    """Patches that were seen to change their representation, or to be changing it."""
+
 
 class Prairie:
     """A prairie in the current esper world: grown at once, drawn once there is a GL context."""
@@ -72,6 +76,7 @@ class Prairie:
         ctx: moderngl.Context | None = None,
         preset: str | None = None,
         lod: LodName = "auto",
+        transitions: Transitions = SEAMLESS,
     ) -> None:
         scene = loaded.scene
         quality = scene.numbers(preset)
@@ -84,7 +89,7 @@ class Prairie:
         self.time = 0.0
         self.lod: LodName = lod
         self.statistics = Statistics()
-        self.field: Field = lay_out(scene, quality, terrain, density, growths, lod=lod)
+        self.field: Field = lay_out(scene, quality, terrain, density, growths, lod=lod, transitions=transitions)
         self.world = World()
         self.painter: Painter | None = None
         self.statistics.blades_field = blades_in_field(self.field)
@@ -103,24 +108,34 @@ class Prairie:
 
     @classmethod
     def load(
-        cls, scene: str | Path, *, ctx: moderngl.Context | None = None, preset: str | None = None, lod: LodName = "auto"
+        cls,
+        scene: str | Path,
+        *,
+        ctx: moderngl.Context | None = None,
+        preset: str | None = None,
+        lod: LodName = "auto",
+        transitions: Transitions = SEAMLESS,
     ) -> "Prairie":
         """Return the prairie of a scene file, or of a bundled scene by its name.
 
         `ctx` is the context to draw in; without it the one that is current at the first draw. `preset` overrides
-        the scene's quality, `lod` shows everything in one representation. Raises `SceneError` with every problem of
-        the file and its maps, ValueError for an unknown preset or representation.
+        the scene's quality, `lod` shows everything in one representation, `transitions` leaves out parts of what
+        carries a patch from one representation to another. Raises `SceneError` with every problem of the file and its
+        maps, ValueError for an unknown preset or representation.
         """
         if preset is not None and preset not in PRESETS:
             raise ValueError(f"unknown preset '{preset}'; there are {', '.join(PRESETS)}")
         if lod not in get_args(LodName):
             raise ValueError(f"unknown representation '{lod}'; there are {', '.join(get_args(LodName))}")
-        return cls(read_scene(scene), ctx=ctx, preset=preset, lod=lod)
+        return cls(read_scene(scene), ctx=ctx, preset=preset, lod=lod, transitions=transitions)
 
     def reseeded(self, seed: int) -> "Prairie":
         """Return another prairie of the same scene, quality and terrain, with other grass."""
         scene = self.scene.model_copy(update={"seed": seed})
-        return Prairie(replace(self._loaded, scene=scene), ctx=self._ctx, preset=self._preset, lod=self.lod)
+        return Prairie(
+            replace(self._loaded, scene=scene), ctx=self._ctx, preset=self._preset, lod=self.lod,
+            transitions=self.field.transitions,
+        )  # fmt: skip
 
     def advance(self, dt: float) -> None:
         """Move time on by `dt` [s]; negative or non-finite steps raise ValueError."""
@@ -219,7 +234,10 @@ class Prairie:
         table = self.field.table
         wanted = wanted_representation(table.distance, table.representation, reach=self.field.reach)
         was_visible = self._was_visible & table.visible & (not self.field.sight.jumped)
+        before = table.representation.copy()
         schedule(table, wanted, was_visible, reach=self.field.reach, dt=self.field.sight.dt)
+        changing = (table.progress < 1.0) | ((before != table.representation) & was_visible)
+        self.statistics.transitions = int((table.alive & table.visible & changing).sum())
 
     def _plant(self) -> None:
         field = self.field
