@@ -51,6 +51,10 @@ class BladePool:
     stamp: NDArray[np.int32]
     """Cell (i, j) and heading that each slot is planted for, shape (side * side, 3)."""
 
+    def kind(self, slots: NDArray[np.int64], /) -> NDArray[np.intp]:
+        """Return the kind that each receiver of some slots is of, shape (len(slots) * n,)."""
+        return self.blade["kind"][slots].reshape(-1).astype(np.intp)
+
     @classmethod
     def allocate(cls, side: int, blades: int) -> "BladePool":
         """Return an empty pool for a window of `side` by `side` patches."""
@@ -100,6 +104,11 @@ class StripPool:
 
     stamp: NDArray[np.int32]
     """Cell (i, j) and orientation that each slot is planted for, shape (side * side, 3)."""
+
+    def kind(self, slots: NDArray[np.int64], /) -> NDArray[np.intp]:
+        """Return the kind that each receiver of some slots is of, one row after another."""
+        _, kinds, strips, edges = self.ground.shape
+        return np.tile(np.repeat(np.arange(kinds), strips * edges), len(slots))
 
     @classmethod
     def allocate(cls, side: int, kinds: int, strips: int, columns: int) -> "StripPool":

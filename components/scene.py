@@ -1,7 +1,8 @@
 """A whole scene, as a file declares it."""
 
 from collections.abc import Callable
-from typing import Annotated, Any, Literal, TypedDict
+from pathlib import Path
+from typing import Annotated, Any, Literal, NotRequired, TypedDict
 
 from pydantic import Discriminator, Field, SerializeAsAny, Tag, ValidationError, ValidationInfo, WrapValidator
 from pydantic_core import InitErrorDetails, PydanticCustomError
@@ -12,7 +13,7 @@ from .grass import GrassKind
 from .light import Light
 from .quality import PRESETS, Quality
 from .terrain import TerrainSource
-from .wind import WindPrimitive
+from .wind import Mixing, WindPrimitive
 
 FORMAT = 1
 """Version of the scene format that this release writes."""
@@ -28,6 +29,9 @@ class Reading(TypedDict):
 
     wind: Callable[[str], type[WindPrimitive]]
     """Gives the class of a kind, or raises ValueError with a sentence."""
+
+    folder: NotRequired[Path]
+    """What the files that winds name are relative to; without it they are not read yet."""
 
 
 def _of_its_kind(value: Any, _: object, info: ValidationInfo) -> WindPrimitive:
@@ -86,6 +90,9 @@ class Scene(Declaration):
 
     wind: list[Wind] = Field(default=[], max_length=200)
     """Wind primitives."""
+
+    mixing: Mixing = "priority"
+    """How winds meet: the highest priority at a place cancels the others, or they are mixed by weight."""
 
     camera: CameraSource = CameraSource()
     """Where the scene is looked at from."""

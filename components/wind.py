@@ -1,23 +1,92 @@
 """Wind primitives: what every kind of wind is, the built-in ones and a stranger's alike."""
 
 from abc import abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from .declaration import Declaration, DeclarationError
+from .pose import HERE, Pose
 
 Floats = NDArray[np.float32]
+
+INTERFACE = 1
+"""Version of what winds and tallgrass ask of each other; it changes when winds written for it would break."""
+
+Mixing = Literal["priority", "weight"]
+"""How winds meet at a place: the highest priority cancels the others, or they are mixed by weight."""
+
+
+@dataclass(frozen=True, slots=True)
+class Extent:
+    """A rectangle in a wind's own frame, outside of which its mask is 0."""
+
+    left: float
+    """Least x [m]."""
+
+    right: float
+    """Largest x [m]."""
+
+    ahead: float
+    """Least z [m]."""
+
+    behind: float
+    """Largest z [m]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Grass:
+    """How the grass at some receivers answers the wind over time (paper, section 3.3, figure 8).
+
+    What a wind does with it is its own affair: that is how one wind bends different kinds differently.
+    """
+
+    kind: NDArray[np.intp]
+    """Row of the curves for each receiver, shape (n,)."""
+
+    step: Floats
+    """Time between a curve's samples [s], shape (kinds,)."""
+
+    rise: Floats
+    """Index after a constant wind starts, of its final index, shape (kinds, samples)."""
+
+    fall: Floats
+    """Index after it stops, shape (kinds, samples)."""
+
+    def after_start(self, elapsed: Floats, /) -> Floats:
+        """Return the index `elapsed` [s] (n,) after a constant wind started: 0 before, past 1 and back to 1, (n,)."""
+        return self._read(self.rise, elapsed)
+
+    def after_stop(self, elapsed: Floats, /) -> Floats:
+        """Return the index `elapsed` [s] (n,) after a constant wind stopped: 1 before, past 0 and back to 0, (n,)."""
+        return self._read(self.fall, elapsed)
+
+    def at(self, rows: NDArray[np.intp], /) -> "Grass":
+        """Return the grass at some of the receivers."""
+        return Grass(self.kind[rows], self.step, self.rise, self.fall)
+
+    def _read(self, curves: Floats, elapsed: Floats) -> Floats:
+        samples = curves.shape[1]
+        at = np.clip(elapsed / self.step[self.kind], 0.0, samples - 1.001).astype(np.float32)
+        low = at.astype(np.intp)
+        flat = curves.reshape(-1)
+        before, after = flat[self.kind * samples + low], flat[self.kind * samples + low + 1]
+        return np.asarray(before + (after - before) * (at - low.astype(np.float32)), np.float32)
 
 
 class WindPrimitive(Declaration):
     """A wind as an object on the prairie (paper, section 3.3): a mask on the ground and an action inside it.
 
-    A primitive keeps nothing between calls: `mask` and `action` are pure functions of places and a time, so
-    that any machine computes the same wind at any time.
+    A primitive keeps nothing between calls: all its methods are pure functions of places and a time, so that any
+    machine computes the same wind at any time, in any order, for any part of the receivers.
     """
+
+    interface: ClassVar[int] = INTERFACE
+    """Version of this interface that the class is written for."""
 
     kind: str = Field(min_length=1)
     """Name of the primitive, as its plugin registers it."""
@@ -25,27 +94,61 @@ class WindPrimitive(Declaration):
     priority: int = Field(0, ge=-1000, le=1000)
     """The highest priority at a place cancels the others (paper, section 3.3)."""
 
+    weight: float = Field(1.0, ge=0.0, le=1.0)
+    """How much it counts where the scene mixes winds by weight; 1 covers winds of lower priority."""
+
     start: float = Field(0.0, ge=0.0, le=36000.0)
     """When it begins [s]."""
 
     stop: float | None = Field(None, ge=0.0, le=36000.0)
     """When it ends [s]; without it, never."""
 
+    ease: float = Field(0.0, ge=0.0, le=60.0)
+    """How long it takes to set in and to die down [s]; a wind that starts at 0 is there from the beginning."""
+
+    swing: float = Field(0.12, ge=0.0, le=0.5)
+    """Largest posture index of a blade's own small oscillations in it, of random direction."""
+
     @model_validator(mode="after")
-    def _stop_after_start(self) -> "WindPrimitive":
+    def _stop_after_start(self) -> Self:
         if self.stop is not None and self.stop <= self.start:
             raise DeclarationError(f"stop must be later than start, which is {self.start:g} s", "stop")
         return self
 
+    def parts(self, *, time: float, seed: int) -> Sequence["WindPrimitive"]:  # noqa: ARG002 - for those that repeat
+        """Return the winds it is made of at `time` [s]: itself, unless it says otherwise.
+
+        What is random about that comes from `seed`, which is the wind's own.
+        """
+        return (self,)
+
+    def pose(self, *, time: float) -> Pose:  # noqa: ARG002 - for those that move
+        """Return where its own frame is at `time` [s]; without more, it is the world's.
+
+        `mask` and `action` are asked in this frame.
+        """
+        return HERE
+
+    def extent(self, *, time: float) -> Extent | None:  # noqa: ARG002 - for those that end somewhere
+        """Return the rectangle of its frame outside of which its mask is 0 at `time` [s]; None is everywhere.
+
+        Only patches that the rectangle meets cost anything.
+        """
+        return None
+
     @abstractmethod
     def mask(self, place: Floats, /, *, time: float) -> Floats:
-        """Return where it acts: weights in [0, 1], shape (n,), for ground positions (x, z) [m], shape (n, 2)."""
+        """Return where it acts: weights in [0, 1], shape (n,), for positions (x, z) in its frame [m], shape (n, 2).
+
+        Where winds go by priority, it acts wherever the weight is above 0.
+        """
 
     @abstractmethod
-    def action(self, place: Floats, /, *, time: float, seed: int) -> Floats:
-        """Return the messages to receivers at ground positions (x, z) [m], both of shape (n, 2).
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
+        """Return the messages to receivers at positions (x, z) in its frame [m], both of shape (n, 2).
 
-        A message is a vector along the bending direction whose norm is the posture index, in [0, 1].
+        A message is a vector of the frame along the bending direction whose norm is the posture index, in [0, 1].
+        `seed` is the wind's own; `grass` tells how the grass there answers.
         """
 
 

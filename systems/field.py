@@ -52,6 +52,11 @@ class Stock:
     first_layer: list[list[int]]
     """By ring and kind: where the kind's layers start in the ring's texture array."""
 
+    @property
+    def margin(self) -> float:
+        """How far strips reach beyond their patch [m]."""
+        return max(strips.margin for ring in self.strips for strips in ring)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Field:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import get_args
@@ -10,10 +11,11 @@ import moderngl
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..components.pose import Pose
 from ..components.quality import PRESETS, Representation
 from ..components.scene import LodName, Scene
 from ..components.transition import SEAMLESS, Transitions
-from ..components.wind import WindPrimitive, WindSource
+from ..components.wind import WindPrimitive
 from ..engine.gl.guest import host_context
 from ..engine.phases import Phase, Schedule
 from ..engine.scene import LoadedScene, load_maps, read_scene
@@ -27,7 +29,7 @@ from .lod import schedule, wanted_representation
 from .receive import Shown, blow, plant_shown_blades, plant_shown_strips, shown_blades, shown_strips
 from .receivers import ReceiverEntities
 from .tile import cell_of, tile
-from .wind.blow import blowing, messages
+from .winds import Winds
 
 Floats = NDArray[np.float32]
 
@@ -86,7 +88,6 @@ class Prairie:
         ]
         self.scene: Scene = scene
         self.path = loaded.path
-        self.time = 0.0
         self.lod: LodName = lod
         self.statistics = Statistics()
         self.field: Field = lay_out(scene, quality, terrain, density, growths, lod=lod, transitions=transitions)
@@ -96,15 +97,15 @@ class Prairie:
         self._loaded = loaded
         self._preset = preset
         self._ctx = ctx
+        self._clock = 0.0
         self._drawn_at: float | None = None
         self._receivers = ReceiverEntities(self.world, self.field)
         self._blown = 0.0
         self._released = False
         self._blades: list[Shown] = []
         self._strips: list[Shown] = []
+        self.winds = Winds(self.world, self.field)
         self._schedule = self._systems()
-        for number, primitive in enumerate(scene.wind):
-            self.world.create(WindSource(primitive, f"wind[{number}] {primitive.kind}"))
 
     @classmethod
     def load(
@@ -137,11 +138,16 @@ class Prairie:
             transitions=self.field.transitions,
         )  # fmt: skip
 
+    @property
+    def time(self) -> float:
+        """The scene's time [s], to the nearest microsecond: however it was cut into steps, it is the same instant."""
+        return round(self._clock, 6)
+
     def advance(self, dt: float) -> None:
         """Move time on by `dt` [s]; negative or non-finite steps raise ValueError."""
         if not (np.isfinite(dt) and dt >= 0.0):
             raise ValueError(f"a prairie advances by 0 s or more, not by {dt}")
-        self.time += dt
+        self._clock += dt
 
     def draw(self, view: object, projection: object) -> None:
         """Draw the prairie into the framebuffer that is bound, and leave the host's GL state as it was.
@@ -173,21 +179,29 @@ class Prairie:
         """Return the height of the ground [m], shape (n,), at ground positions (x, z) [m], shape (n, 2)."""
         return height_at(self.field.terrain, _places(xz))
 
-    def wind_at(self, xz: ArrayLike, time: float | None = None) -> Floats:
+    def wind_at(self, xz: ArrayLike, time: float | None = None, *, kind: str | None = None) -> Floats:
         """Return what grass at ground positions (x, z) [m], shape (n, 2), feels at `time` [s], or now.
 
         Messages of shape (n, 2): vectors along the bending direction whose norm is the posture index, in [0, 1].
+        They are those of grass of a `kind`, or else of the kind that grows most densely at each place. Raises
+        ValueError for an unknown kind.
         """
-        moment = self.time if time is None else time
-        return messages(blowing(self.sources(), time=moment), _places(xz), time=moment, seed=self.scene.seed)
+        if kind is not None and kind not in self.scene.grass:
+            raise ValueError(f"unknown grass '{kind}'; there are {', '.join(self.scene.grass)}")
+        number = None if kind is None else list(self.scene.grass).index(kind)
+        return self.winds.at(_places(xz), time=self.time if time is None else time, kind=number)
 
-    def sources(self) -> list[WindSource]:
-        """Return the winds there are."""
-        return [source for _, source in self.world.all(WindSource)]
+    def add(self, primitive: WindPrimitive, *, pose: Pose | None = None, name: str | None = None) -> int:
+        """Add a wind and return its entity, a handle that `move` and `remove` take.
 
-    def add(self, primitive: WindPrimitive) -> int:
-        """Add a wind and return its entity, a handle that `remove` takes."""
-        return self.world.create(WindSource(primitive, primitive.kind))
+        With a `pose` the wind is there until it is moved, whatever it says itself; so it follows what a game steers.
+        Winds of one name share what is random about them; without a name it is their kind.
+        """
+        return self.winds.add(primitive, name or primitive.kind, pose)
+
+    def move(self, handle: int, pose: Pose) -> None:
+        """Put a wind elsewhere that `add` returned: it follows what carries it."""
+        self.world.add(handle, pose)
 
     def remove(self, handle: int) -> None:
         """Take a wind away that `add` returned."""
@@ -248,8 +262,7 @@ class Prairie:
         self._receivers.follow(self._blades, self._strips)
 
     def _wind(self) -> None:
-        sources = blowing(self.sources(), time=self.time)
-        heard = blow(self.field, self._blades, self._strips, sources, time=self.time)
+        heard = blow(self.field, self._blades, self._strips, partial(self.winds.heard, time=self.time))
         self.statistics.receivers = len(heard)
         self._blown = float(np.linalg.norm(heard, axis=1).mean()) if len(heard) else 0.0
 

@@ -4,6 +4,7 @@ A `Shown` record names the patches drawn in one representation this frame; every
 once, in a few numpy passes.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,13 +12,13 @@ from numpy.typing import NDArray
 
 from ..components.quality import Representation
 from ..components.receivers import BladePool, StripPool
-from ..components.wind import WindSource
 from .cull import far_to_near
 from .field import Field
 from .lod import thinned_out, weights
 from .plant import heading_of, plant_blades, plant_strips, strips_along
 from .tile import window_rows
-from .wind.blow import messages
+from .wind.blow import Listeners
+from .wind.grass import grass_of
 
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
@@ -152,16 +153,34 @@ def plant_shown_strips(field: Field, ring: int, shown: Shown) -> Rows:
     return rows
 
 
-def blow(
-    field: Field, blades: list[Shown], strips: list[Shown], sources: list[WindSource], /, *, time: float
-) -> Floats:
-    """Let every receiver that is seen hear the wind, in one pass over them all; return their messages, (n, 2)."""
-    pools: list[tuple[BladePool | StripPool, Rows]] = [(field.blades, np.concatenate([ring.slots for ring in blades]))]
-    pools += [(pool, ring.slots) for pool, ring in zip(field.strips, strips, strict=True)]
-    places = [pool.place[slots].reshape(-1, 2) for pool, slots in pools]
-    heard = messages(sources, np.concatenate(places), time=time, seed=field.scene.seed)
+def blow(field: Field, blades: list[Shown], strips: list[Shown], hear: Callable[[Listeners], Floats], /) -> Floats:
+    """Let every receiver that is seen hear the winds, in one pass over them all; return their messages, (n, 2)."""
+    near = np.concatenate([ring.rows for ring in blades]), np.concatenate([ring.slots for ring in blades])
+    pools: list[tuple[BladePool | StripPool, Rows, Rows]] = [(field.blades, *near)]
+    pools += [(pool, ring.rows, ring.slots) for pool, ring in zip(field.strips, strips, strict=True)]
+    heard = hear(_listeners(field, pools))
     start = 0
-    for (pool, slots), place in zip(pools, places, strict=True):
-        pool.message[slots] = heard[start : start + len(place)].reshape(len(slots), *pool.message.shape[1:])
-        start += len(place)
+    for pool, _, slots in pools:
+        shape = pool.message[slots].shape
+        end = start + shape[0] * int(np.prod(shape[1:-1]))
+        pool.message[slots] = heard[start:end].reshape(shape)
+        start = end
     return heard
+
+
+def _listeners(field: Field, pools: list[tuple[BladePool | StripPool, Rows, Rows]]) -> Listeners:
+    place = [pool.place[slots].reshape(-1, 2) for pool, _, slots in pools]
+    rows = np.concatenate([rows for _, rows, _ in pools])
+    each = np.concatenate([
+        np.full(len(slots), len(one) // max(len(slots), 1)) for one, (_, _, slots) in zip(place, pools, strict=True)
+    ])  # fmt: skip
+    kind = np.concatenate([pool.kind(slots) for pool, _, slots in pools])
+    side = field.quality.patch
+    middle = (field.table.cell[rows] + np.float32(0.5)) * np.float32(side)
+    return Listeners(
+        place=np.concatenate(place),
+        grass=grass_of(field.growths, kind),
+        patch=np.repeat(np.arange(len(rows)), each),
+        middle=middle.astype(np.float32),
+        radius=0.7072 * (side + 2.0 * field.stock.margin),
+    )

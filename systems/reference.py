@@ -17,7 +17,8 @@ from .plant import plant_blades
 from .prairie import Prairie
 from .receive import Shown
 from .tile import cell_of, cells_on, patch_models
-from .wind.blow import blowing, messages
+from .wind.blow import places_alone
+from .wind.grass import grass_of
 
 Ints = NDArray[np.int32]
 CHUNK = 400
@@ -49,9 +50,9 @@ def stand_all(prairie: Prairie, cells: Ints, painter: BladePainter, /) -> int:
     slots = np.arange(len(cells))
     model, turn = patch_models(cells, seed=field.scene.seed, models=field.quality.models)
     plant_blades(pool, slots, cells, model, turn, np.zeros_like(model), field.stock.blades, field.ground)
-    place = pool.place.reshape(-1, 2)
-    sources = blowing(prairie.sources(), time=prairie.time)
-    pool.message[:] = messages(sources, place, time=prairie.time, seed=field.scene.seed).reshape(pool.message.shape)
+    grass = grass_of(field.growths, pool.kind(slots))
+    heard = prairie.winds.heard(places_alone(pool.place.reshape(-1, 2), grass), time=prairie.time)
+    pool.message[:] = heard.reshape(pool.message.shape)
     painter.write(
         *gather_blades(pool, Shown(slots, slots, np.ones(len(cells), np.float32), np.zeros_like(model), slots))
     )

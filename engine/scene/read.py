@@ -48,7 +48,8 @@ def read_scene(scene: str | Path, /) -> LoadedScene:
     path = _path(scene)
     document = read_document(decode(_bytes(path), file=str(path)), file=str(path))
     missing = _missing_files(document, path.parent)
-    return LoadedScene(validate(document, find=wind_kinds().find, also=missing), path, path.parent, document)
+    scene_read = validate(document, find=wind_kinds().find, folder=path.parent, also=missing)
+    return LoadedScene(scene_read, path, path.parent, document)
 
 
 def parse_scene(text: str, /, *, file: str = "<scene>") -> Scene:

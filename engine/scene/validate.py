@@ -1,6 +1,7 @@
 """From a scene file's values to its `Scene`, or to every problem they have."""
 
 from collections.abc import Iterable, Iterator
+from pathlib import Path
 from typing import Any, TypeGuard
 
 from pydantic import ValidationError
@@ -15,15 +16,21 @@ from .version import FIRST, upgrade
 from .words import found, sentence
 
 
-def validate(document: Document, /, *, find: FindKind, also: Iterable[Problem] = ()) -> Scene:
-    """Return the scene of a file. Raises SceneError with every problem of the file, those in `also` among them."""
+def validate(
+    document: Document, /, *, find: FindKind, folder: Path | None = None, also: Iterable[Problem] = ()
+) -> Scene:
+    """Return the scene of a file. Raises SceneError with every problem of the file, those in `also` among them.
+
+    Files that winds name are relative to `folder`, and are read only where there is one.
+    """
     if not isinstance(document.root.data, dict):
         message = f"{FIRST}, then its keys; this is {found(document.root.data)}"
         raise SceneError([*document.problems, document.problem((), message)])
     problems = [*document.problems, *also, *_of_version(document)]
     values = _upgraded(document)
+    reading = Reading(wind=find) if folder is None else Reading(wind=find, folder=folder)
     try:
-        scene = Scene.model_validate(values | {"tallgrass": FORMAT}, context=Reading(wind=find))
+        scene = Scene.model_validate(values | {"tallgrass": FORMAT}, context=reading)
     except ValidationError as error:
         raise _refusal(document, problems, error.errors(include_url=False), find) from error
     if problems:

@@ -1,36 +1,237 @@
 """Blowing: primitives send their messages to the receivers (paper, sections 3.2 and 3.3)."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from itertools import groupby
+from types import NoneType
+from zlib import crc32
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.wind import WindSource
+from ...components.pose import HERE, Pose
+from ...components.wind import Extent, Grass, Mixing, WindPrimitive, WindSource
+from ...engine.random import hash3
+from .flutter import flutter
+from .quarantine import Quarantine, QuarantinedError
+from .shape import smooth
 
 Floats = NDArray[np.float32]
+Rows = NDArray[np.intp]
 
 
-def blowing(sources: Iterable[WindSource], /, *, time: float) -> list[WindSource]:
-    """Return the sources that act at `time` [s], the strongest claim last: by priority, then by name."""
-    now = [
-        source
-        for source in sources
-        if source.primitive.start <= time and (source.primitive.stop is None or time < source.primitive.stop)
-    ]
-    return sorted(now, key=lambda source: (source.primitive.priority, source.name))
+@dataclass(frozen=True, slots=True, eq=False)
+class Blowing:
+    """A wind, or one part of it, at one instant."""
+
+    source: WindSource
+    primitive: WindPrimitive
+    pose: Pose
+    extent: Extent | None
+    seed: int
+
+    strength: float
+    """How far it has set in, in (0, 1]."""
 
 
-def messages(sources: list[WindSource], place: Floats, /, *, time: float, seed: int) -> Floats:
-    """Return the message that each receiver at `place` (n, 2) ends up with, shape (n, 2).
+@dataclass(frozen=True, slots=True, eq=False)
+class Listeners:
+    """Receivers, and the patches that masks are discretised over (paper, section 3.3)."""
 
-    `sources` rise in their claim: at a place, the last one whose mask holds it cancels the others (paper, section
-    3.3). Where no mask reaches, the message is 0: the grass is at rest.
+    place: Floats
+    """Ground positions (x, z) [m], shape (n, 2)."""
+
+    grass: Grass
+    """How the grass at each answers."""
+
+    patch: Rows
+    """The patch that each belongs to, shape (n,)."""
+
+    middle: Floats
+    """Middles of the patches (x, z) [m], shape (m, 2)."""
+
+    radius: float
+    """How far a patch's receivers may be from its middle [m]."""
+
+
+def places_alone(place: Floats, grass: Grass, /) -> Listeners:
+    """Return listeners at any places, each a patch by itself."""
+    return Listeners(place, grass, np.arange(len(place)), place, 0.0)
+
+
+def blowing(
+    sources: Iterable[WindSource],
+    quarantine: Quarantine,
+    /,
+    *,
+    time: float,
+    seed: int,
+    poses: Mapping[WindSource, Pose] | None = None,
+) -> list[Blowing]:
+    """Return the winds that act at `time` [s], the strongest claim first.
+
+    Higher priority goes first; of equal ones that which began later; then by kind, and by what they declare. So what
+    happens does not hang on the order in which winds were made. `poses` overrides where winds are.
     """
-    heard = np.zeros((len(place), 2), np.float32)
-    for source in sources:
-        inside = source.primitive.mask(place, time=time) > 0.0
-        if inside.all():
-            heard = source.primitive.action(place, time=time, seed=seed)
-        elif inside.any():
-            heard[inside] = source.primitive.action(place[inside], time=time, seed=seed)
-    return heard
+    placed = poses or {}
+    found = [wind for source in sources for wind in _parts(source, quarantine, time, seed, placed.get(source))]
+    tied = (list(winds) for _, winds in groupby(sorted(found, key=_claim, reverse=True), key=_claim))
+    return [wind for winds in tied for wind in (winds if len(winds) == 1 else sorted(winds, key=_values))]
+
+
+def hear(
+    winds: list[Blowing],
+    heard: Listeners,
+    quarantine: Quarantine,
+    /,
+    *,
+    time: float,
+    seed: int,
+    mixing: Mixing = "priority",
+) -> Floats:
+    """Return the message that each receiver ends up with, shape (n, 2).
+
+    By `priority`, the first wind in `winds` whose mask holds a receiver cancels the others (paper, section 3.3). By
+    `weight`, a wind covers those of lower priority as far as its mask, its weight and its setting in say, and winds of
+    one priority are averaged. Where no mask reaches, grass is at rest.
+    """
+    sums = _Sums(np.zeros((len(heard.place), 2), np.float32), *np.zeros((2, len(heard.place)), np.float32))
+    sums.left[:] = 1.0
+    groups: Iterable[list[Blowing]] = ([wind] for wind in winds)
+    if mixing == "weight":
+        groups = (list(group) for _, group in groupby(winds, key=lambda wind: wind.primitive.priority))
+    for group in groups:
+        parts = [part for wind in group if (part := _send(wind, heard, sums.left, quarantine, time, mixing))]
+        _cover(sums, parts)
+    return _bounded(_fluttered(sums, heard.place, time, seed))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Sums:
+    message: Floats
+    swing: Floats
+
+    left: Floats
+    """How much of each receiver no wind has claimed yet, shape (n,)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Sent:
+    rows: Rows | slice
+    weight: Floats
+    message: Floats
+    swing: float
+
+
+def _parts(
+    source: WindSource, quarantine: Quarantine, time: float, seed: int, placed: Pose | None
+) -> Iterator[Blowing]:
+    wind = source.primitive
+    if time < wind.start or (wind.stop is not None and time >= wind.stop) or source in quarantine.reasons:
+        return
+    own = int(hash3(seed, crc32(source.name.encode()), 0))
+    try:
+        for part in quarantine.ask(source, "parts", lambda: tuple(wind.parts(time=time, seed=own))):
+            quarantine.must_be(source, "parts", part, WindPrimitive)
+            pose = placed or quarantine.ask(source, "pose", partial(part.pose, time=time))
+            extent = quarantine.ask(source, "extent", partial(part.extent, time=time))
+            quarantine.must_be(source, "pose", pose, Pose)
+            quarantine.must_be(source, "extent", extent, Extent, NoneType)
+            strength = _set_in(part, wind.stop, time)
+            if strength > 0.0:
+                yield Blowing(source, part, pose, extent, own, strength)
+    except QuarantinedError:
+        return
+
+
+def _set_in(wind: WindPrimitive, stop: float | None, time: float) -> float:
+    begun = (time - wind.start) / wind.ease if wind.ease and wind.start else 1.0
+    to_go = (stop - time) / wind.ease if wind.ease and stop is not None else 1.0
+    return float(smooth(np.array([min(begun, to_go)], np.float32))[0])
+
+
+def _claim(wind: Blowing) -> tuple[int, float, str]:
+    return wind.primitive.priority, wind.primitive.start, wind.primitive.kind
+
+
+def _values(wind: Blowing) -> str:
+    return wind.primitive.model_dump_json()
+
+
+def _send(
+    wind: Blowing, heard: Listeners, left: Floats, quarantine: Quarantine, time: float, mixing: Mixing
+) -> _Sent | None:
+    """Return what a wind sends to the receivers that it reaches and that are still to be had."""
+    rows = _within(wind, heard, left)
+    place = heard.place if isinstance(rows, slice) else heard.place[rows]
+    if not len(place):
+        return None
+    source, primitive = wind.source, wind.primitive
+    own = wind.pose.inside(place) if wind.pose != HERE else place
+    try:
+        weight = quarantine.ask_for(source, "mask", partial(primitive.mask, own, time=time), shape=(len(own),))
+        reached = np.flatnonzero(weight > 0.0)
+        if len(reached) < len(own):
+            rows = reached if isinstance(rows, slice) else rows[reached]
+            own, weight = own[reached], weight[reached]
+        if not len(own):
+            return None
+        grass = heard.grass if isinstance(rows, slice) else heard.grass.at(rows)
+        act = partial(primitive.action, own, time=time, seed=wind.seed, grass=grass)
+        message = quarantine.ask_for(source, "action", act, shape=own.shape)
+    except QuarantinedError:
+        return None
+    weight = np.ones_like(weight) if mixing == "priority" else np.minimum(weight, 1.0) * np.float32(primitive.weight)
+    return _Sent(rows, weight * np.float32(wind.strength), wind.pose.outside(message), primitive.swing)
+
+
+def _within(wind: Blowing, heard: Listeners, left: Floats) -> Rows | slice:
+    """Return the receivers of the patches that a wind's extent meets, less those that others have claimed wholly."""
+    unclaimed = left > 0.0
+    if wind.extent is None:
+        return slice(None) if unclaimed.all() else np.flatnonzero(unclaimed)
+    box, far = wind.extent, heard.radius + 1e-3
+    x, z = wind.pose.inside(heard.middle).T
+    met = (x > box.left - far) & (x < box.right + far) & (z > box.ahead - far) & (z < box.behind + far)
+    return np.flatnonzero(met[heard.patch] & unclaimed) if met.any() else np.zeros(0, np.intp)
+
+
+def _cover(sums: _Sums, sent: list[_Sent]) -> None:
+    """Lay the messages of winds of one claim over what is left of the receivers."""
+    if len(sent) == 1:
+        _lay(sums, sent[0].rows, sent[0].weight, sent[0].message, np.float32(sent[0].swing))
+    elif sent:
+        total, kept = np.zeros_like(sums.left), np.ones_like(sums.left)
+        message, swing = np.zeros_like(sums.message), np.zeros_like(sums.swing)
+        for part in sent:
+            total[part.rows] += part.weight
+            kept[part.rows] *= 1.0 - part.weight
+            message[part.rows] += part.weight[:, None] * part.message
+            swing[part.rows] += part.weight * np.float32(part.swing)
+        rows = np.flatnonzero(total)
+        share = total[rows]
+        _lay(sums, rows, 1.0 - kept[rows], message[rows] / share[:, None], swing[rows] / share)
+
+
+def _lay(sums: _Sums, rows: Rows | slice, weight: Floats, message: Floats, swing: Floats | np.float32) -> None:
+    share = sums.left[rows] * weight
+    sums.message[rows] += share[:, None] * message
+    sums.swing[rows] += share * swing
+    sums.left[rows] -= share
+
+
+def _fluttered(sums: _Sums, place: Floats, time: float, seed: int) -> Floats:
+    rows = np.flatnonzero(sums.swing)
+    if len(rows) == len(place):
+        return sums.message + sums.swing[:, None] * flutter(place, time=time, seed=seed)
+    if len(rows):
+        sums.message[rows] += sums.swing[rows, None] * flutter(place[rows], time=time, seed=seed)
+    return sums.message
+
+
+def _bounded(message: Floats) -> Floats:
+    """Return messages whose index is at most 1."""
+    index = np.sqrt(message[:, 0] * message[:, 0] + message[:, 1] * message[:, 1])
+    message /= np.maximum(index, np.float32(1.0))[:, None]
+    return message

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from ...components.wind import WindPrimitive
+from ...components.wind import Grass, WindPrimitive
 from .noise import noise_table, smooth_noise
 
 Floats = NDArray[np.float32]
@@ -14,15 +14,9 @@ Floats = NDArray[np.float32]
 WAVE = 7.0
 """Distance between the waves that travel over the field [m]."""
 
-RIPPLE = 0.45
-"""Distance over which neighbouring blades swing alike [m]."""
-
-PACES = 2.0 * np.pi * np.array([1.3, 0.9, 2.1], np.float32)
-"""How fast blades swing: along the wind, across it, and a second time along it [rad/s]."""
-
 
 class Breeze(WindPrimitive):
-    """A light wind over the whole prairie: waves that travel with it, and blades that swing each in its own time."""
+    """A light wind over the whole prairie, whose strength and direction drift in waves that travel with it."""
 
     kind: Literal["breeze"] = "breeze"
     """A gentle breeze."""
@@ -39,26 +33,18 @@ class Breeze(WindPrimitive):
     speed: float = Field(4.0, ge=0.0, le=40.0)
     """How fast its waves travel [m/s]."""
 
-    swing: float = Field(0.12, ge=0.0, le=0.5)
-    """Largest posture index of a blade's own small oscillations."""
-
-    def mask(self, place: Floats, /, *, time: float) -> Floats:  # noqa: ARG002 - it holds at any time
+    def mask(self, place: Floats, /, *, time: float) -> Floats:
         """Return 1 everywhere: a breeze has no edge."""
         return np.ones(len(place), np.float32)
 
-    def action(self, place: Floats, /, *, time: float, seed: int) -> Floats:
-        """Return its messages at ground positions (n, 2): drifting rest plus small oscillations, shape (n, 2)."""
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
+        """Return its messages at ground positions (n, 2): a rest that drifts slowly, shape (n, 2)."""
         heading = np.radians(self.direction)
         travel = self.speed * time / WAVE
         wave = smooth_noise(
             noise_table(seed, 0), place / np.float32(WAVE), shift=(-np.sin(heading) * travel, np.cos(heading) * travel)
         )
-        ripple = smooth_noise(noise_table(seed, 1), place / np.float32(RIPPLE))
-        beat = np.sin(np.float32(np.pi) * ripple[:, :3] + np.float32(np.mod(PACES * np.float64(time), 2.0 * np.pi)))
-        own = np.float32(self.swing) * (np.float32(0.6) + np.float32(0.4) * ripple[:, 3])
         drift = np.float32(self.gustiness) * (wave[:, 0] + np.float32(0.5) * wave[:, 1])
-        index = np.float32(self.strength) * (1 + drift)
-        index += own * (beat[:, 0] + np.float32(0.5) * beat[:, 2])
-        angle = np.float32(heading) + np.float32(0.7 * self.gustiness) * wave[:, 2] + np.float32(2.5) * own * beat[:, 1]
-        index = np.clip(index, 0.0, 1.0)
+        index = np.clip(np.float32(self.strength) * (1 + drift), 0.0, 1.0)
+        angle = np.float32(heading) + np.float32(0.7 * self.gustiness) * wave[:, 2]
         return np.stack([np.sin(angle) * index, -np.cos(angle) * index], axis=1).astype(np.float32)

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tallgrass.components.wind import Floats, WindPrimitive
+from tallgrass.components.wind import Floats, Grass, WindPrimitive
 from tallgrass.engine.plugins import GROUP, PluginError, WindKinds, wind, wind_kinds
 from tallgrass.engine.scene import parse_scene
 
@@ -19,7 +19,7 @@ from tallgrass.components.wind import WindPrimitive
 class Vortex(WindPrimitive):
     radius: float = 3.0
     def mask(self, place, /, *, time): return place[:, 0] * 0 + 1
-    def action(self, place, /, *, time, seed): return place * 0
+    def action(self, place, /, *, time, seed, grass): return place * 0
 """
 
 
@@ -29,7 +29,7 @@ class Calm(WindPrimitive):
     def mask(self, place: Floats, /, *, time: float) -> Floats:
         return np.full(len(place), time >= self.start, np.float32)
 
-    def action(self, place: Floats, /, *, time: float, seed: int) -> Floats:
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
         return np.full_like(place, 0.01 * np.cos(time + seed))
 
 

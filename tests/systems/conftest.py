@@ -12,6 +12,7 @@ from tallgrass.components.growth import Growth
 from tallgrass.components.quality import BladeRing, Quality, StripRing
 from tallgrass.components.scene import Scene
 from tallgrass.components.terrain import Density, Terrain
+from tallgrass.components.wind import WindPrimitive, WindSource
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.engine.world import World
 from tallgrass.systems.cull import discrete_distance, inside_cone
@@ -20,6 +21,8 @@ from tallgrass.systems.growth.models import grow
 from tallgrass.systems.lod import schedule, wanted_representation
 from tallgrass.systems.receive import Shown, plant_shown_blades, plant_shown_strips, shown_blades, shown_strips
 from tallgrass.systems.tile import cell_of, tile
+from tallgrass.systems.wind.blow import Listeners, blowing, hear
+from tallgrass.systems.wind.quarantine import Quarantine
 
 KINDS = {
     "tall": GrassKind(height=[0.6, 1.0], width=0.01, stiffness=0.6, lean=0.4),
@@ -41,6 +44,7 @@ SCENE = Scene(tallgrass=1, seed=3, grass=KINDS, quality=QUALITY)
 Laid = Callable[..., Field]
 Seen = tuple[list[Shown], list[Shown]]
 Look = Callable[..., Seen]
+Hear = Callable[[Listeners], NDArray[np.float32]]
 
 
 @pytest.fixture(scope="session")
@@ -92,5 +96,17 @@ def look(world: World) -> Look:
         for ring, shown in enumerate(seen[1]):
             plant_shown_strips(field, ring, shown)
         return seen
+
+    return at
+
+
+@pytest.fixture
+def wind() -> Callable[..., Hear]:
+    """Let listeners hear some winds at a time, in a scene whose seed is 3: `wind(Breeze(), time=2.0)`."""
+
+    def at(*primitives: WindPrimitive, time: float) -> Hear:
+        sources = [WindSource(primitive, f"wind[{number}]") for number, primitive in enumerate(primitives)]
+        quarantine = Quarantine()
+        return lambda heard: hear(blowing(sources, quarantine, time=time, seed=3), heard, quarantine, time=time, seed=3)
 
     return at

@@ -10,15 +10,16 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.components.terrain import Terrain
-from tallgrass.components.wind import WindSource
 from tallgrass.systems.field import Field
 from tallgrass.systems.gather import gather_blades, gather_strips, runs
 from tallgrass.systems.receive import Shown, blow
+from tallgrass.systems.wind.blow import Listeners
 from tallgrass.systems.wind.breeze import Breeze
 
 Laid = Callable[..., Field]
 Seen = tuple[list[Shown], list[Shown]]
 Look = Callable[..., Seen]
+Hear = Callable[[Listeners], NDArray[np.float32]]
 
 FLAT = Terrain(np.zeros((81, 81), np.float32), 1.0)
 EYE = (1.1, 0.4)
@@ -30,9 +31,9 @@ def field(laid: Laid) -> Field:
 
 
 @pytest.fixture
-def seen(field: Field, look: Look) -> Seen:
+def seen(field: Field, look: Look, wind: Callable[..., Hear]) -> Seen:
     found = look(field, *EYE)
-    blow(field, *found, [WindSource(Breeze(), "breeze")], time=1.0)
+    blow(field, *found, wind(Breeze(), time=1.0))
     return found
 
 

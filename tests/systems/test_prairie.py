@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.components.wind import WindPrimitive, WindSource
+from tallgrass.components.wind import Grass, WindPrimitive, WindSource
 from tallgrass.engine.scene import SceneError
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
@@ -42,12 +42,13 @@ class Blast(WindPrimitive):
 
     kind: Literal["test-blast"] = "test-blast"
     priority: int = 9
+    swing: float = 0.0
 
     def mask(self, place: Floats, /, *, time: float) -> Floats:
         return np.asarray(place[:, 0] > 0.0 * time, np.float32)
 
-    def action(self, place: Floats, /, *, time: float, seed: int) -> Floats:
-        return np.tile(np.array([0.9, 0.0], np.float32) + np.float32(0.0 * time * seed), (len(place), 1))
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
+        return np.tile(np.array([0.9, 0.0], np.float32) + np.float32(0.0 * time * seed), (len(grass.kind), 1))
 
 
 @pytest.fixture

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from tallgrass.components.quality import Representation
 from tallgrass.components.receivers import BladePool, StripPool
 from tallgrass.components.terrain import Terrain
-from tallgrass.components.wind import WindSource
 from tallgrass.systems.cull import far_to_near
 from tallgrass.systems.field import Field
 from tallgrass.systems.lod import BORDER, FADE
@@ -24,15 +23,17 @@ from tallgrass.systems.receive import (
     strip_ring,
     viewing_slope,
 )
-from tallgrass.systems.wind.blow import messages
+from tallgrass.systems.wind.blow import Listeners, places_alone
 from tallgrass.systems.wind.breeze import Breeze
+from tallgrass.systems.wind.grass import grass_of
 
 Laid = Callable[..., Field]
 Seen = tuple[list[Shown], list[Shown]]
 Look = Callable[..., Seen]
+Hear = Callable[[Listeners], NDArray[np.float32]]
 
 FLAT = Terrain(np.zeros((81, 81), np.float32), 1.0)
-WINDS = [WindSource(Breeze(strength=0.6), "breeze")]
+WIND = Breeze(strength=0.6)
 
 
 def rows(shown: list[Shown]) -> NDArray[np.int64]:
@@ -187,14 +188,17 @@ def test_g3_strips_are_planted_anew_when_their_orientation_changes(laid: Laid, l
     assert turned > 0
 
 
-def test_w1_every_receiver_that_is_seen_hears_the_wind(laid: Laid, look: Look) -> None:
+def test_w1_every_receiver_that_is_seen_hears_the_wind(laid: Laid, look: Look, wind: Callable[..., Hear]) -> None:
     field = laid(terrain=FLAT)
     blades, strips = look(field, 1.0, 1.0)
-    heard = blow(field, blades, strips, WINDS, time=2.0)
+    hear = wind(WIND, time=2.0)
+    heard = blow(field, blades, strips, hear)
     count = 0
     for pool, ring in pooled(field, blades, strips):
         place, message = pool.place[ring.slots].reshape(-1, 2), pool.message[ring.slots].reshape(-1, 2)
-        np.testing.assert_array_equal(message, messages(WINDS, place, time=2.0, seed=3))
+        np.testing.assert_array_equal(
+            message, hear(places_alone(place, grass_of(field.growths, pool.kind(ring.slots))))
+        )
         assert np.linalg.norm(message, axis=1).mean() > 0.3
         count += len(message)
     assert len(heard) == count
@@ -202,22 +206,24 @@ def test_w1_every_receiver_that_is_seen_hears_the_wind(laid: Laid, look: Look) -
     assert count == 25 * (30 + 12) + near * 2 * 3 * 3 + far * 2 * 2 * 2
 
 
-def test_w1_the_same_place_gets_the_same_message_in_blades_and_strips(laid: Laid, look: Look) -> None:
+def test_w1_the_same_place_gets_the_same_message_in_blades_and_strips(
+    laid: Laid, look: Look, wind: Callable[..., Hear]
+) -> None:
     field = laid(terrain=FLAT)
     blades, strips = look(field, 1.0, 1.0)
     at_blade, at_edge = blades[0].slots[0], strips[0].slots[0]
     field.blades.place[at_blade, :6] = field.strips[0].place[at_edge, 0].reshape(-1, 2)[:6]
-    blow(field, blades, strips, WINDS, time=5.0)
+    blow(field, blades, strips, wind(WIND, time=5.0))
     edges = field.strips[0].message[at_edge, 0].reshape(-1, 2)[:6]
     np.testing.assert_array_equal(field.blades.message[at_blade, :6], edges)
 
 
-def test_patches_out_of_sight_are_left_alone(laid: Laid, look: Look) -> None:
+def test_patches_out_of_sight_are_left_alone(laid: Laid, look: Look, wind: Callable[..., Hear]) -> None:
     field = laid(terrain=FLAT)
     look(field, 1.0, 1.0)
     field.blades.message[:] = 9.0
     blades, strips = look(field, 1.0, 1.0, yaw=0.0)
-    blow(field, blades, strips, WINDS, time=2.0)
+    blow(field, blades, strips, wind(WIND, time=2.0))
     seen = np.concatenate([ring.slots for ring in blades])
     unseen = np.setdiff1d(np.arange(len(field.blades.message)), seen)
     assert (field.blades.message[unseen] == 9.0).all()

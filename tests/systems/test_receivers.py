@@ -8,14 +8,16 @@ from numpy.typing import NDArray
 
 from tallgrass.components.receivers import BladePool, StripPool
 from tallgrass.components.terrain import Terrain
-from tallgrass.components.wind import Receivers, WindSource
+from tallgrass.components.wind import Receivers
 from tallgrass.engine.world import World
 from tallgrass.systems.field import Field
 from tallgrass.systems.receive import Shown, blow
 from tallgrass.systems.receivers import ReceiverEntities
+from tallgrass.systems.wind.blow import Listeners
 from tallgrass.systems.wind.breeze import Breeze
 
 Seen = tuple[list[Shown], list[Shown]]
+Hear = Callable[[Listeners], NDArray[np.float32]]
 Looking = Callable[..., Seen]
 
 FLAT = Terrain(np.zeros((81, 81), np.float32), 1.0)
@@ -58,9 +60,11 @@ def test_d2_a_patch_in_a_change_has_receivers_in_both_representations(world: Wor
     assert len(world.all(Receivers)) > settled
 
 
-def test_d2_the_arrays_are_slices_of_the_pools(world: World, field: Field, looking: Looking) -> None:
+def test_d2_the_arrays_are_slices_of_the_pools(
+    world: World, field: Field, looking: Looking, wind: Callable[..., Hear]
+) -> None:
     blades, strips = looking(1.0, 1.0)
-    blow(field, blades, strips, [WindSource(Breeze(), "breeze")], time=1.0)
+    blow(field, blades, strips, wind(Breeze(), time=1.0))
     pools: list[BladePool | StripPool] = [field.blades, *field.strips]
     for _, receivers in world.all(Receivers):
         assert receivers.place.shape == receivers.message.shape

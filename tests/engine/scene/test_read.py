@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from tallgrass.components.scene import Scene
 from tallgrass.components.terrain import TerrainSource
-from tallgrass.components.wind import Floats, WindPrimitive
+from tallgrass.components.wind import Floats, Grass, WindPrimitive
 from tallgrass.engine.plugins import wind, wind_kinds
 from tallgrass.engine.scene import SceneError, bundled_scenes, parse_scene, read_scene
 
@@ -118,7 +118,7 @@ def test_a_plugin_that_fails_on_its_values_is_a_problem_of_its_line() -> None:
         def mask(self, place: Floats, /, *, time: float) -> Floats:
             return place[:, 0] * 0 + time
 
-        def action(self, place: Floats, /, *, time: float, seed: int) -> Floats:
+        def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
             return place * 0 + time + seed
 
     told = refusal(GOOD + "wind:\n  - { kind: test-fragile, size: x, sise: 1 }\n  - { kind: test-fragile, size: -1 }\n")

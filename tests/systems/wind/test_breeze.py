@@ -8,7 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from tallgrass.components.wind import Grass, WindSource
+from tallgrass.systems.wind.blow import blowing, hear, places_alone
 from tallgrass.systems.wind.breeze import Breeze
+from tallgrass.systems.wind.quarantine import Quarantine
 
 Floats = NDArray[np.float32]
 
@@ -33,7 +36,13 @@ def moved(x: float) -> Floats:
 
 
 def felt(breeze: Breeze, place: Floats = FIELD, *, time: float = 3.0, seed: int = 7) -> Floats:
-    return breeze.action(place, time=time, seed=seed)
+    """What still grass at places hears, the small oscillations included."""
+    quarantine = Quarantine()
+    winds = blowing([WindSource(breeze, "breeze")], quarantine, time=time, seed=seed)
+    grass = Grass(np.zeros(len(place), np.intp), *np.ones((3, 1, 2), np.float32))
+    message = hear(winds, places_alone(place, grass), quarantine, time=time, seed=seed)
+    assert not quarantine.reasons
+    return message
 
 
 @given(breezes, times)

@@ -1,0 +1,45 @@
+"""Where a thing on the prairie is, and where it heads."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float32]
+
+
+@dataclass(frozen=True, slots=True)
+class Pose:
+    """A frame of reference on the ground: its own x points to the right, and its own -z ahead.
+
+    As the component of a wind's entity it says where the wind is, in place of what the wind itself says.
+    """
+
+    x: float = 0.0
+    """Ground position along x [m]."""
+
+    z: float = 0.0
+    """Ground position along z [m]."""
+
+    yaw: float = 0.0
+    """Heading: 0 is -z, positive turns right [rad]."""
+
+    def inside(self, place: Floats, /) -> Floats:
+        """Return ground positions (n, 2) in this frame [m], shape (n, 2)."""
+        return _turned(place - np.array([self.x, self.z], np.float32), -self.yaw)
+
+    def outside(self, vector: Floats, /) -> Floats:
+        """Return vectors (n, 2) of this frame as the world's, shape (n, 2)."""
+        return _turned(vector, self.yaw)
+
+
+HERE = Pose()
+"""The world's own frame."""
+
+
+def _turned(vector: Floats, yaw: float) -> Floats:
+    if yaw == 0.0:
+        return vector
+    sine, cosine = np.float32(np.sin(yaw)), np.float32(np.cos(yaw))
+    x, z = vector[:, 0], vector[:, 1]
+    return np.stack([cosine * x - sine * z, sine * x + cosine * z], axis=1)

@@ -1,0 +1,137 @@
+"""The blast of air under a flying object: a mask of any outline, pushed outwards (paper, section 3.3)."""
+
+from functools import lru_cache
+from pathlib import Path
+from typing import Literal, Self
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+from pydantic import Field, PrivateAttr, ValidationInfo, model_validator
+
+from ...components.declaration import Declaration, DeclarationError, Pair
+from ...components.wind import Extent, Grass
+from .outline import FINE, Outline, outline_of_picture, outline_of_polygon, polygon_of_ellipse
+from .placed import PlacedWind
+from .shape import smooth
+
+Floats = NDArray[np.float32]
+
+BEAT, PULSE = 2.2, 0.14
+"""How often rings run outwards through a blast [1/s], and by how much they change its index."""
+
+
+class Shape(Declaration):
+    """The outline of a blast on the ground, in its own frame: x to the right, -z ahead. One of these."""
+
+    disc: float | None = Field(None, gt=0.05, le=1000.0)
+    """Radius of a disc [m]."""
+
+    ellipse: Pair | None = None
+    """Half axes of an ellipse, across and along its heading [m]."""
+
+    polygon: list[Pair] | None = Field(None, min_length=3, max_length=500)
+    """Corners (x, z) of any polygon [m]."""
+
+    image: str | None = Field(None, min_length=1)
+    """Picture file, relative to the scene file, whose bright or opaque part is the shape; its top lies ahead."""
+
+    width: float = Field(6.0, gt=0.05, le=1000.0)
+    """How wide the picture is on the ground [m]."""
+
+    _loaded: Outline | None = PrivateAttr(None)
+
+    @model_validator(mode="after")
+    def _one_shape(self, info: ValidationInfo) -> Self:
+        given = [name for name in ("disc", "ellipse", "polygon", "image") if getattr(self, name) is not None]
+        if len(given) != 1:
+            raise DeclarationError(f"an outline is one of disc, ellipse, polygon and image, not {len(given)} of them")
+        if self.ellipse is not None and not all(0.05 < axis <= 1000.0 for axis in self.ellipse):
+            raise DeclarationError("each half axis must be between 0.05 and 1000 m", "ellipse")
+        if self.polygon is not None:
+            spread = np.ptp(np.array(self.polygon), axis=0)
+            if not (spread.min() > 0.05 and spread.max() <= 2000.0):
+                raise DeclarationError("a polygon must be from 0.05 to 2000 m wide and deep", "polygon")
+        if self.image is not None and (info.context is None or "folder" in info.context):
+            self._loaded = _pictured(self.image, (info.context or {}).get("folder") or Path(), self.width)
+        return self
+
+    def outline(self) -> Outline:
+        """Return the outline, sampled. Raises DeclarationError where the picture cannot be read."""
+        if self.image is not None:
+            return self._loaded or _pictured(self.image, Path(), self.width)
+        if self.polygon is not None:
+            return outline_of_polygon(tuple((x, z) for x, z in self.polygon))
+        across, along = self.ellipse or (self.disc or 1.0, self.disc or 1.0)
+        return outline_of_polygon(polygon_of_ellipse(across, along))
+
+
+class Blast(PlacedWind):
+    """A blow of air from above that presses grass outwards, as under a helicopter."""
+
+    kind: Literal["blast"] = "blast"
+    """A blast of air."""
+
+    priority: int = Field(30, ge=-1000, le=1000)
+    """The highest priority at a place cancels the others; a blast's goes over a whirlwind's."""
+
+    outline: Shape = Shape(disc=4.0)
+    """Where it acts."""
+
+    strength: float = Field(0.95, ge=0.0, le=1.0)
+    """Largest posture index in it."""
+
+    soft: float = Field(1.5, ge=0.0, le=1000.0)
+    """Over what distance from its outline it takes hold, where winds are mixed by weight [m]."""
+
+    swing: float = Field(0.18, ge=0.0, le=0.5)
+    """Largest posture index of a blade's own small oscillations in it, of random direction."""
+
+    body: Literal["saucer"] | None = None
+    """What is drawn flying there; without it, nothing."""
+
+    height: float = Field(2.0, ge=0.5, le=100.0)
+    """How high the body flies above the ground [m]."""
+
+    def extent(self, *, time: float) -> Extent:
+        """Return the rectangle around its outline."""
+        return Extent(*self.outline.outline().bounds)
+
+    def mask(self, place: Floats, /, *, time: float) -> Floats:
+        """Return 1 deep inside the outline, falling to 0 on it over `soft` [m]."""
+        outline = self.outline.outline()
+        depth, _ = outline.at(place)
+        return smooth(depth / np.float32(max(min(self.soft, outline.deepest), 1e-6)))
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
+        """Return its messages: radial to the outline, strongest half way out, with rings that run outwards."""
+        outline = self.outline.outline()
+        depth, outward = outline.at(place)
+        out = np.float32(1.0) - np.clip(depth / np.float32(outline.deepest), 0.0, 1.0)
+        turn = np.float32(np.mod(BEAT * time, 1.0))
+        pulse = np.sin(np.float32(2.0 * np.pi) * (np.float32(1.5) * out - turn))
+        index = np.float32(self.strength / (1.0 + PULSE)) * (1 + np.float32(PULSE) * pulse)
+        index *= smooth((1 - out) / np.float32(0.45))
+        return np.asarray(outward * index[:, None], np.float32)
+
+
+def _pictured(name: str, folder: Path, width: float) -> Outline:
+    path = folder / name
+    try:
+        return _picture(str(path), path.stat().st_mtime_ns, width)
+    except (OSError, ValueError, Image.DecompressionBombError) as error:
+        raise DeclarationError(f"the picture '{name}' cannot be used: {error}", "image") from error
+
+
+@lru_cache(maxsize=64)
+def _picture(path: str, changed: int, width: float) -> Outline:
+    del changed
+    with Image.open(path) as opened:
+        opened.thumbnail((FINE, FINE))
+        bands = opened.convert("LA")
+    grey, alpha = np.asarray(bands, np.float32).transpose(2, 0, 1)
+    bright = grey if (alpha == 255.0).all() else alpha
+    holds = bright > 127.0
+    if not holds.any() or holds.all():
+        raise ValueError("it must have bright (or opaque) and dark (or clear) parts, split at half brightness")
+    return outline_of_picture(holds, width=width)

@@ -1,0 +1,19 @@
+"""What winds are told of the grass at their receivers."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.growth import Growth
+from ...components.wind import Grass
+
+
+def grass_of(growths: Sequence[Growth], kind: NDArray[np.intp], /) -> Grass:
+    """Return how grass of these kinds answers the wind; `kind` (n,) counts the rows of `growths`."""
+    return Grass(
+        kind=kind,
+        step=np.array([growth.response.step for growth in growths], np.float32),
+        rise=np.stack([growth.response.rise for growth in growths]),
+        fall=np.stack([growth.response.fall for growth in growths]),
+    )

@@ -1,0 +1,141 @@
+"""The gust: a strip that travels across its long axis, its profile the grass's own response (paper, section 3.3)."""
+
+from collections.abc import Sequence
+from functools import lru_cache
+from math import cos, radians, sin
+from typing import Literal, Self
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field, model_validator
+
+from ...components.declaration import DeclarationError, Pair
+from ...components.pose import Pose
+from ...components.wind import Extent, Grass, WindPrimitive
+from .shape import rim
+
+Floats = NDArray[np.float32]
+
+LATEST = 36000.0
+"""End of every timeline [s]."""
+
+
+class Gust(WindPrimitive):
+    """A front of wind that crosses the prairie: grass bows as it arrives, holds, and swings back to rest behind it.
+
+    Its own frame travels with the middle of the front.
+    """
+
+    kind: Literal["gust"] = "gust"
+    """A gust of wind."""
+
+    priority: int = Field(10, ge=-1000, le=1000)
+    """The highest priority at a place cancels the others; a gust's goes over a breeze's."""
+
+    ease: float = Field(0.6, ge=0.0, le=60.0)
+    """How long it takes to set in and to die down [s]; a wind that starts at 0 is there from the beginning."""
+
+    position: Pair = Field(default=[0.0, 0.0])
+    """Ground position (x, z) of the front's middle where it sets out [m]."""
+
+    direction: float = Field(90.0, ge=-360.0, le=360.0)
+    """Where it travels and blows to, as a camera's yaw: 0 is -z, 90 is +x [degrees]."""
+
+    width: float = Field(40.0, gt=0.1, le=10000.0)
+    """Length of the front, across its travel [m]."""
+
+    speed: float = Field(8.0, gt=0.1, le=60.0)
+    """How fast it travels [m/s]."""
+
+    reach: float = Field(80.0, gt=0.1, le=100000.0)
+    """How far it travels [m]."""
+
+    strength: float = Field(0.8, ge=0.0, le=1.0)
+    """Posture index that grass comes to in it, past which it first swings."""
+
+    hold: float = Field(1.0, ge=0.0, le=60.0)
+    """How long it blows at a place before it lets go [s]."""
+
+    tail: float = Field(3.0, gt=0.0, le=60.0)
+    """How long the grass it leaves behind still swings [s]."""
+
+    ragged: float = Field(1.5, ge=0.0, le=50.0)
+    """How far parts of the front lag behind others [m]."""
+
+    soft: float = Field(4.0, ge=0.0, le=1000.0)
+    """Over what distance from its sides and ends it takes hold, where winds are mixed by weight [m]."""
+
+    every: Pair | None = None
+    """Shortest and longest time after which it comes again, at random; without it, it comes once [s]."""
+
+    wander: float = Field(0.0, ge=0.0, le=10000.0)
+    """How far to either side the place it sets out from may be when it comes again [m]."""
+
+    @model_validator(mode="after")
+    def _sensible_intervals(self) -> Self:
+        if self.every is not None and not 0.5 <= self.every[0] <= self.every[1] <= LATEST:
+            raise DeclarationError(f"every must be [shortest, longest], rising, from 0.5 to {LATEST:g} s", "every")
+        return self
+
+    @property
+    def life(self) -> float:
+        """How long it is on its way, until the last grass is at rest again [s]."""
+        return (self.reach + self.ragged) / self.speed + self.hold + self.tail
+
+    def parts(self, *, time: float, seed: int) -> Sequence[WindPrimitive]:
+        """Return the gusts on their way at `time` [s]: itself, or those of its repetitions that have set out."""
+        if self.every is None:
+            return (self,) if self.start <= time < self.start + self.life else ()
+        waits, sides = _repetitions(seed, *self.every)
+        first, last = np.searchsorted(waits, [time - self.start - self.life, time - self.start], side="right").tolist()
+        return [self._again(float(waits[k]), float(sides[k])) for k in range(first, last)]
+
+    def _again(self, wait: float, side: float) -> "Gust":
+        heading, aside = radians(self.direction), self.wander * side
+        x, z = self.position[0] + aside * cos(heading), self.position[1] + aside * sin(heading)
+        return self.model_copy(update={"start": self.start + wait, "position": [x, z], "every": None})
+
+    def pose(self, *, time: float) -> Pose:
+        """Return the frame of the front's middle at `time` [s]."""
+        heading, way = radians(self.direction), self._way(time)
+        return Pose(self.position[0] + way * sin(heading), self.position[1] - way * cos(heading), heading)
+
+    def extent(self, *, time: float) -> Extent:
+        """Return the rectangle it holds: from the front back to where grass is at rest again."""
+        way = self._way(time)
+        depth = self.speed * (self.hold + self.tail) + self.ragged
+        half = self.width / 2
+        return Extent(-half, half, max(0.0, way - self.reach), max(min(depth, way), 0.0))
+
+    def mask(self, place: Floats, /, *, time: float) -> Floats:
+        """Return 1 in the middle of the strip, falling to 0 at its edges over `soft` [m]."""
+        held = self.extent(time=time)
+        return rim(place[:, 0], held.left, held.right, self.soft) * rim(place[:, 1], held.ahead, held.behind, self.soft)
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
+        """Return its messages: the response over time, read as a profile from the front to the tail."""
+        behind = place[:, 1] - self._lag(place[:, 0], seed)
+        elapsed = behind / np.float32(self.speed)
+        index = grass.after_start(elapsed) + grass.after_stop(elapsed - np.float32(self.hold)) - np.float32(1.0)
+        left = np.clip((np.float32(self.hold + self.tail) - elapsed) / np.float32(0.5 * self.tail), 0.0, 1.0)
+        message = np.zeros((len(place), 2), np.float32)
+        message[:, 1] = np.clip(-np.float32(self.strength) * index * left, -1.0, 1.0)
+        return message
+
+    def _way(self, time: float) -> float:
+        return self.speed * (time - self.start)
+
+    def _lag(self, across: Floats, seed: int) -> Floats:
+        """Return how far parts of the front are behind, from 0 to `ragged` [m], shape (n,)."""
+        first, second = np.random.default_rng(seed).uniform(0.0, 2.0 * np.pi, 2).astype(np.float32)
+        wave = np.sin(across / np.float32(4.1) + first) + np.sin(across / np.float32(1.7) + second) * np.float32(0.6)
+        return np.asarray(np.float32(self.ragged) * (np.float32(0.5) + wave / np.float32(3.2)), np.float32)
+
+
+@lru_cache(maxsize=256)
+def _repetitions(seed: int, shortest: float, longest: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return when a gust sets out [s], rising from 0, and how far aside, in [-1, 1]; the first one straight."""
+    random = np.random.default_rng((seed, 0x67757374))
+    count = int(LATEST / shortest) + 1
+    waits = np.concatenate([[0.0], np.cumsum(random.uniform(shortest, longest, count))])
+    return waits, np.concatenate([[0.0], random.uniform(-1.0, 1.0, count)])

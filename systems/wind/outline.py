@@ -1,0 +1,150 @@
+"""Outlines of any shape: how deep a place lies inside, and which way leads out (paper, section 3.3)."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float32]
+Doubles = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+FINE = 96
+"""Samples along the longer side of an outline."""
+
+_BLUR = 2.0
+"""How far directions are evened out, so that no ridge shows where two sides are equally near [samples]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Outline:
+    """A shape on the ground, sampled in a rectangle a little larger than itself."""
+
+    corner: tuple[float, float]
+    """Where the first sample is, (x, z) [m]."""
+
+    step: float
+    """Distance between samples [m]."""
+
+    depth: Floats
+    """Distance to the outline inside the shape, negative outside [m], shape (rows along z, columns along x)."""
+
+    outward: Floats
+    """Direction out of the shape, at most a unit vector (x, z), shape (rows, columns, 2)."""
+
+    @property
+    def deepest(self) -> float:
+        """Largest distance to the outline [m]."""
+        return float(self.depth.max())
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Least and largest x, least and largest z that it is sampled at [m]."""
+        rows, columns = self.depth.shape
+        x, z = self.corner
+        return x, x + (columns - 1) * self.step, z, z + (rows - 1) * self.step
+
+    def at(self, place: Floats, /) -> tuple[Floats, Floats]:
+        """Return the depth [m], shape (n,), and the direction outwards (n, 2) at positions (n, 2) in its frame."""
+        field = np.concatenate([self.depth[..., None], self.outward], axis=2)
+        rows, columns = self.depth.shape
+        away = (place - np.array(self.corner, np.float32)) / np.float32(self.step)
+        at = np.clip(away, 0.0, np.array([columns - 1.001, rows - 1.001], np.float32)).astype(np.float32)
+        low = at.astype(np.intp)
+        part = at - low.astype(np.float32)
+        s, t = part[:, :1], part[:, 1:]
+        flat, first = field.reshape(-1, 3), low[:, 1] * columns + low[:, 0]
+        far = flat[first] * (1 - s) + flat[first + 1] * s
+        near = flat[first + columns] * (1 - s) + flat[first + columns + 1] * s
+        found = far * (1 - t) + near * t
+        beyond = np.abs(away - at).max(axis=1) > 1.0
+        return np.where(beyond, -np.float32(self.step), found[:, 0]), found[:, 1:]
+
+
+def polygon_of_ellipse(across: float, along: float, /) -> tuple[tuple[float, float], ...]:
+    """Return the corners of an ellipse with these half axes [m], its first one to the right."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 96, endpoint=False)
+    return tuple(zip((across * np.cos(angle)).tolist(), (along * np.sin(angle)).tolist(), strict=True))
+
+
+@lru_cache(maxsize=256)
+def outline_of_polygon(corners: tuple[tuple[float, float], ...], /) -> Outline:
+    """Return the outline of a closed polygon with these corners (x, z) [m], which may be concave."""
+    points = np.array(corners, np.float64)
+    low, high = points.min(axis=0), points.max(axis=0)
+    step = float((high - low).max()) / (FINE - 5)
+    columns, rows = (np.ceil((high - low) / step).astype(int) + 5).tolist()
+    corner = (low + high) / 2 - step * (np.array([columns, rows]) - 1) / 2
+    x, z = corner[0] + step * np.arange(columns), corner[1] + step * np.arange(rows)
+    place = np.stack(np.meshgrid(x, z), axis=-1)
+    away, holds = _to_edges(place, points)
+    return _outline(np.where(holds, away, -away), (float(corner[0]), float(corner[1])), step)
+
+
+def outline_of_picture(holds: Bools, /, *, width: float) -> Outline:
+    """Return the outline of a picture's set pixels, shape (rows, columns), `width` [m] across.
+
+    The picture's middle is the frame's origin, and its top lies ahead.
+    """
+    rows, columns = holds.shape
+    framed = np.pad(holds, 2)
+    step = width / columns
+    return _outline(_signed(framed) * step, (-(columns + 3) * step / 2, -(rows + 3) * step / 2), step)
+
+
+def _outline(depth: Doubles, corner: tuple[float, float], step: float) -> Outline:
+    even = _blurred(depth)
+    down, right = np.gradient(even, step)
+    outward = -np.stack([right, down], axis=2)
+    length = np.linalg.norm(outward, axis=2, keepdims=True)
+    outward /= np.maximum(length, 1e-9)
+    outward *= np.clip(length * 2.0, 0.0, 1.0)
+    return Outline(corner, step, depth.astype(np.float32), outward.astype(np.float32))
+
+
+def _to_edges(place: Doubles, points: Doubles) -> tuple[Doubles, Bools]:
+    """Return the distances of places (..., 2) to a closed polygon's edges, and whether it holds them (even-odd)."""
+    away = np.full(place.shape[:-1], np.inf)
+    holds = np.zeros(place.shape[:-1], np.bool_)
+    for a, b in zip(points, np.roll(points, -1, axis=0), strict=True):
+        edge, to = b - a, place - a
+        part = np.clip(to @ edge / max(float(edge @ edge), 1e-12), 0.0, 1.0)
+        away = np.minimum(away, np.linalg.norm(to - part[..., None] * edge, axis=-1))
+        crosses = (a[1] > place[..., 1]) != (b[1] > place[..., 1])
+        rise = edge[1] or 1.0
+        holds ^= crosses & (place[..., 0] < a[0] + edge[0] * (place[..., 1] - a[1]) / rise)
+    return away, holds
+
+
+def _signed(holds: Bools) -> Doubles:
+    """Return each pixel's distance to the nearest one of the other sort, negative where not set [pixels]."""
+    inside, outside = np.argwhere(holds & _edged(~holds)), np.argwhere(~holds & _edged(holds))
+    rows, columns = np.indices(holds.shape)
+    here = np.stack([rows, columns], axis=-1).reshape(-1, 2)
+    depth = np.where(holds.reshape(-1), _nearest(here, outside), -_nearest(here, inside))
+    return np.asarray((depth - 0.5 * np.sign(depth)).reshape(holds.shape))
+
+
+def _edged(other: Bools) -> Bools:
+    padded = np.pad(other, 1)
+    return np.asarray(padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:])
+
+
+def _nearest(here: NDArray[np.intp], targets: NDArray[np.intp]) -> Doubles:
+    """Return the distance of each of `here` (n, 2) to the nearest target, shape (n,)."""
+    parts = np.array_split(here, max(1, len(here) * len(targets) // 2_000_000))
+    squares = [((part[:, None, :] - targets[None]) ** 2).sum(axis=2).min(axis=1) for part in parts]
+    return np.sqrt(np.concatenate(squares).astype(np.float64))
+
+
+def _blurred(field: Doubles) -> Doubles:
+    reach = np.arange(-int(3 * _BLUR), int(3 * _BLUR) + 1)
+    bell = np.exp(-0.5 * (reach / _BLUR) ** 2)
+    bell /= bell.sum()
+    for axis in (0, 1):
+        pad = [(0, 0), (0, 0)]
+        pad[axis] = (len(reach) // 2, len(reach) // 2)
+        padded = np.pad(field, pad, mode="reflect", reflect_type="odd")
+        field = np.apply_along_axis(np.convolve, axis, padded, bell, mode="valid")
+    return field

@@ -1,0 +1,22 @@
+"""Soft edges of masks."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float32]
+
+
+def smooth(value: Floats, /) -> Floats:
+    """Return 0 below 0, 1 above 1 and a smooth step between, shape (n,)."""
+    t = np.clip(value, np.float32(0.0), np.float32(1.0))
+    return np.asarray(t * t * (np.float32(3.0) - np.float32(2.0) * t), np.float32)
+
+
+def rim(value: Floats, least: float, most: float, soft: float, /) -> Floats:
+    """Return 1 between two bounds, falling smoothly to 0 at each over `soft` [m], or half the way if that is less.
+
+    Shape (n,). On the bounds and outside it is 0.
+    """
+    inside = np.minimum(value - np.float32(least), np.float32(most) - value)
+    width = max(min(soft, 0.5 * (most - least)), 1e-6)
+    return smooth(inside / np.float32(width))

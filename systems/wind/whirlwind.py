@@ -1,0 +1,66 @@
+"""The whirlwind: a disc that bends grass along its circles, most of all near the middle (paper, section 3.3)."""
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from ...components.wind import Extent, Grass
+from .placed import PlacedWind
+from .shape import rim, smooth
+
+Floats = NDArray[np.float32]
+
+EYE = 0.3
+"""Radius of the calm in the middle, where no direction is along a circle [m]."""
+
+LOBES, UNEVEN = 2, 0.18
+"""In how many places around its middle it is stronger, and by how much."""
+
+
+class Whirlwind(PlacedWind):
+    """A turning wind: grass lies along circles around its middle, and a stronger side goes slowly round."""
+
+    kind: Literal["whirlwind"] = "whirlwind"
+    """A whirlwind."""
+
+    priority: int = Field(20, ge=-1000, le=1000)
+    """The highest priority at a place cancels the others; a whirlwind's goes over a gust's."""
+
+    radius: float = Field(6.0, gt=0.1, le=1000.0)
+    """Radius of its disc [m]."""
+
+    strength: float = Field(0.9, ge=0.0, le=1.0)
+    """Posture index near its middle."""
+
+    spin: Literal["left", "right"] = "left"
+    """Which way it turns, seen from above."""
+
+    turning: float = Field(0.35, ge=0.0, le=10.0)
+    """How fast its stronger sides go round [turns/s]."""
+
+    soft: float = Field(1.5, ge=0.0, le=1000.0)
+    """Over what distance from its edge it takes hold, where winds are mixed by weight [m]."""
+
+    def extent(self, *, time: float) -> Extent:
+        """Return the square around its disc."""
+        return Extent(-self.radius, self.radius, -self.radius, self.radius)
+
+    def mask(self, place: Floats, /, *, time: float) -> Floats:
+        """Return 1 in the middle of the disc, falling to 0 at its edge over `soft` [m]."""
+        away = np.sqrt(place[:, 0] * place[:, 0] + place[:, 1] * place[:, 1])
+        return rim(away, -self.radius, self.radius, self.soft)
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
+        """Return its messages: tangent to the circles, an index that falls from the middle to the edge."""
+        x, z = place[:, 0], place[:, 1]
+        away = np.asarray(np.maximum(np.sqrt(x * x + z * z), np.float32(1e-6)), np.float32)
+        part = np.minimum(away / np.float32(self.radius), np.float32(1.0))
+        fall = np.float32(1.0) - part * part * np.float32(0.85)
+        phase = np.float32(np.mod(2.0 * np.pi * LOBES * self.turning * time, 2.0 * np.pi))
+        sign = np.float32(-1.0 if self.spin == "left" else 1.0)
+        around = np.arctan2(z, x) * np.float32(LOBES) - sign * phase
+        uneven = np.float32(1.0 - UNEVEN) + np.float32(UNEVEN) * np.cos(around)
+        index = np.float32(self.strength) * fall * uneven * smooth(away / np.float32(EYE))
+        return np.stack([-sign * z / away * index, sign * x / away * index], axis=1)

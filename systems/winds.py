@@ -1,0 +1,58 @@
+"""The winds of a prairie: whose entities they are, where they are now, and what grass feels of them."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..components.pose import Pose
+from ..components.wind import WindPrimitive, WindSource
+from ..engine.terrain.sample import density_at
+from ..engine.world import World
+from .field import Field
+from .wind.blow import Blowing, Listeners, blowing, hear, places_alone
+from .wind.grass import grass_of
+from .wind.quarantine import Quarantine
+
+Floats = NDArray[np.float32]
+
+
+class Winds:
+    """The winds in one world; those that a scene declares, those that a game adds, and a game's own entities."""
+
+    def __init__(self, world: World, field: Field) -> None:
+        self._world = world
+        self._field = field
+        self.quarantine = Quarantine()
+        for number, primitive in enumerate(field.scene.wind):
+            self.add(primitive, f"wind[{number}] {primitive.kind}")
+
+    def add(self, primitive: WindPrimitive, name: str, pose: Pose | None = None) -> int:
+        """Add a wind and return its entity."""
+        return self._world.create(WindSource(primitive, name), *([pose] if pose else []))
+
+    def sources(self) -> list[WindSource]:
+        """Return the winds there are."""
+        return [source for _, source in self._world.all(WindSource)]
+
+    def now(self, time: float) -> list[Blowing]:
+        """Return the winds that act at `time` [s], the strongest claim first.
+
+        A wind whose entity has a `Pose` is there; the others are where they say themselves.
+        """
+        found = self._world.all(WindSource)
+        placed = dict(self._world.all(Pose))
+        poses = {source: placed[entity] for entity, source in found if entity in placed}
+        sources = [source for _, source in found]
+        return blowing(sources, self.quarantine, time=time, seed=self._field.scene.seed, poses=poses)
+
+    def heard(self, listeners: Listeners, /, *, time: float) -> Floats:
+        """Return the message that each listener ends up with at `time` [s], shape (n, 2)."""
+        scene = self._field.scene
+        return hear(self.now(time), listeners, self.quarantine, time=time, seed=scene.seed, mixing=scene.mixing)
+
+    def at(self, place: Floats, /, *, time: float, kind: int | None = None) -> Floats:
+        """Return what grass of a kind, or the densest there, feels at ground positions (n, 2) [m], shape (n, 2)."""
+        field = self._field
+        kinds = np.full(len(place), kind or 0, np.intp)
+        if kind is None and len(field.growths) > 1:
+            kinds = np.argmax(density_at(field.density, place), axis=0).astype(np.intp)
+        return self.heard(places_alone(place, grass_of(field.growths, kinds)), time=time)
