@@ -1,11 +1,12 @@
 """Drawing a whole frame: ground, sky and carpet, then strips and blades from far to near."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.body import Body
 from ...components.camera import View
 from ...engine.gl.guest import guest
 from ...engine.gl.shaders import program
@@ -15,6 +16,7 @@ from ..gather import gather_blades, gather_strips, runs
 from ..lod import BORDER
 from ..receive import Shown, carpet_shares
 from .blades import HALF, LEAST, BladePainter
+from .bodies import BodyPainter
 from .frame import FrameBlock, aim, frame_record
 from .ground import RAISED, GroundPainter, finest_spacing, ground_tiles, within
 from .strips import StripPainter
@@ -67,6 +69,7 @@ class Painter:
         ]
         self.blades = [self.blade_painter(ring.segments, soft=True) for ring in field.quality.blade_rings]
         self.spacing = finest_spacing(field.terrain, field.quality.patch)
+        self.bodies: BodyPainter | None = None
         self.draw_calls = 0
         self.runs: list[tuple[int, int, int]] = []
 
@@ -90,6 +93,13 @@ class Painter:
             painter.write(records, thin=thin)
             counts.append(count)
         self.runs = runs(shown, counts)
+
+    def write_bodies(self, bodies: Sequence[Body]) -> None:
+        """Send what flies over the prairie."""
+        if self.bodies is None and bodies:
+            self.bodies = BodyPainter(self.ctx, self.block, self.field.scene.light)
+        if self.bodies is not None:
+            self.bodies.write(bodies)
 
     def draw_carpet_everywhere(self, view: View) -> None:
         """Draw the carpet everywhere, at half the height of the grass, into the framebuffer that is bound."""
@@ -131,12 +141,16 @@ class Painter:
     def _draw_land(self, target: moderngl.Framebuffer) -> None:
         self.ctx.enable_only(moderngl.DEPTH_TEST)
         self.draw_calls = 1 + self.ground.draw_opaque()
+        if self.bodies is not None:
+            self.draw_calls += self.bodies.draw()
         target.depth_mask = False
         self.sky_array.render(moderngl.TRIANGLES, vertices=3)
         target.depth_mask = True
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND)
         self.ctx.blend_func = OVER
         self.draw_calls += self.ground.draw_carpet()
+        if self.bodies is not None:
+            self.draw_calls += self.bodies.draw_border()
 
     def _draw_grass(self, target: moderngl.Framebuffer) -> None:
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND)
@@ -153,6 +167,8 @@ class Painter:
 
     def release(self) -> None:
         """Give everything back to the context."""
+        if self.bodies is not None:
+            self.bodies.release()
         release_all(
             *self.blades, *self.strips, self.ground, self.block, self.sky_array, self.sky, *self.textures.values()
         )

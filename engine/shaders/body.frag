@@ -1,0 +1,76 @@
+#include "lib/light.glsl"
+
+const float HULL = 0.0, GLASS = 1.0, JET = 2.0, FIN = 3.0;
+const float LAMPS = 12.0, LAMPS_AT = 1.22, LAMP = 0.055;  // how many, how far from the middle, how large [m]
+const vec3 AHEAD = vec3(1.0, 0.42, 0.16), AROUND = vec3(0.80, 1.0, 0.86), BREATH = vec3(0.74, 0.95, 1.0);
+
+uniform vec3 metal;  // display colours in this light
+uniform vec3 glass;
+uniform vec3 paint;
+
+in vec3 own;
+in vec3 seen_at;
+in vec3 facing;
+flat in float made_of;
+in float cover;
+
+out vec4 pixel;
+
+// What a mirror shows that looks this way: the sky, and below the horizon the grass.
+vec3 around(vec3 toward) {
+    float low = 1.0 - max(toward.y, 0.0);
+    vec3 sky = mix(zenith.rgb, haze.rgb, low * low * low);
+    float near_sun = max(dot(toward, sun.xyz), 0.0);
+    sky += glow.rgb * (0.25 * pow(near_sun, 8.0) + 0.9 * pow(near_sun, 160.0)) * min(sun.w * 2.0, 1.0);
+    vec3 grass = mix(root[0].rgb, tip[0].rgb, 0.45);
+    return mix(grass, sky, smoothstep(-0.12, 0.06, toward.y));
+}
+
+// How much of a line of this half width [m] at this distance from its middle a pixel sees.
+float line(float away, float half_width) {
+    float soft = max(fwidth(away), 1e-4);
+    return clamp((half_width - abs(away)) / soft + 0.5, 0.0, min(1.0, 2.0 * half_width / soft));
+}
+
+// Seams between plates.
+float seams(float from, float half_turn) {
+    float radial = from < 1.40 && from > 0.64 ? line(from * sin(half_turn), 0.006) : 0.0;
+    return max(radial, max(line(from - 1.02, 0.006), line(from - 1.40, 0.008)));
+}
+
+// The hull with its ring of lamps, and a red one ahead.
+vec3 fitted(vec3 plate) {
+    float angle = atan(own.x, -own.z), sector = round(angle / 6.2831853 * LAMPS);
+    float turn = sector / LAMPS * 6.2831853;
+    vec3 color = plate * (1.0 - 0.38 * seams(length(own.xz), 3.1415927 / LAMPS - abs(angle - turn)));
+    bool first = sector == 0.0;
+    vec3 lamp = first ? AHEAD : AROUND;
+    float size = first ? 1.6 * LAMP : LAMP;
+    float off = distance(own.xz, LAMPS_AT * vec2(sin(turn), -cos(turn)));
+    float soft = max(fwidth(off), 1e-4), seen = min(1.0, size / soft);
+    color *= 1.0 - 0.55 * seen * smoothstep(soft, -soft, off - 1.5 * size);
+    color += lamp * 0.22 * exp(-off * off / (6.0 * size * size));
+    vec3 bulb = mix(lamp, vec3(1.0), 0.6 * smoothstep(size, 0.0, off));
+    return mix(color, bulb, seen * smoothstep(soft, -soft, off - size));
+}
+
+void main() {
+    vec3 normal = normalize(facing), ray = normalize(seen_at - eye.xyz);
+    float open = 0.5 + 0.5 * normal.y, grazing = 1.0 - max(-dot(ray, normal), 0.0);
+    vec3 grass = mix(root[0].rgb, tip[0].rgb, 0.7);
+    grass = mix(grass, vec3(dot(grass, vec3(0.3, 0.6, 0.1))), 0.55);
+    float direct = 0.55 * max(dot(normal, sun.xyz), 0.0) * min(sun.w * 1.6, 1.0);
+    vec3 light = mix(grass * 0.95, mix(zenith.rgb, haze.rgb, 0.7) * 0.75, smoothstep(0.0, 1.0, open)) + glow.rgb * direct;
+    vec3 mirrored = around(reflect(ray, normal));
+    float sheen = grazing * grazing * grazing;
+    vec3 color;
+    if (made_of == GLASS)
+        color = mix(glass * (0.5 + 0.5 * open), mirrored, 0.30 + 0.65 * sheen);
+    else if (made_of == JET)
+        color = BREATH * mix(1.0, 0.75, smoothstep(0.0, 0.34, length(own.xz)));
+    else if (made_of == FIN)
+        color = mix(paint * light * 1.1, mirrored, 0.05 + 0.4 * sheen);
+    else
+        color = fitted(mix(metal * light, mirrored, 0.24 + 0.5 * sheen));
+    pixel = vec4(mix(min(color, vec3(1.0)), haze.rgb, haze_at(seen_at)), 1.0) * cover;
+}

@@ -1,0 +1,47 @@
+// One instance is one body. With BORDER it is drawn as a border one pixel wide along its outline, which fades outwards.
+#include "lib/light.glsl"
+
+in vec3 place;   // in the body's own axes: x right, y up, -z ahead
+in vec3 normal;
+in float part;
+in vec3 middle;  // of the body in the world; and its axes there
+in vec3 right;
+in vec3 up;
+in vec3 back;
+#ifdef BORDER
+in vec3 other;   // end of the edge
+in vec3 side;    // normals of its two triangles
+in vec3 beyond;
+in float outside;
+#endif
+
+out vec3 own;
+out vec3 seen_at;
+out vec3 facing;
+flat out float made_of;
+out float cover;
+
+void main() {
+    mat3 axes = mat3(right, up, back);
+    own = place;
+    seen_at = middle + axes * place;
+    facing = axes * normal;
+    made_of = part;
+    cover = 1.0;
+    gl_Position = clip * vec4(seen_at, 1.0);
+#ifdef BORDER
+    vec3 ray = transpose(axes) * (eye.xyz - middle) - place;
+    vec4 far = clip * vec4(middle + axes * other, 1.0);
+    if (dot(ray, side) * dot(ray, beyond) > 0.0 || min(far.w, gl_Position.w) < 0.15) {
+        gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+        return;
+    }
+    vec2 here = gl_Position.xy / gl_Position.w;
+    vec2 run = (far.xy / far.w - here) * screen.xy;
+    vec2 aside = vec2(-run.y, run.x) / max(length(run), 1e-6);
+    vec4 away = clip * vec4(axes * (side + beyond), 0.0);
+    aside *= sign(dot(aside, (away.xy - here * away.w) * screen.xy));
+    gl_Position.xy += outside * aside / screen.xy * gl_Position.w;
+    cover = 1.0 - outside;
+#endif
+}
