@@ -76,7 +76,7 @@ class Ground:
 
 def start(camera: Camera, ground: Ground, /) -> Walker:
     """Return the walker that takes over from a camera: on foot, or in flight where the camera stands high up."""
-    x, z, _, _ = _on_terrain(camera.position[0], camera.position[2], ground)
+    x, z, _, _ = on_terrain(camera.position[0], camera.position[2], ground)
     floor = ground.height(x, z)
     flying = camera.position[1] > floor + 2.0 * EYE
     y = camera.position[1] if flying else floor + EYE
@@ -115,7 +115,7 @@ def moved(walker: Walker, held: AbstractSet[Move], dt: float, ground: Ground, /)
         strict=True,
     )
     x0, y0, z0 = walker.position
-    x, z, free_x, free_z = _on_terrain(x0 + shifts[0], z0 + shifts[2], ground)
+    x, z, free_x, free_z = on_terrain(x0 + shifts[0], z0 + shifts[2], ground)
     floor = ground.height(x, z)
     if walker.flying:
         y = max(y0 + shifts[1], floor + LOWEST)
@@ -133,23 +133,23 @@ def toggled(walker: Walker, /) -> Walker:
 
 def settled(walker: Walker, ground: Ground, /) -> Walker:
     """Return the walker on another ground: at its place, but on the terrain and not below the ground."""
-    x, z, _, _ = _on_terrain(walker.position[0], walker.position[2], ground)
+    x, z, _, _ = on_terrain(walker.position[0], walker.position[2], ground)
     floor = ground.height(x, z)
     y = max(walker.position[1], floor + LOWEST) if walker.flying else floor + EYE
     return replace(walker, position=(x, y, z))
+
+
+def on_terrain(x: float, z: float, ground: Ground, /) -> tuple[float, float, bool, bool]:
+    """Return the place on the terrain nearest to (x, z) [m], and whether x and z were left as they are."""
+    wide, deep = (max(0.0, side / 2.0 - MARGIN) for side in ground.size)
+    inside_x, inside_z = max(-wide, min(wide, x)), max(-deep, min(deep, z))
+    return inside_x, inside_z, inside_x == x, inside_z == z
 
 
 def _eased(velocity: float, asked: float, dt: float) -> tuple[float, float]:
     """Return the way [m] and the velocity [m/s] after `dt` [s] of approaching the asked velocity exponentially."""
     left = math.exp(-dt / REACTION)
     return asked * dt + (velocity - asked) * REACTION * (1.0 - left), asked + (velocity - asked) * left
-
-
-def _on_terrain(x: float, z: float, ground: Ground) -> tuple[float, float, bool, bool]:
-    """Return the place on the terrain nearest to (x, z) [m], and whether x and z were left as they are."""
-    wide, deep = (max(0.0, side / 2.0 - MARGIN) for side in ground.size)
-    inside_x, inside_z = max(-wide, min(wide, x)), max(-deep, min(deep, z))
-    return inside_x, inside_z, inside_x == x, inside_z == z
 
 
 def _bounded(pitch: float) -> float:
