@@ -1,7 +1,7 @@
 """How a thing that hovers on its jet flies: at what height, how it leans, and where its jet meets the ground."""
 
 from collections.abc import Callable
-from math import atan2, cos, hypot, pi, sin, tanh
+from math import atan2, cos, hypot, pi, sin, tan, tanh
 
 import numpy as np
 
@@ -87,6 +87,6 @@ def foot(body: Body, height_at: Heights, /) -> Pose:
     """
     x, y, z = body.place
     height = y - float(height_at(np.array([[x, z]], np.float32))[0])
-    ahead, right = height * np.tan(body.nose), -height * np.tan(body.bank) / cos(body.nose)
+    ahead, right = height * tan(body.nose), -height * tan(body.bank) / cos(body.nose)
     c, s = cos(body.yaw), sin(body.yaw)
-    return Pose(float(x + s * ahead + c * right), float(z - c * ahead + s * right), body.yaw)
+    return Pose(x + s * ahead + c * right, z - c * ahead + s * right, body.yaw)

@@ -109,7 +109,8 @@ def face_normals(vertices: NDArray[np.void], triangles: Triangles, /) -> Floats:
     """Return the unit normals of triangles, shape (n, 3)."""
     a, b, c = (vertices["place"][triangles[:, corner]].astype(np.float64) for corner in range(3))
     normal: Doubles = np.cross(b - a, c - a)
-    return (normal / np.linalg.norm(normal, axis=1, keepdims=True)).astype(np.float32)
+    unit: Doubles = normal / np.linalg.norm(normal, axis=1, keepdims=True)
+    return unit.astype(np.float32)
 
 
 def _fin() -> tuple[NDArray[np.void], Triangles]:
