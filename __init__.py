@@ -5,18 +5,46 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from . import scenes
-    from .components.wind import WindPrimitive
+    from .components.pose import Pose
+    from .components.wind import Extent, Grass, WindPrimitive
     from .engine.plugins import wind
     from .engine.scene import SceneError
     from .systems.prairie import Prairie
+    from .systems.wind.blast import Blast
+    from .systems.wind.breeze import Breeze
+    from .systems.wind.gust import Gust
+    from .systems.wind.placed import PlacedWind
+    from .systems.wind.whirlwind import Whirlwind
 
 __version__ = "0.1.0"
 
-__all__ = ["Prairie", "SceneError", "WindPrimitive", "scenes", "wind"]
+__all__ = [
+    "Blast",
+    "Breeze",
+    "Extent",
+    "Grass",
+    "Gust",
+    "PlacedWind",
+    "Pose",
+    "Prairie",
+    "SceneError",
+    "Whirlwind",
+    "WindPrimitive",
+    "scenes",
+    "wind",
+]
 
 _HOMES = {
+    "Blast": ".systems.wind.blast",
+    "Breeze": ".systems.wind.breeze",
+    "Extent": ".components.wind",
+    "Grass": ".components.wind",
+    "Gust": ".systems.wind.gust",
+    "PlacedWind": ".systems.wind.placed",
+    "Pose": ".components.pose",
     "Prairie": ".systems.prairie",
     "SceneError": ".engine.scene",
+    "Whirlwind": ".systems.wind.whirlwind",
     "WindPrimitive": ".components.wind",
     "wind": ".engine.plugins",
 }

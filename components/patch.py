@@ -84,6 +84,9 @@ class PatchTable:
     slope: NDArray[np.float32]
     """Rise of the ground there along x and z, shape (rows, 2)."""
 
+    message: NDArray[np.float32]
+    """The wind's message at the patch's middle, without small oscillations: the carpet's receiver, shape (rows, 2)."""
+
     entity: NDArray[np.int64]
     """The patch's entity, 0 where there is none, shape (rows,)."""
 
@@ -104,6 +107,7 @@ class PatchTable:
             visible=np.zeros(rows, np.bool_),
             height=np.zeros(rows, np.float32),
             slope=np.zeros((rows, 2), np.float32),
+            message=np.zeros((rows, 2), np.float32),
             entity=np.zeros(rows, np.int64),
         )
 

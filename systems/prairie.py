@@ -25,6 +25,7 @@ from .cull import discrete_distance, eye_of, inside_cone, view_cone
 from .draw.painter import Painter, view_of
 from .field import Field, blades_in_field, lay_out
 from .growth.cache import cached_growth
+from .fly import flying
 from .lod import schedule, wanted_representation
 from .receive import Shown, blow, plant_shown_blades, plant_shown_strips, shown_blades, shown_strips
 from .receivers import ReceiverEntities
@@ -100,7 +101,6 @@ class Prairie:
         self._clock = 0.0
         self._drawn_at: float | None = None
         self._receivers = ReceiverEntities(self.world, self.field)
-        self._blown = 0.0
         self._released = False
         self._blades: list[Shown] = []
         self._strips: list[Shown] = []
@@ -264,13 +264,18 @@ class Prairie:
     def _wind(self) -> None:
         heard = blow(self.field, self._blades, self._strips, partial(self.winds.heard, time=self.time))
         self.statistics.receivers = len(heard)
-        self._blown = float(np.linalg.norm(heard, axis=1).mean()) if len(heard) else 0.0
+        table, sight, patch = self.field.table, self.field.sight, self.field.quality.patch
+        middles = (table.cell + np.float32(0.5)) * np.float32(patch)
+        near = inside_cone(middles, apex=(sight.eye[0], sight.eye[2]), cone=sight.cone, radius=2.0 * patch)
+        rows = np.flatnonzero(table.alive & near)
+        table.message[rows] = self.winds.at(middles[rows], time=self.time, fluttering=False)
 
     def _gather(self) -> None:
         assert self.painter is not None
         self.statistics.blades_submitted = self.painter.write_blades(self._blades)
         self.painter.write_strips(self._strips)
-        self.painter.write_ground(carpet=True, blown=self._blown)
+        self.painter.write_ground(carpet=True)
+        self.painter.write_bodies(flying(self.world, self.height_at, time=self.time))
 
     def _count(self, draw_ms: float) -> None:
         assert self.painter is not None

@@ -44,15 +44,16 @@ class Winds:
         sources = [source for _, source in found]
         return blowing(sources, self.quarantine, time=time, seed=self._field.scene.seed, poses=poses)
 
-    def heard(self, listeners: Listeners, /, *, time: float) -> Floats:
+    def heard(self, listeners: Listeners, /, *, time: float, fluttering: bool = True) -> Floats:
         """Return the message that each listener ends up with at `time` [s], shape (n, 2)."""
-        scene = self._field.scene
-        return hear(self.now(time), listeners, self.quarantine, time=time, seed=scene.seed, mixing=scene.mixing)
+        seed, mixing = self._field.scene.seed, self._field.scene.mixing
+        winds = self.now(time)
+        return hear(winds, listeners, self.quarantine, time=time, seed=seed, mixing=mixing, fluttering=fluttering)
 
-    def at(self, place: Floats, /, *, time: float, kind: int | None = None) -> Floats:
+    def at(self, place: Floats, /, *, time: float, kind: int | None = None, fluttering: bool = True) -> Floats:
         """Return what grass of a kind, or the densest there, feels at ground positions (n, 2) [m], shape (n, 2)."""
         field = self._field
         kinds = np.full(len(place), kind or 0, np.intp)
         if kind is None and len(field.growths) > 1:
             kinds = np.argmax(density_at(field.density, place), axis=0).astype(np.intp)
-        return self.heard(places_alone(place, grass_of(field.growths, kinds)), time=time)
+        return self.heard(places_alone(place, grass_of(field.growths, kinds)), time=time, fluttering=fluttering)

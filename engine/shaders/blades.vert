@@ -55,7 +55,7 @@ void main() {
 #endif
     vec2 normal = facing + ROUND * across;
     vec3 grass = mix(root[k].rgb, tip[k].rgb, t) * (1.0 + grain_x[k].rgb * normal.x + grain_z[k].rgb * normal.y);
-    grass *= place_tone(root_at.xz) * canopy(spine.place.y * height / root[k].w, lift(message, root_at));
+    grass *= place_tone(root_at.xz) * canopy(spine.place.y * height / (root[k].w * lodged(message)), lift(message, root_at));
     color = mix(grass, haze.rgb, haze_at(root_at));
     shown = fade;
 }

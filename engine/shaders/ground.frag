@@ -22,8 +22,8 @@ in float crest;
 in float tall;
 in float dense;
 in vec4 met;
-uniform vec4 bowed;  // by kind: height of grass in the wind of now, of that at rest
-uniform float blown;  // mean posture index of now
+uniform sampler2D air;  // the wind's message in the middle of each patch, wrapping round
+uniform vec2 mean_air;
 
 vec2 spun(vec2 v, int turns) {
     return turns == 0 ? v : turns == 1 ? vec2(-v.y, v.x) : turns == 2 ? -v : vec2(v.y, -v.x);
@@ -57,6 +57,14 @@ float outline_cover(float slope) {
     return (1.0 - exp(-leaves * before_edge * before_edge)) * (1.0 - exp(-CREST * leaves * before_crest * before_crest));
 }
 
+// The wind's message; far off, where nobody asks for it, the mean of those nearer by.
+vec2 message_at(vec2 at) {
+    float side = float(textureSize(air, 0).x) * soil.w;
+    vec2 apart = abs(at - (vec2(window.xy) + 0.5) * soil.w);
+    float far = smoothstep(0.35, 0.48, max(apart.x, apart.y) / side);
+    return mix(texture(air, at / side).xy, mean_air, far);
+}
+
 vec3 carpet_light(float slope) {
     ivec2 cell = ivec2(floor(place.xz / soil.w));
     uint drawn = hash3(stock.y, cell.x, cell.y);
@@ -70,7 +78,7 @@ vec3 carpet_light(float slope) {
     dy *= sharper;
     vec3 ray = place - eye.xyz;
     vec2 heading = ray.xz / max(length(ray.xz), 1e-4);
-    float lifted = lift(vec2(blown, 0.0), place);
+    float lifted = lift(message_at(place.xz), place);
     // The leaves that are seen stand deeper in the grass, where the line of sight has met enough of them.
     float deeper = min(tall * inversesqrt(max(slope, slopes[0]) * max(dense, 0.01)), 15.0);
     vec3 here = place_tone(place.xz + heading * deeper);
@@ -81,7 +89,7 @@ vec3 carpet_light(float slope) {
         float layer = first[kind] + float(model * SLOPES * 4);
         vec4 image = carpet_image(layer, at, spun(heading, (4 - turn) % 4), max(slope, slopes[0]), dx, dy);
         vec3 grass = root[kind].rgb * image.a + (tip[kind].rgb - root[kind].rgb) * image.r;
-        float h = bowed[kind] * image.g / max(image.a, 1e-3);
+        float h = image.g / max(image.a, 1e-3);
         sum += met[kind] * vec4(grass * here * canopy(h, lifted), image.a);
     }
     return sum.rgb + soil_color * (1.0 - min(sum.a, 1.0));

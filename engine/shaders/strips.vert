@@ -42,7 +42,7 @@ void main() {
     gl_Position = clip * vec4(foot + spine, 1.0);
     at = vec2((right ? u.y : u.x) * wide_to[k], t * high_to[k]);
     sheet = rest.x;
-    h = spine.y / root[k].w;
+    h = spine.y / (root[k].w * lodged(message));
     vec3 middle = 0.5 * (a + b);
     lifted = lift(0.5 * (wind.xy + wind.zw), middle);
     vec3 here = place_tone(middle.xz);

@@ -4,7 +4,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.growth import Growth, Postures
+from ...components.growth import Growth
 from ...components.terrain import Terrain
 from ...engine.gl.stream import Stream, release_all
 from ..cull import inside_cone
@@ -93,11 +93,6 @@ def _seen(
     return over & inside_cone(middle, apex=(eye[0], eye[2]), cone=cone, radius=side * 0.75)
 
 
-def standing_height(postures: Postures, index: float, /) -> float:
-    """Return how high the tip of a blade of length 1 stands at a posture index."""
-    return float(np.interp(index, postures.index, postures.shape[0, :, -1, 1]))
-
-
 def leaf_area(growth: Growth, patch: float, /) -> float:
     """Return the area of a kind's blades seen from the side, of the ground's area; `patch` is a patch's side [m]."""
     blades = growth.models[0].blades
@@ -147,7 +142,8 @@ class GroundPainter:
         self.growths = growths
         self.shares = ctx.texture((side, side), 1, alignment=1)
         self.shares.filter = (moderngl.NEAREST, moderngl.NEAREST)
-        self.unit = units["shares"]
+        self.air = ctx.texture((side, side), 2, dtype="f4")
+        self.units = units
         corners, indices = _grid()
         self.grid = ctx.buffer(corners), ctx.buffer(indices)
         self.streams = Stream(ctx, TILE), Stream(ctx, TILE)
@@ -166,7 +162,6 @@ class GroundPainter:
         self.carpet.program["stock"] = (len(growths[0].models), seed)
         self._tell("leaf", by_kind([leaf_area(growth, patch) for growth in growths]))
         self.raise_carpet(RAISED)
-        self.blow(0.0)
 
     def _tell(self, name: str, value: object) -> None:
         for layer in (self.under, self.carpet):
@@ -181,10 +176,14 @@ class GroundPainter:
         """Lay the carpet at this part of the height of the grass."""
         self._tell("raised", by_kind([part * growth.models[0].carpet.height for growth in self.growths]))
 
-    def blow(self, index: float) -> None:
-        """Tell how far the grass is bent on the mean: the carpet's light follows, though it does not move."""
-        self.carpet.program["blown"] = index
-        self.carpet.program["bowed"] = by_kind([standing_height(growth.postures, index) for growth in self.growths])
+    def blow(self, message: NDArray[np.float32], seen: NDArray[np.bool_]) -> None:
+        """Send the wind's messages on the patch table's rows (rows, 2); their mean is of those `seen`.
+
+        The carpet's light follows them, though it does not move.
+        """
+        self.air.write(message)
+        mean = message[seen].mean(axis=0) if seen.any() else (0.0, 0.0)
+        self.carpet.program["mean_air"] = (float(mean[0]), float(mean[1]))
 
     def write_shares(self, shares: NDArray[np.float32], centre: NDArray[np.int32]) -> None:
         """Send how much the carpet shows on each row of the patch table (rows,) around the viewer's cell."""
@@ -193,7 +192,8 @@ class GroundPainter:
 
     def draw_opaque(self) -> int:
         """Draw the bare ground, and what lies under the carpet; return the number of draw calls."""
-        self.shares.use(self.unit)
+        self.shares.use(self.units["shares"])
+        self.air.use(self.units["air"])
         return self.bare.draw() + self.under.draw()
 
     def draw_carpet(self) -> int:
@@ -204,4 +204,4 @@ class GroundPainter:
         """Give everything back."""
         layers = (self.bare, self.under, self.carpet)
         release_all(*(layer.array for layer in layers), *(layer.program for layer in layers))
-        release_all(*self.streams, *self.grid, self.shares)
+        release_all(*self.streams, *self.grid, self.shares, self.air)

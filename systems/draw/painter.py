@@ -29,7 +29,7 @@ from .textures import (
     tone_texture,
 )
 
-NAMES = ("postures", "tone", "density", "heights", "images", "shares", "atlas", "ranks", "strips")
+NAMES = ("postures", "tone", "density", "heights", "images", "shares", "air", "atlas", "ranks", "strips")
 UNITS = {name: unit for unit, name in enumerate(NAMES)}
 """The texture unit of each sampler."""
 
@@ -111,10 +111,10 @@ class Painter:
         self.draw(view, blades=[])
         self.ground.raise_carpet(RAISED)
 
-    def write_ground(self, *, carpet: bool, blown: float = 0.0) -> None:
-        """Send the tiles of the ground, where the carpet lies on it, and how far the grass is bent on the mean."""
-        self.ground.blow(blown)
+    def write_ground(self, *, carpet: bool) -> None:
+        """Send the tiles of the ground, where the carpet lies on it, and how the wind bends its grass."""
         field, sight = self.field, self.field.sight
+        self.ground.blow(field.table.message, field.table.alive & field.table.visible)
         tiles = ground_tiles(field.terrain, sight.eye, sight.cone, spacing=self.spacing)
         near = within(tiles, sight.centre, patch=field.quality.patch, reach=field.reach[1] - int(BORDER) - 1)
         self.ground.write(tiles, ~near if carpet else np.zeros_like(near))

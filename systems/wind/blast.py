@@ -78,7 +78,7 @@ class Blast(PlacedWind):
     outline: Shape = Shape(disc=4.0)
     """Where it acts."""
 
-    strength: float = Field(0.95, ge=0.0, le=1.0)
+    strength: float = Field(0.8, ge=0.0, le=1.0)
     """Largest posture index in it."""
 
     soft: float = Field(1.5, ge=0.0, le=1000.0)

@@ -89,8 +89,9 @@ def hear(
     time: float,
     seed: int,
     mixing: Mixing = "priority",
+    fluttering: bool = True,
 ) -> Floats:
-    """Return the message that each receiver ends up with, shape (n, 2).
+    """Return the message that each receiver ends up with, shape (n, 2), with or without the small oscillations.
 
     By `priority`, the first wind in `winds` whose mask holds a receiver cancels the others (paper, section 3.3). By
     `weight`, a wind covers those of lower priority as far as its mask, its weight and its setting in say, and winds of
@@ -104,7 +105,7 @@ def hear(
     for group in groups:
         parts = [part for wind in group if (part := _send(wind, heard, sums.left, quarantine, time, mixing))]
         _cover(sums, parts)
-    return _bounded(_fluttered(sums, heard.place, time, seed))
+    return _bounded(_fluttered(sums, heard.place, time, seed) if fluttering else sums.message)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -15,7 +15,9 @@ pytestmark = pytest.mark.packaging
 
 
 def test_the_face_shows_what_programs_are_written_with() -> None:
-    assert set(tallgrass.__all__) == {"Prairie", "SceneError", "WindPrimitive", "scenes", "wind"}
+    winds = {"Blast", "Breeze", "Gust", "PlacedWind", "Whirlwind", "WindPrimitive"}
+    assert set(tallgrass.__all__) == {"Prairie", "SceneError", "scenes", "wind", "Extent", "Grass", "Pose", *winds}
+    assert all(issubclass(getattr(tallgrass, name), WindPrimitive) for name in winds)
     assert (tallgrass.Prairie, tallgrass.SceneError) == (Prairie, SceneError)
     assert (tallgrass.WindPrimitive, tallgrass.wind) == (WindPrimitive, wind)
     methods = {"load", "advance", "draw", "wind_at", "height_at", "add", "release"}

@@ -8,6 +8,7 @@ const float SHADE = 0.56;   // brightness at the foot of the grass, of that at i
 const float FLOOR = 0.66;   // brightness of the ground under grass, of bare ground's
 const float SLOPE = 0.8;    // how much a hillside that faces the sun is brighter
 const float SHEEN = 0.30;   // how much grass bent flat is brighter
+const float NAP = 0.35;     // how much grass bent flat is brighter that leans away from the eye, and darker towards it
 const float THROUGH = 0.55; // how much grass is brighter with the sun behind it
 
 vec2 on_map(vec2 place) {
@@ -26,7 +27,13 @@ float lift(vec2 message, vec3 place) {
     vec3 ray = normalize(place - eye.xyz);
     float facing = max(dot(ray, sun.xyz), 0.0);
     facing *= facing;
-    return SHEEN * dot(message, message) + THROUGH * sun.w * facing * facing;
+    vec2 away = normalize(ray.xz + 1e-6);
+    return SHEEN * dot(message, message) + NAP * dot(message, away) + THROUGH * sun.w * facing * facing;
+}
+
+// How high the canopy stands where `message` bends it, of its height at rest: where all grass lies, its tips are the top.
+float lodged(vec2 message) {
+    return 1.0 - 0.55 * min(dot(message, message), 1.0);
 }
 
 // Brightness at height `h` (1 is the top of the canopy).
