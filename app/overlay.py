@@ -12,6 +12,8 @@ HELP = (
     "Shift             run",
     "F                 fly, or come down again",
     "Q  E              down and up, in flight",
+    "G                 board a saucer (A and D turn it), or leave it",
+    "1  2  3           gust, whirlwind, blast where you look",
     "Space             stop and start time",
     "F1                this help",
     "F3                statistics",

@@ -19,12 +19,14 @@ from ..systems.prairie import Prairie
 from .display import no_window
 from .encode import picture_writer
 from .errors import InputError, MachineError
+from .flight import Flight
 from .offscreen import Offscreen
 from .overlay import HELP, Note, statistics_lines
 from .progress import busy
 from .studio import about, written
 from .take import Take
 from .walker import Ground, Move, moved, settled, start, toggled, turned
+from .weather import Weather
 
 Floats = NDArray[np.float32]
 
@@ -80,6 +82,8 @@ class Walk:
         self.take = take
         self.ctx = moderngl.create_context(require=330)
         self.walker = start(camera_at(prairie.scene.camera, None, prairie.height_at), self.ground)
+        self.flight: Flight | None = None
+        self.weather = Weather(prairie)
         self.paused = False
         self.captured = False
         self.helping = False
@@ -102,7 +106,8 @@ class Walk:
     @property
     def camera(self) -> Camera:
         """The camera of this instant."""
-        return self.walker.camera(radians(self.prairie.scene.camera.view))
+        view = radians(self.prairie.scene.camera.view)
+        return self.walker.camera(view) if self.flight is None else self.flight.camera(view, self.ground)
 
     def run(self, seconds: float | None = None) -> None:
         """Walk until the window closes: by the user, or after `seconds`."""
@@ -127,9 +132,14 @@ class Walk:
         self._frames.append(1000.0 * dt)
         self._age += dt
         step = min(dt, LONGEST_STEP)
-        self.walker = moved(self.walker, {MOVES[symbol] for symbol in self._held}, step, self.ground)
+        held = {MOVES[symbol] for symbol in self._held}
+        if self.flight is None:
+            self.walker = moved(self.walker, held, step, self.ground)
+        else:
+            self.flight.step(held, step, self.ground)
         if not self.paused:
             self.prairie.advance(step)
+            self.weather.settle()
 
     def tell(self, lines: list[str]) -> None:
         """Show a message for a while."""
@@ -145,8 +155,10 @@ class Walk:
             return
         fresh.advance(self.prairie.time)
         self.prairie.release()
-        self.prairie = fresh
+        self.prairie, self.weather = fresh, Weather(fresh)
         self.walker = settled(self.walker, self.ground)
+        if self.flight is not None:
+            self.flight.change(fresh, self.ground)
         self.tell([f"{self.take.scene} is read again"])
 
     def escape(self) -> None:
@@ -161,8 +173,28 @@ class Walk:
         self.paused = not self.paused
 
     def fly(self) -> None:
-        """Take off, or land."""
-        self.walker = toggled(self.walker)
+        """Take off, or land; who flies a saucer does neither."""
+        if self.flight is None:
+            self.walker = toggled(self.walker)
+
+    def board(self) -> None:
+        """Fly a saucer, or leave it."""
+        if self.flight is None:
+            self.flight = Flight(self.prairie, self.walker, self.ground)
+        else:
+            self.walker, self.flight = self.flight.leave(self.ground), None
+
+    def gust(self) -> None:
+        """Set off a gust where the camera looks."""
+        self.weather.raise_wind("gust", self.camera, self.ground)
+
+    def whirlwind(self) -> None:
+        """Set off a whirlwind where the camera looks."""
+        self.weather.raise_wind("whirlwind", self.camera, self.ground)
+
+    def blast(self) -> None:
+        """Set off a blast where the camera looks."""
+        self.weather.raise_wind("blast", self.camera, self.ground)
 
     def show_help(self) -> None:
         """Show the keys, or hide them."""
@@ -228,8 +260,13 @@ class Walk:
     def on_mouse_motion(self, x: int, y: int, dx: int, dy: int) -> None:
         """Look around."""
         del x, y
-        if self.captured:
-            self.walker = turned(self.walker, right=dx * SENSITIVITY, up=dy * SENSITIVITY)
+        if not self.captured:
+            return
+        right, up = dx * SENSITIVITY, dy * SENSITIVITY
+        if self.flight is None:
+            self.walker = turned(self.walker, right=right, up=up)
+        else:
+            self.flight.look(right=right, up=up)
 
     def on_mouse_drag(self, x: int, y: int, dx: int, dy: int, buttons: int, modifiers: int) -> None:
         """Look around with a button held as well."""
@@ -274,6 +311,10 @@ _ACTIONS = {
     key.ESCAPE: Walk.escape,
     key.SPACE: Walk.pause,
     key.F: Walk.fly,
+    key.G: Walk.board,
+    ord("1"): Walk.gust,  # pyglet numbers keys so, but its names of them are private
+    ord("2"): Walk.whirlwind,
+    ord("3"): Walk.blast,
     key.F1: Walk.show_help,
     key.F3: Walk.show_statistics,
     key.F5: Walk.reload,

@@ -1,13 +1,16 @@
 """How a thing that hovers on its jet flies: at what height, how it leans, and where its jet meets the ground."""
 
 from collections.abc import Callable
-from math import atan2, cos, hypot, pi, sin, tan, tanh
+from math import atan2, cos, hypot, inf, pi, sin, tan, tanh
 
 import numpy as np
 
 from ..components.body import Body
 from ..components.pose import Pose
+from ..components.wind import WindSource
 from ..engine.camera import Heights
+from ..engine.world import World
+from .wind.blast import Blast
 
 Flat = tuple[float, float]
 """A vector over the ground (x, z)."""
@@ -90,3 +93,23 @@ def foot(body: Body, height_at: Heights, /) -> Pose:
     ahead, right = height * tan(body.nose), -height * tan(body.bank) / cos(body.nose)
     c, s = cos(body.yaw), sin(body.yaw)
     return Pose(x + s * ahead + c * right, z - c * ahead + s * right, body.yaw)
+
+
+def flying(world: World, height_at: Heights, /, *, time: float) -> list[Body]:
+    """Return what is in the air at `time` [s]: the bodies that entities have, and those that blasts say they come from.
+
+    A blast's body flies where the blast is, along its path or with the pose of its entity.
+    """
+    own, poses = dict(world.all(Body)), dict(world.all(Pose))
+    bodies = list(own.values())
+    for entity, source in world.all(WindSource):
+        blast = source.primitive
+        if entity in own or not isinstance(blast, Blast) or blast.body is None:
+            continue
+        if blast.start <= time < (inf if blast.stop is None else blast.stop):
+            bodies.append(carried(_path(blast, poses.get(entity)), time, height_at, height=blast.height))
+    return bodies
+
+
+def _path(blast: Blast, pose: Pose | None) -> Path:
+    return (lambda time: blast.pose(time=time)) if pose is None else (lambda _: pose)

@@ -24,8 +24,8 @@ from ..engine.world import World
 from .cull import discrete_distance, eye_of, inside_cone, view_cone
 from .draw.painter import Painter, view_of
 from .field import Field, blades_in_field, lay_out
-from .growth.cache import cached_growth
 from .fly import flying
+from .growth.cache import cached_growth
 from .lod import schedule, wanted_representation
 from .receive import Shown, blow, plant_shown_blades, plant_shown_strips, shown_blades, shown_strips
 from .receivers import ReceiverEntities

@@ -30,4 +30,4 @@ def test_the_first_frame_has_statistics_too() -> None:
 def test_the_help_names_every_key_once() -> None:
     names = [line[:18].strip() for line in HELP]
     assert len(set(names)) == len(names)
-    assert {"F", "Space", "F1", "F3", "F5", "F12", "Escape"} <= set(names)
+    assert {"F", "G", "Space", "F1", "F3", "F5", "F12", "Escape"} <= set(names)

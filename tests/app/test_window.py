@@ -61,6 +61,11 @@ def let_go(walk: "Walk", name: str) -> None:
     walk.window.dispatch_events()
 
 
+def strike(walk: "Walk", digit: str) -> None:
+    walk.window.dispatch_event("on_key_press", ord(digit), 0)
+    walk.window.dispatch_events()
+
+
 def click(walk: "Walk") -> None:
     walk.window.dispatch_event("on_mouse_press", 5, 5, 1, 0)
     walk.window.dispatch_events()
@@ -181,6 +186,92 @@ def test_f_takes_off_and_lands(walk: "Walk") -> None:
     for _ in range(60):
         walk.frame(1 / 30)
     assert walk.walker.position[1] == pytest.approx(ground + 1.7, abs=0.05)
+
+
+def winds(walk: "Walk") -> set[str]:
+    return {source.primitive.kind for source in walk.prairie.winds.sources()}
+
+
+def test_r4_g_boards_a_saucer_that_keys_fly_and_leaves_it(walk: "Walk") -> None:
+    before, plain, walker = winds(walk), seen(walk), walk.walker
+    press(walk, "G")
+    assert walk.flight is not None
+    assert (seen(walk) != plain).any(axis=2).mean() > 0.03, "it is seen ahead"
+    start = walk.flight.saucer.place
+    press(walk, "W", "D")
+    for _ in range(45):
+        walk.frame(1 / 30)
+    let_go(walk, "W")
+    let_go(walk, "D")
+    saucer = walk.flight.saucer
+    assert saucer.place[2] < start[2] - 2.0
+    assert saucer.yaw > 0.5
+    assert winds(walk) == before | {"blast"}
+    assert walk.walker == walker, "who flies does not walk"
+    press(walk, "G")
+    assert winds(walk) == before
+    x, y, z = walk.walker.position
+    assert (x, z) == pytest.approx((saucer.place[0], saucer.place[2]))
+    assert y == pytest.approx(float(walk.prairie.height_at([[x, z]])[0]) + 1.7, abs=1e-4)
+    seen(walk)
+    painter = walk.prairie.painter
+    assert painter is not None
+    assert painter.bodies is not None
+    assert painter.bodies.stream.count == 0
+
+
+def test_r4_grass_under_the_saucer_is_pressed_outwards_wherever_it_flies(walk: "Walk") -> None:
+    press(walk, "G", "W")
+    for _ in range(30):
+        walk.frame(1 / 30)
+    assert walk.flight is not None
+    around = np.array([[1.5, 0.0], [-1.5, 0.0], [0.0, 1.5], [0.0, -1.5]])
+    from tallgrass.app.saucer import jet
+
+    foot = jet(walk.flight.saucer, walk.ground)
+    felt = walk.prairie.wind_at(around + np.array([foot.x, foot.z]))
+    assert (np.einsum("ij,ij->i", felt, around / 1.5) > 0.3).all()
+    assert foot.z > walk.flight.saucer.place[2], "its jet pushes it ahead"
+
+
+def test_the_mouse_looks_around_the_saucer(walk: "Walk") -> None:
+    press(walk, "G")
+    click(walk)
+    before = walk.camera
+    walk.window.dispatch_event("on_mouse_motion", 5, 5, 200, 0)
+    walk.window.dispatch_events()
+    assert walk.camera.yaw - before.yaw == pytest.approx(0.44)
+    assert walk.camera.position != before.position
+
+
+@pytest.mark.parametrize(("digit", "kind"), [("1", "gust"), ("2", "whirlwind"), ("3", "blast")])
+def test_n8_digits_set_off_winds_that_end_by_themselves(walk: "Walk", digit: str, kind: str) -> None:
+    before = winds(walk)
+    walk.prairie.advance(1.0)
+    strike(walk, digit)
+    assert winds(walk) == before | {kind}
+    walk.frame(0.05)
+    assert len(walk.weather) == 1
+    walk.prairie.advance(60.0)
+    walk.frame(0.05)
+    assert winds(walk) == before
+    assert len(walk.weather) == 0
+
+
+def test_n7_the_saucer_flies_on_over_a_scene_that_is_read_again(walk: "Walk", scene: Path) -> None:
+    press(walk, "G")
+    strike(walk, "2")
+    walk.frame(0.1)
+    assert walk.flight is not None
+    place = walk.flight.saucer.place
+    scene.write_text(scene.read_text().replace("seed: 5", "seed: 6"))
+    press(walk, "F5")
+    assert walk.flight.saucer.place == pytest.approx(place)
+    assert winds(walk) == {"breeze", "blast"}
+    press(walk, "W")
+    walk.frame(0.1)
+    walk.frame(0.1)
+    assert walk.flight.saucer.place[2] < place[2]
 
 
 def test_n7_reading_the_scene_again_keeps_time_and_place(walk: "Walk", scene: Path) -> None:

@@ -10,8 +10,12 @@ from numpy.typing import NDArray
 
 from tallgrass.components.body import Body
 from tallgrass.components.pose import Pose
+from tallgrass.components.wind import WindSource
+from tallgrass.engine.world import World
 from tallgrass.systems.draw.bodies import axes
-from tallgrass.systems.fly import DRAG, GRAVITY, HOVER, LOWEST, STEEPEST, carried, foot, lean, level
+from tallgrass.systems.fly import DRAG, GRAVITY, HOVER, LOWEST, STEEPEST, carried, flying, foot, lean, level
+from tallgrass.systems.wind.blast import Blast
+from tallgrass.systems.wind.placed import Waypoint
 
 Floats = NDArray[np.float32]
 angles = st.floats(-math.pi, math.pi)
@@ -106,3 +110,19 @@ def test_r4_a_path_with_corners_makes_no_jump_in_how_it_leans() -> None:
     banks = np.array([carried(zigzag, time, flat).bank for time in np.linspace(1.0, 3.0, 1601)])
     assert np.abs(np.diff(banks)).max() < 0.01
     assert banks.max() > 0.3
+
+
+def test_r4_what_entities_have_flies_and_what_blasts_declare(world: World) -> None:
+    own = Body((1.0, 9.0, 2.0), 0.3)
+    world.create(own)
+    posed = world.create(WindSource(Blast(body="saucer", height=3.0), "posed"), Pose(5.0, -4.0, 1.0))
+    path = [Waypoint(at=0, position=[0, 0]), Waypoint(at=10, position=[0, -50])]
+    world.create(WindSource(Blast(body="saucer", path=path, start=1.0, stop=9.0), "scripted"))
+    world.create(WindSource(Blast(), "bare"))
+    assert flying(world, flat, time=0.5) == [own, Body((5.0, 6.0, -4.0), 1.0)]
+    bodies = flying(world, flat, time=5.0)
+    assert bodies[:2] == [own, Body((5.0, 6.0, -4.0), 1.0)]
+    assert bodies[2].place == pytest.approx((0.0, 3.0 + HOVER, -25.0))
+    assert bodies[2].nose < 0.0
+    world.add(posed, own)
+    assert flying(world, flat, time=9.0) == [own, own]

@@ -1,0 +1,88 @@
+"""Winds that the viewer of the window sets off where it looks."""
+
+from itertools import count
+from math import cos, degrees, remainder, sin, tau
+from typing import Literal
+
+import numpy as np
+
+from ..components.camera import Camera
+from ..components.wind import WindPrimitive
+from ..engine.camera import forward
+from ..systems.prairie import Prairie
+from ..systems.wind.blast import Blast, Shape
+from ..systems.wind.gust import Gust
+from ..systems.wind.placed import Waypoint
+from ..systems.wind.whirlwind import Whirlwind
+from .walker import Ground, on_terrain
+
+Raised = Literal["gust", "whirlwind", "blast"]
+"""What can be set off."""
+
+FARTHEST = 60.0
+"""How far away a wind may be set off [m]."""
+
+STEP = 0.25
+"""Distance between the points at which a ray is compared with the ground [m]."""
+
+GUST_WIDTH, GUST_REACH = 24.0, 50.0
+"""Length of a gust's front and its way [m]."""
+
+SPIN_TIME, SPIN_WAY = 9.0, 8.0
+"""How long a whirlwind lasts [s], and how far it wanders off [m]."""
+
+BLAST_TIME, BLAST_RADIUS = 1.6, 5.0
+"""How long a single blast lasts [s], and how wide it is [m]."""
+
+
+def looked_at(camera: Camera, ground: Ground, /) -> tuple[float, float]:
+    """Return where on the terrain (x, z) [m] a camera looks: where its ray meets the ground, at most `FARTHEST` away.
+
+    A look that meets none within that leads to the ground under its end.
+    """
+    away = np.arange(STEP, FARTHEST + STEP / 2, STEP)
+    ray = np.array(camera.position) + away[:, None] * np.array(forward(camera.yaw, camera.pitch))
+    above = ray[:, 1] - ground.height_at(ray[:, ::2].astype(np.float32))
+    below = np.flatnonzero(above <= 0.0)
+    first = int(below[0]) if len(below) else len(ray) - 1
+    x, z, _, _ = on_terrain(float(ray[first, 0]), float(ray[first, 2]), ground)
+    return x, z
+
+
+def raised(kind: Raised, place: tuple[float, float], yaw: float, time: float, /) -> WindPrimitive:
+    """Return a wind that sets out at `time` [s] from a place (x, z) [m] and goes where `yaw` [rad] leads; it ends."""
+    x, z = place
+    yaw = remainder(yaw, tau)
+    if kind == "gust":
+        gust = Gust(position=[x, z], direction=degrees(yaw), width=GUST_WIDTH, reach=GUST_REACH, start=time)
+        return gust.model_copy(update={"stop": time + gust.life})
+    if kind == "blast":
+        disc = Shape(disc=BLAST_RADIUS)
+        return Blast(position=[x, z], outline=disc, start=time, stop=time + BLAST_TIME, ease=0.35)
+    end = [x + SPIN_WAY * sin(yaw), z - SPIN_WAY * cos(yaw)]
+    path = [Waypoint(at=time, position=[x, z]), Waypoint(at=time + SPIN_TIME, position=end)]
+    return Whirlwind(path=path, start=time, stop=time + SPIN_TIME, ease=1.0)
+
+
+class Weather:
+    """The winds that have been set off in a prairie and have not ended yet."""
+
+    def __init__(self, prairie: Prairie) -> None:
+        self._prairie = prairie
+        self._numbers = count(1)
+        self._ends: dict[int, float] = {}
+
+    def __len__(self) -> int:
+        return len(self._ends)
+
+    def raise_wind(self, kind: Raised, camera: Camera, ground: Ground) -> None:
+        """Set off a wind where a camera looks."""
+        wind = raised(kind, looked_at(camera, ground), camera.yaw, self._prairie.time)
+        assert wind.stop is not None
+        self._ends[self._prairie.add(wind, name=f"{kind} {next(self._numbers)}")] = wind.stop
+
+    def settle(self) -> None:
+        """Take the winds away that have ended."""
+        for entity in [entity for entity, end in self._ends.items() if self._prairie.time >= end]:
+            self._prairie.remove(entity)
+            del self._ends[entity]
