@@ -1,6 +1,6 @@
 """A saucer in the picture (R4)."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from math import pi
 from typing import Any
 
@@ -43,17 +43,17 @@ def prairie(load: Load, stage: Stage, camera: Aim) -> Prairie:
 
 
 @pytest.fixture
-def show(prairie: Prairie, stage: Stage) -> Iterator[Callable[..., Picture]]:
+def show(prairie: Prairie, stage: Stage) -> Callable[..., Picture]:
     """Draw bodies: `show(camera, *bodies)`."""
 
     def drawn(aim: Camera, *bodies: Body) -> Picture:
-        assert prairie.painter is not None
-        prairie.painter.write_bodies(bodies)
-        return np.asarray(stage.shot(prairie, aim))
+        entities = [prairie.world.create(body) for body in bodies]
+        picture = stage.shot(prairie, aim)
+        for entity in entities:
+            prairie.world.delete(entity)
+        return np.asarray(picture)
 
-    yield drawn
-    assert prairie.painter is not None
-    prairie.painter.write_bodies([])
+    return drawn
 
 
 Show = Callable[..., Picture]
@@ -85,11 +85,10 @@ def test_r4_a_hill_hides_a_saucer_behind_it(load: Load, stage: Stage, camera: Ai
     z = float(np.arange(-29.5, 30.0)[top])
     eye = camera(0.0, float(heights[top]) + 0.4, z + 1.5, pitch=-3)
     before = stage.shot(hills, eye)
-    assert hills.painter is not None
     low = float(heights[top]) - 4.0
-    hills.painter.write_bodies([Body((0.0, low, z - 8.0))])
+    saucer = hills.world.create(Body((0.0, low, z - 8.0)))
     np.testing.assert_array_equal(stage.shot(hills, eye), before)
-    hills.painter.write_bodies([Body((0.0, low + 5.5, z - 8.0))])
+    hills.world.add(saucer, Body((0.0, low + 5.5, z - 8.0)))
     assert changed(stage.shot(hills, eye), before).sum() > 100
 
 
@@ -141,7 +140,6 @@ def test_no_program_is_made_before_something_flies(load: Load, stage: Stage, cam
     calm = load(FLAT)
     stage.shot(calm, camera(0.0, 1.7, 10.0))
     assert calm.painter is not None
-    calm.painter.write_bodies([])
     assert calm.painter.bodies is None
 
 
