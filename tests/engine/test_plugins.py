@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tallgrass.components.wind import Floats, Grass, WindPrimitive
-from tallgrass.engine.plugins import GROUP, PluginError, WindKinds, wind, wind_kinds
+from tallgrass.engine.plugins import GROUP, PluginError, Provided, WindKinds, wind, wind_kinds
 from tallgrass.engine.scene import parse_scene
 
 VORTEX = """
@@ -61,10 +61,14 @@ def dust(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> WindKinds:
         "faulty": "dust_faulty:Faulty",
         "text": "dust_vortex:__name__",
         "half": "tallgrass.components.wind:WindPrimitive",
+        "later": "dust_later:Vortex",
     }
-    entries = install(tmp_path, "tallgrass-dust", kinds, {"dust_vortex": VORTEX, "dust_faulty": "1 / 0"})
+    later = f"{VORTEX}    interface = 2\n"
+    modules = {"dust_vortex": VORTEX, "dust_faulty": "1 / 0", "dust_later": later}
+    entries = install(tmp_path, "tallgrass-dust", kinds, modules)
     monkeypatch.syspath_prepend(str(tmp_path / "tallgrass-dust"))
-    monkeypatch.delitem(sys.modules, "dust_vortex", raising=False)
+    for module in modules:
+        monkeypatch.delitem(sys.modules, module, raising=False)
     return WindKinds(entries)
 
 
@@ -94,7 +98,7 @@ def test_d5_an_installed_kind_is_imported_when_first_asked_for(dust: WindKinds) 
 def test_an_unknown_kind_names_the_one_it_resembles(dust: WindKinds) -> None:
     with pytest.raises(PluginError) as refusal:
         dust.find("vortx")
-    known = "faulty, gone, half, text, vortex"
+    known = "faulty, gone, half, later, text, vortex"
     assert str(refusal.value) == f"unknown kind 'vortx', did you mean 'vortex'? known: {known}"
     with pytest.raises(PluginError, match="unknown kind 'zzz'; known: faulty, gone"):
         dust.find("zzz")
@@ -107,6 +111,7 @@ def test_an_unknown_kind_names_the_one_it_resembles(dust: WindKinds) -> None:
         ("faulty", "cannot be loaded: ZeroDivisionError: division by zero"),
         ("text", "must be a class that derives from WindPrimitive"),
         ("half", "lacks action and mask"),
+        ("later", "is written for interface 2 of winds; this tallgrass has 1"),
     ],
 )
 def test_a_broken_plugin_is_named_with_its_distribution(dust: WindKinds, kind: str, why: str) -> None:
@@ -131,6 +136,65 @@ def test_two_distributions_with_one_kind_are_both_named(tmp_path: Path) -> None:
     with pytest.raises(PluginError, match=r"'vortex' is claimed by tallgrass-storm 0\.3\.1 and other-winds 0\.3\.1"):
         kinds.find("vortex")
     assert kinds.find("calm").__name__ == "Vortex"
+    assert [(row.distribution, row.status) for row in kinds.provided() if row.kind == "vortex"] == [
+        ("other-winds", "claimed twice"),
+        ("tallgrass-storm", "claimed twice"),
+    ]
+
+
+@pytest.mark.usefixtures("dust")
+@pytest.mark.parametrize("chosen", ["tallgrass-storm", "Tallgrass_Storm"])
+def test_a_kind_of_two_distributions_works_where_one_is_chosen(tmp_path: Path, chosen: str) -> None:
+    twice = [
+        *install(tmp_path, "tallgrass-storm", {"vortex": "dust_vortex:Vortex"}, {}),
+        *install(tmp_path, "other-winds", {"vortex": "dust_vortex:Vortex"}, {}),
+    ]
+    kinds = WindKinds(twice, chosen=[chosen])
+    assert kinds.find("vortex").__name__ == "Vortex"
+    assert [(row.distribution, row.status) for row in kinds.provided()] == [
+        ("other-winds", "left out"),
+        ("tallgrass-storm", "ready"),
+    ]
+
+
+def test_what_is_installed_is_listed_without_importing_it(dust: WindKinds) -> None:
+    rows = {row.kind: row for row in dust.provided()}
+    assert sorted(rows) == dust.names()
+    assert rows["faulty"] == Provided("faulty", "tallgrass-dust", "0.3.1", "ready")
+    assert "dust_vortex" not in sys.modules
+    dust.add("calm", Calm)
+    assert Provided("calm", f"{__name__}.Calm", "", "ready") in dust.provided()
+
+
+@pytest.mark.usefixtures("dust")
+@pytest.mark.parametrize(
+    ("value", "left"), [(None, {"breeze", "vortex"}), ("", {"breeze"}), (" vortex ,", {"breeze", "vortex"})]
+)
+def test_the_environment_chooses_among_installed_kinds_but_built_in_ones_stay(
+    monkeypatch: pytest.MonkeyPatch, value: str | None, left: set[str]
+) -> None:
+    if value is None:
+        monkeypatch.delenv("TALLGRASS_PLUGINS", raising=False)
+    else:
+        monkeypatch.setenv("TALLGRASS_PLUGINS", value)
+    kinds = wind_kinds()
+    assert {"breeze", "vortex"} & set(kinds.names()) == left
+    if "vortex" not in left:
+        with pytest.raises(PluginError) as refusal:
+            kinds.find("vortex")
+        why = "kind 'vortex' of tallgrass-dust 0.3.1 is left out: TALLGRASS_PLUGINS does not name it"
+        assert str(refusal.value) == why
+
+
+def test_a_chosen_name_that_is_not_installed_is_one_warning(caplog: pytest.LogCaptureFixture) -> None:
+    WindKinds([], chosen=["vortx"])
+    (told,) = caplog.messages
+    assert told == "TALLGRASS_PLUGINS names 'vortx', but no such kind or distribution is installed"
+
+
+def test_a_wind_is_traced_to_who_brought_it(dust: WindKinds) -> None:
+    assert dust.origin(dust.find("vortex")(kind="vortex")) == "tallgrass-dust 0.3.1"
+    assert dust.origin(Calm(kind="vortex")) == f"{__name__}.Calm"
 
 
 def test_d5_a_games_own_class_becomes_a_kind_of_scene_files() -> None:
