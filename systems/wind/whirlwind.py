@@ -31,7 +31,7 @@ class Whirlwind(PlacedWind):
     radius: float = Field(6.0, gt=0.1, le=1000.0)
     """Radius of its disc [m]."""
 
-    strength: float = Field(0.85, ge=0.0, le=1.0)
+    strength: float = Field(0.75, ge=0.0, le=1.0)
     """Posture index near its middle."""
 
     spin: Literal["left", "right"] = "left"
