@@ -22,8 +22,9 @@ TURN = 1.1
 TURNING, POWER, GLIDE, TRAIL = 0.25, 0.55, 0.75, 0.4
 """Times in which turning, power, velocity and the camera behind come within 1/e of what they are drawn to [s]."""
 
-DISTANCE, OVER = 8.0, 0.6
-"""The camera's distance from the point that it looks at, and how far that is above the saucer's middle [m]."""
+DISTANCE, OVER = 11.0, 0.3
+"""The camera's distance from the point that it looks at, and how far that is above the saucer's middle [m]: so far
+that the grass that the jet presses down is in the picture."""
 
 CLEAR = 1.0
 """Least height of the camera above the ground [m]."""
@@ -60,7 +61,7 @@ class Saucer:
     aside: float = 0.0
     """How far the viewer looks to the right of that [rad]."""
 
-    pitch: float = -0.2
+    pitch: float = -0.3
     """How steeply the camera looks at it, positive from below [rad]."""
 
 

@@ -22,6 +22,9 @@ Raised = Literal["gust", "whirlwind", "blast"]
 FARTHEST = 60.0
 """How far away a wind may be set off [m]."""
 
+AHEAD = 20.0
+"""How far ahead it is set off where one looks at the sky [m]."""
+
 STEP = 0.25
 """Distance between the points at which a ray is compared with the ground [m]."""
 
@@ -36,17 +39,19 @@ BLAST_TIME, BLAST_RADIUS = 1.6, 5.0
 
 
 def looked_at(camera: Camera, ground: Ground, /) -> tuple[float, float]:
-    """Return where on the terrain (x, z) [m] a camera looks: where its ray meets the ground, at most `FARTHEST` away.
+    """Return where on the terrain (x, z) [m] a camera looks: where its ray meets the ground.
 
-    A look that meets none within that leads to the ground under its end.
+    A look that meets none within `FARTHEST` leads to the ground `AHEAD`.
     """
     away = np.arange(STEP, FARTHEST + STEP / 2, STEP)
     ray = np.array(camera.position) + away[:, None] * np.array(forward(camera.yaw, camera.pitch))
     above = ray[:, 1] - ground.height_at(ray[:, ::2].astype(np.float32))
     below = np.flatnonzero(above <= 0.0)
-    first = int(below[0]) if len(below) else len(ray) - 1
-    x, z, _, _ = on_terrain(float(ray[first, 0]), float(ray[first, 2]), ground)
-    return x, z
+    if len(below):
+        x, z = ray[below[0], ::2].tolist()
+    else:
+        x, z = camera.position[0] + AHEAD * sin(camera.yaw), camera.position[2] - AHEAD * cos(camera.yaw)
+    return on_terrain(x, z, ground)[:2]
 
 
 def raised(kind: Raised, place: tuple[float, float], yaw: float, time: float, /) -> WindPrimitive:
