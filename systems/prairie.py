@@ -11,6 +11,7 @@ import moderngl
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..components.camera import View
 from ..components.pose import Pose
 from ..components.quality import PRESETS, Representation
 from ..components.scene import LodName, Scene
@@ -149,11 +150,14 @@ class Prairie:
             raise ValueError(f"a prairie advances by 0 s or more, not by {dt}")
         self._clock += dt
 
-    def draw(self, view: object, projection: object) -> None:
+    def draw(self, view: object, projection: object, *, held: bool = False) -> None:
         """Draw the prairie into the framebuffer that is bound, and leave the host's GL state as it was.
 
         Ground, carpet and the nearest blades write depth; strips and other blades only test it. So a game draws its
         own opaque things before the prairie, and its 2D after it.
+
+        With `held`, every patch is shown as the frame before showed it, though seen from where the viewer is now and
+        in the wind of now: it is the next frame without its changes of representation, to measure those.
 
         Both matrices are 4x4 numpy arrays for column vectors, or `pyglet.math.Mat4`. Raises ValueError for others, and
         RuntimeError after `release`.
@@ -163,17 +167,24 @@ class Prairie:
         seen = view_of(view, projection)
         if self.painter is None:
             self.painter = Painter(host_context(self._ctx), self.field)
-        sight = self.field.sight
-        patch, eye = self.field.quality.patch, eye_of(seen)
+        if held and self._drawn_at is not None:
+            self.field.sight.eye, self.field.sight.cone = eye_of(seen), view_cone(seen)
+            self._wind()
+            self._gather()
+        else:
+            self._look(seen)
+            self._schedule.run()
+        start = perf_counter()
+        self.painter.draw(seen)
+        self._count(1000.0 * (perf_counter() - start))
+
+    def _look(self, seen: View) -> None:
+        sight, patch, eye = self.field.sight, self.field.quality.patch, eye_of(seen)
         sight.jumped = float(np.hypot(eye[0] - sight.eye[0], eye[2] - sight.eye[2])) > LEAP * patch
         sight.eye, sight.cone = eye, view_cone(seen)
         sight.centre = cell_of(np.array([eye[0], eye[2]], np.float32), patch=patch)
         sight.dt = 1e9 if self._drawn_at is None else self.time - self._drawn_at
         self._drawn_at = self.time
-        self._schedule.run()
-        start = perf_counter()
-        self.painter.draw(seen)
-        self._count(1000.0 * (perf_counter() - start))
 
     def height_at(self, xz: ArrayLike) -> Floats:
         """Return the height of the ground [m], shape (n,), at ground positions (x, z) [m], shape (n, 2)."""
