@@ -95,6 +95,12 @@ def foot(body: Body, height_at: Heights, /) -> Pose:
     return Pose(x + s * ahead + c * right, z - c * ahead + s * right, body.yaw)
 
 
+def jet(blast: Blast, height_at: Heights, /, *, time: float) -> Pose:
+    """Return where the blast of the body that it comes from meets the ground at `time` [s], however that leans."""
+    body = carried(lambda moment: blast.pose(time=moment), time, height_at, height=blast.height)
+    return foot(body, height_at)
+
+
 def flying(world: World, height_at: Heights, /, *, time: float) -> list[Body]:
     """Return what is in the air at `time` [s]: the bodies that entities have, and those that blasts say they come from.
 

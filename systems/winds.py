@@ -1,13 +1,17 @@
 """The winds of a prairie: whose entities they are, where they are now, and what grass feels of them."""
 
+from functools import partial
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ..components.pose import Pose
 from ..components.wind import WindPrimitive, WindSource
-from ..engine.terrain.sample import density_at
+from ..engine.terrain.sample import density_at, height_at
 from ..engine.world import World
 from .field import Field
+from .fly import jet
+from .wind.blast import Blast
 from .wind.blow import Blowing, Listeners, blowing, hear, places_alone
 from .wind.grass import grass_of
 from .wind.quarantine import Quarantine
@@ -21,6 +25,7 @@ class Winds:
     def __init__(self, world: World, field: Field) -> None:
         self._world = world
         self._field = field
+        self._height_at = partial(height_at, field.terrain)
         self.quarantine = Quarantine()
         for number, primitive in enumerate(field.scene.wind):
             self.add(primitive, f"wind[{number}] {primitive.kind}")
@@ -36,24 +41,40 @@ class Winds:
     def now(self, time: float) -> list[Blowing]:
         """Return the winds that act at `time` [s], the strongest claim first.
 
-        A wind whose entity has a `Pose` is there; the others are where they say themselves.
+        A wind whose entity has a `Pose` is there; the blast of a body is where its jet meets the ground; the others
+        are where they say themselves.
         """
         found = self._world.all(WindSource)
         placed = dict(self._world.all(Pose))
         poses = {source: placed[entity] for entity, source in found if entity in placed}
+        for _, source in found:
+            if isinstance(source.primitive, Blast) and source.primitive.body and source not in poses:
+                poses[source] = jet(source.primitive, self._height_at, time=time)
         sources = [source for _, source in found]
         return blowing(sources, self.quarantine, time=time, seed=self._field.scene.seed, poses=poses)
 
-    def heard(self, listeners: Listeners, /, *, time: float, fluttering: bool = True) -> Floats:
-        """Return the message that each listener ends up with at `time` [s], shape (n, 2)."""
+    def heard(
+        self, listeners: Listeners, /, *, time: float, now: list[Blowing] | None = None, fluttering: bool = True
+    ) -> Floats:
+        """Return the message that each listener ends up with at `time` [s], shape (n, 2).
+
+        `now` is what acts at that time, where it is known already.
+        """
         seed, mixing = self._field.scene.seed, self._field.scene.mixing
-        winds = self.now(time)
+        winds = self.now(time) if now is None else now
         return hear(winds, listeners, self.quarantine, time=time, seed=seed, mixing=mixing, fluttering=fluttering)
 
-    def at(self, place: Floats, /, *, time: float, kind: int | None = None, fluttering: bool = True) -> Floats:
+    def at(self, place: Floats, /, *, time: float, kind: int | None = None) -> Floats:
         """Return what grass of a kind, or the densest there, feels at ground positions (n, 2) [m], shape (n, 2)."""
+        return self.heard(self._listening(place, kind), time=time)
+
+    def on_patches(self, middle: Floats, /, *, time: float, now: list[Blowing]) -> Floats:
+        """Return what the densest grass on patches feels on the mean, shape (n, 2), by their middles (n, 2) [m]."""
+        return self.heard(self._listening(middle, None), time=time, now=now, fluttering=False)
+
+    def _listening(self, place: Floats, kind: int | None) -> Listeners:
         field = self._field
         kinds = np.full(len(place), kind or 0, np.intp)
         if kind is None and len(field.growths) > 1:
             kinds = np.argmax(density_at(field.density, place), axis=0).astype(np.intp)
-        return self.heard(places_alone(place, grass_of(field.growths, kinds)), time=time, fluttering=fluttering)
+        return places_alone(place, grass_of(field.growths, kinds))
