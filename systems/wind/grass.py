@@ -11,9 +11,12 @@ from ...components.wind import Grass
 
 def grass_of(growths: Sequence[Growth], kind: NDArray[np.intp], /) -> Grass:
     """Return how grass of these kinds answers the wind; `kind` (n,) counts the rows of `growths`."""
-    return Grass(
-        kind=kind,
+    grass = Grass(
+        kind=kind.view(),
         step=np.array([growth.response.step for growth in growths], np.float32),
         rise=np.stack([growth.response.rise for growth in growths]),
         fall=np.stack([growth.response.fall for growth in growths]),
     )
+    for shared in (grass.kind, grass.step, grass.rise, grass.fall):
+        shared.flags.writeable = False  # no wind may change what the next is told
+    return grass

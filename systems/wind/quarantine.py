@@ -2,26 +2,35 @@
 
 import logging
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import astuple, dataclass, field
+from math import inf, isnan
 from time import perf_counter
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.wind import WindSource
+from ...components.pose import Pose
+from ...components.wind import Extent, WindPrimitive, WindSource
+from ...engine.plugins import wind_kinds
 
 Floats = NDArray[np.float32]
 Answer = TypeVar("Answer")
 
 SLOW, SLOW_EACH = 0.1, 2e-6
-"""How long a call may take [s], and how much longer for each receiver; a third slow call running is one too many."""
+"""How long a call may take [s], and how much longer for each receiver."""
 
 STALLED = 3.0
 """How long no single call may take [s]."""
 
-PATIENCE = 3
-"""Slow calls running that a wind is left out for: a machine may be busy once or twice."""
+PATIENCE, WINDOW = 3, 16
+"""How many slow calls, of how many calls of one method, a wind is left out for: a machine may be busy once or twice."""
+
+LARGEST = 1e6
+"""No number that a mask or an action returns may be this large; both are due to be 1 at most."""
+
+LONGEST = 200
+"""Most characters told of what a wind raised."""
 
 log = logging.getLogger("tallgrass")
 
@@ -37,7 +46,8 @@ class Quarantine:
     reasons: dict[WindSource, str] = field(default_factory=dict)
     """One sentence for each wind that is left out."""
 
-    _slow: dict[WindSource, int] = field(default_factory=dict)
+    _slow: dict[tuple[WindSource, str], int] = field(default_factory=dict)
+    """Which of a method's latest calls were slow, one bit for each."""
 
     def ask(self, source: WindSource, what: str, ask: Callable[[], Answer], /, *, receivers: int = 0) -> Answer:
         """Return what a wind answers; raises QuarantinedError where it fails to, or has failed before."""
@@ -47,7 +57,8 @@ class Quarantine:
         try:
             answer = ask()
         except Exception as error:  # a plugin may raise anything
-            raise self.leave_out(source, f"{what} raised {type(error).__name__}: {error}") from error
+            log.debug("%s", source.name, exc_info=error)
+            raise self.leave_out(source, f"{what} raised {_said(error)}") from error
         self._time(source, what, perf_counter() - start, SLOW + SLOW_EACH * receivers)
         return answer
 
@@ -62,8 +73,9 @@ class Quarantine:
             raise self.leave_out(source, f"{what} returned {found} where shape {shape} is due")
         if answer.dtype.kind not in "fiub":
             raise self.leave_out(source, f"{what} returned {answer.dtype}, which is no number")
-        if not np.isfinite(answer).all():
-            raise self.leave_out(source, f"{what} returned numbers that are not finite")
+        if not (np.abs(answer) < LARGEST).all():  # what is not finite is no less than anything
+            which = "far beyond 1" if np.isfinite(answer).all() else "that are not finite"
+            raise self.leave_out(source, f"{what} returned numbers {which}")
         return np.asarray(answer, np.float32)
 
     def must_be(self, source: WindSource, what: str, answer: object, /, *kinds: type) -> None:
@@ -71,16 +83,42 @@ class Quarantine:
         if not isinstance(answer, kinds):
             raise self.leave_out(source, f"{what} returned {type(answer).__name__}, not {kinds[0].__name__}")
 
+    def must_stand(self, source: WindSource, part: WindPrimitive, pose: Pose, extent: Extent | None, /) -> None:
+        """Raise QuarantinedError unless what a part says of itself can be reckoned with."""
+        self.must_be(source, "parts, of the kind of one,", part.kind, str)
+        told = {
+            "parts, of what one declares,": (part.priority, part.weight, part.swing, part.start, part.ease),
+            "pose": astuple(pose),
+            "extent": () if extent is None else astuple(extent),
+        }
+        for what, numbers in told.items():
+            for number in numbers:
+                self.must_be(source, what, number, float, int, np.floating, np.integer)
+                if isnan(number) or (abs(number) == inf and what != "extent"):
+                    raise self.leave_out(source, f"{what} returned numbers that are not finite")
+
     def leave_out(self, source: WindSource, why: str, /) -> QuarantinedError:
-        """Leave a wind out from now on, say so once, and return what to raise."""
+        """Leave a wind out from now on, say so once for its kind, and return what to raise."""
         told = {known.primitive.kind for known in self.reasons}
         self.reasons[source] = f"{source.name}: {why}"
         if source.primitive.kind not in told:
-            log.warning("%s: %s; this wind is left out from now on", source.name, why)
+            origin = wind_kinds().origin(source.primitive)
+            log.warning("%s of %s: %s; this wind is left out from now on", source.name, origin, why)
         return QuarantinedError(why)
 
     def _time(self, source: WindSource, what: str, took: float, allowed: float) -> None:
-        slow = self._slow.get(source, 0) + 1 if took > allowed else 0
-        self._slow[source] = slow
-        if took > STALLED or slow >= PATIENCE:
+        before = self._slow.get((source, what), 0)
+        latest = (before << 1 | (took > allowed)) & ((1 << WINDOW) - 1)
+        self._slow[source, what] = latest
+        if took > STALLED or latest.bit_count() >= PATIENCE:
             raise self.leave_out(source, f"{what} takes too long: {1000.0 * took:.0f} ms")
+
+
+def _said(error: Exception) -> str:
+    """Return what an error is and says, in one line; saying it is the plugin's code too, and may fail as well."""
+    try:
+        text = " ".join(str(error).split())
+    except Exception:  # noqa: BLE001 - it may raise anything
+        text = ""
+    name = type(error).__name__
+    return f"{name}: {text[:LONGEST]}" if text else name

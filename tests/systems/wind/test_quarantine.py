@@ -1,0 +1,278 @@
+"""A wind that fails is left out with one warning that names it, and the frame goes on with the others."""
+
+import logging
+from collections.abc import Callable
+from time import sleep
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass.components.pose import Pose
+from tallgrass.components.wind import Extent, Grass, Mixing, WindPrimitive, WindSource
+from tallgrass.systems.wind import quarantine as quarantine_module
+from tallgrass.systems.wind.blow import blowing, hear, places_alone
+from tallgrass.systems.wind.breeze import Breeze
+from tallgrass.systems.wind.quarantine import PATIENCE, WINDOW, Quarantine
+
+Floats = NDArray[np.float32]
+PLACES = np.stack(np.meshgrid(np.linspace(-5, 5, 11), np.linspace(-5, 5, 11)), -1).reshape(-1, 2).astype(np.float32)
+GRASS = Grass(np.zeros(len(PLACES), np.intp), *np.ones((3, 1, 2), np.float32))
+
+
+class UnspeakableError(Exception):
+    def __str__(self) -> str:
+        raise RuntimeError("there is nothing to say")
+
+
+def _raise(error: Exception) -> Any:
+    raise error
+
+
+class Failing(WindPrimitive):
+    """A wind that answers with whatever a test wants."""
+
+    kind: str = "failing"
+    priority: int = 50
+    swing: float = 0.0
+    where: str = "action"
+    part: str = "fine"
+
+    def _answer(self, where: str, otherwise: Any, place: Floats | None = None) -> Any:
+        return ANSWERS[self.part](otherwise, place) if where == self.where else otherwise
+
+    def parts(self, *, time: float, seed: int) -> Any:
+        return self._answer("parts", (self,))
+
+    def pose(self, *, time: float) -> Any:
+        return self._answer("pose", Pose())
+
+    def extent(self, *, time: float) -> Any:
+        return self._answer("extent", Extent(-2.5, 2.5, -2.5, 2.5))
+
+    def mask(self, place: Floats, /, *, time: float) -> Any:
+        return self._answer("mask", (np.abs(place) < 2.5).all(axis=1).astype(np.float32), place)
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
+        return self._answer("action", np.full_like(place, 0.5), place)
+
+
+Answer = Callable[[Any, Any], Any]
+
+ANSWERS: dict[str, Answer] = {
+    "fine": lambda right, _: right,
+    "raises": lambda *_: _raise(ZeroDivisionError("division by zero\nsecond line")),
+    "raises silently": lambda *_: _raise(RecursionError()),
+    "raises unspeakably": lambda *_: _raise(UnspeakableError()),
+    "shape": lambda right, _: right[:, None],
+    "short": lambda right, _: right[:-1],
+    "list": lambda right, _: right.tolist(),
+    "nan": lambda right, _: right * np.float32(np.nan),
+    "one infinity": lambda right, _: np.where(np.arange(right.size).reshape(right.shape) == 3, np.inf, right),
+    "huge": lambda right, _: right.astype(np.float64) * 1e300,
+    "strings": lambda right, _: right.astype(str),
+    "complex": lambda right, _: right * 1j,
+    "none": lambda *_: None,
+    "itself": lambda right, _: right[0],
+    "numbers": lambda *_: [1, 2],
+    "unset part": lambda right, _: [right[0].model_copy(update={"start": None})],
+    "worded priority": lambda right, _: [right[0].model_copy(update={"priority": "high"})],
+    "no swing": lambda right, _: [right[0].model_copy(update={"swing": float("nan")})],
+    "lost": lambda *_: Pose(float("nan"), 0.0, 0.0),
+    "vague": lambda *_: Pose(None, 0.0, 0.0),  # type: ignore[arg-type]
+    "everywhere": lambda *_: Extent(-np.inf, np.inf, -np.inf, np.inf),
+    "worded": lambda *_: Extent("left", 1.0, 1.0, 1.0),  # type: ignore[arg-type]
+    "writes": lambda right, place: [right, place.fill(0.0)][0],
+}
+
+FAILURES = [
+    ("mask", "raises", "mask raised ZeroDivisionError: division by zero second line"),
+    ("action", "raises", "action raised ZeroDivisionError: division by zero second line"),
+    ("parts", "raises", "parts raised ZeroDivisionError: division by zero second line"),
+    ("pose", "raises", "pose raised ZeroDivisionError: division by zero second line"),
+    ("extent", "raises", "extent raised ZeroDivisionError: division by zero second line"),
+    ("action", "raises silently", "action raised RecursionError"),
+    ("mask", "raises unspeakably", "mask raised UnspeakableError"),
+    ("mask", "shape", "mask returned an array of shape (25, 1) where shape (25,) is due"),
+    ("action", "short", "action returned an array of shape (24, 2) where shape (25, 2) is due"),
+    ("mask", "list", "mask returned list where shape (25,) is due"),
+    ("action", "list", "action returned list where shape (25, 2) is due"),
+    ("mask", "none", "mask returned NoneType where shape (25,) is due"),
+    ("mask", "nan", "mask returned numbers that are not finite"),
+    ("action", "one infinity", "action returned numbers that are not finite"),
+    ("mask", "huge", "mask returned numbers far beyond 1"),
+    ("action", "huge", "action returned numbers far beyond 1"),
+    ("mask", "strings", "mask returned <U32, which is no number"),
+    ("action", "complex", "action returned complex64, which is no number"),
+    ("parts", "none", "parts returned NoneType, not Sequence"),
+    ("parts", "itself", "parts returned Failing, not Sequence"),
+    ("parts", "numbers", "parts returned int, not WindPrimitive"),
+    ("parts", "unset part", "parts, of what one declares, returned NoneType, not float"),
+    ("parts", "worded priority", "parts, of what one declares, returned str, not float"),
+    ("parts", "no swing", "parts, of what one declares, returned numbers that are not finite"),
+    ("pose", "none", "pose returned NoneType, not Pose"),
+    ("pose", "lost", "pose returned numbers that are not finite"),
+    ("pose", "vague", "pose returned NoneType, not float"),
+    ("extent", "numbers", "extent returned list, not Extent"),
+    ("extent", "worded", "extent returned str, not float"),
+    ("mask", "writes", "mask raised ValueError: assignment destination is read-only"),
+]
+
+
+@pytest.fixture(autouse=True)
+def _only_warnings(caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level(logging.WARNING, "tallgrass")
+
+
+def told(
+    sources: list[WindSource], quarantine: Quarantine, *, time: float = 1.0, mixing: Mixing = "priority"
+) -> Floats:
+    winds = blowing(sources, quarantine, time=time, seed=0)
+    return hear(winds, places_alone(PLACES.copy(), GRASS), quarantine, time=time, seed=0, mixing=mixing)
+
+
+BREEZE = WindSource(Breeze(), "wind[0] breeze")
+
+
+@pytest.mark.parametrize("mixing", ["priority", "weight"])
+@pytest.mark.parametrize(("where", "part", "why"), FAILURES)
+def test_a_failing_wind_is_one_named_warning_and_leaves_no_trace(
+    caplog: pytest.LogCaptureFixture, mixing: Mixing, where: str, part: str, why: str
+) -> None:
+    alone = told([BREEZE], Quarantine(), mixing=mixing)
+    failing = WindSource(Failing(where=where, part=part), "wind[1] failing")
+    quarantine = Quarantine()
+    for _ in range(3):
+        np.testing.assert_array_equal(told([BREEZE, failing], quarantine, mixing=mixing), alone)
+    said = f"wind[1] failing of {__name__}.Failing: {why}; this wind is left out from now on"
+    assert caplog.messages == [said]
+    assert quarantine.reasons == {failing: f"wind[1] failing: {why}"}
+
+
+def test_a_wind_that_does_not_fail_is_kept_and_heard(caplog: pytest.LogCaptureFixture) -> None:
+    for where, part in [("action", "fine"), ("extent", "everywhere")]:
+        message = told([BREEZE, WindSource(Failing(where=where, part=part, swing=0.0), "fine")], Quarantine())
+        held = (np.abs(PLACES) < 2.5).all(axis=1)
+        assert np.allclose(message[held], 0.5)
+    assert not caplog.messages
+
+
+class Wide(Failing):
+    """A wind that holds every place."""
+
+    def mask(self, place: Floats, /, *, time: float) -> Any:
+        return np.ones(len(place), np.float32)
+
+    def extent(self, *, time: float) -> Any:
+        return None
+
+
+class Uneven(Failing):
+    """A wind whose weaker part holds more places, and fails there."""
+
+    def parts(self, *, time: float, seed: int) -> Any:
+        return [Failing(priority=60), Wide(priority=40, part="nan")]
+
+
+@pytest.mark.parametrize("mixing", ["priority", "weight"])
+def test_what_a_wind_is_given_is_no_ones_to_change(mixing: Mixing) -> None:
+    quiet, writing = (WindSource(Wide(priority=-1, part=part), "wind[1] wide") for part in ("fine", "writes"))
+    alone = told([BREEZE, quiet], Quarantine(), mixing=mixing)
+    np.testing.assert_array_equal(told([BREEZE, writing], Quarantine(), mixing=mixing), alone)
+
+
+@pytest.mark.parametrize("mixing", ["priority", "weight"])
+def test_what_a_wind_sent_before_it_failed_is_taken_back(mixing: Mixing) -> None:
+    alone = told([BREEZE], Quarantine(), mixing=mixing)
+    quarantine = Quarantine()
+    message = told([BREEZE, WindSource(Uneven(), "wind[1] uneven")], quarantine, mixing=mixing)
+    assert list(quarantine.reasons.values()) == ["wind[1] uneven: action returned numbers that are not finite"]
+    np.testing.assert_array_equal(message, alone)
+
+
+def test_a_kind_is_told_of_once_however_many_of_it_fail(caplog: pytest.LogCaptureFixture) -> None:
+    quarantine = Quarantine()
+    told([WindSource(Failing(part="nan"), f"wind[{number}] failing") for number in range(5)], quarantine)
+    assert len(quarantine.reasons) == 5
+    assert len(caplog.messages) == 1
+
+
+class Untellable(Failing):
+    """A wind that cannot be written down, so that a tie cannot be settled."""
+
+    kind: str = "untellable"
+    cause: Any = None
+
+
+def test_a_tie_that_cannot_be_settled_costs_only_the_winds_that_are_tied(caplog: pytest.LogCaptureFixture) -> None:
+    tied = [WindSource(Untellable(cause=object()), f"wind[{number}] untellable") for number in (1, 2)]
+    quarantine = Quarantine()
+    np.testing.assert_array_equal(told([BREEZE, *tied], quarantine), told([BREEZE], Quarantine()))
+    assert set(quarantine.reasons) == set(tied)
+    (said,) = caplog.messages
+    assert "model_dump_json raised PydanticSerializationError" in said
+
+
+def test_the_traceback_is_there_for_those_who_ask(caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level(logging.DEBUG, "tallgrass")
+    told([WindSource(Failing(part="raises"), "wind[0] failing")], Quarantine())
+    (traceback,) = [record for record in caplog.records if record.levelno == logging.DEBUG]
+    assert traceback.exc_info is not None
+    assert isinstance(traceback.exc_info[1], ZeroDivisionError)
+
+
+class Sleeping(Failing):
+    """A wind that takes its time."""
+
+    kind: str = "sleeping"
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
+        sleep(0.11)
+        return np.full_like(place, 0.5)
+
+
+def test_a_wind_that_sleeps_is_left_out_after_three_times(caplog: pytest.LogCaptureFixture) -> None:
+    sleeping, quarantine = WindSource(Sleeping(), "wind[1] sleeping"), Quarantine()
+    for _ in range(PATIENCE - 1):
+        told([BREEZE, sleeping], quarantine)
+        assert not quarantine.reasons
+    np.testing.assert_array_equal(told([BREEZE, sleeping], quarantine), told([BREEZE], Quarantine()))
+    (said,) = caplog.messages
+    assert said.startswith(f"wind[1] sleeping of {__name__}.Sleeping: action takes too long: 1")
+
+
+class Clock:
+    """A clock that goes on by as much as a test says, at every second reading."""
+
+    def __init__(self, took: list[float]) -> None:
+        self._readings = iter([reading for each in took for reading in (0.0, each)])
+
+    def __call__(self) -> float:
+        return next(self._readings)
+
+
+@pytest.mark.parametrize(
+    ("took", "is_left_out"),
+    [
+        ([3.1], True),
+        ([2.9], False),
+        ([0.2, 0.2], False),
+        ([0.2, 0.2, 0.2], True),
+        ([0.2, 0.0, 0.2, 0.0, 0.0, 0.2], True),
+        ([0.2, *[0.0] * WINDOW, 0.2, *[0.0] * WINDOW, 0.2], False),
+    ],
+)
+def test_a_busy_machine_is_forgiven_but_a_slow_wind_is_not(
+    monkeypatch: pytest.MonkeyPatch, took: list[float], *, is_left_out: bool
+) -> None:
+    monkeypatch.setattr(quarantine_module, "perf_counter", Clock(took))
+    slow, quarantine = WindSource(Failing(), "slow"), Quarantine()
+    for _ in took[:-1]:
+        quarantine.ask(slow, "action", lambda: None)
+    if is_left_out:
+        with pytest.raises(quarantine_module.QuarantinedError):
+            quarantine.ask(slow, "action", lambda: None)
+    else:
+        quarantine.ask(slow, "action", lambda: None)
+    assert (slow in quarantine.reasons) == is_left_out
