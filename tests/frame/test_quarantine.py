@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from tallgrass.components.wind import Grass, WindPrimitive
 
 Floats = NDArray[np.float32]
-Load = Stage = Any
+Load = Any
+Stage = Any
 
 
 class Raising(WindPrimitive):
