@@ -14,6 +14,7 @@ from ..components.receivers import BladePool, StripPool
 from ..components.scene import Scene
 from ..components.terrain import Density, Terrain
 from ..components.transition import SEAMLESS, Transitions
+from ..engine.terrain.sample import density_at
 from .lod import SLACK, farthest
 from .plant import BladeStock, Ground, blade_records, far_to_near_blades
 
@@ -162,6 +163,14 @@ def lay_out(
         sight=Sight(),
         transitions=transitions,
     )
+
+
+def densest_kind(field: Field, place: Floats, /) -> NDArray[np.intp]:
+    """Return the kind that grows most densely at ground positions (n, 2) [m], shape (n,)."""
+    if len(field.growths) == 1:
+        return np.zeros(len(place), np.intp)
+    densest: NDArray[np.intp] = np.argmax(density_at(field.density, place), axis=0)
+    return densest
 
 
 def farthest_reach(kind: GrassKind, growth: Growth) -> float:

@@ -274,13 +274,11 @@ class Prairie:
 
     def _wind(self) -> None:
         field, table, sight, patch = self.field, self.field.table, self.field.sight, self.field.quality.patch
-        now = self.winds.now(self.time)
-        heard = blow(field, self._blades, self._strips, partial(self.winds.heard, time=self.time, now=now))
-        self.statistics.receivers = len(heard)
         middles = (table.cell + np.float32(0.5)) * np.float32(patch)
         near = inside_cone(middles, apex=(sight.eye[0], sight.eye[2]), cone=sight.cone, radius=2.0 * patch)
         rows = np.flatnonzero(table.alive & near)
-        table.message[rows] = self.winds.on_patches(middles[rows], time=self.time, now=now)
+        hear = partial(self.winds.heard, time=self.time)
+        self.statistics.receivers = len(blow(field, self._blades, self._strips, hear, carpet=rows))
 
     def _gather(self) -> None:
         assert self.painter is not None

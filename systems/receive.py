@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ..components.quality import Representation
 from ..components.receivers import BladePool, StripPool
 from .cull import far_to_near
-from .field import Field
+from .field import Field, densest_kind
 from .lod import thinned_out, weights
 from .plant import heading_of, plant_blades, plant_strips, strips_along
 from .tile import window_rows
@@ -153,34 +153,50 @@ def plant_shown_strips(field: Field, ring: int, shown: Shown) -> Rows:
     return rows
 
 
-def blow(field: Field, blades: list[Shown], strips: list[Shown], hear: Callable[[Listeners], Floats], /) -> Floats:
-    """Let every receiver that is seen hear the winds, in one pass over them all; return their messages, (n, 2)."""
+def blow(
+    field: Field,
+    blades: list[Shown],
+    strips: list[Shown],
+    hear: Callable[[Listeners], Floats],
+    /,
+    *,
+    carpet: Rows | None = None,
+) -> Floats:
+    """Let every receiver that is seen hear the winds, in one pass over them all; return their messages, (n, 2).
+
+    With them hear the patches in these rows of the table, for their carpet: what is felt in their middle, without the
+    small oscillations.
+    """
+    rows = np.zeros(0, np.int64) if carpet is None else carpet
     near = np.concatenate([ring.rows for ring in blades]), np.concatenate([ring.slots for ring in blades])
     pools: list[tuple[BladePool | StripPool, Rows, Rows]] = [(field.blades, *near)]
     pools += [(pool, ring.rows, ring.slots) for pool, ring in zip(field.strips, strips, strict=True)]
-    heard = hear(_listeners(field, pools))
+    heard = hear(_listeners(field, pools, rows))
     start = 0
     for pool, _, slots in pools:
         shape = pool.message[slots].shape
         end = start + shape[0] * int(np.prod(shape[1:-1]))
         pool.message[slots] = heard[start:end].reshape(shape)
         start = end
-    return heard
+    field.table.message[rows] = heard[start:]
+    return heard[:start]
 
 
-def _listeners(field: Field, pools: list[tuple[BladePool | StripPool, Rows, Rows]]) -> Listeners:
+def _listeners(field: Field, pools: list[tuple[BladePool | StripPool, Rows, Rows]], carpet: Rows) -> Listeners:
     place = [pool.place[slots].reshape(-1, 2) for pool, _, slots in pools]
-    rows = np.concatenate([rows for _, rows, _ in pools])
-    each = np.concatenate([
+    rows = np.concatenate([*(rows for _, rows, _ in pools), carpet])
+    each = [
         np.full(len(slots), len(one) // max(len(slots), 1)) for one, (_, _, slots) in zip(place, pools, strict=True)
-    ])  # fmt: skip
-    kind = np.concatenate([pool.kind(slots) for pool, _, slots in pools])
+    ]
     side = field.quality.patch
-    middle = (field.table.cell[rows] + np.float32(0.5)) * np.float32(side)
+    middle = ((field.table.cell[rows] + 0.5) * side).astype(np.float32)
+    far = middle[len(rows) - len(carpet) :]
+    kind = np.concatenate([*(pool.kind(slots) for pool, _, slots in pools), densest_kind(field, far)])
     return Listeners(
-        place=np.concatenate(place),
+        place=np.concatenate([*place, far]),
         grass=grass_of(field.growths, kind),
-        patch=np.repeat(np.arange(len(rows)), each),
-        middle=middle.astype(np.float32),
+        patch=np.repeat(np.arange(len(rows)), np.concatenate([*each, np.ones(len(carpet), np.int64)])),
+        middle=middle,
         radius=0.7072 * (side + 2.0 * field.stock.margin),
+        still=len(carpet),
     )

@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from ..components.pose import Pose
 from ..components.wind import WindPrimitive, WindSource
-from ..engine.terrain.sample import density_at, height_at
+from ..engine.terrain.sample import height_at
 from ..engine.world import World
-from .field import Field
+from .field import Field, densest_kind
 from .fly import jet
 from .wind.blast import Blast
 from .wind.blow import Blowing, Listeners, blowing, hear, places_alone
@@ -53,28 +53,13 @@ class Winds:
         sources = [source for _, source in found]
         return blowing(sources, self.quarantine, time=time, seed=self._field.scene.seed, poses=poses)
 
-    def heard(
-        self, listeners: Listeners, /, *, time: float, now: list[Blowing] | None = None, fluttering: bool = True
-    ) -> Floats:
-        """Return the message that each listener ends up with at `time` [s], shape (n, 2).
-
-        `now` is what acts at that time, where it is known already.
-        """
+    def heard(self, listeners: Listeners, /, *, time: float) -> Floats:
+        """Return the message that each listener ends up with at `time` [s], shape (n, 2)."""
         seed, mixing = self._field.scene.seed, self._field.scene.mixing
-        winds = self.now(time) if now is None else now
-        return hear(winds, listeners, self.quarantine, time=time, seed=seed, mixing=mixing, fluttering=fluttering)
+        return hear(self.now(time), listeners, self.quarantine, time=time, seed=seed, mixing=mixing)
 
     def at(self, place: Floats, /, *, time: float, kind: int | None = None) -> Floats:
         """Return what grass of a kind, or the densest there, feels at ground positions (n, 2) [m], shape (n, 2)."""
-        return self.heard(self._listening(place, kind), time=time)
-
-    def on_patches(self, middle: Floats, /, *, time: float, now: list[Blowing]) -> Floats:
-        """Return what the densest grass on patches feels on the mean, shape (n, 2), by their middles (n, 2) [m]."""
-        return self.heard(self._listening(middle, None), time=time, now=now, fluttering=False)
-
-    def _listening(self, place: Floats, kind: int | None) -> Listeners:
         field = self._field
-        kinds = np.full(len(place), kind or 0, np.intp)
-        if kind is None and len(field.growths) > 1:
-            kinds = np.argmax(density_at(field.density, place), axis=0).astype(np.intp)
-        return places_alone(place, grass_of(field.growths, kinds))
+        kinds = densest_kind(field, place) if kind is None else np.full(len(place), kind, np.intp)
+        return self.heard(places_alone(place, grass_of(field.growths, kinds)), time=time)

@@ -1,9 +1,11 @@
 """Blowing: primitives send their messages to the receivers (paper, sections 3.2 and 3.3)."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from itertools import groupby
+from operator import itemgetter
 from types import NoneType
 from zlib import crc32
 
@@ -54,6 +56,9 @@ class Listeners:
     radius: float
     """How far a patch's receivers may be from its middle [m]."""
 
+    still: int = 0
+    """How many of them, the last ones, take no part in the small oscillations."""
+
 
 def places_alone(place: Floats, grass: Grass, /) -> Listeners:
     """Return listeners at any places, each a patch by itself."""
@@ -71,13 +76,13 @@ def blowing(
 ) -> list[Blowing]:
     """Return the winds that act at `time` [s], the strongest claim first.
 
-    Higher priority goes first; of equal ones that which began later; then by kind, and by what they declare. So what
-    happens does not hang on the order in which winds were made. `poses` overrides where winds are.
+    Higher priority goes first; of equal ones that which began later; then by kind, by what they declare, by name and by
+    pose. So what happens does not hang on the order in which winds were made. `poses` overrides where winds are.
     """
     placed = poses or {}
     found = [wind for source in sources for wind in _parts(source, quarantine, time, seed, placed.get(source))]
     tied = (list(winds) for _, winds in groupby(sorted(found, key=_claim, reverse=True), key=_claim))
-    return [wind for winds in tied for wind in (winds if len(winds) == 1 else sorted(winds, key=_values))]
+    return [wind for winds in tied for wind in (winds if len(winds) == 1 else _untied(winds, quarantine))]
 
 
 def hear(
@@ -89,23 +94,31 @@ def hear(
     time: float,
     seed: int,
     mixing: Mixing = "priority",
-    fluttering: bool = True,
 ) -> Floats:
-    """Return the message that each receiver ends up with, shape (n, 2), with or without the small oscillations.
+    """Return the message that each receiver ends up with, shape (n, 2).
 
     By `priority`, the first wind in `winds` whose mask holds a receiver cancels the others (paper, section 3.3). By
     `weight`, a wind covers those of lower priority as far as its mask, its weight and its setting in say, and winds of
     one priority are averaged. Where no mask reaches, grass is at rest.
     """
+    left_out = -1
+    while left_out < len(quarantine.reasons):  # what a wind sent before it failed is no message
+        left_out = len(quarantine.reasons)
+        sums = _heard(winds, heard, quarantine, time, mixing)
+    return _bounded(_fluttered(sums, heard, time, seed))
+
+
+def _heard(winds: list[Blowing], heard: Listeners, quarantine: Quarantine, time: float, mixing: Mixing) -> "_Sums":
     sums = _Sums(np.zeros((len(heard.place), 2), np.float32), *np.zeros((2, len(heard.place)), np.float32))
     sums.left[:] = 1.0
     groups: Iterable[list[Blowing]] = ([wind] for wind in winds)
     if mixing == "weight":
+        winds = [wind for wind in winds if wind.primitive.weight > 0.0]
         groups = (list(group) for _, group in groupby(winds, key=lambda wind: wind.primitive.priority))
     for group in groups:
         parts = [part for wind in group if (part := _send(wind, heard, sums.left, quarantine, time, mixing))]
         _cover(sums, parts)
-    return _bounded(_fluttered(sums, heard.place, time, seed) if fluttering else sums.message)
+    return sums
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -129,21 +142,28 @@ def _parts(
     source: WindSource, quarantine: Quarantine, time: float, seed: int, placed: Pose | None
 ) -> Iterator[Blowing]:
     wind = source.primitive
-    if time < wind.start or (wind.stop is not None and time >= wind.stop) or source in quarantine.reasons:
-        return
     own = int(hash3(seed, crc32(source.name.encode()), 0))
     try:
-        for part in quarantine.ask(source, "parts", lambda: tuple(wind.parts(time=time, seed=own))):
+        if not quarantine.ask(source, "its timeline", partial(_is_on, wind, time)):
+            return
+        parts = quarantine.ask(source, "parts", partial(wind.parts, time=time, seed=own))
+        quarantine.must_be(source, "parts", parts, Sequence)
+        for part in parts:
             quarantine.must_be(source, "parts", part, WindPrimitive)
             pose = placed or quarantine.ask(source, "pose", partial(part.pose, time=time))
             extent = quarantine.ask(source, "extent", partial(part.extent, time=time))
             quarantine.must_be(source, "pose", pose, Pose)
             quarantine.must_be(source, "extent", extent, Extent, NoneType)
+            quarantine.must_stand(source, part, pose, extent)
             strength = _set_in(part, wind.stop, time)
             if strength > 0.0:
                 yield Blowing(source, part, pose, extent, own, strength)
     except QuarantinedError:
         return
+
+
+def _is_on(wind: WindPrimitive, time: float) -> bool:
+    return wind.start <= time and (wind.stop is None or time < wind.stop)
 
 
 def _set_in(wind: WindPrimitive, stop: float | None, time: float) -> float:
@@ -156,21 +176,26 @@ def _claim(wind: Blowing) -> tuple[int, float, str]:
     return wind.primitive.priority, wind.primitive.start, wind.primitive.kind
 
 
-def _values(wind: Blowing) -> str:
-    return wind.primitive.model_dump_json()
+def _untied(winds: list[Blowing], quarantine: Quarantine) -> list[Blowing]:
+    told: list[tuple[tuple[str | float, ...], Blowing]] = []
+    for wind in winds:
+        with suppress(QuarantinedError):
+            values = quarantine.ask(wind.source, "model_dump_json", wind.primitive.model_dump_json)
+            told.append(((values, wind.source.name, wind.pose.x, wind.pose.z, wind.pose.yaw), wind))
+    return [wind for _, wind in sorted(told, key=itemgetter(0))]
 
 
 def _send(
     wind: Blowing, heard: Listeners, left: Floats, quarantine: Quarantine, time: float, mixing: Mixing
 ) -> _Sent | None:
     """Return what a wind sends to the receivers that it reaches and that are still to be had."""
-    rows = _within(wind, heard, left)
-    place = heard.place if isinstance(rows, slice) else heard.place[rows]
-    if not len(place):
-        return None
+    rows, own = _within(wind, heard, left)
     source, primitive = wind.source, wind.primitive
-    own = wind.pose.inside(place) if wind.pose != HERE else place
+    own = own.view()
+    own.flags.writeable = False  # it may be everybody's
     try:
+        if not len(own):
+            return None
         weight = quarantine.ask_for(source, "mask", partial(primitive.mask, own, time=time), shape=(len(own),))
         reached = np.flatnonzero(weight > 0.0)
         if len(reached) < len(own):
@@ -187,15 +212,34 @@ def _send(
     return _Sent(rows, weight * np.float32(wind.strength), wind.pose.outside(message), primitive.swing)
 
 
-def _within(wind: Blowing, heard: Listeners, left: Floats) -> Rows | slice:
-    """Return the receivers of the patches that a wind's extent meets, less those that others have claimed wholly."""
+def _within(wind: Blowing, heard: Listeners, left: Floats) -> tuple[Rows | slice, Floats]:
+    """Return the receivers in a wind's extent that others have not claimed wholly, and their places in its frame.
+
+    Of a wind that ends nowhere they are all of them, unless most are claimed: picking them out costs more than asking
+    in vain.
+    """
     unclaimed = left > 0.0
     if wind.extent is None:
-        return slice(None) if unclaimed.all() else np.flatnonzero(unclaimed)
-    box, far = wind.extent, heard.radius + 1e-3
-    x, z = wind.pose.inside(heard.middle).T
-    met = (x > box.left - far) & (x < box.right + far) & (z > box.ahead - far) & (z < box.behind + far)
-    return np.flatnonzero(met[heard.patch] & unclaimed) if met.any() else np.zeros(0, np.intp)
+        rows = np.flatnonzero(unclaimed)
+        if 2 * len(rows) > len(left):
+            return slice(None), _seen_from(wind, heard.place)
+        return rows, _seen_from(wind, heard.place[rows])
+    met = _holds(wind.extent, wind.pose.inside(heard.middle), heard.radius)
+    rows = np.flatnonzero(met[heard.patch] & unclaimed) if met.any() else np.zeros(0, np.intp)
+    own = _seen_from(wind, heard.place.take(rows, axis=0))
+    held = np.flatnonzero(_holds(wind.extent, own, 0.0))
+    return rows[held], own.take(held, axis=0)
+
+
+def _seen_from(wind: Blowing, place: Floats) -> Floats:
+    return wind.pose.inside(place) if wind.pose != HERE else place
+
+
+def _holds(box: Extent, place: Floats, radius: float) -> NDArray[np.bool_]:
+    """Return whether an extent comes within `radius` [m] of places in the same frame, but for rounding, shape (n,)."""
+    x, z, far = place[:, 0], place[:, 1], radius + 1e-3
+    held = (x > box.left - far) & (x < box.right + far) & (z > box.ahead - far) & (z < box.behind + far)
+    return np.asarray(held)
 
 
 def _cover(sums: _Sums, sent: list[_Sent]) -> None:
@@ -222,12 +266,13 @@ def _lay(sums: _Sums, rows: Rows | slice, weight: Floats, message: Floats, swing
     sums.left[rows] -= share
 
 
-def _fluttered(sums: _Sums, place: Floats, time: float, seed: int) -> Floats:
-    rows = np.flatnonzero(sums.swing)
-    if len(rows) == len(place):
-        return sums.message + sums.swing[:, None] * flutter(place, time=time, seed=seed)
+def _fluttered(sums: _Sums, heard: Listeners, time: float, seed: int) -> Floats:
+    moving = len(heard.place) - heard.still
+    swing = sums.swing[:moving]
+    rows = np.flatnonzero(swing)
+    chosen = slice(moving) if len(rows) == moving else rows
     if len(rows):
-        sums.message[rows] += sums.swing[rows, None] * flutter(place[rows], time=time, seed=seed)
+        sums.message[chosen] += swing[chosen, None] * flutter(heard.place[chosen], time=time, seed=seed)
     return sums.message
 
 

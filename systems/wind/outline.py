@@ -27,41 +27,49 @@ class Outline:
     step: float
     """Distance between samples [m]."""
 
-    depth: Floats
-    """Distance to the outline inside the shape, negative outside [m], shape (rows along z, columns along x)."""
+    field: Floats
+    """Depth and outward direction at each sample, shape (rows along z, columns along x, 3)."""
 
-    outward: Floats
-    """Direction out of the shape, at most a unit vector (x, z), shape (rows, columns, 2)."""
+    deepest: float
+    """Largest distance to the outline [m]."""
 
     @property
-    def deepest(self) -> float:
-        """Largest distance to the outline [m]."""
-        return float(self.depth.max())
+    def depth(self) -> Floats:
+        """Distance to the outline inside the shape, negative outside [m], shape (rows, columns)."""
+        return self.field[..., 0]
+
+    @property
+    def outward(self) -> Floats:
+        """Direction out of the shape, at most a unit vector (x, z), shape (rows, columns, 2)."""
+        return self.field[..., 1:]
 
     @property
     def bounds(self) -> tuple[float, float, float, float]:
         """Least and largest x, least and largest z that it is sampled at [m]."""
-        rows, columns = self.depth.shape
+        rows, columns = self.field.shape[:2]
         x, z = self.corner
         return x, x + (columns - 1) * self.step, z, z + (rows - 1) * self.step
 
     def at(self, place: Floats, /) -> tuple[Floats, Floats]:
         """Return the depth [m], shape (n,), and the direction outwards (n, 2) at positions (n, 2) in its frame."""
-        field = np.concatenate([self.depth[..., None], self.outward], axis=2)
-        rows, columns = self.depth.shape
+        rows, columns = self.field.shape[:2]
         away = (place - np.array(self.corner, np.float32)) / np.float32(self.step)
-        at = np.clip(away, 0.0, np.array([columns - 1.001, rows - 1.001], np.float32)).astype(np.float32)
-        low = at.astype(np.intp)
+        at = np.clip(away, np.float32(0.0), np.array([columns - 1.001, rows - 1.001], np.float32))
+        low = at.astype(np.int32)
         part = at - low.astype(np.float32)
         s, t = part[:, :1], part[:, 1:]
-        flat, first = field.reshape(-1, 3), low[:, 1] * columns + low[:, 0]
-        far = flat[first] * (1 - s) + flat[first + 1] * s
-        near = flat[first + columns] * (1 - s) + flat[first + columns + 1] * s
-        found = far * (1 - t) + near * t
+        flat, first = self.field.reshape(-1, 3), low[:, 1] * columns + low[:, 0]
+        far = flat.take(first, axis=0)
+        far += s * (flat.take(first + 1, axis=0) - far)
+        first += columns
+        near = flat.take(first, axis=0)
+        near += s * (flat.take(first + 1, axis=0) - near)
+        found = far + t * (near - far)
         beyond = np.abs(away - at).max(axis=1) > 1.0
         return np.where(beyond, -np.float32(self.step), found[:, 0]), found[:, 1:]
 
 
+@lru_cache(maxsize=256)
 def polygon_of_ellipse(across: float, along: float, /) -> tuple[tuple[float, float], ...]:
     """Return the corners of an ellipse with these half axes [m], its first one to the right."""
     angle = np.linspace(0.0, 2.0 * np.pi, 96, endpoint=False)
@@ -100,7 +108,8 @@ def _outline(depth: Doubles, corner: tuple[float, float], step: float) -> Outlin
     length = np.linalg.norm(outward, axis=2, keepdims=True)
     outward /= np.maximum(length, 1e-9)
     outward *= np.clip(length * 2.0, 0.0, 1.0)
-    return Outline(corner, step, depth.astype(np.float32), outward.astype(np.float32))
+    field = np.concatenate([depth[..., None], outward], axis=2).astype(np.float32)
+    return Outline(corner, step, field, float(field[..., 0].max()))
 
 
 def _to_edges(place: Doubles, points: Doubles) -> tuple[Doubles, Bools]:
