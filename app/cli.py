@@ -12,6 +12,7 @@ import typer
 
 from .. import __version__
 from ..components.camera import Camera
+from ..components.overlay import PARTS, Part, parse_parts
 from ..components.scene import LodName, PresetName
 from ..engine.camera import parse_camera
 from .errors import InputError, MachineError
@@ -30,6 +31,9 @@ Scene = Annotated[str, typer.Argument(metavar="SCENE", help="A scene file, or th
 Size = Annotated[str, typer.Option(metavar="WxH", help="Width and height in pixels.")]
 Preset = Annotated[PresetName | None, typer.Option(help="Quality, in place of the scene's own.")]
 Reference = Annotated[bool, typer.Option("--reference", help="Draw every blade in 3D, supersampled.")]
+Laid = Annotated[
+    str | None, typer.Option("--overlay", metavar="PART,...", help=f"Show how it works: {', '.join(PARTS)}, or all.")
+]
 Output = Annotated[str, typer.Option("-o", "--output", help="Where it is written.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Fullscreen = Annotated[bool, typer.Option("--fullscreen", help="Fill the screen.")]
@@ -68,9 +72,10 @@ def walk(
     *,
     fullscreen: Fullscreen = False,
     seconds: Annotated[float | None, typer.Option(min=0.1, max=36000.0, help="Close by itself after so long.")] = None,
+    overlay: Laid = None,
 ) -> None:
     """Walk through a scene in a window; F1 shows the keys."""
-    take = Take(scene, _size(size), preset)
+    take = Take(scene, _size(size), preset, overlay=_overlay(overlay))
     from .display import need_display
 
     need_display()
@@ -90,9 +95,11 @@ def shot(
     *,
     reference: Reference = False,
     camera: Annotated[str | None, typer.Option(metavar="X,Y,Z,YAW,PITCH", help="Metres and degrees.")] = None,
+    overlay: Laid = None,
 ) -> None:
     """Draw one picture, without a window."""
-    take = Take(scene, _size(size, reference=reference), preset, lod, reference)
+    laid = _overlay(overlay, reference=reference)
+    take = Take(scene, _size(size, reference=reference), preset, lod, reference, laid)
     place = None if camera is None else _camera(camera)
     from .shot import shot
 
@@ -109,9 +116,11 @@ def film(
     preset: Preset = None,
     *,
     reference: Reference = False,
+    overlay: Laid = None,
 ) -> None:
     """Film a scene along its camera's path, without a window: .webp, .gif, .mp4, or a folder of pictures."""
-    take = Take(scene, _size(size, reference=reference), preset, reference=reference)
+    laid = _overlay(overlay, reference=reference)
+    take = Take(scene, _size(size, reference=reference), preset, reference=reference, overlay=laid)
     from .film import film
 
     film(take, output, seconds=seconds, fps=fps)
@@ -175,6 +184,17 @@ def _size(text: str, *, reference: bool = False) -> tuple[int, int]:
     if reference and max(size) > LARGEST // SAMPLES:
         raise InputError(f"--size: {text}: with --reference each side must be at most {LARGEST // SAMPLES} pixels")
     return size
+
+
+def _overlay(text: str | None, *, reference: bool = False) -> frozenset[Part]:
+    if text is None:
+        return frozenset()
+    if reference:
+        raise InputError("--overlay: a reference has no levels of detail to show; leave one of the two out")
+    try:
+        return parse_parts(text)
+    except ValueError as error:
+        raise InputError(f"--overlay: {error}") from None
 
 
 def _camera(text: str) -> Camera:

@@ -16,6 +16,7 @@ HELP = (
     "1  2  3           gust, whirlwind, blast where you look",
     "Space             stop and start time",
     "F1                this help",
+    "F2                how it works: winds, levels of detail, map, all",
     "F3                statistics",
     "F5                read the scene file again",
     "F12               picture into this folder",

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from .. import __version__
 from ..components.camera import Camera
 from ..engine.camera import camera_at, projection_matrix, view_matrix
+from ..systems.overlay.overlay import Overlay
 from ..systems.prairie import Prairie
 from ..systems.reference import draw_reference
 from .encode import Picture
@@ -30,6 +31,7 @@ class Studio:
     def __init__(self, take: Take) -> None:
         self.take = take
         self.prairie = Prairie.load(take.scene, preset=take.preset, lod=take.lod)
+        self.overlay = Overlay(take.overlay)
         self._offscreen = Offscreen(take.size)
 
     def __enter__(self) -> Self:
@@ -38,6 +40,7 @@ class Studio:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        self.overlay.release()
         self.prairie.release()
         self._offscreen.release()
 
@@ -70,6 +73,7 @@ class Studio:
         self.prairie.draw(view, projection)
         if self.take.reference:
             return draw_reference(self.prairie, view, projection, self.take.size, samples=SAMPLES)
+        self.overlay.draw(self.prairie, view, projection)
         return self.read()
 
 

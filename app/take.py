@@ -3,6 +3,7 @@
 import re
 from dataclasses import dataclass
 
+from ..components.overlay import Part
 from ..components.scene import LodName
 
 LARGEST = 16384
@@ -30,6 +31,9 @@ class Take:
 
     reference: bool = False
     """Whether every blade is drawn in 3D, supersampled."""
+
+    overlay: frozenset[Part] = frozenset()
+    """What is laid over the picture to show how it works."""
 
 
 def parse_size(text: str, /) -> tuple[int, int]:

@@ -13,8 +13,10 @@ from numpy.typing import NDArray
 from pyglet.window import key
 
 from ..components.camera import Camera
+from ..components.overlay import PARTS, Part
 from ..engine.camera import camera_at, projection_matrix, view_matrix
 from ..engine.scene import SceneError
+from ..systems.overlay.overlay import Overlay
 from ..systems.prairie import Prairie
 from .display import no_window
 from .encode import picture_writer
@@ -36,6 +38,11 @@ MOVES: dict[int, Move] = {
     key.E: "up", key.Q: "down", key.LSHIFT: "run", key.RSHIFT: "run",
 }  # fmt: skip
 """What a held key asks for."""
+
+OVERLAYS: tuple[frozenset[Part], ...] = (
+    frozenset(), frozenset({"masks", "arrows"}), frozenset({"levels", "weights"}), frozenset({"map"}), frozenset(PARTS),
+)  # fmt: skip
+"""What is laid over the picture, one after the other."""
 
 SENSITIVITY = 0.0022
 """How far the look turns for a pixel of the mouse [rad]."""
@@ -84,6 +91,7 @@ class Walk:
         self.walker = start(camera_at(prairie.scene.camera, None, prairie.height_at), self.ground)
         self.flight: Flight | None = None
         self.weather = Weather(prairie)
+        self.overlay = Overlay(take.overlay)
         self.paused = False
         self.captured = False
         self.helping = False
@@ -204,6 +212,13 @@ class Walk:
         """Show what a frame takes, or hide it."""
         self.counting = not self.counting
 
+    def next_overlay(self) -> None:
+        """Show other parts of how it works over the picture, or in the end none."""
+        known = self.overlay.parts in OVERLAYS
+        number = OVERLAYS.index(self.overlay.parts) + 1 if known else 0
+        self.overlay.parts = OVERLAYS[number % len(OVERLAYS)]
+        self.tell([f"shown: {', '.join(part for part in PARTS if part in self.overlay.parts) or 'the prairie alone'}"])
+
     def save_picture(self) -> None:
         """Write what is seen, without the overlays, as the next numbered PNG in the working folder."""
         name = _free_name(Path(self.take.scene).stem)
@@ -225,6 +240,7 @@ class Walk:
         pyglet.clock.unschedule(self.frame)
         pyglet.clock.unschedule(self._time_is_up)
         self.window.switch_to()
+        self.overlay.release()
         self.prairie.release()
         self._top.release()
         self._bottom.release()
@@ -233,7 +249,9 @@ class Walk:
     def on_draw(self) -> None:
         """Draw the prairie, then the overlays."""
         self.window.clear()
-        self._draw_prairie(self.window.get_framebuffer_size())
+        size = self.window.get_framebuffer_size()
+        self._draw_prairie(size)
+        self.overlay.draw(self.prairie, *self._matrices(size))
         self._write_notes()
         for note in (self._top, self._bottom):
             note.draw(*self.window.get_size())
@@ -292,9 +310,11 @@ class Walk:
         self.window.set_exclusive_mouse(caught)
 
     def _draw_prairie(self, size: tuple[int, int]) -> None:
+        self.prairie.draw(*self._matrices(size))
+
+    def _matrices(self, size: tuple[int, int]) -> tuple[Floats, Floats]:
         camera = self.camera
-        aspect = size[0] / max(1, size[1])
-        self.prairie.draw(view_matrix(camera), projection_matrix(camera.view, aspect))
+        return view_matrix(camera), projection_matrix(camera.view, size[0] / max(1, size[1]))
 
     def _write_notes(self) -> None:
         lines: list[str] = list(HELP) if self.helping else []
@@ -316,6 +336,7 @@ _ACTIONS = {
     ord("2"): Walk.whirlwind,
     ord("3"): Walk.blast,
     key.F1: Walk.show_help,
+    key.F2: Walk.next_overlay,
     key.F3: Walk.show_statistics,
     key.F5: Walk.reload,
     key.F12: Walk.save_picture,

@@ -1,0 +1,124 @@
+"""The chart: the patches around the viewer from above, with the view cone and the winds' masks (paper, figure 5)."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import cos, pi, sin
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.quality import Representation
+from ..field import Field
+from .marks import Marks, filled, split, stroked, together
+from .masks import Masked
+from .paint import BRIGHT, DARK, ring_shades
+from .patches import GAP, SETTLED, patch_colors, patch_weights, squares
+
+Floats = NDArray[np.float32]
+
+BEYOND = 6
+"""How many patches beyond the last strips the chart shows."""
+
+CULLED = 0.3
+"""Opacity of patches outside the view cone."""
+
+WHOLE = 1.0 / (1.0 - 2.0 * GAP)
+"""Side of a patch's square that leaves no gap."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """A square of the picture that shows the ground from above, -z up."""
+
+    left: float
+    """Its left edge [pixels]."""
+
+    bottom: float
+    """Its lower edge, from the picture's lower edge [pixels]."""
+
+    side: float
+    """Pixels along its side."""
+
+    middle: tuple[float, float]
+    """The ground position (x, z) in its middle [m]."""
+
+    reach: float
+    """From there to its edges [m]."""
+
+    def place(self, ground: Floats, /) -> Floats:
+        """Return where ground positions (..., 2) are on it: points (..., 3), in pixels from the lower left."""
+        part = (ground - np.array(self.middle, np.float32)) * np.float32(0.5 / self.reach)
+        x, y = self.left + (part[..., 0] + 0.5) * self.side, self.bottom + (0.5 - part[..., 1]) * self.side
+        return np.stack([x, y, np.zeros_like(x)], axis=-1).astype(np.float32)
+
+    @property
+    def limits(self) -> tuple[Floats, Floats]:
+        """Least and largest (x, z) on it [m]."""
+        middle = np.array(self.middle, np.float32)
+        return middle - np.float32(self.reach), middle + np.float32(self.reach)
+
+    def holds(self, ground: Floats, /) -> NDArray[np.bool_]:
+        """Return whether all corners of things (n, k, 2) lie on it, shape (n,)."""
+        low, high = self.limits
+        return np.asarray(((ground >= low) & (ground <= high)).all(axis=(1, 2)))
+
+
+def sheet_for(field: Field, /, *, left: float, bottom: float, side: float) -> Sheet:
+    """Return the sheet around the viewer that shows all strips and some carpet."""
+    x, _, z = field.sight.eye
+    patches = min(field.table.side // 2, field.reach[Representation.STRIPS] + BEYOND)
+    return Sheet(left, bottom, side, (x, z), patches * field.quality.patch)
+
+
+def chart(field: Field, masks: Sequence[Masked], sheet: Sheet, /) -> Marks:
+    """Return the chart: patches by representation, dimmer where they are culled; masks, the view cone, the viewer."""
+    x, z = sheet.middle
+    frame = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]], np.float32) * np.float32(sheet.reach) + np.array([x, z])
+    border = sheet.place(frame.astype(np.float32))
+    return together(
+        filled(split(border[None]), (*DARK, 0.85)),
+        _patches(field, sheet),
+        *(_outline(mask, sheet) for mask in masks),
+        stroked(border, np.roll(border, -1, axis=0), (*BRIGHT, 0.7), width=1.2),
+        _viewer(field.sight.cone, sheet),
+    )
+
+
+def _patches(field: Field, sheet: Sheet) -> Marks:
+    table = field.table
+    corners, low, high = squares(table.cell, patch=field.quality.patch, part=WHOLE), *sheet.limits
+    rows = np.flatnonzero(table.alive & (corners[:, 2] > low).all(axis=1) & (corners[:, 0] < high).all(axis=1))
+    shades = np.concatenate([ring_shades(level, 1) for level in Representation])
+    share = patch_weights(field)[:, rows]
+    changing = share.max(axis=0) < SETTLED
+    color = np.ones((len(rows), 4), np.float32)
+    color[:, :3] = np.where(changing[:, None], share.T @ shades, patch_colors(field)[rows])
+    color[:, 3] = np.where(table.visible[rows], 0.9, CULLED)
+    return filled(split(sheet.place(np.clip(corners[rows], low, high))), np.repeat(color, 2, axis=0)[:, None, :])
+
+
+def _outline(mask: Masked, sheet: Sheet) -> Marks:
+    inside = sheet.holds(mask.edge)
+    a, b = sheet.place(mask.edge[inside, 0]), sheet.place(mask.edge[inside, 1])
+    return together(
+        stroked(a, b, (*DARK, 0.6 * mask.strength), width=3.6), stroked(a, b, (*mask.color, mask.strength), width=1.8)
+    )
+
+
+def _viewer(cone: tuple[float, float], sheet: Sheet) -> Marks:
+    """Return the view cone from the middle to the edges, and the viewer as the tip of an arrow."""
+    middle, half = cone
+    centre = np.array([sheet.left + sheet.side / 2, sheet.bottom + sheet.side / 2, 0.0], np.float32)
+
+    def ray(azimuth: float) -> Floats:
+        return np.array([sin(azimuth), cos(azimuth), 0.0], np.float32)
+
+    size = np.float32(0.035 * sheet.side)
+    tip = centre + size * np.stack([ray(middle), ray(middle + 2.5), ray(middle - 2.5)])
+    marks = [filled(tip[None], (*BRIGHT, 1.0)), stroked(tip, np.roll(tip, 1, axis=0), (*DARK, 1.0), width=1.2)]
+    if half < pi:
+        sides = [ray(middle - half), ray(middle + half)]
+        ends = np.stack([centre + side * (0.5 * sheet.side / np.abs(side).max()) for side in sides])
+        starts = np.stack([centre, centre])
+        marks.insert(0, stroked(starts, ends.astype(np.float32), (*BRIGHT, 0.95), width=1.6))
+    return together(*marks)

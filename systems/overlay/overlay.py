@@ -1,0 +1,100 @@
+"""The overlay of a prairie: chosen parts of how it works, drawn over its picture."""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from ...components.camera import View
+from ...components.overlay import Part
+from ...engine.gl.guest import guest
+from ..draw.painter import view_of
+from ..prairie import Prairie
+from .arrows import arrow_marks
+from .chart import chart, sheet_for
+from .legend import entries, legend
+from .marks import Marks, together, veiled
+from .masks import Masked, mask_marks, masked
+from .painter import MarkPainter, pixels_onto_clip, scale_of
+from .patches import level_marks, weight_marks
+
+EDGE = 10.0
+"""Distance of map and legend from the picture's edges [pixels of a picture 540 high]."""
+
+LETTERS = 13.0
+"""Size of the legend's letters [pixels of a picture 540 high]."""
+
+MAP = 0.42
+"""Side of the map, of the picture's shorter side."""
+
+
+class Overlay:
+    """What is laid over a prairie: masks, arrows, levels, weights and the map, any of them or none.
+
+    It reads the prairie's tables and pools and changes nothing, so the prairie looks the same with it and without.
+    """
+
+    def __init__(self, parts: Iterable[Part] = ()) -> None:
+        self.parts: frozenset[Part] = frozenset(parts)
+        self._painter: MarkPainter | None = None
+
+    def draw(self, prairie: Prairie, view: object, projection: object) -> None:
+        """Draw over the frame that `prairie.draw` has just drawn with the same matrices, and leave GL as it was.
+
+        Raises RuntimeError for a prairie that has not been drawn.
+        """
+        if not self.parts:
+            return
+        if prairie.painter is None:
+            raise RuntimeError("an overlay shows a frame that is drawn: draw the prairie first")
+        ctx = prairie.painter.ctx
+        seen, masks = view_of(view, projection), self._masks(prairie)
+        with guest(ctx) as target:
+            if self._painter is None or self._painter.ctx is not ctx:
+                self._painter = MarkPainter(ctx)
+            size = target.viewport[2], target.viewport[3]
+            self._painter.begin(size)
+            self._painter.draw(self._on_ground(prairie, masks), _clip(seen))
+            self._draw_flat(self._painter, prairie, masks, size)
+
+    def release(self) -> None:
+        """Give everything back to the context."""
+        if self._painter is not None:
+            self._painter.release()
+            self._painter = None
+
+    def _masks(self, prairie: Prairie) -> list[Masked]:
+        if not self.parts & {"masks", "map"}:
+            return []
+        field, winds, time = prairie.field, prairie.winds, prairie.time
+        x, _, z = field.sight.eye
+        far = field.reach[2] * field.quality.patch
+        return masked(winds.now(time), winds.quarantine, time=time, around=(x, z), far=far)
+
+    def _on_ground(self, prairie: Prairie, masks: list[Masked]) -> Marks:
+        field = prairie.field
+        layers = []
+        if "levels" in self.parts:
+            layers.append(level_marks(field, settled="weights" in self.parts))
+        if "weights" in self.parts:
+            layers.append(weight_marks(field))
+        if "masks" in self.parts:
+            layers.append(mask_marks(masks, field.terrain))
+        if "arrows" in self.parts:
+            layers.append(arrow_marks(field))
+        return veiled(together(*layers), field.terrain, field.sight.eye)
+
+    def _draw_flat(self, painter: MarkPainter, prairie: Prairie, masks: list[Masked], size: tuple[int, int]) -> None:
+        scale = scale_of(size)
+        edge = EDGE * scale
+        if "map" in self.parts:
+            side = float(round(MAP * min(size)))
+            sheet = sheet_for(prairie.field, left=size[0] - edge - side, bottom=size[1] - edge - side, side=side)
+            painter.draw(chart(prairie.field, masks, sheet), pixels_onto_clip(size))
+        lines = entries(self.parts, masks, prairie.field.quality)
+        if lines:
+            image = legend(tuple(lines), round(LETTERS * scale))
+            painter.draw_image(image, round(size[0] - edge) - image.shape[1], round(edge))
+
+
+def _clip(seen: View) -> np.ndarray[tuple[int, ...], np.dtype[np.float32]]:
+    return (seen.projection.astype(np.float64) @ seen.view.astype(np.float64)).astype(np.float32)

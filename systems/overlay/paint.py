@@ -1,0 +1,54 @@
+"""The overlay's colours, all in display space: which colour stands for what."""
+
+from colorsys import hsv_to_rgb
+from zlib import crc32
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.quality import Representation
+
+Floats = NDArray[np.float32]
+Color = tuple[float, float, float]
+
+WINDS: dict[str, Color] = {
+    "breeze": (0.55, 0.90, 1.00),
+    "gust": (1.00, 0.90, 0.25),
+    "whirlwind": (1.00, 0.42, 0.85),
+    "blast": (1.00, 0.42, 0.22),
+}
+"""By kind; others have a hue of their own, from their name."""
+
+LEVELS: dict[Representation, Color] = {
+    Representation.BLADES: (0.98, 0.33, 0.20),
+    Representation.STRIPS: (0.12, 0.50, 0.98),
+    Representation.CARPET: (0.72, 0.45, 0.95),
+}
+
+PALEST = 0.4
+"""How far towards white the farthest ring of a representation is."""
+
+INDEX = np.array(
+    [(0.20, 0.35, 0.95), (0.10, 0.80, 0.95), (0.97, 0.95, 0.45), (1.00, 0.55, 0.10), (0.90, 0.05, 0.20)], np.float32
+)
+"""Of a posture index, from 0 to 1 in even steps."""
+
+DARK = (0.05, 0.07, 0.04)
+BRIGHT = (1.0, 1.0, 1.0)
+
+
+def wind_color(kind: str, /) -> Color:
+    """Return the colour of a kind of wind, always the same one."""
+    return WINDS.get(kind) or hsv_to_rgb(crc32(kind.encode()) / 2**32, 0.65, 1.0)
+
+
+def index_color(index: Floats, /) -> Floats:
+    """Return the colours of posture indices (n,) in [0, 1], shape (n, 3)."""
+    at = np.linspace(0.0, 1.0, len(INDEX))
+    return np.stack([np.interp(index, at, channel) for channel in INDEX.T], axis=1).astype(np.float32)
+
+
+def ring_shades(level: Representation, rings: int, /) -> Floats:
+    """Return the colours of a representation's rings from the nearest to the farthest, shape (rings, 3)."""
+    pale = np.linspace(0.0, PALEST if rings > 1 else 0.0, rings)[:, None]
+    return np.asarray(np.array(LEVELS[level]) * (1.0 - pale) + pale, np.float32)
