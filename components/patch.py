@@ -87,6 +87,16 @@ class PatchTable:
     message: NDArray[np.float32]
     """The wind's message at the patch's middle, without small oscillations: the carpet's receiver, shape (rows, 2)."""
 
+    sublevel: NDArray[np.int8]
+    """How fine blades and strips are, or are coming to be: the blades' ring; twice the strips' ring and the axis that
+    they run along, 0 for x; -1 for none yet, shape (2, rows)."""
+
+    sublevel_before: NDArray[np.int8]
+    """The sub-levels that they come from, shape (2, rows)."""
+
+    sublevel_progress: NDArray[np.float32]
+    """How far these changes have gone, 1 when they are over, shape (2, rows)."""
+
     entity: NDArray[np.int64]
     """The patch's entity, 0 where there is none, shape (rows,)."""
 
@@ -108,6 +118,9 @@ class PatchTable:
             height=np.zeros(rows, np.float32),
             slope=np.zeros((rows, 2), np.float32),
             message=np.zeros((rows, 2), np.float32),
+            sublevel=np.full((2, rows), -1, np.int8),
+            sublevel_before=np.full((2, rows), -1, np.int8),
+            sublevel_progress=np.ones((2, rows), np.float32),
             entity=np.zeros(rows, np.int64),
         )
 

@@ -37,6 +37,9 @@ class Sight:
     dt: float = 0.0
     """Time since the frame before [s]."""
 
+    way: float = 0.0
+    """How far the viewer has come since, along the ground [m]."""
+
     jumped: bool = True
     """Whether the viewer is somewhere else altogether than in the frame before: then nothing changes by and by."""
 
@@ -52,6 +55,13 @@ class Stock:
 
     first_layer: list[list[int]]
     """By ring and kind: where the kind's layers start in the ring's texture array."""
+
+    slices: list[NDArray[np.int32]]
+    """By ring: the plane that each blade is painted on, by model and orientation, shape (models, 2, n); blades in the
+    order of `blades.rank`."""
+
+    targets: Floats
+    """Where each blade's points are painted, (u, v), shape (models, 2, n, points, 2): the same in all rings."""
 
     @property
     def margin(self) -> float:
@@ -117,7 +127,14 @@ def stock_up(growths: list[Growth], patch: float) -> Stock:
         [2 * len(growth.models) * len(growth.models[0].strips[ring].plane) for growth in growths] for ring in rings
     ]
     first = [[sum(counts[:kind]) for kind in range(len(counts))] for counts in layers]
-    return Stock(blades=blades, strips=strips, first_layer=first)
+    slices = [
+        np.stack(
+            [np.concatenate([growth.models[model].strips[ring].slice for growth in growths], 1) for model in models]
+        )
+        for ring in rings
+    ]
+    targets = [np.concatenate([growth.models[model].strips[0].targets for growth in growths], 1) for model in models]
+    return Stock(blades=blades, strips=strips, first_layer=first, slices=slices, targets=np.stack(targets))
 
 
 def _turned_records(growths: list[Growth], model: int, turn: int, patch: float) -> NDArray[np.void]:

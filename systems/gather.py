@@ -5,34 +5,42 @@ from numpy.typing import NDArray
 
 from ..components.patch import PatchTable
 from ..components.receivers import BladePool, StripPool
+from .draw.blades import MOVED
 from .draw.strips import STRIP
-from .receive import Shown
+from .see import Shown
+from .transition import Looks, handed_over
 
-Floats = NDArray[np.float32]
 
-
-def gather_blades(pool: BladePool, shown: Shown, /) -> tuple[NDArray[np.void], Floats, Floats]:
-    """Return the records (n,), messages (n, 2) and fades (n,) of the blades that grow on the patches shown."""
+def gather_blades(pool: BladePool, shown: Shown, /) -> tuple[NDArray[np.void], NDArray[np.void]]:
+    """Return the blades that grow on the patches shown, records of `BLADE` and of `MOVED`, each of shape (n,)."""
     present = pool.present[shown.slots]
-    fade = np.broadcast_to(shown.fade[:, None], present.shape)
+    moved = np.empty(present.shape, MOVED)
+    moved["message"] = pool.message[shown.slots]
+    moved["fade"], moved["slide"] = shown.fade[:, None], shown.slide[:, None]
     if present.all():
-        return pool.blade[shown.slots].reshape(-1), pool.message[shown.slots].reshape(-1, 2), fade.reshape(-1)
-    return pool.blade[shown.slots][present], pool.message[shown.slots][present], fade[present]
+        return pool.blade[shown.slots].reshape(-1), moved.reshape(-1)
+    return pool.blade[shown.slots][present], moved[present]
+
+
+def lies_ahead(cell: NDArray[np.int32], centre: NDArray[np.int32], along: NDArray[np.int32], /) -> NDArray[np.bool_]:
+    """Return whether cells (m, 2) lie ahead of the viewer on the axis that their strips are stacked along, (m,)."""
+    return np.asarray(np.take_along_axis(cell - centre, 1 - along[:, None], axis=1)[:, 0] > 0)
 
 
 def gather_strips(
-    pool: StripPool, shown: Shown, table: PatchTable, centre: NDArray[np.int32], /
+    pool: StripPool, shown: Shown, looks: Looks, table: PatchTable, centre: NDArray[np.int32], /, *, fade: bool = True
 ) -> tuple[NDArray[np.void], NDArray[np.int64]]:
     """Return the polygon strips of the patches shown, far to near, and how many there are on each patch.
 
-    They are records of `STRIP`, shape (n,); the counts have shape (m,).
+    They are records of `STRIP`, shape (n,), and those of one strip follow one another; the counts have shape (m,).
+    `fade` says that a strip whose blades are handed over to it appears by and by.
 
     Strips are stored by rising place in their stack; where the viewer is on the low side they are walked backwards.
     """
-    cell = table.cell[shown.rows]
-    ahead = np.take_along_axis(cell - centre, 1 - shown.along[:, None], axis=1)[:, 0] > 0
+    ahead = lies_ahead(table.cell[shown.rows], centre, shown.along)
     _, kinds, count = pool.layer.shape
-    order = np.where(ahead[:, None], np.arange(count)[::-1], np.arange(count))[..., None]
+    place_of = np.arange(count)
+    order = np.where(ahead[:, None], place_of[::-1], place_of)[..., None]
     # Strips of several kinds share a plane: each kind comes to lie in front as often as behind.
     kind = (np.arange(kinds) + order) % kinds
     at = shown.slots[:, None, None], kind, order
@@ -43,34 +51,38 @@ def gather_strips(
         records[side][..., ::2] = place[..., edge, :]
         records[side][..., 1] = ground[..., edge]
         records["wind"][..., slice(0, 2) if side == "a" else slice(2, 4)] = message[..., edge, :]
-    span = np.linspace(0.0, 1.0, columns + 1, dtype=np.float32)
-    records["u"] = np.stack([span[:-1], span[1:]], axis=-1)
     records["layer"] = pool.layer[at][..., None]
     records["kind"] = kind[..., None]
     records["turn"] = table.turn[shown.rows][:, None, None, None]
-    records["fade"] = shown.fade[:, None, None, None]
-    grows = pool.present[at[:2]]
+    records["growth"] = looks.growth[shown.rows][:, None, None, None]
+    records["ranks"] = np.where(shown.least > 0.0, -shown.least, shown.most)[:, None, None, None]
+    _, painted = handed_over(looks.handed[shown.rows][:, None], place_of, count, fade=fade)
+    covers = shown.fade[:, None] * painted
+    records["fade"] = covers[:, :, None, None]
+    grows = pool.present[at[:2]] & (covers > 0.0)[..., None]
     grown: NDArray[np.void] = records[grows].reshape(-1)
     return grown, grows.sum(axis=(1, 2)) * columns
 
 
-def runs(shown: list[Shown], counts: list[NDArray[np.int64]], /) -> list[tuple[int, int, int]]:
-    """Return the draws that show all rings' strips from far to near: ring, first strip, number of strips.
+def runs(shown: list[Shown], counts: list[NDArray[np.int64]], thin: list[bool], /) -> list[tuple[int, int, int, bool]]:
+    """Return the draws that show all rings' strips from far to near: ring, first strip, number of strips, by rank.
 
     `counts` are the numbers of strips on each patch, by ring. Patches of one ring that follow one another are drawn
-    at once.
+    at once, but for those that show only some of their blades: these, and all of a ring that is `thin`, are drawn by
+    rank.
     """
     total = sum(len(ring.queue) for ring in shown)
-    ring_of, amount = np.zeros(total, np.int64), np.zeros(total, np.int64)
+    ring_of, amount, ranked = np.zeros(total, np.int64), np.zeros(total, np.int64), np.zeros(total, np.bool_)
     for number, (ring, count) in enumerate(zip(shown, counts, strict=True)):
         ring_of[ring.queue], amount[ring.queue] = number, count
+        ranked[ring.queue] = thin[number] | (ring.most < 1.0) | (ring.least > 0.0)
     if not total:
         return []
-    starts = np.flatnonzero(np.diff(ring_of, prepend=-1))
+    starts = np.flatnonzero(np.diff(2 * ring_of + ranked, prepend=-1))
     done = [0] * len(shown)
     draws = []
     for start, end in zip(starts.tolist(), [*starts[1:].tolist(), total], strict=True):
         number, size = int(ring_of[start]), int(amount[start:end].sum())
-        draws.append((number, done[number], size))
+        draws.append((number, done[number], size, bool(ranked[start])))
         done[number] += size
     return draws

@@ -161,9 +161,3 @@ def plant_strips(
         grows = dense.max(axis=1) > PRESENT
         pool.present[slots, kind] = grows
         pool.least[slots] = np.where(grows, np.minimum(pool.least[slots], dense.min(axis=1)), pool.least[slots])
-
-
-def strips_along(cell: Ints, centre: Ints, /) -> Ints:
-    """Return the axis that each cell's strips run along, so that none is edge-on (paper, section 2.1): 0 is x."""
-    apart = np.abs(cell - centre)
-    return np.asarray(apart[..., 0] > apart[..., 1], np.int32)

@@ -27,9 +27,11 @@ from .draw.painter import Painter, view_of
 from .field import Field, blades_in_field, lay_out
 from .fly import flying
 from .growth.cache import cached_growth
-from .lod import schedule, wanted_representation
-from .receive import Shown, blow, plant_shown_blades, plant_shown_strips, shown_blades, shown_strips
+from .lod import SLACK, part_of_change, schedule, wanted_representation, weights
+from .receive import blow, plant_shown_blades, plant_shown_strips
 from .receivers import ReceiverEntities
+from .see import Seen, look, see
+from .sublevel import refine
 from .tile import cell_of, tile
 from .winds import Winds
 
@@ -103,8 +105,7 @@ class Prairie:
         self._drawn_at: float | None = None
         self._receivers = ReceiverEntities(self.world, self.field)
         self._released = False
-        self._blades: list[Shown] = []
-        self._strips: list[Shown] = []
+        self._seen: Seen | None = None
         self.winds = Winds(self.world, self.field)
         self._schedule = self._systems()
 
@@ -180,7 +181,8 @@ class Prairie:
 
     def _look(self, seen: View) -> None:
         sight, patch, eye = self.field.sight, self.field.quality.patch, eye_of(seen)
-        sight.jumped = float(np.hypot(eye[0] - sight.eye[0], eye[2] - sight.eye[2])) > LEAP * patch
+        sight.way = float(np.hypot(eye[0] - sight.eye[0], eye[2] - sight.eye[2]))
+        sight.jumped = sight.way > LEAP * patch
         sight.eye, sight.cone = eye, view_cone(seen)
         sight.centre = cell_of(np.array([eye[0], eye[2]], np.float32), patch=patch)
         sight.dt = 1e9 if self._drawn_at is None else self.time - self._drawn_at
@@ -256,35 +258,44 @@ class Prairie:
         table.visible[:] = inside_cone(middles, apex=(sight.eye[0], sight.eye[2]), cone=sight.cone, radius=radius)
 
     def _lod(self) -> None:
-        table = self.field.table
-        wanted = wanted_representation(table.distance, table.representation, reach=self.field.reach)
-        was_visible = self._was_visible & table.visible & (not self.field.sight.jumped)
+        field = self.field
+        table, sight, transitions = field.table, field.sight, field.transitions
+        slack = SLACK if transitions.hysteresis else 0
+        was_visible = self._was_visible & table.visible & (not sight.jumped)
+        held = np.where(was_visible, table.representation, np.int8(-1))
+        wanted = wanted_representation(table.distance, held, reach=field.reach, slack=slack)
+        part = part_of_change(sight.dt, way=sight.way, patch=field.quality.patch)
         before = table.representation.copy()
-        schedule(table, wanted, was_visible, reach=self.field.reach, dt=self.field.sight.dt)
-        changing = (table.progress < 1.0) | ((before != table.representation) & was_visible)
-        self.statistics.transitions = int((table.alive & table.visible & changing).sum())
+        schedule(table, wanted, was_visible & transitions.gradual, reach=field.reach, part=part)
+        weight = weights(table)
+        refine(field, was_visible, weight, part=part)
+        self._seen = see(field, look(field, weight))
+        changed = (table.progress < 1.0) | ((before != table.representation) & was_visible)
+        self.statistics.transitions = int((table.alive & table.visible & changed).sum())
 
     def _plant(self) -> None:
-        field = self.field
-        self._blades, self._strips = shown_blades(field), shown_strips(field)
-        plant_shown_blades(field, self._blades)
-        for ring, shown in enumerate(self._strips):
+        field, seen = self.field, self._seen
+        assert seen is not None
+        plant_shown_blades(field, seen.standing)
+        for ring, shown in enumerate(seen.strips):
             plant_shown_strips(field, ring, shown)
-        self._receivers.follow(self._blades, self._strips)
+        self._receivers.follow(seen.standing, seen.strips)
 
     def _wind(self) -> None:
+        assert self._seen is not None
         field, table, sight, patch = self.field, self.field.table, self.field.sight, self.field.quality.patch
         middles = (table.cell + np.float32(0.5)) * np.float32(patch)
         near = inside_cone(middles, apex=(sight.eye[0], sight.eye[2]), cone=sight.cone, radius=2.0 * patch)
         rows = np.flatnonzero(table.alive & near)
         hear = partial(self.winds.heard, time=self.time)
-        self.statistics.receivers = len(blow(field, self._blades, self._strips, hear, carpet=rows))
+        self.statistics.receivers = len(blow(field, self._seen.standing, self._seen.strips, hear, carpet=rows))
 
     def _gather(self) -> None:
         assert self.painter is not None
-        self.statistics.blades_submitted = self.painter.write_blades(self._blades)
-        self.painter.write_strips(self._strips)
-        self.painter.write_ground(carpet=True)
+        assert self._seen is not None
+        self.statistics.blades_submitted = self.painter.write_blades(self._seen)
+        self.painter.write_strips(self._seen)
+        self.painter.write_ground(self._seen.looks.carpet)
         self.painter.write_bodies(flying(self.world, self.height_at, time=self.time))
 
     def _count(self, draw_ms: float) -> None:

@@ -6,7 +6,7 @@ from ..components.receivers import BladePool, StripPool
 from ..components.wind import Receivers
 from ..engine.world import World
 from .field import Field
-from .receive import Shown
+from .see import Shown
 
 
 class ReceiverEntities:
@@ -20,16 +20,15 @@ class ReceiverEntities:
         self._world = world
         self._field = field
         self._pools: list[BladePool | StripPool] = [field.blades, *field.strips]
-        self._entity = [np.zeros(pool.side * pool.side, np.int64) for pool in self._pools]
-        self._owner = [np.zeros(pool.side * pool.side, np.int64) for pool in self._pools]
+        self._entity = [np.zeros(len(pool.stamp), np.int64) for pool in self._pools]
+        self._owner = [np.zeros(len(pool.stamp), np.int64) for pool in self._pools]
 
-    def follow(self, blades: list[Shown], strips: list[Shown]) -> None:
+    def follow(self, blades: Shown, strips: list[Shown]) -> None:
         """Create and delete entities so that they are those of the patches shown now."""
         table = self._field.table
-        near = np.concatenate([ring.slots for ring in blades]), np.concatenate([ring.rows for ring in blades])
-        for number, (slots, rows) in enumerate([near, *((ring.slots, ring.rows) for ring in strips)]):
+        for number, shown in enumerate([blades, *strips]):
             owner = np.zeros_like(self._owner[number])
-            owner[slots] = table.entity[rows]
+            owner[shown.slots] = table.entity[shown.rows]
             for slot in np.flatnonzero(owner != self._owner[number]).tolist():
                 self._change(number, slot, int(owner[slot]))
             self._owner[number] = owner

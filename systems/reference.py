@@ -15,7 +15,7 @@ from .field import Field
 from .gather import gather_blades
 from .plant import plant_blades
 from .prairie import Prairie
-from .receive import Shown
+from .see import Shown
 from .tile import cell_of, cells_on, patch_models
 from .wind.blow import places_alone
 from .wind.grass import grass_of
@@ -53,9 +53,7 @@ def stand_all(prairie: Prairie, cells: Ints, painter: BladePainter, /) -> int:
     grass = grass_of(field.growths, pool.kind(slots))
     heard = prairie.winds.heard(places_alone(pool.place.reshape(-1, 2), grass), time=prairie.time)
     pool.message[:] = heard.reshape(pool.message.shape)
-    painter.write(
-        *gather_blades(pool, Shown(slots, slots, np.ones(len(cells), np.float32), np.zeros_like(model), slots))
-    )
+    painter.write(*gather_blades(pool, Shown.whole(slots, slots)))
     return painter.blades.count
 
 
@@ -74,7 +72,7 @@ class EveryBlade:
 
     def draw(self, view: View, cells: Ints) -> None:
         """Draw sky, ground and all blades of `cells` (n, 2) into the framebuffer that is bound."""
-        self.painter.write_ground(carpet=False)
+        self.painter.write_ground(None)
         self.painter.draw(view, blades=self._chunks(cells))
 
     def _chunks(self, cells: Ints) -> Iterator[BladePainter]:

@@ -73,7 +73,8 @@ def tile(
     middle = (fresh.astype(np.float32) + np.float32(0.5)) * np.float32(patch)
     table.height[changed], table.slope[changed] = height_at(terrain, middle), slope_at(terrain, middle)
     table.representation[changed] = table.previous[changed] = -1
-    table.progress[changed] = 1.0
+    table.sublevel[:, changed] = table.sublevel_before[:, changed] = -1
+    table.progress[changed], table.sublevel_progress[:, changed] = 1.0, 1.0
     table.visible[changed] = False
     for row in changed.tolist():
         if table.entity[row]:

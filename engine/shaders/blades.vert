@@ -1,5 +1,6 @@
 // One instance is one blade: a ribbon of SEGMENTS quads. With SOFT it is drawn half a pixel wider on either side, and the
-// fragments say how much of each pixel it covers; so a blade thinner than a pixel is faint, and not a row of dots.
+// fragments say how much of each pixel it covers; so a blade thinner than a pixel is faint, and not a row of dots. With
+// MORPH it is on its way between its own place and its painted place on a moving strip (paper, section 4.2).
 #include "lib/light.glsl"
 #include "lib/posture.glsl"
 
@@ -12,6 +13,16 @@ in float variant;
 in float kind;
 in vec2 message;
 in float fade;
+#ifndef MORPH
+in float slide;  // of the joints, to those of a coarser blade
+#else
+#include "lib/painted.glsl"
+
+in float morph;    // how far it has moved
+in float edge;     // first edge of its strip
+in float painted;  // its row of the targets
+uniform vec4 tall; // by kind: height of the strips [m]
+#endif
 
 out vec3 color;
 flat out float shown;
@@ -20,9 +31,9 @@ noperspective out float aside;  // from the middle line [pixel]
 noperspective out float half_width;  // of the ribbon [pixel]
 
 // Move a point aside on the screen, so that the ribbon reaches half a pixel beyond its edge.
-vec4 widened(vec3 place, vec3 tangent, vec2 across, float reach) {
+vec4 widened(vec3 place, vec3 tangent, vec2 across) {
     vec4 middle = clip * vec4(place, 1.0);
-    vec4 edge = clip * vec4(across.x * reach, 0.0, across.y * reach, 0.0);
+    vec4 edge = clip * vec4(across.x, 0.0, across.y, 0.0);
     if (middle.w < 0.15) {
         aside = half_width = 8.0;
         return middle + edge;
@@ -39,23 +50,39 @@ vec4 widened(vec3 place, vec3 tangent, vec2 across, float reach) {
 }
 #endif
 
+vec3 light(int k, float t, vec2 normal, vec3 place, float h, vec2 bent) {
+    vec3 grass = mix(root[k].rgb, tip[k].rgb, t) * (1.0 + grain_x[k].rgb * normal.x + grain_z[k].rgb * normal.y);
+    grass *= place_tone(place.xz) * canopy(h, lift(bent, place));
+    return mix(grass, haze.rgb, haze_at(place));
+}
+
 void main() {
     float t = float(gl_VertexID / 2) / float(SEGMENTS);
+#ifndef MORPH
+    t = mix(t, floor(t * float(COARSER) + 0.5) / float(COARSER), slide);
+#endif
     float side = float(gl_VertexID % 2) * 2.0 - 1.0;
     int k = int(kind);
     vec2 bend = message + rest * (1.0 - min(length(message), 1.0));
     Spine spine = posture(variant, bend, t);
-    vec3 place = root_at + spine.place * height;
+    vec3 place = root_at + spine.place * height, tangent = spine.tangent * height;
     vec2 across = vec2(-facing.y, facing.x) * side;
     float reach = 0.5 * width * pow(max(1.0 - t, 0.0), tip[k].w);
-#ifdef SOFT
-    gl_Position = widened(place, spine.tangent, across, reach);
-#else
-    gl_Position = clip * vec4(place.x + across.x * reach, place.y, place.z + across.y * reach, 1.0);
+    float h = spine.place.y * height / (root[k].w * lodged(message));
+    color = light(k, t, facing + ROUND * across, root_at, h, message);
+    across *= reach;
+#ifdef MORPH
+    Painted target = painted_at(int(edge), int(painted), t, k, tall[k]);
+    vec2 run = normalize(target.run.xz);
+    place = mix(place, target.place, morph);
+    tangent = mix(tangent, target.tangent, morph);
+    across = mix(across, run * dot(run, across) * boosted(run, target.middle), morph);
+    color = mix(color, light(k, t, facing, target.middle, target.h, target.message), morph);
 #endif
-    vec2 normal = facing + ROUND * across;
-    vec3 grass = mix(root[k].rgb, tip[k].rgb, t) * (1.0 + grain_x[k].rgb * normal.x + grain_z[k].rgb * normal.y);
-    grass *= place_tone(root_at.xz) * canopy(spine.place.y * height / (root[k].w * lodged(message)), lift(message, root_at));
-    color = mix(grass, haze.rgb, haze_at(root_at));
+#ifdef SOFT
+    gl_Position = widened(place, tangent, across);
+#else
+    gl_Position = clip * vec4(place.x + across.x, place.y, place.z + across.y, 1.0);
+#endif
     shown = fade;
 }

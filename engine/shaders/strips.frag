@@ -16,18 +16,23 @@ flat in float shown;
 flat in float boost;  // of coverage
 #ifdef THIN
 in float grows;
+flat in float below;  // rank up to which blades show, or negative: from which on
 #endif
 
 out vec4 pixel;
 
 #ifdef THIN
-// How much of a texel stays where its kind grows thinly: its blades above the density go, sharply where the texel is
-// one blade, in proportion where it is the mean of many.
+// How much of a texel stays where its kind grows thinly, and where only blades of some ranks show: the others go,
+// sharply where the texel is one blade, in proportion where it is the mean of many.
 float thinned(float coverage) {
     vec2 step = fwidth(at) * vec2(textureSize(ranks, 0).xy);
     float soft = clamp(0.35 * log2(max(max(step.x, step.y), 1.0)), 0.06, 1.0);
     float rank = texture(ranks, vec3(at, sheet)).r / coverage;
-    return grows > 0.995 ? 1.0 : clamp((grows - rank) / soft + 0.5, 0.0, 1.0);
+    float dense = grows > 0.995 ? 1.0 : clamp((grows - rank) / soft + 0.5, 0.0, 1.0);
+    // The span must reach from below all ranks to above them, softness included.
+    float edge = mix(-0.5 * soft, 1.0 + 0.5 * soft, abs(below));
+    float over = clamp((edge - rank) / soft + 0.5, 0.0, 1.0);
+    return dense * (below < 0.0 ? 1.0 - over : over);
 }
 #endif
 

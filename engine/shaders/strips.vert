@@ -22,26 +22,27 @@ flat out float shown;
 flat out float boost;
 #ifdef THIN
 out float grows;
+flat out float below;
 #endif
 
 void main() {
     int number = first + gl_InstanceID;
     ivec2 at_record = ivec2(number % PER_ROW * 4, number / PER_ROW);
     vec4 part0 = texelFetch(strips, at_record, 0), part1 = texelFetch(strips, at_record + ivec2(1, 0), 0);
-    vec4 wind_u = texelFetch(strips, at_record + ivec2(2, 0), 0), rest = texelFetch(strips, at_record + ivec2(3, 0), 0);
+    vec4 part2 = texelFetch(strips, at_record + ivec2(2, 0), 0), part3 = texelFetch(strips, at_record + ivec2(3, 0), 0);
     vec3 a = part0.xyz, b = vec3(part0.w, part1.xy);
-    vec4 wind = vec4(part1.zw, wind_u.xy);
-    vec2 u = wind_u.zw;
-    float kind = rest.y, turn = rest.z;
+    vec4 wind = vec4(part1.zw, part2.xy);
+    float kind = part2.w, turn = part3.x, growth = part3.z;
     float t = float(gl_VertexID / 2) / float(SECTIONS);
     bool right = (gl_VertexID & 1) == 1;
     vec3 foot = right ? b : a;
     vec2 message = right ? wind.zw : wind.xy;
     int k = int(kind);
     vec3 spine = posture(float(k) * field.w, message, t).place * tall[k];
-    gl_Position = clip * vec4(foot + spine, 1.0);
-    at = vec2((right ? u.y : u.x) * wide_to[k], t * high_to[k]);
-    sheet = rest.x;
+    gl_Position = clip * vec4(foot + spine * growth, 1.0);
+    float u = float(number % COLUMNS + (right ? 1 : 0)) / float(COLUMNS);
+    at = vec2(u * wide_to[k], t * high_to[k]);
+    sheet = part2.z;
     h = spine.y / (root[k].w * lodged(message));
     vec3 middle = 0.5 * (a + b);
     lifted = lift(0.5 * (wind.xy + wind.zw), middle);
@@ -53,11 +54,10 @@ void main() {
     float s = turn == 1.0 ? 1.0 : turn == 3.0 ? -1.0 : 0.0;
     grain_u = c * grain_x[k].rgb + s * grain_z[k].rgb;
     grain_v = c * grain_z[k].rgb - s * grain_x[k].rgb;
-    shown = rest.w;
-    // A line of sight that meets strips at an angle crosses fewer of them on the same way through the grass.
-    vec2 run = normalize(b.xz - a.xz), sight = normalize(middle.xz - eye.xz);
-    boost = mix(1.0, 1.0 / max(abs(run.x * sight.y - run.y * sight.x), 0.6), 0.7);
+    shown = part3.y;
+    boost = boosted(normalize(b.xz - a.xz), middle);
 #ifdef THIN
     grows = textureLod(density, on_map(foot.xz), 0.0)[k];
+    below = part3.w;
 #endif
 }

@@ -8,8 +8,9 @@ from ...components.receivers import BLADE
 from ...engine.gl.stream import Stream, release_all
 from .frame import FrameBlock, joined
 
-MOVED = np.dtype([("message", "2f4"), ("fade", "f4")])
-"""What changes each frame about a blade: its receiver's message, and how much it shows."""
+MOVED = np.dtype([("message", "2f4"), ("fade", "f4"), ("slide", "f4")])
+"""What changes each frame about a blade: its receiver's message, how much it shows, and how far its joints have slid
+together to those of the next coarser ring."""
 
 LEAST = 0.004
 """Coverage below which a pixel is not drawn."""
@@ -25,17 +26,25 @@ SHADER_BLADE = np.dtype([(name if name != "root" else "root_at", BLADE[name]) fo
 
 
 class BladePainter:
-    """Draws blades with a given number of segments.
+    """Draws blades with a given number of segments, whose joints can slide together to be those of `coarser` blades.
 
     Soft ones have smooth edges and must come from far to near; the others are opaque and may come in any order.
     """
 
     def __init__(
-        self, ctx: moderngl.Context, block: FrameBlock, segments: int, units: dict[str, int], *, soft: bool
+        self,
+        ctx: moderngl.Context,
+        block: FrameBlock,
+        segments: int,
+        units: dict[str, int],
+        *,
+        soft: bool,
+        coarser: int | None = None,
     ) -> None:
         self.segments = segments
         self.soft = soft
         defines: dict[str, str | int] = {"SEGMENTS": segments, "ROUND": ROUND, **({"SOFT": 1} if soft else {})}
+        defines["COARSER"] = min(coarser or segments, segments)
         self.program = joined(ctx, block, units, "blades.vert", "blades.frag", defines)
         self.blades = Stream(ctx, SHADER_BLADE)
         self.moved = Stream(ctx, MOVED)
@@ -43,10 +52,8 @@ class BladePainter:
             self.program, [self.blades.binding(self.program), self.moved.binding(self.program)]
         )
 
-    def write(self, blades: NDArray[np.void], message: NDArray[np.float32], fade: NDArray[np.float32]) -> None:
-        """Send the blades (n,), their messages (n, 2) and how much each shows (n,)."""
-        moved = np.empty(len(blades), MOVED)
-        moved["message"], moved["fade"] = message, fade
+    def write(self, blades: NDArray[np.void], moved: NDArray[np.void]) -> None:
+        """Send the blades, records of `BLADE` and of `MOVED`, each of shape (n,)."""
         self.blades.write(blades.view(SHADER_BLADE))
         self.moved.write(moved)
 

@@ -13,12 +13,13 @@ from ...engine.gl.shaders import program
 from ...engine.gl.stream import release_all
 from ..field import Field
 from ..gather import gather_blades, gather_strips, runs
-from ..lod import BORDER
-from ..receive import Shown, carpet_shares
+from ..see import Seen
+from ..transition import BORDER
 from .blades import HALF, LEAST, BladePainter
 from .bodies import BodyPainter
 from .frame import FrameBlock, aim, frame_record
 from .ground import RAISED, GroundPainter, finest_spacing, ground_tiles, within
+from .morph import MorphPainter
 from .strips import StripPainter
 from .textures import (
     carpet_texture,
@@ -29,7 +30,9 @@ from .textures import (
     tone_texture,
 )
 
-NAMES = ("postures", "tone", "density", "heights", "images", "shares", "air", "atlas", "ranks", "strips")
+NAMES = (
+    "postures", "tone", "density", "heights", "images", "shares", "air", "atlas", "ranks", "strips", "edges", "targets",
+)  # fmt: skip
 UNITS = {name: unit for unit, name in enumerate(NAMES)}
 """The texture unit of each sampler."""
 
@@ -67,32 +70,37 @@ class Painter:
             StripPainter(ctx, self.block, ring, strip_stock(field.growths, number), UNITS)
             for number, ring in enumerate(field.quality.strip_rings)
         ]
-        self.blades = [self.blade_painter(ring.segments, soft=True) for ring in field.quality.blade_rings]
+        segments = [ring.segments for ring in field.quality.blade_rings]
+        self.blades = [
+            self.blade_painter(fine, soft=True, coarser=coarse)
+            for fine, coarse in zip(segments, segments[1:] + segments[-1:], strict=True)
+        ]
+        self.morph = MorphPainter(ctx, self.block, field, UNITS)
         self.spacing = finest_spacing(field.terrain, field.quality.patch)
         self.bodies: BodyPainter | None = None
         self.draw_calls = 0
-        self.runs: list[tuple[int, int, int]] = []
+        self.runs: list[tuple[int, int, int, bool]] = []
 
-    def blade_painter(self, segments: int, *, soft: bool) -> BladePainter:
-        """Return a painter of blades with this many segments."""
-        return BladePainter(self.ctx, self.block, segments, UNITS, soft=soft)
+    def blade_painter(self, segments: int, *, soft: bool, coarser: int | None = None) -> BladePainter:
+        """Return a painter of blades with this many segments, which may become those of `coarser` blades."""
+        return BladePainter(self.ctx, self.block, segments, UNITS, soft=soft, coarser=coarser)
 
-    def write_blades(self, shown: list[Shown]) -> int:
+    def write_blades(self, seen: Seen) -> int:
         """Send the blades that are seen; return how many."""
-        for ring, painter in zip(shown, self.blades, strict=True):
+        for ring, painter in zip(seen.blades, self.blades, strict=True):
             painter.write(*gather_blades(self.field.blades, ring))
-        return sum(painter.blades.count for painter in self.blades)
+        return sum(painter.blades.count for painter in self.blades) + self.morph.write(self.field, seen)
 
-    def write_strips(self, shown: list[Shown]) -> None:
+    def write_strips(self, seen: Seen) -> None:
         """Send the strips that are seen."""
-        field = self.field
-        counts = []
-        for pool, ring, painter in zip(field.strips, shown, self.strips, strict=True):
-            thin = bool((pool.least[ring.slots] < 0.995).any())
-            records, count = gather_strips(pool, ring, field.table, field.sight.centre)
-            painter.write(records, thin=thin)
+        field, fade = self.field, self.field.transitions.fade
+        counts, thin = [], []
+        for pool, ring, painter in zip(field.strips, seen.strips, self.strips, strict=True):
+            thin.append(bool((pool.least[ring.slots] < 0.995).any()))
+            records, count = gather_strips(pool, ring, seen.looks, field.table, field.sight.centre, fade=fade)
+            painter.write(records)
             counts.append(count)
-        self.runs = runs(shown, counts)
+        self.runs = runs(seen.strips, counts, thin)
 
     def write_bodies(self, bodies: Sequence[Body]) -> None:
         """Send what flies over the prairie."""
@@ -111,14 +119,18 @@ class Painter:
         self.draw(view, blades=[])
         self.ground.raise_carpet(RAISED)
 
-    def write_ground(self, *, carpet: bool) -> None:
-        """Send the tiles of the ground, where the carpet lies on it, and how the wind bends its grass."""
+    def write_ground(self, carpet: NDArray[np.float32] | None) -> None:
+        """Send the tiles of the ground, how much carpet lies on each patch, and how the wind bends its grass.
+
+        `carpet` has shape (rows,); without it there is none.
+        """
         field, sight = self.field, self.field.sight
         self.ground.blow(field.table.message, field.table.alive & field.table.visible)
         tiles = ground_tiles(field.terrain, sight.eye, sight.cone, spacing=self.spacing)
         near = within(tiles, sight.centre, patch=field.quality.patch, reach=field.reach[1] - int(BORDER) - 1)
-        self.ground.write(tiles, ~near if carpet else np.zeros_like(near))
-        self.ground.write_shares(carpet_shares(field), sight.centre)
+        self.ground.write(tiles, np.zeros_like(near) if carpet is None else ~near)
+        if carpet is not None:
+            self.ground.write_shares(np.where(field.table.alive, carpet, np.float32(1.0)), sight.centre)
 
     def draw(self, view: View, *, blades: Iterable[BladePainter] | None = None) -> None:
         """Draw the frame into the framebuffer that the host has bound.
@@ -156,7 +168,10 @@ class Painter:
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND)
         self.ctx.blend_func = OVER
         target.depth_mask = False
-        self.draw_calls += sum(self.strips[ring].draw(first, count) for ring, first, count in self.runs)
+        self.draw_calls += sum(
+            self.strips[ring].draw(first, count, thin=thin) for ring, first, count, thin in self.runs
+        )
+        self.draw_calls += self.morph.draw()
         self.draw_calls += sum(painter.draw() for painter in reversed(self.blades[1:]))
         # Around the viewer no order is right for every direction: there blades are parted by depth, and then edged.
         near = self.blades[0]
@@ -170,7 +185,14 @@ class Painter:
         if self.bodies is not None:
             self.bodies.release()
         release_all(
-            *self.blades, *self.strips, self.ground, self.block, self.sky_array, self.sky, *self.textures.values()
+            *self.blades,
+            *self.strips,
+            self.morph,
+            self.ground,
+            self.block,
+            self.sky_array,
+            self.sky,
+            *self.textures.values(),
         )
 
 

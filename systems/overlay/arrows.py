@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from ...components.terrain import Terrain
 from ...engine.terrain.sample import height_at, slope_at
 from ..field import Field
-from ..receive import shown_blades, shown_strips
+from ..see import seen_now
 from .marks import Marks, on_ground, stroked, together
 from .paint import DARK, index_color
 
@@ -33,10 +33,11 @@ HEAD, SPREAD = 0.36, 0.45
 
 def felt(field: Field, /) -> tuple[Floats, Floats]:
     """Return places (x, z) [m] and messages of all receivers of grass that is shown, both of shape (n, 2)."""
-    slots = np.concatenate([ring.slots for ring in shown_blades(field)])
+    seen = seen_now(field)
+    slots = seen.standing.slots
     grows = field.blades.present[slots]
     place, message = [field.blades.place[slots][grows]], [field.blades.message[slots][grows]]
-    for pool, ring in zip(field.strips, shown_strips(field), strict=True):
+    for pool, ring in zip(field.strips, seen.strips, strict=True):
         grows = pool.present[ring.slots]
         place.append(pool.place[ring.slots][grows].reshape(-1, 2))
         message.append(pool.message[ring.slots][grows].reshape(-1, 2))

@@ -5,8 +5,9 @@ from numpy.typing import NDArray
 
 from ...components.quality import Representation
 from ..field import Field
-from ..lod import thinned_out, weights
-from ..receive import shown_blades, shown_strips
+from ..lod import weights
+from ..see import seen_now
+from ..transition import kept_near
 from .marks import Marks, filled, on_ground, split, stroked, together
 from .paint import BRIGHT, ring_shades
 
@@ -43,7 +44,8 @@ def patch_colors(field: Field, /) -> Floats:
         ring = np.minimum(np.searchsorted([ring.to for ring in rings], table.distance), len(rings) - 1)
         chosen = here == level
         color[chosen] = shades[ring[chosen]]
-    for shown, level in ((shown_blades(field), Representation.BLADES), (shown_strips(field), Representation.STRIPS)):
+    seen = seen_now(field)
+    for shown, level in ((seen.blades, Representation.BLADES), (seen.strips, Representation.STRIPS)):
         for shade, ring_shown in zip(ring_shades(level, len(shown)), shown, strict=True):
             rows = ring_shown.rows[here[ring_shown.rows] == level]
             color[rows] = shade
@@ -55,7 +57,11 @@ def patch_weights(field: Field, /) -> Floats:
     table, patch = field.table, np.float32(field.quality.patch)
     eye = np.array(field.sight.eye, np.float32)[[0, 2]]
     away = np.abs((table.cell + np.float32(0.5)) * patch - eye).max(axis=1) / patch
-    return thinned_out(weights(table), away, reach=field.reach[Representation.STRIPS])
+    share = weights(table)
+    handed = share[Representation.STRIPS] * (1.0 - kept_near(away, reach=field.reach[Representation.STRIPS]))
+    share[Representation.STRIPS] -= handed
+    share[Representation.CARPET] += handed
+    return share
 
 
 def squares(cell: NDArray[np.int32], /, *, patch: float, part: Floats | float = 1.0) -> Floats:

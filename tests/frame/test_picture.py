@@ -200,7 +200,9 @@ def test_t5_strips_look_the_same_in_many_draws_as_in_few(stage: Stage, load: Loa
     assert painter is not None
     few = list(painter.runs)
     painter.runs = [
-        (ring, first + start, min(7, count - start)) for ring, first, count in few for start in range(0, count, 7)
+        (ring, first + start, min(7, count - start), thin)
+        for ring, first, count, thin in few
+        for start in range(0, count, 7)
     ]
     stage.target.clear(depth=1.0)
     painter.draw(view_of(*stage.matrices(aim)))

@@ -18,8 +18,11 @@ from tallgrass.engine.world import World
 from tallgrass.systems.cull import discrete_distance, inside_cone
 from tallgrass.systems.field import Field, lay_out
 from tallgrass.systems.growth.models import grow
-from tallgrass.systems.lod import schedule, wanted_representation
-from tallgrass.systems.receive import Shown, plant_shown_blades, plant_shown_strips, shown_blades, shown_strips
+from tallgrass.systems.lod import FADE, schedule, wanted_representation, weights
+from tallgrass.systems.receive import plant_shown_blades, plant_shown_strips
+from tallgrass.systems.see import Seen, see
+from tallgrass.systems.see import look as looks_of
+from tallgrass.systems.sublevel import refine
 from tallgrass.systems.tile import cell_of, tile
 from tallgrass.systems.wind.blow import Listeners, blowing, hear
 from tallgrass.systems.wind.quarantine import Quarantine
@@ -42,7 +45,6 @@ QUALITY = Quality(
 SCENE = Scene(tallgrass=1, seed=3, grass=KINDS, quality=QUALITY)
 
 Laid = Callable[..., Field]
-Seen = tuple[list[Shown], list[Shown]]
 Look = Callable[..., Seen]
 Hear = Callable[[Listeners], NDArray[np.float32]]
 
@@ -90,10 +92,11 @@ def look(world: World) -> Look:
         radius = patch * 0.7072 + field.sway
         table.visible[:] = inside_cone(middle, apex=(x, z), cone=field.sight.cone, radius=radius)
         wanted = wanted_representation(table.distance, table.representation, reach=field.reach)
-        schedule(table, wanted, was_visible & table.visible, reach=field.reach, dt=dt)
-        seen = shown_blades(field), shown_strips(field)
-        plant_shown_blades(field, seen[0])
-        for ring, shown in enumerate(seen[1]):
+        schedule(table, wanted, was_visible, reach=field.reach, part=dt / FADE)
+        refine(field, was_visible, weights(table), part=dt / FADE)
+        seen = see(field, looks_of(field, weights(table)))
+        plant_shown_blades(field, seen.standing)
+        for ring, shown in enumerate(seen.strips):
             plant_shown_strips(field, ring, shown)
         return seen
 

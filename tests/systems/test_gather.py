@@ -1,6 +1,7 @@
 """Gathering: what is sent to the graphics card, in the order of drawing (T5, W1)."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -12,12 +13,12 @@ from numpy.typing import NDArray
 from tallgrass.components.terrain import Terrain
 from tallgrass.systems.field import Field
 from tallgrass.systems.gather import gather_blades, gather_strips, runs
-from tallgrass.systems.receive import Shown, blow
+from tallgrass.systems.receive import blow
+from tallgrass.systems.see import Seen, Shown
 from tallgrass.systems.wind.blow import Listeners
 from tallgrass.systems.wind.breeze import Breeze
 
 Laid = Callable[..., Field]
-Seen = tuple[list[Shown], list[Shown]]
 Look = Callable[..., Seen]
 Hear = Callable[[Listeners], NDArray[np.float32]]
 
@@ -33,27 +34,30 @@ def field(laid: Laid) -> Field:
 @pytest.fixture
 def seen(field: Field, look: Look, wind: Callable[..., Hear]) -> Seen:
     found = look(field, *EYE)
-    blow(field, *found, wind(Breeze(), time=1.0))
+    blow(field, found.standing, found.strips, wind(Breeze(), time=1.0))
     return found
 
 
-def as_drawn(field: Field, strips: list[Shown]) -> tuple[NDArray[np.void], NDArray[np.int32]]:
+def of_ring(field: Field, seen: Seen, ring: int) -> tuple[NDArray[np.void], NDArray[np.int64]]:
+    """The polygon strips of one ring, and how many there are on each patch."""
+    return gather_strips(field.strips[ring], seen.strips[ring], seen.looks, field.table, field.sight.centre)
+
+
+def as_drawn(field: Field, seen: Seen) -> tuple[NDArray[np.void], NDArray[np.int32]]:
     """All polygon strips in the order in which they are drawn, and the cell of the patch that each is of."""
-    gathered = [
-        gather_strips(pool, ring, field.table, field.sight.centre)
-        for pool, ring in zip(field.strips, strips, strict=True)
-    ]
+    strips = seen.strips
+    gathered = [of_ring(field, seen, ring) for ring in range(len(strips))]
     cells = [
         np.repeat(field.table.cell[ring.rows], counts, axis=0)
         for ring, (_, counts) in zip(strips, gathered, strict=True)
     ]
-    draws = runs(strips, [counts for _, counts in gathered])
-    drawn = np.concatenate([gathered[ring][0][first : first + count] for ring, first, count in draws])
-    return drawn, np.concatenate([cells[ring][first : first + count] for ring, first, count in draws])
+    draws = runs(strips, [counts for _, counts in gathered], [False] * len(strips))
+    drawn = np.concatenate([gathered[ring][0][first : first + count] for ring, first, count, _ in draws])
+    return drawn, np.concatenate([cells[ring][first : first + count] for ring, first, count, _ in draws])
 
 
 def test_t5_along_any_ray_from_the_eye_strips_are_drawn_from_far_to_near(field: Field, seen: Seen) -> None:
-    drawn, cell = as_drawn(field, seen[1])
+    drawn, cell = as_drawn(field, seen)
     a, b = drawn["a"][:, ::2].astype(float) - EYE, drawn["b"][:, ::2].astype(float) - EYE
     for azimuth in np.linspace(0.0, 2 * np.pi, 97)[:-1] + 0.013:
         ray, beside = np.array([np.cos(azimuth), np.sin(azimuth)]), np.array([-np.sin(azimuth), np.cos(azimuth)])
@@ -67,15 +71,11 @@ def test_t5_along_any_ray_from_the_eye_strips_are_drawn_from_far_to_near(field: 
 
 
 def test_t5_patches_of_one_ring_that_follow_one_another_are_one_draw(field: Field, seen: Seen) -> None:
-    _, strips = seen
-    counts = [
-        gather_strips(pool, ring, field.table, field.sight.centre)[1]
-        for pool, ring in zip(field.strips, strips, strict=True)
-    ]
-    draws = runs(strips, counts)
+    counts = [of_ring(field, seen, ring)[1] for ring in range(len(seen.strips))]
+    draws = runs(seen.strips, counts, [False, False])
     assert all(one[0] != two[0] for one, two in pairwise(draws))
     for ring in (0, 1):
-        parts = [(first, count) for number, first, count in draws if number == ring]
+        parts = [(first, count) for number, first, count, _ in draws if number == ring]
         assert parts[0][0] == 0
         assert all(first + count == after for (first, count), (after, _) in pairwise(parts))
         assert sum(parts[-1]) == counts[ring].sum()
@@ -84,21 +84,21 @@ def test_t5_patches_of_one_ring_that_follow_one_another_are_one_draw(field: Fiel
 @given(st.lists(st.integers(0, 2), max_size=30), st.data())
 def test_t5_draws_walk_all_rings_in_one_order(ring_of: list[int], data: st.DataObject) -> None:
     amount = data.draw(st.lists(st.integers(0, 5), min_size=len(ring_of), max_size=len(ring_of)))
-    nothing = np.zeros(0, np.int64)
     shown, counts, told = [], [], []
     for ring in range(3):
         queue = np.flatnonzero(np.array(ring_of, np.int64) == ring)
-        shown.append(Shown(queue, queue, nothing.astype(np.float32), nothing.astype(np.int32), queue))
+        shown.append(replace(Shown.whole(queue, queue), queue=queue))
         counts.append(np.array(amount, np.int64)[queue])
         told.append([patch for patch in queue.tolist() for _ in range(amount[patch])])
-    drawn = [patch for ring, first, count in runs(shown, counts) for patch in told[ring][first : first + count]]
+    draws = runs(shown, counts, [False] * 3)
+    drawn = [patch for ring, first, count, _ in draws for patch in told[ring][first : first + count]]
     assert drawn == [patch for patch, count in enumerate(amount) for _ in range(count)]
-    assert len(runs(shown, counts)) == sum(a != b for a, b in zip([-1, *ring_of], ring_of, strict=False))
+    assert len(draws) == sum(a != b for a, b in zip([-1, *ring_of], ring_of, strict=False))
 
 
 def test_w1_a_strip_has_the_messages_of_its_two_edges(field: Field, seen: Seen) -> None:
-    for pool, ring in zip(field.strips, seen[1], strict=True):
-        records, _ = gather_strips(pool, ring, field.table, field.sight.centre)
+    for number, (pool, ring) in enumerate(zip(field.strips, seen.strips, strict=True)):
+        records, _ = of_ring(field, seen, number)
         place, message = pool.place[ring.slots].reshape(-1, 2), pool.message[ring.slots].reshape(-1, 2)
         heard = {tuple(p): tuple(m) for p, m in zip(place.tolist(), message.tolist(), strict=True)}
         for side, wind in (("a", slice(0, 2)), ("b", slice(2, 4))):
@@ -106,20 +106,17 @@ def test_w1_a_strip_has_the_messages_of_its_two_edges(field: Field, seen: Seen) 
             assert [heard[foot] for foot in feet] == [tuple(row) for row in records["wind"][:, wind].tolist()]
 
 
-def test_g3_neighbouring_polygons_of_a_strip_share_their_edge_and_its_place_in_the_texture(
-    field: Field, seen: Seen
-) -> None:
-    records, _ = gather_strips(field.strips[0], seen[1][0], field.table, field.sight.centre)
+def test_g3_neighbouring_polygons_of_a_strip_follow_one_another_and_share_their_edge(field: Field, seen: Seen) -> None:
+    records, _ = of_ring(field, seen, 0)
     pairs = records.reshape(-1, 2)
     np.testing.assert_array_equal(pairs["b"][:, 0], pairs["a"][:, 1])
     np.testing.assert_array_equal(pairs["wind"][:, 0, 2:], pairs["wind"][:, 1, :2])
-    np.testing.assert_array_equal(pairs["u"].reshape(-1, 4), np.tile([0.0, 0.5, 0.5, 1.0], (len(pairs), 1)))
     np.testing.assert_array_equal(pairs["layer"][:, 0], pairs["layer"][:, 1])
 
 
 def test_g1_every_kind_is_gathered_on_its_own_layers_with_the_patchs_turn(field: Field, seen: Seen) -> None:
-    pool, ring = field.strips[0], seen[1][0]
-    records, counts = gather_strips(pool, ring, field.table, field.sight.centre)
+    pool, ring = field.strips[0], seen.strips[0]
+    records, counts = of_ring(field, seen, 0)
     assert (counts == 2 * 3 * 2).all()
     own = records.reshape(len(ring.rows), -1)
     np.testing.assert_array_equal(own["turn"], np.tile(field.table.turn[ring.rows][:, None], own.shape[1]))
@@ -133,20 +130,20 @@ def test_a_kind_that_does_not_grow_on_a_patch_is_not_gathered_there(laid: Laid, 
     dense = np.ones((2, 81, 81), np.float32)
     dense[1, :, 40:] = 0.0
     field = laid(terrain=FLAT, dense=dense)
-    blades, strips = look(field, *EYE)
-    records, counts = gather_strips(field.strips[0], strips[0], field.table, field.sight.centre)
+    seen = look(field, *EYE)
+    records, counts = of_ring(field, seen, 0)
     assert set(counts.tolist()) == {6, 12}
     assert records["a"][records["kind"] == 1][:, 0].max() < 4.0
     assert records["a"][records["kind"] == 0][:, 0].max() > 8.0
-    grown = np.concatenate([gather_blades(field.blades, ring)[0] for ring in blades])
+    grown = np.concatenate([gather_blades(field.blades, ring)[0] for ring in seen.blades])
     assert grown["root"][grown["kind"] == 1][:, 0].max() < 0.1
-    assert len(grown) == int(sum(field.blades.present[ring.slots].sum() for ring in blades))
+    assert len(grown) == int(sum(field.blades.present[ring.slots].sum() for ring in seen.blades))
 
 
 def test_w1_each_blade_is_gathered_with_its_own_message_and_fade(field: Field, seen: Seen) -> None:
-    for ring in seen[0]:
-        blade, message, fade = gather_blades(field.blades, ring)
-        assert len(blade) == len(message) == len(fade) == 42 * len(ring.rows)
+    for ring in seen.blades:
+        blade, moved = gather_blades(field.blades, ring)
+        assert len(blade) == len(moved) == 42 * len(ring.rows)
         heard = {
             tuple(place): tuple(told)
             for place, told in zip(
@@ -155,15 +152,7 @@ def test_w1_each_blade_is_gathered_with_its_own_message_and_fade(field: Field, s
                 strict=True,
             )
         }
-        assert [heard[tuple(root)] for root in blade["root"][:, ::2].tolist()] == [tuple(m) for m in message.tolist()]
-        assert (fade == 1.0).all()
-
-
-def test_x4_the_blades_of_a_patch_that_is_changing_carry_its_fade(field: Field, seen: Seen, look: Look) -> None:
-    assert (gather_blades(field.blades, seen[0][1])[2] == 1.0).all()
-    for _ in range(7):
-        blades, _ = look(field, EYE[0] + 5.0, EYE[1], dt=0.1)
-    fades = np.concatenate([gather_blades(field.blades, ring)[2] for ring in blades])
-    patches = np.concatenate([ring.fade for ring in blades])
-    assert sorted(set(fades.tolist())) == sorted(set(patches.tolist()))
-    assert 0.0 < fades.min() < 1.0
+        assert [heard[tuple(root)] for root in blade["root"][:, ::2].tolist()] == [
+            tuple(m) for m in moved["message"].tolist()
+        ]
+        assert (moved["fade"] == 1.0).all()

@@ -31,7 +31,7 @@ class Walk:
         table.distance[:] = distance
         table.visible[:] = visible
         wanted = wanted_representation(table.distance, table.representation, reach=self.reach)
-        schedule(table, wanted, table.visible & self.was_visible, reach=self.reach, dt=dt)
+        schedule(table, wanted, np.array([self.was_visible]), reach=self.reach, part=dt / FADE)
         self.was_visible = visible
 
     @property
@@ -72,7 +72,7 @@ def test_x1_pacing_to_and_fro_over_a_limit_leaves_nothing_in_transition(preset: 
     for frame in range(200):
         table.distance[:] = reach[limit] + (frame // 7) % 2
         wanted = wanted_representation(table.distance, table.representation, reach=reach)
-        schedule(table, wanted, table.visible, reach=reach, dt=STEP)
+        schedule(table, wanted, table.visible, reach=reach, part=STEP / FADE)
         assert table.progress[0] == 1.0
     assert table.representation[0] == limit
 

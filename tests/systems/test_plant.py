@@ -22,7 +22,6 @@ from tallgrass.systems.plant import (
     plant_blades,
     plant_strips,
     strip_edges,
-    strips_along,
     turned,
 )
 
@@ -200,23 +199,6 @@ def test_t5_a_heading_points_from_the_viewer_to_the_patch(i: int, j: int) -> Non
     if (i, j) != (0, 0):
         off = np.arctan2(j, i) - heading * 2 * np.pi / HEADINGS
         assert abs((off + np.pi) % (2 * np.pi) - np.pi) <= np.pi / HEADINGS + 1e-9
-
-
-@given(st.integers(-50, 50), st.integers(-50, 50), st.floats(0.05, 0.95), st.floats(0.05, 0.95))
-def test_g3_no_strip_is_shown_edge_on(i: int, j: int, x: float, z: float) -> None:
-    along = int(strips_along(np.array([[i, j]], np.int32), np.zeros(2, np.int32))[0])
-    sight = np.array([i + 0.5 - x, j + 0.5 - z])
-    if max(abs(i), abs(j)) >= 3:
-        across = abs(sight[1 - along]) / np.linalg.norm(sight)
-        assert across > np.sin(np.radians(30.0))
-
-
-def test_g3_turning_the_view_by_ninety_degrees_swaps_the_strips_orientation() -> None:
-    ahead = np.array([(i, -j) for j in range(3, 9) for i in range(-j + 1, j)], np.int32)
-    to_the_right = np.stack([-ahead[:, 1], ahead[:, 0]], -1)
-    home = np.zeros(2, np.int32)
-    assert (strips_along(ahead, home) == 0).all()
-    assert (strips_along(to_the_right, home) == 1).all()
 
 
 def test_a_kind_grows_as_densely_as_the_map_says(growths: list[Growth]) -> None:

@@ -4,31 +4,19 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.components.quality import Representation
 from tallgrass.components.receivers import BladePool, StripPool
 from tallgrass.components.terrain import Terrain
 from tallgrass.systems.cull import far_to_near
 from tallgrass.systems.field import Field
-from tallgrass.systems.lod import BORDER, FADE
-from tallgrass.systems.receive import (
-    Shown,
-    blow,
-    plant_shown_blades,
-    plant_shown_strips,
-    shares,
-    strip_ring,
-    viewing_slope,
-)
+from tallgrass.systems.receive import blow, plant_shown_blades, plant_shown_strips
+from tallgrass.systems.see import Seen, Shown
 from tallgrass.systems.wind.blow import Listeners, places_alone
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.grass import grass_of
 
 Laid = Callable[..., Field]
-Seen = tuple[list[Shown], list[Shown]]
 Look = Callable[..., Seen]
 Hear = Callable[[Listeners], NDArray[np.float32]]
 
@@ -42,7 +30,8 @@ def rows(shown: list[Shown]) -> NDArray[np.int64]:
 
 def test_t4_what_is_shown_lies_in_its_representations_range(laid: Laid, look: Look) -> None:
     field = laid(terrain=FLAT)
-    blades, strips = look(field, 1.0, 1.0)
+    seen = look(field, 1.0, 1.0)
+    blades, strips = seen.blades, seen.strips
     distance = field.table.distance
     assert sorted(distance[rows(blades)]) == [0] + [1] * 8 + [2] * 16
     assert set(distance[rows(strips)].tolist()) == {3, 4, 5, 6}
@@ -51,51 +40,21 @@ def test_t4_what_is_shown_lies_in_its_representations_range(laid: Laid, look: Lo
 
 def test_f1_blades_nearer_than_a_rings_limit_are_in_that_ring(laid: Laid, look: Look) -> None:
     field = laid(terrain=FLAT)
-    blades, _ = look(field, 1.0, 1.0)
+    blades = look(field, 1.0, 1.0).blades
     for ring, low, high in ((0, 0, 1), (1, 2, 2)):
         distance = field.table.distance[blades[ring].rows]
         assert (distance.min(), distance.max()) == (low, high)
 
 
-def pooled(field: Field, blades: list[Shown], strips: list[Shown]) -> list[tuple[BladePool | StripPool, Shown]]:
+def pooled(field: Field, seen: Seen) -> list[tuple[BladePool | StripPool, Shown]]:
     """All that is shown, each with the pool that holds it."""
-    near: list[tuple[BladePool | StripPool, Shown]] = [(field.blades, ring) for ring in blades]
-    return [*near, *zip(field.strips, strips, strict=True)]
-
-
-limits, spacing = np.array([4, 8], np.int32), np.array([0.4, 0.8, 1.25], np.float32)
-
-
-@given(st.integers(0, 30), st.floats(-2.0, 3.0), st.floats(0.2, 3.0))
-def test_f1_strips_are_coarser_with_distance_and_finer_seen_from_above(
-    distance: int, slope: float, height: float
-) -> None:
-    def ring(distance: int, slope: float) -> int:
-        at = np.array([distance], np.int32), np.array([slope], np.float32)
-        return int(strip_ring(*at, limits, spacing, height=height)[0])
-
-    assert ring(distance, -1.0) == (0 if distance <= 4 else 1 if distance <= 8 else 2)
-    assert ring(distance, slope) <= ring(distance, slope - 0.5)
-    assert ring(distance, slope) <= ring(distance + 3, slope)
-    if ring(distance, slope) > 0 and slope > 0.0:
-        assert float(spacing[ring(distance, slope)]) * slope <= height / 3.0 * 1.0001
-
-
-def test_f2_the_viewing_slope_is_the_grounds_own_slope_and_the_eyes_height(laid: Laid, look: Look) -> None:
-    z = np.arange(81.0)[:, None] - 40.0
-    hillside = Terrain(np.tile(-0.5 * z, 81).astype(np.float32), 1.0)
-    field = laid(terrain=hillside)
-    look(field, 0.6, 0.6)
-    row = np.flatnonzero((field.table.cell == (0, -6)).all(axis=1))
-    eye, away = field.sight.eye, 0.6 + 5.5 * 2.5
-    expected = 0.5 + (eye[1] - 0.5 * 5.5 * 2.5) / away
-    assert float(viewing_slope(field, row)[0]) == pytest.approx(expected, rel=0.01)
+    return [(field.blades, seen.standing), *zip(field.strips, seen.strips, strict=True)]
 
 
 def test_t5_every_list_of_patches_goes_from_far_to_near(laid: Laid, look: Look) -> None:
     field = laid()
-    blades, strips = look(field, 3.0, -4.0)
-    for shown in (blades, strips):
+    seen = look(field, 3.0, -4.0)
+    for shown in (seen.blades, seen.strips):
         for ring in shown:
             cells = field.table.cell[ring.rows]
             np.testing.assert_array_equal(far_to_near(cells, field.sight.centre), np.arange(len(cells)))
@@ -106,46 +65,17 @@ def test_t5_every_list_of_patches_goes_from_far_to_near(laid: Laid, look: Look) 
 
 def test_t2_only_patches_in_the_view_cone_are_shown(laid: Laid, look: Look) -> None:
     field = laid(terrain=FLAT)
-    everywhere = sum(len(rows(shown)) for shown in look(field, 1.0, 1.0))
-    ahead = look(field, 1.0, 1.0, yaw=0.0)
-    shown = np.concatenate([rows(shown) for shown in ahead])
+    everywhere, ahead = look(field, 1.0, 1.0), look(field, 1.0, 1.0, yaw=0.0)
+    shown = rows([*ahead.blades, *ahead.strips])
     assert (field.table.cell[shown, 1] <= 1).all()
-    assert 0.1 < len(shown) / everywhere < 0.5
-
-
-def test_x1_in_a_change_both_representations_are_shown_and_no_ground_shows_through(laid: Laid, look: Look) -> None:
-    field = laid(terrain=FLAT)
-    look(field, 1.0, 1.0)
-    changed = 0
-    for step in range(10):
-        look(field, 6.1, 1.0, dt=FADE / 9 if step else 0.0)
-        share = shares(field)[:, field.table.alive]
-        changed += int((field.table.progress[field.table.alive] < 1.0).sum())
-        assert (share <= 1.0).all()
-        assert (share.max(axis=0) >= 0.5 - 1e-5).all()
-        assert (share.sum(axis=0) >= 1.0 - 1e-5).all()
-    assert changed > 100
-    assert (field.table.progress == 1.0).all()
-
-
-def test_x5_towards_their_end_strips_hand_over_to_the_carpet_by_and_by(laid: Laid, look: Look) -> None:
-    field = laid(terrain=FLAT)
-    look(field, 1.25, 1.25)
-    line = np.flatnonzero((field.table.cell[:, 0] == 0) & (field.table.cell[:, 1] <= 0))
-    line = line[np.argsort(-field.table.cell[line, 1])]
-    share = shares(field)[:, line]
-    strips = share[Representation.STRIPS, 3:8]
-    assert (np.diff(strips) < 0.0).all()
-    assert strips[-1] == 0.0
-    np.testing.assert_allclose(np.diff(strips)[1:-1], -1.0 / BORDER, atol=1e-5)
-    np.testing.assert_allclose(share.sum(axis=0), 1.0, atol=1e-6)
+    assert 0.1 < len(shown) / len(rows([*everywhere.blades, *everywhere.strips])) < 0.5
 
 
 def test_only_what_is_new_is_planted(laid: Laid, look: Look) -> None:
     field = laid(terrain=FLAT)
-    blades, strips = look(field, 1.0, 1.0)
-    assert plant_shown_blades(field, blades).size == 0
-    assert all(plant_shown_strips(field, ring, shown).size == 0 for ring, shown in enumerate(strips))
+    seen = look(field, 1.0, 1.0)
+    assert plant_shown_blades(field, seen.standing).size == 0
+    assert all(plant_shown_strips(field, ring, shown).size == 0 for ring, shown in enumerate(seen.strips))
 
 
 def test_every_shown_slot_holds_its_own_patch_wherever_the_viewer_walks(laid: Laid, look: Look) -> None:
@@ -153,8 +83,8 @@ def test_every_shown_slot_holds_its_own_patch_wherever_the_viewer_walks(laid: La
     table = field.table
     for step in range(12):
         x, z = 2.3 * step - 9.0, 4.0 - 1.7 * step
-        blades, strips = look(field, x, z, dt=0.2, yaw=0.5 * step)
-        for pool, ring in pooled(field, blades, strips):
+        seen = look(field, x, z, dt=0.2, yaw=0.5 * step)
+        for pool, ring in pooled(field, seen):
             np.testing.assert_array_equal(pool.stamp[ring.slots, :2], table.cell[ring.rows])
             low = table.cell[ring.rows] * 2.5
             place = pool.place[ring.slots].reshape(len(low), -1, 2)
@@ -168,16 +98,15 @@ def test_no_two_patches_ever_share_a_slot_however_fast_the_viewer_is(laid: Laid,
     field, dt = laid(terrain=FLAT), 0.1
     for step in range(80):
         x = 35.0 * np.sin(speed * dt * step / 35.0)
-        blades, strips = look(field, x, 0.4 * x, dt=dt)
-        for shown in (blades, [strips[0]], [strips[1]]):
-            slots = np.concatenate([ring.slots for ring in shown])
-            assert len(np.unique(slots)) == len(slots)
+        seen = look(field, x, 0.4 * x, dt=dt)
+        for shown in (seen.standing, *seen.strips):
+            assert len(np.unique(shown.slots)) == len(shown.slots)
 
 
 def test_g3_strips_are_planted_anew_when_their_orientation_changes(laid: Laid, look: Look) -> None:
     field = laid(terrain=FLAT)
-    _, before = look(field, 1.0, 1.0)
-    _, after = look(field, 1.0, 6.0)
+    before = look(field, 1.0, 1.0).strips
+    after = look(field, 1.0, 9.0).strips
     turned = 0
     for pool, shown in zip(field.strips, after, strict=True):
         feet = pool.place[shown.slots, 0]
@@ -190,11 +119,11 @@ def test_g3_strips_are_planted_anew_when_their_orientation_changes(laid: Laid, l
 
 def test_w1_every_receiver_that_is_seen_hears_the_wind(laid: Laid, look: Look, wind: Callable[..., Hear]) -> None:
     field = laid(terrain=FLAT)
-    blades, strips = look(field, 1.0, 1.0)
+    seen = look(field, 1.0, 1.0)
     hear = wind(WIND, time=2.0)
-    heard = blow(field, blades, strips, hear)
+    heard = blow(field, seen.standing, seen.strips, hear)
     count = 0
-    for pool, ring in pooled(field, blades, strips):
+    for pool, ring in pooled(field, seen):
         place, message = pool.place[ring.slots].reshape(-1, 2), pool.message[ring.slots].reshape(-1, 2)
         np.testing.assert_array_equal(
             message, hear(places_alone(place, grass_of(field.growths, pool.kind(ring.slots))))
@@ -202,7 +131,7 @@ def test_w1_every_receiver_that_is_seen_hears_the_wind(laid: Laid, look: Look, w
         assert np.linalg.norm(message, axis=1).mean() > 0.3
         count += len(message)
     assert len(heard) == count
-    near, far = (len(ring.rows) for ring in strips)
+    near, far = (len(ring.rows) for ring in seen.strips)
     assert count == 25 * (30 + 12) + near * 2 * 3 * 3 + far * 2 * 2 * 2
 
 
@@ -210,10 +139,10 @@ def test_w1_the_same_place_gets_the_same_message_in_blades_and_strips(
     laid: Laid, look: Look, wind: Callable[..., Hear]
 ) -> None:
     field = laid(terrain=FLAT)
-    blades, strips = look(field, 1.0, 1.0)
-    at_blade, at_edge = blades[0].slots[0], strips[0].slots[0]
+    seen = look(field, 1.0, 1.0)
+    at_blade, at_edge = seen.standing.slots[0], seen.strips[0].slots[0]
     field.blades.place[at_blade, :6] = field.strips[0].place[at_edge, 0].reshape(-1, 2)[:6]
-    blow(field, blades, strips, wind(WIND, time=5.0))
+    blow(field, seen.standing, seen.strips, wind(WIND, time=5.0))
     edges = field.strips[0].message[at_edge, 0].reshape(-1, 2)[:6]
     np.testing.assert_array_equal(field.blades.message[at_blade, :6], edges)
 
@@ -222,9 +151,8 @@ def test_patches_out_of_sight_are_left_alone(laid: Laid, look: Look, wind: Calla
     field = laid(terrain=FLAT)
     look(field, 1.0, 1.0)
     field.blades.message[:] = 9.0
-    blades, strips = look(field, 1.0, 1.0, yaw=0.0)
-    blow(field, blades, strips, wind(WIND, time=2.0))
-    seen = np.concatenate([ring.slots for ring in blades])
-    unseen = np.setdiff1d(np.arange(len(field.blades.message)), seen)
+    seen = look(field, 1.0, 1.0, yaw=0.0)
+    blow(field, seen.standing, seen.strips, wind(WIND, time=2.0))
+    unseen = np.setdiff1d(np.arange(len(field.blades.message)), seen.standing.slots)
     assert (field.blades.message[unseen] == 9.0).all()
-    assert (np.abs(field.blades.message[seen]) <= 1.0).all()
+    assert (np.abs(field.blades.message[seen.standing.slots]) <= 1.0).all()

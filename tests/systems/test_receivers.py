@@ -11,12 +11,12 @@ from tallgrass.components.terrain import Terrain
 from tallgrass.components.wind import Receivers
 from tallgrass.engine.world import World
 from tallgrass.systems.field import Field
-from tallgrass.systems.receive import Shown, blow
+from tallgrass.systems.receive import blow
 from tallgrass.systems.receivers import ReceiverEntities
+from tallgrass.systems.see import Seen
 from tallgrass.systems.wind.blow import Listeners
 from tallgrass.systems.wind.breeze import Breeze
 
-Seen = tuple[list[Shown], list[Shown]]
 Hear = Callable[[Listeners], NDArray[np.float32]]
 Looking = Callable[..., Seen]
 
@@ -34,20 +34,21 @@ def looking(world: World, field: Field, look: Callable[..., Seen]) -> Looking:
     keeper = ReceiverEntities(world, field)
 
     def at(x: float, z: float, *, yaw: float | None = None, dt: float = 1e9) -> Seen:
-        blades, strips = look(field, x, z, yaw=yaw, dt=dt)
-        keeper.follow(blades, strips)
-        return blades, strips
+        seen = look(field, x, z, yaw=yaw, dt=dt)
+        keeper.follow(seen.standing, seen.strips)
+        return seen
 
     return at
 
 
 def test_d2_there_is_one_entity_for_each_patch_and_representation_that_is_shown(world: World, looking: Looking) -> None:
     for x, z, yaw in ((1.0, 1.0, None), (4.0, 1.0, None), (4.0, 1.0, 0.3), (-9.0, 6.0, 2.0), (1.0, 1.0, None)):
-        blades, strips = looking(x, z, yaw=yaw)
+        seen = looking(x, z, yaw=yaw)
+        strips = seen.strips
         found = [receivers for _, receivers in world.all(Receivers)]
-        assert len(found) == sum(len(ring.rows) for ring in (*blades, *strips))
+        assert len(found) == sum(len(ring.rows) for ring in (seen.standing, *strips))
         sizes = sorted(len(receivers.place) for receivers in found)
-        expected = [len(ring.rows) * [42] for ring in blades]
+        expected = [len(seen.standing.rows) * [42]]
         expected += [len(strips[0].rows) * [2 * 3 * 3], len(strips[1].rows) * [2 * 2 * 2]]
         assert sizes == sorted(size for ring in expected for size in ring)
 
@@ -63,8 +64,8 @@ def test_d2_a_patch_in_a_change_has_receivers_in_both_representations(world: Wor
 def test_d2_the_arrays_are_slices_of_the_pools(
     world: World, field: Field, looking: Looking, wind: Callable[..., Hear]
 ) -> None:
-    blades, strips = looking(1.0, 1.0)
-    blow(field, blades, strips, wind(Breeze(), time=1.0))
+    seen = looking(1.0, 1.0)
+    blow(field, seen.standing, seen.strips, wind(Breeze(), time=1.0))
     pools: list[BladePool | StripPool] = [field.blades, *field.strips]
     for _, receivers in world.all(Receivers):
         assert receivers.place.shape == receivers.message.shape

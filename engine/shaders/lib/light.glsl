@@ -55,3 +55,10 @@ vec3 soil_light(vec2 place) {
     under /= max(dot(grows, vec4(1.0)), 1e-3);
     return place_tone(place) * mix(soil.rgb, mix(soil.rgb, under, 0.6) * FLOOR, total);
 }
+
+// How much more a strip that runs along `run` covers for being seen at an angle: a line of sight then crosses fewer
+// strips on the same way through the grass.
+float boosted(vec2 run, vec3 middle) {
+    vec2 sight = normalize(middle.xz - eye.xz);
+    return mix(1.0, 1.0 / max(abs(run.x * sight.y - run.y * sight.x), 0.6), 0.7);
+}

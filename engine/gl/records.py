@@ -1,0 +1,39 @@
+"""Textures that hold records, for shaders that look them up by their number."""
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Records:
+    """A texture of records that is filled anew and grows as it must, `per_row` of them in a row.
+
+    `record` is a dtype of float32 fields whose size is that of some RGBA texels.
+    """
+
+    def __init__(self, ctx: moderngl.Context, record: np.dtype[np.void], per_row: int, *, rows: int = 64) -> None:
+        self.ctx = ctx
+        self.record = record
+        self.per_row = per_row
+        self.texels = record.itemsize // 16
+        self.texture = self._room(rows)
+
+    def write(self, records: NDArray[np.void]) -> None:
+        """Replace the contents by `records`, shape (n,)."""
+        rows = -(-len(records) // self.per_row)
+        if rows > self.texture.height:
+            self.texture.release()
+            self.texture = self._room(rows * 3 // 2)
+        if rows:
+            padded = np.zeros(rows * self.per_row, self.record)
+            padded[: len(records)] = records
+            self.texture.write(padded, viewport=(0, 0, self.texels * self.per_row, rows))
+
+    def _room(self, rows: int) -> moderngl.Texture:
+        texture = self.ctx.texture((self.texels * self.per_row, rows), 4, dtype="f4")
+        texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        return texture
+
+    def release(self) -> None:
+        """Give the texture back."""
+        self.texture.release()

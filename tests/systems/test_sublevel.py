@@ -1,0 +1,153 @@
+"""Sub-levels: how fine blades and strips are, and which way strips run (F1, F2, G3)."""
+
+from collections.abc import Callable
+from itertools import pairwise
+from math import pi
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from tallgrass.components.terrain import Terrain
+from tallgrass.systems.field import Field
+from tallgrass.systems.lod import FADE, SLACK
+from tallgrass.systems.see import Seen
+from tallgrass.systems.sublevel import blade_ring, strip_ring, strips_along, viewing_slope
+
+Laid = Callable[..., Field]
+Look = Callable[..., Seen]
+
+FLAT = Terrain(np.zeros((81, 81), np.float32), 1.0)
+NONE = np.full(1, -1, np.int8)
+HOME = np.zeros(2, np.int32)
+
+
+LIMITS, SPACING = np.array([4, 8], np.int32), np.array([0.4, 0.8, 1.25], np.float32)
+
+
+@given(st.integers(0, 30), st.floats(-2.0, 3.0), st.floats(0.2, 3.0))
+def test_f1_strips_are_coarser_with_distance_and_finer_seen_from_above(
+    distance: int, slope: float, height: float
+) -> None:
+    def ring(distance: int, slope: float) -> int:
+        at = np.array([distance], np.int32), np.array([slope], np.float32)
+        return int(strip_ring(*at, NONE, LIMITS, SPACING, height=height)[0])
+
+    assert ring(distance, -1.0) == (0 if distance <= 4 else 1 if distance <= 8 else 2)
+    assert ring(distance, slope) <= ring(distance, slope - 0.5)
+    assert ring(distance, slope) <= ring(distance + 3, slope)
+    if ring(distance, slope) > 0 and slope > 0.0:
+        assert float(SPACING[ring(distance, slope)]) * slope <= height / 3.0 * 1.0001
+
+
+def test_f2_the_viewing_slope_is_the_grounds_own_slope_and_the_eyes_height(laid: Laid, look: Look) -> None:
+    z = np.arange(81.0)[:, None] - 40.0
+    hillside = Terrain(np.tile(-0.5 * z, 81).astype(np.float32), 1.0)
+    field = laid(terrain=hillside)
+    look(field, 0.6, 0.6)
+    row = np.flatnonzero((field.table.cell == (0, -6)).all(axis=1))
+    eye, away = field.sight.eye, 0.6 + 5.5 * 2.5
+    expected = 0.5 + (eye[1] - 0.5 * 5.5 * 2.5) / away
+    assert float(viewing_slope(field)[row[0]]) == pytest.approx(expected, rel=0.01)
+
+
+@given(st.integers(-50, 50), st.integers(-50, 50), st.floats(0.05, 0.95), st.floats(0.05, 0.95))
+def test_g3_no_strip_is_shown_edge_on(i: int, j: int, x: float, z: float) -> None:
+    along = int(strips_along(np.array([[i, j]], np.int32), HOME, NONE)[0])
+    sight = np.array([i + 0.5 - x, j + 0.5 - z])
+    if max(abs(i), abs(j)) >= 3:
+        across = abs(sight[1 - along]) / np.linalg.norm(sight)
+        assert across > np.sin(np.radians(30.0))
+
+
+def test_g3_turning_the_view_by_ninety_degrees_swaps_the_strips_orientation() -> None:
+    ahead = np.array([(i, -j) for j in range(3, 9) for i in range(-j + 1, j)], np.int32)
+    to_the_right = np.stack([-ahead[:, 1], ahead[:, 0]], -1)
+    none = np.full(len(ahead), -1, np.int8)
+    assert (strips_along(ahead, HOME, none) == 0).all()
+    assert (strips_along(to_the_right, HOME, none) == 1).all()
+
+
+@given(st.integers(0, 30), st.integers(-1, 2), st.sampled_from(["blades", "strips"]))
+def test_f1_a_finer_ring_is_kept_for_one_patch_more(distance: int, current: int, level: str) -> None:
+    def ring(distance: int, current: int) -> int:
+        at, has = np.array([distance], np.int32), np.array([current], np.int8)
+        if level == "blades":
+            return int(blade_ring(at, has, LIMITS)[0])
+        return int(strip_ring(at, np.zeros(1, np.float32), has, LIMITS, SPACING, height=1.0)[0])
+
+    due, nearer = ring(distance, -1), ring(max(distance - SLACK, 0), -1)
+    assert nearer <= ring(distance, current) <= due
+    assert ring(distance, current) in (due, nearer, current)
+
+
+@given(st.integers(-40, 40), st.integers(-40, 40), st.sampled_from([(1, 0), (-1, 0), (0, 1), (0, -1)]))
+def test_g3_pacing_over_a_border_turns_no_strips_twice(i: int, j: int, step: tuple[int, int]) -> None:
+    cell, there = np.array([[i, j]], np.int32), np.array(step, np.int32)
+    along, turns = strips_along(cell, HOME, NONE), 0
+    for number in range(12):
+        now = strips_along(cell, there if number % 2 else HOME, along)
+        turns += int(now[0] != along[0])
+        along = now
+    assert turns <= 1
+
+
+def sublevels(field: Field, level: int) -> NDArray[np.bool_]:
+    """Which of the seen patches are on their way to another sub-level."""
+    return np.asarray(field.table.alive & field.table.visible & (field.table.sublevel_progress[level] < 1.0))
+
+
+@pytest.mark.parametrize("level", [0, 1])
+def test_f1_what_is_seen_goes_to_another_sub_level_by_and_by(laid: Laid, look: Look, level: int) -> None:
+    field = laid(terrain=FLAT)
+    look(field, 1.25, 1.2)
+    assert not sublevels(field, level).any()
+    look(field, 1.25, 1.25, dt=0.0)
+    assert not sublevels(field, level).any()
+    look(field, 1.25, 5.1, dt=0.0)
+    assert sublevels(field, level).any()
+    look(field, 1.25, 5.1, dt=FADE * 1.01)
+    assert not sublevels(field, level).any()
+
+
+def test_f1_what_is_not_seen_takes_its_sub_level_at_once(laid: Laid, look: Look) -> None:
+    field = laid(terrain=FLAT)
+    look(field, 1.25, 1.2, yaw=0.0)
+    look(field, 1.25, 5.1, yaw=pi, dt=0.0)
+    assert not sublevels(field, 0).any()
+    assert not sublevels(field, 1).any()
+
+
+def test_f1_a_patch_whose_strips_change_shows_every_blade_once(laid: Laid, look: Look) -> None:
+    field = laid(terrain=FLAT)
+    look(field, 1.25, 1.2)
+    look(field, 1.25, 8.8, dt=0.0)
+    seen = look(field, 1.25, 8.8, dt=0.3 * FADE)
+    rows = np.concatenate([ring.rows for ring in seen.strips])
+    least, most = (np.concatenate([getattr(ring, name) for ring in seen.strips]) for name in ("least", "most"))
+    twice = np.flatnonzero(np.bincount(rows) == 2)
+    assert len(twice) > 5
+    for row in twice.tolist():
+        ends = sorted(zip(least[rows == row].tolist(), most[rows == row].tolist(), strict=True))
+        assert ends[0][0] == 0.0
+        assert ends[0][1] == ends[1][0] == pytest.approx(0.3, abs=1e-5)
+        assert ends[1][1] == 1.0
+    once = np.flatnonzero(np.bincount(rows) == 1)
+    assert all((least[rows == row] == 0.0).all() and (most[rows == row] == 1.0).all() for row in once)
+
+
+def test_f1_blades_slide_from_one_ring_to_the_next_in_the_finer_one(laid: Laid, look: Look) -> None:
+    field = laid(terrain=FLAT)
+    look(field, 1.25, 1.2)
+    slides = []
+    for step in range(6):
+        seen = look(field, 1.25, -1.3, dt=0.24 * FADE if step else 0.0)
+        nearer = field.table.sublevel[0][seen.blades[0].rows] < field.table.sublevel_before[0][seen.blades[0].rows]
+        slides.append(sorted(set(seen.blades[0].slide[nearer].tolist())))
+        assert (seen.blades[1].slide == 0.0).all()
+    assert slides[0] == [1.0]
+    assert all(len(values) == 1 for values in slides[:5])
+    assert all(before[0] > after[0] for before, after in pairwise(slides[:4]))
+    assert slides[5] == []
