@@ -24,7 +24,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-bench = typer.Typer(help="Measure: how long a frame takes, how true a picture is.", no_args_is_help=True)
+bench = typer.Typer(help="Measure: how long a frame takes, how true it is, and whether it pops.", no_args_is_help=True)
 app.add_typer(bench, name="bench")
 
 Scene = Annotated[str, typer.Argument(metavar="SCENE", help="A scene file, or the name of a bundled scene.")]
@@ -158,6 +158,22 @@ def picture(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x7
     from .bench.picture import bench_picture
 
     return bench_picture(scene, preset=preset, size=pixels, json=json)
+
+
+@bench.command("pop")
+def pop(
+    scene: Scene = "meadow",
+    preset: Preset = None,
+    size: Size = "640x360",
+    *,
+    json: Json = False,
+    parts: Annotated[bool, typer.Option("--parts", help="Also leave out each part of the transitions alone.")] = False,
+) -> int:
+    """Measure whether a change of representation can be seen on a walk; this takes minutes."""
+    pixels = _size(size)
+    from .bench.pop import bench_pop
+
+    return bench_pop(scene, preset=preset, size=pixels, json=json, parts=parts)
 
 
 def _print_version(wanted: bool) -> None:  # noqa: FBT001 - typer passes it by place

@@ -15,7 +15,11 @@ from .field import Field
 from .gather import gather_blades
 from .plant import plant_blades
 from .prairie import Prairie
+<<<<<<< /tmp/lab/theirs
+from .receive import Shown, carpet_shares
+=======
 from .see import Shown
+>>>>>>> /tmp/lab/mine
 from .tile import cell_of, cells_on, patch_models
 from .wind.blow import places_alone
 from .wind.grass import grass_of
@@ -70,9 +74,23 @@ class EveryBlade:
         self.painter: Painter = prairie.painter
         self.blades = self.painter.blade_painter(prairie.field.finest, soft=False)
 
+<<<<<<< /tmp/lab/theirs
+    def draw(self, view: View, cells: Ints, *, reach: int | None = None) -> None:
+        """Draw sky, ground and all blades of `cells` (n, 2) into the framebuffer that is bound.
+
+        With `reach` only those up to this discrete distance are drawn; beyond them lies the prairie's own carpet.
+        """
+        self.painter.write_ground(carpet=reach is not None)
+        if reach is not None:
+            field = self.prairie.field
+            beyond = np.where(field.table.distance > reach, carpet_shares(field), np.float32(0.0))
+            self.painter.ground.write_shares(beyond, field.sight.centre)
+            cells = cells[discrete_distance(cells, field.sight.centre) <= reach]
+=======
     def draw(self, view: View, cells: Ints) -> None:
         """Draw sky, ground and all blades of `cells` (n, 2) into the framebuffer that is bound."""
         self.painter.write_ground(None)
+>>>>>>> /tmp/lab/mine
         self.painter.draw(view, blades=self._chunks(cells))
 
     def _chunks(self, cells: Ints) -> Iterator[BladePainter]:
@@ -123,11 +141,18 @@ def _distances(depth: NDArray[np.float64], seen: View, field: Field) -> NDArray[
 
 
 def draw_reference(
-    prairie: Prairie, view: object, projection: object, size: tuple[int, int], *, samples: int = 4
+    prairie: Prairie,
+    view: object,
+    projection: object,
+    size: tuple[int, int],
+    *,
+    samples: int = 4,
+    reach: int | None = None,
 ) -> NDArray[np.uint8]:
     """Return the reference picture of a prairie that has been drawn, top row first, shape (height, width, 3).
 
-    Each pixel is the mean of `samples` by `samples` of a larger picture, in display space as blending is.
+    Each pixel is the mean of `samples` by `samples` of a larger picture, in display space as blending is. With
+    `reach`, blades stand only up to this discrete distance, and beyond it lies the carpet that the prairie draws.
     """
     seen = view_of(view, projection)
     every = EveryBlade(prairie)
@@ -139,7 +164,7 @@ def draw_reference(
     try:
         target.use()
         target.clear(depth=1.0)
-        every.draw(seen, seen_cells(prairie.field))
+        every.draw(seen, seen_cells(prairie.field), reach=reach)
         return box_filtered(target, size, samples)
     finally:
         host.use()

@@ -46,7 +46,7 @@ def bench_picture(scene: str, *, preset: str | None, size: tuple[int, int], json
 
     Raises MachineError, before anything is drawn, where pictures cannot be compared.
     """
-    _evaluator()
+    evaluator()
     take = Take(scene, size, preset=preset)
     with busy("drawing every blade"):
         with Studio(take) as studio:
@@ -99,13 +99,14 @@ def compare(pictures: Pictures, quality: Quality) -> dict[str, object]:
 
 def flip(picture: Picture, reference: Picture) -> float:
     """Return the mean FLIP of a picture against a reference, both (height, width, 3) sRGB bytes."""
-    _, mean, _ = _evaluator().evaluate(
+    _, mean, _ = evaluator().evaluate(
         reference.astype(np.float32) / 255.0, picture.astype(np.float32) / 255.0, "LDR", applyMagma=False
     )
     return float(mean)
 
 
-def _evaluator() -> Any:
+def evaluator() -> Any:
+    """Return the module that computes FLIP; raises MachineError where it is not installed."""
     try:
         return importlib.import_module("flip_evaluator")
     except ImportError:

@@ -1,0 +1,128 @@
+"""The frames of a walk in which changes of representation show the most, and the truth about them.
+
+Every frame is drawn twice: as it is, and held, that is with every patch shown as in the frame before. The two differ by
+that frame's changes of representation and by nothing else; changes of orientation and of sub-levels are among them.
+"""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+from ...components.transition import Transitions
+from ...systems.lod import farthest
+from ...systems.prairie import Prairie
+from ...systems.reference import draw_reference
+from ..encode import Picture
+from ..progress import counted
+from ..studio import Studio
+from ..take import SAMPLES
+from .flicker import prominence
+from .stroll import REST, Leg, Moment, moments, raise_gusts
+
+FINE = 8
+"""Width and height of the supersampling of references that changes are compared with, in samples per pixel: with fewer
+the reference shimmers more than what is compared with it."""
+
+KEPT = 3
+"""Frames of each leg that are kept."""
+
+STILLS = 8
+"""Frames kept besides, spread over the walk."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Step:
+    """A frame of the walk, the one before it, and what it would be without its changes of representation."""
+
+    earlier: Moment
+    moment: Moment
+    before: Picture
+    now: Picture
+    held: Picture
+
+    changing: int
+    """Patches in transition."""
+
+
+@dataclass(slots=True, eq=False)
+class Record:
+    """What a walk has shown."""
+
+    steps: list[Step] = field(default_factory=list)
+    """The frames of each leg whose changes are the most prominent."""
+
+    changing: list[int] = field(default_factory=list)
+    """Patches in transition, by frame."""
+
+    stills: list[tuple[Moment, Picture]] = field(default_factory=list)
+    """Frames spread over the walk."""
+
+
+def walked(studio: Studio, walk: list[Leg], transitions: Transitions, /, *, doing: str) -> Record:
+    """Walk through the studio's scene with these transitions, and return what has been seen."""
+    take, record = studio.take, Record()
+    prairie = Prairie.load(take.scene, ctx=studio.ctx, preset=take.preset, transitions=transitions)
+    raise_gusts(prairie, walk)
+    frames = {leg: list(moments(prairie, leg)) for leg in walk}
+    total = sum(len(each) - 1 for each in frames.values())
+    apart = max(1, total // STILLS)
+    kept: dict[Leg, list[tuple[float, Step]]] = {leg: [] for leg in walk}
+    try:
+        for number, step in enumerate(counted(_steps(studio, prairie, frames.values()), total=total, doing=doing)):
+            best = kept[step.moment.leg]
+            best.append((prominence(step.now, step.held, step.before), step))
+            best.sort(key=lambda one: -one[0])
+            del best[KEPT:]
+            record.changing.append(step.changing)
+            if number % apart == apart // 2:
+                record.stills.append((step.moment, step.now))
+    finally:
+        prairie.release()
+    record.steps = [step for best in kept.values() for _, step in best]
+    return record
+
+
+def _steps(studio: Studio, prairie: Prairie, frames: Iterable[list[Moment]]) -> Iterator[Step]:
+    for leg in frames:
+        _go(studio, prairie, leg[0], time=leg[0].time - REST / 2)
+        earlier, before = leg[0], _go(studio, prairie, leg[0])
+        for moment in leg[1:]:
+            held = _go(studio, prairie, moment, held=True)
+            now = _go(studio, prairie, moment)
+            yield Step(earlier, moment, before, now, held, prairie.statistics.transitions)
+            earlier, before = moment, now
+
+
+def _go(studio: Studio, prairie: Prairie, moment: Moment, *, time: float | None = None, held: bool = False) -> Picture:
+    prairie.advance(max(0.0, (moment.time if time is None else time) - prairie.time))
+    studio.begin()
+    prairie.draw(*studio.matrices(moment.camera), held=held)
+    return studio.read()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Truth:
+    """The reference's pictures by the instant they show."""
+
+    near: dict[float, Picture]
+    """Every blade up to where strips end, `FINE` by `FINE` samples; beyond it the carpet, which does not change."""
+
+    whole: dict[float, Picture]
+    """Every blade there is, as `--reference` draws it."""
+
+
+def find_truth(studio: Studio, walk: list[Leg], near: Iterable[Moment], whole: Iterable[Moment], /) -> Truth:
+    """Draw the reference at some moments of the walk, up to the end of the strips and as a whole."""
+    prairie, truth, size = studio.prairie, Truth({}, {}), studio.take.size
+    raise_gusts(prairie, walk)
+    reach = farthest(prairie.field.reach)[1]
+    fine, full = ({moment.time: moment for moment in each} for each in (near, whole))
+    times = sorted(fine | full)
+    for time in counted(times, total=len(times), doing="drawing every blade"):
+        moment = fine.get(time) or full[time]
+        _go(studio, prairie, moment)
+        matrices = studio.matrices(moment.camera)
+        if time in fine:
+            truth.near[time] = draw_reference(prairie, *matrices, size, samples=FINE, reach=reach)
+        if time in full:
+            truth.whole[time] = draw_reference(prairie, *matrices, size, samples=SAMPLES)
+    return truth

@@ -1,0 +1,180 @@
+"""The walk that transitions and frame rates are measured on: the same every time, and laid out in any scene."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.camera import Camera
+from ...engine.camera import Heights, camera_at
+from ...systems.prairie import Prairie
+from ...systems.wind.gust import Gust
+from ..walker import EYE, MARGIN
+
+Doubles = NDArray[np.float64]
+
+RATE = 60
+"""Frames per second."""
+
+PACE = 1.6
+"""How fast the walker goes [m/s]."""
+
+TURN = math.radians(20.0)
+"""How fast it turns its head where it does [rad/s]."""
+
+PITCH = math.radians(-5.0)
+"""Where it looks."""
+
+LEAD = 0.25
+"""When each leg comes to the first border between patches [s]."""
+
+SECONDS = 1.4
+"""How long a leg lasts: its patches change, and are done [s]."""
+
+REST = 4.0
+"""Time between two legs, in which everything settles [s]."""
+
+BEHIND = 12.0
+"""How far before and behind a crest the ground must be lower [m]."""
+
+RISE = 0.5
+"""By how much it must be [m]."""
+
+SEARCHED = 90.0
+"""How far from the camera a crest is looked for [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Leg:
+    """A straight part of the walk."""
+
+    name: str
+
+    start: float
+    """When it begins [s]."""
+
+    place: tuple[float, float]
+    """Ground position (x, z) where it begins [m]."""
+
+    heading: float
+    """Where the walker goes, as a camera's yaw [rad]."""
+
+    yaw: float
+    """Where it looks at first [rad]."""
+
+    turn: float = 0.0
+    """How fast it turns to the right [rad/s]."""
+
+    back: bool = False
+    """Whether it goes back again at half time."""
+
+    def camera(self, time: float, view: float, height_at: Heights) -> Camera:
+        """Return the camera `time` [s] after the beginning, with a vertical angle of view [rad]."""
+        way = min(time, SECONDS - time) if self.back else time
+        x, z = np.array(self.place) + PACE * way * ahead(self.heading)
+        ground = float(height_at(np.array([[x, z]], np.float32))[0])
+        return Camera((float(x), ground + EYE, float(z)), self.yaw + self.turn * time, PITCH, view)
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """One frame of the walk."""
+
+    leg: Leg
+    number: int
+    """Frame of its leg, from 0."""
+
+    time: float
+    """Instant of the prairie [s]."""
+
+    camera: Camera
+
+
+def ahead(yaw: float, /) -> Doubles:
+    """Return the ground direction (x, z) of a yaw [rad], shape (2,)."""
+    return np.array([math.sin(yaw), -math.cos(yaw)])
+
+
+def first_border(place: Doubles, heading: float, /, *, patch: float) -> float:
+    """Return how far it is to the first border between patches [m] from a ground position (2,) along a heading."""
+    way = ahead(heading)
+    border = (np.floor(place / patch) + (way > 0.0)) * patch
+    moving = np.abs(way) > 1e-9
+    return float(((border - place)[moving] / way[moving]).min())
+
+
+def legs(prairie: Prairie, /) -> list[Leg]:
+    """Return the walk through a prairie: ahead, aside and back, turning, and towards and over a crest if it has one.
+
+    It begins at the scene's camera, and each leg comes to a border between patches after `LEAD` seconds.
+    """
+    camera = camera_at(prairie.scene.camera, None, prairie.height_at)
+    place, yaw = np.array([camera.position[0], camera.position[2]]), camera.yaw
+    right = yaw + math.pi / 2
+    planned = [("ahead", place, yaw, yaw, 0.0), ("aside", place, right, yaw, 0.0), ("turning", place, yaw, yaw, TURN)]
+    crest = find_crest(prairie, place)
+    if crest is not None:
+        top, over = crest
+        blades, strips, _ = prairie.field.quality.reach
+        patch = prairie.field.quality.patch
+        for name, away in (("below", (blades + 1) * patch), ("far", (strips + 1) * patch), ("over", 2.0)):
+            planned.append((name, top - away * ahead(over), over, over, 0.0))
+    return [_leg(prairie, number, *row) for number, row in enumerate(planned)]
+
+
+def _leg(prairie: Prairie, number: int, name: str, place: Doubles, heading: float, yaw: float, turn: float) -> Leg:
+    patch = prairie.field.quality.patch
+    half = np.maximum(np.asarray(prairie.field.terrain.size) / 2.0 - MARGIN - PACE * SECONDS, 0.0)
+    inside = np.clip(place, -half, half)
+    start = inside + (first_border(inside, heading, patch=patch) - PACE * LEAD) * ahead(heading)
+    begin = REST + number * (SECONDS + REST)
+    return Leg(name, begin, (float(start[0]), float(start[1])), heading, yaw, turn, back=name == "aside")
+
+
+def find_crest(prairie: Prairie, place: Doubles, /) -> tuple[Doubles, float] | None:
+    """Return a crest's place (2,) and the heading that leads over it, or None where the terrain has none.
+
+    Of the places within `SEARCHED` it is the one from which the ground falls the most, before and behind.
+    """
+    half = np.asarray(prairie.field.terrain.size) / 2.0 - BEHIND
+    low, high = np.maximum(place - SEARCHED, -half), np.minimum(place + SEARCHED, half)
+    if (high <= low).any():
+        return None
+    grid = np.stack(np.meshgrid(*(np.arange(a, b, 3.0) for a, b in zip(low, high, strict=True))), -1).reshape(-1, 2)
+    headings = np.arange(8) * (math.pi / 4)
+
+    def heights(places: Doubles) -> Doubles:
+        return np.asarray(prairie.height_at(places), np.float64)
+
+    falls = [
+        heights(grid) - np.maximum(heights(grid - BEHIND * ahead(each)), heights(grid + BEHIND * ahead(each)))
+        for each in headings
+    ]
+    best = np.unravel_index(np.argmax(falls), (len(headings), len(grid)))
+    if falls[best[0]][best[1]] < RISE:
+        return None
+    return grid[best[1]], float(headings[best[0]])
+
+
+def moments(prairie: Prairie, leg: Leg, /) -> Iterator[Moment]:
+    """Yield the frames of a leg."""
+    view = math.radians(prairie.scene.camera.view)
+    for number in range(round(SECONDS * RATE) + 1):
+        time = number / RATE
+        yield Moment(leg, number, leg.start + time, leg.camera(time, view, prairie.height_at))
+
+
+def raise_gusts(prairie: Prairie, walk: list[Leg], /) -> None:
+    """Let a gust cross what is seen on each leg."""
+    for leg in walk:
+        side = leg.yaw + math.pi / 3
+        x, z = np.array(leg.place) + 12.0 * ahead(leg.yaw) - 6.0 * ahead(side)
+        prairie.add(
+            Gust(
+                position=[float(x), float(z)], direction=math.degrees(math.remainder(side, math.tau)),
+                start=leg.start - 0.5, stop=leg.start + SECONDS + 1.0, width=80.0, speed=8.0, strength=0.7,
+            ),
+            name=f"gust of the leg {leg.name}",
+        )  # fmt: skip
