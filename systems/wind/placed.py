@@ -69,11 +69,17 @@ def along(path: list[Waypoint], time: float, /) -> Doubles:
 
 
 def _heading(path: list[Waypoint], time: float, first: float) -> float:
-    """Return the heading on a path [rad]: what its points declare, or else where it leads or last led."""
+    """Return the heading on a path [rad]: what its points declare, or else where it leads, last led, or will lead."""
     declared = [(stop.at, stop.yaw) for stop in path if stop.yaw is not None]
     if declared:
         times, yaws = np.array(declared, np.float64).T
         return radians(float(glide(times, yaws[:, None], time)[0]))
-    moment = min(max(time, path[0].at + _MOMENT), max(path[-1].at - _MOMENT, path[0].at + _MOMENT))
-    x, z = (along(path, moment + _MOMENT) - along(path, moment - _MOMENT)).tolist()
-    return atan2(x, -z) if x or z else first
+    begin, end = path[0].at + _MOMENT, max(path[-1].at, path[0].at + 2.0 * _MOMENT) - _MOMENT
+    now = min(max(time, begin), end)
+    before = [stop.at for stop in reversed(path) if begin < stop.at < now]
+    after = [stop.at for stop in path if now < stop.at < end]
+    for moment in (now, *before, begin, *after):
+        x, z = (along(path, moment + _MOMENT) - along(path, moment - _MOMENT)).tolist()
+        if x or z:
+            return atan2(x, -z)
+    return first

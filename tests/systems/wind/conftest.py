@@ -1,0 +1,67 @@
+"""What the tests of winds share: grass as it is grown, and what it feels of some winds."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass.components.grass import GrassKind
+from tallgrass.components.growth import Response
+from tallgrass.components.pose import Pose
+from tallgrass.components.wind import Grass, Mixing, WindPrimitive, WindSource
+from tallgrass.systems.growth.response import grow_response
+from tallgrass.systems.wind.blow import blowing, hear, places_alone
+from tallgrass.systems.wind.quarantine import Quarantine
+
+Floats = NDArray[np.float32]
+Answer = Callable[..., Grass]
+Feel = Callable[..., Floats]
+
+
+@pytest.fixture(scope="session")
+def responses() -> list[Response]:
+    """How a tall soft kind answers, and a short stiff one."""
+    return [grow_response(GrassKind(height=[0.7, 0.9], stiffness=0.6)), grow_response(GrassKind(stiffness=3.0))]
+
+
+@pytest.fixture(scope="session")
+def answer(responses: list[Response]) -> Answer:
+    """Make grass of one of the two kinds at any number of places: `answer(40, kind=1)`."""
+
+    def of(count: int, *, kind: int = 0) -> Grass:
+        return Grass(
+            np.full(count, kind, np.intp),
+            np.array([response.step for response in responses], np.float32),
+            np.stack([response.rise for response in responses]),
+            np.stack([response.fall for response in responses]),
+        )
+
+    return of
+
+
+@pytest.fixture(scope="session")
+def feel(answer: Answer) -> Feel:
+    """What grass at places feels of some winds, shape (n, 2): `feel(Gust(), place=place, time=2.0)`."""
+
+    def at(
+        *winds: WindPrimitive,
+        place: Floats,
+        time: float,
+        seed: int = 7,
+        kind: int = 0,
+        mixing: Mixing = "priority",
+        names: list[str] | None = None,
+        poses: list[Pose | None] | None = None,
+    ) -> Floats:
+        called = names or [f"wind[{number}] {wind.kind}" for number, wind in enumerate(winds)]
+        sources = [WindSource(wind, name) for wind, name in zip(winds, called, strict=True)]
+        placed = {source: pose for source, pose in zip(sources, poses or [], strict=False) if pose is not None}
+        quarantine = Quarantine()
+        now = blowing(sources, quarantine, time=time, seed=seed, poses=placed)
+        listeners = places_alone(place, answer(len(place), kind=kind))
+        message = hear(now, listeners, quarantine, time=time, seed=seed, mixing=mixing)
+        assert not quarantine.reasons
+        return message
+
+    return at
