@@ -15,11 +15,7 @@ from .field import Field
 from .gather import gather_blades
 from .plant import plant_blades
 from .prairie import Prairie
-<<<<<<< /tmp/lab/theirs
-from .receive import Shown, carpet_shares
-=======
-from .see import Shown
->>>>>>> /tmp/lab/mine
+from .see import Shown, carpet_shares
 from .tile import cell_of, cells_on, patch_models
 from .wind.blow import places_alone
 from .wind.grass import grass_of
@@ -74,23 +70,17 @@ class EveryBlade:
         self.painter: Painter = prairie.painter
         self.blades = self.painter.blade_painter(prairie.field.finest, soft=False)
 
-<<<<<<< /tmp/lab/theirs
     def draw(self, view: View, cells: Ints, *, reach: int | None = None) -> None:
         """Draw sky, ground and all blades of `cells` (n, 2) into the framebuffer that is bound.
 
         With `reach` only those up to this discrete distance are drawn; beyond them lies the prairie's own carpet.
         """
-        self.painter.write_ground(carpet=reach is not None)
+        carpet = None
         if reach is not None:
             field = self.prairie.field
-            beyond = np.where(field.table.distance > reach, carpet_shares(field), np.float32(0.0))
-            self.painter.ground.write_shares(beyond, field.sight.centre)
+            carpet = np.where(field.table.distance > reach, carpet_shares(field), np.float32(0.0))
             cells = cells[discrete_distance(cells, field.sight.centre) <= reach]
-=======
-    def draw(self, view: View, cells: Ints) -> None:
-        """Draw sky, ground and all blades of `cells` (n, 2) into the framebuffer that is bound."""
-        self.painter.write_ground(None)
->>>>>>> /tmp/lab/mine
+        self.painter.write_ground(carpet)
         self.painter.draw(view, blades=self._chunks(cells))
 
     def _chunks(self, cells: Ints) -> Iterator[BladePainter]:
