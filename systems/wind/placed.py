@@ -74,12 +74,10 @@ def _heading(path: list[Waypoint], time: float, first: float) -> float:
     if declared:
         times, yaws = np.array(declared, np.float64).T
         return radians(float(glide(times, yaws[:, None], time)[0]))
-    begin, end = path[0].at + _MOMENT, max(path[-1].at, path[0].at + 2.0 * _MOMENT) - _MOMENT
-    now = min(max(time, begin), end)
-    before = [stop.at for stop in reversed(path) if begin < stop.at < now]
-    after = [stop.at for stop in path if now < stop.at < end]
-    for moment in (now, *before, begin, *after):
-        x, z = (along(path, moment + _MOMENT) - along(path, moment - _MOMENT)).tolist()
-        if x or z:
-            return atan2(x, -z)
-    return first
+    legs = [(here.at, there.at) for here, there in pairwise(path) if here.position != there.position]
+    if not legs:
+        return first
+    begin, end = next((leg for leg in reversed(legs) if leg[0] <= time), legs[0])
+    moment = max(min(time, end - _MOMENT), begin + _MOMENT)
+    x, z = (along(path, moment + _MOMENT) - along(path, moment - _MOMENT)).tolist()
+    return atan2(x, -z)
