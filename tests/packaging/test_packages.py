@@ -10,7 +10,7 @@ import pytest
 pytestmark = pytest.mark.packaging
 
 ROOT = Path(__file__).parents[2]
-FLOORS = ("app", "components", "engine", "scenes", "systems")
+FLOORS = ("app", "components", "engine", "scenes", "systems", "testing")
 SHIPPED = {".vert", ".frag", ".geom", ".comp", ".glsl", ".yaml", ".png", ".npy", ".r16", ".txt", ".tmpl"}
 
 

@@ -14,7 +14,7 @@ import pytest
 pytestmark = pytest.mark.packaging
 
 ROOT = Path(__file__).parents[2]
-SOURCES = ("app", "components", "engine", "scenes", "systems")
+SOURCES = ("app", "components", "engine", "scenes", "systems", "testing")
 # What takes long, or reads the checkout, is tested in the checkout.
 QUICK = "not gl and not window and not golden and not packaging"
 ELSEWHERE = ("packaging", "golden", "docs", "examples", "growth")

@@ -1,0 +1,159 @@
+"""One part of a wind at one instant: what it answers, and whether it answers the same however it is asked."""
+
+from collections.abc import Callable
+from dataclasses import astuple, dataclass, field
+from functools import partial
+from math import isfinite, isnan
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..components.pose import Pose
+from ..components.wind import Extent, Grass, WindPrimitive
+from .receivers import grass_at, places_to_try
+
+Floats = NDArray[np.float32]
+Ask = Callable[[Floats, Grass], Any]
+Answer = TypeVar("Answer")
+
+CLOSE = 1e-6
+"""By how much answers may differ when receivers are asked in another order, or only some of them."""
+
+BESIDE = 0.01
+"""How far outside an extent a mask must be 0 [m]."""
+
+
+class FailedError(Exception):
+    """A wind's answer is such that nothing more can be asked of it."""
+
+
+@dataclass(slots=True)
+class Report:
+    """What is wrong with a wind: one sentence for each thing, however often it shows."""
+
+    sentences: dict[str, str] = field(default_factory=dict)
+    """By what they are about."""
+
+    def add(self, about: str, sentence: str) -> None:
+        """Take a sentence down, unless there is one about this."""
+        self.sentences.setdefault(about, sentence)
+
+    def fail(self, about: str, sentence: str) -> FailedError:
+        """Take a sentence down, and return what to raise."""
+        self.add(about, sentence)
+        return FailedError(sentence)
+
+    def ask(self, what: str, when: str, ask: Callable[[], Answer]) -> Answer:
+        """Return a wind's answer; raises FailedError where it raises anything."""
+        try:
+            return ask()
+        except Exception as error:
+            text = " ".join(str(error).split())
+            raise self.fail(f"{what} raises", f"{what} raised {type(error).__name__}: {text} ({when})") from error
+
+
+def try_part(part: WindPrimitive, report: Report, /, *, time: float, seed: int) -> list[Floats]:
+    """Ask a part of a wind everything at `time` [s], and return its mask and its messages.
+
+    Raises FailedError where it fails so that there are none.
+    """
+    when = f"at {time:g} s"
+    frame(part, report, time=time)
+    extent = part.extent(time=time)
+    place = places_to_try(extent)
+    mask = _Method("mask", lambda own, _: part.mask(own, time=time), (), report, when)
+    weight = mask.try_at(place, grass_at(place))
+    if weight.min() < 0.0 or weight.max() > 1.0:
+        low, high = weight.min(), weight.max()
+        report.add("mask range", f"mask returned weights from {low:g} to {high:g}, not within 0 and 1 ({when})")
+    if extent is not None and weight[_outside(extent, place)].any():
+        x, z = place[_outside(extent, place) & (weight != 0.0)][0].tolist()
+        report.add("mask outside", f"mask is not 0 at ({x:g}, {z:g}), outside the extent ({when})")
+    held = place[weight > 0.0]
+    act = partial(part.action, time=time, seed=seed)
+    action = _Method("action", lambda own, grass: act(own, grass=grass), (2,), report, when)
+    message = action.try_at(held, grass_at(held))
+    index = np.hypot(*message.astype(np.float64).T)
+    if index.max(initial=0.0) > 1.0 + 1e-4:
+        report.add("action index", f"action returned a posture index of {index.max():g}, which is over 1 ({when})")
+    return [weight, message]
+
+
+def frame(part: WindPrimitive, report: Report, /, *, time: float) -> None:
+    """Ask a part of a wind where it is, twice. Raises FailedError where that is nowhere."""
+    when = f"at {time:g} s"
+    asks: tuple[tuple[str, Callable[[], Any], tuple[Any, ...]], ...] = (
+        ("pose", lambda: part.pose(time=time), (Pose,)),
+        ("extent", lambda: part.extent(time=time), (Extent, type(None))),
+    )
+    for what, ask, kinds in asks:
+        answer: Any = report.ask(what, when, ask)
+        if not isinstance(answer, kinds):
+            due = f"not {kinds[0].__name__}{' or None' if len(kinds) > 1 else ''}"
+            raise report.fail(what, f"{what} returned {type(answer).__name__}, {due} ({when})")
+        numbers = () if answer is None else astuple(answer)
+        if not all(_is_sound(number, bounded=what == "pose") for number in numbers):
+            raise report.fail(what, f"{what} returned {answer}, which is not all numbers ({when})")
+        if ask() != answer:
+            report.add(f"{what} again", f"{what} answers differently when it is asked again ({when})")
+    extent = part.extent(time=time)
+    if extent is not None and (extent.left > extent.right or extent.ahead > extent.behind):
+        raise report.fail("extent", f"extent returned {extent}, which ends before it begins ({when})")
+
+
+def _is_sound(number: object, *, bounded: bool) -> bool:
+    if not isinstance(number, float | int | np.floating | np.integer):
+        return False
+    return isfinite(number) if bounded else not isnan(number)
+
+
+def _outside(extent: Extent, place: Floats) -> NDArray[np.bool_]:
+    x, z = place.T
+    beside = (x < extent.left - BESIDE) | (x > extent.right + BESIDE)
+    return np.asarray(beside | (z < extent.ahead - BESIDE) | (z > extent.behind + BESIDE))
+
+
+@dataclass(frozen=True, slots=True)
+class _Method:
+    """A method of a wind that answers receivers with arrays."""
+
+    name: str
+    ask: Ask
+    tail: tuple[int, ...]
+    report: Report
+    when: str
+
+    def try_at(self, place: Floats, grass: Grass) -> Floats:
+        """Return what it answers, having asked in every way."""
+        answer = self._at(place, grass)
+        if self._at(place, grass).tobytes() != answer.tobytes():
+            self._differs("when it is asked again")
+        order = np.random.default_rng(2).permutation(len(place))
+        some = order[: max(1, len(place) // 3)]
+        for rows, how in ((order, "in another order"), (some, "without some of the others"), (order[:1], "alone")):
+            if len(rows) and not np.allclose(self._at(place[rows], grass.at(rows)), answer[rows], rtol=0.0, atol=CLOSE):
+                self._differs(f"for the same receivers when they are asked {how}")
+        self._at(place[:0], grass.at(order[:0]))
+        return answer
+
+    def _differs(self, how: str) -> None:
+        self.report.add(f"{self.name} pure", f"{self.name} answers differently {how} ({self.when})")
+
+    def _at(self, place: Floats, grass: Grass) -> Floats:
+        given, shape = place.copy(), (len(place), *self.tail)
+        answer = self.report.ask(self.name, f"{self.when}, {len(place)} receivers", lambda: self.ask(given, grass))
+        if given.tobytes() != place.tobytes():
+            self.report.add(f"{self.name} writes", f"{self.name} changes the places it is given ({self.when})")
+        if not isinstance(answer, np.ndarray) or answer.shape != shape:
+            found = f"an array of shape {answer.shape}" if isinstance(answer, np.ndarray) else type(answer).__name__
+            raise self._fails("shape", f"returned {found} where an array of shape {shape} is due ({self.when})")
+        if answer.dtype.kind not in "fiub":
+            raise self._fails("type", f"returned {answer.dtype}, which is no number ({self.when})")
+        if not np.isfinite(answer).all():
+            x, z = place[~np.isfinite(answer).reshape(len(place), -1).all(axis=1)][0].tolist()
+            raise self._fails("finite", f"returned what is not finite for ({x:g}, {z:g}) ({self.when})")
+        return np.array(answer)
+
+    def _fails(self, about: str, what: str) -> FailedError:
+        return self.report.fail(f"{self.name} {about}", f"{self.name} {what}")

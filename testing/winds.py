@@ -1,0 +1,147 @@
+"""Whether a wind keeps to what tallgrass asks of every wind, the built-in ones included."""
+
+import re
+from collections.abc import Sequence
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..components.wind import INTERFACE, WindPrimitive
+from .declared import declaration_problems
+from .receivers import crowd, grass_at
+from .trial import FailedError, Report, try_part
+
+Floats = NDArray[np.float32]
+
+MOST_COST = 0.02
+"""How long a wind may take for 10,000 receivers [s]; at 60 frames a second a frame has 0.0167 s for everything."""
+
+MOST_SEED = 2**32 - 1
+"""The largest seed that a wind is given."""
+
+_CROWD = 10_000
+_TRIES = 5
+_TIMES = (0.0, 1 / 60, 0.5, 1.0, 2.7, 5.0, 9.3, 20.0, 61.7, 600.0, 3600.0, 35999.0)
+_KIND = re.compile(r"[a-z][a-z0-9_-]*")
+_RANGES = {
+    "priority": (-1000, 1000),
+    "weight": (0.0, 1.0),
+    "swing": (0.0, 0.5),
+    "start": (0.0, 1e6),
+    "ease": (0.0, 1e6),
+}
+
+
+def check_wind(primitive: WindPrimitive | type[WindPrimitive], /, *, seed: int = 0) -> None:
+    """Raise AssertionError with one sentence for each thing that is wrong with a wind, or with a class's defaults.
+
+    `wind_problems` tells what is looked at.
+    """
+    problems = wind_problems(primitive, seed=seed)
+    if problems:
+        raise AssertionError("\n".join(problems))
+
+
+def wind_problems(primitive: WindPrimitive | type[WindPrimitive], /, *, seed: int = 0) -> list[str]:
+    """Return what is wrong with a wind, or with a class's defaults, one sentence for each thing.
+
+    It is looked at its fields (a sentence, a default, bounds, the unit in brackets) and at what its methods answer
+    all along its timeline, for receivers in its extent, around it and 10 km away, for one of them and for none: types,
+    shapes, finite numbers, weights within 0 and 1 and 0 outside the extent, an index of at most 1, the same answers
+    however it is asked, and no more than `MOST_COST` for 10,000 receivers. Numpy's floating-point errors (division by
+    zero, overflow, invalid values) count as raised. `seed` is the wind's own.
+    """
+    kind: Any = primitive if isinstance(primitive, type) else type(primitive)
+    if not issubclass(kind, WindPrimitive):
+        return [f"{kind.__name__} does not derive from WindPrimitive"]
+    problems = declaration_problems(kind)
+    if kind.interface != INTERFACE:
+        problems.append(f"{kind.__name__} is written for interface {kind.interface}; this tallgrass has {INTERFACE}")
+    wind: Any = primitive
+    if isinstance(primitive, type):
+        try:
+            wind = kind()
+        except Exception as error:  # noqa: BLE001 - its validators may raise anything
+            text = " ".join(str(error).split())
+            return [*problems, f"{kind.__name__} cannot be made from its defaults alone: {text}"]
+    with np.errstate(divide="raise", over="raise", invalid="raise", under="ignore"):
+        return [*problems, *_behaviour(wind, seed)]
+
+
+def _behaviour(wind: WindPrimitive, seed: int) -> list[str]:
+    report = Report()
+    try:
+        _values(wind, report)
+        report.ask("model_dump_json", "which settles ties", wind.model_dump_json)
+        times = _timeline(wind)
+        first = {time: _answers(wind, report, time, seed) for time in times}
+        _answers(wind, report, times[0], MOST_SEED)
+        for time in reversed(times):
+            _again(first[time], _answers(wind, report, time, seed), report, time)
+        _cost(wind, report, max(times, key=lambda time: sum(len(one) for one in first[time])), seed)
+    except FailedError:
+        pass
+    return list(report.sentences.values())
+
+
+def _timeline(wind: WindPrimitive) -> list[float]:
+    """Return instants from a wind's start to its stop [s]."""
+    times = [wind.start + time for time in _TIMES]
+    if wind.stop is None:
+        return times
+    return [time for time in times if time < wind.stop] + [wind.stop - 1e-3 * (wind.stop - wind.start)]
+
+
+def _values(wind: WindPrimitive, report: Report) -> None:
+    if not isinstance(wind.kind, str) or not _KIND.fullmatch(wind.kind):
+        report.add("kind", f"kind is {wind.kind!r}, not lower-case letters, digits, - and _")
+    for name, (least, most) in _RANGES.items():
+        value = getattr(wind, name)
+        if not isinstance(value, int if name == "priority" else int | float) or not least <= value <= most:
+            raise report.fail(name, f"{name} is {value!r}, not a number from {least:g} to {most:g}")
+
+
+def _parts(wind: WindPrimitive, report: Report, time: float, seed: int) -> list[WindPrimitive]:
+    parts = report.ask("parts", f"at {time:g} s", lambda: wind.parts(time=time, seed=seed))
+    if not isinstance(parts, Sequence):
+        raise report.fail("parts", f"parts returned {type(parts).__name__}, not a sequence of winds")
+    for part in parts:
+        if not isinstance(part, WindPrimitive):
+            raise report.fail("parts", f"parts returned a sequence with {type(part).__name__} in it, not only winds")
+        _values(part, report)
+    return list(parts)
+
+
+def _answers(wind: WindPrimitive, report: Report, time: float, seed: int) -> list[Floats]:
+    parts = _parts(wind, report, time, seed)
+    if _parts(wind, report, time, seed) != parts:
+        report.add("parts again", f"parts answers differently when it is asked again (at {time:g} s)")
+    return [answer for part in parts for answer in try_part(part, report, time=time, seed=seed)]
+
+
+def _again(first: list[Floats], second: list[Floats], report: Report, time: float) -> None:
+    if [answer.tobytes() for answer in first] != [answer.tobytes() for answer in second]:
+        report.add("time", f"it keeps something between calls: at {time:g} s it answers differently after other times")
+
+
+def _cost(wind: WindPrimitive, report: Report, time: float, seed: int) -> None:
+    took = min(_seconds(wind, time, seed) for _ in range(_TRIES))
+    if took > MOST_COST:
+        most = 1000.0 * MOST_COST
+        report.add("cost", f"it takes {1000.0 * took:.0f} ms for 10,000 receivers (at {time:g} s), over {most:.0f} ms")
+
+
+def _seconds(wind: WindPrimitive, time: float, seed: int) -> float:
+    """Return how long all parts take for as many receivers in all [s]."""
+    parts = wind.parts(time=time, seed=seed)
+    places = [crowd(part.extent(time=time), _CROWD // max(1, len(parts))) for part in parts]
+    grass = [grass_at(place) for place in places]
+    start = perf_counter()
+    for part, place, here in zip(wind.parts(time=time, seed=seed), places, grass, strict=True):
+        part.pose(time=time)
+        part.extent(time=time)
+        held = np.flatnonzero(part.mask(place, time=time) > 0.0)
+        part.action(place[held], time=time, seed=seed, grass=here.at(held))
+    return perf_counter() - start

@@ -1,0 +1,345 @@
+"""The check that a plugin's own tests call: it passes what is right, and names what is wrong in one sentence."""
+
+import random
+from time import sleep
+from typing import Annotated, Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from pydantic import Field
+
+from tallgrass.components.declaration import Pair
+from tallgrass.components.pose import Pose
+from tallgrass.components.wind import Extent, Grass, WindPrimitive
+from tallgrass.engine.plugins import OURS, wind_kinds
+from tallgrass.systems.wind.gust import Gust
+from tallgrass.testing import check_wind, wind_problems
+
+Floats = NDArray[np.float32]
+HALF = 2.0
+
+
+class Square(WindPrimitive):
+    """A wind that is right: it blows along +x in a square of 4 m."""
+
+    kind: str = "square"
+    """A square of wind."""
+
+    def extent(self, *, time: float) -> Any:
+        return Extent(-HALF, HALF, -HALF, HALF)
+
+    def mask(self, place: Floats, /, *, time: float) -> Any:
+        return (np.abs(place) <= HALF).all(axis=1).astype(np.float32)
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
+        return np.stack([np.full(len(place), 0.5), np.zeros(len(place))], 1)
+
+
+BUILT_IN = [row.kind for row in wind_kinds().provided() if row.distribution == OURS]
+
+
+@pytest.mark.parametrize("kind", BUILT_IN)
+def test_d5_every_built_in_wind_passes_as_a_plugin(kind: str) -> None:
+    check_wind(wind_kinds().find(kind))
+
+
+def test_d5_all_four_winds_of_the_paper_are_among_them() -> None:
+    assert {"breeze", "gust", "whirlwind", "blast"} <= set(BUILT_IN)
+
+
+@pytest.mark.parametrize("wind", [Gust(every=[1.0, 2.0], wander=5.0), Gust(start=3.0, stop=3.5), Square(start=7.0)])
+def test_a_wind_with_other_values_than_its_defaults_can_be_checked(wind: WindPrimitive) -> None:
+    assert wind_problems(wind, seed=12) == []
+
+
+def test_a_right_wind_has_no_problems() -> None:
+    assert wind_problems(Square) == []
+
+
+CALLS: list[float] = []
+"""What the impure winds below remember."""
+
+
+class Outside(Square):
+    """Its extent is too small."""
+
+    def extent(self, *, time: float) -> Any:
+        return Extent(-1.0, 1.0, -1.0, 1.0)
+
+
+class Overweight(Square):
+    """Its weights are too large."""
+
+    def mask(self, place: Floats, /, *, time: float) -> Any:
+        return super().mask(place, time=time) * 1.5
+
+
+class Overstrong(Square):
+    """It bends grass beyond the ground."""
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
+        return np.full_like(place, 0.9)
+
+
+class Undefined(Square):
+    """It divides by a distance that may be 0."""
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
+        return place / np.linalg.norm(place, axis=1, keepdims=True)
+
+
+class Hidden(Square):
+    """It returns a number that is none."""
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
+        return np.where(place == 0.0, np.nan, 0.5)
+
+
+class Listed(Square):
+    """It returns no array."""
+
+    def mask(self, place: Floats, /, *, time: float) -> Any:
+        return [1.0] * len(place)
+
+
+class Column(Square):
+    """It returns a column."""
+
+    def mask(self, place: Floats, /, *, time: float) -> Any:
+        return super().mask(place, time=time)[:, None]
+
+
+class Worded(Square):
+    """It returns words."""
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
+        return np.full(place.shape, "strong")
+
+
+class Tossed(Square):
+    """It throws dice."""
+
+    def mask(self, place: Floats, /, *, time: float) -> Any:
+        return super().mask(place, time=time) * random.random()  # noqa: S311 - that is what is wrong with it
+
+
+class Averaged(Square):
+    """It looks at all receivers at once."""
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
+        return 0.1 * (place - place.mean(axis=0)) if len(place) else place
+
+
+class Ordered(Square):
+    """It goes by the place in the array."""
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
+        return np.linspace(0.0, 0.5, place.size).reshape(place.shape)
+
+
+class Remembering(Square):
+    """It goes by the latest time it has been asked for."""
+
+    def mask(self, place: Floats, /, *, time: float) -> Any:
+        CALLS.append(time)
+        return super().mask(place, time=time) / (1.0 + max(CALLS))
+
+
+class Writing(Square):
+    """It moves the places it is given."""
+
+    def mask(self, place: Floats, /, *, time: float) -> Any:
+        weight = super().mask(place, time=time)
+        place += 1.0
+        return weight
+
+
+class Crowded(Square):
+    """It needs someone there."""
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
+        return np.full_like(place, 0.3 + 0.0 * place[0, 0])
+
+
+class Brief(Square):
+    """It ends in an error after a minute."""
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
+        return np.full_like(place, [0.5, 0.4][int(time > 60.0) * 2])
+
+
+class Slow(Square):
+    """It takes its time."""
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
+        sleep(0.025 if len(place) > 5000 else 0.0)
+        return np.full_like(place, 0.5)
+
+
+class Lost(Square):
+    """It has no place."""
+
+    def pose(self, *, time: float) -> Any:
+        return None
+
+
+class Endless(Square):
+    """Its place is no number."""
+
+    def pose(self, *, time: float) -> Any:
+        return Pose(x=float("inf"))
+
+
+class Boxed(Square):
+    """Its extent is a list."""
+
+    def extent(self, *, time: float) -> Any:
+        return [-2.0, 2.0, -2.0, 2.0]
+
+
+class Inverted(Square):
+    """Its extent is turned inside out."""
+
+    def extent(self, *, time: float) -> Any:
+        return Extent(2.0, -2.0, -2.0, 2.0)
+
+
+class Single(Square):
+    """It returns itself for its parts."""
+
+    def parts(self, *, time: float, seed: int) -> Any:
+        return self
+
+
+class Numbered(Square):
+    """It returns numbers for its parts."""
+
+    def parts(self, *, time: float, seed: int) -> Any:
+        return [1, 2]
+
+
+class Eager(Square):
+    """Its parts' priority is out of range."""
+
+    def parts(self, *, time: float, seed: int) -> Any:
+        return [self.model_copy(update={"priority": 5000})]
+
+
+class Narrow(Square):
+    """It does not bear every seed."""
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
+        np.array([seed], np.uint32).astype(np.int32)
+        return np.full_like(place, 0.1 if seed < 2**31 else 1.1)
+
+
+class Later(Square):
+    """It is written for another release."""
+
+    interface = 7
+
+
+class Odd(Square):
+    """Its kind cannot be one."""
+
+    kind: str = "Odd Kind"
+    """An odd kind."""
+
+
+@pytest.mark.parametrize(
+    ("wind", "problem"),
+    [
+        (Outside, r"mask is not 0 at \(.*\), outside the extent \(at 0 s\)"),
+        (Overweight, r"mask returned weights from 0 to 1\.5, not within 0 and 1 \(at 0 s\)"),
+        (Overstrong, r"action returned a posture index of 1\.27279, which is over 1 \(at 0 s\)"),
+        (Undefined, r"action raised FloatingPointError: invalid value .* \(at 0 s, \d+ receivers\)"),
+        (Hidden, r"action returned what is not finite for \(.*\) \(at 0 s\)"),
+        (Listed, r"mask returned list where an array of shape \(\d+,\) is due \(at 0 s\)"),
+        (Column, r"mask returned an array of shape \(\d+, 1\) where an array of shape \(\d+,\) is due \(at 0 s\)"),
+        (Worded, r"action returned <U6, which is no number \(at 0 s\)"),
+        (
+            Averaged,
+            r"action answers differently for the same receivers when they are asked without some of the others .*",
+        ),
+        (Ordered, r"action answers differently for the same receivers when they are asked in another order \(at 0 s\)"),
+        (Remembering, r"it keeps something between calls: at .* s it answers differently after other times"),
+        (Writing, r"mask changes the places it is given \(at 0 s\)"),
+        (Crowded, r"action raised IndexError: .* \(at 0 s, 0 receivers\)"),
+        (Brief, r"action raised IndexError: .* \(at 61\.7 s, \d+ receivers\)"),
+        (Slow, r"it takes \d+ ms for 10,000 receivers \(at .* s\), over 20 ms"),
+        (Lost, r"pose returned NoneType, not Pose \(at 0 s\)"),
+        (Endless, r"pose returned Pose\(x=inf, .*\), which is not all numbers \(at 0 s\)"),
+        (Boxed, r"extent returned list, not Extent or None \(at 0 s\)"),
+        (Inverted, r"extent returned Extent\(.*\), which ends before it begins \(at 0 s\)"),
+        (Single, r"parts returned Single, not a sequence of winds"),
+        (Numbered, r"parts returned a sequence with int in it, not only winds"),
+        (Eager, r"priority is 5000, not a number from -1000 to 1000"),
+        (Narrow, r"action returned a posture index of 1\.55563, which is over 1 \(at 0 s\)"),
+        (Later, r"Later is written for interface 7; this tallgrass has 1"),
+        (Odd, r"kind is 'Odd Kind', not lower-case letters, digits, - and _"),
+    ],
+)
+def test_d5_what_is_wrong_with_a_wind_is_one_sentence(wind: type[WindPrimitive], problem: str) -> None:
+    with pytest.raises(AssertionError, match=f"^{problem}$"):
+        check_wind(wind)
+
+
+def test_what_is_thrown_by_dice_is_told_first() -> None:
+    told = wind_problems(Tossed)
+    assert told[0] == "mask answers differently when it is asked again (at 0 s)"
+
+
+class Plain(Square):
+    """A wind whose fields are declared badly."""
+
+    silent: float = Field(1.0, ge=0.0, le=2.0)
+
+    endless: float = 1.0
+    """How long it lasts [s]."""
+
+    half: float | None = Field(None, ge=0.0)
+    """How long half of it lasts [s]."""
+
+    spelled: float = Field(1.0, ge=0.0, le=2.0)
+    """Width in metres."""
+
+    beyond: float = Field(3.0, ge=0.0, le=2.0)
+    """How strong it is."""
+
+    several: Pair = Field(default=[0.0, 0.0])
+    """Where it is [m]."""
+
+    inner: Annotated[float, Field(ge=0.0, le=1.0)] | None = None
+    """How strong it is within."""
+
+    switched: bool = False
+    """Whether it blows."""
+
+
+def test_d5_fields_that_are_declared_badly_are_named() -> None:
+    assert wind_problems(Plain) == [
+        "the field 'silent' has no sentence: write a docstring below it",
+        "the field 'endless' has no lower and no upper bound: write Field(..., ge=..., le=...)",
+        "the field 'half' has no upper bound: write Field(..., ge=..., le=...)",
+        "the field 'spelled' names its unit in words: put it in brackets, like [m], unlike in 'Width in metres.'",
+        "the field 'beyond' refuses its own default 3.0: Input should be less than or equal to 2",
+    ]
+
+
+def test_a_class_that_needs_values_is_checked_with_those_of_an_instance() -> None:
+    class Needy(Square):
+        """A wind that somebody has to give a strength."""
+
+        strength: float = Field(ge=0.0, le=1.0)
+        """How strong it is."""
+
+    told = wind_problems(Needy)
+    assert told[0] == "the field 'strength' has no default"
+    assert told[1].startswith("Needy cannot be made from its defaults alone: 1 validation error")
+    assert wind_problems(Needy(strength=0.2)) == told[:1]
+
+
+def test_what_is_no_wind_is_refused() -> None:
+    assert wind_problems(int) == ["int does not derive from WindPrimitive"]  # type: ignore[arg-type]
+    assert wind_problems(WindPrimitive)[-1].startswith("WindPrimitive cannot be made from its defaults alone")
