@@ -135,6 +135,14 @@ def check(scenes: Annotated[list[str], typer.Argument(metavar="SCENE...", help="
 
 
 @app.command()
+def schema() -> None:
+    """Print the JSON Schema of scene files, installed plugins included, for an editor."""
+    from .schema import schema
+
+    schema()
+
+
+@app.command()
 def doctor() -> int:
     """Tell what this machine has, and for each thing missing the line that installs it."""
     from .doctor import doctor

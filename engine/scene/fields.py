@@ -1,8 +1,9 @@
 """Which declared field a value of a scene file belongs to."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from typing import Any, get_args, get_origin
+from dataclasses import dataclass, replace
+from types import NoneType, UnionType
+from typing import Annotated, Any, Union, get_args, get_origin
 
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
@@ -22,29 +23,64 @@ class Field:
     name: str
     """As people call it: `width`, `item 2 of path`."""
 
-    declared: FieldInfo | None
-    """The declared field that holds it."""
+    annotation: Any = None
+    """Its declared type, without what `Annotated` adds."""
 
-    keys: tuple[str, ...]
-    """The keys known at this value, if it is a mapping of known keys."""
+    limits: tuple[Any, ...] = ()
+    """What is declared of its range and length."""
+
+    description: str = ""
+    """What the field that holds it says of itself."""
+
+    model: type[BaseModel] | None = None
+    """What it declares, if it is a mapping of known keys."""
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """The keys known at this value."""
+        return tuple(self.model.model_fields) if self.model else ()
 
 
 def field_at(root: Node, where: Where, /, *, find: FindKind) -> Field:
     """Return the field at `where`, a way as pydantic gives it: marks of a union and unknown keys are skipped."""
-    model: type[BaseModel] | None = Scene
-    name, declared, entry, node = "the scene", None, False, root
+    field, entry, node = Field("the scene", Scene, model=Scene), False, root
     for step in where:
         if isinstance(step, int):
-            name = f"item {step + 1} of {name}"
+            field = _inside(field, f"item {step + 1} of {field.name}")
         elif entry:
-            name, entry = step, False
-        elif model is not None and step in model.model_fields:
-            name, declared = step, model.model_fields[step]
-            model, entry = _model(declared.annotation), get_origin(declared.annotation) is dict
+            field, entry = _inside(field, step), False
+        elif field.model is not None and step in field.model.model_fields:
+            field = _declared(step, field.model.model_fields[step])
+            entry = get_origin(field.annotation) is dict
         node = node.below.get(step, node)
-        if isinstance(step, int) and model is WindPrimitive:
-            model = _kind(node, find)
-    return Field(name, declared, tuple(model.model_fields) if model else ())
+        if isinstance(step, int) and field.model is WindPrimitive:
+            field = replace(field, model=_kind(node, find))
+    return field
+
+
+def _declared(name: str, info: FieldInfo) -> Field:
+    annotation, more = _bare(info.annotation)
+    limits = (*info.metadata, *more)
+    return Field(name, annotation, limits, info.description or "", _model(annotation))
+
+
+def _inside(field: Field, name: str) -> Field:
+    """Return the field of an item of a list, or of an entry of a mapping whose keys are free."""
+    inner = get_args(field.annotation)
+    annotation, limits = _bare(inner[-1]) if inner else (field.annotation, ())
+    return Field(name, annotation, limits, field.description, _model(annotation))
+
+
+def _bare(annotation: Any) -> tuple[Any, tuple[Any, ...]]:
+    """Return a type without `None` and without what `Annotated` adds, and the limits that this gives."""
+    others = [one for one in get_args(annotation) if one is not NoneType]
+    if get_origin(annotation) in (Union, UnionType) and len(others) == 1:
+        return _bare(others[0])
+    if get_origin(annotation) is not Annotated:
+        return annotation, ()
+    inner, *added = get_args(annotation)
+    bare, limits = _bare(inner)
+    return bare, (*(limit for one in added for limit in getattr(one, "metadata", ())), *limits)
 
 
 def _kind(node: Node, find: FindKind) -> type[WindPrimitive]:

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable
 from difflib import get_close_matches
 from typing import Any, get_args
 
+from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from .fields import Field
@@ -86,7 +87,7 @@ def _out_of_range(error: ErrorDetails, field: Field) -> str:
     else:
         words = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}
         text = " and ".join(f"{words[name]} {_number(bounds[name])}" for name in words if name in bounds)
-    unit = _UNIT.search((field.declared and field.declared.description) or "")
+    unit = _UNIT.search(field.description)
     return f"{field.name} must be {text}{' ' + unit[1] if unit else ''}, found {found(error['input'])}"
 
 
@@ -111,7 +112,7 @@ def _number(value: float) -> str:
 def _list(field: Field) -> str:
     limits = _limits(field)
     least, most = limits.get("min_length", 0), limits.get("max_length")
-    things = "numbers" if field.declared and _is_numeric(field.declared.annotation) else "entries"
+    things = "numbers" if get_args(field.annotation)[:1] in ((int,), (float,)) else "entries"
     if least == most:
         return f"a list of {least} {things}"
     return f"a list of {least} to {most} {things}" if most else "a list"
@@ -119,23 +120,14 @@ def _list(field: Field) -> str:
 
 def _limits(field: Field) -> dict[str, Any]:
     """Return the declared limits of a value, of `X | None` too."""
-    if field.declared is None:
-        return {}
-    limits = [*field.declared.metadata]
-    for argument in get_args(field.declared.annotation):
-        limits += [limit for inner in getattr(argument, "__metadata__", ()) for limit in getattr(inner, "metadata", ())]
     names = ("ge", "gt", "le", "lt", "min_length", "max_length", "pattern")
-    return {name: getattr(limit, name) for limit in limits for name in names if hasattr(limit, name)}
-
-
-def _is_numeric(annotation: Any) -> bool:
-    return annotation in (int, float) or any(_is_numeric(argument) for argument in get_args(annotation))
+    return {name: getattr(limit, name) for limit in field.limits for name in names if hasattr(limit, name)}
 
 
 def _hint(kind: str, value: object, field: Field) -> str:
     if value is None and kind == "string_type" and _COLOR in _limits(field).get("pattern", ""):
         return "; a colour needs quotes, '#2f4019', because # begins a comment"
-    if value is None and kind == "model_type":
+    if value is None and kind == "model_type" and _needs_nothing(field.model):
         return "; write {} to leave everything at its default"
     if isinstance(value, str) and kind in ("float_type", "int_type"):
         if _DECIMAL_COMMA.fullmatch(value):
@@ -143,6 +135,13 @@ def _hint(kind: str, value: object, field: Field) -> str:
         number = _WITH_UNIT.fullmatch(value)
         return f"; leave the unit out, {number[1]}" if number else ""
     return ""
+
+
+def _needs_nothing(model: type[BaseModel] | None) -> bool:
+    try:
+        return model is not None and bool(model.model_validate({}))
+    except ValidationError:
+        return False
 
 
 _SENTENCES: dict[str, Callable[[ErrorDetails, Field], str]] = {

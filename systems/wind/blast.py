@@ -6,7 +6,7 @@ from typing import Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
+from PIL import Image, UnidentifiedImageError
 from pydantic import Field, PrivateAttr, ValidationInfo, model_validator
 
 from ...components.declaration import Declaration, DeclarationError, Pair
@@ -45,7 +45,8 @@ class Shape(Declaration):
     def _one_shape(self, info: ValidationInfo) -> Self:
         given = [name for name in ("disc", "ellipse", "polygon", "image") if getattr(self, name) is not None]
         if len(given) != 1:
-            raise DeclarationError(f"an outline is one of disc, ellipse, polygon and image, not {len(given)} of them")
+            found = " and ".join(given) or "none of them"
+            raise DeclarationError(f"an outline is one of disc, ellipse, polygon and image, found {found}")
         if self.ellipse is not None and not all(0.05 < axis <= 1000.0 for axis in self.ellipse):
             raise DeclarationError("each half axis must be between 0.05 and 1000 m", "ellipse")
         if self.polygon is not None:
@@ -119,6 +120,10 @@ def _pictured(name: str, folder: Path, width: float) -> Outline:
     path = folder / name
     try:
         return _picture(str(path), path.stat().st_mtime_ns, width)
+    except FileNotFoundError as error:
+        raise DeclarationError(f"no file '{name}' relative to the scene", "image") from error
+    except UnidentifiedImageError as error:
+        raise DeclarationError(f"'{name}' is no picture", "image") from error
     except (OSError, ValueError, Image.DecompressionBombError) as error:
         raise DeclarationError(f"the picture '{name}' cannot be used: {error}", "image") from error
 

@@ -1,0 +1,112 @@
+"""The schema of scene files, for editors: JSON Schema of draft 7, whose texts are the docstrings."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from pydantic import BaseModel
+from pydantic.json_schema import GenerateJsonSchema, JsonSchemaMode, models_json_schema
+from pydantic_core import CoreSchema
+
+from ...components.scene import FORMAT, Scene
+from ...components.wind import WindPrimitive
+
+DIALECT = "http://json-schema.org/draft-07/schema#"
+"""The draft that the language server for YAML reads."""
+
+_PLACE = "#/definitions/"
+_MODE: JsonSchemaMode = "validation"
+
+Schema = dict[str, Any]
+
+
+def scene_schema(winds: Mapping[str, type[WindPrimitive] | None], /) -> Schema:
+    """Return the schema of scene files whose winds are of these kinds; of one without a class, any keys are right.
+
+    Everything that can be read fits the schema; what no schema can say, such as the order of a path's times, is left
+    to `check`. Raises what pydantic raises for a class that no schema can be made of.
+    """
+    classes = [primitive for primitive in winds.values() if primitive is not None]
+    models: list[type[BaseModel]] = [Scene, WindPrimitive, *classes]
+    inputs = [(model, _MODE) for model in models]
+    names, made = models_json_schema(inputs, ref_template=_PLACE + "{model}", schema_generator=_Readable)
+    definitions: dict[str, Schema] = made["$defs"]
+    name_of = {model: schema["$ref"].removeprefix(_PLACE) for (model, _), schema in names.items()}
+    scene = definitions.pop(name_of[Scene])
+    del definitions[name_of[WindPrimitive]]
+    kinds = {kind: name_of[primitive] if primitive else None for kind, primitive in winds.items()}
+    scene["properties"]["wind"]["items"] = _of_its_kind(kinds)
+    scene["title"] = f"tallgrass scene, format {FORMAT}"
+    for model in (scene, *definitions.values()):
+        _explain(model)
+    return {"$schema": DIALECT, **scene, "definitions": definitions}
+
+
+class _Readable(GenerateJsonSchema):
+    """Leaves out what repeats a field's name, and defaults that no scene file could write."""
+
+    ignored_warning_kinds = {"skipped-choice", "non-serializable-default"}  # noqa: RUF012 - as its base declares it
+
+    def field_title_should_be_set(self, schema: CoreSchema | Any) -> bool:
+        del schema
+        return False
+
+
+def _of_its_kind(kinds: Mapping[str, str | None]) -> Schema:
+    """Return the schema of one wind: the keys that its `kind` has, by name of the definition."""
+    return {
+        "type": "object",
+        "required": ["kind"],
+        "properties": {"kind": {"enum": sorted(kinds)}},
+        "allOf": [
+            {"if": {"required": ["kind"], "properties": {"kind": {"const": kind}}}, "then": {"$ref": _PLACE + name}}
+            for kind, name in sorted(kinds.items())
+            if name is not None
+        ],
+    }
+
+
+def _explain(model: Schema) -> None:
+    """Write a model's texts as an editor shows them, with defaults and ranges."""
+    model["description"] = _unfolded(model.get("description", ""))
+    for name, field in model.get("properties", {}).items():
+        told = [_unfolded(field.pop("description", "")), _facts(field)]
+        if field.get("default") is None or isinstance(field["default"], dict):
+            field.pop("default", None)
+        if "$ref" in field:  # in draft 7 nothing counts beside a reference
+            field = {"allOf": [{"$ref": field.pop("$ref")}], **field}  # noqa: PLW2901
+        model["properties"][name] = {"description": "\n\n".join(filter(None, told)), **field}
+
+
+def _unfolded(text: str) -> str:
+    return "\n\n".join(" ".join(paragraph.split()) for paragraph in text.split("\n\n"))
+
+
+def _facts(field: Schema) -> str:
+    default = field.get("default")
+    facts = []
+    if default not in (None, []) and not isinstance(default, dict) and "const" not in field:
+        facts.append(f"Default: {_written(default)}.")
+    for numbers in (field, *field.get("anyOf", ())):
+        facts += [f"Range: {' and '.join(_range(numbers))}."] if any(_range(numbers)) else []
+    return " ".join(facts)
+
+
+def _range(numbers: Schema) -> Iterator[str]:
+    words = {"minimum": "at least", "exclusiveMinimum": "above", "maximum": "at most", "exclusiveMaximum": "below"}
+    if "minimum" in numbers and "maximum" in numbers:
+        yield f"{_written(numbers['minimum'])} to {_written(numbers['maximum'])}"
+    else:
+        yield from (f"{words[name]} {_written(numbers[name])}" for name in words if name in numbers)
+
+
+def _written(value: object) -> str:
+    """Return a value as a scene file writes it."""
+    match value:
+        case bool():
+            return str(value).lower()
+        case float():
+            return format(value, ".12g")
+        case list():
+            return f"[{', '.join(map(_written, value))}]"
+        case _:
+            return str(value)

@@ -1,0 +1,70 @@
+"""Scenes of every format that there has been: what they say once, they mean for ever.
+
+In a folder `format-N` stand scenes of format N, and beside each one what it means, as a later release must read it too:
+keys may come to that by their defaults, but none may go, and no value may change.
+"""
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from pydantic import BaseModel
+
+from tallgrass.components.scene import FORMAT, Scene
+from tallgrass.engine.plugins import wind_kinds
+from tallgrass.engine.scene import parse_scene
+from tallgrass.engine.scene.compose import read_document
+
+OLD = sorted(Path(__file__).parent.glob("format-*/*.yaml"))
+
+
+def lost(meant: object, read: object, where: str = "") -> Iterator[str]:
+    """What a scene meant and does not mean any more."""
+    if isinstance(meant, dict) and isinstance(read, dict):
+        for key, value in meant.items():
+            if key in read:
+                yield from lost(value, read[key], f"{where}.{key}")
+            else:
+                yield f"{where}.{key}: gone"
+    elif isinstance(meant, list) and isinstance(read, list) and len(meant) == len(read):
+        for number, (one, other) in enumerate(zip(meant, read, strict=True)):
+            yield from lost(one, other, f"{where}[{number}]")
+    elif meant != read:
+        yield f"{where}: {meant} became {read}"
+
+
+def fields(model: type[BaseModel]) -> set[str]:
+    return set(model.model_fields)
+
+
+def test_d4_there_is_a_scene_of_every_format() -> None:
+    assert {path.parent.name for path in OLD} == {f"format-{version}" for version in range(1, FORMAT + 1)}
+
+
+@pytest.mark.parametrize("path", OLD, ids=lambda path: f"{path.parent.name}-{path.stem}")
+def test_d4_a_scene_of_any_format_means_what_it_always_meant(path: Path) -> None:
+    meant = json.loads(path.with_suffix(".json").read_text("utf-8"))
+    scene = parse_scene(path.read_text("utf-8"), file=str(path))
+    told = scene.model_dump(mode="json")
+    assert list(lost({**meant, "tallgrass": FORMAT}, told)) == []
+
+
+def test_what_a_scene_loses_is_told() -> None:
+    assert list(lost({"a": [{"b": 1, "c": 2}]}, {"a": [{"b": 3}], "d": 4})) == [".a[0].b: 1 became 3", ".a[0].c: gone"]
+    assert list(lost([1], [1, 2])) == [": [1] became [1, 2]"]
+
+
+def test_the_scene_of_todays_format_uses_every_key() -> None:
+    path = Path(__file__).parent / f"format-{FORMAT}" / "full.yaml"
+    values: Any = read_document(path.read_text("utf-8"), file="full.yaml").root.data
+    scene = parse_scene(path.read_text("utf-8"))
+    assert values.keys() == fields(Scene)
+    for part in ("camera", "light", "quality"):
+        assert values[part].keys() == fields(type(getattr(scene, part)))
+    assert values["terrain"].keys() == fields(type(scene.terrain)) - {"heights"}
+    assert values["grass"]["tall"].keys() == fields(type(scene.grass["tall"]))
+    used = {declared["kind"]: declared.keys() for declared in reversed(values["wind"])}
+    assert used == {kind: fields(wind_kinds().find(kind)) for kind in used}
+    assert set(used) >= {"breeze", "gust", "whirlwind", "blast"}
