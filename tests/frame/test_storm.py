@@ -1,0 +1,94 @@
+"""All winds at once replay bit for bit, whatever steps time took (N5)."""
+
+import os
+import pickle
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import moderngl
+import pytest
+
+Key = tuple[Any, ...]
+Instants = list[dict[Key, bytes]]
+
+PROGRAM = """
+import pickle, sys
+from hashlib import blake2b
+import moderngl
+from tallgrass.components.wind import Receivers
+from tallgrass.engine.camera import camera_at, projection_matrix, view_matrix
+from tallgrass.systems.prairie import Prairie
+
+path, rate, first, count = sys.argv[1], *map(int, sys.argv[2:])
+ctx = moderngl.create_context(standalone=True, backend="egl", require=330)
+size = (32, 18)
+target = ctx.framebuffer([ctx.texture(size, 3, alignment=1)], ctx.depth_renderbuffer(size))
+target.use()
+prairie = Prairie.load("storm", ctx=ctx, preset="low")
+for _ in range(rate * first):
+    prairie.advance(1 / rate)
+
+
+def digest(array):
+    return blake2b(array.tobytes(), digest_size=8).digest()
+
+
+def received():
+    told = {(len(one.place), *one.place[0].tolist(), digest(one.place)): digest(one.message)
+            for _, one in prairie.world.all(Receivers)}
+    table = prairie.field.table
+    for row in (table.alive & table.visible).nonzero()[0]:
+        told["carpet", *table.cell[row].tolist()] = table.message[row].tobytes()
+    return told
+
+
+story = []
+for step in range(count * rate // 30):
+    camera = camera_at(prairie.scene.camera, prairie.time, prairie.height_at)
+    prairie.draw(view_matrix(camera), projection_matrix(camera.view, 16 / 9))
+    if step % (rate // 30) == 0:
+        story.append(received())
+    prairie.advance(1 / rate)
+assert not prairie.winds.quarantine.reasons
+with open(path, "wb") as file:
+    pickle.dump(story, file)
+"""
+FIRST, COUNT = 7, 200
+
+
+@pytest.fixture(scope="module")
+def played(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) -> list[Instants]:
+    """What all receivers held at 200 instants of the storm, in a process that stepped 1/60 s, and in one, 1/30 s."""
+    assert ctx.error == "GL_NO_ERROR"
+    folder = tmp_path_factory.mktemp("storm")
+    runs: list[tuple[Path, subprocess.Popen[str]]] = []
+    for rate in (60, 30):
+        path = folder / f"{rate}.pickle"
+        command = [sys.executable, "-W", "error", "-c", PROGRAM, *map(str, (path, rate, FIRST, COUNT))]
+        settings = os.environ | {"PYTHONHASHSEED": str(rate)}
+        runs.append((path, subprocess.Popen(command, env=settings, stderr=subprocess.PIPE, text=True)))
+    for _, process in runs:
+        _, told = process.communicate(timeout=300)
+        assert process.returncode == 0, told
+    return [pickle.loads(path.read_bytes()) for path, _ in runs]  # noqa: S301 - written just now
+
+
+def test_n5_the_storm_is_the_same_bit_for_bit_whatever_steps_led_to_an_instant(played: list[Instants]) -> None:
+    one, other = played
+    assert len(one) == len(other) == COUNT
+    together = everything = 0
+    for number, (ours, theirs) in enumerate(zip(one, other, strict=True)):
+        common = ours.keys() & theirs.keys()
+        together += len(common)
+        everything += len(ours.keys() | theirs.keys())
+        differing = [key for key in common if ours[key] != theirs[key]]
+        assert not differing, f"at instant {number}: {sorted(differing, key=str)[:5]}"
+    assert together > 0.97 * everything
+
+
+def test_n5_the_storm_goes_on_from_each_instant_to_the_next(played: list[Instants]) -> None:
+    for before, after in zip(played[0], played[0][1:], strict=False):
+        common = before.keys() & after.keys()
+        assert sum(before[key] != after[key] for key in common) > 0.99 * len(common)
