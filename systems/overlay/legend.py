@@ -113,7 +113,8 @@ def _areas(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
 
 def _outline(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
     line = max(2, (box[3] - box[1]) // 6)
-    draw.rectangle(box, (*_bytes(colors[0]), 70), (*_bytes(colors[0]), 255), line)
+    red, green, blue = (0.3 * mark + 0.7 * paper for mark, paper in zip(colors[0], DARK, strict=True))
+    draw.rectangle(box, (*_bytes((red, green, blue)), 255), (*_bytes(colors[0]), 255), line)
 
 
 def _inside(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:

@@ -23,6 +23,9 @@ EDGE = 10.0
 LETTERS = 13.0
 """Size of the legend's letters [pixels of a picture 540 high]."""
 
+ROOM = 0.7
+"""Most that the legend may take of the picture's width and height; small pictures go without."""
+
 MAP = 0.42
 """Side of the map, of the picture's shorter side."""
 
@@ -91,8 +94,8 @@ class Overlay:
             sheet = sheet_for(prairie.field, left=size[0] - edge - side, bottom=size[1] - edge - side, side=side)
             painter.draw(chart(prairie.field, masks, sheet), pixels_onto_clip(size))
         lines = entries(self.parts, masks, prairie.field.quality)
-        if lines:
-            image = legend(tuple(lines), round(LETTERS * scale))
+        image = legend(tuple(lines), round(LETTERS * scale))
+        if image.shape[1] < ROOM * size[0] and image.shape[0] < ROOM * size[1]:
             painter.draw_image(image, round(size[0] - edge) - image.shape[1], round(edge))
 
 

@@ -6,10 +6,9 @@ from numpy.typing import NDArray
 from ...components.quality import Representation
 from ..field import Field
 from ..lod import weights
-from ..see import seen_now
 from ..transition import kept_near
 from .marks import Marks, filled, on_ground, split, stroked, together
-from .paint import BRIGHT, ring_shades
+from .paint import ring_shades
 
 Floats = NDArray[np.float32]
 Rows = NDArray[np.int64]
@@ -19,6 +18,9 @@ FILL = 0.48
 
 INNER = 0.7
 """Opacity of the finer representation's share of it."""
+
+OUTLINED = 20.0
+"""Distance up to which the outlines of changing patches are bright [m]; farther off there are too many."""
 
 GAP = 0.035
 """Width of the gap inside a patch's border, of its side."""
@@ -35,20 +37,21 @@ def shown_level(field: Field, /) -> NDArray[np.int8]:
 
 
 def patch_colors(field: Field, /) -> Floats:
-    """Return the colour of each patch's representation and ring, shape (rows, 3)."""
-    table, quality, here = field.table, field.quality, shown_level(field)
-    color = np.zeros((len(table.alive), 3), np.float32)
-    color[:] = ring_shades(Representation.CARPET, 1)[0]
-    for level, rings in ((Representation.BLADES, quality.blade_rings), (Representation.STRIPS, quality.strip_rings)):
-        shades = ring_shades(level, len(rings))
-        ring = np.minimum(np.searchsorted([ring.to for ring in rings], table.distance), len(rings) - 1)
-        chosen = here == level
-        color[chosen] = shades[ring[chosen]]
-    seen = seen_now(field)
-    for shown, level in ((seen.blades, Representation.BLADES), (seen.strips, Representation.STRIPS)):
-        for shade, ring_shown in zip(ring_shades(level, len(shown)), shown, strict=True):
-            rows = ring_shown.rows[here[ring_shown.rows] == level]
-            color[rows] = shade
+    """Return the colour of each patch's representation, shape (rows, 3).
+
+    Its shade tells the ring, blended where the patch is on its way from one ring to another.
+    """
+    table, here = field.table, shown_level(field)
+    color = np.tile(ring_shades(Representation.CARPET, 1), (len(here), 1))
+    rings = {Representation.BLADES: field.quality.blade_rings, Representation.STRIPS: field.quality.strip_rings}
+    for level, made in rings.items():
+        shades, fold = ring_shades(level, len(made)), int(level == Representation.STRIPS)
+        rows = np.flatnonzero(here == level)
+        part = table.sublevel_progress[level, rows, None]
+        now, before = (
+            shades[np.maximum(ring[level, rows] >> fold, 0)] for ring in (table.sublevel, table.sublevel_before)
+        )
+        color[rows] = before + (now - before) * part
     return color
 
 
@@ -105,11 +108,14 @@ def weight_marks(field: Field, /) -> Marks:
     shades = np.concatenate([ring_shades(level, 1) for level in Representation])
     moving = rows[table.progress[rows] < 1.0]
     around = on_ground(field.terrain, squares(table.cell[moving], patch=field.quality.patch))
+    away = np.linalg.norm(around.mean(axis=1) - np.array(field.sight.eye, np.float32), axis=1)
+    bright = np.ones((len(moving), 4), np.float32)
+    bright[:, 3] = 0.9 * np.minimum(1.0, OUTLINED / np.maximum(away, 1e-3)) ** 2
     return together(
         _tiles(field, rows, shades[coarser], FILL),
         _tiles(field, rows, shades[finer], INNER, part=part),
         stroked(
-            around.reshape(-1, 3), np.roll(around, -1, axis=1).reshape(-1, 3), (*BRIGHT, 0.9), width=1.5
+            around.reshape(-1, 3), np.roll(around, -1, axis=1).reshape(-1, 3), np.repeat(bright, 4, axis=0), width=1.5
         ),
     )  # fmt: skip
 

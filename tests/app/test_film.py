@@ -28,10 +28,13 @@ def test_n5_a_film_lasts_as_long_as_the_path_and_replays_bit_for_bit(tallgrass: 
     assert len({path.read_bytes() for path in first}) == 6
 
 
-def test_a_frame_of_a_still_camera_is_the_shot_of_its_time(tallgrass: Tallgrass, scene: Path) -> None:
+@pytest.mark.parametrize("overlay", [(), ("--overlay", "all")], ids=["plain", "n8_overlay"])
+def test_a_frame_of_a_still_camera_is_the_shot_of_its_time(
+    tallgrass: Tallgrass, scene: Path, overlay: tuple[str, ...]
+) -> None:
     before, _, after = scene.read_text().partition("  path:\n")
     scene.write_text(before + after[after.index("quality:") :])
-    options = ("--size", "96x54")
+    options = ("--size", "96x54", *overlay)
     assert tallgrass("film", scene, "-o", "film/", "--seconds", 1, "--fps", 4, *options).returncode == 0
     assert tallgrass("shot", scene, "-o", "shot.png", "--time", 0.75, *options).returncode == 0
     np.testing.assert_array_equal(pixels(scene.parent / "film" / "00003.png"), pixels(scene.parent / "shot.png"))

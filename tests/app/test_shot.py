@@ -71,3 +71,10 @@ def test_n3_the_reference_is_every_blade_supersampled(take: Take) -> None:
 
 def test_r1_a_preset_takes_the_place_of_the_scenes_quality(take: Take) -> None:
     assert difference(take(), take("--preset", "paper-low")) > 0.5
+
+
+def test_n8_an_overlay_is_laid_over_the_picture(take: Take) -> None:
+    plain, levels = take(), take("--overlay", "levels")
+    assert difference(plain, levels) > 5
+    assert difference(levels, take("--overlay", "levels,map")) > 1
+    np.testing.assert_array_equal(take("--overlay", "map,levels"), take("--overlay", "levels,map"))

@@ -1,10 +1,11 @@
-"""Sizes as people write them."""
+"""Sizes and parts of the overlay as people write them."""
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tallgrass.app.take import LARGEST, parse_size
+from tallgrass.components.overlay import PARTS, parse_parts
 
 sides = st.integers(1, LARGEST)
 
@@ -27,3 +28,18 @@ def test_what_is_no_size_is_told_so(text: str) -> None:
 def test_a_size_beyond_the_limits_is_told_them(text: str) -> None:
     with pytest.raises(ValueError, match="from 1 to 16384 pixels"):
         parse_size(text)
+
+
+@given(st.sets(st.sampled_from(PARTS), min_size=1))
+def test_n8_parts_of_the_overlay_are_named_in_any_order(parts: set[str]) -> None:
+    assert parse_parts(",".join(parts)) == parts
+    assert parse_parts(" , ".join(parts).upper()) == parts
+    assert parse_parts(",".join([*parts, "all"])) == set(PARTS)
+
+
+@pytest.mark.parametrize("text", ["", "mask", "masks,", "masks arrows", "none", "masks,levels,card"])
+def test_n8_what_is_no_part_of_the_overlay_is_told_what_there_is(text: str) -> None:
+    with pytest.raises(
+        ValueError, match="is no part of the overlay; there are masks, arrows, levels, weights, map, and"
+    ):
+        parse_parts(text)

@@ -174,6 +174,39 @@ def test_help_and_statistics_are_shown_and_hidden(walk: "Walk") -> None:
         np.testing.assert_array_equal(seen(walk), plain)
 
 
+def test_n8_f2_shows_how_it_works_part_by_part_and_in_the_end_the_prairie_alone(walk: "Walk") -> None:
+    def shown() -> NDArray[np.uint8]:
+        walk.tell([])
+        return seen(walk)
+
+    plain, before = shown(), []
+    for parts in ({"masks", "arrows"}, {"levels", "weights"}, {"map"}, {"masks", "arrows", "levels", "weights", "map"}):
+        press(walk, "F2")
+        assert walk.overlay.parts == parts
+        picture = shown()
+        assert (picture != plain).any(axis=2).mean() > 0.02
+        assert not any(np.array_equal(picture, other) for other in before)
+        before.append(picture)
+    press(walk, "F2")
+    assert walk.overlay.parts == set()
+    np.testing.assert_array_equal(shown(), plain)
+
+
+def test_n8_the_overlay_goes_on_over_a_scene_that_is_read_again(walk: "Walk") -> None:
+    press(walk, "F2", "F2", "F5")
+    walk.tell([])
+    picture = seen(walk)
+    press(walk, "F2", "F2", "F2")
+    walk.tell([])
+    assert (seen(walk) != picture).any(axis=2).mean() > 0.1
+
+
+def test_n8_a_saved_picture_is_without_the_overlay(walk: "Walk", scene: Path) -> None:
+    press(walk, "F12", "F2", "F12")
+    first, second = (np.asarray(Image.open(scene.parent / f"tallgrass-little-00{k}.png")) for k in (1, 2))
+    np.testing.assert_array_equal(first, second)
+
+
 def test_f_takes_off_and_lands(walk: "Walk") -> None:
     press(walk, "F", "E")
     for _ in range(20):
