@@ -53,6 +53,8 @@ class Shape(Declaration):
             spread = np.ptp(np.array(self.polygon), axis=0)
             if not (spread.min() > 0.05 and spread.max() <= 2000.0):
                 raise DeclarationError("a polygon must be from 0.05 to 2000 m wide and deep", "polygon")
+            if self.outline().deepest <= 0.0:
+                raise DeclarationError("a polygon must hold some ground; this one is too thin", "polygon")
         if self.image is not None and (info.context is None or "folder" in info.context):
             self._loaded = _pictured(self.image, (info.context or {}).get("folder") or Path(), self.width)
         return self
@@ -125,7 +127,8 @@ def _pictured(name: str, folder: Path, width: float) -> Outline:
     except UnidentifiedImageError as error:
         raise DeclarationError(f"'{name}' is no picture", "image") from error
     except (OSError, ValueError, Image.DecompressionBombError) as error:
-        raise DeclarationError(f"the picture '{name}' cannot be used: {error}", "image") from error
+        why = (isinstance(error, OSError) and error.strerror) or error
+        raise DeclarationError(f"the picture '{name}' cannot be used: {why}", "image") from error
 
 
 @lru_cache(maxsize=64)
