@@ -135,6 +135,20 @@ def check(scenes: Annotated[list[str], typer.Argument(metavar="SCENE...", help="
 
 
 @app.command()
+def figures(
+    output: Output,
+    only: Annotated[str | None, typer.Option(metavar="N,...", help="Numbers of some figures, as 6,8.")] = None,
+    size: Size = "960x540",
+    preset: Preset = None,
+) -> None:
+    """Draw the figures of the paper into a folder, with a page index.html that shows them."""
+    pixels = _size(size)
+    from .figures.make import make_figures
+
+    make_figures(output, only=only, size=pixels, preset=preset)
+
+
+@app.command()
 def schema() -> None:
     """Print the JSON Schema of scene files, installed plugins included, for an editor."""
     from .schema import schema

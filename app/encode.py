@@ -60,7 +60,7 @@ def film_writer(output: str, size: tuple[int, int], fps: int, /) -> Callable[[Re
     ending = path.suffix.lower()
     write: Callable[[Reel], None]
     if output.endswith(("/", os.sep)) or path.is_dir() or ending == "":
-        _make_folder(path)
+        make_folder(path)
         return lambda reel: _write_folder(reel, path)
     if ending == ".webp":
         if max(size) > 16383:
@@ -103,7 +103,8 @@ class _Animation(Image.Image):
         return self._at
 
 
-def _make_folder(folder: Path) -> None:
+def make_folder(folder: Path, /) -> None:
+    """Make a folder and those above it; raises InputError, as of `-o`, where it cannot be made or written to."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except FileExistsError as error:
@@ -118,7 +119,7 @@ def _make_folder(folder: Path) -> None:
 
 
 def _make_room(path: Path) -> None:
-    _make_folder(path.parent)
+    make_folder(path.parent)
     if path.is_dir():
         raise InputError(f"-o: {path}: is a folder, not a file")
 

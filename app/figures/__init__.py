@@ -1,0 +1,1 @@
+"""The paper's figures, as this system draws them: `tallgrass figures`."""

@@ -1,0 +1,212 @@
+"""The paper's figures from the command line: every one is drawn, told of on a page, and true to what it shows."""
+
+import re
+import sys
+from html.parser import HTMLParser
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from matplotlib.quiver import Quiver
+from numpy.lib.stride_tricks import sliding_window_view
+from PIL import Image
+
+from tallgrass.app.cli import run
+from tallgrass.app.figures.bending import draw_postures, draw_responses, extreme, gust_profile, kinds
+from tallgrass.app.figures.figure import Detail
+from tallgrass.app.figures.page import index_page
+from tallgrass.app.figures.plot import Panel, look, plate, put_on_paper
+from tallgrass.app.figures.register import FIGURES
+from tallgrass.app.figures.wind import draw_fields, draw_masks, grid, patch_weights, windless
+from tallgrass.components.quality import PRESETS, BladeRing, Quality, StripRing
+from tallgrass.systems.growth.response import grow_response
+from tallgrass.systems.wind.gust import Gust
+from tallgrass.systems.wind.whirlwind import Whirlwind
+
+SMALL = Detail(size=(96, 54), preset="low", dots=360)
+FEW = ("--size", "96x54", "--preset", "low")
+
+
+@pytest.fixture
+def _coarse(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the preset `low` be grown in a moment."""
+    rings = [StripRing(to=5, strips=2, columns=1, sections=1, texel=0.03)]
+    monkeypatch.setitem(
+        PRESETS,
+        "low",
+        Quality(
+            blades=30, models=1, blade_rings=[BladeRing(to=2, segments=2)], strip_rings=rings, carpet_to=12, carpet=8
+        ),
+    )
+
+
+class Page(HTMLParser):
+    """What a page links to, and its text."""
+
+    def __init__(self, html: str) -> None:
+        super().__init__()
+        self.targets: list[str] = []
+        self.ids: list[str] = []
+        self.text = ""
+        self.feed(html)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        told = dict(attrs)
+        self.targets += [target for key in ("href", "src") if (target := told.get(key))]
+        self.ids += [name for key in ("id",) if (name := told.get(key))]
+
+    def handle_data(self, data: str) -> None:
+        self.text += data
+
+
+def drawn(figure: Figure) -> np.ndarray[tuple[int, ...], np.dtype[np.uint8]]:
+    figure.canvas.draw()
+    return np.asarray(figure.canvas.buffer_rgba())  # type: ignore[attr-defined]
+
+
+@pytest.mark.gl
+@pytest.mark.usefixtures("ctx", "_coarse")
+def test_every_figure_is_drawn_and_the_page_shows_all_of_them(tmp_path: Path) -> None:
+    folder = tmp_path / "deep" / "figures"
+    assert run(["figures", "-o", str(folder), *FEW]) == 0
+    page = Page((folder / "index.html").read_text("utf-8"))
+    for target in page.targets:
+        assert target[1:] in page.ids if target.startswith("#") else (folder / target).is_file(), target
+    for each in FIGURES:
+        assert each.file in page.targets
+        assert f"Figure {each.number}: {each.title}." in page.text
+        assert each.shows in page.text
+        with Image.open(folder / each.file) as image:
+            assert np.asarray(image.convert("L")).std() > 5
+            assert image.info["Title"] == f"Figure {each.number}: {each.title}"
+    assert {path.name for path in folder.iterdir()} == {"index.html", *(each.file for each in FIGURES)}
+
+
+def test_the_paper_figures_are_told_of_in_order_and_once() -> None:
+    numbers = [each.number for each in FIGURES]
+    assert numbers == sorted(set(numbers))
+    assert {6, 7, 8, 9, 10, 11, 12} <= set(numbers)
+    for each in FIGURES:
+        assert each.shows.endswith(".")
+        assert each.made.endswith(".")
+
+
+def test_some_figures_are_drawn_alone_and_join_what_is_there(tmp_path: Path) -> None:
+    assert run(["figures", "-o", str(tmp_path), "--only", " 10, 6"]) == 0
+    assert {path.name for path in tmp_path.iterdir()} == {"index.html", "figure-06.png", "figure-10.png"}
+    first = (tmp_path / "figure-10.png").read_bytes()
+    assert run(["figures", "-o", str(tmp_path), "--only", "7"]) == 0
+    page = Page((tmp_path / "index.html").read_text("utf-8"))
+    assert [target for target in page.targets if target.endswith(".png")][::2] == [
+        "figure-06.png", "figure-07.png", "figure-10.png",
+    ]  # fmt: skip
+    assert (tmp_path / "figure-10.png").read_bytes() == first
+
+
+def test_n5_a_figure_is_the_same_file_again_whatever_the_readers_own_style(tmp_path: Path) -> None:
+    with look():
+        put_on_paper(draw_masks(SMALL), tmp_path / "a.png", title="masks")
+    with mpl.rc_context({"lines.linewidth": 9.0, "axes.facecolor": "red"}), look():
+        put_on_paper(draw_masks(SMALL), tmp_path / "b.png", title="masks")
+    assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
+
+
+@pytest.mark.parametrize("only", ["1", "x", "6,", "", "6;8", "-6"])
+def test_a_number_that_is_no_figure_is_told_with_those_there_are(
+    only: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["figures", "-o", str(tmp_path), f"--only={only}"]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith("--only: ")
+    assert ", ".join(str(each.number) for each in FIGURES) in said
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_is_a_file_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "taken").write_text("")
+    assert run(["figures", "-o", str(tmp_path / "taken"), "--only", "6"]) == 2
+    assert re.fullmatch(r"-o: .*taken: is a file, not a folder\n", capsys.readouterr().err)
+
+
+def test_without_matplotlib_a_sentence_says_what_installs_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    assert run(["figures", "-o", str(tmp_path)]) == 1
+    assert capsys.readouterr().err.strip() == "figures are drawn by Matplotlib: pip install 'tallgrass[figures]'"
+
+
+def test_w3_the_blades_of_figure_6_have_the_lengths_of_their_kinds() -> None:
+    with look():
+        figure = draw_postures(SMALL)
+    for axes, kind in zip(figure.axes, kinds().values(), strict=True):
+        length = sum(kind.height) / 2
+        tips = axes.lines[0].get_xydata()
+        assert f"{length:.2f} m" in axes.get_title("left")
+        assert np.hypot(*np.asarray(tips).T).max() == pytest.approx(length, rel=1e-3)
+
+
+def test_w4_figure_8_plots_the_response_of_each_kind() -> None:
+    with look():
+        start, stop, _ = draw_responses(SMALL).axes
+    for name, kind in kinds().items():
+        response = grow_response(kind)
+        for axes, curve, rest in ((start, response.rise, 1.0), (stop, response.fall, 0.0)):
+            line = next(line for line in axes.lines if str(line.get_label()).startswith(f"{name}: "))
+            np.testing.assert_array_equal(line.get_ydata(), curve)
+            np.testing.assert_allclose(np.array(line.get_xdata(), float), response.step * np.arange(len(curve)))
+            peak = extreme(response, curve, rest=rest)
+            assert peak.index == (curve.max() if rest else curve.min())
+            assert str(line.get_label()).endswith(f"{abs(peak.index):.2f} at {peak.time:.2f} s")
+
+
+def test_w6_the_profile_of_a_gust_is_the_response_read_along_its_way() -> None:
+    response = grow_response(kinds()["barley"])
+    gust = Gust(speed=8.0, hold=4.0, tail=3.0, strength=0.5, ragged=0.0)
+    elapsed = np.linspace(0.0, 3.5, 50, dtype=np.float32)
+    expected = 0.5 * np.interp(elapsed, response.step * np.arange(len(response.rise)), response.rise)
+    np.testing.assert_allclose(gust_profile(response, gust, 8.0 * elapsed), expected, atol=2e-3)
+    assert gust_profile(response, gust, np.array([-0.1, -5.0], np.float32)).tolist() == [0.0, 0.0]
+
+
+def test_figure_7_weighs_patches_by_the_ground_that_a_mask_holds() -> None:
+    prairie = windless()
+    prairie.add(Whirlwind(radius=6.0, soft=0.0))
+    (wind,) = prairie.winds.now(1.0)
+    middle = grid((-10.0, 10.0), (-10.0, 10.0), 2.5)
+    weight = patch_weights(wind, middle, patch=2.5, time=1.0)
+    prairie.release()
+    away = np.hypot(*middle.T)
+    assert (weight[away < 6.0 - 1.8] == 1.0).all()
+    assert (weight[away > 6.0 + 1.8] == 0.0).all()
+    assert weight.sum() * 2.5**2 == pytest.approx(np.pi * 36.0, rel=0.03)
+
+
+def test_figure_10_names_every_built_in_wind_and_draws_its_arrows() -> None:
+    with look():
+        figure = draw_fields(SMALL)
+    panels = figure.axes[:4]
+    assert [axes.get_title("left")[4:] for axes in panels] == ["breeze", "gust", "whirlwind", "blast"]
+    for axes in panels:
+        (arrows,) = (each for each in axes.collections if isinstance(each, Quiver))
+        assert np.size(arrows.U) > 40
+        assert np.hypot(arrows.U, arrows.V).max() <= 1.0 + 1e-6
+
+
+def test_rendered_pictures_are_put_on_paper_pixel_for_pixel() -> None:
+    random = np.random.default_rng(3)
+    pictures = random.integers(0, 256, (2, 20, 60, 3)).astype(np.uint8)
+    with look():
+        page = drawn(plate([[Panel(picture, "text") for picture in pictures]]))[..., :3]
+    for picture in pictures:
+        windows = sliding_window_view(page, picture.shape)
+        assert (windows == picture).all(axis=(3, 4, 5)).sum() == 1
+
+
+def test_the_page_needs_nothing_from_elsewhere_and_escapes_what_it_says() -> None:
+    html = index_page(FIGURES)
+    assert not re.search(r"https?://|//[a-z]|@import|url\(", html)
+    assert "prefers-color-scheme: dark" in html
+    assert html.count("<figure ") == len(FIGURES)
