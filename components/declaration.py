@@ -25,10 +25,13 @@ class DeclarationError(ValueError):
         self.where = where
 
 
-Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
+Number = Annotated[float, Field(ge=-1e6, le=1e6)]
+"""One number of several; a million metres leave single precision room to compute with."""
+
+Pair = Annotated[list[Number], Field(min_length=2, max_length=2)]
 """Two numbers; a list rather than a tuple, because schema readers of draft 7 know its length limits."""
 
-Triple = Annotated[list[float], Field(min_length=3, max_length=3)]
+Triple = Annotated[list[Number], Field(min_length=3, max_length=3)]
 """Three numbers."""
 
 Color = Annotated[str, Field(pattern=r"^#[0-9a-fA-F]{6}$")]

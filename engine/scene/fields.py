@@ -46,9 +46,9 @@ def field_at(root: Node, where: Where, /, *, find: FindKind) -> Field:
     field, entry, node = Field("the scene", Scene, model=Scene), False, root
     for step in where:
         if isinstance(step, int):
-            field = _inside(field, f"item {step + 1} of {field.name}")
+            field = inside(field, f"item {step + 1} of {field.name}")
         elif entry:
-            field, entry = _inside(field, step), False
+            field, entry = inside(field, step), False
         elif field.model is not None and step in field.model.model_fields:
             field = _declared(step, field.model.model_fields[step])
             entry = get_origin(field.annotation) is dict
@@ -64,7 +64,7 @@ def _declared(name: str, info: FieldInfo) -> Field:
     return Field(name, annotation, limits, info.description or "", _model(annotation))
 
 
-def _inside(field: Field, name: str) -> Field:
+def inside(field: Field, name: str, /) -> Field:
     """Return the field of an item of a list, or of an entry of a mapping whose keys are free."""
     inner = get_args(field.annotation)
     annotation, limits = _bare(inner[-1]) if inner else (field.annotation, ())

@@ -3,12 +3,12 @@
 import re
 from collections.abc import Callable, Iterable
 from difflib import get_close_matches
-from typing import Any, get_args
+from typing import Any
 
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-from .fields import Field
+from .fields import Field, inside
 
 _WANTED = {
     "float_type": "a number",
@@ -112,7 +112,7 @@ def _number(value: float) -> str:
 def _list(field: Field) -> str:
     limits = _limits(field)
     least, most = limits.get("min_length", 0), limits.get("max_length")
-    things = "numbers" if get_args(field.annotation)[:1] in ((int,), (float,)) else "entries"
+    things = "numbers" if inside(field, "").annotation in (int, float) else "entries"
     if least == most:
         return f"a list of {least} {things}"
     return f"a list of {least} to {most} {things}" if most else "a list"
