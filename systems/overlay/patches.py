@@ -43,9 +43,9 @@ def patch_colors(field: Field, /) -> Floats:
     """
     table, here = field.table, shown_level(field)
     color = np.tile(ring_shades(Representation.CARPET, 1), (len(here), 1))
-    rings = {Representation.BLADES: field.quality.blade_rings, Representation.STRIPS: field.quality.strip_rings}
-    for level, made in rings.items():
-        shades, fold = ring_shades(level, len(made)), int(level == Representation.STRIPS)
+    rings = len(field.quality.blade_rings), len(field.quality.strip_rings)
+    for level, count in zip((Representation.BLADES, Representation.STRIPS), rings, strict=True):
+        shades, fold = ring_shades(level, count), int(level == Representation.STRIPS)
         rows = np.flatnonzero(here == level)
         part = table.sublevel_progress[level, rows, None]
         now, before = (

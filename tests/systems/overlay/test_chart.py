@@ -75,7 +75,7 @@ def holds(corners: Any, place: Any) -> bool:
     """Whether a triangle holds a place."""
     a, b, c = corners.astype(float)
     sides = [(q - p)[0] * (place - p)[1] - (q - p)[1] * (place - p)[0] for p, q in ((a, b), (b, c), (c, a))]
-    return min(sides) >= 0.0 or max(sides) <= 0.0
+    return bool(min(sides) >= 0.0 or max(sides) <= 0.0)
 
 
 def test_n8_the_view_cone_starts_at_the_viewer_and_ends_at_the_border(field: Field, sheet: Sheet) -> None:

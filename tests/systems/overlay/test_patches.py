@@ -20,7 +20,7 @@ Look = Callable[..., Any]
 def cells_of(marks: Marks, patch: float) -> NDArray[np.int64]:
     """The cell under each square of two triangles."""
     middle = marks.shapes["place"].reshape(-1, 6, 3).mean(axis=1)[:, ::2]
-    return np.floor(middle / patch).astype(np.int64)
+    return np.asarray(np.floor(middle / patch), np.int64)
 
 
 def looked_at(laid: Laid, look: Look) -> Field:
@@ -97,3 +97,12 @@ def test_n8_a_patch_with_one_representation_has_no_weight_to_show(laid: Laid, lo
     settled = cells_of(level_marks(field, settled=True), field.quality.patch).tolist()
     assert table.cell[row].tolist() not in settled
     assert all(cell in settled for cell in near)
+
+
+def test_n8_a_ring_that_is_changing_has_a_shade_between(laid: Laid, look: Look) -> None:
+    field = looked_at(laid, look)
+    row = int(np.flatnonzero(field.table.visible & (field.table.distance == 1))[0])
+    field.table.sublevel[0, row], field.table.sublevel_before[0, row] = 1, 0
+    field.table.sublevel_progress[0, row] = 0.25
+    near, far = ring_shades(Representation.BLADES, 2)
+    np.testing.assert_allclose(patch_colors(field)[row], near + 0.25 * (far - near), atol=1e-6)
