@@ -16,7 +16,7 @@ from ..components.overlay import PARTS, Part, parse_parts
 from ..components.scene import LodName, PresetName
 from ..engine.camera import parse_camera
 from .errors import InputError, MachineError
-from .take import LARGEST, SAMPLES, Take, parse_size
+from .take import LARGEST, SAMPLES, Take, parse_frames, parse_size
 
 app = typer.Typer(
     help="Grow, animate and draw whole prairies in real time.",
@@ -26,6 +26,8 @@ app = typer.Typer(
 )
 bench = typer.Typer(help="Measure: how long a frame takes, how true it is, and whether it pops.", no_args_is_help=True)
 app.add_typer(bench, name="bench")
+plugins = typer.Typer(help="Kinds of wind that other packages bring.", no_args_is_help=True)
+app.add_typer(plugins, name="plugins")
 
 Scene = Annotated[str, typer.Argument(metavar="SCENE", help="A scene file, or the name of a bundled scene.")]
 Size = Annotated[str, typer.Option(metavar="WxH", help="Width and height in pixels.")]
@@ -117,13 +119,17 @@ def film(
     *,
     reference: Reference = False,
     overlay: Laid = None,
+    frames: Annotated[
+        str | None, typer.Option(metavar="A:B", help="Only frame A to the one before B of the whole film.")
+    ] = None,
 ) -> None:
     """Film a scene along its camera's path, without a window: .webp, .gif, .mp4, or a folder of pictures."""
+    span = _frames(frames)
     laid = _overlay(overlay, reference=reference)
     take = Take(scene, _size(size, reference=reference), preset, reference=reference, overlay=laid)
     from .film import film
 
-    film(take, output, seconds=seconds, fps=fps)
+    film(take, output, seconds=seconds, fps=fps, frames=span)
 
 
 @app.command()
@@ -198,6 +204,33 @@ def pop(
     return bench_pop(scene, preset=preset, size=pixels, json=json, parts=parts)
 
 
+@plugins.command("list")
+def list_(*, json: Json = False) -> None:
+    """Tell every kind of wind, who brings it, and whether it can be used."""
+    from .plugins import list_plugins
+
+    list_plugins(json=json)
+
+
+@plugins.command("check")
+def check_(name: Annotated[str, typer.Argument(metavar="NAME", help="A kind of wind.")]) -> int:
+    """Tell every problem of a kind of wind: its fields, and what it answers all along its timeline."""
+    from .plugins import check_plugin
+
+    return check_plugin(name)
+
+
+@plugins.command("new")
+def new(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="The kind of wind, as scenes will call it.")],
+    output: Annotated[str | None, typer.Option("-o", "--output", help="A new folder; by default NAME.")] = None,
+) -> None:
+    """Begin a plugin: an installable package with one kind of wind that works, and its test."""
+    from .plugins import new_plugin
+
+    new_plugin(name, output)
+
+
 def _print_version(wanted: bool) -> None:  # noqa: FBT001 - typer passes it by place
     if wanted:
         print(f"tallgrass {__version__}")
@@ -233,6 +266,13 @@ def _overlay(text: str | None, *, reference: bool = False) -> frozenset[Part]:
         return parse_parts(text)
     except ValueError as error:
         raise InputError(f"--overlay: {error}") from None
+
+
+def _frames(text: str | None) -> tuple[int, int | None]:
+    try:
+        return (0, None) if text is None else parse_frames(text)
+    except ValueError as error:
+        raise InputError(f"--frames: {error}") from None
 
 
 def _camera(text: str) -> Camera:

@@ -1,0 +1,51 @@
+"""Wind plugins at the command line: what is installed, whether one keeps to the rules, and how to begin one."""
+
+import shlex
+from dataclasses import asdict
+from json import dumps
+from pathlib import Path
+
+from ..engine.plugins import PluginError, wind_kinds
+from ..testing import wind_problems
+from .scaffold import scaffold
+
+
+def list_plugins(*, json: bool = False) -> None:
+    """Print every kind of wind, who brings it, and whether it can be used; nothing is imported for it."""
+    rows = wind_kinds().provided()
+    if json:
+        print(dumps([asdict(row) for row in rows], indent=2))
+        return
+    table = [("kind", "distribution", "version", "status")]
+    table += [(row.kind, row.distribution, row.version, row.status) for row in rows]
+    widths = [max(len(line[column]) for line in table) for column in range(3)]
+    for line in table:
+        cells = [cell.ljust(width) for cell, width in zip(line, widths, strict=False)]
+        print("  ".join([*cells, line[3]]))
+
+
+def check_plugin(kind: str) -> int:
+    """Print every problem of a kind of wind with its defaults, or that it is ok.
+
+    Returns the exit status: 0 when it is ok, 2 otherwise.
+    """
+    try:
+        primitive = wind_kinds().find(kind)
+    except PluginError as error:
+        print(error)
+        return 2
+    problems = wind_problems(primitive)
+    default = primitive.model_fields["kind"].default
+    if isinstance(default, str) and default != kind:
+        problems.append(f"the field 'kind' defaults to '{default}', but the entry point is called '{kind}'")
+    for line in problems or ["ok"]:
+        print(f"{kind}: {line}")
+    return 2 if problems else 0
+
+
+def new_plugin(kind: str, folder: str | None) -> None:
+    """Write a new plugin into a folder, by default one called like its kind, and say what comes next."""
+    place = Path(folder or kind)
+    for file in scaffold(kind, place):
+        print(file)
+    print(f"next: pip install -e {shlex.quote(str(place))} && tallgrass plugins check {kind}")
