@@ -13,6 +13,9 @@ RIPPLE = 0.45
 PACES = 2.0 * np.pi * np.array([1.3, 0.9, 2.1], np.float32)
 """How fast blades swing: along x, along z, and a second time along x [rad/s]."""
 
+APART = 1.5
+"""Half turns by which blades are ahead or behind at most: so many that the field as a whole does not sway in step."""
+
 
 def flutter(place: Floats, /, *, time: float, seed: int) -> Floats:
     """Return the oscillations at ground positions (n, 2) at `time` [s], for a swing of 1, shape (n, 2).
@@ -21,6 +24,6 @@ def flutter(place: Floats, /, *, time: float, seed: int) -> Floats:
     the ground, so that a wind that passes does not drag it along.
     """
     ripple = smooth_noise(noise_table(seed, 1), place / np.float32(RIPPLE))
-    beat = np.sin(np.float32(np.pi) * ripple[:, :3] + np.float32(np.mod(PACES * np.float64(time), 2.0 * np.pi)))
+    beat = np.sin(np.float32(APART * np.pi) * ripple[:, :3] + np.float32(np.mod(PACES * np.float64(time), 2.0 * np.pi)))
     own = np.float32(0.6) + np.float32(0.4) * ripple[:, 3]
     return np.stack([own * (beat[:, 0] + np.float32(0.5) * beat[:, 2]), own * beat[:, 1]], axis=1)

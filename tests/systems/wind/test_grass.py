@@ -15,7 +15,10 @@ Answer = Callable[..., Grass]
 
 
 def simulated(response: Response, curve: NDArray[Any], elapsed: NDArray[np.float32]) -> NDArray[np.float64]:
-    return np.interp(elapsed.astype(float), np.arange(len(curve)) * float(response.step), curve.astype(float))
+    index: NDArray[np.float64] = np.interp(
+        elapsed.astype(float), np.arange(len(curve)) * float(response.step), curve.astype(float)
+    )
+    return index
 
 
 @given(kind=st.integers(0, 1), elapsed=st.lists(st.floats(-5.0, 60.0, width=32), min_size=1, max_size=30))

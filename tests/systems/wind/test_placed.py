@@ -31,7 +31,8 @@ def heading(blast: Blast, time: float) -> float:
 
 def test_w9_without_a_path_it_is_where_it_is_put() -> None:
     pose = Blast(position=[3.0, -4.0], yaw=30.0).pose(time=77.0)
-    assert (pose.x, pose.z, degrees(pose.yaw)) == (3.0, -4.0, pytest.approx(30.0))
+    assert (pose.x, pose.z) == (3.0, -4.0)
+    assert degrees(pose.yaw) == pytest.approx(30.0)
 
 
 def test_w9_on_a_path_it_is_at_each_point_at_its_time_and_waits_before_and_after() -> None:
@@ -58,7 +59,9 @@ def test_w9_its_heading_is_the_direction_it_moves_in(steps: list[tuple[float, fl
     time = float(times[0] + part * (times[-1] - times[0]))
     before, now, after = (blast.pose(time=time + off) for off in (-0.01, 0.0, 0.01))
     moved = np.array([after.x - before.x, after.z - before.z])
-    if np.linalg.norm(moved) > 0.02:
+    leg = int(np.searchsorted(times, time)) - 1
+    rests = steps[leg][1:] == steps[leg + 1][1:]
+    if np.linalg.norm(moved) > 0.02 and not rests and np.abs(times - time).min() > 0.06:
         ahead = np.array([np.sin(now.yaw), -np.cos(now.yaw)])
         assert ahead @ moved / np.linalg.norm(moved) > 0.9
 
