@@ -70,17 +70,21 @@ def thinned(
     return chosen, np.minimum(apart, np.float32(LONGEST) * away)[chosen]
 
 
-def arrows(place: Floats, message: Floats, longest: Floats, terrain: Terrain, /) -> Marks:
+def arrows(
+    place: Floats, message: Floats, longest: Floats, terrain: Terrain, /, *, eye: tuple[float, float, float]
+) -> Marks:
     """Return arrows on the ground from places (n, 2) along messages (n, 2): the index is their length and colour.
 
-    `longest` is the length of an arrow of index 1 [m], shape (n,).
+    `longest` is the length of an arrow of index 1 [m], shape (n,). Their heads are turned to the eye: on ground that is
+    seen at a grazing angle, flat ones would be mere lines.
     """
-    run = message * longest[:, None]
-    tip = place + run
-    aside = np.stack([-run[:, 1], run[:, 0]], axis=1) * np.float32(HEAD * SPREAD)
+    foot, tip = on_ground(terrain, place), on_ground(terrain, place + message * longest[:, None])
+    run = tip - foot
+    aside = np.cross(run, np.asarray(eye, np.float32) - tip)
+    wide = np.linalg.norm(run, axis=1) / np.maximum(np.linalg.norm(aside, axis=1), 1e-6)
+    aside *= (HEAD * SPREAD * wide)[:, None].astype(np.float32)
     barb = tip - np.float32(HEAD) * run
-    starts = on_ground(terrain, np.concatenate([place, barb + aside, barb - aside]))
-    ends = on_ground(terrain, np.concatenate([tip, tip, tip]))
+    starts, ends = np.concatenate([foot, barb + aside, barb - aside]), np.concatenate([tip, tip, tip])
     color = np.ones((3 * len(place), 4), np.float32)
     color[:, :3] = np.tile(index_color(np.hypot(message[:, 0], message[:, 1])), (3, 1))
     return together(
@@ -94,4 +98,4 @@ def arrow_marks(field: Field, /) -> Marks:
     place, message = felt(field)
     height, slope = height_at(field.terrain, place), slope_at(field.terrain, place)
     rows, longest = thinned(place, height, slope, eye=field.sight.eye)
-    return arrows(place[rows], message[rows], longest, field.terrain)
+    return arrows(place[rows], message[rows], longest, field.terrain, eye=field.sight.eye)

@@ -26,22 +26,24 @@ def test_n8_an_arrow_has_its_messages_direction_and_length(many: list[tuple[floa
     angle, index = np.array(many, np.float32).T
     message = np.stack([np.cos(angle), np.sin(angle)], axis=1) * index[:, None]
     place = np.arange(2 * len(many), dtype=np.float32).reshape(-1, 2)
-    marks = arrows(place, message, np.full(len(many), 2.0, np.float32), FLAT)
+    marks = arrows(place, message, np.full(len(many), 2.0, np.float32), FLAT, eye=(3.0, 9.0, 2.0))
     core = marks.lines[len(marks.lines) // 2 :][: len(many)]
     np.testing.assert_allclose(core["a"][:, ::2], place, atol=1e-5)
     np.testing.assert_allclose((core["b"] - core["a"])[:, ::2], 2.0 * message, atol=1e-4)
     np.testing.assert_allclose(core["color"][:, :3], index_color(index), atol=1e-4)
 
 
-def test_n8_an_arrows_head_is_at_its_tip() -> None:
-    marks = arrows(
-        np.zeros((1, 2), np.float32), np.array([[0.8, 0.0]], np.float32), np.ones(1, np.float32), FLAT
-    )  # fmt: skip
-    _, left, right = marks.lines[3:]
-    for barb, side in ((left, 1.0), (right, -1.0)):
+@pytest.mark.parametrize("eye", [(0.0, 50.0, 0.0), (0.0, 0.3, 50.0), (-20.0, 5.0, -20.0)])
+def test_n8_an_arrows_head_is_at_its_tip_and_turned_to_the_eye(eye: tuple[float, float, float]) -> None:
+    message, longest = np.array([[0.8, 0.0]], np.float32), np.ones(1, np.float32)
+    _, left, right = arrows(np.zeros((1, 2), np.float32), message, longest, FLAT, eye=eye).lines[3:]
+    apart = (left["a"] - right["a"]).astype(float)
+    for barb in (left, right):
         np.testing.assert_allclose(barb["b"][::2], [0.8, 0.0], atol=1e-6)
         assert 0.4 < barb["a"][0] < 0.6
-        assert barb["a"][2] * side > 0.05
+    assert np.linalg.norm(apart) == pytest.approx(0.8 * 2 * 0.36 * 0.45, rel=1e-3)
+    assert apart[0] == pytest.approx(0.0, abs=1e-6)
+    assert apart @ (np.array(eye) - left["b"]) == pytest.approx(0.0, abs=1e-4)
 
 
 def test_n8_the_index_is_read_from_the_colour() -> None:
