@@ -38,6 +38,9 @@ class Reel:
     about: Mapping[str, str]
     """What the film says of itself: `seed`, `scene`, `version` and the like."""
 
+    first: int = 0
+    """The number of its first frame, which shows the time `first / fps` [s]."""
+
 
 def picture_writer(output: str, /) -> Callable[[Picture, Mapping[str, str]], None]:
     """Return what writes a picture to `output` as PNG, with text entries that say how it was made.
@@ -133,7 +136,7 @@ def _write_png(picture: Picture, path: Path, about: Mapping[str, str]) -> None:
 
 
 def _write_folder(reel: Reel, folder: Path) -> None:
-    for number, picture in enumerate(reel.frames):
+    for number, picture in enumerate(reel.frames, reel.first):
         _write_png(picture, folder / f"{number:05d}.png", {**reel.about, "time": f"{number / reel.fps:.6g}"})
 
 
@@ -146,7 +149,7 @@ def _write_webp(reel: Reel, path: Path) -> None:
 
 
 def _write_gif(reel: Reel, path: Path) -> None:
-    ticks = [round(100.0 * k / reel.fps) for k in range(reel.count + 1)]
+    ticks = [round(100.0 * k / reel.fps) for k in range(reel.first, reel.first + reel.count + 1)]
     durations = [10 * (after - before) for before, after in pairwise(ticks)]
     comment = _sentence(reel.about).encode()
     with _whole(path) as part:
@@ -170,6 +173,12 @@ def _ffmpeg() -> ModuleType:
         return importlib.import_module("imageio_ffmpeg")
     except ImportError:
         raise MachineError("an .mp4 is written by ffmpeg: pip install 'tallgrass[video]', or choose .webp") from None
+
+
+def write_whole(text: str, path: Path, /) -> None:
+    """Write a text file, which takes the place of another only once it is whole."""
+    with _whole(path) as part:
+        part.write_text(text, "utf-8")
 
 
 def _sentence(about: Mapping[str, str]) -> str:

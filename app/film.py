@@ -3,6 +3,8 @@
 from collections.abc import Iterator
 
 from .encode import Picture, Reel, film_writer
+from .errors import InputError
+from .manifest import Manifest, Span
 from .progress import busy, counted
 from .studio import Studio, about
 from .take import Take
@@ -10,20 +12,37 @@ from .take import Take
 STILL_SECONDS = 8.0
 """How long a film is whose camera has no path [s]."""
 
+Frames = tuple[int, int | None]
+"""The first frame, and the one after the last; None is the film's end."""
 
-def film(take: Take, output: str, *, seconds: float | None = None, fps: int = 24) -> None:
-    """Film a scene from its time 0 on: frame k shows the time k / fps [s].
 
-    Without `seconds` it lasts as long as the camera's path. Frames are drawn as they are written. Raises InputError
-    where `output` cannot hold such a film, `SceneError` where the scene is wrong.
+def film(take: Take, output: str, *, seconds: float | None = None, fps: int = 24, frames: Frames = (0, None)) -> None:
+    """Film a scene from its time 0 on: frame k shows the time k / fps [s]. A manifest stands beside the film.
+
+    Without `seconds` it lasts as long as the camera's path. Of `frames` only these are drawn; they are those of the
+    whole film byte for byte, so that several machines can share it. Frames are drawn as they are written. Raises
+    InputError where `output` cannot hold such a film or the film has no such frames, `SceneError` where the scene is
+    wrong.
     """
     write = film_writer(output, take.size, fps)
     with busy("growing the prairie"):
         studio = Studio(take)
     with studio:
-        count = max(1, round((_length(studio) if seconds is None else seconds) * fps))
-        frames = counted(_frames(studio, count, fps), total=count, doing="filming")
-        write(Reel(frames, count, fps, about(studio.prairie, take)))
+        span = _span(studio, seconds, fps, frames)
+        manifest, count = Manifest(span), span.end - span.first
+        drawn = counted(_frames(studio, span), total=count, doing="filming")
+        told = {**about(studio.prairie, take), "time": f"{span.first / fps:.6g}"}
+        write(Reel(manifest.noted(drawn), count, fps, told, span.first))
+        renderer = str(studio.ctx.info["GL_RENDERER"])
+        manifest.write(output, studio.prairie, take, renderer=renderer)
+
+
+def _span(studio: Studio, seconds: float | None, fps: int, frames: Frames) -> Span:
+    count = max(1, round((_length(studio) if seconds is None else seconds) * fps))
+    first, end = frames
+    if first >= count or (end or 0) > count:
+        raise InputError(f"--frames: {first}:{end or ''}: the film has the frames 0:{count}")
+    return Span(first, count if end is None else end, count, fps)
 
 
 def _length(studio: Studio) -> float:
@@ -31,8 +50,11 @@ def _length(studio: Studio) -> float:
     return path[-1].at if path and path[-1].at > 0.0 else STILL_SECONDS
 
 
-def _frames(studio: Studio, count: int, fps: int) -> Iterator[Picture]:
-    for number in range(count):
-        time = number / fps
+def _frames(studio: Studio, span: Span) -> Iterator[Picture]:
+    for number in range(span.end):
+        time = number / span.fps
         studio.prairie.advance(time - studio.prairie.time)
-        yield studio.picture(studio.camera(time))
+        if number < span.first:
+            studio.follow(studio.camera(time))
+        else:
+            yield studio.picture(studio.camera(time))

@@ -66,6 +66,10 @@ class Studio:
         """Return what has been drawn."""
         return self._offscreen.read()
 
+    def follow(self, camera: Camera) -> None:
+        """Let the prairie go through this instant as `picture` does, without one."""
+        self.prairie.follow(*self.matrices(camera))
+
     def picture(self, camera: Camera) -> Picture:
         """Return what the camera sees at this instant of the prairie."""
         view, projection = self.matrices(camera)

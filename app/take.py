@@ -45,3 +45,17 @@ def parse_size(text: str, /) -> tuple[int, int]:
     if not (1 <= width <= LARGEST and 1 <= height <= LARGEST):
         raise ValueError(f"{text!r}: each side must be from 1 to {LARGEST} pixels")
     return width, height
+
+
+def parse_frames(text: str, /) -> tuple[int, int | None]:
+    """Return the first frame, and the one after the last, written as `A:B`, `A:` or `:B`; None is the film's end.
+
+    Raises ValueError with a sentence that says what is wrong.
+    """
+    match = re.fullmatch(r"([0-9]{0,9}):([0-9]{0,9})", text.strip())
+    if match is None:
+        raise ValueError(f"{text!r} is not a range of frames like 100:130")
+    first, end = int(match[1] or 0), int(match[2]) if match[2] else None
+    if end is not None and end <= first:
+        raise ValueError(f"{text!r}: there is no frame from {first} to before {end}")
+    return first, end

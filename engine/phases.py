@@ -43,9 +43,11 @@ class Schedule:
         self.systems.append((phase, name, system))
         self.systems.sort(key=lambda row: row[0])
 
-    def run(self) -> None:
-        """Run every system once, in order."""
-        for _, name, system in self.systems:
+    def run(self, *, last: Phase = Phase.DRAW) -> None:
+        """Run every system up to the `last` phase once, in order."""
+        for phase, name, system in self.systems:
+            if phase > last:
+                break
             start = perf_counter()
             system()
             self.milliseconds[name] = 1000.0 * (perf_counter() - start)

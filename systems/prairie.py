@@ -179,6 +179,17 @@ class Prairie:
         self.painter.draw(seen)
         self._count(1000.0 * (perf_counter() - start))
 
+    def follow(self, view: object, projection: object) -> None:
+        """Follow a viewer for a frame as `draw` does, without drawing it and without any GL.
+
+        Patches come, go and change their representation as they would have, so that a film can start in its middle.
+        The matrices are those of `draw`, and it raises the same errors.
+        """
+        if self._released:
+            raise RuntimeError("this prairie has been released: load it again to follow a viewer")
+        self._look(view_of(view, projection))
+        self._schedule.run(last=Phase.SEE)
+
     def _look(self, seen: View) -> None:
         sight, patch, eye = self.field.sight, self.field.quality.patch, eye_of(seen)
         sight.way = float(np.hypot(eye[0] - sight.eye[0], eye[2] - sight.eye[2]))
@@ -285,8 +296,10 @@ class Prairie:
         assert self._seen is not None
         field, table, sight, patch = self.field, self.field.table, self.field.sight, self.field.quality.patch
         middles = (table.cell + np.float32(0.5)) * np.float32(patch)
-        near = inside_cone(middles, apex=(sight.eye[0], sight.eye[2]), cone=sight.cone, radius=2.0 * patch)
+        radius = 2.0 * patch + field.sway
+        near = inside_cone(middles, apex=(sight.eye[0], sight.eye[2]), cone=sight.cone, radius=radius)
         rows = np.flatnonzero(table.alive & near)
+        table.message[:] = 0.0  # what is seen of a frame follows from it alone, not from where one looked before
         hear = partial(self.winds.heard, time=self.time)
         self.statistics.receivers = len(blow(field, self._seen.standing, self._seen.strips, hear, carpet=rows))
 

@@ -1,5 +1,7 @@
 """Films from the command line."""
 
+import hashlib
+import json
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -46,3 +48,77 @@ def test_a_film_is_one_moving_picture(tallgrass: Tallgrass, scene: Path, options
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
     with Image.open(scene.parent / "a.webp") as film:
         assert (film.size, getattr(film, "n_frames", 1)) == ((48, 28), 3)
+
+
+PATH = """
+    - { at: 0, position: [0, 22], pitch: -18 }
+    - { at: 2, position: [3, 8], pitch: -18, yaw: 40 }
+    - { at: 4, position: [-9, -6], pitch: -18, yaw: 100 }
+"""
+WINDS = """
+  - { kind: gust, position: [-20, 0], speed: 9, reach: 60, width: 50, every: [1, 2], wander: 10 }
+  - { kind: whirlwind, path: [{ at: 0, position: [-4, 4] }, { at: 3, position: [6, 0] }] }
+  - kind: blast
+    body: saucer
+    outline: { image: ring.png }
+    path: [{ at: 0, position: [9, 0] }, { at: 4, position: [0, 9] }]
+"""
+
+
+@pytest.fixture
+def stormy(scene: Path) -> Path:
+    """A scene with every wind, and a camera that makes patches change all the time."""
+    before, _, after = scene.read_text().partition("  path:\n")
+    before = before.replace("\ncamera:", f"{WINDS.rstrip()}\ncamera:")
+    scene.write_text(before + "  path:" + PATH + after[after.index("quality:") :])
+    ring = np.zeros((32, 32), np.uint8)
+    ring[8:24, 8:24] = 255
+    Image.fromarray(ring).save(scene.parent / "ring.png")
+    return scene
+
+
+def test_n5_a_range_of_frames_is_that_of_the_whole_film_byte_for_byte(tallgrass: Tallgrass, stormy: Path) -> None:
+    folder, options = stormy.parent, ("--fps", 8, "--size", "160x90")
+    assert tallgrass("film", stormy, "-o", "whole/", *options).returncode == 0
+    for span in ("20:26", ":3", "30:"):
+        done = tallgrass("film", stormy, "-o", f"part-{span}/", "--frames", span, *options)
+        assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    whole = {path.name: path.read_bytes() for path in (folder / "whole").iterdir()}
+    assert len(whole) == len(set(whole.values())) == 32
+    for span, numbers in (("20:26", range(20, 26)), (":3", range(3)), ("30:", range(30, 32))):
+        part = {path.name: path.read_bytes() for path in (folder / f"part-{span}").iterdir()}
+        assert part == {name: whole[name] for name in (f"{number:05d}.png" for number in numbers)}
+
+
+def test_n5_a_manifest_says_what_a_film_was_made_from(tallgrass: Tallgrass, stormy: Path) -> None:
+    folder, options = stormy.parent, ("--fps", 4, "--size", "48x28", "--seconds", 1)
+    assert tallgrass("film", stormy, "-o", "a.webp", *options).returncode == 0
+    assert tallgrass("film", stormy, "-o", "part/", "--frames", "1:3", *options).returncode == 0
+    whole, part = (json.loads((folder / name).read_text()) for name in ("a.webp.json", "part.1-3.json"))
+    assert whole["frames"] == {"first": 0, "end": 4, "of": 4}
+    assert part["frames"] == {"first": 1, "end": 3, "of": 4}
+    assert part["pictures"] == whole["pictures"][1:3]
+    assert part["pictures"][0]["time"] == 0.25
+    for row in part["pictures"]:
+        drawn = pixels(folder / "part" / f"{row['frame']:05d}.png")
+        assert hashlib.sha256(drawn.tobytes()).hexdigest() == row["sha256"]
+    for same in ("tallgrass", "scene", "seed", "size", "fps", "quality", "renderer", "files"):
+        assert whole[same] == part[same]
+    assert whole["files"] == {
+        name: hashlib.sha256((folder / name).read_bytes()).hexdigest() for name in (stormy.name, "ring.png")
+    }
+    assert str(folder) not in (folder / "a.webp.json").read_text()
+
+
+@pytest.mark.parametrize(
+    ("span", "told"),
+    [
+        ("3", "--frames: '3' is not a range of frames like 100:130"),
+        ("5:5", "--frames: '5:5': there is no frame from 5 to before 5"),
+        ("4:90", "--frames: 4:90: the film has the frames 0:6"),
+        ("6:", "--frames: 6:: the film has the frames 0:6"),
+    ],
+)
+def test_frames_that_a_film_has_not_are_one_line(tallgrass: Tallgrass, scene: Path, span: str, told: str) -> None:
+    done = tallgrass("film", scene, "-o", "a/", "--frames", span, "--fps", 4, "--size", "96x54")
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", told + "\n")

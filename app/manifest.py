@@ -1,0 +1,115 @@
+"""The manifest of a film: what it was made from, and a hash of each picture, so that parts of it can be told apart."""
+
+import json
+import os
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from hashlib import sha256
+from pathlib import Path
+
+import numpy as np
+
+from .. import __version__
+from ..systems.prairie import Prairie
+from .encode import Picture, write_whole
+from .take import Take
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """Which frames of a whole film are made."""
+
+    first: int
+    """Number of the first one."""
+
+    end: int
+    """Number of the one after the last."""
+
+    of: int
+    """How many the whole film has."""
+
+    fps: int
+    """Frames per second."""
+
+    @property
+    def whole(self) -> bool:
+        """Whether it is all of them."""
+        return (self.first, self.end) == (0, self.of)
+
+
+@dataclass(slots=True)
+class Manifest:
+    """Hashes of pictures, as they pass by."""
+
+    span: Span
+    hashes: list[str] = field(default_factory=list)
+    """SHA-256 of each picture's bytes: sRGB, top row first."""
+
+    def noted(self, frames: Iterable[Picture], /) -> Iterator[Picture]:
+        """Yield the frames, and note the hash of each."""
+        for picture in frames:
+            self.hashes.append(sha256(np.ascontiguousarray(picture).data).hexdigest())
+            yield picture
+
+    def write(self, output: str, prairie: Prairie, take: Take, *, renderer: str) -> None:
+        """Write it beside a film, as JSON: `walk.webp.json`, or of frames 100 to 129 `walk.webp.100-130.json`."""
+        path = Path(output.rstrip("/" + os.sep))
+        part = "" if self.span.whole else f".{self.span.first}-{self.span.end}"
+        told = {**_made_from(prairie, take), "renderer": renderer, **self._pictures()}
+        write_whole(json.dumps(told, indent=1) + "\n", path.with_name(f"{path.name}{part}.json"))
+
+    def _pictures(self) -> dict[str, object]:
+        span = self.span
+        rows = [
+            {"frame": number, "time": round(number / span.fps, 6), "sha256": told}
+            for number, told in enumerate(self.hashes, span.first)
+        ]
+        return {"fps": span.fps, "frames": {"first": span.first, "end": span.end, "of": span.of}, "pictures": rows}
+
+
+def _made_from(prairie: Prairie, take: Take) -> dict[str, object]:
+    return {
+        "tallgrass": __version__,
+        "numpy": np.__version__,
+        "scene": prairie.path.name,
+        "seed": prairie.scene.seed,
+        "files": {name: _hash(path) for name, path in _files(prairie)},
+        "size": list(take.size),
+        "quality": prairie.field.quality.model_dump(mode="json"),
+        "lod": take.lod,
+        "reference": take.reference,
+        "overlay": sorted(take.overlay),
+    }
+
+
+def _files(prairie: Prairie) -> Iterator[tuple[str, Path]]:
+    """Yield the scene file and every file that it names: name as the scene has it, and path."""
+    folder = prairie.path.parent
+    yield prairie.path.name, prairie.path
+    for name in sorted(set(_texts(prairie.scene.model_dump(mode="json")))):
+        path = folder / name
+        if name and _is_file(path):
+            yield name, path
+
+
+def _texts(values: object) -> Iterator[str]:
+    match values:
+        case str():
+            yield values
+        case dict():
+            for value in values.values():
+                yield from _texts(value)
+        case list():
+            for value in values:
+                yield from _texts(value)
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
+def _hash(path: Path) -> str:
+    return sha256(path.read_bytes()).hexdigest()
