@@ -17,7 +17,8 @@ from ..components.quality import PRESETS, Representation
 from ..components.scene import LodName, Scene
 from ..components.transition import SEAMLESS, Transitions
 from ..components.wind import WindPrimitive
-from ..engine.gl.guest import host_context
+from ..engine.gl.guest import host_context, kept, viewport
+from ..engine.gl.homes import Homes
 from ..engine.phases import Phase, Schedule
 from ..engine.scene import LoadedScene, load_maps, read_scene
 from ..engine.terrain.sample import height_at
@@ -97,6 +98,7 @@ class Prairie:
         self.field: Field = lay_out(scene, quality, terrain, density, growths, lod=lod, transitions=transitions)
         self.world = World()
         self.painter: Painter | None = None
+        self._painters = Homes(lambda ctx: Painter(ctx, self.field))
         self.statistics.blades_field = blades_in_field(self.field)
         self._loaded = loaded
         self._preset = preset
@@ -161,13 +163,19 @@ class Prairie:
         in the wind of now: it is the next frame without its changes of representation, to measure those.
 
         Both matrices are 4x4 numpy arrays for column vectors, or `pyglet.math.Mat4`. Raises ValueError for others, and
-        RuntimeError after `release`.
+        RuntimeError after `release` or without a window. Where the viewport has no pixels, nothing happens at all.
         """
         if self._released:
             raise RuntimeError("this prairie has been released: load it again to draw it")
         seen = view_of(view, projection)
-        if self.painter is None:
-            self.painter = Painter(host_context(self._ctx), self.field)
+        with kept():
+            ctx = host_context(self._ctx)
+            if 0 in viewport(ctx)[2:]:
+                return
+            self.painter = self._painters.here(ctx)
+            self._draw(self.painter, seen, held=held)
+
+    def _draw(self, painter: Painter, seen: View, *, held: bool) -> None:
         if held and self._drawn_at is not None:
             self.field.sight.eye, self.field.sight.cone = eye_of(seen), view_cone(seen)
             self._wind()
@@ -176,7 +184,7 @@ class Prairie:
             self._look(seen)
             self._schedule.run()
         start = perf_counter()
-        self.painter.draw(seen)
+        painter.draw(seen)
         self._count(1000.0 * (perf_counter() - start))
 
     def follow(self, view: object, projection: object) -> None:
@@ -234,9 +242,8 @@ class Prairie:
     def release(self) -> None:
         """Give back everything: GL objects and entities. The prairie cannot be drawn afterwards."""
         self._released = True
-        if self.painter is not None:
-            self.painter.release()
-            self.painter = None
+        self._painters.release()
+        self.painter = None
         self.world.release()
 
     def _systems(self) -> Schedule:

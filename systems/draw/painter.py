@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ...components.body import Body
 from ...components.camera import View
-from ...engine.gl.guest import guest
+from ...engine.gl.guest import FIRST_UNIT, guest
 from ...engine.gl.shaders import program
 from ...engine.gl.stream import release_all
 from ..field import Field
@@ -33,7 +33,7 @@ from .textures import (
 NAMES = (
     "postures", "tone", "density", "heights", "images", "shares", "air", "atlas", "ranks", "strips", "edges", "targets",
 )  # fmt: skip
-UNITS = {name: unit for unit, name in enumerate(NAMES)}
+UNITS = {name: unit for unit, name in enumerate(NAMES, FIRST_UNIT)}
 """The texture unit of each sampler."""
 
 OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)

@@ -4,6 +4,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ...engine.gl.guest import FIRST_UNIT
 from ...engine.gl.shaders import program
 from ...engine.gl.stream import Stream, attributes, release_all
 from .marks import LINE, SHAPE, Marks
@@ -65,8 +66,8 @@ class MarkPainter:
             self.sheet = self.ctx.texture((width, height), 4, np.ascontiguousarray(image), alignment=1)
             self.sheet.filter = (moderngl.NEAREST, moderngl.NEAREST)
             self.image = image
-        self.sheet.use(0)
-        self.programs[2]["sheet"] = 0
+        self.sheet.use(FIRST_UNIT)
+        self.programs[2]["sheet"] = FIRST_UNIT
         self.programs[2]["box"] = left, bottom, width, height
         self.arrays[2].render(moderngl.TRIANGLE_STRIP, vertices=4)
 

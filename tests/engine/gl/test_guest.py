@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.engine.gl.guest import UNITS, guest, host_context
+from tallgrass.engine.gl.guest import FIRST_UNIT, guest, host_context
 
 SIZE = (40, 30)
 VERTEX = """#version 330
@@ -165,25 +165,7 @@ def test_d6_the_state_is_given_back_when_drawing_fails(
     assert (picture(host) == 255).all()
 
 
-def test_d6_no_sampler_of_ours_stays_on_the_hosts_textures(ctx: moderngl.Context, host: moderngl.Framebuffer) -> None:
-    texture = ctx.texture((2, 1), 1, b"\x00\xff")
-    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
-    source = "#version 330\nuniform sampler2D t; out vec4 p; void main() { p = texture(t, vec2(0.45, 0.5)); }"
-    program = ctx.program(vertex_shader=VERTEX, fragment_shader=source)
-    array, smooth = ctx.vertex_array(program, []), ctx.sampler(filter=(moderngl.LINEAR, moderngl.LINEAR))
-    for unit in range(UNITS):
-        host.clear()
-        texture.use(unit)
-        program["t"] = unit
-        with guest(ctx):
-            smooth.use(unit)
-        array.render(moderngl.TRIANGLES, 3)
-        assert (picture(host)[..., 0] == 0).all(), f"unit {unit} reads between texels"
-    for thing in (array, program, smooth, texture):
-        thing.release()
-
-
-def test_d6_no_sampler_of_the_hosts_stays_on_a_guests_textures(
+def test_d6_textures_and_samplers_of_the_host_stay_where_they_are_and_off_a_guests(
     ctx: moderngl.Context, host: moderngl.Framebuffer
 ) -> None:
     texture = ctx.texture((2, 1), 1, b"\x00\xff")
@@ -191,13 +173,20 @@ def test_d6_no_sampler_of_the_hosts_stays_on_a_guests_textures(
     source = "#version 330\nuniform sampler2D t; out vec4 p; void main() { p = texture(t, vec2(0.45, 0.5)); }"
     program = ctx.program(vertex_shader=VERTEX, fragment_shader=source)
     array, smooth = ctx.vertex_array(program, []), ctx.sampler(filter=(moderngl.LINEAR, moderngl.LINEAR))
-    for unit in range(UNITS):
+    for unit in range(16):
         smooth.use(unit)
+        texture.use(unit)
     with guest(ctx):
-        texture.use(0)
-        program["t"] = 0
+        texture.use(FIRST_UNIT)
+        program["t"] = FIRST_UNIT
         array.render(moderngl.TRIANGLES, 3)
-    assert (picture(host)[..., 0] == 0).all()
+    assert (picture(host)[..., 0] == 0).all(), "the host's sampler smooths a guest's texture"
+    for unit in range(16):
+        host.clear()
+        program["t"] = unit
+        array.render(moderngl.TRIANGLES, 3)
+        assert (picture(host)[..., 0] > 0).all(), f"the host's sampler or texture is gone from unit {unit}"
+    ctx.clear_samplers(0, 16)
     for thing in (array, program, smooth, texture):
         thing.release()
 
@@ -206,10 +195,22 @@ def test_a_context_that_is_given_is_taken(ctx: moderngl.Context) -> None:
     assert host_context(ctx) is ctx
 
 
-def test_drawing_before_there_is_a_window_is_refused_in_a_sentence() -> None:
-    hidden = SimpleNamespace(screen=SimpleNamespace(size=(1, 1)))
+def test_drawing_before_there_is_a_window_is_refused_in_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+    hidden = SimpleNamespace(canvas=object())
+    loaded = SimpleNamespace(current_context=hidden, _shadow_window=SimpleNamespace(context=hidden))
+    monkeypatch.setitem(sys.modules, "pyglet.gl", loaded)
     with pytest.raises(RuntimeError, match="create the window before the prairie is first drawn"):
-        host_context(hidden)  # type: ignore[arg-type]
+        host_context(None)
+
+
+def test_drawing_without_any_context_is_refused_in_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+    def none() -> moderngl.Context:
+        raise RuntimeError("Cannot detect window with OpenGL support")
+
+    monkeypatch.delitem(sys.modules, "pyglet.gl", raising=False)
+    monkeypatch.setattr(moderngl, "get_context", none)
+    with pytest.raises(RuntimeError, match=r"^there is no GL context .*create the window before"):
+        host_context(None)
 
 
 def test_d6_pyglet_is_never_loaded_for_a_host_that_does_without(
