@@ -1,0 +1,210 @@
+"""One wind for everybody: blades, strips and whoever asks (W1, W5, N1, N4)."""
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass.components.quality import Representation
+from tallgrass.components.receivers import BladePool, StripPool
+from tallgrass.components.terrain import Terrain
+from tallgrass.components.wind import Mixing, WindPrimitive
+from tallgrass.engine.world import World
+from tallgrass.systems.field import Field
+from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.receive import blow
+from tallgrass.systems.see import Seen
+from tallgrass.systems.wind.blast import Blast, Shape
+from tallgrass.systems.wind.blow import Listeners
+from tallgrass.systems.wind.breeze import Breeze
+from tallgrass.systems.wind.gust import Gust
+from tallgrass.systems.wind.whirlwind import Whirlwind
+from tallgrass.systems.winds import Winds
+
+Floats = NDArray[np.float32]
+Laid = Callable[..., Field]
+Look = Callable[..., Seen]
+
+FLAT = Terrain(np.zeros((81, 81), np.float32), 1.0)
+SIDE = 2.5
+BORDER = 7.5
+"""Blades stand up to this x [m] for a viewer at (1, 1), strips beyond."""
+
+WINDS: list[WindPrimitive] = [
+    Breeze(strength=0.4),
+    Gust(position=[-10.0, 1.0], direction=90.0, speed=8.0, width=9.0),
+    Whirlwind(position=[7.8, 1.0], radius=3.0),
+    Blast(position=[7.3, 1.6], outline=Shape(ellipse=[2.0, 3.0]), yaw=40.0),
+]
+CASES = [*([wind] for wind in WINDS), WINDS]
+cases = pytest.mark.parametrize("winds", CASES, ids=[*(wind.kind for wind in WINDS), "all"])
+mixings = pytest.mark.parametrize("mixing", ["priority", "weight"])
+Fielded = tuple[Field, Seen]
+
+
+@pytest.fixture
+def flat(laid: Laid, look: Look) -> Fielded:
+    """A field whose border runs at x = 7.5 m, and what is seen of it."""
+    field = laid(terrain=FLAT)
+    return field, look(field, 1.0, 1.0)
+
+
+def blown(world: World, flat: Fielded, winds: list[WindPrimitive], mixing: Mixing, time: float = 2.6) -> Winds:
+    field, seen = flat
+    object.__setattr__(field, "scene", field.scene.model_copy(update={"mixing": mixing}))
+    made = Winds(world, field)
+    for wind in winds:
+        made.add(wind, wind.kind)
+    blow(field, seen.standing, seen.strips, partial(made.heard, time=time))
+    assert not made.quarantine.reasons
+    return made
+
+
+def slots_at_the_border(flat: Fielded) -> tuple[int, int]:
+    """The slots of two patches that meet at the border: one of blades, one of strips."""
+    (field, seen), cells = flat, flat[0].table.cell
+
+    def slot(rows: NDArray[np.int64], slots: NDArray[np.int64], cell: tuple[int, int]) -> int:
+        (found,) = np.flatnonzero((cells[rows] == cell).all(axis=1))
+        return int(slots[found])
+
+    assert field.table.representation[(cells == (2, 0)).all(axis=1)] == Representation.BLADES
+    assert field.table.representation[(cells == (3, 0)).all(axis=1)] == Representation.STRIPS
+    return (
+        slot(seen.standing.rows, seen.standing.slots, (2, 0)),
+        slot(seen.strips[0].rows, seen.strips[0].slots, (3, 0)),
+    )
+
+
+def put_together(flat: Fielded) -> list[tuple[int, NDArray[np.intp]]]:
+    """Put blades and strip edges in the same places on both sides of the border; return the blades' rows by kind."""
+    field, _ = flat
+    at_blade, at_edge = slots_at_the_border(flat)
+    margin, kind = field.stock.margin, field.blades.kind(np.array([at_blade]))
+    assert margin > 0.05
+    told = []
+    for number in range(len(field.growths)):
+        edges = field.strips[0].place[at_edge, number].reshape(-1, 2)
+        rows = np.flatnonzero(kind == number)[: len(edges)]
+        assert len(rows) == len(edges) >= 9
+        edges[:, 0] = BORDER + np.linspace(-margin, margin, len(edges))
+        edges[:, 1] = np.linspace(0.1, 2.4, len(edges))
+        field.blades.place[at_blade, rows] = edges
+        told.append((number, rows))
+    return told
+
+
+@mixings
+@cases
+def test_w5_a_wind_across_a_border_of_representations_bends_both_sides_alike(
+    world: World, flat: Fielded, winds: list[WindPrimitive], mixing: Mixing
+) -> None:
+    field, _ = flat
+    pairs = put_together(flat)
+    at_blade, at_edge = slots_at_the_border(flat)
+    blown(world, flat, winds, mixing)
+    for number, rows in pairs:
+        blade = field.blades.message[at_blade, rows]
+        edge = field.strips[0].message[at_edge, number].reshape(-1, 2)
+        index, other = np.linalg.norm(blade, axis=1), np.linalg.norm(edge, axis=1)
+        assert index.max() > 0.1
+        np.testing.assert_allclose(index, other, atol=1e-5)
+        swayed = index > 0.0
+        np.testing.assert_allclose(
+            blade[swayed] / index[swayed, None], edge[swayed] / other[swayed, None], atol=1e-5, rtol=0.0
+        )
+
+
+@mixings
+@cases
+def test_n4_what_is_asked_of_the_wind_is_what_receivers_of_that_kind_hold(
+    world: World, flat: Fielded, winds: list[WindPrimitive], mixing: Mixing
+) -> None:
+    field, seen = flat
+    made = blown(world, flat, winds, mixing)
+    pools: list[tuple[BladePool | StripPool, NDArray[np.int64]]] = [(field.blades, seen.standing.slots)]
+    pools += [(pool, ring.slots) for pool, ring in zip(field.strips, seen.strips, strict=True)]
+    for pool, slots in pools:
+        kind = pool.kind(slots)
+        place, message = pool.place[slots].reshape(-1, 2), pool.message[slots].reshape(-1, 2)
+        for number in range(len(field.growths)):
+            felt = made.at(place[kind == number], time=2.6, kind=number)
+            np.testing.assert_array_equal(felt.view(np.uint32), message[kind == number].view(np.uint32))
+
+
+def test_w5_every_receiver_is_as_near_its_patchs_middle_as_is_counted_on(flat: Fielded) -> None:
+    field, seen = flat
+    told: list[Listeners] = []
+
+    def listen(listeners: Listeners) -> Floats:
+        told.append(listeners)
+        return np.zeros_like(listeners.place)
+
+    blow(field, seen.standing, seen.strips, listen, carpet=np.arange(9))
+    (heard,) = told
+    away = np.linalg.norm(heard.place - heard.middle[heard.patch], axis=1)
+    assert away.max() <= heard.radius
+    assert away.max() > 0.5 * heard.radius
+    assert heard.place.dtype == heard.middle.dtype == np.float32
+
+
+def test_n4_a_carpet_hears_what_is_asked_for_in_its_patchs_middle_less_the_small_oscillations(
+    world: World, laid: Laid, look: Look
+) -> None:
+    dense = np.array([[[1.0, 0.1]] * 2, [[0.1, 1.0]] * 2], np.float32)
+    field = laid(terrain=FLAT, dense=dense)
+    seen, rows = look(field, 1.0, 1.0), np.flatnonzero(field.table.alive & field.table.visible)
+    made = Winds(world, field)
+    gust = Gust(position=[-30.0, 0.0], direction=90.0, speed=8.0, width=80.0, tail=6.0)
+    moving = made.add(gust, "gust")
+    told = blow(field, seen.standing, seen.strips, partial(made.heard, time=5.0), carpet=rows)
+    world.delete(moving)
+    made.add(gust.model_copy(update={"swing": 0.0}), "gust")
+    middle = ((field.table.cell[rows] + 0.5) * SIDE).astype(np.float32)
+    heard = field.table.message[rows]
+    np.testing.assert_array_equal(heard, made.at(middle, time=5.0))
+    west = middle[:, 0] < 0.0
+    for kind, side in ((0, west), (1, ~west)):
+        assert np.linalg.norm(heard[side], axis=1).max() > 0.3
+        np.testing.assert_array_equal(heard[side], made.at(middle[side], time=5.0, kind=kind))
+    alone = blow(field, seen.standing, seen.strips, partial(made.heard, time=5.0))
+    assert alone.shape == told.shape
+
+
+SCENE = """\
+tallgrass: 1
+terrain: { size: [60, 60] }
+grass: { soft: { stiffness: 0.4, height: [0.8, 0.9] }, stiff: { stiffness: 4 } }
+wind:
+  - { kind: gust, position: [-20, 0], width: 60, speed: 8, swing: 0 }
+quality:
+  blades: 20
+  models: 1
+  blade_rings: [{ to: 1, segments: 2 }]
+  strip_rings: [{ to: 3, strips: 2, columns: 1, sections: 1, texel: 0.1 }]
+  carpet_to: 5
+  carpet: 8
+"""
+
+
+@pytest.fixture
+def prairie(world: World, tmp_path: Path) -> Iterator[Prairie]:
+    """A prairie of two kinds, in a world of its own."""
+    path = tmp_path / "two.yaml"
+    path.write_text(SCENE, "utf-8")
+    made = Prairie.load(path)
+    assert made.world is not world
+    yield made
+    made.release()
+
+
+def test_w12_n4_the_wind_is_asked_for_a_kind_of_grass(prairie: Prairie) -> None:
+    place = np.stack([np.linspace(-18.0, -2.0, 40), np.zeros(40)], axis=1)
+    soft, stiff = (prairie.wind_at(place, 2.5, kind=kind) for kind in ("soft", "stiff"))
+    assert np.abs(soft - stiff).max() > 0.2
+    np.testing.assert_array_equal(prairie.wind_at(place, 2.5), soft)
+    with pytest.raises(ValueError, match=r"^unknown grass 'sotf'; there are soft, stiff$"):
+        prairie.wind_at(place, 2.5, kind="sotf")
