@@ -8,7 +8,9 @@ from pathlib import Path
 import matplotlib as mpl
 import numpy as np
 import pytest
+from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
 from matplotlib.quiver import Quiver
 from numpy.lib.stride_tricks import sliding_window_view
 from PIL import Image
@@ -17,8 +19,10 @@ from tallgrass.app.cli import run
 from tallgrass.app.figures.bending import draw_postures, draw_responses, extreme, gust_profile, kinds
 from tallgrass.app.figures.figure import Detail
 from tallgrass.app.figures.page import index_page
+from tallgrass.app.figures.patch import draw_edges, edges, on_strip, painted, sample
 from tallgrass.app.figures.plot import Panel, look, plate, put_on_paper
 from tallgrass.app.figures.register import FIGURES
+from tallgrass.app.figures.tiling import CULLED, draw_tiling
 from tallgrass.app.figures.wind import draw_fields, draw_masks, grid, patch_weights, windless
 from tallgrass.components.quality import PRESETS, BladeRing, Quality, StripRing
 from tallgrass.systems.growth.response import grow_response
@@ -87,7 +91,7 @@ def test_every_figure_is_drawn_and_the_page_shows_all_of_them(tmp_path: Path) ->
 def test_the_paper_figures_are_told_of_in_order_and_once() -> None:
     numbers = [each.number for each in FIGURES]
     assert numbers == sorted(set(numbers))
-    assert {6, 7, 8, 9, 10, 11, 12} <= set(numbers)
+    assert set(range(2, 13)) <= set(numbers)
     for each in FIGURES:
         assert each.shows.endswith(".")
         assert each.made.endswith(".")
@@ -113,7 +117,7 @@ def test_n5_a_figure_is_the_same_file_again_whatever_the_readers_own_style(tmp_p
     assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
 
 
-@pytest.mark.parametrize("only", ["1", "x", "6,", "", "6;8", "-6"])
+@pytest.mark.parametrize("only", ["99", "x", "6,", "", "6;8", "-6"])
 def test_a_number_that_is_no_figure_is_told_with_those_there_are(
     only: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -136,6 +140,58 @@ def test_without_matplotlib_a_sentence_says_what_installs_it(
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     assert run(["figures", "-o", str(tmp_path)]) == 1
     assert capsys.readouterr().err.strip() == "figures are drawn by Matplotlib: pip install 'tallgrass[figures]'"
+
+
+@pytest.mark.gl
+@pytest.mark.usefixtures("ctx", "_coarse")
+def test_g3_a_strip_in_figure_3_bends_like_blades_and_carries_what_is_painted_on_it() -> None:
+    one = sample(SMALL, "strips")
+    message = np.array([[0.0, 0.0], [0.4, 0.2], [-0.7, 0.5]], np.float32)
+    edge = edges(one, message, points=40)
+    lengths = np.linalg.norm(np.diff(edge, axis=1), axis=2).sum(axis=1)
+    np.testing.assert_allclose(lengths, one.strips.height, rtol=2e-3)
+    grid_of = np.stack(np.meshgrid(np.linspace(0, 1, 3), np.linspace(0, 1, 40), indexing="ij"), axis=-1)
+    np.testing.assert_allclose(on_strip(edge, grid_of.astype(np.float32)), edge, atol=1e-5)
+    rest = edges(one, np.zeros((3, 2), np.float32), points=2)
+    at = one.strips.targets[0, :1]
+    place = on_strip(rest, at)[0]
+    wide = one.quality.patch + 2 * one.strips.margin
+    np.testing.assert_allclose(place[:, 0], at[0, :, 0] * wide - one.strips.margin, atol=1e-5)
+    np.testing.assert_allclose(place[:, 1], at[0, :, 1] * one.strips.height, atol=1e-5)
+    with look():
+        assert [axes.get_title("left") for axes in draw_edges(SMALL).axes] == ["a)  at rest", "b)  in the wind"]
+
+
+@pytest.mark.gl
+@pytest.mark.usefixtures("ctx", "_coarse")
+def test_g3_the_strip_of_figure_4_is_as_opaque_as_its_texels_are_covered() -> None:
+    one = sample(SMALL, "strips")
+    texels = one.strips.texels[0, 0]
+    picture = painted(one, texels)
+    np.testing.assert_allclose(picture[..., 3] * 255.0, texels[..., 3])
+    assert ((picture >= 0.0) & (picture <= 1.0)).all()
+    covered = texels[..., 3] > 128
+    assert (picture[..., 1] > picture[..., 2])[covered].mean() > 0.95, "grass is greener than blue"
+
+
+@pytest.mark.gl
+@pytest.mark.usefixtures("ctx", "_coarse")
+def test_t2_figure_5_colours_the_patches_in_the_view_cone_alone() -> None:
+    with look():
+        (axes,) = draw_tiling(SMALL).axes
+    (tiles,) = (each for each in axes.collections if isinstance(each, PolyCollection))
+    cone = next(each for each in axes.patches if isinstance(each, Polygon)).get_xy()
+    apex, rays = cone[1], np.stack([cone[0] - cone[1], cone[2] - cone[1]])
+    middle = np.array([np.asarray(path.vertices, float)[:4].mean(axis=0) for path in tiles.get_paths()]) - apex
+    culled = np.isclose(np.asarray(tiles.get_facecolor())[:, :3], CULLED).all(axis=1)
+    ahead = rays[0] / np.linalg.norm(rays[0]) + rays[1] / np.linalg.norm(rays[1])
+    ahead /= np.linalg.norm(ahead)
+    half = np.arccos(ahead @ rays[0] / np.linalg.norm(rays[0]))
+    off = np.arccos(np.clip(middle @ ahead / np.linalg.norm(middle, axis=1), -1.0, 1.0))
+    far = np.linalg.norm(middle, axis=1) > 10.0
+    assert 0.02 < (~culled).mean() < 0.5
+    assert not culled[far & (off < half)].any()
+    assert culled[far & (off > half + 0.5)].all()
 
 
 def test_w3_the_blades_of_figure_6_have_the_lengths_of_their_kinds() -> None:

@@ -1,0 +1,279 @@
+"""A patch of grass in 3D and in 2.5D: blades, strips, and how strips are animated (figures 2, 3 and 4)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Rectangle
+from numpy.typing import NDArray
+
+from ...components.grass import GrassKind
+from ...components.growth import Blades, Growth, Strips
+from ...components.light import Light
+from ...components.quality import Quality
+from ...components.scene import LodName
+from ...systems.draw.light import grain, lit_kind
+from ...systems.growth.bend import ribbon, spine
+from ..encode import Picture
+from ..studio import Studio
+from ..take import Take
+from .figure import Detail, PaperFigure
+from .plot import INK, SERIES, sheet
+from .scenery import Viewpoint
+
+Floats = NDArray[np.float32]
+Doubles = NDArray[np.float64]
+
+SCENE = "plain"
+WALKER = Viewpoint((0.0, 14.0), 1.3, 0.0, -9.0)
+SEGMENTS = 8
+"""Segments of a drawn ribbon."""
+
+SOIL = "#2c2f1b"
+"""What blades are seen against from above."""
+
+CLOSE = 1
+"""Which strip, or slice, is shown."""
+
+BENT = (np.array([0.30, -0.12]), np.array([0.75, 0.25]))
+"""Messages of the first and the last edge in figure 3; those between are in between."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sample:
+    """What is grown for one kind, and how it is lit."""
+
+    kind: GrassKind
+    light: Light
+    quality: Quality
+    growth: Growth
+    view: Picture
+    """What a walker sees of it, in one representation everywhere."""
+
+    @property
+    def blades(self) -> Blades:
+        """The blades of its first patch model."""
+        return self.growth.models[0].blades
+
+    @property
+    def strips(self) -> Strips:
+        """The finest strips of its first patch model."""
+        return self.growth.models[0].strips[0]
+
+
+def sample(detail: Detail, lod: LodName, /) -> Sample:
+    """Return what is grown for the figures' kind, and the walker's view of it in one representation."""
+    with Studio(Take(SCENE, detail.size, detail.preset, lod)) as studio:
+        field = studio.prairie.field
+        kind, light = next(iter(field.scene.grass.values())), field.scene.light
+        return Sample(kind, light, field.quality, field.growths[0], studio.picture(WALKER.camera(studio)))
+
+
+def ribbons(one: Sample, rows: NDArray[np.intp], /, axes: tuple[int, int]) -> PolyCollection:
+    """Return some blades at rest, in the order of `rows`, seen along the third axis of (x, y, z)."""
+    left, right = ribbon(one.blades, one.growth.postures, (0.0, 0.0), points=SEGMENTS + 1, taper=one.kind.taper)
+    seen = [edge[rows][:, :, axes] for edge in (left, right)]
+    quads = np.stack([seen[0][:, :-1], seen[0][:, 1:], seen[1][:, 1:], seen[1][:, :-1]], axis=2)
+    along = (np.arange(SEGMENTS) + 0.5) / SEGMENTS
+    facing = one.blades.facing[rows].astype(np.float64)
+    color = shade(one, along[None, :, None], np.cos(facing)[:, None, None], np.sin(facing)[:, None, None])
+    return PolyCollection([*quads.reshape(-1, 4, 2)], facecolor=color.reshape(-1, 3), linewidth=0.0)
+
+
+def shade(one: Sample, along: Doubles, normal_x: Doubles, normal_z: Doubles, /) -> Doubles:
+    """Return display colours (..., 3) by the place along a blade and its face normal, all (..., 1)."""
+    foot, tip = lit_kind(one.kind, one.light)
+    by_x, by_z = grain(one.kind, one.light)
+    return np.clip((foot + (tip - foot) * along) * (1.0 + by_x * normal_x + by_z * normal_z), 0.0, 1.0)
+
+
+def draw_blades(detail: Detail, /) -> Figure:
+    """Return figure 2: a blade, a slice of a patch, a patch from above, and the walker's view."""
+    one = sample(detail, "blades")
+    patch = one.quality.patch
+    figure = sheet(4.5, detail)
+    parts = figure.subplot_mosaic(
+        [["blade", "slice"], ["above", "view"]], width_ratios=[1, 1.9], height_ratios=[1, 1.5]
+    )
+    _blade(parts["blade"], one)
+    for name in ("blade", "slice"):
+        parts[name].set_anchor("S")
+    tall = 1.08 * float(one.strips.height)
+    inside = np.flatnonzero(one.strips.slice[0] == CLOSE)
+    parts["slice"].add_collection(ribbons(one, inside[np.argsort(one.blades.root[inside, 1])], (0, 1)))
+    parts["slice"].set(
+        title=f"b)  the {len(inside)} blades in a slice", xlim=(-0.3, patch + 0.3), ylim=(0.0, tall), aspect="equal",
+        xlabel="x [m]", ylabel="height [m]",
+    )  # fmt: skip
+    parts["above"].add_collection(ribbons(one, np.argsort(one.blades.height), (0, 2)))
+    near, far = (patch / len(one.strips.plane) * (CLOSE + side) for side in (0, 1))
+    parts["above"].axhspan(near, far, facecolor="none", edgecolor=SERIES[1], linewidth=1.2)
+    _patch(parts["above"], patch, title=f"c)  {len(one.blades.height)} blades from above", ground=SOIL)
+    _view(parts["view"], one.view, title="d)  3D blades, as a walker sees them")
+    return figure
+
+
+def _blade(axes: Axes, one: Sample) -> None:
+    row = int(np.argmax(np.hypot(*one.blades.rest.T) * one.blades.height))
+    count = one.quality.blade_rings[0].segments
+    chain = spine(one.blades, one.growth.postures, (0.0, 0.0), points=count + 1)[row]
+    along = np.hypot(*(chain[:, ::2] - chain[0, ::2]).T)
+    axes.plot(along, chain[:, 1], color=SERIES[0], marker="o", markersize=3.0, linewidth=1.3)
+    axes.set(
+        title=f"a)  a blade, {count} segments", xlim=(-0.15, 0.45), ylim=(0.0, 1.15 * chain[:, 1].max()),
+        aspect="equal", xlabel="along [m]", ylabel="height [m]",
+    )  # fmt: skip
+
+
+def _patch(axes: Axes, patch: float, *, title: str, ground: str = "none") -> None:
+    axes.add_patch(Rectangle((0.0, 0.0), patch, patch, facecolor=ground, edgecolor=INK, linewidth=0.8, zorder=0.5))
+    axes.set(
+        title=title, xlim=(-0.3, patch + 0.3), ylim=(patch + 0.3, -0.3), aspect="equal", xlabel="x [m]", ylabel="z [m]"
+    )
+
+
+def _view(axes: Axes, picture: Picture, *, title: str) -> None:
+    axes.imshow(picture, interpolation="antialiased")
+    axes.set_title(title)
+    axes.set_axis_off()
+
+
+def draw_strips(detail: Detail, /) -> Figure:
+    """Return figure 4: the texture of a strip, the layers of strips from above, and the walker's view."""
+    one = sample(detail, "strips")
+    strips, patch = one.strips, one.quality.patch
+    figure = sheet(4.6, detail)
+    parts = figure.subplot_mosaic(
+        [["strip", "strip"], ["above", "view"]], width_ratios=[1, 1.9], height_ratios=[1.1, 1.0]
+    )
+    span = (-strips.margin, patch + strips.margin)
+    parts["strip"].imshow(
+        painted(one, strips.texels[0, CLOSE]), origin="lower", extent=(*span, 0.0, strips.height),
+        interpolation="antialiased",
+    )  # fmt: skip
+    parts["strip"].set(title="a)  a semi-transparent strip", xlabel="x [m]", ylabel="height [m]")
+    for axis, color in ((0, SERIES[2]), (1, SERIES[1])):
+        ends = [[(at, span[0]), (at, span[1])] if axis else [(span[0], at), (span[1], at)] for at in strips.plane]
+        lines = LineCollection(ends, color=color, linewidth=1.6, label=f"along {'xz'[axis]}")
+        parts["above"].add_collection(lines)
+    _patch(parts["above"], patch, title=f"b)  {len(strips.plane)} layers each way, from above")
+    parts["above"].legend(loc="center left", bbox_to_anchor=(1.02, 0.5))
+    _view(parts["view"], one.view, title="c)  2.5D strips, as a walker sees them")
+    return figure
+
+
+def painted(one: Sample, texels: NDArray[np.uint8], /) -> Doubles:
+    """Return the colours and opacity of a strip's texels (h, w, 4), shape (h, w, 4)."""
+    part = texels.astype(np.float64) / 255.0
+    meaning = part[..., :3] / np.maximum(part[..., 3:], 1.0 / 255.0)
+    normal = 2.0 * meaning[..., 1:] - 1.0
+    color = shade(one, meaning[..., :1], normal[..., :1], normal[..., 1:])
+    return np.concatenate([color, part[..., 3:]], axis=2)
+
+
+def edges(one: Sample, message: Floats, /, *, points: int) -> Floats:
+    """Return points along a strip's vertical edges, bent by a message each (n, 2), shape (n, points, 3)."""
+    count, strips = len(message), one.strips
+    foot = np.linspace(-strips.margin, one.quality.patch + strips.margin, count)
+    still = np.zeros((count, 2), np.float32)
+    stems = Blades(
+        root=np.stack([foot, np.full(count, strips.plane[CLOSE])], axis=1).astype(np.float32),
+        height=np.full(count, strips.height, np.float32), width=still[:, 0], facing=still[:, 0], rest=still,
+        variant=np.zeros(count, np.int32), rank=still[:, 0],
+    )  # fmt: skip
+    return spine(stems, one.growth.postures, message, points=points)
+
+
+def on_strip(edge: Floats, at: Floats, /) -> Doubles:
+    """Return where texture coordinates (..., 2) in [0, 1] are on a strip with edges (n, k, 3), shape (..., 3)."""
+    columns, sections = edge.shape[0] - 1, edge.shape[1] - 1
+    u, v = (
+        np.clip(part, 0.0, 1.0) * count for part, count in zip(np.moveaxis(at, -1, 0), (columns, sections), strict=True)
+    )
+    i, j = np.minimum(u.astype(int), columns - 1), np.minimum(v.astype(int), sections - 1)
+    right, up = (u - i)[..., None], (v - j)[..., None]
+    low = edge[i, j] * (1.0 - right) + edge[i + 1, j] * right
+    high = edge[i, j + 1] * (1.0 - right) + edge[i + 1, j + 1] * right
+    return np.asarray(low * (1.0 - up) + high * up, np.float64)
+
+
+def draw_edges(detail: Detail, /) -> Figure:
+    """Return figure 3: a strip at rest, and with its vertical edges bent by what their receivers feel."""
+    one = sample(detail, "strips")
+    figure = sheet(4.1, detail)
+    panels = figure.subplots(2, 1)
+    count = one.quality.strip_rings[0].columns + 1
+    bent = np.linspace(*BENT, count, dtype=np.float32)
+    for axes, message, title in zip(panels, (0.0 * bent, bent), ("a)  at rest", "b)  in the wind"), strict=True):
+        _strip(axes, one, message)
+        axes.set_title(title)
+        axes.set_axis_off()
+    key = (
+        Line2D([], [], color=SERIES[1], linewidth=2.2, marker="o", markersize=4.5, label="edge, and its receiver"),
+        Line2D([], [], color=INK, linewidth=0.7, label="polygons"),
+        Line2D([], [], color=INK, marker=">", markersize=4.5, label="message"),
+        Line2D([], [], color=SERIES[0], linewidth=0.9, label="painted blades"),
+    )
+    figure.legend(handles=key, loc="outside lower center", ncols=len(key))
+    return figure
+
+
+def oblique(place: NDArray[np.floating], plane: float, /) -> Doubles:
+    """Return points (..., 3) drawn from the side and a little from above, shape (..., 2)."""
+    depth = place[..., 2] - plane
+    return np.stack([place[..., 0] - 0.35 * depth, place[..., 1] - 0.45 * depth], axis=-1)
+
+
+def _strip(axes: Axes, one: Sample, message: Floats) -> None:
+    plane, sections = float(one.strips.plane[CLOSE]), one.quality.strip_rings[0].sections
+    edge = edges(one, message, points=sections + 1)
+    rows = np.flatnonzero(one.strips.slice[0] == CLOSE)
+    blades = oblique(on_strip(edge, one.strips.targets[0, rows]), plane)
+    axes.add_collection(LineCollection([*blades], color=(SERIES[0], 0.75), linewidth=0.9))
+    mesh = oblique(edge, plane)
+    axes.add_collection(LineCollection([*mesh], color=SERIES[1], linewidth=2.2))
+    axes.add_collection(LineCollection([*mesh.transpose(1, 0, 2)], color=INK, linewidth=0.7))
+    foot = mesh[:, 0]
+    axes.plot(*foot.T, "o", color=SERIES[1], markersize=4.5)
+    felt = np.zeros((len(message), 3))
+    felt[:, ::2] = message
+    for start, way in zip(foot, oblique(felt, 0.0), strict=True):
+        if np.any(way):
+            axes.annotate(
+                "", start + 0.6 * way, start, arrowprops={"arrowstyle": "-|>", "color": INK, "shrinkA": 0, "shrinkB": 0}
+            )
+    wide = one.quality.patch
+    axes.set(xlim=(-0.25, wide + 0.75), ylim=(-0.18, 1.05 * one.strips.height), aspect="equal")
+
+
+FIGURES = (
+    PaperFigure(
+        2,
+        "3D: blades",
+        "The finest representation: a blade is a chain of line segments, and a patch is some hundreds of them.",
+        "One patch model of the bundled scene plain, drawn from the arrays that are sent to the graphics card; the "
+        "band in the patch from above is the slice. The walker's view is rendered with blades alone.",
+        draw_blades,
+    ),
+    PaperFigure(
+        3,
+        "2.5D: a strip that moves",
+        "The vertical edges of a strip bend like blades, each by what its own receiver feels; what is painted on it "
+        "moves along.",
+        "A strip of the same patch, its edges at the places that the postures give; the thin lines are the blades that "
+        "its texture shows, at their texture coordinates.",
+        draw_edges,
+    ),
+    PaperFigure(
+        4,
+        "2.5D: strips",
+        "The middle representation: blades painted on semi-transparent vertical strips, of which those are drawn that "
+        "the viewer looks at more squarely.",
+        "The same patch as in figure 2; the strip's texture is lit as it is on screen. The walker's view is rendered "
+        "with strips alone.",
+        draw_strips,
+    ),
+)

@@ -1,0 +1,78 @@
+"""The tiling from above: which patches are drawn, and in which representation (figure 5)."""
+
+from math import cos, sin
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, Polygon
+
+from ...components.quality import Representation
+from ...systems.field import Field
+from ...systems.overlay.paint import LEVELS
+from ...systems.overlay.patches import patch_colors
+from ..studio import Studio
+from ..take import Take
+from .figure import Detail, PaperFigure
+from .plot import INK, seen_from_above, sheet
+
+SCENE = "meadow"
+BEYOND = 5
+"""How many patches beyond the last strips are shown."""
+
+CULLED = (0.93, 0.935, 0.915)
+NAMES = {Representation.BLADES: "3D blades", Representation.STRIPS: "2.5D strips", Representation.CARPET: "2D carpet"}
+
+
+def draw_tiling(detail: Detail, /) -> Figure:
+    """Return figure 5: the patches around the viewer with the view cone, coloured by representation."""
+    with Studio(Take(SCENE, detail.size, detail.preset)) as studio:
+        studio.picture(studio.camera(None))
+        figure = sheet(4.6, detail)
+        _tiles(figure.subplots(), studio.prairie.field)
+    return figure
+
+
+def _tiles(axes: Axes, field: Field) -> None:
+    table, patch = field.table, field.quality.patch
+    x, _, z = field.sight.eye
+    far = min(field.reach[Representation.STRIPS] + BEYOND, table.side // 2) * patch
+    corner = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], np.float32)
+    square = (table.cell[:, None] + corner) * np.float32(patch)
+    color = np.where(table.visible[:, None], patch_colors(field), np.array(CULLED))
+    axes.add_collection(
+        PolyCollection(
+            [*square[table.alive]], facecolor=color[table.alive], edgecolor="white", linewidth=0.4, alpha=0.85
+        )
+    )
+    middle, half = field.sight.cone
+    rays = [_toward(x, z, middle + side, 3.0 * far) for side in (-half, half)]
+    axes.add_patch(Polygon([rays[0], (x, z), rays[1]], closed=False, fill=False, edgecolor=INK, linewidth=1.2))
+    axes.plot(x, z, "o", color=INK, markersize=5)
+    to_x, to_z = _toward(x, z, middle, 0.5 * far)
+    seen_from_above(axes, (to_x - 0.7 * far, to_x + 0.7 * far), (to_z - 0.7 * far, to_z + 0.7 * far))
+    key: list[Artist] = [
+        Patch(color=LEVELS[level], alpha=0.85, label=f"{name}, to distance {field.reach[level]}")
+        for level, name in NAMES.items()
+    ]
+    key += [Patch(color=CULLED, label="culled"), Line2D([], [], color=INK, marker="o", label="viewer and view cone")]
+    axes.legend(handles=key, loc="center left", bbox_to_anchor=(1.03, 0.5))
+
+
+def _toward(x: float, z: float, azimuth: float, away: float) -> tuple[float, float]:
+    return x + away * sin(azimuth), z - away * cos(azimuth)
+
+
+FIGURES = (
+    PaperFigure(
+        5,
+        "The tiling",
+        "The terrain in patches from above, with the viewer and the view cone: patches outside the cone are culled, "
+        "the others have the representation of their discrete distance, paler where it is coarser.",
+        "The patch table of the bundled scene meadow, as one frame left it.",
+        draw_tiling,
+    ),
+)
