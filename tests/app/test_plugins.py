@@ -1,0 +1,157 @@
+"""The commands on wind plugins: what is installed, whether one keeps to the rules, and how to begin one."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tallgrass.app.errors import InputError
+from tallgrass.app.plugins import check_plugin, list_plugins, new_plugin
+from tallgrass.app.scaffold import scaffold
+from tallgrass.components.wind import Floats, Grass, WindPrimitive
+from tallgrass.engine.plugins import WindKinds, wind_kinds
+
+
+class Loud(WindPrimitive):
+    """A wind that is too strong, and is called otherwise than it is registered."""
+
+    kind: str = "noisy"
+    """A loud wind."""
+
+    def mask(self, place: Floats, /, *, time: float) -> Any:
+        return np.ones(len(place))
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
+        return np.full_like(place, [3.0, 0.0])
+
+
+@pytest.fixture
+def kinds() -> Any:
+    wind_kinds.cache_clear()
+    yield wind_kinds()
+    wind_kinds.cache_clear()
+
+
+def test_every_kind_is_listed_with_who_brings_it(kinds: WindKinds, capsys: pytest.CaptureFixture[str]) -> None:
+    kinds.add("loud", Loud)
+    list_plugins()
+    head, *rows = (line.split() for line in capsys.readouterr().out.splitlines())
+    assert head == ["kind", "distribution", "version", "status"]
+    assert ["loud", f"{__name__}.Loud", "ready"] in rows
+    assert [row[0] for row in rows] == sorted(row[0] for row in rows)
+    assert {"breeze", "gust", "whirlwind", "blast"} <= {row[0] for row in rows if row[1] == "tallgrass"}
+
+
+def test_programs_are_told_the_same_in_json(kinds: WindKinds, capsys: pytest.CaptureFixture[str]) -> None:
+    list_plugins(json=True)
+    rows = json.loads(capsys.readouterr().out)
+    assert [row["kind"] for row in rows] == kinds.names()
+    assert all(row.keys() == {"kind", "distribution", "version", "status"} for row in rows)
+
+
+@pytest.mark.usefixtures("kinds")
+def test_a_kind_that_keeps_to_the_rules_is_ok(capsys: pytest.CaptureFixture[str]) -> None:
+    assert check_plugin("whirlwind") == 0
+    assert capsys.readouterr().out == "whirlwind: ok\n"
+
+
+def test_every_problem_of_a_kind_is_one_line(kinds: WindKinds, capsys: pytest.CaptureFixture[str]) -> None:
+    kinds.add("loud", Loud)
+    assert check_plugin("loud") == 2
+    assert capsys.readouterr().out.splitlines() == [
+        "loud: action returned a posture index of 3, which is over 1 (at 0 s)",
+        "loud: the field 'kind' defaults to 'noisy', but the entry point is called 'loud'",
+    ]
+
+
+@pytest.mark.usefixtures("kinds")
+def test_a_kind_that_is_not_there_is_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+    assert check_plugin("gst") == 2
+    assert capsys.readouterr().out.startswith("unknown kind 'gst', did you mean 'gust'?")
+
+
+@pytest.mark.parametrize("kind", ["dust-devil", "placed-wind", "none"])
+def test_a_new_plugin_passes_the_check_and_its_own_test(tmp_path: Path, kind: str) -> None:
+    folder = tmp_path / kind
+    files = scaffold(kind, folder)
+    assert len(files) == 3
+    (module,) = folder.glob("*.py")
+    assert len(module.read_text("utf-8").splitlines()) <= 40
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-c", str(folder / "pyproject.toml")]
+    done = subprocess.run(
+        [*command, str(folder)],
+        cwd=folder,
+        env={"PYTHONPATH": str(folder)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "1 passed" in done.stdout
+
+
+def test_a_new_plugin_is_clean_by_the_houses_own_rules(tmp_path: Path) -> None:
+    files = scaffold("eddy", tmp_path / "examples" / "eddy")
+    rules = ["--config", str(Path(__file__).parents[2] / "pyproject.toml"), "--ignore", "INP001,ARG002"]
+    modules = [str(file) for file in files if file.suffix == ".py"]
+    for command in (["check", *rules], ["format", "--check", *rules[:2]]):
+        done = subprocess.run(
+            [sys.executable, "-m", "ruff", *command, *modules],
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_what_comes_next_is_said(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    new_plugin("eddy", None)
+    new_plugin("eddy", "my winds")
+    told = capsys.readouterr().out.splitlines()
+    assert told[:3] == ["eddy/pyproject.toml", "eddy/tallgrass_eddy.py", "eddy/tests/test_eddy.py"]
+    assert told[3] == "next: pip install -e eddy && tallgrass plugins check eddy"
+    assert told[7] == "next: pip install -e 'my winds' && tallgrass plugins check eddy"
+
+
+@pytest.mark.parametrize(
+    "kind", ["", "Eddy", "two words", "../up", "1st", "a--b", "end-", "-x", "a" * 61, "é", "a/b", "os.path"]
+)
+def test_a_name_that_cannot_be_one_is_refused(tmp_path: Path, kind: str) -> None:
+    with pytest.raises(InputError, match="lower-case letters and digits"):
+        scaffold(kind, tmp_path / "new")
+    assert not (tmp_path / "new").exists()
+
+
+def test_a_kind_that_is_installed_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="kind 'gust' already comes with tallgrass "):
+        scaffold("gust", tmp_path / "new")
+
+
+def test_nothing_is_overwritten(tmp_path: Path) -> None:
+    full, file = tmp_path / "full", tmp_path / "file"
+    full.mkdir()
+    (full / "mine.py").write_text("mine", "utf-8")
+    file.write_text("mine", "utf-8")
+    for place in (full, file):
+        with pytest.raises(InputError, match="is there already"):
+            scaffold("eddy", place)
+    with pytest.raises(InputError, match="cannot be written"):
+        scaffold("eddy", file / "below")
+    assert [path.read_text("utf-8") for path in (full / "mine.py", file)] == ["mine", "mine"]
+
+
+def test_the_command_ends_as_all_others_do(tallgrass: Any) -> None:
+    assert tallgrass("plugins", "new", "breeze").returncode == 2
+    refused = tallgrass("plugins", "new", "Breeze")
+    assert (refused.returncode, refused.stdout, refused.stderr.count("\n")) == (2, "", 1)
+    assert tallgrass("plugins", "new", "eddy", "-o", "new/eddy").returncode == 0
+    assert tallgrass("plugins", "check", "eddy").returncode == 2
+    assert tallgrass("plugins", "list").returncode == 0
