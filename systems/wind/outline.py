@@ -121,8 +121,8 @@ def _to_edges(place: Doubles, points: Doubles) -> tuple[Doubles, Bools]:
         part = np.clip(to @ edge / max(float(edge @ edge), 1e-12), 0.0, 1.0)
         away = np.minimum(away, np.linalg.norm(to - part[..., None] * edge, axis=-1))
         crosses = (a[1] > place[..., 1]) != (b[1] > place[..., 1])
-        rise = edge[1] or 1.0
-        holds ^= crosses & (place[..., 0] < a[0] + edge[0] * (place[..., 1] - a[1]) / rise)
+        before = to[..., 0] * edge[1] - edge[0] * to[..., 1]
+        holds ^= crosses & ((before < 0.0) == (edge[1] > 0.0))
     return away, holds
 
 
