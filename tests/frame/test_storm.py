@@ -46,9 +46,11 @@ def received():
 
 story = []
 for step in range(count * rate // 30):
-    camera = camera_at(prairie.scene.camera, prairie.time, prairie.height_at)
-    prairie.draw(view_matrix(camera), projection_matrix(camera.view, 16 / 9))
-    if step % (rate // 30) == 0:
+    instant = step % (rate // 30) == 0
+    if instant or step % 8 == 1:
+        camera = camera_at(prairie.scene.camera, prairie.time, prairie.height_at)
+        prairie.draw(view_matrix(camera), projection_matrix(camera.view, 16 / 9))
+    if instant:
         story.append(received())
     prairie.advance(1 / rate)
 assert not prairie.winds.quarantine.reasons
