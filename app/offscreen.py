@@ -1,12 +1,13 @@
 """Drawing into memory, without a window and without a display."""
 
 from types import TracebackType
-from typing import Any, Self
+from typing import Self
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ..engine.gl import headless
 from .errors import MachineError
 
 
@@ -57,16 +58,8 @@ class Offscreen:
 
 
 def standalone_context() -> moderngl.Context:
-    """Return a new context without a window: EGL, which needs no display, or else the platform's own.
-
-    Raises MachineError with what each of them said where neither works.
-    """
-    complaints: list[str] = []
-    backends: tuple[dict[str, Any], ...] = ({"backend": "egl"}, {})
-    for backend in backends:
-        try:
-            return moderngl.create_context(require=330, standalone=True, **backend)
-        except Exception as error:  # noqa: BLE001 - the backends raise nothing narrower
-            complaints.append(str(error))
-    said = "; ".join(dict.fromkeys(complaints))
-    raise MachineError(f"no OpenGL 3.3 without a window: {said} (tallgrass doctor says what to install)")
+    """Return a new context without a window; MachineError with what each way of making one said where none works."""
+    try:
+        return headless.standalone_context()
+    except headless.NoContextError as error:
+        raise MachineError(str(error)) from error

@@ -51,3 +51,9 @@ class Schedule:
             start = perf_counter()
             system()
             self.milliseconds[name] = 1000.0 * (perf_counter() - start)
+
+    def step(self, which: Phase | str, /) -> None:
+        """Run one system by its name, or all those of a phase, once and out of the order of a frame."""
+        for phase, name, system in self.systems:
+            if which in {phase, name}:
+                system()

@@ -1,5 +1,8 @@
 """The entities of one prairie, inside whatever esper world is current: the only module that imports esper."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+from itertools import count
 from typing import TypeVar
 from weakref import WeakSet
 
@@ -8,6 +11,7 @@ import esper
 Component = TypeVar("Component")
 
 _worlds: WeakSet["World"] = WeakSet()
+_private = count()
 
 
 class World:
@@ -76,3 +80,20 @@ class World:
             raise RuntimeError(
                 f"this prairie lives in esper world '{self.name}', but '{esper.current_world}' is current"
             )
+
+
+@contextmanager
+def private_world() -> Iterator[World]:
+    """Make an empty esper world the current one, and in the end the host's again; the private one is deleted then.
+
+    Whatever the body creates in esper stays inside: entities, processors, handlers. It yields a `World` for those that
+    create entities as tallgrass does.
+    """
+    host, name = esper.current_world, f"tallgrass-private-{next(_private)}"
+    esper.switch_world(name)
+    try:
+        yield World()
+    finally:
+        esper.switch_world(host)
+        if name in esper.list_worlds():
+            esper.delete_world(name)

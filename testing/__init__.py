@@ -1,5 +1,36 @@
-"""What a plugin's own tests are made of: `from tallgrass.testing import check_wind`."""
+"""What your own tests are made of: winds that keep to the rules, small prairies, one step at a time, pictures.
 
+It needs no test runner, and nothing of it loads itself into one.
+"""
+
+from ..engine.gl.headless import NoContextError
+from ..engine.phases import Phase
+from ..engine.world import private_world
+from .clock import FixedClock, fixed_clock
+from .context import headless_context
+from .golden import same_picture
+from .heard import Heard, receivers_of
+from .little import LITTLE, little_prairie
+from .stage import Stage, stage
+from .step import step, watch
 from .winds import check_wind, wind_problems
 
-__all__ = ["check_wind", "wind_problems"]
+__all__ = [
+    "LITTLE",
+    "FixedClock",
+    "Heard",
+    "NoContextError",
+    "Phase",
+    "Stage",
+    "check_wind",
+    "fixed_clock",
+    "headless_context",
+    "little_prairie",
+    "private_world",
+    "receivers_of",
+    "same_picture",
+    "stage",
+    "step",
+    "watch",
+    "wind_problems",
+]

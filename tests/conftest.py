@@ -5,16 +5,16 @@ import os
 import shutil
 import subprocess
 from collections.abc import Iterator
-from itertools import count
-from typing import Any, NoReturn
+from contextlib import ExitStack
+from typing import NoReturn
 
-import esper
 import moderngl
 import numpy as np
 import pytest
 from hypothesis import settings
 
 from tallgrass.engine.world import World
+from tallgrass.testing import NoContextError, headless_context, private_world
 
 # The floor of what is supported, so that nothing newer is used by accident; only Mesa reads these.
 os.environ.setdefault("MESA_GL_VERSION_OVERRIDE", "3.3FC")
@@ -24,12 +24,7 @@ os.environ.setdefault("MESA_GLSL_VERSION_OVERRIDE", "330")
 settings.register_profile("tallgrass", deadline=None, derandomize=True)
 settings.load_profile("tallgrass")
 
-# The stubs give the backend another type than the loader takes.
-_HEADLESS: dict[str, Any] = {"standalone": True, "backend": "egl", "require": 330}
-
 _HOME = pytest.StashKey[moderngl.Framebuffer]()
-
-_worlds = count()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -74,14 +69,13 @@ def _own_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
 @pytest.fixture(scope="session")
 def ctx(pytestconfig: pytest.Config) -> Iterator[moderngl.Context]:
     """A headless GL context that all tests draw in."""
-    try:
-        context = moderngl.create_context(**_HEADLESS)
-    except Exception as error:  # noqa: BLE001 - the loader raises nothing narrower
-        _do_without(f"there is no headless GL: {error} (tallgrass doctor says what to install)")
-    pytestconfig.stash[_HOME] = context.simple_framebuffer((1, 1))
-    pytestconfig.stash[_HOME].use()
-    yield context
-    context.release()
+    with ExitStack() as stack:
+        try:
+            context = stack.enter_context(headless_context())
+        except NoContextError as error:
+            _do_without(str(error))
+        pytestconfig.stash[_HOME] = context.fbo
+        yield context
 
 
 @pytest.fixture(autouse=True)
@@ -96,11 +90,8 @@ def _gl_is_left_without_errors(request: pytest.FixtureRequest) -> Iterator[None]
 @pytest.fixture
 def world() -> Iterator[World]:
     """A prairie's world inside an esper world that no other test sees."""
-    name = f"test-{next(_worlds)}"
-    esper.switch_world(name)
-    yield World()
-    esper.switch_world("default")
-    esper.delete_world(name)
+    with private_world() as made:
+        yield made
 
 
 @pytest.fixture(scope="session")

@@ -1,0 +1,90 @@
+"""A framebuffer to draw pictures into, small enough for tests."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ..components.camera import Camera
+from ..engine.camera import camera_at, projection_matrix, view_matrix
+from ..engine.gl.stream import release_all
+from ..systems.prairie import Prairie
+
+Picture = NDArray[np.float64]
+Matrix = NDArray[np.float32]
+
+
+class Stage:
+    """A framebuffer of 8-bit RGB colour and depth to draw into, as a host would; `size` is (width, height) [pixels]."""
+
+    def __init__(self, ctx: moderngl.Context, size: tuple[int, int] = (160, 90)) -> None:
+        self.ctx, self.size = ctx, size
+        self.color, self.depth_map = ctx.texture(size, 3, alignment=1), ctx.depth_texture(size)
+        self.target = ctx.framebuffer([self.color], self.depth_map)
+
+    def matrices(self, camera: Camera, /) -> tuple[Matrix, Matrix]:
+        """Return a camera's view and projection for this stage's size, shape (4, 4) each."""
+        width, height = self.size
+        return view_matrix(camera), projection_matrix(camera.view, width / height)
+
+    def shot(self, prairie: Prairie, camera: Camera | None = None) -> Picture:
+        """Return what a camera sees of a prairie, the scene's own if none is given: display colours from 0 to 255.
+
+        The picture has its top row first, shape (height, width, 3).
+        """
+        seen = camera_at(prairie.scene.camera, None, prairie.height_at) if camera is None else camera
+        self.begin()
+        prairie.draw(*self.matrices(seen))
+        return self.read()
+
+    def begin(self) -> None:
+        """Bind the framebuffer and clear it: what is drawn next goes into it."""
+        self.target.use()
+        self.target.clear(depth=1.0)
+
+    def read(self) -> Picture:
+        """Return what has been drawn: display colours from 0 to 255, top row first, shape (height, width, 3)."""
+        width, height = self.size
+        data = np.frombuffer(self.target.read(components=3, alignment=1), np.uint8)
+        return data.reshape(height, width, 3)[::-1].astype(np.float64)
+
+    def depth(self) -> Matrix:
+        """Return how deep each pixel is, 1 where only the sky is, top row first, shape (height, width)."""
+        width, height = self.size
+        return np.frombuffer(self.depth_map.read(alignment=1), np.float32).reshape(height, width)[::-1]
+
+    def ground(self, camera: Camera, level: float = 0.0) -> NDArray[np.float64]:
+        """Return where each pixel's ray meets the plane y = `level` [m]: (x, z) [m], shape (height, width, 2).
+
+        Above the horizon it is NaN.
+        """
+        width, height = self.size
+        view, projection = self.matrices(camera)
+        x, y = np.meshgrid((np.arange(width) + 0.5) / width * 2 - 1, 1 - (np.arange(height) + 0.5) / height * 2)
+        rays = np.stack([x / projection[0, 0], y / projection[1, 1], -np.ones_like(x)], -1) @ view[:3, :3]
+        down = np.where(rays[..., 1] < -1e-6, rays[..., 1], np.nan)
+        reach = (level - camera.position[1]) / down
+        return np.asarray(np.array(camera.position)[[0, 2]] + reach[..., None] * rays[..., ::2])
+
+    def project(self, camera: Camera, place: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return where points (x, y, z) [m], shape (n, 3), are: column and row [pixels] from the top left, (n, 2)."""
+        view, projection = self.matrices(camera)
+        clip = np.column_stack([place, np.ones(len(place))]) @ (projection.astype(float) @ view).T
+        across, up = clip[:, 0] / clip[:, 3], clip[:, 1] / clip[:, 3]
+        return np.stack([(across + 1) / 2 * self.size[0], (1 - up) / 2 * self.size[1]], 1)
+
+    def release(self) -> None:
+        """Give the framebuffer back."""
+        release_all(self.target, self.color, self.depth_map)
+
+
+@contextmanager
+def stage(ctx: moderngl.Context, size: tuple[int, int] = (160, 90)) -> Iterator[Stage]:
+    """Make a `Stage` of a size [pixels] in a context, and give it back in the end."""
+    made = Stage(ctx, size)
+    try:
+        yield made
+    finally:
+        made.release()

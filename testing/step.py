@@ -1,0 +1,38 @@
+"""One step of one system of a prairie, and what has to stand before it."""
+
+from ..components.camera import Camera
+from ..engine.camera import camera_at, projection_matrix, view_matrix
+from ..engine.phases import Phase
+from ..systems.prairie import Prairie
+
+ASPECT = 16 / 9
+"""Width over height of the picture that a viewer is taken to have."""
+
+
+def watch(prairie: Prairie, camera: Camera | None = None, /) -> None:
+    """Let a viewer stand in a prairie for a frame, without drawing it and without any GL.
+
+    `camera` is where; without it the scene's own. Afterwards patches are where they are due, in the representation that
+    they are due in. RuntimeError after `release`.
+    """
+    seen = camera_at(prairie.scene.camera, None, prairie.height_at) if camera is None else camera
+    prairie.follow(view_matrix(seen), projection_matrix(seen.view, ASPECT))
+
+
+def step(prairie: Prairie, which: Phase | str, /) -> None:
+    """Run one system of a prairie once, by its name, or all those of one phase, and nothing else.
+
+    The names are those of `prairie.statistics.systems_ms`: tile, cull, lod, plant, wind and gather. What earlier
+    systems leave behind has to be there: `watch` does what comes before `Phase.BLOW`, and a picture has to be drawn
+    before `Phase.DRAW`. Raises ValueError for a name that is none, RuntimeError where something is missing.
+    """
+    schedule = prairie._schedule  # noqa: SLF001 - the kit opens what a game leaves closed
+    phases = {name: phase for phase, name, _ in schedule.systems}
+    phase, name = (which, which.name) if isinstance(which, Phase) else (phases.get(which), which)
+    if phase is None:
+        raise ValueError(f"no system '{name}'; there are {', '.join(phases)}")
+    if phase >= Phase.BLOW and prairie._seen is None:  # noqa: SLF001 - the same
+        raise RuntimeError(f"'{name}' needs a viewer: call watch(prairie) first")
+    if phase == Phase.DRAW and prairie.painter is None:
+        raise RuntimeError(f"'{name}' needs a graphics context: draw the prairie first")
+    schedule.step(which)
