@@ -4,6 +4,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 import typer
@@ -18,24 +19,39 @@ ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text("utf-8")
 
 
-def block(language: str) -> str:
-    (found,) = re.findall(rf"^```{language}\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
-    return str(found)
+def blocks(language: str) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
+
+
+GAME, WINDS = blocks("python")
+(SCENE,) = blocks("yaml")
 
 
 def test_the_scene_is_valid_and_says_what_it_seems_to() -> None:
-    scene = parse_scene(block("yaml"))
+    scene = parse_scene(SCENE)
     assert scene.grass["feather"].height == [0.6, 1.0]
-    assert [wind.kind for wind in scene.wind] == ["breeze"]
+    assert [wind.kind for wind in scene.wind] == ["breeze", "gust"]
+    assert scene.mixing == "weight"
 
 
-def test_the_program_uses_only_what_the_face_offers() -> None:
-    program = block("python")
-    compile(program, "README.md", "exec")
-    (imported,) = re.findall(r"^from tallgrass import (\w+)$", program, re.MULTILINE)
-    face = getattr(tallgrass, imported)
-    used = set(re.findall(r"prairie\.(\w+)", README)) | set(re.findall(r"Prairie\.(\w+)", program))
-    assert {name for name in used if not hasattr(face, name)} == set()
+def test_the_programs_use_only_what_the_face_offers() -> None:
+    for program in (GAME, WINDS):
+        compile(program, "README.md", "exec")
+        (imported,) = re.findall(r"^from tallgrass import (.+)$", program, re.MULTILINE)
+        assert set(imported.split(", ")) <= set(tallgrass.__all__)
+    used = re.findall(r"[pP]rairie\.(\w+)", README)
+    assert {name for name in used if not hasattr(tallgrass.Prairie, name)} == set()
+
+
+def test_the_winds_that_a_game_sets_off_are_felt() -> None:
+    told: dict[str, Any] = {}
+    exec(WINDS, told)  # noqa: S102 - it is our own page
+    prairie = told["prairie"]
+    prairie.advance(0.6)
+    felt = prairie.wind_at([(2.0, 11.0), (-29.0, 0.0)])
+    calm = tallgrass.Prairie.load("meadow").wind_at([(2.0, 11.0), (-29.0, 0.0)], 0.6)
+    assert (abs(felt - calm).max(axis=1) > 0.05).all()
+    prairie.release()
 
 
 @pytest.mark.window
@@ -48,7 +64,7 @@ def look(dt):
 
 pyglet.clock.schedule_once(look, 0.5)
 """
-    program = block("python").replace("1280, 720", "320, 180").replace("pyglet.app.run()", f"{seen}\npyglet.app.run()")
+    program = GAME.replace("1280, 720", "320, 180").replace("pyglet.app.run()", f"{seen}\npyglet.app.run()")
     (tmp_path / "game.py").write_text(program, "utf-8")
     done = subprocess.run([sys.executable, "game.py"], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
