@@ -73,42 +73,13 @@ def _made_from(prairie: Prairie, take: Take) -> dict[str, object]:
         "numpy": np.__version__,
         "scene": prairie.path.name,
         "seed": prairie.scene.seed,
-        "files": {name: _hash(path) for name, path in _files(prairie)},
+        "files": {name: _hash(path) for name, path in prairie.files.items()},
         "size": list(take.size),
         "quality": prairie.field.quality.model_dump(mode="json"),
         "lod": take.lod,
         "reference": take.reference,
         "overlay": sorted(take.overlay),
     }
-
-
-def _files(prairie: Prairie) -> Iterator[tuple[str, Path]]:
-    """Yield the scene file and every file that it names: name as the scene has it, and path."""
-    folder = prairie.path.parent
-    yield prairie.path.name, prairie.path
-    for name in sorted(set(_texts(prairie.scene.model_dump(mode="json")))):
-        path = folder / name
-        if name and _is_file(path):
-            yield name, path
-
-
-def _texts(values: object) -> Iterator[str]:
-    match values:
-        case str():
-            yield values
-        case dict():
-            for value in values.values():
-                yield from _texts(value)
-        case list():
-            for value in values:
-                yield from _texts(value)
-
-
-def _is_file(path: Path) -> bool:
-    try:
-        return path.is_file()
-    except (OSError, ValueError):
-        return False
 
 
 def _hash(path: Path) -> str:

@@ -155,10 +155,14 @@ def lay_out(
     *,
     lod: str,
     transitions: Transitions = SEAMLESS,
+    stock: Stock | None = None,
 ) -> Field:
-    """Return the field of a scene: its patch models in stock, its pools empty."""
+    """Return the field of a scene: its patch models in stock, its pools empty.
+
+    With `stock`, what was stocked of these growths before is used again.
+    """
     reach = reach_of(quality, lod)
-    stock = stock_up(growths, quality.patch)
+    stock = stock or stock_up(growths, quality.patch)
     near, middle = (max(2 * limit + 1, 1) for limit in farthest(reach))
     together = stock.blades.records.shape[1]
     return Field(

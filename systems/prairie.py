@@ -31,6 +31,7 @@ from .growth.cache import cached_growth
 from .lod import SLACK, part_of_change, schedule, wanted_representation, weights
 from .receive import blow, plant_shown_blades, plant_shown_strips
 from .receivers import ReceiverEntities
+from .reload import laid_again
 from .see import Seen, look, see
 from .sublevel import refine
 from .tile import cell_of, tile
@@ -147,6 +148,11 @@ class Prairie:
         """The scene's time [s], to the nearest microsecond: however it was cut into steps, it is the same instant."""
         return round(self._clock, 6)
 
+    @property
+    def files(self) -> dict[str, Path]:
+        """The scene's file and those that it names, by the names that it calls them."""
+        return {self.path.name: self.path} | {name: self._loaded.folder / name for name in self._loaded.files}
+
     def advance(self, dt: float) -> None:
         """Move time on by `dt` [s]; negative or non-finite steps raise ValueError."""
         if not (np.isfinite(dt) and dt >= 0.0):
@@ -176,7 +182,9 @@ class Prairie:
             self._draw(self.painter, seen, held=held)
 
     def _draw(self, painter: Painter, seen: View, *, held: bool) -> None:
-        if held and self._drawn_at is not None:
+        if painter.field is not self.field:
+            painter.change(self.field)
+        if held and self._seen is not None:
             self.field.sight.eye, self.field.sight.cone = eye_of(seen), view_cone(seen)
             self._wind()
             self._gather()
@@ -238,6 +246,29 @@ class Prairie:
     def remove(self, handle: int) -> None:
         """Take a wind away that `add` returned."""
         self.world.delete(handle)
+
+    def reload(self, scene: str | Path | None = None) -> None:
+        """Read the scene again, or another one, and go on with it at the same time: what did not change stays.
+
+        Terrain, kinds of grass, textures and receivers are made anew only where what they come from has changed, and
+        winds that have not changed blow on as if nothing had happened; so do those that were added. Raises
+        `SceneError` with every problem, and then nothing has changed at all; RuntimeError after `release`, and while
+        another esper world is current.
+        """
+        if self._released:
+            raise RuntimeError("this prairie has been released: load it again")
+        self.winds.sources()
+        loaded = read_scene(self.path if scene is None else scene)
+        field, before = laid_again(self.field, self._loaded, loaded, preset=self._preset, lod=self.lod), self.field
+        if field.blades is not before.blades:
+            self._receivers.release()
+            self._receivers, self._seen = ReceiverEntities(self.world, field), None
+        if field.table is not before.table:
+            for entity in before.table.entity[before.table.entity != 0].tolist():
+                self.world.delete(entity)
+        self.winds.change(field)
+        self.scene, self.path, self.field, self._loaded = loaded.scene, loaded.path, field, loaded
+        self.statistics.blades_field = blades_in_field(field)
 
     def release(self) -> None:
         """Give back everything: GL objects and entities. The prairie cannot be drawn afterwards."""

@@ -33,6 +33,13 @@ class ReceiverEntities:
                 self._change(number, slot, int(owner[slot]))
             self._owner[number] = owner
 
+    def release(self) -> None:
+        """Delete all of its entities."""
+        for entities in self._entity:
+            for entity in entities[entities != 0].tolist():
+                self._world.delete(entity)
+            entities[:] = 0
+
     def _change(self, number: int, slot: int, owner: int) -> None:
         entities, pool = self._entity[number], self._pools[number]
         if entities[slot]:

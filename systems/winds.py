@@ -1,6 +1,9 @@
 """The winds of a prairie: whose entities they are, where they are now, and what grass feels of them."""
 
+from collections.abc import Sequence
 from functools import partial
+from itertools import count
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,11 +27,32 @@ class Winds:
 
     def __init__(self, world: World, field: Field) -> None:
         self._world = world
+        self._declared: list[int] = []
+        self.quarantine = Quarantine()
+        self.change(field)
+
+    def change(self, field: Field) -> None:
+        """Take over the winds that a scene declares, at first or when it was read again.
+
+        A wind that has not changed stays, and so does what is random about it; one that has changed keeps its name,
+        and with it that. Winds that a game added are left alone.
+        """
         self._field = field
         self._height_at = partial(height_at, field.terrain)
-        self.quarantine = Quarantine()
-        for number, primitive in enumerate(field.scene.wind):
-            self.add(primitive, f"wind[{number}] {primitive.kind}")
+        there = dict(self._world.all(WindSource))
+        before = {entity: there[entity] for entity in self._declared if entity in there}
+        after = matched(list(before.values()), field.scene.wind)
+        entities = {source: entity for entity, source in before.items()}
+        self._declared = [self._take(source, old, entities) for source, old in after]
+        for entity in set(before) - set(self._declared):
+            self._world.delete(entity)
+
+    def _take(self, source: WindSource, old: WindSource | None, entities: dict[WindSource, int]) -> int:
+        if old is None:
+            return self.add(source.primitive, source.name)
+        if source is not old:
+            self._world.add(entities[old], source)
+        return entities[old]
 
     def add(self, primitive: WindPrimitive, name: str, pose: Pose | None = None) -> int:
         """Add a wind and return its entity."""
@@ -63,3 +87,47 @@ class Winds:
         field = self._field
         kinds = densest_kind(field, place) if kind is None else np.full(len(place), kind, np.intp)
         return self.heard(places_alone(place, grass_of(field.growths, kinds)), time=time)
+
+
+def matched(
+    before: Sequence[WindSource], winds: Sequence[WindPrimitive], /
+) -> list[tuple[WindSource, WindSource | None]]:
+    """Return the source of each of a scene's winds, and which of those `before` it takes the place of.
+
+    One that declares the same is the same, wherever it stands now. Of the others, each takes the name of the one of its
+    kind that it has most in common with, or a new one.
+    """
+    left = list(before)
+    found: dict[int, WindSource] = {}
+    for least in (inf, 0.0):
+        for number, wind in enumerate(winds):
+            alike = [source for source in left if _likeness(source.primitive, wind) >= least]
+            if number not in found and alike:
+                found[number] = max(alike, key=lambda source: _likeness(source.primitive, wind))
+                left.remove(found[number])
+    taken = {source.name for source in found.values()}
+    rows: list[tuple[WindSource, WindSource | None]] = []
+    for number, wind in enumerate(winds):
+        old = found.get(number)
+        name = old.name if old else next(name for k in count(number) if (name := declared(k, wind)) not in taken)
+        taken.add(name)
+        same = old is not None and _likeness(old.primitive, wind) == inf
+        rows.append((old if old and same else WindSource(wind, name), old))
+    return rows
+
+
+def declared(number: int, wind: WindPrimitive) -> str:
+    """Return the name of a wind in a scene's list of them."""
+    return f"wind[{number}] {wind.kind}"
+
+
+def _likeness(one: WindPrimitive, other: WindPrimitive) -> float:
+    """Return how many values two winds have in common, infinity where they are the same; -1 for two kinds."""
+    if type(one) is not type(other) or one.kind != other.kind:
+        return -1.0
+    try:
+        if one == other:
+            return inf
+        return float(sum(bool(getattr(one, name) == getattr(other, name)) for name in type(one).model_fields))
+    except Exception:  # noqa: BLE001 - a plugin's own values may compare as they like
+        return 0.0

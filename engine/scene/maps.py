@@ -15,26 +15,54 @@ from .read import LoadedScene
 _NOWHERE = Terrain(np.zeros((2, 2), np.float32), 100.0)
 
 
-def load_maps(loaded: LoadedScene, /) -> tuple[Terrain, Density]:
-    """Return a scene's elevation and density maps.
+Maps = tuple[Terrain, Density]
+"""A scene's elevation and density maps."""
+
+
+def load_maps(loaded: LoadedScene, /, *, before: tuple[LoadedScene, Maps] | None = None) -> Maps:
+    """Return a scene's elevation and density maps; of those of a scene `before`, what has not changed since.
 
     Raises SceneError with every map that cannot be used and every place of the camera that is off the terrain.
     """
     scene, folder = loaded.scene, loaded.folder
     try:
-        terrain = load_terrain(scene.terrain, folder)
+        terrain = _kept_terrain(loaded, before) or load_terrain(scene.terrain, folder)
     except MapError as error:
         where = ("terrain", "noise" if scene.terrain.heights is None else "heights")
         problem = loaded.document.problem(where, str(error))
         raise SceneError([problem, *_bad_densities(loaded, _NOWHERE)]) from error
     outside = list(_outside(loaded, terrain))
     try:
-        density = load_density(scene.grass, terrain, folder)
+        density = _kept_density(loaded, terrain, before) or load_density(scene.grass, terrain, folder)
     except MapError as error:
         raise SceneError([*outside, *_bad_densities(loaded, terrain)]) from error
     if outside:
         raise SceneError(outside)
     return terrain, density
+
+
+def _kept_terrain(loaded: LoadedScene, before: tuple[LoadedScene, Maps] | None) -> Terrain | None:
+    if before is None:
+        return None
+    old, (terrain, _) = before
+    source = loaded.scene.terrain
+    same = source == old.scene.terrain and _same_files(loaded, old, [source.heights])
+    return terrain if same else None
+
+
+def _kept_density(loaded: LoadedScene, terrain: Terrain, before: tuple[LoadedScene, Maps] | None) -> Density | None:
+    if before is None:
+        return None
+    old, (_, density) = before
+    places = [kind.place for kind in loaded.scene.grass.values()]
+    same = terrain.size == density.size and places == [kind.place for kind in old.scene.grass.values()]
+    names = [None if place is None else place.map for place in places]
+    return density if same and _same_files(loaded, old, names) else None
+
+
+def _same_files(loaded: LoadedScene, old: LoadedScene, names: list[str | None]) -> bool:
+    same_folder = loaded.folder == old.folder
+    return all(name is None or (same_folder and loaded.files.get(name) == old.files.get(name)) for name in names)
 
 
 def _bad_densities(loaded: LoadedScene, terrain: Terrain) -> Iterator[Problem]:

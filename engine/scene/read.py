@@ -1,7 +1,7 @@
 """Reading scenes, by path or by the name of a bundled one."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from importlib.resources import files
@@ -15,6 +15,12 @@ from .compose import MOST_BYTES, decode, read_document
 from .document import Document, Where
 from .problem import Problem, SceneError
 from .validate import validate
+
+Stamp = tuple[int, int]
+"""When a file was last changed [ns], and its size [bytes]."""
+
+LONGEST_NAME = 255
+"""Most characters of a file's name that is looked for."""
 
 SUFFIXES = (".yaml", ".yml")
 """What a scene file's name ends with."""
@@ -33,6 +39,9 @@ class LoadedScene:
     document: Document = field(repr=False)
     """The file's values with their places, for problems that show later."""
 
+    files: Mapping[str, Stamp] = field(default_factory=dict)
+    """The files that the scene names, as it names them, and what they were like when it was read."""
+
 
 def bundled_scenes() -> dict[str, Path]:
     """Return the bundled scenes: name and file."""
@@ -49,7 +58,17 @@ def read_scene(scene: str | Path, /) -> LoadedScene:
     document = read_document(decode(_bytes(path), file=str(path)), file=str(path))
     missing = _missing_files(document, path.parent)
     scene_read = validate(document, find=wind_kinds().find, folder=path.parent, also=missing)
-    return LoadedScene(scene_read, path, path.parent, document)
+    files = {name: stamp for name in _names(document.root.data) if (stamp := stamp_of(path.parent / name))}
+    return LoadedScene(scene_read, path, path.parent, document, files)
+
+
+def stamp_of(path: Path, /) -> Stamp | None:
+    """Return what changes when a file does; None where there is no file."""
+    try:
+        found = path.stat()
+    except (OSError, ValueError):
+        return None
+    return (found.st_mtime_ns, found.st_size) if S_ISREG(found.st_mode) else None
 
 
 def parse_scene(text: str, /, *, file: str = "<scene>") -> Scene:
@@ -106,6 +125,20 @@ def _named_files(values: object) -> Iterator[tuple[Where, str]]:
                 match declared:
                     case {"place": {"map": str(name)}} if name:
                         yield ("grass", kind, "place", "map"), name
+
+
+def _names(values: object) -> set[str]:
+    """Return the texts among values that could name a file beside the scene."""
+    names, left = set(), [values]
+    while left:
+        value = left.pop()
+        if isinstance(value, str):
+            names |= {value} if "." in value and len(value) <= LONGEST_NAME else set()
+        elif isinstance(value, dict):
+            left += value.values()
+        elif isinstance(value, list):
+            left += value
+    return names
 
 
 def _mode(path: Path) -> int:

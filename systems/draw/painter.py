@@ -44,21 +44,55 @@ class Painter:
 
     def __init__(self, ctx: moderngl.Context, field: Field) -> None:
         self.ctx = ctx
-        self.field = field
-        self.record = frame_record(field.scene, field.growths, field.terrain, field.quality.patch)
         self.block = FrameBlock(ctx)
-        self.textures: dict[str, moderngl.Texture | moderngl.TextureArray] = {
-            "postures": posture_texture(ctx, field.growths),
-            "tone": tone_texture(ctx, field.terrain, seed=field.scene.seed),
-            "density": density_texture(ctx, field.density),
-            "heights": height_texture(ctx, field.terrain),
-            "images": carpet_texture(ctx, field.growths),
-        }
+        self.textures: dict[str, moderngl.Texture | moderngl.TextureArray] = {}
         self.sky = program(ctx, "sky.vert", "sky.frag")
         self.block.join(self.sky)
         self.sky_array = ctx.vertex_array(self.sky, [])
+        self.bodies: BodyPainter | None = None
+        self.draw_calls = 0
+        self.runs: list[tuple[int, int, int, bool]] = []
+        self.field = field
+        self._lay(field)
+        self._grow(field)
+        self._light(field)
+
+    def change(self, field: Field) -> None:
+        """Draw another field from now on, one that was laid again; what has not changed stays in GL as it is."""
+        before, self.field = self.field, field
+        same_seed = field.scene.seed == before.scene.seed
+        same_terrain = field.terrain is before.terrain and same_seed
+        if not (same_terrain and field.density is before.density):
+            self._lay(field)
+        if not (same_seed and field.stock is before.stock and field.quality == before.quality):
+            self._release_grass()
+            self._grow(field)
+        if self.bodies is not None and field.scene.light != before.scene.light:
+            self.bodies.release()
+            self.bodies = None
+        self._light(field)
+
+    def _light(self, field: Field) -> None:
+        self._spacing = finest_spacing(field.terrain, field.quality.patch)
+        self.record = frame_record(field.scene, field.growths, field.terrain, field.quality.patch)
+
+    def _lay(self, field: Field) -> None:
+        """Bring the ground into GL."""
+        self._put("tone", tone_texture(self.ctx, field.terrain, seed=field.scene.seed))
+        self._put("density", density_texture(self.ctx, field.density))
+        self._put("heights", height_texture(self.ctx, field.terrain))
+
+    def _put(self, name: str, texture: moderngl.Texture | moderngl.TextureArray) -> None:
+        if name in self.textures:
+            self.textures[name].release()
+        self.textures[name] = texture
+
+    def _grow(self, field: Field) -> None:
+        """Bring the grass into GL."""
+        self._put("postures", posture_texture(self.ctx, field.growths))
+        self._put("images", carpet_texture(self.ctx, field.growths))
         self.ground = GroundPainter(
-            ctx,
+            self.ctx,
             self.block,
             field.growths,
             UNITS,
@@ -67,7 +101,7 @@ class Painter:
             patch=field.quality.patch,
         )
         self.strips = [
-            StripPainter(ctx, self.block, ring, strip_stock(field.growths, number), UNITS)
+            StripPainter(self.ctx, self.block, ring, strip_stock(field.growths, number), UNITS)
             for number, ring in enumerate(field.quality.strip_rings)
         ]
         segments = [ring.segments for ring in field.quality.blade_rings]
@@ -75,11 +109,10 @@ class Painter:
             self.blade_painter(fine, soft=True, coarser=coarse)
             for fine, coarse in zip(segments, segments[1:] + segments[-1:], strict=True)
         ]
-        self.morph = MorphPainter(ctx, self.block, field, UNITS)
-        self.spacing = finest_spacing(field.terrain, field.quality.patch)
-        self.bodies: BodyPainter | None = None
-        self.draw_calls = 0
-        self.runs: list[tuple[int, int, int, bool]] = []
+        self.morph = MorphPainter(self.ctx, self.block, field, UNITS)
+
+    def _release_grass(self) -> None:
+        release_all(*self.blades, *self.strips, self.morph, self.ground)
 
     def blade_painter(self, segments: int, *, soft: bool, coarser: int | None = None) -> BladePainter:
         """Return a painter of blades with this many segments, which may become those of `coarser` blades."""
@@ -112,7 +145,7 @@ class Painter:
     def draw_carpet_everywhere(self, view: View) -> None:
         """Draw the carpet everywhere, at half the height of the grass, into the framebuffer that is bound."""
         field = self.field
-        tiles = ground_tiles(field.terrain, field.sight.eye, field.sight.cone, spacing=self.spacing)
+        tiles = ground_tiles(field.terrain, field.sight.eye, field.sight.cone, spacing=self._spacing)
         self.ground.write(tiles, np.ones(len(tiles), np.bool_))
         self.ground.write_shares(np.ones(len(field.table.progress), np.float32), field.sight.centre)
         self.ground.raise_carpet(0.5)
@@ -126,7 +159,7 @@ class Painter:
         """
         field, sight = self.field, self.field.sight
         self.ground.blow(field.table.message, field.table.alive & field.table.visible)
-        tiles = ground_tiles(field.terrain, sight.eye, sight.cone, spacing=self.spacing)
+        tiles = ground_tiles(field.terrain, sight.eye, sight.cone, spacing=self._spacing)
         near = within(tiles, sight.centre, patch=field.quality.patch, reach=field.reach[1] - int(BORDER) - 1)
         self.ground.write(tiles, np.zeros_like(near) if carpet is None else ~near)
         if carpet is not None:
@@ -184,16 +217,8 @@ class Painter:
         """Give everything back to the context."""
         if self.bodies is not None:
             self.bodies.release()
-        release_all(
-            *self.blades,
-            *self.strips,
-            self.morph,
-            self.ground,
-            self.block,
-            self.sky_array,
-            self.sky,
-            *self.textures.values(),
-        )
+        self._release_grass()
+        release_all(self.block, self.sky_array, self.sky, *self.textures.values())
 
 
 def view_of(view: object, projection: object) -> View:
