@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from time import perf_counter
-from typing import get_args
+from typing import TYPE_CHECKING, get_args
 
 import moderngl
 import numpy as np
@@ -36,6 +36,11 @@ from .see import Seen, look, see
 from .sublevel import refine
 from .tile import cell_of, tile
 from .winds import Winds
+
+if TYPE_CHECKING:
+    from pyglet.graphics import Batch, Group
+
+    from ..engine.gl.batch import DrawingGroup
 
 Floats = NDArray[np.float32]
 
@@ -100,6 +105,7 @@ class Prairie:
         self.world = World()
         self.painter: Painter | None = None
         self._painters = Homes(lambda ctx: Painter(ctx, self.field))
+        self._groups: list[DrawingGroup] = []
         self.statistics.blades_field = blades_in_field(self.field)
         self._loaded = loaded
         self._preset = preset
@@ -215,6 +221,26 @@ class Prairie:
         sight.dt = 1e9 if self._drawn_at is None else self.time - self._drawn_at
         self._drawn_at = self.time
 
+    def group(
+        self,
+        batch: "Batch",
+        camera: Callable[[], tuple[object, object]],
+        *,
+        order: int = 0,
+        parent: "Group | None" = None,
+    ) -> "DrawingGroup":
+        """Put the prairie into a pyglet batch, and return the group that it is there.
+
+        Whenever the batch is drawn, `camera` is asked for view and projection, as `draw` takes them, and the prairie is
+        drawn after groups of a lower `order` and before those of a higher one. The group's `visible` hides it, its
+        `delete` takes it out of the batch, as `release` does.
+        """
+        from ..engine.gl.batch import DrawingGroup  # noqa: PLC0415 - it loads pyglet, which needs a display
+
+        made = DrawingGroup(lambda: self.draw(*camera()), batch, order=order, parent=parent)
+        self._groups.append(made)
+        return made
+
     def height_at(self, xz: ArrayLike) -> Floats:
         """Return the height of the ground [m], shape (n,), at ground positions (x, z) [m], shape (n, 2)."""
         return height_at(self.field.terrain, _places(xz))
@@ -273,6 +299,9 @@ class Prairie:
     def release(self) -> None:
         """Give back everything: GL objects and entities. The prairie cannot be drawn afterwards."""
         self._released = True
+        for group in self._groups:
+            group.delete()
+        self._groups.clear()
         self._painters.release()
         self.painter = None
         self.world.release()
