@@ -22,7 +22,9 @@ class Flight:
     def __init__(self, prairie: Prairie, walker: Walker, ground: Ground) -> None:
         x, _, z = walker.position
         self.saucer = launched(x + DISTANCE * sin(walker.yaw), z - DISTANCE * cos(walker.yaw), walker.yaw, ground)
-        self._board(prairie, ground)
+        self._prairie = prairie
+        self._entity = prairie.add(BLAST, pose=jet(self.saucer, ground), name="saucer")
+        self._follow(ground)
 
     def step(self, held: AbstractSet[Move], dt: float, ground: Ground) -> None:
         """Fly on by `dt` [s] of the held keys, with the blast."""
@@ -37,21 +39,16 @@ class Flight:
         """Return the camera that follows it."""
         return chase(self.saucer, view, ground)
 
-    def change(self, prairie: Prairie, ground: Ground) -> None:
-        """Fly on at the same place over another prairie; the one before is gone."""
+    def settle(self, ground: Ground) -> None:
+        """Fly on at the same place over other ground."""
         self.saucer = put(self.saucer, ground)
-        self._board(prairie, ground)
+        self._follow(ground)
 
     def leave(self, ground: Ground) -> Walker:
         """Take the saucer away and return who stood in it: on the ground below, and looking the same way."""
         self._prairie.remove(self._entity)
         x, y, z = self.saucer.place
         return settled(Walker((x, y, z), self.camera(1.0, ground).yaw), ground)
-
-    def _board(self, prairie: Prairie, ground: Ground) -> None:
-        self._prairie = prairie
-        self._entity = prairie.add(BLAST, pose=jet(self.saucer, ground), name="saucer")
-        self._follow(ground)
 
     def _follow(self, ground: Ground) -> None:
         self._prairie.move(self._entity, jet(self.saucer, ground))

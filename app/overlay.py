@@ -18,7 +18,7 @@ HELP = (
     "F1                this help",
     "F2                how it works: winds, levels of detail, map, all",
     "F3                statistics",
-    "F5                read the scene file again",
+    "F5                read the scene file again (as is done when it changes)",
     "F12               picture into this folder",
     "Escape            let the mouse go, then close",
 )

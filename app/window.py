@@ -2,7 +2,7 @@
 
 from collections import deque
 from itertools import count
-from math import radians
+from math import inf, radians
 from pathlib import Path
 from statistics import median
 
@@ -28,6 +28,7 @@ from .progress import busy
 from .studio import about, written
 from .take import Take
 from .walker import Ground, Move, moved, settled, start, toggled, turned
+from .watch import Watch
 from .weather import Weather
 
 Floats = NDArray[np.float32]
@@ -55,6 +56,12 @@ RATE = 120
 
 PATIENCE = 6.0
 """How long a message stands [s]."""
+
+GLANCE = 0.5
+"""How often the scene's files are looked at [s]."""
+
+MOST_TOLD = 4
+"""Most problems of a scene that are shown at once."""
 
 
 def walk_in(take: Take, /, *, fullscreen: bool = False, seconds: float | None = None) -> None:
@@ -102,6 +109,8 @@ class Walk:
         self._frames: deque[float] = deque(maxlen=60)
         self._age = 0.0
         self._told = 0.0
+        self._watch = Watch(prairie.files.values())
+        self._looked = 0.0
         self._top, self._bottom = Note(top=True), Note(top=False)
         self.tell(["F1 shows the keys"])
         window.push_handlers(self)
@@ -139,6 +148,10 @@ class Walk:
         """Move the viewer, and the prairie unless it is paused, on by `dt` [s]; at most by `LONGEST_STEP`."""
         self._frames.append(1000.0 * dt)
         self._age += dt
+        if self._age - self._looked >= GLANCE:
+            self._looked = self._age
+            if self._watch.changed():
+                self.reload()
         step = min(dt, LONGEST_STEP)
         held = {MOVES[symbol] for symbol in self._held}
         if self.flight is None:
@@ -149,24 +162,22 @@ class Walk:
             self.prairie.advance(step)
             self.weather.settle()
 
-    def tell(self, lines: list[str]) -> None:
-        """Show a message for a while."""
-        self._told = self._age
+    def tell(self, lines: list[str], *, lasting: bool = False) -> None:
+        """Show a message for a while, or until there is another."""
+        self._told = inf if lasting else self._age
         self._bottom.write(lines)
 
     def reload(self) -> None:
-        """Read the scene again at the same time and place; a broken one is told of, and the old one stays."""
+        """Read the scene again and go on; a broken one is told of until it is right, and the old one stays."""
         try:
-            fresh = Prairie.load(self.take.scene, preset=self.take.preset)
+            self.prairie.reload()
         except SceneError as error:
-            self.tell(str(error).splitlines())
+            self.tell(_told(error), lasting=True)
             return
-        fresh.advance(self.prairie.time)
-        self.prairie.release()
-        self.prairie, self.weather = fresh, Weather(fresh)
+        self._watch.turn_to(self.prairie.files.values())
         self.walker = settled(self.walker, self.ground)
         if self.flight is not None:
-            self.flight.change(fresh, self.ground)
+            self.flight.settle(self.ground)
         self.tell([f"{self.take.scene} is read again"])
 
     def escape(self) -> None:
@@ -341,6 +352,12 @@ _ACTIONS = {
     key.F5: Walk.reload,
     key.F12: Walk.save_picture,
 }
+
+
+def _told(error: SceneError) -> list[str]:
+    lines = [line for problem in error.problems[:MOST_TOLD] for line in str(problem).splitlines()]
+    more = len(error.problems) - MOST_TOLD
+    return lines + ([f"and {more} more problems"] if more > 0 else [])
 
 
 def _free_name(stem: str) -> str:

@@ -2,7 +2,7 @@
 
 from .maps import load_maps
 from .problem import Problem, SceneError, printable
-from .read import LoadedScene, bundled_scenes, parse_scene, read_scene
+from .read import LoadedScene, bundled_scenes, parse_scene, read_scene, stamp_of
 
 __all__ = [
     "LoadedScene",
@@ -13,4 +13,5 @@ __all__ = [
     "parse_scene",
     "printable",
     "read_scene",
+    "stamp_of",
 ]
