@@ -24,7 +24,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-bench = typer.Typer(help="Measure: how long a frame takes, how true it is, and whether it pops.", no_args_is_help=True)
+bench = typer.Typer(help="Measure: what frames take, how true they are, and whether they pop.", no_args_is_help=True)
 app.add_typer(bench, name="bench")
 plugins = typer.Typer(help="Kinds of wind that other packages bring.", no_args_is_help=True)
 app.add_typer(plugins, name="plugins")
@@ -229,6 +229,24 @@ def new(
     from .plugins import new_plugin
 
     new_plugin(name, output)
+
+
+@bench.command("walk")
+def bench_walk(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720", *, json: Json = False) -> int:
+    """Measure whether frames keep taking the same time on a walk."""
+    pixels = _size(size)
+    from .bench.walk import bench_walk
+
+    return bench_walk(scene, preset=preset, size=pixels, json=json)
+
+
+@bench.command("scale")
+def scale(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720", *, json: Json = False) -> int:
+    """Measure what a larger terrain costs, up to 10 km."""
+    pixels = _size(size)
+    from .bench.scale import bench_scale
+
+    return bench_scale(scene, preset=preset, size=pixels, json=json)
 
 
 def _print_version(wanted: bool) -> None:  # noqa: FBT001 - typer passes it by place

@@ -78,7 +78,8 @@ class _Samples:
     floor: list[float] = field(default_factory=list)
 
 
-def _timed(ctx: moderngl.Context, work: Callable[[], object]) -> float:
+def timed(ctx: moderngl.Context, work: Callable[[], object]) -> float:
+    """Return how long some work takes, up to its end on the graphics card [ms]."""
     ctx.finish()
     start = perf_counter()
     work()
@@ -107,12 +108,12 @@ def _sample(studio: Studio) -> _Samples:
             studio.begin()
             every.painter.draw(seen, blades=blades)
 
-        return _timed(ctx, draw)
+        return timed(ctx, draw)
 
     only([every.blades])
     for number in counted(range(FRAMES), total=FRAMES, doing="frames"):
         prairie.advance(STEP)
-        samples.frame.append(_timed(ctx, frame))
+        samples.frame.append(timed(ctx, frame))
         samples.draw.append(prairie.statistics.draw_ms)
         for name, milliseconds in prairie.statistics.systems_ms.items():
             samples.systems.setdefault(name, []).append(milliseconds)

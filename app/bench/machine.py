@@ -4,6 +4,7 @@ import json
 import os
 import platform
 from collections.abc import Mapping
+from mmap import PAGESIZE
 from pathlib import Path
 
 import moderngl
@@ -30,6 +31,18 @@ def _processor() -> str:
     except OSError:
         names = []
     return names[0] if names else platform.processor() or platform.machine()
+
+
+def resident_mb() -> float | None:
+    """Return the memory that this process holds [MB]; on macOS the most it ever held, and on Windows None."""
+    statm = Path("/proc/self/statm")
+    if statm.is_file():
+        return round(int(statm.read_text("ascii").split()[1]) * PAGESIZE / 1e6, 1)
+    try:
+        from resource import RUSAGE_SELF, getrusage
+    except ImportError:
+        return None
+    return round(getrusage(RUSAGE_SELF).ru_maxrss / 1e6, 1)
 
 
 def tell(result: Mapping[str, object], *, as_json: bool) -> None:

@@ -5,9 +5,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...components.transition import SEAMLESS, Transitions
+from ..errors import InputError
 from ..studio import Studio
 from ..take import Take
-from .flicker import LEAST, flicker, step
+from .flicker import LEAST, MARGIN, TILE, flicker, step
 from .frame import own_preset
 from .machine import machine, tell
 from .picture import evaluator, flip
@@ -19,6 +20,9 @@ HARD = Transitions(morph=False, fade=False, growth=False)
 
 PARTS = ("morph", "fade", "growth", "hysteresis")
 """What each is worth is found by leaving it out."""
+
+SMALLEST = TILE + 2 * MARGIN + 2
+"""Least side of a picture [pixels]."""
 
 TOLD = 6
 """Frames that are told of."""
@@ -51,10 +55,12 @@ class Verdict:
 def bench_pop(scene: str, *, preset: str | None, size: tuple[int, int], json: bool, parts: bool = False) -> int:
     """Walk through a scene, compare its changes with the reference's, print the figures, and return the exit status.
 
-    With `parts` the walk is repeated with each part of the transitions left out. Raises MachineError, before anything
-    is drawn, where pictures cannot be compared.
+    With `parts` the walk is repeated with each part of the transitions left out. Before anything is drawn it raises
+    MachineError where pictures cannot be compared, and InputError where they would be too small.
     """
     evaluator()
+    if min(size) < SMALLEST:
+        raise InputError(f"--size: {size[0]}x{size[1]}: here each side must be at least {SMALLEST} pixels")
     take = Take(scene, size, preset=preset)
     with Studio(take) as studio:
         head = {"machine": machine(studio.ctx), "scene": scene, "preset": preset or own_preset(studio.prairie)}
@@ -87,7 +93,8 @@ def _measure(studio: Studio, *, parts: bool) -> dict[str, object]:
     }
     if parts:
         result["contributions"] = [
-            {"without": name, **_figures(verdicts[name][0]), **_changing(record)} for name, record in records.items()
+            {"without": name, **_figures(verdicts[name][0]), "changing": _changing(record)["mean"]}
+            for name, record in records.items()
         ]
     return result
 

@@ -18,10 +18,6 @@ from ..take import SAMPLES
 from .flicker import prominence
 from .stroll import REST, Leg, Moment, moments, raise_gusts
 
-FINE = 8
-"""Width and height of the supersampling of references that changes are compared with, in samples per pixel: with fewer
-the reference shimmers more than what is compared with it."""
-
 KEPT = 3
 """Frames of each leg that are kept."""
 
@@ -104,7 +100,7 @@ class Truth:
     """The reference's pictures by the instant they show."""
 
     near: dict[float, Picture]
-    """Every blade up to where strips end, `FINE` by `FINE` samples; beyond it the carpet, which does not change."""
+    """Every blade up to where strips end; beyond it the prairie's own carpet, which does not change."""
 
     whole: dict[float, Picture]
     """Every blade there is, as `--reference` draws it."""
@@ -122,7 +118,7 @@ def find_truth(studio: Studio, walk: list[Leg], near: Iterable[Moment], whole: I
         _go(studio, prairie, moment)
         matrices = studio.matrices(moment.camera)
         if time in fine:
-            truth.near[time] = draw_reference(prairie, *matrices, size, samples=FINE, reach=reach)
+            truth.near[time] = draw_reference(prairie, *matrices, size, samples=SAMPLES, reach=reach)
         if time in full:
             truth.whole[time] = draw_reference(prairie, *matrices, size, samples=SAMPLES)
     return truth

@@ -19,6 +19,9 @@ COMMANDS = (
     ["bench"],
     ["bench", "frame"],
     ["bench", "picture"],
+    ["bench", "pop"],
+    ["bench", "scale"],
+    ["bench", "walk"],
 )
 
 

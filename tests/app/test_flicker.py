@@ -1,0 +1,66 @@
+"""Flicker: what it sees, where, and what it leaves alone (N3)."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from tallgrass.app.bench.flicker import LEAST, MARGIN, TILE, flicker, low_passed, prominence, step, tiles
+
+Picture = NDArray[np.uint8]
+SHAPE = (2 * TILE + 2 * MARGIN + 2, 3 * TILE + 2 * MARGIN + 2, 3)
+
+
+def grass(seed: int) -> Picture:
+    """A picture that shimmers in every pixel."""
+    return np.random.default_rng(seed).integers(60, 140, SHAPE).astype(np.uint8)
+
+
+def popped(picture: Picture, by: int) -> Picture:
+    """The picture with its middle tile in the second row another one."""
+    changed = picture.copy()
+    rows, columns = (slice(MARGIN + 1 + TILE * i, MARGIN + 1 + TILE * (i + 1)) for i in (1, 1))
+    changed[rows, columns] += np.uint8(by)
+    return changed
+
+
+def test_the_low_pass_keeps_what_is_even_and_averages_what_shimmers() -> None:
+    np.testing.assert_allclose(low_passed(np.full(SHAPE, 77, np.uint8)), 77.0, atol=1e-4)
+    assert low_passed(grass(1)).shape == (SHAPE[0] - 2, SHAPE[1] - 2, 3)
+    assert float(low_passed(grass(1)).std()) == pytest.approx(float(grass(1).std()) / 3.0, rel=0.1)
+
+
+def test_n3_a_picture_that_changes_as_the_truth_does_has_no_flicker() -> None:
+    first, then = grass(1).astype(int), grass(2).astype(int)
+    brighter = [(picture + 40).astype(np.uint8) for picture in (then, first)]
+    np.testing.assert_allclose(flicker(brighter[0], brighter[1], grass(2), grass(1)), 0.0, atol=1e-3)
+
+
+@given(st.integers(0, 200), st.integers(0, 200))
+def test_n3_a_frame_without_changes_has_no_step(now: int, before: int) -> None:
+    np.testing.assert_array_equal(step(grass(now), grass(now)), 0.0)
+    assert prominence(grass(now), grass(now), grass(before)) == 0.0
+
+
+def test_n3_a_pop_shows_in_its_tile_and_in_no_other() -> None:
+    held, before, true = grass(1), grass(2), (grass(3), grass(4))
+    now = popped(held, 30)
+    more = flicker(now, before, *true) - flicker(held, before, *true)
+    assert more.shape == (2, 3)
+    assert more.argmax() == 4
+    assert np.abs(np.delete(more, 4)).max() < 0.1 * more[1, 1]
+    changed = step(now, held)
+    assert changed[1, 1] == pytest.approx(30.0, rel=0.1)
+    assert prominence(now, held, before) > 1.0
+
+
+def test_n3_what_moves_anyway_makes_a_step_less_prominent() -> None:
+    held, now = grass(1), popped(grass(1), 30)
+    assert prominence(now, held, held) == pytest.approx(float(step(now, held).max()) / LEAST, rel=1e-5)
+    assert prominence(now, held, grass(2)) < 0.5 * prominence(now, held, held)
+
+
+def test_a_tile_tells_the_mean_size_of_a_difference() -> None:
+    signs = np.random.default_rng(1).choice([-3.0, 3.0], (2 * TILE + 2 * MARGIN, TILE + 2 * MARGIN, 3))
+    np.testing.assert_allclose(tiles(signs.astype(np.float32)), 3.0)

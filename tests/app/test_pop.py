@@ -1,0 +1,95 @@
+"""Whether changes of representation can be seen: the benchmark, and that it can see a pop (N3)."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tallgrass.app.bench import pop, stroll
+from tallgrass.app.bench.pop import HARD, judge
+from tallgrass.app.bench.steps import Record, find_truth, walked
+from tallgrass.app.bench.stroll import legs
+from tallgrass.app.cli import run
+from tallgrass.app.studio import Studio
+from tallgrass.app.take import Take
+from tallgrass.components.transition import SEAMLESS
+
+pytestmark = [pytest.mark.gl, pytest.mark.usefixtures("ctx")]
+
+POP = {"machine", "scene", "preset", "size", "frames", "error", "flicker", "hard_switch_ratio", "changing", "worst"}
+
+SCENE = """\
+tallgrass: 1
+terrain: { noise: flat, size: [60, 60] }
+grass:
+  tall: { height: [0.5, 0.9], width: 0.03, root: "#5a5a2c", tip: "#dcc98f" }
+wind: [{ kind: breeze, strength: 0.2 }]
+camera: { position: [0, 20], yaw: 20, view: 35 }
+quality:
+  blades: 60
+  models: 2
+  blade_rings: [{ to: 1, segments: 2 }]
+  strip_rings: [{ to: 6, strips: 3, columns: 2, sections: 2, texel: 0.02 }]
+  carpet_to: 10
+  carpet: 32
+"""
+
+
+@pytest.fixture
+def scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A small scene, walked through on one leg, in few frames."""
+    monkeypatch.setattr(stroll, "RATE", 30)
+    monkeypatch.setattr(stroll, "SECONDS", 0.5)
+    monkeypatch.setattr(pop, "legs", lambda prairie: legs(prairie)[:1])
+    path = tmp_path / "scene.yaml"
+    path.write_text(SCENE)
+    return path
+
+
+def prominent(record: Record) -> list[tuple[str, int, int]]:
+    return [(step.moment.leg.name, step.moment.number, step.changing) for step in record.steps]
+
+
+def test_n3_the_pop_benchmark_tells_every_key_and_sees_a_pop(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["bench", "pop", str(scene), "--size", "192x108", "--parts", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told.keys() == POP | {"contributions"}
+    assert told["frames"] == 15
+    assert told["error"].keys() == {"p50", "max"}
+    assert 0.0 < told["error"]["p50"] <= told["error"]["max"] < 1.0
+    flicker = told["flicker"]
+    assert flicker.keys() == {"steady", "transition_max", "ratio"}
+    assert flicker["ratio"] == pytest.approx(flicker["transition_max"] / flicker["steady"], rel=0.01)
+    assert told["hard_switch_ratio"] > flicker["ratio"]
+    assert told["changing"]["max"] > told["changing"]["mean"] > 0.0
+    assert [row["ratio"] for row in told["worst"]] == sorted((row["ratio"] for row in told["worst"]), reverse=True)
+    rows = {row["without"]: row for row in told["contributions"]}
+    assert rows.keys() == {"nothing", "morph", "fade", "growth", "hysteresis", "morph, fade, growth"}
+    assert rows["nothing"]["ratio"] == flicker["ratio"]
+    assert rows["morph, fade, growth"]["ratio"] == told["hard_switch_ratio"]
+    assert rows["hysteresis"]["changing"] >= rows["nothing"]["changing"] == told["changing"]["mean"]
+
+
+def test_n3_the_walk_shows_the_same_again_and_hard_switches_show_where_they_happen(scene: Path) -> None:
+    with Studio(Take(str(scene), (192, 108))) as studio:
+        walk = legs(studio.prairie)[:1]
+        once, again = (walked(studio, walk, SEAMLESS, doing="walking") for _ in range(2))
+        hard = walked(studio, walk, HARD, doing="walking")
+        near = [each for record in (once, hard) for step in record.steps for each in (step.earlier, step.moment)]
+        truth = find_truth(studio, walk, near, [])
+    assert prominent(once) == prominent(again)
+    worst = judge(hard, truth)[0]
+    border = round(stroll.LEAD * stroll.RATE)
+    assert abs(worst.step.moment.number - border) <= 1
+    assert worst.step.changing > 5
+    assert worst.jump > worst.steady
+    assert judge(once, truth)[0].ratio < worst.ratio
+    assert truth.near.keys() == {each.time for each in near}
+    assert not truth.whole
+
+
+def test_n3_a_picture_too_small_to_compare_is_refused_in_a_line(
+    scene: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["bench", "pop", str(scene), "--size", "320x30"]) == 2
+    assert capsys.readouterr().err == "--size: 320x30: here each side must be at least 38 pixels\n"
