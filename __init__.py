@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from . import scenes
     from .components.pose import Pose
-    from .components.wind import Extent, Grass, WindPrimitive
+    from .components.wind import Extent, Grass, Receivers, WindPrimitive, WindSource
     from .engine.plugins import wind
     from .engine.scene import SceneError
+    from .engine.world import install
     from .systems.prairie import Prairie
     from .systems.wind.blast import Blast
     from .systems.wind.breeze import Breeze
@@ -27,9 +28,12 @@ __all__ = [
     "PlacedWind",
     "Pose",
     "Prairie",
+    "Receivers",
     "SceneError",
     "Whirlwind",
     "WindPrimitive",
+    "WindSource",
+    "install",
     "scenes",
     "wind",
 ]
@@ -43,9 +47,12 @@ _HOMES = {
     "PlacedWind": ".systems.wind.placed",
     "Pose": ".components.pose",
     "Prairie": ".systems.prairie",
+    "Receivers": ".components.wind",
     "SceneError": ".engine.scene",
     "Whirlwind": ".systems.wind.whirlwind",
     "WindPrimitive": ".components.wind",
+    "WindSource": ".components.wind",
+    "install": ".engine.world",
     "wind": ".engine.plugins",
 }
 

@@ -1,6 +1,7 @@
 """The entities of one prairie, inside whatever esper world is current: the only module that imports esper."""
 
-from collections.abc import Iterator
+import gc
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from itertools import count
 from typing import TypeVar
@@ -8,7 +9,12 @@ from weakref import WeakSet
 
 import esper
 
+from ..components.resident import Resident
+
 Component = TypeVar("Component")
+
+PRIORITY = 100
+"""Priority of the processor that `install` adds. A game's own of lower numbers, 0 without more, run after it."""
 
 _worlds: WeakSet["World"] = WeakSet()
 _private = count()
@@ -17,28 +23,31 @@ _private = count()
 class World:
     """A prairie's own entities among a game's.
 
-    It never switches, clears or processes worlds: it lives in the world that was current when it was made, as
-    a guest, and `release` removes exactly what it created. Worlds number their entities alike, so while the game has
-    another world current, everything but `release` raises RuntimeError.
+    It lives in the world that was current when it was made, as a guest, and `release` removes exactly what it created.
+    Worlds number their entities alike, so while the game has another world current, everything but `release` raises
+    RuntimeError. `advance` is what the processor of `install` calls with each step of time [s].
     """
 
-    def __init__(self) -> None:
+    def __init__(self, advance: Callable[[float], None] | None = None) -> None:
         self.name = esper.current_world
+        self.advance = advance
         self._entities: set[int] = set()
+        self._mark = Resident()
         _worlds.add(self)
 
     def create(self, *components: object) -> int:
         """Return a new entity that has `components`."""
         self._must_be_current()
-        entity = esper.create_entity(*components)
+        entity = esper.create_entity(*components, self._mark)
         self._entities.add(entity)
         return entity
 
     def delete(self, entity: int) -> None:
-        """Delete an entity at once; one that the game has deleted already is no error."""
+        """Delete an entity of ours at once; one that the game has deleted already is no error."""
         self._must_be_current()
         self._entities.discard(entity)
-        if esper.entity_exists(entity):
+        # A game that clears its world counts entities from 1 again: the number alone does not say whose one is.
+        if esper.entity_exists(entity) and esper.try_component(entity, Resident) is self._mark:
             esper.delete_entity(entity, immediate=True)
 
     def add(self, entity: int, component: object) -> None:
@@ -50,6 +59,11 @@ class World:
         """Return an entity's component of exactly this type; KeyError if it has none."""
         self._must_be_current()
         return esper.component_for_entity(entity, kind)
+
+    def find(self, entity: int, kind: type[Component]) -> Component | None:
+        """Return an entity's component of exactly this type, None if it has none."""
+        self._must_be_current()
+        return esper.try_component(entity, kind)
 
     def all(self, kind: type[Component]) -> list[tuple[int, Component]]:
         """Return every entity with a component of exactly this type, by rising entity number.
@@ -69,17 +83,77 @@ class World:
         return len(self._entities)
 
     def release(self) -> None:
-        """Delete every entity created here that still exists; while another world is current, just forget them."""
-        if esper.current_world == self.name:
-            for entity in list(self._entities):
-                self.delete(entity)
+        """Delete every entity created here that still exists, and with the world's last prairie its processor.
+
+        Where the game has another world current, this one is made current for that moment.
+        """
+        if self.name in esper.list_worlds():
+            with _current(self.name):
+                for entity in list(self._entities):
+                    self.delete(entity)
+                if not _residents(self.name, but=self) and self in _worlds:
+                    esper.remove_processor(Advance)
         self._entities.clear()
+        self.advance = None
+        _worlds.discard(self)
 
     def _must_be_current(self) -> None:
         if esper.current_world != self.name:
             raise RuntimeError(
                 f"this prairie lives in esper world '{self.name}', but '{esper.current_world}' is current"
             )
+
+
+class Advance(esper.Processor):
+    """Moves the time of every prairie in its world on; `install` adds it."""
+
+    def process(self, dt: float | None = None, *args: object, **options: object) -> None:
+        """Advance by `dt` [s]; without it, time stands still. What else a game hands its processors is left alone."""
+        del args, options
+        if dt is None:
+            return
+        if not isinstance(dt, (int, float)):
+            raise TypeError(
+                f"esper.process hands its arguments to every processor, and tallgrass needs dt [s] first, not {dt!r}"
+            )
+        for world in _residents(esper.current_world):
+            if world.advance is not None:
+                world.advance(dt)
+
+
+def install() -> None:
+    """Let `esper.process(dt)` advance the prairies of the current esper world; a second time does nothing.
+
+    It adds one processor, of priority 100, which draws nothing and leaves with the world's last prairie. Whoever calls
+    this does not call `Prairie.advance`. A prairie lives in the world that was current when it was loaded, installed
+    or not: its patches, its receivers and its winds are entities there, for a game's own processors to read and write.
+    """
+    if esper.get_processor(Advance) is None:
+        esper.add_processor(Advance(), PRIORITY)
+
+
+def _residents(name: str, *, but: World | None = None) -> list[World]:
+    return [world for world in _worlds if world.name == name and world is not but]
+
+
+@contextmanager
+def _current(name: str) -> Iterator[None]:
+    """Make another of the game's worlds current for a moment.
+
+    Meanwhile nothing is collected: a handler of the game's that went now would leave its reference in its world.
+    """
+    before, collecting = esper.current_world, gc.isenabled()
+    if before == name:
+        yield
+        return
+    gc.disable()
+    esper.switch_world(name)
+    try:
+        yield
+    finally:
+        esper.switch_world(before)
+        if collecting:
+            gc.enable()
 
 
 @contextmanager

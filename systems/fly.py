@@ -106,14 +106,14 @@ def flying(world: World, height_at: Heights, /, *, time: float) -> list[Body]:
 
     A blast's body flies where the blast is, along its path or with the pose of its entity.
     """
-    own, poses = dict(world.all(Body)), dict(world.all(Pose))
+    own = dict(world.all(Body))
     bodies = list(own.values())
     for entity, source in world.all(WindSource):
         blast = source.primitive
         if entity in own or not isinstance(blast, Blast) or blast.body is None:
             continue
         if blast.start <= time < (inf if blast.stop is None else blast.stop):
-            bodies.append(carried(_path(blast, poses.get(entity)), time, height_at, height=blast.height))
+            bodies.append(carried(_path(blast, world.find(entity, Pose)), time, height_at, height=blast.height))
     return bodies
 
 

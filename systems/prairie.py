@@ -102,9 +102,9 @@ class Prairie:
         self.lod: LodName = lod
         self.statistics = Statistics()
         self.field: Field = lay_out(scene, quality, terrain, density, growths, lod=lod, transitions=transitions)
-        self.world = World()
+        self.world = World(self.advance)
         self.painter: Painter | None = None
-        self._painters = Homes(lambda ctx: Painter(ctx, self.field))
+        self._painters: Homes[Painter] = Homes()
         self._groups: list[DrawingGroup] = []
         self.statistics.blades_field = blades_in_field(self.field)
         self._loaded = loaded
@@ -184,7 +184,7 @@ class Prairie:
             ctx = host_context(self._ctx)
             if 0 in viewport(ctx)[2:]:
                 return
-            self.painter = self._painters.here(ctx)
+            self.painter = self._painters.here(ctx, partial(Painter, field=self.field))
             self._draw(self.painter, seen, held=held)
 
     def _draw(self, painter: Painter, seen: View, *, held: bool) -> None:
@@ -305,6 +305,7 @@ class Prairie:
         self._painters.release()
         self.painter = None
         self.world.release()
+        self._schedule.systems.clear()
 
     def _systems(self) -> Schedule:
         plan = Schedule()

@@ -69,8 +69,7 @@ class Winds:
         are where they say themselves.
         """
         found = self._world.all(WindSource)
-        placed = dict(self._world.all(Pose))
-        poses = {source: placed[entity] for entity, source in found if entity in placed}
+        poses = {source: pose for entity, source in found if (pose := self._world.find(entity, Pose)) is not None}
         for _, source in found:
             if isinstance(source.primitive, Blast) and source.primitive.body and source not in poses:
                 poses[source] = jet(source.primitive, self._height_at, time=time)

@@ -12,27 +12,26 @@ Thing = TypeVar("Thing", bound=Releasable)
 
 
 class Homes(Generic[Thing]):
-    """One thing for each GL context, made when it is first asked for there; `make` makes it.
+    """One thing for each GL context, made when it is first asked for there.
 
     Vertex arrays belong to one context: what is drawn in two windows is made twice, and again after a window was
     closed and another opened.
     """
 
-    def __init__(self, make: Callable[[moderngl.Context], Thing]) -> None:
-        self._make = make
+    def __init__(self) -> None:
         self._homes: list[tuple[moderngl.Context, Any | None, Thing]] = []
 
     def __len__(self) -> int:
         return len(self._homes)
 
-    def here(self, ctx: moderngl.Context) -> Thing:
-        """Return the thing of the context that is current, which `ctx` draws in."""
+    def here(self, ctx: moderngl.Context, make: Callable[[moderngl.Context], Thing]) -> Thing:
+        """Return the thing of the context that is current, which `ctx` draws in; `make` makes it if there is none."""
         place = None if ctx.screen is None else pyglet_context()
         for known, where, thing in self._homes:
             if known is ctx and where is place:
                 return thing
         self._let_go(lost=True)
-        thing = self._make(ctx)
+        thing = make(ctx)
         self._homes.append((ctx, place, thing))
         return thing
 

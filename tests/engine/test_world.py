@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import esper
 import pytest
 
-from tallgrass.engine.world import World
+from tallgrass.components.resident import Resident
+from tallgrass.engine.world import Advance, World, install
 
 
 @dataclass
@@ -140,3 +141,127 @@ def test_no_entity_of_another_world_is_ever_touched(world: World, elsewhere: str
     world.release()
     assert esper.component_for_entity(theirs, Score).points == 1
     assert esper.get_component(Grass) == []
+
+
+def test_d6_entities_of_a_world_that_is_not_current_go_with_release_too(world: World, elsewhere: str) -> None:
+    esper.switch_world(world.name)
+    theirs = [esper.create_entity(Score(1)), world.create(Grass(0.5))][0]
+    esper.switch_world(elsewhere)
+    menu = esper.create_entity(Score(7))
+    world.release()
+    assert esper.current_world == elsewhere
+    assert list(esper.get_entities()) == [menu]
+    esper.switch_world(world.name)
+    assert list(esper.get_entities()) == [theirs]
+    esper.switch_world(elsewhere)
+
+
+def test_d6_a_world_that_the_game_has_deleted_is_not_made_again(world: World) -> None:
+    esper.switch_world("level")
+    level = World()
+    level.create(Grass(0.5))
+    esper.switch_world(world.name)
+    esper.delete_world("level")
+    level.release()
+    assert "level" not in esper.list_worlds()
+
+
+def test_d6_after_a_game_clears_its_world_its_new_entities_are_not_taken_for_ours(world: World) -> None:
+    ours = world.create(Grass(0.5))
+    esper.clear_database()
+    theirs = esper.create_entity(Score(3))
+    assert theirs == ours, "a cleared world counts from 1 again"
+    world.delete(ours)
+    world.release()
+    assert esper.component_for_entity(theirs, Score).points == 3
+
+
+def test_d6_a_game_can_tell_a_prairies_entities_from_its_own(world: World) -> None:
+    ours = [world.create(Grass(0.5)), world.create(Score(1))]
+    esper.create_entity(Grass(0.5))
+    assert sorted(entity for entity, _ in esper.get_component(Resident)) == ours
+
+
+# ---- install() -----------------------------------------------------------------------------------
+
+
+class Order(esper.Processor):
+    """A game's own processor: what the prairies' time was when it ran."""
+
+    def __init__(self, steps: list[float]) -> None:
+        self.steps = steps
+        self.seen: list[float] = []
+
+    def process(self, *args: object, **options: object) -> None:
+        self.seen.append(sum(self.steps))
+
+
+@pytest.fixture
+def steps(world: World) -> list[float]:
+    """By what a prairie in the world has been advanced."""
+    told: list[float] = []
+    world.advance = told.append
+    return told
+
+
+def test_d6_installed_a_world_advances_its_prairies_before_the_games_own_processors(
+    steps: list[float],
+) -> None:
+    order = Order(steps)
+    esper.add_processor(order)
+    install()
+    esper.process(0.25)
+    esper.process(dt=0.5)
+    esper.process(0.125, "what else a game hands around", paused=False)
+    esper.process()
+    assert steps == [0.25, 0.5, 0.125]
+    assert order.seen == [0.25, 0.75, 0.875, 0.875]
+
+
+def test_d6_installing_twice_advances_once(steps: list[float]) -> None:
+    install()
+    install()
+    esper.process(0.1)
+    assert steps == [0.1]
+
+
+def test_d6_only_prairies_of_the_current_world_are_advanced(world: World, steps: list[float], elsewhere: str) -> None:
+    esper.switch_world(world.name)
+    install()
+    esper.switch_world(elsewhere)
+    install()
+    esper.process(0.1)
+    assert steps == []
+
+
+def test_d6_a_step_that_is_no_time_is_refused_in_a_sentence(world: World) -> None:
+    install()
+    assert world.advance is None
+    with pytest.raises(TypeError, match=r"tallgrass needs dt \[s\] first, not 'a game'"):
+        esper.process("a game")
+
+
+def test_d6_the_processor_leaves_with_the_worlds_last_prairie(world: World, steps: list[float]) -> None:
+    other = World()
+    own = Order(steps)
+    esper.add_processor(own, 3)
+    install()
+    other.release()
+    assert esper.get_processor(Advance) is not None
+    world.release()
+    world.release()
+    assert esper.get_processor(Advance) is None
+    assert esper.get_processor(Order) is own
+    esper.process(0.1)
+    assert own.seen == [0]
+    esper.remove_processor(Order)
+
+
+def test_d6_a_second_release_takes_no_other_prairies_processor_away(world: World) -> None:
+    world.release()
+    World()
+    kept = World()
+    install()
+    world.release()
+    assert esper.get_processor(Advance) is not None
+    kept.release()

@@ -1,0 +1,165 @@
+"""A prairie among the entities of a game (D2, D6)."""
+
+import gc
+import weakref
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import count
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+import esper
+import moderngl
+import numpy as np
+import pytest
+
+from tallgrass import Blast, Breeze, Gust, Pose
+from tallgrass.components.camera import Camera
+from tallgrass.components.wind import Receivers, WindSource
+from tallgrass.engine.scene import LoadedScene, read_scene
+from tallgrass.engine.world import install
+from tallgrass.systems.prairie import Prairie
+
+Stage = Any
+Aim = Callable[..., Camera]
+BESIDE = np.array([[0.0, 8.5]], np.float32)
+"""Where a runner is passed by, a little to its side."""
+
+numbers = count()
+
+
+@dataclass
+class Bullet:
+    speed: float
+
+
+class Shoot(esper.Processor):
+    """A processor of the game's own."""
+
+    def process(self, *args: object) -> None:
+        """Do nothing."""
+
+
+@pytest.fixture
+def loaded(little: str, tmp_path: Path) -> LoadedScene:
+    """The little scene, read."""
+    (tmp_path / "scene.yaml").write_text(little, "utf-8")
+    return read_scene(tmp_path / "scene.yaml")
+
+
+@pytest.fixture(autouse=True)
+def level() -> Iterator[str]:
+    """The world that a game has current, as other than esper's default one."""
+    name = f"level-{next(numbers)}"
+    esper.switch_world(name)
+    yield name
+    esper.switch_world("default")
+    esper.delete_world(name)
+
+
+def told() -> tuple[object, ...]:
+    """All that is in the current world."""
+    entities: dict[int, tuple[object, ...]] = {
+        entity: esper.components_for_entity(entity) for entity in esper.get_entities()
+    }
+    return entities, esper.get_processor(Shoot), [type(one) for one in esper._processors], dict(esper.event_registry)  # noqa: SLF001
+
+
+def test_d6_a_games_world_is_as_it_was_after_release(stage: Stage, loaded: LoadedScene, ctx: moderngl.Context) -> None:
+    shoot = Shoot()
+    esper.add_processor(shoot, 5)
+    handle = esper.create_entity(Bullet(3.0), Pose(1.0, 2.0))
+    before = told()
+    prairie = Prairie(loaded, ctx=ctx)
+    install()
+    prairie.add(Gust(), name="theirs")
+    esper.process(0.1)
+    stage.shot(prairie)
+    assert len(list(esper.get_entities())) > 500
+    prairie.release()
+    assert told() == before
+    assert esper.component_for_entity(handle, Pose) == Pose(1.0, 2.0)
+
+
+def test_d6_nothing_appears_in_a_world_that_is_not_the_prairies(
+    level: str, stage: Stage, loaded: LoadedScene, ctx: moderngl.Context
+) -> None:
+    esper.switch_world("default")
+    others = set(esper.get_entities()), esper.get_processor(Shoot)
+    esper.switch_world(level)
+    prairie = Prairie(loaded, ctx=ctx)
+    install()
+    esper.process(0.5)
+    stage.shot(prairie)
+    assert prairie.time == 0.5
+    prairie.release()
+    esper.switch_world("default")
+    assert (set(esper.get_entities()), esper.get_processor(Shoot)) == others
+    esper.switch_world(level)
+
+
+def test_d6_a_games_processor_writes_winds_and_reads_what_the_grass_feels(
+    stage: Stage, loaded: LoadedScene, ctx: moderngl.Context
+) -> None:
+    class Carry(esper.Processor):
+        def process(self, dt: float) -> None:
+            for entity, _ in esper.get_component(Bullet):
+                pose = esper.component_for_entity(entity, Pose)
+                esper.add_component(entity, Pose(pose.x + 10.0 * dt, pose.z))
+
+    prairie = Prairie(loaded, ctx=ctx)
+    install()
+    esper.add_processor(Carry())
+    runner = esper.create_entity(Bullet(10.0), Pose(-20.0, 10.0), WindSource(Blast(strength=0.9), "runner"))
+    still = prairie.wind_at(BESIDE)
+    for _ in range(20):
+        esper.process(0.1)
+    stage.shot(prairie)
+    assert esper.component_for_entity(runner, Pose).x == pytest.approx(0.0)
+    (here,) = prairie.wind_at(BESIDE)
+    assert np.hypot(*here) > np.hypot(*still[0]) + 0.1
+    assert here[1] < 0.0, "grass beside the runner is pressed away from it"
+    felt = [row for _, found in esper.get_component(Receivers) for row in zip(found.place, found.message, strict=True)]
+    place, message = (np.array(column) for column in zip(*felt, strict=True))
+    near = np.hypot(place[:, 0], place[:, 1] - 10.0) < 2.5
+    outwards = place[near] - (0.0, 10.0)
+    assert near.sum() > 20
+    assert ((outwards * message[near]).sum(axis=1) > 0).mean() > 0.9
+    prairie.release()
+    esper.delete_entity(runner, immediate=True)
+
+
+def test_d6_released_a_prairie_needs_no_collector_to_be_gone(
+    stage: Stage, loaded: LoadedScene, ctx: moderngl.Context
+) -> None:
+    prairie = Prairie(loaded, ctx=ctx)
+    stage.shot(prairie)
+    gone = weakref.ref(prairie)
+    prairie.release()
+    gc.disable()
+    try:
+        del prairie
+        assert gone() is None
+    finally:
+        gc.enable()
+
+
+def test_d6_a_crowd_that_comes_and_goes_every_frame_does_not_slow_the_systems(
+    stage: Stage, loaded: LoadedScene, camera: Aim, ctx: moderngl.Context
+) -> None:
+    prairie = Prairie(loaded, ctx=ctx)
+    prairie.add(Breeze(strength=0.2))
+
+    def frame(crowd: int, number: int) -> float:
+        bullets = [esper.create_entity(Bullet(1.0), Pose(float(k), 0.0)) for k in range(crowd)]
+        prairie.advance(1 / 60)
+        stage.shot(prairie, camera(0.02 * number, 2.6, 18.0 - 0.03 * number, pitch=-12))
+        for bullet in bullets:
+            esper.delete_entity(bullet, immediate=True)
+        return sum(prairie.statistics.systems_ms.values())
+
+    took = [(frame(0, 2 * number), frame(1000, 2 * number + 1)) for number in range(30)][4:]
+    prairie.release()
+    alone, crowded = (median(times) for times in zip(*took, strict=True))
+    assert crowded < 1.5 * alone, f"{crowded:.2f} ms in a crowd, {alone:.2f} ms alone"
