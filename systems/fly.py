@@ -1,6 +1,6 @@
 """How a thing that hovers on its jet flies: at what height, how it leans, and where its jet meets the ground."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Container
 from math import atan2, cos, hypot, inf, pi, sin, tan, tanh
 
 import numpy as np
@@ -101,16 +101,16 @@ def jet(blast: Blast, height_at: Heights, /, *, time: float) -> Pose:
     return foot(body, height_at)
 
 
-def flying(world: World, height_at: Heights, /, *, time: float) -> list[Body]:
+def flying(world: World, height_at: Heights, /, *, time: float, without: Container[WindSource] = ()) -> list[Body]:
     """Return what is in the air at `time` [s]: the bodies that entities have, and those that blasts say they come from.
 
-    A blast's body flies where the blast is, along its path or with the pose of its entity.
+    A blast's body flies where the blast is, along its path or with the pose of its entity. `without` are left out.
     """
     own = dict(world.all(Body))
     bodies = list(own.values())
     for entity, source in world.all(WindSource):
         blast = source.primitive
-        if entity in own or not isinstance(blast, Blast) or blast.body is None:
+        if entity in own or source in without or not isinstance(blast, Blast) or blast.body is None:
             continue
         if blast.start <= time < (inf if blast.stop is None else blast.stop):
             bodies.append(carried(_path(blast, world.find(entity, Pose)), time, height_at, height=blast.height))

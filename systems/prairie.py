@@ -377,7 +377,8 @@ class Prairie:
         self.statistics.blades_submitted = self.painter.write_blades(self._seen)
         self.painter.write_strips(self._seen)
         self.painter.write_ground(self._seen.looks.carpet)
-        self.painter.write_bodies(flying(self.world, self.height_at, time=self.time))
+        without = self.winds.quarantine.reasons
+        self.painter.write_bodies(flying(self.world, self.height_at, time=self.time, without=without))
 
     def _count(self, draw_ms: float) -> None:
         assert self.painter is not None

@@ -1,6 +1,7 @@
 """The winds of a prairie: whose entities they are, where they are now, and what grass feels of them."""
 
 from collections.abc import Sequence
+from contextlib import suppress
 from functools import partial
 from itertools import count
 from math import inf
@@ -17,7 +18,7 @@ from .fly import jet
 from .wind.blast import Blast
 from .wind.blow import Blowing, Listeners, blowing, hear, places_alone
 from .wind.grass import grass_of
-from .wind.quarantine import Quarantine
+from .wind.quarantine import Quarantine, QuarantinedError
 
 Floats = NDArray[np.float32]
 
@@ -72,7 +73,9 @@ class Winds:
         poses = {source: pose for entity, source in found if (pose := self._world.find(entity, Pose)) is not None}
         for _, source in found:
             if isinstance(source.primitive, Blast) and source.primitive.body and source not in poses:
-                poses[source] = jet(source.primitive, self._height_at, time=time)
+                with suppress(QuarantinedError):
+                    ask = partial(jet, source.primitive, self._height_at, time=time)
+                    poses[source] = self.quarantine.ask(source, "pose", ask)
         sources = [source for _, source in found]
         return blowing(sources, self.quarantine, time=time, seed=self._field.scene.seed, poses=poses)
 

@@ -126,3 +126,13 @@ def test_r4_what_entities_have_flies_and_what_blasts_declare(world: World) -> No
     assert bodies[2].nose < 0.0
     world.add(posed, own)
     assert flying(world, flat, time=9.0) == [own, own]
+
+
+def test_r4_a_blast_that_cannot_say_where_it_is_neither_blows_nor_flies(world: World) -> None:
+    class Adrift(Blast):
+        def pose(self, *, time: float) -> Pose:
+            raise LookupError(f"nowhere at {time} s")
+
+    source = WindSource(Adrift(body="saucer"), "adrift")
+    world.create(source)
+    assert flying(world, flat, time=1.0, without={source: "it cannot"}) == []
