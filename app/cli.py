@@ -156,7 +156,10 @@ def figures(
 
 @app.command()
 def schema() -> None:
-    """Print the JSON Schema of scene files, installed plugins included, for an editor."""
+    """Print the JSON Schema of scene files, installed plugins included, for an editor.
+
+    A language server for YAML finds it by a comment anywhere in a scene: # yaml-language-server: $schema=FILE
+    """
     from .schema import schema
 
     schema()

@@ -80,12 +80,12 @@ def stormy(scene: Path) -> Path:
 def test_n5_a_range_of_frames_is_that_of_the_whole_film_byte_for_byte(tallgrass: Tallgrass, stormy: Path) -> None:
     folder, options = stormy.parent, ("--fps", 8, "--size", "160x90")
     assert tallgrass("film", stormy, "-o", "whole/", *options).returncode == 0
-    for span in ("20:26", ":3", "30:"):
+    for span in ("20:26", "30:"):
         done = tallgrass("film", stormy, "-o", f"part-{span}/", "--frames", span, *options)
         assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
     whole = {path.name: path.read_bytes() for path in (folder / "whole").iterdir()}
     assert len(whole) == len(set(whole.values())) == 32
-    for span, numbers in (("20:26", range(20, 26)), (":3", range(3)), ("30:", range(30, 32))):
+    for span, numbers in (("20:26", range(20, 26)), ("30:", range(30, 32))):
         part = {path.name: path.read_bytes() for path in (folder / f"part-{span}").iterdir()}
         assert part == {name: whole[name] for name in (f"{number:05d}.png" for number in numbers)}
 

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tallgrass.app.take import LARGEST, parse_size
+from tallgrass.app.take import LARGEST, parse_frames, parse_size
 from tallgrass.components.overlay import PARTS, parse_parts
 
 sides = st.integers(1, LARGEST)
@@ -43,3 +43,16 @@ def test_n8_what_is_no_part_of_the_overlay_is_told_what_there_is(text: str) -> N
         ValueError, match="is no part of the overlay; there are masks, arrows, levels, weights, map, and"
     ):
         parse_parts(text)
+
+
+@given(first=st.integers(0, 99999), more=st.integers(1, 9999))
+def test_frames_are_read_as_they_are_written(first: int, more: int) -> None:
+    assert parse_frames(f"{first}:{first + more}") == (first, first + more)
+    assert parse_frames(f" {first}: ") == (first, None)
+    assert parse_frames(f":{more}") == (0, more)
+
+
+@pytest.mark.parametrize("text", ["", "7", "a:b", "-1:5", "1:2:3", "5:5", "9:3", ":0", "1.5:2"])
+def test_what_is_no_range_of_frames_is_refused_with_a_sentence(text: str) -> None:
+    with pytest.raises(ValueError, match="frame"):
+        parse_frames(text)
