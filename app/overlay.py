@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import pyglet
 
-from ..systems.prairie import Statistics
+from ..components.statistics import Statistics
 
 HELP = (
     "W A S D, arrows   walk",

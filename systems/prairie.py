@@ -1,7 +1,7 @@
 """A prairie: what a game loads, advances and draws."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from time import perf_counter
@@ -15,6 +15,7 @@ from ..components.camera import View
 from ..components.pose import Pose
 from ..components.quality import PRESETS, Representation
 from ..components.scene import LodName, Scene
+from ..components.statistics import Statistics
 from ..components.transition import SEAMLESS, Transitions
 from ..components.wind import WindPrimitive
 from ..engine.gl.guest import host_context, kept, viewport
@@ -46,37 +47,6 @@ Floats = NDArray[np.float32]
 
 LEAP = 2.0
 """A viewer who moves more than this in one frame has jumped [patch sides]."""
-
-
-@dataclass(slots=True)
-class Statistics:
-    """What the last frame took and held."""
-
-    systems_ms: dict[str, float] = field(default_factory=dict)
-    """Time of each system [ms]."""
-
-    draw_ms: float = 0.0
-    """Time of the draw calls, without waiting for the graphics card [ms]."""
-
-    blades_field: int = 0
-    """Blades that grow on the whole terrain."""
-
-    blades_considered: int = 0
-    """Blades on the patches inside the view cone, whatever their representation."""
-
-    blades_submitted: int = 0
-    """Blades drawn as geometry."""
-
-    receivers: int = 0
-    """Receivers that heard the wind."""
-
-    draw_calls: int = 0
-
-    patches: dict[str, int] = field(default_factory=dict)
-    """Visible patches by representation."""
-
-    transitions: int = 0
-    """Patches that were seen to change their representation, or to be changing it."""
 
 
 class Prairie:

@@ -1,0 +1,34 @@
+"""Statistics: what a frame took and held."""
+
+from dataclasses import dataclass, field
+
+
+@dataclass(slots=True)
+class Statistics:
+    """What the last frame took and held."""
+
+    systems_ms: dict[str, float] = field(default_factory=dict)
+    """Time of each system [ms]."""
+
+    draw_ms: float = 0.0
+    """Time of the draw calls, without waiting for the graphics card [ms]."""
+
+    blades_field: int = 0
+    """Blades that grow on the whole terrain."""
+
+    blades_considered: int = 0
+    """Blades on the patches inside the view cone, whatever their representation."""
+
+    blades_submitted: int = 0
+    """Blades drawn as geometry."""
+
+    receivers: int = 0
+    """Receivers that heard the wind."""
+
+    draw_calls: int = 0
+
+    patches: dict[str, int] = field(default_factory=dict)
+    """Visible patches by representation."""
+
+    transitions: int = 0
+    """Patches that were seen to change their representation, or to be changing it."""
