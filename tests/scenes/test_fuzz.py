@@ -35,7 +35,7 @@ from tallgrass.systems.wind.quarantine import Quarantine
 COUNT = int(os.environ.get("TALLGRASS_FUZZ", "1200"))
 SEED = int(os.environ.get("TALLGRASS_FUZZ_SEED", "1"))
 FIRST = int(os.environ.get("TALLGRASS_FUZZ_FROM", "0"))
-LONGEST = 3.0
+LONGEST = 10.0
 """How long one scene may take to be read or refused, with its maps and its wind [s]."""
 MOST_MEMORY = 150.0
 """How much memory a whole run may come to need [MB]: that of the one case that needs most."""
