@@ -36,11 +36,11 @@ class $title(PlacedWind):
     interface = $interface
     kind: str = "$kind"
     """A patch of wind."""
-    radius: float = Field(5.0, ge=0.5, le=100.0)
+    radius: float = Field(default=5.0, ge=0.5, le=100.0)
     """Radius of the patch [m]."""
-    strength: float = Field(0.6, ge=0.0, le=1.0)
+    strength: float = Field(default=0.6, ge=0.0, le=1.0)
     """Posture index in its middle."""
-    period: float = Field(4.0, ge=0.1, le=60.0)
+    period: float = Field(default=4.0, ge=0.1, le=60.0)
     """How long one breath takes [s]."""
 
     def extent(self, *, time: float) -> Extent:

@@ -22,10 +22,10 @@ class Stop(Declaration):
     target: Triple | None = None
     """Point looked at (x, height above its ground, z) [m]; without it yaw and pitch hold."""
 
-    yaw: float = Field(0.0, ge=-3600.0, le=3600.0)
+    yaw: float = Field(default=0.0, ge=-3600.0, le=3600.0)
     """Viewing direction: 0 looks down -z, positive turns right [degrees]."""
 
-    pitch: float = Field(0.0, ge=-89.0, le=89.0)
+    pitch: float = Field(default=0.0, ge=-89.0, le=89.0)
     """Viewing elevation, positive looks up [degrees]."""
 
 
@@ -35,19 +35,19 @@ class CameraSource(Declaration):
     position: Pair = Field(default=[0.0, 0.0])
     """Ground position (x, z) [m]."""
 
-    eye: float = Field(1.7, ge=0.1, le=500.0)
+    eye: float = Field(default=1.7, ge=0.1, le=500.0)
     """Height of the eye above the ground [m]."""
 
     target: Triple | None = None
     """Point looked at (x, height above its ground, z) [m]; without it yaw and pitch hold."""
 
-    yaw: float = Field(0.0, ge=-3600.0, le=3600.0)
+    yaw: float = Field(default=0.0, ge=-3600.0, le=3600.0)
     """Viewing direction: 0 looks down -z, positive turns right [degrees]."""
 
-    pitch: float = Field(0.0, ge=-89.0, le=89.0)
+    pitch: float = Field(default=0.0, ge=-89.0, le=89.0)
     """Viewing elevation, positive looks up [degrees]."""
 
-    view: float = Field(40.0, ge=5.0, le=120.0)
+    view: float = Field(default=40.0, ge=5.0, le=120.0)
     """Vertical angle of view [degrees]."""
 
     path: list[Stop] = Field(default=[], max_length=1000)

@@ -23,19 +23,19 @@ class GrassKind(Declaration):
     height: Pair = Field(default=[0.4, 0.7])
     """Shortest and tallest blade, measured along the blade [m]."""
 
-    width: float = Field(0.012, gt=0.0005, le=0.2)
+    width: float = Field(default=0.012, gt=0.0005, le=0.2)
     """Width of a blade at its root [m]."""
 
-    stiffness: float = Field(1.0, gt=0.01, le=100.0)
+    stiffness: float = Field(default=1.0, gt=0.01, le=100.0)
     """Stiffness of the springs between the links of a blade, 1 is a common meadow grass."""
 
-    damping: float = Field(1.0, gt=0.01, le=100.0)
+    damping: float = Field(default=1.0, gt=0.01, le=100.0)
     """How fast a blade's swing dies away, 1 is a common meadow grass."""
 
-    lean: float = Field(0.3, ge=0.0, le=0.9)
+    lean: float = Field(default=0.3, ge=0.0, le=0.9)
     """Largest posture index that a blade holds at rest; each blade has its own, in its own direction."""
 
-    taper: float = Field(1.0, ge=0.2, le=4.0)
+    taper: float = Field(default=1.0, ge=0.2, le=4.0)
     """How the width falls from root to tip: 1 is a triangle, below 1 keeps it broad for longer."""
 
     root: Color = "#4b6128"
@@ -44,13 +44,13 @@ class GrassKind(Declaration):
     tip: Color = "#a8b65a"
     """Colour at the tip."""
 
-    variety: float = Field(0.15, ge=0.0, le=0.6)
+    variety: float = Field(default=0.15, ge=0.0, le=0.6)
     """How far blades differ in brightness and hue from one another, as a fraction."""
 
-    blades: int | None = Field(None, ge=1, le=5000)
+    blades: int | None = Field(default=None, ge=1, le=5000)
     """Blades per patch at full density; without it the quality's number."""
 
-    segments: int | None = Field(None, ge=1, le=16)
+    segments: int | None = Field(default=None, ge=1, le=16)
     """Line segments per blade at the finest level; without it the quality's number."""
 
     place: Place | None = None

@@ -40,26 +40,26 @@ class StripRing(Declaration):
     strips: int = Field(ge=1, le=32)
     """Strips per patch and orientation."""
 
-    columns: int = Field(2, ge=1, le=8)
+    columns: int = Field(default=2, ge=1, le=8)
     """Polygon strips side by side in each strip; they share their vertical edges."""
 
-    sections: int = Field(3, ge=1, le=8)
+    sections: int = Field(default=3, ge=1, le=8)
     """Quads that a vertical edge bends over."""
 
-    texel: float = Field(0.006, ge=0.001, le=0.5)
+    texel: float = Field(default=0.006, ge=0.001, le=0.5)
     """Width and height of a texel [m]."""
 
 
 class Quality(Declaration):
     """The numbers behind a preset (paper, section 5.1)."""
 
-    patch: float = Field(2.5, ge=0.5, le=20.0)
+    patch: float = Field(default=2.5, ge=0.5, le=20.0)
     """Side of a patch of grass [m]."""
 
-    blades: int = Field(500, ge=1, le=5000)
+    blades: int = Field(default=500, ge=1, le=5000)
     """Blades per patch at full density, for kinds that do not say."""
 
-    models: int = Field(3, ge=1, le=16)
+    models: int = Field(default=3, ge=1, le=16)
     """Patch models per kind; with four quarter turns each, so that no repetition shows."""
 
     blade_rings: list[BladeRing] = Field(min_length=1, max_length=16)
@@ -68,10 +68,10 @@ class Quality(Declaration):
     strip_rings: list[StripRing] = Field(min_length=1, max_length=16)
     """Sub-levels of the 2.5D strips, from the nearest."""
 
-    carpet_to: int = Field(40, ge=1, le=160)
+    carpet_to: int = Field(default=40, ge=1, le=160)
     """Largest discrete distance at which patches are kept; the ground beyond is one carpet."""
 
-    carpet: int = Field(128, ge=8, le=1024)
+    carpet: int = Field(default=128, ge=8, le=1024)
     """Texels along a side of a carpet image."""
 
     @model_validator(mode="after")

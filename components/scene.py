@@ -79,7 +79,7 @@ class Scene(Declaration):
     tallgrass: Literal[1]
     """Version of the scene format; always the first key."""
 
-    seed: int = Field(1, ge=0, le=2**31 - 1)
+    seed: int = Field(default=1, ge=0, le=2**31 - 1)
     """Everything random in the scene comes from it."""
 
     terrain: TerrainSource = TerrainSource(noise="flat")

@@ -25,29 +25,29 @@ class TerrainSource(Declaration):
     noise: Literal["flat", "rolling", "hills", "ridges"] | None = None
     """A landscape made from noise instead of a file; without either, the ground is flat."""
 
-    seed: int = Field(0, ge=0, le=2**31 - 1)
+    seed: int = Field(default=0, ge=0, le=2**31 - 1)
     """Seed of the noise."""
 
     size: Pair | None = None
     """Width (x) and depth (z) [m]: of a noise landscape, without it 200 by 200; of a file, whose middle it keeps,
     without it all there is."""
 
-    feature: float | None = Field(None, ge=2.0, le=5000.0)
+    feature: float | None = Field(default=None, ge=2.0, le=5000.0)
     """Distance between neighbouring hills of a noise landscape [m]; without it 60 for rolling, 90 for hills, 160 for
     ridges."""
 
-    cell: float = Field(1.0, ge=0.05, le=1000.0)
+    cell: float = Field(default=1.0, ge=0.05, le=1000.0)
     """Metres per cell; a GeoTIFF says so itself where the scene does not."""
 
-    scale: float | None = Field(None, ge=-100000.0, le=100000.0)
+    scale: float | None = Field(default=None, ge=-100000.0, le=100000.0)
     """Vertical scale [m]. For a map of unsigned integers the height of their whole range, without it 100; for floats
     and signed integers, which are metres, a factor, without it 1; for noise the height between the lowest and the
     highest ground, without it 7 for rolling, 14 for hills, 30 for ridges."""
 
-    offset: float = Field(0.0, ge=-20000.0, le=20000.0)
+    offset: float = Field(default=0.0, ge=-20000.0, le=20000.0)
     """Height added to every cell [m]."""
 
-    columns: int | None = Field(None, ge=2, le=8193)
+    columns: int | None = Field(default=None, ge=2, le=8193)
     """Columns of a headless .r16 or .raw file; without it the map is square."""
 
     byte_order: Literal["little", "big"] = "little"

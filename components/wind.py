@@ -66,7 +66,7 @@ class Grass:
         return self._read(self.fall, elapsed)
 
     def at(self, rows: NDArray[np.intp], /) -> "Grass":
-        """Return the grass at some of the receivers."""
+        """Return the grass at the receivers of these numbers, shape (m,)."""
         return Grass(self.kind[rows], self.step, self.rise, self.fall)
 
     def _read(self, curves: Floats, elapsed: Floats) -> Floats:
@@ -91,22 +91,22 @@ class WindPrimitive(Declaration):
     kind: str = Field(min_length=1)
     """Name of the primitive, as its plugin registers it."""
 
-    priority: int = Field(0, ge=-1000, le=1000)
+    priority: int = Field(default=0, ge=-1000, le=1000)
     """The highest priority at a place cancels the others (paper, section 3.3)."""
 
-    weight: float = Field(1.0, ge=0.0, le=1.0)
+    weight: float = Field(default=1.0, ge=0.0, le=1.0)
     """How much it counts where the scene mixes winds by weight; 1 covers winds of lower priority."""
 
-    start: float = Field(0.0, ge=0.0, le=36000.0)
+    start: float = Field(default=0.0, ge=0.0, le=36000.0)
     """When it begins [s]."""
 
-    stop: float | None = Field(None, ge=0.0, le=36000.0)
+    stop: float | None = Field(default=None, ge=0.0, le=36000.0)
     """When it ends [s]; without it, never."""
 
-    ease: float = Field(0.0, ge=0.0, le=60.0)
+    ease: float = Field(default=0.0, ge=0.0, le=60.0)
     """How long it takes to set in and to die down [s]; a wind that starts at 0 is there from the beginning."""
 
-    swing: float = Field(0.12, ge=0.0, le=0.5)
+    swing: float = Field(default=0.12, ge=0.0, le=0.5)
     """Largest posture index of a blade's own small oscillations in it, of random direction."""
 
     @model_validator(mode="after")

@@ -11,11 +11,11 @@ class VortexStreet(PlacedWind):
 
     kind: str = "vortex-street"
     """A vortex street behind a rock."""
-    rock: float = Field(2.0, ge=0.2, le=50.0)
+    rock: float = Field(default=2.0, ge=0.2, le=50.0)
     """Width of the rock [m]."""
-    speed: float = Field(2.5, ge=0.0, le=40.0)
+    speed: float = Field(default=2.5, ge=0.0, le=40.0)
     """How fast the whirls drift [m/s]."""
-    strength: float = Field(0.8, ge=0.0, le=1.0)
+    strength: float = Field(default=0.8, ge=0.0, le=1.0)
     """Posture index that a young whirl adds on its rim."""
 
     def extent(self, *, time: float) -> Extent:

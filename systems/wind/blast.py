@@ -24,19 +24,19 @@ BEAT, PULSE = 2.2, 0.14
 class Shape(Declaration):
     """The outline of a blast on the ground, in its own frame: x to the right, -z ahead. One of these."""
 
-    disc: float | None = Field(None, gt=0.05, le=1000.0)
+    disc: float | None = Field(default=None, gt=0.05, le=1000.0)
     """Radius of a disc [m]."""
 
     ellipse: Pair | None = None
     """Half axes of an ellipse, across and along its heading [m]."""
 
-    polygon: list[Pair] | None = Field(None, min_length=3, max_length=500)
+    polygon: list[Pair] | None = Field(default=None, min_length=3, max_length=500)
     """Corners (x, z) of any polygon [m]."""
 
-    image: str | None = Field(None, min_length=1)
+    image: str | None = Field(default=None, min_length=1)
     """Picture file, relative to the scene file, whose bright or opaque part is the shape; its top lies ahead."""
 
-    width: float = Field(6.0, gt=0.05, le=1000.0)
+    width: float = Field(default=6.0, gt=0.05, le=1000.0)
     """How wide the picture is on the ground [m]."""
 
     _loaded: Outline | None = PrivateAttr(None)
@@ -75,25 +75,25 @@ class Blast(PlacedWind):
     kind: Literal["blast"] = "blast"
     """A blast of air."""
 
-    priority: int = Field(30, ge=-1000, le=1000)
+    priority: int = Field(default=30, ge=-1000, le=1000)
     """The highest priority at a place cancels the others; a blast's goes over a whirlwind's."""
 
     outline: Shape = Shape(disc=4.0)
     """Where it acts."""
 
-    strength: float = Field(0.8, ge=0.0, le=1.0)
+    strength: float = Field(default=0.8, ge=0.0, le=1.0)
     """Largest posture index in it."""
 
-    soft: float = Field(1.5, ge=0.0, le=1000.0)
+    soft: float = Field(default=1.5, ge=0.0, le=1000.0)
     """Over what distance from its outline it takes hold, where winds are mixed by weight [m]."""
 
-    swing: float = Field(0.18, ge=0.0, le=0.5)
+    swing: float = Field(default=0.18, ge=0.0, le=0.5)
     """Largest posture index of a blade's own small oscillations in it, of random direction."""
 
     body: Literal["saucer"] | None = None
     """What is drawn flying there; without it, nothing."""
 
-    height: float = Field(2.0, ge=0.5, le=100.0)
+    height: float = Field(default=2.0, ge=0.5, le=100.0)
     """How high the body flies above the ground [m]."""
 
     def extent(self, *, time: float) -> Extent:

@@ -21,16 +21,16 @@ class Breeze(WindPrimitive):
     kind: Literal["breeze"] = "breeze"
     """A gentle breeze."""
 
-    direction: float = Field(90.0, ge=-360.0, le=360.0)
+    direction: float = Field(default=90.0, ge=-360.0, le=360.0)
     """Where it blows to, as a camera's yaw: 0 is -z, 90 is +x [degrees]."""
 
-    strength: float = Field(0.3, ge=0.0, le=1.0)
+    strength: float = Field(default=0.3, ge=0.0, le=1.0)
     """Mean posture index of the grass in it."""
 
-    gustiness: float = Field(0.5, ge=0.0, le=1.0)
+    gustiness: float = Field(default=0.5, ge=0.0, le=1.0)
     """How far its strength and direction drift in waves, 0 is steady."""
 
-    speed: float = Field(4.0, ge=0.0, le=40.0)
+    speed: float = Field(default=4.0, ge=0.0, le=40.0)
     """How fast its waves travel [m/s]."""
 
     def mask(self, place: Floats, /, *, time: float) -> Floats:

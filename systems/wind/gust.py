@@ -29,46 +29,46 @@ class Gust(WindPrimitive):
     kind: Literal["gust"] = "gust"
     """A gust of wind."""
 
-    priority: int = Field(10, ge=-1000, le=1000)
+    priority: int = Field(default=10, ge=-1000, le=1000)
     """The highest priority at a place cancels the others; a gust's goes over a breeze's."""
 
-    ease: float = Field(0.6, ge=0.0, le=60.0)
+    ease: float = Field(default=0.6, ge=0.0, le=60.0)
     """How long it takes to set in and to die down [s]; a wind that starts at 0 is there from the beginning."""
 
     position: Pair = Field(default=[0.0, 0.0])
     """Ground position (x, z) of the front's middle where it sets out [m]."""
 
-    direction: float = Field(90.0, ge=-360.0, le=360.0)
+    direction: float = Field(default=90.0, ge=-360.0, le=360.0)
     """Where it travels and blows to, as a camera's yaw: 0 is -z, 90 is +x [degrees]."""
 
-    width: float = Field(40.0, gt=0.1, le=10000.0)
+    width: float = Field(default=40.0, gt=0.1, le=10000.0)
     """Length of the front, across its travel [m]."""
 
-    speed: float = Field(8.0, gt=0.1, le=60.0)
+    speed: float = Field(default=8.0, gt=0.1, le=60.0)
     """How fast it travels [m/s]."""
 
-    reach: float = Field(80.0, gt=0.1, le=100000.0)
+    reach: float = Field(default=80.0, gt=0.1, le=100000.0)
     """How far it travels [m]."""
 
-    strength: float = Field(0.8, ge=0.0, le=1.0)
+    strength: float = Field(default=0.8, ge=0.0, le=1.0)
     """Posture index that grass comes to in it, past which it first swings."""
 
-    hold: float = Field(1.0, ge=0.0, le=60.0)
+    hold: float = Field(default=1.0, ge=0.0, le=60.0)
     """How long it blows at a place before it lets go [s]."""
 
-    tail: float = Field(3.0, gt=0.0, le=60.0)
+    tail: float = Field(default=3.0, gt=0.0, le=60.0)
     """How long the grass it leaves behind still swings [s]."""
 
-    ragged: float = Field(1.5, ge=0.0, le=50.0)
+    ragged: float = Field(default=1.5, ge=0.0, le=50.0)
     """How far parts of the front lag behind others [m]."""
 
-    soft: float = Field(4.0, ge=0.0, le=1000.0)
+    soft: float = Field(default=4.0, ge=0.0, le=1000.0)
     """Over what distance from its sides and ends it takes hold, where winds are mixed by weight [m]."""
 
     every: Pair | None = None
     """Shortest and longest time after which it comes again, at random; without it, it comes once [s]."""
 
-    wander: float = Field(0.0, ge=0.0, le=10000.0)
+    wander: float = Field(default=0.0, ge=0.0, le=10000.0)
     """How far to either side the place it sets out from may be when it comes again [m]."""
 
     @model_validator(mode="after")

@@ -28,7 +28,7 @@ class Waypoint(Declaration):
     position: Pair
     """Ground position (x, z) [m]."""
 
-    yaw: float | None = Field(None, ge=-3600.0, le=3600.0)
+    yaw: float | None = Field(default=None, ge=-3600.0, le=3600.0)
     """Heading, as a camera's yaw; without it, where the path leads [degrees]."""
 
 
@@ -38,13 +38,13 @@ class PlacedWind(WindPrimitive):
     position: Pair = Field(default=[0.0, 0.0])
     """Ground position (x, z) of its middle [m]."""
 
-    yaw: float = Field(0.0, ge=-3600.0, le=3600.0)
+    yaw: float = Field(default=0.0, ge=-3600.0, le=3600.0)
     """Heading, as a camera's yaw: 0 is -z, 90 is +x [degrees]."""
 
     path: list[Waypoint] = Field(default=[], max_length=1000)
     """Places it goes through in time, instead of `position` and `yaw`; it waits before the first and after the last."""
 
-    ease: float = Field(0.6, ge=0.0, le=60.0)
+    ease: float = Field(default=0.6, ge=0.0, le=60.0)
     """How long it takes to set in and to die down [s]; a wind that starts at 0 is there from the beginning."""
 
     @model_validator(mode="after")

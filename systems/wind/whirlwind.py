@@ -25,22 +25,22 @@ class Whirlwind(PlacedWind):
     kind: Literal["whirlwind"] = "whirlwind"
     """A whirlwind."""
 
-    priority: int = Field(20, ge=-1000, le=1000)
+    priority: int = Field(default=20, ge=-1000, le=1000)
     """The highest priority at a place cancels the others; a whirlwind's goes over a gust's."""
 
-    radius: float = Field(6.0, gt=0.1, le=1000.0)
+    radius: float = Field(default=6.0, gt=0.1, le=1000.0)
     """Radius of its disc [m]."""
 
-    strength: float = Field(0.75, ge=0.0, le=1.0)
+    strength: float = Field(default=0.75, ge=0.0, le=1.0)
     """Posture index near its middle."""
 
     spin: Literal["left", "right"] = "left"
     """Which way it turns, seen from above."""
 
-    turning: float = Field(0.35, ge=0.0, le=10.0)
+    turning: float = Field(default=0.35, ge=0.0, le=10.0)
     """How fast its stronger sides go round [turns/s]."""
 
-    soft: float = Field(1.5, ge=0.0, le=1000.0)
+    soft: float = Field(default=1.5, ge=0.0, le=1000.0)
     """Over what distance from its edge it takes hold, where winds are mixed by weight [m]."""
 
     def extent(self, *, time: float) -> Extent:
