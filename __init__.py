@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from .engine.scene import SceneError
     from .engine.world import install
     from .systems.prairie import Prairie
-    from .systems.wind.blast import Blast
+    from .systems.wind.blast import Blast, Shape
     from .systems.wind.breeze import Breeze
     from .systems.wind.gust import Gust
     from .systems.wind.placed import PlacedWind
@@ -30,6 +30,7 @@ __all__ = [
     "Prairie",
     "Receivers",
     "SceneError",
+    "Shape",
     "Whirlwind",
     "WindPrimitive",
     "WindSource",
@@ -49,6 +50,7 @@ _HOMES = {
     "Prairie": ".systems.prairie",
     "Receivers": ".components.wind",
     "SceneError": ".engine.scene",
+    "Shape": ".systems.wind.blast",
     "Whirlwind": ".systems.wind.whirlwind",
     "WindPrimitive": ".components.wind",
     "WindSource": ".components.wind",

@@ -1,0 +1,56 @@
+"""The examples that are programs: each runs, on a display and without one, and there is grass in its picture."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.py"))
+LOOK = """
+import runpy, sys
+import pyglet
+
+flip, seen = pyglet.window.Window.flip, []
+
+
+def look(window):
+    picture = pyglet.image.get_buffer_manager().get_color_buffer().get_image_data().get_data("RGB", 3 * window.width)
+    lower = picture[: len(picture) // 3]
+    seen.append(len(set(zip(lower[::3], lower[1::3], lower[2::3], strict=True))))
+    flip(window)
+
+
+pyglet.window.Window.flip = look
+sys.argv = [sys.argv[1], "--frames", "3"]
+runpy.run_path(sys.argv[0], run_name="__main__")
+print(*seen)
+"""
+
+
+@pytest.mark.window
+@pytest.mark.gl
+@pytest.mark.parametrize(
+    ("program", "headless"),
+    [*((program, False) for program in EXAMPLES), (EXAMPLES[0], True)],
+    ids=[*(program.stem for program in EXAMPLES), "headless"],
+)
+def test_d6_the_example_runs_and_draws_grass(program: Path, headless: bool) -> None:  # noqa: FBT001
+    environment = {**os.environ, "PYGLET_HEADLESS": "1" if headless else ""}
+    if headless:
+        del environment["DISPLAY"]
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", LOOK, program],
+        env=environment, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    colors = [int(number) for number in done.stdout.split()]
+    assert len(colors) == 3
+    assert min(colors) > (500 if headless else 1000), "the lower third of the picture has hardly any colours"
+
+
+def test_d6_no_example_is_longer_than_a_reader_will_read() -> None:
+    assert len(EXAMPLES) >= 4
+    lines = {program.stem: len(program.read_text("utf-8").splitlines()) for program in EXAMPLES}
+    assert {name: count for name, count in lines.items() if count > 120} == {}
