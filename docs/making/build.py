@@ -1,0 +1,88 @@
+"""`./dev docs`: gathers the manual's pages, writes those that are generated, makes its pictures, and builds it."""
+
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from .api import api
+from .examples import example_pages
+from .pictures import ROOT, make_pictures
+from .reference import scene_reference
+
+DOCS = ROOT / "docs"
+SOURCE = ROOT / "out" / "manual-source"
+FLOORS = ("app", "components", "engine", "scenes", "systems", "testing")
+MARK = re.compile(r"^<!-- generated: (?P<what>\w+) -->$", re.MULTILINE)
+OUTSIDE = re.compile(r"\[(?P<text>[^\]]+)\]\(\.\./(?P<target>[^)#]+)\)")
+GENERATED = {"api": api, "scene": scene_reference, "examples": example_pages}
+
+
+def main() -> None:
+    """Build the manual into out/manual."""
+    shutil.rmtree(SOURCE, ignore_errors=True)
+    shutil.copytree(DOCS, SOURCE, ignore=shutil.ignore_patterns("making", "mkdocs.yml", "__pycache__"))
+    for page in SOURCE.glob("*.md"):
+        page.write_text(complete(page.read_text("utf-8")), "utf-8")
+    kept = ROOT / "out" / "manual-pictures"
+    make_pictures(kept)
+    shutil.copytree(
+        kept, SOURCE / "pictures", ignore=shutil.ignore_patterns("*.yaml", "*.json", "*.html", ".made-from")
+    )
+    link_package(ROOT / "out" / "manual-package" / "tallgrass")
+    (SOURCE / "manual.css").write_text(style(), "utf-8")
+    mkdocs: list[str | Path] = [
+        sys.executable,
+        "-m",
+        "mkdocs",
+        "build",
+        "--strict",
+        "--quiet",
+        "--clean",
+        "-f",
+        DOCS / "mkdocs.yml",
+    ]
+    subprocess.run(mkdocs, check=True)
+    print(f"{ROOT / 'out' / 'manual' / 'index.html'}")
+
+
+def link_package(folder: Path, /) -> None:
+    """Link the package's parts into a folder of its name, where what reads docstrings looks for it."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in ("__init__.py", *FLOORS):
+        place = folder / name
+        if not place.is_symlink():
+            place.symlink_to(ROOT / name)
+
+
+def complete(text: str, /) -> str:
+    """Return a page with what is generated in its place, and with no links out of the manual."""
+    text = MARK.sub(lambda mark: GENERATED[mark["what"]](), text)
+    return OUTSIDE.sub(_inside, text)
+
+
+def _inside(link: re.Match[str]) -> str:
+    """Return a link to a file of the checkout as the manual has it: an example has a page, others are only named."""
+    parts = Path(link["target"]).parts
+    return f"[{link['text']}](examples.md#{Path(parts[1]).stem})" if parts[0] == "examples" else link["text"]
+
+
+def style() -> str:
+    """Return the style of code and tables, light and dark."""
+    from pygments.formatters import HtmlFormatter
+
+    light = HtmlFormatter(style="default").get_style_defs(".codehilite")
+    dark = HtmlFormatter(style="github-dark").get_style_defs("[data-bs-theme=dark] .codehilite")
+    own = """
+.codehilite { background: none !important; }
+.codehilite pre { padding: 0.8rem; border: 1px solid var(--bs-border-color); border-radius: 0.4rem; }
+table { font-size: 0.92rem; margin-bottom: 1.2rem; }
+td, th { padding: 0.25rem 0.6rem 0.25rem 0; vertical-align: top; border-bottom: 1px solid var(--bs-border-color); }
+img { max-width: 100%; height: auto; }
+"""
+    return f"{light}\n{dark}\n{own}"
+
+
+if __name__ == "__main__":
+    main()

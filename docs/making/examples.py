@@ -1,0 +1,38 @@
+"""The page of examples: what each is, and its source."""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+
+
+def example_pages() -> str:
+    """Return every example with its source, as Markdown."""
+    parts = []
+    for name, files in examples().items():
+        told = (
+            ast.get_docstring(ast.parse(next(file for file in files if file.suffix == ".py").read_text("utf-8"))) or ""
+        )
+        parts += [f"## {name}", told]
+        parts += [f"`{file.relative_to(ROOT)}`:\n\n{fenced(file)}" for file in files]
+    return "\n\n".join(parts) + "\n"
+
+
+def examples() -> dict[str, list[Path]]:
+    """Return the files of each example by its name: a program, or the folder of a package."""
+    folder = ROOT / "examples"
+    found = {file.stem: [file] for file in sorted(folder.glob("*.py"))}
+    found |= {inner.name: sorted(_sources(inner)) for inner in sorted(folder.iterdir()) if any(inner.glob("*.py"))}
+    return found
+
+
+def _sources(folder: Path) -> Iterator[Path]:
+    for file in folder.rglob("*"):
+        if file.suffix in {".py", ".toml", ".yaml"} and not any(part.startswith((".", "__")) for part in file.parts):
+            yield file
+
+
+def fenced(file: Path, /) -> str:
+    """Return a file as a block of code."""
+    return f"```{file.suffix[1:].replace('py', 'python')}\n{file.read_text('utf-8').rstrip()}\n```"

@@ -1,0 +1,70 @@
+"""The manual's pictures: each is made by the command that its page tells of, and made again when the sources change."""
+
+import re
+import subprocess
+import sys
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+SOURCES = ("app", "components", "engine", "scenes", "systems")
+NAMED = re.compile(r"^`(?P<file>[^`\n]+)`:\n\n```\w+\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
+FIGURES = tuple(range(2, 13))
+"""The figures of the paper that the manual shows."""
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """One picture: what makes it, and the page that holds the scene it is of."""
+
+    file: str
+    command: tuple[str, ...]
+    page: str | None = None
+
+
+PICTURES = (
+    Picture("meadow.png", ("shot", "meadow", "--size", "960x540", "--time", "3")),
+    Picture("evening.png", ("shot", "evening.yaml", "--size", "960x540"), "tour.md"),
+    Picture(
+        "crossing.webp", ("film", "crossing.yaml", "--size", "480x270", "--seconds", "5", "--fps", "12"), "tour.md"
+    ),
+    Picture("levels.png", ("shot", "meadow", "--size", "960x540", "--time", "3", "--overlay", "levels,map")),
+    Picture("storm.png", ("shot", "storm", "--size", "960x540", "--time", "12", "--overlay", "masks,arrows")),
+)
+
+
+def named_blocks(page: Path, /) -> dict[str, str]:
+    """Return the files that a page tells to write: those blocks that a line with their name stands above."""
+    return {block["file"]: block["text"] for block in NAMED.finditer(page.read_text("utf-8"))}
+
+
+def make_pictures(folder: Path, /) -> None:
+    """Make every picture into a folder, unless they are there and nothing that they show has changed."""
+    stamp, made = folder / ".made-from", _made_from()
+    if stamp.is_file() and stamp.read_text("utf-8") == made:
+        return
+    folder.mkdir(parents=True, exist_ok=True)
+    stamp.unlink(missing_ok=True)
+    for picture in PICTURES:
+        if picture.page is not None:
+            for name, text in named_blocks(ROOT / "docs" / picture.page).items():
+                folder.joinpath(name).write_text(text, "utf-8")
+        _run(*picture.command, "-o", picture.file, folder=folder)
+    _run("figures", "-o", ".", "--only", ",".join(map(str, FIGURES)), folder=folder)
+    stamp.write_text(made, "utf-8")
+
+
+def _made_from() -> str:
+    files = [file for name in SOURCES for file in sorted((ROOT / name).rglob("*")) if "__pycache__" not in file.parts]
+    files += [ROOT / "docs" / page for page in sorted({each.page for each in PICTURES if each.page})]
+    files.append(Path(__file__))
+    total = 0
+    for file in files:
+        total = zlib.crc32(file.read_bytes(), total) if file.is_file() else total
+    return f"{total}\n"
+
+
+def _run(*arguments: str, folder: Path) -> None:
+    print("tallgrass", *arguments)
+    subprocess.run([sys.executable, "-m", "tallgrass.app.cli", *arguments], cwd=folder, check=True)

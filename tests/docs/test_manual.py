@@ -1,0 +1,198 @@
+"""What the manual generates is complete: every key of a scene, every public name, every picture."""
+
+import importlib.util
+import inspect
+import re
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from types import ModuleType
+from typing import Any, get_args
+
+import pytest
+from pydantic import BaseModel
+
+import tallgrass
+import tallgrass.testing
+from tallgrass.app.figures.register import FIGURES
+from tallgrass.components.quality import PRESETS
+from tallgrass.components.scene import Scene
+from tallgrass.components.wind import WindPrimitive
+from tallgrass.engine.plugins import OURS, wind_kinds
+
+DOCS = Path(__file__).parents[2] / "docs"
+FACES = [(tallgrass, name) for name in tallgrass.__all__] + [
+    (tallgrass.testing, name) for name in tallgrass.testing.__all__
+]
+UNITS = re.compile(
+    r"\[(m|s|ms|rad|degrees|m/s|turns/s|pixels|levels of 255|patch sides|bytes|ns)\]|posture ind|shape",
+)
+
+
+def making(name: str) -> ModuleType:
+    """A module of what makes the manual."""
+    spec = importlib.util.spec_from_file_location(f"making_{name}", DOCS / "making" / f"{name}.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def models(annotation: Any) -> Iterator[type[BaseModel]]:
+    """The models in an annotation, and those in their fields."""
+    if inspect.isclass(annotation) and issubclass(annotation, BaseModel) and annotation is not WindPrimitive:
+        yield annotation
+        for field in annotation.model_fields.values():
+            yield from models(field.annotation)
+    for inner in get_args(annotation):
+        yield from models(inner)
+
+
+def all_models() -> list[type[BaseModel]]:
+    kinds = [wind_kinds().find(row.kind) for row in wind_kinds().provided() if row.distribution == OURS]
+    return list(dict.fromkeys([*models(Scene), *(inner for kind in kinds for inner in models(kind))]))
+
+
+@pytest.fixture(scope="module")
+def reference() -> str:
+    return str(making("reference").scene_reference())
+
+
+def test_d4_no_key_of_any_model_is_missing_from_the_scene_reference(reference: str) -> None:
+    sections = reference.split("\n## ")
+    tables = {frozenset(re.findall(r"^\| `(\w+)` \|", section, re.MULTILINE)): section for section in sections}
+    found = all_models()
+    assert len(found) >= 15
+    for model in found:
+        keys = set(model.model_fields)
+        same = [table for table in tables if keys <= table and table - keys <= set(PRESETS)]
+        assert same, f"no table has the keys of {model.__name__}"
+        for name, field in model.model_fields.items():
+            sentence = " ".join((field.description or "").split("\n\n")[0].split())
+            told = re.sub(r"\s*\[[A-Za-z/]+\]", "", sentence)
+            assert told in tables[same[0]], f"{model.__name__}.{name}"
+
+
+def test_every_row_of_the_reference_has_what_a_key_takes_and_what_it_is(reference: str) -> None:
+    rows = re.findall(r"^\| `\w+` \|.*$", reference, re.MULTILINE)
+    assert len(rows) > 100
+    for row in rows:
+        cells = [cell.strip() for cell in row.strip("|").split("|")]
+        if len(cells) == 6:
+            assert cells[1], row
+            assert cells[5].endswith("."), row
+
+
+def test_ranges_units_and_defaults_are_those_of_the_models(reference: str) -> None:
+    assert "| `speed` | a number | m/s | above 0.1, at most 60 | 8 | How fast it travels. |" in reference
+    assert "| `turning` | a number | turns/s | 0 to 10 | 0.35 | How fast its stronger sides go round. |" in reference
+    assert "| `tip` | a colour `#rrggbb` |  |  | #a8b65a | Colour at the tip. |" in reference
+
+
+def test_every_link_of_the_reference_leads_to_a_heading_of_it(reference: str) -> None:
+    module = making("reference")
+    headings = {module.anchor(title) for title in re.findall(r"^## (.+)$", reference, re.MULTILINE)}
+    linked = set(re.findall(r"\]\(#([^)]+)\)", reference))
+    assert linked
+    assert linked <= headings
+
+
+def test_every_preset_is_in_the_reference_and_on_the_page_of_performance(reference: str) -> None:
+    page = (DOCS / "performance.md").read_text("utf-8")
+    for name in PRESETS:
+        assert f"| `{name}` |" in reference
+        assert f"`{name}`" in page
+
+
+def test_every_picture_of_the_pages_is_made_and_every_picture_that_is_made_is_shown() -> None:
+    pictures = making("pictures")
+    made = {picture.file for picture in pictures.PICTURES}
+    made |= {figure.file for figure in FIGURES if figure.number in pictures.FIGURES}
+    shown = {name for page in DOCS.glob("*.md") for name in re.findall(r"\]\(pictures/([^)]+)\)", page.read_text())}
+    assert shown == made
+    for picture in pictures.PICTURES:
+        if picture.page is not None:
+            assert picture.command[1] in pictures.named_blocks(DOCS / picture.page)
+
+
+def test_every_example_is_on_the_page_of_examples() -> None:
+    examples = making("examples")
+    page = examples.example_pages()
+    for name, files in examples.examples().items():
+        assert f"## {name}\n" in page
+        for file in files:
+            assert file.read_text("utf-8").strip() in page
+
+
+def test_every_public_name_is_on_the_page_of_the_api() -> None:
+    entries = re.findall(r"^::: tallgrass\.(\w+)$", making("api").api(), re.MULTILINE)
+    assert sorted([*entries, "scenes"]) == sorted(tallgrass.__all__)
+    page = (DOCS / "api.md").read_text("utf-8")
+    assert "<!-- generated: api -->\n" in page
+    assert "::: tallgrass.testing\n" in page
+
+
+def parts(owner: ModuleType, name: str) -> Iterator[tuple[str, Any]]:
+    """A public name, and for a class its public methods and properties."""
+    thing = getattr(owner, name)
+    yield name, thing
+    if inspect.isclass(thing):
+        for inner, value in vars(thing).items():
+            if inner.startswith("_") or inner == "model_config":
+                continue
+            plain = value.__func__ if isinstance(value, classmethod | staticmethod) else value
+            if inspect.isfunction(plain) or isinstance(plain, property):
+                yield f"{name}.{inner}", plain
+
+
+PUBLIC = [part for owner, name in FACES for part in parts(owner, name) if not isinstance(part[1], str)]
+
+
+@pytest.mark.parametrize(("name", "thing"), PUBLIC, ids=[name for name, _ in PUBLIC])
+def test_every_public_name_says_what_it_is_in_a_sentence(name: str, thing: Any) -> None:
+    text = inspect.getdoc(thing) if thing.__doc__ else None
+    assert text, f"{name} has no docstring"
+    first = text.split("\n\n")[0]
+    assert first[0].isupper(), f"{name}: {first}"
+    assert first.rstrip().endswith((".", ":")), f"{name}: {first}"
+
+
+def fields(owner: ModuleType, name: str) -> Iterator[tuple[str, str]]:
+    """The annotated names in a public class's own body, with the text below each."""
+    thing = getattr(owner, name)
+    if not inspect.isclass(thing):
+        return
+    source = inspect.getsource(thing)
+    for inner in [inner for inner in getattr(thing, "__annotations__", {}) if not inner.startswith("_")]:
+        below = re.search(rf'^    {inner}:.*?\n    """(.*?)"""', source, re.MULTILINE | re.DOTALL)
+        yield f"{name}.{inner}", below[1] if below else ""
+
+
+FIELDS = [row for owner, name in FACES for row in fields(owner, name)]
+
+
+@pytest.mark.parametrize(("name", "told"), FIELDS, ids=[name for name, _ in FIELDS])
+def test_every_public_field_says_what_it_is(name: str, told: str) -> None:
+    assert told.strip(), f"{name} has no docstring"
+
+
+FUNCTIONS = [(name, thing) for name, thing in PUBLIC if inspect.isfunction(thing)]
+
+
+@pytest.mark.parametrize(("name", "thing"), FUNCTIONS, ids=[name for name, _ in FUNCTIONS])
+def test_every_number_and_array_of_a_public_function_has_its_unit_or_shape_said(name: str, thing: Any) -> None:
+    kinds = [str(annotation) for annotation in thing.__annotations__.values()]
+    measured = [kind for kind in kinds if re.search(r"\bfloat\b|NDArray|ndarray|ArrayLike", kind)]
+    if measured:
+        assert UNITS.search(told_of(name, thing)), f"{name} takes or returns {measured}"
+
+
+def told_of(name: str, thing: Any) -> str:
+    """What is said of a public function: by itself, and of a method by its class and by what it overrides."""
+    first, _, method = name.partition(".")
+    owner = getattr(tallgrass, first, None) or getattr(tallgrass.testing, first)
+    said = [thing.__doc__, owner.__doc__]
+    said += [getattr(base, method).__doc__ for base in inspect.getmro(owner) if hasattr(base, method)] if method else []
+    return "\n".join(filter(None, said))

@@ -1,0 +1,143 @@
+"""The manual's pages do what they say: their files are written, their programs and commands run, in their order.
+
+The tutorial on wind plugins needs an environment of its own and has a test of its own; the README has one too.
+"""
+
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tallgrass.engine.scene import parse_scene
+
+DOCS = Path(__file__).parents[2] / "docs"
+PAGES = sorted(page.name for page in DOCS.glob("*.md"))
+FOLLOWED = [name for name in PAGES if name != "wind-plugin.md" and "\n```" in (DOCS / name).read_text("utf-8")]
+BLOCK = re.compile(
+    r"(?:^<!-- not run: (?P<reason>[^\n]+) -->\n)?(?:^`(?P<file>[^`\n]+)`:\n\n)?"
+    r"^```(?P<language>\w*)\n(?P<text>.*?)^```$",
+    re.MULTILINE | re.DOTALL,
+)
+GAME = """import pyglet
+import runpy
+pyglet.clock.schedule_once(lambda dt: pyglet.app.exit(), 1.0)
+runpy.run_path({file!r}, run_name="__main__")
+"""
+"""Runs a program that would run until its window is closed."""
+
+COARSE = re.compile("^tallgrass (shot|film)", re.MULTILINE)
+"""What is drawn coarsely here: growing fine grass takes longer than everything else on these pages."""
+
+
+def blocks(page: str) -> list[re.Match[str]]:
+    return list(BLOCK.finditer((DOCS / page).read_text("utf-8")))
+
+
+def opens_a_window(page: str) -> bool:
+    return any("pyglet.app.run()" in block["text"] and not block["reason"] for block in blocks(page))
+
+
+def run(command: list[str], folder: Path, display: str = "") -> str:
+    """Run a command as a reader would, and return what it prints."""
+    place = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
+    place |= {"PATH": f"{Path(sys.executable).parent}:{place['PATH']}"} | ({"DISPLAY": display} if display else {})
+    done = subprocess.run(command, cwd=folder, env=place, capture_output=True, text=True, timeout=300, check=False)
+    assert done.returncode == 0, f"{command[-1]}\n{done.stdout}{done.stderr}"
+    return done.stdout
+
+
+def follow(page: str, folder: Path, display: str = "") -> None:
+    """Do what a page tells to do, in a folder."""
+    told = ""
+    for block in blocks(page):
+        text, language = block["text"], block["language"]
+        name = folder / (block["file"] or "block.py")
+        if block["file"] or language == "python":
+            name.parent.mkdir(parents=True, exist_ok=True)
+            name.write_text(text, "utf-8")
+        if block["reason"] or (language == "python" and block["file"] and "pyglet.app.run()" not in text):
+            continue
+        if language == "python":
+            game = ["-c", GAME.format(file=name.name)] if "pyglet.app.run()" in text else [name.name]
+            run([sys.executable, "-W", "error", *game], folder, display)
+        elif language == "yaml":
+            parse_scene(text if "tallgrass:" in text else f"tallgrass: 1\ngrass: {{ lawn: {{}} }}\n{text}")
+        elif language == "text":
+            assert text.strip() in told or not told, f"{page}: {text}"
+        told = run(["/bin/sh", "-e", "-c", COARSE.sub(r"\g<0> --preset low", text)], folder) if language == "sh" else ""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="the pages are written for a POSIX shell")
+@pytest.mark.usefixtures("ctx")
+@pytest.mark.parametrize("page", [name for name in FOLLOWED if not opens_a_window(name)])
+def test_what_a_page_tells_to_do_works(page: str, tmp_path: Path) -> None:
+    follow(page, tmp_path)
+
+
+@pytest.mark.window
+@pytest.mark.parametrize("page", [name for name in FOLLOWED if opens_a_window(name)])
+def test_what_a_page_with_windows_tells_to_do_works(page: str, tmp_path: Path, display: str) -> None:
+    follow(page, tmp_path, display)
+
+
+@pytest.mark.parametrize("page", FOLLOWED)
+def test_every_block_of_a_page_is_of_a_language_that_is_run(page: str) -> None:
+    text = (DOCS / page).read_text("utf-8")
+    assert len(blocks(page)) == len(re.findall("^```", text, re.MULTILINE)) // 2
+    assert {block["language"] for block in blocks(page)} <= {"python", "sh", "text", "yaml"}
+
+
+def test_blocks_that_are_not_run_are_few_and_say_why() -> None:
+    reasons = [block["reason"] for page in FOLLOWED for block in blocks(page) if block["reason"]]
+    assert len(reasons) <= 3
+    text = "".join((DOCS / page).read_text("utf-8") for page in FOLLOWED)
+    assert text.count("<!-- not run") == len(reasons), "a reason stands right above a block"
+
+
+def test_the_problem_that_the_tour_makes_is_told_in_its_words(tmp_path: Path) -> None:
+    tour = {block["file"]: block["text"] for block in blocks("tour.md") if block["file"]}
+    scene = tmp_path / "evening.yaml"
+    scene.write_text(tour["evening.yaml"].replace("stiffness: 0.8", "stifness: 0.8"), "utf-8")
+    command = [sys.executable, "-m", "tallgrass.app.cli", "check", scene.name]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    (said,) = re.findall(r"^evening\.yaml:\d.*$", (DOCS / "tour.md").read_text("utf-8"), re.MULTILINE)
+    assert said in (done.stdout + done.stderr).splitlines()
+
+
+def test_the_test_of_a_games_own_system_has_fifteen_lines_or_fewer() -> None:
+    files: dict[str | None, str] = {block["file"]: block["text"] for block in blocks("testing.md")}
+    written = [line for line in files["test_moths.py"].splitlines() if line.strip()]
+    assert len(written) <= 15
+
+
+Slug = Callable[[str], str]
+
+
+def slug(title: str) -> str:
+    """What the generator links a heading by."""
+    return re.sub(r"[\s-]+", "-", re.sub(r"[^\w\s-]", "", title).strip().lower())
+
+
+def anchors(page: Path) -> set[str]:
+    return {slug(title) for title in re.findall(r"^#+ (.+)$", page.read_text("utf-8"), re.MULTILINE)}
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_every_link_of_a_page_leads_somewhere(page: str) -> None:
+    generated = {"scene.md": {"quality"}, "api.md": {"testing"}}
+    for target, anchor in re.findall(r"\]\(([^)#\s]*)(?:#([^)]+))?\)", (DOCS / page).read_text("utf-8")):
+        if target.startswith(("https://", "pictures/")):
+            continue
+        place = DOCS / (target or page)
+        assert place.exists(), f"{page} links to {target}"
+        if anchor:
+            assert anchor in anchors(place) | generated.get(place.name, set()), f"{page} links to {target}#{anchor}"
+
+
+def test_no_page_is_left_out_of_the_manual() -> None:
+    listed = re.findall(r"^  - [^:\n]+: (\S+\.md)$", (DOCS / "mkdocs.yml").read_text("utf-8"), re.MULTILINE)
+    assert sorted(listed) == PAGES
