@@ -79,3 +79,22 @@ def test_the_tests_pass_against_the_wheel_outside_the_checkout(site: Path, tmp_p
     python = site.parents[2] / "bin" / "python"
     told = run(python, "-P", "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "-m", QUICK, tests, cwd=tmp_path)
     assert " passed" in told.splitlines()[-1]
+
+
+def test_d6_the_type_checker_passes_on_the_examples_against_the_wheel(site: Path, tmp_path: Path) -> None:
+    """As people have it who write a game: with strict rules, without our configuration and without plugins."""
+    python = site.parents[2] / "bin" / "python"
+    programs = sorted([*(ROOT / "examples").glob("*.py"), *(ROOT / "examples").glob("*/*.py")])
+    assert len(programs) >= 5
+    copies = [shutil.copy(program, tmp_path) for program in programs]
+    options = (
+        "--strict",
+        "--config-file",
+        os.devnull,
+        "--cache-dir",
+        tmp_path / "cache",
+        "--python-executable",
+        python,
+    )
+    told = run(sys.executable, "-m", "mypy", *options, *copies, cwd=tmp_path)
+    assert f"no issues found in {len(copies)} source files" in told
