@@ -199,12 +199,13 @@ def pop(
     *,
     json: Json = False,
     parts: Annotated[bool, typer.Option("--parts", help="Also leave out each part of the transitions alone.")] = False,
+    output: Annotated[str | None, typer.Option("-o", "--output", help="A folder for pictures of what shows.")] = None,
 ) -> int:
     """Measure whether a change of representation can be seen on a walk; this takes minutes."""
     pixels = _size(size)
     from .bench.pop import bench_pop
 
-    return bench_pop(scene, preset=preset, size=pixels, json=json, parts=parts)
+    return bench_pop(scene, preset=preset, size=pixels, json=json, parts=parts, output=output)
 
 
 @plugins.command("list")

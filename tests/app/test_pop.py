@@ -3,12 +3,15 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
+from PIL import Image
 
 from tallgrass.app.bench import pop, stroll
-from tallgrass.app.bench.pop import HARD, judge
+from tallgrass.app.bench.pop import HARD
 from tallgrass.app.bench.steps import Record, find_truth, walked
 from tallgrass.app.bench.stroll import legs
+from tallgrass.app.bench.verdict import judge
 from tallgrass.app.cli import run
 from tallgrass.app.studio import Studio
 from tallgrass.app.take import Take
@@ -51,7 +54,8 @@ def prominent(record: Record) -> list[tuple[str, int, int]]:
 
 
 def test_n3_the_pop_benchmark_tells_every_key_and_sees_a_pop(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["bench", "pop", str(scene), "--size", "192x108", "--parts", "--json"]) == 0
+    folder = scene.parent / "worst"
+    assert run(["bench", "pop", str(scene), "--size", "192x108", "--parts", "--json", "-o", str(folder)]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told.keys() == POP | {"contributions"}
     assert told["frames"] == 15
@@ -63,6 +67,9 @@ def test_n3_the_pop_benchmark_tells_every_key_and_sees_a_pop(scene: Path, capsys
     assert told["hard_switch_ratio"] > flicker["ratio"]
     assert told["changing"]["max"] > told["changing"]["mean"] > 0.0
     assert [row["ratio"] for row in told["worst"]] == sorted((row["ratio"] for row in told["worst"]), reverse=True)
+    names = [f"{rank}-{row['leg']}-{row['frame']:03}.png" for rank, row in enumerate(told["worst"], 1)]
+    assert sorted(path.name for path in folder.iterdir()) == names
+    assert np.asarray(Image.open(folder / names[0])).shape == (108, 2 * 192, 3)
     rows = {row["without"]: row for row in told["contributions"]}
     assert rows.keys() == {"nothing", "morph", "fade", "growth", "hysteresis", "morph, fade, growth"}
     assert rows["nothing"]["ratio"] == flicker["ratio"]
