@@ -5,6 +5,7 @@ import shutil
 import subprocess
 import sys
 import sysconfig
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -162,6 +163,17 @@ def test_without_a_display_a_film_and_a_picture_are_drawn_with_the_same_argument
     assert film.endswith(f"hills --preset low -o {ready.clone}/out/walk.webp")
     assert shot.startswith("shot ")
     assert shot.endswith(f"hills --preset low -o {ready.clone}/out/walk.png")
+
+
+def test_the_manual_is_built_and_what_builds_it_installed_where_it_is_missing(ready: Machine) -> None:
+    build = ready.clone / "docs" / "making" / "build.py"
+    build.parent.mkdir(parents=True)
+    build.write_text("print('built')", "utf-8")
+    ready.calls.write_text("", "utf-8")
+    done = ready.dev("docs")
+    assert (done.returncode, done.stdout) == (0, "built\n"), done.stderr
+    missing = find_spec("mkdocs") is None or find_spec("mkdocstrings") is None
+    assert (ready.calls.read_text("utf-8").split() == ["pip"]) == missing
 
 
 def test_the_script_keeps_to_the_posix_shell() -> None:
