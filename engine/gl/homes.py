@@ -25,8 +25,13 @@ class Homes(Generic[Thing]):
         return len(self._homes)
 
     def here(self, ctx: moderngl.Context, make: Callable[[moderngl.Context], Thing]) -> Thing:
-        """Return the thing of the context that is current, which `ctx` draws in; `make` makes it if there is none."""
+        """Return the thing of the context that is current, which `ctx` draws in; `make` makes it if there is none.
+
+        Raises RuntimeError where the window that `ctx` drew in is closed and no other is there.
+        """
         place = None if ctx.screen is None else pyglet_context()
+        if place is None and any(known is ctx and is_lost(where) for known, where, _ in self._homes):
+            raise RuntimeError("there is no window any more: create another one before the prairie is drawn again")
         for known, where, thing in self._homes:
             if known is ctx and where is place:
                 return thing

@@ -7,6 +7,7 @@ import numpy as np
 from ...components.camera import View
 from ...components.overlay import Part
 from ...engine.gl.guest import guest
+from ...engine.gl.homes import Homes
 from ..draw.painter import view_of
 from ..prairie import Prairie
 from .arrows import arrow_marks
@@ -38,7 +39,7 @@ class Overlay:
 
     def __init__(self, parts: Iterable[Part] = ()) -> None:
         self.parts: frozenset[Part] = frozenset(parts)
-        self._painter: MarkPainter | None = None
+        self._painters: Homes[MarkPainter] = Homes()
 
     def draw(self, prairie: Prairie, view: object, projection: object) -> None:
         """Draw over the frame that `prairie.draw` has just drawn with the same matrices, and leave GL as it was.
@@ -52,18 +53,14 @@ class Overlay:
         ctx = prairie.painter.ctx
         seen, masks = view_of(view, projection), self._masks(prairie)
         with guest(ctx) as target:
-            if self._painter is None or self._painter.ctx is not ctx:
-                self._painter = MarkPainter(ctx)
-            size = target.viewport[2], target.viewport[3]
-            self._painter.begin(size)
-            self._painter.draw(self._on_ground(prairie, masks), _clip(seen))
-            self._draw_flat(self._painter, prairie, masks, size)
+            painter, size = self._painters.here(ctx, MarkPainter), target.viewport[2:]
+            painter.begin(size)
+            painter.draw(self._on_ground(prairie, masks), _clip(seen))
+            self._draw_flat(painter, prairie, masks, size)
 
     def release(self) -> None:
         """Give everything back to the context."""
-        if self._painter is not None:
-            self._painter.release()
-            self._painter = None
+        self._painters.release()
 
     def _masks(self, prairie: Prairie) -> list[Masked]:
         if not self.parts & {"masks", "map"}:

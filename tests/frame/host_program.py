@@ -30,6 +30,12 @@ Picture = NDArray[np.int16]
 SIZE = (160, 120)
 LOADED = read_scene(Path(sys.argv[1]))
 
+CONFIG: dict[str, Any] = {
+    "debug": True, "double_buffer": True, "depth_size": 24, "major_version": 3, "minor_version": 3,
+    "red_size": 8, "green_size": 8, "blue_size": 8, "alpha_size": 8,
+}  # fmt: skip
+"""A debug context, and 8 bits of each colour, of which headless ones have fewer if nobody asks."""
+
 RAW = """#version 330 core
 void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -0.5, gl_VertexID == 2 ? 3.0 : -0.5, 0.2, 1.0); }"""
 TEXTURED = """#version 330 core
@@ -37,6 +43,12 @@ uniform sampler2D texels;
 layout(std140) uniform WindowBlock { mat4 projection; mat4 view; } window;
 out vec4 color;
 void main() { color = texture(texels, gl_FragCoord.xy / 97.0) * (0.5 + window.projection[0][0]); }"""
+
+
+def configured() -> gl.Config:
+    """Return what windows ask for."""
+    config: Any = gl.Config  # its stand-in for type checkers is abstract
+    return config(**CONFIG)  # type: ignore[no-any-return]
 
 
 def new(function: str) -> int:
@@ -50,7 +62,7 @@ class Game:
     """A game with sprites, text, shapes, models, and GL of its own that is bound once and then left so."""
 
     def __init__(self) -> None:
-        self.window = pyglet.window.Window(*SIZE, resizable=True)
+        self.window = pyglet.window.Window(*SIZE, resizable=True, config=configured())
         self.flat, self.solid = pyglet.graphics.Batch(), pyglet.graphics.Batch()
         texels = np.random.default_rng(3).integers(0, 256, (16, 16, 4), np.uint8)
         image = pyglet.image.ImageData(16, 16, "RGBA", texels.tobytes())
@@ -464,7 +476,7 @@ def grown(before: dict[str, int]) -> str:
 
 def check_two_windows(game: Game) -> str:
     """One prairie is drawn in two windows, each with objects of its own, and leaves nothing in either."""
-    other = pyglet.window.Window(*SIZE)
+    other = pyglet.window.Window(*SIZE, config=configured())
     tidy()
     before = []
     for window in (other, game.window):
@@ -495,7 +507,7 @@ def check_window_made_again(game: Game) -> str:
         expected = picture(prairie)
         before = objects()
         for number in range(3):
-            window = pyglet.window.Window(*SIZE)
+            window = pyglet.window.Window(*SIZE, config=configured())
             told[f"window {number}"] = different(picture(prairie), expected)
             window.close()
         homes: Homes[Any] = prairie._painters  # noqa: SLF001

@@ -53,3 +53,50 @@ def test_d6_a_game_and_its_prairie_leave_each_other_alone(run: Run, name: str, h
     said = run(headless, version)
     assert said["version"] == version
     assert said[name] == ""
+
+
+ALONE = """
+import sys
+from pathlib import Path
+import pyglet
+from tallgrass import Prairie
+from tallgrass.engine.camera import camera_at, projection_matrix, view_matrix
+
+pyglet.options.shadow_window = False
+prairie = Prairie.load(sys.argv[1])
+camera = camera_at(prairie.scene.camera, None, prairie.height_at)
+
+
+def draw():
+    try:
+        prairie.draw(view_matrix(camera), projection_matrix(camera.view, 1.5))
+    except RuntimeError as error:
+        print(error)
+    else:
+        picture = pyglet.image.get_buffer_manager().get_color_buffer().get_image_data().get_data("RGB")
+        print(len(set(picture)), hash(bytes(picture)))
+
+
+draw()
+for _ in range(2):
+    window = pyglet.window.Window(150, 100)
+    window.clear()
+    draw()
+    window.close()
+    draw()
+prairie.release()
+"""
+
+
+def test_d6_without_pyglets_hidden_window_windows_may_come_and_go_too(little: str, tmp_path: Path) -> None:
+    (tmp_path / "scene.yaml").write_text(little, "utf-8")
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", ALONE, tmp_path / "scene.yaml"],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    before, first, closed, second, again = done.stdout.splitlines()
+    assert re.match(r"there is no GL context \(.*\): create the window before the prairie is first drawn", before)
+    assert closed == again == "there is no window any more: create another one before the prairie is drawn again"
+    assert first == second
+    assert int(first.split()[0]) > 100
