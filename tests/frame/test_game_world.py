@@ -20,6 +20,7 @@ from tallgrass.components.wind import Receivers, WindSource
 from tallgrass.engine.scene import LoadedScene, read_scene
 from tallgrass.engine.world import install
 from tallgrass.systems.prairie import Prairie
+from tallgrass.testing import LITTLE
 
 Stage = Any
 Aim = Callable[..., Camera]
@@ -42,9 +43,9 @@ class Shoot(esper.Processor):
 
 
 @pytest.fixture
-def loaded(little: str, tmp_path: Path) -> LoadedScene:
+def loaded(tmp_path: Path) -> LoadedScene:
     """The little scene, read."""
-    (tmp_path / "scene.yaml").write_text(little, "utf-8")
+    (tmp_path / "scene.yaml").write_text(LITTLE, "utf-8")
     return read_scene(tmp_path / "scene.yaml")
 
 

@@ -14,6 +14,9 @@ from pathlib import Path
 
 import pytest
 
+from tallgrass.testing import LITTLE
+
+SCENE = LITTLE + "wind: [{ kind: breeze, strength: 0.4 }]\n"
 PROGRAM = Path(__file__).with_name("host_program.py")
 CHECKS = re.findall(r"^def check_(\w+)", PROGRAM.read_text("utf-8"), re.MULTILINE)
 ROUNDS = os.environ.get("TALLGRASS_ROUNDS", "30")
@@ -23,10 +26,10 @@ Run = Callable[[bool, str], dict[str, str]]
 
 
 @pytest.fixture(scope="module")
-def run(tmp_path_factory: pytest.TempPathFactory, little: str) -> Run:
+def run(tmp_path_factory: pytest.TempPathFactory) -> Run:
     """Run the program on a display or headless, with a version of OpenGL; what each of its checks says, once each."""
     scene = tmp_path_factory.mktemp("scene") / "scene.yaml"
-    scene.write_text(little, "utf-8")
+    scene.write_text(SCENE, "utf-8")
     known: dict[tuple[bool, str], dict[str, str]] = {}
 
     def start(headless: bool, version: str) -> dict[str, str]:  # noqa: FBT001
@@ -88,8 +91,8 @@ prairie.release()
 """
 
 
-def test_d6_without_pyglets_hidden_window_windows_may_come_and_go_too(little: str, tmp_path: Path) -> None:
-    (tmp_path / "scene.yaml").write_text(little, "utf-8")
+def test_d6_without_pyglets_hidden_window_windows_may_come_and_go_too(tmp_path: Path) -> None:
+    (tmp_path / "scene.yaml").write_text(SCENE, "utf-8")
     done = subprocess.run(
         [sys.executable, "-W", "error", "-c", ALONE, tmp_path / "scene.yaml"],
         capture_output=True, text=True, check=False,
