@@ -11,6 +11,7 @@ from .context import headless_context
 from .golden import same_picture
 from .heard import Heard, receivers_of
 from .little import LITTLE, little_prairie
+from .looking import looking
 from .stage import Stage, stage
 from .step import step, watch
 from .winds import check_wind, wind_problems
@@ -26,6 +27,7 @@ __all__ = [
     "fixed_clock",
     "headless_context",
     "little_prairie",
+    "looking",
     "private_world",
     "receivers_of",
     "same_picture",

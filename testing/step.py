@@ -12,8 +12,8 @@ ASPECT = 16 / 9
 def watch(prairie: Prairie, camera: Camera | None = None, /) -> None:
     """Let a viewer stand in a prairie for a frame, without drawing it and without any GL.
 
-    `camera` is where; without it the scene's own. Afterwards patches are where they are due, in the representation that
-    they are due in. RuntimeError after `release`.
+    `camera` is where, as `looking` makes one; without it the scene's own. Afterwards patches are where they are due,
+    in the representation that they are due in. RuntimeError after `release`.
     """
     seen = camera_at(prairie.scene.camera, None, prairie.height_at) if camera is None else camera
     prairie.follow(view_matrix(seen), projection_matrix(seen.view, ASPECT))

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
+PAGES = sorted((ROOT / "docs").glob("*.md"))
 SOURCES = ("app", "components", "engine", "scenes", "systems")
 NAMED = re.compile(r"^`(?P<file>[^`\n]+)`:\n\n```\w+\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
-FIGURES = tuple(range(2, 13))
-"""The figures of the paper that the manual shows."""
+FIGURE = re.compile(r"\(pictures/figure-(\d+)\.png\)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,14 +51,18 @@ def make_pictures(folder: Path, /) -> None:
             for name, text in named_blocks(ROOT / "docs" / picture.page).items():
                 folder.joinpath(name).write_text(text, "utf-8")
         _run(*picture.command, "-o", picture.file, folder=folder)
-    _run("figures", "-o", ".", "--only", ",".join(map(str, FIGURES)), folder=folder)
+    _run("figures", "-o", ".", "--only", ",".join(map(str, figures_shown())), folder=folder)
     stamp.write_text(made, "utf-8")
+
+
+def figures_shown() -> list[int]:
+    """Return the numbers of the paper's figures that the pages show."""
+    return sorted({int(number) for page in PAGES for number in FIGURE.findall(page.read_text("utf-8"))})
 
 
 def _made_from() -> str:
     files = [file for name in SOURCES for file in sorted((ROOT / name).rglob("*")) if "__pycache__" not in file.parts]
-    files += [ROOT / "docs" / page for page in sorted({each.page for each in PICTURES if each.page})]
-    files.append(Path(__file__))
+    files += [*PAGES, Path(__file__)]
     total = 0
     for file in files:
         total = zlib.crc32(file.read_bytes(), total) if file.is_file() else total

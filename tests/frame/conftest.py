@@ -1,7 +1,6 @@
 """What the tests of whole frames share: a stage to draw small pictures on, and prairies that are grown once."""
 
 from collections.abc import Callable, Iterator
-from math import radians
 from pathlib import Path
 
 import moderngl
@@ -10,7 +9,7 @@ import pytest
 from tallgrass import testing
 from tallgrass.components.camera import Camera
 from tallgrass.systems.prairie import Prairie
-from tallgrass.testing import LITTLE, Stage
+from tallgrass.testing import LITTLE, Stage, looking
 
 BLOWN = LITTLE + "wind: [{ kind: breeze, strength: 0.4 }]\n"
 
@@ -40,17 +39,6 @@ def load(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) -> Ite
     yield scene
     for prairie in loaded:
         prairie.release()
-
-
-def looking(x: float, y: float, z: float, *, yaw: float = 0.0, pitch: float = 0.0, view: float = 45.0) -> Camera:
-    """A camera at a place [m], with its angles in degrees."""
-    return Camera((x, y, z), radians(yaw), radians(pitch), radians(view))
-
-
-@pytest.fixture(scope="session")
-def little() -> str:
-    """The text of the little scene."""
-    return LITTLE
 
 
 @pytest.fixture(scope="session")

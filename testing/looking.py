@@ -1,0 +1,14 @@
+"""Somebody who looks at a prairie."""
+
+from math import radians
+
+from ..components.camera import Camera
+
+
+def looking(x: float, y: float, z: float, *, yaw: float = 0.0, pitch: float = 0.0, view: float = 45.0) -> Camera:
+    """Return a camera at a place [m], y counted from 0 and not from the ground.
+
+    `yaw`, `pitch` and the vertical angle of `view` are in degrees: yaw 0 looks down -z and a positive one turns right;
+    a positive pitch looks up.
+    """
+    return Camera((x, y, z), radians(yaw), radians(pitch), radians(view))
