@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from tallgrass.app.check import check
+from tallgrass.engine.scene import bundled_scenes
 
 GOOD = "tallgrass: 1\ngrass: { lawn: {} }\n"
 
@@ -41,8 +42,8 @@ def test_a_name_that_cannot_be_printed_stops_nothing(tmp_path: Path, capsys: pyt
 @pytest.mark.parametrize(
     ("scene", "told"),
     [
-        ("medow", "no scene file 'medow'; did you mean 'meadow'? bundled: hills, meadow, plain"),
-        ("zzz", "no scene file 'zzz'; bundled: hills, meadow, plain"),
+        ("medow", "no scene file 'medow'; did you mean 'meadow'? bundled: {bundled}"),
+        ("zzz", "no scene file 'zzz'; bundled: {bundled}"),
         ("{folder}/medow.yaml", "no scene file '{folder}/medow.yaml', did you mean 'meadow.yaml'?"),
         ("{folder}", "this is a folder, not a scene file"),
         ("hollow", "this is a folder, not a scene file"),
@@ -60,4 +61,5 @@ def test_what_is_no_scene_file_is_one_line(
     scene = scene.format(folder=tmp_path)
     assert check([scene]) == 2
     (line,) = capsys.readouterr().out.splitlines()
-    assert line.startswith(f"{scene}:1:1: {told.format(folder=tmp_path)}")
+    told = told.format(folder=tmp_path, bundled=", ".join(bundled_scenes()))
+    assert line.startswith(f"{scene}:1:1: {told}")
