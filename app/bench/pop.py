@@ -22,6 +22,9 @@ from .verdict import Verdict, judge
 HARD = Transitions(morph=False, fade=False, growth=False)
 """Patches switch at once."""
 
+WHOLE = "nothing"
+"""What is left out where nothing is."""
+
 PARTS = ("morph", "fade", "growth", "hysteresis")
 """What each is worth is found by leaving it out."""
 
@@ -62,35 +65,35 @@ def bench_pop(
 
 def _measure(studio: Studio, *, parts: bool, output: str | None) -> dict[str, object]:
     walk = legs(studio.prairie)
-    records = {
-        "nothing": walked(studio, walk, SEAMLESS, doing="walking"),
-        "morph, fade, growth": walked(studio, walk, HARD, doing="switching at once"),
-    }
+    left_out = {WHOLE: SEAMLESS, "morph, fade, growth": HARD}
     for part in PARTS if parts else ():
-        less = replace(SEAMLESS, **{part: False})
-        records[part] = walked(studio, walk, less, doing=f"walking without {part}")
-    whole = records["nothing"]
+        left_out[part] = replace(SEAMLESS, **{part: False})
+    records = {name: walked(studio, walk, less, doing=f"without {name}") for name, less in left_out.items()}
+    whole = records[WHOLE]
     near = [each for record in records.values() for step in record.steps for each in (step.earlier, step.moment)]
     truth = find_truth(studio, walk, near, [moment for moment, _ in whole.stills])
-    errors = [flip(picture, truth.whole[moment.time]) for moment, picture in whole.stills]
     verdicts = {name: judge(record, truth) for name, record in records.items()}
-    worst = verdicts["nothing"][:TOLD]
     if output is not None:
-        save(worst, output, about(studio.prairie, studio.take))
-    result = {
-        "frames": len(whole.changing),
-        "error": {"p50": round(float(np.median(errors)), 5), "max": round(max(errors), 5)},
-        "flicker": _figures(worst[0]),
-        "hard_switch_ratio": round(verdicts["morph, fade, growth"][0].ratio, 3),
-        "changing": _changing(whole),
-        "worst": [_row(verdict) for verdict in worst],
-    }
+        save(verdicts[WHOLE][:TOLD], output, about(studio.prairie, studio.take))
+    result = _told(whole, verdicts, [flip(picture, truth.whole[moment.time]) for moment, picture in whole.stills])
     if parts:
         result["contributions"] = [
             {"without": name, **_figures(verdicts[name][0]), "changing": _changing(record)["mean"]}
             for name, record in records.items()
         ]
     return result
+
+
+def _told(whole: Record, verdicts: dict[str, list[Verdict]], errors: list[float]) -> dict[str, object]:
+    worst = verdicts[WHOLE][:TOLD]
+    return {
+        "frames": len(whole.changing),
+        "error": {"p50": round(float(np.median(errors)), 5), "max": round(max(errors), 5)},
+        "flicker": _figures(worst[0]),
+        "hard_switch_ratio": _figures(verdicts["morph, fade, growth"][0])["ratio"],
+        "changing": _changing(whole),
+        "worst": [_row(verdict) for verdict in worst],
+    }
 
 
 def _figures(verdict: Verdict) -> dict[str, float]:
