@@ -267,7 +267,10 @@ class Prairie:
         self.statistics.blades_field = blades_in_field(field)
 
     def release(self) -> None:
-        """Give back everything: GL objects and entities. The prairie cannot be drawn afterwards."""
+        """Give back everything: GL objects in every window, places in batches, entities, and what `install` added.
+
+        The processor of `install` goes with its world's last prairie. This prairie cannot be drawn afterwards.
+        """
         self._released = True
         for group in self._groups:
             group.delete()

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from pyglet import gl
+import moderngl
 from pyglet.graphics import Batch, Group, get_default_shader
 
 
@@ -18,7 +18,7 @@ class DrawingGroup(Group):
         self._draw: Callable[[], None] | None = draw
         self._program = get_default_shader()
         # A batch leaves out groups in which there is nothing: this is a triangle of no size.
-        self._nothing = self._program.vertex_list(3, gl.GL_TRIANGLES, batch, self, position=("f", (0.0,) * 9))
+        self._nothing = self._program.vertex_list(3, moderngl.TRIANGLES, batch, self, position=("f", (0.0,) * 9))
 
     def __eq__(self, other: object) -> bool:
         return self is other
