@@ -1,5 +1,6 @@
 """A patch of grass in 3D and in 2.5D: blades, strips, and how strips are animated (figures 2, 3 and 4)."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +18,7 @@ from ...components.quality import Quality
 from ...components.scene import LodName
 from ...systems.draw.light import grain, lit_kind
 from ...systems.growth.bend import ribbon, spine
+from ...systems.prairie import Prairie
 from ..encode import Picture
 from ..studio import Studio
 from ..take import Take
@@ -50,8 +52,6 @@ class Sample:
     light: Light
     quality: Quality
     growth: Growth
-    view: Picture
-    """What a walker sees of it, in one representation everywhere."""
 
     @property
     def blades(self) -> Blades:
@@ -64,19 +64,35 @@ class Sample:
         return self.growth.models[0].strips[0]
 
 
-def sample(detail: Detail, lod: LodName, /) -> Sample:
-    """Return what is grown for the figures' kind, and the walker's view of it in one representation."""
+def sample(detail: Detail, /) -> Sample:
+    """Return what is grown for the figures' kind."""
+    prairie = Prairie.load(SCENE, preset=detail.preset)
+    field = prairie.field
+    prairie.release()
+    return Sample(next(iter(field.scene.grass.values())), field.scene.light, field.quality, field.growths[0])
+
+
+def walkers_view(detail: Detail, lod: LodName, /) -> Picture:
+    """Return what a walker sees of it, in one representation everywhere."""
     with Studio(Take(SCENE, detail.size, detail.preset, lod)) as studio:
-        field = studio.prairie.field
-        kind, light = next(iter(field.scene.grass.values())), field.scene.light
-        return Sample(kind, light, field.quality, field.growths[0], studio.picture(WALKER.camera(studio)))
+        return studio.picture(WALKER.camera(studio))
 
 
-def ribbons(one: Sample, rows: NDArray[np.intp], /, axes: tuple[int, int]) -> PolyCollection:
-    """Return some blades at rest, in the order of `rows`, seen along the third axis of (x, y, z)."""
-    left, right = ribbon(one.blades, one.growth.postures, (0.0, 0.0), points=SEGMENTS + 1, taper=one.kind.taper)
-    seen = [edge[rows][:, :, axes] for edge in (left, right)]
-    quads = np.stack([seen[0][:, :-1], seen[0][:, 1:], seen[1][:, 1:], seen[1][:, :-1]], axis=2)
+def from_front(place: NDArray[np.floating], /) -> Doubles:
+    """Return points (..., 3) seen along z, shape (..., 2)."""
+    return np.asarray(place[..., (0, 1)], np.float64)
+
+
+def from_above(place: NDArray[np.floating], /) -> Doubles:
+    """Return points (..., 3) seen along y, shape (..., 2)."""
+    return np.asarray(place[..., (0, 2)], np.float64)
+
+
+def ribbons(one: Sample, rows: NDArray[np.intp], /, seen: Callable[[Floats], Doubles]) -> PolyCollection:
+    """Return some blades at rest, in the order of `rows`; `seen` turns points (..., 3) into those drawn (..., 2)."""
+    edge = ribbon(one.blades, one.growth.postures, (0.0, 0.0), points=SEGMENTS + 1, taper=one.kind.taper)
+    left, right = (seen(side[rows]) for side in edge)
+    quads = np.stack([left[:, :-1], left[:, 1:], right[:, 1:], right[:, :-1]], axis=2)
     along = (np.arange(SEGMENTS) + 0.5) / SEGMENTS
     facing = one.blades.facing[rows].astype(np.float64)
     color = shade(one, along[None, :, None], np.cos(facing)[:, None, None], np.sin(facing)[:, None, None])
@@ -92,7 +108,7 @@ def shade(one: Sample, along: Doubles, normal_x: Doubles, normal_z: Doubles, /) 
 
 def draw_blades(detail: Detail, /) -> Figure:
     """Return figure 2: a blade, a slice of a patch, a patch from above, and the walker's view."""
-    one = sample(detail, "blades")
+    one = sample(detail)
     patch = one.quality.patch
     figure = sheet(4.5, detail)
     parts = figure.subplot_mosaic(
@@ -103,16 +119,16 @@ def draw_blades(detail: Detail, /) -> Figure:
         parts[name].set_anchor("S")
     tall = 1.08 * float(one.strips.height)
     inside = np.flatnonzero(one.strips.slice[0] == CLOSE)
-    parts["slice"].add_collection(ribbons(one, inside[np.argsort(one.blades.root[inside, 1])], (0, 1)))
+    parts["slice"].add_collection(ribbons(one, inside[np.argsort(one.blades.root[inside, 1])], from_front))
     parts["slice"].set(
         title=f"b)  the {len(inside)} blades in a slice", xlim=(-0.3, patch + 0.3), ylim=(0.0, tall), aspect="equal",
         xlabel="x [m]", ylabel="height [m]",
     )  # fmt: skip
-    parts["above"].add_collection(ribbons(one, np.argsort(one.blades.height), (0, 2)))
+    parts["above"].add_collection(ribbons(one, np.argsort(one.blades.height), from_above))
     near, far = (patch / len(one.strips.plane) * (CLOSE + side) for side in (0, 1))
     parts["above"].axhspan(near, far, facecolor="none", edgecolor=SERIES[1], linewidth=1.2)
     _patch(parts["above"], patch, title=f"c)  {len(one.blades.height)} blades from above", ground=SOIL)
-    _view(parts["view"], one.view, title="d)  3D blades, as a walker sees them")
+    _view(parts["view"], walkers_view(detail, "blades"), title="d)  3D blades, as a walker sees them")
     return figure
 
 
@@ -143,7 +159,7 @@ def _view(axes: Axes, picture: Picture, *, title: str) -> None:
 
 def draw_strips(detail: Detail, /) -> Figure:
     """Return figure 4: the texture of a strip, the layers of strips from above, and the walker's view."""
-    one = sample(detail, "strips")
+    one = sample(detail)
     strips, patch = one.strips, one.quality.patch
     figure = sheet(4.6, detail)
     parts = figure.subplot_mosaic(
@@ -161,7 +177,7 @@ def draw_strips(detail: Detail, /) -> Figure:
         parts["above"].add_collection(lines)
     _patch(parts["above"], patch, title=f"b)  {len(strips.plane)} layers each way, from above")
     parts["above"].legend(loc="center left", bbox_to_anchor=(1.02, 0.5))
-    _view(parts["view"], one.view, title="c)  2.5D strips, as a walker sees them")
+    _view(parts["view"], walkers_view(detail, "strips"), title="c)  2.5D strips, as a walker sees them")
     return figure
 
 
@@ -188,21 +204,25 @@ def edges(one: Sample, message: Floats, /, *, points: int) -> Floats:
 
 
 def on_strip(edge: Floats, at: Floats, /) -> Doubles:
-    """Return where texture coordinates (..., 2) in [0, 1] are on a strip with edges (n, k, 3), shape (..., 3)."""
+    """Return where texture coordinates (..., 2) in [0, 1] are on a strip with edges (n, k, 3), shape (..., 3).
+
+    A quad is two triangles, parted from its second edge's foot to its first edge's head, as it is on screen.
+    """
     columns, sections = edge.shape[0] - 1, edge.shape[1] - 1
     u, v = (
         np.clip(part, 0.0, 1.0) * count for part, count in zip(np.moveaxis(at, -1, 0), (columns, sections), strict=True)
     )
     i, j = np.minimum(u.astype(int), columns - 1), np.minimum(v.astype(int), sections - 1)
     right, up = (u - i)[..., None], (v - j)[..., None]
-    low = edge[i, j] * (1.0 - right) + edge[i + 1, j] * right
-    high = edge[i, j + 1] * (1.0 - right) + edge[i + 1, j + 1] * right
-    return np.asarray(low * (1.0 - up) + high * up, np.float64)
+    foot, head = (edge[i, j], edge[i + 1, j]), (edge[i, j + 1], edge[i + 1, j + 1])
+    low = foot[0] + (foot[1] - foot[0]) * right + (head[0] - foot[0]) * up
+    high = head[1] + (head[0] - head[1]) * (1.0 - right) + (foot[1] - head[1]) * (1.0 - up)
+    return np.asarray(np.where(right + up <= 1.0, low, high), np.float64)
 
 
 def draw_edges(detail: Detail, /) -> Figure:
     """Return figure 3: a strip at rest, and with its vertical edges bent by what their receivers feel."""
-    one = sample(detail, "strips")
+    one = sample(detail)
     figure = sheet(4.1, detail)
     panels = figure.subplots(2, 1)
     count = one.quality.strip_rings[0].columns + 1
@@ -221,7 +241,7 @@ def draw_edges(detail: Detail, /) -> Figure:
     return figure
 
 
-def oblique(place: NDArray[np.floating], plane: float, /) -> Doubles:
+def oblique(place: NDArray[np.floating], /, plane: float) -> Doubles:
     """Return points (..., 3) drawn from the side and a little from above, shape (..., 2)."""
     depth = place[..., 2] - plane
     return np.stack([place[..., 0] - 0.35 * depth, place[..., 1] - 0.45 * depth], axis=-1)
