@@ -169,3 +169,21 @@ quality:
     aim = camera(1.2, 1.3, 1.1, yaw=yaw, pitch=-35)
     error = np.abs(stage.shot(dense, aim) - reference(stage, dense, aim)).mean()
     assert error < 7.0
+
+
+def test_n3_within_a_reach_that_holds_everything_the_reference_is_whole(
+    stage: Stage, prairie: Prairie, aim: Camera
+) -> None:
+    stage.shot(prairie, aim)
+    view, projection = stage.matrices(aim)
+
+    def within(reach: int) -> Any:
+        return draw_reference(prairie, view, projection, stage.size, samples=2, reach=reach).astype(float)
+
+    whole = reference(stage, prairie, aim, samples=2)
+    np.testing.assert_array_equal(within(99), whole)
+    near = within(3)
+    far = distances(stage, prairie, aim)
+    apart = np.abs(near - whole).max(axis=2)
+    assert apart[far > 4].max() > 20.0
+    assert (apart[(far >= 0) & (far <= 2)] > 20.0).mean() < 0.02
