@@ -43,7 +43,7 @@ class StripPainter:
         stock: list[list[Strips]],
         units: dict[str, int],
     ) -> None:
-        self.sections = ring.sections
+        self.sections, self.columns = ring.sections, ring.columns
         self.units = units
         self.atlas, self.ranks = strip_textures(ctx, stock)
         self.strips = Records(ctx, STRIP, PER_ROW, rows=1024)
