@@ -39,8 +39,7 @@ def gather_strips(
     """
     ahead = lies_ahead(table.cell[shown.rows], centre, shown.along)
     _, kinds, count = pool.layer.shape
-    place_of = np.arange(count)
-    order = np.where(ahead[:, None], place_of[::-1], place_of)[..., None]
+    order = np.where(ahead[:, None], np.arange(count)[::-1], np.arange(count))[..., None]
     # Strips of several kinds share a plane: each kind comes to lie in front as often as behind.
     kind = (np.arange(kinds) + order) % kinds
     at = shown.slots[:, None, None], kind, order
@@ -56,10 +55,9 @@ def gather_strips(
     records["turn"] = table.turn[shown.rows][:, None, None, None]
     records["growth"] = looks.growth[shown.rows][:, None, None, None]
     records["ranks"] = np.where(shown.least > 0.0, -shown.least, shown.most)[:, None, None, None]
-    _, painted = handed_over(looks.handed[shown.rows][:, None], place_of, count, fade=fade)
-    covers = shown.fade[:, None] * painted
-    records["fade"] = covers[:, :, None, None]
-    grows = pool.present[at[:2]] & (covers > 0.0)[..., None]
+    covers = shown.fade * handed_over(looks.handed[shown.rows], fade=fade)[1]
+    records["fade"] = covers[:, None, None, None]
+    grows = pool.present[at[:2]] & (covers > 0.0)[:, None, None]
     grown: NDArray[np.void] = records[grows].reshape(-1)
     return grown, grows.sum(axis=(1, 2)) * columns
 

@@ -10,7 +10,7 @@ Floats = NDArray[np.float32]
 Levels = NDArray[np.int8]
 Mask = NDArray[np.bool_]
 
-FADE = 0.9
+FADE = 1.2
 """How long a change of representation takes at most [s]."""
 
 STRETCH = 0.8

@@ -71,17 +71,17 @@ def _of_ring(field: Field, seen: Seen, shown: Shown, ring: int, along: NDArray[n
     stack = np.take_along_axis(stacked, plane.astype(np.int64), axis=1)
     ahead = lies_ahead(table.cell[rows], field.sight.centre, along)
     place = np.where(ahead[:, None], count - 1 - stack, stack)
-    fade, _ = handed_over(looks.handed[rows][:, None], place, count, fade=field.transitions.fade)
+    fade, _ = handed_over(looks.handed[rows], fade=field.transitions.fade)
     blade = pool.blade[shown.slots]
     moving = np.zeros(place.shape, MOVING)
-    moving["message"], moving["fade"] = pool.message[shown.slots], fade
+    moving["message"], moving["fade"] = pool.message[shown.slots], fade[:, None]
     moving["morph"] = looks.morph[rows][:, None]
     strip = (np.arange(len(rows))[:, None] * kinds + blade["kind"].astype(np.int64)) * count + stack
     moving["edge"] = first + strip * edges
     moving["painted"] = ((model * 2 + own) * order.shape[1])[:, None] + order
-    # Slice after slice: what has been handed over lies behind what is still drawn as blades.
+    # Slice after slice: so they lie one behind another on their strips, too.
     queue = np.argsort(place, axis=1, kind="stable")
-    kept = np.take_along_axis(pool.present[shown.slots] & (fade > 0.0), queue, axis=1)
+    kept = np.take_along_axis(pool.present[shown.slots] & (fade > 0.0)[:, None], queue, axis=1)
     return Morph(
         np.take_along_axis(blade, queue, axis=1)[kept],
         np.take_along_axis(moving, queue, axis=1)[kept],

@@ -13,7 +13,7 @@ from ..engine.terrain.sample import density_at, height_at
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
 
-HEADINGS = 8
+HEADINGS = 32
 """Azimuths that blades are put in order for."""
 
 _COS = np.array([1, 0, -1, 0], np.float32)
@@ -78,9 +78,12 @@ def far_to_near_blades(records: NDArray[np.void], /) -> NDArray[np.intp]:
     return np.argsort(-away, axis=1, kind="stable")
 
 
-def heading_of(cell: Ints, centre: Ints, /) -> Ints:
-    """Return which of `HEADINGS` azimuths each cell (m, 2) is seen towards from the viewer's, shape (m,)."""
-    away = (cell - centre).astype(np.float64)
+def heading_of(cell: Ints, viewer: NDArray[np.float64], /) -> Ints:
+    """Return which of `HEADINGS` azimuths the middle of each cell (m, 2) is seen towards, shape (m,).
+
+    `viewer` is the place that it is seen from [patch sides], shape (2,).
+    """
+    away = cell + 0.5 - viewer
     turns = np.arctan2(away[:, 1], away[:, 0]) * (HEADINGS / (2.0 * np.pi))
     return np.mod(np.round(turns), HEADINGS).astype(np.int32)
 

@@ -18,10 +18,10 @@ Rows = NDArray[np.int64]
 
 def plant_shown_blades(field: Field, shown: Shown) -> Rows:
     """Plant the patches in `shown` whose slot holds another's blades; return the rows planted."""
-    table, centre = field.table, field.sight.centre
+    table, viewer = field.table, np.array([field.sight.eye[0], field.sight.eye[2]]) / field.quality.patch
     rows: Rows = shown.rows
     slots = shown.slots
-    heading = heading_of(table.cell[rows], centre)
+    heading = heading_of(table.cell[rows], viewer)
     stale = (field.blades.stamp[slots] != np.column_stack([table.cell[rows], heading])).any(axis=1)
     rows, slots, heading = rows[stale], slots[stale], heading[stale]
     if rows.size:

@@ -9,8 +9,18 @@ from ..components.transition import Transitions
 
 Floats = NDArray[np.float32]
 
-MORPH = 0.65
-"""Part of a change between blades and strips in which the blades move; then they are handed over."""
+ARRIVED = 0.95
+"""Part of a change from blades to strips after which the blades are in their painted places."""
+
+GENTLY = 1.6
+"""Power of the way that they have gone then: they set off slowly, and move the faster the less of them is left to see."""
+
+NEARLY = 0.35
+"""Part of it after which they are handed over to the strips, as they come near."""
+
+OVERLAP = 0.35
+"""How much more than in a plain cross-fade both show half-way through the handing over. They cover the same place: with
+less the ground would shine through, with more edges would swell."""
 
 BORDER = 4.0
 """Over how many patches the strips give way to the carpet."""
@@ -33,7 +43,7 @@ class Looks:
     """How far blades have moved towards their painted places."""
 
     handed: Floats
-    """How much of the blades has been handed over to the strips, slice by slice from far to near."""
+    """How far the blades have been handed over to the strips."""
 
     strips: Floats
     """How much strips cover of what they could, 0 where none are wanted."""
@@ -81,8 +91,9 @@ def _moved(blades: Floats, strips: Floats, transitions: Transitions) -> tuple[Fl
     if not transitions.morph:
         gone = np.where(strips > 0.0, np.float32(1.0), np.float32(0.0))
         return _early(blades, transitions), np.zeros_like(blades), gone
-    morph = np.where(both, smooth(strips / np.float32(MORPH)), np.float32(0.0))
-    handed = np.clip((strips - np.float32(MORPH)) / np.float32(1.0 - MORPH), 0.0, 1.0)
+    way = np.minimum(strips / np.float32(ARRIVED), np.float32(1.0)) ** np.float32(GENTLY)
+    morph = np.where(both, way, np.float32(0.0))
+    handed = np.clip((strips - np.float32(NEARLY)) / np.float32(1.0 - NEARLY), 0.0, 1.0).astype(np.float32)
     shown = np.where(both, np.float32(1.0), _early(blades, transitions))
     return shown, morph, np.where(both, handed, np.where(strips > 0.0, np.float32(1.0), np.float32(0.0)))
 
@@ -111,16 +122,11 @@ def _grown(part: Floats, transitions: Transitions) -> tuple[Floats, Floats, Floa
     return switched, whole, whole - switched
 
 
-def handed_over(handed: Floats, place: NDArray[np.int64], slices: int, /, *, fade: bool) -> tuple[Floats, Floats]:
-    """Return how much of a slice's blades shows, and of its strip, while a patch is handed over slice by slice.
-
-    `place` counts slices from the farthest, so that in any moment what is drawn as strips lies behind what is drawn
-    as blades. A slice's strip appears before its blades go; by then they lie on it.
-    """
-    part = np.clip(handed * np.float32(slices) - place, 0.0, 1.0).astype(np.float32)
+def handed_over(handed: Floats, /, *, fade: bool) -> tuple[Floats, Floats]:
+    """Return how much blades show, and the strips that they lie on, while they are handed over."""
     if not fade:
-        painted = (part >= np.float32(0.5)).astype(np.float32)
+        painted = (handed >= np.float32(0.5)).astype(np.float32)
         return np.float32(1.0) - painted, painted
-    blades: Floats = np.minimum(2.0 - 2.0 * part, 1.0).astype(np.float32)
-    strips: Floats = np.minimum(2.0 * part, 1.0).astype(np.float32)
-    return blades, strips
+    one = np.float32(1.0)
+    more = np.float32(OVERLAP) * handed * (one - handed)
+    return np.minimum(one - handed + more, one), np.minimum(handed + more, one)

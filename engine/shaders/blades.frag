@@ -1,7 +1,8 @@
 in vec3 color;
 flat in float shown;
 #ifdef SOFT
-uniform vec2 between;  // coverages that are drawn
+uniform int part;     // 0: all of it; 1: where it hides what is behind it; 2: the rest
+flat in float hides;  // coverage from which on it does
 noperspective in float aside;
 noperspective in float half_width;
 #endif
@@ -11,7 +12,7 @@ out vec4 pixel;
 void main() {
 #ifdef SOFT
     float covered = shown * clamp(half_width + 0.5 - abs(aside), 0.0, min(1.0, 2.0 * half_width));
-    if (covered < between.x || covered >= between.y)
+    if (covered < 0.004 || (part == 1 && covered < hides) || (part == 2 && covered >= hides))
         discard;
     pixel = vec4(color * covered, covered);
 #else

@@ -14,7 +14,8 @@ in float kind;
 in vec2 message;
 in float fade;
 #ifndef MORPH
-in float slide;  // of the joints, to those of a coarser blade
+in float slide;      // of the joints, to those of a coarser blade
+uniform float near;  // distance up to which blades hide one another by depth [m]; beyond it order alone says
 #else
 #include "lib/painted.glsl"
 
@@ -29,6 +30,7 @@ flat out float shown;
 #ifdef SOFT
 noperspective out float aside;  // from the middle line [pixel]
 noperspective out float half_width;  // of the ribbon [pixel]
+flat out float hides;  // coverage from which on a pixel counts as hidden behind it
 
 // Move a point aside on the screen, so that the ribbon reaches half a pixel beyond its edge.
 vec4 widened(vec3 place, vec3 tangent, vec2 across) {
@@ -80,6 +82,11 @@ void main() {
     color = mix(color, light(k, t, facing, target.middle, target.h, target.message), morph);
 #endif
 #ifdef SOFT
+#ifdef MORPH
+    hides = 2.0;
+#else
+    hides = mix(0.5, 2.0, smoothstep(0.8 * near, near, distance(root_at.xz, eye.xz)));
+#endif
     gl_Position = widened(place, tangent, across);
 #else
     gl_Position = clip * vec4(place.x + across.x, place.y, place.z + across.y, 1.0);

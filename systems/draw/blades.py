@@ -12,11 +12,8 @@ MOVED = np.dtype([("message", "2f4"), ("fade", "f4"), ("slide", "f4")])
 """What changes each frame about a blade: its receiver's message, how much it shows, and how far its joints have slid
 together to those of the next coarser ring."""
 
-LEAST = 0.004
-"""Coverage below which a pixel is not drawn."""
-
-HALF = 0.5
-"""Coverage from which a pixel of a near blade counts as hidden behind it."""
+WHOLE, CORES, EDGES = range(3)
+"""What is drawn of soft blades: all; the pixels that count as hidden behind them; the others."""
 
 ROUND = "0.35"
 """How far the face normal turns towards a blade's edges, as if it were rounded."""
@@ -28,7 +25,8 @@ SHADER_BLADE = np.dtype([(name if name != "root" else "root_at", BLADE[name]) fo
 class BladePainter:
     """Draws blades with a given number of segments, whose joints can slide together to be those of `coarser` blades.
 
-    Soft ones have smooth edges and must come from far to near; the others are opaque and may come in any order.
+    Soft ones have smooth edges and must come from far to near, but for those up to `near` [m], which hide one another
+    by depth; the others are opaque and may come in any order.
     """
 
     def __init__(
@@ -40,12 +38,15 @@ class BladePainter:
         *,
         soft: bool,
         coarser: int | None = None,
+        near: float = 0.0,
     ) -> None:
         self.segments = segments
         self.soft = soft
         defines: dict[str, str | int] = {"SEGMENTS": segments, "ROUND": ROUND, **({"SOFT": 1} if soft else {})}
         defines["COARSER"] = min(coarser or segments, segments)
         self.program = joined(ctx, block, units, "blades.vert", "blades.frag", defines)
+        if soft:
+            self.program["near"] = near
         self.blades = Stream(ctx, SHADER_BLADE)
         self.moved = Stream(ctx, MOVED)
         self.array = ctx.vertex_array(
@@ -57,15 +58,12 @@ class BladePainter:
         self.blades.write(blades.view(SHADER_BLADE))
         self.moved.write(moved)
 
-    def draw(self, between: tuple[float, float] = (LEAST, 2.0)) -> int:
-        """Draw what was written; return the number of draw calls.
-
-        Of soft blades only pixels are drawn whose coverage is `between` these, the upper one not included.
-        """
+    def draw(self, part: int = WHOLE) -> int:
+        """Draw what was written, of soft blades this part; return the number of draw calls."""
         if not self.blades.count:
             return 0
         if self.soft:
-            self.program["between"] = between
+            self.program["part"] = part
         self.array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.segments + 2, instances=self.blades.count)
         return 1
 

@@ -14,7 +14,7 @@ TILE = np.dtype([("tile", "4f4")])
 GRID = 8
 """Quads along a side of a tile."""
 
-RAISED = 0.55
+RAISED = 0.59
 """Height of the carpet, as a part of the grass's: where outlines against the sky stay in their place."""
 
 STRETCH = "5.0"

@@ -9,7 +9,7 @@ from ...engine.gl.stream import Stream, release_all
 from ..field import Field
 from ..morph import EDGE, MOVING, gather_morph
 from ..see import Seen
-from .blades import LEAST, ROUND, SHADER_BLADE
+from .blades import ROUND, SHADER_BLADE, WHOLE
 from .frame import FrameBlock, by_kind, joined
 
 PER_ROW = 64
@@ -28,7 +28,7 @@ class MorphPainter:
         defines |= {"PER_ROW": PER_ROW, "POINTS": points}
         self.program = joined(ctx, block, units, "blades.vert", "blades.frag", defines)
         self.program["tall"] = by_kind([strips.height for strips in field.stock.strips[0]])
-        self.program["between"] = (LEAST, 2.0)
+        self.program["part"] = WHOLE
         self.blades, self.moving = Stream(ctx, SHADER_BLADE), Stream(ctx, MOVING)
         self.array = ctx.vertex_array(
             self.program, [self.blades.binding(self.program), self.moving.binding(self.program)]

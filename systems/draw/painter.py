@@ -15,7 +15,7 @@ from ..field import Field
 from ..gather import gather_blades, gather_strips, runs
 from ..see import Seen
 from ..transition import BORDER
-from .blades import HALF, LEAST, BladePainter
+from .blades import CORES, EDGES, BladePainter
 from .bodies import BodyPainter
 from .frame import FrameBlock, aim, frame_record
 from .ground import RAISED, GroundPainter, finest_spacing, ground_tiles, within
@@ -35,6 +35,9 @@ NAMES = (
 )  # fmt: skip
 UNITS = {name: unit for unit, name in enumerate(NAMES, FIRST_UNIT)}
 """The texture unit of each sampler."""
+
+PARTED = 2
+"""Distance up to which blades hide one another by depth [patch sides]."""
 
 OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
 
@@ -104,19 +107,22 @@ class Painter:
             StripPainter(self.ctx, self.block, ring, strip_stock(field.growths, number), UNITS)
             for number, ring in enumerate(field.quality.strip_rings)
         ]
-        segments = [ring.segments for ring in field.quality.blade_rings]
+        rings, near = field.quality.blade_rings, PARTED * field.quality.patch
         self.blades = [
-            self.blade_painter(fine, soft=True, coarser=coarse)
-            for fine, coarse in zip(segments, segments[1:] + segments[-1:], strict=True)
+            self.blade_painter(fine.segments, soft=True, coarser=coarse.segments, near=near)
+            for fine, coarse in zip(rings, rings[1:] + rings[-1:], strict=True)
         ]
+        self.parted = 1 + sum(ring.to < PARTED for ring in rings[:-1])
         self.morph = MorphPainter(self.ctx, self.block, field, UNITS)
 
     def _release_grass(self) -> None:
         release_all(*self.blades, *self.strips, self.morph, self.ground)
 
-    def blade_painter(self, segments: int, *, soft: bool, coarser: int | None = None) -> BladePainter:
-        """Return a painter of blades with this many segments, which may become those of `coarser` blades."""
-        return BladePainter(self.ctx, self.block, segments, UNITS, soft=soft, coarser=coarser)
+    def blade_painter(
+        self, segments: int, *, soft: bool, coarser: int | None = None, near: float = 0.0
+    ) -> BladePainter:
+        """Return a painter of blades with this many segments."""
+        return BladePainter(self.ctx, self.block, segments, UNITS, soft=soft, coarser=coarser, near=near)
 
     def write_blades(self, seen: Seen) -> int:
         """Send the blades that are seen; return how many."""
@@ -205,13 +211,13 @@ class Painter:
             self.strips[ring].draw(first, count, thin=thin) for ring, first, count, thin in self.runs
         )
         self.draw_calls += self.morph.draw()
-        self.draw_calls += sum(painter.draw() for painter in reversed(self.blades[1:]))
+        near, far = self.blades[: self.parted], self.blades[self.parted :]
+        self.draw_calls += sum(painter.draw() for painter in reversed(far))
         # Around the viewer no order is right for every direction: there blades are parted by depth, and then edged.
-        near = self.blades[0]
         target.depth_mask = True
-        self.draw_calls += near.draw((HALF, 2.0))
+        self.draw_calls += sum(painter.draw(CORES) for painter in near)
         target.depth_mask = False
-        self.draw_calls += near.draw((LEAST, HALF))
+        self.draw_calls += sum(painter.draw(EDGES) for painter in reversed(near))
 
     def release(self) -> None:
         """Give everything back to the context."""

@@ -22,7 +22,6 @@ from tallgrass.systems.lod import FADE
 from tallgrass.systems.morph import Morph, gather_morph
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.see import Seen, seen_now
-from tallgrass.systems.transition import MORPH
 
 from .conftest import Stage as Room
 
@@ -257,5 +256,4 @@ def test_x3_in_between_it_is_on_the_straight_way(scene: Scene) -> None:
 
 def test_x3_blades_come_to_their_places_before_their_strips_show(scene: Scene) -> None:
     looks, rows = scene.seen.looks, scene.seen.morphing.rows
-    assert ((looks.morph[rows] >= 1.0) | (looks.handed[rows] == 0.0)).all()
-    assert 0.0 < MORPH < 1.0
+    assert (looks.handed[rows] <= looks.morph[rows]).all()

@@ -194,7 +194,7 @@ def test_t5_the_blades_of_all_kinds_are_planted_in_one_order(
 
 @given(st.integers(-50, 50), st.integers(-50, 50))
 def test_t5_a_heading_points_from_the_viewer_to_the_patch(i: int, j: int) -> None:
-    heading = heading_of(np.array([[i + 7, j - 9]], np.int32), np.array([7, -9], np.int32))[0]
+    heading = heading_of(np.array([[i + 7, j - 9]], np.int32), np.array([7.5, -8.5]))[0]
     assert 0 <= heading < HEADINGS
     if (i, j) != (0, 0):
         off = np.arctan2(j, i) - heading * 2 * np.pi / HEADINGS
