@@ -80,7 +80,9 @@ def laid(growths: list[Growth], hills: Terrain) -> Laid:
 def look(world: World) -> Look:
     """Let a field be looked at for one frame, as a prairie does: tile, cull, representations, planting."""
 
-    def at(field: Field, x: float, z: float, *, yaw: float | None = None, dt: float = 1e9) -> Seen:
+    def at(
+        field: Field, x: float, z: float, *, yaw: float | None = None, dt: float = 1e9, jumped: bool = False
+    ) -> Seen:
         patch, table = field.quality.patch, field.table
         place = np.array([x, z], np.float32)
         ground = float(height_at(field.terrain, place[None])[0])
@@ -88,10 +90,11 @@ def look(world: World) -> Look:
         field.sight.cone = (0.0, pi) if yaw is None else (yaw, 0.6)
         tile(table, field.sight.centre, field.terrain, world, patch=patch, seed=3, models=2)
         table.distance[:] = discrete_distance(table.cell, field.sight.centre)
-        was_visible, middle = table.visible.copy(), (table.cell + np.float32(0.5)) * np.float32(patch)
+        was_visible, middle = table.visible & (not jumped), (table.cell + np.float32(0.5)) * np.float32(patch)
         radius = patch * 0.7072 + field.sway
         table.visible[:] = inside_cone(middle, apex=(x, z), cone=field.sight.cone, radius=radius)
-        wanted = wanted_representation(table.distance, table.representation, reach=field.reach)
+        held = np.where(was_visible & table.visible, table.representation, np.int8(-1))
+        wanted = wanted_representation(table.distance, held, reach=field.reach)
         schedule(table, wanted, was_visible, reach=field.reach, part=dt / FADE)
         refine(field, was_visible, weights(table), part=dt / FADE)
         seen = see(field, looks_of(field, weights(table)))

@@ -1,5 +1,7 @@
 """Levels of detail: ranges, hysteresis and transitions (T4, X1, X2)."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -8,7 +10,15 @@ from numpy.typing import NDArray
 
 from tallgrass.components.patch import PatchTable
 from tallgrass.components.quality import PRESETS, Representation
-from tallgrass.systems.lod import FADE, SLACK, farthest, schedule, wanted_representation, weights
+from tallgrass.systems.lod import (
+    FADE,
+    SLACK,
+    farthest,
+    part_of_change,
+    schedule,
+    wanted_representation,
+    weights,
+)
 
 REACH = (2, 5, 9)
 BLADES, STRIPS, CARPET = Representation
@@ -25,13 +35,15 @@ class Walk:
         self.was_visible = False
         self.go(distance, dt=1e9)
 
-    def go(self, distance: int, *, dt: float = STEP, visible: bool = True) -> None:
-        """Let the viewer be at this distance for one frame."""
+    def go(self, distance: int, *, dt: float = STEP, visible: bool = True, part: float | None = None) -> None:
+        """Let the viewer be at this distance for one frame, in which so much of a change is made."""
         table = self.table
         table.distance[:] = distance
         table.visible[:] = visible
         wanted = wanted_representation(table.distance, table.representation, reach=self.reach)
-        schedule(table, wanted, np.array([self.was_visible]), reach=self.reach, part=dt / FADE)
+        schedule(
+            table, wanted, np.array([self.was_visible]), reach=self.reach, part=dt / FADE if part is None else part
+        )
         self.was_visible = visible
 
     @property
@@ -167,15 +179,73 @@ def test_x1_a_viewer_who_is_too_fast_leaves_no_finer_grass_behind_than_there_is_
         assert walk.shown[STRIPS] == 0.0 or distance <= strips
 
 
-def test_x2_a_change_is_over_before_a_walker_has_crossed_a_patch() -> None:
-    speed, patch = 1.0, min(quality.patch for quality in PRESETS.values())
-    walk, time = Walk(REACH[0] + 1), 0.0
-    walk.go(REACH[0])
-    while not walk.settled():
+@given(st.floats(0.1, 30.0), st.floats(0.5, 20.0), st.floats(0.001, 0.2))
+def test_x2_a_change_is_over_before_a_walker_has_crossed_a_patch(speed: float, patch: float, dt: float) -> None:
+    frames = np.ceil(1.0 / part_of_change(dt, way=speed * dt, patch=patch))
+    assert (frames - 1) * dt < patch / speed
+    assert (frames - 1) * dt < FADE
+
+
+def test_x2_at_the_papers_pace_a_change_takes_about_a_second() -> None:
+    part = part_of_change(STEP, way=1.0 * STEP, patch=2.5)
+    assert 16 <= np.ceil(1.0 / part) <= 24
+
+
+@given(st.lists(st.floats(0.002, 0.3), min_size=1, max_size=12), st.floats(0.0, 12.0))
+def test_x2_progress_does_not_depend_on_how_time_is_cut(cuts: list[float], speed: float) -> None:
+    progress = []
+    for steps in (cuts, [sum(cuts)]):
+        walk = Walk(REACH[0] + 1)
         walk.go(REACH[0])
-        time += STEP
-    assert time <= min(patch / speed, 20 * STEP)
-    assert time == pytest.approx(FADE, abs=STEP + 1e-9)
+        for dt in steps:
+            walk.go(REACH[0], part=part_of_change(dt, way=speed * dt, patch=2.5))
+        progress.append(float(walk.table.progress[0]))
+    assert progress[0] == pytest.approx(progress[1], abs=1e-5)
+
+
+Edge = tuple[int, dict[str, Any], tuple[int, int, bool]]
+
+EDGES: dict[str, Edge] = {
+    "stays": (REACH[0], {}, (BLADES, BLADES, True)),
+    "is due": (REACH[1], {}, (STRIPS, BLADES, False)),
+    "is due unseen": (REACH[1], {"visible": False}, (STRIPS, STRIPS, True)),
+    "is due out of reach": (farthest(REACH)[0] + 1, {}, (STRIPS, STRIPS, True)),
+}
+NARROW = (2, 3, 9)
+HALFWAY: dict[str, tuple[int, dict[str, Any], tuple[int, int, bool], float]] = {
+    "goes on": (4, {"part": 0.25}, (STRIPS, BLADES, False), 0.75),
+    "is over": (4, {"part": 0.5}, (STRIPS, STRIPS, True), 1.0),
+    "turns back": (0, {"part": 0.0}, (BLADES, STRIPS, False), 0.5),
+    "turns back, having gone on": (0, {"part": 0.2}, (BLADES, STRIPS, False), 0.3),
+    "a third is due": (5, {"part": 0.25}, (STRIPS, BLADES, False), 0.75),
+    "a third is due when it is over": (5, {"part": 0.6}, (CARPET, STRIPS, False), 0.0),
+    "is not seen": (4, {"part": 0.1, "visible": False}, (STRIPS, STRIPS, True), 1.0),
+    "is not seen, and another is due": (0, {"part": 0.1, "visible": False}, (BLADES, BLADES, True), 1.0),
+    "is left behind": (6, {"part": 0.1}, (CARPET, CARPET, True), 1.0),
+}
+
+
+def state(walk: "Walk") -> tuple[int, int, bool]:
+    return int(walk.table.representation[0]), int(walk.table.previous[0]), walk.settled()
+
+
+@pytest.mark.parametrize("edge", EDGES)
+def test_d3_every_edge_from_a_settled_state(edge: str) -> None:
+    distance, how, expected = EDGES[edge]
+    walk = Walk(0)
+    walk.go(distance, **how)
+    assert state(walk) == expected
+
+
+@pytest.mark.parametrize("edge", HALFWAY)
+def test_d3_every_edge_from_a_change_half_way(edge: str) -> None:
+    distance, how, expected, progress = HALFWAY[edge]
+    walk = Walk(0, reach=NARROW)
+    walk.go(4, part=0.0)
+    walk.go(4, part=0.5)
+    walk.go(distance, **how)
+    assert state(walk) == expected
+    assert float(walk.table.progress[0]) == pytest.approx(progress)
 
 
 frames = st.tuples(st.integers(0, 11), st.booleans(), st.floats(0.0, 2.0))
