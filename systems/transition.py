@@ -13,7 +13,7 @@ ARRIVED = 0.95
 """Part of a change from blades to strips after which the blades are in their painted places."""
 
 GENTLY = 1.6
-"""Power of the way that they have gone then: they set off slowly, and move the faster the less of them is left to see."""
+"""Power of the way that they have gone then: they set off slowly, and hurry when little of them is left to see."""
 
 NEARLY = 0.35
 """Part of it after which they are handed over to the strips, as they come near."""

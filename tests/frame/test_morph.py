@@ -22,8 +22,7 @@ from tallgrass.systems.lod import FADE
 from tallgrass.systems.morph import Morph, gather_morph
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.see import Seen, seen_now
-
-from .conftest import Stage as Room
+from tallgrass.testing import Stage as Room
 
 Doubles = NDArray[np.float64]
 Load = Callable[..., Prairie]

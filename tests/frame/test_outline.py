@@ -15,8 +15,7 @@ from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.receive import plant_shown_strips
 from tallgrass.systems.see import see
 from tallgrass.systems.transition import Looks, looks
-
-from .conftest import Stage as Room
+from tallgrass.testing import Stage as Room
 
 Doubles = NDArray[np.float64]
 Load = Callable[..., Prairie]
