@@ -39,7 +39,7 @@ def test_n6_the_frame_benchmark_tells_every_key_of_the_contract(capsys: pytest.C
 @pytest.mark.usefixtures("ctx")
 @pytest.mark.parametrize("scene", ["plain", "meadow", "hills"])
 def test_g1_every_representation_is_as_bright_as_its_blades(scene: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["bench", "picture", scene, "--preset", "high", "--size", "480x270", "--json"]) == 0
+    assert run(["bench", "picture", scene, "--preset", "high", "--size", "384x216", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told.keys() >= PICTURE
     assert told["flip"]["lod"] < min(told["flip"]["all_3d"], told["flip"]["other_seed"])
