@@ -36,7 +36,7 @@ NAMES = (
 UNITS = {name: unit for unit, name in enumerate(NAMES, FIRST_UNIT)}
 """The texture unit of each sampler."""
 
-PARTED = 2
+PARTED = 1
 """Distance up to which blades hide one another by depth [patch sides]."""
 
 OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
