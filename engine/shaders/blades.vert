@@ -31,6 +31,7 @@ flat out float shown;
 noperspective out float aside;  // from the middle line [pixel]
 noperspective out float half_width;  // of the ribbon [pixel]
 flat out float hides;  // coverage from which on a pixel counts as hidden behind it
+uniform int part;      // 0: all of it; 1: where it hides what is behind it; 2: the rest
 
 // Move a point aside on the screen, so that the ribbon reaches half a pixel beyond its edge.
 vec4 widened(vec3 place, vec3 tangent, vec2 across) {
@@ -59,6 +60,17 @@ vec3 light(int k, float t, vec2 normal, vec3 place, float h, vec2 bent) {
 }
 
 void main() {
+#if defined(MORPH)
+    hides = 2.0;
+#elif defined(SOFT)
+    hides = mix(0.5, 2.0, smoothstep(0.8 * near, near, distance(root_at.xz, eye.xz)));
+    if (part == 1 && hides > 1.0) {
+        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+        color = vec3(0.0);
+        aside = half_width = shown = 0.0;
+        return;
+    }
+#endif
     float t = float(gl_VertexID / 2) / float(SEGMENTS);
 #ifndef MORPH
     t = mix(t, floor(t * float(COARSER) + 0.5) / float(COARSER), slide);
@@ -82,11 +94,6 @@ void main() {
     color = mix(color, light(k, t, facing, target.middle, target.h, target.message), morph);
 #endif
 #ifdef SOFT
-#ifdef MORPH
-    hides = 2.0;
-#else
-    hides = mix(0.5, 2.0, smoothstep(0.8 * near, near, distance(root_at.xz, eye.xz)));
-#endif
     gl_Position = widened(place, tangent, across);
 #else
     gl_Position = clip * vec4(place.x + across.x, place.y, place.z + across.y, 1.0);
