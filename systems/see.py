@@ -144,6 +144,11 @@ def _entries(table: PatchTable, rows: Rows) -> _Entries:
     index = np.repeat(np.arange(len(rows)), 1 + changing)
     twice, part = changing[index], part[index]
     old = twice & (np.diff(index, append=-1) != 0)
+    # Neighbours that change alike are drawn together, or each would take two draws of its own.
+    kind = np.where(changing, 256 * (before.astype(np.int64) + 1) + now + 1, 0)
+    alike = np.cumsum(np.diff(kind, prepend=-1) != 0)[index]
+    queue = np.argsort(2 * alike + ~old, kind="stable")
+    index, twice, part, old = index[queue], twice[queue], part[queue], old[queue]
     sublevel = np.where(old, before[index], now[index]).astype(np.int64)
     return _Entries(
         rows=rows[index],
