@@ -126,8 +126,9 @@ class Painter:
 
     def write_blades(self, seen: Seen) -> int:
         """Send the blades that are seen; return how many."""
+        eye = self.field.sight.eye[0], self.field.sight.eye[2]
         for ring, painter in zip(seen.blades, self.blades, strict=True):
-            painter.write(*gather_blades(self.field.blades, ring))
+            painter.write(*gather_blades(self.field.blades, ring, eye=eye))
         return sum(painter.blades.count for painter in self.blades) + self.morph.write(self.field, seen)
 
     def write_strips(self, seen: Seen) -> None:

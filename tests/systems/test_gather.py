@@ -156,3 +156,18 @@ def test_w1_each_blade_is_gathered_with_its_own_message_and_fade(field: Field, s
             tuple(m) for m in moved["message"].tolist()
         ]
         assert (moved["fade"] == 1.0).all()
+
+
+def test_t5_seen_from_the_eye_blades_of_all_patches_go_from_far_to_near(field: Field, seen: Seen) -> None:
+    for ring in seen.blades:
+        plain, told = gather_blades(field.blades, ring)
+        blade, moved = gather_blades(field.blades, ring, eye=EYE)
+        away = np.hypot(blade["root"][:, 0] - EYE[0], blade["root"][:, 2] - EYE[1])
+        assert (np.diff(away) < away.max() / 65000.0).all()
+        message = {
+            tuple(root): tuple(each)
+            for root, each in zip(plain["root"].tolist(), told["message"].tolist(), strict=True)
+        }
+        assert [message[tuple(root)] for root in blade["root"].tolist()] == [
+            tuple(m) for m in moved["message"].tolist()
+        ]

@@ -50,7 +50,7 @@ def test_f2_the_viewing_slope_is_the_grounds_own_slope_and_the_eyes_height(laid:
     row = np.flatnonzero((field.table.cell == (0, -6)).all(axis=1))
     eye, away = field.sight.eye, 0.6 + 5.5 * 2.5
     expected = 0.5 + (eye[1] - 0.5 * 5.5 * 2.5) / away
-    assert float(viewing_slope(field)[row[0]]) == pytest.approx(expected, rel=0.01)
+    assert float(viewing_slope(field, row)[0]) == pytest.approx(expected, rel=0.01)
 
 
 @given(st.integers(-50, 50), st.integers(-50, 50), st.floats(0.05, 0.95), st.floats(0.05, 0.95))
