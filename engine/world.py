@@ -72,9 +72,9 @@ class World:
         so that nothing that follows from it depends on how a set is laid out.
         """
         self._must_be_current()
-        others = [world for world in _worlds if world is not self and world.name == self.name]
-        found = esper.get_component(kind)
-        return sorted((row for row in found if not any(row[0] in world for world in others)), key=lambda row: row[0])
+        mine = (None, self._mark)  # the game's, and our own
+        found = [row for row in esper.get_component(kind) if esper.try_component(row[0], Resident) in mine]
+        return sorted(found, key=lambda row: row[0])
 
     def __contains__(self, entity: object) -> bool:
         return entity in self._entities

@@ -100,7 +100,7 @@ def see(field: Field, shows: Looks, /) -> Seen:
     still = near[~moving]
     ring, slide = _blade_rings(table, still)
     painted = (shows.strips[seen] > 0.0) & ((shows.handed[seen] > 0.0) | (shows.morph[seen] > 0.0))
-    strips = _entries(table, seen[painted])
+    strips = _entries(table, seen[painted & (table.sublevel[1, seen] >= 0)])  # farther out there is no room for them
     return Seen(
         standing=Shown.whole(near, slots),
         blades=[

@@ -1,5 +1,6 @@
 """A prairie's entities: guests in the game's own world (D2, D6)."""
 
+import gc
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -103,6 +104,15 @@ def test_d2_release_removes_our_entities_and_leaves_the_games_own(world: World) 
     assert sorted(esper.get_entities()) == theirs
     assert [score.points for _, score in esper.get_component(Score)] == [0, 1, 2]
     assert esper.get_component(Grass) == []
+
+
+def test_what_a_prairie_left_that_was_dropped_without_release_is_not_taken_for_the_games(world: World) -> None:
+    dropped = World()
+    left = dropped.create(Grass(0.6))
+    del dropped
+    gc.collect()
+    assert esper.entity_exists(left)
+    assert world.all(Grass) == []
 
 
 def test_two_prairies_in_one_world_do_not_see_each_others_entities(world: World) -> None:
