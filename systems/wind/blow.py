@@ -260,6 +260,9 @@ def _cover(sums: _Sums, sent: list[_Sent]) -> None:
 
 
 def _lay(sums: _Sums, rows: Rows | slice, weight: Floats, message: Floats, swing: Floats | np.float32) -> None:
+    if isinstance(rows, slice) and len(weight) and weight.min() == sums.left.min() == 1.0:  # all of all, as a breeze's
+        sums.message[:], sums.swing[:], sums.left[:] = message, swing, 0.0
+        return
     share = sums.left[rows] * weight
     sums.message[rows] += share[:, None] * message
     sums.swing[rows] += share * swing
