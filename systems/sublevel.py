@@ -98,11 +98,10 @@ def refine(field: Field, was_visible: Mask, weight: Floats, /, *, part: float) -
     """Advance changes of sub-levels by `part` and start those that are due; `weight` is (3, rows).
 
     Where a representation does not show, its sub-level is due at once; while a patch goes from blades to strips or
-    back, none changes, so that each blade keeps its painted place. Patches too far away for either stay as they are, and those out
-    of view until they come into it.
+    back, none changes, so that each blade keeps its painted place. Patches too far away for either stay as they are.
     """
     table = field.table
-    rows = np.flatnonzero(table.visible & (table.distance <= farthest(field.reach)[1]))
+    rows = np.flatnonzero(table.distance <= farthest(field.reach)[1])
     now, before, progress = (
         array[:, rows] for array in (table.sublevel, table.sublevel_before, table.sublevel_progress)
     )
