@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from . import scenes
     from .components.pose import Pose
-    from .components.wind import Extent, Grass, Receivers, WindPrimitive, WindSource
+    from .components.receivers import Receivers
+    from .components.wind import Extent, Grass, WindPrimitive, WindSource
     from .engine.plugins import wind
     from .engine.scene import SceneError
     from .engine.world import install

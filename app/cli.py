@@ -11,10 +11,9 @@ from typing import Annotated
 import typer
 
 from .. import __version__
-from ..components.camera import Camera
-from ..components.overlay import PARTS, Part, parse_parts
-from ..components.scene import LodName, PresetName
-from ..engine.camera import parse_camera
+from ..engine.camera import Camera, parse_camera
+from ..engine.declared.scene import LodName, PresetName
+from ..systems.overlay.parts import PARTS, Part, parse_parts
 from .errors import InputError, MachineError
 from .take import LARGEST, SAMPLES, Take, parse_frames, parse_size
 

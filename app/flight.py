@@ -3,7 +3,7 @@
 from collections.abc import Set as AbstractSet
 from math import cos, sin
 
-from ..components.camera import Camera
+from ..engine.camera import Camera
 from ..systems.prairie import Prairie
 from ..systems.wind.blast import Blast, Shape
 from .saucer import DISTANCE, body, chase, flown, jet, launched, looked, put

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import pyglet
 
-from ..components.statistics import Statistics
+from ..systems.statistics import Statistics
 
 HELP = (
     "W A S D, arrows   walk",

@@ -7,10 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..components.body import Body
-from ..components.camera import Camera
 from ..components.pose import Pose
-from ..engine.camera import forward
-from ..systems.fly import foot, lean, level
+from ..engine.camera import Camera, forward
+from ..systems.bodies.fly import foot, lean, level
 from .walker import Ground, Move, on_terrain
 
 CRUISE, FAST = 8.0, 20.0

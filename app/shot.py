@@ -3,7 +3,7 @@
 import math
 from dataclasses import replace
 
-from ..components.camera import Camera
+from ..engine.camera import Camera
 from .encode import picture_writer
 from .progress import busy
 from .studio import Studio, about, written

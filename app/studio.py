@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import __version__
-from ..components.camera import Camera
-from ..engine.camera import camera_at, projection_matrix, view_matrix
+from ..engine.camera import Camera, camera_at, projection_matrix, view_matrix
 from ..systems.overlay.overlay import Overlay
 from ..systems.prairie import Prairie
 from ..systems.reference import draw_reference

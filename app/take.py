@@ -3,8 +3,8 @@
 import re
 from dataclasses import dataclass
 
-from ..components.overlay import Part
-from ..components.scene import LodName
+from ..engine.declared.scene import LodName
+from ..systems.overlay.parts import Part
 
 LARGEST = 16384
 """Most pixels along a side of a picture."""

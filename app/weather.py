@@ -6,9 +6,8 @@ from typing import Literal
 
 import numpy as np
 
-from ..components.camera import Camera
 from ..components.wind import WindPrimitive
-from ..engine.camera import forward
+from ..engine.camera import Camera, forward
 from ..systems.prairie import Prairie
 from ..systems.wind.blast import Blast, Shape
 from ..systems.wind.gust import Gust

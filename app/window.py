@@ -12,11 +12,10 @@ import pyglet
 from numpy.typing import NDArray
 from pyglet.window import key
 
-from ..components.camera import Camera
-from ..components.overlay import PARTS, Part
-from ..engine.camera import camera_at, projection_matrix, view_matrix
+from ..engine.camera import Camera, camera_at, projection_matrix, view_matrix
 from ..engine.scene import SceneError
 from ..systems.overlay.overlay import Overlay
+from ..systems.overlay.parts import PARTS, Part
 from ..systems.prairie import Prairie
 from .display import no_window
 from .encode import picture_writer

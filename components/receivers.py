@@ -6,122 +6,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float32]
-NOWHERE = np.iinfo(np.int32).min
-"""Stamp of a slot on which nothing stands."""
-
-BLADE = np.dtype(
-    [
-        ("root", "3f4"),
-        ("height", "f4"),
-        ("rest", "2f4"),
-        ("facing", "2f4"),
-        ("width", "f4"),
-        ("variant", "f4"),
-        ("kind", "f4"),
-    ]
-)
-"""What the graphics card is told of a blade: root [m], length [m], lean, face normal (x, z), width at the root [m],
-row of the posture table, and kind. The field names are the shader's attributes."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class BladePool:
-    """The blades of all patches near enough to be 3D, one slot per patch.
+class Receivers:
+    """What collects the wind's messages for one patch in one representation (paper, section 3.2).
 
-    Within a slot the blades of all kinds stand in one order, far to near.
-
-    Slots form a window that wraps round, as the rows of a `PatchTable` do.
+    One row per blade, or per vertical edge of a strip. The arrays are slices of one pool.
     """
 
-    side: int
-    """Patches along the window's side."""
-
-    blade: NDArray[np.void]
-    """Records of `BLADE`, shape (side * side, n)."""
-
-    present: NDArray[np.bool_]
-    """Whether the blade grows at its place's density, shape (side * side, n)."""
-
     place: Floats
-    """Receivers' ground positions (x, z) [m], shape (side * side, n, 2)."""
+    """Ground position (x, z) [m], shape (n, 2)."""
 
     message: Floats
-    """Receivers' messages, shape (side * side, n, 2)."""
-
-    stamp: NDArray[np.int32]
-    """Cell (i, j) and heading that each slot is planted for, shape (side * side, 3)."""
-
-    def kind(self, slots: NDArray[np.int64], /) -> NDArray[np.intp]:
-        """Return the kind that each receiver of some slots is of, shape (len(slots) * n,)."""
-        return self.blade["kind"][slots].reshape(-1).astype(np.intp)
-
-    @classmethod
-    def allocate(cls, side: int, blades: int) -> "BladePool":
-        """Return an empty pool for a window of `side` by `side` patches."""
-        return cls.allocate_slots(side * side, blades, side=side)
-
-    @classmethod
-    def allocate_slots(cls, slots: int, blades: int, *, side: int = 0) -> "BladePool":
-        """Return an empty pool of any number of slots, which need not form a window."""
-        shape = (slots, blades)
-        return cls(
-            side=side,
-            blade=np.zeros(shape, BLADE),
-            present=np.zeros(shape, np.bool_),
-            place=np.zeros((*shape, 2), np.float32),
-            message=np.zeros((*shape, 2), np.float32),
-            stamp=np.full((slots, 3), NOWHERE, np.int32),
-        )
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class StripPool:
-    """The strips of one ring of 2.5D patches, one slot per patch and orientation; an edge is a receiver.
-
-    The slots of patches whose strips run along x come first, then those of strips along z; each form a window that
-    wraps round. Strips are stored by rising distance along their stacking axis (+z or +x).
-    """
-
-    side: int
-    """Patches along the window's side."""
-
-    place: Floats
-    """Feet of the vertical edges (x, z) [m], shape (2 * side * side, kinds, strips, columns + 1, 2)."""
-
-    ground: Floats
-    """Height of the ground under each edge [m], shape (2 * side * side, kinds, strips, columns + 1)."""
-
-    message: Floats
-    """Receivers' messages, shape (2 * side * side, kinds, strips, columns + 1, 2)."""
-
-    layer: Floats
-    """Layer of the texture array, shape (2 * side * side, kinds, strips)."""
-
-    present: NDArray[np.bool_]
-    """Whether the kind grows on the patch at all, shape (2 * side * side, kinds)."""
-
-    least: Floats
-    """Density at each slot's thinnest edge, of the kinds that grow there at all, shape (2 * side * side,)."""
-
-    stamp: NDArray[np.int32]
-    """Cell (i, j) and orientation that each slot is planted for, shape (2 * side * side, 3)."""
-
-    def kind(self, slots: NDArray[np.int64], /) -> NDArray[np.intp]:
-        """Return the kind that each receiver of some slots is of, one row after another."""
-        _, kinds, strips, edges = self.ground.shape
-        return np.tile(np.repeat(np.arange(kinds), strips * edges), len(slots))
-
-    @classmethod
-    def allocate(cls, side: int, kinds: int, strips: int, columns: int) -> "StripPool":
-        """Return an empty pool for a window of `side` by `side` patches, in either orientation."""
-        shape = (2 * side * side, kinds, strips)
-        return cls(
-            side=side,
-            place=np.zeros((*shape, columns + 1, 2), np.float32),
-            ground=np.zeros((*shape, columns + 1), np.float32),
-            message=np.zeros((*shape, columns + 1, 2), np.float32),
-            layer=np.zeros(shape, np.float32),
-            present=np.zeros(shape[:2], np.bool_),
-            least=np.zeros(2 * side * side, np.float32),
-            stamp=np.full((2 * side * side, 3), NOWHERE, np.int32),
-        )
+    """Bending direction times posture index, (x, z), shape (n, 2)."""

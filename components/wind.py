@@ -161,17 +161,3 @@ class WindSource:
 
     name: str
     """How messages call it: its kind and its place in the scene."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Receivers:
-    """What collects the wind's messages for one patch in one representation (paper, section 3.2).
-
-    One row per blade, or per vertical edge of a strip. The arrays are slices of one pool.
-    """
-
-    place: Floats
-    """Ground position (x, z) [m], shape (n, 2)."""
-
-    message: Floats
-    """Bending direction times posture index, (x, z), shape (n, 2)."""

@@ -2,11 +2,12 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..components.camera import Camera, CameraSource, Stop
+from .declared.camera import CameraSource, Stop
 
 Floats = NDArray[np.float32]
 Doubles = NDArray[np.float64]
@@ -21,6 +22,34 @@ FAR = 5000.0
 
 FARTHEST = 1e6
 """Largest coordinate that a camera may be placed at [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Camera:
+    """The camera of one instant: right-handed, y up, looking down its own -z."""
+
+    position: tuple[float, float, float]
+    """Eye (x, y, z) [m]."""
+
+    yaw: float
+    """0 looks down -z, positive turns right [rad]."""
+
+    pitch: float
+    """Positive looks up [rad]."""
+
+    view: float
+    """Vertical angle of view [rad]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class View:
+    """The two matrices that a picture is drawn with."""
+
+    view: NDArray[np.float32]
+    """World to eye, shape (4, 4), column vectors: `view @ (x, y, z, 1)`."""
+
+    projection: NDArray[np.float32]
+    """Eye to clip space, shape (4, 4), column vectors."""
 
 
 def forward(yaw: float, pitch: float, /) -> tuple[float, float, float]:
@@ -169,3 +198,23 @@ def _look_on_path(
         looks.append((yaw, pitch))
     yaw, pitch = glide(times, np.array(looks), time).tolist()
     return yaw, max(-math.pi / 2, min(math.pi / 2, pitch))
+
+
+def view_of(view: object, projection: object) -> View:
+    """Return the two matrices as numpy arrays for column vectors.
+
+    Each is a 4x4 array, or pyglet's `Mat4`, whose 16 numbers run column by column. Raises ValueError for anything
+    that has not 16 finite numbers or has no inverse.
+    """
+    return View(_matrix(view, "view"), _matrix(projection, "projection"))
+
+
+def _matrix(matrix: object, name: str) -> NDArray[np.float32]:
+    array = np.asarray(matrix, np.float32)
+    if array.shape == (16,):
+        array = array.reshape(4, 4).T
+    if array.shape != (4, 4) or not np.isfinite(array).all():
+        raise ValueError(f"the {name} matrix must have 4 x 4 finite numbers, not {array.shape}")
+    if np.linalg.det(array.astype(np.float64)) == 0.0:
+        raise ValueError(f"the {name} matrix has no inverse")
+    return array

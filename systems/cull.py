@@ -5,7 +5,7 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from ..components.camera import View
+from ..engine.camera import View
 
 Floats = NDArray[np.float32]
 Doubles = NDArray[np.float64]

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ..components.patch import PatchTable
-from ..components.quality import Representation
+from ..engine.declared.quality import Representation
+from .patches import PatchTable
 
 Floats = NDArray[np.float32]
 Levels = NDArray[np.int8]

@@ -11,30 +11,30 @@ import moderngl
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..components.camera import View
 from ..components.pose import Pose
-from ..components.quality import PRESETS, Representation
-from ..components.scene import LodName, Scene
-from ..components.statistics import Statistics
-from ..components.transition import SEAMLESS, Transitions
 from ..components.wind import WindPrimitive
+from ..engine.camera import View, view_of
+from ..engine.declared.quality import PRESETS, Representation
+from ..engine.declared.scene import LodName, Scene
 from ..engine.gl.guest import host_context, kept, viewport
 from ..engine.gl.homes import Homes
 from ..engine.phases import Phase, Schedule
 from ..engine.scene import LoadedScene, load_maps, read_scene
 from ..engine.terrain.sample import height_at
 from ..engine.world import World
+from .bodies.fly import flying
 from .cull import discrete_distance, eye_of, inside_cone, view_cone
-from .draw.painter import Painter, view_of
 from .field import Field, blades_in_field, lay_out
-from .fly import flying
-from .growth.cache import cached_growth
 from .lod import SLACK, part_of_change, schedule, wanted_representation, weights
+from .painter import Painter
 from .receive import blow, plant_shown_blades, plant_shown_strips
 from .receivers import ReceiverEntities
+from .refine import refine
 from .reload import laid_again
-from .see import Seen, look, see
-from .sublevel import refine
+from .show.seen import Seen, look, see
+from .show.transitions import SEAMLESS, Transitions
+from .statistics import Statistics
+from .stock.cache import cached_growth
 from .tile import cell_of, tile
 from .winds import Winds
 

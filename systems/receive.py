@@ -5,10 +5,12 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from ..components.receivers import BladePool, StripPool
 from .field import Field, densest_kind
-from .plant import heading_of, plant_blades, plant_strips
-from .see import Shown
+from .show.blades.plant import heading_of, plant_blades
+from .show.blades.pool import BladePool
+from .show.seen import Shown
+from .show.strips.plant import plant_strips
+from .show.strips.pool import StripPool
 from .wind.blow import Listeners
 from .wind.grass import grass_of
 

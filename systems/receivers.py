@@ -2,11 +2,12 @@
 
 import numpy as np
 
-from ..components.receivers import BladePool, StripPool
-from ..components.wind import Receivers
+from ..components.receivers import Receivers
 from ..engine.world import World
 from .field import Field
-from .see import Shown
+from .show.blades.pool import BladePool
+from .show.seen import Shown
+from .show.strips.pool import StripPool
 
 
 class ReceiverEntities:

@@ -6,16 +6,16 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ..components.camera import View
-from ..components.receivers import BladePool
+from ..engine.camera import View, view_of
 from .cull import discrete_distance, inside_cone
-from .draw.blades import BladePainter
-from .draw.painter import Painter, view_of
 from .field import Field
-from .gather import gather_blades
-from .plant import plant_blades
+from .painter import Painter
 from .prairie import Prairie
-from .see import Shown, carpet_shares
+from .show.blades.draw import BladePainter
+from .show.blades.gather import gather_blades
+from .show.blades.plant import plant_blades
+from .show.blades.pool import BladePool
+from .show.seen import Shown, carpet_shares
 from .tile import cell_of, cells_on, patch_models
 from .wind.blow import places_alone
 from .wind.grass import grass_of

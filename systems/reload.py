@@ -2,12 +2,12 @@
 
 from dataclasses import replace
 
-from ..components.growth import Growth
-from ..components.quality import Quality
-from ..components.scene import Scene
+from ..engine.declared.quality import Quality
+from ..engine.declared.scene import Scene
 from ..engine.scene import LoadedScene, load_maps
 from .field import Field, lay_out
-from .growth.cache import cached_growth, growth_key
+from .grow.record import Growth
+from .stock.cache import cached_growth, growth_key
 
 
 def laid_again(field: Field, before: LoadedScene, loaded: LoadedScene, /, *, preset: str | None, lod: str) -> Field:

@@ -3,11 +3,11 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ..components.patch import PatchTable
-from ..components.terrain import Terrain
 from ..engine.random import hash3
+from ..engine.terrain.record import Terrain
 from ..engine.terrain.sample import height_at, slope_at
 from ..engine.world import World
+from .patches import PatchTable
 
 Ints = NDArray[np.int32]
 

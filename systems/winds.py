@@ -13,8 +13,8 @@ from ..components.pose import Pose
 from ..components.wind import WindPrimitive, WindSource
 from ..engine.terrain.sample import height_at
 from ..engine.world import World
+from .bodies.fly import jet
 from .field import Field, densest_kind
-from .fly import jet
 from .wind.blast import Blast
 from .wind.blow import Blowing, Listeners, blowing, hear, places_alone
 from .wind.grass import grass_of

@@ -5,10 +5,11 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from ..components.receivers import BladePool, StripPool
 from ..systems.field import Field
 from ..systems.prairie import Prairie
-from ..systems.see import Shown, seen_now
+from ..systems.show.blades.pool import BladePool
+from ..systems.show.seen import Shown, seen_now
+from ..systems.show.strips.pool import StripPool
 
 Floats = NDArray[np.float32]
 Words = NDArray[np.str_]

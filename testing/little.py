@@ -6,14 +6,14 @@ from pathlib import Path
 
 import moderngl
 
-from ..components.scene import LodName
-from ..components.transition import SEAMLESS, Transitions
 from ..components.wind import WindPrimitive
+from ..engine.declared.scene import LodName
 from ..engine.plugins import wind_kinds
 from ..engine.scene.compose import read_document
 from ..engine.scene.read import LoadedScene
 from ..engine.scene.validate import validate
 from ..systems.prairie import Prairie
+from ..systems.show.transitions import SEAMLESS, Transitions
 
 LITTLE = """\
 tallgrass: 1

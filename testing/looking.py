@@ -2,7 +2,7 @@
 
 from math import radians
 
-from ..components.camera import Camera
+from ..engine.camera import Camera
 
 
 def looking(x: float, y: float, z: float, *, yaw: float = 0.0, pitch: float = 0.0, view: float = 45.0) -> Camera:

@@ -7,8 +7,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ..components.camera import Camera
-from ..engine.camera import camera_at, projection_matrix, view_matrix
+from ..engine.camera import Camera, camera_at, projection_matrix, view_matrix
 from ..engine.gl.stream import release_all
 from ..systems.prairie import Prairie
 

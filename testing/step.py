@@ -1,7 +1,6 @@
 """One step of one system of a prairie, and what has to stand before it."""
 
-from ..components.camera import Camera
-from ..engine.camera import camera_at, projection_matrix, view_matrix
+from ..engine.camera import Camera, camera_at, projection_matrix, view_matrix
 from ..engine.phases import Phase
 from ..systems.prairie import Prairie
 

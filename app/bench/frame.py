@@ -11,11 +11,11 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ...systems.draw.blades import BladePainter
-from ...systems.draw.painter import view_of
-from ...systems.growth.models import precompute_bytes
+from ...engine.camera import view_of
 from ...systems.prairie import Prairie
 from ...systems.reference import EveryBlade, stand_all, terrain_cells
+from ...systems.show.blades.draw import BladePainter
+from ...systems.stock.models import precompute_bytes
 from ..progress import counted
 from ..studio import Studio
 from ..take import Take

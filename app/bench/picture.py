@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.quality import Quality, Representation
-from ...systems.draw.light import decoded
-from ...systems.draw.painter import view_of
+from ...engine.camera import view_of
+from ...engine.declared.quality import Quality, Representation
+from ...systems.frame.light import decoded
 from ...systems.reference import EveryBlade, draw_reference, patch_distances, seen_cells
 from ..encode import Picture
 from ..errors import MachineError

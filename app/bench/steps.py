@@ -7,10 +7,10 @@ that frame's changes of representation and by nothing else; changes of orientati
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
-from ...components.transition import Transitions
 from ...systems.lod import farthest
 from ...systems.prairie import Prairie
 from ...systems.reference import draw_reference
+from ...systems.show.transitions import Transitions
 from ..encode import Picture
 from ..progress import counted
 from ..studio import Studio

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.camera import Camera
-from ...engine.camera import Heights, camera_at
+from ...engine.camera import Camera, Heights, camera_at
 from ...systems.prairie import Prairie
 from ...systems.wind.gust import Gust
 from ..walker import EYE, MARGIN

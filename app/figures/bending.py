@@ -10,12 +10,12 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
-from ...components.grass import GrassKind
-from ...components.growth import Postures, Response
 from ...components.wind import Grass
+from ...engine.declared.grass import GrassKind
 from ...engine.scene import read_scene
-from ...systems.growth.postures import grow_postures
-from ...systems.growth.response import grow_response
+from ...systems.grow.postures import grow_postures
+from ...systems.grow.record import Postures, Response
+from ...systems.grow.response import grow_response
 from ...systems.wind.gust import Gust
 from .figure import Detail, PaperFigure
 from .plot import FAINT, INDEX, INK, SERIES, sheet

@@ -11,13 +11,13 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
-from ...components.grass import GrassKind
-from ...components.growth import Blades, Growth, Strips
-from ...components.light import Light
-from ...components.quality import Quality
-from ...components.scene import LodName
-from ...systems.draw.light import grain, lit_kind
-from ...systems.growth.bend import ribbon, spine
+from ...engine.declared.grass import GrassKind
+from ...engine.declared.light import Light
+from ...engine.declared.quality import Quality
+from ...engine.declared.scene import LodName
+from ...systems.frame.light import grain, lit_kind
+from ...systems.grow.bend import ribbon, spine
+from ...systems.grow.record import Blades, Growth, Strips
 from ...systems.prairie import Prairie
 from ..encode import Picture
 from ..studio import Studio

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...components.camera import Camera
-from ...components.overlay import Part
+from ...engine.camera import Camera
+from ...systems.overlay.parts import Part
 from ..encode import Picture
 from ..studio import Studio
 from ..take import Take

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon
 
-from ...components.quality import Representation
+from ...engine.declared.quality import Representation
 from ...systems.field import Field
 from ...systems.overlay.paint import LEVELS
 from ...systems.overlay.patches import patch_colors

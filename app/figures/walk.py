@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from matplotlib.figure import Figure
 
-from ...components.overlay import Part
+from ...systems.overlay.parts import Part
 from ..encode import Picture
 from ..studio import Studio
 from ..take import Take

@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
-from tallgrass.components.quality import PRESETS, Quality
+from tallgrass.engine.declared.quality import PRESETS, Quality
 from tallgrass.engine.plugins import OURS, wind_kinds
 from tallgrass.engine.scene.schema import scene_schema
 

@@ -21,7 +21,8 @@ class ShaderError(RuntimeError):
 
 @lru_cache(maxsize=64)
 def _read(name: str) -> tuple[str, ...]:
-    source = files("tallgrass.engine.shaders").joinpath(name)
+    """Return the lines of a shader file: one of `lib/`, or else one named by its path inside the package."""
+    source = files("tallgrass").joinpath("engine/shaders/" + name if name.startswith("lib/") else name)
     if not source.is_file():
         raise ShaderError(f"there is no shader file '{name}'")
     return tuple(source.read_text("utf-8").splitlines())

@@ -8,8 +8,8 @@ from typing import Annotated, Any, Union, get_args, get_origin
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from ...components.scene import Scene
 from ...components.wind import WindPrimitive
+from ..declared.scene import Scene
 from .document import Node, Where
 
 FindKind = Callable[[str], type[WindPrimitive]]

@@ -4,10 +4,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ...components.terrain import Density, Terrain
 from ..terrain.density import load_density
 from ..terrain.errors import MapError
 from ..terrain.load import load_terrain
+from ..terrain.record import Density, Terrain
 from .document import Where
 from .problem import Problem, SceneError
 from .read import LoadedScene

@@ -9,7 +9,7 @@ from pathlib import Path
 from stat import S_ISDIR, S_ISREG
 
 from ... import scenes
-from ...components.scene import Scene
+from ..declared.scene import Scene
 from ..plugins import wind_kinds
 from .compose import MOST_BYTES, decode, read_document
 from .document import Document, Where

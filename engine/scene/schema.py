@@ -7,8 +7,8 @@ from pydantic import BaseModel
 from pydantic.json_schema import GenerateJsonSchema, JsonSchemaMode, models_json_schema
 from pydantic_core import CoreSchema
 
-from ...components.scene import FORMAT, Scene
 from ...components.wind import WindPrimitive
+from ..declared.scene import FORMAT, Scene
 
 DIALECT = "http://json-schema.org/draft-07/schema#"
 """The draft that the language server for YAML reads."""

@@ -8,7 +8,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from ...components.declaration import DeclarationError
-from ...components.scene import FORMAT, Reading, Scene
+from ..declared.scene import FORMAT, Reading, Scene
 from .document import Document, Where
 from .fields import FindKind, field_at
 from .problem import MOST_PROBLEMS, Problem, SceneError

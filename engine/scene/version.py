@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ...components.scene import FORMAT
+from ..declared.scene import FORMAT
 
 Values = dict[str, Any]
 Steps = Mapping[int, Callable[[Values], Values]]

@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from ...components.grass import GrassKind, Place
-from ...components.terrain import Density, Terrain
+from ..declared.grass import GrassKind, Place
 from .elevation import reading
 from .errors import MapError
+from .record import Density, Terrain
 
 Floats = NDArray[np.float32]
 Channels = Mapping[str, Floats]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from ...components.terrain import TerrainSource
+from ..declared.terrain import TerrainSource
 from .elevation import Elevation, check_size, eight_bit, reading
 from .errors import MapError
 

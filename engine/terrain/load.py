@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.terrain import Terrain, TerrainSource
+from ..declared.terrain import TerrainSource
 from .elevation import Elevation
 from .errors import MapError
 from .noise import LANDSCAPES, landscape
 from .read import read_elevation
+from .record import Terrain
 from .resample import resample
 from .voids import fill_voids
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from ...components.terrain import TerrainSource
+from ..declared.terrain import TerrainSource
 from .elevation import Elevation, check_size, eight_bit, reading
 from .errors import MapError
 from .geotiff import read_tiff

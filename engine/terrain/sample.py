@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.terrain import Density, Terrain
+from .record import Density, Terrain
 
 Floats = NDArray[np.float32]
 

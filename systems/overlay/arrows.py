@@ -3,10 +3,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.terrain import Terrain
+from ...engine.terrain.record import Terrain
 from ...engine.terrain.sample import height_at, slope_at
 from ..field import Field
-from ..see import seen_now
+from ..show.seen import seen_now
 from .marks import Marks, on_ground, stroked, together
 from .paint import DARK, index_color
 

@@ -7,7 +7,7 @@ from math import cos, pi, sin
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.quality import Representation
+from ...engine.declared.quality import Representation
 from ..field import Field
 from .marks import Marks, filled, split, stroked, together
 from .masks import Masked

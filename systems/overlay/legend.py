@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
-from ...components.overlay import Part
-from ...components.quality import Quality, Representation
+from ...engine.declared.quality import Quality, Representation
 from .masks import Masked
 from .paint import BRIGHT, DARK, Color, index_color, ring_shades, wind_color
+from .parts import Part
 
 Pixels = NDArray[np.uint8]
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...components.terrain import Terrain
+from ...engine.terrain.record import Terrain
 from ...engine.terrain.sample import height_at
 
 Floats = NDArray[np.float32]

@@ -7,8 +7,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.terrain import Terrain
 from ...components.wind import Extent
+from ...engine.terrain.record import Terrain
 from ..wind.blow import Blowing
 from ..wind.quarantine import Quarantine, QuarantinedError
 from .contour import contour, sampled

@@ -4,11 +4,9 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ...components.camera import View
-from ...components.overlay import Part
+from ...engine.camera import View, view_of
 from ...engine.gl.guest import guest
 from ...engine.gl.homes import Homes
-from ..draw.painter import view_of
 from ..prairie import Prairie
 from .arrows import arrow_marks
 from .chart import chart, sheet_for
@@ -16,6 +14,7 @@ from .legend import entries, legend
 from .marks import Marks, together, veiled
 from .masks import Masked, mask_marks, masked
 from .painter import MarkPainter, pixels_onto_clip, scale_of
+from .parts import Part
 from .patches import level_marks, weight_marks
 
 EDGE = 10.0

@@ -6,7 +6,7 @@ from zlib import crc32
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.quality import Representation
+from ...engine.declared.quality import Representation
 
 Floats = NDArray[np.float32]
 Color = tuple[float, float, float]

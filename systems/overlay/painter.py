@@ -23,7 +23,7 @@ class MarkPainter:
     def __init__(self, ctx: moderngl.Context) -> None:
         self.ctx = ctx
         self.programs = [
-            program(ctx, "overlay.vert", "overlay.frag", defines=defines)
+            program(ctx, "systems/overlay/overlay.vert", "systems/overlay/overlay.frag", defines=defines)
             for defines in ({"SHAPE": 1}, {"LINE": 1}, {"PAPER": 1})
         ]
         shape, line, paper = self.programs

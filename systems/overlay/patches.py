@@ -3,10 +3,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.quality import Representation
+from ...engine.declared.quality import Representation
 from ..field import Field
 from ..lod import weights
-from ..transition import kept_near
+from ..show.looks import kept_near
 from .marks import Marks, filled, on_ground, split, stroked, together
 from .paint import ring_shades
 

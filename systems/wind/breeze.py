@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from ...components.wind import Grass, WindPrimitive
-from .noise import noise_table, smooth_noise
+from ...engine.noise import noise_table, smooth_noise
 
 Floats = NDArray[np.float32]
 

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from .noise import noise_table, smooth_noise
+from ...engine.noise import noise_table, smooth_noise
 
 Floats = NDArray[np.float32]
 

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.growth import Growth
 from ...components.wind import Grass
+from ..grow.record import Growth
 
 
 def grass_of(growths: Sequence[Growth], kind: NDArray[np.intp], /) -> Grass:

@@ -38,8 +38,8 @@ from tallgrass.app.figures.register import FIGURES
 from tallgrass.app.figures.tiling import CULLED, draw_tiling
 from tallgrass.app.figures.walk import draw_walk, walk_frames
 from tallgrass.app.figures.wind import draw_fields, draw_masks, grid, patch_weights, windless
-from tallgrass.components.quality import PRESETS, BladeRing, Quality, StripRing
-from tallgrass.systems.growth.response import grow_response
+from tallgrass.engine.declared.quality import PRESETS, BladeRing, Quality, StripRing
+from tallgrass.systems.grow.response import grow_response
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.whirlwind import Whirlwind
 

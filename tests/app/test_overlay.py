@@ -1,7 +1,7 @@
 """What is written over the picture."""
 
 from tallgrass.app.overlay import HELP, statistics_lines
-from tallgrass.components.statistics import Statistics
+from tallgrass.systems.statistics import Statistics
 
 
 def test_the_statistics_tell_what_the_frame_held() -> None:

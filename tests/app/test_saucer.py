@@ -30,7 +30,7 @@ from tallgrass.app.saucer import (
 )
 from tallgrass.app.walker import MARGIN, Ground, Move
 from tallgrass.engine.camera import forward
-from tallgrass.systems.fly import HOVER, LOWEST, STEEPEST
+from tallgrass.systems.bodies.fly import HOVER, LOWEST, STEEPEST
 
 Floats = NDArray[np.float32]
 Set = frozenset[Move]

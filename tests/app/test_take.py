@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tallgrass.app.take import LARGEST, parse_frames, parse_size
-from tallgrass.components.overlay import PARTS, parse_parts
+from tallgrass.systems.overlay.parts import PARTS, parse_parts
 
 sides = st.integers(1, LARGEST)
 

@@ -27,7 +27,7 @@ from tallgrass.app.walker import (
     toggled,
     turned,
 )
-from tallgrass.components.camera import Camera
+from tallgrass.engine.camera import Camera
 
 Floats = NDArray[np.float32]
 Set = frozenset[Move]

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from tallgrass.app.walker import MARGIN, Ground
 from tallgrass.app.weather import AHEAD, FARTHEST, STEP, Raised, looked_at, raised
-from tallgrass.components.camera import Camera
-from tallgrass.engine.camera import forward
+from tallgrass.engine.camera import Camera, forward
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.whirlwind import Whirlwind
 

@@ -15,9 +15,9 @@ from pydantic import BaseModel
 import tallgrass
 import tallgrass.testing
 from tallgrass.app.figures.register import FIGURES
-from tallgrass.components.quality import PRESETS
-from tallgrass.components.scene import Scene
 from tallgrass.components.wind import WindPrimitive
+from tallgrass.engine.declared.quality import PRESETS
+from tallgrass.engine.declared.scene import Scene
 from tallgrass.engine.plugins import OURS, wind_kinds
 
 DOCS = Path(__file__).parents[2] / "docs"

@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 from numpy.typing import NDArray
 
-from tallgrass.components.camera import Camera, CameraSource, Stop
 from tallgrass.engine.camera import (
     FAR,
     NEAR,
+    Camera,
     camera_at,
     forward,
     glide,
@@ -21,6 +21,7 @@ from tallgrass.engine.camera import (
     projection_matrix,
     view_matrix,
 )
+from tallgrass.engine.declared.camera import CameraSource, Stop
 
 Floats = NDArray[np.float32]
 Doubles = NDArray[np.float64]

@@ -7,7 +7,7 @@ import moderngl
 import pytest
 
 from tallgrass import testing
-from tallgrass.components.camera import Camera
+from tallgrass.engine.camera import Camera
 from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import LITTLE, Stage, looking
 

@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass.components.body import Body
-from tallgrass.components.camera import Camera
+from tallgrass.engine.camera import Camera
 from tallgrass.systems.prairie import Prairie
 
 Stage = Any

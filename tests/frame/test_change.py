@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.components.camera import Camera
+from tallgrass.engine.camera import Camera
 from tallgrass.systems.lod import FADE
 from tallgrass.systems.prairie import Prairie
 

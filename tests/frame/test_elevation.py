@@ -12,7 +12,7 @@ from PIL import Image
 from PIL.TiffImagePlugin import ImageFileDirectory_v2
 
 from tallgrass.app.check import check
-from tallgrass.components.camera import Camera
+from tallgrass.engine.camera import Camera
 from tallgrass.engine.scene import bundled_scenes
 from tallgrass.systems.prairie import Prairie
 

@@ -15,8 +15,9 @@ import numpy as np
 import pytest
 
 from tallgrass import Blast, Breeze, Gust, Pose
-from tallgrass.components.camera import Camera
-from tallgrass.components.wind import Receivers, WindSource
+from tallgrass.components.receivers import Receivers
+from tallgrass.components.wind import WindSource
+from tallgrass.engine.camera import Camera
 from tallgrass.engine.scene import LoadedScene, read_scene
 from tallgrass.engine.world import install
 from tallgrass.systems.prairie import Prairie

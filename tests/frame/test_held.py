@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from tallgrass.components.camera import Camera
+from tallgrass.engine.camera import Camera
 from tallgrass.systems.prairie import Prairie
 
 Stage = Any

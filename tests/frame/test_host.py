@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.components.camera import Camera
-from tallgrass.engine.camera import camera_at
+from tallgrass.engine.camera import Camera, camera_at
 from tallgrass.systems.prairie import Prairie
 
 Stage = Any

@@ -9,19 +9,19 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.components.camera import Camera
+from tallgrass.engine.camera import Camera
 from tallgrass.engine.gl.shaders import program
 from tallgrass.engine.gl.stream import release_all
-from tallgrass.systems.draw.blades import MOVED, ROUND
-from tallgrass.systems.draw.frame import by_kind
-from tallgrass.systems.draw.morph import PER_ROW as EDGES_PER_ROW
-from tallgrass.systems.draw.painter import UNITS, Painter
-from tallgrass.systems.draw.strips import PER_ROW, StripPainter
-from tallgrass.systems.gather import gather_strips
+from tallgrass.systems.frame.block import by_kind
 from tallgrass.systems.lod import FADE
-from tallgrass.systems.morph import Morph, gather_morph
+from tallgrass.systems.painter import UNITS, Painter
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.see import Seen, seen_now
+from tallgrass.systems.show.blades.draw import MOVED, ROUND
+from tallgrass.systems.show.morph.draw import PER_ROW as EDGES_PER_ROW
+from tallgrass.systems.show.morph.gather import Morph, gather_morph
+from tallgrass.systems.show.seen import Seen, seen_now
+from tallgrass.systems.show.strips.draw import PER_ROW, StripPainter
+from tallgrass.systems.show.strips.gather import gather_strips
 from tallgrass.testing import Stage as Room
 
 Doubles = NDArray[np.float64]
@@ -129,7 +129,13 @@ def drawn(scene: Scene, weight: float) -> Doubles:
     points = scene.prairie.field.stock.targets.shape[3]
     defines: dict[str, str | int] = {"SEGMENTS": painter.segments, "ROUND": ROUND, "SOFT": 1, "MORPH": 1}
     defines |= {"PER_ROW": EDGES_PER_ROW, "POINTS": points}
-    made = program(painter.blades.ctx, "blades.vert", None, defines=defines, varyings=("gl_Position", "half_width"))
+    made = program(
+        painter.blades.ctx,
+        "systems/show/blades/blades.vert",
+        None,
+        defines=defines,
+        varyings=("gl_Position", "half_width"),
+    )
     contents = [painter.blades.binding(made), painter.moving.binding(made)]
     data = caught(scene.painter, made, contents, 2 * painter.segments + 2, len(moving))
     made.release()
@@ -148,7 +154,13 @@ def in_their_own_places(scene: Scene) -> Doubles:
         "ROUND": ROUND,
         "SOFT": 1,
     }
-    made = program(scene.painter.ctx, "blades.vert", None, defines=defines, varyings=("gl_Position", "half_width"))
+    made = program(
+        scene.painter.ctx,
+        "systems/show/blades/blades.vert",
+        None,
+        defines=defines,
+        varyings=("gl_Position", "half_width"),
+    )
     contents = [painter.blades.binding(made), painter.moved.binding(made)]
     data = caught(scene.painter, made, contents, 2 * painter.segments + 2, len(moved))
     release_all(made, painter)
@@ -180,7 +192,9 @@ def strips_drawn(scene: Scene, number: int) -> Drawn:
 
 def strip_program(scene: Scene, strips: StripPainter) -> moderngl.Program:
     defines = {"SECTIONS": strips.sections, "COLUMNS": strips.columns, "PER_ROW": PER_ROW}
-    made = program(scene.painter.ctx, "strips.vert", None, defines=defines, varyings=("gl_Position", "h"))
+    made = program(
+        scene.painter.ctx, "systems/show/strips/strips.vert", None, defines=defines, varyings=("gl_Position", "h")
+    )
     made["tall"] = by_kind([kind.height for kind in scene.prairie.field.stock.strips[0]])
     made["first"] = 0
     return made

@@ -9,12 +9,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.components.camera import Camera
-from tallgrass.systems.draw.painter import view_of
+from tallgrass.engine.camera import Camera, view_of
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.receive import plant_shown_strips
-from tallgrass.systems.see import see
-from tallgrass.systems.transition import Looks, looks
+from tallgrass.systems.show.looks import Looks, looks
+from tallgrass.systems.show.seen import see
 from tallgrass.testing import Stage as Room
 
 Doubles = NDArray[np.float64]

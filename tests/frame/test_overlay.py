@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.components.camera import Camera
-from tallgrass.components.overlay import PARTS, Part
+from tallgrass.engine.camera import Camera
 from tallgrass.systems.overlay.overlay import Overlay
+from tallgrass.systems.overlay.parts import PARTS, Part
 from tallgrass.systems.prairie import Prairie
 
 Stage = Any

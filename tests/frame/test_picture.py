@@ -6,8 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tallgrass.components.camera import Camera
-from tallgrass.systems.draw.painter import view_of
+from tallgrass.engine.camera import Camera, view_of
 from tallgrass.systems.prairie import Prairie
 
 Stage = Any

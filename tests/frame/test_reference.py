@@ -7,8 +7,7 @@ import moderngl
 import numpy as np
 import pytest
 
-from tallgrass.components.camera import Camera
-from tallgrass.systems.draw.painter import view_of
+from tallgrass.engine.camera import Camera, view_of
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import (
     EveryBlade,

@@ -13,11 +13,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from tallgrass.components.camera import Camera
 from tallgrass.components.pose import Pose
-from tallgrass.components.receivers import BladePool, StripPool
+from tallgrass.engine.camera import Camera
 from tallgrass.engine.scene import SceneError
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.show.blades.pool import BladePool
+from tallgrass.systems.show.strips.pool import StripPool
 from tallgrass.systems.wind.gust import Gust
 
 Stage = Any

@@ -11,9 +11,10 @@ import moderngl
 import numpy as np
 import pytest
 
-from tallgrass.components.camera import Camera
-from tallgrass.components.receivers import BladePool, StripPool
+from tallgrass.engine.camera import Camera
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.show.blades.pool import BladePool
+from tallgrass.systems.show.strips.pool import StripPool
 
 Stage = Any
 Load = Callable[..., Prairie]

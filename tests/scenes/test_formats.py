@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from pydantic import BaseModel
 
-from tallgrass.components.scene import FORMAT, Scene
+from tallgrass.engine.declared.scene import FORMAT, Scene
 from tallgrass.engine.plugins import wind_kinds
 from tallgrass.engine.scene import parse_scene
 from tallgrass.engine.scene.compose import read_document

@@ -7,22 +7,22 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.components.grass import GrassKind
-from tallgrass.components.growth import Growth
-from tallgrass.components.quality import BladeRing, Quality, StripRing
-from tallgrass.components.scene import Scene
-from tallgrass.components.terrain import Density, Terrain
 from tallgrass.components.wind import WindPrimitive, WindSource
+from tallgrass.engine.declared.grass import GrassKind
+from tallgrass.engine.declared.quality import BladeRing, Quality, StripRing
+from tallgrass.engine.declared.scene import Scene
+from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.engine.world import World
 from tallgrass.systems.cull import discrete_distance, inside_cone
 from tallgrass.systems.field import Field, lay_out
-from tallgrass.systems.growth.models import grow
+from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.lod import FADE, schedule, wanted_representation, weights
 from tallgrass.systems.receive import plant_shown_blades, plant_shown_strips
-from tallgrass.systems.see import Seen, see
-from tallgrass.systems.see import look as looks_of
-from tallgrass.systems.sublevel import refine
+from tallgrass.systems.refine import refine
+from tallgrass.systems.show.seen import Seen, see
+from tallgrass.systems.show.seen import look as looks_of
+from tallgrass.systems.stock.models import grow
 from tallgrass.systems.tile import cell_of, tile
 from tallgrass.systems.wind.blow import Listeners, blowing, hear
 from tallgrass.systems.wind.quarantine import Quarantine

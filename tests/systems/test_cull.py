@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.components.camera import Camera, View
-from tallgrass.engine.camera import projection_matrix, view_matrix
+from tallgrass.engine.camera import Camera, View, projection_matrix, view_matrix
 from tallgrass.systems.cull import discrete_distance, eye_of, far_to_near, inside_cone, view_cone
 
 PATCH = 2.5

@@ -5,11 +5,12 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from tallgrass.components.growth import Growth
-from tallgrass.components.quality import PRESETS
-from tallgrass.components.terrain import Terrain
-from tallgrass.systems.field import Field, blades_in_field, farthest_reach, reach_of, stock_up
+from tallgrass.engine.declared.quality import PRESETS
+from tallgrass.engine.terrain.record import Terrain
+from tallgrass.systems.field import Field, blades_in_field, farthest_reach, reach_of
+from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.lod import ROOM, SLACK, wanted_representation
+from tallgrass.systems.stock.stock import stock_up
 
 Laid = Callable[..., Field]
 

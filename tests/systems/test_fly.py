@@ -12,8 +12,8 @@ from tallgrass.components.body import Body
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import WindSource
 from tallgrass.engine.world import World
-from tallgrass.systems.draw.bodies import axes
-from tallgrass.systems.fly import DRAG, GRAVITY, HOVER, LOWEST, STEEPEST, carried, flying, foot, lean, level
+from tallgrass.systems.bodies.draw import axes
+from tallgrass.systems.bodies.fly import DRAG, GRAVITY, HOVER, LOWEST, STEEPEST, carried, flying, foot, lean, level
 from tallgrass.systems.wind.blast import Blast
 from tallgrass.systems.wind.placed import Waypoint
 

@@ -10,11 +10,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.components.terrain import Terrain
+from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.field import Field
-from tallgrass.systems.gather import gather_blades, gather_strips, runs
 from tallgrass.systems.receive import blow
-from tallgrass.systems.see import Seen, Shown
+from tallgrass.systems.show.blades.gather import gather_blades
+from tallgrass.systems.show.seen import Seen, Shown
+from tallgrass.systems.show.strips.gather import gather_strips, runs
 from tallgrass.systems.wind.blow import Listeners
 from tallgrass.systems.wind.breeze import Breeze
 

@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.components.patch import PatchTable
-from tallgrass.components.quality import PRESETS, Representation
+from tallgrass.engine.declared.quality import PRESETS, Representation
 from tallgrass.systems.lod import (
     FADE,
     SLACK,
@@ -19,6 +18,7 @@ from tallgrass.systems.lod import (
     wanted_representation,
     weights,
 )
+from tallgrass.systems.patches import PatchTable
 
 REACH = (2, 5, 9)
 BLADES, STRIPS, CARPET = Representation

@@ -5,10 +5,10 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import pytest
 
-from tallgrass.components.terrain import Terrain
+from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.field import Field
 from tallgrass.systems.lod import FADE
-from tallgrass.systems.see import Seen
+from tallgrass.systems.show.seen import Seen
 
 Laid = Callable[..., Field]
 Look = Callable[..., Seen]

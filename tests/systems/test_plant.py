@@ -8,22 +8,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.components.growth import Growth
-from tallgrass.components.receivers import BladePool, StripPool
-from tallgrass.components.terrain import Density, Terrain
+from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.terrain.sample import height_at
-from tallgrass.systems.field import stock_up
-from tallgrass.systems.plant import (
-    HEADINGS,
-    Ground,
-    blade_records,
-    far_to_near_blades,
-    heading_of,
-    plant_blades,
-    plant_strips,
-    strip_edges,
-    turned,
-)
+from tallgrass.systems.ground import Ground, turned
+from tallgrass.systems.grow.record import Growth
+from tallgrass.systems.show.blades.plant import HEADINGS, blade_records, far_to_near_blades, heading_of, plant_blades
+from tallgrass.systems.show.blades.pool import BladePool
+from tallgrass.systems.show.strips.plant import plant_strips, strip_edges
+from tallgrass.systems.show.strips.pool import StripPool
+from tallgrass.systems.stock.stock import stock_up
 
 PATCH = 2.5
 CELLS = np.array([(-3, 2), (0, 0), (4, -5), (1, 7), (-8, -2), (2, 2), (5, 1), (-1, -1)], np.int32)

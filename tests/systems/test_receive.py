@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.components.receivers import BladePool, StripPool
-from tallgrass.components.terrain import Terrain
+from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.cull import far_to_near
 from tallgrass.systems.field import Field
 from tallgrass.systems.receive import blow, plant_shown_blades, plant_shown_strips
-from tallgrass.systems.see import Seen, Shown
+from tallgrass.systems.show.blades.pool import BladePool
+from tallgrass.systems.show.seen import Seen, Shown
+from tallgrass.systems.show.strips.pool import StripPool
 from tallgrass.systems.wind.blow import Listeners, places_alone
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.grass import grass_of

@@ -6,14 +6,15 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.components.receivers import BladePool, StripPool
-from tallgrass.components.terrain import Terrain
-from tallgrass.components.wind import Receivers
+from tallgrass.components.receivers import Receivers
+from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.world import World
 from tallgrass.systems.field import Field
 from tallgrass.systems.receive import blow
 from tallgrass.systems.receivers import ReceiverEntities
-from tallgrass.systems.see import Seen
+from tallgrass.systems.show.blades.pool import BladePool
+from tallgrass.systems.show.seen import Seen
+from tallgrass.systems.show.strips.pool import StripPool
 from tallgrass.systems.wind.blow import Listeners
 from tallgrass.systems.wind.breeze import Breeze
 

@@ -10,11 +10,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.components.terrain import Terrain
+from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.field import Field
 from tallgrass.systems.lod import FADE, SLACK
-from tallgrass.systems.see import Seen
-from tallgrass.systems.sublevel import blade_ring, strip_ring, strips_along, viewing_slope
+from tallgrass.systems.show.blades.sublevel import blade_ring
+from tallgrass.systems.show.seen import Seen
+from tallgrass.systems.show.strips.sublevel import strip_ring, strips_along, viewing_slope
 
 Laid = Callable[..., Field]
 Look = Callable[..., Seen]

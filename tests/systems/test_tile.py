@@ -7,10 +7,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.components.patch import Lod, Patch, PatchTable
-from tallgrass.components.terrain import Terrain
+from tallgrass.components.patch import Lod, Patch
+from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at, slope_at
 from tallgrass.engine.world import World
+from tallgrass.systems.patches import PatchTable
 from tallgrass.systems.tile import cell_of, cells_on, patch_models, tile, window_cells, window_rows
 
 SIDE, PATCH = 9, 2.5

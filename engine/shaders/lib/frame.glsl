@@ -1,4 +1,4 @@
-// What every program knows of a frame: the fields of FRAME in systems/draw/frame.py, in the same order.
+// What every program knows of a frame: the fields of FRAME in systems/frame/block.py, in the same order.
 layout(std140) uniform Frame {
     mat4 clip;        // world to clip space
     mat4 unclip;      // clip space to world

@@ -1,6 +1,7 @@
 """Programs composed from shader files, and messages that lead back to them."""
 
 from importlib.resources import files
+from pathlib import Path
 
 import moderngl
 import numpy as np
@@ -11,8 +12,9 @@ from hypothesis import strategies as st
 from tallgrass.engine.gl import shaders
 from tallgrass.engine.gl.shaders import ShaderError, compose, locate, program
 
+ROOT = Path(str(files("tallgrass")))
 STAGES = sorted(
-    entry.name for entry in files("tallgrass.engine.shaders").iterdir() if entry.name.endswith((".vert", ".frag"))
+    path.relative_to(ROOT).as_posix() for stage in ("vert", "frag") for path in (ROOT / "systems").rglob(f"*.{stage}")
 )
 PARTS = sorted(entry.name for entry in files("tallgrass.engine.shaders.lib").iterdir() if entry.name.endswith(".glsl"))
 PLAIN = {
@@ -30,7 +32,14 @@ def library(monkeypatch: pytest.MonkeyPatch) -> dict[str, list[str]]:
 
 
 def test_there_are_shaders_to_try() -> None:
-    assert {"blades.vert", "blades.frag", "strips.vert", "strips.frag", "ground.vert", "ground.frag"} < set(STAGES)
+    assert {
+        "systems/show/blades/blades.vert",
+        "systems/show/blades/blades.frag",
+        "systems/show/strips/strips.vert",
+        "systems/show/strips/strips.frag",
+        "systems/show/carpet/ground.vert",
+        "systems/show/carpet/ground.frag",
+    } < set(STAGES)
     assert "light.glsl" in PARTS
 
 
@@ -42,7 +51,8 @@ def test_every_part_is_included_once(name: str) -> None:
     where = [(file, line) for file, line, _ in lines if line > 0]
     assert len(where) == len(set(where))
     for file in {file for file, _ in where}:
-        text = files("tallgrass.engine.shaders").joinpath(file).read_text("utf-8").splitlines()
+        place = ROOT / "engine/shaders" if file.startswith("lib/") else ROOT
+        text = (place / file).read_text("utf-8").splitlines()
         assert [line for other, line, _ in lines if other == file and line > 0] == [
             number for number, row in enumerate(text, 1) if not row.lstrip().startswith("#include")
         ]
@@ -62,7 +72,7 @@ def test_parts_that_include_each_other_are_still_included_once(library: dict[str
 
 
 def test_definitions_follow_the_version_line() -> None:
-    source, lines = compose("sky.frag", {"SEGMENTS": 3, "ROUND": "0.5"})
+    source, lines = compose("systems/frame/sky.frag", {"SEGMENTS": 3, "ROUND": "0.5"})
     assert source.splitlines()[:3] == ["#version 330 core", "#define SEGMENTS 3", "#define ROUND 0.5"]
     assert [line for _, line, _ in lines[:3]] == [0, 0, 0]
     assert len(source.splitlines()) == len(lines)
@@ -85,7 +95,7 @@ def test_any_line_that_a_driver_names_is_put_back_to_its_file(name: str, data: s
 
 
 def test_lines_that_are_not_ours_are_left_as_they_are() -> None:
-    _, lines = compose("sky.vert")
+    _, lines = compose("systems/frame/sky.vert")
     message = f"0:0: x\n0:{len(lines) + 1}(3): y\nno line here"
     assert locate(message, lines) == message
 

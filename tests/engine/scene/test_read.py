@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tallgrass.components.scene import Scene
-from tallgrass.components.terrain import TerrainSource
 from tallgrass.components.wind import Floats, Grass, WindPrimitive
+from tallgrass.engine.declared.scene import Scene
+from tallgrass.engine.declared.terrain import TerrainSource
 from tallgrass.engine.plugins import wind, wind_kinds
 from tallgrass.engine.scene import SceneError, bundled_scenes, parse_scene, read_scene
 

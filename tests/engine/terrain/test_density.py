@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from PIL import Image
 
-from tallgrass.components.grass import GrassKind, Place
-from tallgrass.components.terrain import Density, Terrain
+from tallgrass.engine.declared.grass import GrassKind, Place
 from tallgrass.engine.terrain.density import load_density
 from tallgrass.engine.terrain.errors import MapError
+from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.terrain.sample import density_at
 
 TERRAIN = Terrain(np.zeros((11, 21), np.float32), 2.0)

@@ -8,9 +8,10 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image, TiffImagePlugin
 
-from tallgrass.components.terrain import Terrain, TerrainSource
+from tallgrass.engine.declared.terrain import TerrainSource
 from tallgrass.engine.terrain.errors import MapError
 from tallgrass.engine.terrain.load import load_terrain
+from tallgrass.engine.terrain.record import Terrain
 
 PIXEL_SCALE, TIE_POINT, GEO_KEYS, NO_DATA = 33550, 33922, 34735, 42113
 SHORT, ASCII, DOUBLE = 3, 2, 12

@@ -9,10 +9,11 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
-from tallgrass.components.camera import CameraSource
-from tallgrass.components.terrain import Terrain, TerrainSource
 from tallgrass.engine.camera import camera_at
+from tallgrass.engine.declared.camera import CameraSource
+from tallgrass.engine.declared.terrain import TerrainSource
 from tallgrass.engine.terrain.load import RANGE, load_terrain
+from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at, slope_at
 
 Map = NDArray[Any]

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from tallgrass.components.terrain import TerrainSource
+from tallgrass.engine.declared.terrain import TerrainSource
 from tallgrass.engine.terrain.load import load_terrain
 from tallgrass.engine.terrain.noise import DEVIATION, LANDSCAPES, SPACING, landscape, spline_noise
 from tallgrass.engine.terrain.sample import height_at

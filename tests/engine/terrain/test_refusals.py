@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
-from tallgrass.components.terrain import TerrainSource
+from tallgrass.engine.declared.terrain import TerrainSource
 from tallgrass.engine.terrain.errors import MapError
 from tallgrass.engine.terrain.load import load_terrain
 

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.components.terrain import Density, Terrain
+from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.terrain.sample import density_at, height_at, slope_at
 
 Floats = NDArray[np.float32]

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from tallgrass.engine.gl import shaders
 from tallgrass.engine.gl.shaders import program
 from tallgrass.engine.gl.stream import release_all
-from tallgrass.systems.draw.frame import FrameBlock
+from tallgrass.systems.frame.block import FrameBlock
 
 Probe = Callable[..., NDArray[np.float32]]
 

@@ -11,14 +11,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.components.camera import Camera, View
-from tallgrass.components.receivers import BLADE
-from tallgrass.engine.camera import projection_matrix, view_matrix
-from tallgrass.systems.draw.blades import MOVED, BladePainter
-from tallgrass.systems.draw.frame import FRAME, FrameBlock, aim, by_kind, frame_record
-from tallgrass.systems.draw.painter import UNITS, view_of
-from tallgrass.systems.draw.strips import STRIP
+from tallgrass.engine.camera import Camera, View, projection_matrix, view_matrix, view_of
 from tallgrass.systems.field import Field
+from tallgrass.systems.frame.block import FRAME, FrameBlock, aim, by_kind, frame_record
+from tallgrass.systems.painter import UNITS
+from tallgrass.systems.show.blades.draw import MOVED, BladePainter
+from tallgrass.systems.show.blades.pool import BLADE
+from tallgrass.systems.show.strips.draw import STRIP
 
 Laid = Callable[..., Field]
 Probe = Callable[..., NDArray[np.float32]]

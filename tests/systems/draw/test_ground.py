@@ -10,14 +10,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.components.terrain import Terrain
 from tallgrass.engine.gl.shaders import program
 from tallgrass.engine.gl.stream import release_all
+from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at
-from tallgrass.systems.draw.frame import FrameBlock, frame_record
-from tallgrass.systems.draw.ground import GRID, TILE, finest_spacing, ground_tiles, within
-from tallgrass.systems.draw.textures import density_texture, height_texture, tone_texture
 from tallgrass.systems.field import Field
+from tallgrass.systems.frame.block import FrameBlock, frame_record
+from tallgrass.systems.frame.maps import density_texture, height_texture, tone_texture
+from tallgrass.systems.show.carpet.draw import GRID, TILE, finest_spacing, ground_tiles, within
 
 Laid = Callable[..., Field]
 Corners = Callable[..., NDArray[np.float32]]
@@ -124,7 +124,7 @@ def corners(ctx: moderngl.Context, laid: Laid) -> Iterator[Corners]:
         "tone": tone_texture(ctx, field.terrain, seed=1),
         "density": density_texture(ctx, field.density),
     }
-    made, block = program(ctx, "ground.vert", None, varyings=("place",)), FrameBlock(ctx)
+    made, block = program(ctx, "systems/show/carpet/ground.vert", None, varyings=("place",)), FrameBlock(ctx)
     block.join(made)
     line = np.arange(GRID + 1, dtype=np.float32)
     grid = ctx.buffer(np.stack(np.meshgrid(line, line), -1).reshape(-1, 2))

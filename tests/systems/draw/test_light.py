@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tallgrass.components.grass import GrassKind
-from tallgrass.components.light import Light
 from tallgrass.engine.camera import forward
-from tallgrass.systems.draw.light import daylight, display, grain, linear, lit_kind, to_sun
+from tallgrass.engine.declared.grass import GrassKind
+from tallgrass.engine.declared.light import Light
+from tallgrass.systems.frame.light import daylight, display, grain, linear, lit_kind, to_sun
 
 colors = st.tuples(*[st.integers(0, 255)] * 3)
 lights = st.builds(

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.components.growth import Blades, Growth
-from tallgrass.components.terrain import Terrain
+from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at
-from tallgrass.systems.draw.frame import frame_record
-from tallgrass.systems.draw.textures import height_texture, posture_texture
 from tallgrass.systems.field import Field
-from tallgrass.systems.growth.bend import spine
+from tallgrass.systems.frame.block import frame_record
+from tallgrass.systems.frame.maps import height_texture, posture_texture
+from tallgrass.systems.grow.bend import spine
+from tallgrass.systems.grow.record import Blades, Growth
 
 Laid = Callable[..., Field]
 Probe = Callable[..., NDArray[np.float32]]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.systems.draw.saucer import FIN, RADIUS, borders, face_normals, saucer
+from tallgrass.systems.bodies.saucer import FIN, RADIUS, borders, face_normals, saucer
 
 Mesh = tuple[NDArray[np.void], NDArray[np.int32]]
 

@@ -6,20 +6,14 @@ import moderngl
 import numpy as np
 import pytest
 
-from tallgrass.components.growth import Growth
-from tallgrass.components.terrain import Density, Terrain
 from tallgrass.engine.gl.stream import release_all
+from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.terrain.sample import slope_at
-from tallgrass.systems.draw.textures import (
-    carpet_texture,
-    density_texture,
-    height_texture,
-    posture_texture,
-    strip_stock,
-    strip_textures,
-    tone_map,
-)
 from tallgrass.systems.field import Field
+from tallgrass.systems.frame.maps import density_texture, height_texture, posture_texture, tone_map
+from tallgrass.systems.grow.record import Growth
+from tallgrass.systems.show.carpet.textures import carpet_texture
+from tallgrass.systems.show.strips.textures import strip_stock, strip_textures
 
 Laid = Callable[..., Field]
 

@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tallgrass.components.grass import GrassKind
-from tallgrass.systems.growth.bend import posture_of, ribbon, segment_normals, spine
-from tallgrass.systems.growth.blades import grow_blades
-from tallgrass.systems.growth.postures import grow_postures
+from tallgrass.engine.declared.grass import GrassKind
+from tallgrass.systems.grow.bend import posture_of, ribbon, segment_normals, spine
+from tallgrass.systems.grow.blades import grow_blades
+from tallgrass.systems.grow.postures import grow_postures
 
 KIND = GrassKind()
 POSTURES = grow_postures(KIND, seed=2)

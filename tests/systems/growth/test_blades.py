@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.components.grass import GrassKind
-from tallgrass.components.growth import Blades
-from tallgrass.systems.growth.blades import grow_blades
+from tallgrass.engine.declared.grass import GrassKind
+from tallgrass.systems.grow.blades import grow_blades
+from tallgrass.systems.grow.record import Blades
 
 PATCH = 2.5
 

@@ -14,13 +14,13 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.components.grass import GrassKind, Place
-from tallgrass.components.growth import Growth
-from tallgrass.components.quality import BladeRing, Quality, StripRing
-from tallgrass.systems.growth import cache
-from tallgrass.systems.growth.archive import pack, unpack
-from tallgrass.systems.growth.cache import cache_folder, cached_growth, growth_key
-from tallgrass.systems.growth.models import grow
+from tallgrass.engine.declared.grass import GrassKind, Place
+from tallgrass.engine.declared.quality import BladeRing, Quality, StripRing
+from tallgrass.systems.grow.record import Growth
+from tallgrass.systems.stock import cache
+from tallgrass.systems.stock.archive import pack, unpack
+from tallgrass.systems.stock.cache import cache_folder, cached_growth, growth_key
+from tallgrass.systems.stock.models import grow
 
 KIND = GrassKind(width=0.03)
 SMALL = Quality(

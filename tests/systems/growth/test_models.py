@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.components.grass import GrassKind
-from tallgrass.components.growth import Growth
-from tallgrass.components.quality import PRESETS, BladeRing, Quality, StripRing
-from tallgrass.systems.growth.bend import spine
-from tallgrass.systems.growth.models import grow, precompute_bytes
+from tallgrass.engine.declared.grass import GrassKind
+from tallgrass.engine.declared.quality import PRESETS, BladeRing, Quality, StripRing
+from tallgrass.systems.grow.bend import spine
+from tallgrass.systems.grow.record import Growth
+from tallgrass.systems.stock.models import grow, precompute_bytes
 
 SMALL = Quality(
     patch=1.5,

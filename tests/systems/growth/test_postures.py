@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.components.grass import GrassKind
-from tallgrass.components.growth import Postures
-from tallgrass.systems.growth.postures import grow_postures
+from tallgrass.engine.declared.grass import GrassKind
+from tallgrass.systems.grow.postures import grow_postures
+from tallgrass.systems.grow.record import Postures
 
 KINDS = {
     "meadow": GrassKind(),

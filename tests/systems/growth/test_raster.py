@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.systems.growth.raster import interpolate, rasterise, ribbon_triangles
+from tallgrass.systems.grow.raster import interpolate, rasterise, ribbon_triangles
 
 STAGGER = np.array([0.125, 0.625, 0.375, 0.875])
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.components.grass import GrassKind
-from tallgrass.components.growth import Response
-from tallgrass.systems.growth.response import grow_response
+from tallgrass.engine.declared.grass import GrassKind
+from tallgrass.systems.grow.record import Response
+from tallgrass.systems.grow.response import grow_response
 
 KINDS = {
     "meadow": GrassKind(),

@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.components.grass import GrassKind
-from tallgrass.systems.growth.simulate import GRAVITY, LINKS, Chain, build_chain, lowest_swing, place_links, simulate
+from tallgrass.engine.declared.grass import GrassKind
+from tallgrass.systems.grow.simulate import GRAVITY, LINKS, Chain, build_chain, lowest_swing, place_links, simulate
 
 EVEN = np.ones((1, LINKS))
 

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.components.grass import GrassKind
-from tallgrass.components.growth import Blades, Strips
-from tallgrass.systems.growth.bend import ribbon, spine
-from tallgrass.systems.growth.blades import grow_blades
-from tallgrass.systems.growth.postures import grow_postures
-from tallgrass.systems.growth.strips import fill_ranks, grow_strips
+from tallgrass.engine.declared.grass import GrassKind
+from tallgrass.systems.grow.bend import ribbon, spine
+from tallgrass.systems.grow.blades import grow_blades
+from tallgrass.systems.grow.postures import grow_postures
+from tallgrass.systems.grow.record import Blades, Strips
+from tallgrass.systems.show.strips.grow import fill_ranks, grow_strips
 
 PATCH, MARGIN, STRIPS, TEXEL = 2.0, 0.3, 4, 0.008
 KIND = GrassKind(width=0.02)

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.components.terrain import Terrain
+from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.overlay.arrows import arrow_marks, arrows, felt, thinned
 from tallgrass.systems.overlay.paint import index_color
 

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tallgrass.components.quality import Representation
 from tallgrass.components.wind import WindSource
+from tallgrass.engine.declared.quality import Representation
 from tallgrass.systems.field import Field
 from tallgrass.systems.overlay.chart import CULLED, Sheet, chart, sheet_for
 from tallgrass.systems.overlay.masks import Masked, masked

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from tallgrass.components.overlay import PARTS, Part
-from tallgrass.components.quality import PRESETS, Representation
 from tallgrass.components.wind import WindPrimitive, WindSource
+from tallgrass.engine.declared.quality import PRESETS, Representation
 from tallgrass.systems.overlay.legend import entries, legend
 from tallgrass.systems.overlay.masks import Masked, masked
 from tallgrass.systems.overlay.paint import LEVELS, wind_color
+from tallgrass.systems.overlay.parts import PARTS, Part
 from tallgrass.systems.wind.blow import blowing
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.quarantine import Quarantine

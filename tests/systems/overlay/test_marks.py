@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tallgrass.components.terrain import Terrain
+from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.overlay.marks import HIDDEN, behind_hills, filled, stroked, together, veiled
 
 RIDGE = Terrain(np.where(np.abs(np.arange(101) - 50) <= 1, 6.0, 0.0).astype(np.float32)[:, None].repeat(101, 1), 1.0)

@@ -5,8 +5,8 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass.components.pose import Pose
-from tallgrass.components.terrain import Terrain
 from tallgrass.components.wind import Extent, Grass, WindPrimitive, WindSource
+from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.systems.overlay.marks import LIFT
 from tallgrass.systems.overlay.masks import Masked, mask_marks, masked

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.components.quality import Representation
+from tallgrass.engine.declared.quality import Representation
 from tallgrass.systems.field import Field
 from tallgrass.systems.overlay.marks import Marks
 from tallgrass.systems.overlay.paint import ring_shades

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.components.grass import GrassKind
-from tallgrass.components.growth import Response
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import Grass, Mixing, WindPrimitive, WindSource
-from tallgrass.systems.growth.response import grow_response
+from tallgrass.engine.declared.grass import GrassKind
+from tallgrass.systems.grow.record import Response
+from tallgrass.systems.grow.response import grow_response
 from tallgrass.systems.wind.blow import blowing, hear, places_alone
 from tallgrass.systems.wind.quarantine import Quarantine
 

@@ -8,15 +8,16 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.components.quality import Representation
-from tallgrass.components.receivers import BladePool, StripPool
-from tallgrass.components.terrain import Terrain
 from tallgrass.components.wind import Mixing, WindPrimitive
+from tallgrass.engine.declared.quality import Representation
+from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.world import World
 from tallgrass.systems.field import Field
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.receive import blow
-from tallgrass.systems.see import Seen
+from tallgrass.systems.show.blades.pool import BladePool
+from tallgrass.systems.show.seen import Seen
+from tallgrass.systems.show.strips.pool import StripPool
 from tallgrass.systems.wind.blast import Blast, Shape
 from tallgrass.systems.wind.blow import Listeners
 from tallgrass.systems.wind.breeze import Breeze

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.components.growth import Response
 from tallgrass.components.wind import Grass
+from tallgrass.systems.grow.record import Response
 
 Answer = Callable[..., Grass]
 

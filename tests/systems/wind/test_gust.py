@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.components.growth import Response
 from tallgrass.components.wind import Grass
+from tallgrass.systems.grow.record import Response
 from tallgrass.systems.wind.gust import Gust
 
 Floats = NDArray[np.float32]

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.systems.wind.noise import PERIOD, noise_table, smooth_noise
+from tallgrass.engine.noise import PERIOD, noise_table, smooth_noise
 
 TABLE = noise_table(3, 0)
 spots = st.tuples(st.floats(-400.0, 400.0), st.floats(-400.0, 400.0))

@@ -1,0 +1,1 @@
+"""What a scene file can declare, part by part."""

@@ -1,0 +1,64 @@
+"""Grass kinds: what a scene declares of them."""
+
+from typing import Literal
+
+from pydantic import Field, model_validator
+
+from ...components.declaration import Color, Declaration, DeclarationError, Pair
+
+
+class Place(Declaration):
+    """Where a kind grows: one channel of a density map laid over the whole terrain."""
+
+    map: str = Field(min_length=1)
+    """Picture file, relative to the scene file: in a channel 0 is no grass, its largest number is full density."""
+
+    channel: Literal["red", "green", "blue", "alpha"] = "red"
+    """The channel that holds this kind's density."""
+
+
+class GrassKind(Declaration):
+    """A kind of grass, from which postures and patch models are grown (paper, sections 2.1 and 3.2)."""
+
+    height: Pair = Field(default=[0.4, 0.7])
+    """Shortest and tallest blade, measured along the blade [m]."""
+
+    width: float = Field(default=0.012, gt=0.0005, le=0.2)
+    """Width of a blade at its root [m]."""
+
+    stiffness: float = Field(default=1.0, gt=0.01, le=100.0)
+    """Stiffness of the springs between the links of a blade, 1 is a common meadow grass."""
+
+    damping: float = Field(default=1.0, gt=0.01, le=100.0)
+    """How fast a blade's swing dies away, 1 is a common meadow grass."""
+
+    lean: float = Field(default=0.3, ge=0.0, le=0.9)
+    """Largest posture index that a blade holds at rest; each blade has its own, in its own direction."""
+
+    taper: float = Field(default=1.0, ge=0.2, le=4.0)
+    """How the width falls from root to tip: 1 is a triangle, below 1 keeps it broad for longer."""
+
+    root: Color = "#4b6128"
+    """Colour at the root."""
+
+    tip: Color = "#a8b65a"
+    """Colour at the tip."""
+
+    variety: float = Field(default=0.15, ge=0.0, le=0.6)
+    """How far blades differ in brightness and hue from one another, as a fraction."""
+
+    blades: int | None = Field(default=None, ge=1, le=5000)
+    """Blades per patch at full density; without it the quality's number."""
+
+    segments: int | None = Field(default=None, ge=1, le=16)
+    """Line segments per blade at the finest level; without it the quality's number."""
+
+    place: Place | None = None
+    """Where it grows; without it, everywhere."""
+
+    @model_validator(mode="after")
+    def _ordered_heights(self) -> "GrassKind":
+        low, high = self.height
+        if not 0.02 <= low <= high <= 5.0:
+            raise DeclarationError("height must be [shortest, tallest], rising, between 0.02 and 5 m", "height")
+        return self

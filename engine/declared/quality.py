@@ -1,0 +1,122 @@
+"""Quality: how fine each representation is, and up to which discrete distance it reaches."""
+
+from enum import IntEnum
+from itertools import pairwise
+
+from pydantic import Field, model_validator
+
+from ...components.declaration import Declaration, DeclarationError
+
+
+class Representation(IntEnum):
+    """The three representations of the same grass, from the finest to the coarsest (paper, section 2.1)."""
+
+    BLADES = 0
+    """3D: every blade a ribbon."""
+
+    STRIPS = 1
+    """2.5D: vertical strips with the blades painted on them."""
+
+    CARPET = 2
+    """2D: a textured carpet on the terrain, raised to a part of the grass's height."""
+
+
+class BladeRing(Declaration):
+    """A sub-level of the 3D blades."""
+
+    to: int = Field(ge=0, le=64)
+    """Largest discrete distance it serves."""
+
+    segments: int = Field(ge=1, le=16)
+    """Line segments per blade."""
+
+
+class StripRing(Declaration):
+    """A sub-level of the 2.5D strips."""
+
+    to: int = Field(ge=0, le=128)
+    """Largest discrete distance it serves."""
+
+    strips: int = Field(ge=1, le=32)
+    """Strips per patch and orientation."""
+
+    columns: int = Field(default=2, ge=1, le=8)
+    """Polygon strips side by side in each strip; they share their vertical edges."""
+
+    sections: int = Field(default=3, ge=1, le=8)
+    """Quads that a vertical edge bends over."""
+
+    texel: float = Field(default=0.006, ge=0.001, le=0.5)
+    """Width and height of a texel [m]."""
+
+
+class Quality(Declaration):
+    """The numbers behind a preset (paper, section 5.1)."""
+
+    patch: float = Field(default=2.5, ge=0.5, le=20.0)
+    """Side of a patch of grass [m]."""
+
+    blades: int = Field(default=500, ge=1, le=5000)
+    """Blades per patch at full density, for kinds that do not say."""
+
+    models: int = Field(default=3, ge=1, le=16)
+    """Patch models per kind; with four quarter turns each, so that no repetition shows."""
+
+    blade_rings: list[BladeRing] = Field(min_length=1, max_length=16)
+    """Sub-levels of the 3D blades, from the nearest."""
+
+    strip_rings: list[StripRing] = Field(min_length=1, max_length=16)
+    """Sub-levels of the 2.5D strips, from the nearest."""
+
+    carpet_to: int = Field(default=40, ge=1, le=160)
+    """Largest discrete distance at which patches are kept; the ground beyond is one carpet."""
+
+    carpet: int = Field(default=128, ge=8, le=1024)
+    """Texels along a side of a carpet image."""
+
+    @model_validator(mode="after")
+    def _rising_rings(self) -> "Quality":
+        limits: list[tuple[int, tuple[str | int, ...]]] = [
+            *((ring.to, ("blade_rings", i, "to")) for i, ring in enumerate(self.blade_rings)),
+            *((ring.to, ("strip_rings", i, "to")) for i, ring in enumerate(self.strip_rings)),
+            (self.carpet_to, ("carpet_to",)),
+        ]
+        for (before, _), (to, where) in pairwise(limits):
+            if to <= before:
+                raise DeclarationError(f"{where[-1]} must exceed {before}, where the ring before it ends", *where)
+        return self
+
+    @property
+    def reach(self) -> tuple[int, int, int]:
+        """Largest discrete distance of each representation."""
+        return self.blade_rings[-1].to, self.strip_rings[-1].to, self.carpet_to
+
+
+def _quality(
+    blades: int, blade_rings: list[tuple[int, int]], strip_rings: list[tuple[int, int, int, int, float]], carpet_to: int
+) -> Quality:
+    return Quality(
+        blades=blades,
+        blade_rings=[BladeRing(to=to, segments=segments) for to, segments in blade_rings],
+        strip_rings=[
+            StripRing(to=to, strips=strips, columns=columns, sections=sections, texel=texel)
+            for to, strips, columns, sections, texel in strip_rings
+        ],
+        carpet_to=carpet_to,
+    )
+
+
+PRESETS: dict[str, Quality] = {
+    "low": _quality(160, [(1, 3), (2, 2)], [(4, 3, 2, 2, 0.008), (8, 2, 1, 1, 0.016)], 32),
+    "medium": _quality(320, [(1, 4), (3, 3)], [(6, 4, 2, 3, 0.008), (12, 2, 1, 2, 0.016)], 36),
+    "high": _quality(
+        500, [(1, 8), (2, 5), (4, 3)], [(7, 4, 2, 3, 0.006), (11, 3, 2, 2, 0.012), (20, 2, 1, 1, 0.016)], 40
+    ),
+    "ultra": _quality(
+        800, [(2, 8), (4, 6), (6, 4)], [(10, 8, 2, 3, 0.006), (16, 4, 2, 2, 0.012), (28, 3, 1, 2, 0.016)], 48
+    ),
+    "paper-low": _quality(160, [(2, 3)], [(8, 8, 2, 3, 0.008)], 32),
+    "paper-medium": _quality(320, [(1, 4)], [(12, 8, 2, 3, 0.008)], 36),
+    "paper-high": _quality(500, [(2, 8)], [(20, 8, 2, 3, 0.008)], 40),
+}
+"""The presets by name: the paper's three instances, and those that people use (paper, section 5.1)."""

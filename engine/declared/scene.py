@@ -1,0 +1,111 @@
+"""A whole scene, as a file declares it."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Any, Literal, NotRequired, TypedDict
+
+from pydantic import Discriminator, Field, SerializeAsAny, Tag, ValidationError, ValidationInfo, WrapValidator
+from pydantic_core import InitErrorDetails, PydanticCustomError
+
+from ...components.declaration import Declaration
+from ...components.wind import Mixing, WindPrimitive
+from .camera import CameraSource
+from .grass import GrassKind
+from .light import Light
+from .quality import PRESETS, Quality
+from .terrain import TerrainSource
+
+FORMAT = 1
+"""Version of the scene format that this release writes."""
+
+PresetName = Literal["low", "medium", "high", "ultra", "paper-low", "paper-medium", "paper-high"]
+
+LodName = Literal["auto", "blades", "strips", "carpet"]
+"""Which representation is drawn: the one due at each distance, or one of them everywhere."""
+
+
+class Reading(TypedDict):
+    """The validation context that a scene's winds need: `Scene.model_validate(data, context=Reading(wind=...))`."""
+
+    wind: Callable[[str], type[WindPrimitive]]
+    """Gives the class of a kind, or raises ValueError with a sentence."""
+
+    folder: NotRequired[Path]
+    """What the files that winds name are relative to; without it they are not read yet."""
+
+
+def _of_its_kind(value: Any, _: object, info: ValidationInfo) -> WindPrimitive:
+    if isinstance(value, WindPrimitive):
+        return value
+    if not isinstance(value, dict):
+        raise PydanticCustomError("model_type", "a wind must be a mapping of keys")
+    if not info.context:
+        raise PydanticCustomError("no_kinds", "winds written as mappings need the validation context Reading(wind=...)")
+    kind = value.get("kind")
+    if not isinstance(kind, str):
+        raise _at_kind("string_type" if "kind" in value else "missing", kind)
+    try:
+        primitive = info.context["wind"](kind)
+    except ValueError as error:
+        raise _at_kind(PydanticCustomError("unknown_kind", "{why}", {"why": str(error)}), kind) from error
+    return _validated(primitive, value, info)
+
+
+def _at_kind(error: str | PydanticCustomError, value: Any) -> ValidationError:
+    details = InitErrorDetails(type=error, loc=("kind",), input=value)
+    return ValidationError.from_exception_data("WindPrimitive", [details])
+
+
+def _validated(primitive: type[WindPrimitive], value: dict[str, Any], info: ValidationInfo) -> WindPrimitive:
+    try:
+        return primitive.model_validate(value, context=info.context)
+    except ValidationError:
+        raise
+    except Exception as error:  # a plugin's own validators may raise anything
+        raise ValueError(f"kind '{value['kind']}' failed on these values: {type(error).__name__}: {error}") from error
+
+
+Wind = Annotated[SerializeAsAny[WindPrimitive], WrapValidator(_of_its_kind)]
+"""A wind primitive of the class that its `kind` names; classes are asked for when a scene is read."""
+
+
+def _quality_form(value: Any) -> str:
+    return "numbers" if isinstance(value, dict | Quality) else "preset"
+
+
+class Scene(Declaration):
+    """A prairie: grass kinds, terrain, winds, camera, light and quality."""
+
+    tallgrass: Literal[1]
+    """Version of the scene format; always the first key."""
+
+    seed: int = Field(default=1, ge=0, le=2**31 - 1)
+    """Everything random in the scene comes from it."""
+
+    terrain: TerrainSource = TerrainSource(noise="flat")
+    """The ground that the grass stands on."""
+
+    grass: dict[str, GrassKind] = Field(min_length=1, max_length=4)
+    """Grass kinds by name."""
+
+    wind: list[Wind] = Field(default=[], max_length=200)
+    """Wind primitives."""
+
+    mixing: Mixing = "priority"
+    """How winds meet: the highest priority at a place cancels the others, or they are mixed by weight."""
+
+    camera: CameraSource = CameraSource()
+    """Where the scene is looked at from."""
+
+    light: Light = Light()
+    """Sun, sky and haze."""
+
+    quality: Annotated[
+        Annotated[PresetName, Tag("preset")] | Annotated[Quality, Tag("numbers")], Discriminator(_quality_form)
+    ] = "high"
+    """A preset, or its numbers."""
+
+    def numbers(self, preset: str | None = None) -> Quality:
+        """Return the numbers of `preset`, or else of the scene's own quality."""
+        chosen = preset or self.quality
+        return PRESETS[chosen] if isinstance(chosen, str) else chosen

@@ -1,0 +1,65 @@
+"""The terrain: what a scene declares of it, and the elevation map it becomes."""
+
+from typing import Literal
+
+from pydantic import Field, model_validator
+
+from ...components.declaration import Declaration, DeclarationError, Pair
+
+
+class TerrainSource(Declaration):
+    """An elevation map from a file, or one made from a named noise (paper, section 2.2).
+
+    It is centred on the origin; row 0 of the map is the far edge (-z), column 0 the left edge (-x).
+    """
+
+    heights: str | None = None
+    """Elevation map file, relative to the scene file: 16-bit grey .png, .r16 or .raw, .npy, or .tif (GeoTIFF too).
+
+    Cells longer than 2.5 m are divided by a smooth surface; a map wider than 10240 m is cut to its middle. What says
+    how noise looks, `seed` and `feature`, may stay beside it and has no effect."""
+
+    noise: Literal["flat", "rolling", "hills", "ridges"] | None = None
+    """A landscape made from noise instead of a file; without either, the ground is flat."""
+
+    seed: int = Field(default=0, ge=0, le=2**31 - 1)
+    """Seed of the noise."""
+
+    size: Pair | None = None
+    """Width (x) and depth (z) [m]: of a noise landscape, without it 200 by 200; of a file, whose middle it keeps,
+    without it all there is."""
+
+    feature: float | None = Field(default=None, ge=2.0, le=5000.0)
+    """Distance between neighbouring hills of a noise landscape [m]; without it 60 for rolling, 90 for hills, 160 for
+    ridges."""
+
+    cell: float = Field(default=1.0, ge=0.05, le=1000.0)
+    """Metres per cell; a GeoTIFF says so itself where the scene does not."""
+
+    scale: float | None = Field(default=None, ge=-100000.0, le=100000.0)
+    """Vertical scale [m]. For a map of unsigned integers the height of their whole range, without it 100; for floats
+    and signed integers, which are metres, a factor, without it 1; for noise the height between the lowest and the
+    highest ground, without it 7 for rolling, 14 for hills, 30 for ridges."""
+
+    offset: float = Field(default=0.0, ge=-20000.0, le=20000.0)
+    """Height added to every cell [m]."""
+
+    columns: int | None = Field(default=None, ge=2, le=8193)
+    """Columns of a headless .r16 or .raw file; without it the map is square."""
+
+    byte_order: Literal["little", "big"] = "little"
+    """Byte order of a headless .r16 or .raw file."""
+
+    flip: bool = False
+    """Whether the file's first row is the near edge (+z) instead of the far one."""
+
+    @model_validator(mode="after")
+    def _one_source(self) -> "TerrainSource":
+        if self.heights is not None and self.noise is not None:
+            raise DeclarationError("give either heights (a file) or noise, not both", "noise")
+        if self.size is not None and not all(5.0 <= side <= 10240.0 for side in self.size):
+            raise DeclarationError("size must be [width, depth] in metres, between 5 and 10240", "size")
+        finest = max(self.size or [200.0]) / 1024
+        if self.feature is not None and self.heights is None and self.feature < finest:
+            raise DeclarationError(f"feature must be at least {finest:.3g} m on ground this wide", "feature")
+        return self

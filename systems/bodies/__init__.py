@@ -1,0 +1,1 @@
+"""What flies over the prairie: how it flies, and how it is drawn."""

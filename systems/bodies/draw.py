@@ -1,0 +1,96 @@
+"""Drawing what flies over the prairie: opaque, with a soft border along the outline."""
+
+from collections.abc import Sequence
+from math import cos, sin
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.body import Body
+from ...engine.declared.light import Light
+from ...engine.gl.stream import Stream, attributes, release_all
+from ..frame.block import FrameBlock, joined
+from ..frame.light import daylight, display, linear
+from .saucer import borders, saucer
+
+PLACED = np.dtype([("middle", "3f4"), ("right", "3f4"), ("up", "3f4"), ("back", "3f4")])
+"""Where a body is [m], and its own axes in the world."""
+
+COLORS = {"metal": "#d4d6d0", "glass": "#24414a", "paint": "#c9502a"}
+"""The saucer's colours (sRGB): of its hull, of its dome and of its fin."""
+
+
+def placed(bodies: Sequence[Body], /) -> NDArray[np.void]:
+    """Return where bodies are and how they are turned, records of `PLACED`."""
+    rows = np.zeros(len(bodies), PLACED)
+    for row, body in zip(rows, bodies, strict=True):
+        right, up, back = axes(body)
+        row["middle"], row["right"], row["up"], row["back"] = body.place, right, up, back
+    return rows
+
+
+def axes(body: Body, /) -> NDArray[np.float64]:
+    """Return a body's right, up and back in the world, unit vectors, shape (3, 3)."""
+    c, s = cos(body.yaw), sin(body.yaw)
+    right, ahead, up = np.array([c, 0.0, s]), np.array([s, 0.0, -c]), np.array([0.0, 1.0, 0.0])
+    ahead, up = cos(body.nose) * ahead + sin(body.nose) * up, cos(body.nose) * up - sin(body.nose) * ahead
+    right, up = cos(body.bank) * right - sin(body.bank) * up, cos(body.bank) * up + sin(body.bank) * right
+    return np.stack([right, up, -ahead])
+
+
+class _Layer:
+    """A mesh with its program: the body itself, or the border along its outline."""
+
+    def __init__(
+        self, made: moderngl.Program, mesh: tuple[NDArray[np.void], NDArray[np.int32]], stream: Stream, light: Light
+    ) -> None:
+        self.program = made
+        for name, color in COLORS.items():
+            made[name] = tuple(display(linear(color) * daylight(light)))
+        self.buffers = [made.ctx.buffer(part) for part in mesh]
+        form, names = attributes(mesh[0].dtype)
+        contents = [(self.buffers[0], form, *names), stream.binding(made)]
+        self.array = made.ctx.vertex_array(made, contents, index_buffer=self.buffers[1])
+
+    def release(self) -> None:
+        release_all(self.array, *self.buffers, self.program)
+
+
+class BodyPainter:
+    """Draws saucers."""
+
+    def __init__(self, ctx: moderngl.Context, block: FrameBlock, light: Light) -> None:
+        self.stream = Stream(ctx, PLACED)
+        mesh = saucer()
+
+        def layer(mesh: tuple[NDArray[np.void], NDArray[np.int32]], defines: dict[str, str | int]) -> _Layer:
+            return _Layer(
+                joined(ctx, block, {}, "systems/bodies/body.vert", "systems/bodies/body.frag", defines),
+                mesh,
+                self.stream,
+                light,
+            )
+
+        self.solid, self.border = layer(mesh, {}), layer(borders(*mesh), {"BORDER": 1})
+
+    def write(self, bodies: Sequence[Body]) -> None:
+        """Send the bodies that are in the air."""
+        self.stream.write(placed(bodies))
+
+    def draw(self) -> int:
+        """Draw the bodies, opaque; return the number of draw calls."""
+        return self._draw(self.solid)
+
+    def draw_border(self) -> int:
+        """Draw their soft outlines over what is behind them; return the number of draw calls."""
+        return self._draw(self.border)
+
+    def _draw(self, layer: _Layer) -> int:
+        if self.stream.count:
+            layer.array.render(moderngl.TRIANGLES, instances=self.stream.count)
+        return int(self.stream.count > 0)
+
+    def release(self) -> None:
+        """Give everything back."""
+        release_all(self.solid, self.border, self.stream)

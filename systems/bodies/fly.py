@@ -1,0 +1,121 @@
+"""How a thing that hovers on its jet flies: at what height, how it leans, and where its jet meets the ground."""
+
+from collections.abc import Callable, Container
+from math import atan2, cos, hypot, inf, pi, sin, tan, tanh
+
+import numpy as np
+
+from ...components.body import Body
+from ...components.pose import Pose
+from ...components.wind import WindSource
+from ...engine.camera import Heights
+from ...engine.world import World
+from ..wind.blast import Blast
+
+Flat = tuple[float, float]
+"""A vector over the ground (x, z)."""
+
+Path = Callable[[float], Pose]
+"""Where something is on the ground and where it heads, at a time [s]."""
+
+HOVER = 2.0
+"""Height of a saucer's middle above the prairie [m]."""
+
+LOWEST = 1.0
+"""Least height of its middle above any ground under it [m]."""
+
+REACH = 3.0
+"""How far around the ground is levelled for it, so that it glides over bumps [m]."""
+
+GRAVITY = 9.81
+"""[m/s²]."""
+
+DRAG = 0.15
+"""How the air holds it back: deceleration for each speed [1/s]."""
+
+STEEPEST = 0.5
+"""The tilt that it comes near to and never reaches [rad]."""
+
+GLANCE = 0.3
+"""How far before and after an instant a path is looked at [s]."""
+
+_ANGLES = np.arange(8) * (pi / 4)
+_AROUND = np.column_stack([np.cos(_ANGLES), np.sin(_ANGLES)]) * REACH
+_UNDER = np.concatenate([np.zeros((1, 2)), 0.5 * _AROUND, _AROUND]).astype(np.float32)
+
+
+def carried(path: Path, time: float, height_at: Heights, /, *, height: float = HOVER) -> Body:
+    """Return the saucer that flies along a path, at one time [s] and at a height above the ground [m].
+
+    It leans as the path's velocity and acceleration ask for, taken from differences over `GLANCE`.
+    """
+    before, here, after = (path(time + shift) for shift in (-GLANCE, 0.0, GLANCE))
+    velocity = (after.x - before.x) / (2.0 * GLANCE), (after.z - before.z) / (2.0 * GLANCE)
+    gain = (after.x - 2.0 * here.x + before.x) / GLANCE**2, (after.z - 2.0 * here.z + before.z) / GLANCE**2
+    nose, bank = lean(velocity, gain, here.yaw)
+    return Body((here.x, level(here.x, here.z, height_at, height=height), here.z), here.yaw, nose, bank)
+
+
+def level(x: float, z: float, height_at: Heights, /, *, height: float = HOVER) -> float:
+    """Return how high something flies (y) [m] that keeps a height [m] above the ground around (x, z).
+
+    The ground is levelled over a disc of radius `REACH`; nothing under that disc comes nearer than `LOWEST`.
+    """
+    ground = height_at(np.array([x, z], np.float32) + _UNDER).astype(np.float64)
+    return max(float(ground.mean()) + height, float(ground.max()) + LOWEST)
+
+
+def lean(velocity: Flat, gain: Flat, yaw: float, /) -> tuple[float, float]:
+    """Return the nose and the bank [rad] of a saucer whose jet pushes it along.
+
+    `velocity` [m/s] and `gain`, the acceleration [m/s²], are along x and z. Its up leans the way in which it is
+    pushed, by up to `STEEPEST`.
+    """
+    push = gain[0] + DRAG * velocity[0], gain[1] + DRAG * velocity[1]
+    much = hypot(*push)
+    if much < 1e-9:
+        return 0.0, 0.0
+    tilt = STEEPEST * tanh(atan2(much, GRAVITY) / STEEPEST)
+    ahead = (sin(yaw) * push[0] - cos(yaw) * push[1]) / much
+    right = (cos(yaw) * push[0] + sin(yaw) * push[1]) / much
+    # Nose and bank are turned one after the other: these are the two whose up leans by `tilt` in that direction.
+    nose = -atan2(sin(tilt) * ahead, cos(tilt))
+    return nose, atan2(sin(tilt) * right, hypot(sin(tilt) * ahead, cos(tilt)))
+
+
+def foot(body: Body, height_at: Heights, /) -> Pose:
+    """Return where the jet of a body meets the ground, which heads as the body does.
+
+    The jet leaves it downwards along its own axis: it is displaced by the height times the tangent of the tilt.
+    """
+    x, y, z = body.place
+    height = y - float(height_at(np.array([[x, z]], np.float32))[0])
+    ahead, right = height * tan(body.nose), -height * tan(body.bank) / cos(body.nose)
+    c, s = cos(body.yaw), sin(body.yaw)
+    return Pose(x + s * ahead + c * right, z - c * ahead + s * right, body.yaw)
+
+
+def jet(blast: Blast, height_at: Heights, /, *, time: float) -> Pose:
+    """Return where the blast of the body that it comes from meets the ground at `time` [s], however that leans."""
+    body = carried(lambda moment: blast.pose(time=moment), time, height_at, height=blast.height)
+    return foot(body, height_at)
+
+
+def flying(world: World, height_at: Heights, /, *, time: float, without: Container[WindSource] = ()) -> list[Body]:
+    """Return what is in the air at `time` [s]: the bodies that entities have, and those that blasts say they come from.
+
+    A blast's body flies where the blast is, along its path or with the pose of its entity. `without` are left out.
+    """
+    own = dict(world.all(Body))
+    bodies = list(own.values())
+    for entity, source in world.all(WindSource):
+        blast = source.primitive
+        if entity in own or source in without or not isinstance(blast, Blast) or blast.body is None:
+            continue
+        if blast.start <= time < (inf if blast.stop is None else blast.stop):
+            bodies.append(carried(_path(blast, world.find(entity, Pose)), time, height_at, height=blast.height))
+    return bodies
+
+
+def _path(blast: Blast, pose: Pose | None) -> Path:
+    return (lambda time: blast.pose(time=time)) if pose is None else (lambda _: pose)

@@ -1,1 +1,0 @@
-"""Drawing: sky, ground, carpet, strips and blades, back to front."""

@@ -1,0 +1,35 @@
+"""What stands under the grass."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..engine.terrain.record import Density, Terrain
+
+Floats = NDArray[np.float32]
+Ints = NDArray[np.int32]
+
+_COS = np.array([1, 0, -1, 0], np.float32)
+
+_SIN = np.array([0, 1, 0, -1], np.float32)
+
+PRESENT = 1.0 / 255.0
+"""Density below which a kind is taken not to grow at all."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ground:
+    """What stands under the grass."""
+
+    terrain: Terrain
+    density: Density
+    patch: float
+    """Side of a patch [m]."""
+
+
+def turned(place: Floats, turn: Ints, /, *, patch: float) -> Floats:
+    """Return positions in a patch (..., 2) after quarter turns about its middle, +x towards +z."""
+    c, s = _COS[turn], _SIN[turn]
+    x, z = place[..., 0] - patch / 2, place[..., 1] - patch / 2
+    return np.stack([c * x - s * z + patch / 2, s * x + c * z + patch / 2], axis=-1).astype(np.float32)

@@ -1,0 +1,1 @@
+"""Growing: postures, response and blades of one kind of grass."""

@@ -1,0 +1,82 @@
+"""Where a bent blade is: the one rule that blades, strips and carpet share, in numpy as on the GPU."""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .record import Blades, Floats, Postures
+
+Doubles = NDArray[np.float64]
+
+
+def spine(blades: Blades, postures: Postures, message: ArrayLike, /, *, points: int) -> Floats:
+    """Return points along bent blades, from root to tip at even steps, in the patch [m], shape (n, points, 3).
+
+    `message` is the wind's, shape (n, 2) or (2,). Rest leans add to it by what it leaves over:
+    total = message + rest (1 - |message|); its norm is the posture index, never above 1, its direction the
+    bending direction. Shapes are looked up linearly in index and in the place along the blade.
+    """
+    index, direction = posture_of(blades.rest, message)
+    along, up = _look_up(postures, blades.variant, index, np.linspace(0.0, 1.0, points))
+    height = blades.height[:, None].astype(np.float64)
+    place = np.empty((*along.shape, 3))
+    place[:, :, 0] = blades.root[:, :1] + height * along * direction[:, :1]
+    place[:, :, 1] = height * up
+    place[:, :, 2] = blades.root[:, 1:] + height * along * direction[:, 1:]
+    return place.astype(np.float32)
+
+
+def posture_of(rest: ArrayLike, message: ArrayLike, /) -> tuple[Doubles, Doubles]:
+    """Return posture indices in [0, 1], shape (n,), and unit bending directions (x, z), shape (n, 2)."""
+    rest, message = np.asarray(rest, np.float64), np.asarray(message, np.float64)
+    left = np.maximum(1.0 - np.linalg.norm(message, axis=-1, keepdims=True), 0.0)
+    total = message + rest * left
+    index = np.linalg.norm(total, axis=-1)
+    still = index < 1e-9
+    direction = np.where(still[:, None], [1.0, 0.0], total / np.where(still, 1.0, index)[:, None])
+    return np.minimum(index, 1.0), direction
+
+
+def ribbon(
+    blades: Blades, postures: Postures, message: ArrayLike, /, *, points: int, taper: float
+) -> tuple[Floats, Floats]:
+    """Return the left and right edge of bent blades [m], each of shape (n, points, 3).
+
+    The half width at place t is width (1 - t)^taper / 2 along the fixed horizontal axis across the face.
+    """
+    centre = spine(blades, postures, message, points=points)
+    half = 0.5 * blades.width[:, None] * (1.0 - np.linspace(0.0, 1.0, points)[None]) ** taper
+    side = half[:, :, None] * across(blades)[:, None, :]
+    return (centre - side).astype(np.float32), (centre + side).astype(np.float32)
+
+
+def across(blades: Blades, /) -> Doubles:
+    """Return the width axis of each blade, horizontal and across its face, shape (n, 3)."""
+    facing = blades.facing.astype(np.float64)
+    return np.stack([-np.sin(facing), np.zeros_like(facing), np.cos(facing)], axis=1)
+
+
+def segment_normals(blades: Blades, centre: Floats, /) -> Doubles:
+    """Return the face normal of each segment of the blades along `centre`, shape (n, points - 1, 3).
+
+    An upright blade's normal is (cos facing, 0, sin facing).
+    """
+    tangent = np.diff(centre.astype(np.float64), axis=1)
+    normal = np.cross(tangent, across(blades)[:, None, :])
+    return np.asarray(normal / np.linalg.norm(normal, axis=2, keepdims=True))
+
+
+def _look_up(
+    postures: Postures, variant: NDArray[np.int32], index: Doubles, place: Doubles, /
+) -> tuple[Doubles, Doubles]:
+    """Return (along, up) of unit blades at indices (n,) and places (points,), each of shape (n, points)."""
+    rows, knots = postures.shape.shape[1:3]
+    row = (index + 1.0) * 0.5 * (rows - 1)
+    below = np.clip(row.astype(np.int64), 0, rows - 2)
+    knot = place * (knots - 1)
+    before = np.clip(knot.astype(np.int64), 0, knots - 2)
+    upper = (row - below)[:, None, None]
+    table = postures.shape
+    curve = table[variant, below] * (1.0 - upper) + table[variant, below + 1] * upper
+    later = (knot - before)[None, :, None]
+    point = curve[:, before] * (1.0 - later) + curve[:, before + 1] * later
+    return point[:, :, 0], point[:, :, 1]

@@ -1,0 +1,74 @@
+"""The blades of a patch: a few hundred, at random but evenly spread (paper, section 2.2)."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...engine.declared.grass import GrassKind
+from .record import Blades
+
+Doubles = NDArray[np.float64]
+
+_PLASTIC = 1.32471795724474602596
+"""Its powers make the sequence of points that stays evenly spread on the torus at every length."""
+
+_JITTER = 0.33
+_CLUMPING = 0.14
+_LEAST_LEAN = 0.05
+
+
+def grow_blades(kind: GrassKind, /, *, count: int, patch: float, variants: int, seed: int) -> Blades:
+    """Return the blades of one patch model, `patch` metres wide, from a seed.
+
+    Rows stand in order of `rank`: the first k of them are spread over the patch as evenly as all of them, so
+    that thinning out leaves no holes. Roots are even across the patch's edges too; heights and clumps vary
+    slowly from place to place, so that neighbours are alike.
+    """
+    random = np.random.default_rng([seed, 0x626C6164])
+    place = _spread(count, random)
+    clump = _clumps(place, random)
+    low, high = kind.height
+    blend = np.clip(0.75 * random.random(count) + 0.25 * (0.5 + 0.5 * clump), 0.0, 1.0)
+    lean = random.uniform(min(_LEAST_LEAN, kind.lean), kind.lean, count)
+    toward = random.uniform(-np.pi, np.pi, count)
+    rest = lean[:, None] * np.stack([np.cos(toward), np.sin(toward)], axis=1)
+    return Blades(
+        root=_inside(place * patch, patch),
+        height=np.clip(low + (high - low) * blend, low, high).astype(np.float32),
+        width=(kind.width * random.uniform(0.75, 1.15, count)).astype(np.float32),
+        facing=random.uniform(-np.pi, np.pi, count).astype(np.float32),
+        rest=rest.astype(np.float32),
+        variant=random.integers(0, variants, count, dtype=np.int32),
+        rank=(np.arange(count) / count).astype(np.float32),
+    )
+
+
+def _spread(count: int, random: np.random.Generator, /) -> Doubles:
+    """Return points on the unit torus, shape (count, 2), of which every first few are evenly spread."""
+    powers = np.array([1.0 / _PLASTIC, 1.0 / _PLASTIC**2])
+    place = np.arange(count)[:, None] * powers + random.random(2)
+    place += _JITTER / np.sqrt(count) * random.normal(0.0, 1.0, (count, 2))
+    place = place[:, ::-1] if random.random() < 0.5 else place
+    place = _draw_together(place, count, random)
+    return np.asarray(place % 1.0)
+
+
+def _draw_together(place: Doubles, count: int, random: np.random.Generator, /) -> Doubles:
+    """Return the points moved a little towards clump centres, each about eight blades strong."""
+    centres = random.random((max(count // 8, 1), 2))
+    away = centres[None] - place[:, None]
+    away -= np.round(away)
+    nearest = np.argmin((away**2).sum(axis=2), axis=1)
+    return np.asarray(place + _CLUMPING * away[np.arange(count), nearest])
+
+
+def _clumps(place: Doubles, random: np.random.Generator, /) -> Doubles:
+    """Return a value in [-1, 1] that varies slowly over the unit torus, at each point."""
+    waves = random.integers(-3, 4, (6, 2))
+    phase = random.uniform(0.0, 2.0 * np.pi, 6)
+    return np.asarray(np.clip(np.sin(2.0 * np.pi * place @ waves.T + phase).sum(axis=1) / 3.0, -1.0, 1.0))
+
+
+def _inside(root: Doubles, patch: float, /) -> NDArray[np.float32]:
+    """Return roots as float32 that stay in [0, patch) after rounding."""
+    below = np.nextafter(np.float32(patch), np.float32(0.0))
+    return np.clip(root.astype(np.float32), np.float32(0.0), below)

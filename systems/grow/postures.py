@@ -1,0 +1,86 @@
+"""Postures and response of a kind of grass, taken from the simulation of its blades (paper, sections 3.2, 3.3)."""
+
+import numpy as np
+
+from ...engine.declared.grass import GrassKind
+from .record import Postures
+from .simulate import LINKS, Chain, Doubles, build_chain, damp, lowest_swing, place_links, simulate
+
+NEAR_FLAT = np.radians(83.0)
+"""Angle of the tip from the vertical at posture index 1 [rad]."""
+
+_GOLDEN = 0.618
+_CALM, _STORM = 0.02, 400.0
+_STEPS, _LONGEST_STEP, _ANGLE_STEP = 1200, 0.1, 0.15
+_HEAVY = 0.7
+
+
+def grow_postures(kind: GrassKind, /, *, variants: int = 4, rows: int = 129, seed: int = 0) -> Postures:
+    """Return the shapes of a kind's blades by posture index (paper, section 3.2).
+
+    A wind that grows slowly from nothing bends simulated blades until their tips lie near flat: index 1. The
+    index is the angle of the line from root to tip, as a fraction of that; 0 is upright, and a negative index
+    is the mirror image. Variant 0 has even links; in the others the springs, and so each segment's
+    orientation, are random (section 2.2). Raises ValueError unless `rows` is odd and at least 3.
+    """
+    if rows < 3 or rows % 2 == 0:
+        raise ValueError(f"postures need an odd number of rows, at least 3, not {rows}")
+    chain = build_chain(kind, _random_factors(variants, seed))
+    angle, _ = bend_slowly(chain)
+    half = rows // 2
+    level = np.linspace(0.0, 1.0, half + 1)
+    rising = np.stack([_resample(angle[:, number], level) for number in range(variants)])
+    both = np.concatenate([-rising[:, :0:-1], rising], axis=1)
+    index = np.concatenate([-level[:0:-1], level])
+    return Postures(index=index.astype(np.float32), shape=place_links(both).astype(np.float32))
+
+
+def bend_slowly(chain: Chain, /) -> tuple[Doubles, Doubles]:
+    """Return the angles of blades under a slowly growing wind, and that wind's speed.
+
+    Shapes (steps, batch, links) and (steps, batch). It ends when every tip has been near flat. Joints are
+    damped heavily, so that no blade swings on its way.
+    """
+    batch, links = chain.stiffness.shape
+    heavy = damp(chain, ratio=_HEAVY)
+    step = min(_ANGLE_STEP / float(lowest_swing(chain)[0]), _LONGEST_STEP)
+    scale = np.sqrt(chain.stiffness[:, 0] / (links * chain.area.sum()))
+    wind = np.sqrt(np.geomspace(_CALM, _STORM, _STEPS))[:, None] * scale
+    angle, rate = np.zeros((1, batch, links)), np.zeros((batch, links))
+    for start in range(0, _STEPS, 100):
+        more, rate = simulate(heavy, angle[-1], rate, wind[start : start + 100], step=step)
+        angle = np.concatenate([angle, more[1:]])
+        if (angle[:, :, -1].max(axis=0) >= NEAR_FLAT).all():
+            break
+    return angle, np.concatenate([np.zeros((1, batch)), wind])[: angle.shape[0]]
+
+
+def chord_angle(angle: Doubles, /) -> Doubles:
+    """Return the angle of the line from root to tip from the vertical [rad], shape (...)."""
+    tip = place_links(angle)[..., -1, :]
+    return np.asarray(np.arctan2(tip[..., 0], tip[..., 1]))
+
+
+def flat_step(angle: Doubles, /) -> int:
+    """Return the first step at which a blade's tip is near flat, or else its flattest; angles (steps, links)."""
+    tip = angle[:, -1]
+    return int(np.argmax(tip >= NEAR_FLAT)) or int(np.argmax(tip))
+
+
+def _resample(angle: Doubles, level: Doubles, /) -> Doubles:
+    """Return angles at evenly spaced deflections, shape (levels, links), exact 0 at the first."""
+    angle = angle[: flat_step(angle) + 1]
+    chord = np.maximum.accumulate(chord_angle(angle))
+    fresh = np.concatenate([[True], np.diff(chord) > 1e-9])
+    wanted = level * chord[-1]
+    return np.stack([np.interp(wanted, chord[fresh], link) for link in angle[fresh].T], axis=1)
+
+
+def _random_factors(variants: int, seed: int, /) -> Doubles:
+    """Return stiffness factors of the joints, shape (variants, links): 1 in variant 0, random in the others."""
+    random = np.random.default_rng([seed, 0x706F7374])
+    along = np.linspace(-1.0, 1.0, LINKS)
+    slope = 1.7 * (2.0 * (_GOLDEN * np.arange(variants)[:, None] % 1.0) - 1.0)
+    factors = np.exp(slope * along + random.normal(0.0, 0.55, (variants, LINKS)))
+    factors[0] = 1.0
+    return factors

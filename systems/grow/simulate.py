@@ -1,0 +1,180 @@
+"""Physical simulation of blades in the plane: chains of rigid links with springs at their joints.
+
+Units inside a chain are the blade's own: its length, its mass and the acceleration of gravity are 1, so that
+time runs in units of sqrt(length / gravity). Angles are absolute, from the vertical [rad].
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...engine.declared.grass import GrassKind
+
+Doubles = NDArray[np.float64]
+
+GRAVITY = 9.81
+LINKS = 16
+
+_MARGIN = 1.2
+"""How far a common blade's stiffness lies above what it needs to carry itself, as a fraction of that."""
+
+_DAMPING_RATIO = 0.08
+"""Share of critical damping in the lowest swing of a common blade, without the air's."""
+
+_AREAL_DENSITY = 0.32
+"""Mass per area of a common blade half a metre long [kg/m2]."""
+
+_DRAG = 0.5 * 1.2 * 1.2
+"""Half the density of air times the drag coefficient of a flat plate [kg/m3]."""
+
+_SLENDERNESS = 0.022
+"""Width over length of a common blade."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Chain:
+    """A batch of blades, each a chain of links that stands clamped at its root."""
+
+    mass: Doubles
+    """Mass of each link, shape (links,)."""
+
+    area: Doubles
+    """Drag of each link per squared speed across it, shape (links,)."""
+
+    stiffness: Doubles
+    """Stiffness of the spring below each link, shape (batch, links)."""
+
+    damping: Doubles
+    """Viscous damping of the joint below each link, shape (batch, links)."""
+
+    second: float
+    """Units of time in a second."""
+
+
+def build_chain(kind: GrassKind, factors: Doubles, /) -> Chain:
+    """Return the chains of a kind of grass whose joints are stiffer by `factors`, shape (batch, links).
+
+    A plant grows as thick as its height demands: stiffness is measured from the least with which the blade
+    still carries its own weight, so every kind stands. Width decides how thick the blade is for its height.
+    """
+    links = factors.shape[1]
+    length = 0.5 * (kind.height[0] + kind.height[1])
+    thickness = np.sqrt(np.clip(kind.width / (length * _SLENDERNESS), 0.25, 4.0))
+    middle = (np.arange(links) + 0.5) / links
+    breadth = (1.0 - middle) ** kind.taper
+    mass = breadth / breadth.sum()
+    density = _AREAL_DENSITY * (length / 0.5) ** 1.5 * thickness
+    along = np.arange(links) / links
+    profile = ((1.0 - along) ** kind.taper * (1.0 - 0.7 * along) ** 2) * factors
+    profile /= _least_load(profile, mass)[:, None]
+    stiffness = profile * (1.0 + _MARGIN * kind.stiffness * thickness**2)
+    chain = Chain(mass, mass * _DRAG * length / density, stiffness, stiffness, float(np.sqrt(GRAVITY / length)))
+    return damp(chain, ratio=_DAMPING_RATIO * kind.damping)
+
+
+def damp(chain: Chain, /, *, ratio: float) -> Chain:
+    """Return the chains with joints that give the slowest swing this share of critical damping."""
+    return replace(chain, damping=chain.stiffness * (2.0 * ratio / lowest_swing(chain))[:, None])
+
+
+def place_links(angle: Doubles, /) -> Doubles:
+    """Return the control points (along, up) of blades of length 1, shape (..., links + 1, 2), from their angles."""
+    steps = np.stack([np.sin(angle), np.cos(angle)], axis=-1) / angle.shape[-1]
+    points = np.zeros((*angle.shape[:-1], angle.shape[-1] + 1, 2))
+    np.cumsum(steps, axis=-2, out=points[..., 1:, :])
+    return points
+
+
+def lowest_swing(chain: Chain, /) -> Doubles:
+    """Return the angular frequency of the slowest small swing about the upright blade, shape (batch,)."""
+    stiff = _joint_matrix(chain.stiffness) - np.diag(_load(chain.mass))
+    values = np.linalg.eigvals(np.linalg.solve(_inertia(chain.mass)[None], stiff))
+    return np.asarray(np.sqrt(values.real.min(axis=1)))
+
+
+def simulate(chain: Chain, angle: Doubles, rate: Doubles, wind: Doubles, /, *, step: float) -> tuple[Doubles, Doubles]:
+    """Return angles over time, shape (steps + 1, batch, links), and the last rates, shape (batch, links).
+
+    `angle` and `rate` are the start, shape (batch, links); `wind` is the horizontal wind's speed at each
+    step, shape (steps, batch). Linearly implicit in springs, damping and drag; all lengths stay exact, since
+    positions are sums of unit vectors.
+    """
+    motion = _Motion(chain)
+    history = np.empty((wind.shape[0] + 1, *angle.shape))
+    history[0] = angle
+    for number, speed in enumerate(wind):
+        change = motion.change(history[number], rate, speed, step)
+        history[number + 1] = history[number] + step * (rate + 0.5 * change)
+        rate = rate + change
+    return history, rate
+
+
+class _Motion:
+    """The equations of motion of a batch of chains, with what never changes worked out once."""
+
+    def __init__(self, chain: Chain) -> None:
+        links = chain.mass.shape[0]
+        self._area = chain.area
+        self._inertia = _inertia(chain.mass)
+        self._load = _load(chain.mass)
+        self._stiff = _joint_matrix(chain.stiffness)
+        self._damp = _joint_matrix(chain.damping)
+        self._reach = (np.tri(links, k=-1) + 0.5 * np.eye(links)) / links
+
+    def change(self, angle: Doubles, rate: Doubles, wind: Doubles, step: float, /) -> Doubles:
+        """Return the change of the rates over one step, shape (batch, links)."""
+        middle = angle + 0.5 * step * rate
+        sine, cosine = np.sin(middle), np.cos(middle)
+        even = cosine[:, :, None] * cosine[:, None, :] + sine[:, :, None] * sine[:, None, :]
+        odd = sine[:, :, None] * cosine[:, None, :] - cosine[:, :, None] * sine[:, None, :]
+        across = self._reach * even
+        speed = wind[:, None] * cosine - _times(across, rate)
+        push = self._area * np.abs(speed)
+        turned = np.swapaxes(across, 1, 2)
+        force = _times(turned, push * speed) + self._load * sine
+        force -= _times(self._inertia * odd, rate * rate)
+        force -= _times(self._stiff, middle) + _times(self._damp, rate)
+        brake = self._damp + (turned * (2.0 * push)[:, None, :]) @ across
+        left = self._inertia * even + (0.5 * step) * brake + (0.25 * step * step) * self._stiff
+        return np.asarray(np.linalg.solve(left, step * force[:, :, None])[:, :, 0])
+
+
+def _times(matrix: Doubles, vector: Doubles, /) -> Doubles:
+    return np.asarray((matrix @ vector[:, :, None])[:, :, 0])
+
+
+def _above(mass: Doubles, /) -> Doubles:
+    """Return the mass above each link, shape (links,)."""
+    return np.asarray(np.cumsum(mass[::-1])[::-1] - mass)
+
+
+def _inertia(mass: Doubles, /) -> Doubles:
+    """Return the inertia of straight rods: entry (i, j) goes with cos(angle i - angle j)."""
+    links = mass.shape[0]
+    later = np.maximum.outer(np.arange(links), np.arange(links))
+    inertia = (_above(mass) + 0.5 * mass)[later]
+    np.fill_diagonal(inertia, _above(mass) + mass / 3.0)
+    return np.asarray(inertia / links**2)
+
+
+def _load(mass: Doubles, /) -> Doubles:
+    """Return the torque of the weight on each link where it lies flat, shape (links,)."""
+    return np.asarray((_above(mass) + 0.5 * mass) / mass.shape[0])
+
+
+def _joint_matrix(joint: Doubles, /) -> Doubles:
+    """Return the matrices that turn angles into the torques of springs, shape (batch, links, links)."""
+    batch, links = joint.shape
+    matrix = np.zeros((batch, links, links))
+    here = np.arange(links)
+    matrix[:, here, here] = joint
+    matrix[:, here[:-1], here[:-1]] += joint[:, 1:]
+    matrix[:, here[1:], here[:-1]] = matrix[:, here[:-1], here[1:]] = -joint[:, 1:]
+    return matrix
+
+
+def _least_load(profile: Doubles, mass: Doubles, /) -> Doubles:
+    """Return the reciprocal of the least multiple of `profile` that carries the weight, shape (batch,)."""
+    values = np.linalg.eigvals(np.linalg.solve(_joint_matrix(profile), np.diag(_load(mass))[None]))
+    return np.asarray(1.0 / values.real.max(axis=1))

@@ -1,0 +1,1 @@
+"""3D: every blade a ribbon."""

@@ -1,0 +1,74 @@
+"""The pool of blades near enough to be 3D, and of their receivers."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...patches import NOWHERE
+
+Floats = NDArray[np.float32]
+
+BLADE = np.dtype(
+    [
+        ("root", "3f4"),
+        ("height", "f4"),
+        ("rest", "2f4"),
+        ("facing", "2f4"),
+        ("width", "f4"),
+        ("variant", "f4"),
+        ("kind", "f4"),
+    ]
+)
+"""What the graphics card is told of a blade: root [m], length [m], lean, face normal (x, z), width at the root [m],
+row of the posture table, and kind. The field names are the shader's attributes."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BladePool:
+    """The blades of all patches near enough to be 3D, one slot per patch.
+
+    Within a slot the blades of all kinds stand in one order, far to near.
+
+    Slots form a window that wraps round, as the rows of a `PatchTable` do.
+    """
+
+    side: int
+    """Patches along the window's side."""
+
+    blade: NDArray[np.void]
+    """Records of `BLADE`, shape (side * side, n)."""
+
+    present: NDArray[np.bool_]
+    """Whether the blade grows at its place's density, shape (side * side, n)."""
+
+    place: Floats
+    """Receivers' ground positions (x, z) [m], shape (side * side, n, 2)."""
+
+    message: Floats
+    """Receivers' messages, shape (side * side, n, 2)."""
+
+    stamp: NDArray[np.int32]
+    """Cell (i, j) and heading that each slot is planted for, shape (side * side, 3)."""
+
+    def kind(self, slots: NDArray[np.int64], /) -> NDArray[np.intp]:
+        """Return the kind that each receiver of some slots is of, shape (len(slots) * n,)."""
+        return self.blade["kind"][slots].reshape(-1).astype(np.intp)
+
+    @classmethod
+    def allocate(cls, side: int, blades: int) -> "BladePool":
+        """Return an empty pool for a window of `side` by `side` patches."""
+        return cls.allocate_slots(side * side, blades, side=side)
+
+    @classmethod
+    def allocate_slots(cls, slots: int, blades: int, *, side: int = 0) -> "BladePool":
+        """Return an empty pool of any number of slots, which need not form a window."""
+        shape = (slots, blades)
+        return cls(
+            side=side,
+            blade=np.zeros(shape, BLADE),
+            present=np.zeros(shape, np.bool_),
+            place=np.zeros((*shape, 2), np.float32),
+            message=np.zeros((*shape, 2), np.float32),
+            stamp=np.full((slots, 3), NOWHERE, np.int32),
+        )

@@ -1,0 +1,1 @@
+"""2D: a textured carpet on the terrain, and the ground under it."""

@@ -1,0 +1,213 @@
+"""Drawing the ground, and on it the 2D carpet: square tiles that grow coarser with distance."""
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ....engine.gl.stream import Stream, release_all
+from ....engine.terrain.record import Terrain
+from ...cull import inside_cone
+from ...frame.block import FrameBlock, by_kind, joined
+from ...grow.record import Growth
+
+TILE = np.dtype([("tile", "4f4")])
+GRID = 8
+"""Quads along a side of a tile."""
+
+RAISED = 0.59
+"""Height of the carpet, as a part of the grass's: where outlines against the sky stay in their place."""
+
+STRETCH = "5.0"
+"""How many times longer than wide a pixel's footprint on the carpet may be before it is blurred across."""
+
+FINE, COARSENESS = 1.25, 0.3
+"""Largest distance between grid points near the viewer: on cells of 1 m and more, and on the smallest cells [m]."""
+
+SPREAD = 7.0
+"""Distance at which a spacing gives way to the next, in tile sides: the farthest corner of a tile of twice the side
+that is split must lie inside it."""
+
+
+def ground_tiles(
+    terrain: Terrain, eye: tuple[float, float, float], cone: tuple[float, float], /, *, spacing: float
+) -> NDArray[np.void]:
+    """Return the tiles that cover what is seen of the terrain, records of `TILE`, far to near.
+
+    A tile of `GRID` quads is split in four while it is nearer than `SPREAD` sides of its quarters, down to
+    `spacing` [m] between grid points.
+    """
+    side = spacing * GRID
+    levels = max(0, int(np.ceil(np.log2(max(terrain.size) / side))))
+    side *= 2.0**levels
+    low = np.floor(np.asarray(terrain.origin) / side) * side
+    counts = np.ceil((np.asarray(terrain.origin) + terrain.size - low) / side).astype(int)
+    corners = low + side * np.stack(np.meshgrid(*map(np.arange, counts)), -1).reshape(-1, 2)
+    done: list[NDArray[np.float64]] = []
+    for level in range(levels, -1, -1):
+        corners = corners[_seen(corners, side, terrain, eye, cone)]
+        split = (_nearest(corners, side, eye) < SPREAD * side / 2) if level else np.zeros(len(corners), np.bool_)
+        kept = corners[~split]
+        done.append(np.column_stack([kept, np.full(len(kept), side / GRID), np.full(len(kept), SPREAD * side)]))
+        side /= 2.0
+        corners = (corners[split][:, None, :] + side * np.array([[0, 0], [1, 0], [0, 1], [1, 1]])).reshape(-1, 2)
+    rows = np.concatenate(done)
+    away = np.linalg.norm(rows[:, :2] + rows[:, 2:3] * (GRID / 2) - np.array([eye[0], eye[2]]), axis=1)
+    tiles = np.zeros(len(rows), TILE)
+    tiles["tile"] = rows[np.argsort(-away)]
+    return tiles
+
+
+def finest_spacing(terrain: Terrain, patch: float, /) -> float:
+    """Return the distance between grid points near the viewer [m], a whole fraction of a patch's side.
+
+    It is fine enough for the terrain's own cells, so that no root stands in the air or in the ground.
+    """
+    enough = min(FINE, max(FINE * terrain.cell, COARSENESS))
+    return float(patch / 2.0 ** max(1, int(np.ceil(np.log2(patch / enough)))))
+
+
+def within(tiles: NDArray[np.void], centre: NDArray[np.int32], /, *, patch: float, reach: int) -> NDArray[np.bool_]:
+    """Return which tiles (n,) lie wholly within the discrete distance `reach` of the viewer's cell, shape (n,)."""
+    low, high = (centre - reach) * patch, (centre + reach + 1) * patch
+    corner, side = tiles["tile"][:, :2], tiles["tile"][:, 2:3] * GRID
+    inside: NDArray[np.bool_] = ((corner >= low - 1e-3) & (corner + side <= high + 1e-3)).all(axis=1)
+    return inside
+
+
+def _nearest(corners: NDArray[np.float64], side: float, eye: tuple[float, float, float]) -> NDArray[np.float64]:
+    here = np.array([eye[0], eye[2]])
+    away: NDArray[np.float64] = np.linalg.norm(here - np.clip(here, corners, corners + side), axis=1)
+    return away
+
+
+def _seen(
+    corners: NDArray[np.float64],
+    side: float,
+    terrain: Terrain,
+    eye: tuple[float, float, float],
+    cone: tuple[float, float],
+) -> NDArray[np.bool_]:
+    edge = np.asarray(terrain.origin)
+    over = ((corners < edge + terrain.size) & (corners + side > edge)).all(axis=1)
+    middle = (corners + side / 2).astype(np.float32)
+    return over & inside_cone(middle, apex=(eye[0], eye[2]), cone=cone, radius=side * 0.75)
+
+
+def leaf_area(growth: Growth, patch: float, /) -> float:
+    """Return the area of a kind's blades seen from the side, of the ground's area; `patch` is a patch's side [m]."""
+    blades = growth.models[0].blades
+    return float((blades.height * blades.width).sum() / (np.pi * patch * patch))
+
+
+def _grid() -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+    line = np.arange(GRID + 1)
+    corners = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2).astype(np.float32)
+    first = (np.arange(GRID)[:, None] * (GRID + 1) + np.arange(GRID)).reshape(-1, 1)
+    quad = np.array([0, GRID + 1, 1, 1, GRID + 1, GRID + 2])
+    return corners, (first + quad).astype(np.int32)
+
+
+class _Layer:
+    """A program that draws tiles of the ground, with the tiles it draws."""
+
+    def __init__(
+        self, made: moderngl.Program, stream: Stream, corners: moderngl.Buffer, indices: moderngl.Buffer
+    ) -> None:
+        self.program = made
+        self.stream = stream
+        contents = [(corners, "2f", "corner"), stream.binding(made)]
+        self.array = made.ctx.vertex_array(made, contents, index_buffer=indices)
+
+    def draw(self) -> int:
+        """Draw the tiles; return the number of draw calls."""
+        if self.stream.count:
+            self.array.render(moderngl.TRIANGLES, instances=self.stream.count)
+        return int(self.stream.count > 0)
+
+
+class GroundPainter:
+    """Draws ground and carpet."""
+
+    def __init__(
+        self,
+        ctx: moderngl.Context,
+        block: FrameBlock,
+        growths: list[Growth],
+        units: dict[str, int],
+        *,
+        side: int,
+        seed: int,
+        patch: float,
+    ) -> None:
+        self.growths = growths
+        self.shares = ctx.texture((side, side), 1, alignment=1)
+        self.shares.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        self.air = ctx.texture((side, side), 2, dtype="f4")
+        self.units = units
+        corners, indices = _grid()
+        self.grid = ctx.buffer(corners), ctx.buffer(indices)
+        self.streams = Stream(ctx, TILE), Stream(ctx, TILE)
+        slopes = growths[0].models[0].carpet.slope
+        laid: dict[str, str | int] = {"CARPET": 1, "STRETCH": STRETCH, "SLOPES": len(slopes), "KINDS": len(growths)}
+
+        def layer(defines: dict[str, str | int], stream: Stream) -> _Layer:
+            return _Layer(
+                joined(
+                    ctx, block, units, "systems/show/carpet/ground.vert", "systems/show/carpet/ground.frag", defines
+                ),
+                stream,
+                *self.grid,
+            )
+
+        self.bare = layer({}, self.streams[0])
+        self.under = layer({**laid, "UNDER": 1}, self.streams[1])
+        self.carpet = layer(laid, self.streams[1])
+        images = [len(growth.models) * len(slopes) * 4 for growth in growths]
+        self.carpet.program["slopes"] = slopes.tolist()
+        self.carpet.program["first"] = by_kind([sum(images[:index]) for index in range(len(images))])
+        self.carpet.program["stock"] = (len(growths[0].models), seed)
+        self._tell("leaf", by_kind([leaf_area(growth, patch) for growth in growths]))
+        self.raise_carpet(RAISED)
+
+    def _tell(self, name: str, value: object) -> None:
+        for layer in (self.under, self.carpet):
+            layer.program[name] = value
+
+    def write(self, tiles: NDArray[np.void], laid: NDArray[np.bool_]) -> None:
+        """Send the tiles (n,), and on which of them carpet may lie."""
+        for stream, chosen in zip(self.streams, (~laid, laid), strict=True):
+            stream.write(tiles[chosen])
+
+    def raise_carpet(self, part: float) -> None:
+        """Lay the carpet at this part of the height of the grass."""
+        self._tell("raised", by_kind([part * growth.models[0].carpet.height for growth in self.growths]))
+
+    def blow(self, message: NDArray[np.float32], seen: NDArray[np.bool_]) -> None:
+        """Send the wind's messages on the patch table's rows (rows, 2); their mean is of those `seen`.
+
+        The carpet's light follows them, though it does not move.
+        """
+        self.air.write(message)
+        mean = message[seen].mean(axis=0) if seen.any() else (0.0, 0.0)
+        self.carpet.program["mean_air"] = (float(mean[0]), float(mean[1]))
+
+    def write_shares(self, shares: NDArray[np.float32], centre: NDArray[np.int32]) -> None:
+        """Send how much the carpet shows on each row of the patch table (rows,) around the viewer's cell."""
+        self.shares.write(np.round(shares * 255.0).astype(np.uint8))
+        self._tell("window", (int(centre[0]), int(centre[1]), self.shares.width // 2))
+
+    def draw_opaque(self) -> int:
+        """Draw the bare ground, and what lies under the carpet; return the number of draw calls."""
+        self.shares.use(self.units["shares"])
+        self.air.use(self.units["air"])
+        return self.bare.draw() + self.under.draw()
+
+    def draw_carpet(self) -> int:
+        """Draw the carpet, whose outlines let through what is behind them; return the number of draw calls."""
+        return self.carpet.draw()
+
+    def release(self) -> None:
+        """Give everything back."""
+        layers = (self.bare, self.under, self.carpet)
+        release_all(*(layer.array for layer in layers), *(layer.program for layer in layers))
+        release_all(*self.streams, *self.grid, self.shares, self.air)

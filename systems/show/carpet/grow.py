@@ -1,0 +1,103 @@
+"""The carpet: images of an endless field of a patch model from several viewing angles (paper, section 2.2)."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...grow.bend import Doubles, ribbon, segment_normals, spine
+from ...grow.raster import Fragments, interpolate, rasterise, ribbon_triangles
+from ...grow.record import Blades, Bytes, Carpet, Postures
+from ..strips.grow import canopy_height
+
+SLOPES = (0.02, 0.06, 0.2, 0.6, 2.0)
+"""Tangents of the viewing elevations."""
+
+_SEGMENTS = 8
+_SAMPLES_PER_WIDTH = 5.0
+_HEADINGS = np.array([[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]])
+
+
+def grow_carpet(
+    blades: Blades,
+    postures: Postures,
+    /,
+    *,
+    patch: float,
+    texels: int,
+    taper: float,
+    slopes: tuple[float, ...] = SLOPES,
+    height: float | None = None,
+) -> Carpet:
+    """Return images of the endless field of a patch model's blades at rest, `texels` wide and high.
+
+    A ray that travels along a heading h and falls by `slope` meets a point at (x, z) and height y where it
+    goes through the plane at mid-height o at (x, z) + h (y - o) / slope; of all such points it meets the
+    highest first. Blades reach over the patch's edge into the next one, which is the same patch again. Face
+    normals are turned to the viewer. `height` is the canopy's [m]; without it, the highest tip's.
+    """
+    left, right = (
+        edge.astype(np.float64) for edge in ribbon(blades, postures, (0.0, 0.0), points=_SEGMENTS + 1, taper=taper)
+    )
+    centre = spine(blades, postures, (0.0, 0.0), points=_SEGMENTS + 1)
+    height = canopy_height(centre, 0.01) if height is None else height
+    width = float(blades.width.mean())
+    field = _Field(ribbon_triangles(left, right), segment_normals(blades, centre), width, patch, height, texels)
+    images = [[field.draw(heading, slope) for heading in _HEADINGS] for slope in slopes]
+    return Carpet(
+        slope=np.asarray(slopes, np.float32),
+        texels=np.stack([np.stack(row) for row in images]),
+        height=height,
+        offset=0.5 * height,
+    )
+
+
+class _Field:
+    """The triangles of a patch's blades, and how to draw the endless field that repeats them."""
+
+    def __init__(
+        self, ribbons: Doubles, normals: Doubles, width: float, patch: float, height: float, texels: int, /
+    ) -> None:
+        self._fine = int(np.clip(np.ceil(_SAMPLES_PER_WIDTH * patch / texels / width), 6, 64))
+        self._ribbons, self._patch, self._height, self._texels = ribbons, patch, height, texels
+        self._normals = np.repeat(normals.reshape(-1, 3), 2, axis=0)
+        place = np.linspace(0.0, 1.0, _SEGMENTS + 1)
+        ends = np.broadcast_to(place[None, :, None], (normals.shape[0], _SEGMENTS + 1, 1))
+        self._place = ribbon_triangles(ends, ends)[:, :, 0]
+
+    def draw(self, heading: NDArray[np.float64], slope: float, /) -> Bytes:
+        """Return one image, shape (texels, texels, 4): rows along z, columns along x."""
+        rows, columns = self._texels * self._fine, self._columns(slope)
+        ground = self._ribbons[:, :, ::2] + heading * ((self._ribbons[:, :, 1:2] - 0.5 * self._height) / slope)
+        turned = heading[0] == 0.0
+        along, across = (1, 0) if turned else (0, 1)
+        corners = np.stack([ground[:, :, along] * columns, ground[:, :, across] * rows], axis=2) / self._patch
+        seen = rasterise(corners, self._ribbons[:, :, 1], shape=(rows, columns), wrap=True)
+        values = self._meaning(corners, seen, heading, slope)
+        dense = np.zeros((4, rows * columns))
+        dense[:, seen.sample] = values
+        image = _average(dense.reshape(4, rows, columns), self._texels)
+        image = image.transpose(2, 1, 0) if turned else image.transpose(1, 2, 0)
+        return np.ascontiguousarray(np.rint(image * 255.0).astype(np.uint8))
+
+    def _columns(self, slope: float, /) -> int:
+        """Return the samples along the view: fewer than texels where every blade is drawn out far."""
+        drawn_out = slope * self._patch / self._height
+        octaves = int(np.clip(np.round(np.log2(2.0 * drawn_out)), -2, 2))
+        return max(int(self._texels * 2.0**octaves), 1)
+
+    def _meaning(self, corners: Doubles, seen: Fragments, heading: NDArray[np.float64], slope: float, /) -> Doubles:
+        """Return place along the blade, height, normal along the view, and 1 at each sample, shape (4, f)."""
+        normal = self._normals[seen.triangle]
+        back = -(normal[:, ::2] @ heading)
+        toward = np.where(back + slope * normal[:, 1] < 0.0, -1.0, 1.0)
+        place = interpolate(corners, self._place, seen)
+        height = interpolate(corners, self._ribbons[:, :, 1], seen) / self._height
+        return np.stack([place, np.clip(height, 0.0, 1.0), 0.5 + 0.5 * back * toward, np.ones_like(place)])
+
+
+def _average(dense: Doubles, texels: int, /) -> Doubles:
+    """Return the means of samples (4, rows, columns) over each texel, shape (4, texels, texels)."""
+    _, rows, columns = dense.shape
+    dense = dense.reshape(4, texels, rows // texels, columns).mean(axis=2)
+    if columns < texels:
+        return dense[:, :, np.arange(texels) * columns // texels]
+    return np.asarray(dense.reshape(4, texels, texels, columns // texels).mean(axis=3))

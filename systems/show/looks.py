@@ -1,0 +1,132 @@
+"""Transitions: what a patch looks like on its way from one representation to another (paper, section 4)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .transitions import Transitions
+
+Floats = NDArray[np.float32]
+
+ARRIVED = 0.95
+"""Part of a change from blades to strips after which the blades are in their painted places."""
+
+GENTLY = 1.6
+"""Power of the way that they have gone then: they set off slowly, and hurry when little of them is left to see."""
+
+NEARLY = 0.35
+"""Part of it after which they are handed over to the strips, as they come near."""
+
+OVERLAP = 0.35
+"""How much more than in a plain cross-fade both show half-way through the handing over. They cover the same place: with
+less the ground would shine through, with more edges would swell."""
+
+BORDER = 4.0
+"""Over how many patches the strips give way to the carpet."""
+
+GROWN = 0.6
+"""Part of a change from carpet to strips after which the strips stand at their full height."""
+
+SINKS = 0.4
+"""Part of it after which the carpet begins to sink and fade."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Looks:
+    """How each patch of the table shows, each of shape (rows,)."""
+
+    blades: Floats
+    """How much blades cover of what they could, 0 where none are drawn."""
+
+    morph: Floats
+    """How far blades have moved towards their painted places."""
+
+    handed: Floats
+    """How far the blades have been handed over to the strips."""
+
+    strips: Floats
+    """How much strips cover of what they could, 0 where none are wanted."""
+
+    growth: Floats
+    """Height of the strips, as a part of their full height."""
+
+    carpet: Floats
+    """How much the carpet shows."""
+
+
+def smooth(part: Floats, /) -> Floats:
+    """Return a step from 0 to 1 that starts and ends gently, where `part` goes from 0 to 1."""
+    x = np.clip(part, np.float32(0.0), np.float32(1.0))
+    return np.asarray(x * x * (np.float32(3.0) - np.float32(2.0) * x))
+
+
+def kept_near(away: Floats, /, *, reach: int) -> Floats:
+    """Return how much of the strips the distance leaves, from 1 to 0 over their outermost `BORDER` patches.
+
+    `away` is the patches' distance from the viewer [patch sides]. So no line shows where the strips end, and a patch
+    that changes between strips and carpet far away has next to nothing to change.
+    """
+    kept: Floats = np.clip((reach + 0.5 - away) / BORDER, 0.0, 1.0).astype(np.float32)
+    return kept
+
+
+def looks(weight: Floats, kept: Floats, /, *, transitions: Transitions) -> Looks:
+    """Return how each patch shows whose representations have these weights, (3, rows); `kept` is (rows,)."""
+    if not transitions.gradual:
+        kept = np.ones_like(kept)
+    blades, strips, carpet = weight
+    both = (blades > 0.0) & (strips > 0.0)
+    covers, growth, laid = _grown(np.where(carpet > 0.0, kept * strips, kept), transitions)
+    shown, morph, handed = _moved(blades, strips, transitions)
+    if not transitions.morph:
+        covers = np.where(both, covers * _early(strips, transitions), covers)
+    lies = np.where(strips > 0.0, np.where(both, laid * strips, laid), carpet)
+    return Looks(shown, morph, handed, np.where(strips > 0.0, covers, np.float32(0.0)), growth, lies)
+
+
+def _moved(blades: Floats, strips: Floats, transitions: Transitions) -> tuple[Floats, Floats, Floats]:
+    """Return how much blades cover, how far they have moved, and how much of them has been handed over."""
+    both = (blades > 0.0) & (strips > 0.0)
+    if not transitions.morph:
+        gone = np.where(strips > 0.0, np.float32(1.0), np.float32(0.0))
+        return _early(blades, transitions), np.zeros_like(blades), gone
+    way = np.minimum(strips / np.float32(ARRIVED), np.float32(1.0)) ** np.float32(GENTLY)
+    morph = np.where(both, way, np.float32(0.0))
+    handed = np.clip((strips - np.float32(NEARLY)) / np.float32(1.0 - NEARLY), 0.0, 1.0).astype(np.float32)
+    shown = np.where(both, np.float32(1.0), _early(blades, transitions))
+    return shown, morph, np.where(both, handed, np.where(strips > 0.0, np.float32(1.0), np.float32(0.0)))
+
+
+def _early(weight: Floats, transitions: Transitions) -> Floats:
+    """Return how much a representation shows that fades in while the other is still there, and out after it has come.
+
+    So no ground shows through the change.
+    """
+    if not transitions.fade:
+        return (weight >= np.float32(0.5)).astype(np.float32)
+    early: Floats = np.minimum(weight * np.float32(2.0), np.float32(1.0))
+    return early
+
+
+def _grown(part: Floats, transitions: Transitions) -> tuple[Floats, Floats, Floats]:
+    """Return how much strips cover, how high they stand, and how much carpet there is, on the way from it to them."""
+    whole = np.ones_like(part)
+    if transitions.growth:
+        height = smooth(part / np.float32(GROWN))
+        sunk = smooth((part - np.float32(SINKS)) / np.float32(1.0 - SINKS))
+        return (part > 0.0).astype(np.float32), height, whole - sunk
+    if transitions.fade:
+        return part, whole, whole - part
+    switched = (part >= np.float32(0.5)).astype(np.float32)
+    return switched, whole, whole - switched
+
+
+def handed_over(handed: Floats, /, *, fade: bool) -> tuple[Floats, Floats]:
+    """Return how much blades show, and the strips that they lie on, while they are handed over."""
+    if not fade:
+        painted = (handed >= np.float32(0.5)).astype(np.float32)
+        return np.float32(1.0) - painted, painted
+    one = np.float32(1.0)
+    more = np.float32(OVERLAP) * handed * (one - handed)
+    return np.minimum(one - handed + more, one), np.minimum(handed + more, one)

@@ -1,0 +1,1 @@
+"""Blades on their way between their own places and their painted places."""

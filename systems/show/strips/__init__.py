@@ -1,0 +1,1 @@
+"""2.5D: vertical strips with the blades painted on them."""

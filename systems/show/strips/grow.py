@@ -1,0 +1,143 @@
+"""Vertical strips: images of the blades between two planes, in both orientations (paper, section 2.2)."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...grow.bend import Doubles, ribbon, spine
+from ...grow.raster import Fragments, interpolate, rasterise, ribbon_triangles
+from ...grow.record import Blades, Bytes, Floats, Postures, Strips
+
+_SEGMENTS = 12
+_DILATIONS = 3
+
+
+def grow_strips(
+    blades: Blades,
+    postures: Postures,
+    /,
+    *,
+    patch: float,
+    strips: int,
+    texel: float,
+    taper: float,
+    margin: float,
+    height: float | None = None,
+) -> Strips:
+    """Return the strips of a patch model, drawn from its blades at rest.
+
+    A strip shows the blades whose roots lie in its slice, along the slice's normal. Where they cross, those of lower
+    rank lie in front: the strip is flat anyway, and a blade that stays where its kind grows thinly must not have been
+    hidden by one that goes. Face normals are the blades' own, whichever side is seen: light is linear in them, so that
+    the mean of many is right. The texture reaches from -`margin` to `patch` + `margin`, and from the ground to
+    `height` [m] (without it, over the highest tip); its texels are square but for rounding, `texel` metres wide at
+    most. Where nothing is painted, ranks are those of what is painted nearby, or else 255.
+    """
+    centre = spine(blades, postures, (0.0, 0.0), points=postures.shape.shape[2])
+    height = canopy_height(centre, texel) if height is None else height
+    size = _count(height, texel), _count(patch + 2.0 * margin, texel)
+    shared = _Sheet(blades, postures, strips=strips, patch=patch, margin=margin, height=height, size=size, taper=taper)
+    images = [shared.draw(orientation) for orientation in (0, 1)]
+    return Strips(
+        plane=((np.arange(strips) + 0.5) * (patch / strips)).astype(np.float32),
+        texels=np.stack([texels for texels, _ in images]),
+        rank=np.stack([rank for _, rank in images]),
+        height=height,
+        margin=margin,
+        slice=np.stack([shared.slice(orientation) for orientation in (0, 1)]),
+        targets=paint_targets(centre, patch=patch, margin=margin, height=height),
+    )
+
+
+def paint_targets(centre: Floats, /, *, patch: float, margin: float, height: float) -> Floats:
+    """Return texture coordinates of points of blades, (n, points, 3), on the strips, shape (2, n, points, 2)."""
+    ground = (centre[:, :, ::2].astype(np.float64) + margin) / (patch + 2.0 * margin)
+    up = centre[:, :, 1].astype(np.float64) / height
+    return np.stack([np.stack([ground[:, :, k], up], axis=2) for k in (0, 1)]).astype(np.float32)
+
+
+def canopy_height(centre: Floats, texel: float, /) -> float:
+    """Return the height of the highest tip, rounded up to a texel [m]."""
+    return float(np.ceil(np.float64(centre[:, :, 1].max()) / texel + 1e-6) * texel)
+
+
+def _count(length: float, texel: float, /) -> int:
+    return max(int(np.ceil(length / texel - 1e-6)), 1)
+
+
+class _Sheet:
+    """One orientation's strips as one image, strip above strip, and the blades to draw on it."""
+
+    def __init__(
+        self,
+        blades: Blades,
+        postures: Postures,
+        /,
+        *,
+        strips: int,
+        patch: float,
+        margin: float,
+        height: float,
+        size: tuple[int, int],
+        taper: float,
+    ) -> None:
+        self._blades, self._strips, self._size = blades, strips, size
+        self._patch, self._margin, self._height = patch, margin, height
+        left, right = ribbon(blades, postures, (0.0, 0.0), points=_SEGMENTS + 1, taper=taper)
+        self._ribbons = ribbon_triangles(left.astype(np.float64), right.astype(np.float64))
+        self._fine = int(np.clip(np.ceil(4.0 * height / size[0] / float(blades.width.mean())), 4, 10))
+
+    def slice(self, orientation: int, /) -> NDArray[np.int32]:
+        """Return the strip that each blade is painted on, shape (n,)."""
+        depth = self._blades.root[:, 1 - orientation].astype(np.float64)
+        return np.clip(depth / self._patch * self._strips, 0, self._strips - 1).astype(np.int32)
+
+    def draw(self, orientation: int, /) -> tuple[Bytes, Bytes]:
+        """Return the texels, shape (strips, h, w, 4), and ranks, shape (strips, h, w), of one orientation."""
+        h, w = self._size
+        fine = self._fine
+        span = 2 * _SEGMENTS
+        along = 2 * orientation
+        corners = np.empty((*self._ribbons.shape[:2], 2))
+        corners[:, :, 0] = (self._ribbons[:, :, along] + self._margin) * (w * fine / (self._patch + 2.0 * self._margin))
+        corners[:, :, 1] = np.minimum(self._ribbons[:, :, 1] / self._height, 1.0) * (h * fine)
+        corners[:, :, 1] += np.repeat(self.slice(orientation), span)[:, None] * float(h * fine)
+        shape = self._strips * h * fine, w * fine
+        front = np.repeat(-self._blades.rank.astype(np.float64), span)[:, None].repeat(3, axis=1)
+        seen = rasterise(corners, front, shape=shape)
+        values = self._meaning(corners, seen)
+        texel = (seen.sample // shape[1] // fine) * w + seen.sample % shape[1] // fine
+        sums = [np.bincount(texel, weights=value, minlength=self._strips * h * w) for value in values]
+        covered = sums[-1]
+        texels = np.stack([*sums[:-2], covered], axis=1) * (255.0 / fine**2)
+        rank = fill_ranks((sums[-2] / np.maximum(covered, 1.0)).reshape(-1, h, w), (covered > 0).reshape(-1, h, w))
+        return np.rint(texels).astype(np.uint8).reshape(-1, h, w, 4), rank
+
+    def _meaning(self, corners: Doubles, seen: Fragments, /) -> list[Doubles]:
+        """Return at each sample: place along the blade, normal x and z, rank, and 1."""
+        count = self._blades.root.shape[0]
+        place = np.linspace(0.0, 1.0, _SEGMENTS + 1)
+        ends = np.broadcast_to(place[None, :, None], (count, _SEGMENTS + 1, 1))
+        along = interpolate(corners, ribbon_triangles(ends, ends)[:, :, 0], seen)
+        segment = seen.triangle // 2
+        blade = segment // _SEGMENTS
+        facing, rank = self._blades.facing[blade].astype(np.float64), self._blades.rank[blade].astype(np.float64)
+        return [along, 0.5 + 0.5 * np.cos(facing), 0.5 + 0.5 * np.sin(facing), rank, np.ones_like(along)]
+
+
+def fill_ranks(rank: Doubles, covered: NDArray[np.bool_], /) -> Bytes:
+    """Return ranks as bytes, spread some texels beyond what is covered; shape (strips, h, w)."""
+    value, weight = np.where(covered, rank, 0.0), covered.astype(np.float64)
+    for _ in range(_DILATIONS):
+        near, count = _neighbours(value), _neighbours(weight)
+        fresh = (weight == 0.0) & (count > 0.0)
+        value = np.where(fresh, near / np.maximum(count, 1.0), value)
+        weight = np.where(fresh, 1.0, weight)
+    return np.where(weight > 0.0, np.rint(np.clip(value, 0.0, 1.0) * 255.0), 255.0).astype(np.uint8)
+
+
+def _neighbours(value: Doubles, /) -> Doubles:
+    """Return the sum of each texel and its eight neighbours."""
+    rows = np.pad(value, ((0, 0), (1, 1), (0, 0)))
+    rows = rows[:, :-2] + rows[:, 1:-1] + rows[:, 2:]
+    columns = np.pad(rows, ((0, 0), (0, 0), (1, 1)))
+    return np.asarray(columns[:, :, :-2] + columns[:, :, 1:-1] + columns[:, :, 2:])

@@ -1,0 +1,65 @@
+"""Sub-levels of strips: the ring that a patch is in, and which way its strips run."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...field import Field
+from ...lod import SLACK
+
+Floats = NDArray[np.float32]
+Ints = NDArray[np.int32]
+Levels = NDArray[np.int8]
+Rows = NDArray[np.int64]
+
+TIGHTER = 1.15
+"""How much steeper than needed a patch must be seen for a finer ring to be kept: the slack of slopes."""
+
+
+def strip_ring(
+    distance: Ints,
+    slope: Floats,
+    current: Levels,
+    limits: Ints,
+    spacing: Floats,
+    /,
+    *,
+    height: float,
+    slack: int = SLACK,
+) -> Levels:
+    """Return the ring of each 2.5D patch (n,): by discrete distance, but finer where it is seen from above.
+
+    A line of sight shall cross at least three strips on its way through grass of this `height` [m], or they show as
+    rows on hillsides that face the viewer. `spacing` is the distance between each ring's strips [m]. A finer ring is
+    kept for `slack` patches longer.
+    """
+
+    def ring(away: Ints, steep: Floats) -> NDArray[np.int64]:
+        widest = height / (3.0 * np.maximum(steep, 1e-3))
+        by_slope = np.searchsorted(spacing, widest, side="right") - 1
+        return np.clip(np.minimum(np.searchsorted(limits, away), by_slope), 0, len(spacing) - 1)
+
+    coarse = ring(distance, slope)
+    fine = ring(distance - slack, slope * np.float32(TIGHTER if slack else 1.0))
+    return np.where(current < 0, coarse, np.clip(current, fine, coarse)).astype(np.int8)
+
+
+def strips_along(cell: Ints, centre: Ints, current: NDArray[np.integer], /) -> Levels:
+    """Return the axis that each cell's strips run along, so that none is edge-on (paper, section 2.1): 0 is x.
+
+    Near the diagonals, where either axis will do, the `current` one stays; -1 is none.
+    """
+    apart = np.abs(cell - centre)
+    across, ahead = apart[..., 0], apart[..., 1]
+    due = across > ahead
+    either = 4 * np.maximum(across, ahead) <= 5 * np.minimum(across, ahead)
+    return np.where(either & (current >= 0), current, due).astype(np.int8)
+
+
+def viewing_slope(field: Field, rows: Rows, /) -> Floats:
+    """Return the tangent of the angle between the line of sight and the ground on each patch, shape (n,)."""
+    table, eye, patch = field.table, field.sight.eye, field.quality.patch
+    away = (table.cell[rows] + np.float32(0.5)) * np.float32(patch) - np.array([eye[0], eye[2]], np.float32)
+    reach = np.maximum(np.hypot(away[:, 0], away[:, 1]), np.float32(0.5 * patch))
+    rise = np.einsum("ij,ij->i", table.slope[rows], away)
+    slope: Floats = (np.float32(eye[1]) - table.height[rows] + rise) / reach
+    return slope

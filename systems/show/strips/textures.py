@@ -1,0 +1,46 @@
+"""A ring's strips as textures."""
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ...grow.record import Growth, Strips
+
+
+def strip_stock(growths: list[Growth], ring: int) -> list[list[Strips]]:
+    """Return a ring's strips by kind and model."""
+    return [[model.strips[ring] for model in growth.models] for growth in growths]
+
+
+def strip_textures(
+    ctx: moderngl.Context, stock: list[list[Strips]]
+) -> tuple[moderngl.TextureArray, moderngl.TextureArray]:
+    """Return a ring's atlas and ranks: kinds, models, orientations and strips are layers, in this order.
+
+    A kind's pictures stand in the lower left corner of layers that are large enough for every kind's.
+    """
+    size = np.max([models[0].rank.shape[2:] for models in stock], axis=0)
+    atlas = np.concatenate([_padded(strips.texels, size) for models in stock for strips in models])
+    ranks = np.concatenate([_padded(_premultiplied_rank(strips), size) for models in stock for strips in models])
+    layers, rows, columns, _ = atlas.shape
+    made = (
+        ctx.texture_array((columns, rows, layers), 4, np.ascontiguousarray(atlas).tobytes(), alignment=1),
+        ctx.texture_array((columns, rows, layers), 1, np.ascontiguousarray(ranks).tobytes(), alignment=1),
+    )
+    for texture in made:
+        texture.build_mipmaps()
+        texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
+        texture.repeat_x = texture.repeat_y = False
+    return made
+
+
+def _premultiplied_rank(strips: Strips) -> NDArray[np.uint8]:
+    coverage = strips.texels[..., 3].astype(np.float32)
+    return np.round(strips.rank * (coverage / 255.0)).astype(np.uint8)
+
+
+def _padded(texels: NDArray[np.uint8], size: NDArray[np.int64]) -> NDArray[np.uint8]:
+    flat = texels.reshape(-1, *texels.shape[2:])
+    more = [(0, 0), (0, size[0] - flat.shape[1]), (0, size[1] - flat.shape[2]), (0, 0)][: flat.ndim]
+    padded: NDArray[np.uint8] = np.pad(flat, more)
+    return padded

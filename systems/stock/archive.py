@@ -1,0 +1,129 @@
+"""Growth as bytes, and back: only what is whole, ours and of the right shapes is ever believed."""
+
+import io
+import zipfile
+from dataclasses import fields
+from hashlib import blake2b
+from typing import Any, TypeVar, get_args, get_type_hints
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...engine.declared.quality import Quality
+from ..grow.record import Blades, Carpet, Growth, PatchModel, Postures, Response, Strips
+from ..grow.response import SAMPLES
+from ..grow.simulate import LINKS
+from ..show.carpet.grow import SLOPES
+from .models import ROWS, VARIANTS
+
+Arrays = dict[str, NDArray[Any]]
+Record = TypeVar("Record", Postures, Response, Blades, Strips, Carpet)
+
+_DIGEST = 32
+
+
+def pack(growth: Growth, /, *, key: str) -> bytes:
+    """Return a growth as bytes that begin with a checksum over the rest and `key`."""
+    buffer = io.BytesIO()
+    np.savez(buffer, allow_pickle=False, **_flatten(growth, "growth"))
+    data = buffer.getvalue()
+    return _checksum(data, key) + data
+
+
+def unpack(data: bytes, /, *, key: str, quality: Quality, blades: int) -> Growth | None:
+    """Return the growth that was packed with `key`, or None unless it is whole and fits.
+
+    Nothing is parsed before the checksum holds, and nothing is ever unpickled.
+    """
+    if data[:_DIGEST] != _checksum(data[_DIGEST:], key):
+        return None
+    try:
+        with np.load(io.BytesIO(data[_DIGEST:]), allow_pickle=False) as archive:
+            growth = _rebuild({name: archive[name] for name in archive.files}, quality)
+    except (OSError, ValueError, KeyError, zipfile.BadZipFile):
+        return None
+    return growth if _fits(growth, quality, blades) else None
+
+
+def _checksum(data: bytes, key: str, /) -> bytes:
+    return blake2b(data, digest_size=_DIGEST, key=key.encode()).digest()
+
+
+def _flatten(record: Any, name: str, /) -> Arrays:
+    """Return every array and number of a record under its dotted name."""
+    if isinstance(record, np.ndarray | float):
+        return {name: np.asarray(record)}
+    if isinstance(record, tuple):
+        parts = [(str(number), part) for number, part in enumerate(record)]
+    else:
+        parts = [(field.name, getattr(record, field.name)) for field in fields(record)]
+    return {key: array for part, value in parts for key, array in _flatten(value, f"{name}.{part}").items()}
+
+
+def _rebuild(arrays: Arrays, quality: Quality, /) -> Growth:
+    return Growth(
+        postures=_record(Postures, arrays, "growth.postures"),
+        response=_record(Response, arrays, "growth.response"),
+        models=tuple(
+            PatchModel(
+                blades=_record(Blades, arrays, f"growth.models.{model}.blades"),
+                strips=tuple(
+                    _record(Strips, arrays, f"growth.models.{model}.strips.{ring}")
+                    for ring in range(len(quality.strip_rings))
+                ),
+                carpet=_record(Carpet, arrays, f"growth.models.{model}.carpet"),
+            )
+            for model in range(quality.models)
+        ),
+    )
+
+
+def _record(kind: type[Record], arrays: Arrays, name: str, /) -> Record:
+    """Return a record from its arrays; raises KeyError or ValueError unless all are there, of their types."""
+    values: dict[str, Any] = {}
+    for field, hint in get_type_hints(kind).items():
+        value = arrays[f"{name}.{field}"]
+        last = get_args(hint)[-1:] or (np.float64,)  # from numpy 2.5 on, NDArray[T] is an alias
+        (wanted,) = get_args(*last) or last
+        if value.dtype != wanted or not np.isfinite(value).all():
+            raise ValueError(f"{name}.{field} is not finite {np.dtype(wanted)}")
+        values[field] = float(value) if hint is float else value
+    return kind(**values)
+
+
+def _fits(growth: Growth, quality: Quality, blades: int, /) -> bool:
+    """Tell whether every array has the shape that its record and the quality promise."""
+    postures, response = growth.postures, growth.response
+    return (
+        postures.index.shape == (ROWS,)
+        and postures.shape.shape == (VARIANTS, ROWS, LINKS + 1, 2)
+        and response.rise.shape == response.fall.shape == (SAMPLES,)
+        and all(_model_fits(model, quality, blades) for model in growth.models)
+    )
+
+
+def _model_fits(model: PatchModel, quality: Quality, blades: int, /) -> bool:
+    grown, side = model.blades, quality.carpet
+    rows = (grown.height, grown.width, grown.facing, grown.variant, grown.rank)
+    return (
+        grown.root.shape == grown.rest.shape == (blades, 2)
+        and all(row.shape == (blades,) for row in rows)
+        and all(
+            _strips_fit(strips, ring.strips, blades)
+            for strips, ring in zip(model.strips, quality.strip_rings, strict=True)
+        )
+        and model.carpet.slope.shape == (len(SLOPES),)
+        and model.carpet.texels.shape == (len(SLOPES), 4, side, side, 4)
+    )
+
+
+def _strips_fit(strips: Strips, count: int, blades: int, /) -> bool:
+    return (
+        strips.plane.shape == (count,)
+        and strips.texels.ndim == 5
+        and strips.texels.shape[:2] == (2, count)
+        and strips.texels.shape[4] == 4
+        and strips.rank.shape == strips.texels.shape[:4]
+        and strips.slice.shape == (2, blades)
+        and strips.targets.shape == (2, blades, LINKS + 1, 2)
+    )

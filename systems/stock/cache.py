@@ -1,0 +1,117 @@
+"""What was grown once, kept on disk under a hash of everything that it depends on."""
+
+import json
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import suppress
+from functools import cache
+from hashlib import blake2b
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+from pathlib import Path
+
+import numpy as np
+
+from ...engine.declared.grass import GrassKind
+from ...engine.declared.quality import Quality
+from ..grow.record import Growth
+from .archive import pack, unpack
+from .models import blade_count, grow
+
+_SUFFIX = ".growth"
+_KEPT = 48
+
+
+def cached_growth(kind: GrassKind, quality: Quality, /, *, seed: int, folder: Path | None = None) -> Growth:
+    """Return what `grow` returns, from the disk where it was grown before.
+
+    `folder` is `cache_folder()` unless given. A file that is broken, or is not ours, is grown again and
+    replaced; where the folder cannot be read or written, growing just takes its time.
+    """
+    folder = cache_folder() if folder is None else folder
+    if folder is None:
+        return grow(kind, quality, seed=seed)
+    key = growth_key(kind, quality, seed=seed)
+    path = folder / (key + _SUFFIX)
+    with suppress(OSError):
+        growth = unpack(path.read_bytes(), key=key, quality=quality, blades=blade_count(kind, quality))
+        if growth is not None:
+            _mark_used(path)
+            return growth
+    growth = grow(kind, quality, seed=seed)
+    with suppress(OSError):
+        _write(path, pack(growth, key=key))
+        _forget_oldest(folder)
+    return growth
+
+
+def cache_folder() -> Path | None:
+    """Return where growth is kept: TALLGRASS_CACHE, or tallgrass in XDG_CACHE_HOME or ~/.cache; None if nowhere."""
+    if chosen := os.environ.get("TALLGRASS_CACHE"):
+        return Path(chosen)
+    base = Path(os.environ.get("XDG_CACHE_HOME", ""))
+    if base.is_absolute():
+        return base / "tallgrass"
+    try:
+        return Path.home() / ".cache" / "tallgrass"
+    except RuntimeError:
+        return None
+
+
+def growth_key(kind: GrassKind, quality: Quality, /, *, seed: int) -> str:
+    """Return a name for what `grow` returns, in hexadecimal: of colours and places it knows nothing."""
+    depends = {
+        "version": _version(),
+        "seed": seed,
+        "kind": kind.model_dump(include={"height", "width", "stiffness", "damping", "lean", "taper"}, mode="json"),
+        "blades": blade_count(kind, quality),
+        "quality": quality.model_dump(include={"patch", "models", "carpet"}, mode="json"),
+        "strips": [(ring.strips, ring.texel) for ring in quality.strip_rings],
+    }
+    return blake2b(json.dumps(depends, sort_keys=True).encode(), digest_size=20).hexdigest()
+
+
+@cache
+def _version() -> str:
+    """Return a hash of the code that grows, so that nothing grown by other code is ever taken for its own."""
+    digest = blake2b(np.__version__.encode(), digest_size=16)
+    for name, source in sorted(_sources(files("tallgrass.systems"))):
+        digest.update(name.encode() + b"\0" + source.read_bytes())
+    return digest.hexdigest()
+
+
+def _sources(folder: Traversable, path: str = "") -> Iterator[tuple[str, Traversable]]:
+    """Yield the code that grows, by its path: all of `grow` and `stock`, and each representation's own `grow.py`."""
+    for entry in folder.iterdir():
+        name = f"{path}/{entry.name}"
+        if entry.is_dir():
+            yield from _sources(entry, name)
+        elif name.startswith(("/grow/", "/stock/")) or entry.name == "grow.py":
+            if name.endswith(".py"):
+                yield name, entry
+
+
+def _mark_used(path: Path, /) -> None:
+    with suppress(OSError):
+        os.utime(path)
+
+
+def _write(path: Path, data: bytes, /) -> None:
+    """Write a file in one step: no reader ever finds half of it."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, name = tempfile.mkstemp(dir=path.parent, suffix=".part")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
+        Path(name).replace(path)
+    except OSError:
+        Path(name).unlink(missing_ok=True)
+        raise
+
+
+def _forget_oldest(folder: Path, /) -> None:
+    """Remove what has not been used for longest, so that the folder does not grow for ever."""
+    found = sorted(folder.glob("*" + _SUFFIX), key=lambda path: path.stat().st_mtime)
+    for path in found[:-_KEPT]:
+        path.unlink(missing_ok=True)

@@ -1,0 +1,103 @@
+"""Everything that is grown for one kind of grass, from the finest to the coarsest (paper, sections 2.2, 3.2)."""
+
+from dataclasses import fields, is_dataclass
+
+import numpy as np
+
+from ...engine.declared.grass import GrassKind
+from ...engine.declared.quality import Quality
+from ..grow.bend import spine
+from ..grow.blades import grow_blades
+from ..grow.postures import grow_postures
+from ..grow.record import Blades, Growth, PatchModel, Postures
+from ..grow.response import grow_response
+from ..show.carpet.grow import grow_carpet
+from ..show.strips.grow import grow_strips
+
+VARIANTS = 4
+ROWS = 129
+
+_TEXELS_UP = 96
+"""Most texels from the ground to the highest tip: tall kinds have broad blades and do with coarser ones."""
+
+_MIPMAPS = 4.0 / 3.0
+
+
+def grow(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
+    """Return all that is precomputed for a kind of grass at a quality: the same for the same seed.
+
+    The textures of all patch models have the same size, height and margin, so that they can be layers of one.
+    """
+    postures = grow_postures(kind, variants=VARIANTS, rows=ROWS, seed=seed)
+    patches = [
+        grow_blades(
+            kind, count=blade_count(kind, quality), patch=quality.patch, variants=VARIANTS, seed=_mixed(seed, number)
+        )
+        for number in range(quality.models)
+    ]
+    height, margin = _extent(patches, postures, quality.patch)
+    models = tuple(_model(blades, postures, kind, quality, height, margin) for blades in patches)
+    return Growth(postures=postures, response=grow_response(kind), models=models)
+
+
+def blade_count(kind: GrassKind, quality: Quality, /) -> int:
+    """Return the blades per patch at full density: the kind's own number, or else the quality's."""
+    return quality.blades if kind.blades is None else kind.blades
+
+
+def precompute_bytes(growth: Growth, /) -> int:
+    """Return the memory of all that is grown for a kind [bytes], textures with their mip-maps."""
+    seen: dict[int, int] = {}
+    _gather(growth, seen)
+    return sum(seen.values())
+
+
+def _model(
+    blades: Blades, postures: Postures, kind: GrassKind, quality: Quality, height: float, margin: float, /
+) -> PatchModel:
+    coarser = max(height / _TEXELS_UP / min(ring.texel for ring in quality.strip_rings), 1.0)
+    strips = tuple(
+        grow_strips(
+            blades,
+            postures,
+            patch=quality.patch,
+            strips=ring.strips,
+            texel=ring.texel * coarser,
+            taper=kind.taper,
+            margin=margin,
+            height=height,
+        )
+        for ring in quality.strip_rings
+    )
+    carpet = grow_carpet(blades, postures, patch=quality.patch, texels=quality.carpet, taper=kind.taper, height=height)
+    return PatchModel(blades=blades, strips=strips, carpet=carpet)
+
+
+def _extent(patches: list[Blades], postures: Postures, patch: float, /) -> tuple[float, float]:
+    """Return the height of the highest tip and how far blades lean over the patch's edge, to the centimetre [m]."""
+    points = postures.shape.shape[2]
+    places = np.concatenate([spine(blades, postures, (0.0, 0.0), points=points).reshape(-1, 3) for blades in patches])
+    beyond = max(-float(places[:, ::2].min()), float(places[:, ::2].max()) - patch)
+    half = 0.5 * max(float(blades.width.max()) for blades in patches)
+    return _centimetres(float(places[:, 1].max())), _centimetres(beyond + half)
+
+
+def _centimetres(length: float, /) -> float:
+    return float(np.ceil(max(length, 0.0) * 100.0 + 0.01) / 100.0)
+
+
+def _mixed(seed: int, number: int, /) -> int:
+    """Return the seed of one of several patch models."""
+    return int(np.random.SeedSequence([seed, number]).generate_state(1, np.uint64)[0])
+
+
+def _gather(record: object, seen: dict[int, int], /) -> None:
+    """Add the size of every array in a record, each once, by its identity."""
+    if isinstance(record, np.ndarray):
+        seen[id(record)] = int(record.nbytes * (_MIPMAPS if record.dtype == np.uint8 else 1.0))
+    elif isinstance(record, tuple):
+        for part in record:
+            _gather(part, seen)
+    elif is_dataclass(record):
+        for field in fields(record):
+            _gather(getattr(record, field.name), seen)
