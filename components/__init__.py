@@ -1,1 +1,1 @@
-"""What things are: records of data, with no behaviour, no GL and no esper."""
+"""What entities carry: data that games read and, where it says so, write; no GL and no esper."""

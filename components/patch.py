@@ -1,40 +1,157 @@
-"""Patches of grass and their level of detail."""
+"""Patches of grass and their level of detail: what a game reads of them, and what it may write."""
 
-from dataclasses import dataclass
+from typing import Protocol, final
 
 import numpy as np
 from numpy.typing import NDArray
 
+Cell = tuple[int, int]
+"""A square (i, j) of the tiling; it covers [i, i + 1) by [j, j + 1) patch sides in x and z."""
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Patch:
-    """One square of the tiling (paper, section 2.2). Its arrays are one row of the `PatchTable`."""
 
+class Cleared(Protocol):
+    """The cells that have been cleared of their grass."""
+
+    def __contains__(self, cell: object) -> bool: ...
+
+    def clear(self, cell: Cell, /) -> None:
+        """Take the grass of a cell away."""
+
+    def restore(self, cell: Cell, /) -> None:
+        """Give the grass of a cell back."""
+
+
+class Levels(Protocol):
+    """The levels of detail of all patches around a viewer, one row each."""
+
+    viewer: str
+    names: tuple[str, ...]
     cell: NDArray[np.int32]
-    """Cell (i, j) of the tiling; it covers [i, i + 1) by [j, j + 1) patch sides in x and z, shape (2,)."""
-
-    model: NDArray[np.int32]
-    """Which patch model stands here, shape (1,)."""
-
-    turn: NDArray[np.int32]
-    """Quarter turns of the model about the vertical axis, shape (1,)."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Lod:
-    """The level of detail of a patch. Its arrays are one row of the `PatchTable`."""
-
     distance: NDArray[np.int32]
-    """Discrete distance: 0 for the viewer's patch, 1 for its eight neighbours, and so on, shape (1,)."""
-
-    representation: NDArray[np.int8]
-    """The `Representation` that the patch has, or is coming to, shape (1,)."""
-
-    previous: NDArray[np.int8]
-    """The `Representation` that it comes from, shape (1,)."""
-
-    progress: NDArray[np.float32]
-    """How far the change has gone, 1 when it is over, shape (1,)."""
-
     visible: NDArray[np.bool_]
-    """Whether the patch is inside the view cone, shape (1,)."""
+    wanted: NDArray[np.int8]
+    hold: NDArray[np.int8]
+    representation: NDArray[np.int8]
+    previous: NDArray[np.int8]
+    progress: NDArray[np.float32]
+
+
+@final
+class Patch:
+    """One square of the tiling (paper, section 2.2). `grows` may be written; the rest cannot.
+
+    Each viewer has an entity of its own for a patch around it; what is written holds for the place, whoever looks.
+    """
+
+    __slots__ = ("_cell", "_cleared", "_model", "_turn")
+
+    def __init__(self, cell: Cell, model: int, turn: int, cleared: Cleared) -> None:
+        self._cell, self._model, self._turn, self._cleared = cell, model, turn, cleared
+
+    @property
+    def cell(self) -> Cell:
+        """Cell (i, j) of the tiling."""
+        return self._cell
+
+    @property
+    def model(self) -> int:
+        """Which patch model stands here."""
+        return self._model
+
+    @property
+    def turn(self) -> int:
+        """Quarter turns of the model about the vertical axis, 0 to 3."""
+        return self._turn
+
+    @property
+    def grows(self) -> bool:
+        """Whether grass grows here. False leaves bare ground, from the same frame on; True gives the grass back."""
+        return self._cell not in self._cleared
+
+    @grows.setter
+    def grows(self, grows: bool) -> None:
+        if grows:
+            self._cleared.restore(self._cell)
+        else:
+            self._cleared.clear(self._cell)
+
+
+@final
+class Lod:
+    """The level of detail of a patch for one viewer. `wanted` and `hold` may be written; the rest cannot.
+
+    Representations go by their names, `blades`, `strips` and `carpet`; None is none.
+    """
+
+    __slots__ = ("_cell", "_levels", "_row")
+
+    def __init__(self, levels: Levels, row: int, cell: Cell) -> None:
+        self._levels, self._row, self._cell = levels, row, cell
+
+    @property
+    def viewer(self) -> str:
+        """The name of the viewer whose level of detail this is."""
+        return self._levels.viewer
+
+    @property
+    def distance(self) -> int:
+        """Discrete distance: 0 for the viewer's patch, 1 for its eight neighbours, and so on."""
+        return int(self._levels.distance[self._row])
+
+    @property
+    def visible(self) -> bool:
+        """Whether the patch is inside the view cone."""
+        return bool(self._levels.visible[self._row])
+
+    @property
+    def representation(self) -> str | None:
+        """The representation that the patch has, or is coming to."""
+        return self._name(self._levels.representation)
+
+    @property
+    def previous(self) -> str | None:
+        """The representation that it comes from."""
+        return self._name(self._levels.previous)
+
+    @property
+    def progress(self) -> float:
+        """How far the change has gone, 1 when it is over."""
+        return float(self._levels.progress[self._row])
+
+    @property
+    def wanted(self) -> str | None:
+        """The representation that the system `lod` has chosen in this frame; a system after it may choose another."""
+        return self._name(self._levels.wanted)
+
+    @wanted.setter
+    def wanted(self, name: str | None) -> None:
+        self._levels.wanted[self._own_row()] = self._number(name)
+
+    @property
+    def hold(self) -> str | None:
+        """The representation that a game holds the patch in, whatever its distance; None leaves the choice to `lod`.
+
+        The patch comes to it through a transition, like to any other. Where there is no room for so fine a one, so far
+        away, it has the finest that there is room for. It is held until the viewer has left it behind.
+        """
+        return self._name(self._levels.hold)
+
+    @hold.setter
+    def hold(self, name: str | None) -> None:
+        self._levels.hold[self._own_row()] = self._number(name)
+
+    def _name(self, numbers: NDArray[np.int8]) -> str | None:
+        number = int(numbers[self._row])
+        return None if number < 0 else self._levels.names[number]
+
+    def _number(self, name: str | None) -> int:
+        if name is None:
+            return -1
+        if name not in self._levels.names:
+            raise ValueError(f"unknown representation {name!r}; there are {', '.join(self._levels.names)}")
+        return self._levels.names.index(name)
+
+    def _own_row(self) -> int:
+        if tuple(self._levels.cell[self._row].tolist()) != self._cell:
+            raise RuntimeError(f"the viewer '{self.viewer}' has left the patch {self._cell} behind")
+        return self._row

@@ -3,9 +3,12 @@
 from dataclasses import dataclass
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
 class Resident:
-    """A component of every entity that a prairie created, one object for all those of one prairie.
+    """A component of every entity that a prairie created.
 
     A game that clears up among its entities leaves these alone; the prairie deletes them itself.
     """
+
+    owner: object
+    """One object for all the entities of one prairie."""

@@ -3,9 +3,10 @@
 import gc
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from itertools import count
 from typing import TypeVar
-from weakref import WeakSet
+from weakref import WeakSet, ref
 
 import esper
 
@@ -31,23 +32,48 @@ class World:
     def __init__(self, advance: Callable[[float], None] | None = None) -> None:
         self.name = esper.current_world
         self.advance = advance
-        self._entities: set[int] = set()
-        self._mark = Resident()
+        self.generation = 0
+        """How often everything of ours was deleted at once, as by `esper.clear_database`."""
+        self._entities: dict[int, ref[Resident]] = {}
+        self._lost: list[int] = []
+        self._home: ref[Resident] | None = None
+        self._mark = object()
         _worlds.add(self)
 
     def create(self, *components: object) -> int:
         """Return a new entity that has `components`."""
         self._must_be_current()
-        entity = esper.create_entity(*components, self._mark)
-        self._entities.add(entity)
+        if self._home is None:  # an entity that nobody has a reason to delete: it goes when all go
+            home = Resident(self._mark)
+            self._home = ref(home)
+            esper.create_entity(home)
+        mark = Resident(self._mark)
+        entity = esper.create_entity(*components, mark)
+        # Nobody but esper holds the mark: it goes in the moment that the entity is deleted, and is heard of then.
+        self._entities[entity] = ref(mark, partial(_note_lost, self._entities, self._lost, entity))
         return entity
+
+    def lost(self) -> list[int]:
+        """Return the entities of ours that somebody else has deleted since this was asked before.
+
+        Where the whole world was cleared, that was no choice of single ones: `generation` is raised instead.
+        """
+        if self._home is not None and self._home() is None:
+            self._home = None
+            self.generation += 1
+            self._lost.clear()
+        if not self._lost:
+            return []
+        lost = self._lost.copy()
+        self._lost.clear()
+        return lost
 
     def delete(self, entity: int) -> None:
         """Delete an entity of ours at once; one that the game has deleted already is no error."""
         self._must_be_current()
-        self._entities.discard(entity)
+        self._entities.pop(entity, None)
         # A game that clears its world counts entities from 1 again: the number alone does not say whose one is.
-        if esper.entity_exists(entity) and esper.try_component(entity, Resident) is self._mark:
+        if esper.entity_exists(entity) and self._owner(entity) is self._mark:
             esper.delete_entity(entity, immediate=True)
 
     def add(self, entity: int, component: object) -> None:
@@ -73,8 +99,12 @@ class World:
         """
         self._must_be_current()
         mine = (None, self._mark)  # the game's, and our own
-        found = [row for row in esper.get_component(kind) if esper.try_component(row[0], Resident) in mine]
+        found = [row for row in esper.get_component(kind) if self._owner(row[0]) in mine]
         return sorted(found, key=lambda row: row[0])
+
+    def _owner(self, entity: int) -> object | None:
+        mark = esper.try_component(entity, Resident)
+        return None if mark is None else mark.owner
 
     def __contains__(self, entity: object) -> bool:
         return entity in self._entities
@@ -91,9 +121,13 @@ class World:
             with _current(self.name):
                 for entity in list(self._entities):
                     self.delete(entity)
+                for entity, mark in esper.get_component(Resident):
+                    if mark.owner is self._mark:
+                        esper.delete_entity(entity, immediate=True)
                 if not _residents(self.name, but=self) and self in _worlds:
                     esper.remove_processor(Advance)
         self._entities.clear()
+        self._home = None
         self.advance = None
         _worlds.discard(self)
 
@@ -102,6 +136,13 @@ class World:
             raise RuntimeError(
                 f"this prairie lives in esper world '{self.name}', but '{esper.current_world}' is current"
             )
+
+
+def _note_lost(entities: dict[int, "ref[Resident]"], lost: list[int], entity: int, gone: "ref[Resident]") -> None:
+    """Note that an entity has been deleted, unless its number is another one's by now."""
+    if entities.get(entity) is gone:
+        del entities[entity]
+        lost.append(entity)
 
 
 class Advance(esper.Processor):

@@ -1,14 +1,23 @@
 """Culling: which patches the view cone may hold (paper, section 2.2, figure 5)."""
 
+from collections.abc import Iterable
+from dataclasses import dataclass
 from math import pi
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..engine.camera import View
 
+if TYPE_CHECKING:
+    from .outlook import Outlook
+
 Floats = NDArray[np.float32]
 Doubles = NDArray[np.float64]
+
+HALF_DIAGONAL = 0.7072
+"""Distance from the middle of a square to its corners, of its side."""
 
 BESIDE = 0.05
 """How far outside the picture straight up and down still count as seen, in halves of the picture."""
@@ -73,3 +82,25 @@ def eye_of(view: View, /) -> tuple[float, float, float]:
     """Return where a view is seen from, (x, y, z) [m]."""
     x, y, z = np.linalg.inv(view.view.astype(np.float64))[:3, 3].tolist()
     return x, y, z
+
+
+@dataclass(slots=True)
+class Cull:
+    """The system `cull`: which patches the view cone of each viewer that looks may hold."""
+
+    outlooks: Iterable["Outlook"]
+    patch: float
+    """Side of a patch [m]."""
+
+    sway: float
+    """How far grass may reach beyond its patch [m]."""
+
+    def run(self) -> None:
+        """Cull for every viewer that looks."""
+        for outlook in self.outlooks:
+            patches, viewer = outlook.patches, outlook.viewer
+            patches.was_visible[:] = patches.visible
+            radius = self.patch * HALF_DIAGONAL + self.sway
+            apex = viewer.eye[0], viewer.eye[2]
+            middle = patches.middles(patch=self.patch)
+            patches.visible[:] = inside_cone(middle, apex=apex, cone=viewer.cone, radius=radius)

@@ -1,20 +1,28 @@
-"""The table of patches around a viewer."""
+"""The patches around a viewer, as one structure of arrays."""
 
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..components.patch import Lod, Patch
+NOWHERE = np.iinfo(np.int32).min
+"""Cell of a row, and of a slot, on which nothing stands."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PatchTable:
-    """All patches of a prairie as one structure of arrays, one row per patch that exists.
+    """The patches around one viewer, one row for each.
 
     The rows form a square window around the viewer that wraps round: the patch of cell (i, j) is always at
-    row (j mod side) * side + (i mod side), so that a step of the viewer replaces one line of rows.
+    row (j mod side) * side + (i mod side), so that a step of the viewer replaces one line of rows. Representations go
+    by their numbers, from the finest to the coarsest; -1 is none.
     """
+
+    viewer: str
+    """The viewer's name."""
+
+    names: tuple[str, ...]
+    """The names of the representations."""
 
     side: int
     """Patches along the window's side."""
@@ -25,26 +33,38 @@ class PatchTable:
     alive: NDArray[np.bool_]
     """Whether the row's cell lies on the terrain, shape (rows,)."""
 
+    grows: NDArray[np.bool_]
+    """Whether a game has left its grass there, shape (rows,)."""
+
     model: NDArray[np.int32]
-    """Shape (rows,)."""
+    """Which patch model stands there, shape (rows,)."""
 
     turn: NDArray[np.int32]
-    """Shape (rows,)."""
+    """Quarter turns of the model, shape (rows,)."""
 
     distance: NDArray[np.int32]
-    """Shape (rows,)."""
-
-    representation: NDArray[np.int8]
-    """Shape (rows,)."""
-
-    previous: NDArray[np.int8]
-    """Shape (rows,)."""
-
-    progress: NDArray[np.float32]
-    """Shape (rows,)."""
+    """Discrete distance, shape (rows,)."""
 
     visible: NDArray[np.bool_]
-    """Shape (rows,)."""
+    """Whether it is inside the view cone, shape (rows,)."""
+
+    was_visible: NDArray[np.bool_]
+    """Whether it was when the viewer looked before, shape (rows,)."""
+
+    wanted: NDArray[np.int8]
+    """The representation that is due, shape (rows,)."""
+
+    hold: NDArray[np.int8]
+    """The one that a game holds it in, whatever is due, shape (rows,)."""
+
+    representation: NDArray[np.int8]
+    """The one that it has, or is coming to, shape (rows,)."""
+
+    previous: NDArray[np.int8]
+    """The one that it comes from, shape (rows,)."""
+
+    progress: NDArray[np.float32]
+    """How far the change has gone, 1 when it is over, shape (rows,)."""
 
     height: NDArray[np.float32]
     """Height of the ground in the patch's middle [m], shape (rows,)."""
@@ -52,62 +72,66 @@ class PatchTable:
     slope: NDArray[np.float32]
     """Rise of the ground there along x and z, shape (rows, 2)."""
 
-    message: NDArray[np.float32]
-    """The wind's message at the patch's middle, without small oscillations: the carpet's receiver, shape (rows, 2)."""
-
     sublevel: NDArray[np.int8]
-    """How fine blades and strips are, or are coming to be: the blades' ring; twice the strips' ring and the axis that
-    they run along, 0 for x; -1 for none yet, shape (2, rows)."""
+    """How fine each representation is there, or is coming to be, in its own numbers; -1 for none yet, shape
+    (representations, rows)."""
 
     sublevel_before: NDArray[np.int8]
-    """The sub-levels that they come from, shape (2, rows)."""
+    """The sub-levels that they come from, shape (representations, rows)."""
 
     sublevel_progress: NDArray[np.float32]
-    """How far these changes have gone, 1 when they are over, shape (2, rows)."""
+    """How far these changes have gone, 1 when they are over, shape (representations, rows)."""
 
     entity: NDArray[np.int64]
     """The patch's entity, 0 where there is none, shape (rows,)."""
 
+    @property
+    def stands(self) -> NDArray[np.bool_]:
+        """Whether there is grass at all, shape (rows,)."""
+        return self.alive & self.grows
+
+    @property
+    def shown(self) -> NDArray[np.bool_]:
+        """Whether there is grass inside the view cone, shape (rows,)."""
+        return self.alive & self.grows & self.visible
+
     @classmethod
-    def allocate(cls, side: int) -> "PatchTable":
+    def allocate(cls, side: int, names: tuple[str, ...], *, viewer: str = "main") -> "PatchTable":
         """Return an empty table for a window of `side` by `side` patches."""
-        rows = side * side
+        rows, levels = side * side, (len(names), side * side)
         return cls(
+            viewer=viewer,
+            names=names,
             side=side,
-            cell=np.full((rows, 2), np.iinfo(np.int32).min, np.int32),
+            cell=np.full((rows, 2), NOWHERE, np.int32),
             alive=np.zeros(rows, np.bool_),
+            grows=np.ones(rows, np.bool_),
             model=np.zeros(rows, np.int32),
             turn=np.zeros(rows, np.int32),
             distance=np.zeros(rows, np.int32),
+            visible=np.zeros(rows, np.bool_),
+            was_visible=np.zeros(rows, np.bool_),
+            wanted=np.full(rows, -1, np.int8),
+            hold=np.full(rows, -1, np.int8),
             representation=np.full(rows, -1, np.int8),
             previous=np.full(rows, -1, np.int8),
             progress=np.ones(rows, np.float32),
-            visible=np.zeros(rows, np.bool_),
             height=np.zeros(rows, np.float32),
             slope=np.zeros((rows, 2), np.float32),
-            message=np.zeros((rows, 2), np.float32),
-            sublevel=np.full((2, rows), -1, np.int8),
-            sublevel_before=np.full((2, rows), -1, np.int8),
-            sublevel_progress=np.ones((2, rows), np.float32),
+            sublevel=np.full(levels, -1, np.int8),
+            sublevel_before=np.full(levels, -1, np.int8),
+            sublevel_progress=np.ones(levels, np.float32),
             entity=np.zeros(rows, np.int64),
         )
 
-    def patch(self, row: int) -> Patch:
-        """Return the `Patch` component of one row: views, not copies."""
-        only = slice(row, row + 1)
-        return Patch(cell=self.cell[row], model=self.model[only], turn=self.turn[only])
+    def middles(self, rows: NDArray[np.int64] | slice = slice(None), /, *, patch: float) -> NDArray[np.float32]:
+        """Return the middles (x, z) [m] of patches with this side [m], shape (n, 2)."""
+        return (self.cell[rows] + np.float32(0.5)) * np.float32(patch)
 
-    def lod(self, row: int) -> Lod:
-        """Return the `Lod` component of one row: views, not copies."""
-        only = slice(row, row + 1)
-        return Lod(
-            distance=self.distance[only],
-            representation=self.representation[only],
-            previous=self.previous[only],
-            progress=self.progress[only],
-            visible=self.visible[only],
-        )
-
-
-NOWHERE = np.iinfo(np.int32).min
-"""Stamp of a slot on which nothing stands."""
+    def empty(self, rows: NDArray[np.int32], /) -> None:
+        """Forget what is known of the levels of detail of some rows, because another patch is there now."""
+        for levels in (self.wanted, self.hold, self.representation, self.previous):
+            levels[rows] = -1
+        self.sublevel[:, rows] = self.sublevel_before[:, rows] = -1
+        self.progress[rows], self.sublevel_progress[:, rows] = 1.0, 1.0
+        self.visible[rows] = self.was_visible[rows] = False

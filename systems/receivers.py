@@ -1,51 +1,161 @@
-"""Receivers as entities: one per patch and representation that feels the wind."""
+"""Receivers: where the messages of many patches are kept, and what a game writes into them."""
+
+import logging
+from dataclasses import dataclass, field
+from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..components.receivers import Receivers
 from ..engine.world import World
-from .field import Field
-from .show.blades.pool import BladePool
-from .show.seen import Shown
-from .show.strips.pool import StripPool
+from .patches import PatchTable
+
+Floats = NDArray[np.float32]
+Rows = NDArray[np.int64]
+
+log = logging.getLogger("tallgrass")
 
 
-class ReceiverEntities:
-    """Keeps an entity with `Receivers` for every planted slot whose patch is shown.
+class Pool(Protocol):
+    """Receivers of one representation around a viewer, a slot for each patch."""
 
-    The arrays of an entity are slices of its pool, so that what systems write to the pool is what a game reads. A
-    slot's entity goes when another patch is planted there, or the patch is no longer shown in that representation.
+    @property
+    def message(self) -> Floats:
+        """Their messages, shape (slots, ..., 2)."""
+
+    def places(self, slots: Rows, /) -> Floats:
+        """Return the ground positions (x, z) [m] of the receivers of some slots, shape (m, ..., 2)."""
+
+    def kind(self, slots: Rows, /) -> NDArray[np.intp]:
+        """Return the kind of grass of each receiver of some slots, one slot after another, shape (n,)."""
+
+
+@dataclass(slots=True, eq=False)
+class Correspondence:
+    """The messages of a pool: which were asked for by a game, and what it has written since.
+
+    Whoever never asks costs nothing: only slots that were asked for are looked through.
     """
 
-    def __init__(self, world: World, field: Field) -> None:
-        self._world = world
-        self._field = field
-        self._pools: list[BladePool | StripPool] = [field.blades, *field.strips]
-        self._entity = [np.zeros(len(pool.stamp), np.int64) for pool in self._pools]
-        self._owner = [np.zeros(len(pool.stamp), np.int64) for pool in self._pools]
+    message: Floats
+    """The pool's messages, shape (slots, ..., 2)."""
 
-    def follow(self, blades: Shown, strips: list[Shown]) -> None:
+    _left: dict[int, Floats] = field(default_factory=dict)
+    """Of every slot that was asked for, its messages as the frame before left them, shape (n, 2)."""
+
+    _written: dict[int, tuple[NDArray[np.bool_], Floats]] = field(default_factory=dict)
+    """By slot, which of its receivers a game has written to since, and what; then, in their place, what they heard."""
+
+    def ask(self, slot: int, /) -> Floats:
+        """Return the messages of a slot, shape (n, 2), to be read and written; from now on what is written counts."""
+        flat = self.message[slot].reshape(-1, 2)
+        if slot not in self._left:
+            self._left[slot] = flat.copy()
+        return flat
+
+    def forget(self, slot: int, /) -> None:
+        """Forget that a slot was asked for, because another patch stands there now."""
+        self._left.pop(slot, None)
+        self._written.pop(slot, None)
+
+    def collect(self) -> None:
+        """Keep what a game has written, before the wind writes over it."""
+        for slot, left in self._left.items():
+            now = self.message[slot].reshape(-1, 2)
+            changed = (now != left).any(axis=1)
+            if changed.any():
+                self._written[slot] = changed, _valid(now[changed])
+
+    def deliver(self) -> None:
+        """Write it again over what the wind has said."""
+        for slot, (changed, value) in self._written.items():
+            now = self.message[slot].reshape(-1, 2)
+            heard = now[changed]
+            now[changed] = value
+            self._written[slot] = changed, heard
+
+    def settle(self) -> None:
+        """Let the wind's own messages stand again, now that the frame is drawn: what is written holds for one frame."""
+        for slot, (changed, heard) in self._written.items():
+            self.message[slot].reshape(-1, 2)[changed] = heard
+        self._written.clear()
+        for slot, left in self._left.items():
+            left[:] = self.message[slot].reshape(-1, 2)
+
+    def check(self) -> None:
+        """Make what systems have written since into messages: of finite numbers, and at most 1 long."""
+        for slot in self._left:
+            now = self.message[slot].reshape(-1, 2)
+            now[:] = _valid(now)
+
+
+def _valid(message: Floats) -> Floats:
+    if not np.isfinite(message).all():
+        log.warning("messages of receivers must be finite numbers; those that are not were taken for no wind")
+        message = np.where(np.isfinite(message), message, np.float32(0.0))
+    index = np.sqrt((message * message).sum(axis=1))
+    return np.asarray(message / np.maximum(index, np.float32(1.0))[:, None], np.float32)
+
+
+class Receiving:
+    """The receivers of one pool: those that hear the wind in this frame, and their entities.
+
+    There is an entity with `Receivers` for every slot whose patch is shown. It goes when another patch is planted
+    there, or the patch is no longer shown in that representation.
+    """
+
+    BATCH = 200
+    """Entities made in one frame at most, so that a viewer who leaps is no hitch."""
+
+    def __init__(self, pool: Pool, representation: str) -> None:
+        self.pool = pool
+        self.representation = representation
+        self.letters = Correspondence(pool.message)
+        self.rows: Rows = np.zeros(0, np.int64)
+        """Rows of the patch table of those that hear in this frame, shape (m,)."""
+        self.slots: Rows = np.zeros(0, np.int64)
+        """Their slots, shape (m,)."""
+        self._owner = np.zeros(len(pool.message), np.int64)
+        self._entity = np.zeros(len(pool.message), np.int64)
+
+    def show(self, rows: Rows, slots: Rows, /) -> None:
+        """Let the receivers of these patches hear the wind in this frame."""
+        self.rows, self.slots = rows, slots
+
+    def enlist(self, world: World, patches: PatchTable, /) -> None:
         """Create and delete entities so that they are those of the patches shown now."""
-        table = self._field.table
-        for number, shown in enumerate([blades, *strips]):
-            owner = np.zeros_like(self._owner[number])
-            owner[shown.slots] = table.entity[shown.rows]
-            for slot in np.flatnonzero(owner != self._owner[number]).tolist():
-                self._change(number, slot, int(owner[slot]))
-            self._owner[number] = owner
+        owner = np.zeros_like(self._owner)
+        owner[self.slots] = patches.entity[self.rows]
+        changed = np.flatnonzero(owner != self._owner)
+        if not changed.size:
+            return
+        for slot in changed[self._entity[changed] != 0].tolist():
+            self._delete(world, slot)
+        self._owner[changed] = 0
+        fresh = changed[owner[changed] != 0][: self.BATCH]
+        kind = self.pool.kind(fresh).reshape(len(fresh), -1)
+        place = self.pool.places(fresh).reshape(len(fresh), -1, 2)
+        for number, slot in enumerate(fresh.tolist()):
+            self._entity[slot] = world.create(
+                Receivers(
+                    self.letters, slot, place=place[number], kind=kind[number], patch=int(owner[slot]),
+                    representation=self.representation, viewer=patches.viewer,
+                )
+            )  # fmt: skip
+        self._owner[fresh] = owner[fresh]
 
-    def release(self) -> None:
+    def lose(self) -> None:
+        """Take note that all entities are gone."""
+        self._owner[:] = self._entity[:] = 0
+
+    def release(self, world: World, /) -> None:
         """Delete all of its entities."""
-        for entities in self._entity:
-            for entity in entities[entities != 0].tolist():
-                self._world.delete(entity)
-            entities[:] = 0
+        for slot in np.flatnonzero(self._entity).tolist():
+            self._delete(world, slot)
+        self._owner[:] = 0
 
-    def _change(self, number: int, slot: int, owner: int) -> None:
-        entities, pool = self._entity[number], self._pools[number]
-        if entities[slot]:
-            self._world.delete(int(entities[slot]))
-        entities[slot] = 0
-        if owner:
-            place, message = pool.place[slot].reshape(-1, 2), pool.message[slot].reshape(-1, 2)
-            entities[slot] = self._world.create(Receivers(place=place, message=message))
+    def _delete(self, world: World, slot: int) -> None:
+        world.delete(int(self._entity[slot]))
+        self._entity[slot] = 0
+        self.letters.forget(slot)

@@ -1,0 +1,38 @@
+"""Viewers: from where a prairie is looked at."""
+
+from dataclasses import dataclass, field
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(slots=True, eq=False)
+class Viewer:
+    """Somebody who looks at the prairie; an entity for each name that `Prairie.draw` was given.
+
+    It is written anew whenever this viewer looks. Deleting its entity forgets all that was kept for it.
+    """
+
+    name: str = "main"
+
+    eye: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Where it looks from, (x, y, z) [m]."""
+
+    cone: tuple[float, float] = (0.0, pi)
+    """Azimuths of the view cone: middle and half width [rad]."""
+
+    centre: NDArray[np.int32] = field(default_factory=lambda: np.zeros(2, np.int32))
+    """The cell (i, j) it stands in, shape (2,)."""
+
+    time: float = 0.0
+    """The instant that it sees [s]."""
+
+    dt: float = 0.0
+    """Time since it looked before [s]."""
+
+    way: float = 0.0
+    """How far it has come since, along the ground [m]."""
+
+    jumped: bool = True
+    """Whether it is somewhere else altogether than before: then nothing changes by and by."""

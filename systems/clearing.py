@@ -1,0 +1,35 @@
+"""Clearings: patches whose grass a game has taken away."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..components.patch import Cell
+
+
+class Clearings:
+    """The cells without grass, for every viewer alike, however far it has gone meanwhile."""
+
+    def __init__(self) -> None:
+        self._cells: set[Cell] = set()
+        self.version = 0
+        """A number that is another one after every change."""
+
+    def __contains__(self, cell: object) -> bool:
+        return cell in self._cells
+
+    def clear(self, cell: Cell, /) -> None:
+        """Take the grass of a cell away."""
+        self._cells.add(cell)
+        self.version += 1
+
+    def restore(self, cell: Cell, /) -> None:
+        """Give the grass of a cell back."""
+        self._cells.discard(cell)
+        self.version += 1
+
+    def spare(self, cells: NDArray[np.int32], /) -> NDArray[np.bool_]:
+        """Return whether grass grows on each of some cells (n, 2), shape (n,)."""
+        grows = np.ones(len(cells), np.bool_)
+        for cell in self._cells:
+            grows &= (cells != cell).any(axis=1)
+        return grows

@@ -1,0 +1,110 @@
+"""Outlooks: what is kept for each viewer of a prairie."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..components.viewer import Viewer
+from ..engine.camera import View
+from ..engine.world import World
+from .cull import eye_of, view_cone
+from .patches import PatchTable
+from .show.looks import Looks
+
+LEAP = 5.0
+"""A viewer who moves more than this in one frame has jumped [m]."""
+
+
+@dataclass(slots=True, eq=False)
+class Outlook:
+    """One viewer, the patches around it, and what it is shown of them."""
+
+    viewer: Viewer
+
+    entity: int
+    """The viewer's entity."""
+
+    patches: PatchTable
+
+    kept: dict[str, Any] = field(default_factory=dict)
+    """What each representation keeps for this viewer, by its name."""
+
+    looks: Looks | None = None
+    """How each patch shows in this frame."""
+
+    shown: dict[str, Any] = field(default_factory=dict)
+    """What each representation shows in this frame, by its name."""
+
+    air: NDArray[np.float32] = field(default_factory=lambda: np.zeros(2, np.float32))
+    """The mean of the wind's messages to the patches in view, shape (2,)."""
+
+    drawn_at: float | None = None
+    """The instant that the viewer saw last [s]; None before the first."""
+
+    cleared: int = -1
+    """Version of the clearings that the patches stand for."""
+
+    generation: int = 0
+    """Generation of the world that the patches' entities are of."""
+
+    def look(self, view: View, /, *, time: float, leap: float = LEAP) -> None:
+        """Look from where two matrices say, at an instant [s]; who comes farther than `leap` [m] has jumped."""
+        viewer, eye = self.viewer, eye_of(view)
+        viewer.way = float(np.hypot(eye[0] - viewer.eye[0], eye[2] - viewer.eye[2]))
+        viewer.jumped = viewer.way > leap
+        viewer.eye, viewer.cone, viewer.time = eye, view_cone(view), time
+        viewer.dt = 1e9 if self.drawn_at is None else time - self.drawn_at
+        self.drawn_at = time
+
+
+class Outlooks:
+    """The outlooks of a prairie by their viewers' names. Iterating gives those that look in this frame."""
+
+    def __init__(self, world: World, make: Callable[[Viewer, int], Outlook]) -> None:
+        self._world = world
+        self._make = make
+        self._all: dict[str, Outlook] = {}
+        self._looking: Outlook | None = None
+
+    def __iter__(self) -> Iterator[Outlook]:
+        return iter(() if self._looking is None else (self._looking,))
+
+    def __getitem__(self, name: str) -> Outlook:
+        if name not in self._all:
+            raise KeyError(f"there is no viewer '{name}'; there are {', '.join(self._all) or 'none yet'}")
+        return self._all[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._all
+
+    def values(self) -> list[Outlook]:
+        """Return all of them, in the order in which their viewers first looked."""
+        return list(self._all.values())
+
+    def looking(self, name: str, /) -> Outlook:
+        """Let the viewer of this name be the one that looks, and return its outlook; a new name is a new viewer.
+
+        One whose entity has been deleted begins anew.
+        """
+        found = self._all.get(name)
+        if found is None or self._world.find(found.entity, Viewer) is not found.viewer:
+            viewer = Viewer(name)
+            found = self._make(viewer, self._world.create(viewer))
+            self.forget(name)
+            self._all[name] = found
+        self._looking = found
+        return found
+
+    def forget(self, name: str, /) -> None:
+        """Forget a viewer, and delete the entities that were its own."""
+        gone = self._all.pop(name, None)
+        if gone is None:
+            return
+        for entity in gone.patches.entity[gone.patches.entity != 0].tolist():
+            self._world.delete(entity)
+        for kept in gone.kept.values():
+            kept.release(self._world)
+        self._world.delete(gone.entity)
