@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ...components.pose import Pose
 from ...components.wind import Extent, WindPrimitive, WindSource
+from ...engine.complaint import said
 from ...engine.plugins import wind_kinds
 
 Floats = NDArray[np.float32]
@@ -28,9 +29,6 @@ PATIENCE, WINDOW = 3, 16
 
 LARGEST = 1e6
 """No number that a mask or an action returns may be this large; both are due to be 1 at most."""
-
-LONGEST = 200
-"""Most characters told of what a wind raised."""
 
 log = logging.getLogger("tallgrass")
 
@@ -58,7 +56,7 @@ class Quarantine:
             answer = ask()
         except Exception as error:  # a plugin may raise anything
             log.debug("%s", source.name, exc_info=error)
-            raise self.leave_out(source, f"{what} raised {_said(error)}") from error
+            raise self.leave_out(source, f"{what} raised {said(error)}") from error
         self._time(source, what, perf_counter() - start, SLOW + SLOW_EACH * receivers)
         return answer
 
@@ -112,13 +110,3 @@ class Quarantine:
         self._slow[source, what] = latest
         if took > STALLED or latest.bit_count() >= PATIENCE:
             raise self.leave_out(source, f"{what} takes too long: {1000.0 * took:.0f} ms")
-
-
-def _said(error: Exception) -> str:
-    """Return what an error is and says, in one line; saying it is the plugin's code too, and may fail as well."""
-    try:
-        text = " ".join(str(error).split())
-    except Exception:  # noqa: BLE001 - it may raise anything
-        text = ""
-    name = type(error).__name__
-    return f"{name}: {text[:LONGEST]}" if text else name
