@@ -25,7 +25,7 @@ app = typer.Typer(
 )
 bench = typer.Typer(help="Measure: what frames take, how true they are, and whether they pop.", no_args_is_help=True)
 app.add_typer(bench, name="bench")
-plugins = typer.Typer(help="Kinds of wind that other packages bring.", no_args_is_help=True)
+plugins = typer.Typer(help="Kinds of wind and systems that other packages bring.", no_args_is_help=True)
 app.add_typer(plugins, name="plugins")
 
 Scene = Annotated[str, typer.Argument(metavar="SCENE", help="A scene file, or the name of a bundled scene.")]
@@ -209,7 +209,7 @@ def pop(
 
 @plugins.command("list")
 def list_(*, json: Json = False) -> None:
-    """Tell every kind of wind, who brings it, and whether it can be used."""
+    """Tell every kind of wind and every installed system, who brings it, and whether it can be used."""
     from .plugins import list_plugins
 
     list_plugins(json=json)

@@ -1,23 +1,33 @@
-"""Wind plugins at the command line: what is installed, whether one keeps to the rules, and how to begin one."""
+"""Plugins at the command line: what is installed, whether a wind keeps to the rules, and how to begin one."""
 
 import shlex
 from dataclasses import asdict
 from json import dumps
 from pathlib import Path
 
+from ..engine.plugged import system_plugins
 from ..engine.plugins import PluginError, wind_kinds
 from ..testing import wind_problems
 from .scaffold import scaffold
 
 
 def list_plugins(*, json: bool = False) -> None:
-    """Print every kind of wind, who brings it, and whether it can be used; nothing is imported for it."""
-    rows = wind_kinds().provided()
+    """Print every kind of wind, then every installed system, who brings it, and whether it can be used.
+
+    Nothing is imported for it.
+    """
+    winds, systems = wind_kinds().provided(), system_plugins().provided()
     if json:
-        print(dumps([asdict(row) for row in rows], indent=2))
+        print(dumps([*map(asdict, winds), *map(asdict, systems)], indent=2))
         return
-    table = [("kind", "distribution", "version", "status")]
-    table += [(row.kind, row.distribution, row.version, row.status) for row in rows]
+    _print_table("kind", [(row.kind, row.distribution, row.version, row.status) for row in winds])
+    if systems:
+        print()
+        _print_table("system", [(row.system, row.distribution, row.version, row.status) for row in systems])
+
+
+def _print_table(first: str, rows: list[tuple[str, str, str, str]]) -> None:
+    table = [(first, "distribution", "version", "status"), *rows]
     widths = [max(len(line[column]) for line in table) for column in range(3)]
     for line in table:
         cells = [cell.ljust(width) for cell, width in zip(line, widths, strict=False)]

@@ -1,7 +1,6 @@
 """The registry of wind kinds: built-in ones, installed ones and a game's own, all through one door."""
 
 import logging
-import os
 import re
 from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
@@ -9,21 +8,15 @@ from difflib import get_close_matches
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
 from inspect import isabstract
-from typing import Literal, TypeVar
+from typing import TypeVar
 
 from ..components.wind import INTERFACE, WindPrimitive
+from .complaint import said
+from .installed import CHOSEN, Installed, Status, chosen_names, claimed, owner, owners, unknown_names
+from .plugged import SYSTEMS
 
 GROUP = "tallgrass.wind"
 """The entry-point group of wind kinds; an entry's name is the `kind:` of scene files, its value a class."""
-
-CHOSEN = "TALLGRASS_PLUGINS"
-"""The environment variable that names the kinds or distributions to use of those installed: `a,b`; empty is none.
-
-Without it all are used. The built-in kinds always are.
-"""
-
-OURS = "tallgrass"
-"""The distribution of the built-in kinds."""
 
 log = logging.getLogger("tallgrass")
 
@@ -33,10 +26,6 @@ _W = TypeVar("_W", bound=WindPrimitive)
 
 class PluginError(ValueError):
     """A kind is unknown, claimed twice or broken; the message is one sentence that names whose it is."""
-
-
-Status = Literal["ready", "claimed twice", "left out"]
-"""What is known of a kind before its class is imported."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,22 +49,22 @@ class WindKinds:
     """Wind kinds by name. A class is imported when its kind is first asked for, and never before.
 
     Of the installed ones, `chosen` names the kinds or distributions to use beside those of tallgrass; None is all.
+    It may name `others` as well, which are no winds.
     """
 
-    def __init__(self, entries: Iterable[EntryPoint], *, chosen: Collection[str] | None = None) -> None:
-        self._entries: dict[str, list[EntryPoint]] = {}
-        self._left_out: dict[str, list[EntryPoint]] = {}
+    def __init__(
+        self, entries: Iterable[EntryPoint], *, chosen: Collection[str] | None = None, others: Iterable[EntryPoint] = ()
+    ) -> None:
+        self._installed = Installed(entries, chosen=chosen)
+        self._entries = self._installed.used
         self._classes: dict[str, type[WindPrimitive]] = {}
-        for entry in entries:
-            kept = self._entries if _is_chosen(entry, chosen) else self._left_out
-            kept.setdefault(entry.name, []).append(entry)
-        known = {name for entry in self._all() for name in _names(entry)}
-        for name in sorted({_normal(name) for name in chosen or ()} - known):
-            log.warning("%s names '%s', but no such kind or distribution is installed", CHOSEN, name)
+        for name in unknown_names(chosen, [*self._installed.all(), *others]):
+            log.warning("%s names '%s', but no such kind, system or distribution is installed", CHOSEN, name)
 
     def provided(self) -> list[Provided]:
         """Return who brings which kind, in alphabetical order, those left out too; nothing is imported for it."""
-        rows = [Provided(entry.name, *_owner(entry), self._status(entry)) for entry in self._all()]
+        installed = self._installed
+        rows = [Provided(entry.name, *owner(entry), installed.status(entry)) for entry in installed.all()]
         own = (kind for kind in self._classes if kind not in self._entries)
         rows += [Provided(kind, _address(self._classes[kind]), "", "ready") for kind in own]
         return sorted(rows, key=lambda row: (row.kind, row.status, row.distribution))
@@ -84,7 +73,7 @@ class WindKinds:
         """Return who brings a wind: a distribution and its version, or the module and name of a game's own class."""
         entries = self._entries.get(primitive.kind, [])
         if len(entries) == 1 and type(primitive) is self._classes.get(primitive.kind):
-            return _owners(entries)
+            return owners(entries)
         return _address(type(primitive))
 
     def names(self) -> list[str]:
@@ -100,7 +89,7 @@ class WindKinds:
             raise PluginError(f"a kind is written in lower-case letters, digits, - and _, unlike '{kind}'")
         _must_be_primitive(primitive, f"the class for kind '{kind}'")
         if kind in self._entries:
-            raise PluginError(f"kind '{kind}' already comes with {_owners(self._entries[kind])}")
+            raise PluginError(f"kind '{kind}' already comes with {owners(self._entries[kind])}")
         other = self._classes.get(kind, primitive)
         if _address(other) != _address(primitive):
             raise PluginError(f"kind '{kind}' is claimed by both {_address(other)} and {_address(primitive)}")
@@ -121,27 +110,17 @@ class WindKinds:
         if not entries:
             raise PluginError(self._unknown(kind))
         if len(entries) > 1:
-            choice = f"uninstall all but one of them, or name it in {CHOSEN}"
-            raise PluginError(f"kind '{kind}' is claimed by {_owners(entries)}; {choice}")
+            raise PluginError(claimed(f"kind '{kind}'", entries))
         try:
             loaded = entries[0].load()
         except Exception as error:  # importing a plugin runs its code, which may raise anything
-            why = f"{type(error).__name__}: {error}"
-            raise PluginError(f"kind '{kind}' of {_owners(entries)} cannot be loaded: {why}") from error
-        return _must_be_primitive(loaded, f"kind '{kind}' of {_owners(entries)}")
-
-    def _all(self) -> list[EntryPoint]:
-        return [entry for kept in (self._entries, self._left_out) for entries in kept.values() for entry in entries]
-
-    def _status(self, entry: EntryPoint) -> Status:
-        kept = self._entries.get(entry.name, [])
-        if all(entry is not other for other in kept):  # equal entries may be of two distributions
-            return "left out"
-        return "ready" if len(kept) == 1 else "claimed twice"
+            raise PluginError(f"kind '{kind}' of {owners(entries)} cannot be loaded: {said(error)}") from error
+        return _must_be_primitive(loaded, f"kind '{kind}' of {owners(entries)}")
 
     def _unknown(self, kind: str) -> str:
-        if kind in self._left_out:
-            return f"kind '{kind}' of {_owners(self._left_out[kind])} is left out: {CHOSEN} does not name it"
+        left_out = self._installed.left_out
+        if kind in left_out:
+            return f"kind '{kind}' of {owners(left_out[kind])} is left out: {CHOSEN} does not name it"
         near = get_close_matches(kind, self.names(), n=1)
         guess = f", did you mean '{near[0]}'?" if near else ";"
         return f"unknown kind '{kind}'{guess} known: {', '.join(self.names()) or 'none'}"
@@ -150,9 +129,8 @@ class WindKinds:
 @cache
 def wind_kinds() -> WindKinds:
     """Return the kinds of this process: those installed, as the environment chooses, and those added by `wind`."""
-    chosen = os.environ.get(CHOSEN)
-    names = None if chosen is None else [name for part in chosen.split(",") if (name := part.strip())]
-    return WindKinds(entry_points(group=GROUP), chosen=names)
+    others = entry_points(group=SYSTEMS)
+    return WindKinds(entry_points(group=GROUP), chosen=chosen_names(), others=others)
 
 
 def wind(kind: str) -> Callable[[type[_W]], type[_W]]:
@@ -176,29 +154,6 @@ def _must_be_primitive(thing: object, what: str) -> type[WindPrimitive]:
     if thing.interface != INTERFACE:
         raise PluginError(f"{what} is written for interface {thing.interface} of winds; this tallgrass has {INTERFACE}")
     return thing
-
-
-def _is_chosen(entry: EntryPoint, chosen: Collection[str] | None) -> bool:
-    if chosen is None or _owner(entry)[0] == OURS:
-        return True
-    return not _names(entry).isdisjoint(_normal(name) for name in chosen)
-
-
-def _names(entry: EntryPoint) -> set[str]:
-    return {_normal(entry.name), _normal(_owner(entry)[0])}
-
-
-def _normal(name: str) -> str:
-    """Return a name as package indexes compare it."""
-    return re.sub(r"[-_.]+", "-", name).lower()
-
-
-def _owner(entry: EntryPoint) -> tuple[str, str]:
-    return (entry.dist.name, entry.dist.version) if entry.dist else (f"the entry point {entry.value}", "")
-
-
-def _owners(entries: list[EntryPoint]) -> str:
-    return " and ".join(" ".join(_owner(entry)).strip() for entry in entries)
 
 
 def _address(primitive: type) -> str:

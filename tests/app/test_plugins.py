@@ -1,8 +1,9 @@
-"""The commands on wind plugins: what is installed, whether one keeps to the rules, and how to begin one."""
+"""The commands on plugins: what is installed, whether one keeps to the rules, and how to begin one."""
 
 import json
 import subprocess
 import sys
+from importlib.metadata import EntryPoint
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ from tallgrass.app.errors import InputError
 from tallgrass.app.plugins import check_plugin, list_plugins, new_plugin
 from tallgrass.app.scaffold import scaffold
 from tallgrass.components.wind import Floats, Grass, WindPrimitive
+from tallgrass.engine.plugged import SYSTEMS, SystemPlugins
 from tallgrass.engine.plugins import WindKinds, wind_kinds
 
 
@@ -51,6 +53,27 @@ def test_programs_are_told_the_same_in_json(kinds: WindKinds, capsys: pytest.Cap
     rows = json.loads(capsys.readouterr().out)
     assert [row["kind"] for row in rows] == kinds.names()
     assert all(row.keys() == {"kind", "distribution", "version", "status"} for row in rows)
+
+
+@pytest.mark.usefixtures("kinds")
+def test_installed_systems_are_listed_in_a_table_of_their_own_after_the_winds(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("tallgrass.app.plugins.system_plugins", lambda: SystemPlugins([]))
+    list_plugins()
+    alone = capsys.readouterr().out
+    balls = SystemPlugins([EntryPoint("ball", "game:bring", SYSTEMS)])
+    monkeypatch.setattr("tallgrass.app.plugins.system_plugins", lambda: balls)
+    list_plugins()
+    winds, systems = capsys.readouterr().out.split("\n\n")
+    assert f"{winds}\n" == alone
+    assert [line.split() for line in systems.splitlines()] == [
+        ["system", "distribution", "version", "status"],
+        ["ball", "the", "entry", "point", "game:bring", "ready"],
+    ]
+    list_plugins(json=True)
+    last = {"system": "ball", "distribution": "the entry point game:bring", "version": "", "status": "ready"}
+    assert json.loads(capsys.readouterr().out)[-1] == last
 
 
 @pytest.mark.usefixtures("kinds")

@@ -18,7 +18,9 @@ from tallgrass.app.figures.register import FIGURES
 from tallgrass.components.wind import WindPrimitive
 from tallgrass.engine.declared.quality import PRESETS
 from tallgrass.engine.declared.scene import Scene
-from tallgrass.engine.plugins import OURS, wind_kinds
+
+from tallgrass.engine.installed import OURS
+from tallgrass.engine.plugins import wind_kinds
 
 DOCS = Path(__file__).parents[2] / "docs"
 FACES = [(tallgrass, name) for name in tallgrass.__all__] + [

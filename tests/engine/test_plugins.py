@@ -189,7 +189,7 @@ def test_the_environment_chooses_among_installed_kinds_but_built_in_ones_stay(
 def test_a_chosen_name_that_is_not_installed_is_one_warning(caplog: pytest.LogCaptureFixture) -> None:
     WindKinds([], chosen=["vortx"])
     (told,) = caplog.messages
-    assert told == "TALLGRASS_PLUGINS names 'vortx', but no such kind or distribution is installed"
+    assert told == "TALLGRASS_PLUGINS names 'vortx', but no such kind, system or distribution is installed"
 
 
 def test_a_wind_is_traced_to_who_brought_it(dust: WindKinds) -> None:

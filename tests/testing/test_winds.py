@@ -12,7 +12,8 @@ from pydantic import Field
 from tallgrass.components.declaration import Pair
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import Extent, Grass, WindPrimitive
-from tallgrass.engine.plugins import OURS, wind_kinds
+from tallgrass.engine.installed import OURS
+from tallgrass.engine.plugins import wind_kinds
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.testing import check_wind, wind_problems
 

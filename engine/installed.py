@@ -1,0 +1,87 @@
+"""What installed packages bring by entry points: which of it is used, and who brings it."""
+
+import os
+import re
+from collections.abc import Collection, Iterable
+from importlib.metadata import EntryPoint
+from typing import Literal
+
+CHOSEN = "TALLGRASS_PLUGINS"
+"""The environment variable that names what to use of what is installed: kinds, systems or distributions, `a,b`.
+
+Without it all is used, and if it is empty nothing. What tallgrass itself brings always is.
+"""
+
+OURS = "tallgrass"
+"""The distribution of what is built in."""
+
+Status = Literal["ready", "claimed twice", "left out"]
+"""What is known of an entry before it is imported."""
+
+
+class Installed:
+    """The entry points of a group by name, those in use and those left out.
+
+    `chosen` are names of entries or distributions to use beside those of tallgrass; None is all.
+    """
+
+    def __init__(self, entries: Iterable[EntryPoint], *, chosen: Collection[str] | None = None) -> None:
+        self.used: dict[str, list[EntryPoint]] = {}
+        self.left_out: dict[str, list[EntryPoint]] = {}
+        for entry in entries:
+            kept = self.used if _is_chosen(entry, chosen) else self.left_out
+            kept.setdefault(entry.name, []).append(entry)
+
+    def all(self) -> list[EntryPoint]:
+        """Return all entries, those left out last."""
+        return [entry for kept in (self.used, self.left_out) for entries in kept.values() for entry in entries]
+
+    def status(self, entry: EntryPoint) -> Status:
+        """Return whether an entry can be used."""
+        kept = self.used.get(entry.name, [])
+        if all(entry is not other for other in kept):  # equal entries may be of two distributions
+            return "left out"
+        return "ready" if len(kept) == 1 else "claimed twice"
+
+
+def chosen_names() -> list[str] | None:
+    """Return what the environment names to be used; None is all."""
+    chosen = os.environ.get(CHOSEN)
+    return None if chosen is None else [name for part in chosen.split(",") if (name := part.strip())]
+
+
+def unknown_names(chosen: Collection[str] | None, entries: Iterable[EntryPoint]) -> list[str]:
+    """Return the chosen names that no entry and no distribution of these entries has, in alphabetical order."""
+    known = {name for entry in entries for name in _names(entry)}
+    return sorted({_normal(name) for name in chosen or ()} - known)
+
+
+def owner(entry: EntryPoint) -> tuple[str, str]:
+    """Return the distribution that brings an entry, and its version."""
+    return (entry.dist.name, entry.dist.version) if entry.dist else (f"the entry point {entry.value}", "")
+
+
+def owners(entries: list[EntryPoint]) -> str:
+    """Return the distributions that bring entries, with their versions, as a sentence names them."""
+    return " and ".join(" ".join(owner(entry)).strip() for entry in entries)
+
+
+def claimed(what: str, entries: list[EntryPoint]) -> str:
+    """Return the sentence on several entries of one name."""
+    choice = f"uninstall all but one of them, or name it in {CHOSEN}"
+    return f"{what} is claimed by {owners(entries)}; {choice}"
+
+
+def _is_chosen(entry: EntryPoint, chosen: Collection[str] | None) -> bool:
+    if chosen is None or owner(entry)[0] == OURS:
+        return True
+    return not _names(entry).isdisjoint(_normal(name) for name in chosen)
+
+
+def _names(entry: EntryPoint) -> set[str]:
+    return {_normal(entry.name), _normal(owner(entry)[0])}
+
+
+def _normal(name: str) -> str:
+    """Return a name as package indexes compare it."""
+    return re.sub(r"[-_.]+", "-", name).lower()
