@@ -15,40 +15,56 @@ class Messages(Protocol):
         """Return the messages of a slot, shape (n, 2), to be read and written; from now on what is written counts."""
 
 
+class Places(Protocol):
+    """Where the receivers of some slots are, and what grows there."""
+
+    def places(self, slots: NDArray[np.int64], /) -> Floats:
+        """Return ground positions (x, z) [m], shape (m, ..., 2)."""
+
+    def kind(self, slots: NDArray[np.int64], /) -> NDArray[np.intp]:
+        """Return the kinds of grass, one slot after another, shape (n,)."""
+
+
 @final
 class Receivers:
     """What collects the wind's messages for one patch in one representation (paper, section 3.2).
 
     One row per blade, per vertical edge of a strip, or one for a patch of carpet. `message` may be written; the rest
-    cannot.
+    cannot. Those of blades and strips have entities of their own; the carpet's are carried by the patch's.
     """
 
-    __slots__ = ("_messages", "_slot", "kind", "patch", "place", "representation", "viewer")
+    __slots__ = ("_messages", "_patch", "_places", "_representation", "_slot", "_viewer")
 
     def __init__(
-        self,
-        messages: Messages,
-        slot: int,
-        *,
-        place: Floats,
-        kind: NDArray[np.intp],
-        patch: int,
-        representation: str,
-        viewer: str,
+        self, messages: Messages, places: Places, slot: int, /, *, patch: int, representation: str, viewer: str
     ) -> None:
-        self._messages, self._slot = messages, slot
-        self.place: Floats = place
-        """Ground positions (x, z) [m], shape (n, 2)."""
-        self.kind: NDArray[np.intp] = kind
-        """Number of the kind of grass of each, in the order of the scene, shape (n,)."""
-        self.patch: int = patch
-        """The entity of the patch."""
-        self.representation: str = representation
-        """The name of the representation."""
-        self.viewer: str = viewer
+        self._messages, self._places, self._slot = messages, places, slot
+        self._patch, self._representation, self._viewer = patch, representation, viewer
+
+    @property
+    def patch(self) -> int:
+        """The entity of the patch; 0 where it is the same entity."""
+        return self._patch
+
+    @property
+    def representation(self) -> str:
+        """The name of the representation: `blades`, `strips` or `carpet`."""
+        return self._representation
+
+    @property
+    def viewer(self) -> str:
         """The name of the viewer that the patch is shown to."""
-        for array in (place, kind):
-            array.flags.writeable = False
+        return self._viewer
+
+    @property
+    def place(self) -> Floats:
+        """Ground positions (x, z) [m], shape (n, 2); a copy."""
+        return self._places.places(np.array([self._slot])).reshape(-1, 2).copy()
+
+    @property
+    def kind(self) -> NDArray[np.intp]:
+        """Number of the kind of grass of each, in the order of the scene, shape (n,)."""
+        return self._places.kind(np.array([self._slot]))
 
     @property
     def message(self) -> Floats:

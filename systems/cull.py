@@ -2,93 +2,16 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import pi
-from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ..engine.camera import View
-
-if TYPE_CHECKING:
-    from .outlook import Outlook
-
-Floats = NDArray[np.float32]
-Doubles = NDArray[np.float64]
-
-HALF_DIAGONAL = 0.7072
-"""Distance from the middle of a square to its corners, of its side."""
-
-BESIDE = 0.05
-"""How far outside the picture straight up and down still count as seen, in halves of the picture."""
-
-
-def view_cone(seen: View, /) -> tuple[float, float]:
-    """Return the azimuths (middle, half width) [rad] of everything that is seen, as if from above.
-
-    They are those of the picture's corners, however the camera is turned, banked or shifted. Where straight up or
-    straight down is in the picture, and where there is no perspective, it is all round: then the half width is pi.
-    """
-    projection, axes = seen.projection.astype(np.float64), seen.view[:3, :3].astype(np.float64)
-    if not np.allclose(projection[3], (0.0, 0.0, -1.0, 0.0)) or _shows_pole(projection, axes[:, 1]):
-        return 0.0, pi
-    corners = (np.array([[-1, -1], [-1, 1], [1, -1], [1, 1]]) + projection[:2, 2]) / projection[[0, 1], [0, 1]]
-    rays = np.column_stack([corners, np.full(4, -1.0)]) @ axes
-    azimuth = np.arctan2(rays[:, 0], -rays[:, 2])
-    apart = np.mod(azimuth - azimuth[0] + pi, 2 * pi) - pi
-    return float(azimuth[0] + (apart.max() + apart.min()) / 2), float(apart.max() - apart.min()) / 2
-
-
-def _shows_pole(projection: Doubles, up: Doubles) -> bool:
-    """Return whether straight up or down, given as seen from the eye, is in the picture or just beside it."""
-    pole = up if up[2] < 0.0 else -up
-    across = np.abs(projection[:2, :3] @ pole) / max(-pole[2], 1e-9)
-    return bool((across < 1.0 + BESIDE).all())
-
-
-def inside_cone(
-    place: Floats, /, *, apex: tuple[float, float], cone: tuple[float, float], radius: float
-) -> NDArray[np.bool_]:
-    """Return whether discs of `radius` [m] around ground positions (n, 2) touch the view cone, shape (n,)."""
-    middle, half = cone
-    away = place - np.asarray(apex, np.float32)
-    if half >= pi:
-        return np.ones(len(away), np.bool_)
-    sine, cosine = np.float32(np.sin(middle)), np.float32(np.cos(middle))
-    ahead, aside = np.array([sine, -cosine]), np.array([cosine, sine])
-    along, across = away @ ahead, np.abs(away @ aside)
-    outside = across * np.float32(np.cos(half)) - along * np.float32(np.sin(half))
-    return np.asarray((outside <= radius) & (along >= -radius))
-
-
-def discrete_distance(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArray[np.int32]:
-    """Return the patches' distance (paper, section 2.2): 0 for the viewer's, 1 for its eight neighbours, ..."""
-    apart: NDArray[np.int32] = np.abs(cell - centre).max(axis=-1)
-    return apart
-
-
-def far_to_near(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArray[np.int64]:
-    """Return the order that walks cells (n, 2) back to front from anywhere in `centre`, shape (n,).
-
-    A ray leaves square rings from the inside out, and within a ring it moves away from the axis; so rings from the
-    outside in, and each from its corners to its axes, never draw a patch over one before it (paper, section 2.2).
-    """
-    apart = np.abs(cell - centre)
-    order: NDArray[np.int64] = np.lexsort((-apart.min(axis=-1), -apart.max(axis=-1)))
-    return order
-
-
-def eye_of(view: View, /) -> tuple[float, float, float]:
-    """Return where a view is seen from, (x, y, z) [m]."""
-    x, y, z = np.linalg.inv(view.view.astype(np.float64))[:3, 3].tolist()
-    return x, y, z
+from .around.cone import HALF_DIAGONAL, inside_cone
+from .around.outlook import Outlook
 
 
 @dataclass(slots=True)
 class Cull:
     """The system `cull`: which patches the view cone of each viewer that looks may hold."""
 
-    outlooks: Iterable["Outlook"]
+    outlooks: Iterable[Outlook]
     patch: float
     """Side of a patch [m]."""
 
@@ -100,7 +23,6 @@ class Cull:
         for outlook in self.outlooks:
             patches, viewer = outlook.patches, outlook.viewer
             patches.was_visible[:] = patches.visible
-            radius = self.patch * HALF_DIAGONAL + self.sway
-            apex = viewer.eye[0], viewer.eye[2]
-            middle = patches.middles(patch=self.patch)
-            patches.visible[:] = inside_cone(middle, apex=apex, cone=viewer.cone, radius=radius)
+            apex, middle = (viewer.eye[0], viewer.eye[2]), patches.middles(patch=self.patch)
+            for rows, far in ((patches.visible, HALF_DIAGONAL * self.patch), (patches.near, 2.0 * self.patch)):
+                rows[:] = inside_cone(middle, apex=apex, cone=viewer.cone, radius=far + self.sway)

@@ -11,13 +11,13 @@ from ..engine.declared.quality import Quality
 from ..engine.declared.scene import Scene
 from ..engine.terrain.record import Density, Terrain
 from ..engine.terrain.sample import density_at
-from .ground import Ground
+from .around.ground import Ground
+from .around.patches import PatchTable
 from .grow.record import Growth
 from .lod import SLACK, farthest
-from .patches import PatchTable
 from .show.blades.pool import BladePool
 from .show.strips.pool import StripPool
-from .show.transitions import SEAMLESS, Transitions
+from .around.transitions import SEAMLESS, Transitions
 from .stock.stock import Stock, stock_up
 
 Floats = NDArray[np.float32]

@@ -19,7 +19,7 @@ from .show.blades.draw import CORES, EDGES, BladePainter
 from .show.blades.gather import gather_blades
 from .show.carpet.draw import RAISED, GroundPainter, finest_spacing, ground_tiles, within
 from .show.carpet.textures import carpet_texture
-from .show.looks import BORDER
+from .around.appearance import BORDER
 from .show.morph.draw import MorphPainter
 from .show.seen import Seen
 from .show.strips.draw import StripPainter

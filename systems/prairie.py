@@ -18,24 +18,25 @@ from ..engine.declared.quality import PRESETS, Representation
 from ..engine.declared.scene import LodName, Scene
 from ..engine.gl.guest import host_context, kept, viewport
 from ..engine.gl.homes import Homes
-from ..engine.phases import Phase, Schedule
 from ..engine.scene import LoadedScene, load_maps, read_scene
+from ..engine.schedule import Phase, Schedule
 from ..engine.terrain.sample import height_at
 from ..engine.world import World
+from .around.cone import discrete_distance, eye_of, inside_cone, view_cone
+from .around.receivers import ReceiverEntities
+from .around.window import cell_of
 from .bodies.fly import flying
-from .cull import discrete_distance, eye_of, inside_cone, view_cone
 from .field import Field, blades_in_field, lay_out
 from .lod import SLACK, part_of_change, schedule, wanted_representation, weights
 from .painter import Painter
 from .receive import blow, plant_shown_blades, plant_shown_strips
-from .receivers import ReceiverEntities
 from .refine import refine
 from .reload import laid_again
 from .show.seen import Seen, look, see
-from .show.transitions import SEAMLESS, Transitions
+from .around.transitions import SEAMLESS, Transitions
 from .statistics import Statistics
 from .stock.cache import cached_growth
-from .tile import cell_of, tile
+from .tile import tile
 from .winds import Winds
 
 if TYPE_CHECKING:

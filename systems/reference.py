@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..engine.camera import View, view_of
-from .cull import discrete_distance, inside_cone
+from .around.cone import discrete_distance, inside_cone
+from .around.window import cell_of
 from .field import Field
 from .painter import Painter
 from .prairie import Prairie
@@ -16,7 +17,7 @@ from .show.blades.gather import gather_blades
 from .show.blades.plant import plant_blades
 from .show.blades.pool import BladePool
 from .show.seen import Shown, carpet_shares
-from .tile import cell_of, cells_on, patch_models
+from .tile import cells_on, patch_models
 from .wind.blow import places_alone
 from .wind.grass import grass_of
 

@@ -12,33 +12,13 @@ from ..engine.random import hash3
 from ..engine.terrain.record import Terrain
 from ..engine.terrain.sample import height_at, slope_at
 from ..engine.world import World
-from .clearing import Clearings
-from .cull import discrete_distance
-from .outlook import Outlook
-from .patches import PatchTable
+from .around.clearing import Clearings
+from .around.cone import discrete_distance
+from .around.outlook import Outlook
+from .around.patches import PatchTable
+from .around.window import cell_of, window_cells, window_rows
 
 Ints = NDArray[np.int32]
-
-
-def cell_of(place: NDArray[np.float32], /, *, patch: float) -> Ints:
-    """Return the cells (i, j) that ground positions (x, z) lie in, both of shape (..., 2)."""
-    return np.floor(np.asarray(place, np.float64) / patch).astype(np.int32)
-
-
-def window_rows(cell: Ints, /, *, side: int) -> NDArray[np.int64]:
-    """Return the row of each cell (n, 2) in a window of `side` by `side` that wraps round, shape (n,)."""
-    wrapped = np.mod(cell, side).astype(np.int64)
-    rows: NDArray[np.int64] = wrapped[:, 1] * side + wrapped[:, 0]
-    return rows
-
-
-def window_cells(centre: Ints, /, *, side: int) -> Ints:
-    """Return the cell at each row of a window around `centre`, shape (side * side, 2)."""
-    low = np.asarray(centre, np.int64) - side // 2
-    line = np.arange(side, dtype=np.int64)
-    i, j = (corner + np.mod(line - corner, side) for corner in low)
-    cells: Ints = np.stack(np.meshgrid(i, j), axis=-1).reshape(-1, 2).astype(np.int32)
-    return cells
 
 
 def cells_on(terrain: Terrain, cell: Ints, /, *, patch: float) -> NDArray[np.bool_]:
@@ -59,9 +39,7 @@ def hash_cells(seed: int, cell: Ints) -> NDArray[np.uint32]:
     return hash3(seed, cell[..., 0], cell[..., 1])
 
 
-def tile(
-    patches: PatchTable, centre: Ints, terrain: Terrain, /, *, patch: float, seed: int, models: int
-) -> Ints:
+def tile(patches: PatchTable, centre: Ints, terrain: Terrain, /, *, patch: float, seed: int, models: int) -> Ints:
     """Move the window of patches to `centre` and return the rows whose patch is new, shape (n,)."""
     half = patches.side // 2
     corners = np.array([centre - half, centre - half + patches.side - 1], np.int32)

@@ -4,7 +4,7 @@ It needs no test runner, and nothing of it loads itself into one.
 """
 
 from ..engine.gl.headless import NoContextError
-from ..engine.phases import Phase
+from ..engine.schedule import Phase
 from ..engine.world import private_world
 from .clock import FixedClock, fixed_clock
 from .context import headless_context

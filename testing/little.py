@@ -13,7 +13,7 @@ from ..engine.scene.compose import read_document
 from ..engine.scene.read import LoadedScene
 from ..engine.scene.validate import validate
 from ..systems.prairie import Prairie
-from ..systems.show.transitions import SEAMLESS, Transitions
+from ..systems.around.transitions import SEAMLESS, Transitions
 
 LITTLE = """\
 tallgrass: 1

@@ -1,7 +1,7 @@
 """One step of one system of a prairie, and what has to stand before it."""
 
 from ..engine.camera import Camera, camera_at, projection_matrix, view_matrix
-from ..engine.phases import Phase
+from ..engine.schedule import Phase
 from ..systems.prairie import Prairie
 
 ASPECT = 16 / 9

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...systems.show.transitions import SEAMLESS, Transitions
+from ...systems.around.transitions import SEAMLESS, Transitions
 from ..encode import make_folder
 from ..errors import InputError
 from ..studio import Studio, about

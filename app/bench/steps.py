@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from ...systems.lod import farthest
 from ...systems.prairie import Prairie
 from ...systems.reference import draw_reference
-from ...systems.show.transitions import Transitions
+from ...systems.around.transitions import Transitions
 from ..encode import Picture
 from ..progress import counted
 from ..studio import Studio

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from ...systems.grow.bend import spine
 from ...systems.grow.record import Blades
 from ...systems.lod import FADE
-from ...systems.show.looks import looks
-from ...systems.show.transitions import SEAMLESS
+from ...systems.around.appearance import looks
+from ...systems.around.transitions import SEAMLESS
 from ...systems.wind.gust import Gust
 from .figure import Detail, PaperFigure
 from .patch import CLOSE, Sample, edges, oblique, on_strip, painted, ribbons, sample

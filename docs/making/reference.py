@@ -5,7 +5,6 @@ from collections.abc import Iterator
 from typing import Any
 
 from tallgrass.engine.declared.quality import PRESETS, Quality
-
 from tallgrass.engine.installed import OURS
 from tallgrass.engine.plugins import wind_kinds
 from tallgrass.engine.scene.schema import scene_schema

@@ -11,7 +11,7 @@ from ...engine.camera import View
 from ...engine.declared.scene import Scene
 from ...engine.gl.shaders import program
 from ...engine.terrain.record import Terrain
-from ..cull import eye_of
+from ..around.cone import eye_of
 from ..grow.record import Growth
 from .light import daylight, display, grain, linear, lit_kind, to_sun
 

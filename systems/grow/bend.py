@@ -80,3 +80,8 @@ def _look_up(
     later = (knot - before)[None, :, None]
     point = curve[:, before] * (1.0 - later) + curve[:, before + 1] * later
     return point[:, :, 0], point[:, :, 1]
+
+
+def highest_tip(centre: Floats, texel: float, /) -> float:
+    """Return the height of the highest tip, rounded up to a texel [m]."""
+    return float(np.ceil(np.float64(centre[:, :, 1].max()) / texel + 1e-6) * texel)

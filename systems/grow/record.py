@@ -1,6 +1,8 @@
-"""What is grown from a grass kind: postures, response, and patch models from the finest to the coarsest."""
+"""What is grown from a grass kind: postures, response, and patch models."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,67 +64,12 @@ class Blades:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Strips:
-    """The blades of one patch model drawn on vertical strips, in both orientations (paper, section 2.1).
-
-    Orientation 0 has strips along x, stacked in z; orientation 1 has strips along z, stacked in x.
-    """
-
-    plane: Floats
-    """Distance of each strip's plane from the patch's edge [m], shape (strips,)."""
-
-    texels: Bytes
-    """Coverage-premultiplied meaning of each texel, bottom row first, shape (2, strips, h, w, 4): place along
-    the blade, face normal x and z (each as 0.5 + 0.5 n), coverage."""
-
-    rank: Bytes
-    """Rank of the blade at each texel, not premultiplied, shape (2, strips, h, w)."""
-
-    height: float
-    """Height of the texture [m]."""
-
-    margin: float
-    """How far the texture reaches beyond the patch at either end [m]."""
-
-    slice: NDArray[np.int32]
-    """Strip that each blade is painted on, shape (2, n)."""
-
-    targets: Floats
-    """Texture coordinates (u, v) of each blade's control points: the morph's targets (paper, section 4.2),
-    shape (2, n, points, 2)."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Carpet:
-    """Images of an endless field of one patch model from several viewing angles (paper, section 2.2).
-
-    An image holds, for each point of the plane at mid-height, what a ray through it meets first.
-    """
-
-    slope: Floats
-    """Tangent of the viewing elevation of each row of images, rising, shape (slopes,)."""
-
-    texels: Bytes
-    """Coverage-premultiplied meaning of each texel, shape (slopes, 4, r, r, 4): place along the blade, height
-    as a fraction of `height`, face normal along the view (0.5 + 0.5 n), coverage. The four viewing directions
-    are -z, +x, +z, -x in this order; rows go along z, columns along x."""
-
-    height: float
-    """Height of the canopy [m]."""
-
-    offset: float
-    """Height of the plane above the ground [m]."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
 class PatchModel:
-    """One patch of grass in all three representations, grown from the finest to the coarsest."""
+    """One patch of grass: its blades, and what each representation has grown from them."""
 
     blades: Blades
-    strips: tuple[Strips, ...]
-    """From the nearest ring to the farthest: fewer strips, coarser texels."""
-
-    carpet: Carpet
+    pictures: Mapping[str, tuple[Any, ...]]
+    """By representation, the records that it has grown, in its own order."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from ...engine.declared.quality import Representation
 from ..field import Field
 from ..lod import weights
-from ..show.looks import kept_near
+from ..around.appearance import kept_near
 from .marks import Marks, filled, on_ground, split, stroked, together
 from .paint import ring_shades
 

@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.declared.quality import Representation
-from ..cull import far_to_near
+from ..around.cone import far_to_near
+from ..around.patches import PatchTable
+from ..around.window import window_rows
 from ..field import Field
 from ..lod import weights
-from ..patches import PatchTable
-from ..tile import window_rows
-from .looks import Looks, kept_near, looks
+from ..around.appearance import Looks, kept_near, looks
 
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]

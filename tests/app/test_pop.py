@@ -15,7 +15,7 @@ from tallgrass.app.bench.verdict import judge
 from tallgrass.app.cli import run
 from tallgrass.app.studio import Studio
 from tallgrass.app.take import Take
-from tallgrass.systems.show.transitions import SEAMLESS
+from tallgrass.systems.around.transitions import SEAMLESS
 
 pytestmark = [pytest.mark.gl, pytest.mark.usefixtures("ctx")]
 

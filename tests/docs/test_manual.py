@@ -18,7 +18,6 @@ from tallgrass.app.figures.register import FIGURES
 from tallgrass.components.wind import WindPrimitive
 from tallgrass.engine.declared.quality import PRESETS
 from tallgrass.engine.declared.scene import Scene
-
 from tallgrass.engine.installed import OURS
 from tallgrass.engine.plugins import wind_kinds
 

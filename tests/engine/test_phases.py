@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tallgrass.engine.phases import Phase, Schedule
+from tallgrass.engine.schedule import Phase, Schedule
 
 
 def recorder(heard: list[str], name: str) -> Callable[[], None]:

@@ -14,7 +14,7 @@ from tallgrass.engine.declared.scene import Scene
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.engine.world import World
-from tallgrass.systems.cull import discrete_distance, inside_cone
+from tallgrass.systems.around.cone import discrete_distance, inside_cone
 from tallgrass.systems.field import Field, lay_out
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.lod import FADE, schedule, wanted_representation, weights
@@ -23,7 +23,8 @@ from tallgrass.systems.refine import refine
 from tallgrass.systems.show.seen import Seen, see
 from tallgrass.systems.show.seen import look as looks_of
 from tallgrass.systems.stock.models import grow
-from tallgrass.systems.tile import cell_of, tile
+from tallgrass.systems.around.window import cell_of
+from tallgrass.systems.tile import tile
 from tallgrass.systems.wind.blow import Listeners, blowing, hear
 from tallgrass.systems.wind.quarantine import Quarantine
 

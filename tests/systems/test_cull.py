@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.engine.camera import Camera, View, projection_matrix, view_matrix
-from tallgrass.systems.cull import discrete_distance, eye_of, far_to_near, inside_cone, view_cone
+from tallgrass.systems.around.cone import discrete_distance, eye_of, far_to_near, inside_cone, view_cone
 
 PATCH = 2.5
 AROUND = np.stack(np.meshgrid(np.arange(-12, 13), np.arange(-12, 13)), -1).reshape(-1, 2).astype(np.int32)

@@ -18,7 +18,7 @@ from tallgrass.systems.lod import (
     wanted_representation,
     weights,
 )
-from tallgrass.systems.patches import PatchTable
+from tallgrass.systems.around.patches import PatchTable
 
 REACH = (2, 5, 9)
 BLADES, STRIPS, CARPET = Representation

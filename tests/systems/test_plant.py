@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.terrain.sample import height_at
-from tallgrass.systems.ground import Ground, turned
+from tallgrass.systems.around.ground import Ground, turned
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.show.blades.plant import HEADINGS, blade_records, far_to_near_blades, heading_of, plant_blades
 from tallgrass.systems.show.blades.pool import BladePool

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass.engine.terrain.record import Terrain
-from tallgrass.systems.cull import far_to_near
+from tallgrass.systems.around.cone import far_to_near
 from tallgrass.systems.field import Field
 from tallgrass.systems.receive import blow, plant_shown_blades, plant_shown_strips
 from tallgrass.systems.show.blades.pool import BladePool

@@ -11,7 +11,7 @@ from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.world import World
 from tallgrass.systems.field import Field
 from tallgrass.systems.receive import blow
-from tallgrass.systems.receivers import ReceiverEntities
+from tallgrass.systems.around.receivers import ReceiverEntities
 from tallgrass.systems.show.blades.pool import BladePool
 from tallgrass.systems.show.seen import Seen
 from tallgrass.systems.show.strips.pool import StripPool

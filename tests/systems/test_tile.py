@@ -11,8 +11,9 @@ from tallgrass.components.patch import Lod, Patch
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at, slope_at
 from tallgrass.engine.world import World
-from tallgrass.systems.patches import PatchTable
-from tallgrass.systems.tile import cell_of, cells_on, patch_models, tile, window_cells, window_rows
+from tallgrass.systems.around.patches import PatchTable
+from tallgrass.systems.around.window import cell_of, window_cells, window_rows
+from tallgrass.systems.tile import cells_on, patch_models, tile
 
 SIDE, PATCH = 9, 2.5
 WIDE = Terrain(np.zeros((3, 3), np.float32), 5000.0)

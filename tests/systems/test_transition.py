@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.systems.show.looks import BORDER, Looks, handed_over, kept_near, looks
-from tallgrass.systems.show.transitions import SEAMLESS, Transitions
+from tallgrass.systems.around.appearance import BORDER, Looks, handed_over, kept_near, looks
+from tallgrass.systems.around.transitions import SEAMLESS, Transitions
 
 Floats = NDArray[np.float32]
 

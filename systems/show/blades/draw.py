@@ -1,5 +1,7 @@
 """Drawing 3D blades: one instanced draw per sub-level."""
 
+from collections.abc import Mapping
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
@@ -34,7 +36,7 @@ class BladePainter:
         ctx: moderngl.Context,
         block: FrameBlock,
         segments: int,
-        units: dict[str, int],
+        units: Mapping[str, int],
         *,
         soft: bool,
         coarser: int | None = None,

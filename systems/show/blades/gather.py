@@ -3,13 +3,13 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ..seen import Shown
 from .draw import MOVED
 from .pool import BladePool
+from .shown import Standing
 
 
 def gather_blades(
-    pool: BladePool, shown: Shown, /, *, eye: tuple[float, float] | None = None
+    pool: BladePool, shown: Standing, /, *, eye: tuple[float, float] | None = None
 ) -> tuple[NDArray[np.void], NDArray[np.void]]:
     """Return the blades that grow on the patches shown, records of `BLADE` and of `MOVED`, each of shape (n,).
 

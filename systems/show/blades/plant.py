@@ -1,20 +1,18 @@
-"""Planting: a patch model's blades and strips stood on the terrain of one cell (paper, section 2.2)."""
+"""Planting blades: a patch model's blades stood on the terrain of one cell (paper, section 2.2)."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ....engine.terrain.sample import density_at, height_at
-from ...ground import _COS, _SIN, PRESENT, Ground, turned
-from ...grow.record import Blades
+from ...around.ground import PRESENT, Ground, quarter_turn, turned
+from ...grow.record import Blades, Growth
 from .pool import BLADE, BladePool
 
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
-
-HEADINGS = 32
-"""Azimuths that blades are put in order for."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,13 +25,10 @@ class BladeStock:
     rank: Floats
     """The blades' ranks, shape (models, n)."""
 
-    order: NDArray[np.intp]
-    """Far to near by heading, rows as the records', shape (models * 4, HEADINGS, n)."""
-
 
 def blade_records(blades: Blades, turn: int, /, *, patch: float, kind: int, variants: int) -> NDArray[np.void]:
     """Return the records of a patch model's blades after quarter turns, roots relative to the patch, shape (n,)."""
-    c, s = _COS[turn], _SIN[turn]
+    c, s = quarter_turn(turn)
     records = np.zeros(len(blades.height), BLADE)
     spun = turned(blades.root, np.asarray(turn, np.int32), patch=patch)
     records["root"][:, 0], records["root"][:, 2] = spun[:, 0], spun[:, 1]
@@ -46,48 +41,36 @@ def blade_records(blades: Blades, turn: int, /, *, patch: float, kind: int, vari
     return records
 
 
-def far_to_near_blades(records: NDArray[np.void], /) -> NDArray[np.intp]:
-    """Return the orders of blades (n,) from far to near, seen towards each of `HEADINGS` azimuths, (HEADINGS, n).
+def stock_blades(growths: Sequence[Growth], patch: float, /) -> BladeStock:
+    """Return the blades of all kinds' patch models in all four turns; `patch` is a patch's side [m]."""
+    models = range(len(growths[0].models))
+    return BladeStock(
+        records=np.stack([_turned(growths, model, turn, patch) for model in models for turn in range(4)]),
+        rank=np.stack([np.concatenate([growth.models[model].blades.rank for growth in growths]) for model in models]),
+    )
 
-    They are found once, when a model is stocked; drawing sorts nothing (paper, section 2.2).
-    """
-    azimuth = np.arange(HEADINGS) * (2.0 * np.pi / HEADINGS)
-    away = np.stack([np.cos(azimuth), np.sin(azimuth)], axis=1) @ records["root"][:, ::2].T
-    return np.argsort(-away, axis=1, kind="stable")
 
-
-def heading_of(cell: Ints, viewer: NDArray[np.float64], /) -> Ints:
-    """Return which of `HEADINGS` azimuths the middle of each cell (m, 2) is seen towards, shape (m,).
-
-    `viewer` is the place that it is seen from [patch sides], shape (2,).
-    """
-    away = cell + 0.5 - viewer
-    turns = np.arctan2(away[:, 1], away[:, 0]) * (HEADINGS / (2.0 * np.pi))
-    return np.mod(np.round(turns), HEADINGS).astype(np.int32)
+def _turned(growths: Sequence[Growth], model: int, turn: int, patch: float) -> NDArray[np.void]:
+    return np.concatenate([
+        blade_records(
+            growth.models[model].blades, turn, patch=patch, kind=kind, variants=growth.postures.shape.shape[0]
+        )
+        for kind, growth in enumerate(growths)
+    ])  # fmt: skip
 
 
 def plant_blades(
-    pool: BladePool,
-    slots: NDArray[np.int64],
-    cell: Ints,
-    model: Ints,
-    turn: Ints,
-    heading: Ints,
-    stock: BladeStock,
-    ground: Ground,
-    /,
+    pool: BladePool, slots: NDArray[np.int64], cell: Ints, model: Ints, turn: Ints, stock: BladeStock, ground: Ground, /
 ) -> None:
-    """Stand the blades of each cell (m, 2) in its slot of the pool, in the order that goes with its `heading` (m,)."""
-    pool.stamp[slots, :2], pool.stamp[slots, 2] = cell, heading
-    row = model * 4 + turn
-    order = stock.order[row, heading]
-    chosen = stock.records[row[:, None], order]
+    """Stand the blades of each cell (m, 2) in its slot of the pool."""
+    pool.stamp[slots] = cell
+    chosen = stock.records[model * 4 + turn]
     corner = cell.astype(np.float32) * np.float32(ground.patch)
     chosen["root"][..., ::2] += corner[:, None, :]
     place = np.ascontiguousarray(chosen["root"][..., ::2])
     flat = place.reshape(-1, 2)
-    chosen["root"][..., 1] = height_at(ground.terrain, flat).reshape(order.shape)
+    chosen["root"][..., 1] = height_at(ground.terrain, flat).reshape(chosen.shape)
     kind = chosen["kind"].astype(np.intp).reshape(1, -1)
-    dense = np.take_along_axis(density_at(ground.density, flat), kind, axis=0).reshape(order.shape)
+    dense = np.take_along_axis(density_at(ground.density, flat), kind, axis=0).reshape(chosen.shape)
     pool.blade[slots], pool.place[slots] = chosen, place
-    pool.present[slots] = (stock.rank[model[:, None], order] < dense) & (dense > PRESENT)
+    pool.present[slots] = (stock.rank[model] < dense) & (dense > PRESENT)

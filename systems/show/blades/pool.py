@@ -5,7 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...patches import NOWHERE
+from ...around.patches import NOWHERE
+from ...around.receivers import Receiving
+from ..representation import Kept
 
 Floats = NDArray[np.float32]
 
@@ -28,8 +30,6 @@ row of the posture table, and kind. The field names are the shader's attributes.
 class BladePool:
     """The blades of all patches near enough to be 3D, one slot per patch.
 
-    Within a slot the blades of all kinds stand in one order, far to near.
-
     Slots form a window that wraps round, as the rows of a `PatchTable` do.
     """
 
@@ -49,7 +49,11 @@ class BladePool:
     """Receivers' messages, shape (side * side, n, 2)."""
 
     stamp: NDArray[np.int32]
-    """Cell (i, j) and heading that each slot is planted for, shape (side * side, 3)."""
+    """Cell (i, j) that each slot is planted for, shape (side * side, 2)."""
+
+    def places(self, slots: NDArray[np.int64], /) -> Floats:
+        """Return the ground positions (x, z) [m] of the receivers of some slots, shape (m, n, 2)."""
+        return self.place[slots]
 
     def kind(self, slots: NDArray[np.int64], /) -> NDArray[np.intp]:
         """Return the kind that each receiver of some slots is of, shape (len(slots) * n,)."""
@@ -70,5 +74,13 @@ class BladePool:
             present=np.zeros(shape, np.bool_),
             place=np.zeros((*shape, 2), np.float32),
             message=np.zeros((*shape, 2), np.float32),
-            stamp=np.full((slots, 3), NOWHERE, np.int32),
+            stamp=np.full((slots, 2), NOWHERE, np.int32),
         )
+
+
+class BladesKept(Kept):
+    """The blades around one viewer."""
+
+    def __init__(self, pool: BladePool, name: str) -> None:
+        super().__init__([Receiving(pool, name)])
+        self.pool = pool

@@ -3,13 +3,11 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ...lod import SLACK
-
 Ints = NDArray[np.int32]
 Levels = NDArray[np.int8]
 
 
-def blade_ring(distance: Ints, current: Levels, limits: Ints, /, *, slack: int = SLACK) -> Levels:
+def blade_ring(distance: Ints, current: Levels, limits: Ints, /, *, slack: int) -> Levels:
     """Return the ring of 3D patches (n,): by discrete distance; a finer one is kept for `slack` patches longer."""
     coarse, fine = np.searchsorted(limits, distance), np.searchsorted(limits, distance - slack)
     return np.where(current < 0, coarse, np.clip(current, fine, coarse)).astype(np.int8)

@@ -1,12 +1,36 @@
 """The carpet: images of an endless field of a patch model from several viewing angles (paper, section 2.2)."""
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
-from ...grow.bend import Doubles, ribbon, segment_normals, spine
+from ...grow.bend import Doubles, highest_tip, ribbon, segment_normals, spine
 from ...grow.raster import Fragments, interpolate, rasterise, ribbon_triangles
-from ...grow.record import Blades, Bytes, Carpet, Postures
-from ..strips.grow import canopy_height
+from ...grow.record import Blades, Bytes, Floats, PatchModel, Postures
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Carpet:
+    """Images of an endless field of one patch model from several viewing angles (paper, section 2.2).
+
+    An image holds, for each point of the plane at mid-height, what a ray through it meets first.
+    """
+
+    slope: Floats
+    """Tangent of the viewing elevation of each row of images, rising, shape (slopes,)."""
+
+    texels: Bytes
+    """Coverage-premultiplied meaning of each texel, shape (slopes, 4, r, r, 4): place along the blade, height
+    as a fraction of `height`, face normal along the view (0.5 + 0.5 n), coverage. The four viewing directions
+    are -z, +x, +z, -x in this order; rows go along z, columns along x."""
+
+    height: float
+    """Height of the canopy [m]."""
+
+    offset: float
+    """Height of the plane above the ground [m]."""
+
 
 SLOPES = (0.02, 0.06, 0.2, 0.6, 2.0)
 """Tangents of the viewing elevations."""
@@ -14,6 +38,12 @@ SLOPES = (0.02, 0.06, 0.2, 0.6, 2.0)
 _SEGMENTS = 8
 _SAMPLES_PER_WIDTH = 5.0
 _HEADINGS = np.array([[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]])
+
+
+def carpet_of(model: PatchModel, /) -> Carpet:
+    """Return the carpet of a patch model."""
+    (carpet,) = model.pictures["carpet"]
+    return carpet
 
 
 def grow_carpet(
@@ -38,7 +68,7 @@ def grow_carpet(
         edge.astype(np.float64) for edge in ribbon(blades, postures, (0.0, 0.0), points=_SEGMENTS + 1, taper=taper)
     )
     centre = spine(blades, postures, (0.0, 0.0), points=_SEGMENTS + 1)
-    height = canopy_height(centre, 0.01) if height is None else height
+    height = highest_tip(centre, 0.01) if height is None else height
     width = float(blades.width.mean())
     field = _Field(ribbon_triangles(left, right), segment_normals(blades, centre), width, patch, height, texels)
     images = [[field.draw(heading, slope) for heading in _HEADINGS] for slope in slopes]

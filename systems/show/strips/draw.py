@@ -1,5 +1,7 @@
 """Drawing 2.5D strips, back to front: an instanced draw for each run of patches of one ring."""
 
+from collections.abc import Mapping
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
@@ -8,7 +10,7 @@ from ....engine.declared.quality import StripRing
 from ....engine.gl.records import Records
 from ....engine.gl.stream import release_all
 from ...frame.block import FrameBlock, by_kind, joined
-from ...grow.record import Strips
+from .grow import Strips
 from .textures import strip_textures
 
 STRIP = np.dtype(
@@ -41,7 +43,7 @@ class StripPainter:
         block: FrameBlock,
         ring: StripRing,
         stock: list[list[Strips]],
-        units: dict[str, int],
+        units: Mapping[str, int],
     ) -> None:
         self.sections, self.columns = ring.sections, ring.columns
         self.units = units

@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ...patches import PatchTable
-from ..looks import Looks, handed_over
-from ..seen import Shown
+from ...around.patches import PatchTable
+from ...around.appearance import Appearance, handed_over
+from .shown import StripsOfRing
 from .draw import STRIP
 from .pool import StripPool
 
@@ -16,7 +16,7 @@ def lies_ahead(cell: NDArray[np.int32], centre: NDArray[np.int32], along: NDArra
 
 
 def gather_strips(
-    pool: StripPool, shown: Shown, looks: Looks, table: PatchTable, centre: NDArray[np.int32], /, *, fade: bool = True
+    pool: StripPool, shown: StripsOfRing, appears: Appearance, patches: PatchTable, centre: NDArray[np.int32], /, *, fade: bool = True
 ) -> tuple[NDArray[np.void], NDArray[np.int64]]:
     """Return the polygon strips of the patches shown, far to near, and how many there are on each patch.
 
@@ -25,7 +25,7 @@ def gather_strips(
 
     Strips are stored by rising place in their stack; where the viewer is on the low side they are walked backwards.
     """
-    ahead = lies_ahead(table.cell[shown.rows], centre, shown.along)
+    ahead = lies_ahead(patches.cell[shown.rows], centre, shown.along)
     _, kinds, count = pool.layer.shape
     order = np.where(ahead[:, None], np.arange(count)[::-1], np.arange(count))[..., None]
     # Strips of several kinds share a plane: each kind comes to lie in front as often as behind.
@@ -40,17 +40,17 @@ def gather_strips(
         records["wind"][..., slice(0, 2) if side == "a" else slice(2, 4)] = message[..., edge, :]
     records["layer"] = pool.layer[at][..., None]
     records["kind"] = kind[..., None]
-    records["turn"] = table.turn[shown.rows][:, None, None, None]
-    records["growth"] = looks.growth[shown.rows][:, None, None, None]
+    records["turn"] = patches.turn[shown.rows][:, None, None, None]
+    records["growth"] = appears.growth[shown.rows][:, None, None, None]
     records["ranks"] = np.where(shown.least > 0.0, -shown.least, shown.most)[:, None, None, None]
-    covers = shown.fade * handed_over(looks.handed[shown.rows], fade=fade)[1]
+    covers = shown.fade * handed_over(appears.handed[shown.rows], fade=fade)[1]
     records["fade"] = covers[:, None, None, None]
     grows = pool.present[at[:2]] & (covers > 0.0)[:, None, None]
     grown: NDArray[np.void] = records[grows].reshape(-1)
     return grown, grows.sum(axis=(1, 2)) * columns
 
 
-def runs(shown: list[Shown], counts: list[NDArray[np.int64]], thin: list[bool], /) -> list[tuple[int, int, int, bool]]:
+def runs(shown: list[StripsOfRing], counts: list[NDArray[np.int64]], thin: list[bool], /) -> list[tuple[int, int, int, bool]]:
     """Return the draws that show all rings' strips from far to near: ring, first strip, number of strips, by rank.
 
     `counts` are the numbers of strips on each patch, by ring. Patches of one ring that follow one another are drawn

@@ -1,14 +1,53 @@
 """Vertical strips: images of the blades between two planes, in both orientations (paper, section 2.2)."""
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
-from ...grow.bend import Doubles, ribbon, spine
+from ...grow.bend import Doubles, highest_tip, ribbon, spine
 from ...grow.raster import Fragments, interpolate, rasterise, ribbon_triangles
-from ...grow.record import Blades, Bytes, Floats, Postures, Strips
+from ...grow.record import Blades, Bytes, Floats, PatchModel, Postures
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Strips:
+    """The blades of one patch model drawn on vertical strips, in both orientations (paper, section 2.1).
+
+    Orientation 0 has strips along x, stacked in z; orientation 1 has strips along z, stacked in x.
+    """
+
+    plane: Floats
+    """Distance of each strip's plane from the patch's edge [m], shape (strips,)."""
+
+    texels: Bytes
+    """Coverage-premultiplied meaning of each texel, bottom row first, shape (2, strips, h, w, 4): place along
+    the blade, face normal x and z (each as 0.5 + 0.5 n), coverage."""
+
+    rank: Bytes
+    """Rank of the blade at each texel, not premultiplied, shape (2, strips, h, w)."""
+
+    height: float
+    """Height of the texture [m]."""
+
+    margin: float
+    """How far the texture reaches beyond the patch at either end [m]."""
+
+    slice: NDArray[np.int32]
+    """Strip that each blade is painted on, shape (2, n)."""
+
+    targets: Floats
+    """Texture coordinates (u, v) of each blade's control points: the morph's targets (paper, section 4.2),
+    shape (2, n, points, 2)."""
+
 
 _SEGMENTS = 12
 _DILATIONS = 3
+
+
+def strips_of(model: PatchModel, /) -> tuple[Strips, ...]:
+    """Return the strips of a patch model, from the nearest ring to the farthest: fewer strips, coarser texels."""
+    return model.pictures["strips"]
 
 
 def grow_strips(
@@ -33,7 +72,7 @@ def grow_strips(
     most. Where nothing is painted, ranks are those of what is painted nearby, or else 255.
     """
     centre = spine(blades, postures, (0.0, 0.0), points=postures.shape.shape[2])
-    height = canopy_height(centre, texel) if height is None else height
+    height = highest_tip(centre, texel) if height is None else height
     size = _count(height, texel), _count(patch + 2.0 * margin, texel)
     shared = _Sheet(blades, postures, strips=strips, patch=patch, margin=margin, height=height, size=size, taper=taper)
     images = [shared.draw(orientation) for orientation in (0, 1)]
@@ -53,11 +92,6 @@ def paint_targets(centre: Floats, /, *, patch: float, margin: float, height: flo
     ground = (centre[:, :, ::2].astype(np.float64) + margin) / (patch + 2.0 * margin)
     up = centre[:, :, 1].astype(np.float64) / height
     return np.stack([np.stack([ground[:, :, k], up], axis=2) for k in (0, 1)]).astype(np.float32)
-
-
-def canopy_height(centre: Floats, texel: float, /) -> float:
-    """Return the height of the highest tip, rounded up to a texel [m]."""
-    return float(np.ceil(np.float64(centre[:, :, 1].max()) / texel + 1e-6) * texel)
 
 
 def _count(length: float, texel: float, /) -> int:

@@ -4,8 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....engine.terrain.sample import density_at, height_at
-from ...ground import PRESENT, Ground, turned
-from ...grow.record import Strips
+from ...around.ground import PRESENT, Ground, turned
+from .grow import Strips
 from .pool import StripPool
 
 Floats = NDArray[np.float32]

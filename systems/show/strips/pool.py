@@ -5,7 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...patches import NOWHERE
+from ...around.patches import NOWHERE
+from ...around.receivers import Receiving
+from ..representation import Kept
 
 Floats = NDArray[np.float32]
 
@@ -42,6 +44,10 @@ class StripPool:
     stamp: NDArray[np.int32]
     """Cell (i, j) and orientation that each slot is planted for, shape (2 * side * side, 3)."""
 
+    def places(self, slots: NDArray[np.int64], /) -> Floats:
+        """Return the feet (x, z) [m] of the edges of some slots, shape (m, kinds, strips, columns + 1, 2)."""
+        return self.place[slots]
+
     def kind(self, slots: NDArray[np.int64], /) -> NDArray[np.intp]:
         """Return the kind that each receiver of some slots is of, one row after another."""
         _, kinds, strips, edges = self.ground.shape
@@ -61,3 +67,11 @@ class StripPool:
             least=np.zeros(2 * side * side, np.float32),
             stamp=np.full((2 * side * side, 3), NOWHERE, np.int32),
         )
+
+
+class StripsKept(Kept):
+    """The strips around one viewer, a pool for each ring."""
+
+    def __init__(self, pools: list[StripPool], name: str) -> None:
+        super().__init__([Receiving(pool, name) for pool in pools])
+        self.pools = pools

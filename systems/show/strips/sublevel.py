@@ -3,8 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ...field import Field
-from ...lod import SLACK
+from ...around.patches import PatchTable
 
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
@@ -24,7 +23,7 @@ def strip_ring(
     /,
     *,
     height: float,
-    slack: int = SLACK,
+    slack: int,
 ) -> Levels:
     """Return the ring of each 2.5D patch (n,): by discrete distance, but finer where it is seen from above.
 
@@ -55,11 +54,27 @@ def strips_along(cell: Ints, centre: Ints, current: NDArray[np.integer], /) -> L
     return np.where(either & (current >= 0), current, due).astype(np.int8)
 
 
-def viewing_slope(field: Field, rows: Rows, /) -> Floats:
+def viewing_slope(
+    patches: PatchTable, rows: Rows, /, *, eye: tuple[float, float, float], patch: float
+) -> Floats:
     """Return the tangent of the angle between the line of sight and the ground on each patch, shape (n,)."""
-    table, eye, patch = field.table, field.sight.eye, field.quality.patch
-    away = (table.cell[rows] + np.float32(0.5)) * np.float32(patch) - np.array([eye[0], eye[2]], np.float32)
+    away = patches.middles(rows, patch=patch) - np.array([eye[0], eye[2]], np.float32)
     reach = np.maximum(np.hypot(away[:, 0], away[:, 1]), np.float32(0.5 * patch))
-    rise = np.einsum("ij,ij->i", table.slope[rows], away)
-    slope: Floats = (np.float32(eye[1]) - table.height[rows] + rise) / reach
+    rise = np.einsum("ij,ij->i", patches.slope[rows], away)
+    slope: Floats = (np.float32(eye[1]) - patches.height[rows] + rise) / reach
     return slope
+
+
+def packed(ring: Levels, axis: Levels, /) -> Levels:
+    """Return the sub-level that a ring and the axis that strips run along make together, shape (n,)."""
+    return (2 * ring + axis).astype(np.int8)
+
+
+def ring_of(sublevel: Levels, /) -> NDArray[np.int64]:
+    """Return the ring that sub-levels (n,) are of; -1 for none."""
+    return sublevel.astype(np.int64) >> 1
+
+
+def axis_of(sublevel: Levels, /) -> Ints:
+    """Return the axis that strips of sub-levels (n,) run along: 0 is x, 1 is z."""
+    return (sublevel & 1).astype(np.int32)

@@ -1,15 +1,18 @@
 """A ring's strips as textures."""
 
+from collections.abc import Sequence
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ...grow.record import Growth, Strips
+from ...grow.record import Growth
+from .grow import Strips, strips_of
 
 
-def strip_stock(growths: list[Growth], ring: int) -> list[list[Strips]]:
+def strip_stock(growths: Sequence[Growth], ring: int) -> list[list[Strips]]:
     """Return a ring's strips by kind and model."""
-    return [[model.strips[ring] for model in growth.models] for growth in growths]
+    return [[strips_of(model)[ring] for model in growth.models] for growth in growths]
 
 
 def strip_textures(

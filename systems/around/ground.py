@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..engine.terrain.record import Density, Terrain
+from ...engine.terrain.record import Density, Terrain
+from ...engine.terrain.sample import density_at
 
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
@@ -28,8 +29,21 @@ class Ground:
     """Side of a patch [m]."""
 
 
+def quarter_turn(turn: int | Ints, /) -> tuple[Floats, Floats]:
+    """Return cosine and sine of quarter turns."""
+    return _COS[turn], _SIN[turn]
+
+
 def turned(place: Floats, turn: Ints, /, *, patch: float) -> Floats:
     """Return positions in a patch (..., 2) after quarter turns about its middle, +x towards +z."""
-    c, s = _COS[turn], _SIN[turn]
+    c, s = quarter_turn(turn)
     x, z = place[..., 0] - patch / 2, place[..., 1] - patch / 2
     return np.stack([c * x - s * z + patch / 2, s * x + c * z + patch / 2], axis=-1).astype(np.float32)
+
+
+def densest_kind(density: Density, place: Floats, /) -> NDArray[np.intp]:
+    """Return the kind that grows most densely at ground positions (n, 2) [m], shape (n,)."""
+    if len(density.maps) == 1:
+        return np.zeros(len(place), np.intp)
+    densest: NDArray[np.intp] = np.argmax(density_at(density, place), axis=0)
+    return densest

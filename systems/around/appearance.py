@@ -1,4 +1,4 @@
-"""Transitions: what a patch looks like on its way from one representation to another (paper, section 4)."""
+"""Appearance: what a patch looks like on its way from one representation to another (paper, section 4)."""
 
 from dataclasses import dataclass
 
@@ -9,18 +9,21 @@ from .transitions import Transitions
 
 Floats = NDArray[np.float32]
 
+THREE = ("blades", "strips", "carpet")
+"""The representations whose changes into one another are more than a fade."""
+
 ARRIVED = 0.95
 """Part of a change from blades to strips after which the blades are in their painted places."""
 
 GENTLY = 1.6
-"""Power of the way that they have gone then: they set off slowly, and hurry when little of them is left to see."""
+"""Exponent of the ease curve of that way: above 1, blades set off slowly and hurry at the end."""
 
 NEARLY = 0.35
-"""Part of it after which they are handed over to the strips, as they come near."""
+"""Part of a change from blades to strips after which the blades begin to be handed over to the strips."""
 
 OVERLAP = 0.35
-"""How much more than in a plain cross-fade both show half-way through the handing over. They cover the same place: with
-less the ground would shine through, with more edges would swell."""
+"""How much more than in a plain cross-fade blades and strips show half-way through the handing over. Both cover the same
+place: with less, the ground shows through; with more, edges look swollen."""
 
 BORDER = 4.0
 """Over how many patches the strips give way to the carpet."""
@@ -29,30 +32,24 @@ GROWN = 0.6
 """Part of a change from carpet to strips after which the strips stand at their full height."""
 
 SINKS = 0.4
-"""Part of it after which the carpet begins to sink and fade."""
+"""Part of a change from carpet to strips after which the carpet begins to sink and fade."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Looks:
-    """How each patch of the table shows, each of shape (rows,)."""
+class Appearance:
+    """How each patch around a viewer appears in a frame."""
 
-    blades: Floats
-    """How much blades cover of what they could, 0 where none are drawn."""
+    cover: Floats
+    """How much each representation covers of what it could, 0 where none is drawn, shape (representations, rows)."""
 
     morph: Floats
-    """How far blades have moved towards their painted places."""
+    """How far blades have moved towards their painted places, shape (rows,)."""
 
     handed: Floats
-    """How far the blades have been handed over to the strips."""
-
-    strips: Floats
-    """How much strips cover of what they could, 0 where none are wanted."""
+    """How far the blades have been handed over to the strips, shape (rows,)."""
 
     growth: Floats
-    """Height of the strips, as a part of their full height."""
-
-    carpet: Floats
-    """How much the carpet shows."""
+    """Height of the strips, as a part of their full height, shape (rows,)."""
 
 
 def smooth(part: Floats, /) -> Floats:
@@ -71,18 +68,31 @@ def kept_near(away: Floats, /, *, reach: int) -> Floats:
     return kept
 
 
-def looks(weight: Floats, kept: Floats, /, *, transitions: Transitions) -> Looks:
-    """Return how each patch shows whose representations have these weights, (3, rows); `kept` is (rows,)."""
+def appearance(
+    weight: Floats, kept: Floats, /, *, transitions: Transitions, names: tuple[str, ...] = THREE
+) -> Appearance:
+    """Return how each patch appears whose representations have these weights, (representations, rows).
+
+    `kept` (rows,) is how much of the strips the distance leaves. Between blades and strips, and between strips and
+    carpet, there are changes of their own (paper, sections 4.2 and 4.3); any other two of `names` fade into each other.
+    """
     if not transitions.gradual:
         kept = np.ones_like(kept)
-    blades, strips, carpet = weight
+    blades, strips, carpet = (weight[names.index(name)] for name in THREE)
     both = (blades > 0.0) & (strips > 0.0)
     covers, growth, laid = _grown(np.where(carpet > 0.0, kept * strips, kept), transitions)
     shown, morph, handed = _moved(blades, strips, transitions)
     if not transitions.morph:
         covers = np.where(both, covers * _early(strips, transitions), covers)
     lies = np.where(strips > 0.0, np.where(both, laid * strips, laid), carpet)
-    return Looks(shown, morph, handed, np.where(strips > 0.0, covers, np.float32(0.0)), growth, lies)
+    cover = (
+        np.stack([_early(each, transitions) for each in weight]) if len(names) > len(THREE) else np.empty_like(weight)
+    )
+    others = sum(weight[number] for number, name in enumerate(names) if name not in THREE)
+    covers = np.where(others > 0.0, covers * _early(strips, transitions), covers)
+    for name, values in zip(THREE, (shown, np.where(strips > 0.0, covers, np.float32(0.0)), lies), strict=True):
+        cover[names.index(name)] = values
+    return Appearance(cover, morph, handed, growth)
 
 
 def _moved(blades: Floats, strips: Floats, transitions: Transitions) -> tuple[Floats, Floats, Floats]:

@@ -7,8 +7,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ..components.receivers import Receivers
-from ..engine.world import World
+from ...components.receivers import Receivers
+from ...engine.world import World
 from .patches import PatchTable
 
 Floats = NDArray[np.float32]
@@ -108,9 +108,11 @@ class Receiving:
     BATCH = 200
     """Entities made in one frame at most, so that a viewer who leaps is no hitch."""
 
-    def __init__(self, pool: Pool, representation: str) -> None:
+    def __init__(self, pool: Pool, representation: str, *, still: bool = False) -> None:
         self.pool = pool
         self.representation = representation
+        self.still = still
+        """Whether they take no part in the small oscillations."""
         self.letters = Correspondence(pool.message)
         self.rows: Rows = np.zeros(0, np.int64)
         """Rows of the patch table of those that hear in this frame, shape (m,)."""
@@ -134,16 +136,15 @@ class Receiving:
             self._delete(world, slot)
         self._owner[changed] = 0
         fresh = changed[owner[changed] != 0][: self.BATCH]
-        kind = self.pool.kind(fresh).reshape(len(fresh), -1)
-        place = self.pool.places(fresh).reshape(len(fresh), -1, 2)
-        for number, slot in enumerate(fresh.tolist()):
-            self._entity[slot] = world.create(
-                Receivers(
-                    self.letters, slot, place=place[number], kind=kind[number], patch=int(owner[slot]),
-                    representation=self.representation, viewer=patches.viewer,
-                )
-            )  # fmt: skip
+        for slot in fresh.tolist():
+            self._entity[slot] = world.create(self.component(slot, viewer=patches.viewer, patch=int(owner[slot])))
         self._owner[fresh] = owner[fresh]
+
+    def component(self, slot: int, /, *, viewer: str, patch: int) -> Receivers:
+        """Return the component that stands for the receivers of a slot."""
+        return Receivers(
+            self.letters, self.pool, slot, patch=patch, representation=self.representation, viewer=viewer
+        )
 
     def lose(self) -> None:
         """Take note that all entities are gone."""

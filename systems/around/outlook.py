@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..components.viewer import Viewer
-from ..engine.camera import View
-from ..engine.world import World
-from .cull import eye_of, view_cone
+from ...components.viewer import Viewer
+from ...engine.camera import View
+from ...engine.world import World
+from .appearance import Appearance
+from .cone import eye_of, view_cone
 from .patches import PatchTable
-from .show.looks import Looks
 
 LEAP = 5.0
 """A viewer who moves more than this in one frame has jumped [m]."""
@@ -32,8 +32,8 @@ class Outlook:
     kept: dict[str, Any] = field(default_factory=dict)
     """What each representation keeps for this viewer, by its name."""
 
-    looks: Looks | None = None
-    """How each patch shows in this frame."""
+    appearance: Appearance | None = None
+    """How each patch appears in this frame."""
 
     shown: dict[str, Any] = field(default_factory=dict)
     """What each representation shows in this frame, by its name."""

@@ -6,11 +6,15 @@ from numpy.typing import NDArray
 
 from ....engine.gl.records import Records
 from ....engine.gl.stream import Stream, release_all
-from ...field import Field
-from ...frame.block import FrameBlock, by_kind, joined
-from ..blades.draw import ROUND, SHADER_BLADE, WHOLE
-from ..seen import Seen
-from .gather import EDGE, MOVING, gather_morph
+from ....engine.declared.quality import Quality
+from ...around.outlook import Outlook
+from ...frame.block import by_kind, joined
+from .draw import ROUND, SHADER_BLADE, WHOLE
+from ..representation import Canvas
+from ..strips.representation import StripRepresentation
+from .morph import EDGE, MOVING, gather_morph
+from .pool import BladePool
+from .shown import Standing
 
 PER_ROW = 64
 """Edges, and blades' targets, in a row of the textures that hold them."""
@@ -19,17 +23,19 @@ PER_ROW = 64
 class MorphPainter:
     """Draws blades on their way, all in one instanced draw; it owns the painted places of all blades."""
 
-    def __init__(self, ctx: moderngl.Context, block: FrameBlock, field: Field, units: dict[str, int]) -> None:
-        targets = field.stock.targets
+    def __init__(self, canvas: Canvas, strips: StripRepresentation, quality: Quality) -> None:
+        ctx, targets = canvas.ctx, strips.stock.targets
         points = targets.shape[3]
-        self.segments = field.quality.blade_rings[-1].segments
-        self.units = units
+        self.strips = strips
+        self.segments = quality.blade_rings[-1].segments
+        self.units = canvas.units
+        self.fade = canvas.transitions.fade
         defines: dict[str, str | int] = {"SEGMENTS": self.segments, "ROUND": ROUND, "SOFT": 1, "MORPH": 1}
         defines |= {"PER_ROW": PER_ROW, "POINTS": points}
         self.program = joined(
-            ctx, block, units, "systems/show/blades/blades.vert", "systems/show/blades/blades.frag", defines
+            ctx, canvas.block, canvas.units, "systems/show/blades/blades.vert", "systems/show/blades/blades.frag", defines
         )
-        self.program["tall"] = by_kind([strips.height for strips in field.stock.strips[0]])
+        self.program["tall"] = by_kind([strips.height for strips in strips.stock.strips[0]])
         self.program["part"] = WHOLE
         self.blades, self.moving = Stream(ctx, SHADER_BLADE), Stream(ctx, MOVING)
         self.array = ctx.vertex_array(
@@ -38,9 +44,9 @@ class MorphPainter:
         self.edges = Records(ctx, EDGE, PER_ROW)
         self.targets = target_texture(ctx, targets)
 
-    def write(self, field: Field, seen: Seen) -> int:
-        """Send the blades that are on their way, and their strips; return how many blades."""
-        morph = gather_morph(field, seen)
+    def write(self, outlook: Outlook, pool: BladePool, shown: Standing) -> int:
+        """Send the blades of patches that are on their way, and their strips; return how many blades."""
+        morph = gather_morph(outlook, pool, self.strips, shown, fade=self.fade)
         self.blades.write(morph.blades.view(SHADER_BLADE))
         self.moving.write(morph.moving)
         self.edges.write(morph.edges)

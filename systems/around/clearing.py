@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ..components.patch import Cell
+from ...components.patch import Cell
 
 
 class Clearings:

@@ -1,14 +1,17 @@
 """Drawing the ground, and on it the 2D carpet: square tiles that grow coarser with distance."""
 
+from collections.abc import Mapping, Sequence
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from ....engine.gl.stream import Stream, release_all
 from ....engine.terrain.record import Terrain
-from ...cull import inside_cone
+from ...around.cone import inside_cone
 from ...frame.block import FrameBlock, by_kind, joined
 from ...grow.record import Growth
+from .grow import carpet_of
 
 TILE = np.dtype([("tile", "4f4")])
 GRID = 8
@@ -132,8 +135,8 @@ class GroundPainter:
         self,
         ctx: moderngl.Context,
         block: FrameBlock,
-        growths: list[Growth],
-        units: dict[str, int],
+        growths: Sequence[Growth],
+        units: Mapping[str, int],
         *,
         side: int,
         seed: int,
@@ -147,7 +150,7 @@ class GroundPainter:
         corners, indices = _grid()
         self.grid = ctx.buffer(corners), ctx.buffer(indices)
         self.streams = Stream(ctx, TILE), Stream(ctx, TILE)
-        slopes = growths[0].models[0].carpet.slope
+        slopes = carpet_of(growths[0].models[0]).slope
         laid: dict[str, str | int] = {"CARPET": 1, "STRETCH": STRETCH, "SLOPES": len(slopes), "KINDS": len(growths)}
 
         def layer(defines: dict[str, str | int], stream: Stream) -> _Layer:
@@ -180,15 +183,14 @@ class GroundPainter:
 
     def raise_carpet(self, part: float) -> None:
         """Lay the carpet at this part of the height of the grass."""
-        self._tell("raised", by_kind([part * growth.models[0].carpet.height for growth in self.growths]))
+        self._tell("raised", by_kind([part * carpet_of(growth.models[0]).height for growth in self.growths]))
 
-    def blow(self, message: NDArray[np.float32], seen: NDArray[np.bool_]) -> None:
-        """Send the wind's messages on the patch table's rows (rows, 2); their mean is of those `seen`.
+    def blow(self, message: NDArray[np.float32], mean: NDArray[np.float32]) -> None:
+        """Send the messages on the patch table's rows (rows, 2), and their mean (2,) for what lies farther off.
 
         The carpet's light follows them, though it does not move.
         """
-        self.air.write(message)
-        mean = message[seen].mean(axis=0) if seen.any() else (0.0, 0.0)
+        self.air.write(np.ascontiguousarray(message))
         self.carpet.program["mean_air"] = (float(mean[0]), float(mean[1]))
 
     def write_shares(self, shares: NDArray[np.float32], centre: NDArray[np.int32]) -> None:

@@ -48,6 +48,9 @@ class PatchTable:
     visible: NDArray[np.bool_]
     """Whether it is inside the view cone, shape (rows,)."""
 
+    near: NDArray[np.bool_]
+    """Whether it or one of its neighbours is, shape (rows,)."""
+
     was_visible: NDArray[np.bool_]
     """Whether it was when the viewer looked before, shape (rows,)."""
 
@@ -110,6 +113,7 @@ class PatchTable:
             turn=np.zeros(rows, np.int32),
             distance=np.zeros(rows, np.int32),
             visible=np.zeros(rows, np.bool_),
+            near=np.zeros(rows, np.bool_),
             was_visible=np.zeros(rows, np.bool_),
             wanted=np.full(rows, -1, np.int8),
             hold=np.full(rows, -1, np.int8),

@@ -1,0 +1,27 @@
+"""The square window of cells around a viewer, which wraps round."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+Ints = NDArray[np.int32]
+
+
+def cell_of(place: NDArray[np.float32], /, *, patch: float) -> Ints:
+    """Return the cells (i, j) that ground positions (x, z) lie in, both of shape (..., 2)."""
+    return np.floor(np.asarray(place, np.float64) / patch).astype(np.int32)
+
+
+def window_rows(cell: Ints, /, *, side: int) -> NDArray[np.int64]:
+    """Return the row of each cell (n, 2) in a window of `side` by `side` that wraps round, shape (n,)."""
+    wrapped = np.mod(cell, side).astype(np.int64)
+    rows: NDArray[np.int64] = wrapped[:, 1] * side + wrapped[:, 0]
+    return rows
+
+
+def window_cells(centre: Ints, /, *, side: int) -> Ints:
+    """Return the cell at each row of a window around `centre`, shape (side * side, 2)."""
+    low = np.asarray(centre, np.int64) - side // 2
+    line = np.arange(side, dtype=np.int64)
+    i, j = (corner + np.mod(line - corner, side) for corner in low)
+    cells: Ints = np.stack(np.meshgrid(i, j), axis=-1).reshape(-1, 2).astype(np.int32)
+    return cells

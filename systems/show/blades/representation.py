@@ -1,0 +1,98 @@
+"""3D: every blade a ribbon of segments (paper, section 2.1)."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....engine.declared.quality import Quality
+from ...around.ground import Ground
+from ...around.outlook import Outlook
+from ...around.patches import PatchTable
+from ...grow.record import Growth
+from ..representation import Canvas, Color, Representation
+from ..strips.representation import StripRepresentation
+from .painter import BladesPainter
+from .plant import BladeStock, plant_blades, stock_blades
+from .pool import BladePool, BladesKept
+from .shown import BladesShown, show_blades
+from .sublevel import blade_ring
+
+Levels = NDArray[np.int8]
+Rows = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BladeRepresentation(Representation):
+    """Blades near the viewer: each is a receiver."""
+
+    name: ClassVar[str] = "blades"
+    label: ClassVar[str] = "3D blades"
+    color: ClassVar[Color] = (0.98, 0.33, 0.20)
+    samplers: ClassVar[tuple[str, ...]] = ("edges", "targets")
+
+    stock: BladeStock
+    quality: Quality
+    ground: Ground
+
+    @staticmethod
+    def reach(quality: Quality, /) -> int:
+        """Return where its last ring ends."""
+        return quality.blade_rings[-1].to
+
+    @classmethod
+    def stocked(cls, growths: Sequence[Growth], quality: Quality, ground: Ground, /) -> Self:
+        """Return it with all kinds' blades, ready to be planted on a ground."""
+        return cls(stock_blades(growths, quality.patch), quality, ground)
+
+    def on(self, ground: Ground, /) -> Self:
+        """Return it with the same blades, on another ground."""
+        return replace(self, ground=ground)
+
+    def rings(self) -> int:
+        """Return how many rings it has."""
+        return len(self.quality.blade_rings)
+
+    def keep(self, patches: PatchTable, side: int, /) -> BladesKept:
+        """Return an empty pool."""
+        del patches
+        return BladesKept(BladePool.allocate(side, self.stock.records.shape[1]), self.name)
+
+    def pool(self, outlook: Outlook, /) -> BladePool:
+        """Return the pool around a viewer."""
+        kept: BladesKept = outlook.kept[self.name]
+        return kept.pool
+
+    def shown(self, outlook: Outlook, /) -> BladesShown:
+        """Return what a viewer is shown in this frame."""
+        shown: BladesShown = outlook.shown[self.name]
+        return shown
+
+    def sublevels(self, outlook: Outlook, rows: Rows, held: Levels, /, *, slack: int) -> Levels:
+        """Return the ring that is due on patches (n,)."""
+        limits = np.array([ring.to for ring in self.quality.blade_rings[:-1]], np.int32)
+        return blade_ring(outlook.patches.distance[rows], held, limits, slack=slack)
+
+    def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> BladesShown:
+        """Return the patches with blades, by ring, and those on their way."""
+        kept: BladesKept = outlook.kept[self.name]
+        level = outlook.patches.names.index(self.name)
+        shown = show_blades(outlook, cover, level=level, side=kept.pool.side, rings=self.rings())
+        kept.receiving[0].show(shown.standing.rows, shown.standing.slots)
+        return shown
+
+    def plant(self, outlook: Outlook, /) -> None:
+        """Plant the blades of patches whose slot holds another's."""
+        patches, pool, shown = outlook.patches, self.pool(outlook), self.shown(outlook).standing
+        stale = (pool.stamp[shown.slots] != patches.cell[shown.rows]).any(axis=1)
+        rows = shown.rows[stale]
+        if rows.size:
+            cell, model, turn = patches.cell[rows], patches.model[rows], patches.turn[rows]
+            plant_blades(pool, shown.slots[stale], cell, model, turn, self.stock, self.ground)
+
+    def painter(self, canvas: Canvas, /) -> BladesPainter:
+        """Return a painter of all rings."""
+        strips = next(each for each in canvas.representations if isinstance(each, StripRepresentation))
+        return BladesPainter(canvas, strips, self.quality)

@@ -1,0 +1,80 @@
+"""Which patches have blades in a frame, in which ring, and which of them are on their way to their strips."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...around.cone import far_to_near
+from ...around.outlook import Outlook
+from ...around.patches import PatchTable
+from ...around.window import window_rows
+
+Floats = NDArray[np.float32]
+Rows = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Standing:
+    """Patches with blades, far to near."""
+
+    rows: Rows
+    """Rows of the patch table, shape (m,)."""
+
+    slots: Rows
+    """Slots of the pool, shape (m,)."""
+
+    fade: Floats
+    """How much of each shows, in [0, 1], shape (m,)."""
+
+    slide: Floats
+    """How far the joints of each one's blades have slid together to those of the next ring, shape (m,)."""
+
+    @classmethod
+    def whole(cls, rows: Rows, slots: Rows) -> "Standing":
+        """Return patches whose blades show wholly."""
+        return cls(rows, slots, np.ones(len(rows), np.float32), np.zeros(len(rows), np.float32))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BladesShown:
+    """All patches with blades in a frame."""
+
+    standing: Standing
+    """Each once."""
+
+    rings: list[Standing]
+    """By ring, those whose blades stand in their own places."""
+
+    morphing: Standing
+    """Those whose blades are on their way to their painted places, or back."""
+
+
+def show_blades(outlook: Outlook, cover: Floats, /, *, level: int, side: int, rings: int) -> BladesShown:
+    """Return the patches with blades that a viewer is shown, where `cover` (rows,) says how much they cover.
+
+    `level` is the number of the representation, `side` that of patches along a side of its pool.
+    """
+    patches = outlook.patches
+    assert outlook.appearance is not None
+    near = np.flatnonzero(patches.shown & (cover > 0.0))
+    near = near[far_to_near(patches.cell[near], outlook.viewer.centre)]
+    slots = window_rows(patches.cell[near], side=side)
+    moving = outlook.appearance.morph[near] > 0.0
+    still, places = near[~moving], slots[~moving]
+    ring, slide = _rings(patches, still, level)
+    chosen = [np.flatnonzero(ring == number) for number in range(rings)]
+    return BladesShown(
+        standing=Standing.whole(near, slots),
+        rings=[Standing(still[each], places[each], cover[still[each]], slide[each]) for each in chosen],
+        morphing=Standing.whole(near[moving], slots[moving]),
+    )
+
+
+def _rings(patches: PatchTable, rows: Rows, level: int) -> tuple[NDArray[np.int8], Floats]:
+    """Return the ring that each patch's blades are drawn in, and how far they have become those of the next."""
+    now, before = patches.sublevel[level, rows], patches.sublevel_before[level, rows]
+    part = patches.sublevel_progress[level, rows]
+    slide = np.where(now > before, part, np.where(now < before, np.float32(1.0) - part, np.float32(0.0)))
+    over = part >= 1.0
+    return np.where(over, now, np.minimum(now, before)), np.where(over, np.float32(0.0), slide)

@@ -1,0 +1,82 @@
+"""Painting the carpet, and the ground under everything."""
+
+from collections.abc import Sequence
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ....engine.gl.stream import release_all
+from ...around.appearance import BORDER
+from ...around.ground import Ground
+from ...around.outlook import Outlook
+from ...grow.record import Growth
+from ..representation import Canvas
+from .ground import RAISED, GroundPainter, finest_spacing, ground_tiles, within
+from .pool import CarpetKept
+from .textures import carpet_texture
+
+Floats = NDArray[np.float32]
+
+
+class CarpetPainter:
+    """Draws the ground and the carpet on it."""
+
+    def __init__(self, canvas: Canvas, growths: Sequence[Growth], ground: Ground, side: int) -> None:
+        self._ground = ground
+        self._spacing = finest_spacing(ground.terrain, ground.patch)
+        self._whole_to = canvas.reach[-2] - int(BORDER) - 1
+        self._units = canvas.units
+        self.images = carpet_texture(canvas.ctx, growths)
+        self.ground = GroundPainter(
+            canvas.ctx, canvas.block, growths, canvas.units, side=side, seed=canvas.seed, patch=ground.patch
+        )
+
+    def write(self, outlook: Outlook, /) -> int:
+        """Send the tiles of the ground, and how much carpet lies on each patch; it has no blades."""
+        assert outlook.appearance is not None
+        self.lay(outlook, outlook.appearance.cover[-1])
+        return 0
+
+    def lay(self, outlook: Outlook, cover: Floats | None, /) -> None:
+        """Send the tiles of the ground, how much carpet lies on each patch, and how the wind bends its grass.
+
+        `cover` has shape (rows,); without it there is none. Beyond the terrain's edge it is whole, where a game has
+        taken the grass away there is none.
+        """
+        kept: CarpetKept = outlook.kept["carpet"]
+        patches, viewer = outlook.patches, outlook.viewer
+        self.ground.blow(kept.pool.message[:, 0], outlook.air)
+        tiles = ground_tiles(self._ground.terrain, viewer.eye, viewer.cone, spacing=self._spacing)
+        near = within(tiles, viewer.centre, patch=self._ground.patch, reach=self._whole_to)
+        self.ground.write(tiles, np.zeros_like(near) if cover is None else ~near)
+        if cover is not None:
+            whole = np.where(patches.alive, cover, np.float32(1.0))
+            self.ground.write_shares(np.where(patches.grows, whole, np.float32(0.0)), viewer.centre)
+
+    def lay_everywhere(self, outlook: Outlook, /, *, height: float) -> None:
+        """Send a carpet that lies everywhere, at this part of the height of the grass."""
+        tiles = ground_tiles(self._ground.terrain, outlook.viewer.eye, outlook.viewer.cone, spacing=self._spacing)
+        self.ground.write(tiles, np.ones(len(tiles), np.bool_))
+        self.ground.write_shares(np.ones(len(outlook.patches.progress), np.float32), outlook.viewer.centre)
+        self.ground.raise_carpet(height)
+
+    def lay_as_always(self) -> None:
+        """Lay the carpet at its own height again."""
+        self.ground.raise_carpet(RAISED)
+
+    def draw_solid(self) -> int:
+        """Draw the bare ground, and what lies under the carpet; return the number of draw calls."""
+        return self.ground.draw_opaque()
+
+    def draw(self, target: moderngl.Framebuffer, /) -> int:
+        """Draw the carpet; return the number of draw calls."""
+        target.depth_mask = True
+        self.images.use(self._units["images"])
+        calls = self.ground.draw_carpet()
+        target.depth_mask = False
+        return calls
+
+    def release(self) -> None:
+        """Give everything back."""
+        release_all(self.ground, self.images)

@@ -1,0 +1,37 @@
+"""The carpet's receivers: one in the middle of each patch around a viewer."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...around.ground import Ground, densest_kind
+from ...around.patches import PatchTable
+from ...around.receivers import Receiving
+from ..representation import Kept
+
+Floats = NDArray[np.float32]
+Rows = NDArray[np.int64]
+
+
+class CarpetPool:
+    """One receiver a patch; a slot is a row of the patch table."""
+
+    def __init__(self, patches: PatchTable, ground: Ground) -> None:
+        self._patches, self._ground = patches, ground
+        self.message: Floats = np.zeros((len(patches.progress), 1, 2), np.float32)
+        """Their messages, shape (rows, 1, 2)."""
+
+    def places(self, slots: Rows, /) -> Floats:
+        """Return the middles (x, z) [m] of some patches, shape (m, 1, 2)."""
+        return self._patches.middles(slots, patch=self._ground.patch)[:, None]
+
+    def kind(self, slots: Rows, /) -> NDArray[np.intp]:
+        """Return the kind that grows most densely in the middle of some patches, shape (m,)."""
+        return densest_kind(self._ground.density, self.places(slots)[:, 0])
+
+
+class CarpetKept(Kept):
+    """The carpet around one viewer. Its receivers are carried by the patches' own entities."""
+
+    def __init__(self, pool: CarpetPool, name: str) -> None:
+        super().__init__([Receiving(pool, name, still=True)])
+        self.pool = pool

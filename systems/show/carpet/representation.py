@@ -1,0 +1,96 @@
+"""2D: a textured carpet on the terrain (paper, sections 2.1 and 4.3)."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....components.receivers import Receivers
+from ....engine.declared.grass import GrassKind
+from ....engine.declared.quality import Quality
+from ...around.ground import Ground
+from ...around.outlook import Outlook
+from ...around.patches import PatchTable
+from ...grow.record import Growth
+from ..representation import Canvas, Color, Representation, Seedling
+from .grow import SLOPES, Carpet, grow_carpet
+from .painter import CarpetPainter
+from .pool import CarpetKept, CarpetPool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CarpetRepresentation(Representation):
+    """The carpet beyond the strips: it does not move, but its light follows a receiver in the middle of each patch."""
+
+    name: ClassVar[str] = "carpet"
+    label: ClassVar[str] = "2D carpet"
+    color: ClassVar[Color] = (0.72, 0.45, 0.95)
+    samplers: ClassVar[tuple[str, ...]] = ("images", "shares", "air")
+    record: ClassVar[type | None] = Carpet
+
+    growths: Sequence[Growth]
+    quality: Quality
+    ground: Ground
+
+    @staticmethod
+    def reach(quality: Quality, /) -> int:
+        """Return how far patches are kept at all."""
+        return quality.carpet_to
+
+    @staticmethod
+    def depends(kind: GrassKind, quality: Quality, /) -> object:
+        """Return how large its images are."""
+        del kind
+        return quality.carpet
+
+    @staticmethod
+    def grow(seedling: Seedling, /) -> tuple[Carpet, ...]:
+        """Return a patch model's images."""
+        quality = seedling.quality
+        images = grow_carpet(
+            seedling.blades, seedling.postures, patch=quality.patch, texels=quality.carpet, taper=seedling.kind.taper,
+            height=seedling.height,
+        )  # fmt: skip
+        return (images,)
+
+    @staticmethod
+    def fits(pictures: tuple[Any, ...], quality: Quality, blades: int, /) -> bool:
+        """Return whether there is one record of images of the right size."""
+        del blades
+        side = quality.carpet
+        return len(pictures) == 1 and (
+            pictures[0].slope.shape == (len(SLOPES),) and pictures[0].texels.shape == (len(SLOPES), 4, side, side, 4)
+        )
+
+    @classmethod
+    def stocked(cls, growths: Sequence[Growth], quality: Quality, ground: Ground, /) -> Self:
+        """Return it with all kinds' images."""
+        return cls(growths, quality, ground)
+
+    def on(self, ground: Ground, /) -> Self:
+        """Return it with the same images, on another ground."""
+        return replace(self, ground=ground)
+
+    def keep(self, patches: PatchTable, side: int, /) -> CarpetKept:
+        """Return a receiver for each patch."""
+        del side
+        return CarpetKept(CarpetPool(patches, self.ground), self.name)
+
+    def components(self, outlook: Outlook, row: int, /) -> tuple[object, ...]:
+        """Return the receiver in the middle of a patch: the patch's own entity carries it."""
+        kept: CarpetKept = outlook.kept[self.name]
+        return (kept.receiving[0].component(row, viewer=outlook.viewer.name, patch=0),)
+
+    def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> NDArray[np.int64]:
+        """Return the patches whose receivers hear the wind: those in the view cone, and their neighbours."""
+        del cover
+        kept: CarpetKept = outlook.kept[self.name]
+        rows = np.flatnonzero(outlook.patches.alive & outlook.patches.near)
+        kept.receiving[0].show(rows, rows)
+        return rows
+
+    def painter(self, canvas: Canvas, /) -> CarpetPainter:
+        """Return a painter of ground and carpet."""
+        return CarpetPainter(canvas, self.growths, self.ground, 2 * canvas.reach[-1] + 1)

@@ -1,1 +1,0 @@
-"""Blades on their way between their own places and their painted places."""

@@ -1,0 +1,191 @@
+"""What a representation of the grass is to everything that does not draw it itself."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, Protocol, Self
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ...engine.declared.grass import GrassKind
+from ...engine.declared.quality import Quality
+from ...engine.world import World
+from ..around.ground import Ground
+from ..around.receivers import Receiving
+from ..around.transitions import Transitions
+from ..frame.block import FrameBlock
+from ..grow.record import Blades, Growth, Postures
+
+if TYPE_CHECKING:
+    from ..around.outlook import Outlook
+from ..around.patches import PatchTable
+
+Levels = NDArray[np.int8]
+Rows = NDArray[np.int64]
+Color = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Seedling:
+    """What the pictures of one patch model are grown from: its blades, and what all its kind's models share."""
+
+    blades: Blades
+    postures: Postures
+    kind: GrassKind
+    quality: Quality
+    height: float
+    """Height of the kind's highest tip [m]."""
+
+    margin: float
+    """How far the kind's blades lean over the patch's edge [m]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Canvas:
+    """What a painter needs of the GL context that it draws in."""
+
+    ctx: moderngl.Context
+    block: FrameBlock
+    units: Mapping[str, int]
+    """The texture unit of each sampler."""
+
+    seed: int
+    """The scene's."""
+
+    transitions: Transitions
+    """What carries a patch from one representation to another."""
+
+    reach: tuple[int, ...]
+    """Largest discrete distance of each representation."""
+
+    representations: "tuple[Representation, ...]"
+    """All of them, for a painter that draws one on its way to another."""
+
+
+class Kept:
+    """What a representation keeps for one viewer: the receivers that it stands on, of each pool."""
+
+    def __init__(self, receiving: Sequence[Receiving] = ()) -> None:
+        self.receiving = list(receiving)
+
+    def lose(self) -> None:
+        """Take note that all entities are gone."""
+        for receiving in self.receiving:
+            receiving.lose()
+
+    def release(self, world: World, /) -> None:
+        """Delete its entities."""
+        for receiving in self.receiving:
+            receiving.release(world)
+
+
+class RepresentationPainter(Protocol):
+    """Everything that one GL context holds of a representation, and the drawing of it."""
+
+    def write(self, outlook: Outlook, /) -> int:
+        """Send what a viewer is shown of it; return how many blades that is as geometry."""
+
+    def draw_solid(self) -> int:
+        """Draw what is opaque and writes depth, before the sky; return the number of draw calls."""
+
+    def draw(self, target: moderngl.Framebuffer, /) -> int:
+        """Draw what is blended over all that is coarser; return the number of draw calls.
+
+        Depth is tested and blending is on; `target.depth_mask` is False before, and has to be so afterwards.
+        """
+
+    def release(self) -> None:
+        """Give everything back to the context."""
+
+
+class Representation(ABC):
+    """One way in which the same grass is kept and drawn (paper, section 2.1).
+
+    `REPRESENTATIONS` lists them from the finest to the coarsest. What is asked of the class grows it; an object is made
+    from what was grown, and plants, shows and draws it. Everything here that is not abstract has an answer that will do
+    for one without pictures, sub-levels or receivers of its own.
+    """
+
+    name: ClassVar[str]
+    """What scenes, games and the command line call it."""
+
+    label: ClassVar[str]
+    """What people call it."""
+
+    color: ClassVar[Color]
+    """What the overlay shows it in: a display colour of [0, 1]."""
+
+    samplers: ClassVar[tuple[str, ...]] = ()
+    """The names of its own samplers."""
+
+    record: ClassVar[type | None] = None
+    """The dataclass of arrays that its pictures are records of, as they are kept on disk."""
+
+    @staticmethod
+    @abstractmethod
+    def reach(quality: Quality, /) -> int:
+        """Return the largest discrete distance at which it is due."""
+
+    @staticmethod
+    def depends(kind: GrassKind, quality: Quality, /) -> object:  # noqa: ARG004 - for those with pictures
+        """Return what its pictures depend on beside the blades, as plain values."""
+        return None
+
+    @staticmethod
+    def grow(seedling: Seedling, /) -> tuple[Any, ...]:  # noqa: ARG004 - for those with pictures
+        """Return its pictures of a patch model, grown from the blades: records of its class."""
+        return ()
+
+    @staticmethod
+    def fits(pictures: tuple[Any, ...], quality: Quality, blades: int, /) -> bool:  # noqa: ARG004 - the same
+        """Return whether pictures that were read again have the shapes that they are due to have."""
+        return not pictures
+
+    @classmethod
+    @abstractmethod
+    def stocked(cls, growths: Sequence[Growth], quality: Quality, ground: Ground, /) -> Self:
+        """Return it with all that was grown of a scene's kinds, ready to be planted on a ground."""
+
+    @abstractmethod
+    def on(self, ground: Ground, /) -> Self:
+        """Return it with the same grass, on another ground."""
+
+    def rings(self) -> int:
+        """Return how many rings of falling fineness it has around a viewer."""
+        return 1
+
+    def ring(self, sublevel: Levels, /) -> Levels:
+        """Return the ring that each sub-level (n,) is of, shape (n,)."""
+        return sublevel
+
+    def keep(self, patches: PatchTable, side: int, /) -> Kept:  # noqa: ARG002 - for those with receivers
+        """Return an empty store for what one viewer is shown of it, at most `side` by `side` of its patches."""
+        return Kept()
+
+    def margin(self) -> float:
+        """Return how far its receivers may stand outside of their patch [m]."""
+        return 0.0
+
+    def components(self, outlook: Outlook, row: int, /) -> tuple[object, ...]:  # noqa: ARG002 - for those with some
+        """Return what it gives the entity of a patch to carry."""
+        return ()
+
+    def sublevels(self, outlook: Outlook, rows: Rows, held: Levels, /, *, slack: int) -> Levels:  # noqa: ARG002
+        """Return which sub-level is due on patches (n,) that have those of `held`, shape (n,).
+
+        One is kept for `slack` patches longer on the way to a coarser one than on the way back.
+        """
+        return np.zeros(len(rows), np.int8)
+
+    @abstractmethod
+    def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> object:
+        """Return what of it a viewer is shown in this frame; `cover` (rows,) says how much it shows on each patch."""
+
+    def plant(self, outlook: Outlook, /) -> None:
+        """Stand what is shown on the ground, where it does not stand yet."""
+
+    @abstractmethod
+    def painter(self, canvas: Canvas, /) -> RepresentationPainter:
+        """Return a painter of it for a GL context."""

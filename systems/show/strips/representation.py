@@ -1,0 +1,167 @@
+"""2.5D: vertical strips with the blades painted on them (paper, section 2.1)."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....engine.declared.grass import GrassKind
+from ....engine.declared.quality import Quality
+from ...around.ground import Ground
+from ...around.outlook import Outlook
+from ...around.patches import PatchTable
+from ...grow.record import Growth
+from ...grow.simulate import LINKS
+from ..representation import Canvas, Color, Representation, Seedling
+from .painter import StripsPainter
+from .grow import Strips, grow_strips
+from .plant import plant_strips
+from .pool import StripPool, StripsKept
+from .shown import StripsOfRing, StripsShown, show_strips
+from .stock import StripStock, stock_strips
+from .sublevel import axis_of, packed, ring_of, strip_ring, strips_along, viewing_slope
+
+Levels = NDArray[np.int8]
+Rows = NDArray[np.int64]
+
+_TEXELS_UP = 96
+"""Most texels from the ground to the highest tip: tall kinds have broad blades and do with coarser ones."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StripRepresentation(Representation):
+    """Strips between blades and carpet: their vertical edges are the receivers."""
+
+    name: ClassVar[str] = "strips"
+    label: ClassVar[str] = "2.5D strips"
+    color: ClassVar[Color] = (0.12, 0.50, 0.98)
+    samplers: ClassVar[tuple[str, ...]] = ("atlas", "ranks", "strips")
+    record: ClassVar[type | None] = Strips
+
+    stock: StripStock
+    quality: Quality
+    ground: Ground
+    growths: Sequence[Growth]
+
+    @staticmethod
+    def reach(quality: Quality, /) -> int:
+        """Return where its last ring ends."""
+        return quality.strip_rings[-1].to
+
+    @staticmethod
+    def depends(kind: GrassKind, quality: Quality, /) -> object:
+        """Return how fine its rings are."""
+        del kind
+        return [(ring.strips, ring.texel) for ring in quality.strip_rings]
+
+    @staticmethod
+    def grow(seedling: Seedling, /) -> tuple[Strips, ...]:
+        """Return a patch model's strips, a record for each ring."""
+        quality = seedling.quality
+        coarser = max(seedling.height / _TEXELS_UP / min(ring.texel for ring in quality.strip_rings), 1.0)
+        return tuple(
+            grow_strips(
+                seedling.blades, seedling.postures, patch=quality.patch, strips=ring.strips, texel=ring.texel * coarser,
+                taper=seedling.kind.taper, margin=seedling.margin, height=seedling.height,
+            )
+            for ring in quality.strip_rings
+        )  # fmt: skip
+
+    @staticmethod
+    def fits(pictures: tuple[Any, ...], quality: Quality, blades: int, /) -> bool:
+        """Return whether there is a record of the right shapes for each ring."""
+        rings = quality.strip_rings
+        return len(pictures) == len(rings) and all(
+            strips.plane.shape == (ring.strips,)
+            and strips.texels.ndim == 5
+            and strips.texels.shape[:2] == (2, ring.strips)
+            and strips.texels.shape[4] == 4
+            and strips.rank.shape == strips.texels.shape[:4]
+            and strips.slice.shape == (2, blades)
+            and strips.targets.shape == (2, blades, LINKS + 1, 2)
+            for strips, ring in zip(pictures, rings, strict=True)
+        )
+
+    @classmethod
+    def stocked(cls, growths: Sequence[Growth], quality: Quality, ground: Ground, /) -> Self:
+        """Return it with all kinds' strips, ready to be planted on a ground."""
+        return cls(stock_strips(growths), quality, ground, growths)
+
+    def on(self, ground: Ground, /) -> Self:
+        """Return it with the same strips, on another ground."""
+        return replace(self, ground=ground)
+
+    def rings(self) -> int:
+        """Return how many rings it has."""
+        return len(self.quality.strip_rings)
+
+    def ring(self, sublevel: Levels, /) -> Levels:
+        """Return the ring that each sub-level (n,) is of."""
+        return ring_of(sublevel).astype(np.int8)
+
+    def keep(self, patches: PatchTable, side: int, /) -> StripsKept:
+        """Return an empty pool for each ring."""
+        del patches
+        pools = [
+            StripPool.allocate(side, len(self.growths), ring.strips, ring.columns) for ring in self.quality.strip_rings
+        ]
+        return StripsKept(pools, self.name)
+
+    def margin(self) -> float:
+        """Return how far strips reach beyond their patch."""
+        return self.stock.margin
+
+    def pools(self, outlook: Outlook, /) -> list[StripPool]:
+        """Return the pools around a viewer, by ring."""
+        kept: StripsKept = outlook.kept[self.name]
+        return kept.pools
+
+    def shown(self, outlook: Outlook, /) -> list[StripsOfRing]:
+        """Return what a viewer is shown in this frame, by ring."""
+        shown: StripsShown = outlook.shown[self.name]
+        return shown.rings
+
+    def sublevels(self, outlook: Outlook, rows: Rows, held: Levels, /, *, slack: int) -> Levels:
+        """Return the ring and the axis that are due on patches (n,), as one number each."""
+        patches, viewer, quality = outlook.patches, outlook.viewer, self.quality
+        limits = np.array([ring.to for ring in quality.strip_rings[:-1]], np.int32)
+        spacing = np.array([quality.patch / ring.strips for ring in quality.strip_rings], np.float32)
+        height = min(strips.height for strips in self.stock.strips[0])
+        slope = viewing_slope(patches, rows, eye=viewer.eye, patch=quality.patch)
+        before = ring_of(held).astype(np.int8)
+        ring = strip_ring(patches.distance[rows], slope, before, limits, spacing, height=height, slack=slack)
+        keeps = np.where((held < 0) | (slack == 0), -1, axis_of(held))
+        return packed(ring, strips_along(patches.cell[rows], viewer.centre, keeps))
+
+    def ring_and_axis(self, outlook: Outlook, rows: Rows, /) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
+        """Return the ring that patches (n,) are in, and the axis that their strips run along, shape (n,) each."""
+        sublevel = outlook.patches.sublevel[outlook.patches.names.index(self.name), rows]
+        return ring_of(sublevel), axis_of(sublevel)
+
+    def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> StripsShown:
+        """Return the patches with strips, by ring."""
+        level = outlook.patches.names.index(self.name)
+        kept: StripsKept = outlook.kept[self.name]
+        shown = show_strips(outlook, cover, level=level, sides=[pool.side for pool in kept.pools])
+        for receiving, ring in zip(kept.receiving, shown.rings, strict=True):
+            receiving.show(ring.rows, ring.slots)
+        return shown
+
+    def plant(self, outlook: Outlook, /) -> None:
+        """Plant the strips of patches whose slot holds another's, or strips that run the other way."""
+        patches = outlook.patches
+        for number, (pool, shown) in enumerate(zip(self.pools(outlook), self.shown(outlook), strict=True)):
+            wanted = np.column_stack([patches.cell[shown.rows], shown.along])
+            stale = (pool.stamp[shown.slots] != wanted).any(axis=1)
+            rows = shown.rows[stale]
+            if rows.size:
+                plant_strips(
+                    pool, shown.slots[stale], patches.cell[rows], patches.model[rows], patches.turn[rows],
+                    shown.along[stale], self.stock.strips[number], self.stock.first_layer[number], self.ground,
+                )  # fmt: skip
+
+    def painter(self, canvas: Canvas, /) -> StripsPainter:
+        """Return a painter of all rings."""
+        return StripsPainter(canvas, self.growths, self.quality)

@@ -1,0 +1,108 @@
+"""Which patches have strips in a frame, in which ring, and with which of their blades."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...around.cone import far_to_near
+from ...around.outlook import Outlook
+from ...around.patches import PatchTable
+from ...around.window import window_rows
+from .sublevel import axis_of, ring_of
+
+Floats = NDArray[np.float32]
+Ints = NDArray[np.int32]
+Rows = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StripsOfRing:
+    """The patches with strips of one ring, far to near.
+
+    A patch whose strips are on their way to another sub-level is there twice: with the blades that have gone over, and
+    with those that have not.
+    """
+
+    rows: Rows
+    """Rows of the patch table, shape (m,)."""
+
+    slots: Rows
+    """Slots of the ring's pool, shape (m,)."""
+
+    fade: Floats
+    """How much of each shows, in [0, 1], shape (m,)."""
+
+    along: Ints
+    """Axis along which each patch's strips run, shape (m,)."""
+
+    queue: Rows
+    """Place of each in the far-to-near order of all rings' patches, shape (m,)."""
+
+    least: Floats
+    """Rank from which on blades are painted on each one's strips, shape (m,)."""
+
+    most: Floats
+    """Rank up to which they are, shape (m,)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StripsShown:
+    """All patches with strips in a frame."""
+
+    rings: list[StripsOfRing]
+    """By ring, those with strips, or with blades on their way to them."""
+
+
+def show_strips(outlook: Outlook, cover: Floats, /, *, level: int, sides: list[int]) -> StripsShown:
+    """Return the patches with strips that a viewer is shown, where `cover` (rows,) says how much they cover.
+
+    `level` is the number of the representation, `sides` those of patches along a side of each ring's pool.
+    """
+    patches, appears = outlook.patches, outlook.appearance
+    assert appears is not None
+    reached = (appears.handed > 0.0) | (appears.morph > 0.0)
+    # Farther out than there is room for strips, patches have no sub-level.
+    seen = np.flatnonzero(patches.shown & (cover > 0.0) & reached & (patches.sublevel[level] >= 0))
+    entries = _entries(patches, seen[far_to_near(patches.cell[seen], outlook.viewer.centre)], level)
+    return StripsShown([_of_ring(patches, cover, entries, number, side) for number, side in enumerate(sides)])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Entries:
+    """Patches with strips, each once for every sub-level that it shows, all of shape (m,)."""
+
+    rows: Rows
+    ring: NDArray[np.int64]
+    along: Ints
+    least: Floats
+    most: Floats
+
+
+def _entries(patches: PatchTable, rows: Rows, level: int) -> _Entries:
+    now, before = patches.sublevel[level, rows], patches.sublevel_before[level, rows]
+    part = patches.sublevel_progress[level, rows]
+    changing = (part < 1.0) & (now != before)
+    index = np.repeat(np.arange(len(rows)), 1 + changing)
+    twice, part = changing[index], part[index]
+    old = twice & (np.diff(index, append=-1) != 0)
+    # Neighbours that change alike are drawn together, or each would take two draws of its own.
+    kind = np.where(changing, 256 * (before.astype(np.int64) + 1) + now + 1, 0)
+    alike = np.cumsum(np.diff(kind, prepend=-1) != 0)[index]
+    queue = np.argsort(2 * alike + ~old, kind="stable")
+    index, twice, part, old = index[queue], twice[queue], part[queue], old[queue]
+    sublevel = np.where(old, before[index], now[index])
+    return _Entries(
+        rows=rows[index],
+        ring=ring_of(sublevel),
+        along=axis_of(sublevel),
+        least=np.where(old, part, np.float32(0.0)),
+        most=np.where(twice & ~old, part, np.float32(1.0)),
+    )
+
+
+def _of_ring(patches: PatchTable, cover: Floats, entries: _Entries, number: int, side: int) -> StripsOfRing:
+    queue = np.flatnonzero(entries.ring == number)
+    rows, along = entries.rows[queue], entries.along[queue]
+    slots = window_rows(patches.cell[rows], side=side) + along.astype(np.int64) * (side * side)
+    return StripsOfRing(rows, slots, cover[rows], along, queue, entries.least[queue], entries.most[queue])
