@@ -88,6 +88,9 @@ class WindPrimitive(Declaration):
     interface: ClassVar[int] = INTERFACE
     """Version of this interface that the class is written for."""
 
+    color: ClassVar[tuple[float, float, float] | None] = None
+    """What the overlay shows the kind in: a display colour, each in [0, 1]; without it, a hue from the kind's name."""
+
     kind: str = Field(min_length=1)
     """Name of the primitive, as its plugin registers it."""
 

@@ -11,7 +11,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from ...engine.declared.quality import Quality, Representation
 from .masks import Masked
-from .paint import BRIGHT, DARK, Color, index_color, ring_shades, wind_color
+from .paint import BRIGHT, DARK, Color, index_color, ring_shades
 from .parts import Part
 
 Pixels = NDArray[np.uint8]
@@ -52,12 +52,12 @@ def entries(parts: AbstractSet[Part], masks: Sequence[Masked], quality: Quality,
 
 
 def _of_masks(parts: AbstractSet[Part], masks: Sequence[Masked]) -> list[Entry]:
-    edged = dict.fromkeys(mask.kind for mask in masks if not mask.everywhere)
-    endless = dict.fromkeys(mask.kind for mask in masks if mask.everywhere)
-    outlines = [Entry("outline", (wind_color(kind),), f"where the {kind} acts") for kind in edged]
+    edged = dict.fromkeys((mask.kind, mask.color) for mask in masks if not mask.everywhere)
+    endless = dict.fromkeys((mask.kind, mask.color) for mask in masks if mask.everywhere)
+    outlines = [Entry("outline", (color,), f"where the {kind} acts") for kind, color in edged]
     if "masks" not in parts:
         return outlines if "map" in parts else []
-    names = [Entry("none", (wind_color(kind),), f"{kind}: everywhere") for kind in endless]
+    names = [Entry("none", (color,), f"{kind}: everywhere") for kind, color in endless]
     return [*names, *outlines, *[Entry("none", (BRIGHT,), "thin line: with full weight")] * bool(outlines)]
 
 

@@ -29,6 +29,9 @@ class Masked:
     """One wind's mask on the ground at one instant; all places are the world's (x, z) [m]."""
 
     kind: str
+    color: Color
+    """What it is shown in."""
+
     strength: float
     """How far the wind has set in, in (0, 1]."""
 
@@ -47,11 +50,6 @@ class Masked:
     core: Floats
     """The outline of where it is there wholly, shape (k, 2, 2)."""
 
-    @property
-    def color(self) -> Color:
-        """What it is shown in."""
-        return wind_color(self.kind)
-
 
 def masked(
     winds: Sequence[Blowing], quarantine: Quarantine, /, *, time: float, around: tuple[float, float], far: float
@@ -69,9 +67,10 @@ def masked(
 
 
 def _masked(wind: Blowing, quarantine: Quarantine, time: float, around: Floats, far: float) -> Masked | None:
-    kind, pose, none = wind.primitive.kind, wind.pose, np.zeros((0, 3, 2), np.float32)
+    pose, none = wind.pose, np.zeros((0, 3, 2), np.float32)
+    made = partial(Masked, wind.primitive.kind, wind_color(wind.primitive), wind.strength)
     if wind.extent is None:
-        return Masked(kind, wind.strength, everywhere=True, corners=none, weight=none[..., 0], edge=none, core=none)
+        return made(everywhere=True, corners=none, weight=none[..., 0], edge=none, core=none)
 
     def ask(place: Floats) -> Floats:
         mask = partial(wind.primitive.mask, place, time=time)
@@ -87,8 +86,8 @@ def _masked(wind: Blowing, quarantine: Quarantine, time: float, around: Floats, 
         return world.reshape(own.shape).astype(np.float32)
 
     outer, inner = contour(grid, BEGINS), contour(grid, WHOLE)
-    return Masked(
-        kind, wind.strength, everywhere=False,
+    return made(
+        everywhere=False,
         corners=placed(outer.corners), weight=outer.weight, edge=placed(outer.edge), core=placed(inner.edge),
     )  # fmt: skip
 

@@ -1,23 +1,17 @@
 """The overlay's colours, all in display space: which colour stands for what."""
 
 from colorsys import hsv_to_rgb
+from typing import TypeGuard
 from zlib import crc32
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.declared.quality import Representation
+from ...components.wind import WindPrimitive
 
 Floats = NDArray[np.float32]
 Color = tuple[float, float, float]
-
-WINDS: dict[str, Color] = {
-    "breeze": (0.55, 0.90, 1.00),
-    "gust": (1.00, 0.90, 0.25),
-    "whirlwind": (1.00, 0.42, 0.85),
-    "blast": (1.00, 0.42, 0.22),
-}
-"""By kind; others have a hue of their own, from their name."""
 
 LEVELS: dict[Representation, Color] = {
     Representation.BLADES: (0.98, 0.33, 0.20),
@@ -37,9 +31,18 @@ DARK = (0.05, 0.07, 0.04)
 BRIGHT = (1.0, 1.0, 1.0)
 
 
-def wind_color(kind: str, /) -> Color:
-    """Return the colour of a kind of wind, always the same one."""
-    return WINDS.get(kind) or hsv_to_rgb(crc32(kind.encode()) / 2**32, 0.65, 1.0)
+def wind_color(wind: WindPrimitive, /) -> Color:
+    """Return the colour of a wind: its class's own, or else a hue from the name of its kind, always the same one."""
+    own: object = type(wind).color  # a field of a plugin may have the same name
+    return own if is_color(own) else hsv_to_rgb(crc32(wind.kind.encode()) / 2**32, 0.65, 1.0)
+
+
+def is_color(given: object, /) -> TypeGuard[Color]:
+    """Return whether this is a display colour: three numbers in [0, 1]."""
+    if not isinstance(given, tuple) or len(given) != 3:
+        return False
+    numbers = float | int | np.floating | np.integer
+    return all(isinstance(channel, numbers) and 0.0 <= channel <= 1.0 for channel in given)
 
 
 def index_color(index: Floats, /) -> Floats:

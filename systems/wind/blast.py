@@ -2,7 +2,7 @@
 
 from functools import lru_cache
 from pathlib import Path
-from typing import Literal, Self
+from typing import ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,6 +71,8 @@ class Shape(Declaration):
 
 class Blast(PlacedWind):
     """A blow of air from above that presses grass outwards, as under a helicopter."""
+
+    color: ClassVar[tuple[float, float, float] | None] = (1.00, 0.42, 0.22)
 
     kind: Literal["blast"] = "blast"
     """A blast of air."""

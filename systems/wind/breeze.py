@@ -1,6 +1,6 @@
 """The gentle breeze: everywhere, small oscillations around a rest that drifts slowly (paper, section 3.3)."""
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,8 @@ WAVE = 7.0
 
 class Breeze(WindPrimitive):
     """A light wind over the whole prairie, whose strength and direction drift in waves that travel with it."""
+
+    color: ClassVar[tuple[float, float, float] | None] = (0.55, 0.90, 1.00)
 
     kind: Literal["breeze"] = "breeze"
     """A gentle breeze."""

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from functools import lru_cache
 from math import cos, radians, sin
-from typing import Literal, Self
+from typing import ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,8 @@ class Gust(WindPrimitive):
 
     Its own frame travels with the middle of the front.
     """
+
+    color: ClassVar[tuple[float, float, float] | None] = (1.00, 0.90, 0.25)
 
     kind: Literal["gust"] = "gust"
     """A gust of wind."""

@@ -1,6 +1,6 @@
 """The whirlwind: a disc that bends grass along its circles, most of all near the middle (paper, section 3.3)."""
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,8 @@ LOBES, UNEVEN = 2, 0.18
 
 class Whirlwind(PlacedWind):
     """A turning wind: grass lies along circles around its middle, and a stronger side goes slowly round."""
+
+    color: ClassVar[tuple[float, float, float] | None] = (1.00, 0.42, 0.85)
 
     kind: Literal["whirlwind"] = "whirlwind"
     """A whirlwind."""

@@ -43,7 +43,7 @@ def test_n8_its_colours_are_those_of_the_marks() -> None:
     image = legend(tuple(entries(frozenset(PARTS), masks(Whirlwind()), PRESETS["low"])), 13)
     assert image.dtype == np.uint8
     assert image.shape[2] == 4
-    for color in (wind_color("whirlwind"), *(LEVELS[level] for level in Representation)):
+    for color in (wind_color(Whirlwind()), *(LEVELS[level] for level in Representation)):
         same = (np.abs(image[..., :3].astype(int) - np.round(np.array(color) * 255)) <= 1).all(axis=-1)
         assert same.sum() > 30, color
 

@@ -1,5 +1,7 @@
 """Masks on the ground."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -46,6 +48,13 @@ class Square(WindPrimitive):
         return np.zeros_like(place)
 
 
+class Colored(Square):
+    """A stranger's wind that says what it is shown in."""
+
+    kind: str = "colored"
+    color = (0.25, 0.5, 1.0)
+
+
 class Broken(Square):
     kind: str = "broken"
 
@@ -57,7 +66,7 @@ def test_n8_the_outline_of_a_whirlwind_is_its_circle() -> None:
     (whirlwind,) = seen(Whirlwind(position=[4.0, -7.0], radius=5.0))
     away = np.hypot(*(whirlwind.edge.reshape(-1, 2) - np.array([4.0, -7.0])).T)
     assert away == pytest.approx(5.0, abs=0.06)
-    assert whirlwind.color == wind_color("whirlwind")
+    assert whirlwind.color == wind_color(Whirlwind())
 
 
 def test_n8_a_gusts_outline_travels_with_it() -> None:
@@ -78,7 +87,18 @@ def test_n8_a_strangers_mask_is_outlined_by_asking_it() -> None:
     (mask,) = seen(Square(kind="square"))
     x, z = mask.edge.reshape(-1, 2).T
     assert np.abs(x - 10.0) + np.abs(z + 5.0) == pytest.approx(3.0 * np.sqrt(2.0), abs=0.02)
-    assert wind_color("square") == mask.color != wind_color("another")
+    assert wind_color(Square()) == mask.color != wind_color(Square(kind="another"))
+
+
+def test_n8_a_stranger_says_what_its_wind_is_shown_in() -> None:
+    assert [mask.color for mask in seen(Colored())] == [(0.25, 0.5, 1.0)]
+
+
+@pytest.mark.parametrize("color", ["red", "#ff0000", (255, 0, 0), (0.5, 0.5), (0.1, np.nan, 0.2), (0.5, "red", 0.5)])
+def test_n8_a_colour_that_is_none_gives_way_to_the_hue_of_the_name(monkeypatch: pytest.MonkeyPatch, color: Any) -> None:
+    hue = wind_color(Square(kind="colored"))
+    monkeypatch.setattr(Colored, "color", color)
+    assert [mask.color for mask in seen(Colored())] == [hue]
 
 
 def test_n8_a_wind_without_an_end_is_named_and_not_drawn(hills: Terrain) -> None:
