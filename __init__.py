@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from . import scenes
+    from .components.body import Hover
     from .components.pose import Pose
     from .components.receivers import Receivers
     from .components.wind import Extent, Grass, WindPrimitive, WindSource
@@ -26,6 +27,7 @@ __all__ = [
     "Extent",
     "Grass",
     "Gust",
+    "Hover",
     "PlacedWind",
     "Pose",
     "Prairie",
@@ -46,6 +48,7 @@ _HOMES = {
     "Extent": ".components.wind",
     "Grass": ".components.wind",
     "Gust": ".systems.wind.gust",
+    "Hover": ".components.body",
     "PlacedWind": ".systems.wind.placed",
     "Pose": ".components.pose",
     "Prairie": ".systems.prairie",

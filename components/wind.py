@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
+from .body import Hover
 from .declaration import Declaration, DeclarationError
 from .pose import HERE, Pose
 
@@ -131,6 +132,14 @@ class WindPrimitive(Declaration):
         `mask` and `action` are asked in this frame.
         """
         return HERE
+
+    def hover(self) -> Hover | None:
+        """Return the thing that hovers over it and that it comes from, as a jet from a saucer; None is nothing.
+
+        The thing flies along `pose` and leans as its flight asks for, and the wind's frame is where its jet then meets
+        the ground. Where the wind's entity has a `Pose`, the frame is there, and the thing flies over it.
+        """
+        return None
 
     def extent(self, *, time: float) -> Extent | None:  # noqa: ARG002 - for those that end somewhere
         """Return the rectangle of its frame outside of which its mask is 0 at `time` [s]; None is everywhere.

@@ -351,8 +351,8 @@ class Prairie:
         self.statistics.blades_submitted = self.painter.write_blades(self._seen)
         self.painter.write_strips(self._seen)
         self.painter.write_ground(self._seen.looks.carpet)
-        without = self.winds.quarantine.reasons
-        self.painter.write_bodies(flying(self.world, self.height_at, time=self.time, without=without))
+        bodies = flying(self.world, self.height_at, self.winds.quarantine, time=self.time)
+        self.painter.write_bodies(bodies)
 
     def _count(self, draw_ms: float) -> None:
         assert self.painter is not None

@@ -13,9 +13,8 @@ from ..components.pose import Pose
 from ..components.wind import WindPrimitive, WindSource
 from ..engine.terrain.sample import height_at
 from ..engine.world import World
-from .bodies.fly import jet
 from .field import Field, densest_kind
-from .wind.blast import Blast
+from .bodies.fly import foot, hover_of, hovering
 from .wind.blow import Blowing, Listeners, blowing, hear, places_alone
 from .wind.grass import grass_of
 from .wind.quarantine import Quarantine, QuarantinedError
@@ -66,16 +65,17 @@ class Winds:
     def now(self, time: float) -> list[Blowing]:
         """Return the winds that act at `time` [s], the strongest claim first.
 
-        A wind whose entity has a `Pose` is there; the blast of a body is where its jet meets the ground; the others
-        are where they say themselves.
+        A wind whose entity has a `Pose` is there; one that something hovers over is where its jet meets the ground; the
+        others are where they say themselves.
         """
         found = self._world.all(WindSource)
         poses = {source: pose for entity, source in found if (pose := self._world.find(entity, Pose)) is not None}
         for _, source in found:
-            if isinstance(source.primitive, Blast) and source.primitive.body and source not in poses:
-                with suppress(QuarantinedError):
-                    ask = partial(jet, source.primitive, self._height_at, time=time)
-                    poses[source] = self.quarantine.ask(source, "pose", ask)
+            with suppress(QuarantinedError):
+                if source in poses:
+                    hover_of(source, self.quarantine)  # one that fails is left out of this very frame
+                elif (body := hovering(source, self._height_at, self.quarantine, time=time)) is not None:
+                    poses[source] = foot(body, self._height_at)
         sources = [source for _, source in found]
         return blowing(sources, self.quarantine, time=time, seed=self._field.scene.seed, poses=poses)
 

@@ -1,16 +1,20 @@
 """How a thing that hovers on its jet flies: at what height, how it leans, and where its jet meets the ground."""
 
-from collections.abc import Callable, Container
-from math import atan2, cos, hypot, inf, pi, sin, tan, tanh
+from collections.abc import Callable
+from contextlib import suppress
+from functools import partial
+from math import atan2, cos, hypot, pi, sin, tan, tanh
+from types import NoneType
 
 import numpy as np
 
-from ...components.body import Body
+from ...components.body import Body, Hover, Model
 from ...components.pose import Pose
-from ...components.wind import WindSource
+from ...components.wind import WindPrimitive, WindSource
 from ...engine.camera import Heights
 from ...engine.world import World
-from ..wind.blast import Blast
+from ..wind.blow import is_on
+from ..wind.quarantine import Quarantine, QuarantinedError
 
 Flat = tuple[float, float]
 """A vector over the ground (x, z)."""
@@ -44,8 +48,8 @@ _AROUND = np.column_stack([np.cos(_ANGLES), np.sin(_ANGLES)]) * REACH
 _UNDER = np.concatenate([np.zeros((1, 2)), 0.5 * _AROUND, _AROUND]).astype(np.float32)
 
 
-def carried(path: Path, time: float, height_at: Heights, /, *, height: float = HOVER) -> Body:
-    """Return the saucer that flies along a path, at one time [s] and at a height above the ground [m].
+def carried(path: Path, time: float, height_at: Heights, /, *, height: float = HOVER, model: Model = "saucer") -> Body:
+    """Return the body that flies along a path, at one time [s] and at a height above the ground [m].
 
     It leans as the path's velocity and acceleration ask for, taken from differences over `GLANCE`.
     """
@@ -53,7 +57,8 @@ def carried(path: Path, time: float, height_at: Heights, /, *, height: float = H
     velocity = (after.x - before.x) / (2.0 * GLANCE), (after.z - before.z) / (2.0 * GLANCE)
     gain = (after.x - 2.0 * here.x + before.x) / GLANCE**2, (after.z - 2.0 * here.z + before.z) / GLANCE**2
     nose, bank = lean(velocity, gain, here.yaw)
-    return Body((here.x, level(here.x, here.z, height_at, height=height), here.z), here.yaw, nose, bank)
+    y = level(here.x, here.z, height_at, height=height)
+    return Body((here.x, y, here.z), here.yaw, nose, bank, model)
 
 
 def level(x: float, z: float, height_at: Heights, /, *, height: float = HOVER) -> float:
@@ -95,27 +100,44 @@ def foot(body: Body, height_at: Heights, /) -> Pose:
     return Pose(x + s * ahead + c * right, z - c * ahead + s * right, body.yaw)
 
 
-def jet(blast: Blast, height_at: Heights, /, *, time: float) -> Pose:
-    """Return where the blast of the body that it comes from meets the ground at `time` [s], however that leans."""
-    body = carried(lambda moment: blast.pose(time=moment), time, height_at, height=blast.height)
-    return foot(body, height_at)
+def hover_of(source: WindSource, quarantine: Quarantine, /) -> Hover | None:
+    """Return what a wind says of the thing that hovers over it; raises QuarantinedError where it fails to."""
+    if type(source.primitive).hover is WindPrimitive.hover:
+        return None  # most winds leave it at that, and are asked several times a frame
+    hover = quarantine.ask(source, "hover", source.primitive.hover)
+    quarantine.must_be(source, "hover", hover, Hover, NoneType)
+    return hover
 
 
-def flying(world: World, height_at: Heights, /, *, time: float, without: Container[WindSource] = ()) -> list[Body]:
-    """Return what is in the air at `time` [s]: the bodies that entities have, and those that blasts say they come from.
+def hovering(
+    source: WindSource, height_at: Heights, quarantine: Quarantine, /, *, time: float, pose: Pose | None = None
+) -> Body | None:
+    """Return what hovers over a wind at `time` [s]: at a pose, or else along the wind's own path.
 
-    A blast's body flies where the blast is, along its path or with the pose of its entity. `without` are left out.
+    That is None for most winds, and for any before it begins and after it ends. Raises QuarantinedError where the wind
+    fails to say.
+    """
+    hover = hover_of(source, quarantine)
+    if hover is None or not quarantine.ask(source, "its timeline", partial(is_on, source.primitive, time)):
+        return None
+
+    def path(moment: float) -> Pose:
+        return pose or quarantine.ask_pose(source, time=moment)
+
+    return carried(path, time, height_at, height=hover.height, model=hover.model)
+
+
+def flying(world: World, height_at: Heights, quarantine: Quarantine, /, *, time: float) -> list[Body]:
+    """Return what is in the air at `time` [s]: the bodies that entities have, and what hovers over winds.
+
+    The latter flies where the wind is, along its path or with the pose of its entity.
     """
     own = dict(world.all(Body))
     bodies = list(own.values())
     for entity, source in world.all(WindSource):
-        blast = source.primitive
-        if entity in own or source in without or not isinstance(blast, Blast) or blast.body is None:
-            continue
-        if blast.start <= time < (inf if blast.stop is None else blast.stop):
-            bodies.append(carried(_path(blast, world.find(entity, Pose)), time, height_at, height=blast.height))
+        if entity not in own:
+            with suppress(QuarantinedError):
+                body = hovering(source, height_at, quarantine, time=time, pose=world.find(entity, Pose))
+                if body is not None:
+                    bodies.append(body)
     return bodies
-
-
-def _path(blast: Blast, pose: Pose | None) -> Path:
-    return (lambda time: blast.pose(time=time)) if pose is None else (lambda _: pose)

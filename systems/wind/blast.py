@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
 from pydantic import Field, PrivateAttr, ValidationInfo, model_validator
 
+from ...components.body import Hover, Model
 from ...components.declaration import Declaration, DeclarationError, Pair
 from ...components.wind import Extent, Grass
 from .outline import FINE, Outline, outline_of_picture, outline_of_polygon, polygon_of_ellipse
@@ -92,11 +93,15 @@ class Blast(PlacedWind):
     swing: float = Field(default=0.18, ge=0.0, le=0.5)
     """Largest posture index of a blade's own small oscillations in it, of random direction."""
 
-    body: Literal["saucer"] | None = None
+    body: Model | None = None
     """What is drawn flying there; without it, nothing."""
 
     height: float = Field(default=2.0, ge=0.5, le=100.0)
     """How high the body flies above the ground [m]."""
+
+    def hover(self) -> Hover | None:
+        """Return the body that it comes from."""
+        return Hover(self.body, self.height) if self.body else None
 
     def extent(self, *, time: float) -> Extent:
         """Return the rectangle around its outline."""

@@ -144,7 +144,7 @@ def _parts(
     wind = source.primitive
     own = int(hash3(seed, crc32(source.name.encode()), 0))
     try:
-        if not quarantine.ask(source, "its timeline", partial(_is_on, wind, time)):
+        if not quarantine.ask(source, "its timeline", partial(is_on, wind, time)):
             return
         parts = quarantine.ask(source, "parts", partial(wind.parts, time=time, seed=own))
         quarantine.must_be(source, "parts", parts, Sequence)
@@ -162,7 +162,8 @@ def _parts(
         return
 
 
-def _is_on(wind: WindPrimitive, time: float) -> bool:
+def is_on(wind: WindPrimitive, time: float, /) -> bool:
+    """Return whether a wind has begun at `time` [s] and not ended."""
     return wind.start <= time and (wind.stop is None or time < wind.stop)
 
 

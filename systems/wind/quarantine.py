@@ -1,8 +1,9 @@
 """Quarantine: a wind that raises, returns rubbish or takes too long is left out, and the frame goes on."""
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import astuple, dataclass, field
+from functools import partial
 from math import inf, isnan
 from time import perf_counter
 from typing import TypeVar
@@ -29,6 +30,9 @@ PATIENCE, WINDOW = 3, 16
 
 LARGEST = 1e6
 """No number that a mask or an action returns may be this large; both are due to be 1 at most."""
+
+FARTHEST = 1e12
+"""No body may fly as far away as this [m]: well before numbers overflow."""
 
 log = logging.getLogger("tallgrass")
 
@@ -76,6 +80,15 @@ class Quarantine:
             raise self.leave_out(source, f"{what} returned numbers {which}")
         return np.asarray(answer, np.float32)
 
+    def ask_pose(self, source: WindSource, *, time: float) -> Pose:
+        """Return where a wind says that it is at `time` [s]; raises QuarantinedError where no body can fly."""
+        pose = self.ask(source, "pose", partial(source.primitive.pose, time=time))
+        self.must_be(source, "pose", pose, Pose)
+        self._must_count(source, "pose", (pose.x, pose.z, pose.yaw))
+        if max(abs(pose.x), abs(pose.z)) >= FARTHEST:
+            raise self.leave_out(source, "pose returned numbers far beyond any prairie")
+        return pose
+
     def must_be(self, source: WindSource, what: str, answer: object, /, *kinds: type) -> None:
         """Raise QuarantinedError unless a wind's answer is of one of these types."""
         if not isinstance(answer, kinds):
@@ -90,10 +103,7 @@ class Quarantine:
             "extent": () if extent is None else astuple(extent),
         }
         for what, numbers in told.items():
-            for number in numbers:
-                self.must_be(source, what, number, float, int, np.floating, np.integer)
-                if isnan(number) or (abs(number) == inf and what != "extent"):
-                    raise self.leave_out(source, f"{what} returned numbers that are not finite")
+            self._must_count(source, what, numbers)
 
     def leave_out(self, source: WindSource, why: str, /) -> QuarantinedError:
         """Leave a wind out from now on, say so once for its kind, and return what to raise."""
@@ -103,6 +113,12 @@ class Quarantine:
             origin = wind_kinds().origin(source.primitive)
             log.warning("%s of %s: %s; this wind is left out from now on", source.name, origin, why)
         return QuarantinedError(why)
+
+    def _must_count(self, source: WindSource, what: str, numbers: Iterable[float]) -> None:
+        for number in numbers:
+            self.must_be(source, what, number, float, int, np.floating, np.integer)
+            if isnan(number) or (abs(number) == inf and what != "extent"):
+                raise self.leave_out(source, f"{what} returned numbers that are not finite")
 
     def _time(self, source: WindSource, what: str, took: float, allowed: float) -> None:
         before = self._slow.get((source, what), 0)

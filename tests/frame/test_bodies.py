@@ -9,8 +9,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.components.body import Body
+from tallgrass.components.body import Body, Hover
 from tallgrass.engine.camera import Camera
+from tallgrass.components.pose import Pose
+from tallgrass.components.wind import Grass, WindPrimitive
+from tallgrass.systems.bodies.fly import carried
 from tallgrass.systems.prairie import Prairie
 
 Stage = Any
@@ -141,6 +144,38 @@ def test_no_program_is_made_before_something_flies(load: Load, stage: Stage, cam
     stage.shot(calm, camera(0.0, 1.7, 10.0))
     assert calm.painter is not None
     assert calm.painter.bodies is None
+
+
+class Rotor(WindPrimitive):
+    """A stranger's wind that flies past and bends no grass, so that only its body is seen."""
+
+    kind: str = "rotor"
+
+    def hover(self) -> Hover:
+        return Hover(height=3.0)
+
+    def pose(self, *, time: float) -> Pose:
+        return Pose(2.0 * time - 1.0, 0.0, 0.4)
+
+    def mask(self, place: NDArray[np.float32], /, *, time: float) -> NDArray[np.float32]:
+        return np.zeros(len(place), np.float32)
+
+    def action(self, place: NDArray[np.float32], /, *, time: float, seed: int, grass: Grass) -> NDArray[np.float32]:
+        return np.zeros_like(place)
+
+
+def test_r4_what_hovers_over_a_strangers_wind_is_drawn_where_it_flies(
+    show: Show, prairie: Prairie, camera: Aim
+) -> None:
+    aim = camera(0.0, 2.5, 10.0, pitch=5)
+    rotor = Rotor()
+    there = carried(lambda time: rotor.pose(time=time), prairie.time, prairie.height_at, height=3.0)
+    expected = show(aim, there)
+    handle = prairie.add(rotor)
+    seen = show(aim)
+    prairie.remove(handle)
+    np.testing.assert_array_equal(seen, expected)
+    assert changed(seen, show(aim)).sum() > 60
 
 
 def test_d6_a_saucer_leaves_no_state_in_gl(show: Show, ctx: moderngl.Context, stage: Stage, camera: Aim) -> None:

@@ -16,7 +16,7 @@ pytestmark = pytest.mark.packaging
 
 def test_the_face_shows_what_programs_are_written_with() -> None:
     winds = {"Blast", "Breeze", "Gust", "PlacedWind", "Whirlwind", "WindPrimitive"}
-    records = {"Extent", "Grass", "Pose", "Receivers", "Shape", "WindSource"}
+    records = {"Extent", "Grass", "Hover", "Pose", "Receivers", "Shape", "WindSource"}
     assert set(tallgrass.__all__) == {"Prairie", "SceneError", "install", "scenes", "wind", *records, *winds}
     assert all(issubclass(getattr(tallgrass, name), WindPrimitive) for name in winds)
     assert (tallgrass.Prairie, tallgrass.SceneError) == (Prairie, SceneError)

@@ -16,6 +16,7 @@ from tallgrass.systems.bodies.draw import axes
 from tallgrass.systems.bodies.fly import DRAG, GRAVITY, HOVER, LOWEST, STEEPEST, carried, flying, foot, lean, level
 from tallgrass.systems.wind.blast import Blast
 from tallgrass.systems.wind.placed import Waypoint
+from tallgrass.systems.wind.quarantine import Quarantine
 
 Floats = NDArray[np.float32]
 angles = st.floats(-math.pi, math.pi)
@@ -119,13 +120,13 @@ def test_r4_what_entities_have_flies_and_what_blasts_declare(world: World) -> No
     path = [Waypoint(at=0, position=[0, 0]), Waypoint(at=10, position=[0, -50])]
     world.create(WindSource(Blast(body="saucer", path=path, start=1.0, stop=9.0), "scripted"))
     world.create(WindSource(Blast(), "bare"))
-    assert flying(world, flat, time=0.5) == [own, Body((5.0, 6.0, -4.0), 1.0)]
-    bodies = flying(world, flat, time=5.0)
+    assert flying(world, flat, Quarantine(), time=0.5) == [own, Body((5.0, 6.0, -4.0), 1.0)]
+    bodies = flying(world, flat, Quarantine(), time=5.0)
     assert bodies[:2] == [own, Body((5.0, 6.0, -4.0), 1.0)]
     assert bodies[2].place == pytest.approx((0.0, 3.0 + HOVER, -25.0))
     assert bodies[2].nose < 0.0
     world.add(posed, own)
-    assert flying(world, flat, time=9.0) == [own, own]
+    assert flying(world, flat, Quarantine(), time=9.0) == [own, own]
 
 
 def test_r4_a_blast_that_cannot_say_where_it_is_neither_blows_nor_flies(world: World) -> None:
@@ -135,4 +136,6 @@ def test_r4_a_blast_that_cannot_say_where_it_is_neither_blows_nor_flies(world: W
 
     source = WindSource(Adrift(body="saucer"), "adrift")
     world.create(source)
-    assert flying(world, flat, time=1.0, without={source: "it cannot"}) == []
+    quarantine = Quarantine()
+    assert flying(world, flat, quarantine, time=1.0) == []
+    assert quarantine.reasons == {source: "adrift: pose raised LookupError: nowhere at 0.7 s"}
