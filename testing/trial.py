@@ -1,6 +1,6 @@
 """One part of a wind at one instant: what it answers, and whether it answers the same however it is asked."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import astuple, dataclass, field
 from functools import partial
 from math import isfinite, isnan
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..components.pose import Pose
 from ..components.wind import Extent, Grass, WindPrimitive
+from ..systems.fly import GLANCE
 from .receivers import grass_at, places_to_try
 
 Floats = NDArray[np.float32]
@@ -52,6 +53,16 @@ class Report:
             text = " ".join(str(error).split())
             raise self.fail(f"{what} raises", f"{what} raised {type(error).__name__}: {text} ({when})") from error
 
+    def twice(self, what: str, when: str, ask: Callable[[], Answer], *kinds: type) -> Answer:
+        """Return what a wind answers both times; raises FailedError where that is of none of these types."""
+        answer = self.ask(what, when, ask)
+        if not isinstance(answer, kinds):
+            due = f"not {kinds[0].__name__}{' or None' if len(kinds) > 1 else ''}"
+            raise self.fail(what, f"{what} returned {type(answer).__name__}, {due} ({when})")
+        if ask() != answer:
+            self.add(f"{what} again", f"{what} answers differently when it is asked again ({when})")
+        return answer
+
 
 def try_part(part: WindPrimitive, report: Report, /, *, time: float, seed: int) -> list[Floats]:
     """Ask a part of a wind everything at `time` [s], and return its mask and its messages.
@@ -83,23 +94,25 @@ def try_part(part: WindPrimitive, report: Report, /, *, time: float, seed: int) 
 def frame(part: WindPrimitive, report: Report, /, *, time: float) -> None:
     """Ask a part of a wind where it is, twice. Raises FailedError where that is nowhere."""
     when = f"at {time:g} s"
-    asks: tuple[tuple[str, Callable[[], Any], tuple[Any, ...]], ...] = (
-        ("pose", lambda: part.pose(time=time), (Pose,)),
-        ("extent", lambda: part.extent(time=time), (Extent, type(None))),
-    )
-    for what, ask, kinds in asks:
-        answer: Any = report.ask(what, when, ask)
-        if not isinstance(answer, kinds):
-            due = f"not {kinds[0].__name__}{' or None' if len(kinds) > 1 else ''}"
-            raise report.fail(what, f"{what} returned {type(answer).__name__}, {due} ({when})")
-        numbers = () if answer is None else astuple(answer)
-        if not all(_is_sound(number, bounded=what == "pose") for number in numbers):
-            raise report.fail(what, f"{what} returned {answer}, which is not all numbers ({when})")
-        if ask() != answer:
-            report.add(f"{what} again", f"{what} answers differently when it is asked again ({when})")
-    extent = part.extent(time=time)
-    if extent is not None and (extent.left > extent.right or extent.ahead > extent.behind):
+    _stands("pose", report.twice("pose", when, partial(part.pose, time=time), Pose), report, when)
+    extent = report.twice("extent", when, partial(part.extent, time=time), Extent, type(None))
+    if extent is None:
+        return
+    _stands("extent", extent, report, when)
+    if extent.left > extent.right or extent.ahead > extent.behind:
         raise report.fail("extent", f"extent returned {extent}, which ends before it begins ({when})")
+
+
+def flight(wind: WindPrimitive, report: Report, times: Iterable[float], /) -> None:
+    """Ask a wind for the path of what hovers over it, around times [s]. Raises FailedError where that is nowhere."""
+    for moment in (time + shift for time in times for shift in (-GLANCE, 0.0, GLANCE)):
+        when = f"at {moment:g} s, for what hovers over it"
+        _stands("pose", report.twice("pose", when, partial(wind.pose, time=moment), Pose), report, when)
+
+
+def _stands(what: str, answer: Pose | Extent, report: Report, when: str) -> None:
+    if not all(_is_sound(number, bounded=what == "pose") for number in astuple(answer)):
+        raise report.fail(what, f"{what} returned {answer}, which is not all numbers ({when})")
 
 
 def _is_sound(number: object, *, bounded: bool) -> bool:

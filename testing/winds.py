@@ -8,10 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..components.body import Hover
 from ..components.wind import INTERFACE, WindPrimitive
+from ..systems.overlay.paint import is_color
 from .declared import declaration_problems
 from .receivers import crowd, grass_at
-from .trial import FailedError, Report, try_part
+from .trial import FailedError, Report, flight, try_part
 
 Floats = NDArray[np.float32]
 
@@ -47,11 +49,11 @@ def check_wind(primitive: WindPrimitive | type[WindPrimitive], /, *, seed: int =
 def wind_problems(primitive: WindPrimitive | type[WindPrimitive], /, *, seed: int = 0) -> list[str]:
     """Return what is wrong with a wind, or with a class's defaults, one sentence for each thing.
 
-    It is looked at its fields (a sentence, a default, bounds, the unit in brackets) and at what its methods answer
-    all along its timeline, for receivers in its extent, around it and 10 km away, for one of them and for none: types,
-    shapes, finite numbers, weights within 0 and 1 and 0 outside the extent, an index of at most 1, the same answers
-    however it is asked, and no more than `MOST_COST` for 10,000 receivers. Numpy's floating-point errors (division by
-    zero, overflow, invalid values) count as raised. `seed` is the wind's own.
+    It is looked at its fields (a sentence, a default, bounds, the unit in brackets), its colour, what hovers over it
+    and what its methods answer all along its timeline, for receivers in its extent, around it and 10 km away, for one
+    of them and for none: types, shapes, finite numbers, weights within 0 and 1 and 0 outside the extent, an index of at
+    most 1, the same answers however it is asked, and no more than `MOST_COST` for 10,000 receivers. Numpy's
+    floating-point errors (division by zero, overflow, invalid values) count as raised. `seed` is the wind's own.
     """
     kind: Any = primitive if isinstance(primitive, type) else type(primitive)
     if not issubclass(kind, WindPrimitive):
@@ -59,6 +61,8 @@ def wind_problems(primitive: WindPrimitive | type[WindPrimitive], /, *, seed: in
     problems = declaration_problems(kind)
     if kind.interface != INTERFACE:
         problems.append(f"{kind.__name__} is written for interface {kind.interface}; this tallgrass has {INTERFACE}")
+    if kind.color is not None and not is_color(kind.color):
+        problems.append(f"color is {kind.color!r}, not a tuple of three numbers from 0 to 1")
     wind: Any = primitive
     if isinstance(primitive, type):
         try:
@@ -76,6 +80,8 @@ def _behaviour(wind: WindPrimitive, seed: int) -> list[str]:
         _values(wind, report)
         report.ask("model_dump_json", "which settles ties", wind.model_dump_json)
         times = _timeline(wind)
+        if report.twice("hover", "at any time", wind.hover, Hover, type(None)) is not None:
+            flight(wind, report, times)
         first = {time: _answers(wind, report, time, seed) for time in times}
         _answers(wind, report, times[0], MOST_SEED)
         for time in reversed(times):

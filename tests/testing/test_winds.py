@@ -9,6 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from pydantic import Field
 
+from tallgrass.components.body import Hover
 from tallgrass.components.declaration import Pair
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import Extent, Grass, WindPrimitive
@@ -192,6 +193,50 @@ class Endless(Square):
         return Pose(x=float("inf"))
 
 
+class Topped(Square):
+    """It says in words what hovers over it."""
+
+    def hover(self) -> Any:
+        return "saucer"
+
+
+class Winged(Square):
+    """What hovers over it looks like nothing that can be drawn."""
+
+    def hover(self) -> Any:
+        return Hover("dragon")  # type: ignore[arg-type]
+
+
+class Buried(Square):
+    """What hovers over it is under the ground."""
+
+    def hover(self) -> Any:
+        return Hover(height=-1.0)
+
+
+class Wavering(Square):
+    """What hovers over it flies at another height each time."""
+
+    def hover(self) -> Any:
+        return Hover(height=random.uniform(1.0, 9.0))  # noqa: S311 - that is what is wrong with it
+
+
+class Sudden(Square):
+    """What hovers over it is nowhere before the beginning."""
+
+    def hover(self) -> Any:
+        return Hover()
+
+    def pose(self, *, time: float) -> Any:
+        return Pose(x=float(np.sqrt(time)))
+
+
+class Painted(Square):
+    """Its colour is in bytes."""
+
+    color = (255, 128, 0)
+
+
 class Boxed(Square):
     """Its extent is a list."""
 
@@ -271,6 +316,12 @@ class Odd(Square):
         (Slow, r"it takes \d+ ms for 10,000 receivers \(at .* s\), over 20 ms"),
         (Lost, r"pose returned NoneType, not Pose \(at 0 s\)"),
         (Endless, r"pose returned Pose\(x=inf, .*\), which is not all numbers \(at 0 s\)"),
+        (Topped, r"hover returned str, not Hover or None \(at any time\)"),
+        (Winged, r"hover raised ValueError: a body looks like one of saucer, not like 'dragon' \(at any time\)"),
+        (Buried, r"hover raised ValueError: a body flies above 0 and up to 1000 m high, not -1\.0 \(at any time\)"),
+        (Wavering, r"hover answers differently when it is asked again \(at any time\)"),
+        (Sudden, r"pose raised FloatingPointError: .* \(at -0\.3 s, for what hovers over it\)"),
+        (Painted, r"color is \(255, 128, 0\), not a tuple of three numbers from 0 to 1"),
         (Boxed, r"extent returned list, not Extent or None \(at 0 s\)"),
         (Inverted, r"extent returned Extent\(.*\), which ends before it begins \(at 0 s\)"),
         (Single, r"parts returned Single, not a sequence of winds"),
