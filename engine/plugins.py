@@ -58,6 +58,7 @@ class WindKinds:
         self._installed = Installed(entries, chosen=chosen)
         self._entries = self._installed.used
         self._classes: dict[str, type[WindPrimitive]] = {}
+        self._ours = frozenset(entry.value for entry in self._installed.all() if owner(entry)[0] == OURS)
         for name in unknown_names(chosen, [*self._installed.all(), *others]):
             log.warning("%s names '%s', but no such kind, system or distribution is installed", CHOSEN, name)
 
@@ -75,6 +76,10 @@ class WindKinds:
         if len(entries) == 1 and type(primitive) is self._classes.get(primitive.kind):
             return owners(entries)
         return _address(type(primitive))
+
+    def is_ours(self, primitive: type[WindPrimitive], /) -> bool:
+        """Return whether a class of winds comes along with tallgrass; nothing is imported for it."""
+        return f"{primitive.__module__}:{primitive.__qualname__}" in self._ours
 
     def names(self) -> list[str]:
         """Return the kinds a scene may use, in alphabetical order; nothing is imported for it."""

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tallgrass.components.wind import Floats, Grass, WindPrimitive
-from tallgrass.engine.plugins import GROUP, PluginError, Provided, WindKinds, wind, wind_kinds
+from tallgrass.engine.plugins import GROUP, OURS, PluginError, Provided, WindKinds, wind, wind_kinds
 from tallgrass.engine.scene import parse_scene
 
 VORTEX = """
@@ -77,6 +77,16 @@ def test_d5_the_built_in_breeze_comes_through_its_entry_point() -> None:
         "tallgrass"
     ]
     assert wind_kinds().find("breeze").__module__ == "tallgrass.systems.wind.breeze"
+
+
+def test_the_winds_that_come_along_are_known_from_all_others(dust: WindKinds) -> None:
+    kinds = wind_kinds()
+    found = [kinds.find(row.kind) for row in kinds.provided() if row.distribution == OURS]
+    assert len(found) >= 4
+    assert all(kinds.is_ours(one) for one in found)
+    own = type("Breeze", (kinds.find("breeze"),), {"__module__": __name__})
+    assert not any(kinds.is_ours(one) for one in (own, Calm, WindPrimitive, dust.find("vortex")))
+    assert not any(dust.is_ours(one) for one in (*found, dust.find("vortex")))
 
 
 def test_the_registry_imports_no_system_until_a_kind_is_asked_for() -> None:
