@@ -12,7 +12,7 @@ from typing import TypeVar
 
 from ..components.wind import INTERFACE, WindPrimitive
 from .complaint import said
-from .installed import CHOSEN, Installed, Status, chosen_names, claimed, owner, owners, unknown_names
+from .installed import CHOSEN, OURS, Installed, Status, chosen_names, claimed, owner, owners, unknown_names
 from .plugged import SYSTEMS
 
 GROUP = "tallgrass.wind"

@@ -61,6 +61,7 @@ class Prairie:
         preset: str | None = None,
         lod: LodName = "auto",
         transitions: Transitions = SEAMLESS,
+        live: bool = True,
     ) -> None:
         scene = loaded.scene
         quality = scene.numbers(preset)
@@ -86,7 +87,7 @@ class Prairie:
         self._receivers = ReceiverEntities(self.world, self.field)
         self._released = False
         self._seen: Seen | None = None
-        self.winds = Winds(self.world, self.field)
+        self.winds = Winds(self.world, self.field, live=live)
         self._schedule = self._systems()
 
     @classmethod
@@ -98,26 +99,28 @@ class Prairie:
         preset: str | None = None,
         lod: LodName = "auto",
         transitions: Transitions = SEAMLESS,
+        live: bool = True,
     ) -> "Prairie":
         """Return the prairie of a scene file, or of a bundled scene by its name.
 
         `ctx` is the context to draw in; without it the one that is current at the first draw. `preset` overrides
         the scene's quality, `lod` shows everything in one representation, `transitions` leaves out parts of what
-        carries a patch from one representation to another. Raises `SceneError` with every problem of the file and its
-        maps, ValueError for an unknown preset or representation.
+        carries a patch from one representation to another. A `live` prairie leaves a plugin's wind out for a while
+        that takes too long; for a film it stays, however slow it is. Raises `SceneError` with every problem of the file
+        and its maps, ValueError for an unknown preset or representation.
         """
         if preset is not None and preset not in PRESETS:
             raise ValueError(f"unknown preset '{preset}'; there are {', '.join(PRESETS)}")
         if lod not in get_args(LodName):
             raise ValueError(f"unknown representation '{lod}'; there are {', '.join(get_args(LodName))}")
-        return cls(read_scene(scene), ctx=ctx, preset=preset, lod=lod, transitions=transitions)
+        return cls(read_scene(scene), ctx=ctx, preset=preset, lod=lod, transitions=transitions, live=live)
 
     def reseeded(self, seed: int) -> "Prairie":
         """Return another prairie of the same scene, quality and terrain, with other grass."""
         scene = self.scene.model_copy(update={"seed": seed})
         return Prairie(
             replace(self._loaded, scene=scene), ctx=self._ctx, preset=self._preset, lod=self.lod,
-            transitions=self.field.transitions,
+            transitions=self.field.transitions, live=self.winds.quarantine.live,
         )  # fmt: skip
 
     @property
@@ -135,6 +138,7 @@ class Prairie:
         if not (np.isfinite(dt) and dt >= 0.0):
             raise ValueError(f"a prairie advances by 0 s or more, not by {dt}")
         self._clock += dt
+        self.winds.quarantine.let_back(self.time)
 
     def draw(self, view: object, projection: object, *, held: bool = False) -> None:
         """Draw the prairie into the framebuffer that is bound, and leave the host's GL state as it was.

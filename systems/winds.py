@@ -25,10 +25,10 @@ Floats = NDArray[np.float32]
 class Winds:
     """The winds in one world; those that a scene declares, those that a game adds, and a game's own entities."""
 
-    def __init__(self, world: World, field: Field) -> None:
+    def __init__(self, world: World, field: Field, *, live: bool = True) -> None:
         self._world = world
         self._declared: list[int] = []
-        self.quarantine = Quarantine()
+        self.quarantine = Quarantine(live=live)
         self.change(field)
 
     def change(self, field: Field) -> None:

@@ -1,11 +1,15 @@
-"""Quarantine: a wind that raises, returns rubbish or takes too long is left out, and the frame goes on."""
+"""Quarantine: a wind that raises or returns rubbish is left out, and the frame goes on; so is one that is too slow.
+
+What a wind takes is the processor's own time in this thread, and never the time on the wall: what happens must not hang
+on how busy the machine is.
+"""
 
 import logging
 from collections.abc import Callable, Iterable
 from dataclasses import astuple, dataclass, field
 from functools import partial
 from math import inf, isnan
-from time import perf_counter
+from time import thread_time
 from typing import TypeVar
 
 import numpy as np
@@ -20,13 +24,22 @@ Floats = NDArray[np.float32]
 Answer = TypeVar("Answer")
 
 SLOW, SLOW_EACH = 0.1, 2e-6
-"""How long a call may take [s], and how much longer for each receiver."""
+"""How long a call may take, in processor time [s], and how much longer for each receiver."""
+
+NOTICED = 0.02
+"""How long a call may take without being told of [s]: what `plugins check` allows for 10,000 receivers.
+
+For more of them it is `SLOW_EACH` for each.
+"""
 
 STALLED = 3.0
 """How long no single call may take [s]."""
 
 PATIENCE, WINDOW = 3, 16
-"""How many slow calls, of how many calls of one method, a wind is left out for: a machine may be busy once or twice."""
+"""How many slow calls, of how many calls of one method, are too many: one may import or compile something."""
+
+WAIT, LONGEST_WAIT = 5.0, 60.0
+"""How long a slow wind is left out, on the prairie's clock [s]: at first, and at most; the wait doubles every time."""
 
 LARGEST = 1e6
 """No number that a mask or an action returns may be this large; both are due to be 1 at most."""
@@ -43,25 +56,40 @@ class QuarantinedError(Exception):
 
 @dataclass(slots=True)
 class Quarantine:
-    """The winds that are left out, and why."""
+    """The winds that are left out, and why. Those that come along with tallgrass are never too slow."""
 
     reasons: dict[WindSource, str] = field(default_factory=dict)
     """One sentence for each wind that is left out."""
 
-    _slow: dict[tuple[WindSource, str], int] = field(default_factory=dict)
-    """Which of a method's latest calls were slow, one bit for each."""
+    live: bool = True
+    """Whether a wind that takes too long is left out for a while; otherwise it stays, and is told of."""
+
+    _now: float = 0.0
+    """The prairie's clock [s]."""
+
+    _back: dict[WindSource, float] = field(default_factory=dict)
+    """When a slow wind is tried again, on the prairie's clock [s]."""
+
+    _wait: dict[WindSource, float] = field(default_factory=dict)
+    """How long a wind will be left out when it is slow the next time [s]."""
+
+    _slow: dict[tuple[WindSource, str, str], int] = field(default_factory=dict)
+    """Which of a method's latest calls took long, one bit for each, by what that means for the wind."""
+
+    _told: set[tuple[str, str]] = field(default_factory=set)
+    """What has been said: a name, and what about it."""
 
     def ask(self, source: WindSource, what: str, ask: Callable[[], Answer], /, *, receivers: int = 0) -> Answer:
         """Return what a wind answers; raises QuarantinedError where it fails to, or has failed before."""
         if source in self.reasons:
             raise QuarantinedError
-        start = perf_counter()
+        start = thread_time()
         try:
             answer = ask()
         except Exception as error:  # a plugin may raise anything
             log.debug("%s", source.name, exc_info=error)
             raise self.leave_out(source, f"{what} raised {said(error)}") from error
-        self._time(source, what, perf_counter() - start, SLOW + SLOW_EACH * receivers)
+        self._judge(source, what, thread_time() - start, receivers)
         return answer
 
     def ask_for(self, source: WindSource, what: str, ask: Callable[[], Floats], /, *, shape: tuple[int, ...]) -> Floats:
@@ -107,11 +135,8 @@ class Quarantine:
 
     def leave_out(self, source: WindSource, why: str, /) -> QuarantinedError:
         """Leave a wind out from now on, say so once for its kind, and return what to raise."""
-        told = {known.primitive.kind for known in self.reasons}
         self.reasons[source] = f"{source.name}: {why}"
-        if source.primitive.kind not in told:
-            origin = wind_kinds().origin(source.primitive)
-            log.warning("%s of %s: %s; this wind is left out from now on", source.name, origin, why)
+        self._say_once((source.primitive.kind, "fails"), source, f"{why}; this wind is left out from now on")
         return QuarantinedError(why)
 
     def _must_count(self, source: WindSource, what: str, numbers: Iterable[float]) -> None:
@@ -120,9 +145,44 @@ class Quarantine:
             if isnan(number) or (abs(number) == inf and what != "extent"):
                 raise self.leave_out(source, f"{what} returned numbers that are not finite")
 
-    def _time(self, source: WindSource, what: str, took: float, allowed: float) -> None:
-        before = self._slow.get((source, what), 0)
-        latest = (before << 1 | (took > allowed)) & ((1 << WINDOW) - 1)
-        self._slow[source, what] = latest
-        if took > STALLED or latest.bit_count() >= PATIENCE:
-            raise self.leave_out(source, f"{what} takes too long: {1000.0 * took:.0f} ms")
+    def let_back(self, now: float, /) -> None:
+        """Let slow winds back in whose wait is over `now`, on the prairie's clock [s]."""
+        self._now = now
+        for source in [source for source, back in self._back.items() if back <= now]:
+            del self._back[source]
+            self.reasons.pop(source, None)
+            self._slow = {key: latest for key, latest in self._slow.items() if key[0] is not source}
+
+    def _judge(self, source: WindSource, what: str, took: float, receivers: int) -> None:
+        """Tell of a wind that often takes long; raises QuarantinedError where that is too long for a game."""
+        if wind_kinds().is_ours(type(source.primitive)):
+            return
+        each = SLOW_EACH * receivers
+        is_noticed = self._is_often(source, what, "noticed", is_long=took > max(NOTICED, each))
+        is_slow = self._is_often(source, what, "slow", is_long=took > SLOW + each) or took > STALLED
+        told = f"{1000.0 * took:.0f} ms of processor time"
+        if is_slow and self.live:
+            raise self._leave_out_for_now(source, f"{what} takes too long: {told}")
+        if is_slow:
+            self._say_once((source.name, "takes long"), source, f"{what} takes too long: {told}")
+        elif is_noticed:
+            self._say_once((source.name, "takes long"), source, f"{what} takes {told}")
+
+    def _is_often(self, source: WindSource, what: str, meaning: str, *, is_long: bool) -> bool:
+        """Return whether this call takes long, and so did enough of the method's latest ones."""
+        latest = (self._slow.get((source, what, meaning), 0) << 1 | is_long) & ((1 << WINDOW) - 1)
+        self._slow[source, what, meaning] = latest
+        return is_long and latest.bit_count() >= PATIENCE
+
+    def _leave_out_for_now(self, source: WindSource, why: str) -> QuarantinedError:
+        wait = self._wait.get(source, WAIT)
+        self._wait[source] = min(2.0 * wait, LONGEST_WAIT)
+        self._back[source] = self._now + wait
+        self.reasons[source] = f"{source.name}: {why}"
+        self._say_once((source.name, "too slow"), source, f"{why}; this wind is left out for a while")
+        return QuarantinedError(why)
+
+    def _say_once(self, about: tuple[str, str], source: WindSource, sentence: str) -> None:
+        if about not in self._told:
+            self._told.add(about)
+            log.warning("%s of %s: %s", source.name, wind_kinds().origin(source.primitive), sentence)

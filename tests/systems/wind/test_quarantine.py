@@ -2,7 +2,7 @@
 
 import logging
 from collections.abc import Callable
-from time import sleep
+from time import sleep, thread_time
 from typing import Any
 
 import numpy as np
@@ -12,9 +12,19 @@ from numpy.typing import NDArray
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import Extent, Grass, Mixing, WindPrimitive, WindSource
 from tallgrass.systems.wind import quarantine as quarantine_module
+from tallgrass.systems.wind.blast import Blast
 from tallgrass.systems.wind.blow import blowing, hear, places_alone
 from tallgrass.systems.wind.breeze import Breeze
-from tallgrass.systems.wind.quarantine import PATIENCE, WINDOW, Quarantine
+from tallgrass.systems.wind.gust import Gust
+from tallgrass.systems.wind.quarantine import (
+    LONGEST_WAIT,
+    PATIENCE,
+    WAIT,
+    WINDOW,
+    Quarantine,
+    QuarantinedError,
+)
+from tallgrass.systems.wind.whirlwind import Whirlwind
 
 Floats = NDArray[np.float32]
 PLACES = np.stack(np.meshgrid(np.linspace(-5, 5, 11), np.linspace(-5, 5, 11)), -1).reshape(-1, 2).astype(np.float32)
@@ -222,34 +232,69 @@ def test_the_traceback_is_there_for_those_who_ask(caplog: pytest.LogCaptureFixtu
     assert isinstance(traceback.exc_info[1], ZeroDivisionError)
 
 
-class Sleeping(Failing):
-    """A wind that takes its time."""
+class Busy(Failing):
+    """A wind that keeps the processor busy."""
 
-    kind: str = "sleeping"
+    kind: str = "busy"
 
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
-        sleep(0.11)
+        end = thread_time() + 0.11
+        while thread_time() < end:
+            pass
         return np.full_like(place, 0.5)
 
 
-def test_a_wind_that_sleeps_is_left_out_after_three_times(caplog: pytest.LogCaptureFixture) -> None:
-    sleeping, quarantine = WindSource(Sleeping(), "wind[1] sleeping"), Quarantine()
+def test_a_slow_wind_is_left_out_after_three_times(caplog: pytest.LogCaptureFixture) -> None:
+    busy, quarantine = WindSource(Busy(), "wind[1] busy"), Quarantine()
     for _ in range(PATIENCE - 1):
-        told([BREEZE, sleeping], quarantine)
+        told([BREEZE, busy], quarantine)
         assert not quarantine.reasons
-    np.testing.assert_array_equal(told([BREEZE, sleeping], quarantine), told([BREEZE], Quarantine()))
+    np.testing.assert_array_equal(told([BREEZE, busy], quarantine), told([BREEZE], Quarantine()))
     (said,) = caplog.messages
-    assert said.startswith(f"wind[1] sleeping of {__name__}.Sleeping: action takes too long: 1")
+    assert said.startswith(f"wind[1] busy of {__name__}.Busy: action takes too long: 1")
+    assert said.endswith(" ms of processor time; this wind is left out for a while")
+
+
+def test_time_that_others_take_does_not_count(caplog: pytest.LogCaptureFixture) -> None:
+    quarantine = Quarantine()
+    for _ in range(PATIENCE):
+        quarantine.ask(SLOW_WIND, "action", lambda: sleep(0.11))
+    assert not quarantine.reasons
+    assert not caplog.messages
+
+
+SLOW_WIND = WindSource(Failing(), "slow")
 
 
 class Clock:
-    """A clock that goes on by as much as a test says, at every second reading."""
+    """The processor's time, which goes on by as much as a test says, at every second reading."""
 
     def __init__(self, took: list[float]) -> None:
         self._readings = iter([reading for each in took for reading in (0.0, each)])
 
     def __call__(self) -> float:
         return next(self._readings)
+
+
+Ask = Callable[..., bool]
+
+
+@pytest.fixture
+def ask(monkeypatch: pytest.MonkeyPatch) -> Ask:
+    """Ask a wind once for each of some numbers, in which it takes so long [s]; return whether it stays in."""
+
+    def answers(
+        quarantine: Quarantine, *took: float, source: WindSource = SLOW_WIND, what: str = "action", receivers: int = 0
+    ) -> bool:
+        monkeypatch.setattr(quarantine_module, "thread_time", Clock(list(took)))
+        try:
+            for _ in took:
+                quarantine.ask(source, what, lambda: None, receivers=receivers)
+        except QuarantinedError:
+            return False
+        return True
+
+    return answers
 
 
 @pytest.mark.parametrize(
@@ -263,16 +308,84 @@ class Clock:
         ([0.2, *[0.0] * WINDOW, 0.2, *[0.0] * WINDOW, 0.2], False),
     ],
 )
-def test_a_busy_machine_is_forgiven_but_a_slow_wind_is_not(
-    monkeypatch: pytest.MonkeyPatch, took: list[float], *, is_left_out: bool
+def test_a_slow_call_is_forgiven_but_a_slow_wind_is_not(ask: Ask, took: list[float], *, is_left_out: bool) -> None:
+    quarantine = Quarantine()
+    assert ask(quarantine, *took) != is_left_out
+    assert (SLOW_WIND in quarantine.reasons) == is_left_out
+
+
+@pytest.mark.parametrize("live", [True, False])
+@pytest.mark.parametrize("wind", [Breeze(), Gust(), Whirlwind(), Blast()], ids=lambda wind: str(wind.kind))
+def test_winds_that_come_along_are_never_too_slow(
+    ask: Ask, caplog: pytest.LogCaptureFixture, wind: WindPrimitive, *, live: bool
 ) -> None:
-    monkeypatch.setattr(quarantine_module, "perf_counter", Clock(took))
-    slow, quarantine = WindSource(Failing(), "slow"), Quarantine()
-    for _ in took[:-1]:
-        quarantine.ask(slow, "action", lambda: None)
-    if is_left_out:
-        with pytest.raises(quarantine_module.QuarantinedError):
-            quarantine.ask(slow, "action", lambda: None)
-    else:
-        quarantine.ask(slow, "action", lambda: None)
-    assert (slow in quarantine.reasons) == is_left_out
+    assert ask(Quarantine(live=live), *[9.0] * 20, source=WindSource(wind, wind.kind))
+    assert not caplog.messages
+
+
+@pytest.mark.parametrize("took", [0.368, 5.0])
+def test_for_a_film_a_slow_wind_stays_and_is_told_of_once(
+    ask: Ask, caplog: pytest.LogCaptureFixture, took: float
+) -> None:
+    quarantine = Quarantine(live=False)
+    assert ask(quarantine, *[took] * 20, 0.05, 0.0, took)
+    assert not quarantine.reasons
+    figure = f"{1000.0 * took:.0f} ms of processor time"
+    assert caplog.messages == [f"slow of {__name__}.Failing: action takes too long: {figure}"]
+
+
+def test_for_a_film_a_wind_that_fails_is_left_out_for_good() -> None:
+    failing, quarantine = WindSource(Failing(part="nan"), "failing"), Quarantine(live=False)
+    told([failing], quarantine)
+    quarantine.let_back(1e9)
+    assert failing in quarantine.reasons
+
+
+def test_a_slow_wind_comes_back_and_is_left_out_for_longer_every_time(
+    ask: Ask, caplog: pytest.LogCaptureFixture
+) -> None:
+    quarantine, now = Quarantine(), 100.0
+    quarantine.let_back(now)
+    for wait in (WAIT, 2 * WAIT, 4 * WAIT, 8 * WAIT, LONGEST_WAIT, LONGEST_WAIT):
+        assert not ask(quarantine, 0.2, 0.2, 0.2)
+        assert quarantine.reasons == {SLOW_WIND: "slow: action takes too long: 200 ms of processor time"}
+        quarantine.let_back(now + wait - 0.01)
+        assert not ask(quarantine, 0.0)
+        now += wait
+        quarantine.let_back(now)
+        assert not quarantine.reasons
+        assert ask(quarantine, 0.0, 0.2, 0.2)
+        quarantine.let_back(now)
+    assert len(caplog.messages) == 1
+
+
+def test_a_wind_that_fails_does_not_come_back_with_a_slow_one(ask: Ask, caplog: pytest.LogCaptureFixture) -> None:
+    failing, quarantine = WindSource(Failing(part="nan"), "failing"), Quarantine()
+    assert not ask(quarantine, 4.0)
+    quarantine.leave_out(failing, "action returned rubbish")
+    quarantine.let_back(WAIT)
+    assert list(quarantine.reasons) == [failing]
+    assert len(caplog.messages) == 2
+
+
+@pytest.mark.parametrize("live", [True, False])
+@pytest.mark.parametrize(
+    ("took", "receivers", "is_told"),
+    [
+        ([0.034, 0.034], 0, False),
+        ([0.5, *[0.0] * 20], 0, False),
+        ([0.034] * 20, 0, True),
+        ([0.019] * 20, 10_000, False),
+        ([0.034] * 20, 10_000, True),
+        ([0.034] * 20, 20_000, False),
+        ([0.034, 0.0] * 20, 0, True),
+    ],
+)
+def test_a_wind_that_often_takes_long_is_told_of_once_and_stays(
+    ask: Ask, caplog: pytest.LogCaptureFixture, took: list[float], receivers: int, *, is_told: bool, live: bool
+) -> None:
+    quarantine = Quarantine(live=live)
+    assert ask(quarantine, *took, receivers=receivers)
+    assert ask(quarantine, *took, what="mask", receivers=receivers)
+    assert not quarantine.reasons
+    assert caplog.messages == [f"slow of {__name__}.Failing: action takes 34 ms of processor time"] * is_told
