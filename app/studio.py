@@ -29,7 +29,7 @@ class Studio:
 
     def __init__(self, take: Take) -> None:
         self.take = take
-        self.prairie = Prairie.load(take.scene, preset=take.preset, lod=take.lod)
+        self.prairie = Prairie.load(take.scene, preset=take.preset, lod=take.lod, live=False)
         self.overlay = Overlay(take.overlay)
         self._offscreen = Offscreen(take.size)
 

@@ -148,16 +148,19 @@ def draw_reference(
     seen = view_of(view, projection)
     every = EveryBlade(prairie)
     ctx, (width, height) = every.painter.ctx, size
-    host = ctx.detect_framebuffer()
+    host, quarantine = ctx.detect_framebuffer(), prairie.winds.quarantine
+    live = quarantine.live
     large = (width * samples, height * samples)
     color, depth = ctx.texture(large, 3, alignment=1), ctx.depth_renderbuffer(large)
     target = ctx.framebuffer([color], depth)
     try:
+        quarantine.live = False  # all of the picture is in the same winds
         target.use()
         target.clear(depth=1.0)
         every.draw(seen, seen_cells(prairie.field), reach=reach)
         return box_filtered(target, size, samples)
     finally:
+        quarantine.live = live
         host.use()
         for thing in (target, color, depth, every):
             thing.release()

@@ -60,7 +60,7 @@ def _alone(one: Callable[[float], Row], sides: tuple[float, ...]) -> Iterator[Ro
 def _measured(scene: str, preset: str | None, size: tuple[int, int], side: float) -> Row:
     start = perf_counter()
     with Offscreen(size) as target:
-        prairie = Prairie(stretched(read_scene(scene), side), ctx=target.ctx, preset=preset)
+        prairie = Prairie(stretched(read_scene(scene), side), ctx=target.ctx, preset=preset, live=False)
         camera = camera_at(prairie.scene.camera, None, prairie.height_at)
         target.begin()
         prairie.draw(view_matrix(camera), projection_matrix(camera.view, size[0] / size[1]))

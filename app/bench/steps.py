@@ -56,7 +56,7 @@ class Record:
 def walked(studio: Studio, walk: list[Leg], transitions: Transitions, /, *, doing: str) -> Record:
     """Walk through the studio's scene with these transitions, and return what has been seen."""
     take, record = studio.take, Record()
-    prairie = Prairie.load(take.scene, ctx=studio.ctx, preset=take.preset, transitions=transitions)
+    prairie = Prairie.load(take.scene, ctx=studio.ctx, preset=take.preset, transitions=transitions, live=False)
     raise_gusts(prairie, walk)
     frames = {leg: list(moments(prairie, leg)) for leg in walk}
     total = sum(len(each) - 1 for each in frames.values())

@@ -33,7 +33,7 @@ class Pace:
 def bench_walk(scene: str, *, preset: str | None, size: tuple[int, int], json: bool) -> int:
     """Walk through a scene, print what its frames took, and return the exit status."""
     with Offscreen(size) as target:
-        prairie = Prairie.load(scene, ctx=target.ctx, preset=preset)
+        prairie = Prairie.load(scene, ctx=target.ctx, preset=preset, live=False)
         try:
             head = {"machine": machine(target.ctx), "scene": scene, "preset": preset or own_preset(prairie)}
             result = {**head, "size": list(size), **_measure(target, prairie)}

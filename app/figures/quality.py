@@ -58,7 +58,7 @@ def draw_presets(detail: Detail, /) -> Figure:
     """Return figure 16: one view in all presets, with its blades and the cost of its frame."""
     names = [name for row in ROWS for name in row]
     with Offscreen(detail.size) as target:
-        prairies = [Prairie.load(SCENE, ctx=target.ctx, preset=name) for name in names]
+        prairies = [Prairie.load(SCENE, ctx=target.ctx, preset=name, live=False) for name in names]
         for prairie in prairies:
             prairie.advance(TIME)
         seen, times = pictures(prairies, target)

@@ -36,7 +36,7 @@ FINE = 400
 def windless() -> Prairie:
     """Return a flat prairie without wind, grown as coarsely as can be: winds are all that is looked at."""
     loaded = read_scene("plain")
-    return Prairie(replace(loaded, scene=loaded.scene.model_copy(update={"wind": []})), preset="low")
+    return Prairie(replace(loaded, scene=loaded.scene.model_copy(update={"wind": []})), preset="low", live=False)
 
 
 def grid(x: Span, z: Span, spacing: float, /) -> Floats:

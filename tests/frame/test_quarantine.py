@@ -1,5 +1,6 @@
 """A picture with winds that fail is the picture without them."""
 
+from itertools import count
 from typing import Any
 
 import numpy as np
@@ -7,6 +8,9 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass.components.wind import Grass, WindPrimitive
+from tallgrass.systems.reference import draw_reference
+from tallgrass.systems.wind import quarantine
+from tallgrass.testing import looking
 
 Floats = NDArray[np.float32]
 Load = Any
@@ -56,3 +60,31 @@ def test_a_frame_with_failing_winds_is_the_frame_without_them(
         for prairie in (calm, troubled):
             prairie.advance(0.5)
     assert [message.partition(" of ")[0] for message in caplog.messages] == ["lost", "raising", "undefined"]
+
+
+class Steady(Raising):
+    """A wind that never fails."""
+
+    kind: str = "steady"
+    swing: float = 0.0
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
+        return np.full_like(place, [0.5, 0.0])
+
+
+def test_a_reference_is_drawn_in_all_winds_however_slow_they_are(
+    load: Load, stage: Stage, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    prairie = load()
+    prairie.add(Steady())
+    stage.shot(prairie)
+    view, projection = stage.matrices(looking(0.0, 1.7, 20.0, pitch=-12))
+    stage.target.use()
+    quick = draw_reference(prairie, view, projection, stage.size, samples=1)
+    readings = count()
+    monkeypatch.setattr(quarantine, "thread_time", lambda: 5.0 * next(readings))
+    np.testing.assert_array_equal(draw_reference(prairie, view, projection, stage.size, samples=1), quick)
+    assert not prairie.winds.quarantine.reasons
+    assert len(caplog.messages) == 1
+    stage.shot(prairie)
+    assert len(prairie.winds.quarantine.reasons) == 1

@@ -1,0 +1,95 @@
+"""Nothing that is filmed depends on how busy the machine is."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.gl
+
+PROGRAM = """
+import sys
+from time import thread_time
+
+import numpy as np
+
+from tallgrass import WindPrimitive, wind
+from tallgrass.app.cli import run
+
+SECONDS = float(sys.argv[1])
+
+
+@wind("ponderous")
+class Ponderous(WindPrimitive):
+    kind: str = "ponderous"
+
+    def mask(self, place, /, *, time):
+        return np.clip(1.0 - 0.05 * np.abs(place[:, 0] - time), 0.0, 1.0)
+
+    def action(self, place, /, *, time, seed, grass):
+        end = thread_time() + SECONDS
+        while thread_time() < end:
+            pass
+        return np.full_like(place, [0.4, 0.2])
+
+
+sys.exit(run(sys.argv[2:]))
+"""
+"""The command, and a game's own wind that keeps the processor busy for some seconds in every call."""
+
+
+WINDS = """\
+  - { kind: gust, position: [-20, 0], every: [1, 2] }
+  - { kind: ponderous, weight: 0.5 }
+mixing: weight
+"""
+
+
+@contextmanager
+def every_core_busy() -> Iterator[None]:
+    """Keep every core busy twice."""
+    words = [sys.executable, "-c", "while True: pass"]
+    busy = [subprocess.Popen(words) for _ in range(2 * (os.cpu_count() or 1))]
+    try:
+        yield
+    finally:
+        for one in busy:
+            one.kill()
+            one.wait()
+
+
+def film(scene: Path, folder: str, *, seconds: float) -> tuple[list[bytes], list[str]]:
+    """Return the pictures of a film that is made in a process of its own, and what it says of its winds."""
+    options = ["--frames", "1:4", "--fps", "4", "--size", "160x90", "--preset", "low"]
+    arguments = [str(seconds), "film", str(scene), "-o", f"{folder}/", *options]
+    words = [sys.executable, "-W", "error", "-c", PROGRAM, *arguments]
+    done = subprocess.run(words, cwd=scene.parent, capture_output=True, text=True, timeout=120, check=False)
+    assert (done.returncode, done.stdout) == (0, ""), done.stderr
+    return [path.read_bytes() for path in sorted((scene.parent / folder).iterdir())], done.stderr.splitlines()
+
+
+@pytest.fixture
+def windy(scene: Path) -> Path:
+    """A scene with winds that come along and the ponderous one."""
+    scene.write_text(scene.read_text().replace("\ncamera:", f"\n{WINDS}camera:"))
+    return scene
+
+
+def test_n5_a_film_on_a_busy_machine_is_the_film(windy: Path) -> None:
+    alone, _ = film(windy, "alone", seconds=0.06)
+    assert len(set(alone)) == 3
+    with every_core_busy():
+        assert film(windy, "busy", seconds=0.06)[0] == alone
+
+
+def test_a_film_has_a_slow_wind_in_every_frame_and_one_line_tells_of_it(windy: Path) -> None:
+    quick, nothing = film(windy, "quick", seconds=0.0)
+    slow, (told,) = film(windy, "slow", seconds=0.12)
+    assert slow == quick
+    assert nothing == []
+    assert told.startswith("wind[2] ponderous of __main__.Ponderous: action takes too long: 1")
+    assert told.endswith(" ms of processor time")
