@@ -3,7 +3,8 @@
 from collections.abc import Callable, Iterable
 from dataclasses import astuple, dataclass, field
 from functools import partial
-from math import isfinite, isnan
+from math import inf, isfinite, isnan
+from time import thread_time
 from typing import Any, TypeVar
 
 import numpy as np
@@ -36,6 +37,9 @@ class Report:
     sentences: dict[str, str] = field(default_factory=dict)
     """By what they are about."""
 
+    most: float = inf
+    """How long an answer may take, in processor time of this thread [s]."""
+
     def add(self, about: str, sentence: str) -> None:
         """Take a sentence down, unless there is one about this."""
         self.sentences.setdefault(about, sentence)
@@ -46,12 +50,25 @@ class Report:
         return FailedError(sentence)
 
     def ask(self, what: str, when: str, ask: Callable[[], Answer]) -> Answer:
-        """Return a wind's answer; raises FailedError where it raises anything."""
+        """Return a wind's answer; raises FailedError where it raises anything, and where it takes too long."""
         try:
-            return ask()
+            answer, took = timed(ask)
+            if took > self.most:  # the first time it may have imported or compiled something
+                answer, took = timed(ask)
         except Exception as error:
             text = " ".join(str(error).split())
             raise self.fail(f"{what} raises", f"{what} raised {type(error).__name__}: {text} ({when})") from error
+        if took > self.most:
+            told = f"{what} takes {1000.0 * took:.0f} ms of processor time ({when}), over {1000.0 * self.most:.0f} ms"
+            raise self.fail("cost", told)
+        return answer
+
+
+def timed(ask: Callable[[], Answer], /) -> tuple[Answer, float]:
+    """Return an answer, and how long it took in processor time of this thread [s]: no other program counts."""
+    start = thread_time()
+    answer = ask()
+    return answer, thread_time() - start
 
     def twice(self, what: str, when: str, ask: Callable[[], Answer], *kinds: type) -> Answer:
         """Return what a wind answers both times; raises FailedError where that is of none of these types."""

@@ -2,23 +2,28 @@
 
 import re
 from collections.abc import Sequence
-from time import perf_counter
+from functools import partial
+from math import inf
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..components.body import Hover
-from ..components.wind import INTERFACE, WindPrimitive
+from ..components.wind import INTERFACE, Grass, WindPrimitive
 from ..systems.overlay.paint import is_color
+from ..systems.wind.quarantine import SLOW
 from .declared import declaration_problems
 from .receivers import crowd, grass_at
-from .trial import FailedError, Report, flight, try_part
+from .trial import FailedError, Report, flight, timed, try_part
 
 Floats = NDArray[np.float32]
 
 MOST_COST = 0.02
-"""How long a wind may take for 10,000 receivers [s]; at 60 frames a second a frame has 0.0167 s for everything."""
+"""How long a wind may take for 10,000 receivers, in processor time [s].
+
+At 60 frames a second a frame has 0.0167 s for everything.
+"""
 
 MOST_SEED = 2**32 - 1
 """The largest seed that a wind is given."""
@@ -52,8 +57,9 @@ def wind_problems(primitive: WindPrimitive | type[WindPrimitive], /, *, seed: in
     It is looked at its fields (a sentence, a default, bounds, the unit in brackets), its colour, what hovers over it
     and what its methods answer all along its timeline, for receivers in its extent, around it and 10 km away, for one
     of them and for none: types, shapes, finite numbers, weights within 0 and 1 and 0 outside the extent, an index of at
-    most 1, the same answers however it is asked, and no more than `MOST_COST` for 10,000 receivers. Numpy's
-    floating-point errors (division by zero, overflow, invalid values) count as raised. `seed` is the wind's own.
+    most 1, the same answers however it is asked, and no more than `MOST_COST` of processor time for 10,000 receivers.
+    An answer to fewer that takes longer is the last one asked for. Numpy's floating-point errors (division by zero,
+    overflow, invalid values) count as raised. `seed` is the wind's own.
     """
     kind: Any = primitive if isinstance(primitive, type) else type(primitive)
     if not issubclass(kind, WindPrimitive):
@@ -75,7 +81,7 @@ def wind_problems(primitive: WindPrimitive | type[WindPrimitive], /, *, seed: in
 
 
 def _behaviour(wind: WindPrimitive, seed: int) -> list[str]:
-    report = Report()
+    report = Report(most=MOST_COST)
     try:
         _values(wind, report)
         report.ask("model_dump_json", "which settles ties", wind.model_dump_json)
@@ -133,21 +139,27 @@ def _again(first: list[Floats], second: list[Floats], report: Report, time: floa
 
 
 def _cost(wind: WindPrimitive, report: Report, time: float, seed: int) -> None:
-    took = min(_seconds(wind, time, seed) for _ in range(_TRIES))
+    took = inf
+    for _ in range(_TRIES):
+        took = min(took, _seconds(wind, time, seed))
+        if not MOST_COST < took < SLOW:  # it is quick enough, or no luck will make it so
+            break
     if took > MOST_COST:
-        most = 1000.0 * MOST_COST
-        report.add("cost", f"it takes {1000.0 * took:.0f} ms for 10,000 receivers (at {time:g} s), over {most:.0f} ms")
+        told = f"{1000.0 * took:.0f} ms of processor time for 10,000 receivers (at {time:g} s)"
+        report.add("cost", f"it takes {told}, over {1000.0 * MOST_COST:.0f} ms")
 
 
 def _seconds(wind: WindPrimitive, time: float, seed: int) -> float:
-    """Return how long all parts take for as many receivers in all [s]."""
+    """Return how long all parts take for as many receivers in all, in processor time [s]."""
     parts = wind.parts(time=time, seed=seed)
     places = [crowd(part.extent(time=time), _CROWD // max(1, len(parts))) for part in parts]
     grass = [grass_at(place) for place in places]
-    start = perf_counter()
+    return timed(partial(_ask_all, wind, places, grass, time, seed))[1]
+
+
+def _ask_all(wind: WindPrimitive, places: list[Floats], grass: list[Grass], time: float, seed: int) -> None:
     for part, place, here in zip(wind.parts(time=time, seed=seed), places, grass, strict=True):
         part.pose(time=time)
         part.extent(time=time)
         held = np.flatnonzero(part.mask(place, time=time) > 0.0)
         part.action(place[held], time=time, seed=seed, grass=here.at(held))
-    return perf_counter() - start

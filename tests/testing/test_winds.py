@@ -1,7 +1,7 @@
 """The check that a plugin's own tests call: it passes what is right, and names what is wrong in one sentence."""
 
 import random
-from time import sleep
+from time import sleep, thread_time
 from typing import Annotated, Any
 
 import numpy as np
@@ -61,6 +61,17 @@ def test_a_right_wind_has_no_problems() -> None:
 
 CALLS: list[float] = []
 """What the impure winds below remember."""
+
+
+@pytest.fixture(autouse=True)
+def _nothing_is_remembered() -> None:
+    CALLS.clear()
+
+
+def _keep_busy(seconds: float) -> None:
+    end = thread_time() + seconds
+    while thread_time() < end:
+        pass
 
 
 class Outside(Square):
@@ -172,7 +183,33 @@ class Brief(Square):
 
 
 class Slow(Square):
-    """It takes its time."""
+    """It takes its time for many receivers."""
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
+        _keep_busy(0.025 if len(place) > 5000 else 0.0)
+        return np.full_like(place, 0.5)
+
+
+class Slower(Square):
+    """It takes its time for any receivers."""
+
+    def mask(self, place: Floats, /, *, time: float) -> Any:
+        CALLS.append(time)
+        _keep_busy(0.025)
+        return super().mask(place, time=time)
+
+
+class Imported(Square):
+    """It takes its time at first."""
+
+    def mask(self, place: Floats, /, *, time: float) -> Any:
+        CALLS.append(time)
+        _keep_busy(0.1 if len(CALLS) == 1 else 0.0)
+        return super().mask(place, time=time)
+
+
+class Waiting(Square):
+    """It waits for something that keeps the processor free."""
 
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
         sleep(0.025 if len(place) > 5000 else 0.0)
@@ -313,7 +350,8 @@ class Odd(Square):
         (Writing, r"mask changes the places it is given \(at 0 s\)"),
         (Crowded, r"action raised IndexError: .* \(at 0 s, 0 receivers\)"),
         (Brief, r"action raised IndexError: .* \(at 61\.7 s, \d+ receivers\)"),
-        (Slow, r"it takes \d+ ms for 10,000 receivers \(at .* s\), over 20 ms"),
+        (Slow, r"it takes \d+ ms of processor time for 10,000 receivers \(at .* s\), over 20 ms"),
+        (Slower, r"mask takes \d+ ms of processor time \(at 0 s, \d+ receivers\), over 20 ms"),
         (Lost, r"pose returned NoneType, not Pose \(at 0 s\)"),
         (Endless, r"pose returned Pose\(x=inf, .*\), which is not all numbers \(at 0 s\)"),
         (Topped, r"hover returned str, not Hover or None \(at any time\)"),
@@ -335,6 +373,15 @@ class Odd(Square):
 def test_d5_what_is_wrong_with_a_wind_is_one_sentence(wind: type[WindPrimitive], problem: str) -> None:
     with pytest.raises(AssertionError, match=f"^{problem}$"):
         check_wind(wind)
+
+
+def test_the_check_stops_at_the_first_slow_answer() -> None:
+    assert len(wind_problems(Slower)) == 1
+    assert len(CALLS) == 2
+
+
+def test_a_first_call_may_be_slow_and_waiting_costs_nothing() -> None:
+    assert wind_problems(Imported) == wind_problems(Waiting) == []
 
 
 def test_what_is_thrown_by_dice_is_told_first() -> None:
