@@ -53,17 +53,17 @@ class World:
         self._entities[entity] = ref(mark, partial(_note_lost, self._entities, self._lost, entity))
         return entity
 
-    def lost(self) -> list[int]:
-        """Return the entities of ours that somebody else has deleted since this was asked before.
-
-        Where the whole world was cleared, that was no choice of single ones: `generation` is raised instead.
-        """
+    def check(self) -> int:
+        """Return `generation`, raised if the whole world was cleared since this was asked before."""
         if self._home is not None and self._home() is None:
             self._home = None
-            self.generation += 1
             self._lost.clear()
-        if not self._lost:
-            return []
+            self.generation += 1
+        return self.generation
+
+    def lost(self) -> list[int]:
+        """Return the entities of ours that somebody has deleted one by one since this was asked before."""
+        self.check()
         lost = self._lost.copy()
         self._lost.clear()
         return lost

@@ -6,17 +6,20 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ..components.viewer import Viewer
 from ..engine.camera import View, view_of
-from .around.cone import discrete_distance, inside_cone
+from .around.cone import HALF_DIAGONAL, discrete_distance, inside_cone
+from .around.ground import Ground
+from .around.outlook import Outlook
 from .around.window import cell_of
-from .field import Field
 from .painter import Painter
 from .prairie import Prairie
 from .show.blades.draw import BladePainter
 from .show.blades.gather import gather_blades
 from .show.blades.plant import plant_blades
 from .show.blades.pool import BladePool
-from .show.seen import Shown, carpet_shares
+from .show.blades.representation import BladeRepresentation
+from .show.blades.shown import Standing
 from .tile import cells_on, patch_models
 from .wind.blow import places_alone
 from .wind.grass import grass_of
@@ -26,35 +29,36 @@ CHUNK = 400
 """Patches drawn at a time in a reference, so that a large terrain needs no large buffers."""
 
 
-def terrain_cells(field: Field, /) -> Ints:
+def terrain_cells(ground: Ground, /) -> Ints:
     """Return every cell of the terrain, shape (n, 2)."""
-    patch = field.quality.patch
-    low = np.asarray(field.terrain.origin, np.float32)
-    first, last = cell_of(low, patch=patch), cell_of(low + np.array(field.terrain.size, np.float32), patch=patch)
+    patch, terrain = ground.patch, ground.terrain
+    low = np.asarray(terrain.origin, np.float32)
+    first, last = cell_of(low, patch=patch), cell_of(low + np.array(terrain.size, np.float32), patch=patch)
     cells = np.stack(np.meshgrid(*(np.arange(a, b + 1) for a, b in zip(first, last, strict=True))), -1)
     flat: Ints = cells.reshape(-1, 2).astype(np.int32)
-    return flat[cells_on(field.terrain, flat, patch=patch)]
+    return flat[cells_on(terrain, flat, patch=patch)]
 
 
-def seen_cells(field: Field, /) -> Ints:
-    """Return the cells of the terrain inside the view cone, shape (n, 2)."""
-    cells, patch, sight = terrain_cells(field), field.quality.patch, field.sight
-    middles = (cells + np.float32(0.5)) * np.float32(patch)
-    radius = patch * 0.7072 + field.sway
-    return cells[inside_cone(middles, apex=(sight.eye[0], sight.eye[2]), cone=sight.cone, radius=radius)]
+def seen_cells(ground: Ground, viewer: Viewer, /, *, sway: float) -> Ints:
+    """Return the cells of the terrain inside a viewer's cone, shape (n, 2); `sway` is how far grass may reach [m]."""
+    cells = terrain_cells(ground)
+    middles = (cells + np.float32(0.5)) * np.float32(ground.patch)
+    radius = ground.patch * HALF_DIAGONAL + sway
+    return cells[inside_cone(middles, apex=(viewer.eye[0], viewer.eye[2]), cone=viewer.cone, radius=radius)]
 
 
 def stand_all(prairie: Prairie, cells: Ints, painter: BladePainter, /) -> int:
     """Send all blades of `cells` (n, 2) to a painter, bent by the wind of now; return how many."""
-    field = prairie.field
-    pool = BladePool.allocate_slots(len(cells), field.blades.present.shape[1])
+    site = prairie.site
+    (stock,) = (each.stock for each in site.representations if isinstance(each, BladeRepresentation))
+    pool = BladePool.allocate_slots(len(cells), stock.records.shape[1])
     slots = np.arange(len(cells))
-    model, turn = patch_models(cells, seed=field.scene.seed, models=field.quality.models)
-    plant_blades(pool, slots, cells, model, turn, np.zeros_like(model), field.stock.blades, field.ground)
-    grass = grass_of(field.growths, pool.kind(slots))
+    model, turn = patch_models(cells, seed=site.scene.seed, models=site.quality.models)
+    plant_blades(pool, slots, cells, model, turn, stock, site.ground)
+    grass = grass_of(site.growths, pool.kind(slots))
     heard = prairie.winds.heard(places_alone(pool.place.reshape(-1, 2), grass), time=prairie.time)
     pool.message[:] = heard.reshape(pool.message.shape)
-    painter.write(*gather_blades(pool, Shown.whole(slots, slots)))
+    painter.write(*gather_blades(pool, Standing.whole(slots, slots)))
     return painter.blades.count
 
 
@@ -69,19 +73,22 @@ class EveryBlade:
             raise RuntimeError("draw the prairie once before its reference")
         self.prairie = prairie
         self.painter: Painter = prairie.painter
-        self.blades = self.painter.blade_painter(prairie.field.finest, soft=False)
+        self.outlook: Outlook = prairie.viewers["main"]
+        self.blades = self.painter.blade_painter(prairie.site.finest)
 
     def draw(self, view: View, cells: Ints, *, reach: int | None = None) -> None:
         """Draw sky, ground and all blades of `cells` (n, 2) into the framebuffer that is bound.
 
         With `reach` only those up to this discrete distance are drawn; beyond them lies the prairie's own carpet.
         """
-        carpet = None
+        cover = None
         if reach is not None:
-            field = self.prairie.field
-            carpet = np.where(field.table.distance > reach, carpet_shares(field), np.float32(0.0))
-            cells = cells[discrete_distance(cells, field.sight.centre) <= reach]
-        self.painter.write_ground(carpet)
+            patches, appears = self.outlook.patches, self.outlook.appearance
+            assert appears is not None
+            cover = np.where(patches.distance > reach, appears.cover[-1], np.float32(0.0))
+            cells = cells[discrete_distance(cells, self.outlook.viewer.centre) <= reach]
+        cells = cells[self.prairie.clearings.spare(cells)]
+        self.painter.carpet.lay(self.outlook, cover)
         self.painter.draw(view, blades=self._chunks(cells))
 
     def _chunks(self, cells: Ints) -> Iterator[BladePainter]:
@@ -109,17 +116,18 @@ def patch_distances(prairie: Prairie, view: object, projection: object, size: tu
     try:
         target.use()
         target.clear(depth=1.0)
-        every.draw_carpet_everywhere(seen)
+        every.draw_carpet_everywhere(seen, prairie.viewers["main"])
         fine = np.frombuffer(depth.read(alignment=1), np.float32).reshape(height, width)[::-1]
     finally:
         host.use()
         target.color_attachments[0].release()
         for thing in (target, depth):
             thing.release()
-    return _distances(fine.astype(np.float64), seen, prairie.field)
+    centre = prairie.viewers["main"].viewer.centre
+    return _distances(fine.astype(np.float64), seen, centre, patch=prairie.site.ground.patch)
 
 
-def _distances(depth: NDArray[np.float64], seen: View, field: Field) -> NDArray[np.int32]:
+def _distances(depth: NDArray[np.float64], seen: View, centre: Ints, *, patch: float) -> NDArray[np.int32]:
     height, width = depth.shape
     across = (np.arange(width) + 0.5) / width * 2.0 - 1.0
     up = 1.0 - (np.arange(height) + 0.5) / height * 2.0
@@ -127,8 +135,8 @@ def _distances(depth: NDArray[np.float64], seen: View, field: Field) -> NDArray[
     clip = np.stack([x, y, depth * 2.0 - 1.0, np.ones_like(x)], axis=-1)
     world = clip @ np.linalg.inv(seen.projection.astype(np.float64) @ seen.view.astype(np.float64)).T
     ground = np.stack([world[..., 0] / world[..., 3], world[..., 2] / world[..., 3]], axis=-1)
-    cell = cell_of(np.clip(ground, -1e6, 1e6), patch=field.quality.patch)
-    return np.where(depth < 1.0, discrete_distance(cell, field.sight.centre), -1).astype(np.int32)
+    cell = cell_of(np.clip(ground, -1e6, 1e6), patch=patch)
+    return np.where(depth < 1.0, discrete_distance(cell, centre), -1).astype(np.int32)
 
 
 def draw_reference(
@@ -157,7 +165,8 @@ def draw_reference(
         quarantine.live = False  # all of the picture is in the same winds
         target.use()
         target.clear(depth=1.0)
-        every.draw(seen, seen_cells(prairie.field), reach=reach)
+        site = prairie.site
+        every.draw(seen, seen_cells(site.ground, every.outlook.viewer, sway=site.sway), reach=reach)
         return box_filtered(target, size, samples)
     finally:
         quarantine.live = live

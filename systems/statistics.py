@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass, field
 
+from .around.outlook import Outlook
+
 
 @dataclass(slots=True)
 class Statistics:
@@ -32,3 +34,13 @@ class Statistics:
 
     transitions: int = 0
     """Patches that were seen to change their representation, or to be changing it."""
+
+    def count(self, outlook: Outlook, /, *, share: float) -> None:
+        """Count the patches of a viewer; `share` is that of the terrain's blades which grow on one patch."""
+        shown, names = outlook.patches.shown, outlook.patches.names
+        self.blades_considered = round(share * self.blades_field * int(shown.sum()))
+        self.patches = {
+            name: int((shown & (outlook.patches.representation == level)).sum()) for level, name in enumerate(names)
+        }
+        self.receivers = outlook.heard
+        self.transitions = outlook.changing

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from .around.outlook import Outlook
 from .around.patches import PatchTable
+from .around.transitions import SEAMLESS, Transitions
 from .lod import SLACK, farthest
 from .show.representation import Representation
-from .around.transitions import SEAMLESS, Transitions
 
 Floats = NDArray[np.float32]
 Levels = NDArray[np.int8]
@@ -146,8 +146,6 @@ class Transition:
     """Side of a patch [m]."""
 
     transitions: Transitions = SEAMLESS
-    changing: int = 0
-    """Patches that were seen to change their representation in this frame, or to be changing it."""
 
     def run(self) -> None:
         """Move on for every viewer that looks."""
@@ -165,4 +163,4 @@ class Transition:
             outlook, self.representations, weights(patches), reach=self.reach, part=part, transitions=self.transitions
         )
         changing = (patches.progress < 1.0) | ((before != patches.representation) & settled)
-        self.changing = int((patches.shown & changing).sum())
+        outlook.changing = int((patches.shown & changing).sum())

@@ -1,5 +1,6 @@
 """The winds of a prairie: whose entities they are, where they are now, and what grass feels of them."""
 
+import logging
 from collections.abc import Sequence
 from contextlib import suppress
 from functools import partial
@@ -11,37 +12,44 @@ from numpy.typing import NDArray
 
 from ..components.pose import Pose
 from ..components.wind import WindPrimitive, WindSource
+from ..engine.declared.scene import Scene
 from ..engine.terrain.sample import height_at
 from ..engine.world import World
-from .field import Field, densest_kind
+from .around.ground import Ground, densest_kind
 from .bodies.fly import foot, hover_of, hovering
+from .grow.record import Growth
 from .wind.blow import Blowing, Listeners, blowing, hear, places_alone
 from .wind.grass import grass_of
 from .wind.quarantine import Quarantine, QuarantinedError
 
 Floats = NDArray[np.float32]
 
+log = logging.getLogger("tallgrass")
+
 
 class Winds:
     """The winds in one world; those that a scene declares, those that a game adds, and a game's own entities."""
 
-    def __init__(self, world: World, field: Field, *, live: bool = True) -> None:
+    def __init__(
+        self, world: World, scene: Scene, ground: Ground, growths: Sequence[Growth], *, live: bool = True
+    ) -> None:
         self._world = world
+        self._generation = world.generation
         self._declared: list[int] = []
         self.quarantine = Quarantine(live=live)
-        self.change(field)
+        self.change(scene, ground, growths)
 
-    def change(self, field: Field) -> None:
+    def change(self, scene: Scene, ground: Ground, growths: Sequence[Growth]) -> None:
         """Take over the winds that a scene declares, at first or when it was read again.
 
         A wind that has not changed stays, and so does what is random about it; one that has changed keeps its name,
         and with it that. Winds that a game added are left alone.
         """
-        self._field = field
-        self._height_at = partial(height_at, field.terrain)
+        self._scene, self._ground, self._growths = scene, ground, growths
+        self._height_at = partial(height_at, ground.terrain)
         there = dict(self._world.all(WindSource))
         before = {entity: there[entity] for entity in self._declared if entity in there}
-        after = matched(list(before.values()), field.scene.wind)
+        after = matched(list(before.values()), scene.wind)
         entities = {source: entity for entity, source in before.items()}
         self._declared = [self._take(source, old, entities) for source, old in after]
         for entity in set(before) - set(self._declared):
@@ -68,6 +76,7 @@ class Winds:
         A wind whose entity has a `Pose` is there; one that something hovers over is where its jet meets the ground; the
         others are where they say themselves.
         """
+        self._revive()
         found = self._world.all(WindSource)
         poses = {source: pose for entity, source in found if (pose := self._world.find(entity, Pose)) is not None}
         for _, source in found:
@@ -77,18 +86,25 @@ class Winds:
                 elif (body := hovering(source, self._height_at, self.quarantine, time=time)) is not None:
                     poses[source] = foot(body, self._height_at)
         sources = [source for _, source in found]
-        return blowing(sources, self.quarantine, time=time, seed=self._field.scene.seed, poses=poses)
+        return blowing(sources, self.quarantine, time=time, seed=self._scene.seed, poses=poses)
 
     def heard(self, listeners: Listeners, /, *, time: float) -> Floats:
         """Return the message that each listener ends up with at `time` [s], shape (n, 2)."""
-        seed, mixing = self._field.scene.seed, self._field.scene.mixing
+        seed, mixing = self._scene.seed, self._scene.mixing
         return hear(self.now(time), listeners, self.quarantine, time=time, seed=seed, mixing=mixing)
 
     def at(self, place: Floats, /, *, time: float, kind: int | None = None) -> Floats:
         """Return what grass of a kind, or the densest there, feels at ground positions (n, 2) [m], shape (n, 2)."""
-        field = self._field
-        kinds = densest_kind(field, place) if kind is None else np.full(len(place), kind, np.intp)
-        return self.heard(places_alone(place, grass_of(field.growths, kinds)), time=time)
+        kinds = densest_kind(self._ground.density, place) if kind is None else np.full(len(place), kind, np.intp)
+        return self.heard(places_alone(place, grass_of(self._growths, kinds)), time=time)
+
+    def _revive(self) -> None:
+        """Let the winds of the scene be entities again after the game has cleared its world; say so once."""
+        if self._generation == self._world.check():
+            return
+        self._generation = self._world.generation
+        log.warning("the esper world was cleared: the scene's winds are entities again, those that were added are gone")
+        self.change(self._scene, self._ground, self._growths)
 
 
 def matched(

@@ -5,11 +5,9 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from ..systems.field import Field
+from ..systems.around.patches import PatchTable
+from ..systems.around.receivers import Receiving
 from ..systems.prairie import Prairie
-from ..systems.show.blades.pool import BladePool
-from ..systems.show.seen import Shown, seen_now
-from ..systems.show.strips.pool import StripPool
 
 Floats = NDArray[np.float32]
 Words = NDArray[np.str_]
@@ -54,24 +52,26 @@ class Heard:
         return Heard(*(getattr(self, each.name)[chosen] for each in fields(self)))
 
 
-def receivers_of(prairie: Prairie, /) -> Heard:
-    """Return the receivers of the patches that are shown, with what each has heard: copies, to assert on.
+def receivers_of(prairie: Prairie, /, *, viewer: str = "main") -> Heard:
+    """Return the receivers of the patches that a viewer is shown, with what each has heard: copies, to assert on.
 
     They have heard something once the prairie has been drawn, or `watch` and `step(prairie, Phase.BLOW)` were called;
     patches that nothing has been planted on yet have none.
     """
-    field, seen = prairie.field, seen_now(prairie.field)
-    parts = [_heard(field, "blades", field.blades, seen.standing)]
-    parts += [_heard(field, "strips", pool, shown) for pool, shown in zip(field.strips, seen.strips, strict=True)]
+    parts = [
+        _heard(prairie, receiving, prairie.viewers[viewer].patches)
+        for kept in prairie.viewers[viewer].kept.values()
+        for receiving in kept.receiving
+        if not receiving.still
+    ]
     place, message, kind, representation = (np.concatenate(rows) for rows in zip(*parts, strict=True))
     return Heard(place, message, kind, representation)
 
 
-def _heard(field: Field, name: str, pool: BladePool | StripPool, shown: Shown) -> tuple[Floats, Floats, Words, Words]:
-    """Return place, message, kind and representation of the receivers that grow in some slots of a pool."""
-    slots = shown.slots[(pool.stamp[shown.slots, :2] == field.table.cell[shown.rows]).all(axis=1)]
-    place, message = pool.place[slots], pool.message[slots]
-    present = pool.present[slots].reshape(*pool.present[slots].shape, *(1,) * (place.ndim - pool.present.ndim - 1))
-    grows = np.broadcast_to(present, place.shape[:-1]).reshape(-1)
-    kind = np.array(list(field.scene.grass))[pool.kind(slots)[grows]]
-    return place.reshape(-1, 2)[grows], message.reshape(-1, 2)[grows], kind, np.full(len(kind), name)
+def _heard(prairie: Prairie, receiving: Receiving, patches: PatchTable) -> tuple[Floats, Floats, Words, Words]:
+    """Return place, message, kind and representation of the receivers of a pool that are shown and planted."""
+    pool, slots = receiving.pool, receiving.slots
+    grows = pool.grows(slots, patches.cell[receiving.rows])
+    place, message = pool.places(slots).reshape(-1, 2)[grows], pool.message[slots].reshape(-1, 2)[grows]
+    kind = np.array(list(prairie.scene.grass))[pool.kind(slots)[grows]]
+    return place, message, kind, np.full(len(kind), receiving.representation)

@@ -12,8 +12,8 @@ from ..engine.plugins import wind_kinds
 from ..engine.scene.compose import read_document
 from ..engine.scene.read import LoadedScene
 from ..engine.scene.validate import validate
-from ..systems.prairie import Prairie
 from ..systems.around.transitions import SEAMLESS, Transitions
+from ..systems.prairie import Prairie
 
 LITTLE = """\
 tallgrass: 1

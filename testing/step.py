@@ -21,17 +21,13 @@ def watch(prairie: Prairie, camera: Camera | None = None, /) -> None:
 def step(prairie: Prairie, which: Phase | str, /) -> None:
     """Run one system of a prairie once, by its name, or all those of one phase, and nothing else.
 
-    The names are those of `prairie.statistics.systems_ms`: tile, cull, lod, plant, wind and gather. What earlier
-    systems leave behind has to be there: `watch` does what comes before `Phase.BLOW`, and a picture has to be drawn
-    before `Phase.DRAW`. Raises ValueError for a name that is none, RuntimeError where something is missing.
+    The names are those of `prairie.systems`; built in are tile, cull, lod, transition, see, plant, wind and gather. What
+    earlier systems leave behind has to be there: `watch` does what comes before `Phase.BLOW`, and a picture has to be
+    drawn before `Phase.DRAW`. Raises KeyError for a name that is none, RuntimeError where something is missing.
     """
-    schedule = prairie._schedule  # noqa: SLF001 - the kit opens what a game leaves closed
-    phases = {name: phase for phase, name, _ in schedule.systems}
-    phase, name = (which, which.name) if isinstance(which, Phase) else (phases.get(which), which)
-    if phase is None:
-        raise ValueError(f"no system '{name}'; there are {', '.join(phases)}")
-    if phase >= Phase.BLOW and prairie._seen is None:  # noqa: SLF001 - the same
+    phase, name = (which, which.name) if isinstance(which, Phase) else (prairie.systems[which].phase, which)
+    if "main" not in prairie.viewers:
         raise RuntimeError(f"'{name}' needs a viewer: call watch(prairie) first")
     if phase == Phase.DRAW and prairie.painter is None:
         raise RuntimeError(f"'{name}' needs a graphics context: draw the prairie first")
-    schedule.step(which)
+    prairie.systems.step(which)

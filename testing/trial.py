@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ..components.pose import Pose
 from ..components.wind import Extent, Grass, WindPrimitive
-from ..systems.fly import GLANCE
+from ..systems.bodies.fly import GLANCE
 from .receivers import grass_at, places_to_try
 
 Floats = NDArray[np.float32]

@@ -41,6 +41,15 @@ class Outlook:
     air: NDArray[np.float32] = field(default_factory=lambda: np.zeros(2, np.float32))
     """The mean of the wind's messages to the patches in view, shape (2,)."""
 
+    heard: int = 0
+    """Receivers of blades and strips that heard the wind in this frame."""
+
+    changing: int = 0
+    """Patches that were seen to change their representation in this frame, or to be changing it."""
+
+    blades: int = 0
+    """Blades sent as geometry in this frame."""
+
     drawn_at: float | None = None
     """The instant that the viewer saw last [s]; None before the first."""
 
@@ -49,6 +58,12 @@ class Outlook:
 
     generation: int = 0
     """Generation of the world that the patches' entities are of."""
+
+    def settle(self) -> None:
+        """End the frame: what a game has written into messages holds no longer."""
+        for kept in self.kept.values():
+            for receiving in kept.receiving:
+                receiving.letters.settle()
 
     def look(self, view: View, /, *, time: float, leap: float = LEAP) -> None:
         """Look from where two matrices say, at an instant [s]; who comes farther than `leap` [m] has jumped."""

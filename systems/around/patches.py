@@ -128,9 +128,9 @@ class PatchTable:
             entity=np.zeros(rows, np.int64),
         )
 
-    def middles(self, rows: NDArray[np.int64] | slice = slice(None), /, *, patch: float) -> NDArray[np.float32]:
+    def middles(self, rows: NDArray[np.integer] | slice = slice(None), /, *, patch: float) -> NDArray[np.float64]:
         """Return the middles (x, z) [m] of patches with this side [m], shape (n, 2)."""
-        return (self.cell[rows] + np.float32(0.5)) * np.float32(patch)
+        return np.asarray((self.cell[rows] + 0.5) * patch, np.float64)
 
     def empty(self, rows: NDArray[np.int32], /) -> None:
         """Forget what is known of the levels of detail of some rows, because another patch is there now."""

@@ -30,6 +30,9 @@ class Pool(Protocol):
     def kind(self, slots: Rows, /) -> NDArray[np.intp]:
         """Return the kind of grass of each receiver of some slots, one slot after another, shape (n,)."""
 
+    def grows(self, slots: Rows, cells: NDArray[np.int32], /) -> NDArray[np.bool_]:
+        """Return which receivers of some slots have grass that grows on these cells (m, 2), shape (n,)."""
+
 
 @dataclass(slots=True, eq=False)
 class Correspondence:
@@ -53,6 +56,11 @@ class Correspondence:
         if slot not in self._left:
             self._left[slot] = flat.copy()
         return flat
+
+    @property
+    def busy(self) -> bool:
+        """Whether any slot was asked for."""
+        return bool(self._left)
 
     def forget(self, slot: int, /) -> None:
         """Forget that a slot was asked for, because another patch stands there now."""
@@ -142,9 +150,7 @@ class Receiving:
 
     def component(self, slot: int, /, *, viewer: str, patch: int) -> Receivers:
         """Return the component that stands for the receivers of a slot."""
-        return Receivers(
-            self.letters, self.pool, slot, patch=patch, representation=self.representation, viewer=viewer
-        )
+        return Receivers(self.letters, self.pool, slot, patch=patch, representation=self.representation, viewer=viewer)
 
     def lose(self) -> None:
         """Take note that all entities are gone."""

@@ -5,8 +5,7 @@ from numpy.typing import NDArray
 
 from ...engine.terrain.record import Terrain
 from ...engine.terrain.sample import height_at, slope_at
-from ..field import Field
-from ..show.seen import seen_now
+from ..around.outlook import Outlook
 from .marks import Marks, on_ground, stroked, together
 from .paint import DARK, index_color
 
@@ -31,16 +30,16 @@ HEAD, SPREAD = 0.36, 0.45
 """Length of an arrow's head, of the arrow's; half its width, of its length."""
 
 
-def felt(field: Field, /) -> tuple[Floats, Floats]:
-    """Return places (x, z) [m] and messages of all receivers of grass that is shown, both of shape (n, 2)."""
-    seen = seen_now(field)
-    slots = seen.standing.slots
-    grows = field.blades.present[slots]
-    place, message = [field.blades.place[slots][grows]], [field.blades.message[slots][grows]]
-    for pool, ring in zip(field.strips, seen.strips, strict=True):
-        grows = pool.present[ring.slots]
-        place.append(pool.place[ring.slots][grows].reshape(-1, 2))
-        message.append(pool.message[ring.slots][grows].reshape(-1, 2))
+def felt(outlook: Outlook, /) -> tuple[Floats, Floats]:
+    """Return places (x, z) [m] and messages of all receivers of grass that stands and is shown, both of shape (n, 2)."""
+    place, message = [], []
+    for kept in outlook.kept.values():
+        for receiving in kept.receiving:
+            if receiving.still:
+                continue
+            grows = receiving.pool.grows(receiving.slots, outlook.patches.cell[receiving.rows])
+            place.append(receiving.pool.places(receiving.slots).reshape(-1, 2)[grows])
+            message.append(receiving.pool.message[receiving.slots].reshape(-1, 2)[grows])
     return np.concatenate(place), np.concatenate(message)
 
 
@@ -93,9 +92,9 @@ def arrows(
     )
 
 
-def arrow_marks(field: Field, /) -> Marks:
+def arrow_marks(outlook: Outlook, terrain: Terrain, /) -> Marks:
     """Return what receivers feel, as arrows: a readable part of them, the nearer the more."""
-    place, message = felt(field)
-    height, slope = height_at(field.terrain, place), slope_at(field.terrain, place)
-    rows, longest = thinned(place, height, slope, eye=field.sight.eye)
-    return arrows(place[rows], message[rows], longest, field.terrain, eye=field.sight.eye)
+    place, message = felt(outlook)
+    height, slope = height_at(terrain, place), slope_at(terrain, place)
+    rows, longest = thinned(place, height, slope, eye=outlook.viewer.eye)
+    return arrows(place[rows], message[rows], longest, terrain, eye=outlook.viewer.eye)

@@ -7,8 +7,8 @@ from math import cos, pi, sin
 import numpy as np
 from numpy.typing import NDArray
 
-from ...engine.declared.quality import Representation
-from ..field import Field
+from ..around.outlook import Outlook
+from ..site import Site
 from .marks import Marks, filled, split, stroked, together
 from .masks import Masked
 from .paint import BRIGHT, DARK, ring_shades
@@ -63,37 +63,37 @@ class Sheet:
         return np.asarray(((ground >= low) & (ground <= high)).all(axis=(1, 2)))
 
 
-def sheet_for(field: Field, /, *, left: float, bottom: float, side: float) -> Sheet:
+def sheet_for(outlook: Outlook, site: Site, /, *, left: float, bottom: float, side: float) -> Sheet:
     """Return the sheet around the viewer that shows all strips and some carpet."""
-    x, _, z = field.sight.eye
-    patches = min(field.table.side // 2, field.reach[Representation.STRIPS] + BEYOND)
-    return Sheet(left, bottom, side, (x, z), patches * field.quality.patch)
+    x, _, z = outlook.viewer.eye
+    patches = min(outlook.patches.side // 2, site.reach[-2] + BEYOND)
+    return Sheet(left, bottom, side, (x, z), patches * site.ground.patch)
 
 
-def chart(field: Field, masks: Sequence[Masked], sheet: Sheet, /) -> Marks:
+def chart(outlook: Outlook, site: Site, masks: Sequence[Masked], sheet: Sheet, /) -> Marks:
     """Return the chart: patches by representation, dimmer where they are culled; masks, the view cone, the viewer."""
     x, z = sheet.middle
     frame = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]], np.float32) * np.float32(sheet.reach) + np.array([x, z])
     border = sheet.place(frame.astype(np.float32))
     return together(
         filled(split(border[None]), (*DARK, 0.85)),
-        _patches(field, sheet),
+        _patches(outlook, site, sheet),
         *(_outline(mask, sheet) for mask in masks),
         stroked(border, np.roll(border, -1, axis=0), (*BRIGHT, 0.7), width=1.2),
-        _viewer(field.sight.cone, sheet),
+        _viewer(outlook.viewer.cone, sheet),
     )
 
 
-def _patches(field: Field, sheet: Sheet) -> Marks:
-    table = field.table
-    corners, low, high = squares(table.cell, patch=field.quality.patch, part=WHOLE), *sheet.limits
-    rows = np.flatnonzero(table.alive & (corners[:, 2] > low).all(axis=1) & (corners[:, 0] < high).all(axis=1))
-    shades = np.concatenate([ring_shades(level, 1) for level in Representation])
-    share = patch_weights(field)[:, rows]
+def _patches(outlook: Outlook, site: Site, sheet: Sheet) -> Marks:
+    patches = outlook.patches
+    corners, low, high = squares(patches.cell, patch=site.ground.patch, part=WHOLE), *sheet.limits
+    rows = np.flatnonzero(patches.alive & (corners[:, 2] > low).all(axis=1) & (corners[:, 0] < high).all(axis=1))
+    shades = np.concatenate([ring_shades(each.color) for each in site.representations])
+    share = patch_weights(outlook, site)[:, rows]
     changing = share.max(axis=0) < SETTLED
     color = np.ones((len(rows), 4), np.float32)
-    color[:, :3] = np.where(changing[:, None], share.T @ shades, patch_colors(field)[rows])
-    color[:, 3] = np.where(table.visible[rows], 0.9, CULLED)
+    color[:, :3] = np.where(changing[:, None], share.T @ shades, patch_colors(outlook, site)[rows])
+    color[:, 3] = np.where(patches.visible[rows], 0.9, CULLED)
     return filled(split(sheet.place(np.clip(corners[rows], low, high))), np.repeat(color, 2, axis=0)[:, None, :])
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
-from ...engine.declared.quality import Quality, Representation
+from ..show.representation import Representation
 from .masks import Masked
 from .paint import BRIGHT, DARK, Color, index_color, ring_shades
 from .parts import Part
@@ -34,17 +34,18 @@ class Entry:
     text: str
 
 
-def entries(parts: AbstractSet[Part], masks: Sequence[Masked], quality: Quality, /) -> list[Entry]:
+def entries(
+    parts: AbstractSet[Part], masks: Sequence[Masked], representations: Sequence[Representation], /
+) -> list[Entry]:
     """Return what there is to be told of the parts that are shown, the winds by rising claim."""
     lines = _of_masks(parts, masks)
     if "arrows" in parts:
         shades = index_color(np.linspace(0.0, 1.0, 12, dtype=np.float32))
         lines.append(Entry("ramp", _colors(shades), "posture index, 0 to 1"))
     if parts & {"levels", "weights", "map"}:
-        lines += _of_levels(quality)
+        lines += _of_levels(representations)
     if "weights" in parts:
-        pair = (Representation.STRIPS, Representation.BLADES)
-        colors = tuple(color for level in pair for color in _colors(ring_shades(level, 1)))
+        colors = tuple(color for each in representations[1::-1] for color in _colors(ring_shades(each.color)))
         lines.append(Entry("inside", colors, "two at once: the finer's share"))
     if "map" in parts:
         lines.append(Entry("none", (BRIGHT,), "map: dim outside the view cone"))
@@ -61,12 +62,14 @@ def _of_masks(parts: AbstractSet[Part], masks: Sequence[Masked]) -> list[Entry]:
     return [*names, *outlines, *[Entry("none", (BRIGHT,), "thin line: with full weight")] * bool(outlines)]
 
 
-def _of_levels(quality: Quality) -> list[Entry]:
-    rings = (len(quality.blade_rings), len(quality.strip_rings), 1)
-    names = ("3D blades", "2.5D strips", "2D carpet")
+def _of_levels(representations: Sequence[Representation]) -> list[Entry]:
     return [
-        Entry("areas", _colors(ring_shades(level, count)), f"{name}, near to far" if count > 1 else name)
-        for level, count, name in zip(Representation, rings, names, strict=True)
+        Entry(
+            "areas",
+            _colors(ring_shades(each.color, each.rings())),
+            f"{each.label}, near to far" if each.rings() > 1 else each.label,
+        )
+        for each in representations
     ]
 
 

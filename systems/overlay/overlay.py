@@ -7,7 +7,9 @@ import numpy as np
 from ...engine.camera import View, view_of
 from ...engine.gl.guest import guest
 from ...engine.gl.homes import Homes
+from ..around.outlook import Outlook
 from ..prairie import Prairie
+from ..site import Site
 from .arrows import arrow_marks
 from .chart import chart, sheet_for
 from .legend import entries, legend
@@ -40,7 +42,7 @@ class Overlay:
         self.parts: frozenset[Part] = frozenset(parts)
         self._painters: Homes[MarkPainter] = Homes()
 
-    def draw(self, prairie: Prairie, view: object, projection: object) -> None:
+    def draw(self, prairie: Prairie, view: object, projection: object, *, viewer: str = "main") -> None:
         """Draw over the frame that `prairie.draw` has just drawn with the same matrices, and leave GL as it was.
 
         Raises RuntimeError for a prairie that has not been drawn.
@@ -49,47 +51,49 @@ class Overlay:
             return
         if prairie.painter is None:
             raise RuntimeError("an overlay shows a frame that is drawn: draw the prairie first")
-        ctx = prairie.painter.ctx
-        seen, masks = view_of(view, projection), self._masks(prairie)
+        ctx, outlook = prairie.painter.ctx, prairie.viewers[viewer]
+        seen, masks = view_of(view, projection), self._masks(prairie, outlook)
         with guest(ctx) as target:
             painter, size = self._painters.here(ctx, MarkPainter), target.viewport[2:]
             painter.begin(size)
-            painter.draw(self._on_ground(prairie, masks), _clip(seen))
-            self._draw_flat(painter, prairie, masks, size)
+            painter.draw(self._on_ground(outlook, prairie.site, masks), _clip(seen))
+            self._draw_flat(painter, outlook, prairie.site, masks, size)
 
     def release(self) -> None:
         """Give everything back to the context."""
         self._painters.release()
 
-    def _masks(self, prairie: Prairie) -> list[Masked]:
+    def _masks(self, prairie: Prairie, outlook: Outlook) -> list[Masked]:
         if not self.parts & {"masks", "map"}:
             return []
-        field, winds, time = prairie.field, prairie.winds, prairie.time
-        x, _, z = field.sight.eye
-        far = field.reach[2] * field.quality.patch
+        winds, time = prairie.winds, prairie.time
+        x, _, z = outlook.viewer.eye
+        far = prairie.site.reach[-1] * prairie.site.ground.patch
         return masked(winds.now(time), winds.quarantine, time=time, around=(x, z), far=far)
 
-    def _on_ground(self, prairie: Prairie, masks: list[Masked]) -> Marks:
-        field = prairie.field
+    def _on_ground(self, outlook: Outlook, site: Site, masks: list[Masked]) -> Marks:
+        terrain = site.ground.terrain
         layers = []
         if "levels" in self.parts:
-            layers.append(level_marks(field, settled="weights" in self.parts))
+            layers.append(level_marks(outlook, site, settled="weights" in self.parts))
         if "weights" in self.parts:
-            layers.append(weight_marks(field))
+            layers.append(weight_marks(outlook, site))
         if "masks" in self.parts:
-            layers.append(mask_marks(masks, field.terrain))
+            layers.append(mask_marks(masks, terrain))
         if "arrows" in self.parts:
-            layers.append(arrow_marks(field))
-        return veiled(together(*layers), field.terrain, field.sight.eye)
+            layers.append(arrow_marks(outlook, terrain))
+        return veiled(together(*layers), terrain, outlook.viewer.eye)
 
-    def _draw_flat(self, painter: MarkPainter, prairie: Prairie, masks: list[Masked], size: tuple[int, int]) -> None:
+    def _draw_flat(
+        self, painter: MarkPainter, outlook: Outlook, site: Site, masks: list[Masked], size: tuple[int, int]
+    ) -> None:
         scale = scale_of(size)
         edge = EDGE * scale
         if "map" in self.parts:
             side = float(round(MAP * min(size)))
-            sheet = sheet_for(prairie.field, left=size[0] - edge - side, bottom=size[1] - edge - side, side=side)
-            painter.draw(chart(prairie.field, masks, sheet), pixels_onto_clip(size))
-        lines = entries(self.parts, masks, prairie.field.quality)
+            sheet = sheet_for(outlook, site, left=size[0] - edge - side, bottom=size[1] - edge - side, side=side)
+            painter.draw(chart(outlook, site, masks, sheet), pixels_onto_clip(size))
+        lines = entries(self.parts, masks, site.representations)
         image = legend(tuple(lines), round(LETTERS * scale))
         if image.shape[1] < ROOM * size[0] and image.shape[0] < ROOM * size[1]:
             painter.draw_image(image, round(size[0] - edge) - image.shape[1], round(edge))

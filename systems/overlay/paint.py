@@ -7,17 +7,10 @@ from zlib import crc32
 import numpy as np
 from numpy.typing import NDArray
 
-from ...engine.declared.quality import Representation
 from ...components.wind import WindPrimitive
 
 Floats = NDArray[np.float32]
 Color = tuple[float, float, float]
-
-LEVELS: dict[Representation, Color] = {
-    Representation.BLADES: (0.98, 0.33, 0.20),
-    Representation.STRIPS: (0.12, 0.50, 0.98),
-    Representation.CARPET: (0.72, 0.45, 0.95),
-}
 
 PALEST = 0.4
 """How far towards white the farthest ring of a representation is."""
@@ -51,7 +44,7 @@ def index_color(index: Floats, /) -> Floats:
     return np.stack([np.interp(index, at, channel) for channel in INDEX.T], axis=1).astype(np.float32)
 
 
-def ring_shades(level: Representation, rings: int, /) -> Floats:
+def ring_shades(color: Color, rings: int = 1, /) -> Floats:
     """Return the colours of a representation's rings from the nearest to the farthest, shape (rings, 3)."""
     pale = np.linspace(0.0, PALEST if rings > 1 else 0.0, rings)[:, None]
-    return np.asarray(np.array(LEVELS[level]) * (1.0 - pale) + pale, np.float32)
+    return np.asarray(np.array(color) * (1.0 - pale) + pale, np.float32)

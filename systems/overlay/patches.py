@@ -3,10 +3,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ...engine.declared.quality import Representation
-from ..field import Field
-from ..lod import weights
-from ..around.appearance import kept_near
+from ..around.outlook import Outlook
+from ..see import strips_kept
+from ..site import Site
+from ..transition import weights
 from .marks import Marks, filled, on_ground, split, stroked, together
 from .paint import ring_shades
 
@@ -29,41 +29,39 @@ SETTLED = 0.995
 """Weight from which on a patch has one representation alone."""
 
 
-def shown_level(field: Field, /) -> NDArray[np.int8]:
+def shown_level(outlook: Outlook, site: Site, /) -> NDArray[np.int8]:
     """Return the representation that each patch is shown in, or of two the one that it has or is coming to, (rows,)."""
-    share = patch_weights(field)
+    share = patch_weights(outlook, site)
     alone = share.max(axis=0) >= SETTLED
-    return np.where(alone, share.argmax(axis=0), field.table.representation).astype(np.int8)
+    return np.where(alone, share.argmax(axis=0), outlook.patches.representation).astype(np.int8)
 
 
-def patch_colors(field: Field, /) -> Floats:
+def patch_colors(outlook: Outlook, site: Site, /) -> Floats:
     """Return the colour of each patch's representation, shape (rows, 3).
 
     Its shade tells the ring, blended where the patch is on its way from one ring to another.
     """
-    table, here = field.table, shown_level(field)
-    color = np.tile(ring_shades(Representation.CARPET, 1), (len(here), 1))
-    rings = len(field.quality.blade_rings), len(field.quality.strip_rings)
-    for level, count in zip((Representation.BLADES, Representation.STRIPS), rings, strict=True):
-        shades, fold = ring_shades(level, count), int(level == Representation.STRIPS)
-        rows = np.flatnonzero(here == level)
-        part = table.sublevel_progress[level, rows, None]
+    patches, here = outlook.patches, shown_level(outlook, site)
+    color = np.zeros((len(here), 3), np.float32)
+    for level, representation in enumerate(site.representations):
+        shades = ring_shades(representation.color, representation.rings())
+        rows = np.flatnonzero((here == level) | (here < 0))
+        part = patches.sublevel_progress[level, rows, None]
         now, before = (
-            shades[np.maximum(ring[level, rows] >> fold, 0)] for ring in (table.sublevel, table.sublevel_before)
+            shades[np.maximum(representation.ring(sublevel[level, rows]), 0)]
+            for sublevel in (patches.sublevel, patches.sublevel_before)
         )
         color[rows] = before + (now - before) * part
     return color
 
 
-def patch_weights(field: Field, /) -> Floats:
-    """Return how much each representation counts on each patch, shape (3, rows): the border of the strips included."""
-    table, patch = field.table, np.float32(field.quality.patch)
-    eye = np.array(field.sight.eye, np.float32)[[0, 2]]
-    away = np.abs((table.cell + np.float32(0.5)) * patch - eye).max(axis=1) / patch
-    share = weights(table)
-    handed = share[Representation.STRIPS] * (1.0 - kept_near(away, reach=field.reach[Representation.STRIPS]))
-    share[Representation.STRIPS] -= handed
-    share[Representation.CARPET] += handed
+def patch_weights(outlook: Outlook, site: Site, /) -> Floats:
+    """Return how much each representation counts on each patch, (representations, rows): the strips' border included."""
+    share, strips = weights(outlook.patches), outlook.patches.names.index("strips")
+    kept = strips_kept(outlook, reach=site.reach, patch=site.ground.patch)
+    handed = share[strips] * (1.0 - kept)
+    share[strips] -= handed
+    share[-1] += handed
     return share
 
 
@@ -78,49 +76,51 @@ def squares(cell: NDArray[np.int32], /, *, patch: float, part: Floats | float = 
     return np.asarray((middle + corner * half[:, None, None]) * np.float32(patch), np.float32)
 
 
-def mixed(field: Field, /) -> NDArray[np.bool_]:
+def mixed(outlook: Outlook, site: Site, /) -> NDArray[np.bool_]:
     """Return which patches have two representations at once, shape (rows,)."""
-    share = patch_weights(field)
+    share = patch_weights(outlook, site)
     return np.asarray((share.max(axis=0) < SETTLED) & (share.sum(axis=0) > 0.0))
 
 
-def level_marks(field: Field, /, *, settled: bool = False) -> Marks:
+def level_marks(outlook: Outlook, site: Site, /, *, settled: bool = False) -> Marks:
     """Return a square on each patch in view, in the colour of its representation.
 
     With `settled`, those that have two at once are left out.
     """
-    shown = field.table.alive & field.table.visible
-    rows = np.flatnonzero(shown & ~mixed(field) if settled else shown)
-    return _tiles(field, rows, patch_colors(field)[rows], FILL)
+    shown = outlook.patches.shown
+    rows = np.flatnonzero(shown & ~mixed(outlook, site) if settled else shown)
+    return _tiles(outlook, site, rows, patch_colors(outlook, site)[rows], FILL)
 
 
-def weight_marks(field: Field, /) -> Marks:
+def weight_marks(outlook: Outlook, site: Site, /) -> Marks:
     """Return the patches in view that have two representations at once, in the coarser one's colour.
 
     Inside each is a square of the finer one's, whose area is the finer one's share. Those that are changing are
     outlined; the others lie where strips give way to the carpet.
     """
-    table, share = field.table, patch_weights(field)
-    rows = np.flatnonzero(table.alive & table.visible & mixed(field))
+    patches, share = outlook.patches, patch_weights(outlook, site)
+    rows = np.flatnonzero(patches.shown & mixed(outlook, site))
     here = share[:, rows] > 1.0 - SETTLED
-    finer, coarser = here.argmax(axis=0), len(Representation) - 1 - here[::-1].argmax(axis=0)
+    finer, coarser = here.argmax(axis=0), len(here) - 1 - here[::-1].argmax(axis=0)
     part = np.sqrt(share[finer, rows] / share[:, rows].sum(axis=0))
-    shades = np.concatenate([ring_shades(level, 1) for level in Representation])
-    moving = rows[table.progress[rows] < 1.0]
-    around = on_ground(field.terrain, squares(table.cell[moving], patch=field.quality.patch))
-    away = np.linalg.norm(around.mean(axis=1) - np.array(field.sight.eye, np.float32), axis=1)
+    shades = np.concatenate([ring_shades(each.color) for each in site.representations])
+    moving = rows[patches.progress[rows] < 1.0]
+    around = on_ground(site.ground.terrain, squares(patches.cell[moving], patch=site.ground.patch))
+    away = np.linalg.norm(around.mean(axis=1) - np.array(outlook.viewer.eye, np.float32), axis=1)
     bright = np.ones((len(moving), 4), np.float32)
     bright[:, 3] = 0.9 * np.minimum(1.0, OUTLINED / np.maximum(away, 1e-3)) ** 2
     return together(
-        _tiles(field, rows, shades[coarser], FILL),
-        _tiles(field, rows, shades[finer], INNER, part=part),
+        _tiles(outlook, site, rows, shades[coarser], FILL),
+        _tiles(outlook, site, rows, shades[finer], INNER, part=part),
         stroked(
             around.reshape(-1, 3), np.roll(around, -1, axis=1).reshape(-1, 3), np.repeat(bright, 4, axis=0), width=1.5
         ),
     )  # fmt: skip
 
 
-def _tiles(field: Field, rows: Rows, color: Floats, opacity: float, *, part: Floats | float = 1.0) -> Marks:
-    flat = squares(field.table.cell[rows], patch=field.quality.patch, part=part)
+def _tiles(
+    outlook: Outlook, site: Site, rows: Rows, color: Floats, opacity: float, *, part: Floats | float = 1.0
+) -> Marks:
+    flat = squares(outlook.patches.cell[rows], patch=site.ground.patch, part=part)
     shown = np.column_stack([color, np.full(len(rows), opacity, np.float32)])
-    return filled(split(on_ground(field.terrain, flat)), np.repeat(shown, 2, axis=0)[:, None, :])
+    return filled(split(on_ground(site.ground.terrain, flat)), np.repeat(shown, 2, axis=0)[:, None, :])

@@ -1,1 +1,1 @@
-"""The representations of the grass: how each grows, what it keeps, and how it is drawn."""
+"""The representations of the grass: how each grows, what it keeps, and how it is drawn. `registry` lists them."""

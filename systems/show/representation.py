@@ -13,14 +13,12 @@ from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
 from ...engine.world import World
 from ..around.ground import Ground
+from ..around.outlook import Outlook
+from ..around.patches import PatchTable
 from ..around.receivers import Receiving
 from ..around.transitions import Transitions
 from ..frame.block import FrameBlock
 from ..grow.record import Blades, Growth, Postures
-
-if TYPE_CHECKING:
-    from ..around.outlook import Outlook
-from ..around.patches import PatchTable
 
 Levels = NDArray[np.int8]
 Rows = NDArray[np.int64]
@@ -69,6 +67,14 @@ class Kept:
 
     def __init__(self, receiving: Sequence[Receiving] = ()) -> None:
         self.receiving = list(receiving)
+
+    def enlist(self, world: World, patches: PatchTable, /) -> None:
+        """Let the receivers of what is shown be entities, and no others."""
+        for receiving in self.receiving:
+            receiving.enlist(world, patches)
+
+    def leave(self, rows: NDArray[np.int32], /) -> None:
+        """Take note that other patches are in some rows of the patch table now."""
 
     def lose(self) -> None:
         """Take note that all entities are gone."""

@@ -2,6 +2,7 @@
 
 import io
 import zipfile
+from collections.abc import Mapping
 from dataclasses import fields
 from hashlib import blake2b
 from typing import Any, TypeVar, get_args, get_type_hints
@@ -10,14 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.declared.quality import Quality
-from ..grow.record import Blades, Carpet, Growth, PatchModel, Postures, Response, Strips
+from ..grow.record import Blades, Growth, PatchModel, Postures, Response
 from ..grow.response import SAMPLES
 from ..grow.simulate import LINKS
-from ..show.carpet.grow import SLOPES
+from ..show.registry import REPRESENTATIONS
 from .models import ROWS, VARIANTS
 
 Arrays = dict[str, NDArray[Any]]
-Record = TypeVar("Record", Postures, Response, Blades, Strips, Carpet)
+Record = TypeVar("Record")
 
 _DIGEST = 32
 
@@ -53,7 +54,9 @@ def _flatten(record: Any, name: str, /) -> Arrays:
     """Return every array and number of a record under its dotted name."""
     if isinstance(record, np.ndarray | float):
         return {name: np.asarray(record)}
-    if isinstance(record, tuple):
+    if isinstance(record, Mapping):
+        parts = list(record.items())
+    elif isinstance(record, tuple):
         parts = [(str(number), part) for number, part in enumerate(record)]
     else:
         parts = [(field.name, getattr(record, field.name)) for field in fields(record)]
@@ -67,15 +70,22 @@ def _rebuild(arrays: Arrays, quality: Quality, /) -> Growth:
         models=tuple(
             PatchModel(
                 blades=_record(Blades, arrays, f"growth.models.{model}.blades"),
-                strips=tuple(
-                    _record(Strips, arrays, f"growth.models.{model}.strips.{ring}")
-                    for ring in range(len(quality.strip_rings))
-                ),
-                carpet=_record(Carpet, arrays, f"growth.models.{model}.carpet"),
+                pictures=_pictures(arrays, f"growth.models.{model}.pictures"),
             )
             for model in range(quality.models)
         ),
     )
+
+
+def _pictures(arrays: Arrays, name: str, /) -> dict[str, tuple[Any, ...]]:
+    """Return what each representation has grown of a model: as many records as there are."""
+    pictures: dict[str, tuple[Any, ...]] = {}
+    for each in REPRESENTATIONS:
+        if each.record is not None:
+            head = f"{name}.{each.name}."
+            numbers = {int(key[len(head) :].partition(".")[0]) for key in arrays if key.startswith(head)}
+            pictures[each.name] = tuple(_record(each.record, arrays, f"{head}{number}") for number in sorted(numbers))
+    return pictures
 
 
 def _record(kind: type[Record], arrays: Arrays, name: str, /) -> Record:
@@ -103,27 +113,12 @@ def _fits(growth: Growth, quality: Quality, blades: int, /) -> bool:
 
 
 def _model_fits(model: PatchModel, quality: Quality, blades: int, /) -> bool:
-    grown, side = model.blades, quality.carpet
+    grown = model.blades
     rows = (grown.height, grown.width, grown.facing, grown.variant, grown.rank)
     return (
         grown.root.shape == grown.rest.shape == (blades, 2)
         and all(row.shape == (blades,) for row in rows)
         and all(
-            _strips_fit(strips, ring.strips, blades)
-            for strips, ring in zip(model.strips, quality.strip_rings, strict=True)
+            each.fits(model.pictures[each.name], quality, blades) for each in REPRESENTATIONS if each.record is not None
         )
-        and model.carpet.slope.shape == (len(SLOPES),)
-        and model.carpet.texels.shape == (len(SLOPES), 4, side, side, 4)
-    )
-
-
-def _strips_fit(strips: Strips, count: int, blades: int, /) -> bool:
-    return (
-        strips.plane.shape == (count,)
-        and strips.texels.ndim == 5
-        and strips.texels.shape[:2] == (2, count)
-        and strips.texels.shape[4] == 4
-        and strips.rank.shape == strips.texels.shape[:4]
-        and strips.slice.shape == (2, blades)
-        and strips.targets.shape == (2, blades, LINKS + 1, 2)
     )

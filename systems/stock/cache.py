@@ -16,6 +16,7 @@ import numpy as np
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
 from ..grow.record import Growth
+from ..show.registry import REPRESENTATIONS
 from .archive import pack, unpack
 from .models import blade_count, grow
 
@@ -66,8 +67,8 @@ def growth_key(kind: GrassKind, quality: Quality, /, *, seed: int) -> str:
         "seed": seed,
         "kind": kind.model_dump(include={"height", "width", "stiffness", "damping", "lean", "taper"}, mode="json"),
         "blades": blade_count(kind, quality),
-        "quality": quality.model_dump(include={"patch", "models", "carpet"}, mode="json"),
-        "strips": [(ring.strips, ring.texel) for ring in quality.strip_rings],
+        "quality": quality.model_dump(include={"patch", "models"}, mode="json"),
+        "pictures": {each.name: each.depends(kind, quality) for each in REPRESENTATIONS},
     }
     return blake2b(json.dumps(depends, sort_keys=True).encode(), digest_size=20).hexdigest()
 

@@ -11,14 +11,11 @@ from ..grow.blades import grow_blades
 from ..grow.postures import grow_postures
 from ..grow.record import Blades, Growth, PatchModel, Postures
 from ..grow.response import grow_response
-from ..show.carpet.grow import grow_carpet
-from ..show.strips.grow import grow_strips
+from ..show.registry import REPRESENTATIONS
+from ..show.representation import Seedling
 
 VARIANTS = 4
 ROWS = 129
-
-_TEXELS_UP = 96
-"""Most texels from the ground to the highest tip: tall kinds have broad blades and do with coarser ones."""
 
 _MIPMAPS = 4.0 / 3.0
 
@@ -36,7 +33,7 @@ def grow(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
         for number in range(quality.models)
     ]
     height, margin = _extent(patches, postures, quality.patch)
-    models = tuple(_model(blades, postures, kind, quality, height, margin) for blades in patches)
+    models = tuple(_model(Seedling(blades, postures, kind, quality, height, margin)) for blades in patches)
     return Growth(postures=postures, response=grow_response(kind), models=models)
 
 
@@ -52,25 +49,11 @@ def precompute_bytes(growth: Growth, /) -> int:
     return sum(seen.values())
 
 
-def _model(
-    blades: Blades, postures: Postures, kind: GrassKind, quality: Quality, height: float, margin: float, /
-) -> PatchModel:
-    coarser = max(height / _TEXELS_UP / min(ring.texel for ring in quality.strip_rings), 1.0)
-    strips = tuple(
-        grow_strips(
-            blades,
-            postures,
-            patch=quality.patch,
-            strips=ring.strips,
-            texel=ring.texel * coarser,
-            taper=kind.taper,
-            margin=margin,
-            height=height,
-        )
-        for ring in quality.strip_rings
+def _model(seedling: Seedling, /) -> PatchModel:
+    return PatchModel(
+        blades=seedling.blades,
+        pictures={each.name: each.grow(seedling) for each in REPRESENTATIONS if each.record is not None},
     )
-    carpet = grow_carpet(blades, postures, patch=quality.patch, texels=quality.carpet, taper=kind.taper, height=height)
-    return PatchModel(blades=blades, strips=strips, carpet=carpet)
 
 
 def _extent(patches: list[Blades], postures: Postures, patch: float, /) -> tuple[float, float]:
@@ -95,6 +78,9 @@ def _gather(record: object, seen: dict[int, int], /) -> None:
     """Add the size of every array in a record, each once, by its identity."""
     if isinstance(record, np.ndarray):
         seen[id(record)] = int(record.nbytes * (_MIPMAPS if record.dtype == np.uint8 else 1.0))
+    elif isinstance(record, dict):
+        for part in record.values():
+            _gather(part, seen)
     elif isinstance(record, tuple):
         for part in record:
             _gather(part, seen)

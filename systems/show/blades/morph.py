@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...around.window import window_rows
 from ...around.appearance import handed_over
 from ...around.outlook import Outlook
 from ...around.window import window_rows

@@ -4,14 +4,14 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ....engine.declared.quality import Quality
 from ....engine.gl.records import Records
 from ....engine.gl.stream import Stream, release_all
-from ....engine.declared.quality import Quality
 from ...around.outlook import Outlook
 from ...frame.block import by_kind, joined
-from .draw import ROUND, SHADER_BLADE, WHOLE
 from ..representation import Canvas
 from ..strips.representation import StripRepresentation
+from .draw import ROUND, SHADER_BLADE, WHOLE
 from .morph import EDGE, MOVING, gather_morph
 from .pool import BladePool
 from .shown import Standing
@@ -33,7 +33,12 @@ class MorphPainter:
         defines: dict[str, str | int] = {"SEGMENTS": self.segments, "ROUND": ROUND, "SOFT": 1, "MORPH": 1}
         defines |= {"PER_ROW": PER_ROW, "POINTS": points}
         self.program = joined(
-            ctx, canvas.block, canvas.units, "systems/show/blades/blades.vert", "systems/show/blades/blades.frag", defines
+            ctx,
+            canvas.block,
+            canvas.units,
+            "systems/show/blades/blades.vert",
+            "systems/show/blades/blades.frag",
+            defines,
         )
         self.program["tall"] = by_kind([strips.height for strips in strips.stock.strips[0]])
         self.program["part"] = WHOLE

@@ -59,6 +59,11 @@ class BladePool:
         """Return the kind that each receiver of some slots is of, shape (len(slots) * n,)."""
         return self.blade["kind"][slots].reshape(-1).astype(np.intp)
 
+    def grows(self, slots: NDArray[np.int64], cells: NDArray[np.int32], /) -> NDArray[np.bool_]:
+        """Return which blades of some slots grow on these cells (m, 2), shape (m * n,)."""
+        planted = (self.stamp[slots] == cells).all(axis=1)
+        return (self.present[slots] & planted[:, None]).reshape(-1)
+
     @classmethod
     def allocate(cls, side: int, blades: int) -> "BladePool":
         """Return an empty pool for a window of `side` by `side` patches."""

@@ -23,14 +23,18 @@ class CarpetPainter:
     """Draws the ground and the carpet on it."""
 
     def __init__(self, canvas: Canvas, growths: Sequence[Growth], ground: Ground, side: int) -> None:
-        self._ground = ground
-        self._spacing = finest_spacing(ground.terrain, ground.patch)
+        self.stand_on(ground)
         self._whole_to = canvas.reach[-2] - int(BORDER) - 1
         self._units = canvas.units
         self.images = carpet_texture(canvas.ctx, growths)
         self.ground = GroundPainter(
             canvas.ctx, canvas.block, growths, canvas.units, side=side, seed=canvas.seed, patch=ground.patch
         )
+
+    def stand_on(self, ground: Ground, /) -> None:
+        """Draw on this ground from now on."""
+        self._ground = ground
+        self._spacing = finest_spacing(ground.terrain, ground.patch)
 
     def write(self, outlook: Outlook, /) -> int:
         """Send the tiles of the ground, and how much carpet lies on each patch; it has no blades."""

@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from ....engine.world import World
 from ...around.ground import Ground, densest_kind
 from ...around.patches import PatchTable
 from ...around.receivers import Receiving
@@ -22,11 +23,16 @@ class CarpetPool:
 
     def places(self, slots: Rows, /) -> Floats:
         """Return the middles (x, z) [m] of some patches, shape (m, 1, 2)."""
-        return self._patches.middles(slots, patch=self._ground.patch)[:, None]
+        return self._patches.middles(slots, patch=self._ground.patch).astype(np.float32)[:, None]
 
     def kind(self, slots: Rows, /) -> NDArray[np.intp]:
         """Return the kind that grows most densely in the middle of some patches, shape (m,)."""
         return densest_kind(self._ground.density, self.places(slots)[:, 0])
+
+    def grows(self, slots: Rows, cells: NDArray[np.int32], /) -> NDArray[np.bool_]:
+        """Return which patches have grass on these cells (m, 2), shape (m,)."""
+        patches = self._patches
+        return np.asarray(patches.stands[slots] & (patches.cell[slots] == cells).all(axis=1))
 
 
 class CarpetKept(Kept):
@@ -35,3 +41,11 @@ class CarpetKept(Kept):
     def __init__(self, pool: CarpetPool, name: str) -> None:
         super().__init__([Receiving(pool, name, still=True)])
         self.pool = pool
+
+    def enlist(self, world: World, patches: PatchTable, /) -> None:
+        """Make no entities: the patches' own are enough."""
+
+    def leave(self, rows: NDArray[np.int32], /) -> None:
+        """Forget what was asked for in some rows of the patch table."""
+        for row in rows.tolist() if self.receiving[0].letters.busy else ():
+            self.receiving[0].letters.forget(row)

@@ -7,7 +7,6 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from ....components.receivers import Receivers
 from ....engine.declared.grass import GrassKind
 from ....engine.declared.quality import Quality
 from ...around.ground import Ground

@@ -3,11 +3,11 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ...around.patches import PatchTable
 from ...around.appearance import Appearance, handed_over
-from .shown import StripsOfRing
+from ...around.patches import PatchTable
 from .draw import STRIP
 from .pool import StripPool
+from .shown import StripsOfRing
 
 
 def lies_ahead(cell: NDArray[np.int32], centre: NDArray[np.int32], along: NDArray[np.int32], /) -> NDArray[np.bool_]:
@@ -16,7 +16,14 @@ def lies_ahead(cell: NDArray[np.int32], centre: NDArray[np.int32], along: NDArra
 
 
 def gather_strips(
-    pool: StripPool, shown: StripsOfRing, appears: Appearance, patches: PatchTable, centre: NDArray[np.int32], /, *, fade: bool = True
+    pool: StripPool,
+    shown: StripsOfRing,
+    appears: Appearance,
+    patches: PatchTable,
+    centre: NDArray[np.int32],
+    /,
+    *,
+    fade: bool = True,
 ) -> tuple[NDArray[np.void], NDArray[np.int64]]:
     """Return the polygon strips of the patches shown, far to near, and how many there are on each patch.
 
@@ -50,7 +57,9 @@ def gather_strips(
     return grown, grows.sum(axis=(1, 2)) * columns
 
 
-def runs(shown: list[StripsOfRing], counts: list[NDArray[np.int64]], thin: list[bool], /) -> list[tuple[int, int, int, bool]]:
+def runs(
+    shown: list[StripsOfRing], counts: list[NDArray[np.int64]], thin: list[bool], /
+) -> list[tuple[int, int, int, bool]]:
     """Return the draws that show all rings' strips from far to near: ring, first strip, number of strips, by rank.
 
     `counts` are the numbers of strips on each patch, by ring. Patches of one ring that follow one another are drawn

@@ -53,6 +53,12 @@ class StripPool:
         _, kinds, strips, edges = self.ground.shape
         return np.tile(np.repeat(np.arange(kinds), strips * edges), len(slots))
 
+    def grows(self, slots: NDArray[np.int64], cells: NDArray[np.int32], /) -> NDArray[np.bool_]:
+        """Return which edges of some slots stand in grass that grows on these cells (m, 2), shape (n,)."""
+        planted = (self.stamp[slots, :2] == cells).all(axis=1)
+        kinds = (self.present[slots] & planted[:, None])[..., None, None]
+        return np.broadcast_to(kinds, (len(slots), *self.ground.shape[1:])).reshape(-1)
+
     @classmethod
     def allocate(cls, side: int, kinds: int, strips: int, columns: int) -> "StripPool":
         """Return an empty pool for a window of `side` by `side` patches, in either orientation."""

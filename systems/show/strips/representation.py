@@ -15,8 +15,8 @@ from ...around.patches import PatchTable
 from ...grow.record import Growth
 from ...grow.simulate import LINKS
 from ..representation import Canvas, Color, Representation, Seedling
-from .painter import StripsPainter
 from .grow import Strips, grow_strips
+from .painter import StripsPainter
 from .plant import plant_strips
 from .pool import StripPool, StripsKept
 from .shown import StripsOfRing, StripsShown, show_strips

@@ -44,10 +44,7 @@ def stock_strips(growths: Sequence[Growth], /) -> StripStock:
     first = [[sum(counts[:kind]) for kind in range(len(counts))] for counts in layers]
     slices = [
         np.stack(
-            [
-                np.concatenate([strips_of(growth.models[model])[ring].slice for growth in growths], 1)
-                for model in models
-            ]
+            [np.concatenate([strips_of(growth.models[model])[ring].slice for growth in growths], 1) for model in models]
         )
         for ring in rings
     ]

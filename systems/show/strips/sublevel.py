@@ -54,9 +54,7 @@ def strips_along(cell: Ints, centre: Ints, current: NDArray[np.integer], /) -> L
     return np.where(either & (current >= 0), current, due).astype(np.int8)
 
 
-def viewing_slope(
-    patches: PatchTable, rows: Rows, /, *, eye: tuple[float, float, float], patch: float
-) -> Floats:
+def viewing_slope(patches: PatchTable, rows: Rows, /, *, eye: tuple[float, float, float], patch: float) -> Floats:
     """Return the tangent of the angle between the line of sight and the ground on each patch, shape (n,)."""
     away = patches.middles(rows, patch=patch) - np.array([eye[0], eye[2]], np.float32)
     reach = np.maximum(np.hypot(away[:, 0], away[:, 1]), np.float32(0.5 * patch))

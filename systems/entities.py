@@ -1,0 +1,94 @@
+"""The entities of patches: made a few at a time, and heard of when a game deletes one."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..components.patch import Cell, Lod, Patch
+from ..engine.world import World
+from .around.clearing import Clearings
+from .around.outlook import Outlook
+from .around.patches import PatchTable
+from .around.window import window_rows
+from .show.representation import Representation
+
+BATCH = 200
+"""Entities made in one frame at most, so that a viewer who leaps is no hitch."""
+
+
+@dataclass(slots=True)
+class PatchEntities:
+    """Keeps an entity with `Patch` and `Lod` for every patch around a viewer.
+
+    One that somebody else has deleted takes the grass of its patch away.
+    """
+
+    world: World
+    clearings: Clearings
+    representations: Sequence[Representation] = ()
+
+    def lost(self) -> list[int]:
+        """Return the entities that somebody else has deleted since the frame before."""
+        return self.world.lost()
+
+    def clear(self, outlook: Outlook, lost: list[int], /) -> None:
+        """Clear the patches whose entities are lost; where the whole world was cleared, forget them all."""
+        patches = outlook.patches
+        if outlook.generation != self.world.generation:
+            outlook.generation = self.world.generation
+            patches.entity[:] = 0
+            for kept in outlook.kept.values():
+                kept.lose()
+        for row in np.flatnonzero(np.isin(patches.entity, lost)).tolist() if lost else ():
+            patches.entity[row] = 0
+            self.clearings.clear(_cell(patches, row))
+
+    def leave(self, outlook: Outlook, fresh: NDArray[np.int32], /) -> None:
+        """Delete the entities of rows that other patches are in now, and find out what grows there."""
+        patches = outlook.patches
+        if fresh.size:
+            for entity in patches.entity[fresh[patches.entity[fresh] != 0]].tolist():
+                self.world.delete(entity)
+            patches.entity[fresh] = 0
+            for kept in outlook.kept.values():
+                kept.leave(fresh)
+        if fresh.size or outlook.cleared != self.clearings.version:
+            patches.grows[:] = self.clearings.spare(patches.cell)
+            outlook.cleared = self.clearings.version
+
+    def enlist(self, outlook: Outlook, /) -> None:
+        """Make entities of patches that have none yet, the nearest first, `BATCH` of them at most."""
+        patches = outlook.patches
+        without = np.flatnonzero(patches.alive & (patches.entity == 0))
+        if without.size:
+            for row in without[np.argsort(patches.distance[without], kind="stable")[:BATCH]].tolist():
+                self.make(outlook, row)
+
+    def make(self, outlook: Outlook, row: int, /) -> int:
+        """Make the entity of the patch in a row, and return it."""
+        patches, cell = outlook.patches, _cell(outlook.patches, row)
+        patch = Patch(cell, int(patches.model[row]), int(patches.turn[row]), self.clearings)
+        parts = components(outlook, self.representations, row)
+        patches.entity[row] = entity = self.world.create(patch, Lod(patches, row, cell), *parts)
+        return entity
+
+    def at(self, outlook: Outlook, cells: NDArray[np.int32], /) -> NDArray[np.int64]:
+        """Return the entity of each cell (n, 2), made where there is none yet, shape (n,); 0 where none can be."""
+        patches = outlook.patches
+        rows = window_rows(cells, side=patches.side)
+        there = patches.alive[rows] & (patches.cell[rows] == cells).all(axis=1)
+        for row in np.unique(rows[there & (patches.entity[rows] == 0)]).tolist():
+            self.make(outlook, row)
+        return np.where(there, patches.entity[rows], 0)
+
+
+def components(outlook: Outlook, representations: Sequence[Representation], row: int, /) -> tuple[object, ...]:
+    """Return what the representations give the entity of a patch to carry."""
+    return tuple(part for each in representations for part in each.components(outlook, row))
+
+
+def _cell(patches: PatchTable, row: int) -> Cell:
+    i, j = patches.cell[row].tolist()
+    return i, j

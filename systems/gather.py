@@ -1,0 +1,28 @@
+"""Gathering: what is shown is sent to the graphics card."""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+
+from ..components.body import Body
+from .around.outlook import Outlook
+from .painter import Painter
+
+
+@dataclass(slots=True)
+class Gather:
+    """The system `gather`: what each representation shows, and what flies, is sent to the graphics card."""
+
+    outlooks: Iterable[Outlook]
+    painter: Callable[[], Painter]
+    """Gives the painter of the GL context that is drawn in."""
+
+    bodies: Callable[[float], Sequence[Body]]
+    """Gives what is in the air at a time [s]."""
+
+    def run(self) -> None:
+        """Gather for every viewer that looks."""
+        for outlook in self.outlooks:
+            for kept in outlook.kept.values():
+                for receiving in kept.receiving:
+                    receiving.letters.check()
+            outlook.blades = self.painter().write(outlook, self.bodies(outlook.viewer.time))

@@ -1,0 +1,44 @@
+"""Seeing: what each representation shows a viewer in this frame."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .around.appearance import appearance, kept_near
+from .around.outlook import Outlook
+from .around.transitions import SEAMLESS, Transitions
+from .show.representation import Representation
+from .transition import weights
+
+Floats = NDArray[np.float32]
+
+
+def strips_kept(outlook: Outlook, /, *, reach: tuple[int, ...], patch: float) -> Floats:
+    """Return how much of the strips the distance leaves on each patch, shape (rows,); `patch` is its side [m]."""
+    eye = np.array([outlook.viewer.eye[0], outlook.viewer.eye[2]], np.float32)
+    away = np.abs(outlook.patches.middles(patch=patch) - eye).max(axis=1)
+    return kept_near(away / np.float32(patch), reach=reach[outlook.patches.names.index("strips")])
+
+
+@dataclass(slots=True)
+class See:
+    """The system `see`: how each patch appears in this frame, and which patches each representation shows."""
+
+    outlooks: Iterable[Outlook]
+    representations: tuple[Representation, ...]
+    reach: tuple[int, ...]
+    patch: float
+    """Side of a patch [m]."""
+
+    transitions: Transitions = SEAMLESS
+
+    def run(self) -> None:
+        """See for every viewer that looks."""
+        for outlook in self.outlooks:
+            kept = strips_kept(outlook, reach=self.reach, patch=self.patch)
+            names = outlook.patches.names
+            outlook.appearance = appearance(weights(outlook.patches), kept, transitions=self.transitions, names=names)
+            for representation, cover in zip(self.representations, outlook.appearance.cover, strict=True):
+                outlook.shown[representation.name] = representation.show(outlook, cover)

@@ -1,0 +1,172 @@
+"""A site: what a scene has become before anybody looks at it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import starmap
+
+import numpy as np
+
+from ..components.viewer import Viewer
+from ..engine.declared.grass import GrassKind
+from ..engine.declared.quality import Quality
+from ..engine.declared.scene import Scene
+from ..engine.scene import LoadedScene, load_maps
+from ..engine.world import World
+from .around.ground import Ground
+from .around.outlook import Outlook
+from .around.patches import PatchTable
+from .around.transitions import SEAMLESS, Transitions
+from .entities import components
+from .grow.record import Growth
+from .lod import farthest, reach_of
+from .show.registry import NAMES, REPRESENTATIONS
+from .show.representation import Representation
+from .stock.cache import cached_growth, growth_key
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Site:
+    """A scene with its ground, its grown kinds, and its representations in stock."""
+
+    scene: Scene
+    quality: Quality
+    ground: Ground
+    growths: list[Growth]
+    representations: tuple[Representation, ...]
+    reach: tuple[int, ...]
+    """Largest discrete distance of each representation."""
+
+    sway: float
+    """How far grass may reach beyond its patch, leaning and blown [m]."""
+
+    transitions: Transitions = SEAMLESS
+
+    @property
+    def finest(self) -> int:
+        """Line segments per blade at the finest level."""
+        return max(ring.segments for ring in self.quality.blade_rings)
+
+    @property
+    def blades(self) -> int:
+        """Blades that grow on the whole terrain, from the kinds' mean densities."""
+        width, depth = self.ground.terrain.size
+        patches = width * depth / self.quality.patch**2
+        counts = [len(growth.models[0].blades.height) for growth in self.growths]
+        return round(patches * float(np.dot(counts, self.ground.density.maps.mean(axis=(1, 2)))))
+
+
+def lay_out(
+    scene: Scene,
+    quality: Quality,
+    ground: Ground,
+    growths: list[Growth],
+    /,
+    *,
+    lod: str = "auto",
+    transitions: Transitions = SEAMLESS,
+    stocked: Sequence[Representation] | None = None,
+) -> Site:
+    """Return the site of a scene whose kinds have grown. `lod` is a representation to stand for all, or `auto`.
+
+    `stocked` are the representations of the same growths, on another ground.
+    """
+    made = (
+        tuple(each.stocked(growths, quality, ground) for each in REPRESENTATIONS)
+        if stocked is None
+        else tuple(each.on(ground) for each in stocked)
+    )
+    limits = tuple(each.reach(quality) for each in REPRESENTATIONS)
+    return Site(
+        scene=scene,
+        quality=quality,
+        ground=ground,
+        growths=growths,
+        representations=made,
+        reach=reach_of(limits, None if lod == "auto" else NAMES.index(lod)),
+        sway=max(starmap(farthest_reach, zip(scene.grass.values(), growths, strict=True))),
+        transitions=transitions,
+    )
+
+
+def found_site(
+    loaded: LoadedScene, /, *, preset: str | None = None, lod: str = "auto", transitions: Transitions = SEAMLESS
+) -> Site:
+    """Return the site of a scene that was read: its maps loaded, its kinds grown. Raises SceneError for bad maps."""
+    scene = loaded.scene
+    quality = scene.numbers(preset)
+    terrain, density = load_maps(loaded)
+    growths = [
+        cached_growth(kind, quality, seed=scene.seed + number) for number, kind in enumerate(scene.grass.values())
+    ]
+    return lay_out(scene, quality, Ground(terrain, density, quality.patch), growths, lod=lod, transitions=transitions)
+
+
+def found_again(site: Site, before: LoadedScene, loaded: LoadedScene, /, *, preset: str | None, lod: str) -> Site:
+    """Return the site of a scene that was read again; `site` is that of the scene `before`, and stays as it is.
+
+    Ground, growths and representations are the same objects where nothing that they come from has changed. Raises
+    SceneError where a map cannot be used.
+    """
+    scene, quality = loaded.scene, loaded.scene.numbers(preset)
+    old = site.ground
+    terrain, density = load_maps(loaded, before=(before, (old.terrain, old.density)))
+    growths = _grown(site, scene, quality)
+    same_grass = quality == site.quality and len(growths) == len(site.growths)
+    same_grass = same_grass and all(one is other for one, other in zip(growths, site.growths, strict=True))
+    same_ground = terrain is old.terrain and density is old.density and quality.patch == old.patch
+    if same_grass and same_ground and scene.seed == site.scene.seed:
+        return replace(site, scene=scene)
+    ground = old if same_ground else Ground(terrain, density, quality.patch)
+    stocked = site.representations if same_grass else None
+    return lay_out(scene, quality, ground, growths, lod=lod, transitions=site.transitions, stocked=stocked)
+
+
+def _grown(site: Site, scene: Scene, quality: Quality) -> list[Growth]:
+    """Return what grows of a scene's kinds; what the site has of it is not read or grown again."""
+    known = dict(zip(_keys(site.scene, site.quality), site.growths, strict=True))
+    growths = []
+    for number, (key, kind) in enumerate(zip(_keys(scene, quality), scene.grass.values(), strict=True)):
+        growths.append(known.get(key) or cached_growth(kind, quality, seed=scene.seed + number))
+    return growths
+
+
+def _keys(scene: Scene, quality: Quality) -> list[str]:
+    return [growth_key(kind, quality, seed=scene.seed + number) for number, kind in enumerate(scene.grass.values())]
+
+
+def farthest_reach(kind: GrassKind, growth: Growth) -> float:
+    """Return how far the tip of a kind's tallest blade can come to be from its root, along the ground [m]."""
+    return kind.height[1] * float(np.abs(growth.postures.shape[..., 0]).max())
+
+
+def outlook_on(site: Site, viewer: Viewer, entity: int, /) -> Outlook:
+    """Return the empty outlook of a viewer on a site; `entity` is the viewer's."""
+    outlook = Outlook(viewer, entity, PatchTable.allocate(2 * site.reach[-1] + 1, NAMES, viewer=viewer.name))
+    keep_room(outlook, site)
+    return outlook
+
+
+def keep_room(outlook: Outlook, site: Site, /) -> None:
+    """Give an outlook empty stores for what every representation of a site keeps."""
+    sides = [max(2 * limit + 1, 1) for limit in farthest(site.reach)]
+    for each, side in zip(site.representations, [*sides, outlook.patches.side], strict=True):
+        outlook.kept[each.name] = each.keep(outlook.patches, side)
+
+
+def settle_on(outlook: Outlook, site: Site, before: Site, world: World, /) -> None:
+    """Let a viewer go on with another site, that of a scene read again; what has not changed stays."""
+    if site.representations is before.representations:
+        return
+    for kept in outlook.kept.values():
+        kept.release(world)
+    patches = outlook.patches
+    same_ground = site.ground.terrain is before.ground.terrain and site.scene.seed == before.scene.seed
+    if not (same_ground and site.quality == before.quality):
+        for entity in patches.entity[patches.entity != 0].tolist():
+            world.delete(entity)
+        outlook.patches = PatchTable.allocate(2 * site.reach[-1] + 1, NAMES, viewer=outlook.viewer.name)
+    outlook.shown.clear()
+    keep_room(outlook, site)
+    for row in np.flatnonzero(outlook.patches.entity).tolist():
+        for part in components(outlook, site.representations, row):
+            world.add(int(outlook.patches.entity[row]), part)
