@@ -75,7 +75,7 @@ def _made_from(prairie: Prairie, take: Take) -> dict[str, object]:
         "seed": prairie.scene.seed,
         "files": {name: _hash(path) for name, path in prairie.files.items()},
         "size": list(take.size),
-        "quality": prairie.field.quality.model_dump(mode="json"),
+        "quality": prairie.site.quality.model_dump(mode="json"),
         "lod": take.lod,
         "reference": take.reference,
         "overlay": sorted(take.overlay),

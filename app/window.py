@@ -117,7 +117,7 @@ class Walk:
     @property
     def ground(self) -> Ground:
         """The ground of the prairie that is walked in."""
-        return Ground(self.prairie.height_at, self.prairie.field.terrain.size)
+        return Ground(self.prairie.height_at, self.prairie.site.ground.terrain.size)
 
     @property
     def camera(self) -> Camera:

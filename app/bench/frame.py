@@ -101,7 +101,7 @@ def _sample(studio: Studio) -> _Samples:
         frame()
         prairie.advance(STEP)
     every = EveryBlade(prairie)
-    stand_all(prairie, terrain_cells(prairie.field), every.blades)
+    stand_all(prairie, terrain_cells(prairie.site.ground), every.blades)
 
     def only(blades: list[BladePainter]) -> float:
         def draw() -> None:
@@ -126,7 +126,7 @@ def _sample(studio: Studio) -> _Samples:
 
 def _measure(studio: Studio, take: Take, first: dict[str, float]) -> dict[str, object]:
     samples, prairie = _sample(studio), studio.prairie
-    stats, kinds = prairie.statistics, zip(prairie.scene.grass, prairie.field.growths, strict=True)
+    stats, kinds = prairie.statistics, zip(prairie.scene.grass, prairie.site.growths, strict=True)
     grown = {name: round(precompute_bytes(growth) / 1e6, 2) for name, growth in kinds}
     p50, p95, p99 = np.percentile(samples.frame, [50, 95, 99]).tolist()
     all_3d = float(np.median(samples.all_3d))

@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.camera import view_of
-from ...engine.declared.quality import Quality, Representation
+from ...engine.declared.quality import Quality
 from ...systems.frame.light import decoded
 from ...systems.reference import EveryBlade, draw_reference, patch_distances, seen_cells
+from ...systems.show.registry import NAMES
 from ..encode import Picture
 from ..errors import MachineError
 from ..progress import busy
@@ -52,7 +53,7 @@ def bench_picture(scene: str, *, preset: str | None, size: tuple[int, int], json
         with Studio(take) as studio:
             pictures = _draw(studio)
             head = {"machine": machine(studio.ctx), "scene": scene, "preset": preset or own_preset(studio.prairie)}
-            quality = studio.prairie.field.quality
+            quality = studio.prairie.site.quality
         result = {**head, "size": list(size), "frames": 1, **compare(pictures, quality)}
     tell(result, as_json=json)
     return 0
@@ -67,7 +68,7 @@ def _draw(studio: Studio) -> Pictures:
     lod = studio.read()
     every = EveryBlade(prairie)
     studio.begin()
-    every.draw(view_of(view, projection), seen_cells(prairie.field))
+    every.draw(view_of(view, projection), seen_cells(prairie.site.ground, every.outlook.viewer, sway=prairie.site.sway))
     all_3d = studio.read()
     every.release()
     reference = draw_reference(prairie, view, projection, size, samples=SAMPLES)
@@ -139,8 +140,7 @@ def bands(pictures: Pictures, quality: Quality) -> list[dict[str, object]]:
 
 def _representation(number: int, quality: Quality) -> str:
     blades, strips = len(quality.blade_rings), len(quality.strip_rings)
-    level = Representation((number >= blades) + (number >= blades + strips))
-    return level.name.lower()
+    return NAMES[(number >= blades) + (number >= blades + strips)]
 
 
 def luminance(light: NDArray[np.float64]) -> float:

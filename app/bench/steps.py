@@ -5,12 +5,13 @@ that frame's changes of representation and by nothing else; changes of orientati
 """
 
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 
+from ...systems.around.transitions import Transitions
 from ...systems.lod import farthest
 from ...systems.prairie import Prairie
 from ...systems.reference import draw_reference
-from ...systems.around.transitions import Transitions
 from ..encode import Picture
 from ..progress import counted
 from ..studio import Studio
@@ -23,6 +24,9 @@ KEPT = 3
 
 STILLS = 8
 """Frames kept besides, spread over the walk."""
+
+CHANGING = ("tile", "cull", "lod", "transition", "see", "plant")
+"""The systems that decide what is shown, and how."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -82,17 +86,38 @@ def _steps(studio: Studio, prairie: Prairie, frames: Iterable[list[Moment]]) -> 
         _go(studio, prairie, leg[0], time=leg[0].time - REST / 2)
         earlier, before = leg[0], _go(studio, prairie, leg[0])
         for moment in leg[1:]:
-            held = _go(studio, prairie, moment, held=True)
+            with held(prairie):
+                without = _go(studio, prairie, moment)
             now = _go(studio, prairie, moment)
-            yield Step(earlier, moment, before, now, held, prairie.statistics.transitions)
+            yield Step(earlier, moment, before, now, without, prairie.statistics.transitions)
             earlier, before = moment, now
 
 
-def _go(studio: Studio, prairie: Prairie, moment: Moment, *, time: float | None = None, held: bool = False) -> Picture:
+def _go(studio: Studio, prairie: Prairie, moment: Moment, *, time: float | None = None) -> Picture:
     prairie.advance(max(0.0, (moment.time if time is None else time) - prairie.time))
     studio.begin()
-    prairie.draw(*studio.matrices(moment.camera), held=held)
+    prairie.draw(*studio.matrices(moment.camera))
     return studio.read()
+
+
+@contextmanager
+def held(prairie: Prairie) -> Iterator[None]:
+    """Let every patch be shown as the frame before showed it, though seen from where the viewer is then, in that wind.
+
+    What is drawn meanwhile is the next frame without its changes of representation. Afterwards it never was: the next
+    frame follows the one before.
+    """
+    stopped = [system.name for system in prairie.systems if system.enabled and system.name in CHANGING]
+    outlook = prairie.viewers["main"]
+    before, eye = outlook.drawn_at, outlook.viewer.eye
+    for name in stopped:
+        prairie.systems.disable(name)
+    try:
+        yield
+    finally:
+        for name in stopped:
+            prairie.systems.enable(name)
+        outlook.drawn_at, outlook.viewer.eye = before, eye
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -110,7 +135,7 @@ def find_truth(studio: Studio, walk: list[Leg], near: Iterable[Moment], whole: I
     """Draw the reference at some moments of the walk, up to the end of the strips and as a whole."""
     prairie, truth, size = studio.prairie, Truth({}, {}), studio.take.size
     raise_gusts(prairie, walk)
-    reach = farthest(prairie.field.reach)[1]
+    reach = farthest(prairie.site.reach)[-1]
     fine, full = ({moment.time: moment for moment in each} for each in (near, whole))
     times = sorted(fine | full)
     for time in counted(times, total=len(times), doing="drawing every blade"):

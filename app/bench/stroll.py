@@ -116,16 +116,16 @@ def legs(prairie: Prairie, /) -> list[Leg]:
     crest = find_crest(prairie, place)
     if crest is not None:
         top, over = crest
-        blades, strips, _ = prairie.field.quality.reach
-        patch = prairie.field.quality.patch
+        *_, blades, strips, _ = prairie.site.reach
+        patch = prairie.site.ground.patch
         for name, away in (("below", (blades + 1) * patch), ("far", (strips + 1) * patch), ("over", 2.0)):
             planned.append((name, top - away * ahead(over), over, over, 0.0))
     return [_leg(prairie, number, *row) for number, row in enumerate(planned)]
 
 
 def _leg(prairie: Prairie, number: int, name: str, place: Doubles, heading: float, yaw: float, turn: float) -> Leg:
-    patch = prairie.field.quality.patch
-    half = np.maximum(np.asarray(prairie.field.terrain.size) / 2.0 - MARGIN - PACE * SECONDS, 0.0)
+    patch = prairie.site.ground.patch
+    half = np.maximum(np.asarray(prairie.site.ground.terrain.size) / 2.0 - MARGIN - PACE * SECONDS, 0.0)
     inside = np.clip(place, -half, half)
     start = inside + (first_border(inside, heading, patch=patch) - PACE * LEAD) * ahead(heading)
     begin = REST + number * (SECONDS + REST)
@@ -137,7 +137,7 @@ def find_crest(prairie: Prairie, place: Doubles, /) -> tuple[Doubles, float] | N
 
     Of the places within `SEARCHED` it is the one from which the ground falls the most, before and behind.
     """
-    half = np.asarray(prairie.field.terrain.size) / 2.0 - BEHIND
+    half = np.asarray(prairie.site.ground.terrain.size) / 2.0 - BEHIND
     low, high = np.maximum(place - SEARCHED, -half), np.minimum(place + SEARCHED, half)
     if (high <= low).any():
         return None

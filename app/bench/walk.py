@@ -70,7 +70,7 @@ def paced(target: Offscreen, prairie: Prairie, leg: Leg, /) -> Iterator[Pace]:
     _draw(target, prairie, first, time=first.time - REST / 2)
     _draw(target, prairie, first)
     for moment in others:
-        table = prairie.field.table
+        table = prairie.viewers["main"].patches
         cell, representation = table.cell.copy(), table.representation.copy()
         taken = _draw(target, prairie, moment)
         begun = (

@@ -11,11 +11,11 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
+from ...systems.around.appearance import looks
+from ...systems.around.transitions import SEAMLESS
 from ...systems.grow.bend import spine
 from ...systems.grow.record import Blades
 from ...systems.lod import FADE
-from ...systems.around.appearance import looks
-from ...systems.around.transitions import SEAMLESS
 from ...systems.wind.gust import Gust
 from .figure import Detail, PaperFigure
 from .patch import CLOSE, Sample, edges, oblique, on_strip, painted, ribbons, sample

@@ -19,6 +19,7 @@ from ...systems.frame.light import grain, lit_kind
 from ...systems.grow.bend import ribbon, spine
 from ...systems.grow.record import Blades, Growth, Strips
 from ...systems.prairie import Prairie
+from ...systems.show.strips.grow import strips_of
 from ..encode import Picture
 from ..studio import Studio
 from ..take import Take
@@ -61,15 +62,15 @@ class Sample:
     @property
     def strips(self) -> Strips:
         """The finest strips of its first patch model."""
-        return self.growth.models[0].strips[0]
+        return strips_of(self.growth.models[0])[0]
 
 
 def sample(detail: Detail, /) -> Sample:
     """Return what is grown for the figures' kind."""
     prairie = Prairie.load(SCENE, preset=detail.preset)
-    field = prairie.field
+    site = prairie.site
     prairie.release()
-    return Sample(next(iter(field.scene.grass.values())), field.scene.light, field.quality, field.growths[0])
+    return Sample(next(iter(site.scene.grass.values())), site.scene.light, site.quality, site.growths[0])
 
 
 def walkers_view(detail: Detail, lod: LodName, /) -> Picture:

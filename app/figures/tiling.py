@@ -10,10 +10,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon
 
-from ...engine.declared.quality import Representation
-from ...systems.field import Field
-from ...systems.overlay.paint import LEVELS
+from ...systems.around.outlook import Outlook
 from ...systems.overlay.patches import patch_colors
+from ...systems.site import Site
 from ..studio import Studio
 from ..take import Take
 from .figure import Detail, PaperFigure
@@ -24,7 +23,6 @@ BEYOND = 5
 """How many patches beyond the last strips are shown."""
 
 CULLED = (0.93, 0.935, 0.915)
-NAMES = {Representation.BLADES: "3D blades", Representation.STRIPS: "2.5D strips", Representation.CARPET: "2D carpet"}
 
 
 def draw_tiling(detail: Detail, /) -> Figure:
@@ -32,31 +30,31 @@ def draw_tiling(detail: Detail, /) -> Figure:
     with Studio(Take(SCENE, detail.size, detail.preset)) as studio:
         studio.picture(studio.camera(None))
         figure = sheet(4.6, detail)
-        _tiles(figure.subplots(), studio.prairie.field)
+        _tiles(figure.subplots(), studio.prairie.viewers["main"], studio.prairie.site)
     return figure
 
 
-def _tiles(axes: Axes, field: Field) -> None:
-    table, patch = field.table, field.quality.patch
-    x, _, z = field.sight.eye
-    far = min(field.reach[Representation.STRIPS] + BEYOND, table.side // 2) * patch
+def _tiles(axes: Axes, outlook: Outlook, site: Site) -> None:
+    table, patch = outlook.patches, site.ground.patch
+    x, _, z = outlook.viewer.eye
+    far = min(site.reach[-2] + BEYOND, table.side // 2) * patch
     corner = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], np.float32)
     square = (table.cell[:, None] + corner) * np.float32(patch)
-    color = np.where(table.visible[:, None], patch_colors(field), np.array(CULLED))
+    color = np.where(table.visible[:, None], patch_colors(outlook, site), np.array(CULLED))
     axes.add_collection(
         PolyCollection(
             [*square[table.alive]], facecolor=color[table.alive], edgecolor="white", linewidth=0.4, alpha=0.85
         )
     )
-    middle, half = field.sight.cone
+    middle, half = outlook.viewer.cone
     rays = [_toward(x, z, middle + side, 3.0 * far) for side in (-half, half)]
     axes.add_patch(Polygon([rays[0], (x, z), rays[1]], closed=False, fill=False, edgecolor=INK, linewidth=1.2))
     axes.plot(x, z, "o", color=INK, markersize=5)
     to_x, to_z = _toward(x, z, middle, 0.5 * far)
     seen_from_above(axes, (to_x - 0.7 * far, to_x + 0.7 * far), (to_z - 0.7 * far, to_z + 0.7 * far))
     key: list[Artist] = [
-        Patch(color=LEVELS[level], alpha=0.85, label=f"{name}, to distance {field.reach[level]}")
-        for level, name in NAMES.items()
+        Patch(color=each.color, alpha=0.85, label=f"{each.label}, to distance {reach}")
+        for each, reach in zip(site.representations, site.reach, strict=True)
     ]
     key += [Patch(color=CULLED, label="culled"), Line2D([], [], color=INK, marker="o", label="viewer and view cone")]
     axes.legend(handles=key, loc="center left", bbox_to_anchor=(1.03, 0.5))

@@ -76,7 +76,7 @@ def draw_masks(detail: Detail, /) -> Figure:
 def _over_patches(
     axes: Axes, prairie: Prairie, primitive: WindPrimitive, x: Span, *, times: tuple[float, float], color: str
 ) -> None:
-    z, patch, handle = (-20.0, 20.0), prairie.field.quality.patch, prairie.add(primitive)
+    z, patch, handle = (-20.0, 20.0), prairie.site.ground.patch, prairie.add(primitive)
     before, now = ((time, prairie.winds.now(time)[0]) for time in times)
     middle = grid(x, z, patch)
     weight = patch_weights(now[1], middle, patch=patch, time=now[0])

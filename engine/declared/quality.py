@@ -1,24 +1,10 @@
 """Quality: how fine each representation is, and up to which discrete distance it reaches."""
 
-from enum import IntEnum
 from itertools import pairwise
 
 from pydantic import Field, model_validator
 
 from ...components.declaration import Declaration, DeclarationError
-
-
-class Representation(IntEnum):
-    """The three representations of the same grass, from the finest to the coarsest (paper, section 2.1)."""
-
-    BLADES = 0
-    """3D: every blade a ribbon."""
-
-    STRIPS = 1
-    """2.5D: vertical strips with the blades painted on them."""
-
-    CARPET = 2
-    """2D: a textured carpet on the terrain, raised to a part of the grass's height."""
 
 
 class BladeRing(Declaration):
@@ -85,11 +71,6 @@ class Quality(Declaration):
             if to <= before:
                 raise DeclarationError(f"{where[-1]} must exceed {before}, where the ring before it ends", *where)
         return self
-
-    @property
-    def reach(self) -> tuple[int, int, int]:
-        """Largest discrete distance of each representation."""
-        return self.blade_rings[-1].to, self.strip_rings[-1].to, self.carpet_to
 
 
 def _quality(
