@@ -12,7 +12,7 @@ Cell = tuple[int, int]
 class Cleared(Protocol):
     """The cells that have been cleared of their grass."""
 
-    def __contains__(self, cell: object) -> bool: ...
+    def __contains__(self, cell: object, /) -> bool: ...
 
     def clear(self, cell: Cell, /) -> None:
         """Take the grass of a cell away."""
@@ -24,16 +24,45 @@ class Cleared(Protocol):
 class Levels(Protocol):
     """The levels of detail of all patches around a viewer, one row each."""
 
-    viewer: str
-    names: tuple[str, ...]
-    cell: NDArray[np.int32]
-    distance: NDArray[np.int32]
-    visible: NDArray[np.bool_]
-    wanted: NDArray[np.int8]
-    hold: NDArray[np.int8]
-    representation: NDArray[np.int8]
-    previous: NDArray[np.int8]
-    progress: NDArray[np.float32]
+    @property
+    def viewer(self) -> str:
+        """The viewer's name."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the representations, by their numbers."""
+
+    @property
+    def cell(self) -> NDArray[np.int32]:
+        """Shape (rows, 2)."""
+
+    @property
+    def distance(self) -> NDArray[np.int32]:
+        """Shape (rows,)."""
+
+    @property
+    def visible(self) -> NDArray[np.bool_]:
+        """Shape (rows,)."""
+
+    @property
+    def wanted(self) -> NDArray[np.int8]:
+        """Shape (rows,)."""
+
+    @property
+    def hold(self) -> NDArray[np.int8]:
+        """Shape (rows,)."""
+
+    @property
+    def representation(self) -> NDArray[np.int8]:
+        """Shape (rows,)."""
+
+    @property
+    def previous(self) -> NDArray[np.int8]:
+        """Shape (rows,)."""
+
+    @property
+    def progress(self) -> NDArray[np.float32]:
+        """Shape (rows,)."""
 
 
 @final

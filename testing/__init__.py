@@ -12,6 +12,7 @@ from .golden import same_picture
 from .heard import Heard, receivers_of
 from .little import LITTLE, little_prairie
 from .looking import looking
+from .site import little_site, look, systems_on, viewer_on
 from .stage import Stage, stage
 from .step import step, watch
 from .winds import check_wind, wind_problems
@@ -27,12 +28,16 @@ __all__ = [
     "fixed_clock",
     "headless_context",
     "little_prairie",
+    "little_site",
+    "look",
     "looking",
     "private_world",
     "receivers_of",
     "same_picture",
     "stage",
     "step",
+    "systems_on",
+    "viewer_on",
     "watch",
     "wind_problems",
 ]

@@ -3,9 +3,7 @@
 from ..engine.camera import Camera, camera_at, projection_matrix, view_matrix
 from ..engine.schedule import Phase
 from ..systems.prairie import Prairie
-
-ASPECT = 16 / 9
-"""Width over height of the picture that a viewer is taken to have."""
+from .site import ASPECT
 
 
 def watch(prairie: Prairie, camera: Camera | None = None, /) -> None:

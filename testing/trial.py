@@ -63,13 +63,6 @@ class Report:
             raise self.fail("cost", told)
         return answer
 
-
-def timed(ask: Callable[[], Answer], /) -> tuple[Answer, float]:
-    """Return an answer, and how long it took in processor time of this thread [s]: no other program counts."""
-    start = thread_time()
-    answer = ask()
-    return answer, thread_time() - start
-
     def twice(self, what: str, when: str, ask: Callable[[], Answer], *kinds: type) -> Answer:
         """Return what a wind answers both times; raises FailedError where that is of none of these types."""
         answer = self.ask(what, when, ask)
@@ -79,6 +72,13 @@ def timed(ask: Callable[[], Answer], /) -> tuple[Answer, float]:
         if ask() != answer:
             self.add(f"{what} again", f"{what} answers differently when it is asked again ({when})")
         return answer
+
+
+def timed(ask: Callable[[], Answer], /) -> tuple[Answer, float]:
+    """Return an answer, and how long it took in processor time of this thread [s]: no other program counts."""
+    start = thread_time()
+    answer = ask()
+    return answer, thread_time() - start
 
 
 def try_part(part: WindPrimitive, report: Report, /, *, time: float, seed: int) -> list[Floats]:

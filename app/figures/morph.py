@@ -11,11 +11,11 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
-from ...systems.around.appearance import looks
+from ...systems.around.appearance import appearance
 from ...systems.around.transitions import SEAMLESS
 from ...systems.grow.bend import spine
 from ...systems.grow.record import Blades
-from ...systems.lod import FADE
+from ...systems.transition import FADE
 from ...systems.wind.gust import Gust
 from .figure import Detail, PaperFigure
 from .patch import CLOSE, Sample, edges, oblique, on_strip, painted, ribbons, sample
@@ -222,7 +222,7 @@ def morph_over_time() -> tuple[Floats, Floats]:
     """Return the time from the start of a change [s] and how far blades have moved, up to where they arrive."""
     part = np.linspace(0.0, 1.0, 4 * FINE, endpoint=False, dtype=np.float32)
     weight = np.stack([1.0 - part, part, 0.0 * part]).astype(np.float32)
-    morph = looks(weight, np.ones_like(part), transitions=SEAMLESS).morph
+    morph = appearance(weight, np.ones_like(part), transitions=SEAMLESS).morph
     last = int(np.argmax(morph >= morph.max()))
     chosen = np.round(np.linspace(0, last, FINE)).astype(int)
     return (part[chosen] * np.float32(FADE)).astype(np.float32), morph[chosen]

@@ -17,9 +17,9 @@ from ...engine.declared.quality import Quality
 from ...engine.declared.scene import LodName
 from ...systems.frame.light import grain, lit_kind
 from ...systems.grow.bend import ribbon, spine
-from ...systems.grow.record import Blades, Growth, Strips
+from ...systems.grow.record import Blades, Growth
 from ...systems.prairie import Prairie
-from ...systems.show.strips.grow import strips_of
+from ...systems.show.strips.grow import Strips, strips_of
 from ..encode import Picture
 from ..studio import Studio
 from ..take import Take

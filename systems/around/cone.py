@@ -42,7 +42,7 @@ def _shows_pole(projection: Doubles, up: Doubles) -> bool:
 
 
 def inside_cone(
-    place: Floats, /, *, apex: tuple[float, float], cone: tuple[float, float], radius: float
+    place: Floats | Doubles, /, *, apex: tuple[float, float], cone: tuple[float, float], radius: float
 ) -> NDArray[np.bool_]:
     """Return whether discs of `radius` [m] around ground positions (n, 2) touch the view cone, shape (n,)."""
     middle, half = cone

@@ -52,7 +52,7 @@ class Correspondence:
 
     def ask(self, slot: int, /) -> Floats:
         """Return the messages of a slot, shape (n, 2), to be read and written; from now on what is written counts."""
-        flat = self.message[slot].reshape(-1, 2)
+        flat: Floats = self.message[slot].reshape(-1, 2)
         if slot not in self._left:
             self._left[slot] = flat.copy()
         return flat

@@ -10,9 +10,9 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass.components.body import Body, Hover
-from tallgrass.engine.camera import Camera
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import Grass, WindPrimitive
+from tallgrass.engine.camera import Camera
 from tallgrass.systems.bodies.fly import carried
 from tallgrass.systems.prairie import Prairie
 

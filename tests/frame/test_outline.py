@@ -10,9 +10,9 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass.engine.camera import Camera, view_of
+from tallgrass.systems.around.appearance import Looks, looks
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.receive import plant_shown_strips
-from tallgrass.systems.around.appearance import Looks, looks
 from tallgrass.systems.show.seen import see
 from tallgrass.testing import Stage as Room
 

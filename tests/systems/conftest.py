@@ -7,26 +7,23 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from tallgrass.components.viewer import Viewer
 from tallgrass.components.wind import WindPrimitive, WindSource
 from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.engine.declared.quality import BladeRing, Quality, StripRing
 from tallgrass.engine.declared.scene import Scene
+from tallgrass.engine.schedule import Phase, Schedule
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.engine.world import World
-from tallgrass.systems.around.cone import discrete_distance, inside_cone
-from tallgrass.systems.field import Field, lay_out
+from tallgrass.systems.around.ground import Ground
+from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.grow.record import Growth
-from tallgrass.systems.lod import FADE, schedule, wanted_representation, weights
-from tallgrass.systems.receive import plant_shown_blades, plant_shown_strips
-from tallgrass.systems.refine import refine
-from tallgrass.systems.show.seen import Seen, see
-from tallgrass.systems.show.seen import look as looks_of
+from tallgrass.systems.site import Site, lay_out, outlook_on
 from tallgrass.systems.stock.models import grow
-from tallgrass.systems.around.window import cell_of
-from tallgrass.systems.tile import tile
 from tallgrass.systems.wind.blow import Listeners, blowing, hear
 from tallgrass.systems.wind.quarantine import Quarantine
+from tallgrass.testing import systems_on
 
 KINDS = {
     "tall": GrassKind(height=[0.6, 1.0], width=0.01, stiffness=0.6, lean=0.4),
@@ -45,9 +42,9 @@ QUALITY = Quality(
 )
 SCENE = Scene(tallgrass=1, seed=3, grass=KINDS, quality=QUALITY)
 
-Laid = Callable[..., Field]
-Look = Callable[..., Seen]
-Hear = Callable[[Listeners], NDArray[np.float32]]
+Laid = Callable[..., Site]
+Look = Callable[..., Outlook]
+Hear = Callable[[Listeners, float], NDArray[np.float32]]
 
 
 @pytest.fixture(scope="session")
@@ -66,54 +63,62 @@ def hills() -> Terrain:
 
 @pytest.fixture
 def laid(growths: list[Growth], hills: Terrain) -> Laid:
-    """Lay out a field; `dense` gives the kinds' densities, (kinds, rows, columns), over the whole terrain."""
+    """Lay out a site; `dense` gives the kinds' densities, (kinds, rows, columns), over the whole terrain."""
 
-    def make(*, lod: str = "auto", dense: NDArray[np.float32] | None = None, terrain: Terrain = hills) -> Field:
+    def make(*, lod: str = "auto", dense: NDArray[np.float32] | None = None, terrain: Terrain = hills) -> Site:
         maps = np.ones((2, 2, 2), np.float32) if dense is None else dense
-        field = lay_out(SCENE, QUALITY, terrain, Density(maps, terrain.size), growths, lod=lod)
-        field.sight.cone = (0.0, pi)
-        return field
+        ground = Ground(terrain, Density(maps, terrain.size), QUALITY.patch)
+        return lay_out(SCENE, QUALITY, ground, growths, lod=lod)
 
     return make
 
 
 @pytest.fixture
 def look(world: World) -> Look:
-    """Let a field be looked at for one frame, as a prairie does: tile, cull, representations, planting."""
+    """Let the one viewer of a site look for one frame, as a prairie does, up to planting; return its outlook.
+
+    `dt` is the time since it looked before [s], `yaw` where it looks to, without which it looks all round, `hear` what
+    the wind says to receivers, without which it is calm.
+    """
+    outlooks: dict[Site, tuple[Outlook, Schedule]] = {}
 
     def at(
-        field: Field, x: float, z: float, *, yaw: float | None = None, dt: float = 1e9, jumped: bool = False
-    ) -> Seen:
-        patch, table = field.quality.patch, field.table
-        place = np.array([x, z], np.float32)
-        ground = float(height_at(field.terrain, place[None])[0])
-        field.sight.eye, field.sight.centre = (x, ground + 1.7, z), cell_of(place, patch=patch)
-        field.sight.cone = (0.0, pi) if yaw is None else (yaw, 0.6)
-        tile(table, field.sight.centre, field.terrain, world, patch=patch, seed=3, models=2)
-        table.distance[:] = discrete_distance(table.cell, field.sight.centre)
-        was_visible, middle = table.visible & (not jumped), (table.cell + np.float32(0.5)) * np.float32(patch)
-        radius = patch * 0.7072 + field.sway
-        table.visible[:] = inside_cone(middle, apex=(x, z), cone=field.sight.cone, radius=radius)
-        held = np.where(was_visible & table.visible, table.representation, np.int8(-1))
-        wanted = wanted_representation(table.distance, held, reach=field.reach)
-        schedule(table, wanted, was_visible, reach=field.reach, part=dt / FADE)
-        refine(field, was_visible, weights(table), part=dt / FADE)
-        seen = see(field, looks_of(field, weights(table)))
-        plant_shown_blades(field, seen.standing)
-        for ring, shown in enumerate(seen.strips):
-            plant_shown_strips(field, ring, shown)
-        return seen
+        site: Site,
+        x: float,
+        z: float,
+        *,
+        yaw: float | None = None,
+        dt: float = 1e9,
+        jumped: bool = False,
+        hear: Hear | None = None,
+    ) -> Outlook:
+        if site not in outlooks:
+            viewer = Viewer()
+            outlook = outlook_on(site, viewer, world.create(viewer))
+            outlooks[site] = outlook, systems_on(site, [outlook], world, hear=hear)
+        outlook, systems = outlooks[site]
+        viewer = outlook.viewer
+        ground = float(height_at(site.ground.terrain, np.array([[x, z]], np.float32))[0])
+        viewer.eye, viewer.cone = (x, ground + 1.7, z), (0.0, pi) if yaw is None else (yaw, 0.6)
+        viewer.dt, viewer.way, viewer.jumped = dt, 0.0, jumped
+        systems.run(last=Phase.SEE)
+        systems.step("plant")
+        if hear is not None:
+            systems.step("wind")
+        return outlook
 
     return at
 
 
 @pytest.fixture
 def wind() -> Callable[..., Hear]:
-    """Let listeners hear some winds at a time, in a scene whose seed is 3: `wind(Breeze(), time=2.0)`."""
+    """Let receivers hear some winds at a time, in a scene whose seed is 3: `wind(Breeze(), time=2.0)`."""
 
     def at(*primitives: WindPrimitive, time: float) -> Hear:
         sources = [WindSource(primitive, f"wind[{number}]") for number, primitive in enumerate(primitives)]
         quarantine = Quarantine()
-        return lambda heard: hear(blowing(sources, quarantine, time=time, seed=3), heard, quarantine, time=time, seed=3)
+        return lambda heard, _=0.0: hear(
+            blowing(sources, quarantine, time=time, seed=3), heard, quarantine, time=time, seed=3
+        )
 
     return at

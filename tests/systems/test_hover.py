@@ -14,8 +14,8 @@ from tallgrass.components.pose import Pose
 from tallgrass.components.wind import Extent, Grass, WindPrimitive
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.engine.world import World
-from tallgrass.systems.field import Field
 from tallgrass.systems.bodies.fly import carried, flying, foot
+from tallgrass.systems.field import Field
 from tallgrass.systems.winds import Winds
 
 Floats = NDArray[np.float32]

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.engine.declared.quality import PRESETS, Representation
+from tallgrass.systems.around.patches import PatchTable
 from tallgrass.systems.lod import (
     FADE,
     SLACK,
@@ -18,7 +19,6 @@ from tallgrass.systems.lod import (
     wanted_representation,
     weights,
 )
-from tallgrass.systems.around.patches import PatchTable
 
 REACH = (2, 5, 9)
 BLADES, STRIPS, CARPET = Representation

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from tallgrass.components.receivers import Receivers
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.world import World
+from tallgrass.systems.around.receivers import ReceiverEntities
 from tallgrass.systems.field import Field
 from tallgrass.systems.receive import blow
-from tallgrass.systems.around.receivers import ReceiverEntities
 from tallgrass.systems.show.blades.pool import BladePool
 from tallgrass.systems.show.seen import Seen
 from tallgrass.systems.show.strips.pool import StripPool

@@ -62,7 +62,7 @@ class BladePool:
     def grows(self, slots: NDArray[np.int64], cells: NDArray[np.int32], /) -> NDArray[np.bool_]:
         """Return which blades of some slots grow on these cells (m, 2), shape (m * n,)."""
         planted = (self.stamp[slots] == cells).all(axis=1)
-        return (self.present[slots] & planted[:, None]).reshape(-1)
+        return np.asarray(self.present[slots] & planted[:, None]).reshape(-1)
 
     @classmethod
     def allocate(cls, side: int, blades: int) -> "BladePool":

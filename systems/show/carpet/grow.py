@@ -42,6 +42,7 @@ _HEADINGS = np.array([[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]])
 
 def carpet_of(model: PatchModel, /) -> Carpet:
     """Return the carpet of a patch model."""
+    carpet: Carpet
     (carpet,) = model.pictures["carpet"]
     return carpet
 
