@@ -6,11 +6,14 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from . import scenes
     from .components.body import Hover
+    from .components.patch import Lod, Patch
     from .components.pose import Pose
     from .components.receivers import Receivers
+    from .components.viewer import Viewer
     from .components.wind import Extent, Grass, WindPrimitive, WindSource
     from .engine.plugins import wind
     from .engine.scene import SceneError
+    from .engine.schedule import Phase
     from .engine.world import install
     from .systems.prairie import Prairie
     from .systems.wind.blast import Blast, Shape
@@ -28,12 +31,16 @@ __all__ = [
     "Grass",
     "Gust",
     "Hover",
+    "Lod",
+    "Patch",
+    "Phase",
     "PlacedWind",
     "Pose",
     "Prairie",
     "Receivers",
     "SceneError",
     "Shape",
+    "Viewer",
     "Whirlwind",
     "WindPrimitive",
     "WindSource",
@@ -49,12 +56,16 @@ _HOMES = {
     "Grass": ".components.wind",
     "Gust": ".systems.wind.gust",
     "Hover": ".components.body",
+    "Lod": ".components.patch",
+    "Patch": ".components.patch",
+    "Phase": ".engine.schedule",
     "PlacedWind": ".systems.wind.placed",
     "Pose": ".components.pose",
     "Prairie": ".systems.prairie",
-    "Receivers": ".components.wind",
+    "Receivers": ".components.receivers",
     "SceneError": ".engine.scene",
     "Shape": ".systems.wind.blast",
+    "Viewer": ".components.viewer",
     "Whirlwind": ".systems.wind.whirlwind",
     "WindPrimitive": ".components.wind",
     "WindSource": ".components.wind",

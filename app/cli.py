@@ -173,12 +173,19 @@ def doctor() -> int:
 
 
 @bench.command("frame")
-def frame(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720", *, json: Json = False) -> int:
+def frame(
+    scene: Scene = "meadow",
+    preset: Preset = None,
+    size: Size = "1280x720",
+    *,
+    json: Json = False,
+    viewers: Annotated[int, typer.Option(min=1, max=16, help="Viewers in every frame, side by side.")] = 1,
+) -> int:
     """Measure how long a frame takes, and what it is made of."""
     pixels = _size(size)
     from .bench.frame import bench_frame
 
-    return bench_frame(scene, preset=preset, size=pixels, json=json)
+    return bench_frame(scene, preset=preset, size=pixels, json=json, viewers=viewers)
 
 
 @bench.command("picture")

@@ -43,6 +43,7 @@ class World:
     def create(self, *components: object) -> int:
         """Return a new entity that has `components`."""
         self._must_be_current()
+        self.check()
         if self._home is None:  # an entity that nobody has a reason to delete: it goes when all go
             home = Resident(self._mark)
             self._home = ref(home)

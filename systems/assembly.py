@@ -1,23 +1,57 @@
 """The systems that a prairie comes with, each made from what it needs."""
 
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from functools import partial
 
 from ..components.body import Body
-from ..engine.schedule import HasRun, Phase
-from .around.outlook import Outlook
+from ..engine.schedule import HasRun, Phase, Schedule
+from ..engine.terrain.sample import height_at
+from ..engine.world import World
+from .around.clearing import Clearings
+from .around.outlook import Outlook, Outlooks
 from .blow import Blow, Hear
+from .bodies.fly import flying
 from .cull import Cull
 from .entities import PatchEntities
 from .gather import Gather
 from .lod import SLACK, ChooseLevels
 from .painter import Painter
 from .plant import Plant
+from .screen import Screen
 from .see import See
 from .site import Site
 from .tile import Tile
 from .transition import Transition
+from .winds import Winds
 
 BuiltIn = tuple[Phase, str, HasRun]
+
+
+@dataclass(frozen=True, slots=True)
+class Assembly:
+    """What the systems of a prairie share, whatever its site."""
+
+    world: World
+    viewers: Outlooks
+    clearings: Clearings
+    winds: Winds
+    screen: Screen
+
+    def entities(self, site: Site, /) -> PatchEntities:
+        """Return what keeps the entities of patches on a site."""
+        return PatchEntities(self.world, self.clearings, site.representations)
+
+    def on(self, site: Site, /) -> list[BuiltIn]:
+        """Return the systems of a site in running order."""
+
+        def bodies(time: float) -> list[Body]:
+            heights = partial(height_at, site.ground.terrain)
+            return flying(self.world, heights, self.winds.quarantine, time=time)
+
+        return built_in(
+            site, self.viewers, self.entities(site), hear=self.winds.heard, painter=self.screen.current, bodies=bodies
+        )
 
 
 def built_in(
@@ -51,3 +85,10 @@ def built_in(
         (Phase.BLOW, "wind", Blow(outlooks, hear, site.growths, patch, max(each.margin() for each in shown))),
         (Phase.DRAW, "gather", Gather(outlooks, painter, bodies)),
     ]  # fmt: skip
+
+
+def settle_in(schedule: Schedule, built: list[BuiltIn], before: list[BuiltIn], /) -> None:
+    """Let built-in systems run in place of those `before` them; what a game has replaced or removed stays so."""
+    for (_, name, system), (_, _, old) in zip(built, before, strict=True):
+        if name in schedule and schedule[name].run == old.run:
+            schedule.replace(name, system, trusted=True)

@@ -1,7 +1,8 @@
 """Blowing: every receiver that is seen hears the winds (paper, section 3.2)."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +16,13 @@ from .wind.blow import Listeners
 from .wind.grass import grass_of
 
 Floats = NDArray[np.float32]
-Hear = Callable[[Listeners, float], Floats]
-"""Gives the messages (n, 2) that receivers hear at a time [s]."""
+
+
+class Hear(Protocol):
+    """What gives receivers their messages."""
+
+    def __call__(self, receivers: Listeners, /, *, time: float) -> Floats:
+        """Return the messages (n, 2) that receivers hear at a time [s]."""
 
 
 @dataclass(slots=True)
@@ -47,7 +53,7 @@ class Blow:
         order = sorted(all_receiving, key=lambda receiving: receiving.still)
         for receiving in order:
             receiving.letters.collect()
-        heard = self.hear(self._listeners(outlook, order), outlook.viewer.time)
+        heard = self.hear(self._listeners(outlook, order), time=outlook.viewer.time)
         outlook.heard = _deliver(order, heard)
         outlook.air = _mean(outlook, order)
         for receiving in order:
@@ -66,7 +72,7 @@ class Blow:
             place=np.concatenate(flat),
             grass=grass_of(self.growths, kind),
             patch=np.repeat(np.arange(len(rows)), np.concatenate(each)),
-            middle=outlook.patches.middles(rows, patch=self.patch).astype(np.float32),
+            middle=outlook.patches.middle[rows].astype(np.float32),
             radius=HALF_DIAGONAL * (self.patch + 2.0 * self.margin),
             still=sum(len(place) for receiving, place in zip(order, flat, strict=True) if receiving.still),
         )

@@ -23,6 +23,6 @@ class Cull:
         for outlook in self.outlooks:
             patches, viewer = outlook.patches, outlook.viewer
             patches.was_visible[:] = patches.visible
-            apex, middle = (viewer.eye[0], viewer.eye[2]), patches.middles(patch=self.patch)
+            apex = viewer.eye[0], viewer.eye[2]
             for rows, far in ((patches.visible, HALF_DIAGONAL * self.patch), (patches.near, 2.0 * self.patch)):
-                rows[:] = inside_cone(middle, apex=apex, cone=viewer.cone, radius=far + self.sway)
+                rows[:] = inside_cone(patches.middle, apex=apex, cone=viewer.cone, radius=far + self.sway)

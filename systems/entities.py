@@ -76,6 +76,8 @@ class PatchEntities:
 
     def at(self, outlook: Outlook, cells: NDArray[np.int32], /) -> NDArray[np.int64]:
         """Return the entity of each cell (n, 2), made where there is none yet, shape (n,); 0 where none can be."""
+        self.world.check()
+        self.clear(outlook, [])  # the world may have been cleared since this viewer looked
         patches = outlook.patches
         rows = window_rows(cells, side=patches.side)
         there = patches.alive[rows] & (patches.cell[rows] == cells).all(axis=1)

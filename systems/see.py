@@ -18,7 +18,7 @@ Floats = NDArray[np.float32]
 def strips_kept(outlook: Outlook, /, *, reach: tuple[int, ...], patch: float) -> Floats:
     """Return how much of the strips the distance leaves on each patch, shape (rows,); `patch` is its side [m]."""
     eye = np.array([outlook.viewer.eye[0], outlook.viewer.eye[2]], np.float32)
-    away = np.abs(outlook.patches.middles(patch=patch) - eye).max(axis=1)
+    away = np.abs(outlook.patches.middle - eye).max(axis=1)
     return kept_near(away / np.float32(patch), reach=reach[outlook.patches.names.index("strips")])
 
 

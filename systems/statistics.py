@@ -2,7 +2,10 @@
 
 from dataclasses import dataclass, field
 
+from ..engine.schedule import Schedule
 from .around.outlook import Outlook
+from .painter import Painter
+from .site import Site
 
 
 @dataclass(slots=True)
@@ -35,12 +38,14 @@ class Statistics:
     transitions: int = 0
     """Patches that were seen to change their representation, or to be changing it."""
 
-    def count(self, outlook: Outlook, /, *, share: float) -> None:
-        """Count the patches of a viewer; `share` is that of the terrain's blades which grow on one patch."""
+    def count(self, outlook: Outlook, site: Site, systems: Schedule, painter: Painter, /, *, draw_ms: float) -> None:
+        """Count what a viewer was shown in a frame whose draw calls took so long [ms]."""
         shown, names = outlook.patches.shown, outlook.patches.names
-        self.blades_considered = round(share * self.blades_field * int(shown.sum()))
+        width, depth = site.ground.terrain.size
+        share = self.blades_field * site.ground.patch**2 / (width * depth)
+        self.blades_considered = round(share * int(shown.sum()))
         self.patches = {
             name: int((shown & (outlook.patches.representation == level)).sum()) for level, name in enumerate(names)
         }
-        self.receivers = outlook.heard
-        self.transitions = outlook.changing
+        self.receivers, self.transitions, self.blades_submitted = outlook.heard, outlook.changing, outlook.blades
+        self.systems_ms, self.draw_calls, self.draw_ms = dict(systems.milliseconds), painter.draw_calls, draw_ms

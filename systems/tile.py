@@ -48,7 +48,8 @@ def tile(patches: PatchTable, centre: Ints, terrain: Terrain, /, *, patch: float
     patches.cell[changed] = fresh
     patches.alive[changed] = cells_on(terrain, fresh, patch=patch)
     patches.model[changed], patches.turn[changed] = patch_models(fresh, seed=seed, models=models)
-    middle = patches.middles(changed, patch=patch).astype(np.float32)
+    patches.middle[changed] = (fresh + 0.5) * patch
+    middle = patches.middle[changed].astype(np.float32)
     patches.height[changed], patches.slope[changed] = height_at(terrain, middle), slope_at(terrain, middle)
     patches.empty(changed)
     return changed

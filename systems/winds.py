@@ -68,6 +68,7 @@ class Winds:
 
     def sources(self) -> list[WindSource]:
         """Return the winds there are."""
+        self._revive()
         return [source for _, source in self._world.all(WindSource)]
 
     def now(self, time: float) -> list[Blowing]:
@@ -102,7 +103,7 @@ class Winds:
         """Let the winds of the scene be entities again after the game has cleared its world; say so once."""
         if self._generation == self._world.check():
             return
-        self._generation = self._world.generation
+        self._generation, self._declared = self._world.generation, []  # their numbers may be others' by now
         log.warning("the esper world was cleared: the scene's winds are entities again, those that were added are gone")
         self.change(self._scene, self._ground, self._growths)
 

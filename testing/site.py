@@ -1,6 +1,6 @@
 """A site and a viewer on it, to make single systems from."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import lru_cache
 from pathlib import Path
 
@@ -19,6 +19,7 @@ from ..engine.world import World
 from ..systems.around.clearing import Clearings
 from ..systems.around.outlook import Outlook
 from ..systems.assembly import built_in
+from ..systems.blow import Hear
 from ..systems.entities import PatchEntities
 from ..systems.painter import Painter
 from ..systems.site import Site, found_site, outlook_on
@@ -29,7 +30,6 @@ ASPECT = 16 / 9
 """Width over height of the picture that a viewer is taken to have."""
 
 Floats = NDArray[np.float32]
-Hear = Callable[[Listeners, float], Floats]
 
 
 @lru_cache(maxsize=8)
@@ -69,12 +69,15 @@ def systems_on(site: Site, outlooks: Sequence[Outlook], world: World, /, *, hear
     """
     schedule = Schedule()
     entities = PatchEntities(world, Clearings(), site.representations)
-    still: Hear = lambda receivers, _: np.zeros_like(receivers.place)  # noqa: E731 - it has a type of its own
-    for phase, name, system in built_in(
-        site, outlooks, entities, hear=hear or still, painter=_no_painter, bodies=lambda _: ()
-    ):
+    parts = built_in(site, outlooks, entities, hear=hear or _calm, painter=_no_painter, bodies=lambda _: ())
+    for phase, name, system in parts:
         schedule.add(phase, name, system, trusted=True)
     return schedule
+
+
+def _calm(receivers: Listeners, /, *, time: float) -> Floats:
+    del time
+    return np.zeros_like(receivers.place)
 
 
 def _no_painter() -> Painter:

@@ -19,13 +19,16 @@ def watch(prairie: Prairie, camera: Camera | None = None, /) -> None:
 def step(prairie: Prairie, which: Phase | str, /) -> None:
     """Run one system of a prairie once, by its name, or all those of one phase, and nothing else.
 
-    The names are those of `prairie.systems`; built in are tile, cull, lod, transition, see, plant, wind and gather. What
-    earlier systems leave behind has to be there: `watch` does what comes before `Phase.BLOW`, and a picture has to be
+    The names are those of `prairie.systems`; tile, cull, lod, transition, see, plant, wind and gather come along.
+    What earlier systems leave behind has to be there: `watch` does what comes before `Phase.BLOW`, and a picture has to be
     drawn before `Phase.DRAW`. Raises KeyError for a name that is none, RuntimeError where something is missing.
     """
     phase, name = (which, which.name) if isinstance(which, Phase) else (prairie.systems[which].phase, which)
-    if "main" not in prairie.viewers:
+    looking = list(prairie.viewers)
+    if not looking:
         raise RuntimeError(f"'{name}' needs a viewer: call watch(prairie) first")
     if phase == Phase.DRAW and prairie.painter is None:
         raise RuntimeError(f"'{name}' needs a graphics context: draw the prairie first")
+    for outlook in looking:
+        outlook.viewer.time = prairie.time  # it may have moved on since they looked
     prairie.systems.step(which)

@@ -2,12 +2,11 @@
 
 import os
 import tempfile
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from time import perf_counter
 
-import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,6 +19,8 @@ from ..progress import counted
 from ..studio import Studio
 from ..take import Take
 from .machine import machine, tell
+from .timing import timed
+from .viewers import side_by_side
 
 FRAMES = 60
 """Frames measured."""
@@ -34,8 +35,11 @@ STEP = 1.0 / 60.0
 """Time between frames [s]."""
 
 
-def bench_frame(scene: str, *, preset: str | None, size: tuple[int, int], json: bool) -> int:
-    """Measure a scene's frame from its fixed camera, print the figures, and return the exit status."""
+def bench_frame(scene: str, *, preset: str | None, size: tuple[int, int], json: bool, viewers: int = 1) -> int:
+    """Measure a scene's frame from its fixed camera, print the figures, and return the exit status.
+
+    Of more than one viewer, each one's part of a frame is measured besides.
+    """
     take = Take(scene, size, preset=preset)
     first = {"cold": 0.0, "cached": 0.0}
     with _empty_cache():
@@ -43,6 +47,8 @@ def bench_frame(scene: str, *, preset: str | None, size: tuple[int, int], json: 
         first["cached"] = _first_frame(take)
     with Studio(take) as studio:
         result = _measure(studio, take, first)
+        if viewers > 1:
+            result["viewers"] = side_by_side(studio, viewers)
     tell(result, as_json=json)
     return 0
 
@@ -76,15 +82,6 @@ class _Samples:
     systems: dict[str, list[float]] = field(default_factory=dict)
     all_3d: list[float] = field(default_factory=list)
     floor: list[float] = field(default_factory=list)
-
-
-def timed(ctx: moderngl.Context, work: Callable[[], object]) -> float:
-    """Return how long some work takes, up to its end on the graphics card [ms]."""
-    ctx.finish()
-    start = perf_counter()
-    work()
-    ctx.finish()
-    return 1000.0 * (perf_counter() - start)
 
 
 def _sample(studio: Studio) -> _Samples:

@@ -9,9 +9,10 @@ from ...engine.camera import projection_matrix, view_matrix
 from ...systems.prairie import Prairie
 from ..offscreen import Offscreen
 from ..progress import counted
-from .frame import own_preset, timed
+from .frame import own_preset
 from .machine import machine, resident_mb, tell
 from .stroll import REST, Leg, Moment, legs, moments, raise_gusts
+from .timing import timed
 
 MANY = 12
 """Patches in transition from which a frame counts as busy."""

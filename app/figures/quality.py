@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ...engine.camera import camera_at, projection_matrix, view_matrix
 from ...systems.prairie import Prairie
-from ..bench.frame import timed
+from ..bench.timing import timed
 from ..encode import Picture
 from ..offscreen import Offscreen
 from .figure import Detail, PaperFigure

@@ -17,8 +17,15 @@ class Place(Declaration):
     """The channel that holds this kind's density."""
 
 
+Plant = Literal["grass"]
+"""The kinds of plant that there are."""
+
+
 class GrassKind(Declaration):
     """A kind of grass, from which postures and patch models are grown (paper, sections 2.1 and 3.2)."""
+
+    plant: Plant = "grass"
+    """What kind of plant it is."""
 
     height: Pair = Field(default=[0.4, 0.7])
     """Shortest and tallest blade, measured along the blade [m]."""

@@ -22,8 +22,8 @@ NEARLY = 0.35
 """Part of a change from blades to strips after which the blades begin to be handed over to the strips."""
 
 OVERLAP = 0.35
-"""How much more than in a plain cross-fade blades and strips show half-way through the handing over. Both cover the same
-place: with less, the ground shows through; with more, edges look swollen."""
+"""How much more than in a plain cross-fade blades and strips show half-way through the handing over. Both cover the
+same place: with less, the ground shows through; with more, edges look swollen."""
 
 BORDER = 4.0
 """Over how many patches the strips give way to the carpet."""

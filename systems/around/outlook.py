@@ -78,9 +78,8 @@ class Outlook:
 class Outlooks:
     """The outlooks of a prairie by their viewers' names. Iterating gives those that look in this frame."""
 
-    def __init__(self, world: World, make: Callable[[Viewer, int], Outlook]) -> None:
+    def __init__(self, world: World) -> None:
         self._world = world
-        self._make = make
         self._all: dict[str, Outlook] = {}
         self._looking: Outlook | None = None
 
@@ -93,31 +92,31 @@ class Outlooks:
         return self._all[name]
 
     def __contains__(self, name: object) -> bool:
-        return name in self._all
+        found = self._all.get(str(name))
+        return found is not None and self._world.find(found.entity, Viewer) is found.viewer
 
     def values(self) -> list[Outlook]:
-        """Return all of them, in the order in which their viewers first looked."""
-        return list(self._all.values())
+        """Return those whose viewers are still there, in the order in which these first looked."""
+        return [self._all[name] for name in self._all if name in self]
 
-    def looking(self, name: str, /) -> Outlook:
+    def looking(self, name: str, make: Callable[[Viewer, int], Outlook], /) -> Outlook:
         """Let the viewer of this name be the one that looks, and return its outlook; a new name is a new viewer.
 
-        One whose entity has been deleted begins anew.
+        `make` gives the empty outlook of a viewer and its entity. One whose entity has been deleted begins anew.
         """
-        found = self._all.get(name)
-        if found is None or self._world.find(found.entity, Viewer) is not found.viewer:
-            viewer = Viewer(name)
-            found = self._make(viewer, self._world.create(viewer))
+        if name not in self:
             self.forget(name)
-            self._all[name] = found
-        self._looking = found
+            viewer = Viewer(name)
+            self._all[name] = made = make(viewer, self._world.create(viewer))
+            made.generation = self._world.check()
+        self._looking = found = self._all[name]
         return found
 
     def forget(self, name: str, /) -> None:
         """Forget a viewer, and delete the entities that were its own."""
         gone = self._all.pop(name, None)
-        if gone is None:
-            return
+        if gone is None or gone.generation != self._world.check():
+            return  # what the whole world was cleared of: its numbers may be others' by now
         for entity in gone.patches.entity[gone.patches.entity != 0].tolist():
             self._world.delete(entity)
         for kept in gone.kept.values():

@@ -30,6 +30,9 @@ class PatchTable:
     cell: NDArray[np.int32]
     """Shape (rows, 2)."""
 
+    middle: NDArray[np.float64]
+    """Ground position (x, z) of its middle [m], shape (rows, 2)."""
+
     alive: NDArray[np.bool_]
     """Whether the row's cell lies on the terrain, shape (rows,)."""
 
@@ -107,6 +110,7 @@ class PatchTable:
             names=names,
             side=side,
             cell=np.full((rows, 2), NOWHERE, np.int32),
+            middle=np.zeros((rows, 2)),
             alive=np.zeros(rows, np.bool_),
             grows=np.ones(rows, np.bool_),
             model=np.zeros(rows, np.int32),
@@ -127,10 +131,6 @@ class PatchTable:
             sublevel_progress=np.ones(levels, np.float32),
             entity=np.zeros(rows, np.int64),
         )
-
-    def middles(self, rows: NDArray[np.integer] | slice = slice(None), /, *, patch: float) -> NDArray[np.float64]:
-        """Return the middles (x, z) [m] of patches with this side [m], shape (n, 2)."""
-        return np.asarray((self.cell[rows] + 0.5) * patch, np.float64)
 
     def empty(self, rows: NDArray[np.int32], /) -> None:
         """Forget what is known of the levels of detail of some rows, because another patch is there now."""

@@ -102,8 +102,9 @@ def _valid(message: Floats) -> Floats:
     if not np.isfinite(message).all():
         log.warning("messages of receivers must be finite numbers; those that are not were taken for no wind")
         message = np.where(np.isfinite(message), message, np.float32(0.0))
-    index = np.sqrt((message * message).sum(axis=1))
-    return np.asarray(message / np.maximum(index, np.float32(1.0))[:, None], np.float32)
+    index = np.hypot(*message.T.astype(np.float64))
+    # The wind's own, of length 1 but for rounding, stay as they are: who only reads them changes no picture.
+    return np.asarray(message / np.where(index > 1.0 + 1e-6, index, 1.0)[:, None], np.float32)
 
 
 class Receiving:

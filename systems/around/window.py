@@ -1,9 +1,18 @@
 """The square window of cells around a viewer, which wraps round."""
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
+
+
+def as_places(xz: ArrayLike, /) -> Floats:
+    """Return ground positions (x, z) [m] as an array of shape (n, 2); raises ValueError for what is none."""
+    places = np.asarray(xz, np.float32)
+    if places.shape[-1:] != (2,) or not np.isfinite(places).all():
+        raise ValueError(f"ground positions are finite (x, z) pairs, not an array of shape {places.shape}")
+    return np.ascontiguousarray(places.reshape(-1, 2))
 
 
 def cell_of(place: NDArray[np.float32], /, *, patch: float) -> Ints:

@@ -31,7 +31,7 @@ HEAD, SPREAD = 0.36, 0.45
 
 
 def felt(outlook: Outlook, /) -> tuple[Floats, Floats]:
-    """Return places (x, z) [m] and messages of all receivers of grass that stands and is shown, both of shape (n, 2)."""
+    """Return places (x, z) [m] and messages of all receivers of grass that is shown, both of shape (n, 2)."""
     place, message = [], []
     for kept in outlook.kept.values():
         for receiving in kept.receiving:

@@ -56,7 +56,7 @@ def patch_colors(outlook: Outlook, site: Site, /) -> Floats:
 
 
 def patch_weights(outlook: Outlook, site: Site, /) -> Floats:
-    """Return how much each representation counts on each patch, (representations, rows): the strips' border included."""
+    """Return how much each representation counts on each patch, (representations, rows), the strips' border too."""
     share, strips = weights(outlook.patches), outlook.patches.names.index("strips")
     kept = strips_kept(outlook, reach=site.reach, patch=site.ground.patch)
     handed = share[strips] * (1.0 - kept)

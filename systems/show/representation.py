@@ -189,7 +189,7 @@ class Representation(ABC):
     def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> object:
         """Return what of it a viewer is shown in this frame; `cover` (rows,) says how much it shows on each patch."""
 
-    def plant(self, outlook: Outlook, /) -> None:
+    def plant(self, outlook: Outlook, /) -> None:  # noqa: B027 - for those that stand on the ground
         """Stand what is shown on the ground, where it does not stand yet."""
 
     @abstractmethod

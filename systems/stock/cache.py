@@ -65,7 +65,9 @@ def growth_key(kind: GrassKind, quality: Quality, /, *, seed: int) -> str:
     depends = {
         "version": _version(),
         "seed": seed,
-        "kind": kind.model_dump(include={"height", "width", "stiffness", "damping", "lean", "taper"}, mode="json"),
+        "kind": kind.model_dump(
+            include={"plant", "height", "width", "stiffness", "damping", "lean", "taper"}, mode="json"
+        ),
         "blades": blade_count(kind, quality),
         "quality": quality.model_dump(include={"patch", "models"}, mode="json"),
         "pictures": {each.name: each.depends(kind, quality) for each in REPRESENTATIONS},
@@ -88,9 +90,8 @@ def _sources(folder: Traversable, path: str = "") -> Iterator[tuple[str, Travers
         name = f"{path}/{entry.name}"
         if entry.is_dir():
             yield from _sources(entry, name)
-        elif name.startswith(("/grow/", "/stock/")) or entry.name == "grow.py":
-            if name.endswith(".py"):
-                yield name, entry
+        elif entry.name == "grow.py" or (name.startswith(("/grow/", "/stock/")) and name.endswith(".py")):
+            yield name, entry
 
 
 def _mark_used(path: Path, /) -> None:

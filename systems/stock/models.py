@@ -7,7 +7,7 @@ import numpy as np
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
 from ..grow.bend import spine
-from ..grow.blades import grow_blades
+from ..grow.plants import PLANTS
 from ..grow.postures import grow_postures
 from ..grow.record import Blades, Growth, PatchModel, Postures
 from ..grow.response import grow_response
@@ -27,7 +27,7 @@ def grow(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
     """
     postures = grow_postures(kind, variants=VARIANTS, rows=ROWS, seed=seed)
     patches = [
-        grow_blades(
+        PLANTS[kind.plant](
             kind, count=blade_count(kind, quality), patch=quality.patch, variants=VARIANTS, seed=_mixed(seed, number)
         )
         for number in range(quality.models)

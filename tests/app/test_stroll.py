@@ -66,7 +66,7 @@ def test_from_a_crest_the_ground_falls_before_and_behind(hilly: Prairie) -> None
 
 
 def test_each_leg_comes_to_a_border_between_patches_at_the_same_time(hilly: Prairie) -> None:
-    patch = hilly.field.quality.patch
+    patch = hilly.site.ground.patch
     for leg in legs(hilly):
         assert first_border(np.array(leg.place), leg.heading, patch=patch) == pytest.approx(PACE * LEAD, abs=1e-6)
         places = np.array([moment.camera.position for moment in moments(hilly, leg)])

@@ -312,10 +312,11 @@ def test_n7_the_saucer_flies_on_over_a_scene_that_is_read_again(walk: "Walk", sc
 def test_n7_reading_the_scene_again_keeps_time_and_place(walk: "Walk", scene: Path) -> None:
     for _ in range(5):
         walk.frame(0.1)
-    time, place, table = walk.prairie.time, walk.walker, walk.prairie.field.table
+    seen(walk)
+    time, place, patches = walk.prairie.time, walk.walker, walk.prairie.viewers["main"].patches
     scene.write_text(scene.read_text().replace("strength: 0.5", "strength: 0.2"))
     press(walk, "F5")
-    assert walk.prairie.field.table is table
+    assert walk.prairie.viewers["main"].patches is patches
     scene.write_text(scene.read_text().replace("seed: 5", "seed: 6"))
     press(walk, "F5")
     assert walk.prairie.scene.seed == 6

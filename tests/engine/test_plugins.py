@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from tallgrass.components.wind import Floats, Grass, WindPrimitive
-from tallgrass.engine.plugins import GROUP, OURS, PluginError, Provided, WindKinds, wind, wind_kinds
+from tallgrass.engine.installed import OURS
+from tallgrass.engine.plugins import GROUP, PluginError, Provided, WindKinds, wind, wind_kinds
 from tallgrass.engine.scene import parse_scene
 
 VORTEX = """

@@ -9,8 +9,8 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass.engine.camera import Camera
-from tallgrass.systems.lod import FADE
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.transition import FADE
 
 Stage = Any
 Load = Callable[..., Prairie]
@@ -45,14 +45,14 @@ def settled(stage: Stage, prairie: Prairie, aim: Camera) -> NDArray[np.float64]:
     stage.shot(prairie, aim)
     prairie.advance(2 * FADE)
     picture = stage.shot(prairie, aim)
-    assert (prairie.field.table.progress == 1.0).all()
+    assert (prairie.viewers["main"].patches.progress == 1.0).all()
     return np.asarray(picture)
 
 
 def test_x4_over_a_border_the_picture_changes_by_and_by(stage: Stage, prairie: Prairie, camera: Aim) -> None:
     there, here = camera(0.6, 1.7, BEFORE, pitch=-10), camera(0.6, 1.7, BEHIND, pitch=-10)
     story = [settled(stage, prairie, there), stage.shot(prairie, here)]
-    in_transition = int((prairie.field.table.progress < 1.0).sum())
+    in_transition = int((prairie.viewers["main"].patches.progress < 1.0).sum())
     for _ in range(24):
         prairie.advance(STEP)
         story.append(stage.shot(prairie, here))
@@ -76,7 +76,7 @@ def test_x1_stepping_back_over_the_border_at_once_starts_nothing(stage: Stage, p
         for aim in (here, there):
             prairie.advance(STEP)
             stage.shot(prairie, aim)
-            assert (prairie.field.table.progress == 1.0).all()
+            assert (prairie.viewers["main"].patches.progress == 1.0).all()
 
 
 def test_x1_what_comes_into_view_is_there_at_once(stage: Stage, prairie: Prairie, camera: Aim) -> None:
@@ -84,7 +84,7 @@ def test_x1_what_comes_into_view_is_there_at_once(stage: Stage, prairie: Prairie
     settled(stage, prairie, ahead)
     prairie.advance(STEP)
     turned = stage.shot(prairie, behind)
-    assert (prairie.field.table.progress == 1.0).all()
+    assert (prairie.viewers["main"].patches.progress == 1.0).all()
     np.testing.assert_array_equal(settled(stage, prairie, behind), turned)
 
 

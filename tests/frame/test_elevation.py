@@ -74,8 +74,8 @@ def test_an_elevation_model_stands_in_for_the_meadows_hills(
     assert check([str(path)]) == 0
     prairie = Prairie.load(path, ctx=stage.ctx)
     try:
-        assert prairie.field.terrain.size == pytest.approx((399 * CELL, 299 * CELL))
-        assert np.ptp(prairie.field.terrain.heights) == pytest.approx(relief, abs=2.0)
+        assert prairie.site.ground.terrain.size == pytest.approx((399 * CELL, 299 * CELL))
+        assert np.ptp(prairie.site.ground.terrain.heights) == pytest.approx(relief, abs=2.0)
         above = float(prairie.height_at([(0, 0)])[0]) + 3.0
         picture = stage.shot(prairie, camera(0, above, 0, pitch=-30))
     finally:
@@ -91,7 +91,7 @@ def test_only_the_word_noise_has_to_go_and_the_size_keeps_the_middle(name: str, 
     path = meadow(tmp_path, "noise: rolling", f"heights: {name}")
     assert check([str(path)]) == 0
     prairie = Prairie.load(path)
-    terrain = prairie.field.terrain
+    terrain = prairie.site.ground.terrain
     prairie.release()
     assert terrain.size == pytest.approx((240.0, 240.0), abs=2.5)
     if name == "dem.tif":

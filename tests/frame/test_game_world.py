@@ -77,7 +77,8 @@ def test_d6_a_games_world_is_as_it_was_after_release(stage: Stage, loaded: Loade
     install()
     prairie.add(Gust(), name="theirs")
     esper.process(0.1)
-    stage.shot(prairie)
+    for _ in range(4):  # patches and receivers become entities by and by
+        stage.shot(prairie)
     assert len(list(esper.get_entities())) > 500
     prairie.release()
     assert told() == before

@@ -186,7 +186,8 @@ def test_d2_released_a_prairie_leaves_no_entity_behind(stage: Stage, load: Load)
     theirs = esper.create_entity("a game's own")
     before = set(esper.get_entities())
     prairie = Prairie(kept._loaded, ctx=stage.ctx)  # noqa: SLF001
-    stage.shot(prairie)
+    for _ in range(4):  # patches and receivers become entities by and by
+        stage.shot(prairie)
     assert len(set(esper.get_entities()) - before) > 500
     prairie.release()
     prairie.release()

@@ -12,16 +12,22 @@ from numpy.typing import NDArray
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.gl.shaders import program
 from tallgrass.engine.gl.stream import release_all
+from tallgrass.systems.around.appearance import Appearance
+from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.frame.block import by_kind
-from tallgrass.systems.lod import FADE
 from tallgrass.systems.painter import UNITS, Painter
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.show.blades.draw import MOVED, ROUND
-from tallgrass.systems.show.morph.draw import PER_ROW as EDGES_PER_ROW
-from tallgrass.systems.show.morph.gather import Morph, gather_morph
-from tallgrass.systems.show.seen import Seen, seen_now
+from tallgrass.systems.show.blades.draw import MOVED, ROUND, BladePainter
+from tallgrass.systems.show.blades.morph import Morph, gather_morph
+from tallgrass.systems.show.blades.morph_draw import PER_ROW as EDGES_PER_ROW
+from tallgrass.systems.show.blades.morph_draw import MorphPainter
+from tallgrass.systems.show.blades.painter import BladesPainter
+from tallgrass.systems.show.blades.shown import Standing
 from tallgrass.systems.show.strips.draw import PER_ROW, StripPainter
 from tallgrass.systems.show.strips.gather import gather_strips
+from tallgrass.systems.show.strips.painter import StripsPainter
+from tallgrass.systems.show.strips.representation import StripRepresentation
+from tallgrass.systems.transition import FADE
 from tallgrass.testing import Stage as Room
 
 Doubles = NDArray[np.float64]
@@ -62,9 +68,13 @@ def room(ctx: moderngl.Context) -> Any:
 class Scene:
     """A moment in which some patches are on their way."""
 
-    prairie: Prairie
+    outlook: Outlook
+    appears: Appearance
     painter: Painter
-    seen: Seen
+    blades: MorphPainter
+    strips: StripsPainter
+    representation: StripRepresentation
+    morphing: Standing
     morph: Morph
     along: int
 
@@ -85,9 +95,22 @@ def scene(request: pytest.FixtureRequest, room: Room, load: Load, camera: Aim) -
     look(-0.05)
     prairie.advance(0.7 * FADE)
     look(-0.05)
-    seen, painter = seen_now(prairie.field), prairie.painter
+    outlook, painter = prairie.viewers["main"], prairie.painter
     assert painter is not None
-    return Scene(prairie, painter, seen, gather_morph(prairie.field, seen), int(yaw == 90.0))
+    assert outlook.appearance is not None
+    blades, strips, representation = (
+        painter.painters["blades"],
+        painter.painters["strips"],
+        prairie.site.representations[1],
+    )
+    assert isinstance(blades, BladesPainter)
+    assert isinstance(strips, StripsPainter)
+    assert isinstance(representation, StripRepresentation)
+    morphing = outlook.shown["blades"].morphing
+    morph = gather_morph(outlook, outlook.kept["blades"].pool, representation, morphing, fade=True)
+    return Scene(
+        outlook, outlook.appearance, painter, blades.morph, strips, representation, morphing, morph, int(yaw == 90.0)
+    )
 
 
 def caught(painter: Painter, made: moderngl.Program, contents: list[Any], vertices: int, count: int) -> Doubles:
@@ -119,18 +142,18 @@ def middles(data: Doubles) -> Doubles:
 
 def drawn(scene: Scene, weight: float) -> Doubles:
     """Middle lines of the blades on their way, when they have come so far."""
-    painter, morph = scene.painter.morph, scene.morph
+    painter, morph = scene.blades, scene.morph
     moving = morph.moving.copy()
     moving["morph"] = weight
     painter.moving.write(moving)
     painter.edges.write(morph.edges)
     painter.edges.texture.use(UNITS["edges"])
     painter.targets.use(UNITS["targets"])
-    points = scene.prairie.field.stock.targets.shape[3]
+    points = scene.representation.stock.targets.shape[3]
     defines: dict[str, str | int] = {"SEGMENTS": painter.segments, "ROUND": ROUND, "SOFT": 1, "MORPH": 1}
     defines |= {"PER_ROW": EDGES_PER_ROW, "POINTS": points}
     made = program(
-        painter.blades.ctx,
+        scene.painter.ctx,
         "systems/show/blades/blades.vert",
         None,
         defines=defines,
@@ -144,7 +167,7 @@ def drawn(scene: Scene, weight: float) -> Doubles:
 
 def in_their_own_places(scene: Scene) -> Doubles:
     """Middle lines of the same blades as 3D blades."""
-    painter = scene.painter.blade_painter(scene.painter.morph.segments, soft=True)
+    painter = BladePainter(scene.painter.ctx, scene.painter.block, scene.blades.segments, UNITS, soft=True)
     moved = np.zeros(len(scene.morph.moving), MOVED)
     moved["message"], moved["fade"] = scene.morph.moving["message"], 1.0
     painter.write(scene.morph.blades, moved)
@@ -181,9 +204,10 @@ class Drawn:
 
 def strips_drawn(scene: Scene, number: int) -> Drawn:
     """One ring's strips, also those that do not show yet."""
-    field, strips, shown = scene.prairie.field, scene.painter.strips[number], scene.seen.strips[number]
-    whole = replace(scene.seen.looks, handed=np.ones_like(scene.seen.looks.handed))
-    records, counts = gather_strips(field.strips[number], shown, whole, field.table, field.sight.centre)
+    outlook, strips = scene.outlook, scene.strips.rings[number]
+    pool, shown = outlook.kept["strips"].pools[number], outlook.shown["strips"].rings[number]
+    whole = replace(scene.appears, handed=np.ones_like(scene.appears.handed))
+    records, counts = gather_strips(pool, shown, whole, outlook.patches, outlook.viewer.centre)
     strips.strips.write(records)
     strips.strips.texture.use(UNITS["strips"])
     data = caught(scene.painter, strip_program(scene, strips), [], 2 * strips.sections + 2, len(records))
@@ -195,23 +219,23 @@ def strip_program(scene: Scene, strips: StripPainter) -> moderngl.Program:
     made = program(
         scene.painter.ctx, "systems/show/strips/strips.vert", None, defines=defines, varyings=("gl_Position", "h")
     )
-    made["tall"] = by_kind([kind.height for kind in scene.prairie.field.stock.strips[0]])
+    made["tall"] = by_kind([kind.height for kind in scene.representation.stock.strips[0]])
     made["first"] = 0
     return made
 
 
 def painted_places(scene: Scene) -> Doubles:
     """Where the strips as they are drawn show each blade's points, from the root to the tip [pixels]."""
-    field, table = scene.prairie.field, scene.prairie.field.table
-    stock, rings = field.stock, field.quality.strip_rings
+    patches, quality = scene.outlook.patches, scene.representation.quality
+    stock, rings = scene.representation.stock, quality.strip_rings
     drawn = [strips_drawn(scene, number) for number in range(len(rings))]
-    segments, every, points = scene.painter.morph.segments, stock.targets.shape[2], stock.targets.shape[3]
+    segments, every, points = scene.blades.segments, stock.targets.shape[2], stock.targets.shape[3]
     expected = np.zeros((len(scene.morph.blades), segments + 1, 2))
     for index, blade in enumerate(scene.morph.blades):
-        cell = np.floor(blade["root"][::2] / field.quality.patch).astype(int)
-        row = int(np.flatnonzero((table.cell == cell).all(axis=1))[0])
-        model, own = int(table.model[row]), (scene.along + int(table.turn[row])) % 2
-        number, which = int(table.sublevel[1, row]) >> 1, int(scene.morph.moving["painted"][index]) % every
+        cell = np.floor(blade["root"][::2] / quality.patch).astype(int)
+        row = int(np.flatnonzero((patches.cell == cell).all(axis=1))[0])
+        model, own = int(patches.model[row]), (scene.along + int(patches.turn[row])) % 2
+        number, which = int(patches.sublevel[1, row]) >> 1, int(scene.morph.moving["painted"][index]) % every
         plane = int(stock.slices[number][model, own, which])
         first = stock.first_layer[number][int(blade["kind"])]
         layer = first + (model * 2 + own) * rings[number].strips + plane
@@ -240,13 +264,12 @@ def _on_strip(clip: Doubles, across: float, up: float) -> Doubles:
 
 
 def test_x3_the_blades_on_their_way_are_of_all_kinds_turns_and_slices(scene: Scene) -> None:
-    rows = scene.seen.morphing.rows
-    table = scene.prairie.field.table
+    rows, patches = scene.morphing.rows, scene.outlook.patches
     assert len(rows) >= 4
-    assert len(set(table.turn[rows].tolist())) >= 3
+    assert len(set(patches.turn[rows].tolist())) >= 3
     assert set(scene.morph.blades["kind"].tolist()) == {0.0, 1.0}
-    assert (table.sublevel[1, rows] & 1 == scene.along).all()
-    assert np.abs(table.slope[rows]).max() > 0.15
+    assert (patches.sublevel[1, rows] & 1 == scene.along).all()
+    assert np.abs(patches.slope[rows]).max() > 0.15
     assert np.linalg.norm(scene.morph.moving["message"], axis=1).mean() > 0.15
 
 
@@ -268,5 +291,5 @@ def test_x3_in_between_it_is_on_the_straight_way(scene: Scene) -> None:
 
 
 def test_x3_blades_come_to_their_places_before_their_strips_show(scene: Scene) -> None:
-    looks, rows = scene.seen.looks, scene.seen.morphing.rows
-    assert (looks.handed[rows] <= looks.morph[rows]).all()
+    appears, rows = scene.appears, scene.morphing.rows
+    assert (appears.handed[rows] <= appears.morph[rows]).all()

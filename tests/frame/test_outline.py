@@ -10,10 +10,8 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass.engine.camera import Camera, view_of
-from tallgrass.systems.around.appearance import Looks, looks
+from tallgrass.systems.around.appearance import Appearance, appearance
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.receive import plant_shown_strips
-from tallgrass.systems.show.seen import see
 from tallgrass.testing import Stage as Room
 
 Doubles = NDArray[np.float64]
@@ -59,24 +57,25 @@ def story(room: Room, ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFa
     view = float(np.degrees(2 * np.arctan(np.tan(np.radians(21.0)) / 4)))
     seen = Camera((0.6, eye, AWAY), 0.0, np.radians(1.4), np.radians(view))
     room.shot(prairie, seen)
-    field, pictures = prairie.field, []
-    alive = field.table.alive.astype(np.float32)
+    alive, pictures = prairie.viewers["main"].patches.alive.astype(np.float32), []
     for part in (*WAY, None):
         weight = np.stack([0 * alive, (part or 0.0) * alive, (1.0 - (part or 0.0)) * alive]).astype(np.float32)
-        shows = looks(weight, np.ones_like(alive), transitions=field.transitions)
+        shows = appearance(weight, np.ones_like(alive), transitions=prairie.site.transitions)
         pictures.append(drawn(room, prairie, seen, shows, bare=part is None))
     prairie.release()
     return pictures
 
 
-def drawn(room: Room, prairie: Prairie, camera: Camera, shows: Looks, *, bare: bool) -> Doubles:
+def drawn(room: Room, prairie: Prairie, camera: Camera, shows: Appearance, *, bare: bool) -> Doubles:
     """The prairie with all of it as it shows on the way."""
-    painter, seen = prairie.painter, see(prairie.field, shows)
+    painter, outlook = prairie.painter, prairie.viewers["main"]
     assert painter is not None
-    for ring, shown in enumerate(seen.strips):
-        plant_shown_strips(prairie.field, ring, shown)
-    painter.write_strips(seen)
-    painter.write_ground(None if bare else shows.carpet)
+    strips = prairie.site.representations[1]
+    outlook.appearance = shows
+    outlook.shown["strips"] = strips.show(outlook, shows.cover[1])
+    strips.plant(outlook)
+    painter.painters["strips"].write(outlook)
+    painter.carpet.lay(outlook, None if bare else shows.cover[2])
     room.target.use()
     room.target.clear(depth=1.0)
     painter.draw(view_of(*room.matrices(camera)), blades=[] if bare else None)

@@ -8,6 +8,7 @@ import pytest
 
 from tallgrass.engine.camera import Camera, view_of
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.show.strips.painter import StripsPainter
 
 Stage = Any
 Load = Callable[..., Prairie]
@@ -128,7 +129,8 @@ def test_each_representation_draws_something_else(stage: Stage, load: Load) -> N
 def test_t1_blades_grow_out_of_the_ground_and_do_not_float(stage: Stage, load: Load, camera: Aim) -> None:
     prairie = load(LONE, lod="blades")
     stage.shot(prairie, camera(0, 10, 0, pitch=-89))
-    blades = prairie.field.blades.blade[prairie.field.blades.present].copy()
+    pool = prairie.viewers["main"].kept["blades"].pool
+    blades = pool.blade[pool.present].copy()
     seen = 0
     for blade in blades[np.abs(blades["root"][:, ::2]).max(axis=1) < 36.0]:
         root, away = blade["root"].astype(float), 3.0 * blade["facing"].astype(float)
@@ -197,36 +199,40 @@ def test_t5_strips_look_the_same_in_many_draws_as_in_few(stage: Stage, load: Loa
     aim = camera(0.7, 1.7, 20, pitch=-5)
     picture, painter = stage.shot(prairie, aim), prairie.painter
     assert painter is not None
-    few = list(painter.runs)
-    painter.runs = [
+    strips = painter.painters["strips"]
+    assert isinstance(strips, StripsPainter)
+    few = list(strips.runs)
+    strips.runs = [
         (ring, first + start, min(7, count - start), thin)
         for ring, first, count, thin in few
         for start in range(0, count, 7)
     ]
     stage.target.clear(depth=1.0)
     painter.draw(view_of(*stage.matrices(aim)))
-    assert len(painter.runs) > 4 * len(few)
+    assert len(strips.runs) > 4 * len(few)
     np.testing.assert_array_equal(stage.read(), picture)
 
 
 def test_statistics_tell_what_was_drawn(stage: Stage, load: Load) -> None:
     prairie = load()
     stage.shot(prairie)
-    told, table = prairie.statistics, prairie.field.table
-    visible = table.alive & table.visible
+    told, patches = prairie.statistics, prairie.viewers["main"].patches
+    visible = patches.alive & patches.visible
     assert sum(told.patches.values()) == visible.sum()
     assert told.blades_field == 60 * 24 * 24
     assert told.blades_considered == 60 * visible.sum()
     assert 0 < told.blades_submitted <= told.blades_considered
     assert told.receivers > told.blades_submitted
     assert 4 <= told.draw_calls < 40
-    assert set(told.systems_ms) == {"tile", "cull", "lod", "plant", "wind", "gather"}
+    assert set(told.systems_ms) == {"tile", "cull", "lod", "transition", "see", "plant", "wind", "gather"}
 
 
 def test_t1_ten_kilometres_of_hills_are_drawn_without_speckles(stage: Stage, load: Load, camera: Aim) -> None:
     land = "{ noise: ridges, seed: 4, size: [10240, 10240], scale: 400, feature: 900 }"
     prairie = load(PURPLE.replace("{ noise: flat, size: [60, 60] }", land).replace(', ground: "#ff0000"', ""))
-    picture = stage.shot(prairie, camera(100, float(prairie.field.terrain.heights.max()) + 50, 300, yaw=60, pitch=-12))
+    picture = stage.shot(
+        prairie, camera(100, float(prairie.site.ground.terrain.heights.max()) + 50, 300, yaw=60, pitch=-12)
+    )
     grass = stage.depth() < 1.0
     assert grass.mean() > 0.5
     inside = grass[:, 2:] & grass[:, :-2]

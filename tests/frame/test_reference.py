@@ -76,7 +76,7 @@ def test_n3_what_is_drawn_is_nearer_to_the_truth_than_other_grass_of_the_same_lo
 def test_n3_every_blade_on_the_terrain_is_drawn_once(prairie: Prairie) -> None:
     assert prairie.painter is not None
     every = EveryBlade(prairie)
-    cells = terrain_cells(prairie.field)
+    cells = terrain_cells(prairie.site.ground)
     assert len(cells) == 24 * 24
     count = stand_all(prairie, cells, every.blades)
     assert count == pytest.approx(prairie.statistics.blades_field, rel=0.02)
@@ -85,29 +85,31 @@ def test_n3_every_blade_on_the_terrain_is_drawn_once(prairie: Prairie) -> None:
 
 
 def test_n3_the_blades_of_the_reference_stand_where_the_near_ones_are_drawn(prairie: Prairie) -> None:
-    field, every = prairie.field, EveryBlade(prairie)
-    rows = np.flatnonzero((field.blades.stamp[:, 0] > -1000) & field.blades.present.any(axis=1))
+    pool, every = prairie.viewers["main"].kept["blades"].pool, EveryBlade(prairie)
+    rows = np.flatnonzero((pool.stamp[:, 0] > -1000) & pool.present.any(axis=1))
+    assert len(rows) > 6
     for slot in rows[:6]:
-        cell = field.blades.stamp[slot, :2]
+        cell = pool.stamp[slot]
         count = stand_all(prairie, cell[None], every.blades)
-        assert count == field.blades.present[slot].sum()
+        assert count == pool.present[slot].sum()
         data = np.frombuffer(every.blades.blades.buffer.read(), every.blades.blades.record)[:count]
-        near = field.blades.blade[slot][field.blades.present[slot]]["root"]
+        near = pool.blade[slot][pool.present[slot]]["root"]
         assert {tuple(root) for root in data["root_at"].tolist()} == {tuple(root) for root in near.tolist()}
     every.release()
 
 
 def test_t2_the_reference_leaves_out_only_what_is_not_seen(stage: Stage, prairie: Prairie, aim: Camera) -> None:
     every, seen = EveryBlade(prairie), view_of(*stage.matrices(aim))
-    pictures = []
-    for cells in (seen_cells(prairie.field), terrain_cells(prairie.field)):
+    pictures, site = [], prairie.site
+    cone = seen_cells(site.ground, prairie.viewers["main"].viewer, sway=site.sway)
+    for cells in (cone, terrain_cells(site.ground)):
         stage.target.use()
         stage.target.clear(depth=1.0)
         every.draw(seen, cells)
         pictures.append(stage.read())
     every.release()
     np.testing.assert_array_equal(pictures[0], pictures[1])
-    assert len(seen_cells(prairie.field)) < 0.6 * 24 * 24
+    assert len(cone) < 0.6 * 24 * 24
 
 
 def test_a_reference_of_what_was_never_drawn_is_refused(load: Load) -> None:

@@ -38,10 +38,11 @@ for step in range(6):
     prairie.advance(0.25)
 np.save(sys.argv[1], np.frombuffer(target.read(components=3, alignment=1), np.uint8).reshape(90, 160, 3))
 told = hashlib.blake2b(digest_size=8)
-for pool in (prairie.field.blades, *prairie.field.strips):
+outlook = prairie.viewers["main"]
+for pool in (outlook.kept["blades"].pool, *outlook.kept["strips"].pools):
     told.update(pool.place.tobytes() + pool.message.tobytes())
-table = prairie.field.table
-told.update(table.representation.tobytes() + table.progress.tobytes() + table.model.tobytes())
+patches = outlook.patches
+told.update(patches.representation.tobytes() + patches.progress.tobytes() + patches.model.tobytes())
 print(told.hexdigest())
 """
 
@@ -74,7 +75,8 @@ def test_n5_its_pictures_are_the_same_within_one_level_in_another_process(played
 
 
 def pools(prairie: Prairie) -> list[BladePool | StripPool]:
-    return [prairie.field.blades, *prairie.field.strips]
+    kept = prairie.viewers["main"].kept
+    return [kept["blades"].pool, *kept["strips"].pools]
 
 
 def receivers(prairie: Prairie) -> str:

@@ -17,7 +17,7 @@ PROGRAM = """
 import pickle, sys
 from hashlib import blake2b
 import moderngl
-from tallgrass.components.wind import Receivers
+from tallgrass.components.receivers import Receivers
 from tallgrass.engine.camera import camera_at, projection_matrix, view_matrix
 from tallgrass.systems.prairie import Prairie
 
@@ -37,10 +37,11 @@ def digest(array):
 
 def received():
     told = {(len(one.place), *one.place[0].tolist(), digest(one.place)): digest(one.message)
-            for _, one in prairie.world.all(Receivers)}
-    table = prairie.field.table
-    for row in (table.alive & table.visible).nonzero()[0]:
-        told["carpet", *table.cell[row].tolist()] = table.message[row].tobytes()
+            for _, one in prairie.world.all(Receivers) if one.representation != "carpet"}
+    outlook = prairie.viewers["main"]
+    patches, message = outlook.patches, outlook.kept["carpet"].pool.message
+    for row in (patches.alive & patches.visible).nonzero()[0]:
+        told["carpet", *patches.cell[row].tolist()] = message[row].tobytes()
     return told
 
 

@@ -16,8 +16,9 @@ pytestmark = pytest.mark.packaging
 
 def test_the_face_shows_what_programs_are_written_with() -> None:
     winds = {"Blast", "Breeze", "Gust", "PlacedWind", "Whirlwind", "WindPrimitive"}
-    records = {"Extent", "Grass", "Hover", "Pose", "Receivers", "Shape", "WindSource"}
-    assert set(tallgrass.__all__) == {"Prairie", "SceneError", "install", "scenes", "wind", *records, *winds}
+    records = {"Extent", "Grass", "Hover", "Lod", "Patch", "Pose", "Receivers", "Shape", "Viewer", "WindSource"}
+    others = {"Phase", "Prairie", "SceneError", "install", "scenes", "wind"}
+    assert set(tallgrass.__all__) == {*records, *others, *winds}
     assert all(issubclass(getattr(tallgrass, name), WindPrimitive) for name in winds)
     assert (tallgrass.Prairie, tallgrass.SceneError) == (Prairie, SceneError)
     assert (tallgrass.WindPrimitive, tallgrass.wind) == (WindPrimitive, wind)

@@ -117,7 +117,7 @@ def wind() -> Callable[..., Hear]:
     def at(*primitives: WindPrimitive, time: float) -> Hear:
         sources = [WindSource(primitive, f"wind[{number}]") for number, primitive in enumerate(primitives)]
         quarantine = Quarantine()
-        return lambda heard, _=0.0: hear(
+        return lambda heard, *_, **__: hear(
             blowing(sources, quarantine, time=time, seed=3), heard, quarantine, time=time, seed=3
         )
 

@@ -1,7 +1,6 @@
 """Gathering: what is sent to the graphics card, in the order of drawing (T5, W1)."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -11,54 +10,63 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.engine.terrain.record import Terrain
-from tallgrass.systems.field import Field
-from tallgrass.systems.receive import blow
+from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.show.blades.gather import gather_blades
-from tallgrass.systems.show.seen import Seen, Shown
+from tallgrass.systems.show.blades.pool import BladePool
+from tallgrass.systems.show.blades.shown import Standing
 from tallgrass.systems.show.strips.gather import gather_strips, runs
+from tallgrass.systems.show.strips.pool import StripPool
+from tallgrass.systems.show.strips.shown import StripsOfRing
+from tallgrass.systems.site import Site
 from tallgrass.systems.wind.blow import Listeners
 from tallgrass.systems.wind.breeze import Breeze
 
-Laid = Callable[..., Field]
-Look = Callable[..., Seen]
-Hear = Callable[[Listeners], NDArray[np.float32]]
+Laid = Callable[..., Site]
+Look = Callable[..., Outlook]
+Hear = Callable[[Listeners, float], NDArray[np.float32]]
 
 FLAT = Terrain(np.zeros((81, 81), np.float32), 1.0)
 EYE = (1.1, 0.4)
 
 
 @pytest.fixture
-def field(laid: Laid) -> Field:
-    return laid(terrain=FLAT)
+def outlook(laid: Laid, look: Look, wind: Callable[..., Hear]) -> Outlook:
+    """What somebody sees all round on flat ground, in a breeze."""
+    return look(laid(terrain=FLAT), *EYE, hear=wind(Breeze(), time=1.0))
 
 
-@pytest.fixture
-def seen(field: Field, look: Look, wind: Callable[..., Hear]) -> Seen:
-    found = look(field, *EYE)
-    blow(field, found.standing, found.strips, wind(Breeze(), time=1.0))
-    return found
+def blades(outlook: Outlook) -> tuple[BladePool, list[Standing]]:
+    """The pool of blades, and the patches shown by ring."""
+    return outlook.kept["blades"].pool, outlook.shown["blades"].rings
 
 
-def of_ring(field: Field, seen: Seen, ring: int) -> tuple[NDArray[np.void], NDArray[np.int64]]:
+def strips(outlook: Outlook) -> list[tuple[StripPool, StripsOfRing]]:
+    """By ring, the pool of strips and the patches shown."""
+    return list(zip(outlook.kept["strips"].pools, outlook.shown["strips"].rings, strict=True))
+
+
+def of_ring(outlook: Outlook, ring: int) -> tuple[NDArray[np.void], NDArray[np.int64]]:
     """The polygon strips of one ring, and how many there are on each patch."""
-    return gather_strips(field.strips[ring], seen.strips[ring], seen.looks, field.table, field.sight.centre)
+    pool, shown = strips(outlook)[ring]
+    assert outlook.appearance is not None
+    return gather_strips(pool, shown, outlook.appearance, outlook.patches, outlook.viewer.centre)
 
 
-def as_drawn(field: Field, seen: Seen) -> tuple[NDArray[np.void], NDArray[np.int32]]:
+def as_drawn(outlook: Outlook) -> tuple[NDArray[np.void], NDArray[np.int32]]:
     """All polygon strips in the order in which they are drawn, and the cell of the patch that each is of."""
-    strips = seen.strips
-    gathered = [of_ring(field, seen, ring) for ring in range(len(strips))]
+    shown = [ring for _, ring in strips(outlook)]
+    gathered = [of_ring(outlook, ring) for ring in range(len(shown))]
     cells = [
-        np.repeat(field.table.cell[ring.rows], counts, axis=0)
-        for ring, (_, counts) in zip(strips, gathered, strict=True)
+        np.repeat(outlook.patches.cell[ring.rows], counts, axis=0)
+        for ring, (_, counts) in zip(shown, gathered, strict=True)
     ]
-    draws = runs(strips, [counts for _, counts in gathered], [False] * len(strips))
+    draws = runs(shown, [counts for _, counts in gathered], [False] * len(shown))
     drawn = np.concatenate([gathered[ring][0][first : first + count] for ring, first, count, _ in draws])
     return drawn, np.concatenate([cells[ring][first : first + count] for ring, first, count, _ in draws])
 
 
-def test_t5_along_any_ray_from_the_eye_strips_are_drawn_from_far_to_near(field: Field, seen: Seen) -> None:
-    drawn, cell = as_drawn(field, seen)
+def test_t5_along_any_ray_from_the_eye_strips_are_drawn_from_far_to_near(outlook: Outlook) -> None:
+    drawn, cell = as_drawn(outlook)
     a, b = drawn["a"][:, ::2].astype(float) - EYE, drawn["b"][:, ::2].astype(float) - EYE
     for azimuth in np.linspace(0.0, 2 * np.pi, 97)[:-1] + 0.013:
         ray, beside = np.array([np.cos(azimuth), np.sin(azimuth)]), np.array([-np.sin(azimuth), np.cos(azimuth)])
@@ -71,9 +79,10 @@ def test_t5_along_any_ray_from_the_eye_strips_are_drawn_from_far_to_near(field: 
         assert (np.diff(away) <= 1e-4).all()
 
 
-def test_t5_patches_of_one_ring_that_follow_one_another_are_one_draw(field: Field, seen: Seen) -> None:
-    counts = [of_ring(field, seen, ring)[1] for ring in range(len(seen.strips))]
-    draws = runs(seen.strips, counts, [False, False])
+def test_t5_patches_of_one_ring_that_follow_one_another_are_one_draw(outlook: Outlook) -> None:
+    shown = [ring for _, ring in strips(outlook)]
+    counts = [of_ring(outlook, ring)[1] for ring in range(len(shown))]
+    draws = runs(shown, counts, [False, False])
     assert all(one[0] != two[0] for one, two in pairwise(draws))
     for ring in (0, 1):
         parts = [(first, count) for number, first, count, _ in draws if number == ring]
@@ -88,7 +97,8 @@ def test_t5_draws_walk_all_rings_in_one_order(ring_of: list[int], data: st.DataO
     shown, counts, told = [], [], []
     for ring in range(3):
         queue = np.flatnonzero(np.array(ring_of, np.int64) == ring)
-        shown.append(replace(Shown.whole(queue, queue), queue=queue))
+        along, none, whole = np.zeros(len(queue), np.int32), *np.tile(np.float32([[0.0], [1.0]]), len(queue))
+        shown.append(StripsOfRing(queue, queue, whole, along, queue, none, whole))
         counts.append(np.array(amount, np.int64)[queue])
         told.append([patch for patch in queue.tolist() for _ in range(amount[patch])])
     draws = runs(shown, counts, [False] * 3)
@@ -97,9 +107,9 @@ def test_t5_draws_walk_all_rings_in_one_order(ring_of: list[int], data: st.DataO
     assert len(draws) == sum(a != b for a, b in zip([-1, *ring_of], ring_of, strict=False))
 
 
-def test_w1_a_strip_has_the_messages_of_its_two_edges(field: Field, seen: Seen) -> None:
-    for number, (pool, ring) in enumerate(zip(field.strips, seen.strips, strict=True)):
-        records, _ = of_ring(field, seen, number)
+def test_w1_a_strip_has_the_messages_of_its_two_edges(outlook: Outlook) -> None:
+    for number, (pool, ring) in enumerate(strips(outlook)):
+        records, _ = of_ring(outlook, number)
         place, message = pool.place[ring.slots].reshape(-1, 2), pool.message[ring.slots].reshape(-1, 2)
         heard = {tuple(p): tuple(m) for p, m in zip(place.tolist(), message.tolist(), strict=True)}
         for side, wind in (("a", slice(0, 2)), ("b", slice(2, 4))):
@@ -107,20 +117,20 @@ def test_w1_a_strip_has_the_messages_of_its_two_edges(field: Field, seen: Seen) 
             assert [heard[foot] for foot in feet] == [tuple(row) for row in records["wind"][:, wind].tolist()]
 
 
-def test_g3_neighbouring_polygons_of_a_strip_follow_one_another_and_share_their_edge(field: Field, seen: Seen) -> None:
-    records, _ = of_ring(field, seen, 0)
+def test_g3_neighbouring_polygons_of_a_strip_follow_one_another_and_share_their_edge(outlook: Outlook) -> None:
+    records, _ = of_ring(outlook, 0)
     pairs = records.reshape(-1, 2)
     np.testing.assert_array_equal(pairs["b"][:, 0], pairs["a"][:, 1])
     np.testing.assert_array_equal(pairs["wind"][:, 0, 2:], pairs["wind"][:, 1, :2])
     np.testing.assert_array_equal(pairs["layer"][:, 0], pairs["layer"][:, 1])
 
 
-def test_g1_every_kind_is_gathered_on_its_own_layers_with_the_patchs_turn(field: Field, seen: Seen) -> None:
-    pool, ring = field.strips[0], seen.strips[0]
-    records, counts = of_ring(field, seen, 0)
+def test_g1_every_kind_is_gathered_on_its_own_layers_with_the_patchs_turn(outlook: Outlook) -> None:
+    pool, ring = strips(outlook)[0]
+    records, counts = of_ring(outlook, 0)
     assert (counts == 2 * 3 * 2).all()
     own = records.reshape(len(ring.rows), -1)
-    np.testing.assert_array_equal(own["turn"], np.tile(field.table.turn[ring.rows][:, None], own.shape[1]))
+    np.testing.assert_array_equal(own["turn"], np.tile(outlook.patches.turn[ring.rows][:, None], own.shape[1]))
     layer = records["layer"].astype(int)
     np.testing.assert_array_equal(records["kind"], layer >= 12)
     expected = np.sort(pool.layer[ring.slots].reshape(len(ring.rows), -1), axis=1)
@@ -130,26 +140,27 @@ def test_g1_every_kind_is_gathered_on_its_own_layers_with_the_patchs_turn(field:
 def test_a_kind_that_does_not_grow_on_a_patch_is_not_gathered_there(laid: Laid, look: Look) -> None:
     dense = np.ones((2, 81, 81), np.float32)
     dense[1, :, 40:] = 0.0
-    field = laid(terrain=FLAT, dense=dense)
-    seen = look(field, *EYE)
-    records, counts = of_ring(field, seen, 0)
+    outlook = look(laid(terrain=FLAT, dense=dense), *EYE)
+    records, counts = of_ring(outlook, 0)
     assert set(counts.tolist()) == {6, 12}
     assert records["a"][records["kind"] == 1][:, 0].max() < 4.0
     assert records["a"][records["kind"] == 0][:, 0].max() > 8.0
-    grown = np.concatenate([gather_blades(field.blades, ring)[0] for ring in seen.blades])
+    plants, rings = blades(outlook)
+    grown = np.concatenate([gather_blades(plants, ring)[0] for ring in rings])
     assert grown["root"][grown["kind"] == 1][:, 0].max() < 0.1
-    assert len(grown) == int(sum(field.blades.present[ring.slots].sum() for ring in seen.blades))
+    assert len(grown) == int(sum(plants.present[ring.slots].sum() for ring in rings))
 
 
-def test_w1_each_blade_is_gathered_with_its_own_message_and_fade(field: Field, seen: Seen) -> None:
-    for ring in seen.blades:
-        blade, moved = gather_blades(field.blades, ring)
+def test_w1_each_blade_is_gathered_with_its_own_message_and_fade(outlook: Outlook) -> None:
+    pool, rings = blades(outlook)
+    for ring in rings:
+        blade, moved = gather_blades(pool, ring)
         assert len(blade) == len(moved) == 42 * len(ring.rows)
         heard = {
             tuple(place): tuple(told)
             for place, told in zip(
-                field.blades.place[ring.slots].reshape(-1, 2).tolist(),
-                field.blades.message[ring.slots].reshape(-1, 2).tolist(),
+                pool.place[ring.slots].reshape(-1, 2).tolist(),
+                pool.message[ring.slots].reshape(-1, 2).tolist(),
                 strict=True,
             )
         }
@@ -159,10 +170,11 @@ def test_w1_each_blade_is_gathered_with_its_own_message_and_fade(field: Field, s
         assert (moved["fade"] == 1.0).all()
 
 
-def test_t5_seen_from_the_eye_blades_of_all_patches_go_from_far_to_near(field: Field, seen: Seen) -> None:
-    for ring in seen.blades:
-        plain, told = gather_blades(field.blades, ring)
-        blade, moved = gather_blades(field.blades, ring, eye=EYE)
+def test_t5_seen_from_the_eye_blades_of_all_patches_go_from_far_to_near(outlook: Outlook) -> None:
+    pool, rings = blades(outlook)
+    for ring in rings:
+        plain, told = gather_blades(pool, ring)
+        blade, moved = gather_blades(pool, ring, eye=EYE)
         away = np.hypot(blade["root"][:, 0] - EYE[0], blade["root"][:, 2] - EYE[1])
         assert (np.diff(away) < away.max() / 65000.0).all()
         message = {

@@ -15,7 +15,7 @@ from tallgrass.components.wind import Extent, Grass, WindPrimitive
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.engine.world import World
 from tallgrass.systems.bodies.fly import carried, flying, foot
-from tallgrass.systems.field import Field
+from tallgrass.systems.site import Site
 from tallgrass.systems.winds import Winds
 
 Floats = NDArray[np.float32]
@@ -93,44 +93,44 @@ class Gone(Rotor):
 
 
 @pytest.fixture
-def field(laid: Callable[..., Field]) -> Field:
+def site(laid: Callable[..., Site]) -> Site:
     return laid()
 
 
 @pytest.fixture
-def winds(world: World, field: Field) -> Winds:
-    """The winds of a field on uneven ground, none as yet."""
-    return Winds(world, field)
+def winds(world: World, site: Site) -> Winds:
+    """The winds of a site on uneven ground, none as yet."""
+    return Winds(world, site.scene, site.ground, site.growths)
 
 
 Bodies = Callable[[float], list[Body]]
 
 
 @pytest.fixture
-def bodies(world: World, field: Field, winds: Winds) -> Bodies:
+def bodies(world: World, site: Site, winds: Winds) -> Bodies:
     """What is in the air at a time."""
-    ground = partial(height_at, field.terrain)
+    ground = partial(height_at, site.ground.terrain)
     return lambda time: flying(world, ground, winds.quarantine, time=time)
 
 
 @pytest.mark.parametrize("time", [0.0, 0.4, pi])
 def test_r4_the_body_of_a_strangers_wind_flies_along_its_pose(
-    winds: Winds, field: Field, bodies: Bodies, time: float
+    winds: Winds, site: Site, bodies: Bodies, time: float
 ) -> None:
     winds.add(Rotor(), "rotor")
     (body,) = bodies(time)
     assert (body.place[0], body.place[2], body.yaw, body.model) == (8.0 * sin(time), 3.0, 0.5, "saucer")
-    ground = partial(height_at, field.terrain)
+    ground = partial(height_at, site.ground.terrain)
     assert body == carried(lambda moment: Rotor().pose(time=moment), time, ground, height=5.0)
 
 
 def test_r4_a_strangers_wind_acts_where_its_tilted_jet_meets_the_ground(
-    winds: Winds, field: Field, bodies: Bodies
+    winds: Winds, site: Site, bodies: Bodies
 ) -> None:
     winds.add(Rotor(), "rotor")
     time = 1.2
     (body,) = bodies(time)
-    there = foot(body, partial(height_at, field.terrain))
+    there = foot(body, partial(height_at, site.ground.terrain))
     (blowing,) = winds.now(time)
     assert blowing.pose == there
     assert abs(there.x - body.place[0]) > 0.5, "it slows down and leans"

@@ -8,20 +8,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.engine.declared.quality import PRESETS, Representation
+from tallgrass.components.viewer import Viewer
+from tallgrass.engine.declared.quality import PRESETS
+from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.patches import PatchTable
-from tallgrass.systems.lod import (
-    FADE,
-    SLACK,
-    farthest,
-    part_of_change,
-    schedule,
-    wanted_representation,
-    weights,
-)
+from tallgrass.systems.lod import SLACK, ChooseLevels, farthest, wanted_representation
+from tallgrass.systems.show.registry import NAMES, REPRESENTATIONS
+from tallgrass.systems.transition import FADE, change, held, part_of_change, weights
 
 REACH = (2, 5, 9)
-BLADES, STRIPS, CARPET = Representation
+BLADES, STRIPS, CARPET = range(3)
 STEP = 0.05
 
 
@@ -30,7 +26,7 @@ class Walk:
 
     def __init__(self, distance: int, *, alive: bool = True, reach: tuple[int, int, int] = REACH) -> None:
         self.reach = reach
-        self.table = PatchTable.allocate(1)
+        self.table = PatchTable.allocate(1, NAMES)
         self.table.alive[:] = alive
         self.was_visible = False
         self.go(distance, dt=1e9)
@@ -40,10 +36,10 @@ class Walk:
         table = self.table
         table.distance[:] = distance
         table.visible[:] = visible
-        wanted = wanted_representation(table.distance, table.representation, reach=self.reach)
-        schedule(
-            table, wanted, np.array([self.was_visible]), reach=self.reach, part=dt / FADE if part is None else part
-        )
+        table.wanted[:] = wanted_representation(table.distance, table.representation, reach=self.reach)
+        settled = np.array([self.was_visible]) & table.visible
+        due = held(table, reach=self.reach)
+        change(table, due, settled, reach=self.reach, part=dt / FADE if part is None else part)
         self.was_visible = visible
 
     @property
@@ -78,13 +74,13 @@ def test_x1_a_patch_is_never_coarser_than_due_nor_finer_for_more_than_the_slack(
 @pytest.mark.parametrize("preset", PRESETS)
 @pytest.mark.parametrize("limit", [0, 1])
 def test_x1_pacing_to_and_fro_over_a_limit_leaves_nothing_in_transition(preset: str, limit: int) -> None:
-    reach = PRESETS[preset].reach
-    table = PatchTable.allocate(1)
+    reach = tuple(each.reach(PRESETS[preset]) for each in REPRESENTATIONS)
+    table = PatchTable.allocate(1, NAMES)
     table.alive[:], table.visible[:] = True, True
     for frame in range(200):
         table.distance[:] = reach[limit] + (frame // 7) % 2
         wanted = wanted_representation(table.distance, table.representation, reach=reach)
-        schedule(table, wanted, table.visible, reach=reach, part=STEP / FADE)
+        change(table, wanted, table.visible, reach=reach, part=STEP / FADE)
         assert table.progress[0] == 1.0
     assert table.representation[0] == limit
 
@@ -225,7 +221,7 @@ HALFWAY: dict[str, tuple[int, dict[str, Any], tuple[int, int, bool], float]] = {
 }
 
 
-def state(walk: "Walk") -> tuple[int, int, bool]:
+def state(walk: Walk) -> tuple[int, int, bool]:
     return int(walk.table.representation[0]), int(walk.table.previous[0]), walk.settled()
 
 
@@ -277,3 +273,113 @@ def test_t4_a_forced_representation_has_all_the_range() -> None:
     distance = np.arange(9, dtype=np.int32)
     wanted = wanted_representation(distance, np.full(9, BLADES, np.int8), reach=reach)
     assert (wanted >= STRIPS).all()
+
+
+def test_the_system_writes_what_is_due_and_changes_nothing_else() -> None:
+    outlook = Outlook(Viewer(jumped=False), 0, PatchTable.allocate(3, NAMES))
+    patches = outlook.patches
+    patches.distance[:] = np.arange(9)
+    patches.visible[:] = patches.was_visible[:] = True
+    patches.visible[3] = patches.was_visible[6] = False
+    patches.representation[:] = patches.previous[:] = [0, 0, 0, 0, 1, 1, 1, 2, 2]
+    patches.hold[2] = CARPET
+    before = patches.representation.copy()
+    ChooseLevels([outlook], REACH).run()
+    assert patches.wanted.tolist() == [0, 0, 0, 1, 1, 1, 2, 2, 2]  # row 3 is not seen, row 6 was not
+    patches.visible[:] = patches.was_visible[:] = True
+    ChooseLevels([outlook], REACH).run()
+    assert patches.wanted.tolist() == [0, 0, 0, 0, 1, 1, 1, 2, 2]
+    ChooseLevels([outlook], REACH, slack=0).run()
+    assert patches.wanted.tolist() == [0, 0, 0, 1, 1, 1, 2, 2, 2]
+    outlook.viewer.jumped = True
+    ChooseLevels([outlook], REACH).run()
+    assert patches.wanted.tolist() == [0, 0, 0, 1, 1, 1, 2, 2, 2]
+    np.testing.assert_array_equal(patches.representation, before)
+    assert (patches.progress == 1.0).all()
+
+
+# ---- Holding -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("hold", [STRIPS, CARPET])
+def test_a_held_patch_goes_there_by_and_by_and_comes_back_when_it_is_let_go(hold: int) -> None:
+    walk = Walk(0)
+    walk.go(0)
+    for target, number in ((hold, hold), (BLADES, -1)):
+        start = int(walk.table.representation[0])
+        walk.table.hold[:] = number
+        walk.go(0)
+        assert state(walk) == (target, start, False)
+        part = []
+        while not walk.settled():
+            part.append(walk.shown[target])
+            walk.go(0)
+        assert len(part) >= 20
+        assert (np.diff(part) > 0.0).all()
+        assert walk.shown[target] == 1.0
+        for _ in range(50):
+            walk.go(0)
+        assert state(walk) == (target, target, True)
+
+
+def test_a_patch_that_is_held_unseen_is_there_at_once() -> None:
+    walk = Walk(0)
+    walk.table.hold[:] = CARPET
+    walk.go(0, visible=False)
+    assert state(walk) == (CARPET, CARPET, True)
+
+
+def test_a_held_patch_stays_what_it_is_whatever_its_distance_wants() -> None:
+    walk = Walk(0)
+    walk.table.hold[:] = STRIPS
+    for distance in (*range(REACH[1] + SLACK + 2), *range(REACH[1] + SLACK + 1, -1, -1)):
+        for _ in range(30):
+            walk.go(distance)
+        assert state(walk) == (STRIPS, STRIPS, True)
+
+
+def room(hold: int, distance: int) -> int:
+    """The representation of a patch that is held in one for long."""
+    walk = Walk(distance)
+    walk.table.hold[:] = hold
+    for _ in range(90):
+        walk.go(distance)
+    assert walk.settled()
+    return int(walk.table.representation[0])
+
+
+def test_held_finer_than_there_is_room_for_a_patch_is_the_finest_that_there_is_room_for() -> None:
+    blades, strips = farthest(REACH)
+    assert [room(BLADES, distance) for distance in range(12)] == [0] * blades + [1] * (strips - blades) + [2] * (
+        12 - strips
+    )
+    assert [room(STRIPS, distance) for distance in range(12)] == [1] * strips + [2] * (12 - strips)
+    assert [room(CARPET, distance) for distance in range(12)] == [2] * 12
+
+
+@pytest.mark.parametrize(("hold", "limit"), [(BLADES, REACH[0]), (STRIPS, REACH[1])])
+def test_x1_a_held_patch_that_a_walker_leaves_behind_gives_way_by_and_by(hold: int, limit: int) -> None:
+    walk = Walk(limit)
+    walk.table.hold[:] = hold
+    for _ in range(30):
+        walk.go(limit + SLACK + 1)
+    assert state(walk) == (hold, hold, True)
+    walk.go(limit + SLACK + 2)
+    assert state(walk) == (hold + 1, hold, False)
+    walk.go(limit + SLACK + 2)
+    assert 0.0 < walk.shown[hold + 1] < 0.1
+
+
+@given(st.lists(st.integers(0, 12), min_size=2, max_size=20), st.sampled_from([BLADES, STRIPS, CARPET]))
+def test_x1_a_held_patch_too_is_never_finer_than_there_is_room_for(story: list[int], hold: int) -> None:
+    walk, (blades, strips) = Walk(0), farthest(REACH)
+    walk.table.hold[:] = hold
+    for distance in story:
+        walk.go(distance, dt=0.01)
+        assert walk.shown[BLADES] == 0.0 or distance <= blades
+        assert walk.shown[STRIPS] == 0.0 or distance <= strips
+
+
+def test_where_nothing_is_wanted_a_patch_is_the_coarsest() -> None:
+    table = PatchTable.allocate(1, NAMES)
+    assert held(table, reach=REACH).tolist() == [CARPET]

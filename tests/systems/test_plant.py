@@ -1,4 +1,4 @@
-"""Planting: the same patch stands the same way in every representation (T1, G1, G3, T5)."""
+"""Planting: the same patch stands the same way in every representation (T1, G1, G3)."""
 
 from typing import Any
 
@@ -12,11 +12,12 @@ from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.systems.around.ground import Ground, turned
 from tallgrass.systems.grow.record import Growth
-from tallgrass.systems.show.blades.plant import HEADINGS, blade_records, far_to_near_blades, heading_of, plant_blades
-from tallgrass.systems.show.blades.pool import BladePool
+from tallgrass.systems.show.blades.plant import blade_records, plant_blades, stock_blades
+from tallgrass.systems.show.blades.pool import BLADE, BladePool
+from tallgrass.systems.show.strips.grow import strips_of
 from tallgrass.systems.show.strips.plant import plant_strips, strip_edges
 from tallgrass.systems.show.strips.pool import StripPool
-from tallgrass.systems.stock.stock import stock_up
+from tallgrass.systems.show.strips.stock import stock_strips
 
 PATCH = 2.5
 CELLS = np.array([(-3, 2), (0, 0), (4, -5), (1, 7), (-8, -2), (2, 2), (5, 1), (-1, -1)], np.int32)
@@ -40,20 +41,18 @@ def bilinear(terrain: Terrain, place: NDArray[Any]) -> NDArray[np.float64]:
     return np.asarray(far * (1 - t) + near * t)
 
 
-def planted(
-    growths: list[Growth], terrain: Terrain, maps: NDArray[np.float32] = EVERYWHERE, heading: int = 0
-) -> BladePool:
-    stock = stock_up(growths, PATCH).blades
+def planted(growths: list[Growth], terrain: Terrain, maps: NDArray[np.float32] = EVERYWHERE) -> BladePool:
+    stock = stock_blades(growths, PATCH)
     pool = BladePool.allocate_slots(10, stock.records.shape[1])
     ground = Ground(terrain, Density(maps, terrain.size), PATCH)
-    plant_blades(pool, SLOTS, CELLS, MODELS, TURNS, np.full(8, heading, np.int32), stock, ground)
+    plant_blades(pool, SLOTS, CELLS, MODELS, TURNS, stock, ground)
     return pool
 
 
 def stripped(
     growths: list[Growth], terrain: Terrain, along: int, ring: int = 0, maps: NDArray[np.float32] = EVERYWHERE
 ) -> StripPool:
-    stock = stock_up(growths, PATCH)
+    stock = stock_strips(growths)
     strips = stock.strips[ring]
     pool = StripPool.allocate(4, 2, len(strips[0].plane), 2)
     ground = Ground(terrain, Density(maps, terrain.size), PATCH)
@@ -129,10 +128,10 @@ def test_g1_every_blade_stands_within_half_a_slice_of_the_strip_it_is_painted_on
     pool = stripped(growths, hills, along, ring)
     for kind, growth in enumerate(growths):
         for slot, cell, model, turn in zip(SLOTS, CELLS, MODELS, TURNS, strict=True):
-            strips, blades = growth.models[model].strips[ring], growth.models[model].blades
+            strips, blades = strips_of(growth.models[model])[ring], growth.models[model].blades
             own = (along + int(turn)) % 2
             count = len(strips.plane)
-            layer = pool.layer[slot, kind].astype(int) - stock_up(growths, PATCH).first_layer[ring][kind]
+            layer = pool.layer[slot, kind].astype(int) - stock_strips(growths).first_layer[ring][kind]
             assert sorted(layer % count) == list(range(count))
             assert (layer // count == model * 2 + own).all()
             stands = np.argsort(layer % count)[strips.slice[own]]
@@ -153,7 +152,7 @@ def test_g1_every_blade_stands_within_half_a_slice_of_the_strip_it_is_painted_on
 @pytest.mark.parametrize("turn", range(4))
 @pytest.mark.parametrize("along", [0, 1])
 def test_g3_strips_are_parallel_planes_stored_by_rising_place(growths: list[Growth], along: int, turn: int) -> None:
-    strips = growths[0].models[0].strips[0]
+    strips = strips_of(growths[0].models[0])[0]
     feet, order = strip_edges(strips, 2, np.array([along], np.int32), np.array([turn], np.int32), patch=PATCH)
     assert feet.shape == (1, len(strips.plane), 3, 2)
     np.testing.assert_allclose(np.ptp(feet[0, :, :, 1 - along], axis=1), 0.0, atol=1e-6)
@@ -162,36 +161,22 @@ def test_g3_strips_are_parallel_planes_stored_by_rising_place(growths: list[Grow
     assert sorted(order[0]) == list(range(len(strips.plane)))
 
 
-def test_t5_blades_stand_from_far_to_near_for_each_of_eight_headings(growths: list[Growth]) -> None:
-    records = blade_records(growths[0].models[0].blades, 1, patch=PATCH, kind=0, variants=4)
-    orders = far_to_near_blades(records)
-    for number, order in enumerate(orders):
-        azimuth = number * 2 * np.pi / HEADINGS
-        away = records["root"][order][:, ::2] @ np.array([np.cos(azimuth), np.sin(azimuth)])
-        assert (np.diff(away) <= 1e-6).all()
-        assert sorted(order) == list(range(len(records)))
-
-
-@pytest.mark.parametrize("heading", range(HEADINGS))
-def test_t5_the_blades_of_all_kinds_are_planted_in_one_order(
-    growths: list[Growth], hills: Terrain, heading: int
+def test_g1_the_blades_of_a_slot_stand_in_the_order_of_their_models_one_kind_after_another(
+    growths: list[Growth], hills: Terrain
 ) -> None:
-    pool = planted(growths, hills, heading=heading)
-    azimuth = heading * 2 * np.pi / HEADINGS
-    away = pool.place[SLOTS].astype(float) @ np.array([np.cos(azimuth), np.sin(azimuth)])
-    assert (np.diff(away, axis=1) <= 1e-5).all()
-    assert (pool.stamp[SLOTS, 2] == heading).all()
-    for slot in SLOTS:
+    """What is known of each blade of a model, as its place on the strips, is known by its number."""
+    pool = planted(growths, hills)
+    for slot, cell, model, turn in zip(SLOTS, CELLS, MODELS, TURNS, strict=True):
+        parts = [
+            blade_records(growth.models[model].blades, int(turn), patch=PATCH, kind=kind, variants=4)
+            for kind, growth in enumerate(growths)
+        ]
+        expected = np.concatenate(parts)
+        for name in BLADE.names or ():
+            if name != "root":
+                np.testing.assert_array_equal(pool.blade[slot][name], expected[name])
+        np.testing.assert_allclose(pool.place[slot], expected["root"][:, ::2] + cell * PATCH, atol=1e-5)
         assert {int(kind) for kind in pool.blade["kind"][slot]} == {0, 1}
-
-
-@given(st.integers(-50, 50), st.integers(-50, 50))
-def test_t5_a_heading_points_from_the_viewer_to_the_patch(i: int, j: int) -> None:
-    heading = heading_of(np.array([[i + 7, j - 9]], np.int32), np.array([7.5, -8.5]))[0]
-    assert 0 <= heading < HEADINGS
-    if (i, j) != (0, 0):
-        off = np.arctan2(j, i) - heading * 2 * np.pi / HEADINGS
-        assert abs((off + np.pi) % (2 * np.pi) - np.pi) <= np.pi / HEADINGS + 1e-9
 
 
 def test_a_kind_grows_as_densely_as_the_map_says(growths: list[Growth]) -> None:
@@ -233,4 +218,4 @@ def test_only_the_slots_that_are_named_are_planted(growths: list[Growth], hills:
     rest = np.setdiff1d(np.arange(10), SLOTS)
     assert (pool.place[rest] == 0.0).all()
     assert not pool.present[rest].any()
-    np.testing.assert_array_equal(pool.stamp[SLOTS, :2], CELLS)
+    np.testing.assert_array_equal(pool.stamp[SLOTS], CELLS)

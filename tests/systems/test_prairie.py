@@ -146,7 +146,7 @@ def test_two_prairies_in_one_world_have_each_its_own_wind(load: Load) -> None:
 def test_a_reseeded_prairie_has_other_grass_and_the_same_ground(prairie: Prairie) -> None:
     other = prairie.reseeded(77)
     np.testing.assert_array_equal(other.height_at(PLACES), prairie.height_at(PLACES))
-    ours, theirs = (made.field.growths[0].models[0].blades.root for made in (prairie, other))
+    ours, theirs = (made.site.growths[0].models[0].blades.root for made in (prairie, other))
     assert (ours != theirs).any()
     assert (other.scene.seed, prairie.scene.seed) == (77, 5)
     other.release()
@@ -206,7 +206,9 @@ def test_d2_released_a_prairie_leaves_the_world_as_it_was(world: World, load: Lo
     theirs = [esper.create_entity("a game's own"), esper.create_entity(3)]
     prairie = load()
     prairie.add(Blast())
-    assert len(list(esper.get_entities())) == 2 + 3
+    assert len(world) == 0
+    assert len(prairie.world) == 3
+    assert len(list(esper.get_entities())) == len(theirs) + len(prairie.world) + 1, "one that stands for all"
     prairie.release()
     assert sorted(esper.get_entities()) == theirs
     assert len(world) == 0

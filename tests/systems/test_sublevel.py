@@ -11,14 +11,15 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.engine.terrain.record import Terrain
-from tallgrass.systems.field import Field
-from tallgrass.systems.lod import FADE, SLACK
+from tallgrass.systems.around.outlook import Outlook
+from tallgrass.systems.lod import SLACK
 from tallgrass.systems.show.blades.sublevel import blade_ring
-from tallgrass.systems.show.seen import Seen
-from tallgrass.systems.show.strips.sublevel import strip_ring, strips_along, viewing_slope
+from tallgrass.systems.show.strips.sublevel import axis_of, packed, ring_of, strip_ring, strips_along, viewing_slope
+from tallgrass.systems.site import Site
+from tallgrass.systems.transition import FADE
 
-Laid = Callable[..., Field]
-Look = Callable[..., Seen]
+Laid = Callable[..., Site]
+Look = Callable[..., Outlook]
 
 FLAT = Terrain(np.zeros((81, 81), np.float32), 1.0)
 NONE = np.full(1, -1, np.int8)
@@ -34,7 +35,7 @@ def test_f1_strips_are_coarser_with_distance_and_finer_seen_from_above(
 ) -> None:
     def ring(distance: int, slope: float) -> int:
         at = np.array([distance], np.int32), np.array([slope], np.float32)
-        return int(strip_ring(*at, NONE, LIMITS, SPACING, height=height)[0])
+        return int(strip_ring(*at, NONE, LIMITS, SPACING, height=height, slack=SLACK)[0])
 
     assert ring(distance, -1.0) == (0 if distance <= 4 else 1 if distance <= 8 else 2)
     assert ring(distance, slope) <= ring(distance, slope - 0.5)
@@ -46,12 +47,23 @@ def test_f1_strips_are_coarser_with_distance_and_finer_seen_from_above(
 def test_f2_the_viewing_slope_is_the_grounds_own_slope_and_the_eyes_height(laid: Laid, look: Look) -> None:
     z = np.arange(81.0)[:, None] - 40.0
     hillside = Terrain(np.tile(-0.5 * z, 81).astype(np.float32), 1.0)
-    field = laid(terrain=hillside)
-    look(field, 0.6, 0.6)
-    row = np.flatnonzero((field.table.cell == (0, -6)).all(axis=1))
-    eye, away = field.sight.eye, 0.6 + 5.5 * 2.5
+    site = laid(terrain=hillside)
+    outlook = look(site, 0.6, 0.6)
+    row = np.flatnonzero((outlook.patches.cell == (0, -6)).all(axis=1))
+    eye, away = outlook.viewer.eye, 0.6 + 5.5 * 2.5
     expected = 0.5 + (eye[1] - 0.5 * 5.5 * 2.5) / away
-    assert float(viewing_slope(field, row)[0]) == pytest.approx(expected, rel=0.01)
+    slope = viewing_slope(outlook.patches, row, eye=eye, patch=site.ground.patch)
+    assert float(slope[0]) == pytest.approx(expected, rel=0.01)
+
+
+@given(st.lists(st.tuples(st.integers(0, 15), st.integers(0, 1)), max_size=20))
+def test_g3_ring_and_axis_are_found_again_in_the_sub_level_that_they_make(pairs: list[tuple[int, int]]) -> None:
+    ring, axis = np.array(pairs, np.int8).reshape(-1, 2).T
+    sublevel = packed(ring, axis)
+    assert (sublevel >= 0).all()
+    np.testing.assert_array_equal(ring_of(sublevel), ring)
+    np.testing.assert_array_equal(axis_of(sublevel), axis)
+    assert (ring_of(NONE) == -1).all()
 
 
 @given(st.integers(-50, 50), st.integers(-50, 50), st.floats(0.05, 0.95), st.floats(0.05, 0.95))
@@ -76,8 +88,8 @@ def test_f1_a_finer_ring_is_kept_for_one_patch_more(distance: int, current: int,
     def ring(distance: int, current: int) -> int:
         at, has = np.array([distance], np.int32), np.array([current], np.int8)
         if level == "blades":
-            return int(blade_ring(at, has, LIMITS)[0])
-        return int(strip_ring(at, np.zeros(1, np.float32), has, LIMITS, SPACING, height=1.0)[0])
+            return int(blade_ring(at, has, LIMITS, slack=SLACK)[0])
+        return int(strip_ring(at, np.zeros(1, np.float32), has, LIMITS, SPACING, height=1.0, slack=SLACK)[0])
 
     due, nearer = ring(distance, -1), ring(max(distance - SLACK, 0), -1)
     assert nearer <= ring(distance, current) <= due
@@ -95,39 +107,44 @@ def test_g3_pacing_over_a_border_turns_no_strips_twice(i: int, j: int, step: tup
     assert turns <= 1
 
 
-def sublevels(field: Field, level: int) -> NDArray[np.bool_]:
-    """Which of the seen patches are on their way to another sub-level."""
-    return np.asarray(field.table.alive & field.table.visible & (field.table.sublevel_progress[level] < 1.0))
+def sublevels(outlook: Outlook, level: int) -> NDArray[np.bool_]:
+    """Which of the seen patches are on their way to another sub-level of a representation."""
+    patches = outlook.patches
+    return np.asarray(patches.shown & (patches.sublevel_progress[level] < 1.0))
 
 
 @pytest.mark.parametrize("level", [0, 1])
 def test_f1_what_is_seen_goes_to_another_sub_level_by_and_by(laid: Laid, look: Look, level: int) -> None:
-    field = laid(terrain=FLAT)
-    look(field, 1.25, 1.2)
-    assert not sublevels(field, level).any()
-    look(field, 1.25, 1.25, dt=0.0)
-    assert not sublevels(field, level).any()
-    look(field, 1.25, 5.1, dt=0.0)
-    assert sublevels(field, level).any()
-    look(field, 1.25, 5.1, dt=FADE * 1.01)
-    assert not sublevels(field, level).any()
+    site = laid(terrain=FLAT)
+    assert not sublevels(look(site, 1.25, 1.2), level).any()
+    assert not sublevels(look(site, 1.25, 1.25, dt=0.0), level).any()
+    assert sublevels(look(site, 1.25, 5.1, dt=0.0), level).any()
+    assert not sublevels(look(site, 1.25, 5.1, dt=FADE * 1.01), level).any()
+
+
+def test_f1_the_coarsest_has_one_sub_level_everywhere(laid: Laid, look: Look) -> None:
+    site = laid(terrain=FLAT)
+    look(site, 1.25, 1.2)
+    outlook = look(site, 1.25, 5.1, dt=0.0)
+    assert not sublevels(outlook, 2).any()
+    assert len(set(outlook.patches.sublevel[2].tolist())) == 1
 
 
 def test_f1_what_is_not_seen_takes_its_sub_level_at_once(laid: Laid, look: Look) -> None:
-    field = laid(terrain=FLAT)
-    look(field, 1.25, 1.2, yaw=0.0)
-    look(field, 1.25, 5.1, yaw=pi, dt=0.0)
-    assert not sublevels(field, 0).any()
-    assert not sublevels(field, 1).any()
+    site = laid(terrain=FLAT)
+    look(site, 1.25, 1.2, yaw=0.0)
+    outlook = look(site, 1.25, 5.1, yaw=pi, dt=0.0)
+    assert not sublevels(outlook, 0).any()
+    assert not sublevels(outlook, 1).any()
 
 
 def test_f1_a_patch_whose_strips_change_shows_every_blade_once(laid: Laid, look: Look) -> None:
-    field = laid(terrain=FLAT)
-    look(field, 1.25, 1.2)
-    look(field, 1.25, 8.8, dt=0.0)
-    seen = look(field, 1.25, 8.8, dt=0.3 * FADE)
-    rows = np.concatenate([ring.rows for ring in seen.strips])
-    least, most = (np.concatenate([getattr(ring, name) for ring in seen.strips]) for name in ("least", "most"))
+    site = laid(terrain=FLAT)
+    look(site, 1.25, 1.2)
+    look(site, 1.25, 8.8, dt=0.0)
+    rings = look(site, 1.25, 8.8, dt=0.3 * FADE).shown["strips"].rings
+    rows = np.concatenate([ring.rows for ring in rings])
+    least, most = (np.concatenate([getattr(ring, name) for ring in rings]) for name in ("least", "most"))
     twice = np.flatnonzero(np.bincount(rows) == 2)
     assert len(twice) > 5
     for row in twice.tolist():
@@ -140,14 +157,15 @@ def test_f1_a_patch_whose_strips_change_shows_every_blade_once(laid: Laid, look:
 
 
 def test_f1_blades_slide_from_one_ring_to_the_next_in_the_finer_one(laid: Laid, look: Look) -> None:
-    field = laid(terrain=FLAT)
-    look(field, 1.25, 1.2)
+    site = laid(terrain=FLAT)
+    look(site, 1.25, 1.2)
     slides = []
     for step in range(6):
-        seen = look(field, 1.25, -1.3, dt=0.24 * FADE if step else 0.0)
-        nearer = field.table.sublevel[0][seen.blades[0].rows] < field.table.sublevel_before[0][seen.blades[0].rows]
-        slides.append(sorted(set(seen.blades[0].slide[nearer].tolist())))
-        assert (seen.blades[1].slide == 0.0).all()
+        outlook = look(site, 1.25, -1.3, dt=0.24 * FADE if step else 0.0)
+        patches, (fine, coarse) = outlook.patches, outlook.shown["blades"].rings
+        nearer = patches.sublevel[0][fine.rows] < patches.sublevel_before[0][fine.rows]
+        slides.append(sorted(set(fine.slide[nearer].tolist())))
+        assert (coarse.slide == 0.0).all()
     assert slides[0] == [1.0]
     assert all(len(values) == 1 for values in slides[:5])
     assert all(before[0] > after[0] for before, after in pairwise(slides[:4]))

@@ -1,6 +1,7 @@
 """How a patch shows on its way from one representation to another (X3, X4, X5)."""
 
-from dataclasses import fields
+from collections.abc import Callable
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -8,9 +9,23 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.systems.around.appearance import BORDER, Looks, handed_over, kept_near, looks
+from tallgrass.components.patch import Lod
+from tallgrass.components.viewer import Viewer
+from tallgrass.engine.schedule import Phase
+from tallgrass.engine.terrain.record import Terrain
+from tallgrass.engine.world import World
+from tallgrass.systems.around.appearance import BORDER, Appearance, appearance, handed_over, kept_near
+from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.transitions import SEAMLESS, Transitions
+from tallgrass.systems.around.window import window_rows
+from tallgrass.systems.lod import SLACK
+from tallgrass.systems.show.registry import NAMES
+from tallgrass.systems.site import Site, outlook_on
+from tallgrass.systems.transition import FADE
+from tallgrass.testing import systems_on
 
+Laid = Callable[..., Site]
+Look = Callable[..., Outlook]
 Floats = NDArray[np.float32]
 
 parts = st.floats(0.0, 1.0, width=32)
@@ -22,8 +37,9 @@ def shown(
 ) -> dict[str, float]:
     """How one patch shows."""
     weight = np.array([[blades], [strips], [carpet]], np.float32)
-    found = looks(weight, np.array([kept], np.float32), transitions=transitions)
-    return {field.name: float(getattr(found, field.name)[0]) for field in fields(Looks)}
+    found = appearance(weight, np.array([kept], np.float32), transitions=transitions)
+    values = {field.name: float(getattr(found, field.name)[0]) for field in fields(Appearance) if field.name != "cover"}
+    return values | dict(zip(NAMES, found.cover[:, 0].tolist(), strict=True))
 
 
 SETTLED = {
@@ -117,3 +133,171 @@ def test_x5_towards_their_end_the_distance_leaves_less_and_less_of_strips() -> N
     assert kept[away >= 20.5].max() == 0.0
     assert (np.diff(kept) <= 0.0).all()
     assert np.abs(np.diff(kept)).max() <= 0.25 / BORDER + 1e-6
+
+
+# ---- The system ----------------------------------------------------------------------------------
+
+FLAT = Terrain(np.zeros((81, 81), np.float32), 1.0)
+HERE = (1.25, 1.25)
+STEP = 0.11
+
+
+def row_at(outlook: Outlook, away: int) -> int:
+    """The row of the patch so many patches to the right of the viewer's."""
+    cell = outlook.viewer.centre + np.array([away, 0], np.int32)
+    return int(window_rows(cell[None], side=outlook.patches.side)[0])
+
+
+def lod_of(world: World, outlook: Outlook, row: int) -> Lod:
+    return world.get(int(outlook.patches.entity[row]), Lod)
+
+
+def all_round(look: Look, site: Site) -> Outlook:
+    """Look all round for as many frames as it takes until every patch is an entity."""
+    look(site, *HERE)
+    return look(site, *HERE)
+
+
+def alone(site: Site, world: World) -> Outlook:
+    """The outlook of a viewer who stands still."""
+    viewer = Viewer(eye=(HERE[0], 1.7, HERE[1]), dt=STEP, jumped=False)
+    return outlook_on(site, viewer, world.create(viewer))
+
+
+def showing(outlook: Outlook, row: int) -> set[str]:
+    """Which representations draw the patch in a row; the carpet only where it covers anything."""
+    assert outlook.appearance is not None
+    strips = np.concatenate([ring.rows for ring in outlook.shown["strips"].rings])
+    blades, carpet = outlook.shown["blades"].standing.rows, outlook.appearance.cover[2, row] > 0.0
+    return {name for name, there in zip(NAMES, (row in blades, row in strips, carpet), strict=True) if there}
+
+
+@pytest.mark.parametrize(
+    ("away", "own", "hold"),
+    [
+        (0, "blades", "strips"),
+        (0, "blades", "carpet"),
+        (1, "blades", "strips"),
+        (4, "strips", "blades"),
+        (5, "strips", "carpet"),
+        (8, "carpet", "strips"),
+    ],
+)
+def test_a_held_patch_goes_to_its_representation_through_a_transition_and_comes_back(
+    laid: Laid, look: Look, world: World, away: int, own: str, hold: str
+) -> None:
+    site = laid(terrain=FLAT)
+    outlook = all_round(look, site)
+    row = row_at(outlook, away)
+    lod = lod_of(world, outlook, row)
+    assert (lod.representation, lod.progress, lod.hold, outlook.changing) == (own, 1.0, None, 0)
+    for start, target, name in ((own, hold, hold), (hold, own, None)):
+        lod.hold = name
+        look(site, *HERE, dt=STEP)
+        assert (lod.representation, lod.previous, lod.progress) == (target, start, 0.0)
+        assert outlook.changing == 1
+        progress = []
+        while lod.progress < 1.0:
+            look(site, *HERE, dt=STEP)
+            progress.append(lod.progress)
+        np.testing.assert_allclose(np.diff(progress)[:-1], STEP / FADE, atol=1e-5)
+        assert len(progress) == np.ceil(FADE / STEP)
+        look(site, *HERE, dt=STEP)
+        assert (lod.representation, lod.previous, outlook.changing) == (target, target, 0)
+        assert lod.wanted == own
+        seen = showing(outlook, row)
+        if away <= site.reach[1]:  # beyond, the distance leaves nothing of strips (X5), held or not
+            assert target in seen
+        assert seen <= {target, "carpet" if target == "strips" else target}
+
+
+def test_half_way_to_what_it_is_held_in_a_patch_shows_both(laid: Laid, look: Look, world: World) -> None:
+    site = laid(terrain=FLAT)
+    outlook = all_round(look, site)
+    row = row_at(outlook, 1)
+    lod_of(world, outlook, row).hold = "strips"
+    look(site, *HERE, dt=STEP)
+    look(site, *HERE, dt=0.5 * FADE)
+    assert showing(outlook, row) == {"blades", "strips"}
+    assert row in outlook.shown["blades"].morphing.rows
+
+
+def test_only_the_patch_that_is_held_changes(laid: Laid, look: Look, world: World) -> None:
+    site = laid(terrain=FLAT)
+    outlook = all_round(look, site)
+    patches, row = outlook.patches, row_at(outlook, 0)
+    before = patches.representation.copy()
+    lod_of(world, outlook, row).hold = "carpet"
+    for _ in range(20):
+        look(site, *HERE, dt=STEP)
+    assert np.flatnonzero(patches.representation != before).tolist() == [row]
+
+
+@pytest.mark.parametrize(("hold", "away", "finest"), [("blades", 5, "strips"), ("blades", 9, "carpet")])
+def test_held_finer_than_there_is_room_for_a_patch_takes_the_finest_possible(
+    laid: Laid, look: Look, world: World, hold: str, away: int, finest: str
+) -> None:
+    site = laid(terrain=FLAT)
+    outlook = all_round(look, site)
+    lod = lod_of(world, outlook, row_at(outlook, away))
+    lod.hold = hold
+    for _ in range(30):
+        look(site, *HERE, dt=STEP)
+    assert (lod.hold, lod.representation, lod.progress) == (hold, finest, 1.0)
+
+
+def test_a_patch_is_held_until_the_viewer_has_left_it_behind(laid: Laid, look: Look, world: World) -> None:
+    site = laid(terrain=FLAT)
+    outlook = all_round(look, site)
+    cell = outlook.viewer.centre.copy()
+    lod = lod_of(world, outlook, row_at(outlook, 0))
+    lod.hold = "strips"
+    look(site, HERE[0] + 9 * 2.5, HERE[1])
+    assert lod.hold == "strips"
+    look(site, HERE[0] + 10 * 2.5, HERE[1])
+    with pytest.raises(RuntimeError, match="left the patch"):
+        lod.hold = "strips"
+    look(site, *HERE)
+    row = row_at(outlook, 0)
+    again = lod_of(world, outlook, row)
+    assert (outlook.patches.cell[row] == cell).all()
+    assert (again.hold, again.representation) == (None, "blades")
+
+
+def test_a_system_after_lod_may_want_another_representation_as_far_as_there_is_room(laid: Laid, world: World) -> None:
+    site = laid(terrain=FLAT)
+    outlook = alone(site, world)
+    systems = systems_on(site, [outlook], world)
+    asked: list[str | None] = []
+
+    def want() -> None:
+        for _, lod in world.all(Lod):
+            asked.append(lod.wanted)
+            lod.wanted = "blades"
+
+    systems.add(Phase.SEE, "mine", want, before="transition", after="lod")
+    systems.run(last=Phase.SEE)
+    patches = outlook.patches
+    assert set(asked) == set(NAMES)
+    for name, number, limit in (("blades", 0, -1), ("strips", 1, site.reach[0]), ("carpet", 2, site.reach[1])):
+        farther = patches.distance > limit + SLACK + 1 if number else patches.distance >= 0
+        assert (patches.representation[farther & patches.alive] >= number).all(), name
+    near = patches.alive & (patches.distance <= site.reach[0] + SLACK + 1)
+    assert (patches.representation[near] == 0).all()
+    systems.disable("mine")
+    systems.run(last=Phase.SEE)
+    assert outlook.changing > 0
+    np.testing.assert_array_equal(patches.representation[patches.distance == site.reach[0] + SLACK + 1], 1)
+
+
+def test_n3_without_gradual_transitions_a_held_patch_switches_at_once(laid: Laid, world: World) -> None:
+    hard = Transitions(morph=False, fade=False, growth=False)
+    site = replace(laid(terrain=FLAT), transitions=hard)
+    outlook = alone(site, world)
+    systems = systems_on(site, [outlook], world)
+    for _ in range(2):
+        systems.run(last=Phase.SEE)
+    lod = lod_of(world, outlook, row_at(outlook, 0))
+    lod.hold = "carpet"
+    systems.run(last=Phase.SEE)
+    assert (lod.representation, lod.previous, lod.progress, outlook.changing) == ("carpet", "carpet", 1.0, 1)

@@ -20,9 +20,14 @@ from tallgrass.testing import (
     fixed_clock,
     headless_context,
     little_prairie,
+    little_site,
+    look,
+    looking,
     private_world,
     receivers_of,
     step,
+    systems_on,
+    viewer_on,
     watch,
 )
 
@@ -166,22 +171,57 @@ def test_one_system_runs_and_no_other(prairie: Prairie) -> None:
     assert not receivers_of(prairie).message.any()
     step(prairie, "wind")
     assert receivers_of(prairie).index.all()
-    before = prairie.field.table.cell.copy()
-    prairie.field.sight.centre = prairie.field.sight.centre + np.int32(3)
+    outlook = prairie.viewers["main"]
+    before = outlook.patches.cell.copy()
+    x, y, z = outlook.viewer.eye
+    outlook.viewer.eye = (x + 3.0 * prairie.site.ground.patch, y, z)
     step(prairie, "wind")
-    np.testing.assert_array_equal(prairie.field.table.cell, before)
+    np.testing.assert_array_equal(outlook.patches.cell, before)
     step(prairie, Phase.TILE)
-    assert (prairie.field.table.cell != before).any()
+    assert (outlook.patches.cell != before).any()
 
 
 def test_a_step_without_what_comes_before_it_is_refused_in_one_sentence(prairie: Prairie) -> None:
-    with pytest.raises(ValueError, match="no system 'winds'; there are tile, cull, lod, plant, wind, gather"):
+    built_in = "tile, cull, lod, transition, see, plant, wind, gather"
+    with pytest.raises(KeyError, match=f"no system 'moths'; there are {built_in}"):
+        step(prairie, "moths")
+    with pytest.raises(KeyError, match=r"no system 'winds', did you mean 'wind'\?"):
         step(prairie, "winds")
     with pytest.raises(RuntimeError, match=r"'wind' needs a viewer: call watch\(prairie\) first"):
         step(prairie, "wind")
     watch(prairie)
     with pytest.raises(RuntimeError, match="'DRAW' needs a graphics context: draw the prairie first"):
         step(prairie, Phase.DRAW)
+
+
+def test_a_system_that_is_stepped_knows_what_time_it_is(prairie: Prairie) -> None:
+    watch(prairie)
+    told = list[float]()
+    prairie.systems.add("blow", "clock", lambda: told.append(prairie.viewers["main"].viewer.time))
+    step(prairie, "clock")
+    prairie.advance(4.0)
+    step(prairie, "clock")
+    assert told == [0.0, 4.0]
+
+
+def test_a_site_and_its_viewers_are_enough_for_the_systems_to_run_without_a_prairie() -> None:
+    site = little_site()
+    assert little_site() is site, "it is grown once"
+    with private_world() as world:
+        here, there = viewer_on(site, world), viewer_on(site, world, looking(0.0, 2.0, -20.0), name="there")
+        systems = systems_on(site, [here, there], world)
+        systems.step("tile")
+        assert here.patches.alive.any()
+        assert not here.patches.visible.any(), "no other system has run"
+        systems.run(last=Phase.BLOW)
+        assert here.patches.visible.any()
+        assert not here.kept["carpet"].pool.message.any(), "there is no wind"
+        centre = here.viewer.centre.copy()
+        assert (centre != there.viewer.centre).any()
+        look(here, site, looking(0.0, 2.0, -20.0), time=0.5)
+        assert (here.viewer.time, here.viewer.jumped) == (0.5, True)
+        systems.step("tile")
+        np.testing.assert_array_equal(here.viewer.centre, there.viewer.centre)
 
 
 def test_a_gust_is_felt_where_it_is(ctx: moderngl.Context) -> None:

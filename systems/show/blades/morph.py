@@ -105,7 +105,7 @@ def _of_ring(
 
 
 def _far_slices_first(slices: Integers, place: Floats, eye: tuple[float, float, float]) -> Integers:
-    """Return the order of each patch's blades (m, n): slice after slice, as on their strips; in a slice, far to near."""
+    """Return the order of each patch's blades (m, n): slice after slice, and far to near in a slice."""
     away = place - np.array([eye[0], eye[2]], np.float32)
     distance = np.sqrt(np.einsum("ijk,ijk->ij", away, away))
     nearness = (1.0 - distance / max(float(distance.max(initial=0.0)), 1e-6)) * 65535.0

@@ -23,7 +23,7 @@ class CarpetPool:
 
     def places(self, slots: Rows, /) -> Floats:
         """Return the middles (x, z) [m] of some patches, shape (m, 1, 2)."""
-        return self._patches.middles(slots, patch=self._ground.patch).astype(np.float32)[:, None]
+        return self._patches.middle[slots].astype(np.float32)[:, None]
 
     def kind(self, slots: Rows, /) -> NDArray[np.intp]:
         """Return the kind that grows most densely in the middle of some patches, shape (m,)."""

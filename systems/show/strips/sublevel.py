@@ -56,7 +56,7 @@ def strips_along(cell: Ints, centre: Ints, current: NDArray[np.integer], /) -> L
 
 def viewing_slope(patches: PatchTable, rows: Rows, /, *, eye: tuple[float, float, float], patch: float) -> Floats:
     """Return the tangent of the angle between the line of sight and the ground on each patch, shape (n,)."""
-    away = patches.middles(rows, patch=patch) - np.array([eye[0], eye[2]], np.float32)
+    away = patches.middle[rows] - np.array([eye[0], eye[2]], np.float32)
     reach = np.maximum(np.hypot(away[:, 0], away[:, 1]), np.float32(0.5 * patch))
     rise = np.einsum("ij,ij->i", patches.slope[rows], away)
     slope: Floats = (np.float32(eye[1]) - patches.height[rows] + rise) / reach

@@ -12,14 +12,14 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.engine.camera import Camera, View, projection_matrix, view_matrix, view_of
-from tallgrass.systems.field import Field
 from tallgrass.systems.frame.block import FRAME, FrameBlock, aim, by_kind, frame_record
 from tallgrass.systems.painter import UNITS
 from tallgrass.systems.show.blades.draw import MOVED, BladePainter
 from tallgrass.systems.show.blades.pool import BLADE
 from tallgrass.systems.show.strips.draw import STRIP
+from tallgrass.systems.site import Site
 
-Laid = Callable[..., Field]
+Laid = Callable[..., Site]
 Probe = Callable[..., NDArray[np.float32]]
 
 TELL = """#include "lib/frame.glsl"
@@ -30,8 +30,8 @@ void main() { told = %s; }"""
 
 @pytest.fixture
 def record(laid: Laid) -> NDArray[np.void]:
-    field = laid()
-    made = frame_record(field.scene, field.growths, field.terrain, field.quality.patch)
+    site = laid()
+    made = frame_record(site.scene, site.growths, site.ground.terrain, site.quality.patch)
     view = View(view_matrix(Camera((1.0, 2.0, 3.0), 0.4, -0.1, 0.7)), projection_matrix(0.7, 1.6))
     aim(made, view, (320, 200))
     return made

@@ -14,12 +14,12 @@ from tallgrass.engine.gl.shaders import program
 from tallgrass.engine.gl.stream import release_all
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at
-from tallgrass.systems.field import Field
 from tallgrass.systems.frame.block import FrameBlock, frame_record
 from tallgrass.systems.frame.maps import density_texture, height_texture, tone_texture
-from tallgrass.systems.show.carpet.draw import GRID, TILE, finest_spacing, ground_tiles, within
+from tallgrass.systems.show.carpet.ground import GRID, TILE, finest_spacing, ground_tiles, within
+from tallgrass.systems.site import Site
 
-Laid = Callable[..., Field]
+Laid = Callable[..., Site]
 Corners = Callable[..., NDArray[np.float32]]
 
 WIDE = Terrain(np.zeros((41, 61), np.float32), 10.0)
@@ -117,12 +117,12 @@ def test_no_tile_is_within_a_negative_reach() -> None:
 @pytest.fixture
 def corners(ctx: moderngl.Context, laid: Laid) -> Iterator[Corners]:
     """Where the graphics card puts the grid points of tiles (n,), shape (n, GRID + 1, GRID + 1, 3)."""
-    field = laid()
-    record = frame_record(field.scene, field.growths, field.terrain, field.quality.patch)
+    site = laid()
+    record = frame_record(site.scene, site.growths, site.ground.terrain, site.quality.patch)
     textures = {
-        "heights": height_texture(ctx, field.terrain),
-        "tone": tone_texture(ctx, field.terrain, seed=1),
-        "density": density_texture(ctx, field.density),
+        "heights": height_texture(ctx, site.ground.terrain),
+        "tone": tone_texture(ctx, site.ground.terrain, seed=1),
+        "density": density_texture(ctx, site.ground.density),
     }
     made, block = program(ctx, "systems/show/carpet/ground.vert", None, varyings=("place",)), FrameBlock(ctx)
     block.join(made)

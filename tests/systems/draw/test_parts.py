@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at
-from tallgrass.systems.field import Field
 from tallgrass.systems.frame.block import frame_record
 from tallgrass.systems.frame.maps import height_texture, posture_texture
 from tallgrass.systems.grow.bend import spine
 from tallgrass.systems.grow.record import Blades, Growth
+from tallgrass.systems.site import Site
 
-Laid = Callable[..., Field]
+Laid = Callable[..., Site]
 Probe = Callable[..., NDArray[np.float32]]
 
 POSTURE = """#include "lib/posture.glsl"
@@ -37,8 +37,8 @@ def postures(ctx: moderngl.Context, growths: list[Growth]) -> Iterator[moderngl.
 
 @pytest.fixture
 def record(laid: Laid) -> NDArray[np.void]:
-    field = laid()
-    return frame_record(field.scene, field.growths, field.terrain, field.quality.patch)
+    site = laid()
+    return frame_record(site.scene, site.growths, site.ground.terrain, site.quality.patch)
 
 
 def upright(count: int, variant: int) -> Blades:

@@ -1,7 +1,5 @@
 """Textures made from what was grown and from the terrain (G1)."""
 
-from collections.abc import Callable
-
 import moderngl
 import numpy as np
 import pytest
@@ -9,25 +7,24 @@ import pytest
 from tallgrass.engine.gl.stream import release_all
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.terrain.sample import slope_at
-from tallgrass.systems.field import Field
 from tallgrass.systems.frame.maps import density_texture, height_texture, posture_texture, tone_map
 from tallgrass.systems.grow.record import Growth
+from tallgrass.systems.show.carpet.grow import carpet_of
 from tallgrass.systems.show.carpet.textures import carpet_texture
+from tallgrass.systems.show.strips.stock import stock_strips
 from tallgrass.systems.show.strips.textures import strip_stock, strip_textures
-
-Laid = Callable[..., Field]
 
 
 @pytest.mark.parametrize("ring", [0, 1])
 def test_g1_each_layer_is_the_strip_that_planting_reckons_with(
-    ctx: moderngl.Context, growths: list[Growth], laid: Laid, ring: int
+    ctx: moderngl.Context, growths: list[Growth], ring: int
 ) -> None:
     stock = strip_stock(growths, ring)
     atlas, ranks = strip_textures(ctx, stock)
     width, height, layers = atlas.size
     texels = np.frombuffer(atlas.read(), np.uint8).reshape(layers, height, width, 4)
     rank = np.frombuffer(ranks.read(alignment=1), np.uint8).reshape(layers, height, width)
-    first = laid().stock.first_layer[ring]
+    first = stock_strips(growths).first_layer[ring]
     for kind, models in enumerate(stock):
         for model, strips in enumerate(models):
             _, count, h, w, _ = strips.texels.shape
@@ -58,12 +55,12 @@ def test_g4_carpet_layers_are_kinds_models_slopes_and_directions(ctx: moderngl.C
     texture = carpet_texture(ctx, growths)
     width, height, layers = texture.size
     texels = np.frombuffer(texture.read(), np.uint8).reshape(layers, height, width, 4)
-    each = len(growths[0].models[0].carpet.slope) * 4
+    each = len(carpet_of(growths[0].models[0]).slope) * 4
     assert layers == 2 * 2 * each
     for number, growth in enumerate(growths):
         for model in range(2):
             start = (number * 2 + model) * each
-            carpet = growth.models[model].carpet.texels
+            carpet = carpet_of(growth.models[model]).texels
             np.testing.assert_array_equal(texels[start : start + each], carpet.reshape(each, height, width, 4))
     texture.release()
 

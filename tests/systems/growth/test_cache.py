@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from tallgrass.engine.declared.grass import GrassKind, Place
 from tallgrass.engine.declared.quality import BladeRing, Quality, StripRing
 from tallgrass.systems.grow.record import Growth
+from tallgrass.systems.show.strips.grow import strips_of
 from tallgrass.systems.stock import cache
 from tallgrass.systems.stock.archive import pack, unpack
 from tallgrass.systems.stock.cache import cache_folder, cached_growth, growth_key
@@ -63,7 +64,7 @@ def test_what_was_grown_once_is_read_the_next_time(tmp_path: Path, grows: list[A
     assert len(grows) == 1
     assert first is GROWN
     assert same(second, GROWN)
-    assert second.models[0].strips[0].height == GROWN.models[0].strips[0].height
+    assert strips_of(second.models[0])[0].height == strips_of(GROWN.models[0])[0].height
     assert [path.suffix for path in stored(tmp_path / "new" / "folder")] == [".growth"]
 
 

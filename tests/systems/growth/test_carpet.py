@@ -11,8 +11,7 @@ from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.systems.grow.bend import ribbon, segment_normals, spine
 from tallgrass.systems.grow.blades import grow_blades
 from tallgrass.systems.grow.postures import grow_postures
-from tallgrass.systems.grow.record import Carpet
-from tallgrass.systems.show.carpet.grow import grow_carpet
+from tallgrass.systems.show.carpet.grow import Carpet, grow_carpet
 
 PATCH, TEXELS, SEGMENTS = 1.0, 128, 8
 KIND = GrassKind(height=[0.25, 0.4], width=0.014)

@@ -10,8 +10,8 @@ from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.systems.grow.bend import ribbon, spine
 from tallgrass.systems.grow.blades import grow_blades
 from tallgrass.systems.grow.postures import grow_postures
-from tallgrass.systems.grow.record import Blades, Strips
-from tallgrass.systems.show.strips.grow import fill_ranks, grow_strips
+from tallgrass.systems.grow.record import Blades
+from tallgrass.systems.show.strips.grow import Strips, fill_ranks, grow_strips
 
 PATCH, MARGIN, STRIPS, TEXEL = 2.0, 0.3, 4, 0.008
 KIND = GrassKind(width=0.02)

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from math import pi
-from typing import Any
 
 import numpy as np
 import pytest
@@ -11,12 +10,14 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.engine.terrain.record import Terrain
+from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.overlay.arrows import arrow_marks, arrows, felt, thinned
 from tallgrass.systems.overlay.paint import index_color
+from tallgrass.systems.site import Site
 
 Floats = NDArray[np.float32]
-Laid = Callable[..., Any]
-Look = Callable[..., Any]
+Laid = Callable[..., Site]
+Look = Callable[..., Outlook]
 FLAT = Terrain(np.zeros((3, 3), np.float32), 50.0)
 bends = st.tuples(st.floats(-pi, pi), st.floats(0.01, 1.0))
 
@@ -86,22 +87,23 @@ def test_n8_ground_that_faces_away_has_no_arrows() -> None:
 
 
 def test_n8_arrows_are_read_from_the_pools(laid: Laid, look: Look) -> None:
-    field = laid()
-    seen = look(field, 0.0, 0.0)
-    pools = (field.blades, *field.strips)
-    rings = (seen.standing, *seen.strips)
+    site = laid()
+    outlook = look(site, 0.0, 0.0)
+    kept, shown = outlook.kept, outlook.shown
+    pools = (kept["blades"].pool, *kept["strips"].pools)
+    rings = (shown["blades"].standing, *shown["strips"].rings)
     for pool, angle in zip(pools, (0.3, 1.3, 2.3), strict=True):
         pool.message[...] = np.array([np.cos(angle), np.sin(angle)]) * 0.5
-    place, message = felt(field)
+    place, message = felt(outlook)
     assert len(place) > 1000
-    reach = field.quality.patch * 0.5 + field.stock.margin + 1e-3
+    reach = site.ground.patch * 0.5 + site.representations[1].margin() + 1e-3
     for ring, angle in zip(rings, (0.3, 1.3, 2.3), strict=True):
         here = place[np.abs(np.arctan2(message[:, 1], message[:, 0]) - angle) < 1e-3]
-        middles = (field.table.cell[ring.rows] + 0.5) * field.quality.patch
+        middles = (outlook.patches.cell[ring.rows] + 0.5) * site.ground.patch
         assert len(here) > len(middles) > 0
         away = np.abs(here[:, None] - middles[None]).max(axis=2)
         assert away.min(axis=1).max() < reach, "each stands on a patch that is shown so"
-    marks = arrow_marks(field)
+    marks = arrow_marks(outlook, site.ground.terrain)
     runs = (marks.lines["b"] - marks.lines["a"])[: len(marks.lines) // 6, ::2]
     found = np.unique(np.arctan2(runs[:, 1], runs[:, 0]).round(2))
     assert found == pytest.approx([0.3, 1.3, 2.3])
@@ -109,6 +111,6 @@ def test_n8_arrows_are_read_from_the_pools(laid: Laid, look: Look) -> None:
 
 def test_n8_only_grass_that_grows_has_arrows(laid: Laid, look: Look) -> None:
     bare = laid(dense=np.zeros((2, 2, 2), np.float32))
-    look(bare, 0.0, 0.0)
-    assert len(felt(bare)[0]) == 0
-    assert len(arrow_marks(bare).lines) == 0
+    outlook = look(bare, 0.0, 0.0)
+    assert len(felt(outlook)[0]) == 0
+    assert len(arrow_marks(outlook, bare.ground.terrain).lines) == 0

@@ -4,15 +4,20 @@ import numpy as np
 import pytest
 
 from tallgrass.components.wind import WindPrimitive, WindSource
-from tallgrass.engine.declared.quality import PRESETS, Representation
 from tallgrass.systems.overlay.legend import entries, legend
 from tallgrass.systems.overlay.masks import Masked, masked
-from tallgrass.systems.overlay.paint import LEVELS, wind_color
+from tallgrass.systems.overlay.paint import wind_color
 from tallgrass.systems.overlay.parts import PARTS, Part
+from tallgrass.systems.show.representation import Representation
 from tallgrass.systems.wind.blow import blowing
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.quarantine import Quarantine
 from tallgrass.systems.wind.whirlwind import Whirlwind
+from tallgrass.testing import little_site
+
+
+def levels() -> tuple[Representation, ...]:
+    return little_site().representations
 
 
 def masks(*winds: WindPrimitive) -> list[Masked]:
@@ -22,7 +27,7 @@ def masks(*winds: WindPrimitive) -> list[Masked]:
 
 
 def told(*parts: Part) -> str:
-    found = entries(frozenset(parts), masks(Breeze(), Whirlwind(), Whirlwind(radius=3.0)), PRESETS["high"])
+    found = entries(frozenset(parts), masks(Breeze(), Whirlwind(), Whirlwind(radius=3.0)), levels())
     return "\n".join(entry.text for entry in found)
 
 
@@ -40,17 +45,17 @@ def test_n8_the_legend_tells_of_what_is_shown_and_of_nothing_else() -> None:
 
 
 def test_n8_its_colours_are_those_of_the_marks() -> None:
-    image = legend(tuple(entries(frozenset(PARTS), masks(Whirlwind()), PRESETS["low"])), 13)
+    image = legend(tuple(entries(frozenset(PARTS), masks(Whirlwind()), levels())), 13)
     assert image.dtype == np.uint8
     assert image.shape[2] == 4
-    for color in (wind_color(Whirlwind()), *(LEVELS[level] for level in Representation)):
+    for color in (wind_color(Whirlwind()), *(each.color for each in levels())):
         same = (np.abs(image[..., :3].astype(int) - np.round(np.array(color) * 255)) <= 1).all(axis=-1)
         assert same.sum() > 30, color
 
 
 @pytest.mark.parametrize("size", [8, 13, 26])
 def test_n8_it_grows_with_its_letters(size: int) -> None:
-    image = legend(tuple(entries(frozenset({"levels"}), [], PRESETS["low"])), size)
+    image = legend(tuple(entries(frozenset({"levels"}), [], levels())), size)
     assert image.shape[0] == pytest.approx(3 * 1.5 * size + 0.7 * size, abs=4)
     bright = image[:, image.shape[1] // 2 :, :3].min(axis=-1) > 140
     assert bright.any(axis=1).sum() > size, "there are letters"

@@ -1,7 +1,6 @@
 """One wind for everybody: blades, strips and whoever asks (W1, W5, N1, N4)."""
 
 from collections.abc import Callable, Iterator
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -9,15 +8,16 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass.components.wind import Mixing, WindPrimitive
-from tallgrass.engine.declared.quality import Representation
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.world import World
-from tallgrass.systems.field import Field
+from tallgrass.systems.around.outlook import Outlook
+from tallgrass.systems.blow import Blow, Hear
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.receive import blow
 from tallgrass.systems.show.blades.pool import BladePool
-from tallgrass.systems.show.seen import Seen
+from tallgrass.systems.show.blades.shown import Standing
 from tallgrass.systems.show.strips.pool import StripPool
+from tallgrass.systems.show.strips.shown import StripsOfRing
+from tallgrass.systems.site import Site
 from tallgrass.systems.wind.blast import Blast, Shape
 from tallgrass.systems.wind.blow import Listeners
 from tallgrass.systems.wind.breeze import Breeze
@@ -26,8 +26,8 @@ from tallgrass.systems.wind.whirlwind import Whirlwind
 from tallgrass.systems.winds import Winds
 
 Floats = NDArray[np.float32]
-Laid = Callable[..., Field]
-Look = Callable[..., Seen]
+Laid = Callable[..., Site]
+Look = Callable[..., Outlook]
 
 FLAT = Terrain(np.zeros((81, 81), np.float32), 1.0)
 SIDE = 2.5
@@ -43,57 +43,78 @@ WINDS: list[WindPrimitive] = [
 CASES = [*([wind] for wind in WINDS), WINDS]
 cases = pytest.mark.parametrize("winds", CASES, ids=[*(wind.kind for wind in WINDS), "all"])
 mixings = pytest.mark.parametrize("mixing", ["priority", "weight"])
-Fielded = tuple[Field, Seen]
+Seen = tuple[Site, Outlook]
 
 
 @pytest.fixture
-def flat(laid: Laid, look: Look) -> Fielded:
-    """A field whose border runs at x = 7.5 m, and what is seen of it."""
-    field = laid(terrain=FLAT)
-    return field, look(field, 1.0, 1.0)
+def flat(laid: Laid, look: Look) -> Seen:
+    """A site whose border runs at x = 7.5 m, and what is seen of it."""
+    site = laid(terrain=FLAT)
+    return site, look(site, 1.0, 1.0)
 
 
-def blown(world: World, flat: Fielded, winds: list[WindPrimitive], mixing: Mixing, time: float = 2.6) -> Winds:
-    field, seen = flat
-    object.__setattr__(field, "scene", field.scene.model_copy(update={"mixing": mixing}))
-    made = Winds(world, field)
+def pooled(outlook: Outlook) -> list[tuple[BladePool | StripPool, Standing | StripsOfRing]]:
+    """What is shown of blades and strips, each with the pool that holds it."""
+    kept, shown = outlook.kept, outlook.shown
+    return [
+        (kept["blades"].pool, shown["blades"].standing),
+        *zip(kept["strips"].pools, shown["strips"].rings, strict=True),
+    ]
+
+
+def blow(flat: Seen, hear: Hear) -> None:
+    """Let everything that is seen hear."""
+    site, outlook = flat
+    margin = max(representation.margin() for representation in site.representations)
+    Blow([outlook], hear, site.growths, site.ground.patch, margin).run()
+
+
+def at_time(winds: Winds, time: float) -> Hear:
+    """Let receivers hear winds at one time."""
+    return lambda heard, _: winds.heard(heard, time=time)
+
+
+def blown(world: World, flat: Seen, winds: list[WindPrimitive], mixing: Mixing, time: float = 2.6) -> Winds:
+    site, _ = flat
+    made = Winds(world, site.scene.model_copy(update={"mixing": mixing}), site.ground, site.growths)
     for wind in winds:
         made.add(wind, wind.kind)
-    blow(field, seen.standing, seen.strips, partial(made.heard, time=time))
+    blow(flat, at_time(made, time))
     assert not made.quarantine.reasons
     return made
 
 
-def slots_at_the_border(flat: Fielded) -> tuple[int, int]:
+def slots_at_the_border(flat: Seen) -> tuple[int, int]:
     """The slots of two patches that meet at the border: one of blades, one of strips."""
-    (field, seen), cells = flat, flat[0].table.cell
+    patches = flat[1].patches
 
-    def slot(rows: NDArray[np.int64], slots: NDArray[np.int64], cell: tuple[int, int]) -> int:
-        (found,) = np.flatnonzero((cells[rows] == cell).all(axis=1))
-        return int(slots[found])
+    def slot(shown: Standing | StripsOfRing, cell: tuple[int, int]) -> int:
+        (found,) = np.flatnonzero((patches.cell[shown.rows] == cell).all(axis=1))
+        return int(shown.slots[found])
 
-    assert field.table.representation[(cells == (2, 0)).all(axis=1)] == Representation.BLADES
-    assert field.table.representation[(cells == (3, 0)).all(axis=1)] == Representation.STRIPS
-    return (
-        slot(seen.standing.rows, seen.standing.slots, (2, 0)),
-        slot(seen.strips[0].rows, seen.strips[0].slots, (3, 0)),
-    )
+    for cell, name in (((2, 0), "blades"), ((3, 0), "strips")):
+        (number,) = patches.representation[(patches.cell == cell).all(axis=1)]
+        assert patches.names[number] == name
+    (_, near), (_, far), *_ = pooled(flat[1])
+    return slot(near, (2, 0)), slot(far, (3, 0))
 
 
-def put_together(flat: Fielded) -> list[tuple[int, NDArray[np.intp]]]:
+def put_together(flat: Seen) -> list[tuple[int, NDArray[np.intp]]]:
     """Put blades and strip edges in the same places on both sides of the border; return the blades' rows by kind."""
-    field, _ = flat
+    site, outlook = flat
+    (blades, _), (strips, _), *_ = pooled(outlook)
     at_blade, at_edge = slots_at_the_border(flat)
-    margin, kind = field.stock.margin, field.blades.kind(np.array([at_blade]))
+    margin = max(representation.margin() for representation in site.representations)
+    kind = blades.kind(np.array([at_blade]))
     assert margin > 0.05
     told = []
-    for number in range(len(field.growths)):
-        edges = field.strips[0].place[at_edge, number].reshape(-1, 2)
+    for number in range(len(site.growths)):
+        edges = strips.place[at_edge, number].reshape(-1, 2)
         rows = np.flatnonzero(kind == number)[: len(edges)]
         assert len(rows) == len(edges) >= 9
         edges[:, 0] = BORDER + np.linspace(-margin, margin, len(edges))
         edges[:, 1] = np.linspace(0.1, 2.4, len(edges))
-        field.blades.place[at_blade, rows] = edges
+        blades.place[at_blade, rows] = edges
         told.append((number, rows))
     return told
 
@@ -101,15 +122,15 @@ def put_together(flat: Fielded) -> list[tuple[int, NDArray[np.intp]]]:
 @mixings
 @cases
 def test_w5_a_wind_across_a_border_of_representations_bends_both_sides_alike(
-    world: World, flat: Fielded, winds: list[WindPrimitive], mixing: Mixing
+    world: World, flat: Seen, winds: list[WindPrimitive], mixing: Mixing
 ) -> None:
-    field, _ = flat
     pairs = put_together(flat)
     at_blade, at_edge = slots_at_the_border(flat)
+    (blades, _), (strips, _), *_ = pooled(flat[1])
     blown(world, flat, winds, mixing)
     for number, rows in pairs:
-        blade = field.blades.message[at_blade, rows]
-        edge = field.strips[0].message[at_edge, number].reshape(-1, 2)
+        blade = blades.message[at_blade, rows]
+        edge = strips.message[at_edge, number].reshape(-1, 2)
         index, other = np.linalg.norm(blade, axis=1), np.linalg.norm(edge, axis=1)
         assert index.max() > 0.1
         np.testing.assert_allclose(index, other, atol=1e-5)
@@ -122,57 +143,56 @@ def test_w5_a_wind_across_a_border_of_representations_bends_both_sides_alike(
 @mixings
 @cases
 def test_n4_what_is_asked_of_the_wind_is_what_receivers_of_that_kind_hold(
-    world: World, flat: Fielded, winds: list[WindPrimitive], mixing: Mixing
+    world: World, flat: Seen, winds: list[WindPrimitive], mixing: Mixing
 ) -> None:
-    field, seen = flat
+    site, outlook = flat
     made = blown(world, flat, winds, mixing)
-    pools: list[tuple[BladePool | StripPool, NDArray[np.int64]]] = [(field.blades, seen.standing.slots)]
-    pools += [(pool, ring.slots) for pool, ring in zip(field.strips, seen.strips, strict=True)]
-    for pool, slots in pools:
-        kind = pool.kind(slots)
-        place, message = pool.place[slots].reshape(-1, 2), pool.message[slots].reshape(-1, 2)
-        for number in range(len(field.growths)):
+    for pool, shown in pooled(outlook):
+        kind = pool.kind(shown.slots)
+        place, message = pool.place[shown.slots].reshape(-1, 2), pool.message[shown.slots].reshape(-1, 2)
+        for number in range(len(site.growths)):
             felt = made.at(place[kind == number], time=2.6, kind=number)
             np.testing.assert_array_equal(felt.view(np.uint32), message[kind == number].view(np.uint32))
 
 
-def test_w5_every_receiver_is_as_near_its_patchs_middle_as_is_counted_on(flat: Fielded) -> None:
-    field, seen = flat
+def test_w5_every_receiver_is_as_near_its_patchs_middle_as_is_counted_on(flat: Seen) -> None:
     told: list[Listeners] = []
 
-    def listen(listeners: Listeners) -> Floats:
+    def listen(listeners: Listeners, _: float) -> Floats:
         told.append(listeners)
         return np.zeros_like(listeners.place)
 
-    blow(field, seen.standing, seen.strips, listen, carpet=np.arange(9))
+    blow(flat, listen)
     (heard,) = told
     away = np.linalg.norm(heard.place - heard.middle[heard.patch], axis=1)
     assert away.max() <= heard.radius
     assert away.max() > 0.5 * heard.radius
     assert heard.place.dtype == heard.middle.dtype == np.float32
+    assert heard.still == 19**2, "the carpet hears too"
 
 
 def test_n4_a_carpet_hears_what_is_asked_for_in_its_patchs_middle_less_the_small_oscillations(
     world: World, laid: Laid, look: Look
 ) -> None:
     dense = np.array([[[1.0, 0.1]] * 2, [[0.1, 1.0]] * 2], np.float32)
-    field = laid(terrain=FLAT, dense=dense)
-    seen, rows = look(field, 1.0, 1.0), np.flatnonzero(field.table.alive & field.table.visible)
-    made = Winds(world, field)
+    site = laid(terrain=FLAT, dense=dense)
+    outlook = look(site, 1.0, 1.0)
+    rows = np.flatnonzero(outlook.patches.alive & outlook.patches.visible)
+    made = Winds(world, site.scene, site.ground, site.growths)
     gust = Gust(position=[-30.0, 0.0], direction=90.0, speed=8.0, width=80.0, tail=6.0)
     moving = made.add(gust, "gust")
-    told = blow(field, seen.standing, seen.strips, partial(made.heard, time=5.0), carpet=rows)
+    blow((site, outlook), at_time(made, 5.0))
     world.delete(moving)
     made.add(gust.model_copy(update={"swing": 0.0}), "gust")
-    middle = ((field.table.cell[rows] + 0.5) * SIDE).astype(np.float32)
-    heard = field.table.message[rows]
+    middle = ((outlook.patches.cell[rows] + 0.5) * SIDE).astype(np.float32)
+    heard = outlook.kept["carpet"].pool.message[rows, 0]
     np.testing.assert_array_equal(heard, made.at(middle, time=5.0))
     west = middle[:, 0] < 0.0
     for kind, side in ((0, west), (1, ~west)):
         assert np.linalg.norm(heard[side], axis=1).max() > 0.3
         np.testing.assert_array_equal(heard[side], made.at(middle[side], time=5.0, kind=kind))
-    alone = blow(field, seen.standing, seen.strips, partial(made.heard, time=5.0))
-    assert alone.shape == told.shape
+    assert outlook.heard == sum(pool.message[shown.slots].size // 2 for pool, shown in pooled(outlook))
+    np.testing.assert_array_equal(outlook.air, heard.mean(axis=0))
 
 
 SCENE = """\

@@ -1,0 +1,66 @@
+"""Where a prairie is drawn: a painter in each GL context, and places in pyglet's batches."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
+from typing import TYPE_CHECKING
+
+import moderngl
+
+from ..engine.gl.guest import host_context, kept, viewport
+from ..engine.gl.homes import Homes
+from .painter import Painter
+from .site import Site
+
+if TYPE_CHECKING:
+    from pyglet.graphics import Batch, Group
+
+    from ..engine.gl.batch import DrawingGroup
+
+
+class Screen:
+    """The host's framebuffers, in the context that is given or else in whichever is current."""
+
+    def __init__(self, ctx: moderngl.Context | None) -> None:
+        self.ctx = ctx
+        self.painter: Painter | None = None
+        """The painter of the context that was drawn in last; None before the first time."""
+        self._painters: Homes[Painter] = Homes()
+        self._groups: list[DrawingGroup] = []
+
+    @contextmanager
+    def opened(self, site: Site) -> Iterator[Painter | None]:
+        """Give the painter of a site in the host's context, and leave the host's GL state as it was in the end.
+
+        Where the viewport has no pixels there is none. Raises RuntimeError where the host has no window.
+        """
+        with kept():
+            ctx = host_context(self.ctx)
+            if 0 in viewport(ctx)[2:]:
+                yield None
+                return
+            self.painter = self._painters.here(ctx, partial(Painter, site=site))
+            if self.painter.site is not site:
+                self.painter.change(site)
+            yield self.painter
+
+    def current(self) -> Painter:
+        """Return the painter of the context that is drawn in."""
+        assert self.painter is not None
+        return self.painter
+
+    def group(self, draw: Callable[[], None], batch: "Batch", order: int, parent: "Group | None") -> "DrawingGroup":
+        """Return a new group of a batch that draws in its turn."""
+        from ..engine.gl.batch import DrawingGroup  # noqa: PLC0415 - it loads pyglet, which needs a display
+
+        made = DrawingGroup(draw, batch, order=order, parent=parent)
+        self._groups.append(made)
+        return made
+
+    def release(self) -> None:
+        """Give back the places in batches, and the painters in every context."""
+        for group in self._groups:
+            group.delete()
+        self._groups.clear()
+        self._painters.release()
+        self.painter = None
