@@ -161,7 +161,8 @@ class Lod:
         """The representation that a game holds the patch in, whatever its distance; None leaves the choice to `lod`.
 
         The patch comes to it through a transition, like to any other. Where there is no room for so fine a one, so far
-        away, it has the finest that there is room for. It is held until the viewer has left it behind.
+        away, it has the finest that there is room for; and where the strips end they give way to the carpet as always.
+        It is held until the viewer has left it behind.
         """
         return self._name(self._levels.hold)
 

@@ -40,7 +40,7 @@ class Assembly:
 
     def entities(self, site: Site, /) -> PatchEntities:
         """Return what keeps the entities of patches on a site."""
-        return PatchEntities(self.world, self.clearings, site.representations)
+        return PatchEntities(self.world, self.clearings, site.representations, self.viewers.values)
 
     def on(self, site: Site, /) -> list[BuiltIn]:
         """Return the systems of a site in running order."""

@@ -1,6 +1,6 @@
 """The entities of patches: made a few at a time, and heard of when a game deletes one."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,10 +28,14 @@ class PatchEntities:
     world: World
     clearings: Clearings
     representations: Sequence[Representation] = ()
+    everyone: Callable[[], Iterable[Outlook]] = tuple
+    """Gives the outlooks of all viewers, those too that do not look in this frame."""
 
-    def lost(self) -> list[int]:
-        """Return the entities that somebody else has deleted since the frame before."""
-        return self.world.lost()
+    def hear(self, looking: Iterable[Outlook], /) -> None:
+        """Clear the patches whose entities somebody else has deleted since the frame before, of all viewers."""
+        lost = self.world.lost()
+        for outlook in dict.fromkeys((*looking, *self.everyone())):
+            self.clear(outlook, lost)
 
     def clear(self, outlook: Outlook, lost: list[int], /) -> None:
         """Clear the patches whose entities are lost; where the whole world was cleared, forget them all."""

@@ -71,10 +71,9 @@ class Tile:
 
     def run(self) -> None:
         """Tile around every viewer that looks."""
-        lost = self.entities.lost()
+        self.entities.hear(self.outlooks)
         for outlook in self.outlooks:
             patches, viewer = outlook.patches, outlook.viewer
-            self.entities.clear(outlook, lost)
             viewer.centre = cell_of(np.array([viewer.eye[0], viewer.eye[2]], np.float32), patch=self.patch)
             fresh = tile(patches, viewer.centre, self.terrain, patch=self.patch, seed=self.seed, models=self.models)
             self.entities.leave(outlook, fresh)

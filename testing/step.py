@@ -20,8 +20,8 @@ def step(prairie: Prairie, which: Phase | str, /) -> None:
     """Run one system of a prairie once, by its name, or all those of one phase, and nothing else.
 
     The names are those of `prairie.systems`; tile, cull, lod, transition, see, plant, wind and gather come along.
-    What earlier systems leave behind has to be there: `watch` does what comes before `Phase.BLOW`, and a picture has to be
-    drawn before `Phase.DRAW`. Raises KeyError for a name that is none, RuntimeError where something is missing.
+    What earlier systems leave behind has to be there: `watch` does what comes before `Phase.BLOW`, and a picture has
+    to be drawn before `Phase.DRAW`. Raises KeyError for a name that is none, RuntimeError where something is missing.
     """
     phase, name = (which, which.name) if isinstance(which, Phase) else (prairie.systems[which].phase, which)
     looking = list(prairie.viewers)

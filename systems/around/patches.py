@@ -52,7 +52,7 @@ class PatchTable:
     """Whether it is inside the view cone, shape (rows,)."""
 
     near: NDArray[np.bool_]
-    """Whether it or one of its neighbours is, shape (rows,)."""
+    """Whether it is, or is one of the four patches nearest to a place that is, shape (rows,)."""
 
     was_visible: NDArray[np.bool_]
     """Whether it was when the viewer looked before, shape (rows,)."""

@@ -50,6 +50,8 @@ class Correspondence:
     _written: dict[int, tuple[NDArray[np.bool_], Floats]] = field(default_factory=dict)
     """By slot, which of its receivers a game has written to since, and what; then, in their place, what they heard."""
 
+    _told: bool = False
+
     def ask(self, slot: int, /) -> Floats:
         """Return the messages of a slot, shape (n, 2), to be read and written; from now on what is written counts."""
         flat: Floats = self.message[slot].reshape(-1, 2)
@@ -69,11 +71,12 @@ class Correspondence:
 
     def collect(self) -> None:
         """Keep what a game has written, before the wind writes over it."""
+        self._written.clear()
         for slot, left in self._left.items():
             now = self.message[slot].reshape(-1, 2)
             changed = (now != left).any(axis=1)
             if changed.any():
-                self._written[slot] = changed, _valid(now[changed])
+                self._written[slot] = changed, self._valid(now[changed])
 
     def deliver(self) -> None:
         """Write it again over what the wind has said."""
@@ -82,12 +85,16 @@ class Correspondence:
             heard = now[changed]
             now[changed] = value
             self._written[slot] = changed, heard
+        self._leave()
 
     def settle(self) -> None:
         """Let the wind's own messages stand again, now that the frame is drawn: what is written holds for one frame."""
         for slot, (changed, heard) in self._written.items():
             self.message[slot].reshape(-1, 2)[changed] = heard
         self._written.clear()
+        self._leave()
+
+    def _leave(self) -> None:
         for slot, left in self._left.items():
             left[:] = self.message[slot].reshape(-1, 2)
 
@@ -95,16 +102,18 @@ class Correspondence:
         """Make what systems have written since into messages: of finite numbers, and at most 1 long."""
         for slot in self._left:
             now = self.message[slot].reshape(-1, 2)
-            now[:] = _valid(now)
+            now[:] = self._valid(now)
 
-
-def _valid(message: Floats) -> Floats:
-    if not np.isfinite(message).all():
-        log.warning("messages of receivers must be finite numbers; those that are not were taken for no wind")
-        message = np.where(np.isfinite(message), message, np.float32(0.0))
-    index = np.hypot(*message.T.astype(np.float64))
-    # The wind's own, of length 1 but for rounding, stay as they are: who only reads them changes no picture.
-    return np.asarray(message / np.where(index > 1.0 + 1e-6, index, 1.0)[:, None], np.float32)
+    def _valid(self, message: Floats) -> Floats:
+        """Return messages as they may be: finite, which is told of once where they were not, and at most 1 long."""
+        if not np.isfinite(message).all():
+            if not self._told:
+                log.warning("messages of receivers must be finite numbers; those that are not were taken for no wind")
+            self._told = True
+            message = np.where(np.isfinite(message), message, np.float32(0.0))
+        index = np.hypot(*message.T.astype(np.float64))
+        # The wind's own, of length 1 but for rounding, stay as they are: who only reads them changes no picture.
+        return np.asarray(message / np.where(index > 1.0 + 1e-6, index, 1.0)[:, None], np.float32)
 
 
 class Receiving:

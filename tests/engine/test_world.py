@@ -143,7 +143,7 @@ def test_no_entity_of_another_world_is_ever_touched(world: World, elsewhere: str
     esper.switch_world(world.name)
     ours = world.create(Grass(0.5))
     esper.switch_world(elsewhere)
-    theirs = esper.create_entity(Score(1))
+    theirs = [esper.create_entity(Score(1)) for _ in range(ours)][-1]
     assert theirs == ours, "worlds number their entities alike"
     for act in (lambda: world.delete(ours), lambda: world.create(Grass(0.1)), lambda: world.all(Grass)):
         with pytest.raises(RuntimeError, match=rf"esper world '{world.name}'.*'{elsewhere}'"):
@@ -179,7 +179,7 @@ def test_d6_a_world_that_the_game_has_deleted_is_not_made_again(world: World) ->
 def test_d6_after_a_game_clears_its_world_its_new_entities_are_not_taken_for_ours(world: World) -> None:
     ours = world.create(Grass(0.5))
     esper.clear_database()
-    theirs = esper.create_entity(Score(3))
+    theirs = [esper.create_entity(Score(3)) for _ in range(ours)][-1]
     assert theirs == ours, "a cleared world counts from 1 again"
     world.delete(ours)
     world.release()
@@ -187,9 +187,158 @@ def test_d6_after_a_game_clears_its_world_its_new_entities_are_not_taken_for_our
 
 
 def test_d6_a_game_can_tell_a_prairies_entities_from_its_own(world: World) -> None:
-    ours = [world.create(Grass(0.5)), world.create(Score(1))]
-    esper.create_entity(Grass(0.5))
-    assert sorted(entity for entity, _ in esper.get_component(Resident)) == ours
+    theirs = esper.create_entity(Grass(0.5))
+    ours = {world.create(Grass(0.5)), world.create(Score(1))}
+    residents = {entity for entity, _ in esper.get_component(Resident)}
+    assert residents >= ours
+    assert residents == set(esper.get_entities()) - {theirs}
+
+
+# ---- What somebody else deletes ------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("at_once", [True, False])
+def test_an_entity_of_ours_that_somebody_else_deletes_is_told_of_once(world: World, *, at_once: bool) -> None:
+    kept, gone = world.create(Grass(0.5)), world.create(Grass(0.6))
+    assert world.lost() == []
+    esper.delete_entity(gone, immediate=at_once)
+    assert world.lost() == ([gone] if at_once else []), "a deletion that is put off has not happened yet"
+    esper.process()
+    assert world.lost() == ([] if at_once else [gone])
+    assert world.lost() == []
+    assert gone not in world
+    assert kept in world
+    assert len(world) == 1
+    assert world.generation == 0
+
+
+def test_all_that_were_deleted_are_told_of_in_their_order(world: World) -> None:
+    entities = [world.create(Grass(0.5)) for _ in range(6)]
+    for gone in (entities[4], entities[1], entities[2]):
+        esper.delete_entity(gone, immediate=True)
+    assert world.lost() == [entities[4], entities[1], entities[2]]
+
+
+def test_what_we_delete_ourselves_is_not_lost(world: World) -> None:
+    ours = [world.create(Grass(0.5)) for _ in range(3)]
+    world.delete(ours[0])
+    assert world.lost() == []
+    world.release()
+    assert world.lost() == []
+
+
+def test_the_games_own_entities_and_another_prairies_are_not_our_loss(world: World) -> None:
+    other = World()
+    world.create(Grass(0.5))
+    theirs, others = esper.create_entity(Grass(0.5)), other.create(Grass(0.6))
+    for gone in (theirs, others):
+        esper.delete_entity(gone, immediate=True)
+    assert world.lost() == []
+    assert other.lost() == [others]
+    other.release()
+
+
+def test_a_component_that_comes_or_goes_is_no_loss(world: World) -> None:
+    entity = world.create(Grass(0.5))
+    world.add(entity, Grass(0.6))
+    esper.remove_component(entity, Grass)
+    assert world.lost() == []
+    assert entity in world
+
+
+def test_a_game_that_has_just_looked_at_our_marks_is_heard_when_it_has_looked_again(world: World) -> None:
+    entity = world.create(Grass(0.5))
+    assert esper.get_component(Resident)  # esper keeps what it answered until it is asked again
+    esper.delete_entity(entity, immediate=True)
+    world.all(Grass)
+    assert world.lost() == [entity]
+
+
+# ---- A world that is cleared ---------------------------------------------------------------------
+
+
+def test_d6_a_world_that_was_cleared_is_of_another_generation_and_loses_nothing_singly(world: World) -> None:
+    ours = [world.create(Grass(0.5)) for _ in range(4)]
+    esper.delete_entity(ours[2], immediate=True)
+    esper.clear_database()
+    assert world.lost() == []
+    assert world.check() == world.generation == 1
+    assert len(world) == 0
+    assert not any(entity in world for entity in ours)
+    assert world.check() == 1
+
+
+def test_d6_each_time_that_a_world_is_cleared_counts_and_between_two_times_losses_are_told(world: World) -> None:
+    for generation in range(1, 4):
+        kept, gone = world.create(Grass(0.5)), world.create(Grass(0.6))
+        esper.delete_entity(gone, immediate=True)
+        assert world.lost() == [gone]
+        assert kept in world
+        esper.clear_database()
+        assert world.check() == generation
+        assert world.lost() == []
+
+
+def test_d6_nobody_needs_to_ask_between_clearing_and_creating(world: World) -> None:
+    for generation in range(1, 4):
+        world.create(Grass(0.5))
+        esper.clear_database()
+        new = world.create(Grass(0.6))
+        assert world.generation == generation
+        assert world.lost() == []
+        assert new in world
+
+
+def test_d6_a_world_in_which_nothing_of_ours_was_is_cleared_without_notice(world: World) -> None:
+    esper.create_entity(Score(1))
+    esper.clear_database()
+    assert world.check() == 0
+
+
+def test_d6_clearing_another_world_is_no_loss(world: World, elsewhere: str) -> None:
+    esper.switch_world(world.name)
+    ours = world.create(Grass(0.5))
+    esper.switch_world(elsewhere)
+    esper.create_entity(Score(1))
+    esper.clear_database()
+    assert world.lost() == []
+    assert world.check() == 0
+    assert ours in world
+
+
+def test_d6_an_entity_number_that_is_used_again_is_not_mistaken(world: World) -> None:
+    old = [world.create(Grass(0.5)) for _ in range(3)]
+    esper.clear_database()
+    new = [world.create(Grass(0.6)) for _ in range(3)]
+    assert new == old, "a cleared world counts from 1 again"
+    assert world.lost() == []
+    assert all(entity in world for entity in new)
+    esper.delete_entity(new[1], immediate=True)
+    assert world.lost() == [new[1]]
+    assert len(world) == 2
+
+
+def test_d6_a_mark_that_outlives_its_entity_does_not_take_the_next_of_that_number_with_it(world: World) -> None:
+    old = world.create(Grass(0.5))
+    mark = esper.component_for_entity(old, Resident)
+    esper.clear_database()
+    new = world.create(Grass(0.6))
+    assert new == old, "a cleared world counts from 1 again"
+    del mark
+    assert world.lost() == []
+    assert new in world
+    world.delete(new)
+    assert not esper.entity_exists(new)
+
+
+def test_d6_a_number_that_is_the_games_by_now_is_left_alone(world: World) -> None:
+    ours = world.create(Grass(0.5))
+    esper.clear_database()
+    theirs = [esper.create_entity(Score(3)) for _ in range(ours)]
+    assert ours in theirs
+    assert ours not in world
+    esper.delete_entity(ours, immediate=True)
+    assert world.lost() == []
 
 
 # ---- install() -----------------------------------------------------------------------------------

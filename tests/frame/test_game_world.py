@@ -15,7 +15,9 @@ import numpy as np
 import pytest
 
 from tallgrass import Blast, Breeze, Gust, Pose
+from tallgrass.components.patch import Patch
 from tallgrass.components.receivers import Receivers
+from tallgrass.components.viewer import Viewer
 from tallgrass.components.wind import WindSource
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.scene import LoadedScene, read_scene
@@ -25,6 +27,8 @@ from tallgrass.testing import LITTLE
 
 Stage = Any
 Aim = Callable[..., Camera]
+WINDY = LITTLE + "wind: [{ kind: breeze, strength: 0.4 }, { kind: gust, position: [-20, 0] }]\n"
+HERE = np.array([[0.0, 0.0], [3.0, 4.0], [-9.0, 14.0]], np.float32)
 BESIDE = np.array([[0.0, 8.5]], np.float32)
 """Where a runner is passed by, a little to its side."""
 
@@ -166,3 +170,95 @@ def test_d6_a_crowd_that_comes_and_goes_every_frame_does_not_slow_the_systems(
     prairie.release()
     alone, crowded = (median(times) for times in zip(*took, strict=True))
     assert crowded < 1.5 * alone, f"{crowded:.2f} ms in a crowd, {alone:.2f} ms alone"
+
+
+@pytest.fixture
+def windy(tmp_path: Path, stage: Stage, ctx: moderngl.Context) -> Iterator[Prairie]:
+    """A prairie with a breeze and a gust, 2 s old, whose patches are all entities."""
+    (tmp_path / "windy.yaml").write_text(WINDY, "utf-8")
+    prairie = Prairie.load(tmp_path / "windy.yaml", ctx=ctx)
+    prairie.advance(2.0)
+    shot_until_all_are_there(stage, prairie)
+    yield prairie
+    prairie.release()
+
+
+def shot_until_all_are_there(stage: Stage, prairie: Prairie) -> None:
+    for _ in range(5):  # patches and receivers become entities by and by
+        stage.shot(prairie)
+
+
+def lives(prairie: Prairie) -> dict[type, int]:
+    return {kind: len(prairie.world.all(kind)) for kind in (Patch, Receivers, Viewer, WindSource)}
+
+
+def test_d2_after_a_game_has_cleared_its_world_the_prairie_comes_back_to_life(
+    stage: Stage, windy: Prairie, caplog: pytest.LogCaptureFixture
+) -> None:
+    before, felt, picture = lives(windy), windy.wind_at(HERE), stage.shot(windy)
+    esper.clear_database()
+    assert windy.patch_at(HERE).tolist() == [0, 0, 0], "it has not looked again yet"
+    np.testing.assert_array_equal(stage.shot(windy), picture)
+    shot_until_all_are_there(stage, windy)
+    np.testing.assert_array_equal(stage.shot(windy), picture)
+    assert lives(windy) == before
+    assert before[WindSource] == 2
+    np.testing.assert_array_equal(windy.wind_at(HERE), felt)
+    cells = [esper.component_for_entity(entity, Patch).cell for entity in windy.patch_at(HERE).tolist()]
+    assert cells == [(0, 0), (1, 1), (-4, 5)]
+    assert len(caplog.messages) == 1
+    assert "cleared" in caplog.messages[0]
+
+
+def test_d2_a_prairie_comes_back_to_life_as_often_as_its_world_is_cleared(
+    stage: Stage, windy: Prairie, caplog: pytest.LogCaptureFixture
+) -> None:
+    before = lives(windy)
+    for times in range(1, 4):
+        esper.clear_database()
+        shot_until_all_are_there(stage, windy)
+        assert lives(windy) == before
+        assert len(caplog.messages) == times
+
+
+def test_d2_winds_are_there_again_before_anything_is_drawn(windy: Prairie) -> None:
+    felt = windy.wind_at(HERE)
+    esper.clear_database()
+    assert [source.name for source in windy.winds.sources()] == ["wind[0] breeze", "wind[1] gust"]
+    np.testing.assert_array_equal(windy.wind_at(HERE), felt)
+
+
+def test_d2_winds_that_a_game_added_go_with_the_world_that_it_clears(windy: Prairie) -> None:
+    felt = windy.wind_at(HERE)
+    windy.add(Blast(position=[0.0, 0.0], strength=1.0))
+    assert (windy.wind_at(HERE) != felt).any()
+    esper.clear_database()
+    np.testing.assert_array_equal(windy.wind_at(HERE), felt)
+
+
+@pytest.mark.parametrize("reads_again", [False, True], ids=["drawn", "read again with other grass"])
+def test_d2_what_a_game_makes_after_clearing_its_world_is_not_taken_for_what_was_there(
+    stage: Stage, windy: Prairie, *, reads_again: bool
+) -> None:
+    esper.clear_database()
+    handles = [windy.add(Breeze(strength=0.1), name=f"new {number}") for number in range(8)]
+    bullets = [esper.create_entity(Bullet(float(number))) for number in range(600)]
+    if reads_again:
+        windy.path.write_text(WINDY.replace("stiffness: 2", "stiffness: 1"), "utf-8")
+        windy.reload()
+    shot_until_all_are_there(stage, windy)
+    names = [esper.component_for_entity(handle, WindSource).name for handle in handles]
+    assert names == [f"new {number}" for number in range(8)]
+    assert [esper.components_for_entity(bullet) for bullet in bullets] == [(Bullet(float(k)),) for k in range(600)]
+    assert {source.name for source in windy.winds.sources()} == {"wind[0] breeze", "wind[1] gust", *names}
+    windy.release()
+    assert sorted(esper.get_entities()) == bullets
+
+
+def test_d2_grass_that_was_taken_away_stays_away_when_the_world_is_cleared(stage: Stage, windy: Prairie) -> None:
+    whole = stage.shot(windy)
+    esper.delete_entity(int(windy.patch_at(HERE)[1]), immediate=True)
+    bare = stage.shot(windy)
+    assert (bare != whole).any()
+    esper.clear_database()
+    np.testing.assert_array_equal(stage.shot(windy), bare)

@@ -98,11 +98,8 @@ def scene(request: pytest.FixtureRequest, room: Room, load: Load, camera: Aim) -
     outlook, painter = prairie.viewers["main"], prairie.painter
     assert painter is not None
     assert outlook.appearance is not None
-    blades, strips, representation = (
-        painter.painters["blades"],
-        painter.painters["strips"],
-        prairie.site.representations[1],
-    )
+    blades, strips = painter.painters["blades"], painter.painters["strips"]
+    representation = prairie.site.representations[1]
     assert isinstance(blades, BladesPainter)
     assert isinstance(strips, StripsPainter)
     assert isinstance(representation, StripRepresentation)

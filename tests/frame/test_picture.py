@@ -230,9 +230,8 @@ def test_statistics_tell_what_was_drawn(stage: Stage, load: Load) -> None:
 def test_t1_ten_kilometres_of_hills_are_drawn_without_speckles(stage: Stage, load: Load, camera: Aim) -> None:
     land = "{ noise: ridges, seed: 4, size: [10240, 10240], scale: 400, feature: 900 }"
     prairie = load(PURPLE.replace("{ noise: flat, size: [60, 60] }", land).replace(', ground: "#ff0000"', ""))
-    picture = stage.shot(
-        prairie, camera(100, float(prairie.site.ground.terrain.heights.max()) + 50, 300, yaw=60, pitch=-12)
-    )
+    top = float(prairie.site.ground.terrain.heights.max())
+    picture = stage.shot(prairie, camera(100, top + 50, 300, yaw=60, pitch=-12))
     grass = stage.depth() < 1.0
     assert grass.mean() > 0.5
     inside = grass[:, 2:] & grass[:, :-2]

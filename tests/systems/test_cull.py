@@ -8,8 +8,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from tallgrass.components.viewer import Viewer
 from tallgrass.engine.camera import Camera, View, projection_matrix, view_matrix
 from tallgrass.systems.around.cone import discrete_distance, eye_of, far_to_near, inside_cone, view_cone
+from tallgrass.systems.around.outlook import Outlook
+from tallgrass.systems.around.patches import PatchTable
+from tallgrass.systems.cull import Cull
+from tallgrass.systems.show.registry import NAMES
 
 PATCH = 2.5
 AROUND = np.stack(np.meshgrid(np.arange(-12, 13), np.arange(-12, 13)), -1).reshape(-1, 2).astype(np.int32)
@@ -147,3 +152,55 @@ def test_t5_the_viewers_own_patch_is_drawn_last() -> None:
     order = far_to_near(cell, home)
     assert sorted(order.tolist()) == list(range(len(cell)))
     assert (cell[order[-1]] == home).all()
+
+
+def around(half: float) -> Outlook:
+    """What a viewer in the middle of 25 by 25 patches sees who looks along -z, so far to either side [rad]."""
+    outlook = Outlook(Viewer(eye=(1.25, 1.7, 1.25), cone=(0.0, half)), 0, PatchTable.allocate(25, NAMES))
+    outlook.patches.cell[:] = AROUND
+    outlook.patches.middle[:] = (AROUND + 0.5) * PATCH
+    return outlook
+
+
+@pytest.mark.parametrize("sway", [0.0, 1.0])
+@given(half=st.floats(0.1, 1.4), yaw=st.floats(-7.0, 7.0))
+def test_t2_the_system_keeps_what_grass_that_sways_may_reach_the_view_cone_from(
+    half: float, yaw: float, sway: float
+) -> None:
+    outlook = around(half)
+    outlook.viewer.cone = (yaw, half)
+    Cull([outlook], PATCH, sway).run()
+    middle = ((AROUND + 0.5) * PATCH).astype(np.float32)
+    expected = inside_cone(middle, apex=(1.25, 1.25), cone=(yaw, half), radius=PATCH * 0.7072 + sway)
+    np.testing.assert_array_equal(outlook.patches.visible, expected)
+
+
+@given(st.floats(0.1, 1.4), st.floats(-7.0, 7.0))
+def test_t2_near_are_the_four_patches_whose_middles_are_around_any_place_in_the_view_cone(
+    half: float, yaw: float
+) -> None:
+    outlook = around(half)
+    outlook.viewer.cone = (yaw, half)
+    Cull([outlook], PATCH, 0.0).run()
+    visible, near = outlook.patches.visible, outlook.patches.near.reshape(25, 25)
+    place = np.stack(np.meshgrid(np.linspace(-28.0, 30.0, 117), np.linspace(-28.0, 30.0, 117)), -1).reshape(-1, 2)
+    seen = place[inside_cone(place, apex=(1.25, 1.25), cone=(yaw, half), radius=0.0)]
+    low = np.floor(seen / PATCH - 0.5).astype(int) + 12
+    for i, j in ((0, 0), (1, 0), (0, 1), (1, 1)):
+        assert near[low[:, 1] + j, low[:, 0] + i].all()
+    assert near.ravel()[visible].all()
+    assert not near.all()
+
+
+def test_x1_what_was_visible_in_the_frame_before_is_known_in_the_next() -> None:
+    outlook = around(0.5)
+    system = Cull([outlook], PATCH, 0.4)
+    system.run()
+    before = outlook.patches.visible.copy()
+    assert not outlook.patches.was_visible.any()
+    outlook.viewer.cone = (pi, 0.5)
+    system.run()
+    np.testing.assert_array_equal(outlook.patches.was_visible, before)
+    assert (outlook.patches.visible != before).any()
+    system.run()
+    np.testing.assert_array_equal(outlook.patches.was_visible, outlook.patches.visible)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.around.outlook import Outlook
+from tallgrass.systems.blow import Hear
 from tallgrass.systems.show.blades.gather import gather_blades
 from tallgrass.systems.show.blades.pool import BladePool
 from tallgrass.systems.show.blades.shown import Standing
@@ -18,12 +19,10 @@ from tallgrass.systems.show.strips.gather import gather_strips, runs
 from tallgrass.systems.show.strips.pool import StripPool
 from tallgrass.systems.show.strips.shown import StripsOfRing
 from tallgrass.systems.site import Site
-from tallgrass.systems.wind.blow import Listeners
 from tallgrass.systems.wind.breeze import Breeze
 
 Laid = Callable[..., Site]
 Look = Callable[..., Outlook]
-Hear = Callable[[Listeners, float], NDArray[np.float32]]
 
 FLAT = Terrain(np.zeros((81, 81), np.float32), 1.0)
 EYE = (1.1, 0.4)
@@ -97,8 +96,8 @@ def test_t5_draws_walk_all_rings_in_one_order(ring_of: list[int], data: st.DataO
     shown, counts, told = [], [], []
     for ring in range(3):
         queue = np.flatnonzero(np.array(ring_of, np.int64) == ring)
-        along, none, whole = np.zeros(len(queue), np.int32), *np.tile(np.float32([[0.0], [1.0]]), len(queue))
-        shown.append(StripsOfRing(queue, queue, whole, along, queue, none, whole))
+        none, whole = np.zeros(len(queue), np.float32), np.ones(len(queue), np.float32)
+        shown.append(StripsOfRing(queue, queue, whole, none.astype(np.int32), queue, none, whole))
         counts.append(np.array(amount, np.int64)[queue])
         told.append([patch for patch in queue.tolist() for _ in range(amount[patch])])
     draws = runs(shown, counts, [False] * 3)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.around.cone import far_to_near
 from tallgrass.systems.around.outlook import Outlook
+from tallgrass.systems.blow import Hear
 from tallgrass.systems.show.blades.pool import BladePool
 from tallgrass.systems.show.blades.shown import Standing
 from tallgrass.systems.show.strips.pool import StripPool
@@ -20,7 +21,6 @@ from tallgrass.systems.wind.grass import grass_of
 
 Laid = Callable[..., Site]
 Look = Callable[..., Outlook]
-Hear = Callable[[Listeners, float], NDArray[np.float32]]
 Wind = Callable[..., Hear]
 Shown = Standing | StripsOfRing
 
@@ -148,7 +148,7 @@ def test_w1_every_receiver_that_is_seen_hears_the_wind(site: Site, look: Look, w
     for pool, shown in pooled(outlook):
         place, message = pool.place[shown.slots].reshape(-1, 2), pool.message[shown.slots].reshape(-1, 2)
         alone = places_alone(place, grass_of(site.growths, pool.kind(shown.slots)))
-        np.testing.assert_array_equal(message, hear(alone, 0.0))
+        np.testing.assert_array_equal(message, hear(alone, time=0.0))
         assert np.linalg.norm(message, axis=1).mean() > 0.3
         count += len(message)
     assert outlook.heard == count
@@ -159,7 +159,7 @@ def test_w1_every_receiver_that_is_seen_hears_the_wind(site: Site, look: Look, w
 def test_w1_receivers_hear_the_instant_that_the_viewer_sees(site: Site, look: Look) -> None:
     asked: list[float] = []
 
-    def hear(heard: Listeners, time: float) -> NDArray[np.float32]:
+    def hear(heard: Listeners, /, *, time: float) -> NDArray[np.float32]:
         asked.append(time)
         return np.full_like(heard.place, 0.25)
 

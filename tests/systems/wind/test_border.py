@@ -71,7 +71,11 @@ def blow(flat: Seen, hear: Hear) -> None:
 
 def at_time(winds: Winds, time: float) -> Hear:
     """Let receivers hear winds at one time."""
-    return lambda heard, _: winds.heard(heard, time=time)
+
+    def hear(heard: Listeners, /, **_: float) -> Floats:
+        return winds.heard(heard, time=time)
+
+    return hear
 
 
 def blown(world: World, flat: Seen, winds: list[WindPrimitive], mixing: Mixing, time: float = 2.6) -> Winds:
@@ -158,7 +162,7 @@ def test_n4_what_is_asked_of_the_wind_is_what_receivers_of_that_kind_hold(
 def test_w5_every_receiver_is_as_near_its_patchs_middle_as_is_counted_on(flat: Seen) -> None:
     told: list[Listeners] = []
 
-    def listen(listeners: Listeners, _: float) -> Floats:
+    def listen(listeners: Listeners, /, **_: float) -> Floats:
         told.append(listeners)
         return np.zeros_like(listeners.place)
 

@@ -1,0 +1,110 @@
+"""Every system can be made from its inputs alone, run for one step in a private world, and asserted on (D3, D6)."""
+
+import numpy as np
+
+from tallgrass.components.patch import Lod, Patch
+from tallgrass.components.receivers import Receivers
+from tallgrass.components.viewer import Viewer
+from tallgrass.engine.schedule import Phase
+from tallgrass.engine.world import World
+from tallgrass.systems.around.clearing import Clearings
+from tallgrass.systems.blow import Blow
+from tallgrass.systems.cull import Cull
+from tallgrass.systems.entities import PatchEntities
+from tallgrass.systems.gather import Gather
+from tallgrass.systems.lod import ChooseLevels
+from tallgrass.systems.plant import Plant
+from tallgrass.systems.see import See
+from tallgrass.systems.tile import Tile
+from tallgrass.systems.transition import Transition
+from tallgrass.systems.wind.blow import Listeners
+from tallgrass.testing import little_site, looking, systems_on, viewer_on
+
+SITE = little_site()
+PATCH = SITE.ground.patch
+
+
+def test_tile_lays_patches_around_the_viewer_and_makes_them_entities(world: World) -> None:
+    outlook = viewer_on(SITE, world, looking(6.0, 2.0, -4.0))
+    entities = PatchEntities(world, Clearings())
+    Tile([outlook], entities, SITE.ground.terrain, PATCH, seed=5, models=2).run()
+    assert tuple(outlook.viewer.centre) == (2, -2)
+    assert outlook.patches.distance.max() == 12
+    near = [world.get(entity, Patch).cell for entity, lod in world.all(Lod) if lod.distance <= 1]
+    assert sorted(near) == [(i, j) for i in (1, 2, 3) for j in (-3, -2, -1)]
+
+
+def test_cull_keeps_the_patches_in_the_view_cone(world: World) -> None:
+    outlook = viewer_on(SITE, world, looking(0.0, 2.0, 0.0, yaw=0.0, view=40.0))
+    outlook.patches.middle[:2] = [(0.0, -10.0), (0.0, 10.0)]
+    Cull([outlook], PATCH, sway=0.5).run()
+    assert outlook.patches.visible[:2].tolist() == [True, False]
+
+
+def test_lod_wants_the_representation_of_each_distance(world: World) -> None:
+    outlook = viewer_on(SITE, world)
+    outlook.patches.distance[:4] = (0, 2, 3, 9)
+    ChooseLevels([outlook], SITE.reach).run()
+    names = outlook.patches.names
+    assert [names[level] for level in outlook.patches.wanted[:4]] == ["blades", "blades", "strips", "carpet"]
+
+
+def test_transition_carries_a_patch_that_is_seen_by_and_by_and_others_at_once(world: World) -> None:
+    outlook = viewer_on(SITE, world)
+    patches, outlook.viewer.jumped, outlook.viewer.dt = outlook.patches, False, 0.12
+    patches.alive[:2], patches.representation[:2], patches.wanted[:2] = True, 0, 1
+    patches.visible[0] = patches.was_visible[0] = True
+    Transition([outlook], SITE.representations, SITE.reach, PATCH).run()
+    assert patches.representation[:2].tolist() == [1, 1]
+    assert patches.progress[:2].tolist() == [0.0, 1.0]
+    assert outlook.changing == 1
+
+
+def test_see_shows_each_patch_in_its_representation(world: World) -> None:
+    outlook = viewer_on(SITE, world)
+    systems_on(SITE, [outlook], world).run(last=Phase.SEE)
+    See([outlook], SITE.representations, SITE.reach, PATCH).run()
+    assert outlook.appearance is not None
+    rows = outlook.shown["blades"].standing.rows
+    assert (outlook.appearance.cover[0, rows] > 0.0).all()
+    assert (outlook.patches.distance[rows] <= 2).all()
+
+
+def test_plant_stands_blades_where_their_patch_is_and_makes_their_receivers_entities(world: World) -> None:
+    outlook = viewer_on(SITE, world)
+    systems_on(SITE, [outlook], world).run(last=Phase.SEE)
+    Plant([outlook], SITE.representations, world).run()
+    shown, pool = outlook.shown["blades"].standing, outlook.kept["blades"].pool
+    away = pool.place[shown.slots] - outlook.patches.middle[shown.rows][:, None]
+    assert np.abs(away).max() <= PATCH / 2 + 1e-4
+    blades = [receivers for _, receivers in world.all(Receivers) if receivers.representation == "blades"]
+    assert len(blades) == len(shown.rows)
+
+
+def test_wind_brings_every_receiver_that_is_shown_what_it_hears(world: World) -> None:
+    def eastwards(receivers: Listeners, /, *, time: float) -> np.ndarray[tuple[int, ...], np.dtype[np.float32]]:
+        return np.tile(np.array([0.5 + time, 0.0], np.float32), (len(receivers.place), 1))
+
+    outlook = viewer_on(SITE, world)
+    systems_on(SITE, [outlook], world).run(last=Phase.SEE)
+    Blow([outlook], eastwards, SITE.growths, PATCH, margin=0.5).run()
+    for kept in outlook.kept.values():
+        for receiving in kept.receiving:
+            assert (receiving.pool.message[receiving.slots] == (0.5, 0.0)).all()
+    assert outlook.heard > 1000
+
+
+def test_gather_sends_what_is_shown_to_the_painter(world: World) -> None:
+    class Painter:
+        def write(self, outlook: object, bodies: object) -> int:
+            return 7 if (outlook, bodies) == (viewers[0], ["a saucer at 0 s"]) else 0
+
+    viewers = [viewer_on(SITE, world)]
+    Gather(viewers, Painter, lambda time: [f"a saucer at {time:g} s"]).run()  # type: ignore[arg-type, list-item]
+    assert viewers[0].blades == 7
+
+
+def test_a_viewer_is_an_entity_that_says_where_it_looks_from(world: World) -> None:
+    viewer_on(SITE, world, looking(1.0, 2.0, 3.0), name="left")
+    ((_, viewer),) = world.all(Viewer)
+    assert (viewer.name, viewer.eye) == ("left", (1.0, 2.0, 3.0))
