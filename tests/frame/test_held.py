@@ -55,9 +55,9 @@ def test_n3_afterwards_a_held_frame_never_was(stage: Stage, load: Load, camera: 
         np.testing.assert_array_equal(stage.shot(one, here), stage.shot(other, here))
         for prairie in (one, other):
             prairie.advance(0.1)
-    progress = [prairie.viewers["main"].patches.progress for prairie in (one, other)]
-    assert (progress[0] < 1.0).any()
-    np.testing.assert_array_equal(*progress)
+    ours, theirs = (prairie.viewers["main"].patches.progress for prairie in (one, other))
+    assert (ours < 1.0).any()
+    np.testing.assert_array_equal(ours, theirs)
 
 
 def test_n3_a_held_frame_feels_the_wind_of_its_own_instant(stage: Stage, load: Load, camera: Aim) -> None:
