@@ -35,4 +35,4 @@ class Viewer:
     """How far it has come since, along the ground [m]."""
 
     jumped: bool = True
-    """Whether it is somewhere else altogether than before: then nothing changes by and by."""
+    """Whether it has moved too far to have walked there: then every change is made at once."""

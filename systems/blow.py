@@ -85,7 +85,7 @@ def _deliver(order: list[Receiving], heard: Floats) -> int:
         message, slots = receiving.pool.message, receiving.slots
         end = start + len(slots) * int(np.prod(message.shape[1:-1]))
         if receiving.still:
-            message[:] = 0.0  # what is seen of a frame follows from it alone, not from where one looked before
+            message[:] = 0.0  # the same view gives the same picture, wherever one looked before
         else:
             moving = end
         message[slots] = heard[start:end].reshape(len(slots), *message.shape[1:])

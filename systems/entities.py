@@ -1,4 +1,4 @@
-"""The entities of patches: made a few at a time, and heard of when a game deletes one."""
+"""The entities of patches: a few are made at a time, and those that a game deletes are noticed."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from .around.window import window_rows
 from .show.representation import Representation
 
 BATCH = 200
-"""Entities made in one frame at most, so that a viewer who leaps is no hitch."""
+"""Most entities made in one frame: otherwise a frame takes long when a viewer leaps."""
 
 
 @dataclass(slots=True)

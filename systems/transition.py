@@ -35,8 +35,8 @@ def part_of_change(dt: float, /, *, way: float, patch: float) -> float:
 def move_on(now: Levels, before: Levels, progress: Floats, wanted: Levels, slowly: Mask, /, *, part: float) -> None:
     """Advance changes from `before` to `now` by `part`, and start those that are wanted; all have shape (n,).
 
-    Where not `slowly`, what is wanted is there at once. A change that turns back in its middle goes back from where it
-    is; another that is wanted meanwhile waits until it is over.
+    Where not `slowly`, what is wanted is there at once. A change that is reversed half-way goes back from where it is.
+    Where a third one is wanted meanwhile, it waits until the change is over.
     """
     progress += np.float32(min(part, 2.0))
     np.minimum(progress, np.float32(1.0), out=progress)

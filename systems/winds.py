@@ -90,7 +90,7 @@ class Winds:
         return blowing(sources, self.quarantine, time=time, seed=self._scene.seed, poses=poses)
 
     def heard(self, listeners: Listeners, /, *, time: float) -> Floats:
-        """Return the message that each listener ends up with at `time` [s], shape (n, 2)."""
+        """Return the message that each receiver ends up with at `time` [s], shape (n, 2)."""
         seed, mixing = self._scene.seed, self._scene.mixing
         return hear(self.now(time), listeners, self.quarantine, time=time, seed=seed, mixing=mixing)
 

@@ -40,7 +40,7 @@ class Appearance:
     """How each patch around a viewer appears in a frame."""
 
     cover: Floats
-    """How much each representation covers of what it could, 0 where none is drawn, shape (representations, rows)."""
+    """How much each representation shows, from 0 for nothing to 1 for all of it, shape (representations, rows)."""
 
     morph: Floats
     """How far blades have moved towards their painted places, shape (rows,)."""

@@ -38,17 +38,17 @@ class Pool(Protocol):
 class Correspondence:
     """The messages of a pool: which were asked for by a game, and what it has written since.
 
-    Whoever never asks costs nothing: only slots that were asked for are looked through.
+    Only slots that were asked for are looked through; the others cost nothing.
     """
 
     message: Floats
     """The pool's messages, shape (slots, ..., 2)."""
 
     _left: dict[int, Floats] = field(default_factory=dict)
-    """Of every slot that was asked for, its messages as the frame before left them, shape (n, 2)."""
+    """For each slot that was asked for, its messages at the end of the frame before, shape (n, 2)."""
 
     _written: dict[int, tuple[NDArray[np.bool_], Floats]] = field(default_factory=dict)
-    """By slot, which of its receivers a game has written to since, and what; then, in their place, what they heard."""
+    """For each slot, which receivers a game has written to, and what; once delivered, what the wind told them."""
 
     _told: bool = False
 
@@ -79,7 +79,7 @@ class Correspondence:
                 self._written[slot] = changed, self._valid(now[changed])
 
     def deliver(self) -> None:
-        """Write it again over what the wind has said."""
+        """Write what a game has written over what the wind has said."""
         for slot, (changed, value) in self._written.items():
             now = self.message[slot].reshape(-1, 2)
             heard = now[changed]
@@ -88,7 +88,7 @@ class Correspondence:
         self._leave()
 
     def settle(self) -> None:
-        """Let the wind's own messages stand again, now that the frame is drawn: what is written holds for one frame."""
+        """Put the wind's own messages back after the frame is drawn: what a game writes holds for one frame."""
         for slot, (changed, heard) in self._written.items():
             self.message[slot].reshape(-1, 2)[changed] = heard
         self._written.clear()
@@ -99,7 +99,7 @@ class Correspondence:
             left[:] = self.message[slot].reshape(-1, 2)
 
     def check(self) -> None:
-        """Make what systems have written since into messages: of finite numbers, and at most 1 long."""
+        """Mend what systems have written since: a message is finite and at most 1 long."""
         for slot in self._left:
             now = self.message[slot].reshape(-1, 2)
             now[:] = self._valid(now)
@@ -112,7 +112,7 @@ class Correspondence:
             self._told = True
             message = np.where(np.isfinite(message), message, np.float32(0.0))
         index = np.hypot(*message.T.astype(np.float64))
-        # The wind's own, of length 1 but for rounding, stay as they are: who only reads them changes no picture.
+        # A length that is over 1 by rounding alone is left as it is: reading messages must not change a picture.
         return np.asarray(message / np.where(index > 1.0 + 1e-6, index, 1.0)[:, None], np.float32)
 
 
@@ -124,7 +124,7 @@ class Receiving:
     """
 
     BATCH = 200
-    """Entities made in one frame at most, so that a viewer who leaps is no hitch."""
+    """Most entities made in one frame: otherwise a frame takes long when a viewer leaps."""
 
     def __init__(self, pool: Pool, representation: str, *, still: bool = False) -> None:
         self.pool = pool

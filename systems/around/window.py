@@ -8,7 +8,7 @@ Ints = NDArray[np.int32]
 
 
 def as_places(xz: ArrayLike, /) -> Floats:
-    """Return ground positions (x, z) [m] as an array of shape (n, 2); raises ValueError for what is none."""
+    """Return ground positions (x, z) [m] as an array of shape (n, 2); raises ValueError for anything else."""
     places = np.asarray(xz, np.float32)
     if places.shape[-1:] != (2,) or not np.isfinite(places).all():
         raise ValueError(f"ground positions are finite (x, z) pairs, not an array of shape {places.shape}")

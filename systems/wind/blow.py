@@ -77,7 +77,7 @@ def blowing(
     """Return the winds that act at `time` [s], the strongest claim first.
 
     Higher priority goes first; of equal ones that which began later; then by kind, by what they declare, by name and by
-    pose. So what happens does not hang on the order in which winds were made. `poses` overrides where winds are.
+    pose. So the order in which winds were made never counts. `poses` overrides where winds are.
     """
     placed = poses or {}
     found = [wind for source in sources for wind in _parts(source, quarantine, time, seed, placed.get(source))]
@@ -216,8 +216,8 @@ def _send(
 def _within(wind: Blowing, heard: Listeners, left: Floats) -> tuple[Rows | slice, Floats]:
     """Return the receivers in a wind's extent that others have not claimed wholly, and their places in its frame.
 
-    Of a wind that ends nowhere they are all of them, unless most are claimed: picking them out costs more than asking
-    in vain.
+    For a wind without an extent these are all receivers, unless most of them are claimed: to pick out some costs more
+    than to ask all.
     """
     unclaimed = left > 0.0
     if wind.extent is None:

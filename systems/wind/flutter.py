@@ -14,7 +14,7 @@ PACES = 2.0 * np.pi * np.array([1.3, 0.9, 2.1], np.float32)
 """How fast blades swing: along x, along z, and a second time along x [rad/s]."""
 
 APART = 1.5
-"""Half turns by which blades are ahead or behind at most: so many that the field as a whole does not sway in step."""
+"""Most half turns that a blade is ahead or behind: so many that the grass as a whole does not sway in step."""
 
 
 def flutter(place: Floats, /, *, time: float, seed: int) -> Floats:

@@ -1,7 +1,7 @@
 """Quarantine: a wind that raises or returns rubbish is left out, and the frame goes on; so is one that is too slow.
 
-What a wind takes is the processor's own time in this thread, and never the time on the wall: what happens must not hang
-on how busy the machine is.
+A wind's time is measured as processor time of this thread, never by the clock: what happens must not depend on how busy
+the machine is.
 """
 
 import logging

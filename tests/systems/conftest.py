@@ -18,10 +18,11 @@ from tallgrass.engine.terrain.sample import height_at
 from tallgrass.engine.world import World
 from tallgrass.systems.around.ground import Ground
 from tallgrass.systems.around.outlook import Outlook
+from tallgrass.systems.blow import Hear
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.site import Site, lay_out, outlook_on
 from tallgrass.systems.stock.models import grow
-from tallgrass.systems.wind.blow import Listeners, blowing, hear
+from tallgrass.systems.wind.blow import blowing, hear
 from tallgrass.systems.wind.quarantine import Quarantine
 from tallgrass.testing import systems_on
 
@@ -44,7 +45,6 @@ SCENE = Scene(tallgrass=1, seed=3, grass=KINDS, quality=QUALITY)
 
 Laid = Callable[..., Site]
 Look = Callable[..., Outlook]
-Hear = Callable[[Listeners, float], NDArray[np.float32]]
 
 
 @pytest.fixture(scope="session")

@@ -27,8 +27,8 @@ SHADER_BLADE = np.dtype([(name if name != "root" else "root_at", BLADE[name]) fo
 class BladePainter:
     """Draws blades with a given number of segments, whose joints can slide together to be those of `coarser` blades.
 
-    Soft ones have smooth edges and must come from far to near, but for those up to `near` [m], which hide one another
-    by depth; the others are opaque and may come in any order.
+    Soft ones have smooth edges and must come from far to near; only those up to `near` [m] hide one another by depth.
+    The others are opaque and may come in any order.
     """
 
     def __init__(

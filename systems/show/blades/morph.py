@@ -45,7 +45,7 @@ def gather_morph(
 ) -> Morph:
     """Return the blades of patches that are on their way in this frame, and the edges of their strips.
 
-    `fade` says that blades disappear by and by while they are handed over.
+    `fade` says that blades disappear gradually while they are handed over.
     """
     ring, along = strips.ring_and_axis(outlook, shown.rows)
     parts, first = [], 0

@@ -28,7 +28,7 @@ def gather_strips(
     """Return the polygon strips of the patches shown, far to near, and how many there are on each patch.
 
     They are records of `STRIP`, shape (n,), and those of one strip follow one another; the counts have shape (m,).
-    `fade` says that a strip whose blades are handed over to it appears by and by.
+    `fade` says that a strip appears gradually while blades are handed over to it.
 
     Strips are stored by rising place in their stack; where the viewer is on the low side they are walked backwards.
     """
@@ -63,8 +63,8 @@ def runs(
     """Return the draws that show all rings' strips from far to near: ring, first strip, number of strips, by rank.
 
     `counts` are the numbers of strips on each patch, by ring. Patches of one ring that follow one another are drawn
-    at once, but for those that show only some of their blades: these, and all of a ring that is `thin`, are drawn by
-    rank.
+    together. Patches that show only some of their blades, and all of a ring that is `thin`, are drawn by rank, in
+    draws of their own.
     """
     total = sum(len(ring.queue) for ring in shown)
     ring_of, amount, ranked = np.zeros(total, np.int64), np.zeros(total, np.int64), np.zeros(total, np.bool_)
