@@ -13,9 +13,9 @@ import typer
 from .. import __version__
 from ..engine.camera import Camera, parse_camera
 from ..engine.declared.scene import LodName, PresetName
-from ..systems.overlay.parts import PARTS, Part, parse_parts
-from .errors import InputError, MachineError
-from .take import LARGEST, SAMPLES, Take, parse_frames, parse_size
+from ..systems.overlay.layers import LAYERS, Layer, parse_layers
+from .studio.errors import InputError, MachineError
+from .studio.take import LARGEST, SAMPLES, Take, parse_frames, parse_size
 
 app = typer.Typer(
     help="Grow, animate and draw whole prairies in real time.",
@@ -33,7 +33,7 @@ Size = Annotated[str, typer.Option(metavar="WxH", help="Width and height in pixe
 Preset = Annotated[PresetName | None, typer.Option(help="Quality, in place of the scene's own.")]
 Reference = Annotated[bool, typer.Option("--reference", help="Draw every blade in 3D, supersampled.")]
 Laid = Annotated[
-    str | None, typer.Option("--overlay", metavar="PART,...", help=f"Show how it works: {', '.join(PARTS)}, or all.")
+    str | None, typer.Option("--overlay", metavar="PART,...", help=f"Show how it works: {', '.join(LAYERS)}, or all.")
 ]
 Output = Annotated[str, typer.Option("-o", "--output", help="Where it is written.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
@@ -285,13 +285,13 @@ def _size(text: str, *, reference: bool = False) -> tuple[int, int]:
     return size
 
 
-def _overlay(text: str | None, *, reference: bool = False) -> frozenset[Part]:
+def _overlay(text: str | None, *, reference: bool = False) -> frozenset[Layer]:
     if text is None:
         return frozenset()
     if reference:
         raise InputError("--overlay: a reference has no levels of detail to show; leave one of the two out")
     try:
-        return parse_parts(text)
+        return parse_layers(text)
     except ValueError as error:
         raise InputError(f"--overlay: {error}") from None
 

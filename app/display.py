@@ -5,7 +5,7 @@ import os
 
 import pyglet
 
-from .errors import MachineError
+from .studio.errors import MachineError
 
 
 def need_display() -> None:

@@ -181,7 +181,7 @@ def _probe(name: str) -> dict[str, str]:
 
 
 def _draw_once() -> dict[str, str]:
-    from .offscreen import standalone_context
+    from .studio.offscreen import standalone_context
 
     info = standalone_context().info
     return {"version": info["GL_VERSION"], "renderer": info["GL_RENDERER"], "vendor": info["GL_VENDOR"]}

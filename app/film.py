@@ -2,12 +2,12 @@
 
 from collections.abc import Iterator
 
-from .encode import Picture, Reel, film_writer
-from .errors import InputError
 from .manifest import Manifest, Span
-from .progress import busy, counted
-from .studio import Studio, about
-from .take import Take
+from .studio.encode import Picture, Reel, film_writer
+from .studio.errors import InputError
+from .studio.progress import busy, counted
+from .studio.studio import Studio, about
+from .studio.take import Take
 
 STILL_SECONDS = 8.0
 """How long a film is whose camera has no path [s]."""

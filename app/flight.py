@@ -7,7 +7,7 @@ from ..engine.camera import Camera
 from ..systems.prairie import Prairie
 from ..systems.wind.blast import Blast, Shape
 from .saucer import DISTANCE, body, chase, flown, jet, launched, looked, put
-from .walker import Ground, Move, Walker, settled
+from .studio.walker import Ground, Move, Walker, settled
 
 BLAST = Blast(outline=Shape(disc=3.5))
 """What its jet does to the grass."""

@@ -11,8 +11,8 @@ import numpy as np
 
 from .. import __version__
 from ..systems.prairie import Prairie
-from .encode import Picture, write_whole
-from .take import Take
+from .studio.encode import Picture, write_whole
+from .studio.take import Take
 
 
 @dataclass(frozen=True, slots=True)

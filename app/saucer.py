@@ -10,7 +10,7 @@ from ..components.body import Body
 from ..components.pose import Pose
 from ..engine.camera import Camera, forward
 from ..systems.bodies.fly import foot, lean, level
-from .walker import Ground, Move, on_terrain
+from .studio.walker import Ground, Move, on_terrain
 
 CRUISE, FAST = 8.0, 20.0
 """Speeds ahead [m/s]; back it is half as fast."""

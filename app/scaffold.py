@@ -7,7 +7,7 @@ from string import Template
 
 from ..components.wind import INTERFACE
 from ..engine.plugins import wind_kinds
-from .errors import InputError
+from .studio.errors import InputError
 
 _NAME = re.compile(r"[a-z][a-z0-9]*(?:[-_][a-z0-9]+)*")
 _TAKEN = {"Extent", "Field", "Grass", "PlacedWind"}

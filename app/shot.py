@@ -4,10 +4,10 @@ import math
 from dataclasses import replace
 
 from ..engine.camera import Camera
-from .encode import picture_writer
-from .progress import busy
-from .studio import Studio, about, written
-from .take import Take
+from .studio.encode import picture_writer
+from .studio.progress import busy
+from .studio.studio import Studio, about, written
+from .studio.take import Take
 
 
 def shot(take: Take, output: str, *, time: float = 0.0, camera: Camera | None = None) -> None:

@@ -13,7 +13,7 @@ from ..systems.wind.blast import Blast, Shape
 from ..systems.wind.gust import Gust
 from ..systems.wind.placed import Waypoint
 from ..systems.wind.whirlwind import Whirlwind
-from .walker import Ground, on_terrain
+from .studio.walker import Ground, on_terrain
 
 Raised = Literal["gust", "whirlwind", "blast"]
 """What can be set off."""

@@ -14,19 +14,19 @@ from pyglet.window import key
 
 from ..engine.camera import Camera, camera_at, projection_matrix, view_matrix
 from ..engine.scene import SceneError
+from ..systems.overlay.layers import LAYERS, Layer
 from ..systems.overlay.overlay import Overlay
-from ..systems.overlay.parts import PARTS, Part
 from ..systems.prairie import Prairie
 from .display import no_window
-from .encode import picture_writer
-from .errors import InputError, MachineError
 from .flight import Flight
-from .offscreen import Offscreen
 from .overlay import HELP, Note, statistics_lines
-from .progress import busy
-from .studio import about, written
-from .take import Take
-from .walker import Ground, Move, moved, settled, start, toggled, turned
+from .studio.encode import picture_writer
+from .studio.errors import InputError, MachineError
+from .studio.offscreen import Offscreen
+from .studio.progress import busy
+from .studio.studio import about, written
+from .studio.take import Take
+from .studio.walker import Ground, Move, moved, settled, start, toggled, turned
 from .watch import Watch
 from .weather import Weather
 
@@ -39,9 +39,13 @@ MOVES: dict[int, Move] = {
 }  # fmt: skip
 """What a held key asks for."""
 
-OVERLAYS: tuple[frozenset[Part], ...] = (
-    frozenset(), frozenset({"masks", "arrows"}), frozenset({"levels", "weights"}), frozenset({"map"}), frozenset(PARTS),
-)  # fmt: skip
+OVERLAYS: tuple[frozenset[Layer], ...] = (
+    frozenset(),
+    frozenset({"masks", "arrows"}),
+    frozenset({"levels", "weights"}),
+    frozenset({"map"}),
+    frozenset(LAYERS),
+)
 """What is laid over the picture, one after the other."""
 
 SENSITIVITY = 0.0022
@@ -224,10 +228,12 @@ class Walk:
 
     def next_overlay(self) -> None:
         """Show other parts of how it works over the picture, or in the end none."""
-        known = self.overlay.parts in OVERLAYS
-        number = OVERLAYS.index(self.overlay.parts) + 1 if known else 0
-        self.overlay.parts = OVERLAYS[number % len(OVERLAYS)]
-        self.tell([f"shown: {', '.join(part for part in PARTS if part in self.overlay.parts) or 'the prairie alone'}"])
+        known = self.overlay.layers in OVERLAYS
+        number = OVERLAYS.index(self.overlay.layers) + 1 if known else 0
+        self.overlay.layers = OVERLAYS[number % len(OVERLAYS)]
+        self.tell(
+            [f"shown: {', '.join(part for part in LAYERS if part in self.overlay.layers) or 'the prairie alone'}"]
+        )
 
     def save_picture(self) -> None:
         """Write what is seen, without the overlays, as the next numbered PNG in the working folder."""

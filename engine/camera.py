@@ -57,6 +57,12 @@ def forward(yaw: float, pitch: float, /) -> tuple[float, float, float]:
     return math.sin(yaw) * math.cos(pitch), math.sin(pitch), -math.cos(yaw) * math.cos(pitch)
 
 
+def eye_of(view: View, /) -> tuple[float, float, float]:
+    """Return where a view is seen from, (x, y, z) [m]."""
+    x, y, z = np.linalg.inv(view.view.astype(np.float64))[:3, 3].tolist()
+    return x, y, z
+
+
 def view_matrix(camera: Camera, /) -> Floats:
     """Return the matrix from the world to the eye, shape (4, 4), for column vectors."""
     ahead = np.array(forward(camera.yaw, camera.pitch))

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from .around.cone import HALF_DIAGONAL
 from .around.outlook import Outlook
 from .around.receivers import Receiving
+from .around.representation import Kept
 from .grow.record import Growth
-from .show.representation import Kept
-from .wind.blow import Listeners
+from .wind.blow import ReceiverArrays
 from .wind.grass import grass_of
 
 Floats = NDArray[np.float32]
@@ -21,7 +21,7 @@ Floats = NDArray[np.float32]
 class Hear(Protocol):
     """What gives receivers their messages."""
 
-    def __call__(self, receivers: Listeners, /, *, time: float) -> Floats:
+    def __call__(self, receivers: ReceiverArrays, /, *, time: float) -> Floats:
         """Return the messages (n, 2) that receivers hear at a time [s]."""
 
 
@@ -53,13 +53,13 @@ class Blow:
         order = sorted(all_receiving, key=lambda receiving: receiving.still)
         for receiving in order:
             receiving.letters.collect()
-        heard = self.hear(self._listeners(outlook, order), time=outlook.viewer.time)
+        heard = self.hear(self._receivers(outlook, order), time=outlook.viewer.time)
         outlook.heard = _deliver(order, heard)
         outlook.air = _mean(outlook, order)
         for receiving in order:
             receiving.letters.deliver()
 
-    def _listeners(self, outlook: Outlook, order: list[Receiving]) -> Listeners:
+    def _receivers(self, outlook: Outlook, order: list[Receiving]) -> ReceiverArrays:
         places = [receiving.pool.places(receiving.slots) for receiving in order]
         flat = [place.reshape(-1, 2) for place in places]
         rows = np.concatenate([receiving.rows for receiving in order])
@@ -68,7 +68,7 @@ class Blow:
             for receiving, place in zip(order, flat, strict=True)
         ]
         kind = np.concatenate([receiving.pool.kind(receiving.slots) for receiving in order])
-        return Listeners(
+        return ReceiverArrays(
             place=np.concatenate(flat),
             grass=grass_of(self.growths, kind),
             patch=np.repeat(np.arange(len(rows)), np.concatenate(each)),

@@ -14,8 +14,8 @@ SLACK = 1
 """How many patches farther a patch must be to go to the coarser representation than to come back from it."""
 
 ROOM = 2
-"""How many patches beyond the slack there is room in the pools for those that are still changing; farther out, a change is
-made at once."""
+"""How many patches beyond the slack there is room in the pools for those that are still changing; farther out, a change
+is made at once."""
 
 
 def reach_of(limits: tuple[int, ...], forced: int | None = None, /) -> tuple[int, ...]:

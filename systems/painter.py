@@ -10,13 +10,13 @@ from ..engine.gl.guest import FIRST_UNIT, guest
 from ..engine.gl.shaders import program
 from ..engine.gl.stream import release_all
 from .around.outlook import Outlook
+from .around.representation import Canvas, RepresentationPainter
 from .bodies.draw import BodyPainter
 from .frame.block import FrameBlock, aim, frame_record
 from .frame.maps import density_texture, height_texture, posture_texture, tone_texture
 from .show.blades.draw import BladePainter
 from .show.carpet.painter import CarpetPainter
 from .show.registry import REPRESENTATIONS
-from .show.representation import Canvas, RepresentationPainter
 from .site import Site
 
 SHARED = ("postures", "tone", "density", "heights")

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from .around.appearance import appearance, kept_near
 from .around.outlook import Outlook
+from .around.representation import Representation
 from .around.transitions import SEAMLESS, Transitions
-from .show.representation import Representation
 from .transition import weights
 
 Floats = NDArray[np.float32]

@@ -15,12 +15,12 @@ from ..engine.world import World
 from .around.ground import Ground
 from .around.outlook import Outlook
 from .around.patches import PatchTable
+from .around.representation import Representation
 from .around.transitions import SEAMLESS, Transitions
 from .entities import components
 from .grow.record import Growth
 from .lod import farthest, reach_of
 from .show.registry import NAMES, REPRESENTATIONS
-from .show.representation import Representation
 from .stock.cache import cached_growth, growth_key
 
 

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from .around.outlook import Outlook
 from .around.patches import PatchTable
+from .around.representation import Representation
 from .around.transitions import SEAMLESS, Transitions
 from .lod import SLACK, farthest
-from .show.representation import Representation
 
 Floats = NDArray[np.float32]
 Levels = NDArray[np.int8]
@@ -24,7 +24,7 @@ STRETCH = 0.8
 """Part of a patch that a walker may cross meanwhile: a change is over sooner than a patch is crossed (paper, 4.1)."""
 
 
-def part_of_change(dt: float, /, *, way: float, patch: float) -> float:
+def step_of_change(dt: float, /, *, way: float, patch: float) -> float:
     """Return what part of a change is made in `dt` seconds by a walker who goes `way` metres meanwhile.
 
     A change takes `FADE` seconds, or as long as it takes to cross `STRETCH` of a patch [m], whichever is shorter.
@@ -32,13 +32,13 @@ def part_of_change(dt: float, /, *, way: float, patch: float) -> float:
     return max(dt / FADE, way / (STRETCH * patch))
 
 
-def move_on(now: Levels, before: Levels, progress: Floats, wanted: Levels, slowly: Mask, /, *, part: float) -> None:
-    """Advance changes from `before` to `now` by `part`, and start those that are wanted; all have shape (n,).
+def move_on(now: Levels, before: Levels, progress: Floats, wanted: Levels, slowly: Mask, /, *, step: float) -> None:
+    """Advance changes from `before` to `now` by `step`, and start those that are wanted; all have shape (n,).
 
     Where not `slowly`, what is wanted is there at once. A change that is reversed half-way goes back from where it is.
     Where a third one is wanted meanwhile, it waits until the change is over.
     """
-    progress += np.float32(min(part, 2.0))
+    progress += np.float32(min(step, 2.0))
     np.minimum(progress, np.float32(1.0), out=progress)
     settled = (progress >= 1.0) | ~slowly
     before[settled] = now[settled]
@@ -54,15 +54,15 @@ def move_on(now: Levels, before: Levels, progress: Floats, wanted: Levels, slowl
     progress[start & slowly] = 0.0
 
 
-def change(patches: PatchTable, wanted: Levels, settled: Mask, /, *, reach: tuple[int, ...], part: float) -> None:
-    """Advance changes of representation by `part` and start those that are due (paper, section 4.1).
+def change(patches: PatchTable, wanted: Levels, settled: Mask, /, *, reach: tuple[int, ...], step: float) -> None:
+    """Advance changes of representation by `step` and start those that are due (paper, section 4.1).
 
     A patch that is not visible, or was not, as `settled` says, takes its representation at once, as does one that is
     left behind farther than there is room for.
     """
     slowly = settled & patches.visible & (patches.representation >= 0) & ~_left_behind(patches, reach)
     due = np.where(patches.alive, wanted, patches.representation)
-    move_on(patches.representation, patches.previous, patches.progress, due, slowly, part=part)
+    move_on(patches.representation, patches.previous, patches.progress, due, slowly, step=step)
 
 
 def held(patches: PatchTable, /, *, reach: tuple[int, ...]) -> Levels:
@@ -102,10 +102,10 @@ def refine(
     /,
     *,
     reach: tuple[int, ...],
-    part: float,
+    step: float,
     transitions: Transitions,
 ) -> None:
-    """Advance changes of sub-levels by `part` and start those that are due; `weight` is (representations, rows).
+    """Advance changes of sub-levels by `step` and start those that are due; `weight` is (representations, rows).
 
     Where a representation does not show, its sub-level is due at once; while a patch goes between two representations
     that stand on the ground, none changes, so that each blade keeps its painted place. Patches too far away stay as
@@ -126,7 +126,7 @@ def refine(
         )
         progress[both] = 1.0
         shows = seen & transitions.gradual
-        move_on(now, before, progress, np.where(both & shows, now, wanted), shows, part=part)
+        move_on(now, before, progress, np.where(both & shows, now, wanted), shows, step=step)
         patches.sublevel[level, rows], patches.sublevel_before[level, rows] = now, before
         patches.sublevel_progress[level, rows] = progress
 
@@ -155,12 +155,12 @@ class Transition:
     def _run(self, outlook: Outlook) -> None:
         patches, viewer = outlook.patches, outlook.viewer
         settled = patches.was_visible & patches.visible & (not viewer.jumped)
-        part = part_of_change(viewer.dt, way=viewer.way, patch=self.patch)
+        step = step_of_change(viewer.dt, way=viewer.way, patch=self.patch)
         before = patches.representation.copy()
         wanted = held(patches, reach=self.reach)
-        change(patches, wanted, settled & self.transitions.gradual, reach=self.reach, part=part)
+        change(patches, wanted, settled & self.transitions.gradual, reach=self.reach, step=step)
         refine(
-            outlook, self.representations, weights(patches), reach=self.reach, part=part, transitions=self.transitions
+            outlook, self.representations, weights(patches), reach=self.reach, step=step, transitions=self.transitions
         )
         changing = (patches.progress < 1.0) | ((before != patches.representation) & settled)
         outlook.changing = int((patches.shown & changing).sum())

@@ -18,7 +18,7 @@ from ..engine.world import World
 from .around.ground import Ground, densest_kind
 from .bodies.fly import foot, hover_of, hovering
 from .grow.record import Growth
-from .wind.blow import Blowing, Listeners, blowing, hear, places_alone
+from .wind.blow import Blowing, ReceiverArrays, blowing, hear, places_alone
 from .wind.grass import grass_of
 from .wind.quarantine import Quarantine, QuarantinedError
 
@@ -89,10 +89,10 @@ class Winds:
         sources = [source for _, source in found]
         return blowing(sources, self.quarantine, time=time, seed=self._scene.seed, poses=poses)
 
-    def heard(self, listeners: Listeners, /, *, time: float) -> Floats:
+    def heard(self, receivers: ReceiverArrays, /, *, time: float) -> Floats:
         """Return the message that each receiver ends up with at `time` [s], shape (n, 2)."""
         seed, mixing = self._scene.seed, self._scene.mixing
-        return hear(self.now(time), listeners, self.quarantine, time=time, seed=seed, mixing=mixing)
+        return hear(self.now(time), receivers, self.quarantine, time=time, seed=seed, mixing=mixing)
 
     def at(self, place: Floats, /, *, time: float, kind: int | None = None) -> Floats:
         """Return what grass of a kind, or the densest there, feels at ground positions (n, 2) [m], shape (n, 2)."""

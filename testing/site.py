@@ -23,7 +23,7 @@ from ..systems.blow import Hear
 from ..systems.entities import PatchEntities
 from ..systems.painter import Painter
 from ..systems.site import Site, found_site, outlook_on
-from ..systems.wind.blow import Listeners
+from ..systems.wind.blow import ReceiverArrays
 from .little import LITTLE
 
 ASPECT = 16 / 9
@@ -75,7 +75,7 @@ def systems_on(site: Site, outlooks: Sequence[Outlook], world: World, /, *, hear
     return schedule
 
 
-def _calm(receivers: Listeners, /, *, time: float) -> Floats:
+def _calm(receivers: ReceiverArrays, /, *, time: float) -> Floats:
     del time
     return np.zeros_like(receivers.place)
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..encode import Picture, picture_writer
+from ..studio.encode import Picture, picture_writer
 from .flicker import TILE
 from .verdict import Verdict
 

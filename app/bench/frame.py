@@ -15,9 +15,9 @@ from ...systems.prairie import Prairie
 from ...systems.reference import EveryBlade, stand_all, terrain_cells
 from ...systems.show.blades.draw import BladePainter
 from ...systems.stock.models import precompute_bytes
-from ..progress import counted
-from ..studio import Studio
-from ..take import Take
+from ..studio.progress import counted
+from ..studio.studio import Studio
+from ..studio.take import Take
 from .machine import machine, tell
 from .timing import timed
 from .viewers import side_by_side

@@ -12,11 +12,11 @@ from ...engine.declared.quality import Quality
 from ...systems.frame.light import decoded
 from ...systems.reference import EveryBlade, draw_reference, patch_distances, seen_cells
 from ...systems.show.registry import NAMES
-from ..encode import Picture
-from ..errors import MachineError
-from ..progress import busy
-from ..studio import Studio
-from ..take import SAMPLES, Take
+from ..studio.encode import Picture
+from ..studio.errors import MachineError
+from ..studio.progress import busy
+from ..studio.studio import Studio
+from ..studio.take import SAMPLES, Take
 from .frame import own_preset
 from .machine import machine, tell
 

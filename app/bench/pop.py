@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 
 from ...systems.around.transitions import SEAMLESS, Transitions
-from ..encode import make_folder
-from ..errors import InputError
-from ..studio import Studio, about
-from ..take import Take
+from ..studio.encode import make_folder
+from ..studio.errors import InputError
+from ..studio.studio import Studio, about
+from ..studio.take import Take
 from .evidence import save
 from .flicker import MARGIN, TILE
 from .frame import own_preset

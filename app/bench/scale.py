@@ -12,10 +12,10 @@ import numpy as np
 from ...engine.camera import camera_at, projection_matrix, view_matrix
 from ...engine.scene import LoadedScene, read_scene
 from ...systems.prairie import Prairie
-from ..errors import InputError
-from ..offscreen import Offscreen
-from ..progress import counted
-from ..walker import MARGIN
+from ..studio.errors import InputError
+from ..studio.offscreen import Offscreen
+from ..studio.progress import counted
+from ..studio.walker import MARGIN
 from .frame import own_preset
 from .machine import machine, resident_mb, tell
 from .stroll import RATE, SECONDS, legs

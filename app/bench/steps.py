@@ -12,10 +12,10 @@ from ...systems.around.transitions import Transitions
 from ...systems.lod import farthest
 from ...systems.prairie import Prairie
 from ...systems.reference import draw_reference
-from ..encode import Picture
-from ..progress import counted
-from ..studio import Studio
-from ..take import SAMPLES
+from ..studio.encode import Picture
+from ..studio.progress import counted
+from ..studio.studio import Studio
+from ..studio.take import SAMPLES
 from .flicker import prominence
 from .stroll import REST, Leg, Moment, moments, raise_gusts
 

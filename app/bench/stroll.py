@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ...engine.camera import Camera, Heights, camera_at
 from ...systems.prairie import Prairie
 from ...systems.wind.gust import Gust
-from ..walker import EYE, MARGIN
+from ..studio.walker import EYE, MARGIN
 
 Doubles = NDArray[np.float64]
 

@@ -6,8 +6,8 @@ from math import cos, sin
 import numpy as np
 
 from ...engine.camera import Camera
-from ..progress import counted
-from ..studio import Studio
+from ..studio.progress import counted
+from ..studio.studio import Studio
 from .timing import timed
 
 FRAMES = 40

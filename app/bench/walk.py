@@ -7,8 +7,8 @@ import numpy as np
 
 from ...engine.camera import projection_matrix, view_matrix
 from ...systems.prairie import Prairie
-from ..offscreen import Offscreen
-from ..progress import counted
+from ..studio.offscreen import Offscreen
+from ..studio.progress import counted
 from .frame import own_preset
 from .machine import machine, resident_mb, tell
 from .stroll import REST, Leg, Moment, legs, moments, raise_gusts

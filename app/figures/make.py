@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..encode import make_folder
-from ..errors import InputError, MachineError
-from ..progress import counted
+from ..studio.encode import make_folder
+from ..studio.errors import InputError, MachineError
+from ..studio.progress import counted
 
 if TYPE_CHECKING:
     from .figure import PaperFigure

@@ -20,9 +20,9 @@ from ...systems.grow.bend import ribbon, spine
 from ...systems.grow.record import Blades, Growth
 from ...systems.prairie import Prairie
 from ...systems.show.strips.grow import Strips, strips_of
-from ..encode import Picture
-from ..studio import Studio
-from ..take import Take
+from ..studio.encode import Picture
+from ..studio.studio import Studio
+from ..studio.take import Take
 from .figure import Detail, PaperFigure
 from .plot import INK, SERIES, sheet
 from .scenery import Viewpoint

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from ... import __version__
-from ..encode import Picture
+from ..studio.encode import Picture
 from .figure import Detail
 
 WIDTH = 7.2

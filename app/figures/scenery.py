@@ -8,10 +8,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ...engine.camera import Camera
-from ...systems.overlay.parts import Part
-from ..encode import Picture
-from ..studio import Studio
-from ..take import Take
+from ...systems.overlay.layers import Layer
+from ..studio.encode import Picture
+from ..studio.studio import Studio
+from ..studio.take import Take
 from .figure import Detail, PaperFigure
 from .plot import Panel, plate
 
@@ -45,7 +45,7 @@ class Viewpoint:
 
 
 def pictures(
-    scene: str, times: Sequence[float], viewpoint: Viewpoint, parts: Sequence[frozenset[Part]], detail: Detail, /
+    scene: str, times: Sequence[float], viewpoint: Viewpoint, parts: Sequence[frozenset[Layer]], detail: Detail, /
 ) -> list[list[Picture]]:
     """Return pictures of a scene: a row for each of some rising `times` [s], with each overlay of `parts` in turn."""
     with Studio(Take(scene, detail.size, detail.preset)) as studio:
@@ -54,15 +54,15 @@ def pictures(
             studio.prairie.advance(time - studio.prairie.time)
             row = []
             for overlay in parts:
-                studio.overlay.parts = overlay
+                studio.overlay.layers = overlay
                 row.append(studio.picture(camera))
             rows.append(row)
     return rows
 
 
-PLAIN: frozenset[Part] = frozenset()
-ARROWS: frozenset[Part] = frozenset({"arrows"})
-LEVELS: frozenset[Part] = frozenset({"levels", "masks"})
+PLAIN: frozenset[Layer] = frozenset()
+ARROWS: frozenset[Layer] = frozenset({"arrows"})
+LEVELS: frozenset[Layer] = frozenset({"levels", "masks"})
 
 
 def draw_gust(detail: Detail, /) -> Figure:

@@ -13,8 +13,8 @@ from matplotlib.patches import Patch, Polygon
 from ...systems.around.outlook import Outlook
 from ...systems.overlay.patches import patch_colors
 from ...systems.site import Site
-from ..studio import Studio
-from ..take import Take
+from ..studio.studio import Studio
+from ..studio.take import Take
 from .figure import Detail, PaperFigure
 from .plot import INK, seen_from_above, sheet
 

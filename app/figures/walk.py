@@ -4,10 +4,10 @@ from collections.abc import Sequence
 
 from matplotlib.figure import Figure
 
-from ...systems.overlay.parts import Part
-from ..encode import Picture
-from ..studio import Studio
-from ..take import Take
+from ...systems.overlay.layers import Layer
+from ..studio.encode import Picture
+from ..studio.studio import Studio
+from ..studio.take import Take
 from .figure import Detail, PaperFigure
 from .plot import Panel, plate
 
@@ -22,7 +22,7 @@ RATE = 30
 BEFORE = 2.0
 """How long the walk has lasted by the first frame [s]."""
 
-LEVELS: frozenset[Part] = frozenset({"levels", "weights"})
+LEVELS: frozenset[Layer] = frozenset({"levels", "weights"})
 
 
 def walk_frames(detail: Detail, times: Sequence[float], /) -> list[tuple[Picture, Picture, int]]:
@@ -38,9 +38,9 @@ def walk_frames(detail: Detail, times: Sequence[float], /) -> list[tuple[Picture
                 continue
             seen = studio.picture(studio.camera(time))
             changing = prairie.statistics.transitions
-            studio.overlay.parts = LEVELS
+            studio.overlay.layers = LEVELS
             frames.append((seen, studio.picture(studio.camera(time)), changing))
-            studio.overlay.parts = frozenset()
+            studio.overlay.layers = frozenset()
     return frames
 
 

@@ -52,9 +52,9 @@ class Appearance:
     """Height of the strips, as a part of their full height, shape (rows,)."""
 
 
-def smooth(part: Floats, /) -> Floats:
-    """Return a step from 0 to 1 that starts and ends gently, where `part` goes from 0 to 1."""
-    x = np.clip(part, np.float32(0.0), np.float32(1.0))
+def smooth(progress: Floats, /) -> Floats:
+    """Return a step from 0 to 1 that starts and ends gently, where `progress` goes from 0 to 1."""
+    x = np.clip(progress, np.float32(0.0), np.float32(1.0))
     return np.asarray(x * x * (np.float32(3.0) - np.float32(2.0) * x))
 
 
@@ -85,11 +85,10 @@ def appearance(
     if not transitions.morph:
         covers = np.where(both, covers * _early(strips, transitions), covers)
     lies = np.where(strips > 0.0, np.where(both, laid * strips, laid), carpet)
-    cover = (
-        np.stack([_early(each, transitions) for each in weight]) if len(names) > len(THREE) else np.empty_like(weight)
-    )
-    others = sum(weight[number] for number, name in enumerate(names) if name not in THREE)
-    covers = np.where(others > 0.0, covers * _early(strips, transitions), covers)
+    cover = np.empty_like(weight)
+    for number in (number for number, name in enumerate(names) if name not in THREE):
+        cover[number] = _early(weight[number], transitions)
+        covers = np.where(weight[number] > 0.0, covers * _early(strips, transitions), covers)
     for name, values in zip(THREE, (shown, np.where(strips > 0.0, covers, np.float32(0.0)), lies), strict=True):
         cover[names.index(name)] = values
     return Appearance(cover, morph, handed, growth)
@@ -119,16 +118,16 @@ def _early(weight: Floats, transitions: Transitions) -> Floats:
     return early
 
 
-def _grown(part: Floats, transitions: Transitions) -> tuple[Floats, Floats, Floats]:
+def _grown(progress: Floats, transitions: Transitions) -> tuple[Floats, Floats, Floats]:
     """Return how much strips cover, how high they stand, and how much carpet there is, on the way from it to them."""
-    whole = np.ones_like(part)
+    whole = np.ones_like(progress)
     if transitions.growth:
-        height = smooth(part / np.float32(GROWN))
-        sunk = smooth((part - np.float32(SINKS)) / np.float32(1.0 - SINKS))
-        return (part > 0.0).astype(np.float32), height, whole - sunk
+        height = smooth(progress / np.float32(GROWN))
+        sunk = smooth((progress - np.float32(SINKS)) / np.float32(1.0 - SINKS))
+        return (progress > 0.0).astype(np.float32), height, whole - sunk
     if transitions.fade:
-        return part, whole, whole - part
-    switched = (part >= np.float32(0.5)).astype(np.float32)
+        return progress, whole, whole - progress
+    switched = (progress >= np.float32(0.5)).astype(np.float32)
     return switched, whole, whole - switched
 
 

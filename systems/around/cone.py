@@ -71,9 +71,3 @@ def far_to_near(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArra
     apart = np.abs(cell - centre)
     order: NDArray[np.int64] = np.lexsort((-apart.min(axis=-1), -apart.max(axis=-1)))
     return order
-
-
-def eye_of(view: View, /) -> tuple[float, float, float]:
-    """Return where a view is seen from, (x, y, z) [m]."""
-    x, y, z = np.linalg.inv(view.view.astype(np.float64))[:3, 3].tolist()
-    return x, y, z

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.viewer import Viewer
-from ...engine.camera import View
+from ...engine.camera import View, eye_of
 from ...engine.world import World
 from .appearance import Appearance
-from .cone import eye_of, view_cone
+from .cone import view_cone
 from .patches import PatchTable
 
 LEAP = 5.0

@@ -7,11 +7,10 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ...engine.camera import View
+from ...engine.camera import View, eye_of
 from ...engine.declared.scene import Scene
 from ...engine.gl.shaders import program
 from ...engine.terrain.record import Terrain
-from ..around.cone import eye_of
 from ..grow.record import Growth
 from .light import daylight, display, grain, linear, lit_kind, to_sun
 

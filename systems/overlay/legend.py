@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
-from ..show.representation import Representation
+from ..around.representation import Representation
+from .layers import Layer
 from .masks import Masked
 from .paint import BRIGHT, DARK, Color, index_color, ring_shades
-from .parts import Part
 
 Pixels = NDArray[np.uint8]
 
@@ -35,7 +35,7 @@ class Entry:
 
 
 def entries(
-    parts: AbstractSet[Part], masks: Sequence[Masked], representations: Sequence[Representation], /
+    parts: AbstractSet[Layer], masks: Sequence[Masked], representations: Sequence[Representation], /
 ) -> list[Entry]:
     """Return what there is to be told of the parts that are shown, the winds by rising claim."""
     lines = _of_masks(parts, masks)
@@ -52,7 +52,7 @@ def entries(
     return lines
 
 
-def _of_masks(parts: AbstractSet[Part], masks: Sequence[Masked]) -> list[Entry]:
+def _of_masks(parts: AbstractSet[Layer], masks: Sequence[Masked]) -> list[Entry]:
     edged = dict.fromkeys((mask.kind, mask.color) for mask in masks if not mask.everywhere)
     endless = dict.fromkeys((mask.kind, mask.color) for mask in masks if mask.everywhere)
     outlines = [Entry("outline", (color,), f"where the {kind} acts") for kind, color in edged]

@@ -12,11 +12,11 @@ from ..prairie import Prairie
 from ..site import Site
 from .arrows import arrow_marks
 from .chart import chart, sheet_for
+from .layers import Layer
 from .legend import entries, legend
 from .marks import Marks, together, veiled
 from .masks import Masked, mask_marks, masked
 from .painter import MarkPainter, pixels_onto_clip, scale_of
-from .parts import Part
 from .patches import level_marks, weight_marks
 
 EDGE = 10.0
@@ -38,8 +38,8 @@ class Overlay:
     It reads the prairie's tables and pools and changes nothing, so the prairie looks the same with it and without.
     """
 
-    def __init__(self, parts: Iterable[Part] = ()) -> None:
-        self.parts: frozenset[Part] = frozenset(parts)
+    def __init__(self, parts: Iterable[Layer] = ()) -> None:
+        self.layers: frozenset[Layer] = frozenset(parts)
         self._painters: Homes[MarkPainter] = Homes()
 
     def draw(self, prairie: Prairie, view: object, projection: object, *, viewer: str = "main") -> None:
@@ -47,7 +47,7 @@ class Overlay:
 
         Raises RuntimeError for a prairie that has not been drawn.
         """
-        if not self.parts:
+        if not self.layers:
             return
         if prairie.painter is None:
             raise RuntimeError("an overlay shows a frame that is drawn: draw the prairie first")
@@ -64,7 +64,7 @@ class Overlay:
         self._painters.release()
 
     def _masks(self, prairie: Prairie, outlook: Outlook) -> list[Masked]:
-        if not self.parts & {"masks", "map"}:
+        if not self.layers & {"masks", "map"}:
             return []
         winds, time = prairie.winds, prairie.time
         x, _, z = outlook.viewer.eye
@@ -74,13 +74,13 @@ class Overlay:
     def _on_ground(self, outlook: Outlook, site: Site, masks: list[Masked]) -> Marks:
         terrain = site.ground.terrain
         layers = []
-        if "levels" in self.parts:
-            layers.append(level_marks(outlook, site, settled="weights" in self.parts))
-        if "weights" in self.parts:
+        if "levels" in self.layers:
+            layers.append(level_marks(outlook, site, settled="weights" in self.layers))
+        if "weights" in self.layers:
             layers.append(weight_marks(outlook, site))
-        if "masks" in self.parts:
+        if "masks" in self.layers:
             layers.append(mask_marks(masks, terrain))
-        if "arrows" in self.parts:
+        if "arrows" in self.layers:
             layers.append(arrow_marks(outlook, terrain))
         return veiled(together(*layers), terrain, outlook.viewer.eye)
 
@@ -89,11 +89,11 @@ class Overlay:
     ) -> None:
         scale = scale_of(size)
         edge = EDGE * scale
-        if "map" in self.parts:
+        if "map" in self.layers:
             side = float(round(MAP * min(size)))
             sheet = sheet_for(outlook, site, left=size[0] - edge - side, bottom=size[1] - edge - side, side=side)
             painter.draw(chart(outlook, site, masks, sheet), pixels_onto_clip(size))
-        lines = entries(self.parts, masks, site.representations)
+        lines = entries(self.layers, masks, site.representations)
         image = legend(tuple(lines), round(LETTERS * scale))
         if image.shape[1] < ROOM * size[0] and image.shape[0] < ROOM * size[1]:
             painter.draw_image(image, round(size[0] - edge) - image.shape[1], round(edge))

@@ -46,12 +46,12 @@ def patch_colors(outlook: Outlook, site: Site, /) -> Floats:
     for level, representation in enumerate(site.representations):
         shades = ring_shades(representation.color, representation.rings())
         rows = np.flatnonzero((here == level) | (here < 0))
-        part = patches.sublevel_progress[level, rows, None]
+        progress = patches.sublevel_progress[level, rows, None]
         now, before = (
             shades[np.maximum(representation.ring(sublevel[level, rows]), 0)]
             for sublevel in (patches.sublevel, patches.sublevel_before)
         )
-        color[rows] = before + (now - before) * part
+        color[rows] = before + (now - before) * progress
     return color
 
 

@@ -6,13 +6,13 @@ import numpy as np
 
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
+from ..around.representation import Seedling
 from ..grow.bend import spine
 from ..grow.plants import PLANTS
 from ..grow.postures import grow_postures
 from ..grow.record import Blades, Growth, PatchModel, Postures
 from ..grow.response import grow_response
 from ..show.registry import REPRESENTATIONS
-from ..show.representation import Seedling
 
 VARIANTS = 4
 ROWS = 129

@@ -38,7 +38,7 @@ class Blowing:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Listeners:
+class ReceiverArrays:
     """Receivers, and the patches that masks are discretised over (paper, section 3.3)."""
 
     place: Floats
@@ -57,12 +57,12 @@ class Listeners:
     """How far a patch's receivers may be from its middle [m]."""
 
     still: int = 0
-    """How many of them, the last ones, take no part in the small oscillations."""
+    """How many of them, the last ones, are without the small oscillations."""
 
 
-def places_alone(place: Floats, grass: Grass, /) -> Listeners:
-    """Return listeners at any places, each a patch by itself."""
-    return Listeners(place, grass, np.arange(len(place)), place, 0.0)
+def places_alone(place: Floats, grass: Grass, /) -> ReceiverArrays:
+    """Return receivers at any places, each a patch by itself."""
+    return ReceiverArrays(place, grass, np.arange(len(place)), place, 0.0)
 
 
 def blowing(
@@ -87,7 +87,7 @@ def blowing(
 
 def hear(
     winds: list[Blowing],
-    heard: Listeners,
+    heard: ReceiverArrays,
     quarantine: Quarantine,
     /,
     *,
@@ -108,7 +108,7 @@ def hear(
     return _bounded(_fluttered(sums, heard, time, seed))
 
 
-def _heard(winds: list[Blowing], heard: Listeners, quarantine: Quarantine, time: float, mixing: Mixing) -> "_Sums":
+def _heard(winds: list[Blowing], heard: ReceiverArrays, quarantine: Quarantine, time: float, mixing: Mixing) -> "_Sums":
     sums = _Sums(np.zeros((len(heard.place), 2), np.float32), *np.zeros((2, len(heard.place)), np.float32))
     sums.left[:] = 1.0
     groups: Iterable[list[Blowing]] = ([wind] for wind in winds)
@@ -116,8 +116,8 @@ def _heard(winds: list[Blowing], heard: Listeners, quarantine: Quarantine, time:
         winds = [wind for wind in winds if wind.primitive.weight > 0.0]
         groups = (list(group) for _, group in groupby(winds, key=lambda wind: wind.primitive.priority))
     for group in groups:
-        parts = [part for wind in group if (part := _send(wind, heard, sums.left, quarantine, time, mixing))]
-        _cover(sums, parts)
+        sent = [one for wind in group if (one := _send(wind, heard, sums.left, quarantine, time, mixing))]
+        _cover(sums, sent)
     return sums
 
 
@@ -187,7 +187,7 @@ def _untied(winds: list[Blowing], quarantine: Quarantine) -> list[Blowing]:
 
 
 def _send(
-    wind: Blowing, heard: Listeners, left: Floats, quarantine: Quarantine, time: float, mixing: Mixing
+    wind: Blowing, heard: ReceiverArrays, left: Floats, quarantine: Quarantine, time: float, mixing: Mixing
 ) -> _Sent | None:
     """Return what a wind sends to the receivers that it reaches and that are still to be had."""
     rows, own = _within(wind, heard, left)
@@ -213,7 +213,7 @@ def _send(
     return _Sent(rows, weight * np.float32(wind.strength), wind.pose.outside(message), primitive.swing)
 
 
-def _within(wind: Blowing, heard: Listeners, left: Floats) -> tuple[Rows | slice, Floats]:
+def _within(wind: Blowing, heard: ReceiverArrays, left: Floats) -> tuple[Rows | slice, Floats]:
     """Return the receivers in a wind's extent that others have not claimed wholly, and their places in its frame.
 
     For a wind without an extent these are all receivers, unless most of them are claimed: to pick out some costs more
@@ -250,11 +250,11 @@ def _cover(sums: _Sums, sent: list[_Sent]) -> None:
     elif sent:
         total, kept = np.zeros_like(sums.left), np.ones_like(sums.left)
         message, swing = np.zeros_like(sums.message), np.zeros_like(sums.swing)
-        for part in sent:
-            total[part.rows] += part.weight
-            kept[part.rows] *= 1.0 - part.weight
-            message[part.rows] += part.weight[:, None] * part.message
-            swing[part.rows] += part.weight * np.float32(part.swing)
+        for one in sent:
+            total[one.rows] += one.weight
+            kept[one.rows] *= 1.0 - one.weight
+            message[one.rows] += one.weight[:, None] * one.message
+            swing[one.rows] += one.weight * np.float32(one.swing)
         rows = np.flatnonzero(total)
         share = total[rows]
         _lay(sums, rows, 1.0 - kept[rows], message[rows] / share[:, None], swing[rows] / share)
@@ -270,7 +270,7 @@ def _lay(sums: _Sums, rows: Rows | slice, weight: Floats, message: Floats, swing
     sums.left[rows] -= share
 
 
-def _fluttered(sums: _Sums, heard: Listeners, time: float, seed: int) -> Floats:
+def _fluttered(sums: _Sums, heard: ReceiverArrays, time: float, seed: int) -> Floats:
     moving = len(heard.place) - heard.still
     swing = sums.swing[:moving]
     rows = np.flatnonzero(swing)

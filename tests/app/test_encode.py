@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from tallgrass.app.encode import Picture, Reel, film_writer, picture_writer
-from tallgrass.app.errors import InputError, MachineError
+from tallgrass.app.studio.encode import Picture, Reel, film_writer, picture_writer
+from tallgrass.app.studio.errors import InputError, MachineError
 
 ABOUT = {"scene": "somewhere", "seed": "7"}
 SIZE = (32, 18)

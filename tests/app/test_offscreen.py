@@ -4,8 +4,8 @@ import moderngl
 import numpy as np
 import pytest
 
-from tallgrass.app.errors import MachineError
-from tallgrass.app.offscreen import Offscreen, standalone_context
+from tallgrass.app.studio.errors import MachineError
+from tallgrass.app.studio.offscreen import Offscreen, standalone_context
 
 EVERYWHERE = """
 #version 330

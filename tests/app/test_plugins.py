@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tallgrass.app.errors import InputError
 from tallgrass.app.plugins import check_plugin, list_plugins, new_plugin
 from tallgrass.app.scaffold import scaffold
+from tallgrass.app.studio.errors import InputError
 from tallgrass.components.wind import Floats, Grass, WindPrimitive
 from tallgrass.engine.plugged import SYSTEMS, SystemPlugins
 from tallgrass.engine.plugins import WindKinds, wind_kinds

@@ -13,8 +13,8 @@ from tallgrass.app.bench.steps import Record, find_truth, walked
 from tallgrass.app.bench.stroll import legs
 from tallgrass.app.bench.verdict import judge
 from tallgrass.app.cli import run
-from tallgrass.app.studio import Studio
-from tallgrass.app.take import Take
+from tallgrass.app.studio.studio import Studio
+from tallgrass.app.studio.take import Take
 from tallgrass.systems.around.transitions import SEAMLESS
 
 pytestmark = [pytest.mark.gl, pytest.mark.usefixtures("ctx")]

@@ -28,7 +28,7 @@ from tallgrass.app.saucer import (
     looked,
     put,
 )
-from tallgrass.app.walker import MARGIN, Ground, Move
+from tallgrass.app.studio.walker import MARGIN, Ground, Move
 from tallgrass.engine.camera import forward
 from tallgrass.systems.bodies.fly import HOVER, LOWEST, STEEPEST
 

@@ -17,7 +17,7 @@ from tallgrass.app.bench.stroll import (
     moments,
     raise_gusts,
 )
-from tallgrass.app.walker import EYE
+from tallgrass.app.studio.walker import EYE
 from tallgrass.systems.prairie import Prairie
 
 SMALL = """\

@@ -4,8 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tallgrass.app.take import LARGEST, parse_frames, parse_size
-from tallgrass.systems.overlay.parts import PARTS, parse_parts
+from tallgrass.app.studio.take import LARGEST, parse_frames, parse_size
+from tallgrass.systems.overlay.layers import LAYERS, parse_layers
 
 sides = st.integers(1, LARGEST)
 
@@ -30,11 +30,11 @@ def test_a_size_beyond_the_limits_is_told_them(text: str) -> None:
         parse_size(text)
 
 
-@given(st.sets(st.sampled_from(PARTS), min_size=1))
+@given(st.sets(st.sampled_from(LAYERS), min_size=1))
 def test_n8_parts_of_the_overlay_are_named_in_any_order(parts: set[str]) -> None:
-    assert parse_parts(",".join(parts)) == parts
-    assert parse_parts(" , ".join(parts).upper()) == parts
-    assert parse_parts(",".join([*parts, "all"])) == set(PARTS)
+    assert parse_layers(",".join(parts)) == parts
+    assert parse_layers(" , ".join(parts).upper()) == parts
+    assert parse_layers(",".join([*parts, "all"])) == set(LAYERS)
 
 
 @pytest.mark.parametrize("text", ["", "mask", "masks,", "masks arrows", "none", "masks,levels,card"])
@@ -42,7 +42,7 @@ def test_n8_what_is_no_part_of_the_overlay_is_told_what_there_is(text: str) -> N
     with pytest.raises(
         ValueError, match="is no part of the overlay; there are masks, arrows, levels, weights, map, and"
     ):
-        parse_parts(text)
+        parse_layers(text)
 
 
 @given(first=st.integers(0, 99999), more=st.integers(1, 9999))

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.app.walker import (
+from tallgrass.app.studio.walker import (
     EYE,
     FLY,
     LOWEST,

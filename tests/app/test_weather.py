@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.app.walker import MARGIN, Ground
+from tallgrass.app.studio.walker import MARGIN, Ground
 from tallgrass.app.weather import AHEAD, FARTHEST, STEP, Raised, looked_at, raised
 from tallgrass.engine.camera import Camera, forward
 from tallgrass.systems.wind.gust import Gust

@@ -17,7 +17,7 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
-from tallgrass.app.take import Take
+from tallgrass.app.studio.take import Take
 from tallgrass.systems.prairie import Prairie
 
 if TYPE_CHECKING:
@@ -184,13 +184,13 @@ def test_n8_f2_shows_how_it_works_part_by_part_and_in_the_end_the_prairie_alone(
     before: list[NDArray[np.uint8]] = []
     for parts in ({"masks", "arrows"}, {"levels", "weights"}, {"map"}, {"masks", "arrows", "levels", "weights", "map"}):
         press(walk, "F2")
-        assert walk.overlay.parts == parts
+        assert walk.overlay.layers == parts
         picture = shown()
         assert (picture != plain).any(axis=2).mean() > 0.02
         assert not any(np.array_equal(picture, other) for other in before)
         before.append(picture)
     press(walk, "F2")
-    assert walk.overlay.parts == set()
+    assert walk.overlay.layers == set()
     np.testing.assert_array_equal(shown(), plain)
 
 

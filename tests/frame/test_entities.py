@@ -2,6 +2,7 @@
 
 import logging
 from collections.abc import Callable, Iterator
+from itertools import pairwise
 
 import esper
 import moderngl
@@ -120,7 +121,7 @@ def test_d2_a_patch_held_as_strips_beside_blades_goes_there_and_back_without_a_p
     whole = apart(pictures[0], pictures[-1])
     assert (whole > 8.0).sum() > FEWEST["blades"]
     assert whole[~around].max() <= 15.0
-    steps = [apart(one, other)[around].mean() for one, other in zip(pictures, pictures[1:], strict=False)]
+    steps = [apart(one, other)[around].mean() for one, other in pairwise(pictures)]
     assert max(steps) < 0.3 * whole[around].mean()
     lod.hold = None
     for _ in range(90):

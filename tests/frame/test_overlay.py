@@ -9,8 +9,8 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass.engine.camera import Camera
+from tallgrass.systems.overlay.layers import LAYERS, Layer
 from tallgrass.systems.overlay.overlay import Overlay
-from tallgrass.systems.overlay.parts import PARTS, Part
 from tallgrass.systems.prairie import Prairie
 
 Stage = Any
@@ -51,9 +51,9 @@ def show(prairie: Prairie, stage: Stage) -> Iterator[Show]:
     """Draw the prairie and parts of the overlay: `show(camera, *parts)`."""
     overlay = Overlay()
 
-    def drawn(aim: Camera, *parts: Part) -> Picture:
+    def drawn(aim: Camera, *parts: Layer) -> Picture:
         stage.shot(prairie, aim)
-        overlay.parts = frozenset(parts)
+        overlay.layers = frozenset(parts)
         overlay.draw(prairie, *stage.matrices(aim))
         return np.asarray(stage.read())
 
@@ -77,7 +77,7 @@ def test_n8_without_an_overlay_the_picture_is_the_same_bit_for_bit(
     aim = camera(0.0, 2.0, 14.0, pitch=-15)
     plain = stage.shot(prairie, aim)
     np.testing.assert_array_equal(show(aim), plain)
-    assert apart(show(aim, *PARTS), plain).mean() > 0.3
+    assert apart(show(aim, *LAYERS), plain).mean() > 0.3
     np.testing.assert_array_equal(stage.shot(prairie, aim), plain, "and nothing stays of it")
 
 
@@ -141,7 +141,7 @@ def test_d6_an_overlay_leaves_gl_as_it_was(show: Show, ctx: moderngl.Context, st
     aim = camera(0.0, 3.0, 14.0, pitch=-12)
     plain = show(aim)
     depth = stage.depth().copy()
-    show(aim, *PARTS)
+    show(aim, *LAYERS)
     np.testing.assert_array_equal(stage.depth(), depth)
     assert ctx.detect_framebuffer().glo == stage.target.glo
     assert stage.target.depth_mask

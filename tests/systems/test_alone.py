@@ -17,7 +17,7 @@ from tallgrass.systems.plant import Plant
 from tallgrass.systems.see import See
 from tallgrass.systems.tile import Tile
 from tallgrass.systems.transition import Transition
-from tallgrass.systems.wind.blow import Listeners
+from tallgrass.systems.wind.blow import ReceiverArrays
 from tallgrass.testing import little_site, looking, systems_on, viewer_on
 
 SITE = little_site()
@@ -82,7 +82,7 @@ def test_plant_stands_blades_where_their_patch_is_and_makes_their_receivers_enti
 
 
 def test_wind_brings_every_receiver_that_is_shown_what_it_hears(world: World) -> None:
-    def eastwards(receivers: Listeners, /, *, time: float) -> np.ndarray[tuple[int, ...], np.dtype[np.float32]]:
+    def eastwards(receivers: ReceiverArrays, /, *, time: float) -> np.ndarray[tuple[int, ...], np.dtype[np.float32]]:
         return np.tile(np.array([0.5 + time, 0.0], np.float32), (len(receivers.place), 1))
 
     outlook = viewer_on(SITE, world)

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.components.viewer import Viewer
-from tallgrass.engine.camera import Camera, View, projection_matrix, view_matrix
-from tallgrass.systems.around.cone import discrete_distance, eye_of, far_to_near, inside_cone, view_cone
+from tallgrass.engine.camera import Camera, View, eye_of, projection_matrix, view_matrix
+from tallgrass.systems.around.cone import discrete_distance, far_to_near, inside_cone, view_cone
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.patches import PatchTable
 from tallgrass.systems.cull import Cull

@@ -14,7 +14,7 @@ from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.patches import PatchTable
 from tallgrass.systems.lod import SLACK, ChooseLevels, farthest, wanted_representation
 from tallgrass.systems.show.registry import NAMES, REPRESENTATIONS
-from tallgrass.systems.transition import FADE, change, held, part_of_change, weights
+from tallgrass.systems.transition import FADE, change, held, step_of_change, weights
 
 REACH = (2, 5, 9)
 BLADES, STRIPS, CARPET = range(3)
@@ -31,7 +31,7 @@ class Walk:
         self.was_visible = False
         self.go(distance, dt=1e9)
 
-    def go(self, distance: int, *, dt: float = STEP, visible: bool = True, part: float | None = None) -> None:
+    def go(self, distance: int, *, dt: float = STEP, visible: bool = True, step: float | None = None) -> None:
         """Let the viewer be at this distance for one frame, in which so much of a change is made."""
         table = self.table
         table.distance[:] = distance
@@ -39,7 +39,7 @@ class Walk:
         table.wanted[:] = wanted_representation(table.distance, table.representation, reach=self.reach)
         settled = np.array([self.was_visible]) & table.visible
         due = held(table, reach=self.reach)
-        change(table, due, settled, reach=self.reach, part=dt / FADE if part is None else part)
+        change(table, due, settled, reach=self.reach, step=dt / FADE if step is None else step)
         self.was_visible = visible
 
     @property
@@ -80,7 +80,7 @@ def test_x1_pacing_to_and_fro_over_a_limit_leaves_nothing_in_transition(preset: 
     for frame in range(200):
         table.distance[:] = reach[limit] + (frame // 7) % 2
         wanted = wanted_representation(table.distance, table.representation, reach=reach)
-        change(table, wanted, table.visible, reach=reach, part=STEP / FADE)
+        change(table, wanted, table.visible, reach=reach, step=STEP / FADE)
         assert table.progress[0] == 1.0
     assert table.representation[0] == limit
 
@@ -177,14 +177,14 @@ def test_x1_a_viewer_who_is_too_fast_leaves_no_finer_grass_behind_than_there_is_
 
 @given(st.floats(0.1, 30.0), st.floats(0.5, 20.0), st.floats(0.001, 0.2))
 def test_x2_a_change_is_over_before_a_walker_has_crossed_a_patch(speed: float, patch: float, dt: float) -> None:
-    frames = np.ceil(1.0 / part_of_change(dt, way=speed * dt, patch=patch))
+    frames = np.ceil(1.0 / step_of_change(dt, way=speed * dt, patch=patch))
     assert (frames - 1) * dt < patch / speed
     assert (frames - 1) * dt < FADE
 
 
 def test_x2_at_the_papers_pace_a_change_takes_about_a_second() -> None:
-    part = part_of_change(STEP, way=1.0 * STEP, patch=2.5)
-    assert 16 <= np.ceil(1.0 / part) <= 24
+    step = step_of_change(STEP, way=1.0 * STEP, patch=2.5)
+    assert 16 <= np.ceil(1.0 / step) <= 24
 
 
 @given(st.lists(st.floats(0.002, 0.3), min_size=1, max_size=12), st.floats(0.0, 12.0))
@@ -194,7 +194,7 @@ def test_x2_progress_does_not_depend_on_how_time_is_cut(cuts: list[float], speed
         walk = Walk(REACH[0] + 1)
         walk.go(REACH[0])
         for dt in steps:
-            walk.go(REACH[0], part=part_of_change(dt, way=speed * dt, patch=2.5))
+            walk.go(REACH[0], step=step_of_change(dt, way=speed * dt, patch=2.5))
         progress.append(float(walk.table.progress[0]))
     assert progress[0] == pytest.approx(progress[1], abs=1e-5)
 
@@ -209,15 +209,15 @@ EDGES: dict[str, Edge] = {
 }
 NARROW = (2, 3, 9)
 HALFWAY: dict[str, tuple[int, dict[str, Any], tuple[int, int, bool], float]] = {
-    "goes on": (4, {"part": 0.25}, (STRIPS, BLADES, False), 0.75),
-    "is over": (4, {"part": 0.5}, (STRIPS, STRIPS, True), 1.0),
-    "turns back": (0, {"part": 0.0}, (BLADES, STRIPS, False), 0.5),
-    "turns back, having gone on": (0, {"part": 0.2}, (BLADES, STRIPS, False), 0.3),
-    "a third is due": (5, {"part": 0.25}, (STRIPS, BLADES, False), 0.75),
-    "a third is due when it is over": (5, {"part": 0.6}, (CARPET, STRIPS, False), 0.0),
-    "is not seen": (4, {"part": 0.1, "visible": False}, (STRIPS, STRIPS, True), 1.0),
-    "is not seen, and another is due": (0, {"part": 0.1, "visible": False}, (BLADES, BLADES, True), 1.0),
-    "is left behind": (6, {"part": 0.1}, (CARPET, CARPET, True), 1.0),
+    "goes on": (4, {"step": 0.25}, (STRIPS, BLADES, False), 0.75),
+    "is over": (4, {"step": 0.5}, (STRIPS, STRIPS, True), 1.0),
+    "turns back": (0, {"step": 0.0}, (BLADES, STRIPS, False), 0.5),
+    "turns back, having gone on": (0, {"step": 0.2}, (BLADES, STRIPS, False), 0.3),
+    "a third is due": (5, {"step": 0.25}, (STRIPS, BLADES, False), 0.75),
+    "a third is due when it is over": (5, {"step": 0.6}, (CARPET, STRIPS, False), 0.0),
+    "is not seen": (4, {"step": 0.1, "visible": False}, (STRIPS, STRIPS, True), 1.0),
+    "is not seen, and another is due": (0, {"step": 0.1, "visible": False}, (BLADES, BLADES, True), 1.0),
+    "is left behind": (6, {"step": 0.1}, (CARPET, CARPET, True), 1.0),
 }
 
 
@@ -237,8 +237,8 @@ def test_d3_every_edge_from_a_settled_state(edge: str) -> None:
 def test_d3_every_edge_from_a_change_half_way(edge: str) -> None:
     distance, how, expected, progress = HALFWAY[edge]
     walk = Walk(0, reach=NARROW)
-    walk.go(4, part=0.0)
-    walk.go(4, part=0.5)
+    walk.go(4, step=0.0)
+    walk.go(4, step=0.5)
     walk.go(distance, **how)
     assert state(walk) == expected
     assert float(walk.table.progress[0]) == pytest.approx(progress)
@@ -310,12 +310,12 @@ def test_a_held_patch_goes_there_by_and_by_and_comes_back_when_it_is_let_go(hold
         walk.table.hold[:] = number
         walk.go(0)
         assert state(walk) == (target, start, False)
-        part = []
+        shown = []
         while not walk.settled():
-            part.append(walk.shown[target])
+            shown.append(walk.shown[target])
             walk.go(0)
-        assert len(part) >= 20
-        assert (np.diff(part) > 0.0).all()
+        assert len(shown) >= 20
+        assert (np.diff(shown) > 0.0).all()
         assert walk.shown[target] == 1.0
         for _ in range(50):
             walk.go(0)

@@ -15,7 +15,7 @@ from tallgrass.systems.show.blades.shown import Standing
 from tallgrass.systems.show.strips.pool import StripPool
 from tallgrass.systems.show.strips.shown import StripsOfRing
 from tallgrass.systems.site import Site
-from tallgrass.systems.wind.blow import Listeners, places_alone
+from tallgrass.systems.wind.blow import ReceiverArrays, places_alone
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.grass import grass_of
 
@@ -159,7 +159,7 @@ def test_w1_every_receiver_that_is_seen_hears_the_wind(site: Site, look: Look, w
 def test_w1_receivers_hear_the_instant_that_the_viewer_sees(site: Site, look: Look) -> None:
     asked: list[float] = []
 
-    def hear(heard: Listeners, /, *, time: float) -> NDArray[np.float32]:
+    def hear(heard: ReceiverArrays, /, *, time: float) -> NDArray[np.float32]:
         asked.append(time)
         return np.full_like(heard.place, 0.25)
 

@@ -17,7 +17,7 @@ from tallgrass.systems.blow import Hear
 from tallgrass.systems.gather import Gather
 from tallgrass.systems.painter import Painter
 from tallgrass.systems.site import Site
-from tallgrass.systems.wind.blow import Listeners
+from tallgrass.systems.wind.blow import ReceiverArrays
 from tallgrass.systems.wind.breeze import Breeze
 
 Floats = NDArray[np.float32]
@@ -314,7 +314,7 @@ def test_d2_the_wind_may_be_stepped_again_without_a_picture_and_what_was_read_fo
 ) -> None:
     said = [0.0, 0.0]
 
-    def hear(heard: Listeners, /, **_: float) -> Floats:
+    def hear(heard: ReceiverArrays, /, **_: float) -> Floats:
         return np.full_like(heard.place, said)
 
     looking(1.0, 1.0, hear=hear)
@@ -329,7 +329,7 @@ def test_d2_the_wind_may_be_stepped_again_without_a_picture_and_what_was_read_fo
 def test_what_was_written_for_a_patch_goes_with_it(world: World, looking: Looking) -> None:
     """Neither the patch that takes its place nor the same one that comes back has it."""
 
-    def calm(heard: Listeners, /, **_: float) -> Floats:
+    def calm(heard: ReceiverArrays, /, **_: float) -> Floats:
         return np.zeros_like(heard.place)
 
     first = set(map(tuple, looking(1.0, 1.0, hear=calm).patches.cell.tolist()))

@@ -8,8 +8,8 @@ from ....engine.declared.quality import Quality
 from ....engine.gl.records import Records
 from ....engine.gl.stream import Stream, release_all
 from ...around.outlook import Outlook
+from ...around.representation import Canvas
 from ...frame.block import by_kind, joined
-from ..representation import Canvas
 from ..strips.representation import StripRepresentation
 from .draw import ROUND, SHADER_BLADE, WHOLE
 from .morph import EDGE, MOVING, gather_morph

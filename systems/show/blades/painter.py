@@ -5,7 +5,7 @@ import moderngl
 from ....engine.declared.quality import Quality
 from ....engine.gl.stream import release_all
 from ...around.outlook import Outlook
-from ..representation import Canvas
+from ...around.representation import Canvas
 from ..strips.representation import StripRepresentation
 from .draw import CORES, EDGES, BladePainter
 from .gather import gather_blades

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from ...around.patches import NOWHERE
 from ...around.receivers import Receiving
-from ..representation import Kept
+from ...around.representation import Kept
 
 Floats = NDArray[np.float32]
 

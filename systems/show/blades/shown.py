@@ -74,7 +74,7 @@ def show_blades(outlook: Outlook, cover: Floats, /, *, level: int, side: int, ri
 def _rings(patches: PatchTable, rows: Rows, level: int) -> tuple[NDArray[np.int8], Floats]:
     """Return the ring that each patch's blades are drawn in, and how far they have become those of the next."""
     now, before = patches.sublevel[level, rows], patches.sublevel_before[level, rows]
-    part = patches.sublevel_progress[level, rows]
-    slide = np.where(now > before, part, np.where(now < before, np.float32(1.0) - part, np.float32(0.0)))
-    over = part >= 1.0
+    progress = patches.sublevel_progress[level, rows]
+    slide = np.where(now > before, progress, np.where(now < before, np.float32(1.0) - progress, np.float32(0.0)))
+    over = progress >= 1.0
     return np.where(over, now, np.minimum(now, before)), np.where(over, np.float32(0.0), slide)

@@ -10,8 +10,8 @@ from ....engine.gl.stream import release_all
 from ...around.appearance import BORDER
 from ...around.ground import Ground
 from ...around.outlook import Outlook
+from ...around.representation import Canvas
 from ...grow.record import Growth
-from ..representation import Canvas
 from .ground import RAISED, GroundPainter, finest_spacing, ground_tiles, within
 from .pool import CarpetKept
 from .textures import carpet_texture

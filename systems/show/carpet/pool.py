@@ -7,7 +7,7 @@ from ....engine.world import World
 from ...around.ground import Ground, densest_kind
 from ...around.patches import PatchTable
 from ...around.receivers import Receiving
-from ..representation import Kept
+from ...around.representation import Kept
 
 Floats = NDArray[np.float32]
 Rows = NDArray[np.int64]

@@ -12,8 +12,8 @@ from ....engine.declared.quality import Quality
 from ...around.ground import Ground
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
+from ...around.representation import Canvas, Color, Representation, Seedling
 from ...grow.record import Growth
-from ..representation import Canvas, Color, Representation, Seedling
 from .grow import SLOPES, Carpet, grow_carpet
 from .painter import CarpetPainter
 from .pool import CarpetKept, CarpetPool

@@ -7,8 +7,8 @@ import moderngl
 from ....engine.declared.quality import Quality
 from ....engine.gl.stream import release_all
 from ...around.outlook import Outlook
+from ...around.representation import Canvas
 from ...grow.record import Growth
-from ..representation import Canvas
 from .draw import StripPainter
 from .gather import gather_strips, runs
 from .pool import StripsKept

@@ -12,9 +12,9 @@ from ....engine.declared.quality import Quality
 from ...around.ground import Ground
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
+from ...around.representation import Canvas, Color, Representation, Seedling
 from ...grow.record import Growth
 from ...grow.simulate import LINKS
-from ..representation import Canvas, Color, Representation, Seedling
 from .grow import Strips, grow_strips
 from .painter import StripsPainter
 from .plant import plant_strips

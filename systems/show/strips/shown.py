@@ -81,23 +81,23 @@ class _Entries:
 
 def _entries(patches: PatchTable, rows: Rows, level: int) -> _Entries:
     now, before = patches.sublevel[level, rows], patches.sublevel_before[level, rows]
-    part = patches.sublevel_progress[level, rows]
-    changing = (part < 1.0) & (now != before)
+    progress = patches.sublevel_progress[level, rows]
+    changing = (progress < 1.0) & (now != before)
     index = np.repeat(np.arange(len(rows)), 1 + changing)
-    twice, part = changing[index], part[index]
+    twice, progress = changing[index], progress[index]
     old = twice & (np.diff(index, append=-1) != 0)
     # Neighbours that change alike are drawn together, or each would take two draws of its own.
     kind = np.where(changing, 256 * (before.astype(np.int64) + 1) + now + 1, 0)
     alike = np.cumsum(np.diff(kind, prepend=-1) != 0)[index]
     queue = np.argsort(2 * alike + ~old, kind="stable")
-    index, twice, part, old = index[queue], twice[queue], part[queue], old[queue]
+    index, twice, progress, old = index[queue], twice[queue], progress[queue], old[queue]
     sublevel = np.where(old, before[index], now[index])
     return _Entries(
         rows=rows[index],
         ring=ring_of(sublevel),
         along=axis_of(sublevel),
-        least=np.where(old, part, np.float32(0.0)),
-        most=np.where(twice & ~old, part, np.float32(1.0)),
+        least=np.where(old, progress, np.float32(0.0)),
+        most=np.where(twice & ~old, progress, np.float32(1.0)),
     )
 
 

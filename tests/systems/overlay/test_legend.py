@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from tallgrass.components.wind import WindPrimitive, WindSource
+from tallgrass.systems.around.representation import Representation
+from tallgrass.systems.overlay.layers import LAYERS, Layer
 from tallgrass.systems.overlay.legend import entries, legend
 from tallgrass.systems.overlay.masks import Masked, masked
 from tallgrass.systems.overlay.paint import wind_color
-from tallgrass.systems.overlay.parts import PARTS, Part
-from tallgrass.systems.show.representation import Representation
 from tallgrass.systems.wind.blow import blowing
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.quarantine import Quarantine
@@ -26,7 +26,7 @@ def masks(*winds: WindPrimitive) -> list[Masked]:
     return masked(acting, quarantine, time=1.0, around=(0.0, 0.0), far=60.0)
 
 
-def told(*parts: Part) -> str:
+def told(*parts: Layer) -> str:
     found = entries(frozenset(parts), masks(Breeze(), Whirlwind(), Whirlwind(radius=3.0)), levels())
     return "\n".join(entry.text for entry in found)
 
@@ -45,7 +45,7 @@ def test_n8_the_legend_tells_of_what_is_shown_and_of_nothing_else() -> None:
 
 
 def test_n8_its_colours_are_those_of_the_marks() -> None:
-    image = legend(tuple(entries(frozenset(PARTS), masks(Whirlwind()), levels())), 13)
+    image = legend(tuple(entries(frozenset(LAYERS), masks(Whirlwind()), levels())), 13)
     assert image.dtype == np.uint8
     assert image.shape[2] == 4
     for color in (wind_color(Whirlwind()), *(each.color for each in levels())):

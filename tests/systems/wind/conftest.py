@@ -59,8 +59,8 @@ def feel(answer: Answer) -> Feel:
         placed = {source: pose for source, pose in zip(sources, poses or [], strict=False) if pose is not None}
         quarantine = Quarantine()
         now = blowing(sources, quarantine, time=time, seed=seed, poses=placed)
-        listeners = places_alone(place, answer(len(place), kind=kind))
-        message = hear(now, listeners, quarantine, time=time, seed=seed, mixing=mixing)
+        receivers = places_alone(place, answer(len(place), kind=kind))
+        message = hear(now, receivers, quarantine, time=time, seed=seed, mixing=mixing)
         assert not quarantine.reasons
         return message
 

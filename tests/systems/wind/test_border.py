@@ -19,7 +19,7 @@ from tallgrass.systems.show.strips.pool import StripPool
 from tallgrass.systems.show.strips.shown import StripsOfRing
 from tallgrass.systems.site import Site
 from tallgrass.systems.wind.blast import Blast, Shape
-from tallgrass.systems.wind.blow import Listeners
+from tallgrass.systems.wind.blow import ReceiverArrays
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.whirlwind import Whirlwind
@@ -72,7 +72,7 @@ def blow(flat: Seen, hear: Hear) -> None:
 def at_time(winds: Winds, time: float) -> Hear:
     """Let receivers hear winds at one time."""
 
-    def hear(heard: Listeners, /, **_: float) -> Floats:
+    def hear(heard: ReceiverArrays, /, **_: float) -> Floats:
         return winds.heard(heard, time=time)
 
     return hear
@@ -160,11 +160,11 @@ def test_n4_what_is_asked_of_the_wind_is_what_receivers_of_that_kind_hold(
 
 
 def test_w5_every_receiver_is_as_near_its_patchs_middle_as_is_counted_on(flat: Seen) -> None:
-    told: list[Listeners] = []
+    told: list[ReceiverArrays] = []
 
-    def listen(listeners: Listeners, /, **_: float) -> Floats:
-        told.append(listeners)
-        return np.zeros_like(listeners.place)
+    def listen(receivers: ReceiverArrays, /, **_: float) -> Floats:
+        told.append(receivers)
+        return np.zeros_like(receivers.place)
 
     blow(flat, listen)
     (heard,) = told

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from tallgrass.components.wind import Extent, Grass, WindPrimitive, WindSource
 from tallgrass.engine.scene import SceneError, parse_scene
 from tallgrass.systems.wind.blast import Blast, Shape
-from tallgrass.systems.wind.blow import Listeners, blowing, hear
+from tallgrass.systems.wind.blow import ReceiverArrays, blowing, hear
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.flutter import flutter
 from tallgrass.systems.wind.gust import Gust
@@ -122,13 +122,13 @@ SIDE = 2.5
 CELLS = np.stack(np.meshgrid(np.arange(-8, 8), np.arange(-8, 8)), -1).reshape(-1, 2)
 
 
-def listeners(answer: Answer, each: int = 9) -> Listeners:
+def receivers(answer: Answer, each: int = 9) -> ReceiverArrays:
     """Receivers on 16 by 16 patches."""
     middle = ((CELLS + 0.5) * SIDE).astype(np.float32)
     off = np.random.default_rng(6).uniform(-SIDE / 2, SIDE / 2, (len(CELLS), each, 2))
     place = (middle[:, None] + off).reshape(-1, 2).astype(np.float32)
     patch = np.repeat(np.arange(len(CELLS)), each)
-    return Listeners(place, answer(len(place)), patch, middle, 0.7072 * SIDE)
+    return ReceiverArrays(place, answer(len(place)), patch, middle, 0.7072 * SIDE)
 
 
 class Asked:
@@ -154,14 +154,14 @@ def test_w5_a_wind_whose_extent_meets_no_patch_is_not_asked_at_all(
     asked, quarantine = Asked(monkeypatch, type(wind)), Quarantine()
     now = blowing([WindSource(wind, "far")], quarantine, time=1.0, seed=1)
     assert len(now) == 1
-    message = hear(now, listeners(answer), quarantine, time=1.0, seed=1)
+    message = hear(now, receivers(answer), quarantine, time=1.0, seed=1)
     assert not asked.masks
     assert (message == 0.0).all()
 
 
 @pytest.mark.parametrize("wind", [Gust(hold=0.3, tail=0.3, width=8.0), Whirlwind(radius=3.0), Blast()])
 def test_w5_a_wind_costs_what_it_covers(answer: Answer, monkeypatch: pytest.MonkeyPatch, wind: WindPrimitive) -> None:
-    asked, quarantine, heard = Asked(monkeypatch, type(wind)), Quarantine(), listeners(answer)
+    asked, quarantine, heard = Asked(monkeypatch, type(wind)), Quarantine(), receivers(answer)
     hear(blowing([WindSource(wind, "here")], quarantine, time=1.0, seed=1), heard, quarantine, time=1.0, seed=1)
     assert 0 < sum(len(place) for place in asked.masks) < 0.1 * len(heard.place)
 
@@ -170,7 +170,7 @@ def test_w5_a_wind_costs_what_it_covers(answer: Answer, monkeypatch: pytest.Monk
 def test_w5_that_masks_are_discretised_over_patches_changes_nothing(
     feel: Feel, answer: Answer, wind: WindPrimitive, time: float, seed: int
 ) -> None:
-    heard, quarantine = listeners(answer), Quarantine()
+    heard, quarantine = receivers(answer), Quarantine()
     sources = [WindSource(wind, f"wind[0] {wind.kind}")]
     message = hear(blowing(sources, quarantine, time=time, seed=seed), heard, quarantine, time=time, seed=seed)
     alone = feel(wind, place=heard.place, time=time, seed=seed)

@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from ..engine.camera import Camera, Heights, forward
+from ...engine.camera import Camera, Heights, forward
 
 Move = Literal["ahead", "back", "left", "right", "up", "down", "run"]
 """What a held key asks for."""

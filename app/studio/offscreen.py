@@ -7,7 +7,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ..engine.gl import headless
+from ...engine.gl import headless
 from .errors import MachineError
 
 

@@ -9,11 +9,11 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import __version__
-from ..engine.camera import Camera, camera_at, projection_matrix, view_matrix
-from ..systems.overlay.overlay import Overlay
-from ..systems.prairie import Prairie
-from ..systems.reference import draw_reference
+from ... import __version__
+from ...engine.camera import Camera, camera_at, projection_matrix, view_matrix
+from ...systems.overlay.overlay import Overlay
+from ...systems.prairie import Prairie
+from ...systems.reference import draw_reference
 from .encode import Picture
 from .offscreen import Offscreen
 from .take import SAMPLES, Take

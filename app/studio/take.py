@@ -3,8 +3,8 @@
 import re
 from dataclasses import dataclass
 
-from ..engine.declared.scene import LodName
-from ..systems.overlay.parts import Part
+from ...engine.declared.scene import LodName
+from ...systems.overlay.layers import Layer
 
 LARGEST = 16384
 """Most pixels along a side of a picture."""
@@ -32,7 +32,7 @@ class Take:
     reference: bool = False
     """Whether every blade is drawn in 3D, supersampled."""
 
-    overlay: frozenset[Part] = frozenset()
+    overlay: frozenset[Layer] = frozenset()
     """What is laid over the picture to show how it works."""
 
 

@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
 from ...engine.world import World
-from ..around.ground import Ground
-from ..around.outlook import Outlook
-from ..around.patches import PatchTable
-from ..around.receivers import Receiving
-from ..around.transitions import Transitions
 from ..frame.block import FrameBlock
 from ..grow.record import Blades, Growth, Postures
+from .ground import Ground
+from .outlook import Outlook
+from .patches import PatchTable
+from .receivers import Receiving
+from .transitions import Transitions
 
 Levels = NDArray[np.int8]
 Rows = NDArray[np.int64]

@@ -1,0 +1,1 @@
+"""What commands draw with: a take, a studio to draw it in, files to put it into."""
