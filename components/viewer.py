@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 class Viewer:
     """Somebody who looks at the prairie; an entity for each name that `Prairie.draw` was given.
 
-    It is written anew whenever this viewer looks. Deleting its entity forgets all that was kept for it.
+    It is written anew whenever this viewer looks. Where its entity is deleted, it begins anew when it looks again.
     """
 
     name: str = "main"

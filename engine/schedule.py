@@ -20,7 +20,7 @@ class Phase(IntEnum):
     """What a frame goes through, in this order."""
 
     INPUT = 0
-    """What the game did: the camera, the time."""
+    """Before anything else of the frame: what a game wants to have done by then. The viewer has looked already."""
 
     TILE = 1
     """Patches come and go around the viewer."""

@@ -46,6 +46,15 @@ LEAP = 2.0
 class Prairie:
     """A prairie in the current esper world: grown at once, drawn once there is a GL context."""
 
+    systems: Schedule
+    """What happens in a frame, for each viewer that is drawn: to be read, added to, replaced in and left out."""
+
+    viewers: Outlooks
+    """What is kept for each viewer, by its name."""
+
+    statistics: Statistics
+    """What the last frame took and held."""
+
     def __init__(
         self,
         loaded: LoadedScene,

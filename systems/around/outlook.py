@@ -104,8 +104,9 @@ class Outlooks:
 
         `make` gives the empty outlook of a viewer and its entity. One whose entity has been deleted begins anew.
         """
-        if name not in self:
-            self.forget(name)
+        for gone in [each for each in self._all if each not in self]:
+            self.forget(gone)
+        if name not in self._all:
             viewer = Viewer(name)
             self._all[name] = made = make(viewer, self._world.create(viewer))
             made.generation = self._world.check()

@@ -6,12 +6,14 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import typer
 
 import tallgrass
 from tallgrass.app.cli import app
 from tallgrass.engine.scene import parse_scene
+from tallgrass.testing import Phase, private_world, receivers_of, step, watch
 
 pytestmark = pytest.mark.packaging
 
@@ -23,7 +25,7 @@ def blocks(language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
 
 
-GAME, WINDS = blocks("python")
+GAME, WINDS, SYSTEM = blocks("python")
 (SCENE,) = blocks("yaml")
 
 
@@ -35,12 +37,13 @@ def test_the_scene_is_valid_and_says_what_it_seems_to() -> None:
 
 
 def test_the_programs_use_only_what_the_face_offers() -> None:
-    for program in (GAME, WINDS):
+    for program in (GAME, WINDS, SYSTEM):
         compile(program, "README.md", "exec")
         (imported,) = re.findall(r"^from tallgrass import (.+)$", program, re.MULTILINE)
         assert set(imported.split(", ")) <= set(tallgrass.__all__)
     used = re.findall(r"[pP]rairie\.(\w+)", README)
-    assert {name for name in used if not hasattr(tallgrass.Prairie, name)} == set()
+    face = {*dir(tallgrass.Prairie), *tallgrass.Prairie.__annotations__}
+    assert set(used) - face == set()
 
 
 def test_the_winds_that_a_game_sets_off_are_felt() -> None:
@@ -53,6 +56,20 @@ def test_the_winds_that_a_game_sets_off_are_felt() -> None:
     assert abs(blown - prairie.wind_at(under, 1.0)).max() > 0.05
     assert abs(prairie.wind_at(front, 1.0)).max() > abs(prairie.wind_at(front, 30.0)).max() + 0.1
     prairie.release()
+
+
+def test_the_system_that_a_game_adds_bends_the_grass() -> None:
+    told: dict[str, Any] = {}
+    with private_world():
+        exec(SYSTEM, told)  # noqa: S102 - it is our own page
+        prairie = told["prairie"]
+        for _ in range(3):  # a few entities are made in each frame
+            watch(prairie)
+            step(prairie, Phase.BLOW)
+        under = receivers_of(prairie).near(10.0, -36.0, within=0.9)
+        assert len(under) > 100
+        assert np.allclose(under.message, (0.0, -0.9))
+        prairie.release()
 
 
 @pytest.mark.window
