@@ -16,10 +16,16 @@ Floats = NDArray[np.float32]
 
 
 def strips_kept(outlook: Outlook, /, *, reach: tuple[int, ...], patch: float) -> Floats:
-    """Return how much of the strips the distance leaves on each patch, shape (rows,); `patch` is its side [m]."""
+    """Return how much of the strips the distance leaves on each patch, shape (rows,); `patch` is its side [m].
+
+    It leaves all of them where something else than the carpet comes after them.
+    """
+    limit = reach[outlook.patches.names.index("strips")]
+    if limit < reach[-2]:
+        return np.ones(len(outlook.patches.progress), np.float32)
     eye = np.array([outlook.viewer.eye[0], outlook.viewer.eye[2]], np.float32)
     away = np.abs(outlook.patches.middle - eye).max(axis=1)
-    return kept_near(away / np.float32(patch), reach=reach[outlook.patches.names.index("strips")])
+    return kept_near(away / np.float32(patch), reach=limit)
 
 
 @dataclass(slots=True)
