@@ -38,7 +38,11 @@ FRAME = np.dtype(
 
 def canopy_height(growth: Growth) -> float:
     """Return the height that a kind's shade is measured by [m]: what nearly all its blades stay below."""
-    return float(np.quantile(np.concatenate([model.blades.height for model in growth.models]), 0.9))
+    return float(
+        np.quantile(
+            np.concatenate([np.maximum(model.blades.height, model.blades.stem) for model in growth.models]), 0.9
+        )
+    )
 
 
 def frame_record(scene: Scene, growths: list[Growth], terrain: Terrain, patch: float) -> NDArray[np.void]:

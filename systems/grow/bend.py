@@ -22,7 +22,21 @@ def spine(blades: Blades, postures: Postures, message: ArrayLike, /, *, points: 
     place[:, :, 0] = blades.root[:, :1] + height * along * direction[:, :1]
     place[:, :, 1] = height * up
     place[:, :, 2] = blades.root[:, 1:] + height * along * direction[:, 1:]
-    return place.astype(np.float32)
+    return (place + _stem_top(blades, postures, message)[:, None]).astype(np.float32)
+
+
+def _stem_top(blades: Blades, postures: Postures, message: ArrayLike, /) -> Doubles:
+    """Return where the tops of the stems are that blades stand on, from their roots [m], shape (n, 3)."""
+    index, direction = posture_of(np.zeros_like(blades.rest), message)
+    along, up = _look_up(postures, np.zeros_like(blades.variant), index, np.ones(1))
+    x, z = (along[:, 0] * direction[:, k] for k in (0, 1))
+    return np.asarray(np.stack([x, up[:, 0], z], axis=1) * blades.stem[:, None].astype(np.float64))
+
+
+def tone(blades: Blades, place: Doubles, /) -> Doubles:
+    """Return how far points at places (points,) along blades have the tip's colour, shape (n, points)."""
+    low = np.broadcast_to(blades.stem > 0.0, blades.height.shape)[:, None]
+    return np.where(low, 1.0, place[None])
 
 
 def posture_of(rest: ArrayLike, message: ArrayLike, /) -> tuple[Doubles, Doubles]:

@@ -1,7 +1,7 @@
 """What is grown from a grass kind: postures, response, and patch models."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -61,6 +61,10 @@ class Blades:
 
     rank: Floats
     """Order of disappearance in [0, 1): a blade is there where the density exceeds it, shape (n,)."""
+
+    stem: Floats = field(default_factory=lambda: np.zeros(1, np.float32))
+    """Height of the upright stem on whose top it stands, 0 for the ground [m], shape (n,), or (1,) for all. The stem
+    is a blade of its own, without a lean, of variant 0, with the same root. What stands on one has the tip's colour."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -11,6 +11,7 @@ in vec2 facing;
 in float width;
 in float variant;
 in float kind;
+in float stem;  // height of the one that it stands on [m]
 in vec2 message;
 in float fade;
 #ifndef MORPH
@@ -79,11 +80,13 @@ void main() {
     int k = int(kind);
     vec2 bend = message + rest * (1.0 - min(length(message), 1.0));
     Spine spine = posture(variant, bend, t);
-    vec3 place = root_at + spine.place * height, tangent = spine.tangent * height;
+    vec3 foot = stem > 0.0 ? posture(float(k) * field.w, message, 1.0).place * stem : vec3(0.0);
+    vec3 place = root_at + foot + spine.place * height, tangent = spine.tangent * height;
     vec2 across = vec2(-facing.y, facing.x) * side;
     float reach = 0.5 * width * pow(max(1.0 - t, 0.0), tip[k].w);
-    float h = spine.place.y * height / (root[k].w * lodged(message));
-    color = light(k, t, facing + ROUND * across, root_at, h, message);
+    float h = (foot.y + spine.place.y * height) / (root[k].w * lodged(message));
+    float ripe = stem > 0.0 ? 1.0 : t;
+    color = light(k, ripe, facing + ROUND * across, root_at, h, message);
     across *= reach;
 #ifdef MORPH
     Painted target = painted_at(int(edge), int(painted), t, k, tall[k]);
@@ -91,7 +94,7 @@ void main() {
     place = mix(place, target.place, morph);
     tangent = mix(tangent, target.tangent, morph);
     across = mix(across, run * dot(run, across) * boosted(run, target.middle), morph);
-    color = mix(color, light(k, t, facing, target.middle, target.h, target.message), morph);
+    color = mix(color, light(k, ripe, facing, target.middle, target.h, target.message), morph);
 #endif
 #ifdef SOFT
     gl_Position = widened(place, tangent, across);

@@ -33,6 +33,7 @@ def blade_records(blades: Blades, turn: int, /, *, patch: float, kind: int, vari
     spun = turned(blades.root, np.asarray(turn, np.int32), patch=patch)
     records["root"][:, 0], records["root"][:, 2] = spun[:, 0], spun[:, 1]
     records["height"], records["width"], records["kind"] = blades.height, blades.width, kind
+    records["stem"] = blades.stem
     records["variant"] = kind * variants + blades.variant
     lean_x, lean_z = blades.rest.T
     records["rest"] = np.stack([c * lean_x - s * lean_z, s * lean_x + c * lean_z], 1)

@@ -20,10 +20,11 @@ BLADE = np.dtype(
         ("width", "f4"),
         ("variant", "f4"),
         ("kind", "f4"),
+        ("stem", "f4"),
     ]
 )
 """What the graphics card is told of a blade: root [m], length [m], lean, face normal (x, z), width at the root [m],
-row of the posture table, and kind. The field names are the shader's attributes."""
+row of the posture table, kind, and height of its stem [m]. The field names are the shader's attributes."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...grow.bend import Doubles, highest_tip, ribbon, segment_normals, spine
+from ...grow.bend import Doubles, highest_tip, ribbon, segment_normals, spine, tone
 from ...grow.raster import Fragments, interpolate, rasterise, ribbon_triangles
 from ...grow.record import Blades, Bytes, Floats, PatchModel, Postures
 
@@ -71,7 +71,9 @@ def grow_carpet(
     centre = spine(blades, postures, (0.0, 0.0), points=_SEGMENTS + 1)
     height = highest_tip(centre, 0.01) if height is None else height
     width = float(blades.width.mean())
-    field = _Field(ribbon_triangles(left, right), segment_normals(blades, centre), width, patch, height, texels)
+    tones = tone(blades, np.linspace(0.0, 1.0, _SEGMENTS + 1))
+    normals = segment_normals(blades, centre)
+    field = _Field(ribbon_triangles(left, right), normals, tones, width, patch, height, texels)
     images = [[field.draw(heading, slope) for heading in _HEADINGS] for slope in slopes]
     return Carpet(
         slope=np.asarray(slopes, np.float32),
@@ -85,13 +87,20 @@ class _Field:
     """The triangles of a patch's blades, and how to draw the endless field that repeats them."""
 
     def __init__(
-        self, ribbons: Doubles, normals: Doubles, width: float, patch: float, height: float, texels: int, /
+        self,
+        ribbons: Doubles,
+        normals: Doubles,
+        tones: Doubles,
+        width: float,
+        patch: float,
+        height: float,
+        texels: int,
+        /,
     ) -> None:
         self._fine = int(np.clip(np.ceil(_SAMPLES_PER_WIDTH * patch / texels / width), 6, 64))
         self._ribbons, self._patch, self._height, self._texels = ribbons, patch, height, texels
         self._normals = np.repeat(normals.reshape(-1, 3), 2, axis=0)
-        place = np.linspace(0.0, 1.0, _SEGMENTS + 1)
-        ends = np.broadcast_to(place[None, :, None], (normals.shape[0], _SEGMENTS + 1, 1))
+        ends = tones[:, :, None]
         self._place = ribbon_triangles(ends, ends)[:, :, 0]
 
     def draw(self, heading: NDArray[np.float64], slope: float, /) -> Bytes:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...grow.bend import Doubles, highest_tip, ribbon, spine
+from ...grow.bend import Doubles, highest_tip, ribbon, spine, tone
 from ...grow.raster import Fragments, interpolate, rasterise, ribbon_triangles
 from ...grow.record import Blades, Bytes, Floats, PatchModel, Postures
 
@@ -148,9 +148,7 @@ class _Sheet:
 
     def _meaning(self, corners: Doubles, seen: Fragments, /) -> list[Doubles]:
         """Return at each sample: place along the blade, normal x and z, rank, and 1."""
-        count = self._blades.root.shape[0]
-        place = np.linspace(0.0, 1.0, _SEGMENTS + 1)
-        ends = np.broadcast_to(place[None, :, None], (count, _SEGMENTS + 1, 1))
+        ends = tone(self._blades, np.linspace(0.0, 1.0, _SEGMENTS + 1))[:, :, None]
         along = interpolate(corners, ribbon_triangles(ends, ends)[:, :, 0], seen)
         segment = seen.triangle // 2
         blade = segment // _SEGMENTS
