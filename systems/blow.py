@@ -94,9 +94,8 @@ def _deliver(order: list[Receiving], heard: Floats) -> int:
 
 
 def _mean(outlook: Outlook, order: list[Receiving]) -> Floats:
-    """Return the mean of what the patches in view hear in their middle, shape (2,)."""
+    """Return the mean of what the patches in view hear in their middle, shape (2,): the coarsest comes last."""
     seen = outlook.patches.alive & outlook.patches.visible
-    for receiving in order:
-        if receiving.still and seen.any():
-            return np.asarray(receiving.pool.message[:, 0][seen].mean(axis=0), np.float32)
-    return np.zeros(2, np.float32)
+    if not (order and seen.any()):
+        return np.zeros(2, np.float32)
+    return np.asarray(order[-1].pool.message[:, 0][seen].mean(axis=0), np.float32)

@@ -136,7 +136,8 @@ def _keys(scene: Scene, quality: Quality) -> list[str]:
 
 def farthest_reach(kind: GrassKind, growth: Growth) -> float:
     """Return how far the tip of a kind's tallest blade can come to be from its root, along the ground [m]."""
-    return kind.height[1] * float(np.abs(growth.postures.shape[..., 0]).max())
+    tallest = max(float((model.blades.height + model.blades.stem).max()) for model in growth.models)
+    return max(kind.height[1], tallest) * float(np.abs(growth.postures.shape[..., 0]).max())
 
 
 def outlook_on(site: Site, viewer: Viewer, entity: int, /) -> Outlook:
