@@ -23,7 +23,7 @@ from tallgrass.systems.show.blades.morph_draw import PER_ROW as EDGES_PER_ROW
 from tallgrass.systems.show.blades.morph_draw import MorphPainter
 from tallgrass.systems.show.blades.painter import BladesPainter
 from tallgrass.systems.show.blades.shown import Standing
-from tallgrass.systems.show.strips.draw import PER_ROW, StripPainter
+from tallgrass.systems.show.strips.draw import KINDS, PER_ROW, StripPainter
 from tallgrass.systems.show.strips.gather import gather_strips
 from tallgrass.systems.show.strips.painter import StripsPainter
 from tallgrass.systems.show.strips.representation import StripRepresentation
@@ -201,22 +201,25 @@ class Drawn:
 
 def strips_drawn(scene: Scene, number: int) -> Drawn:
     """One ring's strips, also those that do not show yet."""
-    outlook, strips = scene.outlook, scene.strips.rings[number]
+    outlook, strips = scene.outlook, scene.strips.strips
     pool, shown = outlook.kept["strips"].pools[number], outlook.shown["strips"].rings[number]
     whole = replace(scene.appears, handed=np.ones_like(scene.appears.handed))
-    records, counts = gather_strips(pool, shown, whole, outlook.patches, outlook.viewer.centre)
+    records, counts = gather_strips(pool, shown, whole, outlook.patches, outlook.viewer.centre, ring=number)
     strips.strips.write(records)
     strips.strips.texture.use(UNITS["strips"])
     data = caught(scene.painter, strip_program(scene, strips), [], 2 * strips.sections + 2, len(records))
-    return Drawn(np.repeat(shown.rows, counts), records["layer"], data[..., :4])
+    sections = scene.representation.quality.strip_rings[number].sections
+    return Drawn(np.repeat(shown.rows, counts), records["layer"], data[:, : 2 * sections + 2, :4])
 
 
 def strip_program(scene: Scene, strips: StripPainter) -> moderngl.Program:
-    defines = {"SECTIONS": strips.sections, "COLUMNS": strips.columns, "PER_ROW": PER_ROW}
+    rings = scene.representation.quality.strip_rings
+    defines = {"SECTIONS": strips.sections, "RINGS": len(rings), "KINDS": KINDS, "PER_ROW": PER_ROW}
     made = program(
         scene.painter.ctx, "systems/show/strips/strips.vert", None, defines=defines, varyings=("gl_Position", "h")
     )
     made["tall"] = by_kind([kind.height for kind in scene.representation.stock.strips[0]])
+    made["fineness"] = [(ring.columns, ring.sections) for ring in rings]
     made["first"] = 0
     return made
 

@@ -203,9 +203,7 @@ def test_t5_strips_look_the_same_in_many_draws_as_in_few(stage: Stage, load: Loa
     assert isinstance(strips, StripsPainter)
     few = list(strips.runs)
     strips.runs = [
-        (ring, first + start, min(7, count - start), thin)
-        for ring, first, count, thin in few
-        for start in range(0, count, 7)
+        (first + start, min(7, count - start), thin) for first, count, thin in few for start in range(0, count, 7)
     ]
     stage.target.clear(depth=1.0)
     painter.draw(view_of(*stage.matrices(aim)))

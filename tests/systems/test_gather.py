@@ -15,7 +15,8 @@ from tallgrass.systems.blow import Hear
 from tallgrass.systems.show.blades.gather import gather_blades
 from tallgrass.systems.show.blades.pool import BladePool
 from tallgrass.systems.show.blades.shown import Standing
-from tallgrass.systems.show.strips.gather import gather_strips, runs
+from tallgrass.systems.show.strips.draw import KINDS, STRIP
+from tallgrass.systems.show.strips.gather import MOST, gather_strips, in_one_queue, runs
 from tallgrass.systems.show.strips.pool import StripPool
 from tallgrass.systems.show.strips.shown import StripsOfRing
 from tallgrass.systems.site import Site
@@ -54,14 +55,9 @@ def of_ring(outlook: Outlook, ring: int) -> tuple[NDArray[np.void], NDArray[np.i
 def as_drawn(outlook: Outlook) -> tuple[NDArray[np.void], NDArray[np.int32]]:
     """All polygon strips in the order in which they are drawn, and the cell of the patch that each is of."""
     shown = [ring for _, ring in strips(outlook)]
-    gathered = [of_ring(outlook, ring) for ring in range(len(shown))]
-    cells = [
-        np.repeat(outlook.patches.cell[ring.rows], counts, axis=0)
-        for ring, (_, counts) in zip(shown, gathered, strict=True)
-    ]
-    draws = runs(shown, [counts for _, counts in gathered], [False] * len(shown))
-    drawn = np.concatenate([gathered[ring][0][first : first + count] for ring, first, count, _ in draws])
-    return drawn, np.concatenate([cells[ring][first : first + count] for ring, first, count, _ in draws])
+    drawn, amount = in_one_queue(shown, [of_ring(outlook, ring) for ring in range(len(shown))])
+    rows = np.concatenate([ring.rows for ring in shown])[np.argsort(np.concatenate([ring.queue for ring in shown]))]
+    return drawn, np.repeat(outlook.patches.cell[rows], amount, axis=0)
 
 
 def test_t5_along_any_ray_from_the_eye_strips_are_drawn_from_far_to_near(outlook: Outlook) -> None:
@@ -78,32 +74,36 @@ def test_t5_along_any_ray_from_the_eye_strips_are_drawn_from_far_to_near(outlook
         assert (np.diff(away) <= 1e-4).all()
 
 
-def test_t5_patches_of_one_ring_that_follow_one_another_are_one_draw(outlook: Outlook) -> None:
-    shown = [ring for _, ring in strips(outlook)]
-    counts = [of_ring(outlook, ring)[1] for ring in range(len(shown))]
-    draws = runs(shown, counts, [False, False])
-    assert all(one[0] != two[0] for one, two in pairwise(draws))
-    for ring in (0, 1):
-        parts = [(first, count) for number, first, count, _ in draws if number == ring]
-        assert parts[0][0] == 0
-        assert all(first + count == after for (first, count), (after, _) in pairwise(parts))
-        assert sum(parts[-1]) == counts[ring].sum()
+@given(st.lists(st.booleans(), max_size=30), st.data())
+def test_t5_patches_that_follow_one_another_are_one_draw_and_all_are_where_that_would_be_many(
+    ranked: list[bool], data: st.DataObject
+) -> None:
+    amount = np.array(data.draw(st.lists(st.integers(0, 5), min_size=len(ranked), max_size=len(ranked))), np.int64)
+    draws = runs(np.array(ranked, np.bool_), amount)
+    assert len(draws) <= MOST
+    drawn = [strip for first, count, _ in draws for strip in range(first, first + count)]
+    assert drawn == list(range(int(amount.sum())))
+    if len(draws) > 1:
+        assert all(one[2] != two[2] for one, two in pairwise(draws))
+    by_rank = np.concatenate([np.zeros(0, np.bool_), *(np.full(count, thin) for _, count, thin in draws)])
+    assert by_rank[np.repeat(np.array(ranked, np.bool_), amount)].all()
 
 
 @given(st.lists(st.integers(0, 2), max_size=30), st.data())
-def test_t5_draws_walk_all_rings_in_one_order(ring_of: list[int], data: st.DataObject) -> None:
+def test_t5_the_strips_of_all_rings_stand_in_one_order(ring_of: list[int], data: st.DataObject) -> None:
     amount = data.draw(st.lists(st.integers(0, 5), min_size=len(ring_of), max_size=len(ring_of)))
-    shown, counts, told = [], [], []
+    shown, gathered = [], []
     for ring in range(3):
         queue = np.flatnonzero(np.array(ring_of, np.int64) == ring)
         none, whole = np.zeros(len(queue), np.float32), np.ones(len(queue), np.float32)
         shown.append(StripsOfRing(queue, queue, whole, none.astype(np.int32), queue, none, whole))
-        counts.append(np.array(amount, np.int64)[queue])
-        told.append([patch for patch in queue.tolist() for _ in range(amount[patch])])
-    draws = runs(shown, counts, [False] * 3)
-    drawn = [patch for ring, first, count, _ in draws for patch in told[ring][first : first + count]]
-    assert drawn == [patch for patch, count in enumerate(amount) for _ in range(count)]
-    assert len(draws) == sum(a != b for a, b in zip([-1, *ring_of], ring_of, strict=False))
+        counts = np.array(amount, np.int64)[queue]
+        records = np.zeros(int(counts.sum()), STRIP)
+        records["layer"] = np.repeat(queue, counts)
+        gathered.append((records, counts))
+    drawn, told = in_one_queue(shown, gathered)
+    assert drawn["layer"].tolist() == [patch for patch, count in enumerate(amount) for _ in range(count)]
+    assert told.tolist() == amount
 
 
 def test_w1_a_strip_has_the_messages_of_its_two_edges(outlook: Outlook) -> None:
@@ -129,9 +129,10 @@ def test_g1_every_kind_is_gathered_on_its_own_layers_with_the_patchs_turn(outloo
     records, counts = of_ring(outlook, 0)
     assert (counts == 2 * 3 * 2).all()
     own = records.reshape(len(ring.rows), -1)
-    np.testing.assert_array_equal(own["turn"], np.tile(outlook.patches.turn[ring.rows][:, None], own.shape[1]))
+    np.testing.assert_array_equal(own["stand"] % 4, np.tile(outlook.patches.turn[ring.rows][:, None], own.shape[1]))
     layer = records["layer"].astype(int)
-    np.testing.assert_array_equal(records["kind"], layer >= 12)
+    np.testing.assert_array_equal(records["stand"] // 4, np.arange(len(records)) % 2)
+    np.testing.assert_array_equal(records["picture"] % KINDS, layer >= 12)
     expected = np.sort(pool.layer[ring.slots].reshape(len(ring.rows), -1), axis=1)
     np.testing.assert_array_equal(np.sort(own["layer"][:, ::2], axis=1), expected)
 
@@ -142,8 +143,8 @@ def test_a_kind_that_does_not_grow_on_a_patch_is_not_gathered_there(laid: Laid, 
     outlook = look(laid(terrain=FLAT, dense=dense), *EYE)
     records, counts = of_ring(outlook, 0)
     assert set(counts.tolist()) == {6, 12}
-    assert records["a"][records["kind"] == 1][:, 0].max() < 4.0
-    assert records["a"][records["kind"] == 0][:, 0].max() > 8.0
+    assert records["a"][records["picture"] == 1][:, 0].max() < 4.0
+    assert records["a"][records["picture"] == 0][:, 0].max() > 8.0
     plants, rings = blades(outlook)
     grown = np.concatenate([gather_blades(plants, ring)[0] for ring in rings])
     assert grown["root"][grown["kind"] == 1][:, 0].max() < 0.1

@@ -1,6 +1,6 @@
-"""Drawing 2.5D strips, back to front: an instanced draw for each run of patches of one ring."""
+"""Drawing 2.5D strips, back to front: those of all rings together."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 
 import moderngl
 import numpy as np
@@ -9,9 +9,13 @@ from numpy.typing import NDArray
 from ....engine.declared.quality import StripRing
 from ....engine.gl.records import Records
 from ....engine.gl.stream import release_all
-from ...frame.block import FrameBlock, by_kind, joined
+from ...around.representation import Canvas
+from ...frame.block import by_kind, joined
 from .grow import Strips
 from .textures import strip_textures
+
+KINDS = 4
+"""Kinds of grass that there is room for."""
 
 STRIP = np.dtype(
     [
@@ -19,14 +23,15 @@ STRIP = np.dtype(
         ("b", "3f4"),
         ("wind", "4f4"),
         ("layer", "f4"),
-        ("kind", "f4"),
-        ("turn", "f4"),
+        ("picture", "f4"),
+        ("stand", "f4"),
         ("fade", "f4"),
         ("growth", "f4"),
         ("ranks", "f4"),
     ]
 )
-"""A polygon strip: the feet of its two edges [m], their messages, layer, kind, the patch's quarter turns, how much it
+"""A polygon strip: the feet of its two edges [m], and their messages; the layer of its picture, and which picture it
+is, `KINDS` times the ring, plus the kind; how it stands, four times its column, plus the patch's quarter turns; how much it
 shows, and how high it stands, of its full height. It shows the blades whose rank is below `ranks`, or where that is
 negative those whose rank is not below -`ranks`. The shader reads it as four texels."""
 
@@ -35,35 +40,45 @@ PER_ROW = 16
 
 
 class StripPainter:
-    """Draws the strips of one ring; it owns the ring's textures."""
+    """Draws the strips of all rings; it owns their textures.
 
-    def __init__(
-        self,
-        ctx: moderngl.Context,
-        block: FrameBlock,
-        ring: StripRing,
-        stock: list[list[Strips]],
-        units: Mapping[str, int],
-    ) -> None:
-        self.sections, self.columns = ring.sections, ring.columns
-        self.units = units
-        self.atlas, self.ranks = strip_textures(ctx, stock)
-        self.strips = Records(ctx, STRIP, PER_ROW, rows=1024)
-        whole = {"SECTIONS": ring.sections, "COLUMNS": ring.columns, "PER_ROW": PER_ROW}
-        thin = {**whole, "THIN": 1}
+    `stock` gives the strips by ring, kind and model.
+    """
+
+    def __init__(self, canvas: Canvas, rings: Sequence[StripRing], stock: Sequence[list[list[Strips]]]) -> None:
+        self.units = canvas.units
+        self.sections = max(ring.sections for ring in rings)
+        self.atlas, self.ranks = strip_textures(canvas.ctx, stock)
+        layers = [sum(2 * len(strips.plane) for models in kinds for strips in models) for kinds in stock]
+        self.first_layer = np.cumsum([0, *layers])
+        self.strips = Records(canvas.ctx, STRIP, PER_ROW, rows=1024)
+        whole = {"SECTIONS": self.sections, "RINGS": len(rings), "KINDS": KINDS, "PER_ROW": PER_ROW}
         self.programs = [
-            joined(ctx, block, units, "systems/show/strips/strips.vert", "systems/show/strips/strips.frag", defines)
-            for defines in (whole, thin)
-        ]
-        kinds = [models[0] for models in stock]
+            joined(
+                canvas.ctx, canvas.block, canvas.units, "systems/show/strips/strips.vert",
+                "systems/show/strips/strips.frag", defines,
+            )
+            for defines in (whole, {**whole, "THIN": 1})
+        ]  # fmt: skip
         for made in self.programs:
-            made["tall"] = by_kind([strips.height for strips in kinds])
-            made["wide_to"] = by_kind([strips.texels.shape[3] / self.atlas.width for strips in kinds])
-            made["high_to"] = by_kind([strips.texels.shape[2] / self.atlas.height for strips in kinds])
-        self.arrays = [ctx.vertex_array(made, []) for made in self.programs]
+            made["tall"] = by_kind([models[0].height for models in stock[0]])
+            # An array of one is no array to those that tell it to the card.
+            fineness = [(ring.columns, ring.sections) for ring in rings]
+            made["fineness"] = fineness if len(rings) > 1 else fineness[0]
+            made["picture_to"] = self._picture_sizes(stock)
+        self.arrays = [canvas.ctx.vertex_array(made, []) for made in self.programs]
+
+    def _picture_sizes(self, stock: Sequence[list[list[Strips]]]) -> list[tuple[float, float]]:
+        """Return how far each picture reaches across its layer and up, by ring and kind."""
+        sizes = [(0.0, 0.0)] * (KINDS * len(stock))
+        for ring, kinds in enumerate(stock):
+            for kind, models in enumerate(kinds):
+                rows, columns = models[0].rank.shape[2:]
+                sizes[KINDS * ring + kind] = columns / self.atlas.width, rows / self.atlas.height
+        return sizes
 
     def write(self, strips: NDArray[np.void]) -> None:
-        """Send the ring's polygon strips (n,), far to near."""
+        """Send the polygon strips (n,), far to near."""
         self.strips.write(strips)
 
     def draw(self, first: int, count: int, *, thin: bool) -> int:

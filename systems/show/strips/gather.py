@@ -5,9 +5,12 @@ from numpy.typing import NDArray
 
 from ...around.appearance import Appearance, handed_over
 from ...around.patches import PatchTable
-from .draw import STRIP
+from .draw import KINDS, STRIP
 from .pool import StripPool
 from .shown import StripsOfRing
+
+MOST = 8
+"""Draws of strips in a frame at most."""
 
 
 def lies_ahead(cell: NDArray[np.int32], centre: NDArray[np.int32], along: NDArray[np.int32], /) -> NDArray[np.bool_]:
@@ -23,12 +26,15 @@ def gather_strips(
     centre: NDArray[np.int32],
     /,
     *,
+    ring: int = 0,
+    first_layer: int = 0,
     fade: bool = True,
 ) -> tuple[NDArray[np.void], NDArray[np.int64]]:
-    """Return the polygon strips of the patches shown, far to near, and how many there are on each patch.
+    """Return the polygon strips of a ring's patches shown, far to near, and how many there are on each patch.
 
     They are records of `STRIP`, shape (n,), and those of one strip follow one another; the counts have shape (m,).
-    `fade` says that a strip appears gradually while blades are handed over to it.
+    The pictures of the `ring` begin at the `first_layer`. `fade` says that a strip appears gradually while blades are
+    handed over to it.
 
     Strips are stored by rising place in their stack; where the viewer is on the low side they are walked backwards.
     """
@@ -45,9 +51,9 @@ def gather_strips(
         records[side][..., ::2] = place[..., edge, :]
         records[side][..., 1] = ground[..., edge]
         records["wind"][..., slice(0, 2) if side == "a" else slice(2, 4)] = message[..., edge, :]
-    records["layer"] = pool.layer[at][..., None]
-    records["kind"] = kind[..., None]
-    records["turn"] = patches.turn[shown.rows][:, None, None, None]
+    records["layer"] = pool.layer[at][..., None] + np.float32(first_layer)
+    records["picture"] = KINDS * ring + kind[..., None]
+    records["stand"] = 4 * np.arange(columns) + patches.turn[shown.rows][:, None, None, None]
     records["growth"] = appears.growth[shown.rows][:, None, None, None]
     records["ranks"] = np.where(shown.least > 0.0, -shown.least, shown.most)[:, None, None, None]
     covers = shown.fade * handed_over(appears.handed[shown.rows], fade=fade)[1]
@@ -57,27 +63,37 @@ def gather_strips(
     return grown, grows.sum(axis=(1, 2)) * columns
 
 
-def runs(
-    shown: list[StripsOfRing], counts: list[NDArray[np.int64]], thin: list[bool], /
-) -> list[tuple[int, int, int, bool]]:
-    """Return the draws that show all rings' strips from far to near: ring, first strip, number of strips, by rank.
+def in_one_queue(
+    shown: list[StripsOfRing], gathered: list[tuple[NDArray[np.void], NDArray[np.int64]]], /
+) -> tuple[NDArray[np.void], NDArray[np.int64]]:
+    """Return the strips of all rings from far to near, and how many each patch has in that order.
 
-    `counts` are the numbers of strips on each patch, by ring. Patches of one ring that follow one another are drawn
-    together. Patches that show only some of their blades, and all of a ring that is `thin`, are drawn by rank, in
-    draws of their own.
+    `gathered` are the strips of each ring and how many there are on each of its patches.
     """
-    total = sum(len(ring.queue) for ring in shown)
-    ring_of, amount, ranked = np.zeros(total, np.int64), np.zeros(total, np.int64), np.zeros(total, np.bool_)
-    for number, (ring, count) in enumerate(zip(shown, counts, strict=True)):
-        ring_of[ring.queue], amount[ring.queue] = number, count
-        ranked[ring.queue] = thin[number] | (ring.most < 1.0) | (ring.least > 0.0)
-    if not total:
+    place = np.concatenate([ring.queue for ring in shown])
+    amount = np.concatenate([counts for _, counts in gathered])
+    order = np.argsort(place, kind="stable")
+    start = np.cumsum(amount) - amount
+    end = np.cumsum(amount[order])
+    rows = np.arange(end[-1] if len(end) else 0) + np.repeat(start[order] - (end - amount[order]), amount[order])
+    return np.concatenate([records for records, _ in gathered])[rows], amount[order]
+
+
+def runs(ranked: NDArray[np.bool_], amount: NDArray[np.int64], /) -> list[tuple[int, int, bool]]:
+    """Return the draws that show strips from far to near: first strip, number of strips, whether by rank.
+
+    `ranked` says which patches have to be drawn by rank, `amount` how many strips each has, both in their order, (m,).
+    Patches that follow one another are drawn together; where that would make more than `MOST` draws, all are drawn
+    by rank at once, which takes longer for each pixel and shows the same.
+    """
+    if not len(ranked):
         return []
-    starts = np.flatnonzero(np.diff(2 * ring_of + ranked, prepend=-1))
-    done = [0] * len(shown)
-    draws = []
-    for start, end in zip(starts.tolist(), [*starts[1:].tolist(), total], strict=True):
-        number, size = int(ring_of[start]), int(amount[start:end].sum())
-        draws.append((number, done[number], size, bool(ranked[start])))
-        done[number] += size
-    return draws
+    starts = np.flatnonzero(np.diff(ranked.astype(np.int8), prepend=-1))
+    first = np.concatenate([[0], np.cumsum(amount)])
+    if len(starts) > MOST:
+        return [(0, int(first[-1]), True)]
+    ends = [*starts[1:].tolist(), len(ranked)]
+    return [
+        (int(first[start]), int(first[end] - first[start]), bool(ranked[start]))
+        for start, end in zip(starts.tolist(), ends, strict=True)
+    ]

@@ -1,13 +1,13 @@
-// One instance is one polygon strip between two vertical edges, SECTIONS quads high.
+// One instance is one polygon strip between two vertical edges, as many quads high as its ring asks for, at most SECTIONS.
 #include "lib/light.glsl"
 #include "lib/posture.glsl"
 
 uniform sampler2D strips;  // four texels for each polygon strip
 uniform int first;
 
-uniform vec4 tall;   // by kind: height of the strips [m]
-uniform vec4 wide_to;  // by kind: how far its picture reaches across its layer of the texture
-uniform vec4 high_to;  // by kind: how far up
+uniform vec4 tall;  // by kind: height of the strips [m]
+uniform vec2 picture_to[RINGS * KINDS];  // how far each picture reaches across its layer of the texture, and up
+uniform ivec2 fineness[RINGS];           // by ring: columns of a strip, sections of a column
 
 out vec2 at;
 out float h;
@@ -32,16 +32,17 @@ void main() {
     vec4 part2 = texelFetch(strips, at_record + ivec2(2, 0), 0), part3 = texelFetch(strips, at_record + ivec2(3, 0), 0);
     vec3 a = part0.xyz, b = vec3(part0.w, part1.xy);
     vec4 wind = vec4(part1.zw, part2.xy);
-    float kind = part2.w, turn = part3.x, growth = part3.z;
-    float t = float(gl_VertexID / 2) / float(SECTIONS);
+    int picture = int(part2.w), stand = int(part3.x), turn = stand % 4, k = picture % KINDS;
+    ivec2 fine = fineness[picture / KINDS];
+    float growth = part3.z;
+    float t = float(min(gl_VertexID / 2, fine.y)) / float(fine.y);
     bool right = (gl_VertexID & 1) == 1;
     vec3 foot = right ? b : a;
     vec2 message = right ? wind.zw : wind.xy;
-    int k = int(kind);
     vec3 spine = posture(float(k) * field.w, message, t).place * tall[k];
     gl_Position = clip * vec4(foot + spine * growth, 1.0);
-    float u = float(number % COLUMNS + (right ? 1 : 0)) / float(COLUMNS);
-    at = vec2(u * wide_to[k], t * high_to[k]);
+    float u = float(stand / 4 + (right ? 1 : 0)) / float(fine.x);
+    at = vec2(u, t) * picture_to[picture];
     sheet = part2.z;
     h = spine.y / (root[k].w * lodged(message));
     vec3 middle = 0.5 * (a + b);
@@ -50,8 +51,8 @@ void main() {
     hidden = haze_at(middle);
     foot_color = root[k].rgb * here;
     rise_color = (tip[k].rgb - root[k].rgb) * here;
-    float c = turn == 0.0 ? 1.0 : turn == 2.0 ? -1.0 : 0.0;
-    float s = turn == 1.0 ? 1.0 : turn == 3.0 ? -1.0 : 0.0;
+    float c = turn == 0 ? 1.0 : turn == 2 ? -1.0 : 0.0;
+    float s = turn == 1 ? 1.0 : turn == 3 ? -1.0 : 0.0;
     grain_u = c * grain_x[k].rgb + s * grain_z[k].rgb;
     grain_v = c * grain_z[k].rgb - s * grain_x[k].rgb;
     shown = part3.y;

@@ -1,4 +1,4 @@
-"""A ring's strips as textures."""
+"""The strips of all rings as textures."""
 
 from collections.abc import Sequence
 
@@ -9,6 +9,9 @@ from numpy.typing import NDArray
 from ...grow.record import Growth
 from .grow import Strips, strips_of
 
+EVEN = 32
+"""Layers are a multiple of this wide and high [texels]: so several mip-maps are exact halves of those before."""
+
 
 def strip_stock(growths: Sequence[Growth], ring: int) -> list[list[Strips]]:
     """Return a ring's strips by kind and model."""
@@ -16,15 +19,16 @@ def strip_stock(growths: Sequence[Growth], ring: int) -> list[list[Strips]]:
 
 
 def strip_textures(
-    ctx: moderngl.Context, stock: list[list[Strips]]
+    ctx: moderngl.Context, stock: Sequence[list[list[Strips]]]
 ) -> tuple[moderngl.TextureArray, moderngl.TextureArray]:
-    """Return a ring's atlas and ranks: kinds, models, orientations and strips are layers, in this order.
+    """Return atlas and ranks: rings, kinds, models, orientations and strips are layers, in this order.
 
-    A kind's pictures stand in the lower left corner of layers that are large enough for every kind's.
+    Pictures stand in the lower left corner of layers that are large enough for all of them.
     """
-    size = np.max([models[0].rank.shape[2:] for models in stock], axis=0)
-    atlas = np.concatenate([_padded(strips.texels, size) for models in stock for strips in models])
-    ranks = np.concatenate([_padded(_premultiplied_rank(strips), size) for models in stock for strips in models])
+    every = [strips for kinds in stock for models in kinds for strips in models]
+    size = np.ceil(np.max([strips.rank.shape[2:] for strips in every], axis=0) / EVEN).astype(np.int64) * EVEN
+    atlas = np.concatenate([_padded(strips.texels, size) for strips in every])
+    ranks = np.concatenate([_padded(_premultiplied_rank(strips), size) for strips in every])
     layers, rows, columns, _ = atlas.shape
     made = (
         ctx.texture_array((columns, rows, layers), 4, np.ascontiguousarray(atlas).tobytes(), alignment=1),

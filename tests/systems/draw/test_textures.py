@@ -19,24 +19,25 @@ from tallgrass.systems.show.strips.textures import strip_stock, strip_textures
 def test_g1_each_layer_is_the_strip_that_planting_reckons_with(
     ctx: moderngl.Context, growths: list[Growth], ring: int
 ) -> None:
-    stock = strip_stock(growths, ring)
-    atlas, ranks = strip_textures(ctx, stock)
+    every = [strip_stock(growths, number) for number in (0, 1)]
+    atlas, ranks = strip_textures(ctx, every)
+    before = sum(2 * len(strips.plane) for kinds in every[:ring] for models in kinds for strips in models)
     width, height, layers = atlas.size
     texels = np.frombuffer(atlas.read(), np.uint8).reshape(layers, height, width, 4)
     rank = np.frombuffer(ranks.read(alignment=1), np.uint8).reshape(layers, height, width)
     first = stock_strips(growths).first_layer[ring]
-    for kind, models in enumerate(stock):
+    for kind, models in enumerate(every[ring]):
         for model, strips in enumerate(models):
             _, count, h, w, _ = strips.texels.shape
             for orientation in (0, 1):
-                start = first[kind] + (model * 2 + orientation) * count
+                start = before + first[kind] + (model * 2 + orientation) * count
                 mine = slice(start, start + count)
                 np.testing.assert_array_equal(texels[mine, :h, :w], strips.texels[orientation])
                 coverage = strips.texels[orientation, ..., 3] / 255.0
                 np.testing.assert_allclose(rank[mine, :h, :w], strips.rank[orientation] * coverage, atol=0.51)
                 assert (texels[mine, h:] == 0).all()
                 assert (texels[mine, :, w:] == 0).all()
-    assert start + count == layers
+    assert (start + count == layers) == (ring == 1)
     release_all(atlas, ranks)
 
 
