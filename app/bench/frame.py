@@ -10,29 +10,22 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
-from ...engine.camera import view_of
 from ...systems.prairie import Prairie
-from ...systems.reference import EveryBlade, stand_all, terrain_cells
+from ...systems.reference import EveryBlade, seen_cells, stand_all, terrain_cells
 from ...systems.show.blades.draw import BladePainter
 from ...systems.stock.models import precompute_bytes
 from ..studio.progress import counted
 from ..studio.studio import Studio
 from ..studio.take import Take
 from .machine import machine, tell
-from .timing import timed
+from .processor import on_processor
+from .still import FRAMES, Still
+from .timing import card_timer, spread, timed
 from .viewers import side_by_side
-
-FRAMES = 60
-"""Frames measured."""
-
-WARM_UP = 6
-"""Frames drawn before, not measured."""
+from .yardstick import yardstick_ms
 
 EVERY = 12
 """Frames between two draws of every blade: taken in turn, since such machines change their speed."""
-
-STEP = 1.0 / 60.0
-"""Time between frames [s]."""
 
 
 def bench_frame(scene: str, *, preset: str | None, size: tuple[int, int], json: bool, viewers: int = 1) -> int:
@@ -46,10 +39,10 @@ def bench_frame(scene: str, *, preset: str | None, size: tuple[int, int], json: 
         first["cold"] = _first_frame(take)
         first["cached"] = _first_frame(take)
     with Studio(take) as studio:
-        result = _measure(studio, take, first)
+        result = _measure(studio, take, first) | {"rivals": []}
         if viewers > 1:
             result["viewers"] = side_by_side(studio, viewers)
-    tell(result, as_json=json)
+    tell(result | _on_processor(take) | {"yardstick_ms": yardstick_ms()}, as_json=json)
     return 0
 
 
@@ -74,66 +67,79 @@ def _first_frame(take: Take) -> float:
 
 
 @dataclass(slots=True)
-class _Samples:
+class Samples:
     """Times of every frame measured [ms]."""
 
     frame: list[float] = field(default_factory=list)
     draw: list[float] = field(default_factory=list)
     systems: dict[str, list[float]] = field(default_factory=dict)
     all_3d: list[float] = field(default_factory=list)
+    seen_3d: list[float] = field(default_factory=list)
     floor: list[float] = field(default_factory=list)
+    card: list[float] = field(default_factory=list)
 
 
-def _sample(studio: Studio) -> _Samples:
-    """Draw the frames, and now and then every blade in one draw, and the floor: all from the same place."""
-    prairie, ctx, samples = studio.prairie, studio.ctx, _Samples()
-    view, projection = studio.matrices(studio.camera(None))
-    seen = view_of(view, projection)
+class _Blades:
+    """Every blade of the terrain, and every one in view, each in one draw; what the prairie drew last lies below."""
 
-    def frame() -> None:
-        studio.begin()
-        prairie.draw(view, projection)
+    def __init__(self, still: Still) -> None:
+        self._still, prairie = still, still.studio.prairie
+        self._every = EveryBlade(prairie)
+        self._all = self._every.blades
+        self._seen = self._every.painter.blade_painter(prairie.site.finest)
+        ground, viewer = prairie.site.ground, self._every.outlook.viewer
+        stand_all(prairie, terrain_cells(ground), self._all)
+        stand_all(prairie, seen_cells(ground, viewer, sway=prairie.site.sway), self._seen)
+        self.add_to(Samples())  # the first draw of a program takes longer
 
-    for _ in range(WARM_UP):
-        frame()
-        prairie.advance(STEP)
-    every = EveryBlade(prairie)
-    stand_all(prairie, terrain_cells(prairie.site.ground), every.blades)
+    def add_to(self, samples: Samples) -> None:
+        """Measure them, and the floor, once."""
+        samples.all_3d.append(self._timed([self._all]))
+        samples.seen_3d.append(self._timed([self._seen]))
+        samples.floor.append(self._timed([]))
 
-    def only(blades: list[BladePainter]) -> float:
+    def _timed(self, blades: list[BladePainter]) -> float:
         def draw() -> None:
-            studio.begin()
-            every.painter.draw(seen, blades=blades)
+            self._still.studio.begin()
+            self._every.painter.draw(self._still.view, blades=blades)
 
-        return timed(ctx, draw)
+        return timed(self._still.studio.ctx, draw)
 
-    only([every.blades])
+    def release(self) -> None:
+        self._seen.release()
+        self._every.release()
+
+
+def sample(studio: Studio) -> Samples:
+    """Draw the frames, and now and then the blades in one draw, and the floor: all from the same place."""
+    prairie, samples, timer = studio.prairie, Samples(), card_timer(studio.ctx)
+    still = Still(studio)
+    blades = _Blades(still)
     for number in counted(range(FRAMES), total=FRAMES, doing="frames"):
-        prairie.advance(STEP)
-        samples.frame.append(timed(ctx, frame))
+        samples.frame.append(still.step(timer))
+        if timer is not None:
+            samples.card.append(timer.elapsed / 1e6)
         samples.draw.append(prairie.statistics.draw_ms)
         for name, milliseconds in prairie.statistics.systems_ms.items():
             samples.systems.setdefault(name, []).append(milliseconds)
         if number % EVERY == EVERY - 1:
-            samples.all_3d.append(only([every.blades]))
-            samples.floor.append(only([]))
-    every.release()
+            blades.add_to(samples)
+    blades.release()
     return samples
 
 
 def _measure(studio: Studio, take: Take, first: dict[str, float]) -> dict[str, object]:
-    samples, prairie = _sample(studio), studio.prairie
+    samples, prairie = sample(studio), studio.prairie
     stats, kinds = prairie.statistics, zip(prairie.scene.grass, prairie.site.growths, strict=True)
     grown = {name: round(precompute_bytes(growth) / 1e6, 2) for name, growth in kinds}
-    p50, p95, p99 = np.percentile(samples.frame, [50, 95, 99]).tolist()
-    all_3d = float(np.median(samples.all_3d))
     return {
         "machine": machine(studio.ctx),
         "scene": take.scene,
         "preset": take.preset or own_preset(prairie),
         "size": list(take.size),
         "frames": FRAMES,
-        "frame_ms": {"p50": _ms(p50), "p95": _ms(p95), "p99": _ms(p99)},
+        "frame_ms": spread(samples.frame, 50, 95, 99),
+        "gpu_ms": spread(samples.card, 50, 95) if any(samples.card) else None,
         "draw_ms": _median(samples.draw),
         "systems_ms": {name: _median(rows) for name, rows in samples.systems.items()},
         "systems_total_ms": _median(np.sum(list(samples.systems.values()), axis=0)),
@@ -144,13 +150,33 @@ def _measure(studio: Studio, take: Take, first: dict[str, float]) -> dict[str, o
         },
         "receivers": stats.receivers,
         "draw_calls": stats.draw_calls,
-        "all_3d_ms": _ms(all_3d),
-        "ratio_to_all_3d": round(all_3d / p50, 2),
-        "floor_ms": _median(samples.floor),
+        **_against_every_blade(samples),
         "precompute_mb": round(sum(grown.values()), 2),
         "precompute_mb_by_kind": grown,
         "first_frame_ms": {name: _ms(value) for name, value in first.items()},
-        "rivals": [],
+    }
+
+
+def _against_every_blade(samples: Samples) -> dict[str, float]:
+    frame, all_3d, seen_3d = (float(np.median(each)) for each in (samples.frame, samples.all_3d, samples.seen_3d))
+    return {
+        "all_3d_ms": _ms(all_3d),
+        "ratio_to_all_3d": round(all_3d / frame, 2),
+        "seen_3d_ms": _ms(seen_3d),
+        "ratio_to_seen_3d": round(seen_3d / frame, 2),
+        "floor_ms": _median(samples.floor),
+    }
+
+
+def _on_processor(take: Take) -> dict[str, object]:
+    """Return what the frames cost on the CPU alone, each figure None where that cannot be measured."""
+    told = on_processor(take.scene, preset=take.preset, size=take.size)
+    if told is None:
+        return {"cpu_ms": None, "cpu_by_system_ms": None, "cpu_over_yardstick": None}
+    return {
+        "cpu_ms": told["cpu_ms"],
+        "cpu_by_system_ms": told["cpu_by_system_ms"],
+        "cpu_over_yardstick": round(told["cpu_ms"]["p50"] / told["yardstick_ms"], 3),
     }
 
 

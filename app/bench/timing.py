@@ -1,9 +1,13 @@
 """Timing what is drawn."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from time import perf_counter
 
 import moderngl
+import numpy as np
+
+SOFTWARE = ("llvmpipe", "softpipe", "swrast", "software", "swiftshader", "basic render", "gdi generic", "noop")
+"""Parts of the names of renderers that are no graphics cards, in small letters."""
 
 
 def timed(ctx: moderngl.Context, work: Callable[[], object]) -> float:
@@ -13,3 +17,14 @@ def timed(ctx: moderngl.Context, work: Callable[[], object]) -> float:
     work()
     ctx.finish()
     return 1000.0 * (perf_counter() - start)
+
+
+def card_timer(ctx: moderngl.Context) -> moderngl.Query | None:
+    """Return what times the graphics card itself, or None where there is no card: there it would time the CPU."""
+    renderer = str(ctx.info["GL_RENDERER"]).lower()
+    return None if any(name in renderer for name in SOFTWARE) else ctx.query(time=True)
+
+
+def spread(times: Sequence[float], /, *parts: int) -> dict[str, float]:
+    """Return percentiles of some times [ms] by name, such as `p50`."""
+    return {f"p{part}": round(float(np.percentile(times, part)), 3) for part in parts}

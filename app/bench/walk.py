@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...engine.camera import projection_matrix, view_matrix
 from ...systems.prairie import Prairie
@@ -11,8 +12,12 @@ from ..studio.offscreen import Offscreen
 from ..studio.progress import counted
 from .frame import own_preset
 from .machine import machine, resident_mb, tell
+from .processor import on_processor
 from .stroll import REST, Leg, Moment, legs, moments, raise_gusts
-from .timing import timed
+from .timing import spread, timed
+from .yardstick import yardstick_ms
+
+Levels = NDArray[np.int8]
 
 MANY = 12
 """Patches in transition from which a frame counts as busy."""
@@ -30,6 +35,9 @@ class Pace:
     begun: int
     """Patches in view that got another representation to come to."""
 
+    refined: int
+    """Patches in view that kept their representation and got another of its sub-levels to come to."""
+
 
 def bench_walk(scene: str, *, preset: str | None, size: tuple[int, int], json: bool) -> int:
     """Walk through a scene, print what its frames took, and return the exit status."""
@@ -40,29 +48,36 @@ def bench_walk(scene: str, *, preset: str | None, size: tuple[int, int], json: b
             result = {**head, "size": list(size), **_measure(target, prairie)}
         finally:
             prairie.release()
-    tell(result, as_json=json)
+    told = on_processor(scene, preset=preset, size=size, walk=True)
+    tell(result | {"cpu_ms": told and told["cpu_ms"], "yardstick_ms": yardstick_ms()}, as_json=json)
     return 0
 
 
 def _measure(target: Offscreen, prairie: Prairie) -> dict[str, object]:
+    every = paces(target, prairie)
+    taken = [next(every)]
+    start = resident_mb()
+    taken.extend(every)
+    times = np.array([pace.frame_ms for pace in taken])
+    busy = np.array([pace.changing >= MANY for pace in taken])
+    p50, p99 = np.percentile(times, [50, 99]).tolist()
+    return {
+        "frames": len(taken),
+        "frame_ms": spread(times.tolist(), 50, 95, 99) | {"max": round(times.max(), 3)},
+        "p99_over_p50": round(p99 / p50, 3),
+        "busy_over_p50": round(float(np.median(times[busy])) / p50, 3) if busy.any() else None,
+        "transitions": sum(pace.begun for pace in taken),
+        "sublevel_changes": sum(pace.refined for pace in taken),
+        "rss_mb": {"start": start, "end": resident_mb()},
+    }
+
+
+def paces(target: Offscreen, prairie: Prairie, /) -> Iterator[Pace]:
+    """Walk all legs through a prairie, in gusts, and yield what each frame took."""
     walk = legs(prairie)
     raise_gusts(prairie, walk)
     total = sum(len(list(moments(prairie, leg))) - 1 for leg in walk)
-    every = (frame for leg in walk for frame in paced(target, prairie, leg))
-    paces = [next(every)]
-    start = resident_mb()
-    paces.extend(counted(every, total=total - 1, doing="walking"))
-    times = np.array([pace.frame_ms for pace in paces])
-    busy = np.array([pace.changing >= MANY for pace in paces])
-    p50, p95, p99 = np.percentile(times, [50, 95, 99]).tolist()
-    return {
-        "frames": len(paces),
-        "frame_ms": {"p50": round(p50, 3), "p95": round(p95, 3), "p99": round(p99, 3), "max": round(times.max(), 3)},
-        "p99_over_p50": round(p99 / p50, 3),
-        "busy_over_p50": round(float(np.median(times[busy])) / p50, 3) if busy.any() else None,
-        "transitions": sum(pace.begun for pace in paces),
-        "rss_mb": {"start": start, "end": resident_mb()},
-    }
+    yield from counted((pace for leg in walk for pace in paced(target, prairie, leg)), total=total, doing="walking")
 
 
 def paced(target: Offscreen, prairie: Prairie, leg: Leg, /) -> Iterator[Pace]:
@@ -70,14 +85,24 @@ def paced(target: Offscreen, prairie: Prairie, leg: Leg, /) -> Iterator[Pace]:
     first, *others = moments(prairie, leg)
     _draw(target, prairie, first, time=first.time - REST / 2)
     _draw(target, prairie, first)
+    table = prairie.viewers["main"].patches
     for moment in others:
-        table = prairie.viewers["main"].patches
-        cell, representation = table.cell.copy(), table.representation.copy()
+        cell, representation, sublevel = table.cell.copy(), table.representation.copy(), table.sublevel.copy()
         taken = _draw(target, prairie, moment)
-        begun = (
-            table.alive & table.visible & (table.cell == cell).all(axis=1) & (table.representation != representation)
-        )
-        yield Pace(taken, prairie.statistics.transitions, int(begun.sum()))
+        stayed = table.alive & table.visible & (table.cell == cell).all(axis=1)
+        begun = stayed & (table.representation != representation)
+        refined = stayed & ~begun & another(table.representation, sublevel, table.sublevel)
+        yield Pace(taken, prairie.statistics.transitions, int(begun.sum()), int(refined.sum()))
+
+
+def another(representation: Levels, before: Levels, now: Levels) -> NDArray[np.bool_]:
+    """Return which patches have another sub-level of their representation (rows,) than before, shape (rows,).
+
+    Sub-levels have shape (representations, rows); from none at all to the first one counts as no change.
+    """
+    rows = np.arange(len(representation))
+    had, has = before[representation, rows], now[representation, rows]
+    return np.asarray((had >= 0) & (had != has) & (representation >= 0))
 
 
 def _draw(target: Offscreen, prairie: Prairie, moment: Moment, *, time: float | None = None) -> float:

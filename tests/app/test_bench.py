@@ -1,24 +1,50 @@
 """The benchmarks: what other people's scripts read, and what the project promises by them."""
 
 import json
+import os
+import subprocess
 import sys
 from pathlib import Path
+from unittest.mock import Mock
 
+import moderngl
 import numpy as np
 import pytest
 
-from tallgrass.app.bench import stroll
+from tallgrass.app.bench import processor, stroll, timing, yardstick
+from tallgrass.app.bench.frame import sample
 from tallgrass.app.bench.scale import stretched
+from tallgrass.app.bench.timing import card_timer
+from tallgrass.app.bench.walk import another
 from tallgrass.app.cli import run
+from tallgrass.app.studio import Studio
+from tallgrass.app.take import Take
 from tallgrass.engine.scene import read_scene
 
 COMMON = {"machine", "scene", "preset", "size", "frames"}
 FRAME = COMMON | {
     "frame_ms", "draw_ms", "systems_ms", "systems_total_ms", "blades", "receivers", "draw_calls", "all_3d_ms",
-    "ratio_to_all_3d", "floor_ms", "precompute_mb", "first_frame_ms", "rivals",
+    "ratio_to_all_3d", "floor_ms", "precompute_mb", "first_frame_ms", "rivals", "cpu_ms", "cpu_by_system_ms", "gpu_ms",
+    "seen_3d_ms", "ratio_to_seen_3d", "yardstick_ms", "cpu_over_yardstick",
 }  # fmt: skip
 PICTURE = COMMON | {"flip", "score", "bands"}
 pytestmark = pytest.mark.gl
+
+
+@pytest.fixture
+def few_frames(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the frame benchmark draw a few frames, and the walk fewer."""
+    monkeypatch.setattr("tallgrass.app.bench.frame.FRAMES", 6)
+    monkeypatch.setattr("tallgrass.app.bench.frame.EVERY", 3)
+    monkeypatch.setattr(stroll, "RATE", 10)
+
+
+def _draws_nothing() -> bool:
+    program = "from tallgrass.app.bench.noop import draws_nothing; print(draws_nothing())"
+    child = subprocess.run(
+        [sys.executable, "-c", program], env=os.environ | processor.NOOP, capture_output=True, text=True, check=False
+    )
+    return child.stdout.strip() == "True"
 
 
 @pytest.mark.usefixtures("ctx")
@@ -34,6 +60,87 @@ def test_n6_the_frame_benchmark_tells_every_key_of_the_contract(capsys: pytest.C
     assert told["systems_total_ms"] >= max(told["systems_ms"].values())
     assert told["ratio_to_all_3d"] == pytest.approx(told["all_3d_ms"] / told["frame_ms"]["p50"], rel=0.01)
     assert told["all_3d_ms"] > told["floor_ms"]
+    assert told["seen_3d_ms"] > told["floor_ms"]
+    assert told["ratio_to_seen_3d"] == pytest.approx(told["seen_3d_ms"] / told["frame_ms"]["p50"], rel=0.01)
+    assert told["yardstick_ms"] > 0.0
+
+
+@pytest.mark.usefixtures("ctx", "few_frames")
+def test_the_frame_benchmark_tells_what_a_frame_costs_on_the_cpu_alone(
+    scene: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    if not _draws_nothing():
+        pytest.skip("this driver cannot do without drawing")
+    assert run(["bench", "frame", str(scene), "--size", "96x54", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["cpu_ms"].keys() == {"p50", "p95"}
+    assert 0.0 < told["cpu_ms"]["p50"] <= told["cpu_ms"]["p95"]
+    assert told["cpu_by_system_ms"].keys() == told["systems_ms"].keys()
+    assert max(told["cpu_by_system_ms"].values()) < told["cpu_ms"]["p50"]
+    assert told["cpu_over_yardstick"] > 0.0
+
+
+@pytest.mark.usefixtures("ctx", "few_frames")
+@pytest.mark.parametrize("benchmark", ["frame", "walk"])
+def test_where_the_driver_always_draws_no_benchmark_tells_of_the_cpu_alone(
+    scene: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    benchmark: str,
+) -> None:
+    monkeypatch.setattr(processor, "NOOP", {"GALLIUM_NOOP": "0"})
+    assert run(["bench", benchmark, str(scene), "--size", "96x54", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert [told[key] for key in told if key.startswith("cpu_")] == [None] * (3 if benchmark == "frame" else 1)
+    assert told["yardstick_ms"] > 0.0
+
+
+def test_a_child_that_fails_tells_nothing(scene: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    assert processor.on_processor(str(scene.with_name("gone.yaml")), preset=None, size=(96, 54)) is None
+    assert processor.on_processor(str(scene), preset="none such", size=(96, 54), walk=True) is None
+    capfd.readouterr()
+
+
+@pytest.mark.parametrize(
+    "renderer",
+    [
+        "llvmpipe (LLVM 15.0.6, 256 bits)",
+        "softpipe",
+        "NOOP",
+        "virgl (LLVMPIPE (LLVM 15.0.6, 256 bits))",
+        "Apple Software Renderer",
+    ],
+)
+def test_a_software_rasteriser_has_no_card_to_time(renderer: str) -> None:
+    ctx = Mock(info={"GL_RENDERER": renderer})
+    assert card_timer(ctx) is None
+    ctx.query.assert_not_called()
+
+
+@pytest.mark.usefixtures("few_frames")
+def test_a_graphics_card_is_timed_by_its_own_clock(
+    ctx: moderngl.Context, scene: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(timing, "SOFTWARE", ("none such",))
+    assert card_timer(ctx) is not None
+    with Studio(Take(str(scene), (96, 54))) as studio:
+        samples = sample(studio)
+    assert len(samples.card) == len(samples.frame) == 6
+    assert all(card > 0.0 for card in samples.card)
+
+
+def test_the_yardstick_is_the_least_of_its_timings(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = iter([0.0, 3.0, 3.0, 4.0, 4.0, 9.0])
+    monkeypatch.setattr(yardstick, "TIMINGS", 3)
+    monkeypatch.setattr(yardstick, "perf_counter", lambda: next(clock))
+    assert yardstick.yardstick_ms() == 1000.0
+
+
+def test_only_a_patch_that_keeps_its_representation_changes_its_sub_level() -> None:
+    representation = np.array([0, 0, 1, 1, -1], np.int8)
+    before = np.array([[0, 0, 3, 3, 0], [2, 2, -1, 4, 2]], np.int8)
+    now = np.array([[1, 0, 4, 4, 1], [3, 2, 4, 5, 3]], np.int8)
+    assert another(representation, before, now).tolist() == [True, False, False, True, False]
 
 
 @pytest.mark.usefixtures("ctx")
@@ -66,12 +173,18 @@ def test_r2_the_walk_benchmark_tells_every_key_of_the_contract(
     monkeypatch.setattr(stroll, "RATE", 10)
     assert run(["bench", "walk", str(scene), "--size", "96x54", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
-    assert told.keys() == COMMON | {"frame_ms", "p99_over_p50", "busy_over_p50", "transitions", "rss_mb"}
+    assert told.keys() == COMMON | {
+        "frame_ms", "p99_over_p50", "busy_over_p50", "transitions", "sublevel_changes", "rss_mb", "cpu_ms",
+        "yardstick_ms",
+    }  # fmt: skip
     assert told["frames"] % 14 == 0
     times = told["frame_ms"]
     assert 0.0 < times["p50"] <= times["p95"] <= times["p99"] <= times["max"]
     assert told["p99_over_p50"] == pytest.approx(times["p99"] / times["p50"], rel=0.01)
     assert told["transitions"] > 10
+    assert told["sublevel_changes"] > 0
+    if told["cpu_ms"] is not None:
+        assert 0.0 < told["cpu_ms"]["p50"] <= told["cpu_ms"]["p95"] <= told["cpu_ms"]["p99"]
     assert told["rss_mb"]["end"] > 50.0
 
 

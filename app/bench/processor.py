@@ -1,0 +1,35 @@
+"""What frames cost on the CPU alone: measured in a child process whose driver draws nothing."""
+
+import json
+import os
+import subprocess
+import sys
+from typing import Any
+
+NOOP = {"GALLIUM_NOOP": "1"}
+"""What tells Mesa to take every command and draw nothing; other drivers do not know it."""
+
+LONGEST = 900.0
+"""How long the child may take [s]."""
+
+
+def on_processor(scene: str, *, preset: str | None, size: tuple[int, int], walk: bool = False) -> dict[str, Any] | None:
+    """Return what the module `noop` tells of a scene, or None where no driver does without drawing, or it fails."""
+    width, height = size
+    command = [sys.executable, "-m", f"{__package__}.noop", "--size", f"{width}x{height}"]
+    command += ["--walk"] * walk + (["--preset", preset] if preset else []) + ["--", scene]
+    try:
+        done = subprocess.run(  # noqa: S603 - it is our own module
+            command,
+            env=os.environ | NOOP,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            text=True,
+            timeout=LONGEST,
+            check=False,
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return None
+    lines = done.stdout.splitlines()
+    told: dict[str, Any] | None = json.loads(lines[-1]) if done.returncode == 0 and lines else None
+    return told

@@ -1,0 +1,45 @@
+"""A scene before its fixed camera, frame after frame."""
+
+from contextlib import nullcontext
+
+import moderngl
+
+from ...engine.camera import view_of
+from ..studio import Studio
+from .timing import timed
+
+FRAMES = 60
+"""Frames measured."""
+
+WARM_UP = 6
+"""Frames drawn before, not measured."""
+
+STEP = 1.0 / 60.0
+"""Time between frames [s]."""
+
+
+class Still:
+    """The scene of a studio as its fixed camera sees it; the first frames have been drawn."""
+
+    def __init__(self, studio: Studio) -> None:
+        self.studio = studio
+        self.matrices = studio.matrices(studio.camera(None))
+        self.view = view_of(*self.matrices)
+        for _ in range(WARM_UP):
+            self.draw()
+            studio.prairie.advance(STEP)
+
+    def draw(self) -> None:
+        """Draw this instant."""
+        self.studio.begin()
+        self.studio.prairie.draw(*self.matrices)
+
+    def step(self, timer: moderngl.Query | None = None) -> float:
+        """Draw the next frame, and return how long that takes [ms]; a `timer` times the graphics card meanwhile."""
+        self.studio.prairie.advance(STEP)
+
+        def frame() -> None:
+            with timer or nullcontext():
+                self.draw()
+
+        return timed(self.studio.ctx, frame)
