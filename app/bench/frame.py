@@ -19,6 +19,7 @@ from ..studio.studio import Studio
 from ..studio.take import Take
 from .machine import machine, tell
 from .processor import on_processor
+from .rivals import Rivals
 from .still import FRAMES, Still
 from .timing import card_timer, spread, timed
 from .viewers import side_by_side
@@ -26,6 +27,9 @@ from .yardstick import yardstick_ms
 
 EVERY = 12
 """Frames between two draws of every blade: taken in turn, since such machines change their speed."""
+
+TURN = 6
+"""Frames between two draws of the rivals."""
 
 
 def bench_frame(scene: str, *, preset: str | None, size: tuple[int, int], json: bool, viewers: int = 1) -> int:
@@ -39,7 +43,7 @@ def bench_frame(scene: str, *, preset: str | None, size: tuple[int, int], json: 
         first["cold"] = _first_frame(take)
         first["cached"] = _first_frame(take)
     with Studio(take) as studio:
-        result = _measure(studio, take, first) | {"rivals": []}
+        result = _measure(studio, take, first)
         if viewers > 1:
             result["viewers"] = side_by_side(studio, viewers)
     tell(result | _on_processor(take) | {"yardstick_ms": yardstick_ms()}, as_json=json)
@@ -77,6 +81,7 @@ class Samples:
     seen_3d: list[float] = field(default_factory=list)
     floor: list[float] = field(default_factory=list)
     card: list[float] = field(default_factory=list)
+    """Those that the graphics card measured itself, where there is one."""
 
 
 class _Blades:
@@ -110,10 +115,9 @@ class _Blades:
         self._every.release()
 
 
-def sample(studio: Studio) -> Samples:
-    """Draw the frames, and now and then the blades in one draw, and the floor: all from the same place."""
-    prairie, samples, timer = studio.prairie, Samples(), card_timer(studio.ctx)
-    still = Still(studio)
+def sample(still: Still, rivals: Rivals) -> Samples:
+    """Draw the frames, and now and then the blades in one draw, the floor, and the rivals: all from the same place."""
+    prairie, samples, timer = still.studio.prairie, Samples(), card_timer(still.studio.ctx)
     blades = _Blades(still)
     for number in counted(range(FRAMES), total=FRAMES, doing="frames"):
         samples.frame.append(still.step(timer))
@@ -124,12 +128,23 @@ def sample(studio: Studio) -> Samples:
             samples.systems.setdefault(name, []).append(milliseconds)
         if number % EVERY == EVERY - 1:
             blades.add_to(samples)
+        if number % TURN == TURN - 1:
+            rivals.measure()  # after the blades, which stand on what the frame itself has laid
     blades.release()
     return samples
 
 
 def _measure(studio: Studio, take: Take, first: dict[str, float]) -> dict[str, object]:
-    samples, prairie = sample(studio), studio.prairie
+    still = Still(studio)
+    rivals = Rivals(still)
+    samples = sample(still, rivals)
+    result = _figures(studio, take, first, samples) | {"rivals": rivals.rows(samples.frame)}
+    rivals.release()
+    return result
+
+
+def _figures(studio: Studio, take: Take, first: dict[str, float], samples: Samples) -> dict[str, object]:
+    prairie = studio.prairie
     stats, kinds = prairie.statistics, zip(prairie.scene.grass, prairie.site.growths, strict=True)
     grown = {name: round(precompute_bytes(growth) / 1e6, 2) for name, growth in kinds}
     return {

@@ -10,15 +10,20 @@ from unittest.mock import Mock
 import moderngl
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from tallgrass.app.bench import processor, stroll, timing, yardstick
 from tallgrass.app.bench.frame import sample
+from tallgrass.app.bench.rival import inside_frustum
+from tallgrass.app.bench.rivals import Rivals
 from tallgrass.app.bench.scale import stretched
+from tallgrass.app.bench.still import Still
 from tallgrass.app.bench.timing import card_timer
 from tallgrass.app.bench.walk import another
 from tallgrass.app.cli import run
 from tallgrass.app.studio import Studio
 from tallgrass.app.take import Take
+from tallgrass.engine.camera import Camera, projection_matrix, view_matrix, view_of
 from tallgrass.engine.scene import read_scene
 
 COMMON = {"machine", "scene", "preset", "size", "frames"}
@@ -36,6 +41,7 @@ def few_frames(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let the frame benchmark draw a few frames, and the walk fewer."""
     monkeypatch.setattr("tallgrass.app.bench.frame.FRAMES", 6)
     monkeypatch.setattr("tallgrass.app.bench.frame.EVERY", 3)
+    monkeypatch.setattr("tallgrass.app.bench.frame.TURN", 3)
     monkeypatch.setattr(stroll, "RATE", 10)
 
 
@@ -47,7 +53,7 @@ def _draws_nothing() -> bool:
     return child.stdout.strip() == "True"
 
 
-@pytest.mark.usefixtures("ctx")
+@pytest.mark.usefixtures("ctx", "few_frames")
 def test_n6_the_frame_benchmark_tells_every_key_of_the_contract(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["bench", "frame", "plain", "--preset", "low", "--size", "160x90", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
@@ -124,9 +130,69 @@ def test_a_graphics_card_is_timed_by_its_own_clock(
     monkeypatch.setattr(timing, "SOFTWARE", ("none such",))
     assert card_timer(ctx) is not None
     with Studio(Take(str(scene), (96, 54))) as studio:
-        samples = sample(studio)
+        still = Still(studio)
+        samples = sample(still, Mock(Rivals))
     assert len(samples.card) == len(samples.frame) == 6
     assert all(card > 0.0 for card in samples.card)
+
+
+@pytest.mark.usefixtures("ctx", "few_frames")
+def test_rivals_are_drawn_from_the_same_place_and_compared_at_the_same_instant(
+    scene: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("flip_evaluator")
+    assert run(["bench", "frame", str(scene), "--size", "192x108", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["rivals"][0]["name"] == "by hand"
+    for row in told["rivals"]:
+        assert row.keys() == {"name", "frame_ms", "ratio", "flip"}
+        assert row["ratio"] == pytest.approx(row["frame_ms"] / told["frame_ms"]["p50"], rel=0.01)
+        assert 0.0 < row["flip"] < 0.3
+
+
+@pytest.mark.usefixtures("few_frames")
+def test_a_rival_is_drawn_with_grass_that_sways(ctx: moderngl.Context, scene: Path) -> None:
+    with Studio(Take(str(scene), (192, 108))) as studio:
+        still = Still(studio)
+        rivals = Rivals(still)
+        pictures = []
+        for dt in (0.0, 0.0, 0.4):
+            studio.prairie.advance(dt)
+            rivals.measure()
+            pictures.append(studio.read().astype(int))
+        bare = _bare_ground(still)
+        rivals.release()
+    assert np.array_equal(pictures[0], pictures[1])
+    assert (pictures[1] != pictures[2]).any(axis=-1).mean() > 0.05
+    assert (pictures[0] != bare).any(axis=-1).mean() > 0.05
+    assert ctx.error == "GL_NO_ERROR"
+
+
+def _bare_ground(still: Still) -> NDArray[np.int64]:
+    painter = still.studio.prairie.painter
+    assert painter is not None
+    still.studio.begin()
+    painter.draw(still.view, blades=[])
+    return still.studio.read().astype(np.int64)
+
+
+@pytest.mark.usefixtures("ctx", "few_frames")
+def test_without_the_evaluator_rivals_have_no_flip(
+    scene: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "flip_evaluator", None)
+    assert run(["bench", "frame", str(scene), "--size", "96x54", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["rivals"]
+    assert {row["flip"] for row in told["rivals"]} == {None}
+
+
+def test_the_frustum_holds_what_a_picture_shows_and_nothing_behind_or_far_aside() -> None:
+    camera = Camera((0.0, 1.0, 0.0), 0.0, 0.0, 1.0)
+    view = view_of(view_matrix(camera), projection_matrix(camera.view, 1.0))
+    middle = np.array([[0, 1, -5], [0, 1, 5], [9, 1, -5], [3.5, 1, -5], [0, 9, -5]], np.float32)
+    radius = np.full(5, 1.0, np.float32)
+    assert inside_frustum(middle, radius, view).tolist() == [True, False, False, True, False]
 
 
 def test_the_yardstick_is_the_least_of_its_timings(monkeypatch: pytest.MonkeyPatch) -> None:

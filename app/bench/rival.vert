@@ -1,0 +1,63 @@
+// One instance is one blade of a tile. Blades stand in a texture, three texels each, and so do chunks of the tiles that are
+// drawn, two texels each. A blade bends along an arc of a circle, in sines that travel with the breeze.
+#include "lib/light.glsl"
+
+uniform sampler2D blades;
+uniform sampler2D chunks;
+uniform int first;    // chunk of this level
+uniform int many;     // blades of a tile
+uniform float full;   // distance up to which every blade stands [m]
+uniform float now;    // time [s]
+uniform vec4 breeze;  // direction x, z; strength; how far that drifts
+uniform float speed;  // of its waves [m/s]
+
+out vec3 color;
+
+const float WAVE = 0.45;   // of the breeze [rad/m]
+const float CURL = 2.5;    // angle that a blade flat on the ground turns by [rad]
+const float ROUNDED = 0.35;
+
+vec4 texel(sampler2D from, int number) {
+    return texelFetch(from, ivec2(number % WIDTH, number / WIDTH), 0);
+}
+
+vec2 swayed(vec2 place) {
+    float along = WAVE * (dot(place, breeze.xy) - speed * now), aside = dot(place, vec2(-breeze.y, breeze.x));
+    float drift = 0.6 * sin(along + 0.2 * aside) + 0.4 * sin(1.7 * along - 0.5 * aside);
+    vec2 own = vec2(sin(8.0 * now + 7.0 * place.x + 3.0 * place.y), sin(6.0 * now + 9.0 * place.y));
+    return (breeze.xy * (1.0 + breeze.w * drift) + 0.25 * own) * breeze.z;
+}
+
+vec3 light(int k, float t, vec2 normal, vec3 place, float h, vec2 bent) {
+    vec3 grass = mix(root[k].rgb, tip[k].rgb, t) * (1.0 + grain_x[k].rgb * normal.x + grain_z[k].rgb * normal.y);
+    grass *= place_tone(place.xz) * canopy(h, lift(bent, place));
+    return mix(grass, haze.rgb, haze_at(place));
+}
+
+void main() {
+    int chunk = 2 * (first + gl_InstanceID / CHUNK);
+    vec4 tile = texel(chunks, chunk), corners = texel(chunks, chunk + 1);
+    int number = min(int(tile.w) + gl_InstanceID % CHUNK, many - 1);
+    int at = 3 * (int(tile.z) * many + number);
+    vec4 stem = texel(blades, at), lean = texel(blades, at + 1), sort = texel(blades, at + 2);
+    vec2 part = stem.xy / soil.w;
+    float ground = mix(mix(corners.x, corners.y, part.x), mix(corners.z, corners.w, part.x), part.y);
+    vec3 foot = vec3(tile.x + stem.x, ground, tile.y + stem.y);
+    float share = min(full / distance(foot, eye.xyz), 1.0);
+    int k = int(sort.x);
+    color = vec3(0.0);
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    if (sort.y >= share * textureLod(density, on_map(foot.xz), 0.0)[k] || int(tile.w) + gl_InstanceID % CHUNK >= many)
+        return;
+    float t = float(gl_VertexID / 2) / float(SEGMENTS);
+    vec2 message = swayed(foot.xz);
+    vec2 bend = message + lean.xy * (1.0 - min(length(message), 1.0));
+    float angle = max(CURL * min(length(bend), 1.0), 1e-3);
+    vec2 spine = vec2(1.0 - cos(angle * t), sin(angle * t)) / angle * stem.z;
+    vec2 across = vec2(-lean.w, lean.z) * (float(gl_VertexID % 2) * 2.0 - 1.0);
+    float h = spine.y / (root[k].w * lodged(message));
+    color = light(k, t, lean.zw + ROUNDED * across, foot, h, message);
+    across *= 0.5 * stem.w / share * pow(1.0 - t, tip[k].w);
+    vec2 over = normalize(bend + 1e-6) * spine.x + across;
+    gl_Position = clip * vec4(foot.x + over.x, foot.y + spine.y, foot.z + over.y, 1.0);
+}

@@ -1,0 +1,103 @@
+"""The rivals before the same camera: what their frames take, and how true their pictures are."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...systems.reference import draw_reference
+from ..errors import MachineError
+from ..take import SAMPLES
+from .rival import ByHand
+from .still import Still
+from .timing import timed
+
+HARD, SMOOTH = "by hand", "by hand, 4 samples a pixel"
+
+FINE = 4
+"""Samples of a pixel where a rival's edges are smooth."""
+
+WARM_UP = 3
+"""Draws of each that are not measured."""
+
+
+class Rivals:
+    """What one would draw by hand, with hard edges, and with smooth ones where the driver has samples for them."""
+
+    def __init__(self, still: Still) -> None:
+        self._still, self._ctx = still, still.studio.ctx
+        prairie, size = still.studio.prairie, still.studio.take.size
+        assert prairie.painter is not None
+        self._carpet, self._outlook = prairie.painter.carpet, prairie.viewers["main"]
+        self._hand = ByHand(prairie.painter, prairie.site)
+        self._color = self._ctx.renderbuffer(size, 4, samples=min(FINE, self._ctx.max_samples))
+        self._depth = self._ctx.depth_renderbuffer(size, samples=self._color.samples)
+        self._fine = self._ctx.framebuffer([self._color], self._depth)
+        self.times: dict[str, list[float]] = {}
+        for _ in range(WARM_UP):
+            self.measure()
+        self.times = {name: [] for name in self.times}
+
+    def measure(self) -> None:
+        """Draw this instant once in each way, and keep how long that takes."""
+        self._carpet.lay(self._outlook, None)
+        self._add(HARD, timed(self._ctx, self._draw_hard))
+        if self._color.samples == FINE:
+            self._add(SMOOTH, timed(self._ctx, self._draw_smooth))
+
+    def _add(self, name: str, took: float) -> None:
+        self.times.setdefault(name, []).append(took)
+
+    def _draw_hard(self) -> None:
+        self._still.studio.begin()
+        self._hand.draw(self._still.view, time=self._still.studio.prairie.time)
+
+    def _draw_smooth(self) -> None:
+        self._still.studio.begin()
+        target = self._ctx.fbo
+        self._fine.use()
+        self._fine.clear(0.0, 0.0, 0.0, 1.0, depth=1.0)
+        self._hand.draw(self._still.view, time=self._still.studio.prairie.time)
+        self._ctx.copy_framebuffer(target, self._fine)
+        target.use()
+
+    def rows(self, ours: Sequence[float]) -> list[dict[str, object]]:
+        """Return a row for each; `ours` are the times of our own frames [ms].
+
+        The prairie moves on to the instant of `bench picture`, so that `flip` compares with that one's.
+        """
+        taken = {name: float(np.median(times)) for name, times in self.times.items()}
+        flips = self._flips()
+        return [
+            {
+                "name": name,
+                "frame_ms": round(median, 3),
+                "ratio": round(median / float(np.median(ours)), 3),
+                "flip": flips.get(name),
+            }
+            for name, median in taken.items()
+        ]
+
+    def _flips(self) -> dict[str, float]:
+        """Return how far each one's picture is from the reference; nothing where pictures cannot be compared."""
+        from .picture import MOMENT, evaluator, flip
+
+        try:
+            evaluator()
+        except MachineError:
+            return {}
+        studio = self._still.studio
+        studio.prairie.advance(max(0.0, MOMENT - studio.prairie.time))
+        self._still.draw()
+        self._carpet.lay(self._outlook, None)
+        pictures = {}
+        for name, draw in ((HARD, self._draw_hard), (SMOOTH, self._draw_smooth)):
+            if name in self.times:
+                draw()
+                pictures[name] = studio.read()
+        reference = draw_reference(studio.prairie, *self._still.matrices, studio.take.size, samples=SAMPLES)
+        return {name: round(flip(picture, reference), 5) for name, picture in pictures.items()}
+
+    def release(self) -> None:
+        """Give everything back."""
+        for thing in (self._fine, self._color, self._depth, self._hand):
+            thing.release()
