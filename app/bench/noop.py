@@ -8,9 +8,9 @@ import json
 from argparse import ArgumentParser
 
 from ...systems.prairie import Prairie
-from ..offscreen import Offscreen, standalone_context
-from ..studio import Studio
-from ..take import Take, parse_size
+from ..studio.offscreen import Offscreen, standalone_context
+from ..studio.studio import Studio
+from ..studio.take import Take, parse_size
 from .still import FRAMES, Still
 from .timing import spread
 from .walk import paces

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...systems.reference import draw_reference
-from ..errors import MachineError
-from ..take import SAMPLES
+from ..studio.errors import MachineError
+from ..studio.take import SAMPLES
 from .rival import ByHand
 from .still import Still
 from .timing import timed

@@ -5,14 +5,14 @@ from contextlib import nullcontext
 import moderngl
 
 from ...engine.camera import view_of
-from ..studio import Studio
+from ..studio.studio import Studio
 from .timing import timed
 
 FRAMES = 60
 """Frames measured."""
 
-WARM_UP = 6
-"""Frames drawn before, not measured."""
+WARM_UP = 40
+"""Frames drawn before, not measured: until the entities of all patches are there."""
 
 STEP = 1.0 / 60.0
 """Time between frames [s]."""

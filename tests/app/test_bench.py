@@ -21,8 +21,8 @@ from tallgrass.app.bench.still import Still
 from tallgrass.app.bench.timing import card_timer
 from tallgrass.app.bench.walk import another
 from tallgrass.app.cli import run
-from tallgrass.app.studio import Studio
-from tallgrass.app.take import Take
+from tallgrass.app.studio.studio import Studio
+from tallgrass.app.studio.take import Take
 from tallgrass.engine.camera import Camera, projection_matrix, view_matrix, view_of
 from tallgrass.engine.scene import read_scene
 

@@ -30,10 +30,12 @@ STRIP = np.dtype(
         ("ranks", "f4"),
     ]
 )
-"""A polygon strip: the feet of its two edges [m], and their messages; the layer of its picture, and which picture it
-is, `KINDS` times the ring, plus the kind; how it stands, four times its column, plus the patch's quarter turns; how much it
-shows, and how high it stands, of its full height. It shows the blades whose rank is below `ranks`, or where that is
-negative those whose rank is not below -`ranks`. The shader reads it as four texels."""
+"""A polygon strip: the feet of its two edges [m], and their messages; the layer of its picture, and which picture;
+how it stands; how much it shows, and how high it is, of its full height.
+
+`picture` is `KINDS` times the ring, plus the kind; `stand` is four times the column, plus the patch's quarter turns.
+The blades that show are those whose rank is below `ranks`, or where that is negative those whose rank is not below
+-`ranks`. The shader reads a record as four texels."""
 
 PER_ROW = 16
 """Records in a row of the texture that holds them."""
