@@ -6,25 +6,28 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .around.appearance import appearance, kept_near
+from .around.appearance import Appearance, appearance, kept_near
 from .around.outlook import Outlook
 from .around.representation import Representation
 from .around.transitions import SEAMLESS, Transitions
 from .transition import weights
 
 Floats = NDArray[np.float32]
+Rows = NDArray[np.int64]
 
 
-def strips_kept(outlook: Outlook, /, *, reach: tuple[int, ...], patch: float) -> Floats:
+def strips_kept(
+    outlook: Outlook, rows: Rows | slice = slice(None), /, *, reach: tuple[int, ...], patch: float
+) -> Floats:
     """Return how much of the strips the distance leaves on each patch, shape (rows,); `patch` is its side [m].
 
     It leaves all of them where something else than the carpet comes after them.
     """
     limit = reach[outlook.patches.names.index("strips")]
     if limit < reach[-2]:
-        return np.ones(len(outlook.patches.progress), np.float32)
+        return np.ones(len(outlook.patches.progress[rows]), np.float32)
     eye = np.array([outlook.viewer.eye[0], outlook.viewer.eye[2]], np.float32)
-    away = np.abs(outlook.patches.middle - eye).max(axis=1)
+    away = np.abs(outlook.patches.middle[rows] - eye).max(axis=1)
     return kept_near(away / np.float32(patch), reach=limit)
 
 
@@ -43,8 +46,14 @@ class See:
     def run(self) -> None:
         """See for every viewer that looks."""
         for outlook in self.outlooks:
-            kept = strips_kept(outlook, reach=self.reach, patch=self.patch)
-            names = outlook.patches.names
-            outlook.appearance = appearance(weights(outlook.patches), kept, transitions=self.transitions, names=names)
+            outlook.appearance = self._appearance(outlook)
             for representation, cover in zip(self.representations, outlook.appearance.cover, strict=True):
                 outlook.shown[representation.name] = representation.show(outlook, cover)
+
+    def _appearance(self, outlook: Outlook) -> Appearance:
+        """Return how patches appear that are in view or next to it; of all others it is as if there were carpet."""
+        patches = outlook.patches
+        rows = np.flatnonzero(patches.near | patches.visible)
+        kept = strips_kept(outlook, rows, reach=self.reach, patch=self.patch)
+        seen = appearance(weights(patches, rows), kept, transitions=self.transitions, names=patches.names)
+        return seen.among(rows, len(patches.progress))

@@ -86,41 +86,45 @@ def _left_behind(patches: PatchTable, reach: tuple[int, ...]) -> Mask:
     return np.asarray(patches.distance > finest)
 
 
-def weights(patches: PatchTable, /) -> Floats:
+def weights(patches: PatchTable, rows: Rows | slice = slice(None), /) -> Floats:
     """Return how far each patch is each representation, shape (representations, rows): they sum to 1 or to 0."""
-    shown = np.zeros((len(patches.names), len(patches.progress)), np.float32)
+    now, before, progress = (column[rows] for column in (patches.representation, patches.previous, patches.progress))
+    shown = np.zeros((len(patches.names), len(progress)), np.float32)
     for level in range(len(shown)):
-        shown[level] = np.where(patches.representation == level, patches.progress, 0.0)
-        shown[level] += np.where(patches.previous == level, 1.0 - patches.progress, 0.0)
+        shown[level] = np.where(now == level, progress, 0.0)
+        shown[level] += np.where(before == level, 1.0 - progress, 0.0)
     return shown
 
 
 def refine(
     outlook: Outlook,
     representations: tuple[Representation, ...],
-    weight: Floats,
     /,
     *,
     reach: tuple[int, ...],
     step: float,
     transitions: Transitions,
 ) -> None:
-    """Advance changes of sub-levels by `step` and start those that are due; `weight` is (representations, rows).
+    """Advance changes of sub-levels by `step` and start those that are due.
 
     Where a representation does not show, its sub-level is due at once; while a patch goes between two representations
-    that stand on the ground, none changes, so that each blade keeps its painted place. Patches too far away stay as
-    they are.
+    that stand on the ground, none changes, so that each blade keeps its painted place. Patches too far away for a
+    representation stay as they are, and change no more.
     """
     patches, last = outlook.patches, len(representations) - 1
-    rows = np.flatnonzero(patches.distance <= max(farthest(reach)))
-    settled = (patches.was_visible & patches.visible)[rows] & (not outlook.viewer.jumped)
-    has, had = patches.representation[rows], patches.previous[rows]
-    both = (patches.progress[rows] < 1.0) & (weight[last, rows] == 0.0) & (has != had)
+    limits = farthest(reach)
+    near = np.flatnonzero(patches.distance <= max(limits))
+    weight = weights(patches, near)
+    settled = (patches.was_visible & patches.visible)[near] & (not outlook.viewer.jumped)
+    has, had = patches.representation[near], patches.previous[near]
+    standing = (patches.progress[near] < 1.0) & (weight[last] == 0.0) & (has != had)
     for level, representation in enumerate(representations[:last]):
+        here = np.flatnonzero(patches.distance[near] <= limits[level])
+        rows, both = near[here], standing[here]
         now, before, progress = (
             levels[level, rows] for levels in (patches.sublevel, patches.sublevel_before, patches.sublevel_progress)
         )
-        seen = settled & (weight[level, rows] > 0.0) & (now >= 0)
+        seen = settled[here] & (weight[level, here] > 0.0) & (now >= 0)
         wanted = representation.sublevels(
             outlook, rows, np.where(seen, now, np.int8(-1)), slack=SLACK if transitions.hysteresis else 0
         )
@@ -128,6 +132,7 @@ def refine(
         shows = seen & transitions.gradual
         move_on(now, before, progress, np.where(both & shows, now, wanted), shows, step=step)
         patches.sublevel[level, rows], patches.sublevel_before[level, rows] = now, before
+        patches.sublevel_progress[level] = 1.0
         patches.sublevel_progress[level, rows] = progress
 
 
@@ -159,8 +164,6 @@ class Transition:
         before = patches.representation.copy()
         wanted = held(patches, reach=self.reach)
         change(patches, wanted, settled & self.transitions.gradual, reach=self.reach, step=step)
-        refine(
-            outlook, self.representations, weights(patches), reach=self.reach, step=step, transitions=self.transitions
-        )
+        refine(outlook, self.representations, reach=self.reach, step=step, transitions=self.transitions)
         changing = (patches.progress < 1.0) | ((before != patches.representation) & settled)
         outlook.changing = int((patches.shown & changing).sum())

@@ -51,6 +51,16 @@ class Appearance:
     growth: Floats
     """Height of the strips, as a part of their full height, shape (rows,)."""
 
+    def among(self, rows: NDArray[np.int64], count: int, /) -> "Appearance":
+        """Return this as the appearance of some rows among `count` of them; the others have carpet alone."""
+        cover = np.zeros((len(self.cover), count), np.float32)
+        cover[-1] = 1.0
+        cover[:, rows] = self.cover
+        spread = np.zeros((3, count), np.float32)
+        for row, values in zip(spread, (self.morph, self.handed, self.growth), strict=True):
+            row[rows] = values
+        return Appearance(cover, *spread)
+
 
 def smooth(progress: Floats, /) -> Floats:
     """Return a step from 0 to 1 that starts and ends gently, where `progress` goes from 0 to 1."""

@@ -9,9 +9,6 @@ from numpy.typing import NDArray
 from ...grow.record import Growth
 from .grow import Strips, strips_of
 
-EVEN = 32
-"""Layers are a multiple of this wide and high [texels]: so several mip-maps are exact halves of those before."""
-
 
 def strip_stock(growths: Sequence[Growth], ring: int) -> list[list[Strips]]:
     """Return a ring's strips by kind and model."""
@@ -26,7 +23,7 @@ def strip_textures(
     Pictures stand in the lower left corner of layers that are large enough for all of them.
     """
     every = [strips for kinds in stock for models in kinds for strips in models]
-    size = np.ceil(np.max([strips.rank.shape[2:] for strips in every], axis=0) / EVEN).astype(np.int64) * EVEN
+    size = np.max([strips.rank.shape[2:] for strips in every], axis=0)
     atlas = np.concatenate([_padded(strips.texels, size) for strips in every])
     ranks = np.concatenate([_padded(_premultiplied_rank(strips), size) for strips in every])
     layers, rows, columns, _ = atlas.shape
