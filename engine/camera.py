@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .declared.camera import CameraSource, Stop
+from .handed import as_floats
 
 Floats = NDArray[np.float32]
 Doubles = NDArray[np.float64]
@@ -216,11 +217,12 @@ def view_of(view: object, projection: object) -> View:
 
 
 def _matrix(matrix: object, name: str) -> NDArray[np.float32]:
-    array = np.asarray(matrix, np.float32)
+    due = f"the {name} matrix must have 4 x 4 finite numbers"
+    array = as_floats(matrix, due)
     if array.shape == (16,):
         array = array.reshape(4, 4).T
-    if array.shape != (4, 4) or not np.isfinite(array).all():
-        raise ValueError(f"the {name} matrix must have 4 x 4 finite numbers, not {array.shape}")
+    if array.shape != (4, 4):
+        raise ValueError(f"{due}, not {array.shape}")
     if np.linalg.det(array.astype(np.float64)) == 0.0:
         raise ValueError(f"the {name} matrix has no inverse")
     return array

@@ -73,9 +73,14 @@ class World:
         """Delete an entity of ours at once; one that the game has deleted already is no error."""
         self._must_be_current()
         self._entities.pop(entity, None)
-        # A game that clears its world counts entities from 1 again: the number alone does not say whose one is.
-        if esper.entity_exists(entity) and self._owner(entity) is self._mark:
+        if self.has(entity):
             esper.delete_entity(entity, immediate=True)
+
+    def has(self, entity: int) -> bool:
+        """Return whether an entity of ours is there; one that the game has deleted is not, even if esper waits."""
+        self._must_be_current()
+        # A game that clears its world counts entities from 1 again: the number alone does not say whose one is.
+        return esper.entity_exists(entity) and self._owner(entity) is self._mark
 
     def add(self, entity: int, component: object) -> None:
         """Give an entity a component, in place of one of the same type."""

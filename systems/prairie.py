@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from reprlib import repr as shortened
 from time import perf_counter
 from typing import TYPE_CHECKING, get_args
 
@@ -65,6 +66,7 @@ class Prairie:
         transitions: Transitions = SEAMLESS,
         live: bool = True,
     ) -> None:
+        _must_be_read(loaded)
         self.site: Site = found_site(loaded, preset=preset, lod=lod, transitions=transitions)
         self.lod: LodName = lod
         self.statistics = Statistics(blades_field=self.site.blades)
@@ -150,10 +152,11 @@ class Prairie:
         own opaque things before the prairie, and its 2D after it.
 
         Both matrices are 4x4 numpy arrays for column vectors, or `pyglet.math.Mat4`. Of several viewers in a frame,
-        each needs a name of its own. Raises ValueError for other matrices, and RuntimeError after `release` or without
-        a window. Where the viewport has no pixels, nothing happens at all.
+        each needs a name of its own. Raises ValueError for other matrices, TypeError for a viewer that is no name, and
+        RuntimeError after `release` or without a window. Where the viewport has no pixels, nothing happens at all.
         """
         self._must_be_there("draw it")
+        _must_be_viewer(viewer)
         seen = view_of(view, projection)
         with self._assembly.screen.opened(self.site) as painter:
             if painter is None:
@@ -173,6 +176,7 @@ class Prairie:
         The matrices are those of `draw`, and it raises the same errors.
         """
         self._must_be_there("follow a viewer")
+        _must_be_viewer(viewer)
         self._look(view_of(view, projection), viewer)
         self.systems.run(last=Phase.SEE)
 
@@ -188,8 +192,9 @@ class Prairie:
 
         Whenever the batch is drawn, `camera` is asked for view and projection, as `draw` takes them, and the prairie is
         drawn after groups of a lower `order` and before those of a higher one. The group's `visible` hides it, its
-        `delete` takes it out of the batch, as `release` does.
+        `delete` takes it out of the batch, as `release` does. Raises RuntimeError after `release`.
         """
+        self._must_be_there("put it into a batch")
         return self._assembly.screen.group(lambda: self.draw(*camera()), batch, order, parent)
 
     def height_at(self, xz: ArrayLike) -> Floats:
@@ -212,8 +217,10 @@ class Prairie:
         """Return the entity of the patch at each ground position (x, z) [m], shape (n, 2), as a viewer has it: (n,).
 
         It has `Patch` and `Lod`. 0 stands for places off the terrain or too far away from the viewer to be kept, and
-        for all before it has looked once.
+        for all before it has looked once. Raises ValueError for places that are no pairs, TypeError for a viewer that
+        is no name.
         """
+        _must_be_viewer(viewer)
         cells = cell_of(as_places(xz), patch=self.site.ground.patch)
         if viewer not in self.viewers:
             return np.zeros(len(cells), np.int64)
@@ -223,17 +230,27 @@ class Prairie:
         """Add a wind and return its entity, a handle that `move` and `remove` take.
 
         With a `pose` the wind is there until it is moved, whatever it says itself; so it follows what a game steers.
-        Winds of one name share what is random about them; without a name it is their kind.
+        Winds of one name share what is random about them; without a name it is their kind. Raises TypeError for what is
+        no wind, such as the name or the class of one, and RuntimeError after `release`.
         """
-        return self.winds.add(primitive, name or primitive.kind, pose)
+        self._must_be_there("add a wind")
+        return self.winds.add(primitive, name, pose)
 
     def move(self, handle: int, pose: Pose) -> None:
-        """Put a wind elsewhere that `add` returned: it follows what carries it."""
-        self.world.add(handle, pose)
+        """Put a wind elsewhere that `add` returned: it follows what carries it.
+
+        Raises TypeError for what is no handle or no `Pose`, ValueError for a pose that is not finite, and for a wind
+        that is gone: removed, or deleted by the game.
+        """
+        self._must_be_there("move a wind")
+        self.winds.move(handle, pose)
 
     def remove(self, handle: int) -> None:
-        """Take a wind away that `add` returned."""
-        self.world.delete(handle)
+        """Take a wind away that `add` returned; one that the game has deleted meanwhile is no error.
+
+        Raises TypeError for what is no handle, ValueError for a wind that has been removed before.
+        """
+        self.winds.remove(handle)
 
     def reload(self, scene: str | Path | None = None) -> None:
         """Read the scene again, or another one, and go on with it at the same time: what did not change stays.
@@ -273,3 +290,15 @@ class Prairie:
         outlook = self.viewers.looking(viewer, partial(outlook_on, self.site))
         outlook.look(seen, time=self.time, leap=LEAP * self.site.ground.patch)
         return outlook
+
+
+def _must_be_read(thing: object) -> None:
+    if isinstance(thing, str | Path):
+        raise TypeError(f"Prairie takes a scene that has been read; load one by Prairie.load({str(thing)!r})")
+    if not isinstance(thing, LoadedScene):
+        raise TypeError(f"Prairie takes a scene that has been read, not {shortened(thing)}; use Prairie.load")
+
+
+def _must_be_viewer(thing: object) -> None:
+    if not isinstance(thing, str):
+        raise TypeError(f"a viewer is called by a text such as 'main', not by {shortened(thing)}")

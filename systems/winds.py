@@ -3,9 +3,11 @@
 import logging
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import astuple
 from functools import partial
 from itertools import count
-from math import inf
+from math import inf, isfinite
+from reprlib import repr as shortened
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +38,8 @@ class Winds:
         self._world = world
         self._generation = world.generation
         self._declared: list[int] = []
+        self._added: dict[int, int] = {}
+        """By its handle, the generation of the world in which a game added each wind."""
         self.quarantine = Quarantine(live=live)
         self.change(scene, ground, growths)
 
@@ -57,14 +61,53 @@ class Winds:
 
     def _take(self, source: WindSource, old: WindSource | None, entities: dict[WindSource, int]) -> int:
         if old is None:
-            return self.add(source.primitive, source.name)
+            return self._world.create(source)
         if source is not old:
             self._world.add(entities[old], source)
         return entities[old]
 
-    def add(self, primitive: WindPrimitive, name: str, pose: Pose | None = None) -> int:
-        """Add a wind and return its entity."""
-        return self._world.create(WindSource(primitive, name), *([pose] if pose else []))
+    def add(self, primitive: WindPrimitive, name: str | None = None, pose: Pose | None = None) -> int:
+        """Add a wind of a game's and return its entity; without a name it is called by its kind.
+
+        Raises TypeError for what is no wind, no pose or no name, ValueError for a pose that is nowhere.
+        """
+        _must_be_wind(primitive)
+        _must_be_name(name)
+        if pose is not None:
+            _must_be_pose(pose)
+        entity = self._world.create(WindSource(primitive, name or primitive.kind), *([pose] if pose else []))
+        self._added[entity] = self._world.check()
+        return entity
+
+    def move(self, handle: int, pose: Pose) -> None:
+        """Put a wind elsewhere that was added.
+
+        Raises TypeError and ValueError for what is no handle of one or no pose, ValueError where a game has deleted it.
+        """
+        _must_be_pose(pose)
+        if not self._is_there(handle):
+            raise ValueError(f"the game has deleted the entity of wind {handle}: add the wind again to move it")
+        self._world.add(handle, pose)
+
+    def remove(self, handle: int) -> None:
+        """Take a wind away that was added; one that the game has deleted meanwhile is no error.
+
+        Raises TypeError and ValueError for what is no handle of one.
+        """
+        if self._is_there(handle):
+            self._world.delete(handle)
+        del self._added[handle]
+
+    def _is_there(self, handle: object) -> bool:
+        """Return whether a wind that was added is still a wind; raises TypeError and ValueError for others."""
+        if not isinstance(handle, int | np.integer):
+            raise TypeError(f"winds are moved and removed by the handle that add returned, not by {shortened(handle)}")
+        if handle not in self._added:
+            raise ValueError(f"no wind has the handle {handle}: it was removed before, or add never returned it")
+        entity, generation = int(handle), self._added[int(handle)]
+        if generation != self._world.check() or not self._world.has(entity):
+            return False
+        return self._world.find(entity, WindSource) is not None
 
     def sources(self) -> list[WindSource]:
         """Return the winds there are."""
@@ -133,6 +176,27 @@ def matched(
         same = old is not None and _likeness(old.primitive, wind) == inf
         rows.append((old if old and same else WindSource(wind, name), old))
     return rows
+
+
+def _must_be_wind(thing: object) -> None:
+    if not isinstance(thing, WindPrimitive):
+        said = "its name " if isinstance(thing, str) else "the class " if isinstance(thing, type) else ""
+        what = thing.__name__ if isinstance(thing, type) else shortened(thing)
+        raise TypeError(f"add takes a wind such as Gust(), not {said}{what}")
+
+
+def _must_be_name(thing: object) -> None:
+    if not isinstance(thing, str | None):
+        raise TypeError(f"a wind is called by a text such as 'north', not by {shortened(thing)}")
+
+
+def _must_be_pose(thing: object) -> None:
+    if not isinstance(thing, Pose):
+        raise TypeError(f"a wind is put at a Pose such as Pose(x=3.0, z=-5.0), not at {shortened(thing)}")
+    if not all(
+        isinstance(number, float | int | np.floating | np.integer) and isfinite(number) for number in astuple(thing)
+    ):
+        raise ValueError(f"a wind is put where x, z [m] and yaw [rad] are finite numbers, not at {thing}")
 
 
 def declared(number: int, wind: WindPrimitive) -> str:

@@ -3,15 +3,18 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...engine.handed import as_floats
+
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
 
 
 def as_places(xz: ArrayLike, /) -> Floats:
     """Return ground positions (x, z) [m] as an array of shape (n, 2); raises ValueError for anything else."""
-    places = np.asarray(xz, np.float32)
-    if places.shape[-1:] != (2,) or not np.isfinite(places).all():
-        raise ValueError(f"ground positions are finite (x, z) pairs, not an array of shape {places.shape}")
+    due = "ground positions are finite (x, z) pairs, one in each row"
+    places = as_floats(xz, due)
+    if places.shape[-1:] != (2,):
+        raise ValueError(f"{due}, not an array of shape {places.shape}")
     return np.ascontiguousarray(places.reshape(-1, 2))
 
 

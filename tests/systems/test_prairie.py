@@ -10,10 +10,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from tallgrass.components.pose import Pose
 from tallgrass.components.wind import Grass, WindPrimitive, WindSource
 from tallgrass.engine.scene import SceneError
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.wind.gust import Gust
 
 Floats = NDArray[np.float32]
 Load = Callable[..., Prairie]
@@ -118,7 +120,6 @@ def test_d5_a_games_own_wind_may_come_and_go(prairie: Prairie) -> None:
     assert esper.component_for_entity(handle, WindSource).primitive == Blast()
     prairie.remove(handle)
     np.testing.assert_array_equal(prairie.wind_at(PLACES), before)
-    prairie.remove(handle)
 
 
 def test_d2_the_winds_of_a_scene_are_entities_of_the_current_world(prairie: Prairie) -> None:
@@ -179,8 +180,10 @@ def test_an_unknown_scene_is_refused_in_a_sentence(load: Load) -> None:
 GOOD = np.eye(4)
 BAD: list[tuple[object, str]] = [
     (np.eye(3), r"must have 4 x 4 finite numbers, not \(3, 3\)$"),
-    (np.full((4, 4), np.nan), r"must have 4 x 4 finite numbers, not \(4, 4\)$"),
-    (None, "must have 4 x 4 finite numbers"),
+    (np.full((4, 4), np.nan), "must have 4 x 4 finite numbers, not NaN or infinity$"),
+    (None, "must have 4 x 4 finite numbers, not None$"),
+    ("view", "must have 4 x 4 finite numbers, not 'view'$"),
+    ([[1.0, 2.0], [3.0]], r"must have 4 x 4 finite numbers, not \[\[1.0, 2.0\], \[3.0\]\]$"),
     (list(range(15)), r"must have 4 x 4 finite numbers, not \(15,\)$"),
     (np.zeros((4, 4)), "has no inverse$"),
 ]
@@ -195,11 +198,129 @@ def test_a_bad_matrix_is_refused_in_a_sentence_that_names_it(prairie: Prairie, m
     assert prairie.painter is None
 
 
-@pytest.mark.parametrize("places", [[1.0, 2.0, 3.0], [[1.0, 2.0, 3.0]] * 4, 7.0, [[np.nan, 0.0]]])
-def test_places_that_are_no_pairs_are_refused_in_a_sentence(prairie: Prairie, places: object) -> None:
-    for ask in (prairie.height_at, prairie.wind_at):
-        with pytest.raises(ValueError, match=r"^ground positions are finite \(x, z\) pairs"):
+@pytest.mark.parametrize(
+    ("places", "found"),
+    [
+        ([1.0, 2.0, 3.0], r"an array of shape \(3,\)"),
+        ([[1.0, 2.0, 3.0]] * 4, r"an array of shape \(4, 3\)"),
+        (7.0, r"an array of shape \(\)"),
+        ([[np.nan, 0.0]], "NaN or infinity"),
+        ([[1.0, 2.0], [3.0]], r"\[\[1.0, 2.0\], \[3.0\]\]"),
+        ("here", "'here'"),
+        (None, "None"),
+    ],
+)
+def test_places_that_are_no_pairs_are_refused_in_a_sentence(prairie: Prairie, places: object, found: str) -> None:
+    for ask in (prairie.height_at, prairie.wind_at, prairie.patch_at):
+        with pytest.raises(
+            ValueError, match=rf"^ground positions are finite \(x, z\) pairs, one in each row, not {found}$"
+        ):
             ask(places)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("wind", "said"),
+    [
+        ("gust", "its name 'gust'"),
+        (Gust, "the class Gust"),
+        (3, "3"),
+        (None, "None"),
+    ],
+)
+def test_what_is_no_wind_is_refused_in_a_sentence(prairie: Prairie, wind: object, said: str) -> None:
+    with pytest.raises(TypeError, match=rf"^add takes a wind such as Gust\(\), not {said}$"):
+        prairie.add(wind)  # type: ignore[arg-type]
+    assert len(prairie.winds.sources()) == 2
+
+
+def test_a_name_that_is_no_text_is_refused_in_a_sentence(prairie: Prairie) -> None:
+    with pytest.raises(TypeError, match=r"^a wind is called by a text such as 'north', not by 3$"):
+        prairie.add(Gust(), name=3)  # type: ignore[arg-type]
+
+
+NOWHERE: list[tuple[object, type[Exception], str]] = [
+    ((1, 2), TypeError, r"a wind is put at a Pose such as Pose\(x=3.0, z=-5.0\), not at \(1, 2\)"),
+    (None, TypeError, r"a wind is put at a Pose such as Pose\(x=3.0, z=-5.0\), not at None"),
+    (
+        Pose(np.nan, 0.0),
+        ValueError,
+        r"a wind is put where x, z \[m\] and yaw \[rad\] are finite numbers, not at Pose.*nan.*",
+    ),
+    (Pose(0.0, 0.0, np.inf), ValueError, r"a wind is put where .* finite numbers, not at Pose.*inf.*"),
+    (Pose("left", 0.0), ValueError, r"a wind is put where .* finite numbers, not at Pose.*'left'.*"),  # type: ignore[arg-type]
+]
+
+
+@pytest.mark.parametrize(("pose", "error", "sentence"), NOWHERE)
+def test_a_place_that_is_nowhere_is_refused_and_the_wind_stays(
+    prairie: Prairie, pose: object, error: type[Exception], sentence: str
+) -> None:
+    handle = prairie.add(Blast(), pose=Pose(2.0, 3.0))
+    with pytest.raises(error, match=f"^{sentence}$"):
+        prairie.move(handle, pose)  # type: ignore[arg-type]
+    assert esper.component_for_entity(handle, Pose) == Pose(2.0, 3.0)
+    if pose is not None:
+        with pytest.raises(error, match=f"^{sentence}$"):
+            prairie.add(Blast(), pose=pose)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("change", ["move", "remove"])
+def test_a_handle_of_no_wind_is_refused_in_a_sentence(prairie: Prairie, change: str) -> None:
+    handle = prairie.add(Blast())
+    prairie.remove(handle)
+    theirs = esper.create_entity("a game's own")
+    more = (Pose(),) if change == "move" else ()
+    for number in (handle, theirs, np.int64(3663)):
+        with pytest.raises(ValueError, match=f"^no wind has the handle {number}: it was removed before, or add never "):
+            getattr(prairie, change)(number, *more)
+    with pytest.raises(
+        TypeError, match=r"^winds are moved and removed by the handle that add returned, not by 'gust'$"
+    ):
+        getattr(prairie, change)("gust", *more)
+    assert esper.components_for_entity(theirs) == ("a game's own",)
+
+
+@pytest.mark.parametrize("how", ["at once", "later", "its wind alone", "the whole world"])
+def test_a_wind_that_the_game_has_deleted_cannot_be_moved_and_may_be_removed(prairie: Prairie, how: str) -> None:
+    handle = prairie.add(Blast())
+    if how == "its wind alone":
+        esper.remove_component(handle, WindSource)
+    elif how == "the whole world":
+        esper.clear_database()
+    else:
+        esper.delete_entity(handle, immediate=how == "at once")
+    again = f"^the game has deleted the entity of wind {handle}: add the wind again to move it$"
+    with pytest.raises(ValueError, match=again):
+        prairie.move(handle, Pose())
+    prairie.remove(handle)
+    with pytest.raises(ValueError, match="no wind has the handle"):
+        prairie.remove(handle)
+
+
+@pytest.mark.parametrize(
+    ("loaded", "sentence"),
+    [
+        ("meadow", r"load one by Prairie\.load\('meadow'\)$"),
+        (Path("a.yaml"), r"load one by Prairie\.load\('a\.yaml'\)$"),
+        (3, r"not 3; use Prairie\.load$"),
+    ],
+)
+def test_a_prairie_made_of_no_scene_says_what_loads_one(world: World, loaded: object, sentence: str) -> None:
+    with pytest.raises(TypeError, match=f"^Prairie takes a scene that has been read.*{sentence}"):
+        Prairie(loaded)  # type: ignore[arg-type]
+    assert len(world) == 0
+
+
+def test_a_viewer_is_called_by_a_text(prairie: Prairie) -> None:
+    view = np.eye(4)
+    for ask in (
+        lambda: prairie.draw(view, view, viewer=3),  # type: ignore[arg-type]
+        lambda: prairie.follow(view, view, viewer=3),  # type: ignore[arg-type]
+        lambda: prairie.patch_at([[0, 0]], viewer=3),  # type: ignore[arg-type]
+    ):
+        with pytest.raises(TypeError, match=r"^a viewer is called by a text such as 'main', not by 3$"):
+            ask()
+    assert not prairie.viewers.values()
 
 
 def test_d2_released_a_prairie_leaves_the_world_as_it_was(world: World, load: Load) -> None:
@@ -214,7 +335,17 @@ def test_d2_released_a_prairie_leaves_the_world_as_it_was(world: World, load: Lo
     assert len(world) == 0
 
 
-def test_a_released_prairie_says_so_when_it_is_drawn(prairie: Prairie) -> None:
+def test_a_released_prairie_says_so_when_it_is_asked_for_more(prairie: Prairie) -> None:
+    handle = prairie.add(Blast())
     prairie.release()
-    with pytest.raises(RuntimeError, match="released"):
-        prairie.draw(np.eye(4), np.eye(4))
+    asked: list[tuple[str, Callable[[], object]]] = [
+        ("draw it", lambda: prairie.draw(GOOD, GOOD)),
+        ("put it into a batch", lambda: prairie.group(object(), lambda: (GOOD, GOOD))),  # type: ignore[arg-type]
+        ("add a wind", lambda: prairie.add(Blast())),
+        ("move a wind", lambda: prairie.move(handle, Pose())),
+    ]
+    for purpose, ask in asked:
+        with pytest.raises(RuntimeError, match=f"^this prairie has been released: load it again to {purpose}$"):
+            ask()
+    prairie.remove(handle)
+    assert list(esper.get_entities()) == []
