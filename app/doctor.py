@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from importlib.metadata import EntryPoint, PackageNotFoundError, entry_points, requires, version
 from typing import Literal
 
+from ..engine.installed import OURS
 from ..engine.plugins import GROUP, PluginError, WindKinds, wind_kinds
 
 _DISTRIBUTION = "tallgrass"
@@ -131,7 +132,8 @@ def window(answer: dict[str, str], /, *, has_display: bool) -> Finding:
 
 def winds(kinds: WindKinds, entries: Sequence[EntryPoint], /) -> list[Finding]:
     """Return which kinds of wind a scene can use; a broken one costs only the scenes that use it."""
-    owner = {entry.name: entry.dist.name for entry in entries if entry.dist is not None}
+    installed = sorted(entries, key=lambda entry: entry.dist is not None and entry.dist.name == OURS)
+    owner = {entry.name: entry.dist.name for entry in installed if entry.dist is not None}  # ours last: they win
     findings = []
     for kind in kinds.names():
         name = owner.get(kind, "the game")

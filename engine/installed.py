@@ -15,14 +15,15 @@ Without it all is used, and if it is empty nothing. What tallgrass itself brings
 OURS = "tallgrass"
 """The distribution of what is built in."""
 
-Status = Literal["ready", "claimed twice", "left out"]
+Status = Literal["ready", "claimed twice", "name taken", "left out"]
 """What is known of an entry before it is imported."""
 
 
 class Installed:
-    """The entry points of a group by name, those in use and those left out.
+    """The entry points of a group by name: those in use, those whose name is taken, and those left out.
 
-    `chosen` are names of entries or distributions to use beside those of tallgrass; None is all.
+    `chosen` are names of entries or distributions to use beside those of tallgrass; None is all. A name that tallgrass
+    itself brings is taken: others that have it too are not in use, so that no package breaks what is built in.
     """
 
     def __init__(self, entries: Iterable[EntryPoint], *, chosen: Collection[str] | None = None) -> None:
@@ -31,17 +32,23 @@ class Installed:
         for entry in entries:
             kept = self.used if _is_chosen(entry, chosen) else self.left_out
             kept.setdefault(entry.name, []).append(entry)
+        self.taken: dict[str, list[EntryPoint]] = {}
+        for name, used in self.used.items():
+            ours = [entry for entry in used if owner(entry)[0] == OURS]
+            if ours and len(ours) < len(used):
+                self.used[name], self.taken[name] = ours, [entry for entry in used if owner(entry)[0] != OURS]
 
     def all(self) -> list[EntryPoint]:
         """Return all entries, those left out last."""
-        return [entry for kept in (self.used, self.left_out) for entries in kept.values() for entry in entries]
+        every = (self.used, self.taken, self.left_out)
+        return [entry for kept in every for entries in kept.values() for entry in entries]
 
     def status(self, entry: EntryPoint) -> Status:
         """Return whether an entry can be used."""
-        kept = self.used.get(entry.name, [])
-        if all(entry is not other for other in kept):  # equal entries may be of two distributions
-            return "left out"
-        return "ready" if len(kept) == 1 else "claimed twice"
+        used = self.used.get(entry.name, [])
+        if _has(used, entry):
+            return "ready" if len(used) == 1 else "claimed twice"
+        return "name taken" if _has(self.taken.get(entry.name, []), entry) else "left out"
 
 
 def chosen_names() -> list[str] | None:
@@ -70,6 +77,18 @@ def claimed(what: str, entries: list[EntryPoint]) -> str:
     """Return the sentence on several entries of one name."""
     choice = f"uninstall all but one of them, or name it in {CHOSEN}"
     return f"{what} is claimed by {owners(entries)}; {choice}"
+
+
+def outdone(what: str, entries: list[EntryPoint]) -> str:
+    """Return the sentence on entries whose name is that of something built in."""
+    names = " and ".join(owner(entry)[0] for entry in entries)
+    choice = f"uninstall {names}, or leave it out by {CHOSEN}, which names what to use"
+    return f"{what} is built in, and the one of {owners(entries)} is not used; {choice}"
+
+
+def _has(entries: list[EntryPoint], entry: EntryPoint) -> bool:
+    """Return whether this very entry is among others: equal ones may be of two distributions."""
+    return any(entry is other for other in entries)
 
 
 def _is_chosen(entry: EntryPoint, chosen: Collection[str] | None) -> bool:

@@ -32,7 +32,7 @@ class ProvidedSystem:
     """Version of the distribution."""
 
     status: Status
-    """`ready`, `claimed twice`, or `left out` by the environment."""
+    """`ready`, `claimed twice`, `name taken` by a built-in one, or `left out` by the environment."""
 
 
 class SystemPlugins:
@@ -83,13 +83,13 @@ def _bring(prairie: object, name: str, entries: list[EntryPoint]) -> str | None:
     what = f"system '{name}' of {owners(entries)}"
     try:
         bring = entries[0].load()
-    except Exception as error:  # noqa: BLE001 - importing a plugin runs its code, which may raise anything
+    except (Exception, SystemExit) as error:  # noqa: BLE001 - importing a plugin runs its code, which may do anything
         return f"{what} cannot be loaded: {said(error)}; it is left out"
     if isinstance(bring, type) or not callable(bring):
         return f"{what} must be a function that takes the prairie; it is left out"
     try:
         bring(prairie)
-    except Exception as error:  # a plugin may raise anything
+    except (Exception, SystemExit) as error:  # a plugin may do anything
         log.debug("%s", name, exc_info=error)
         return f"{what} cannot be added: {said(error)}; it is left out"
     return None

@@ -12,7 +12,7 @@ from typing import TypeVar
 
 from ..components.wind import INTERFACE, WindPrimitive
 from .complaint import said
-from .installed import CHOSEN, OURS, Installed, Status, chosen_names, claimed, owner, owners, unknown_names
+from .installed import CHOSEN, OURS, Installed, Status, chosen_names, claimed, outdone, owner, owners, unknown_names
 from .plugged import SYSTEMS
 
 GROUP = "tallgrass.wind"
@@ -42,7 +42,7 @@ class Provided:
     """Version of the distribution; of a game's own class, nothing."""
 
     status: Status
-    """`ready`, `claimed twice`, or `left out` by the environment."""
+    """`ready`, `claimed twice`, `name taken` by a built-in one, or `left out` by the environment."""
 
 
 class WindKinds:
@@ -116,9 +116,11 @@ class WindKinds:
             raise PluginError(self._unknown(kind))
         if len(entries) > 1:
             raise PluginError(claimed(f"kind '{kind}'", entries))
+        if kind in self._installed.taken:
+            log.warning("%s", outdone(f"kind '{kind}'", self._installed.taken[kind]))
         try:
             loaded = entries[0].load()
-        except Exception as error:  # importing a plugin runs its code, which may raise anything
+        except (Exception, SystemExit) as error:  # importing a plugin runs its code, which may do anything
             raise PluginError(f"kind '{kind}' of {owners(entries)} cannot be loaded: {said(error)}") from error
         return _must_be_primitive(loaded, f"kind '{kind}' of {owners(entries)}")
 

@@ -1,7 +1,8 @@
 """The doctor names what is missing, and the exact line that installs it."""
 
 import os
-from importlib.metadata import EntryPoint, version
+from importlib.metadata import EntryPoint, distributions, entry_points, version
+from pathlib import Path
 
 import moderngl
 import pytest
@@ -94,6 +95,25 @@ def test_a_broken_plugin_is_noted_and_the_others_are_found() -> None:
     assert found["wind breeze"].level == "ok"
     assert found["wind dust"].level == "note"
     assert "ModuleNotFoundError" in found["wind dust"].text
+
+
+def test_a_kind_whose_module_ends_python_is_one_note(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "tallgrass_leaving.py").write_text("import sys; sys.exit(7)")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    entries = [EntryPoint("leaving", "tallgrass_leaving:Leaving", GROUP)]
+    (found,) = winds(WindKinds(entries), entries)
+    assert (found.level, found.text.endswith("cannot be loaded: SystemExit: 7")) == ("note", True)
+
+
+def test_a_built_in_kind_is_ok_and_from_here_whoever_else_claims_it(tmp_path: Path) -> None:
+    info = tmp_path / "tallgrass_storm-0.3.1.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: tallgrass-storm\nVersion: 0.3.1\n")
+    (info / "entry_points.txt").write_text(f"[{GROUP}]\ngust = storm:Gust\n")
+    (theirs,) = next(iter(distributions(path=[str(tmp_path)]))).entry_points
+    for entries in ([*entry_points(group=GROUP), theirs], [theirs, *entry_points(group=GROUP)]):
+        found = {each.part: each for each in winds(WindKinds(entries), entries)}
+        assert found["wind gust"] == Finding("wind gust", "ok", "from tallgrass")
 
 
 def test_what_is_missing_decides_the_exit_status(capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,6 +1,7 @@
 """The commands on plugins: what is installed, whether one keeps to the rules, and how to begin one."""
 
 import json
+import os
 import subprocess
 import sys
 from importlib.metadata import EntryPoint
@@ -15,7 +16,7 @@ from tallgrass.app.scaffold import scaffold
 from tallgrass.app.studio.errors import InputError
 from tallgrass.components.wind import Floats, Grass, WindPrimitive
 from tallgrass.engine.plugged import SYSTEMS, SystemPlugins
-from tallgrass.engine.plugins import WindKinds, wind_kinds
+from tallgrass.engine.plugins import GROUP, WindKinds, wind_kinds
 
 
 class Loud(WindPrimitive):
@@ -74,6 +75,41 @@ def test_installed_systems_are_listed_in_a_table_of_their_own_after_the_winds(
     list_plugins(json=True)
     last = {"system": "ball", "distribution": "the entry point game:bring", "version": "", "status": "ready"}
     assert json.loads(capsys.readouterr().out)[-1] == last
+
+
+@pytest.fixture
+def rude(tmp_path: Path) -> Path:
+    """A folder with a distribution that claims a built-in kind, and ends Python where its own is imported."""
+    info = tmp_path / "site" / "tallgrass_rude-0.3.1.dist-info"
+    info.mkdir(parents=True)
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: tallgrass-rude\nVersion: 0.3.1\n")
+    kinds, systems = ["gust = rude:Gust", "rude = rude:Rude"], ["rude = rude:bring"]
+    (info / "entry_points.txt").write_text("\n".join([f"[{GROUP}]", *kinds, f"[{SYSTEMS}]", *systems]))
+    (info.parent / "rude.py").write_text("import sys; sys.exit(7)")
+    return info.parent
+
+
+def test_a_plugin_that_ends_python_and_takes_a_built_in_name_ends_no_command(
+    tallgrass: Any, rude: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PYTHONPATH", str(rude), prepend=os.pathsep)
+    for kind in ("rude", "gust"):
+        (tmp_path / f"{kind}.yaml").write_text(f"tallgrass: 1\ngrass: {{ lawn: {{}} }}\nwind: [{{ kind: {kind} }}]\n")
+    choice = "uninstall tallgrass-rude, or leave it out by TALLGRASS_PLUGINS, which names what to use"
+    taken = f"kind 'gust' is built in, and the one of tallgrass-rude 0.3.1 is not used; {choice}"
+    left = "kind 'rude' of tallgrass-rude 0.3.1 cannot be loaded: SystemExit: 7"
+    checked = tallgrass("check", "gust.yaml", "rude.yaml", "gust.yaml")
+    assert (checked.returncode, checked.stderr) == (2, f"{taken}\n")
+    first, problem, *_, last = checked.stdout.splitlines()
+    assert (first, problem, last) == ("gust.yaml: ok", f"rude.yaml:3:16: {left}", "gust.yaml: ok")
+    described = tallgrass("schema")
+    assert (described.returncode, described.stderr) == (0, f"{taken}\n{left}; it is left out\n")
+    listed = [line.split() for line in tallgrass("plugins", "list").stdout.splitlines()]
+    assert ["gust", "tallgrass-rude", "0.3.1", "name", "taken"] in listed
+    loading = f"from tallgrass import Prairie; print(Prairie.load({str(tmp_path / 'gust.yaml')!r}, preset='low').time)"
+    loaded = subprocess.run([sys.executable, "-c", loading], capture_output=True, text=True, check=False)
+    assert (loaded.returncode, loaded.stdout) == (0, "0.0\n")
+    assert "system 'rude' of tallgrass-rude 0.3.1 cannot be loaded: SystemExit: 7; it is left out" in loaded.stderr
 
 
 @pytest.mark.usefixtures("kinds")

@@ -21,6 +21,9 @@ def bring(prairie):
 def roll():
     pass
 
+def leaving(prairie):
+    raise SystemExit
+
 def broken(prairie):
     prairie.systems.add("blow", "half", roll)
     raise ValueError("no ball here")
@@ -29,7 +32,7 @@ def broken(prairie):
 
 @pytest.fixture(autouse=True)
 def _plugins_of_this_test(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    for module in ("toys_ball", "toys_faulty"):
+    for module in ("toys_ball", "toys_faulty", "toys_leaving"):
         monkeypatch.delitem(sys.modules, module, raising=False)
     for cached in (wind_kinds, system_plugins):
         cached.cache_clear()
@@ -47,6 +50,7 @@ def install(folder: Path, name: str, systems: dict[str, str]) -> list[EntryPoint
     (info / "entry_points.txt").write_text("\n".join(lines) + "\n")
     (info.parent / "toys_ball.py").write_text(BALL)
     (info.parent / "toys_faulty.py").write_text("1 / 0")
+    (info.parent / "toys_leaving.py").write_text("raise SystemExit(7)")
     return [entry for found in distributions(path=[str(info.parent)]) for entry in found.entry_points]
 
 
@@ -63,6 +67,8 @@ def toys(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[EntryPoint]:
         "broken": "toys_ball:broken",
         "faulty": "toys_faulty:bring",
         "gone": "toys_gone:bring",
+        "leaving": "toys_leaving:bring",
+        "left": "toys_ball:leaving",
         "text": "toys_ball:__name__",
     }
     monkeypatch.syspath_prepend(str(tmp_path / "tallgrass-toys"))
@@ -93,6 +99,8 @@ def test_each_broken_one_is_one_warning_with_its_distribution_however_many_prair
             f"'broken' {of} cannot be added: ValueError: no ball here",
             f"'faulty' {of} cannot be loaded: ZeroDivisionError: division by zero",
             f"'gone' {of} cannot be loaded: ModuleNotFoundError: No module named 'toys_gone'",
+            f"'leaving' {of} cannot be loaded: SystemExit: 7",
+            f"'left' {of} cannot be added: SystemExit",
             f"'text' {of} must be a function that takes the prairie",
         )
     ]

@@ -63,9 +63,15 @@ def dust(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> WindKinds:
         "text": "dust_vortex:__name__",
         "half": "tallgrass.components.wind:WindPrimitive",
         "later": "dust_later:Vortex",
+        "leaving": "dust_leaving:Vortex",
     }
     later = f"{VORTEX}    interface = 2\n"
-    modules = {"dust_vortex": VORTEX, "dust_faulty": "1 / 0", "dust_later": later}
+    modules = {
+        "dust_vortex": VORTEX,
+        "dust_faulty": "1 / 0",
+        "dust_later": later,
+        "dust_leaving": "raise SystemExit(7)",
+    }
     entries = install(tmp_path, "tallgrass-dust", kinds, modules)
     monkeypatch.syspath_prepend(str(tmp_path / "tallgrass-dust"))
     for module in modules:
@@ -109,7 +115,7 @@ def test_d5_an_installed_kind_is_imported_when_first_asked_for(dust: WindKinds) 
 def test_an_unknown_kind_names_the_one_it_resembles(dust: WindKinds) -> None:
     with pytest.raises(PluginError) as refusal:
         dust.find("vortx")
-    known = "faulty, gone, half, later, text, vortex"
+    known = "faulty, gone, half, later, leaving, text, vortex"
     assert str(refusal.value) == f"unknown kind 'vortx', did you mean 'vortex'? known: {known}"
     with pytest.raises(PluginError, match="unknown kind 'zzz'; known: faulty, gone"):
         dust.find("zzz")
@@ -120,6 +126,7 @@ def test_an_unknown_kind_names_the_one_it_resembles(dust: WindKinds) -> None:
     [
         ("gone", "cannot be loaded: ModuleNotFoundError: No module named 'dust_gone'"),
         ("faulty", "cannot be loaded: ZeroDivisionError: division by zero"),
+        ("leaving", "cannot be loaded: SystemExit: 7"),
         ("text", "must be a class that derives from WindPrimitive"),
         ("half", "lacks action and mask"),
         ("later", "is written for interface 2 of winds; this tallgrass has 1"),
@@ -129,6 +136,12 @@ def test_a_broken_plugin_is_named_with_its_distribution(dust: WindKinds, kind: s
     with pytest.raises(PluginError) as refusal:
         dust.find(kind)
     assert str(refusal.value) == f"kind '{kind}' of tallgrass-dust 0.3.1 {why}"
+
+
+def test_whoever_stops_python_while_a_plugin_is_imported_stops_it(dust: WindKinds, tmp_path: Path) -> None:
+    (tmp_path / "tallgrass-dust" / "dust_faulty.py").write_text("raise KeyboardInterrupt")
+    with pytest.raises(KeyboardInterrupt):
+        dust.find("faulty")
 
 
 def test_a_broken_plugin_costs_no_other_kind(dust: WindKinds) -> None:
@@ -166,6 +179,33 @@ def test_a_kind_of_two_distributions_works_where_one_is_chosen(tmp_path: Path, c
         ("other-winds", "left out"),
         ("tallgrass-storm", "ready"),
     ]
+
+
+@pytest.mark.usefixtures("dust")
+@pytest.mark.parametrize("chosen", [None, ["gust"], ["tallgrass-storm"]])
+def test_a_built_in_kind_wins_whoever_else_claims_it_and_the_other_is_named_once(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture, chosen: list[str] | None
+) -> None:
+    theirs = install(tmp_path, "tallgrass-storm", {"gust": "dust_vortex:Vortex", "vortex": "dust_vortex:Vortex"}, {})
+    kinds = WindKinds([*theirs, *entry_points(group=GROUP)], chosen=chosen)
+    assert not caplog.messages, "nobody has asked for a gust yet"
+    for _ in range(2):
+        assert kinds.find("gust").__module__ == "tallgrass.systems.wind.gust"
+    (told,) = caplog.messages
+    choice = "uninstall tallgrass-storm, or leave it out by TALLGRASS_PLUGINS, which names what to use"
+    assert told == f"kind 'gust' is built in, and the one of tallgrass-storm 0.3.1 is not used; {choice}"
+    rows = [(row.distribution, row.status) for row in kinds.provided() if row.kind == "gust"]
+    assert rows == [("tallgrass-storm", "name taken"), (OURS, "ready")]
+
+
+@pytest.mark.usefixtures("dust")
+def test_what_the_warning_on_a_built_in_kind_advises_helps(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    theirs = install(tmp_path, "tallgrass-storm", {"gust": "dust_vortex:Vortex", "squall": "dust_vortex:Vortex"}, {})
+    kinds = WindKinds([*theirs, *entry_points(group=GROUP)], chosen=["squall"])
+    assert kinds.find("gust").__module__ == "tallgrass.systems.wind.gust"
+    assert kinds.find("squall").__module__ == "dust_vortex"
+    assert not caplog.messages
+    assert [row.status for row in kinds.provided() if row.kind == "gust"] == ["left out", "ready"]
 
 
 def test_what_is_installed_is_listed_without_importing_it(dust: WindKinds) -> None:
