@@ -33,6 +33,14 @@ def test_every_command_answers_help(words: list[str], capsys: pytest.CaptureFixt
     assert err == ""
 
 
+def test_python_runs_the_package_like_the_command(tmp_path: Path) -> None:
+    for words, status, told in (["--version"], 0, f"tallgrass {__version__}\n"), (["mow"], 2, ""):
+        command = [sys.executable, "-W", "error", "-m", "tallgrass", *words]
+        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False)
+        assert (done.returncode, done.stdout) == (status, told)
+        assert done.stderr.count("\n") == (status > 0)
+
+
 def test_the_version_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["--version"]) == 0
     assert capsys.readouterr().out == f"tallgrass {__version__}\n"

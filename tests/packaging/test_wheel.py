@@ -68,7 +68,7 @@ def test_the_wheel_holds_every_source_and_nothing_else(wheel: Path) -> None:
         shipped = {name for name in archive.namelist() if ".dist-info/" not in name}
     sources = {file for folder in SOURCES for file in (ROOT / folder).rglob("*") if file.is_file()}
     wanted = {f"tallgrass/{file.relative_to(ROOT)}" for file in sources if "__pycache__" not in file.parts}
-    assert shipped == wanted | {"tallgrass/__init__.py", "tallgrass/py.typed"}
+    assert shipped == wanted | {f"tallgrass/{name}" for name in ("__init__.py", "__main__.py", "py.typed")}
 
 
 def test_the_tests_pass_against_the_wheel_outside_the_checkout(site: Path, tmp_path: Path) -> None:
