@@ -57,12 +57,13 @@ def picture_writer(output: str, /) -> Callable[[Picture, Mapping[str, str]], Non
 def film_writer(output: str, size: tuple[int, int], fps: int, /) -> Callable[[Reel], None]:
     """Return what writes a film of this size to `output`, by its ending; a folder takes numbered PNG files.
 
+    What is no folder yet becomes one if it ends in /.
     Raises InputError where `output` cannot be written or hold such a film, MachineError where its encoder is missing.
     """
     path = Path(output)
     ending = path.suffix.lower()
     write: Callable[[Reel], None]
-    if output.endswith(("/", os.sep)) or path.is_dir() or ending == "":
+    if output.endswith(("/", os.sep)) or path.is_dir():
         make_folder(path)
         return lambda reel: _write_folder(reel, path)
     if ending == ".webp":
@@ -78,7 +79,7 @@ def film_writer(output: str, size: tuple[int, int], fps: int, /) -> Callable[[Re
             raise InputError(f"--size: {size[0]}x{size[1]}: an .mp4 needs an even width and height")
         write = partial(_write_mp4, path=path, size=size, ffmpeg=_ffmpeg())
     else:
-        raise InputError(f"-o: {output}: a film ends in .webp, .gif or .mp4, or is a folder")
+        raise InputError(f"-o: {output}: a film ends in .webp, .gif or .mp4, or is a folder, which ends in /")
     _make_room(path)
     return write
 

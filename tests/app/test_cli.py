@@ -67,6 +67,8 @@ def test_the_version_is_told(capsys: pytest.CaptureFixture[str]) -> None:
         ("film -o a.webp --overlay masks,,map", "--overlay: '' is no part"),
         ("walk --overlay everything", "--overlay: 'everything' is no part"),
         ("shot -o a.bmp", "-o: a.bmp: a picture ends in .png"),
+        ("shot -o noext", "-o: noext: a picture ends in .png"),
+        ("film -o noext", "-o: noext: a film ends in .webp, .gif or .mp4, or is a folder, which ends in /"),
         ("shot a b -o a.png", "unexpected extra argument"),
         ("film -o a.avi", "-o: a.avi: a film ends in"),
         ("film -o a.webp --fps 0", "'--fps'"),

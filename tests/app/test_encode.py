@@ -70,8 +70,9 @@ def test_a_film_of_one_frame_is_one_picture(tmp_path: Path, name: str) -> None:
     assert columns(frames_of(path)[0]) == [0]
 
 
-@pytest.mark.parametrize("name", ["frames", "frames/", "frames.of.mine/"])
+@pytest.mark.parametrize("name", ["there", "frames/", "frames.of.mine/"])
 def test_a_folder_takes_numbered_pictures_that_know_their_time(tmp_path: Path, name: str) -> None:
+    (tmp_path / "there").mkdir()
     film_writer(f"{tmp_path}/{name}", SIZE, 8)(reel(3, fps=8))
     files = sorted((tmp_path / name).iterdir())
     assert [file.name for file in files] == ["00000.png", "00001.png", "00002.png"]
@@ -80,7 +81,7 @@ def test_a_folder_takes_numbered_pictures_that_know_their_time(tmp_path: Path, n
         assert (image.info["time"], image.info["seed"]) == ("0.25", "7")
 
 
-@pytest.mark.parametrize("name", ["a.webp", "a.gif", "frames"])
+@pytest.mark.parametrize("name", ["a.webp", "a.gif", "frames/"])
 def test_frames_are_drawn_as_they_are_written_and_then_let_go(tmp_path: Path, name: str) -> None:
     drawn: list[weakref.ref[Picture]] = []
     kept: list[int] = []
@@ -93,7 +94,7 @@ def test_frames_are_drawn_as_they_are_written_and_then_let_go(tmp_path: Path, na
             yield pixels
             del pixels
 
-    film_writer(str(tmp_path / name), SIZE, 24)(Reel(frames(), 12, 24, ABOUT))
+    film_writer(f"{tmp_path}/{name}", SIZE, 24)(Reel(frames(), 12, 24, ABOUT))
     assert len(kept) == 12
     assert max(kept) <= 2
 
@@ -115,12 +116,13 @@ def test_a_film_that_breaks_off_leaves_the_older_one(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "size", "fps", "says"),
     [
-        ("a.avi", SIZE, 24, r"-o: .*a\.avi: a film ends in \.webp, \.gif or \.mp4, or is a folder"),
+        ("a.avi", SIZE, 24, r"-o: .*a\.avi: a film ends in \.webp, \.gif or \.mp4, or is a folder, which ends in /$"),
+        ("noext", SIZE, 24, r"-o: .*noext: a film ends in \.webp, \.gif or \.mp4, or is a folder, which ends in /$"),
         ("a.gif", SIZE, 60, r"--fps: 60: a \.gif shows at most 50"),
         ("a.mp4", (33, 18), 24, r"--size: 33x18: an \.mp4 needs an even width and height"),
         ("a.webp", (16384, 2), 24, r"--size: 16384x2: a \.webp has at most 16383"),
         ("file/a.gif", SIZE, 24, r"-o: .*file: is a file, not a folder"),
-        ("file", SIZE, 24, r"-o: .*file: is a file, not a folder"),
+        ("file/", SIZE, 24, r"-o: .*file: is a file, not a folder"),
     ],
 )
 def test_what_a_film_cannot_be_is_told_before_it_is_drawn(
@@ -128,7 +130,7 @@ def test_what_a_film_cannot_be_is_told_before_it_is_drawn(
 ) -> None:
     (tmp_path / "file").write_text("in the way")
     with pytest.raises(InputError, match=says):
-        film_writer(str(tmp_path / name), size, fps)
+        film_writer(f"{tmp_path}/{name}", size, fps)
 
 
 @pytest.mark.parametrize(("name", "says"), [("a.jpg", r"ends in \.png"), ("folder.png", "is a folder, not a file")])
