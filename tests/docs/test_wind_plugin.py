@@ -13,6 +13,8 @@ import pytest
 from PIL import Image
 
 from tallgrass.components.wind import INTERFACE, WindPrimitive
+from tallgrass.engine.installed import OURS
+from tallgrass.engine.plugins import wind_kinds
 from tallgrass.systems.wind.quarantine import PATIENCE, STALLED, WINDOW
 from tallgrass.testing.winds import MOST_COST
 
@@ -92,6 +94,14 @@ def test_the_page_tells_of_every_method_and_field_of_a_wind_and_of_no_other_numb
     assert f"`interface = {INTERFACE}`" in TEXT
     assert f"10,000\n  must take less than {1000 * MOST_COST:g} ms" in TEXT
     assert (PATIENCE, WINDOW, STALLED) == (3, 16, 3.0), "the page tells of these in words"
+
+
+def test_the_priorities_on_the_page_are_those_of_the_winds_that_come_along() -> None:
+    kinds = [row.kind for row in wind_kinds().provided() if row.distribution == OURS]
+    told = re.findall(r"^\| `(\w+)` \| (\d+) \|$", TEXT, re.MULTILINE)
+    assert {kind: int(priority) for kind, priority in told} == {
+        kind: wind_kinds().find(kind).model_fields["priority"].default for kind in kinds
+    }
 
 
 def test_every_file_that_the_page_links_to_exists() -> None:

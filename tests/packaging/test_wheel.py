@@ -1,6 +1,7 @@
 """What is built is what works: the tests pass against the wheel, where no checkout is in reach."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -81,12 +82,21 @@ def test_the_tests_pass_against_the_wheel_outside_the_checkout(site: Path, tmp_p
     assert " passed" in told.splitlines()[-1]
 
 
-def test_d6_the_type_checker_passes_on_the_examples_against_the_wheel(site: Path, tmp_path: Path) -> None:
+def test_d6_the_type_checker_passes_on_the_examples_and_the_tutorial_against_the_wheel(
+    site: Path, tmp_path: Path
+) -> None:
     """As people have it who write a game: with strict rules, without our configuration and without plugins."""
     python = site.parents[2] / "bin" / "python"
     programs = sorted([*(ROOT / "examples").glob("*.py"), *(ROOT / "examples").glob("*/*.py")])
     assert len(programs) >= 5
     copies = [shutil.copy(program, tmp_path) for program in programs]
+    tutorial = (ROOT / "docs" / "wind-plugin.md").read_text("utf-8")
+    for name, text in re.findall(
+        r"^`(?:[\w-]+/)*(\w+\.py)`:\n\n```python\n(.*?)^```$", tutorial, re.MULTILINE | re.DOTALL
+    ):
+        (tmp_path / name).write_text(text, "utf-8")
+        copies.append(tmp_path / name)
+    assert {"ripple.py", "test_ripple.py", "game.py", "rotor.py"} <= {Path(copy).name for copy in copies}
     options = (
         "--strict",
         "--config-file",
