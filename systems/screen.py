@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import moderngl
 
-from ..engine.gl.guest import host_context, kept, viewport
+from ..engine.gl.guest import host_context, kept
 from ..engine.gl.homes import Homes
 from .painter import Painter
 from .site import Site
@@ -34,9 +34,10 @@ class Screen:
 
         Where the viewport has no pixels there is none. Raises RuntimeError where the host has no window.
         """
-        with kept():
+        with kept(self.ctx) as state:
             ctx = host_context(self.ctx)
-            if 0 in viewport(ctx)[2:]:
+            self._painters.check(ctx)
+            if 0 in state.viewport[2:]:
                 yield None
                 return
             self.painter = self._painters.here(ctx, partial(Painter, site=site))

@@ -5,7 +5,8 @@ from contextlib import contextmanager
 
 import moderngl
 
-from .host import Box, State, is_hidden, loaded_gl, pyglet_context
+from .functions import Functions, current_functions, functions_of
+from .host import State, is_hidden, loaded_gl, pyglet_context
 
 FIRST_UNIT = 32
 """The first texture unit that is used: OpenGL 3.3 has 48, and hosts use the first few, with textures and samplers."""
@@ -35,91 +36,80 @@ def host_context(ctx: moderngl.Context | None) -> moderngl.Context:
 
 
 @contextmanager
-def kept() -> Iterator[None]:
-    """Leave the GL state of a host that draws with pyglet exactly as it is, whatever is done inside.
+def kept(ctx: moderngl.Context | None) -> Iterator[State]:
+    """Leave the host's GL state exactly as it is, whatever is done inside; yields what it was.
 
-    What is bound to texture units from `FIRST_UNIT` on, and to the last uniform block, is not kept. A host without
-    pyglet finds buffers and textures bound that it has not bound, and has to bind its own before it uses them.
+    `ctx` is the host's context, None for the one that is current now; RuntimeError if there is none. What is bound to
+    texture units from `FIRST_UNIT` on, and to the last uniform block, is not kept.
     """
-    gl = loaded_gl()
-    if gl is None or _kept:
-        yield
+    if _kept:
+        yield _kept[-1]
         return
-    _kept.append(State(gl))
+    _kept.append(State(_functions(ctx)))
     try:
         _kept[-1].clear()
-        yield
+        yield _kept[-1]
     finally:
         _kept.pop().restore()
 
 
-def viewport(ctx: moderngl.Context) -> Box:
-    """Return where the host draws: x, y, width and height [pixels]."""
-    gl = loaded_gl()
-    if gl is None:
-        return _boxes(ctx, ctx.detect_framebuffer())[0]
-    found = (gl.GLint * 4)()
-    gl.glGetIntegerv(gl.GL_VIEWPORT, found)
-    return _box(found)
-
-
-def _boxes(ctx: moderngl.Context, target: moderngl.Framebuffer) -> tuple[Box, Box | None]:
-    """Return the host's viewport and scissor box, None where nothing is cut off.
-
-    moderngl remembers the size that a window had when it first saw it, so beside pyglet these are asked of GL itself.
-    """
-    if _kept:
-        return _kept[-1].viewport, _kept[-1].scissor
-    whole = (0, 0, *target.size)
-    bounds, scissor = (whole, whole) if ctx.fbo is None else (_box(ctx.viewport), _box(ctx.scissor or whole))
-    return bounds, scissor if scissor != whole else None
-
-
-def _host_framebuffer(ctx: moderngl.Context, target: moderngl.Framebuffer) -> moderngl.Framebuffer:
-    """Return the host's own object for the framebuffer it has bound, with its masks, where it draws with moderngl."""
-    bound = None if _kept else ctx.fbo
-    return bound if bound is not None and bound.glo == target.glo else target
-
-
-def _aim(target: moderngl.Framebuffer, bounds: Box, scissor: Box | None) -> None:
-    target.viewport = bounds
-    target.scissor = scissor  # type: ignore[assignment]
-
-
-def _box(numbers: tuple[int, ...]) -> Box:
-    x, y, width, height = numbers
-    return int(x), int(y), int(width), int(height)
+def _functions(ctx: moderngl.Context | None) -> Functions:
+    """Return GL's functions for the host."""
+    if ctx is None:
+        try:
+            return current_functions()
+        except Exception:  # noqa: BLE001 - its loaders raise nothing narrower
+            ctx = host_context(None)
+    return functions_of(ctx)
 
 
 @contextmanager
 def guest(ctx: moderngl.Context) -> Iterator[moderngl.Framebuffer]:
     """Draw as a guest: yields the framebuffer that the host has bound, whole and with a known state.
 
-    On leaving, the host's framebuffer, viewport and scissor are as they were. Beside pyglet everything else is, too;
-    without it nothing is enabled. Never touches uniform binding point 0, nor the texture units before `FIRST_UNIT`.
+    Colour goes to the host's first output alone, as far as the host's colour mask lets it; what the others are written
+    to stays as it is. Depth is written whatever the host's depth mask says, and where there is no colour, depth alone.
+    On leaving, the host's state is as it was. Never touches uniform binding point 0, nor the texture units before
+    `FIRST_UNIT`.
     """
-    with kept():
+    with kept(ctx) as state:
         target = ctx.detect_framebuffer()
-        bounds, scissor = _boxes(ctx, target)
-        host = _host_framebuffer(ctx, target)
-        before = ctx.front_face, ctx.wireframe
-        _begin(ctx, target, bounds, scissor)
-        try:
+        with _remembered(ctx, target, state):
+            _begin(ctx, target, state)
             yield target
-        finally:
-            target.depth_mask = True
-            _aim(target, bounds, scissor)
-            host.use()
-            ctx.enable_only(moderngl.NOTHING)
-            ctx.front_face, ctx.wireframe = before
 
 
-def _begin(ctx: moderngl.Context, target: moderngl.Framebuffer, bounds: Box, scissor: Box | None) -> None:
-    _aim(target, bounds, scissor)
+@contextmanager
+def _remembered(ctx: moderngl.Context, target: moderngl.Framebuffer, state: State) -> Iterator[None]:
+    """Let moderngl remember in the end what it does now, so that a host that draws with it finds what it has set."""
+    host = _host_framebuffer(ctx, target)
+    box, cut, writes = target.viewport, target.scissor, target.depth_mask
+    before = ctx.front_face, ctx.wireframe
+    try:
+        yield
+    finally:
+        target.viewport, target.depth_mask = box, writes
+        target.scissor = cut if cut != (0, 0, *target.size) else None  # type: ignore[assignment]
+        host.use()
+        ctx.enable_only(state.flags)
+        ctx.front_face, ctx.wireframe = before
+
+
+def _host_framebuffer(ctx: moderngl.Context, target: moderngl.Framebuffer) -> moderngl.Framebuffer:
+    """Return the host's own object for the framebuffer it has bound, where it draws with moderngl."""
+    bound = ctx.fbo if loaded_gl() is None else None
+    if bound is None or bound.glo != target.glo or isinstance(bound.mglo, moderngl.InvalidObject):
+        return target
+    return bound
+
+
+def _begin(ctx: moderngl.Context, target: moderngl.Framebuffer, state: State) -> None:
+    target.viewport = state.viewport
+    target.scissor = state.scissor  # type: ignore[assignment]
     ctx.wireframe = False
     ctx.blend_equation = moderngl.FUNC_ADD, moderngl.FUNC_ADD
     ctx.front_face = "ccw"
     ctx.depth_func = "<="
-    target.color_mask = (True, True, True, True)
     target.depth_mask = True
     target.use()
+    state.narrow()

@@ -29,9 +29,7 @@ class Homes(Generic[Thing]):
 
         Raises RuntimeError where the window that `ctx` drew in is closed and no other is there.
         """
-        place = None if ctx.screen is None else pyglet_context()
-        if place is None and any(known is ctx and is_lost(where) for known, where, _ in self._homes):
-            raise RuntimeError("there is no window any more: create another one before the prairie is drawn again")
+        place = self.check(ctx)
         for known, where, thing in self._homes:
             if known is ctx and where is place:
                 return thing
@@ -39,6 +37,16 @@ class Homes(Generic[Thing]):
         thing = make(ctx)
         self._homes.append((ctx, place, thing))
         return thing
+
+    def check(self, ctx: moderngl.Context) -> Any | None:
+        """Return the pyglet context that `ctx` draws in, None beside pyglet.
+
+        Raises RuntimeError where the window that `ctx` drew in is closed and no other is there.
+        """
+        place = None if ctx.screen is None else pyglet_context()
+        if place is None and any(known is ctx and is_lost(where) for known, where, _ in self._homes):
+            raise RuntimeError("there is no window any more: create another one before the prairie is drawn again")
+        return place
 
     def release(self) -> None:
         """Give everything back, each in its own context."""

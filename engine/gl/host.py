@@ -1,36 +1,46 @@
 """The host's side of GL: its pyglet contexts, and its state. The only module that uses `pyglet.gl`, and never loads it.
 
-A host that does not draw with pyglet has no `pyglet.gl` loaded; then everything here says so and does nothing.
+A host that does not draw with pyglet has no `pyglet.gl` loaded; then there are no contexts here, and its state is read
+and brought back with GL's own functions.
 """
 
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import lru_cache
+from ctypes import addressof, c_int
 from typing import Any
+
+import moderngl
+
+from .functions import NUMBERS, Functions
+from .outputs import Outputs
 
 Box = tuple[int, int, int, int]
 
 SWITCHES = (
     "BLEND", "CULL_FACE", "DEPTH_TEST", "PROGRAM_POINT_SIZE", "RASTERIZER_DISCARD", "COLOR_LOGIC_OP", "DEPTH_CLAMP",
     "POLYGON_OFFSET_FILL", "SAMPLE_ALPHA_TO_COVERAGE", "SAMPLE_COVERAGE", "CLIP_DISTANCE0", "CLIP_DISTANCE1",
-    "PRIMITIVE_RESTART", "SCISSOR_TEST",
+    "TEXTURE_CUBE_MAP_SEAMLESS", "PRIMITIVE_RESTART", "SCISSOR_TEST",
 )  # fmt: skip
 """What may be enabled and would change a picture; stencil test and sRGB are the host's own affair."""
+
+MODERNGLS = SWITCHES[:5]
+"""Those that moderngl knows, by the same names."""
+
+SWITCHED_OFF = SWITCHES[5:-3]
+"""Those that are off while a guest draws, and that moderngl does not know."""
 
 BLEND = ("BLEND_SRC_RGB", "BLEND_DST_RGB", "BLEND_SRC_ALPHA", "BLEND_DST_ALPHA")
 STORES = ("UNPACK_ALIGNMENT", "UNPACK_ROW_LENGTH", "PACK_ALIGNMENT")
 TARGETS = ("ARRAY_BUFFER", "UNIFORM_BUFFER", "PIXEL_UNPACK_BUFFER")
 
-SWITCHED_OFF = SWITCHES[5:-2]
-"""Those that are off while a guest draws, and that moderngl does not know."""
-
-NUMBERS = (
+REMEMBERED = (
     *((name, 1) for name in (*BLEND, *STORES, *(f"{target}_BINDING" for target in TARGETS))),
     ("CURRENT_PROGRAM", 1), ("VERTEX_ARRAY_BINDING", 1), ("DRAW_FRAMEBUFFER_BINDING", 1),
-    ("READ_FRAMEBUFFER_BINDING", 1), ("ACTIVE_TEXTURE", 1), ("POLYGON_MODE", 2), ("FRONT_FACE", 1),
-    ("CULL_FACE_MODE", 1), ("DEPTH_FUNC", 1), ("DEPTH_WRITEMASK", 1), ("COLOR_WRITEMASK", 4),
+    ("READ_FRAMEBUFFER_BINDING", 1), ("RENDERBUFFER_BINDING", 1), ("ACTIVE_TEXTURE", 1), ("POLYGON_MODE", 2),
+    ("FRONT_FACE", 1), ("CULL_FACE_MODE", 1), ("DEPTH_FUNC", 1), ("DEPTH_WRITEMASK", 1), ("COLOR_WRITEMASK", 4),
     ("BLEND_EQUATION_RGB", 1), ("BLEND_EQUATION_ALPHA", 1), ("VIEWPORT", 4), ("SCISSOR_BOX", 4),
+    ("PRIMITIVE_RESTART_INDEX", 1),
 )  # fmt: skip
 """What is remembered besides, and how many numbers each is."""
 
@@ -84,80 +94,98 @@ def current(context: Any | None) -> Iterator[bool]:
 
 
 class Words:
-    """The constants that a state is made of, looked up once, and a buffer for each of its numbers."""
+    """The numbers of what a state is made of, and a buffer for each of its values."""
 
-    def __init__(self, gl: Any) -> None:
-        self.switches = [(name, getattr(gl, f"GL_{name}")) for name in SWITCHES]
-        self.numbers = [(name, getattr(gl, f"GL_{name}"), (gl.GLint * count)()) for name, count in NUMBERS]
-        self.off = [(name, getattr(gl, f"GL_{name}")) for name in SWITCHED_OFF]
-        self.stores = [(name, getattr(gl, f"GL_{name}")) for name in STORES]
-        self.targets = [(f"{name}_BINDING", getattr(gl, f"GL_{name}")) for name in TARGETS]
+    def __init__(self) -> None:
+        self.switches = [(name, NUMBERS[name]) for name in SWITCHES]
+        found = [(name, (c_int * count)()) for name, count in REMEMBERED]
+        # Addresses are handed over as numbers: ctypes takes them faster than arrays.
+        self.values = [(name, NUMBERS[name], addressof(values), values) for name, values in found]
+        self.off = [(name, NUMBERS[name]) for name in SWITCHED_OFF]
+        self.stores = [(name, NUMBERS[name]) for name in STORES]
+        self.targets = [(f"{name}_BINDING", NUMBERS[name]) for name in TARGETS]
 
 
-@lru_cache(maxsize=1)
-def _words(gl: Any) -> Words:
-    return Words(gl)
+WORDS = Words()
 
 
 class State:
     """The host's GL state at one moment, which `restore` brings back."""
 
-    def __init__(self, gl: Any) -> None:
+    def __init__(self, gl: Functions) -> None:
         self._gl = gl
-        self._words = words = _words(gl)
-        self._on = {name for name, switch in words.switches if gl.glIsEnabled(switch)}
-        for _, number, found in words.numbers:
-            gl.glGetIntegerv(number, found)
-        self._number: dict[str, list[int]] = {name: found[:] for name, _, found in words.numbers}
+        self._on = {name for name, switch in WORDS.switches if gl.glIsEnabled(switch)}
+        for _, number, address, _ in WORDS.values:
+            gl.glGetIntegerv(number, address)
+        self._value: dict[str, list[int]] = {name: found[:] for name, _, _, found in WORDS.values}
+        self._outputs = Outputs(gl, self.framebuffer, blends="BLEND" in self._on)
 
     @property
     def viewport(self) -> Box:
         """Where the host draws [pixels]."""
-        x, y, width, height = self._number["VIEWPORT"]
+        x, y, width, height = self._value["VIEWPORT"]
         return x, y, width, height
 
     @property
     def scissor(self) -> Box | None:
         """What the host cuts off everything outside of [pixels]; None where it cuts nothing off."""
-        x, y, width, height = self._number["SCISSOR_BOX"]
+        x, y, width, height = self._value["SCISSOR_BOX"]
         return (x, y, width, height) if "SCISSOR_TEST" in self._on else None
+
+    @property
+    def framebuffer(self) -> int:
+        """What the host draws into: the number of a framebuffer, 0 for its window."""
+        return self._value["DRAW_FRAMEBUFFER_BINDING"][0]
+
+    @property
+    def flags(self) -> int:
+        """What the host has enabled of what moderngl knows, in moderngl's flags."""
+        return sum(getattr(moderngl, name) for name in MODERNGLS if name in self._on)
 
     def clear(self) -> None:
         """Switch off what would change a guest's picture or uploads and what moderngl has no word for."""
         gl = self._gl
-        for name, switch in self._words.off:
+        for name, switch in WORDS.off:
             if name in self._on:
                 gl.glDisable(switch)
-        gl.glPixelStorei(gl.GL_UNPACK_ROW_LENGTH, 0)
-        gl.glBindBuffer(gl.GL_PIXEL_UNPACK_BUFFER, 0)
+        gl.glPixelStorei(NUMBERS["UNPACK_ROW_LENGTH"], 0)
+        gl.glBindBuffer(NUMBERS["PIXEL_UNPACK_BUFFER"], 0)
+
+    def narrow(self) -> None:
+        """Let colour through where the host lets it: to its first output, in the colours that its mask has."""
+        self._outputs.narrow()
+        self._gl.glColorMaski(0, *self._value["COLOR_WRITEMASK"])
 
     def restore(self) -> None:
         """Bring it all back."""
-        gl, number = self._gl, self._number
-        for name, switch in self._words.switches:
+        gl, value = self._gl, self._value
+        for name, switch in WORDS.switches:
             (gl.glEnable if name in self._on else gl.glDisable)(switch)
-        gl.glBindFramebuffer(gl.GL_DRAW_FRAMEBUFFER, *number["DRAW_FRAMEBUFFER_BINDING"])
-        gl.glBindFramebuffer(gl.GL_READ_FRAMEBUFFER, *number["READ_FRAMEBUFFER_BINDING"])
-        gl.glViewport(*number["VIEWPORT"])
-        gl.glScissor(*number["SCISSOR_BOX"])
-        gl.glPolygonMode(gl.GL_FRONT_AND_BACK, number["POLYGON_MODE"][0])
-        gl.glFrontFace(*number["FRONT_FACE"])
-        gl.glCullFace(*number["CULL_FACE_MODE"])
-        gl.glDepthFunc(*number["DEPTH_FUNC"])
-        gl.glDepthMask(*number["DEPTH_WRITEMASK"])
-        gl.glColorMask(*number["COLOR_WRITEMASK"])
-        gl.glBlendFuncSeparate(*(number[name][0] for name in BLEND))
-        gl.glBlendEquationSeparate(*number["BLEND_EQUATION_RGB"], *number["BLEND_EQUATION_ALPHA"])
+        gl.glBindFramebuffer(NUMBERS["DRAW_FRAMEBUFFER"], self.framebuffer)
+        gl.glBindFramebuffer(NUMBERS["READ_FRAMEBUFFER"], *value["READ_FRAMEBUFFER_BINDING"])
+        gl.glViewport(*value["VIEWPORT"])
+        gl.glScissor(*value["SCISSOR_BOX"])
+        gl.glPolygonMode(NUMBERS["FRONT_AND_BACK"], value["POLYGON_MODE"][0])
+        gl.glFrontFace(*value["FRONT_FACE"])
+        gl.glCullFace(*value["CULL_FACE_MODE"])
+        gl.glDepthFunc(*value["DEPTH_FUNC"])
+        gl.glDepthMask(*value["DEPTH_WRITEMASK"])
+        gl.glColorMaski(0, *value["COLOR_WRITEMASK"])
+        self._outputs.restore()
+        gl.glBlendFuncSeparate(*(value[name][0] for name in BLEND))
+        gl.glBlendEquationSeparate(*value["BLEND_EQUATION_RGB"], *value["BLEND_EQUATION_ALPHA"])
+        gl.glPrimitiveRestartIndex(*value["PRIMITIVE_RESTART_INDEX"])
         self._bind()
 
     def _bind(self) -> None:
-        gl, number = self._gl, self._number
-        for name, store in self._words.stores:
-            gl.glPixelStorei(store, *number[name])
-        program = number["CURRENT_PROGRAM"][0]
+        gl, value = self._gl, self._value
+        for name, store in WORDS.stores:
+            gl.glPixelStorei(store, *value[name])
+        program = value["CURRENT_PROGRAM"][0]
         # One that the host deleted while it was in use is gone by now.
         gl.glUseProgram(program if program and gl.glIsProgram(program) else 0)
-        gl.glBindVertexArray(*number["VERTEX_ARRAY_BINDING"])
-        for name, target in self._words.targets:
-            gl.glBindBuffer(target, *number[name])
-        gl.glActiveTexture(*number["ACTIVE_TEXTURE"])
+        gl.glBindVertexArray(*value["VERTEX_ARRAY_BINDING"])
+        for name, target in WORDS.targets:
+            gl.glBindBuffer(target, *value[name])
+        gl.glBindRenderbuffer(NUMBERS["RENDERBUFFER"], *value["RENDERBUFFER_BINDING"])
+        gl.glActiveTexture(*value["ACTIVE_TEXTURE"])

@@ -140,6 +140,14 @@ def read(size: tuple[int, int] = SIZE) -> Picture:
     return np.frombuffer(bytes(data), np.uint8).reshape(height, width, 3)[::-1].astype(np.int16)
 
 
+def read_depth() -> NDArray[np.float32]:
+    """Return the depth of what is in the framebuffer that is bound, 1 where there is nothing."""
+    width, height = SIZE
+    data = (gl.GLfloat * (width * height))()
+    gl.glReadPixels(0, 0, width, height, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT, data)
+    return np.frombuffer(bytes(data), np.float32).reshape(height, width)
+
+
 def different(one: Picture, two: Picture) -> str:
     """Say how two pictures differ."""
     if one.shape != two.shape:
@@ -321,10 +329,12 @@ def check_samplers(game: Game) -> str:
 
 
 def check_hostile_state(game: Game) -> str:
-    """The prairie itself looks alike whatever the game has set."""
+    """The prairie itself looks alike whatever the game has set; blue alone stays where the game keeps it."""
     told = {}
     with prairies() as (prairie,):
         neutral = picture(prairie)
+        clear()
+        without_blue = np.concatenate([neutral[..., :2], read()[..., 2:]], axis=-1)
         for leave in STATES:
             game.bind()
             clear()
@@ -338,17 +348,18 @@ def check_hostile_state(game: Game) -> str:
                 told["cut off"] = different(found[inside][None], neutral[inside][None])
                 told["beside"] = "" if (found[~inside] == found[0, 0]).all() else "something was drawn"
             else:
-                told[leave.__name__] = different(found, neutral)
+                told[leave.__name__] = different(found, without_blue if leave in (masks, disorder) else neutral)
     return together(**told)
 
 
 @contextmanager
-def framebuffer(size: tuple[int, int]) -> Iterator[None]:
-    """Draw into a framebuffer of the game's own, with the whole of it as viewport."""
+def framebuffer(size: tuple[int, int], *, colors: bool = True) -> Iterator[None]:
+    """Draw into the whole of a framebuffer of the game's own; without `colors` it has depth alone."""
     target = Framebuffer()
     color = pyglet.image.Texture.create(*size)
     depth = Renderbuffer(*size, gl.GL_DEPTH_COMPONENT24)
-    target.attach_texture(color)
+    if colors:
+        target.attach_texture(color)
     target.attach_renderbuffer(depth, attachment=gl.GL_DEPTH_ATTACHMENT)
     target.bind()
     gl.glViewport(0, 0, *size)
@@ -371,6 +382,35 @@ def check_host_framebuffer(game: Game) -> str:
             found = picture(prairie, large)
         told["prairie"] = "" if len(np.unique(found[-80:].reshape(-1, 3), axis=0)) > 500 else "it is not all there"
     return together(**told, window=different(read(), window))
+
+
+def check_attachments(_: Game) -> str:
+    """In a framebuffer with two attachments the prairie is in the first; in one with depth alone its depth is there."""
+    with prairies() as (prairie,):
+        window = picture(prairie)
+        depths = []
+        with framebuffer(SIZE):
+            second = pyglet.image.Texture.create(*SIZE)
+            place = gl.GL_COLOR_ATTACHMENT1
+            gl.glFramebufferTexture2D(gl.GL_FRAMEBUFFER, place, gl.GL_TEXTURE_2D, second.id, 0)
+            gl.glDrawBuffers(2, (gl.GLenum * 2)(gl.GL_COLOR_ATTACHMENT0, place))
+            found = picture(prairie)
+            depths.append(read_depth())
+            gl.glReadBuffer(place)
+            beside = read()
+        for attachment in range(2):
+            with framebuffer(SIZE, colors=False):
+                clear()
+                if attachment:
+                    prairie.draw(*matrices(prairie))
+                depths.append(read_depth())
+        second.delete()
+    return together(
+        first="" if (found != window).any(axis=-1).mean() < 0.005 else "it is another picture",
+        second="" if (beside == beside[0, 0]).all() else "something was drawn",
+        depth="" if np.array_equal(depths[0], depths[2]) else "it differs",
+        empty="" if (depths[1] == 1.0).all() and (depths[2] < 1.0).any() else "there is none",
+    )
 
 
 def resize(game: Game, size: tuple[int, int]) -> None:

@@ -127,16 +127,62 @@ def test_d6_viewport_scissor_and_masks_are_as_before_without_being_set_again(
     assert (picture(host)[4:20, 8:28, 1] == 255).all(), "no depth was written while the host's mask forbade it"
 
 
-def test_d6_a_guest_is_seen_whatever_the_host_has_masked(
+def test_d6_a_guest_writes_the_colours_that_the_host_lets_it_and_depth_in_any_case(
     ctx: moderngl.Context, host: moderngl.Framebuffer, fill: Fill
 ) -> None:
-    host.color_mask, host.depth_mask = (False, False, False, False), False
+    host.color_mask, host.depth_mask = (True, False, False, True), False
     host.use()
     with guest(ctx):
-        fill(1.0, 1.0, 1.0, 1.0)
-    assert (picture(host) == 255).all()
-    assert host.color_mask == (False, False, False, False)
+        ctx.enable_only(moderngl.DEPTH_TEST)
+        fill(1.0, 1.0, 1.0, 1.0, depth=-0.5)
+        fill(0.5, 0.5, 0.5, 0.5)
+    assert (picture(host) == (255, 0, 0, 255)).all(), "the farther one is hidden"
+    assert host.color_mask == (True, False, False, True)
     assert host.depth_mask is False
+
+
+def test_d6_of_several_attachments_a_guest_writes_the_first_alone(ctx: moderngl.Context, fill: Fill) -> None:
+    colors = [ctx.texture(SIZE, 4) for _ in range(3)]
+    target = ctx.framebuffer(colors)
+    target.color_mask = (True,) * 4, (True, False, True, False), (False,) * 4  # type: ignore[assignment]
+    target.use()
+    ctx.clear(0.2, 0.2, 0.2, 0.2)
+    before = [color.read() for color in colors]
+    with guest(ctx):
+        fill(1.0, 1.0, 1.0, 1.0)
+    assert set(colors[0].read()) == {255}
+    assert [color.read() for color in colors[1:]] == before[1:]
+    ctx.clear(1.0, 1.0, 1.0, 1.0)
+    assert colors[1].read()[:4] == bytes((255, before[1][1], 255, before[1][3])), "the masks are the host's"
+    target.release()
+    for color in colors:
+        color.release()
+
+
+def test_d6_without_colour_a_guest_writes_depth(ctx: moderngl.Context, fill: Fill) -> None:
+    depth = ctx.depth_texture(SIZE)
+    target = ctx.framebuffer([], depth)
+    target.use()
+    target.clear(depth=1.0)
+    with guest(ctx):
+        ctx.enable_only(moderngl.DEPTH_TEST)
+        fill(1.0, 1.0, 1.0, 1.0, depth=0.5)
+    assert np.allclose(np.frombuffer(depth.read(), np.float32), 0.75)
+    for thing in (target, depth):
+        thing.release()
+
+
+def test_d6_what_the_host_has_enabled_stays_enabled(
+    ctx: moderngl.Context, host: moderngl.Framebuffer, fill: Fill
+) -> None:
+    ctx.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
+    ctx.blend_func, ctx.depth_func = (moderngl.ONE, moderngl.ONE), "1"
+    fill(0.2, 0.2, 0.2, 0.2, depth=-0.5)
+    with guest(ctx) as target:
+        misbehave(ctx, target, fill)
+    fill(0.2, 0.2, 0.2, 0.2, depth=0.9)
+    ctx.blend_func, ctx.depth_func = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA), "<"
+    assert (picture(host)[5, 5] == 2 * 51).all()
 
 
 def test_d6_nothing_stays_enabled_as_pyglets_drawing_expects(

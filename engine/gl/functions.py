@@ -1,0 +1,77 @@
+"""GL's functions by their addresses, and its numbers: a host's state without any library that the host may not have."""
+
+import sys
+from ctypes import CFUNCTYPE, c_int, c_ubyte, c_void_p
+from functools import lru_cache
+from typing import Any
+
+import moderngl
+
+NUMBERS = {
+    "NONE": 0x0000, "BLEND": 0x0BE2, "CULL_FACE": 0x0B44, "DEPTH_TEST": 0x0B71, "PROGRAM_POINT_SIZE": 0x8642,
+    "RASTERIZER_DISCARD": 0x8C89, "COLOR_LOGIC_OP": 0x0BF2, "DEPTH_CLAMP": 0x864F, "POLYGON_OFFSET_FILL": 0x8037,
+    "SAMPLE_ALPHA_TO_COVERAGE": 0x809E, "SAMPLE_COVERAGE": 0x80A0, "CLIP_DISTANCE0": 0x3000,
+    "CLIP_DISTANCE1": 0x3001, "PRIMITIVE_RESTART": 0x8F9D, "TEXTURE_CUBE_MAP_SEAMLESS": 0x884F,
+    "SCISSOR_TEST": 0x0C11, "BLEND_SRC_RGB": 0x80C9, "BLEND_DST_RGB": 0x80C8, "BLEND_SRC_ALPHA": 0x80CB,
+    "BLEND_DST_ALPHA": 0x80CA, "UNPACK_ALIGNMENT": 0x0CF5, "UNPACK_ROW_LENGTH": 0x0CF2, "PACK_ALIGNMENT": 0x0D05,
+    "ARRAY_BUFFER": 0x8892, "UNIFORM_BUFFER": 0x8A11, "PIXEL_UNPACK_BUFFER": 0x88EC, "ARRAY_BUFFER_BINDING": 0x8894,
+    "UNIFORM_BUFFER_BINDING": 0x8A28, "PIXEL_UNPACK_BUFFER_BINDING": 0x88EF, "CURRENT_PROGRAM": 0x8B8D,
+    "VERTEX_ARRAY_BINDING": 0x85B5, "FRAMEBUFFER": 0x8D40, "DRAW_FRAMEBUFFER": 0x8CA9, "READ_FRAMEBUFFER": 0x8CA8,
+    "DRAW_FRAMEBUFFER_BINDING": 0x8CA6, "READ_FRAMEBUFFER_BINDING": 0x8CAA, "RENDERBUFFER": 0x8D41,
+    "RENDERBUFFER_BINDING": 0x8CA7, "ACTIVE_TEXTURE": 0x84E0, "FRONT_AND_BACK": 0x0408, "POLYGON_MODE": 0x0B40,
+    "FRONT_FACE": 0x0B46, "CULL_FACE_MODE": 0x0B45, "DEPTH_FUNC": 0x0B74, "DEPTH_WRITEMASK": 0x0B72,
+    "COLOR_WRITEMASK": 0x0C23, "BLEND_EQUATION_RGB": 0x8009, "BLEND_EQUATION_ALPHA": 0x883D, "VIEWPORT": 0x0BA2,
+    "SCISSOR_BOX": 0x0C10, "PRIMITIVE_RESTART_INDEX": 0x8F9E, "DRAW_BUFFER0": 0x8825, "COLOR_ATTACHMENT1": 0x8CE1,
+    "FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE": 0x8CD0,
+}  # fmt: skip
+"""What OpenGL calls its constants, without GL_."""
+
+ASKS = {
+    "glIsEnabled": (c_int,), "glIsEnabledi": (c_int,) * 2, "glIsProgram": (c_int,),
+}  # fmt: skip
+"""The functions that answer yes or no, and what each takes."""
+
+DOES = {
+    "glGetIntegerv": (c_int, c_void_p), "glGetBooleani_v": (c_int, c_int, c_void_p),
+    "glGetFramebufferAttachmentParameteriv": (c_int, c_int, c_int, c_void_p), "glDrawBuffers": (c_int, c_void_p),
+    "glEnable": (c_int,), "glDisable": (c_int,), "glEnablei": (c_int,) * 2, "glDisablei": (c_int,) * 2,
+    "glPixelStorei": (c_int,) * 2, "glBindBuffer": (c_int,) * 2, "glBindFramebuffer": (c_int,) * 2,
+    "glBindRenderbuffer": (c_int,) * 2, "glBindVertexArray": (c_int,), "glUseProgram": (c_int,),
+    "glActiveTexture": (c_int,), "glPrimitiveRestartIndex": (c_int,), "glViewport": (c_int,) * 4,
+    "glScissor": (c_int,) * 4, "glPolygonMode": (c_int,) * 2, "glFrontFace": (c_int,), "glCullFace": (c_int,),
+    "glDepthFunc": (c_int,), "glDepthMask": (c_ubyte,), "glColorMaski": (c_int, *(c_ubyte,) * 4),
+    "glBlendFuncSeparate": (c_int,) * 4, "glBlendEquationSeparate": (c_int,) * 2,
+}  # fmt: skip
+"""All others that a state is read and brought back with."""
+
+
+class Functions:
+    """The functions of `ASKS` and `DOES` by name."""
+
+    def __init__(self, loader: Any) -> None:
+        address = getattr(loader, "load_opengl_function", None) or loader.load
+        for takes, answer in ((ASKS, c_ubyte), (DOES, None)):
+            for name, arguments in takes.items():
+                setattr(self, name, CFUNCTYPE(answer, *arguments)(address(name)))
+
+    def __getattr__(self, name: str) -> Any:
+        raise AttributeError(f"{name} is not among GL's functions here")
+
+
+@lru_cache(maxsize=4)
+def _functions(loader: Any) -> Functions:
+    return Functions(loader)
+
+
+def functions_of(ctx: moderngl.Context) -> Functions:
+    """Return the functions that a context of moderngl's draws with."""
+    return _functions(ctx.mglo._context)  # noqa: SLF001 - moderngl tells it nowhere else
+
+
+@lru_cache(maxsize=1)
+def current_functions() -> Functions:
+    """Return the functions of the context that is current, and leave its state alone: a new moderngl context would not.
+
+    Whatever moderngl's loader raises, where there is no context, is passed on.
+    """
+    return Functions(sys.modules["_moderngl"].DefaultLoader())

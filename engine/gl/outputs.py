@@ -1,0 +1,65 @@
+"""Where a host's colours go: the outputs of its fragment shaders, and the attachments that they are written to."""
+
+from ctypes import c_int, c_ubyte, c_uint
+
+from .functions import NUMBERS, Functions
+
+COUNT = 8
+"""How many outputs every OpenGL has."""
+
+OTHERS = range(1, COUNT)
+"""All outputs but the first, which alone a guest writes."""
+
+
+class Outputs:
+    """The outputs of the framebuffer that is bound at one moment, which `restore` brings back.
+
+    `framebuffer` is its number, 0 for the window, and `blends` says whether the first output does. Masks are asked for
+    where there are several attachments: elsewhere a guest changes that of the first alone.
+    """
+
+    def __init__(self, gl: Functions, framebuffer: int, *, blends: bool) -> None:
+        self._gl = gl
+        blend, self._blends = NUMBERS["BLEND"], blends
+        self._unlike = [output for output in OTHERS if bool(gl.glIsEnabledi(blend, output)) != blends]
+        self._drawn = _drawn(gl) if framebuffer else None
+        several = self._drawn is not None and (any(self._drawn[1:]) or _has_second(gl))
+        self._masks = {output: _mask(gl, output) for output in OTHERS} if several else {}
+
+    def narrow(self) -> None:
+        """Write the first output alone, to wherever the host's goes."""
+        if self._drawn is not None:
+            self._gl.glDrawBuffers(1, (c_uint * 1)(self._drawn[0]))
+
+    def restore(self) -> None:
+        """Bring all outputs back, after the first has its own mask and blending."""
+        gl = self._gl
+        for output in self._unlike:
+            (gl.glDisablei if self._blends else gl.glEnablei)(NUMBERS["BLEND"], output)
+        for output, mask in self._masks.items():
+            gl.glColorMaski(output, *mask)
+        if self._drawn is not None:
+            gl.glDrawBuffers(COUNT, (c_uint * COUNT)(*self._drawn))
+
+
+def _drawn(gl: Functions) -> list[int]:
+    """Return the attachment of each output."""
+    found, drawn = (c_int * 1)(), []
+    for output in range(COUNT):
+        gl.glGetIntegerv(NUMBERS["DRAW_BUFFER0"] + output, found)
+        drawn.append(found[0])
+    return drawn
+
+
+def _has_second(gl: Functions) -> bool:
+    """Return whether there is an attachment beside the first, drawn or not."""
+    found = (c_int * 1)()
+    question = NUMBERS["FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE"]
+    gl.glGetFramebufferAttachmentParameteriv(NUMBERS["DRAW_FRAMEBUFFER"], NUMBERS["COLOR_ATTACHMENT1"], question, found)
+    return found[0] != NUMBERS["NONE"]
+
+
+def _mask(gl: Functions, output: int) -> tuple[int, ...]:
+    found = (c_ubyte * 4)()
+    gl.glGetBooleani_v(NUMBERS["COLOR_WRITEMASK"], output, found)
+    return tuple(found)

@@ -1,0 +1,296 @@
+"""A program without pyglet that has a prairie in it: what `test_moderngl.py` runs, with moderngl or with plain GL.
+
+It prints one line of JSON: for each check what was found wrong, an empty text where nothing was.
+"""
+
+import json
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from ctypes import CFUNCTYPE, c_int, c_ubyte, c_void_p
+from ctypes.util import find_library
+from typing import Any
+
+import glcontext  # type: ignore[import-untyped]
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from tallgrass import Prairie
+from tallgrass.engine.camera import camera_at, projection_matrix, view_matrix
+from tallgrass.engine.gl.headless import standalone_context
+
+Picture = NDArray[np.uint8]
+Values = dict[str, tuple[int, ...]]
+SIZE = (96, 64)
+
+SWITCHES = {
+    "blend": 0x0BE2, "cull face": 0x0B44, "depth test": 0x0B71, "point size": 0x8642, "logic op": 0x0BF2,
+    "depth clamp": 0x864F, "polygon offset": 0x8037, "alpha to coverage": 0x809E, "coverage": 0x80A0,
+    "clip distance 0": 0x3000, "clip distance 1": 0x3001, "seamless": 0x884F, "restart": 0x8F9D, "scissor": 0x0C11,
+    "discard": 0x8C89, "stencil": 0x0B90, "dither": 0x0BD0, "multisample": 0x809D, "sRGB": 0x8DB9,
+}  # fmt: skip
+NUMBERS = {
+    "blend source": 0x80C9, "blend goal": 0x80C8, "alpha source": 0x80CB, "alpha goal": 0x80CA, "equation": 0x8009,
+    "alpha equation": 0x883D, "depth func": 0x0B74, "depth mask": 0x0B72, "front face": 0x0B46, "culled": 0x0B45,
+    "polygons": 0x0B40, "viewport": 0x0BA2, "scissor box": 0x0C10, "program": 0x8B8D, "array": 0x85B5,
+    "buffer": 0x8894, "uniform buffer": 0x8A28, "unpack buffer": 0x88EF, "pack buffer": 0x88ED, "drawn": 0x8CA6,
+    "read": 0x8CAA, "renderbuffer": 0x8CA7, "unit": 0x84E0, "unpack alignment": 0x0CF5, "unpack rows": 0x0CF2,
+    "unpack skip": 0x0CF3, "pack alignment": 0x0D05, "pack rows": 0x0D02, "restart index": 0x8F9E, "logic": 0x0BF0,
+    "read buffer": 0x0C02, "stencil func": 0x0B92, "stencil mask": 0x0B98, "clear depth": 0x0B73,
+}  # fmt: skip
+ON_UNIT = {"texture": 0x8069, "texture array": 0x8C1D, "sampler": 0x8919}
+
+
+class Gl:
+    """The GL that the program's own context has, whatever of it is asked for."""
+
+    def __init__(self, context: Any) -> None:
+        self._address = context.load_opengl_function
+
+    def __getattr__(self, name: str) -> Callable[..., Any]:
+        def call(*arguments: Any) -> Any:
+            kinds = [c_void_p if hasattr(each, "_length_") else c_int for each in arguments]
+            return CFUNCTYPE(c_ubyte, *kinds)(self._address(name))(*arguments)
+
+        return call
+
+    def number(self, name: int, *place: int) -> tuple[int, ...]:
+        """Return the values of something, at one place of several if there are."""
+        found = (c_int * 4)()
+        (self.glGetIntegeri_v if place else self.glGetIntegerv)(name, *place, found)
+        return tuple(found)
+
+    def values(self) -> Values:
+        """Return all of the state that a prairie could spoil."""
+        told: Values = {name: (self.glIsEnabled(number),) for name, number in SWITCHES.items()}
+        told |= {name: self.number(number) for name, number in NUMBERS.items()}
+        for output in range(8):
+            told[f"attachment of {output}"] = self.number(0x8825 + output)
+            told[f"mask of {output}"] = self.number(0x0C23, output)
+            told[f"blend of {output}"] = (self.glIsEnabledi(0x0BE2, output),)
+        for unit in range(16):
+            self.glActiveTexture(0x84C0 + unit)
+            told |= {f"{name} on {unit}": self.number(number) for name, number in ON_UNIT.items()}
+            told[f"block {unit}"] = self.number(0x8A28, unit)
+        self.glActiveTexture(told["unit"][0])
+        return told
+
+    def hostile(self) -> None:
+        """Set all that to what nobody expects."""
+        for number in (0x0BE2, 0x0B44, 0x0B71, 0x8642, 0x8037, 0x809E, 0x3000, 0x864F, 0x0C11):
+            self.glEnable(number)
+        self.glDisable(0x884F)
+        self.glBlendFuncSeparate(0x0307, 1, 1, 0x0302)
+        self.glBlendEquationSeparate(0x800B, 0x8007)
+        self.glDepthFunc(0x0204)
+        self.glDepthMask(0)
+        self.glFrontFace(0x0900)
+        self.glCullFace(0x0404)
+        self.glViewport(3, 2, 80, 50)
+        self.glScissor(5, 4, 60, 40)
+        self.glPrimitiveRestartIndex(77)
+        self.glActiveTexture(0x84C0 + 5)
+        for store, value in ((0x0CF5, 2), (0x0CF2, 999), (0x0D05, 8)):
+            self.glPixelStorei(store, value)
+        self.glColorMask(1, 0, 1, 1)
+
+    def outputs(self) -> None:
+        """Set what every output has of its own."""
+        self.glColorMaski(1, 0, 1, 0, 1)
+        self.glColorMaski(2, 1, 0, 0, 0)
+        self.glDisablei(0x0BE2, 1)
+
+
+def compared(before: Values, after: Values) -> str:
+    """Say which values differ."""
+    return "; ".join(f"{name}: {before[name]}, then {after[name]}" for name in before if before[name] != after[name])
+
+
+def draw(prairie: Prairie) -> None:
+    """Draw as the scene's own camera sees it."""
+    camera = camera_at(prairie.scene.camera, None, prairie.height_at)
+    prairie.draw(view_matrix(camera), projection_matrix(camera.view, SIZE[0] / SIZE[1]))
+
+
+class Game:
+    """A program that draws a triangle with moderngl, in framebuffers of its own."""
+
+    def __init__(self) -> None:
+        self.ctx = standalone_context()
+        self.gl = Gl(self.ctx.mglo._context)  # noqa: SLF001
+        self.program = self.ctx.program(
+            vertex_shader="""#version 330
+            void main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0.2, 1); }""",
+            fragment_shader="""#version 330
+            layout(location = 0) out vec4 one;
+            layout(location = 1) out vec4 two;
+            void main() { one = vec4(0.6, 0.7, 0.8, 0.5); two = gl_FragCoord / 97.0; }""",
+        )
+        self.triangle = self.ctx.vertex_array(self.program, [])
+        self.prairie = Prairie.load(sys.argv[1], ctx=self.ctx)
+
+    @contextmanager
+    def target(self, colors: int) -> Iterator[moderngl.Framebuffer]:
+        """A framebuffer with so many attachments, and depth."""
+        made = [self.ctx.texture(SIZE, 4) for _ in range(colors)]
+        depth = self.ctx.depth_texture(SIZE)
+        target = self.ctx.framebuffer(made, depth)
+        target.use()
+        target.clear(0.1, 0.2, 0.3, 0.4)
+        yield target
+        target.release()
+        for texture in (depth, *made):
+            texture.release()
+
+    def seen(self, target: moderngl.Framebuffer) -> list[Picture]:
+        """Return what all attachments hold, depth last."""
+        colors = [np.frombuffer(target.read(components=4, attachment=each), np.uint8) for each in self.colors(target)]
+        assert isinstance(target.depth_attachment, moderngl.Texture)
+        return [*colors, np.frombuffer(target.depth_attachment.read(), np.uint8)]
+
+    def colors(self, target: moderngl.Framebuffer) -> range:
+        """Return the numbers of the attachments."""
+        return range(len(target.color_attachments or ()))
+
+    def left(self, colors: int, leave: Callable[[], None], *, prairie: bool) -> tuple[str, list[Picture]]:
+        """Draw the triangle in what was left, perhaps after a prairie; what that changed, and the picture."""
+        with self.target(colors) as target:
+            leave()
+            before = self.gl.values()
+            if prairie:
+                draw(self.prairie)
+            told = compared(before, self.gl.values())
+            with self.ctx.scope(target, self.ctx.BLEND):
+                pass  # moderngl brings back what it remembers
+            told = told or ("" if self.gl.glIsEnabled(0x0B71) == before["depth test"][0] else "moderngl remembers less")
+            self.tidy(target)
+            target.clear(0.1, 0.2, 0.3, 0.4)
+            leave()
+            self.triangle.render(moderngl.TRIANGLES, 3)
+            self.tidy(target)
+            return told, self.seen(target)
+
+    def tidy(self, target: moderngl.Framebuffer) -> None:
+        """Let everything through again."""
+        self.ctx.enable_only(moderngl.NOTHING)
+        for number in (0x8037, 0x809E, 0x3000, 0x864F, 0x0C11, 0x0BF2):
+            self.gl.glDisable(number)
+        self.gl.glPixelStorei(0x0CF2, 0)
+        self.ctx.front_face = "ccw"
+        self.gl.glColorMask(1, 1, 1, 1)
+        target.viewport = (0, 0, *SIZE)
+        target.use()
+
+    def enabled(self) -> None:
+        """What a program enables once, with moderngl."""
+        self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE | moderngl.BLEND)
+        self.ctx.blend_func, self.ctx.depth_func = (moderngl.ONE, moderngl.ONE), ">="
+        self.ctx.front_face = "cw"
+
+    def one_of_two(self) -> None:
+        """The second attachment alone, and not as its first output."""
+        self.gl.hostile()
+        self.gl.outputs()
+        self.gl.glDrawBuffers(2, (c_int * 2)(0, 0x8CE1))
+
+
+def check_state(game: Game) -> str:
+    """Whatever was set is as it was, value by value, and so is the program's own triangle."""
+    told = []
+    for colors in (1, 2, 0):
+        for leave in (lambda: None, game.enabled, game.gl.hostile, game.gl.outputs, game.one_of_two):
+            if colors == 2 or leave != game.one_of_two:
+                _, alone = game.left(colors, leave, prairie=False)
+                said, found = game.left(colors, leave, prairie=True)
+                same = all(np.array_equal(one, two) for one, two in zip(alone, found, strict=True))
+                told += [f"{leave.__name__} of {colors}: {said or 'another picture'}"] * bool(said or not same)
+    return " / ".join(told)
+
+
+def check_attachments(game: Game) -> str:
+    """The first of two is drawn as if it were alone, the second stays; with depth alone, depth is as ever."""
+    pictures = {}
+    for colors in (1, 2, 0):
+        with game.target(colors) as target:
+            empty = game.seen(target)
+            draw(game.prairie)
+            pictures[colors] = game.seen(target)
+    (color, depth), (first, second, depth_too), (depth_alone,) = (pictures[colors] for colors in (1, 2, 0))
+    right = {
+        "something": not np.array_equal(depth, empty[-1]) and len(np.unique(color)) > 50,
+        "first": np.array_equal(first, color),
+        "second": len(np.unique(second.reshape(-1, 4), axis=0)) == 1,
+        "depth": np.array_equal(depth_too, depth),
+        "depth alone": np.array_equal(depth_alone, depth),
+    }
+    return ", ".join(name for name, is_right in right.items() if not is_right)
+
+
+def check_output(game: Game) -> str:
+    """What the program has as its first output is drawn, whichever attachment that is."""
+    with game.target(2) as target:
+        game.gl.glDrawBuffers(1, (c_int * 1)(0x8CE1))
+        draw(game.prairie)
+        first, second, _ = game.seen(target)
+    return "" if len(np.unique(first)) == 4 and len(np.unique(second)) > 50 else "another attachment was drawn"
+
+
+def check_anaglyph(game: Game) -> str:
+    """Drawn through a red and a cyan mask, a prairie is what it is without any."""
+    with game.target(1) as target:
+        draw(game.prairie)
+        whole, _ = game.seen(target)
+        target.clear()
+        for mask in ((1, 0, 0, 1), (0, 1, 1, 1)):
+            game.gl.glClear(0x0100)
+            game.gl.glColorMask(*mask)
+            draw(game.prairie)
+        game.gl.glColorMask(1, 1, 1, 1)
+        found, _ = game.seen(target)
+    return "" if np.array_equal(found.reshape(-1, 4)[:, :3], whole.reshape(-1, 4)[:, :3]) else "colours are missing"
+
+
+def check_released(game: Game) -> str:
+    """A framebuffer that is gone does not keep a prairie from being drawn in the next one."""
+    with game.target(1):
+        draw(game.prairie)
+    with game.target(1) as target:
+        draw(game.prairie)
+        return "" if len(np.unique(game.seen(target)[0])) > 50 else "nothing was drawn"
+
+
+def bare() -> str:
+    """Draw in a context that moderngl does not know yet, with plain GL: that is left alone from the first frame on."""
+    libraries = {"libgl": find_library("GL"), "libegl": find_library("EGL")}
+    context = glcontext.get_backend_by_name("egl")(mode="standalone", glversion=330, **libraries)
+    gl, name = Gl(context), (c_int * 1)()
+    gl.glGenFramebuffers(1, name)
+    gl.glBindFramebuffer(0x8D40, name[0])
+    for attachment, kind in ((0x8CE0, 0x8058), (0x8D00, 0x81A6)):
+        gl.glGenRenderbuffers(1, name)
+        gl.glBindRenderbuffer(0x8D41, name[0])
+        gl.glRenderbufferStorage(0x8D41, kind, *SIZE)
+        gl.glFramebufferRenderbuffer(0x8D40, attachment, 0x8D41, name[0])
+    gl.hostile()
+    before, prairie, told = gl.values(), Prairie.load(sys.argv[1]), []
+    for number in range(2):
+        draw(prairie)
+        said = compared(before, gl.values())
+        told += [f"frame {number}: {said}"] * bool(said)
+    return " / ".join(told)
+
+
+def main() -> None:
+    """Run all checks and print what they say."""
+    if sys.argv[2] == "bare":
+        found = {"bare": bare()}
+    else:
+        game = Game()
+        found = {name.removeprefix("check_"): run(game) for name, run in globals().items() if name.startswith("check_")}
+    found["pyglet"] = "it was loaded" if "pyglet" in sys.modules else ""
+    sys.stdout.write(json.dumps(found))
+
+
+if __name__ == "__main__":
+    main()
