@@ -41,6 +41,7 @@ vec4 carpet_image(float layer, vec2 at, vec2 heading, float slope, vec2 dx, vec2
     return mix(near, steep, part);
 }
 
+const float LEAST = 0.01; // height of the carpet where nothing grows, so that nothing is divided by 0 [m]
 const float CREST = 2.5;  // leaves met over a crest, of those met before an edge as deep: as the reference shows it
 
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,
@@ -50,9 +51,9 @@ float outline_cover(float slope) {
     vec3 ray = place - eye.xyz;
     vec2 heading = ray.xz / max(length(ray.xz), 1e-4);
     vec2 to_edge = (step(0.0, heading) * field.xy + terrain.xy - place.xz) / (heading + 1e-6);
-    float before_edge = min(to_edge.x, to_edge.y) * slope / tall;
+    float height = max(tall, LEAST), before_edge = min(to_edge.x, to_edge.y) * slope / height;
     // Over a crest of this curvature the line of sight would have to be higher by so much.
-    float before_crest = slope * slope / (2.0 * max(crest, 1e-5)) / tall;
+    float before_crest = slope * slope / (2.0 * max(crest, 1e-5)) / height;
     float leaves = dense / slope;
     return (1.0 - exp(-leaves * before_edge * before_edge)) * (1.0 - exp(-CREST * leaves * before_crest * before_crest));
 }

@@ -81,7 +81,9 @@ void main() {
     vec3 grass = vec3(0.0);
     for (int kind = 0; kind < KINDS; kind++)
         grass += met[kind] * mix(root[kind].rgb, tip[kind].rgb, 0.5);
-    soil_color = mix(soil_color, grass * place_tone(flat_at) * canopy(0.6, 0.0), carpet);
+    // Where grass grows thinly or not at all, what lies beneath is the soil.
+    grass = soil_color * (1.0 - dot(met, vec4(1.0))) + grass * place_tone(flat_at) * canopy(0.6, 0.0);
+    soil_color = mix(soil_color, grass, carpet);
 #endif
     veiled = haze_at(place);
     gl_Position = clip * vec4(place, 1.0);

@@ -1,0 +1,61 @@
+"""Bare ground shows its soil, however far off (T1, G4)."""
+
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from pathlib import Path
+
+import moderngl
+import numpy as np
+import pytest
+from PIL import Image
+
+from tallgrass.engine.camera import Camera
+from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.reference import draw_reference
+from tallgrass.testing import Stage
+
+Load = Callable[..., Prairie]
+Aim = Callable[..., Camera]
+
+SOIL = """\
+tallgrass: 1
+terrain: { size: [200, 200] }
+grass:
+  turf: { blades: 60, place: { map: none.png } }
+light: { ground: "#d9c48f" }
+"""
+
+
+@pytest.fixture(scope="module")
+def small(ctx: moderngl.Context) -> Iterator[Stage]:
+    """Quick to draw, and wide enough for what lies far off."""
+    made = Stage(ctx, (240, 135))
+    yield made
+    made.release()
+
+
+@pytest.fixture
+def bare(ctx: moderngl.Context, tmp_path: Path) -> Iterator[Load]:
+    """Load `SOIL`, on which nothing grows; all are released in the end."""
+    Image.fromarray(np.zeros((8, 8), np.uint8)).save(tmp_path / "none.png")
+    (tmp_path / "bare.yaml").write_text(SOIL, "utf-8")
+    with ExitStack() as stack:
+
+        def scene(**options: str) -> Prairie:
+            prairie = Prairie.load(tmp_path / "bare.yaml", ctx=ctx, **options)  # type: ignore[arg-type]
+            stack.callback(prairie.release)
+            return prairie
+
+        yield scene
+
+
+@pytest.mark.parametrize("preset", ["low", "medium", "high"])
+def test_t1_bare_ground_far_off_is_as_bright_as_in_the_reference(
+    small: Stage, bare: Load, camera: Aim, preset: str
+) -> None:
+    prairie, seen = bare(preset=preset), camera(0, 8, 90, pitch=-5)
+    drawn = small.shot(prairie, seen)
+    small.begin()
+    truth = draw_reference(prairie, *small.matrices(seen), small.size, samples=2).astype(np.float64)
+    assert np.abs(drawn - truth)[62:].mean(axis=1).max() <= 10.0  # below the terrain's edge
+    assert np.abs(drawn - truth)[66:].max() <= 10.0
