@@ -26,7 +26,8 @@ def gather_blades(
     moved = np.empty(len(which), MOVED)
     moved["message"] = pool.message.reshape(-1, 2)[which]
     moved["fade"], moved["slide"] = shown.fade[patch], shown.slide[patch]
-    return pool.blade.reshape(-1)[which], moved
+    # `take` copies records whole, many times as fast as an index does field by field.
+    return pool.blade.reshape(-1).take(which), moved
 
 
 def far_first(away: NDArray[np.float32], /) -> NDArray[np.intp]:

@@ -59,7 +59,8 @@ def gather_strips(
     covers = shown.fade * handed_over(appears.handed[shown.rows], fade=fade)[1]
     records["fade"] = covers[:, None, None, None]
     grows = pool.present[at[:2]] & (covers > 0.0)[:, None, None]
-    grown: NDArray[np.void] = records[grows].reshape(-1)
+    # `take` copies records whole, many times as fast as an index does field by field.
+    grown: NDArray[np.void] = records.reshape(-1, columns).take(np.flatnonzero(grows), axis=0).reshape(-1)
     return grown, grows.sum(axis=(1, 2)) * columns
 
 
@@ -76,7 +77,7 @@ def in_one_queue(
     start = np.cumsum(amount) - amount
     end = np.cumsum(amount[order])
     rows = np.arange(end[-1] if len(end) else 0) + np.repeat(start[order] - (end - amount[order]), amount[order])
-    return np.concatenate([records for records, _ in gathered])[rows], amount[order]
+    return np.concatenate([records for records, _ in gathered]).take(rows), amount[order]
 
 
 def runs(ranked: NDArray[np.bool_], amount: NDArray[np.int64], /) -> list[tuple[int, int, bool]]:
