@@ -1,7 +1,8 @@
-"""Blowing: every receiver that is seen hears the winds (paper, section 3.2)."""
+"""Blowing: which winds there are, for every receiver that is seen (paper, section 3.2)."""
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import Protocol
 
 import numpy as np
@@ -10,9 +11,8 @@ from numpy.typing import NDArray
 from .around.cone import HALF_DIAGONAL
 from .around.outlook import Outlook
 from .around.receivers import Receiving
-from .around.representation import Kept
 from .grow.record import Growth
-from .wind.blow import ReceiverArrays
+from .wind.blow import Blowing, ReceiverArrays, places_alone
 from .wind.grass import grass_of
 
 Floats = NDArray[np.float32]
@@ -25,77 +25,61 @@ class Hear(Protocol):
         """Return the messages (n, 2) that receivers hear at a time [s]."""
 
 
+Now = Callable[[float], Sequence[Blowing]]
+"""Gives the winds that act at a time [s], the strongest claim first."""
+
+
 @dataclass(slots=True)
 class Blow:
-    """The system `wind`: every receiver of what is shown hears the winds, all in one pass.
+    """The system `wind`: the winds of this frame, and what they tell those receivers that a game has asked for.
 
-    What a game has written into messages since the frame before stands above what the wind says.
+    The others hear them on the graphics card. What a game has written into messages since the frame before stands
+    above what the wind says.
     """
 
     outlooks: Iterable[Outlook]
+    now: Now
     hear: Hear
     growths: Sequence[Growth]
-    patch: float
-    """Side of a patch [m]."""
-
-    margin: float
-    """How far receivers may stand outside of their patch [m]."""
 
     def run(self) -> None:
         """Blow for every viewer that looks."""
         for outlook in self.outlooks:
-            self._run(outlook)
+            time = outlook.viewer.time
+            outlook.winds, outlook.blown_at, outlook.heard = list(self.now(time)), time, 0
+            for receiving in hearing(outlook):
+                receiving.letters.blow(partial(self._tell, receiving, time))
+                if not receiving.still:
+                    outlook.heard += len(receiving.slots) * int(np.prod(receiving.pool.shape))
 
-    def _run(self, outlook: Outlook) -> None:
-        kept: list[Kept] = list(outlook.kept.values())
-        all_receiving = [receiving for each in kept for receiving in each.receiving]
-        # Those that take no part in the small oscillations come last.
-        order = sorted(all_receiving, key=lambda receiving: receiving.still)
-        for receiving in order:
-            receiving.letters.collect()
-        heard = self.hear(self._receivers(outlook, order), time=outlook.viewer.time)
-        outlook.heard = _deliver(order, heard)
-        outlook.air = _mean(outlook, order)
-        for receiving in order:
-            receiving.letters.deliver()
-
-    def _receivers(self, outlook: Outlook, order: list[Receiving]) -> ReceiverArrays:
-        places = [receiving.pool.places(receiving.slots) for receiving in order]
-        flat = [place.reshape(-1, 2) for place in places]
-        rows = np.concatenate([receiving.rows for receiving in order])
-        each = [
-            np.full(len(receiving.slots), len(place) // max(len(receiving.slots), 1))
-            for receiving, place in zip(order, flat, strict=True)
-        ]
-        kind = np.concatenate([receiving.pool.kind(receiving.slots) for receiving in order])
-        return ReceiverArrays(
-            place=np.concatenate(flat),
-            grass=grass_of(self.growths, kind),
-            patch=np.repeat(np.arange(len(rows)), np.concatenate(each)),
-            middle=outlook.patches.middle[rows].astype(np.float32),
-            radius=HALF_DIAGONAL * (self.patch + 2.0 * self.margin),
-            still=sum(len(place) for receiving, place in zip(order, flat, strict=True) if receiving.still),
-        )
+    def _tell(self, receiving: Receiving, time: float, slots: NDArray[np.int64]) -> Floats:
+        """Return what the receivers of some slots of a pool hear, shape (n, 2)."""
+        place = receiving.pool.places(slots).reshape(-1, 2)
+        alone = places_alone(place, grass_of(self.growths, receiving.pool.kind(slots)))
+        return self.hear(replace(alone, still=len(place) if receiving.still else 0), time=time)
 
 
-def _deliver(order: list[Receiving], heard: Floats) -> int:
-    """Put messages (n, 2) where their receivers are; return how many of them are not still."""
-    start = moving = 0
-    for receiving in order:
-        message, slots = receiving.pool.message, receiving.slots
-        end = start + len(slots) * int(np.prod(message.shape[1:-1]))
-        if receiving.still:
-            message[:] = 0.0  # the same view gives the same picture, wherever one looked before
-        else:
-            moving = end
-        message[slots] = heard[start:end].reshape(len(slots), *message.shape[1:])
-        start = end
-    return moving
+def hearing(outlook: Outlook, /) -> list[Receiving]:
+    """Return all receivers around a viewer; those that take no part in the small oscillations come last."""
+    every = [receiving for kept in outlook.kept.values() for receiving in kept.receiving]
+    return sorted(every, key=lambda receiving: receiving.still)
 
 
-def _mean(outlook: Outlook, order: list[Receiving]) -> Floats:
-    """Return the mean of what the patches in view hear in their middle, shape (2,): the coarsest comes last."""
-    seen = outlook.patches.alive & outlook.patches.visible
-    if not (order and seen.any()):
-        return np.zeros(2, np.float32)
-    return np.asarray(order[-1].pool.message[:, 0][seen].mean(axis=0), np.float32)
+def receivers_shown(outlook: Outlook, growths: Sequence[Growth], /, *, patch: float, margin: float) -> ReceiverArrays:
+    """Return all receivers of what a viewer is shown, pool after pool.
+
+    `patch` is a patch's side, and `margin` how far receivers may stand outside of it [m].
+    """
+    order = hearing(outlook)
+    places = [receiving.pool.places(receiving.slots).reshape(-1, 2) for receiving in order]
+    rows = np.concatenate([receiving.rows for receiving in order])
+    each = [np.full(len(receiving.slots), int(np.prod(receiving.pool.shape))) for receiving in order]
+    kind = np.concatenate([receiving.pool.kind(receiving.slots) for receiving in order])
+    return ReceiverArrays(
+        place=np.concatenate(places),
+        grass=grass_of(growths, kind),
+        patch=np.repeat(np.arange(len(rows)), np.concatenate(each)),
+        middle=outlook.patches.middle[rows].astype(np.float32),
+        radius=HALF_DIAGONAL * (patch + 2.0 * margin),
+        still=sum(len(place) for receiving, place in zip(order, places, strict=True) if receiving.still),
+    )

@@ -22,7 +22,4 @@ class Gather:
     def run(self) -> None:
         """Gather for every viewer that looks."""
         for outlook in self.outlooks:
-            for kept in outlook.kept.values():
-                for receiving in kept.receiving:
-                    receiving.letters.check()
             outlook.blades = self.painter().write(outlook, self.bodies(outlook.viewer.time))

@@ -1,29 +1,50 @@
 """Drawing a whole frame: ground, sky and carpet, then strips and blades from far to near."""
 
 from collections.abc import Iterable, Sequence
+from functools import partial
 
 import moderngl
 
 from ..components.body import Body
 from ..engine.camera import View
-from ..engine.gl.guest import FIRST_UNIT, guest
+from ..engine.gl.guest import FIRST_UNIT, aside, guest
 from ..engine.gl.shaders import program
 from ..engine.gl.stream import release_all
 from .around.outlook import Outlook
 from .around.representation import Canvas, RepresentationPainter
+from .blow import receivers_shown
 from .bodies.draw import BodyPainter
 from .frame.block import FrameBlock, aim, frame_record
 from .frame.maps import density_texture, height_texture, posture_texture, tone_texture
+from .receive.ask import numbers_of, write_messages
+from .receive.received import Received
 from .show.blades.draw import BladePainter
 from .show.carpet.painter import CarpetPainter
 from .show.registry import REPRESENTATIONS
 from .site import Site
+from .wind.card import SAMPLERS as WINDS
+from .wind.card import CardWinds
+from .wind.quarantine import Quarantine
 
-SHARED = ("postures", "tone", "density", "heights")
-UNITS = {
-    name: unit
-    for unit, name in enumerate((*SHARED, *(name for each in REPRESENTATIONS for name in each.samplers)), FIRST_UNIT)
-}
+SHARED = ("postures", "tone", "density", "heights", "received")
+
+
+LAST_UNIT = FIRST_UNIT + 15
+
+
+def _units() -> dict[str, int]:
+    """Return the texture unit of each sampler: those read only before drawing share theirs with those read then."""
+    asked = {name for each in REPRESENTATIONS for name in each.asked}
+    drawn = [name for each in REPRESENTATIONS for name in each.samplers]
+    throughout = [*SHARED, *(name for name in drawn if name in asked)]
+    first = [*throughout, *(name for name in drawn if name not in asked)]
+    before = [*WINDS, *sorted(asked - set(throughout))]
+    return {name: unit for unit, name in enumerate(first, FIRST_UNIT)} | {
+        name: LAST_UNIT - number for number, name in enumerate(before)
+    }
+
+
+UNITS = _units()
 """The texture unit of each sampler."""
 
 OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
@@ -35,6 +56,8 @@ class Painter:
     def __init__(self, ctx: moderngl.Context, site: Site) -> None:
         self.ctx = ctx
         self.block = FrameBlock(ctx)
+        self.received = Received(ctx)
+        self.air: CardWinds | None = None
         self.textures: dict[str, moderngl.Texture | moderngl.TextureArray] = {}
         self.sky = program(ctx, "systems/frame/sky.vert", "systems/frame/sky.frag")
         self.block.join(self.sky)
@@ -43,6 +66,8 @@ class Painter:
         self.painters: dict[str, RepresentationPainter] = {}
         self.draw_calls = 0
         self.site = site
+        self._outlook: Outlook | None = None
+        self._first: dict[str, list[int]] = {}
         self._lay(site)
         self._grow(site)
         self.record = frame_record(site.scene, site.growths, site.ground.terrain, site.quality.patch)
@@ -84,14 +109,18 @@ class Painter:
     def _grow(self, site: Site) -> None:
         """Bring the grass into GL."""
         self._put("postures", posture_texture(self.ctx, site.growths))
+        if self.air is not None:
+            self.air.release()
+        self.air = CardWinds(self.ctx, UNITS, site.growths)
         canvas = Canvas(
-            self.ctx, self.block, UNITS, site.scene.seed, site.transitions, site.reach, site.representations
-        )
+            self.ctx, self.block, UNITS, site.scene.seed, site.transitions, self.air, self.received, site.reach,
+            site.representations,
+        )  # fmt: skip
         self.painters = {each.name: each.painter(canvas) for each in site.representations}
 
     def blade_painter(self, segments: int) -> BladePainter:
         """Return a painter of opaque blades with this many segments, in any order."""
-        return BladePainter(self.ctx, self.block, segments, UNITS, soft=False)
+        return BladePainter(self.ctx, self.block, segments, UNITS)
 
     def write(self, outlook: Outlook, bodies: Sequence[Body]) -> int:
         """Send what a viewer is shown, and what flies; return how many blades that is as geometry."""
@@ -99,7 +128,27 @@ class Painter:
             self.bodies = BodyPainter(self.ctx, self.block, self.site.scene.light)
         if self.bodies is not None:
             self.bodies.write(bodies)
-        return sum(painter.write(outlook) for name, painter in self.painters.items() if name in outlook.shown)
+        counts = {name: painter.receivers(outlook) for name, painter in self.painters.items()}
+        laid = iter(self.received.lay([count for each in counts.values() for count in each]))
+        self._first = {name: [next(laid) for _ in each] for name, each in counts.items()}
+        self._outlook = outlook
+        return sum(painter.write(outlook, self._first) for painter in self.painters.values())
+
+    def _hear(self, target: moderngl.Framebuffer) -> int:
+        """Let all receivers that are seen hear the wind; return the number of draw calls."""
+        outlook, air, site = self._outlook, self.air, self.site
+        if outlook is None or air is None:
+            return 0
+        air.write(outlook.winds, time=outlook.blown_at, seed=site.scene.seed, mixing=site.scene.mixing)
+        air.tell(
+            partial(receivers_shown, outlook, site.growths, patch=site.ground.patch, margin=site.margin),
+            self.quarantine, numbers=partial(numbers_of, outlook, self._first),
+        )  # fmt: skip
+        with aside(self.ctx, target):
+            calls = sum(painter.hear() for painter in self.painters.values())
+            write_messages(self.received, outlook, self._first, site.ground)
+            self.received.texture.use(UNITS["received"])
+            return calls + sum(painter.prepare() for painter in self.painters.values())
 
     def draw_carpet_everywhere(self, view: View, outlook: Outlook) -> None:
         """Draw the carpet everywhere, at half the height of the grass, into the framebuffer that is bound."""
@@ -118,6 +167,8 @@ class Painter:
             self.block.write(self.record)
             for name, texture in self.textures.items():
                 texture.use(UNITS[name])
+            if blades is None:
+                self.draw_calls = self._hear(target)
             self._draw_land(target)
             if blades is None:
                 self._draw_grass(target)
@@ -128,7 +179,7 @@ class Painter:
     def _draw_land(self, target: moderngl.Framebuffer) -> None:
         """Draw all that is opaque, the sky, and the carpet, on which bodies have their soft outlines."""
         self.ctx.enable_only(moderngl.DEPTH_TEST)
-        self.draw_calls = 1 + sum(painter.draw_solid() for painter in self.painters.values())
+        self.draw_calls += 1 + sum(painter.draw_solid() for painter in self.painters.values())
         if self.bodies is not None:
             self.draw_calls += self.bodies.draw()
         target.depth_mask = False
@@ -155,4 +206,4 @@ class Painter:
         """Give everything back to the context."""
         if self.bodies is not None:
             self.bodies.release()
-        release_all(*self.painters.values(), self.block, self.sky_array, self.sky, *self.textures.values())
+        release_all(*self.painters.values(), *([self.air] if self.air else []), self.received, self.block, self.sky_array, self.sky, *self.textures.values())

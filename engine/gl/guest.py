@@ -80,6 +80,20 @@ def guest(ctx: moderngl.Context) -> Iterator[moderngl.Framebuffer]:
 
 
 @contextmanager
+def aside(ctx: moderngl.Context, target: moderngl.Framebuffer) -> Iterator[None]:
+    """Draw into framebuffers of one's own while a guest in `target`, or into buffers; nothing is blended or hidden."""
+    box, cut = target.viewport, target.scissor
+    ctx.enable_only(moderngl.NOTHING)
+    try:
+        yield
+    finally:
+        target.use()
+        target.viewport = box
+        target.scissor = cut if cut != (0, 0, *target.size) else None  # type: ignore[assignment]
+        _kept[-1].narrow()
+
+
+@contextmanager
 def _remembered(ctx: moderngl.Context, target: moderngl.Framebuffer, state: State) -> Iterator[None]:
     """Let moderngl remember in the end what it does now, so that a host that draws with it finds what it has set."""
     host = _host_framebuffer(ctx, target)

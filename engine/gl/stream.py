@@ -1,6 +1,6 @@
 """Buffers that are filled anew every frame."""
 
-from typing import Protocol
+from typing import Any, Protocol
 
 import moderngl
 import numpy as np
@@ -28,7 +28,7 @@ def attributes(record: np.dtype[np.void]) -> tuple[str, list[str]]:
 
 
 class Stream:
-    """A vertex buffer of records, one per instance, that grows as it must.
+    """A vertex buffer of records that grows as it must.
 
     `record` is a dtype of float32 fields whose names are the shader's attributes.
     """
@@ -39,26 +39,33 @@ class Stream:
         self.buffer = ctx.buffer(reserve=1024 * record.itemsize, dynamic=True)
         self.count = 0
 
-    def write(self, rows: NDArray[np.void]) -> None:
+    def write(self, rows: NDArray[Any]) -> None:
         """Replace the contents by `rows`, shape (n,)."""
-        self.count = len(rows)
-        size = rows.nbytes
+        self.room(len(rows))
+        if self.count:
+            self.buffer.write(np.ascontiguousarray(rows))
+
+    def room(self, count: int) -> None:
+        """Make room for `count` records, whose contents are anything until they are written."""
+        self.count = count
+        size = count * self.record.itemsize
         if size > self.buffer.size:
             self.buffer.orphan(size * 3 // 2)
         elif size:
             self.buffer.orphan()
-        if size:
-            self.buffer.write(np.ascontiguousarray(rows))
 
-    def binding(self, program: moderngl.Program) -> tuple[moderngl.Buffer | str, ...]:
-        """Return the stream as a vertex array's per-instance content; fields the program drops are skipped over."""
+    def binding(self, program: moderngl.Program, *, each: str = "/i") -> tuple[moderngl.Buffer | str, ...]:
+        """Return the stream as a vertex array's content; fields the program drops are skipped over.
+
+        A record is for an instance, or with `each` as `/v` for a vertex.
+        """
         form, names = attributes(self.record)
         parts = form.split()
         kept = [name for name in names if name in program]
         padded = [
             part if name in program else f"{int(part[:-1]) * 4}x" for part, name in zip(parts, names, strict=True)
         ]
-        return self.buffer, " ".join(padded) + "/i", *kept
+        return self.buffer, " ".join(padded) + each, *kept
 
     def release(self) -> None:
         """Give the buffer back."""

@@ -1,11 +1,10 @@
 """Outlooks: what is kept for each viewer of a prairie."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...components.viewer import Viewer
 from ...engine.camera import View, eye_of
@@ -13,6 +12,9 @@ from ...engine.world import World
 from .appearance import Appearance
 from .cone import view_cone
 from .patches import PatchTable
+
+if TYPE_CHECKING:
+    from ..wind.blow import Blowing
 
 LEAP = 5.0
 """A viewer who moves more than this in one frame has jumped [m]."""
@@ -38,8 +40,11 @@ class Outlook:
     shown: dict[str, Any] = field(default_factory=dict)
     """What each representation shows in this frame, by its name."""
 
-    air: NDArray[np.float32] = field(default_factory=lambda: np.zeros(2, np.float32))
-    """The mean of the wind's messages to the patches in view, shape (2,)."""
+    winds: Sequence["Blowing"] = ()
+    """The winds that act in this frame, the strongest claim first."""
+
+    blown_at: float = 0.0
+    """The instant at which they do [s]."""
 
     heard: int = 0
     """Receivers of blades and strips that heard the wind in this frame."""

@@ -1,7 +1,8 @@
 """Receivers: where the messages of many patches are kept, and what a game writes into them."""
 
 import logging
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
@@ -21,11 +22,15 @@ class Pool(Protocol):
     """Receivers of one representation around a viewer, a slot for each patch."""
 
     @property
-    def message(self) -> Floats:
-        """Their messages, shape (slots, ..., 2)."""
+    def slots(self) -> int:
+        """How many slots there are."""
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """How the receivers of a slot are laid out."""
 
     def places(self, slots: Rows, /) -> Floats:
-        """Return the ground positions (x, z) [m] of the receivers of some slots, shape (m, ..., 2)."""
+        """Return the ground positions (x, z) [m] of the receivers of some slots, shape (m, *shape, 2)."""
 
     def kind(self, slots: Rows, /) -> NDArray[np.intp]:
         """Return the kind of grass of each receiver of some slots, one slot after another, shape (n,)."""
@@ -34,75 +39,110 @@ class Pool(Protocol):
         """Return which receivers of some slots have grass that grows on these cells (m, 2), shape (n,)."""
 
 
-@dataclass(slots=True, eq=False)
-class Correspondence:
-    """The messages of a pool: which were asked for by a game, and what it has written since.
+Tell = Callable[[Rows], Floats]
+"""Gives what the receivers of some slots (m,) hear, one slot after another, shape (n, 2)."""
 
-    Only slots that were asked for are looked through; the others cost nothing.
-    """
+
+@dataclass(slots=True, eq=False)
+class Letter:
+    """The messages of one slot that a game has asked for, each of shape (n, 2)."""
 
     message: Floats
-    """The pool's messages, shape (slots, ..., 2)."""
+    """What the game reads and writes."""
 
-    _left: dict[int, Floats] = field(default_factory=dict)
-    """For each slot that was asked for, its messages at the end of the frame before, shape (n, 2)."""
+    heard: Floats
+    """What the wind says."""
 
-    _written: dict[int, tuple[NDArray[np.bool_], Floats]] = field(default_factory=dict)
-    """For each slot, which receivers a game has written to, and what; once delivered, what the wind told them."""
+    left: Floats
+    """What was there when the game was last heard of: what differs from it the game has written."""
 
-    _told: bool = False
+    @classmethod
+    def of(cls, heard: Floats) -> "Letter":
+        """Return the letter of what the wind says."""
+        return cls(heard.copy(), heard, heard.copy())
+
+    @property
+    def written(self) -> bool:
+        """Whether it is something else than what the wind says."""
+        return bool((self.message != self.heard).any())
+
+
+class Correspondence:
+    """The messages of a pool that a game has asked for, and what it has written since.
+
+    All others are computed on the graphics card alone: whoever asks for none pays for none.
+    """
+
+    def __init__(self, pool: Pool) -> None:
+        self._pool = pool
+        self._tell: Tell | None = None
+        self._letters: dict[int, Letter] = {}
+        self._known: dict[int, Floats] = {}
+        self._told = False
+        self.shown: Rows = np.zeros(0, np.int64)
+        """Slots of the patches that are shown in this frame, shape (m,)."""
 
     def ask(self, slot: int, /) -> Floats:
         """Return the messages of a slot, shape (n, 2), to be read and written; from now on what is written counts."""
-        flat: Floats = self.message[slot].reshape(-1, 2)
-        if slot not in self._left:
-            self._left[slot] = flat.copy()
-        return flat
+        if slot not in self._letters:
+            self._letters[slot] = Letter.of(self._told_to(slot))
+        return self._letters[slot].message
+
+    def _told_to(self, slot: int) -> Floats:
+        """Return what the wind last told a slot's receivers; who asks for a second one will ask for more."""
+        asked = self._letters and slot not in self._known and slot in self.shown
+        slots = self.shown if asked else np.array([slot])
+        if slot not in self._known:
+            self._known |= zip(slots.tolist(), np.split(self.heard(slots), len(slots)), strict=True)
+        return self._known.pop(slot)
 
     @property
     def busy(self) -> bool:
         """Whether any slot was asked for."""
-        return bool(self._left)
+        return bool(self._letters)
+
+    def heard(self, slots: Rows, /) -> Floats:
+        """Return what the wind last told the receivers of some slots, (n, 2)."""
+        if self._tell is None:
+            return np.zeros((len(slots) * int(np.prod(self._pool.shape)), 2), np.float32)
+        return self._tell(slots)
+
+    def messages(self, slots: Rows, /) -> Floats:
+        """Return the messages of some slots (m,), whoever has written them, shape (m, n, 2)."""
+        found = self.heard(slots).reshape(len(slots), -1, 2)
+        for row, slot in enumerate(slots.tolist() if self._letters else ()):
+            if slot in self._letters:
+                found[row] = self._letters[slot].message
+        return found
 
     def forget(self, slot: int, /) -> None:
         """Forget that a slot was asked for, because another patch stands there now."""
-        self._left.pop(slot, None)
-        self._written.pop(slot, None)
+        self._letters.pop(slot, None)
 
-    def collect(self) -> None:
-        """Keep what a game has written, before the wind writes over it."""
-        self._written.clear()
-        for slot, left in self._left.items():
-            now = self.message[slot].reshape(-1, 2)
-            changed = (now != left).any(axis=1)
-            if changed.any():
-                self._written[slot] = changed, self._valid(now[changed])
+    def blow(self, tell: Tell, /) -> None:
+        """Let the wind tell something else from now on; what a game has written since the last time stands above it."""
+        self._tell = tell
+        self._known.clear()
+        if not self._letters:
+            return
+        slots = np.array(list(self._letters))
+        for letter, heard in zip(self._letters.values(), np.split(tell(slots), len(slots)), strict=True):
+            changed = (letter.message != letter.left).any(axis=1)
+            letter.heard = heard
+            letter.message[:] = np.where(changed[:, None], self._valid(letter.message), heard)
+            letter.left[:] = letter.message
 
-    def deliver(self) -> None:
-        """Write what a game has written over what the wind has said."""
-        for slot, (changed, value) in self._written.items():
-            now = self.message[slot].reshape(-1, 2)
-            heard = now[changed]
-            now[changed] = value
-            self._written[slot] = changed, heard
-        self._leave()
+    def written(self) -> Iterator[tuple[int, Floats]]:
+        """Yield the slots and messages (n, 2) that are other than the wind says; they are mended to be possible ones."""
+        for slot, letter in self._letters.items():
+            if letter.written:
+                letter.message[:] = self._valid(letter.message)
+                yield slot, letter.message
 
     def settle(self) -> None:
         """Put the wind's own messages back after the frame is drawn: what a game writes holds for one frame."""
-        for slot, (changed, heard) in self._written.items():
-            self.message[slot].reshape(-1, 2)[changed] = heard
-        self._written.clear()
-        self._leave()
-
-    def _leave(self) -> None:
-        for slot, left in self._left.items():
-            left[:] = self.message[slot].reshape(-1, 2)
-
-    def check(self) -> None:
-        """Mend what systems have written since: a message is finite and at most 1 long."""
-        for slot in self._left:
-            now = self.message[slot].reshape(-1, 2)
-            now[:] = self._valid(now)
+        for letter in self._letters.values():
+            letter.message[:] = letter.left[:] = letter.heard
 
     def _valid(self, message: Floats) -> Floats:
         """Return messages as they may be: finite, which is told of once where they were not, and at most 1 long."""
@@ -131,17 +171,17 @@ class Receiving:
         self.representation = representation
         self.still = still
         """Whether they take no part in the small oscillations."""
-        self.letters = Correspondence(pool.message)
+        self.letters = Correspondence(pool)
         self.rows: Rows = np.zeros(0, np.int64)
         """Rows of the patch table of those that hear in this frame, shape (m,)."""
         self.slots: Rows = np.zeros(0, np.int64)
         """Their slots, shape (m,)."""
-        self._owner = np.zeros(len(pool.message), np.int64)
-        self._entity = np.zeros(len(pool.message), np.int64)
+        self._owner = np.zeros(pool.slots, np.int64)
+        self._entity = np.zeros(pool.slots, np.int64)
 
     def show(self, rows: Rows, slots: Rows, /) -> None:
         """Let the receivers of these patches hear the wind in this frame."""
-        self.rows, self.slots = rows, slots
+        self.rows, self.slots, self.letters.shown = rows, slots, slots
 
     def enlist(self, world: World, patches: PatchTable, /) -> None:
         """Create and delete entities so that they are those of the patches shown now."""

@@ -14,6 +14,8 @@ from ...engine.declared.quality import Quality
 from ...engine.world import World
 from ..frame.block import FrameBlock
 from ..grow.record import Blades, Growth, Postures
+from ..receive.received import Received
+from ..wind.card import CardWinds
 from .ground import Ground
 from .outlook import Outlook
 from .patches import PatchTable
@@ -55,6 +57,12 @@ class Canvas:
     transitions: Transitions
     """What carries a patch from one representation to another."""
 
+    air: CardWinds
+    """The winds of the frame."""
+
+    received: Received
+    """What they tell the receivers that are seen."""
+
     reach: tuple[int, ...]
     """Largest discrete distance of each representation."""
 
@@ -90,8 +98,23 @@ class Kept:
 class RepresentationPainter(Protocol):
     """Everything that one GL context holds of a representation, and the drawing of it."""
 
-    def write(self, outlook: Outlook, /) -> int:
-        """Send what a viewer is shown of it; return how many blades that is as geometry."""
+    def receivers(self, outlook: Outlook, /) -> list[int]:
+        """Return how many of its receivers are to hear the wind, pool by pool."""
+
+    def write(self, outlook: Outlook, first: Mapping[str, list[int]], /) -> int:
+        """Send what a viewer is shown of it; return how many blades that is as geometry.
+
+        `first` gives the numbers of the first receivers of each representation's pools, by its name.
+        """
+
+    def hear(self) -> int:
+        """Let its receivers hear the wind; return the number of draw calls."""
+
+    def prepare(self) -> int:
+        """Make out what is the same all over each thing it draws, now that all receivers have heard the wind.
+
+        Returns the number of draw calls.
+        """
 
     def draw_solid(self) -> int:
         """Draw what is opaque and writes depth, before the sky; return the number of draw calls."""
@@ -124,7 +147,10 @@ class Representation(ABC):
     """What the overlay shows it in: a display colour of [0, 1]."""
 
     samplers: ClassVar[tuple[str, ...]] = ()
-    """The names of its own samplers."""
+    """The names of its own samplers that are read while drawing."""
+
+    asked: ClassVar[tuple[str, ...]] = ()
+    """The names of those that are read before, by passes over receivers and blades."""
 
     record: ClassVar[type | None] = None
     """The dataclass of arrays that its pictures are records of, as they are kept on disk."""

@@ -107,11 +107,16 @@ def joined(
     block: FrameBlock,
     units: Mapping[str, int],
     vertex: str,
-    fragment: str,
+    fragment: str | None,
     defines: Mapping[str, str | int],
+    *,
+    varyings: tuple[str, ...] = (),
 ) -> moderngl.Program:
-    """Return a program that knows where the block and the textures are; `units` gives each sampler its unit."""
-    made = program(ctx, vertex, fragment, defines=defines)
+    """Return a program that knows where the block and the textures are; `units` gives each sampler its unit.
+
+    Without a fragment shader, the outputs that `varyings` names are written into a buffer.
+    """
+    made = program(ctx, vertex, fragment, defines=defines, varyings=varyings)
     block.join(made)
     for name, unit in units.items():
         if name in made:

@@ -2,15 +2,15 @@
 // painted blade is, the target of a blade on its way (paper, section 4.2).
 #include "lib/light.glsl"
 #include "lib/posture.glsl"
+#include "lib/received.glsl"
 
-uniform sampler2D edges;    // two texels for each vertical edge: foot, height; message, columns, sections
-uniform sampler2D targets;  // (u, v) of POINTS points for each blade
+uniform sampler2D targets;    // (u, v) of POINTS points for each blade
+uniform ivec4 stacks[RINGS];  // by ring: columns of a strip, sections of a column, strips of a kind on a patch
+uniform vec4 tall;            // by kind: height of the strips [m]
 
 struct Edge {
     vec3 foot;
-    float height;
     vec2 message;
-    vec2 fineness;  // columns, sections
 };
 
 struct Painted {
@@ -22,40 +22,41 @@ struct Painted {
     vec2 message;  // mean of the two
 };
 
-Edge edge_at(int number) {
-    ivec2 first = ivec2(number % PER_ROW * 2, number / PER_ROW);
-    vec4 one = texelFetch(edges, first, 0), two = texelFetch(edges, first + ivec2(1, 0), 0);
-    return Edge(one.xyz, one.w, two.xy, two.zw);
+Edge edge_at(vec4 base, int receiver, int edge) {
+    vec4 told = received_by(receiver + edge);
+    vec2 foot = base.xy + base.zw * float(edge);
+    return Edge(vec3(foot.x, told.z, foot.y), told.xy);
 }
 
-// The point at `part` of an edge's length, and its height in the canopy.
-vec4 on_edge(Edge edge, int kind, float part, float tall) {
+// The point at `part` of an edge's length, on a strip of this height [m], and its height in the canopy.
+vec4 on_edge(Edge edge, int kind, float part, float height) {
     vec3 spine = posture(float(kind) * field.w, edge.message, part).place;
-    return vec4(edge.foot + spine * edge.height, spine.y * tall / (root[kind].w * lodged(edge.message)));
+    return vec4(edge.foot + spine * height, spine.y * tall[kind] / (root[kind].w * lodged(edge.message)));
 }
 
 vec2 target_at(int number, int point) {
-    return texelFetch(targets, ivec2(number % PER_ROW * POINTS + point, number / PER_ROW), 0).rg;
+    return texelFetch(targets, ivec2(number % TARGETS_ROW * POINTS + point, number / TARGETS_ROW), 0).rg;
 }
 
-Painted painted_at(int strip, int blade, float t, int kind, float tall) {
+// Part `t` of a blade that is painted on a strip of a ring: `base` is the strip's first foot and the way from edge to edge,
+// `receiver` that of its first edge, `blade` its row of the targets.
+Painted painted_at(vec4 base, int receiver, int blade, float height, float t, int kind, int ring) {
     float along = t * float(POINTS - 1);
     int knot = min(int(along), POINTS - 2);
     vec2 before = target_at(blade, knot), after = target_at(blade, knot + 1);
     vec2 uv = mix(before, after, along - float(knot)), way = after - before;
 
-    vec2 fineness = edge_at(strip).fineness;
-    uv.x *= fineness.x;
-    uv.y *= fineness.y;
+    vec2 fineness = vec2(stacks[ring].xy);
+    uv *= fineness;
     way *= fineness;
     ivec2 quad = clamp(ivec2(uv), ivec2(0), ivec2(fineness) - 1);
     vec2 part = uv - vec2(quad);
-    Edge a = edge_at(strip + quad.x), b = edge_at(strip + quad.x + 1);
+    Edge a = edge_at(base, receiver, quad.x), b = edge_at(base, receiver, quad.x + 1);
     float low = float(quad.y) / fineness.y, high = float(quad.y + 1) / fineness.y;
-    vec4 near = on_edge(b, kind, low, tall), far = on_edge(a, kind, high, tall);
+    vec4 near = on_edge(b, kind, low, height), far = on_edge(a, kind, high, height);
     // A quad is two triangles, parted from the second edge's foot to the first edge's head.
     bool lower = part.x + part.y <= 1.0;
-    vec4 corner = lower ? on_edge(a, kind, low, tall) : on_edge(b, kind, high, tall);
+    vec4 corner = lower ? on_edge(a, kind, low, height) : on_edge(b, kind, high, height);
     vec4 across = lower ? near - corner : corner - far, up = lower ? far - corner : corner - near;
     vec2 from = lower ? part : part - 1.0;
     vec4 at = corner + across * from.x + up * from.y;

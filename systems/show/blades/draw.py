@@ -1,4 +1,4 @@
-"""Drawing 3D blades: one instanced draw per sub-level."""
+"""Drawing 3D blades: a pass over the blades, then a ribbon for each."""
 
 from collections.abc import Mapping
 
@@ -10,9 +10,13 @@ from ....engine.gl.stream import Stream, release_all
 from ...frame.block import FrameBlock, joined
 from .pool import BLADE
 
-MOVED = np.dtype([("message", "2f4"), ("fade", "f4"), ("slide", "f4")])
-"""What changes each frame about a blade: its receiver's message, how much it shows, and how far its joints have slid
-together to those of the next coarser ring."""
+RIBBON = np.dtype([(name, "4f4") for name in ("foot", "lie", "low", "high", "tilt", "crown", "joints")])
+"""What the pass over the blades finds out about each, as `blade.vert` says."""
+
+PAINTED = np.dtype([*((name, "4f4") for name in RIBBON.names or ()), ("base", "4f4"), ("painted", "4f4")])
+"""The same for a blade that is on its way to its painted place."""
+
+MESSAGE = np.dtype([("message", "2f4")])
 
 WHOLE, CORES, EDGES = range(3)
 """What is drawn of soft blades: all; the pixels that count as hidden behind them; the others."""
@@ -23,12 +27,23 @@ ROUND = "0.35"
 SHADER_BLADE = np.dtype([(name if name != "root" else "root_at", BLADE[name]) for name in BLADE.names or ()])
 """`BLADE` under the shader's names: `root` alone is a colour there."""
 
+Defines = Mapping[str, str | int]
 
-class BladePainter:
-    """Draws blades with a given number of segments, whose joints can slide together to be those of `coarser` blades.
 
-    Soft ones have smooth edges and must come from far to near; only those up to `near` [m] hide one another by depth.
-    The others are opaque and may come in any order.
+def blade_program(
+    ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], record: np.dtype[np.void], defines: Defines
+) -> moderngl.Program:
+    """Return the program of the pass over blades, which writes records of `RIBBON` or `PAINTED`."""
+    return joined(
+        ctx, block, units, "systems/show/blades/blade.vert", None, {"ROUND": ROUND, **defines},
+        varyings=tuple(record.names or ()),
+    )  # fmt: skip
+
+
+class Ribbons:
+    """Ribbons with a given number of segments, whose joints can slide together to be those of `coarser` blades.
+
+    Soft ones have smooth edges and must come from far to near; the others are opaque and may come in any order.
     """
 
     def __init__(
@@ -40,37 +55,61 @@ class BladePainter:
         *,
         soft: bool,
         coarser: int | None = None,
-        near: float = 0.0,
+        record: np.dtype[np.void] = RIBBON,
+        defines: Defines | None = None,
     ) -> None:
         self.segments = segments
         self.soft = soft
-        defines: dict[str, str | int] = {"SEGMENTS": segments, "ROUND": ROUND, **({"SOFT": 1} if soft else {})}
-        defines["COARSER"] = min(coarser or segments, segments)
+        whole: dict[str, str | int] = {"SEGMENTS": segments, "COARSER": min(coarser or segments, segments)}
+        whole |= {**({"SOFT": 1} if soft else {}), **(defines or {})}
         self.program = joined(
-            ctx, block, units, "systems/show/blades/blades.vert", "systems/show/blades/blades.frag", defines
+            ctx, block, units, "systems/show/blades/ribbon.vert", "systems/show/blades/blades.frag", whole
         )
-        if soft:
-            self.program["near"] = near
-        self.blades = Stream(ctx, SHADER_BLADE)
-        self.moved = Stream(ctx, MOVED)
-        self.array = ctx.vertex_array(
-            self.program, [self.blades.binding(self.program), self.moved.binding(self.program)]
-        )
+        self.stream = Stream(ctx, record)
+        self.array = ctx.vertex_array(self.program, [self.stream.binding(self.program)])
 
-    def write(self, blades: NDArray[np.void], moved: NDArray[np.void]) -> None:
-        """Send the blades, records of `BLADE` and of `MOVED`, each of shape (n,)."""
-        self.blades.write(blades.view(SHADER_BLADE))
-        self.moved.write(moved)
+    def fill(self, blades: moderngl.VertexArray, count: int, *, first: int = 0) -> int:
+        """Let the pass over blades make out `count` of them, from the `first` on; return the number of draw calls."""
+        self.stream.room(count)
+        if count:
+            blades.transform(self.stream.buffer, moderngl.POINTS, vertices=count, first=first)
+        return int(count > 0)
 
     def draw(self, part: int = WHOLE) -> int:
-        """Draw what was written, of soft blades this part; return the number of draw calls."""
-        if not self.blades.count:
+        """Draw what was filled in, of soft blades this part; return the number of draw calls."""
+        if not self.stream.count:
             return 0
         if self.soft:
             self.program["part"] = part
-        self.array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.segments + 2, instances=self.blades.count)
+        self.array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.segments + 2, instances=self.stream.count)
         return 1
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(self.array, self.program, self.blades, self.moved)
+        release_all(self.array, self.program, self.stream)
+
+
+class BladePainter:
+    """Draws any blades as they are sent, opaque and in any order."""
+
+    def __init__(
+        self, ctx: moderngl.Context, block: FrameBlock, segments: int, units: Mapping[str, int]
+    ) -> None:
+        self.ribbons = Ribbons(ctx, block, segments, units, soft=False)
+        self.program = blade_program(ctx, block, units, RIBBON, {})
+        self.blades, self.messages = Stream(ctx, SHADER_BLADE), Stream(ctx, MESSAGE)
+        streams = [stream.binding(self.program, each="/v") for stream in (self.blades, self.messages)]
+        self.array = ctx.vertex_array(self.program, streams)
+
+    def write(self, blades: NDArray[np.void], messages: NDArray[np.float32]) -> None:
+        """Send the blades, records of `BLADE` (n,), and their messages (n, 2)."""
+        self.blades.write(blades.view(SHADER_BLADE))
+        self.messages.write(messages)
+
+    def draw(self) -> int:
+        """Draw what was written; return the number of draw calls."""
+        return self.ribbons.fill(self.array, self.blades.count) + self.ribbons.draw()
+
+    def release(self) -> None:
+        """Give everything back."""
+        release_all(self.ribbons, self.array, self.program, self.blades, self.messages)

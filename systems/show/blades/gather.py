@@ -1,33 +1,26 @@
-"""Gathering blades: those that are seen, laid out for the graphics card."""
+"""Gathering blades: the numbers of those that are seen, in the order of drawing."""
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .draw import MOVED
 from .pool import BladePool
 from .shown import Standing
 
+Numbers = NDArray[np.uint32]
 
-def gather_blades(
-    pool: BladePool, shown: Standing, /, *, eye: tuple[float, float] | None = None
-) -> tuple[NDArray[np.void], NDArray[np.void]]:
-    """Return the blades that grow on the patches shown, records of `BLADE` and of `MOVED`, each of shape (n,).
 
-    Seen from `eye` (x, z) [m] they come from far to near; without it, patch by patch as they were planted. An order by
-    patches would turn over along a whole border between two of them when the viewer crosses its line.
+def gather_blades(pool: BladePool, shown: Standing, /, *, eye: tuple[float, float]) -> Numbers:
+    """Return the numbers of the blades that grow on the patches shown, as seen from `eye` (x, z) [m], far to near, (n,).
+
+    A blade's number is its patch's place among all patches with blades, times the blades on a patch, plus its own. An
+    order by patches would turn over along a whole border between two of them when the viewer crosses its line.
     """
-    present = pool.present[shown.slots]
-    each = present.shape[1]
-    which = (shown.slots[:, None] * each + np.arange(each))[present]
-    patch = np.repeat(np.arange(len(present)), present.sum(axis=1))
-    if eye is not None:
-        order = far_first(pool.place.reshape(-1, 2)[which] - np.array(eye, np.float32))
-        which, patch = which[order], patch[order]
-    moved = np.empty(len(which), MOVED)
-    moved["message"] = pool.message.reshape(-1, 2)[which]
-    moved["fade"], moved["slide"] = shown.fade[patch], shown.slide[patch]
-    # `take` copies records whole, many times as fast as an index does field by field.
-    return pool.blade.reshape(-1).take(which), moved
+    each = pool.present.shape[1]
+    at = np.flatnonzero(pool.present.take(shown.slots, axis=0))
+    patch, blade = np.divmod(at, each)
+    place = pool.place.reshape(-1, 2).take(shown.slots.take(patch) * each + blade, axis=0)
+    numbers = shown.places.take(patch) * each + blade
+    return numbers.take(far_first(place - np.array(eye, np.float32))).astype(np.uint32)
 
 
 def far_first(away: NDArray[np.float32], /) -> NDArray[np.intp]:

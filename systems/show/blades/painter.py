@@ -1,45 +1,123 @@
 """Painting blades: those on their way first, then all rings from far to near."""
 
+from collections.abc import Mapping
+
 import moderngl
+import numpy as np
+from numpy.typing import NDArray
 
 from ....engine.declared.quality import Quality
-from ....engine.gl.stream import release_all
+from ....engine.gl.records import Records
+from ....engine.gl.stream import Stream, release_all
+from ...around.appearance import handed_over
 from ...around.outlook import Outlook
 from ...around.representation import Canvas
+from ...frame.block import by_kind
+from ...receive.hearing import Hearing
+from ..strips.draw import tell_stacks
 from ..strips.representation import StripRepresentation
-from .draw import CORES, EDGES, BladePainter
+from .draw import CORES, EDGES, PAINTED, RIBBON, Ribbons, blade_program
 from .gather import gather_blades
-from .morph_draw import MorphPainter
+from .morph import gather_morph
+from .plant import BladeStock
 from .pool import BladesKept
-from .shown import BladesShown
+from .shown import BladesShown, Standing
+from .store import STANDING, STANDING_ROW, BladeStore
+
+Floats = NDArray[np.float32]
 
 PARTED = 1
 """Distance up to which blades hide one another by depth [patch sides]."""
+
+NUMBER = np.dtype([("number", "u4")])
 
 
 class BladesPainter:
     """Draws the blades of all rings, and those on their way to their strips."""
 
-    def __init__(self, canvas: Canvas, strips: StripRepresentation, quality: Quality) -> None:
-        rings, near = quality.blade_rings, PARTED * quality.patch
+    def __init__(
+        self, canvas: Canvas, stock: BladeStock, strips: StripRepresentation, quality: Quality
+    ) -> None:
+        ctx, block, units, rings = canvas.ctx, canvas.block, canvas.units, quality.blade_rings
+        self.store = BladeStore(ctx, stock, strips.stock)
+        self._strips, self._units, self._received, self._models = strips, units, canvas.received, len(stock.rank)
+        self._fade, self._near = canvas.transitions.fade, PARTED * quality.patch
+        self.standing = Records(ctx, STANDING, STANDING_ROW)
+        self.numbers = Stream(ctx, NUMBER)
+        laid = {**self.store.defines, "STORED": 1, "RINGS": len(quality.strip_rings)}
+        self.hearing = Hearing(canvas, "systems/show/blades/receivers.frag", laid, self._tell)
+        self.passes = [
+            blade_program(ctx, block, units, record, defines)
+            for record, defines in ((RIBBON, laid), (PAINTED, {**laid, "MORPH": 1}))
+        ]
+        for made in self.passes:
+            self._tell(made)
+        self.arrays = [ctx.vertex_array(made, [self.numbers.binding(made, each="/v")]) for made in self.passes]
         self.rings = [
-            BladePainter(
-                canvas.ctx, canvas.block, fine.segments, canvas.units, soft=True, coarser=coarse.segments, near=near
-            )
+            Ribbons(ctx, block, fine.segments, units, soft=True, coarser=coarse.segments)
             for fine, coarse in zip(rings, rings[1:] + rings[-1:], strict=True)
         ]
+        self.morph = Ribbons(
+            ctx, block, rings[-1].segments, units, soft=True, record=PAINTED, defines={**laid, "MORPH": 1}
+        )
+        self._tell(self.morph.program)
         self._parted = 1 + sum(ring.to < PARTED for ring in rings[:-1])
-        self.morph = MorphPainter(canvas, strips, quality)
+        self._counts: list[int] = []
+        self._first = self._asked = 0
 
-    def write(self, outlook: Outlook, /) -> int:
-        """Send the blades that are shown; return how many."""
+    def _tell(self, made: moderngl.Program) -> None:
+        """Tell a program what it has to know of blades and of strips."""
+        kinds = self._strips.stock.strips[0]
+        for name, value in (
+            ("each", self.store.count),
+            ("near", self._near),
+            ("models", self._models),
+            ("margin", by_kind([strips.margin for strips in kinds])),
+            ("tall", by_kind([strips.height for strips in kinds])),
+        ):
+            if name in made:
+                made[name] = value
+        if "stacks" in made:
+            tell_stacks(made, self._strips.quality.strip_rings)
+
+    def receivers(self, outlook: Outlook, /) -> list[int]:
+        """Return how many blades there are on the patches that are shown."""
+        shown: BladesShown = outlook.shown["blades"]
+        return [len(shown.standing.rows) * self.store.count]
+
+    def write(self, outlook: Outlook, first: Mapping[str, list[int]], /) -> int:
+        """Send the patches with blades, and the numbers of the blades that are shown; return how many."""
         kept: BladesKept = outlook.kept["blades"]
         shown: BladesShown = outlook.shown["blades"]
         eye = outlook.viewer.eye[0], outlook.viewer.eye[2]
-        for ring, painter in zip(shown.rings, self.rings, strict=True):
-            painter.write(*gather_blades(kept.pool, ring, eye=eye))
-        moving = self.morph.write(outlook, kept.pool, shown.morphing)
-        return moving + sum(painter.blades.count for painter in self.rings)
+        assert outlook.appearance is not None
+        left, _ = handed_over(outlook.appearance.handed[shown.morphing.rows], fade=self._fade)
+        numbers = [gather_morph(outlook, kept.pool, self._strips, shown.morphing, left=left)]
+        numbers += [gather_blades(kept.pool, ring, eye=eye) for ring in shown.rings]
+        self.standing.write(_standing(outlook, shown, self._strips, left, first["strips"]))
+        self.numbers.write(np.concatenate(numbers).view(NUMBER))
+        self._counts = [len(each) for each in numbers]
+        (self._asked,), (self._first,) = self.receivers(outlook), first["blades"]
+        return sum(self._counts)
+
+    def hear(self) -> int:
+        """Let all blades hear the wind; return the number of draw calls."""
+        self.store.blades.texture.use(self._units["blades"])
+        self.standing.texture.use(self._units["standing"])
+        return self._received.ask(self.hearing.array(), first=self._first, count=self._asked)
+
+    def prepare(self) -> int:
+        """Make out all about each blade that is the same along its ribbon; return the number of draw calls."""
+        self.store.blades.texture.use(self._units["blades"])
+        self.standing.texture.use(self._units["standing"])
+        self.store.slices.use(self._units["slices"])
+        for made in self.passes:
+            made["blades_from"] = self._first, self.store.count
+        calls = first = 0
+        for ribbons, count in zip((self.morph, *self.rings), self._counts, strict=True):
+            calls += ribbons.fill(self.arrays[ribbons is self.morph], count, first=first)
+            first += count
+        return calls
 
     def draw_solid(self) -> int:
         """Draw nothing: blades come after all that is coarser."""
@@ -47,15 +125,53 @@ class BladesPainter:
 
     def draw(self, target: moderngl.Framebuffer, /) -> int:
         """Draw all blades; return the number of draw calls."""
+        self.store.targets.use(self._units["targets"])
         calls = self.morph.draw()
         near, far = self.rings[: self._parted], self.rings[self._parted :]
-        calls += sum(painter.draw() for painter in reversed(far))
+        calls += sum(ribbons.draw() for ribbons in reversed(far))
         # Around the viewer no order is right for every direction: there blades are parted by depth, and then edged.
         target.depth_mask = True
-        calls += sum(painter.draw(CORES) for painter in near)
+        calls += sum(ribbons.draw(CORES) for ribbons in near)
         target.depth_mask = False
-        return calls + sum(painter.draw(EDGES) for painter in reversed(near))
+        return calls + sum(ribbons.draw(EDGES) for ribbons in reversed(near))
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(*self.rings, self.morph)
+        release_all(*self.rings, self.morph, *self.arrays, *self.passes, self.hearing)
+        release_all(self.store, self.standing, self.numbers)
+
+
+def _standing(
+    outlook: Outlook, shown: BladesShown, strips: StripRepresentation, left: Floats, first: list[int]
+) -> NDArray[np.void]:
+    """Return the patches with blades as records of `STANDING`.
+
+    `left` is how much those on their way still show, `first` the number of the first receiver of each ring of strips.
+    """
+    patches, rows = outlook.patches, shown.standing.rows
+    standing = np.zeros(len(rows), STANDING)
+    standing["cell"], standing["row"] = patches.cell[rows], patches.model[rows] * 4 + patches.turn[rows]
+    for ring in shown.rings:
+        standing["fade"][ring.places], standing["slide"][ring.places] = ring.fade, ring.slide
+    if len(shown.morphing.rows):
+        _send_away(standing, outlook, shown.morphing, strips, first)
+        standing["fade"][shown.morphing.places] = left
+    return standing
+
+
+def _send_away(
+    standing: NDArray[np.void], outlook: Outlook, shown: Standing, strips: StripRepresentation, first: list[int]
+) -> None:
+    """Tell the patches on their way where to: to which strips, and how far they have come."""
+    appears, rows, places = outlook.appearance, shown.rows, shown.places
+    assert appears is not None
+    ring, along = strips.ring_and_axis(outlook, rows)
+    standing["morph"][places], standing["growth"][places] = appears.morph[rows], appears.growth[rows]
+    standing["along"][places], standing["ring"][places] = along, ring
+    for number in np.unique(ring).tolist():
+        here = ring == number
+        stands = np.zeros(len(appears.morph), np.int64)
+        of_ring = strips.shown(outlook)[number].rows
+        stands[of_ring] = np.arange(len(of_ring))
+        each = int(np.prod(strips.pools(outlook)[number].shape))
+        standing["edges"][places[here]] = first[number] + stands[rows[here]] * each

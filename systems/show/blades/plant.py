@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +16,7 @@ Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class BladeStock:
     """The blades of all patch models, those of all kinds together, ready to be stood on the terrain."""
 
@@ -24,6 +25,16 @@ class BladeStock:
 
     rank: Floats
     """The blades' ranks, shape (models, n)."""
+
+    @cached_property
+    def place(self) -> Floats:
+        """Where the roots are in a patch, (x, z) [m], shape (models * 4, n, 2)."""
+        return np.ascontiguousarray(self.records["root"][..., ::2])
+
+    @cached_property
+    def kinds(self) -> NDArray[np.intp]:
+        """The kind of each blade, the same in all models, shape (n,)."""
+        return self.records["kind"][0].astype(np.intp)
 
 
 def blade_records(blades: Blades, turn: int, /, *, patch: float, kind: int, variants: int) -> NDArray[np.void]:
@@ -60,18 +71,33 @@ def _turned(growths: Sequence[Growth], model: int, turn: int, patch: float) -> N
     ])  # fmt: skip
 
 
+def standing_blades(
+    stock: BladeStock, cell: Ints, model: Ints, turn: Ints, ground: Ground, /
+) -> tuple[NDArray[np.void], NDArray[np.bool_]]:
+    """Return the blades of each cell (m, 2) where they stand, and which of them grow there, shape (m, n) each.
+
+    They are records of `BLADE` with their roots on the terrain.
+    """
+    chosen = stock.records[model * 4 + turn]
+    corner = cell.astype(np.float32) * np.float32(ground.patch)
+    chosen["root"][..., ::2] += corner[:, None, :]
+    place = np.ascontiguousarray(chosen["root"][..., ::2])
+    chosen["root"][..., 1] = height_at(ground.terrain, place.reshape(-1, 2)).reshape(chosen.shape)
+    return chosen, _grown(stock, place, model, ground)
+
+
 def plant_blades(
     pool: BladePool, slots: NDArray[np.int64], cell: Ints, model: Ints, turn: Ints, stock: BladeStock, ground: Ground, /
 ) -> None:
     """Stand the blades of each cell (m, 2) in its slot of the pool."""
     pool.stamp[slots] = cell
-    chosen = stock.records[model * 4 + turn]
     corner = cell.astype(np.float32) * np.float32(ground.patch)
-    chosen["root"][..., ::2] += corner[:, None, :]
-    place = np.ascontiguousarray(chosen["root"][..., ::2])
-    flat = place.reshape(-1, 2)
-    chosen["root"][..., 1] = height_at(ground.terrain, flat).reshape(chosen.shape)
-    kind = chosen["kind"].astype(np.intp).reshape(1, -1)
-    dense = np.take_along_axis(density_at(ground.density, flat), kind, axis=0).reshape(chosen.shape)
-    pool.blade[slots], pool.place[slots] = chosen, place
-    pool.present[slots] = (stock.rank[model] < dense) & (dense > PRESENT)
+    place = stock.place[model * 4 + turn] + corner[:, None, :]
+    pool.place[slots], pool.present[slots] = place, _grown(stock, place, model, ground)
+
+
+def _grown(stock: BladeStock, place: Floats, model: Ints, ground: Ground) -> NDArray[np.bool_]:
+    """Return which blades grow at their places (m, n, 2), shape (m, n)."""
+    dense = density_at(ground.density, place.reshape(-1, 2))
+    own = np.take_along_axis(dense, np.tile(stock.kinds, len(place))[None], axis=0).reshape(place.shape[:-1])
+    return np.asarray((stock.rank[model] < own) & (own > PRESENT))

@@ -1,4 +1,4 @@
-"""The pool of blades near enough to be 3D, and of their receivers."""
+"""Which blades are near enough to be 3D, and where: their places are those of their receivers."""
 
 from dataclasses import dataclass
 
@@ -24,12 +24,12 @@ BLADE = np.dtype(
     ]
 )
 """What the graphics card is told of a blade: root [m], length [m], lean, face normal (x, z), width at the root [m],
-row of the posture table, kind, and height of its stem [m]. The field names are the shader's attributes."""
+row of the posture table, kind, and height of its stem [m]. The field names are the shader's; it reads three texels."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BladePool:
-    """The blades of all patches near enough to be 3D, one slot per patch.
+    """The blades of all patches near enough to be 3D, one slot per patch; each is a receiver.
 
     Slots form a window that wraps round, as the rows of a `PatchTable` do.
     """
@@ -37,8 +37,8 @@ class BladePool:
     side: int
     """Patches along the window's side."""
 
-    blade: NDArray[np.void]
-    """Records of `BLADE`, shape (side * side, n)."""
+    kinds: NDArray[np.intp]
+    """The kind of each of a patch's blades, shape (n,)."""
 
     present: NDArray[np.bool_]
     """Whether the blade grows at its place's density, shape (side * side, n)."""
@@ -46,11 +46,18 @@ class BladePool:
     place: Floats
     """Receivers' ground positions (x, z) [m], shape (side * side, n, 2)."""
 
-    message: Floats
-    """Receivers' messages, shape (side * side, n, 2)."""
-
     stamp: NDArray[np.int32]
     """Cell (i, j) that each slot is planted for, shape (side * side, 2)."""
+
+    @property
+    def slots(self) -> int:
+        """How many slots there are."""
+        return len(self.stamp)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """How the receivers of a slot are laid out."""
+        return self.kinds.shape
 
     def places(self, slots: NDArray[np.int64], /) -> Floats:
         """Return the ground positions (x, z) [m] of the receivers of some slots, shape (m, n, 2)."""
@@ -58,7 +65,7 @@ class BladePool:
 
     def kind(self, slots: NDArray[np.int64], /) -> NDArray[np.intp]:
         """Return the kind that each receiver of some slots is of, shape (len(slots) * n,)."""
-        return self.blade["kind"][slots].reshape(-1).astype(np.intp)
+        return np.tile(self.kinds, len(slots))
 
     def grows(self, slots: NDArray[np.int64], cells: NDArray[np.int32], /) -> NDArray[np.bool_]:
         """Return which blades of some slots grow on these cells (m, 2), shape (m * n,)."""
@@ -66,21 +73,15 @@ class BladePool:
         return np.asarray(self.present[slots] & planted[:, None]).reshape(-1)
 
     @classmethod
-    def allocate(cls, side: int, blades: int) -> "BladePool":
-        """Return an empty pool for a window of `side` by `side` patches."""
-        return cls.allocate_slots(side * side, blades, side=side)
-
-    @classmethod
-    def allocate_slots(cls, slots: int, blades: int, *, side: int = 0) -> "BladePool":
-        """Return an empty pool of any number of slots, which need not form a window."""
-        shape = (slots, blades)
+    def allocate(cls, side: int, kinds: NDArray[np.intp]) -> "BladePool":
+        """Return an empty pool for a window of `side` by `side` patches with blades of these kinds (n,)."""
+        shape = (side * side, len(kinds))
         return cls(
             side=side,
-            blade=np.zeros(shape, BLADE),
+            kinds=kinds,
             present=np.zeros(shape, np.bool_),
             place=np.zeros((*shape, 2), np.float32),
-            message=np.zeros((*shape, 2), np.float32),
-            stamp=np.full((slots, 2), NOWHERE, np.int32),
+            stamp=np.full((side * side, 2), NOWHERE, np.int32),
         )
 
 

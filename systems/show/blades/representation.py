@@ -31,7 +31,8 @@ class BladeRepresentation(Representation):
     name: ClassVar[str] = "blades"
     label: ClassVar[str] = "3D blades"
     color: ClassVar[Color] = (0.98, 0.33, 0.20)
-    samplers: ClassVar[tuple[str, ...]] = ("edges", "targets")
+    samplers: ClassVar[tuple[str, ...]] = ("targets",)
+    asked: ClassVar[tuple[str, ...]] = ("blades", "standing", "slices")
 
     stock: BladeStock
     quality: Quality
@@ -58,7 +59,7 @@ class BladeRepresentation(Representation):
     def keep(self, patches: PatchTable, side: int, /) -> BladesKept:
         """Return an empty pool."""
         del patches
-        return BladesKept(BladePool.allocate(side, self.stock.records.shape[1]), self.name)
+        return BladesKept(BladePool.allocate(side, self.stock.kinds), self.name)
 
     def pool(self, outlook: Outlook, /) -> BladePool:
         """Return the pool around a viewer."""
@@ -95,4 +96,4 @@ class BladeRepresentation(Representation):
     def painter(self, canvas: Canvas, /) -> BladesPainter:
         """Return a painter of all rings."""
         strips = next(each for each in canvas.representations if isinstance(each, StripRepresentation))
-        return BladesPainter(canvas, strips, self.quality)
+        return BladesPainter(canvas, self.stock, strips, self.quality)

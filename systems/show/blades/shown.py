@@ -24,6 +24,9 @@ class Standing:
     slots: Rows
     """Slots of the pool, shape (m,)."""
 
+    places: Rows
+    """Place of each among all patches with blades, shape (m,)."""
+
     fade: Floats
     """How much of each shows, in [0, 1], shape (m,)."""
 
@@ -31,9 +34,10 @@ class Standing:
     """How far the joints of each one's blades have slid together to those of the next ring, shape (m,)."""
 
     @classmethod
-    def whole(cls, rows: Rows, slots: Rows) -> "Standing":
-        """Return patches whose blades show wholly."""
-        return cls(rows, slots, np.ones(len(rows), np.float32), np.zeros(len(rows), np.float32))
+    def whole(cls, rows: Rows, slots: Rows, places: Rows | None = None) -> "Standing":
+        """Return patches whose blades show wholly; without `places` they are all patches with blades."""
+        where = np.arange(len(rows)) if places is None else places
+        return cls(rows, slots, where, np.ones(len(rows), np.float32), np.zeros(len(rows), np.float32))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -61,13 +65,17 @@ def show_blades(outlook: Outlook, cover: Floats, /, *, level: int, side: int, ri
     near = near[far_to_near(patches.cell[near], outlook.viewer.centre)]
     slots = window_rows(patches.cell[near], side=side)
     moving = outlook.appearance.morph[near] > 0.0
-    still, places = near[~moving], slots[~moving]
-    ring, slide = _rings(patches, still, level)
+    still, changing = np.flatnonzero(~moving), np.flatnonzero(moving)
+    ring, slide = _rings(patches, near[still], level)
     chosen = [np.flatnonzero(ring == number) for number in range(rings)]
+    places = [still[each] for each in chosen]
     return BladesShown(
         standing=Standing.whole(near, slots),
-        rings=[Standing(still[each], places[each], cover[still[each]], slide[each]) for each in chosen],
-        morphing=Standing.whole(near[moving], slots[moving]),
+        rings=[
+            Standing(near[place], slots[place], place, cover[near[place]], slide[each])
+            for each, place in zip(chosen, places, strict=True)
+        ],
+        morphing=Standing.whole(near[changing], slots[changing], changing),
     )
 
 

@@ -23,7 +23,7 @@ in float tall;
 in float dense;
 in vec4 met;
 uniform sampler2D air;  // the wind's message in the middle of each patch, wrapping round
-uniform vec2 mean_air;
+uniform sampler2D mean_air;
 
 vec2 spun(vec2 v, int turns) {
     return turns == 0 ? v : turns == 1 ? vec2(-v.y, v.x) : turns == 2 ? -v : vec2(v.y, -v.x);
@@ -63,7 +63,7 @@ vec2 message_at(vec2 at) {
     float side = float(textureSize(air, 0).x) * soil.w;
     vec2 apart = abs(at - (vec2(window.xy) + 0.5) * soil.w);
     float far = smoothstep(0.35, 0.48, max(apart.x, apart.y) / side);
-    return mix(texture(air, at / side).xy, mean_air, far);
+    return mix(texture(air, at / side).xy, texelFetch(mean_air, ivec2(0), 0).xy, far);
 }
 
 vec3 carpet_light(float slope) {

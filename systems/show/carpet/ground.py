@@ -145,7 +145,6 @@ class GroundPainter:
         self.growths = growths
         self.shares = ctx.texture((side, side), 1, alignment=1)
         self.shares.filter = (moderngl.NEAREST, moderngl.NEAREST)
-        self.air = ctx.texture((side, side), 2, dtype="f4")
         self.units = units
         corners, indices = _grid()
         self.grid = ctx.buffer(corners), ctx.buffer(indices)
@@ -185,14 +184,6 @@ class GroundPainter:
         """Lay the carpet at this part of the height of the grass."""
         self._tell("raised", by_kind([part * carpet_of(growth.models[0]).height for growth in self.growths]))
 
-    def blow(self, message: NDArray[np.float32], mean: NDArray[np.float32]) -> None:
-        """Send the messages on the patch table's rows (rows, 2), and their mean (2,) for what lies farther off.
-
-        The carpet's light follows them, though it does not move.
-        """
-        self.air.write(np.ascontiguousarray(message))
-        self.carpet.program["mean_air"] = (float(mean[0]), float(mean[1]))
-
     def write_shares(self, shares: NDArray[np.float32], centre: NDArray[np.int32]) -> None:
         """Send how much the carpet shows on each row of the patch table (rows,) around the viewer's cell."""
         self.shares.write(np.round(shares * 255.0).astype(np.uint8))
@@ -201,7 +192,6 @@ class GroundPainter:
     def draw_opaque(self) -> int:
         """Draw the bare ground, and what lies under the carpet; return the number of draw calls."""
         self.shares.use(self.units["shares"])
-        self.air.use(self.units["air"])
         return self.bare.draw() + self.under.draw()
 
     def draw_carpet(self) -> int:
@@ -212,4 +202,4 @@ class GroundPainter:
         """Give everything back."""
         layers = (self.bare, self.under, self.carpet)
         release_all(*(layer.array for layer in layers), *(layer.program for layer in layers))
-        release_all(*self.streams, *self.grid, self.shares, self.air)
+        release_all(*self.streams, *self.grid, self.shares)

@@ -1,6 +1,6 @@
 """Painting the carpet, and the ground under everything."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import moderngl
 import numpy as np
@@ -12,6 +12,7 @@ from ...around.ground import Ground
 from ...around.outlook import Outlook
 from ...around.representation import Canvas
 from ...grow.record import Growth
+from .air import Air
 from .ground import RAISED, GroundPainter, finest_spacing, ground_tiles, within
 from .pool import CarpetKept
 from .textures import carpet_texture
@@ -27,6 +28,8 @@ class CarpetPainter:
         self._whole_to = canvas.reach[-2] - int(BORDER) - 1
         self._units = canvas.units
         self.images = carpet_texture(canvas.ctx, growths)
+        self.air = Air(canvas, side)
+        self._heard: tuple[NDArray[np.int32], int, CarpetKept] | None = None
         self.ground = GroundPainter(
             canvas.ctx, canvas.block, growths, canvas.units, side=side, seed=canvas.seed, patch=ground.patch
         )
@@ -36,21 +39,38 @@ class CarpetPainter:
         self._ground = ground
         self._spacing = finest_spacing(ground.terrain, ground.patch)
 
-    def write(self, outlook: Outlook, /) -> int:
+    def receivers(self, outlook: Outlook, /) -> list[int]:
+        """Return how many patches there are."""
+        return [len(outlook.patches.progress)]
+
+    def write(self, outlook: Outlook, first: Mapping[str, list[int]], /) -> int:
         """Send the tiles of the ground, and how much carpet lies on each patch; it has no blades."""
         assert outlook.appearance is not None
         self.lay(outlook, outlook.appearance.cover[-1])
+        self._heard = outlook.viewer.centre, first["carpet"][0], outlook.kept["carpet"]
+        return 0
+
+    def hear(self) -> int:
+        """Let the middles of all patches hear the wind; return the number of draw calls."""
+        if self._heard is None:
+            return 0
+        centre, first, kept = self._heard
+        calls = self.air.hear(centre, first)
+        for row, message in kept.receiving[0].letters.written():
+            self.air.write(row, message[0])
+        return calls + self.air.sum_up()
+
+    def prepare(self) -> int:
+        """Prepare nothing: there is nothing but the ground."""
         return 0
 
     def lay(self, outlook: Outlook, cover: Floats | None, /) -> None:
-        """Send the tiles of the ground, how much carpet lies on each patch, and how the wind bends its grass.
+        """Send the tiles of the ground, and how much carpet lies on each patch.
 
         `cover` has shape (rows,); without it there is none. Beyond the terrain's edge it is whole, where a game has
         taken the grass away there is none.
         """
-        kept: CarpetKept = outlook.kept["carpet"]
         patches, viewer = outlook.patches, outlook.viewer
-        self.ground.blow(kept.pool.message[:, 0], outlook.air)
         tiles = ground_tiles(self._ground.terrain, viewer.eye, viewer.cone, spacing=self._spacing)
         near = within(tiles, viewer.centre, patch=self._ground.patch, reach=self._whole_to)
         self.ground.write(tiles, np.zeros_like(near) if cover is None else ~near)
@@ -71,6 +91,7 @@ class CarpetPainter:
 
     def draw_solid(self) -> int:
         """Draw the bare ground, and what lies under the carpet; return the number of draw calls."""
+        self.air.use()
         return self.ground.draw_opaque()
 
     def draw(self, target: moderngl.Framebuffer, /) -> int:
@@ -83,4 +104,4 @@ class CarpetPainter:
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(self.ground, self.images)
+        release_all(self.ground, self.air, self.images)

@@ -18,8 +18,16 @@ class CarpetPool:
 
     def __init__(self, patches: PatchTable, ground: Ground) -> None:
         self._patches, self._ground = patches, ground
-        self.message: Floats = np.zeros((len(patches.progress), 1, 2), np.float32)
-        """Their messages, shape (rows, 1, 2)."""
+
+    @property
+    def slots(self) -> int:
+        """How many rows there are."""
+        return len(self._patches.progress)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """How the receivers of a slot are laid out: one."""
+        return (1,)
 
     def places(self, slots: Rows, /) -> Floats:
         """Return the middles (x, z) [m] of some patches, shape (m, 1, 2)."""

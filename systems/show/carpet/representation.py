@@ -26,7 +26,7 @@ class CarpetRepresentation(Representation):
     name: ClassVar[str] = "carpet"
     label: ClassVar[str] = "2D carpet"
     color: ClassVar[Color] = (0.72, 0.45, 0.95)
-    samplers: ClassVar[tuple[str, ...]] = ("images", "shares", "air")
+    samplers: ClassVar[tuple[str, ...]] = ("images", "shares", "air", "mean_air")
     record: ClassVar[type | None] = Carpet
 
     growths: Sequence[Growth]

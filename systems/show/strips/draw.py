@@ -11,34 +11,18 @@ from ....engine.gl.records import Records
 from ....engine.gl.stream import release_all
 from ...around.representation import Canvas
 from ...frame.block import by_kind, joined
+from ...receive.hearing import Hearing
+from .gather import STOOD
 from .grow import Strips
 from .textures import strip_textures
 
 KINDS = 4
 """Kinds of grass that there is room for."""
 
-STRIP = np.dtype(
-    [
-        ("a", "3f4"),
-        ("b", "3f4"),
-        ("wind", "4f4"),
-        ("layer", "f4"),
-        ("picture", "f4"),
-        ("stand", "f4"),
-        ("fade", "f4"),
-        ("growth", "f4"),
-        ("ranks", "f4"),
-    ]
-)
-"""A polygon strip: the feet of its two edges [m], and their messages; the layer of its picture, and which picture;
-how it stands; how much it shows, and how high it is, of its full height.
+STOOD_ROW, STRIPS_ROW = 64, 1024
+"""Records in a row of the textures that hold patches, and the numbers of polygon strips."""
 
-`picture` is `KINDS` times the ring, plus the kind; `stand` is four times the column, plus the patch's quarter turns.
-The blades that show are those whose rank is below `ranks`, or where that is negative those whose rank is not below
--`ranks`. The shader reads a record as four texels."""
-
-PER_ROW = 16
-"""Records in a row of the texture that holds them."""
+NUMBER = np.dtype([("number", "u4")])
 
 
 class StripPainter:
@@ -48,13 +32,17 @@ class StripPainter:
     """
 
     def __init__(self, canvas: Canvas, rings: Sequence[StripRing], stock: Sequence[list[list[Strips]]]) -> None:
-        self.units = canvas.units
+        self.units, self.rings, self.kinds = canvas.units, rings, len(stock[0])
+        self.received = canvas.received
         self.sections = max(ring.sections for ring in rings)
+        self.most = self.kinds * max(ring.strips * ring.columns for ring in rings)
         self.atlas, self.ranks = strip_textures(canvas.ctx, stock)
-        layers = [sum(2 * len(strips.plane) for models in kinds for strips in models) for kinds in stock]
-        self.first_layer = np.cumsum([0, *layers])
-        self.strips = Records(canvas.ctx, STRIP, PER_ROW, rows=1024)
-        whole = {"SECTIONS": self.sections, "RINGS": len(rings), "KINDS": KINDS, "PER_ROW": PER_ROW}
+        self._stock = stock
+        self.stood = Records(canvas.ctx, STOOD, STOOD_ROW)
+        self.strips = Records(canvas.ctx, NUMBER, STRIPS_ROW)
+        laid: dict[str, str | int] = {"RINGS": len(rings), "GROWING": self.kinds, "STOOD_ROW": STOOD_ROW}
+        self.hearing = Hearing(canvas, "systems/show/strips/receivers.frag", laid, self._tell)
+        whole = {**laid, "SECTIONS": self.sections, "KINDS": KINDS, "STRIPS_ROW": STRIPS_ROW}
         self.programs = [
             joined(
                 canvas.ctx, canvas.block, canvas.units, "systems/show/strips/strips.vert",
@@ -63,35 +51,59 @@ class StripPainter:
             for defines in (whole, {**whole, "THIN": 1})
         ]  # fmt: skip
         for made in self.programs:
-            made["tall"] = by_kind([models[0].height for models in stock[0]])
-            # An array of one is no array to those that tell it to the card.
-            fineness = [(ring.columns, ring.sections) for ring in rings]
-            made["fineness"] = fineness if len(rings) > 1 else fineness[0]
-            made["picture_to"] = self._picture_sizes(stock)
+            self._tell(made)
+            made["most"] = self.most
+            made["picture_to"], made["first_layer"] = self._picture_sizes(), self._first_layers()
         self.arrays = [canvas.ctx.vertex_array(made, []) for made in self.programs]
 
-    def _picture_sizes(self, stock: Sequence[list[list[Strips]]]) -> list[tuple[float, float]]:
+    def _tell(self, made: moderngl.Program) -> None:
+        """Tell a program how strips stand."""
+        kinds = [models[0] for models in self._stock[0]]
+        tell_stacks(made, self.rings)
+        made["margin"] = by_kind([strips.margin for strips in kinds])
+        if "tall" in made:
+            made["tall"] = by_kind([strips.height for strips in kinds])
+
+    def _picture_sizes(self) -> list[tuple[float, float]]:
         """Return how far each picture reaches across its layer and up, by ring and kind."""
-        sizes = [(0.0, 0.0)] * (KINDS * len(stock))
-        for ring, kinds in enumerate(stock):
+        sizes = [(0.0, 0.0)] * (KINDS * len(self._stock))
+        for ring, kinds in enumerate(self._stock):
             for kind, models in enumerate(kinds):
                 rows, columns = models[0].rank.shape[2:]
                 sizes[KINDS * ring + kind] = columns / self.atlas.width, rows / self.atlas.height
         return sizes
 
-    def write(self, strips: NDArray[np.void]) -> None:
-        """Send the polygon strips (n,), far to near."""
-        self.strips.write(strips)
+    def _first_layers(self) -> list[int]:
+        """Return where each kind's pictures begin among all layers, by ring and kind."""
+        first, layer = [0] * (KINDS * len(self._stock)), 0
+        for ring, kinds in enumerate(self._stock):
+            for kind, models in enumerate(kinds):
+                first[KINDS * ring + kind] = layer
+                layer += sum(2 * len(strips.plane) for strips in models)
+        return first
+
+    def write(self, stood: NDArray[np.void], strips: NDArray[np.uint32]) -> None:
+        """Send the patches, ring after ring, and the numbers of the polygon strips (n,), far to near."""
+        self.stood.write(stood)
+        self.strips.write(strips.view(NUMBER))
+
+    def hear(self, ring: int, *, patch: int, first: int, count: int) -> int:
+        """Ask the receivers of a ring's patches, whose first is number `patch`; return the number of draw calls."""
+        self.stood.texture.use(self.units["stood"])
+        array = self.hearing.array()
+        array.program["of_ring"] = ring, patch
+        return self.received.ask(array, first=first, count=count)
 
     def draw(self, first: int, count: int, *, thin: bool) -> int:
         """Draw `count` of what was written, from the `first` on; return the number of draw calls.
 
-        With `thin`, blades are drawn by rank: only those that the density and the strip's `ranks` leave.
+        With `thin`, blades are drawn by rank: only those that the density and the patch's `ranks` leave.
         """
         if not count:
             return 0
         self.atlas.use(self.units["atlas"])
         self.ranks.use(self.units["ranks"])
+        self.stood.texture.use(self.units["stood"])
         self.strips.texture.use(self.units["strips"])
         self.programs[thin]["first"] = first
         self.arrays[thin].render(moderngl.TRIANGLE_STRIP, vertices=2 * self.sections + 2, instances=count)
@@ -99,4 +111,11 @@ class StripPainter:
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(*self.arrays, *self.programs, self.strips, self.atlas, self.ranks)
+        release_all(*self.arrays, *self.programs, self.hearing, self.stood, self.strips, self.atlas, self.ranks)
+
+
+def tell_stacks(made: moderngl.Program, rings: Sequence[StripRing], /) -> None:
+    """Tell a program how many columns, sections and strips each ring has."""
+    stacks = [(ring.columns, ring.sections, ring.strips, 0) for ring in rings]
+    # An array of one is no array to those that tell it to the card.
+    made["stacks"] = stacks if len(stacks) > 1 else stacks[0]

@@ -1,16 +1,33 @@
-"""Gathering: what is seen of the pools, laid out for the graphics card."""
+"""Gathering: the patches with strips that are seen, and their polygon strips in the order of drawing."""
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...around.appearance import Appearance, handed_over
 from ...around.patches import PatchTable
-from .draw import KINDS, STRIP
 from .pool import StripPool
 from .shown import StripsOfRing
 
 MOST = 8
 """Draws of strips in a frame at most."""
+
+STOOD = np.dtype(
+    [
+        ("cell", "2f4"),
+        ("model", "f4"),
+        ("stand", "f4"),
+        ("fade", "f4"),
+        ("growth", "f4"),
+        ("ranks", "f4"),
+        ("receiver", "f4"),
+    ]
+)
+"""A patch with strips: its cell and model, how its strips stand, how much they show, and how high they are, of their
+full height; which of their blades show, and its first receiver.
+
+`stand` is the patch's quarter turns, plus 4 where strips run along z, plus 8 where the patch lies ahead of the viewer
+along the axis that they are stacked on, plus 16 times the ring. The blades that show are those whose rank is below
+`ranks`, or where that is negative those whose rank is not below -`ranks`. The shader reads two texels."""
 
 
 def lies_ahead(cell: NDArray[np.int32], centre: NDArray[np.int32], along: NDArray[np.int32], /) -> NDArray[np.bool_]:
@@ -27,57 +44,56 @@ def gather_strips(
     /,
     *,
     ring: int = 0,
-    first_layer: int = 0,
+    receiver: int = 0,
     fade: bool = True,
-) -> tuple[NDArray[np.void], NDArray[np.int64]]:
-    """Return the polygon strips of a ring's patches shown, far to near, and how many there are on each patch.
+) -> NDArray[np.void]:
+    """Return the patches shown of a ring as records of `STOOD`, shape (m,).
 
-    They are records of `STRIP`, shape (n,), and those of one strip follow one another; the counts have shape (m,).
-    The pictures of the `ring` begin at the `first_layer`. `fade` says that a strip appears gradually while blades are
-    handed over to it.
-
-    Strips are stored by rising place in their stack; where the viewer is on the low side they are walked backwards.
+    Their receivers follow one another from the number `receiver` on. `fade` says that a strip appears gradually while
+    blades are handed over to it.
     """
-    ahead = lies_ahead(patches.cell[shown.rows], centre, shown.along)
-    _, kinds, count = pool.layer.shape
-    order = np.where(ahead[:, None], np.arange(count)[::-1], np.arange(count))[..., None]
-    # Strips of several kinds share a plane: each kind comes to lie in front as often as behind.
-    kind = (np.arange(kinds) + order) % kinds
-    at = shown.slots[:, None, None], kind, order
-    place, ground, message = pool.place[at], pool.ground[at], pool.message[at]
-    columns = place.shape[3] - 1
-    records = np.zeros((*place.shape[:3], columns), STRIP)
-    for side, edge in (("a", slice(None, -1)), ("b", slice(1, None))):
-        records[side][..., ::2] = place[..., edge, :]
-        records[side][..., 1] = ground[..., edge]
-        records["wind"][..., slice(0, 2) if side == "a" else slice(2, 4)] = message[..., edge, :]
-    records["layer"] = pool.layer[at][..., None] + np.float32(first_layer)
-    records["picture"] = KINDS * ring + kind[..., None]
-    records["stand"] = 4 * np.arange(columns) + patches.turn[shown.rows][:, None, None, None]
-    records["growth"] = appears.growth[shown.rows][:, None, None, None]
-    records["ranks"] = np.where(shown.least > 0.0, -shown.least, shown.most)[:, None, None, None]
-    covers = shown.fade * handed_over(appears.handed[shown.rows], fade=fade)[1]
-    records["fade"] = covers[:, None, None, None]
-    grows = pool.present[at[:2]] & (covers > 0.0)[:, None, None]
-    # `take` copies records whole, many times as fast as an index does field by field.
-    grown: NDArray[np.void] = records.reshape(-1, columns).take(np.flatnonzero(grows), axis=0).reshape(-1)
-    return grown, grows.sum(axis=(1, 2)) * columns
+    rows = shown.rows
+    stood = np.zeros(len(rows), STOOD)
+    stood["cell"], stood["model"] = patches.cell[rows], patches.model[rows]
+    ahead = lies_ahead(patches.cell[rows], centre, shown.along)
+    stood["stand"] = patches.turn[rows] + 4 * shown.along + 8 * ahead + 16 * ring
+    stood["fade"] = shown.fade * handed_over(appears.handed[rows], fade=fade)[1]
+    stood["growth"] = appears.growth[rows]
+    stood["ranks"] = np.where(shown.least > 0.0, -shown.least, shown.most)
+    stood["receiver"] = receiver + np.arange(len(rows)) * int(np.prod(pool.shape))
+    return stood
 
 
-def in_one_queue(
-    shown: list[StripsOfRing], gathered: list[tuple[NDArray[np.void], NDArray[np.int64]]], /
-) -> tuple[NDArray[np.void], NDArray[np.int64]]:
-    """Return the strips of all rings from far to near, and how many each patch has in that order.
+def polygon_strips(
+    stood: NDArray[np.void],
+    patch: NDArray[np.int64],
+    present: NDArray[np.bool_],
+    fineness: list[tuple[int, int]],
+    /,
+    *,
+    most: int,
+) -> tuple[NDArray[np.uint32], NDArray[np.int64]]:
+    """Return the polygon strips of patches in the order of drawing, and how many there are on each.
 
-    `gathered` are the strips of each ring and how many there are on each of its patches.
+    `stood` are the records of all patches, `patch` (m,) the numbers of those that are drawn, from far to near, and
+    `present` (m, kinds) says which kinds grow on them; `fineness` gives strips and columns by ring. A polygon strip's
+    number is `most` times its patch's, plus (its strip's place on the way from far to near * kinds + its turn among the
+    kinds) * columns + its column, shape (n,).
     """
-    place = np.concatenate([ring.queue for ring in shown])
-    amount = np.concatenate([counts for _, counts in gathered])
-    order = np.argsort(place, kind="stable")
-    start = np.cumsum(amount) - amount
-    end = np.cumsum(amount[order])
-    rows = np.arange(end[-1] if len(end) else 0) + np.repeat(start[order] - (end - amount[order]), amount[order])
-    return np.concatenate([records for records, _ in gathered]).take(rows), amount[order]
+    kinds = present.shape[1]
+    stand = stood["stand"][patch].astype(np.int64)
+    strips, columns = np.array(fineness, np.int64)[stand // 16].reshape(-1, 2).T
+    amount = strips * columns * kinds
+    end = np.cumsum(amount)
+    own = np.arange(end[-1] if len(end) else 0) - np.repeat(end - amount, amount)
+    numbers = (np.repeat(patch * most, amount) + own).astype(np.uint32)
+    if present.all():
+        return numbers, amount
+    index = np.repeat(np.arange(len(patch)), amount)
+    strip, turn = np.divmod(own // columns[index], kinds)
+    ahead = stand[index] // 8 % 2 == 1
+    drawn = present[index, (turn + np.where(ahead, strips[index] - 1 - strip, strip)) % kinds]
+    return numbers[drawn], np.bincount(index[drawn], minlength=len(patch))
 
 
 def runs(ranked: NDArray[np.bool_], amount: NDArray[np.int64], /) -> list[tuple[int, int, bool]]:

@@ -1,6 +1,6 @@
 """Painting strips: all rings in one far-to-near order."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import moderngl
 import numpy as np
@@ -11,9 +11,9 @@ from ...around.outlook import Outlook
 from ...around.representation import Canvas
 from ...grow.record import Growth
 from .draw import StripPainter
-from .gather import gather_strips, in_one_queue, runs
-from .pool import StripsKept
-from .shown import StripsShown
+from .gather import gather_strips, polygon_strips, runs
+from .pool import StripPool, StripsKept
+from .shown import StripsOfRing, StripsShown
 from .textures import strip_stock
 
 WHOLE = 0.995
@@ -25,26 +25,46 @@ class StripsPainter:
 
     def __init__(self, canvas: Canvas, growths: Sequence[Growth], quality: Quality) -> None:
         self._fade = canvas.transitions.fade
-        rings = quality.strip_rings
-        self.strips = StripPainter(canvas, rings, [strip_stock(growths, number) for number in range(len(rings))])
+        self._fineness = [(ring.strips, ring.columns) for ring in quality.strip_rings]
+        stock = [strip_stock(growths, number) for number in range(len(quality.strip_rings))]
+        self.strips = StripPainter(canvas, quality.strip_rings, stock)
         self.runs: list[tuple[int, int, bool]] = []
+        self._asked: list[tuple[int, int, int]] = []
 
-    def write(self, outlook: Outlook, /) -> int:
-        """Send the strips that are shown; they are no blades."""
-        kept: StripsKept = outlook.kept["strips"]
-        shown: StripsShown = outlook.shown["strips"]
-        patches, centre, appears = outlook.patches, outlook.viewer.centre, outlook.appearance
+    def receivers(self, outlook: Outlook, /) -> list[int]:
+        """Return how many edges each ring has."""
+        return [len(ring.rows) * int(np.prod(pool.shape)) for pool, ring in _rings(outlook)]
+
+    def write(self, outlook: Outlook, first: Mapping[str, list[int]], /) -> int:
+        """Send the patches with strips, and the strips that are shown; they are no blades."""
+        rings, appears, starts = _rings(outlook), outlook.appearance, first["strips"]
         assert appears is not None
-        gathered = [
+        stood = np.concatenate([
             gather_strips(
-                pool, ring, appears, patches, centre,
-                ring=number, first_layer=int(self.strips.first_layer[number]), fade=self._fade,
+                pool, ring, appears, outlook.patches, outlook.viewer.centre,
+                ring=number, receiver=starts[number], fade=self._fade,
             )
-            for number, (pool, ring) in enumerate(zip(kept.pools, shown.rings, strict=True))
-        ]  # fmt: skip
-        records, amount = in_one_queue(shown.rings, gathered)
-        self.strips.write(records)
-        self.runs = runs(_ranked(kept, shown), amount)
+            for number, (pool, ring) in enumerate(rings)
+        ])  # fmt: skip
+        before = np.cumsum([0, *(len(ring.rows) for _, ring in rings)])[:-1].tolist()
+        self._asked = list(zip(before, starts, self.receivers(outlook), strict=True))
+        queue = np.argsort(np.concatenate([ring.queue for _, ring in rings]), kind="stable")
+        patch = queue[stood["fade"][queue] > 0.0]
+        present = np.concatenate([pool.present[ring.slots] for pool, ring in rings])[patch]
+        strips, amount = polygon_strips(stood, patch, present, self._fineness, most=self.strips.most)
+        self.strips.write(stood, strips)
+        self.runs = runs(_ranked(rings)[patch], amount)
+        return 0
+
+    def hear(self) -> int:
+        """Let all edges hear the wind; return the number of draw calls."""
+        return sum(
+            self.strips.hear(ring, patch=patch, first=first, count=count)
+            for ring, (patch, first, count) in enumerate(self._asked)
+        )
+
+    def prepare(self) -> int:
+        """Prepare nothing: strips are drawn as they are."""
         return 0
 
     def draw_solid(self) -> int:
@@ -61,14 +81,19 @@ class StripsPainter:
         self.strips.release()
 
 
-def _ranked(kept: StripsKept, shown: StripsShown) -> NDArray[np.bool_]:
-    """Return which patches have to be drawn by rank, from far to near: some of their blades do not show.
+def _rings(outlook: Outlook) -> list[tuple[StripPool, StripsOfRing]]:
+    """Return each ring's pool, and which of its patches are shown."""
+    kept: StripsKept = outlook.kept["strips"]
+    shown: StripsShown = outlook.shown["strips"]
+    return list(zip(kept.pools, shown.rings, strict=True))
+
+
+def _ranked(rings: list[tuple[StripPool, StripsOfRing]]) -> NDArray[np.bool_]:
+    """Return which patches, ring after ring, have to be drawn by rank: some of their blades do not show.
 
     Where grass is thin anywhere in a ring, all of the ring is.
     """
-    place = np.concatenate([ring.queue for ring in shown.rings])
     ranked = [
-        (pool.least[ring.slots] < WHOLE).any() | (ring.most < 1.0) | (ring.least > 0.0)
-        for pool, ring in zip(kept.pools, shown.rings, strict=True)
+        (pool.least[ring.slots] < WHOLE).any() | (ring.most < 1.0) | (ring.least > 0.0) for pool, ring in rings
     ]
-    return np.concatenate(ranked)[np.argsort(place, kind="stable")]
+    return np.concatenate(ranked)

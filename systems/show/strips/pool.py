@@ -1,6 +1,6 @@
-"""The pools of 2.5D strips, and of the receivers at their edges."""
+"""What is known of the 2.5D strips around a viewer; an edge of one is a receiver."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 from ...around.patches import NOWHERE
 from ...around.receivers import Receiving
 from ...around.representation import Kept
+from .grow import Strips
+from .stand import strip_edges
 
 Floats = NDArray[np.float32]
 
@@ -17,62 +19,71 @@ class StripPool:
     """The strips of one ring of 2.5D patches, one slot per patch and orientation; an edge is a receiver.
 
     The slots of patches whose strips run along x come first, then those of strips along z; each form a window that
-    wraps round. Strips are stored by rising distance along their stacking axis (+z or +x).
+    wraps round. Strips are counted by rising distance along their stacking axis (+z or +x). Where they stand is
+    reckoned when it is asked for.
     """
 
     side: int
     """Patches along the window's side."""
 
-    place: Floats
-    """Feet of the vertical edges (x, z) [m], shape (2 * side * side, kinds, strips, columns + 1, 2)."""
+    strips: list[Strips]
+    """By kind, strips whose planes hold for all the kind's models."""
 
-    ground: Floats
-    """Height of the ground under each edge [m], shape (2 * side * side, kinds, strips, columns + 1)."""
+    columns: int
+    """Polygon strips side by side in each strip."""
 
-    message: Floats
-    """Receivers' messages, shape (2 * side * side, kinds, strips, columns + 1, 2)."""
+    patch: float
+    """Side of a patch [m]."""
 
-    layer: Floats
-    """Layer of the texture array, shape (2 * side * side, kinds, strips)."""
+    stamp: NDArray[np.int32] = field(init=False)
+    """Cell (i, j) and orientation that each slot is planted for, shape (slots, 3)."""
 
-    present: NDArray[np.bool_]
-    """Whether the kind grows on the patch at all, shape (2 * side * side, kinds)."""
+    stand: NDArray[np.int32] = field(init=False)
+    """Model and quarter turns of each slot's patch, shape (slots, 2)."""
 
-    least: Floats
-    """Density at each slot's thinnest edge, of the kinds that grow there at all, shape (2 * side * side,)."""
+    present: NDArray[np.bool_] = field(init=False)
+    """Whether the kind grows on the patch at all, shape (slots, kinds)."""
 
-    stamp: NDArray[np.int32]
-    """Cell (i, j) and orientation that each slot is planted for, shape (2 * side * side, 3)."""
+    least: Floats = field(init=False)
+    """Density at each slot's thinnest edge, of the kinds that grow there at all, shape (slots,)."""
+
+    def __post_init__(self) -> None:
+        slots = 2 * self.side * self.side
+        for name, value in (
+            ("stamp", np.full((slots, 3), NOWHERE, np.int32)),
+            ("stand", np.zeros((slots, 2), np.int32)),
+            ("present", np.zeros((slots, len(self.strips)), np.bool_)),
+            ("least", np.zeros(slots, np.float32)),
+        ):
+            object.__setattr__(self, name, value)
+
+    @property
+    def slots(self) -> int:
+        """How many slots there are."""
+        return len(self.stamp)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """How the receivers of a slot are laid out: kinds, strips, edges."""
+        return len(self.strips), len(self.strips[0].plane), self.columns + 1
 
     def places(self, slots: NDArray[np.int64], /) -> Floats:
         """Return the feet (x, z) [m] of the edges of some slots, shape (m, kinds, strips, columns + 1, 2)."""
-        return self.place[slots]
+        along, turn = self.stamp[slots, 2], self.stand[slots, 1]
+        corner = self.stamp[slots, :2].astype(np.float32) * np.float32(self.patch)
+        local = [strip_edges(strips, self.columns, along, turn, patch=self.patch)[0] for strips in self.strips]
+        return (np.stack(local, axis=1) + corner[:, None, None, None, :]).astype(np.float32)
 
     def kind(self, slots: NDArray[np.int64], /) -> NDArray[np.intp]:
         """Return the kind that each receiver of some slots is of, one row after another."""
-        _, kinds, strips, edges = self.ground.shape
+        kinds, strips, edges = self.shape
         return np.tile(np.repeat(np.arange(kinds), strips * edges), len(slots))
 
     def grows(self, slots: NDArray[np.int64], cells: NDArray[np.int32], /) -> NDArray[np.bool_]:
         """Return which edges of some slots stand in grass that grows on these cells (m, 2), shape (n,)."""
         planted = (self.stamp[slots, :2] == cells).all(axis=1)
         kinds = (self.present[slots] & planted[:, None])[..., None, None]
-        return np.broadcast_to(kinds, (len(slots), *self.ground.shape[1:])).reshape(-1)
-
-    @classmethod
-    def allocate(cls, side: int, kinds: int, strips: int, columns: int) -> "StripPool":
-        """Return an empty pool for a window of `side` by `side` patches, in either orientation."""
-        shape = (2 * side * side, kinds, strips)
-        return cls(
-            side=side,
-            place=np.zeros((*shape, columns + 1, 2), np.float32),
-            ground=np.zeros((*shape, columns + 1), np.float32),
-            message=np.zeros((*shape, columns + 1, 2), np.float32),
-            layer=np.zeros(shape, np.float32),
-            present=np.zeros(shape[:2], np.bool_),
-            least=np.zeros(2 * side * side, np.float32),
-            stamp=np.full((2 * side * side, 3), NOWHERE, np.int32),
-        )
+        return np.broadcast_to(kinds, (len(slots), *self.shape)).reshape(-1)
 
 
 class StripsKept(Kept):

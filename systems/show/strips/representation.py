@@ -37,7 +37,8 @@ class StripRepresentation(Representation):
     name: ClassVar[str] = "strips"
     label: ClassVar[str] = "2.5D strips"
     color: ClassVar[Color] = (0.12, 0.50, 0.98)
-    samplers: ClassVar[tuple[str, ...]] = ("atlas", "ranks", "strips")
+    samplers: ClassVar[tuple[str, ...]] = ("atlas", "ranks", "strips", "stood")
+    asked: ClassVar[tuple[str, ...]] = ("stood",)
     record: ClassVar[type | None] = Strips
 
     stock: StripStock
@@ -105,7 +106,8 @@ class StripRepresentation(Representation):
         """Return an empty pool for each ring."""
         del patches
         pools = [
-            StripPool.allocate(side, len(self.growths), ring.strips, ring.columns) for ring in self.quality.strip_rings
+            StripPool(side, strips, ring.columns, self.quality.patch)
+            for strips, ring in zip(self.stock.strips, self.quality.strip_rings, strict=True)
         ]
         return StripsKept(pools, self.name)
 
@@ -152,14 +154,14 @@ class StripRepresentation(Representation):
     def plant(self, outlook: Outlook, /) -> None:
         """Plant the strips of patches whose slot holds another's, or strips that run the other way."""
         patches = outlook.patches
-        for number, (pool, shown) in enumerate(zip(self.pools(outlook), self.shown(outlook), strict=True)):
+        for pool, shown in zip(self.pools(outlook), self.shown(outlook), strict=True):
             wanted = np.column_stack([patches.cell[shown.rows], shown.along])
             stale = (pool.stamp[shown.slots] != wanted).any(axis=1)
             rows = shown.rows[stale]
             if rows.size:
                 plant_strips(
                     pool, shown.slots[stale], patches.cell[rows], patches.model[rows], patches.turn[rows],
-                    shown.along[stale], self.stock.strips[number], self.stock.first_layer[number], self.ground,
+                    shown.along[stale], self.ground,
                 )  # fmt: skip
 
     def painter(self, canvas: Canvas, /) -> StripsPainter:

@@ -1,13 +1,19 @@
 // One instance is one polygon strip between two vertical edges, as many quads high as its ring asks for, at most SECTIONS.
 #include "lib/light.glsl"
 #include "lib/posture.glsl"
+#include "lib/received.glsl"
+#include "lib/stack.glsl"
 
-uniform sampler2D strips;  // four texels for each polygon strip
+uniform usampler2D strips;  // by place in the queue: the polygon strip that is drawn
+uniform sampler2D stood;    // by patch: STOOD
 uniform int first;
+uniform int most;           // numbers of polygon strips that are set aside for a patch
 
-uniform vec4 tall;  // by kind: height of the strips [m]
+uniform vec4 tall;          // by kind: height of the strips [m]
+uniform vec4 margin;        // by kind: how far strips reach beyond their patch [m]
 uniform vec2 picture_to[RINGS * KINDS];  // how far each picture reaches across its layer of the texture, and up
-uniform ivec2 fineness[RINGS];           // by ring: columns of a strip, sections of a column
+uniform int first_layer[RINGS * KINDS];
+uniform ivec4 stacks[RINGS];             // by ring: columns of a strip, sections of a column, strips of a kind on a patch
 
 out vec2 at;
 out float h;
@@ -26,27 +32,35 @@ flat out float below;
 #endif
 
 void main() {
-    int number = first + gl_InstanceID;
-    ivec2 at_record = ivec2(number % PER_ROW * 4, number / PER_ROW);
-    vec4 part0 = texelFetch(strips, at_record, 0), part1 = texelFetch(strips, at_record + ivec2(1, 0), 0);
-    vec4 part2 = texelFetch(strips, at_record + ivec2(2, 0), 0), part3 = texelFetch(strips, at_record + ivec2(3, 0), 0);
-    vec3 a = part0.xyz, b = vec3(part0.w, part1.xy);
-    vec4 wind = vec4(part1.zw, part2.xy);
-    int picture = int(part2.w), stand = int(part3.x), turn = stand % 4, k = picture % KINDS;
-    ivec2 fine = fineness[picture / KINDS];
-    float growth = part3.z;
+    int queued = first + gl_InstanceID;
+    int number = int(texelFetch(strips, ivec2(queued % STRIPS_ROW, queued / STRIPS_ROW), 0).r);
+    int patch_number = number / most, own_number = number % most;
+    ivec2 at_patch = ivec2(patch_number % STOOD_ROW * 2, patch_number / STOOD_ROW);
+    vec4 where = texelFetch(stood, at_patch, 0), how = texelFetch(stood, at_patch + ivec2(1, 0), 0);
+    int stand = int(where.w), turn = stand % 4, along = stand / 4 % 2, ring = stand / 16, own = (along + turn) % 2;
+    ivec4 fine = stacks[ring];
+    int column = own_number % fine.x, walked = own_number / fine.x / GROWING, count = fine.z;
+    int stack = stand / 8 % 2 == 1 ? count - 1 - walked : walked;
+    // Strips of several kinds share a plane: each kind comes to lie in front as often as behind.
+    int k = (own_number / fine.x + stack) % GROWING, plane = stacked(stack, count, own, along, turn);
+    int receiver = int(how.w) + (k * count + stack) * (fine.x + 1) + column;
+    vec4 told_a = received_by(receiver), told_b = received_by(receiver + 1);
+    vec2 foot_a = edge_foot(where.xy, turn, own, plane, count, column, fine.x, margin[k]);
+    vec2 foot_b = edge_foot(where.xy, turn, own, plane, count, column + 1, fine.x, margin[k]);
+    vec3 a = vec3(foot_a.x, told_a.z, foot_a.y), b = vec3(foot_b.x, told_b.z, foot_b.y);
+
     float t = float(min(gl_VertexID / 2, fine.y)) / float(fine.y);
     bool right = (gl_VertexID & 1) == 1;
     vec3 foot = right ? b : a;
-    vec2 message = right ? wind.zw : wind.xy;
-    vec3 spine = posture(float(k) * field.w, message, t).place * tall[k];
-    gl_Position = clip * vec4(foot + spine * growth, 1.0);
-    float u = float(stand / 4 + (right ? 1 : 0)) / float(fine.x);
-    at = vec2(u, t) * picture_to[picture];
-    sheet = part2.z;
-    h = spine.y / (root[k].w * lodged(message));
+    vec4 told = right ? told_b : told_a;
+    vec3 spine = posture(float(k) * field.w, told.xy, t).place * tall[k];
+    gl_Position = clip * vec4(foot + spine * how.y, 1.0);
+    int picture = ring * KINDS + k;
+    at = vec2(float(column + (right ? 1 : 0)) / float(fine.x), t) * picture_to[picture];
+    sheet = float(first_layer[picture] + (int(where.z) * 2 + own) * count + plane);
+    h = spine.y / (root[k].w * lodged(told.xy));
     vec3 middle = 0.5 * (a + b);
-    lifted = lift(0.5 * (wind.xy + wind.zw), middle);
+    lifted = lift(0.5 * (told_a.xy + told_b.xy), middle);
     vec3 here = place_tone(middle.xz);
     hidden = haze_at(middle);
     foot_color = root[k].rgb * here;
@@ -55,10 +69,10 @@ void main() {
     float s = turn == 1 ? 1.0 : turn == 3 ? -1.0 : 0.0;
     grain_u = c * grain_x[k].rgb + s * grain_z[k].rgb;
     grain_v = c * grain_z[k].rgb - s * grain_x[k].rgb;
-    shown = part3.y;
+    shown = how.x;
     boost = boosted(normalize(b.xz - a.xz), middle);
 #ifdef THIN
-    grows = textureLod(density, on_map(foot.xz), 0.0)[k];
-    below = part3.w;
+    grows = told.w;
+    below = how.z;
 #endif
 }

@@ -1,0 +1,46 @@
+"""How the receivers of a representation hear the wind on the graphics card."""
+
+from collections.abc import Callable, Mapping
+
+import moderngl
+
+from ..around.representation import Canvas
+
+VERTEX = "systems/receive/receive.vert"
+
+
+class Hearing:
+    """A pass over receivers: the fragment shader says where each stands, the winds that blow say what it is told.
+
+    `tell` tells a program what else it has to know.
+    """
+
+    def __init__(
+        self,
+        canvas: Canvas,
+        fragment: str,
+        defines: Mapping[str, str | int],
+        tell: Callable[[moderngl.Program], None],
+    ) -> None:
+        self._canvas, self._fragment, self._defines, self._tell = canvas, fragment, defines, tell
+        self._array: moderngl.VertexArray | None = None
+
+    def array(self) -> moderngl.VertexArray:
+        """Return what the receivers are asked with, in the winds of now."""
+        canvas = self._canvas
+        made = canvas.air.program(VERTEX, self._fragment, defines=self._defines)
+        if self._array is None or self._array.program is not made:
+            self.release()
+            for name, unit in canvas.units.items():
+                if name in made:
+                    made[name] = unit
+            self._tell(made)
+            self._array = canvas.ctx.vertex_array(made, [])
+        canvas.air.use(made)
+        return self._array
+
+    def release(self) -> None:
+        """Give everything back; the program is that of the winds."""
+        if self._array is not None:
+            self._array.release()
+            self._array = None

@@ -1,0 +1,60 @@
+"""The receivers of a frame as texels on the graphics card, pool after pool."""
+
+from collections.abc import Sequence
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float32]
+
+ROW = 1024
+"""Receivers in a row of the texture, as `lib/received.glsl` has it."""
+
+
+class Received:
+    """What all receivers that are seen are told, and what they stand on; made anew in every frame.
+
+    A texel is a receiver: its message (x, z), the height of the ground [m], and how densely its kind grows there.
+    """
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self.ctx = ctx
+        self._make(64)
+
+    def _make(self, rows: int) -> None:
+        self.texture = self.ctx.texture((ROW, rows), 4, dtype="f4")
+        self.texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        self._target = self.ctx.framebuffer([self.texture])
+
+    def lay(self, counts: Sequence[int]) -> list[int]:
+        """Make room for pools of so many receivers, and return the number of each one's first."""
+        rows = np.cumsum([0, *(-(-count // ROW) for count in counts)])
+        if rows[-1] > self.texture.height:
+            self.release()
+            self._make(int(rows[-1]) * 3 // 2)
+        return [int(row) * ROW for row in rows[:-1]]
+
+    def ask(self, array: moderngl.VertexArray, *, first: int, count: int) -> int:
+        """Ask `count` receivers from the `first` on with the program of a vertex array; return the number of draws."""
+        if not count:
+            return 0
+        array.program["asked"] = first // ROW, count
+        self._target.viewport = 0, first // ROW, ROW, -(-count // ROW)
+        self._target.use()
+        array.render(moderngl.TRIANGLES, vertices=3)
+        return 1
+
+    def write(self, first: int, texels: Floats) -> None:
+        """Replace the texels (n, 4) of receivers from the `first` on."""
+        at = 0
+        while at < len(texels):
+            x, y = (first + at) % ROW, (first + at) // ROW
+            part = np.ascontiguousarray(texels[at : at + ROW - x], np.float32)
+            self.texture.write(part, viewport=(x, y, len(part), 1))
+            at += len(part)
+
+    def release(self) -> None:
+        """Give everything back."""
+        self._target.release()
+        self.texture.release()

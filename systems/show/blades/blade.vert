@@ -1,0 +1,95 @@
+// One vertex is one blade: all about it that is the same along its ribbon. With STORED it is looked up by the number of
+// its receiver; with MORPH it is on its way between its own place and its painted place on a moving strip (paper, 4.2).
+#include "lib/light.glsl"
+#include "lib/posture.glsl"
+
+#ifdef STORED
+#include "lib/received.glsl"
+
+in uint number;            // of its receiver, among those of blades
+uniform ivec2 blades_from; // the first of these receivers among all; blades on a patch
+uniform sampler2D blades;  // by model, quarter turn and blade: BLADE
+uniform sampler2D standing; // by patch: STANDING
+uniform float near;        // distance up to which blades hide one another by depth [m]; beyond it order alone says
+#ifdef MORPH
+uniform sampler2D slices;  // by ring, model, orientation and blade: the strip that it is painted on
+uniform vec4 margin;       // by kind: how far strips reach beyond their patch [m]
+uniform vec4 tall;         // by kind: height of the strips [m]
+uniform ivec4 stacks[RINGS]; // by ring: columns of a strip, sections of a column, strips of a kind on a patch
+uniform int models;
+#include "lib/stack.glsl"
+
+out vec4 base;             // foot of its strip's first edge (x, z), and the way from edge to edge (x, z) [m]
+out vec4 painted;          // receiver of that edge; row of its targets; height of the strip [m]; how far it has moved
+#endif
+#else
+in vec3 root_at;
+in float height;
+in vec2 rest;
+in vec2 facing;
+in float width;
+in float variant;
+in float kind;
+in float stem;  // height of the one that it stands on [m]
+in vec2 message;
+#endif
+
+out vec4 foot;   // where its ribbon begins [m]; its length [m]
+out vec4 lie;    // bending vector; half its way across at the root [m]
+out vec4 low;    // colour at the root; row of the posture table
+out vec4 high;   // colour at the tip; taper
+out vec4 tilt;   // relative change of colour to its sides; how far haze veils it
+out vec4 crown;  // how much brighter its top is; where its foot is in the canopy, and how much of it is its length; cover
+out vec4 joints; // slide to those of a coarser blade; coverage from which on it hides what is behind; kind; ring of strips
+
+void main() {
+#ifdef STORED
+    int patch_number = int(number) / blades_from.y, blade = int(number) % blades_from.y;
+    ivec2 at = ivec2(patch_number % STANDING_ROW * 3, patch_number / STANDING_ROW);
+    vec4 where = texelFetch(standing, at, 0), how = texelFetch(standing, at + ivec2(1, 0), 0);
+#ifdef MORPH
+    vec4 strips = texelFetch(standing, at + ivec2(2, 0), 0);
+#endif
+    int record = int(where.z) * blades_from.y + blade;
+    at = ivec2(record % BLADES_ROW * 3, record / BLADES_ROW);
+    vec4 part0 = texelFetch(blades, at, 0), part1 = texelFetch(blades, at + ivec2(1, 0), 0);
+    vec4 part2 = texelFetch(blades, at + ivec2(2, 0), 0);
+    vec4 told = received_by(blades_from.x + int(number));
+    vec3 root_at = vec3(part0.x + where.x * soil.w, told.z, part0.z + where.y * soil.w);
+    float height = part0.w, width = part2.x, variant = part2.y, stem = part2.w;
+    vec2 rest = part1.xy, facing = part1.zw, message = told.xy;
+    int k = int(part2.z);
+    joints = vec4(how.x, mix(0.5, 2.0, smoothstep(0.8 * near, near, distance(root_at.xz, eye.xz))), float(k), 0.0);
+    crown.w = where.w;
+#else
+    int k = int(kind);
+    joints = vec4(0.0, 2.0, kind, 0.0);
+    crown.w = 1.0;
+#endif
+    vec2 bend = message + rest * (1.0 - min(length(message), 1.0));
+    vec3 up = stem > 0.0 ? posture(float(k) * field.w, message, 1.0).place * stem : vec3(0.0);
+    vec2 across = vec2(-facing.y, facing.x);
+    foot = vec4(root_at + up, height);
+    lie = vec4(bend, 0.5 * width * across);
+    float veil = haze_at(root_at);
+    vec3 grain = 1.0 + grain_x[k].rgb * facing.x + grain_z[k].rgb * facing.y;
+    vec3 here = place_tone(root_at.xz) * grain * (1.0 - veil);
+    low = vec4((stem > 0.0 ? tip[k].rgb : root[k].rgb) * here, variant);
+    high = vec4(tip[k].rgb * here, tip[k].w);
+    tilt = vec4(ROUND * (grain_x[k].rgb * across.x + grain_z[k].rgb * across.y) / grain, veil);
+    float canopy_height = root[k].w * lodged(message);
+    crown.xyz = vec3(lift(message, root_at), up.y / canopy_height, height / canopy_height);
+#ifdef MORPH
+    int ring = int(strips.x), model = int(where.z) / 4, turn = int(where.z) % 4, along = int(how.w);
+    int own = (along + turn) % 2, count = stacks[ring].z, columns = stacks[ring].x;
+    int row = (model * 2 + own) * blades_from.y + blade, slice = ring * models * 2 * blades_from.y + row;
+    int plane = int(texelFetch(slices, ivec2(slice % SLICES_ROW, slice / SLICES_ROW), 0).r);
+    int strip = k * count + stacked(plane, count, own, along, turn);
+    vec2 first = edge_foot(where.xy, turn, own, plane, count, 0, columns, margin[k]);
+    vec2 second = edge_foot(where.xy, turn, own, plane, count, 1, columns, margin[k]);
+    base = vec4(first, second - first);
+    painted = vec4(strips.y + float(strip * (columns + 1)), float(row), tall[k] * how.z, how.y);
+    joints.yw = vec2(2.0, strips.x);
+#endif
+    gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
+}

@@ -1,0 +1,94 @@
+// One instance is one blade, as blade.vert has made it out: a ribbon of SEGMENTS quads. With SOFT it is drawn half a pixel
+// wider on either side, and the fragments say how much of each pixel it covers; so a blade thinner than a pixel is faint,
+// and not a row of dots. With MORPH it is on its way to its painted place on a moving strip (paper, section 4.2).
+#include "lib/light.glsl"
+#include "lib/posture.glsl"
+
+in vec4 foot;
+in vec4 lie;
+in vec4 low;
+in vec4 high;
+in vec4 tilt;
+in vec4 crown;
+in vec4 joints;
+#ifdef MORPH
+#include "lib/painted.glsl"
+
+in vec4 base;
+in vec4 painted;
+#endif
+
+out vec3 color;
+flat out float shown;
+#ifdef SOFT
+noperspective out float aside;  // from the middle line [pixel]
+noperspective out float half_width;  // of the ribbon [pixel]
+flat out float hides;  // coverage from which on a pixel counts as hidden behind it
+uniform int part;      // 0: all of it; 1: where it hides what is behind it; 2: the rest
+
+// Move a point aside on the screen, so that the ribbon reaches half a pixel beyond its edge.
+vec4 widened(vec3 place, vec3 tangent, vec2 across) {
+    vec4 middle = clip * vec4(place, 1.0);
+    vec4 edge = clip * vec4(across.x, 0.0, across.y, 0.0);
+    if (middle.w < 0.15) {
+        aside = half_width = 8.0;
+        return middle + edge;
+    }
+    vec4 ahead = clip * vec4(tangent, 0.0);
+    vec2 run = (ahead.xy * middle.w - middle.xy * ahead.w) * screen.xy;
+    vec2 wide = (edge.xy * middle.w - middle.xy * edge.w) * screen.xy / (middle.w * middle.w);
+    vec2 normal = vec2(-run.y, run.x) / max(length(run), 1e-9);
+    float signed_width = dot(wide, normal);
+    half_width = abs(signed_width);
+    aside = (half_width + 0.5) * (gl_VertexID % 2 == 0 ? -1.0 : 1.0);
+    middle.xy += normal * aside / screen.xy * middle.w;
+    return middle;
+}
+#endif
+
+#ifdef MORPH
+// The colour at part `t` of a blade of kind `k` with this face normal, where it is painted.
+vec3 painted_light(int k, float t, vec2 normal, Painted target) {
+    vec3 grass = mix(root[k].rgb, tip[k].rgb, t) * (1.0 + grain_x[k].rgb * normal.x + grain_z[k].rgb * normal.y);
+    grass *= place_tone(target.middle.xz) * canopy(target.h, lift(target.message, target.middle));
+    return mix(grass, haze.rgb, haze_at(target.middle));
+}
+#endif
+
+void main() {
+#ifdef SOFT
+    hides = joints.y;
+    if (part == 1 && hides > 1.0) {
+        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+        color = vec3(0.0);
+        aside = half_width = shown = 0.0;
+        return;
+    }
+#endif
+    float t = float(gl_VertexID / 2) / float(SEGMENTS);
+#ifndef MORPH
+    t = mix(t, floor(t * float(COARSER) + 0.5) / float(COARSER), joints.x);
+#endif
+    float side = float(gl_VertexID % 2) * 2.0 - 1.0;
+    Spine spine = posture(low.w, lie.xy, t);
+    vec3 place = foot.xyz + spine.place * foot.w, tangent = spine.tangent * foot.w;
+    vec2 across = lie.zw * (side * pow(max(1.0 - t, 0.0), high.w));
+    color = mix(low.rgb, high.rgb, t) * (1.0 + side * tilt.rgb) * canopy(crown.y + spine.place.y * crown.z, crown.x);
+    color += haze.rgb * tilt.w;
+#ifdef MORPH
+    int k = int(joints.z);
+    Painted target = painted_at(base, int(painted.x), int(painted.y), painted.z, t, k, int(joints.w));
+    vec2 run = normalize(target.run.xz);
+    place = mix(place, target.place, painted.w);
+    tangent = mix(tangent, target.tangent, painted.w);
+    across = mix(across, run * dot(run, across) * boosted(run, target.middle), painted.w);
+    vec2 facing = normalize(vec2(lie.w, -lie.z));
+    color = mix(color, painted_light(k, crown.y > 0.0 ? 1.0 : t, facing, target), painted.w);
+#endif
+#ifdef SOFT
+    gl_Position = widened(place, tangent, across);
+#else
+    gl_Position = clip * vec4(place.x + across.x, place.y, place.z + across.y, 1.0);
+#endif
+    shown = crown.w;
+}

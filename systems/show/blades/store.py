@@ -1,0 +1,70 @@
+"""The blades of all patch models on the graphics card, and what is told of the patches that they stand on."""
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ....engine.gl.records import Records
+from ....engine.gl.stream import release_all
+from ..strips.stock import StripStock
+from .plant import BladeStock
+
+STANDING = np.dtype(
+    [
+        ("cell", "2f4"),
+        ("row", "f4"),
+        ("fade", "f4"),
+        ("slide", "f4"),
+        ("morph", "f4"),
+        ("growth", "f4"),
+        ("along", "f4"),
+        ("ring", "f4"),
+        ("edges", "f4"),
+        ("unused", "2f4"),
+    ]
+)
+"""A patch with blades: its cell; four times its model plus its quarter turns; how much shows; how far joints have slid
+together to those of the next coarser ring. For one on its way to its strips besides: how far its blades have moved, the
+height of the strips, of their full one; the axis that these run along; their ring, and their first receiver. The shader
+reads three texels."""
+
+STANDING_ROW, BLADES_ROW, SLICES_ROW, TARGETS_ROW = 64, 256, 1024, 64
+"""Records in a row of the textures that hold patches, blades, the strips and the painted places of blades."""
+
+
+class BladeStore:
+    """What of all patch models' blades never changes."""
+
+    def __init__(self, ctx: moderngl.Context, blades: BladeStock, strips: StripStock) -> None:
+        self.count = blades.records.shape[1]
+        self.blades = Records(ctx, blades.records.dtype, BLADES_ROW, rows=-(-blades.records.size // BLADES_ROW))
+        self.blades.write(blades.records.reshape(-1))
+        self.points = strips.targets.shape[3]
+        self.slices = _texture(ctx, np.stack(strips.slices).reshape(-1, 1, 1), SLICES_ROW)
+        self.targets = _texture(ctx, strips.targets.reshape(-1, self.points, 2), TARGETS_ROW)
+
+    @property
+    def defines(self) -> dict[str, str | int]:
+        """What shaders are told of how it is laid out."""
+        return {
+            "STANDING_ROW": STANDING_ROW,
+            "BLADES_ROW": BLADES_ROW,
+            "SLICES_ROW": SLICES_ROW,
+            "TARGETS_ROW": TARGETS_ROW,
+            "POINTS": self.points,
+        }
+
+    def release(self) -> None:
+        """Give everything back."""
+        release_all(self.blades, self.slices, self.targets)
+
+
+def _texture(ctx: moderngl.Context, values: NDArray[np.generic], per_row: int) -> moderngl.Texture:
+    """Return a texture of values, shape (n, texels, channels), `per_row` of the first in a row."""
+    count, texels, channels = values.shape
+    rows = -(-count // per_row)
+    padded = np.zeros((rows * per_row, texels, channels), np.float32)
+    padded[:count] = values
+    texture = ctx.texture((per_row * texels, rows), channels, padded.tobytes(), dtype="f4")
+    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+    return texture

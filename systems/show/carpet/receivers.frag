@@ -1,0 +1,19 @@
+// There is a receiver in the middle of each patch around the viewer. It has no part in the small oscillations.
+#include "lib/light.glsl"
+#include "systems/wind/hear.glsl"
+
+uniform ivec4 around;  // viewer's cell; patches along the window's side; number of the first receiver
+
+out vec2 told;
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy), low = around.xy - around.z / 2;
+    // Rows wrap round: each texel is a cell of the window. What is added keeps the remainder from being that of a negative.
+    ivec2 cell = low + (at - low + 4096 * around.z) % around.z;
+    vec2 place = (vec2(cell) + 0.5) * soil.w;
+    vec4 grows = textureLod(density, on_map(place), 0.0);
+    int kind = 0;
+    for (int other = 1; other < 4; other++)
+        kind = grows[other] > grows[kind] ? other : kind;
+    told = hear(place, kind, true, around.w + at.y * around.z + at.x);
+}
