@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from .components.pose import Pose
     from .components.receivers import Receivers
     from .components.viewer import Viewer
-    from .components.wind import Extent, Grass, WindPrimitive, WindSource
+    from .components.wind import Extent, Grass, TwinValues, WindPrimitive, WindSource
     from .engine.plugins import wind
     from .engine.scene import SceneError
     from .engine.schedule import Phase
@@ -40,6 +40,7 @@ __all__ = [
     "Receivers",
     "SceneError",
     "Shape",
+    "TwinValues",
     "Viewer",
     "Whirlwind",
     "WindPrimitive",
@@ -65,6 +66,7 @@ _HOMES = {
     "Receivers": ".components.receivers",
     "SceneError": ".engine.scene",
     "Shape": ".systems.wind.blast",
+    "TwinValues": ".components.wind",
     "Viewer": ".components.viewer",
     "Whirlwind": ".systems.wind.whirlwind",
     "WindPrimitive": ".components.wind",

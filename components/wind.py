@@ -79,6 +79,20 @@ class Grass:
         return np.asarray(before + (after - before) * (at - low.astype(np.float32)), np.float32)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class TwinValues:
+    """What a wind's twin on the graphics card reads at one instant, in single precision."""
+
+    numbers: Sequence[float] = ()
+    """What `value(wind, 0)` and so on are, 64 at most; phases are best reduced to one turn here."""
+
+    sheets: Sequence[Floats] = ()
+    """What `sheet(wind, 0, at)` and so on read, four at most: shape (rows, columns, 1 to 4).
+
+    One that is the same array as before counts as unchanged and is not sent again.
+    """
+
+
 class WindPrimitive(Declaration):
     """A wind as an object on the prairie (paper, section 3.3): a mask on the ground and an action inside it.
 
@@ -88,6 +102,12 @@ class WindPrimitive(Declaration):
 
     interface: ClassVar[int] = INTERFACE
     """Version of this interface that the class is written for."""
+
+    twin: ClassVar[str | None] = None
+    """A GLSL file beside the class's module that computes `mask` and `action` too; without one, numpy alone does.
+
+    It holds for derived classes as long as they leave both methods as they are.
+    """
 
     color: ClassVar[tuple[float, float, float] | None] = None
     """What the overlay shows the kind in: a display colour, each in [0, 1]; without it, a hue from the kind's name."""
@@ -162,6 +182,10 @@ class WindPrimitive(Declaration):
         A message is a vector of the frame along the bending direction whose norm is the posture index, in [0, 1].
         `seed` is the wind's own; `grass` tells how the grass there answers.
         """
+
+    def twin_values(self, *, time: float, seed: int) -> TwinValues:  # noqa: ARG002 - for those that have a twin
+        """Return what the twin reads at `time` [s]; `seed` is the wind's own, as for `action`."""
+        return TwinValues()
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -5,7 +5,7 @@ import inspect
 import tallgrass
 from tallgrass import WindPrimitive
 
-BESIDE_WINDS = ("Extent", "Grass", "Hover", "Pose", "Shape", "wind")
+BESIDE_WINDS = ("Extent", "Grass", "Hover", "Pose", "Shape", "TwinValues", "wind")
 """What a wind is written with, besides its base."""
 
 

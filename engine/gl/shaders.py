@@ -1,7 +1,7 @@
 """Programs composed from the package's shader files."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from importlib.resources import files
 
@@ -28,21 +28,31 @@ def _read(name: str) -> tuple[str, ...]:
     return tuple(source.read_text("utf-8").splitlines())
 
 
-def _gather(name: str, lines: list[Line], seen: set[str]) -> None:
+def _gather(name: str, lines: list[Line], seen: set[str], made: Mapping[str, Sequence[Line]]) -> None:
     seen.add(name)
+    if name in made:
+        lines += made[name]
+        return
     for number, text in enumerate(_read(name), 1):
         included = _INCLUDE.match(text)
         if included is None:
             lines.append((name, number, text))
         elif included[1] not in seen:
-            _gather(included[1], lines, seen)
+            _gather(included[1], lines, seen, made)
 
 
-def compose(name: str, defines: Mapping[str, str | int] | None = None) -> tuple[str, list[Line]]:
-    """Return a shader's source with every include in place once, and where each of its lines comes from."""
+def compose(
+    name: str,
+    defines: Mapping[str, str | int] | None = None,
+    made: Mapping[str, Sequence[Line]] | None = None,
+) -> tuple[str, list[Line]]:
+    """Return a shader's source with every include in place once, and where each of its lines comes from.
+
+    `made` has lines that stand in place of some files, and in which nothing is included.
+    """
     head = [_VERSION, *(f"#define {key} {value}" for key, value in (defines or {}).items())]
     lines: list[Line] = [(name, 0, text) for text in head]
-    _gather(name, lines, set())
+    _gather(name, lines, set(), made or {})
     return "\n".join(text for _, _, text in lines) + "\n", lines
 
 
@@ -66,9 +76,13 @@ def program(
     *,
     defines: Mapping[str, str | int] | None = None,
     varyings: tuple[str, ...] = (),
+    made: Mapping[str, Sequence[Line]] | None = None,
 ) -> moderngl.Program:
-    """Return the program of two shader files; raises `ShaderError` with the file and line of what fails."""
-    sources = {name: compose(name, defines) for name in (vertex, fragment) if name is not None}
+    """Return the program of two shader files; raises `ShaderError` with the file and line of what fails.
+
+    `made` has lines that stand in place of some included files.
+    """
+    sources = {name: compose(name, defines, made) for name in (vertex, fragment) if name is not None}
     try:
         return ctx.program(
             vertex_shader=sources[vertex][0],

@@ -76,12 +76,17 @@ def aim(record: NDArray[np.void], view: View, size: tuple[int, int], /) -> None:
     row["eye"][:3] = eye_of(view)
 
 
+def frame_binding(ctx: moderngl.Context) -> int:
+    """Return the binding point of the block: the highest, away from a host's own."""
+    return int(ctx.info["GL_MAX_UNIFORM_BUFFER_BINDINGS"]) - 1
+
+
 class FrameBlock:
-    """The uniform block on the graphics card, at the highest binding point, away from a host's own."""
+    """The uniform block on the graphics card."""
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self.buffer = ctx.buffer(reserve=FRAME.itemsize, dynamic=True)
-        self.binding = int(ctx.info["GL_MAX_UNIFORM_BUFFER_BINDINGS"]) - 1
+        self.binding = frame_binding(ctx)
 
     def join(self, program: moderngl.Program) -> None:
         """Tell a program where the block is."""

@@ -11,7 +11,7 @@ from pydantic import Field, PrivateAttr, ValidationInfo, model_validator
 
 from ...components.body import Hover, Model
 from ...components.declaration import Declaration, DeclarationError, Pair
-from ...components.wind import Extent, Grass
+from ...components.wind import Extent, Grass, TwinValues
 from .outline import FINE, Outline, outline_of_picture, outline_of_polygon, polygon_of_ellipse
 from .placed import PlacedWind
 from .shape import smooth
@@ -73,6 +73,7 @@ class Shape(Declaration):
 class Blast(PlacedWind):
     """A blow of air from above that presses grass outwards, as under a helicopter."""
 
+    twin: ClassVar[str | None] = "blast.glsl"
     color: ClassVar[tuple[float, float, float] | None] = (1.00, 0.42, 0.22)
 
     kind: Literal["blast"] = "blast"
@@ -111,7 +112,7 @@ class Blast(PlacedWind):
         """Return 1 deep inside the outline, falling to 0 on it over `soft` [m]."""
         outline = self.outline.outline()
         depth, _ = outline.at(place)
-        return smooth(depth / np.float32(max(min(self.soft, outline.deepest), 1e-6)))
+        return smooth(depth / np.float32(self._width(outline)))
 
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
         """Return its messages: radial to the outline, strongest half way out, with rings that run outwards."""
@@ -123,6 +124,19 @@ class Blast(PlacedWind):
         index = np.float32(self.strength / (1.0 + PULSE)) * (1 + np.float32(PULSE) * pulse)
         index *= smooth((1 - out) / np.float32(0.45))
         return np.asarray(outward * index[:, None], np.float32)
+
+    def twin_values(self, *, time: float, seed: int) -> TwinValues:
+        """Return how its outline is sampled [m], how it takes hold, its strength, and how far its rings have run."""
+        outline = self.outline.outline()
+        rows, columns = outline.field.shape[:2]
+        sampled = *outline.corner, outline.step, columns - 1.001, rows - 1.001
+        strength = self.strength / (1.0 + PULSE)
+        numbers = *sampled, self._width(outline), outline.deepest, strength, BEAT * time % 1.0
+        return TwinValues(numbers, (outline.field,))
+
+    def _width(self, outline: Outline) -> float:
+        """Return over what distance from its outline it takes hold [m]."""
+        return max(min(self.soft, outline.deepest), 1e-6)
 
 
 def _pictured(name: str, folder: Path, width: float) -> Outline:

@@ -19,6 +19,9 @@ from .flutter import flutter
 from .quarantine import Quarantine, QuarantinedError
 from .shape import smooth
 
+BESIDE = 1e-3
+"""How far outside an extent a mask is still asked for, so that rounding cuts nothing off [m]."""
+
 Floats = NDArray[np.float32]
 Rows = NDArray[np.intp]
 
@@ -116,7 +119,7 @@ def _heard(winds: list[Blowing], heard: ReceiverArrays, quarantine: Quarantine, 
         winds = [wind for wind in winds if wind.primitive.weight > 0.0]
         groups = (list(group) for _, group in groupby(winds, key=lambda wind: wind.primitive.priority))
     for group in groups:
-        sent = [one for wind in group if (one := _send(wind, heard, sums.left, quarantine, time, mixing))]
+        sent = [one for wind in group if (one := send(wind, heard, sums.left, quarantine, time, mixing))]
         _cover(sums, sent)
     return sums
 
@@ -131,11 +134,20 @@ class _Sums:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Sent:
+class Sent:
+    """What one wind sends."""
+
     rows: Rows | slice
+    """The receivers that it reaches."""
+
     weight: Floats
+    """How much of each it claims, its weight and how far it has set in included, shape (n,)."""
+
     message: Floats
+    """Its messages, in the world's frame, shape (n, 2)."""
+
     swing: float
+    """Largest index of the small oscillations in it."""
 
 
 def _parts(
@@ -173,8 +185,13 @@ def _set_in(wind: WindPrimitive, stop: float | None, time: float) -> float:
     return float(smooth(np.array([min(begun, to_go)], np.float32))[0])
 
 
+def claim(wind: WindPrimitive, /) -> tuple[int, float, str]:
+    """Return what winds are ordered by at a place: the largest comes first."""
+    return wind.priority, wind.start, wind.kind
+
+
 def _claim(wind: Blowing) -> tuple[int, float, str]:
-    return wind.primitive.priority, wind.primitive.start, wind.primitive.kind
+    return claim(wind.primitive)
 
 
 def _untied(winds: list[Blowing], quarantine: Quarantine) -> list[Blowing]:
@@ -186,10 +203,13 @@ def _untied(winds: list[Blowing], quarantine: Quarantine) -> list[Blowing]:
     return [wind for _, wind in sorted(told, key=itemgetter(0))]
 
 
-def _send(
+def send(
     wind: Blowing, heard: ReceiverArrays, left: Floats, quarantine: Quarantine, time: float, mixing: Mixing
-) -> _Sent | None:
-    """Return what a wind sends to the receivers that it reaches and that are still to be had."""
+) -> Sent | None:
+    """Return what a wind sends to the receivers that it reaches and that are still to be had; None is nothing.
+
+    `left` (n,) is how much of each no wind has claimed yet. A wind that fails sends nothing.
+    """
     rows, own = _within(wind, heard, left)
     source, primitive = wind.source, wind.primitive
     own = own.view()
@@ -210,7 +230,7 @@ def _send(
     except QuarantinedError:
         return None
     weight = np.ones_like(weight) if mixing == "priority" else np.minimum(weight, 1.0) * np.float32(primitive.weight)
-    return _Sent(rows, weight * np.float32(wind.strength), wind.pose.outside(message), primitive.swing)
+    return Sent(rows, weight * np.float32(wind.strength), wind.pose.outside(message), primitive.swing)
 
 
 def _within(wind: Blowing, heard: ReceiverArrays, left: Floats) -> tuple[Rows | slice, Floats]:
@@ -238,12 +258,12 @@ def _seen_from(wind: Blowing, place: Floats) -> Floats:
 
 def _holds(box: Extent, place: Floats, radius: float) -> NDArray[np.bool_]:
     """Return whether an extent comes within `radius` [m] of places in the same frame, but for rounding, shape (n,)."""
-    x, z, far = place[:, 0], place[:, 1], radius + 1e-3
+    x, z, far = place[:, 0], place[:, 1], radius + BESIDE
     held = (x > box.left - far) & (x < box.right + far) & (z > box.ahead - far) & (z < box.behind + far)
     return np.asarray(held)
 
 
-def _cover(sums: _Sums, sent: list[_Sent]) -> None:
+def _cover(sums: _Sums, sent: list[Sent]) -> None:
     """Lay the messages of winds of one claim over what is left of the receivers."""
     if len(sent) == 1:
         _lay(sums, sent[0].rows, sent[0].weight, sent[0].message, np.float32(sent[0].swing))

@@ -1,13 +1,14 @@
 """The gentle breeze: everywhere, small oscillations around a rest that drifts slowly (paper, section 3.3)."""
 
+from math import cos, radians, sin
 from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from ...components.wind import Grass, WindPrimitive
-from ...engine.noise import noise_table, smooth_noise
+from ...components.wind import Grass, TwinValues, WindPrimitive
+from ...engine.noise import PERIOD, noise_table, smooth_noise
 
 Floats = NDArray[np.float32]
 
@@ -18,6 +19,7 @@ WAVE = 7.0
 class Breeze(WindPrimitive):
     """A light wind over the whole prairie, whose strength and direction drift in waves that travel with it."""
 
+    twin: ClassVar[str | None] = "breeze.glsl"
     color: ClassVar[tuple[float, float, float] | None] = (0.55, 0.90, 1.00)
 
     kind: Literal["breeze"] = "breeze"
@@ -50,3 +52,9 @@ class Breeze(WindPrimitive):
         index = np.clip(np.float32(self.strength) * (1 + drift), 0.0, 1.0)
         angle = np.float32(heading) + np.float32(0.7 * self.gustiness) * wave[:, 2]
         return np.stack([np.sin(angle) * index, -np.cos(angle) * index], axis=1).astype(np.float32)
+
+    def twin_values(self, *, time: float, seed: int) -> TwinValues:
+        """Return heading [rad], strength, gustiness and how far waves have come, within the noise's period."""
+        heading, travel = radians(self.direction), self.speed * time / WAVE
+        shift = -sin(heading) * travel % PERIOD, cos(heading) * travel % PERIOD
+        return TwinValues((heading, self.strength, self.gustiness, *shift), (noise_table(seed, 0),))

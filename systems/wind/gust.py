@@ -11,8 +11,8 @@ from pydantic import Field, model_validator
 
 from ...components.declaration import DeclarationError, Pair
 from ...components.pose import Pose
-from ...components.wind import Extent, Grass, WindPrimitive
-from .shape import rim
+from ...components.wind import Extent, Grass, TwinValues, WindPrimitive
+from .shape import rim, rim_width
 
 Floats = NDArray[np.float32]
 
@@ -26,6 +26,7 @@ class Gust(WindPrimitive):
     Its own frame travels with the middle of the front.
     """
 
+    twin: ClassVar[str | None] = "gust.glsl"
     color: ClassVar[tuple[float, float, float] | None] = (1.00, 0.90, 0.25)
 
     kind: Literal["gust"] = "gust"
@@ -124,14 +125,29 @@ class Gust(WindPrimitive):
         message[:, 1] = np.clip(-np.float32(self.strength) * index * left, -1.0, 1.0)
         return message
 
+    def twin_values(self, *, time: float, seed: int) -> TwinValues:
+        """Return the strip and the widths of its rims [m], how it passes, and how its front lags."""
+        held = self.extent(time=time)
+        across = held.left, held.right, rim_width(held.left, held.right, self.soft)
+        along = held.ahead, held.behind, rim_width(held.ahead, held.behind, self.soft)
+        passing = self.speed, self.hold, self.tail, self.strength
+        return TwinValues((*across, *along, *passing, self.ragged, *_phases(seed)))
+
     def _way(self, time: float) -> float:
         return self.speed * (time - self.start)
 
     def _lag(self, across: Floats, seed: int) -> Floats:
         """Return how far parts of the front are behind, from 0 to `ragged` [m], shape (n,)."""
-        first, second = np.random.default_rng(seed).uniform(0.0, 2.0 * np.pi, 2).astype(np.float32)
+        first, second = (np.float32(phase) for phase in _phases(seed))
         wave = np.sin(across / np.float32(4.1) + first) + np.sin(across / np.float32(1.7) + second) * np.float32(0.6)
         return np.asarray(np.float32(self.ragged) * (np.float32(0.5) + wave / np.float32(3.2)), np.float32)
+
+
+@lru_cache(maxsize=256)
+def _phases(seed: int) -> tuple[float, float]:
+    """Return where the two waves of a front begin [rad]."""
+    first, second = np.random.default_rng(seed).uniform(0.0, 2.0 * np.pi, 2).tolist()
+    return first, second
 
 
 @lru_cache(maxsize=256)

@@ -18,5 +18,9 @@ def rim(value: Floats, least: float, most: float, soft: float, /) -> Floats:
     Shape (n,). On the bounds and outside it is 0.
     """
     inside = np.minimum(value - np.float32(least), np.float32(most) - value)
-    width = max(min(soft, 0.5 * (most - least)), 1e-6)
-    return smooth(inside / np.float32(width))
+    return smooth(inside / np.float32(rim_width(least, most, soft)))
+
+
+def rim_width(least: float, most: float, soft: float, /) -> float:
+    """Return over what distance `rim` falls at each bound [m], never 0."""
+    return max(min(soft, 0.5 * (most - least)), 1e-6)

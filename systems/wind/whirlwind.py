@@ -1,14 +1,15 @@
 """The whirlwind: a disc that bends grass along its circles, most of all near the middle (paper, section 3.3)."""
 
+from math import cos, pi, sin
 from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from ...components.wind import Extent, Grass
+from ...components.wind import Extent, Grass, TwinValues
 from .placed import PlacedWind
-from .shape import rim, smooth
+from .shape import rim, rim_width, smooth
 
 Floats = NDArray[np.float32]
 
@@ -22,6 +23,7 @@ LOBES, UNEVEN = 2, 0.18
 class Whirlwind(PlacedWind):
     """A turning wind: grass lies along circles around its middle, and a stronger side goes slowly round."""
 
+    twin: ClassVar[str | None] = "whirlwind.glsl"
     color: ClassVar[tuple[float, float, float] | None] = (1.00, 0.42, 0.85)
 
     kind: Literal["whirlwind"] = "whirlwind"
@@ -66,3 +68,10 @@ class Whirlwind(PlacedWind):
         uneven = np.float32(1.0 - UNEVEN) + np.float32(UNEVEN) * np.cos(around)
         index = np.float32(self.strength) * fall * uneven * smooth(away / np.float32(EYE))
         return np.stack([-sign * z / away * index, sign * x / away * index], axis=1)
+
+    def twin_values(self, *, time: float, seed: int) -> TwinValues:
+        """Return radius and width of its rim [m], strength, which way it turns, and how far its stronger sides are."""
+        sign = -1.0 if self.spin == "left" else 1.0
+        phase = sign * (2.0 * pi * LOBES * self.turning * time % (2.0 * pi))
+        width = rim_width(-self.radius, self.radius, self.soft)
+        return TwinValues((self.radius, width, self.strength, sign, cos(phase), sin(phase)))

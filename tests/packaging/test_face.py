@@ -16,7 +16,19 @@ pytestmark = pytest.mark.packaging
 
 def test_the_face_shows_what_programs_are_written_with() -> None:
     winds = {"Blast", "Breeze", "Gust", "PlacedWind", "Whirlwind", "WindPrimitive"}
-    records = {"Extent", "Grass", "Hover", "Lod", "Patch", "Pose", "Receivers", "Shape", "Viewer", "WindSource"}
+    records = {
+        "Extent",
+        "Grass",
+        "Hover",
+        "Lod",
+        "Patch",
+        "Pose",
+        "Receivers",
+        "Shape",
+        "TwinValues",
+        "Viewer",
+        "WindSource",
+    }
     others = {"Phase", "Prairie", "SceneError", "install", "scenes", "wind"}
     assert set(tallgrass.__all__) == {*records, *others, *winds}
     assert all(issubclass(getattr(tallgrass, name), WindPrimitive) for name in winds)

@@ -1,0 +1,279 @@
+"""The winds of a frame on the graphics card: what `hear.glsl` reads, and the programs that include it."""
+
+import logging
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from math import cos, sin
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.wind import Mixing, TwinValues, WindPrimitive
+from ...engine.complaint import said
+from ...engine.gl.shaders import Line, ShaderError, program
+from ...engine.gl.stream import release_all
+from ..frame.block import frame_binding
+from ..grow.record import Growth
+from .blow import BESIDE, Blowing, ReceiverArrays, claim, send
+from .flutter import flutter_values
+from .quarantine import Quarantine
+from .sheets import Sheets
+from .told import Told
+from .twin import LARGEST, MOST_NUMBERS, TOLD, Twin, TwinError, check_values, fitted, joined_twins, twin_of
+
+Floats = NDArray[np.float32]
+Rows = NDArray[np.intp]
+
+SAMPLERS = ("winds", "wind_sheets", "wind_curves", "wind_told")
+"""What `hear.glsl` reads; whoever makes a `CardWinds` gives each a texture unit."""
+
+HEAD, SHARE, SHEET = 16, 8, 12
+"""Numbers in a row before those of `twin_values`, as `hear.glsl` reads them; where the share and the sheets stand."""
+
+MOST_EMPTY = 16
+"""How many runs of winds a program may have that are empty before it is made anew without them."""
+
+_NOTHING = (0.0,) * (SHEET - 1)
+_TRIED = "systems/wind/hear.vert"
+
+log = logging.getLogger("tallgrass")
+
+
+class CardWinds:
+    """The winds that act, as one GL context holds them.
+
+    Each frame: `write` the winds, `tell` receivers what those without a twin say, take each `program`, and `use` it.
+    A program that was asked for before is another one after a new kind of wind has come.
+    """
+
+    def __init__(self, ctx: moderngl.Context, units: Mapping[str, int], growths: Sequence[Growth]) -> None:
+        self.ctx = ctx
+        self._units = {name: units[name] for name in SAMPLERS}
+        self._rows = np.zeros((8, HEAD + MOST_NUMBERS), np.float32)
+        self._sent = b""
+        self._records = self._room()
+        self._sheets, self._told, self._curves = Sheets(ctx), Told(ctx), curve_texture(ctx, growths)
+        self._numbers: dict[type[WindPrimitive], int] = {}
+        self._twins: list[Twin] = []
+        self._order: list[int] = []
+        self._programs: dict[object, tuple[tuple[int, ...], moderngl.Program]] = {}
+        self._stale: list[moderngl.Program] = []
+        self._winds: list[Blowing] = []
+        self._untwinned: list[int] = []
+        self._asked: tuple[float, Mixing] = 0.0, "priority"
+
+    # ---- Winds -----------------------------------------------------------------------------------
+
+    def meet(self, winds: Iterable[WindPrimitive], /) -> None:
+        """Make room for winds that may blow later, so that programs change now and not when they do."""
+        order = sorted(winds, key=claim, reverse=True)
+        self._runs([self._number_of(type(wind)) for wind in order])
+
+    def write(self, winds: Sequence[Blowing], /, *, time: float, seed: int, mixing: Mixing) -> list[Blowing]:
+        """Send the winds of a frame, the strongest claim first, and return those that have no twin.
+
+        `time` [s], `seed` and `mixing` are those of `systems.wind.blow.hear`. Winds without a twin say nothing until
+        `tell` has asked them.
+        """
+        self._asked = time, mixing
+        weighs = mixing == "weight"
+        self._winds = [wind for wind in winds if wind.primitive.weight > 0.0] if weighs else list(winds)
+        self._reserve(len(self._winds) + 1, 0)
+        self._sheets.begin()
+        numbers = [self._write(number, wind, time, weighs=weighs) for number, wind in enumerate(self._winds)]
+        self._untwinned = [number for number, twin in enumerate(numbers) if twin == TOLD]
+        frame = flutter_values(time=time, seed=seed)
+        self._put(0, (float(weighs), *_NOTHING), TwinValues([*frame.numbers, *self._runs(numbers)], frame.sheets))
+        self._send()
+        return [self._winds[number] for number in self._untwinned]
+
+    def _write(self, number: int, wind: Blowing, time: float, *, weighs: bool) -> int:
+        """Write a wind into its row, and return the number of its twin."""
+        primitive = wind.primitive
+        twin, values = self._number_of(type(primitive)), TwinValues()
+        if twin != TOLD:
+            try:
+                values = primitive.twin_values(time=time, seed=wind.seed)
+                check_values(self._twins[twin], values)
+            except Exception as error:  # noqa: BLE001 - a plugin may raise anything
+                self._do_without(type(primitive), error)
+                twin, values = TOLD, TwinValues()
+        after = self._winds[number + 1].primitive.priority if number + 1 < len(self._winds) else None
+        ends = not weighs or after != primitive.priority
+        share = 0.0 if twin == TOLD else wind.strength * (primitive.weight if weighs else 1.0)
+        self._put(number + 1, (*_frame_of(wind), share, primitive.swing, float(ends), 0.0), values)
+        return twin
+
+    def _runs(self, numbers: Sequence[int]) -> list[int]:
+        """Return in which row each run of a program ends, with room in programs for all that are needed."""
+        order, ends = fitted(self._order, numbers)
+        if len(order) > len(self._order) > MOST_EMPTY + len(fitted((), numbers)[0]):
+            order, ends = fitted((), numbers)
+        if len(order) != len(self._order):
+            self._order = order
+        return ends
+
+    def _reserve(self, rows: int, numbers: int) -> None:
+        """Make room for so many rows with so many numbers in each."""
+        before = self._rows
+        if rows > len(before) or numbers > before.shape[1]:
+            self._rows = np.zeros((max(2 * rows, len(before)), -(-max(numbers, before.shape[1]) // 4) * 4), np.float32)
+            self._rows[: len(before), : before.shape[1]] = before
+            self._records.release()
+            self._records = self._room()
+
+    def _put(self, row: int, head: tuple[float, ...], values: TwinValues) -> None:
+        layers = self._sheets.layers(values.sheets) if values.sheets else []
+        record = *head, *layers, *[0] * (4 - len(layers)), *values.numbers
+        self._reserve(0, len(record))
+        self._rows[row, : len(record)] = record
+
+    def _send(self) -> None:
+        used = self._rows[: len(self._winds) + 1]
+        packed = used.tobytes()
+        if packed != self._sent:
+            self._records.write(packed, viewport=(0, 0, self._records.width, len(used)))
+            self._sent = packed
+
+    def tell(
+        self,
+        receivers: Callable[[], ReceiverArrays],
+        quarantine: Quarantine,
+        /,
+        *,
+        numbers: Callable[[], Rows] | None = None,
+    ) -> None:
+        """Ask the winds without a twin what they tell receivers; where all have one, nothing is asked for.
+
+        `numbers` (n,) are the receivers' in `hear.glsl`; without it they count from 0. A wind that fails says nothing
+        in this frame.
+        """
+        if not self._untwinned:
+            return
+        heard, (time, mixing) = receivers(), self._asked
+        number = np.arange(len(heard.place)) if numbers is None else numbers()
+        self._told.reserve(len(self._untwinned), int(number.max(initial=0)) + 1)
+        nobody, everybody = np.zeros(0, np.intp), np.ones(len(heard.place), np.float32)
+        for count, row in enumerate(self._untwinned):
+            sent = send(self._winds[row], heard, everybody, quarantine, time, mixing)
+            if sent is None:
+                self._told.write(count, nobody, np.zeros((0, 2), np.float32), np.zeros(0, np.float32))
+            else:
+                self._told.write(count, number[sent.rows], sent.message, sent.weight)
+            self._rows[row + 1, SHARE], self._rows[row + 1, SHEET] = 1.0, count * self._told.block
+        for row, wind in enumerate(self._winds, 1):
+            if wind.source in quarantine.reasons:  # what it sent before it failed is no message
+                self._rows[row, SHARE] = 0.0
+        self._send()
+
+    # ---- Programs --------------------------------------------------------------------------------
+
+    def program(
+        self,
+        vertex: str,
+        fragment: str | None,
+        *,
+        defines: Mapping[str, str | int] | None = None,
+        varyings: tuple[str, ...] = (),
+    ) -> moderngl.Program:
+        """Return the program of two shader files with the twins that there are; it is kept until there is another.
+
+        It knows where the textures are, and the frame's block if it has one. Raises `ShaderError` as
+        `engine.gl.shaders.program` does.
+        """
+        key, order = (vertex, fragment, tuple((defines or {}).items()), varyings), tuple(self._order)
+        before, made = self._programs.get(key, (None, None))
+        if made is None or before != order:
+            if made is not None:
+                self._stale.append(made)  # vertex arrays may still be of it
+            made = self._made(vertex, fragment, defines, varyings, joined_twins(self._twins, order))
+            self._programs[key] = order, made
+        return made
+
+    def _made(
+        self,
+        vertex: str,
+        fragment: str | None,
+        defines: Mapping[str, str | int] | None,
+        varyings: tuple[str, ...],
+        twins: Mapping[str, Sequence[Line]],
+    ) -> moderngl.Program:
+        made = program(self.ctx, vertex, fragment, defines=defines, varyings=varyings, made=twins)
+        for name, unit in self._units.items():
+            if name in made:
+                made[name] = unit
+        if "Frame" in made:
+            made["Frame"].binding = frame_binding(self.ctx)  # type: ignore[union-attr]
+        return made
+
+    def use(self, program: moderngl.Program, /) -> None:
+        """Bind what a program reads of the winds."""
+        for name, texture in (
+            ("winds", self._records),
+            ("wind_curves", self._curves),
+            ("wind_told", self._told.texture),
+        ):
+            if name in program:
+                texture.use(self._units[name])
+        if "wind_sheets" in program:
+            self._sheets.texture.use(self._units["wind_sheets"])
+
+    # ---- Twins -----------------------------------------------------------------------------------
+
+    def _number_of(self, kind: type[WindPrimitive]) -> int:
+        """Return which of the twins is that of a class of winds, `TOLD` where numpy does without one."""
+        if kind not in self._numbers:
+            self._numbers[kind] = TOLD
+            try:
+                twin = twin_of(kind)
+                self._numbers[kind] = TOLD if twin is None else self._admit(twin)
+            except (TwinError, ShaderError, OSError, UnicodeError) as error:
+                self._do_without(kind, error)
+        return self._numbers[kind]
+
+    def _admit(self, twin: Twin) -> int:
+        """Return the number of a twin among the others; raises ShaderError where it does not go with them."""
+        if twin not in self._twins:
+            twins = [*self._twins, twin]
+            self._made(_TRIED, None, None, ("message",), joined_twins(twins, range(len(twins)))).release()
+            self._twins = twins
+        return self._twins.index(twin)
+
+    def _do_without(self, kind: type[WindPrimitive], error: Exception) -> None:
+        """Leave a twin out from now on, and say so."""
+        self._numbers[kind] = TOLD
+        log.debug("%s", kind.__name__, exc_info=error)
+        why = str(error) if isinstance(error, TwinError | ShaderError) else said(error)
+        log.warning("the twin of %s.%s cannot be used: %s; numpy does without it", kind.__module__, kind.__name__, why)
+
+    def _room(self) -> moderngl.Texture:
+        self._sent = b""
+        texture = self.ctx.texture((self._rows.shape[1] // 4, len(self._rows)), 4, dtype="f4")
+        texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        return texture
+
+    def release(self) -> None:
+        """Give everything back to the context."""
+        release_all(self._records, self._sheets, self._told, self._curves, *self._stale)
+        release_all(*(made for _, made in self._programs.values()))
+
+
+def curve_texture(ctx: moderngl.Context, growths: Sequence[Growth], /) -> moderngl.Texture:
+    """Return how kinds of grass answer a wind: a row each, the index after it starts and stops, and the step [s]."""
+    texels = np.zeros((len(growths), len(growths[0].response.rise), 3), np.float32)
+    for row, growth in zip(texels, growths, strict=True):
+        response = growth.response
+        row[:, 0], row[:, 1], row[:, 2] = response.rise, response.fall, response.step
+    texture = ctx.texture((texels.shape[1], len(texels)), 3, texels, dtype="f4")
+    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+    return texture
+
+
+def _frame_of(wind: Blowing) -> tuple[float, ...]:
+    """Return where a wind is, how it is turned, and the rectangle it holds, as masks are left out beyond it."""
+    pose, held = wind.pose, wind.extent
+    turned = pose.x, pose.z, cos(pose.yaw), sin(pose.yaw)
+    if held is None:
+        return *turned, -LARGEST, LARGEST, -LARGEST, LARGEST
+    low, high = max(held.left, -LARGEST) - BESIDE, min(held.right, LARGEST) + BESIDE
+    return *turned, low, high, max(held.ahead, -LARGEST) - BESIDE, min(held.behind, LARGEST) + BESIDE

@@ -1,0 +1,12 @@
+// Soft edges of masks: the twin of systems/wind/shape.py.
+
+// 0 below 0, 1 above 1, and a smooth step between.
+float eased(float value) {
+    float t = clamp(value, 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+// 1 between two bounds, falling to 0 at each over `width` [m].
+float rim(float value, float least, float most, float width) {
+    return eased(min(value - least, most - value) / width);
+}

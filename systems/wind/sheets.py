@@ -1,0 +1,74 @@
+"""Tables that winds read on the graphics card, each sent once."""
+
+from collections.abc import Sequence
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float32]
+
+
+class Sheets:
+    """A texture array with a layer for each table; a table that is the same array as before is not sent again."""
+
+    def __init__(self, ctx: moderngl.Context, *, side: int = 128, layers: int = 4) -> None:
+        self.ctx = ctx
+        self._held: list[Floats | None] = [None] * layers
+        self._layer: dict[int, int] = {}
+        self._used: set[int] = set()
+        self.texture = self._room(side, side)
+        self.sent = 0
+        """How many tables have been sent so far."""
+
+    def begin(self) -> None:
+        """Begin a frame: layers whose tables are not asked for in it may be given to others."""
+        self._used.clear()
+
+    def layers(self, tables: Sequence[Floats], /) -> list[int]:
+        """Return where tables of shape (rows, columns, 1 to 4) are, sending those that are new."""
+        return [self._layer_of(table) for table in tables]
+
+    def _layer_of(self, table: Floats) -> int:
+        layer = self._layer.get(id(table))  # it is held, so that no other can have its identity
+        if layer is None:
+            layer = self._place(table)
+        self._used.add(layer)
+        return layer
+
+    def _place(self, table: Floats) -> int:
+        rows, columns = table.shape[:2]
+        free = [layer for layer in range(len(self._held)) if layer not in self._used]
+        if not free or rows > self.texture.height or columns > self.texture.width:
+            self._held += [None] * (0 if free else len(self._held))
+            self._grow(max(rows, self.texture.height), max(columns, self.texture.width))
+            return self._place(table)
+        layer = min(free, key=lambda layer: self._held[layer] is not None)
+        if (before := self._held[layer]) is not None:
+            del self._layer[id(before)]
+        self._held[layer], self._layer[id(table)] = table, layer
+        self._send(layer, table)
+        return layer
+
+    def _grow(self, rows: int, columns: int) -> None:
+        self.texture.release()
+        self.texture = self._room(rows, columns)
+        for layer, table in enumerate(self._held):
+            if table is not None:
+                self._send(layer, table)
+
+    def _send(self, layer: int, table: Floats) -> None:
+        rows, columns, channels = table.shape
+        texels = np.zeros((rows, columns, 4), np.float32)
+        texels[..., :channels] = table
+        self.texture.write(texels, viewport=(0, 0, layer, columns, rows, 1))
+        self.sent += 1
+
+    def _room(self, rows: int, columns: int) -> moderngl.TextureArray:
+        texture = self.ctx.texture_array((columns, rows, len(self._held)), 4, dtype="f4")
+        texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        return texture
+
+    def release(self) -> None:
+        """Give the texture back."""
+        self.texture.release()
