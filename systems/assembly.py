@@ -10,7 +10,7 @@ from ..engine.terrain.sample import height_at
 from ..engine.world import World
 from .around.clearing import Clearings
 from .around.outlook import Outlook, Outlooks
-from .blow import Blow, Hear
+from .blow import Blow, Hear, Now
 from .bodies.fly import flying
 from .cull import Cull
 from .entities import PatchEntities
@@ -50,7 +50,7 @@ class Assembly:
             return flying(self.world, heights, self.winds.quarantine, time=time)
 
         return built_in(
-            site, self.viewers, self.entities(site), hear=self.winds.heard, painter=self.screen.current, bodies=bodies
+            site, self.viewers, self.entities(site), now=self.winds.now, hear=self.winds.heard, painter=self.screen.current, bodies=bodies
         )
 
 
@@ -60,6 +60,7 @@ def built_in(
     entities: PatchEntities,
     /,
     *,
+    now: Now,
     hear: Hear,
     painter: Callable[[], Painter],
     bodies: Callable[[float], Sequence[Body]],
@@ -82,7 +83,7 @@ def built_in(
         (Phase.SEE, "transition", Transition(outlooks, shown, reach, patch, change)),
         (Phase.SEE, "see", See(outlooks, shown, reach, patch, change)),
         (Phase.BLOW, "plant", Plant(outlooks, shown, entities.world)),
-        (Phase.BLOW, "wind", Blow(outlooks, hear, site.growths, patch, max(each.margin() for each in shown))),
+        (Phase.BLOW, "wind", Blow(outlooks, now, hear, site.growths)),
         (Phase.DRAW, "gather", Gather(outlooks, painter, bodies)),
     ]  # fmt: skip
 

@@ -53,8 +53,8 @@ OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
 class Painter:
     """Everything that one GL context holds of a site, and the drawing of it."""
 
-    def __init__(self, ctx: moderngl.Context, site: Site) -> None:
-        self.ctx = ctx
+    def __init__(self, ctx: moderngl.Context, site: Site, quarantine: Quarantine) -> None:
+        self.ctx, self.quarantine = ctx, quarantine
         self.block = FrameBlock(ctx)
         self.received = Received(ctx)
         self.air: CardWinds | None = None

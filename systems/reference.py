@@ -15,11 +15,8 @@ from .around.window import cell_of
 from .painter import Painter
 from .prairie import Prairie
 from .show.blades.draw import BladePainter
-from .show.blades.gather import gather_blades
-from .show.blades.plant import plant_blades
-from .show.blades.pool import BladePool
+from .show.blades.plant import standing_blades
 from .show.blades.representation import BladeRepresentation
-from .show.blades.shown import Standing
 from .tile import cells_on, patch_models
 from .wind.blow import places_alone
 from .wind.grass import grass_of
@@ -51,15 +48,13 @@ def stand_all(prairie: Prairie, cells: Ints, painter: BladePainter, /) -> int:
     """Send all blades of `cells` (n, 2) to a painter, bent by the wind of now; return how many."""
     site = prairie.site
     (stock,) = (each.stock for each in site.representations if isinstance(each, BladeRepresentation))
-    pool = BladePool.allocate_slots(len(cells), stock.records.shape[1])
-    slots = np.arange(len(cells))
     model, turn = patch_models(cells, seed=site.scene.seed, models=site.quality.models)
-    plant_blades(pool, slots, cells, model, turn, stock, site.ground)
-    grass = grass_of(site.growths, pool.kind(slots))
-    heard = prairie.winds.heard(places_alone(pool.place.reshape(-1, 2), grass), time=prairie.time)
-    pool.message[:] = heard.reshape(pool.message.shape)
-    painter.write(*gather_blades(pool, Standing.whole(slots, slots)))
-    return painter.blades.count
+    standing, grows = standing_blades(stock, cells, model, turn, site.ground)
+    blades = standing[grows]
+    place = np.ascontiguousarray(blades["root"][:, ::2])
+    grass = grass_of(site.growths, blades["kind"].astype(np.intp))
+    painter.write(blades, prairie.winds.heard(places_alone(place, grass), time=prairie.time))
+    return len(blades)
 
 
 class EveryBlade:

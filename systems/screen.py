@@ -11,6 +11,7 @@ from ..engine.gl.guest import host_context, kept
 from ..engine.gl.homes import Homes
 from .painter import Painter
 from .site import Site
+from .wind.quarantine import Quarantine
 
 if TYPE_CHECKING:
     from pyglet.graphics import Batch, Group
@@ -21,8 +22,9 @@ if TYPE_CHECKING:
 class Screen:
     """The host's framebuffers, in the context that is given or else in whichever is current."""
 
-    def __init__(self, ctx: moderngl.Context | None) -> None:
+    def __init__(self, ctx: moderngl.Context | None, quarantine: Quarantine) -> None:
         self.ctx = ctx
+        self._quarantine = quarantine
         self.painter: Painter | None = None
         """The painter of the context that was drawn in last; None before the first time."""
         self._painters: Homes[Painter] = Homes()
@@ -40,7 +42,7 @@ class Screen:
             if 0 in state.viewport[2:]:
                 yield None
                 return
-            self.painter = self._painters.here(ctx, partial(Painter, site=site))
+            self.painter = self._painters.here(ctx, partial(Painter, site=site, quarantine=self._quarantine))
             if self.painter.site is not site:
                 self.painter.change(site)
             yield self.painter

@@ -47,6 +47,11 @@ class Site:
         return max(ring.segments for ring in self.quality.blade_rings)
 
     @property
+    def margin(self) -> float:
+        """How far receivers may stand outside of their patch [m]."""
+        return max(each.margin() for each in self.representations)
+
+    @property
     def blades(self) -> int:
         """Blades that grow on the whole terrain, from the kinds' mean densities."""
         width, depth = self.ground.terrain.size

@@ -8,14 +8,15 @@ from numpy.typing import NDArray
 class Records:
     """A texture of records that is filled anew and grows as it must, `per_row` of them in a row.
 
-    `record` is a dtype of float32 fields whose size is that of some RGBA texels.
+    `record` is a dtype of float32 fields whose size is that of some RGBA texels, or of one integer.
     """
 
     def __init__(self, ctx: moderngl.Context, record: np.dtype[np.void], per_row: int, *, rows: int = 64) -> None:
         self.ctx = ctx
         self.record = record
         self.per_row = per_row
-        self.texels = record.itemsize // 16
+        self.texels, self.channels = max(record.itemsize // 16, 1), min(record.itemsize // 4, 4)
+        self.kind = "u4" if self.channels == 1 else "f4"
         self.texture = self._room(rows)
 
     def write(self, records: NDArray[np.void]) -> None:
@@ -30,7 +31,7 @@ class Records:
             self.texture.write(padded, viewport=(0, 0, self.texels * self.per_row, rows))
 
     def _room(self, rows: int) -> moderngl.Texture:
-        texture = self.ctx.texture((self.texels * self.per_row, rows), 4, dtype="f4")
+        texture = self.ctx.texture((self.texels * self.per_row, rows), self.channels, dtype=self.kind)
         texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
         return texture
 

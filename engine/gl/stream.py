@@ -21,16 +21,16 @@ def release_all(*things: Releasable) -> None:
 
 
 def attributes(record: np.dtype[np.void]) -> tuple[str, list[str]]:
-    """Return the buffer format and the attribute names of a record of float32 fields."""
+    """Return the buffer format and the attribute names of a record of float32 and uint32 fields."""
     names = list(record.names or ())
     counts = [int(np.prod(record[name].shape, dtype=int)) for name in names]
-    return " ".join(f"{count}f" for count in counts), names
+    return " ".join(f"{count}{record[name].base.kind}" for count, name in zip(counts, names, strict=True)), names
 
 
 class Stream:
     """A vertex buffer of records that grows as it must.
 
-    `record` is a dtype of float32 fields whose names are the shader's attributes.
+    `record` is a dtype of float32 and uint32 fields whose names are the shader's attributes.
     """
 
     def __init__(self, ctx: moderngl.Context, record: np.dtype[np.void]) -> None:

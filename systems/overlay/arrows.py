@@ -39,7 +39,7 @@ def felt(outlook: Outlook, /) -> tuple[Floats, Floats]:
                 continue
             grows = receiving.pool.grows(receiving.slots, outlook.patches.cell[receiving.rows])
             place.append(receiving.pool.places(receiving.slots).reshape(-1, 2)[grows])
-            message.append(receiving.pool.message[receiving.slots].reshape(-1, 2)[grows])
+            message.append(receiving.letters.messages(receiving.slots).reshape(-1, 2)[grows])
     return np.concatenate(place), np.concatenate(message)
 
 

@@ -39,7 +39,7 @@ class Received:
         """Ask `count` receivers from the `first` on with the program of a vertex array; return the number of draws."""
         if not count:
             return 0
-        array.program["asked"] = first // ROW, count
+        array.program["pool"] = first // ROW, count
         self._target.viewport = 0, first // ROW, ROW, -(-count // ROW)
         self._target.use()
         array.render(moderngl.TRIANGLES, vertices=3)

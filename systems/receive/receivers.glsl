@@ -4,17 +4,17 @@
 #include "lib/received.glsl"
 #include "systems/wind/hear.glsl"
 
-uniform ivec2 asked;  // row of the first one; how many there are
+uniform ivec2 pool;  // row of its first receiver; how many it has
 
 out vec4 told;
 
 int number_here() {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    return (at.y - asked.x) * RECEIVED_ROW + at.x;
+    return (at.y - pool.x) * RECEIVED_ROW + at.x;
 }
 
 // What a receiver is told, and what it stands on.
 vec4 told_at(vec2 place, int kind, int number) {
     float grows = textureLod(density, on_map(place), 0.0)[kind];
-    return vec4(hear(place, kind, false, asked.x * RECEIVED_ROW + number), height_at(place), grows);
+    return vec4(hear(place, kind, false, pool.x * RECEIVED_ROW + number), height_at(place), grows);
 }

@@ -7,7 +7,7 @@ uniform int each;           // blades on a patch
 
 void main() {
     int number = number_here();
-    if (number >= asked.y) {
+    if (number >= pool.y) {
         told = vec4(0.0);
         return;
     }

@@ -9,7 +9,7 @@ uniform ivec2 of_ring;       // the ring that is asked; its first patch
 
 void main() {
     int number = number_here(), count = stacks[of_ring.x].z, edges = stacks[of_ring.x].x + 1;
-    if (number >= asked.y) {
+    if (number >= pool.y) {
         told = vec4(0.0);
         return;
     }
