@@ -50,7 +50,13 @@ class Assembly:
             return flying(self.world, heights, self.winds.quarantine, time=time)
 
         return built_in(
-            site, self.viewers, self.entities(site), now=self.winds.now, hear=self.winds.heard, painter=self.screen.current, bodies=bodies
+            site,
+            self.viewers,
+            self.entities(site),
+            now=self.winds.now,
+            hear=self.winds.heard,
+            painter=self.screen.current,
+            bodies=bodies,
         )
 
 

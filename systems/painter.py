@@ -57,7 +57,7 @@ class Painter:
         self.ctx, self.quarantine = ctx, quarantine
         self.block = FrameBlock(ctx)
         self.received = Received(ctx)
-        self.air: CardWinds | None = None
+        self.air: CardWinds
         self.textures: dict[str, moderngl.Texture | moderngl.TextureArray] = {}
         self.sky = program(ctx, "systems/frame/sky.vert", "systems/frame/sky.frag")
         self.block.join(self.sky)
@@ -87,7 +87,7 @@ class Painter:
             self._lay(site)
         same_grass = site.growths == before.growths and site.quality == before.quality and site.reach == before.reach
         if not (same_grass and same_seed):
-            release_all(*self.painters.values())
+            release_all(*self.painters.values(), self.air)
             self._grow(site)
         self.carpet.stand_on(site.ground)
         if self.bodies is not None and site.scene.light != before.scene.light:
@@ -109,8 +109,6 @@ class Painter:
     def _grow(self, site: Site) -> None:
         """Bring the grass into GL."""
         self._put("postures", posture_texture(self.ctx, site.growths))
-        if self.air is not None:
-            self.air.release()
         self.air = CardWinds(self.ctx, UNITS, site.growths)
         canvas = Canvas(
             self.ctx, self.block, UNITS, site.scene.seed, site.transitions, self.air, self.received, site.reach,
@@ -137,7 +135,7 @@ class Painter:
     def _hear(self, target: moderngl.Framebuffer) -> int:
         """Let all receivers that are seen hear the wind; return the number of draw calls."""
         outlook, air, site = self._outlook, self.air, self.site
-        if outlook is None or air is None:
+        if outlook is None:
             return 0
         air.write(outlook.winds, time=outlook.blown_at, seed=site.scene.seed, mixing=site.scene.mixing)
         air.tell(
@@ -206,4 +204,5 @@ class Painter:
         """Give everything back to the context."""
         if self.bodies is not None:
             self.bodies.release()
-        release_all(*self.painters.values(), *([self.air] if self.air else []), self.received, self.block, self.sky_array, self.sky, *self.textures.values())
+        release_all(*self.painters.values(), self.air, self.received, self.block, self.sky_array, self.sky)
+        release_all(*self.textures.values())

@@ -75,7 +75,8 @@ class Prairie:
         self.winds = Winds(self.world, loaded.scene, self.site.ground, self.site.growths, live=live)
         self.systems = Schedule()
         self._loaded, self._preset, self._clock, self._released = loaded, preset, 0.0, False
-        self._assembly = Assembly(self.world, self.viewers, self.clearings, self.winds, Screen(ctx, self.winds.quarantine))
+        screen = Screen(ctx, self.winds.quarantine)
+        self._assembly = Assembly(self.world, self.viewers, self.clearings, self.winds, screen)
         self._built = self._assembly.on(self.site)
         for phase, name, system in self._built:
             self.systems.add(phase, name, system, trusted=True)

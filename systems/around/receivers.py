@@ -133,7 +133,7 @@ class Correspondence:
             letter.left[:] = letter.message
 
     def written(self) -> Iterator[tuple[int, Floats]]:
-        """Yield the slots and messages (n, 2) that are other than the wind says; they are mended to be possible ones."""
+        """Yield the slots and messages (n, 2) that are other than the wind says, mended to be possible ones."""
         for slot, letter in self._letters.items():
             if letter.written:
                 letter.message[:] = self._valid(letter.message)

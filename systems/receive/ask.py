@@ -28,9 +28,7 @@ def numbers_of(outlook: Outlook, first: Mapping[str, Sequence[int]], /) -> NDArr
     return np.concatenate([own for _, own in sorted(parts, key=lambda part: part[0])])
 
 
-def write_messages(
-    received: Received, outlook: Outlook, first: Mapping[str, Sequence[int]], ground: Ground, /
-) -> None:
+def write_messages(received: Received, outlook: Outlook, first: Mapping[str, Sequence[int]], ground: Ground, /) -> None:
     """Send what a game has written into messages of receivers that are shown, in place of what they have heard."""
     for name, kept in outlook.kept.items():
         for receiving, start in zip(kept.receiving, first[name], strict=True):

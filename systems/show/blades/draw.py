@@ -92,9 +92,7 @@ class Ribbons:
 class BladePainter:
     """Draws any blades as they are sent, opaque and in any order."""
 
-    def __init__(
-        self, ctx: moderngl.Context, block: FrameBlock, segments: int, units: Mapping[str, int]
-    ) -> None:
+    def __init__(self, ctx: moderngl.Context, block: FrameBlock, segments: int, units: Mapping[str, int]) -> None:
         self.ribbons = Ribbons(ctx, block, segments, units, soft=False)
         self.program = blade_program(ctx, block, units, RIBBON, {})
         self.blades, self.messages = Stream(ctx, SHADER_BLADE), Stream(ctx, MESSAGE)

@@ -10,7 +10,7 @@ Numbers = NDArray[np.uint32]
 
 
 def gather_blades(pool: BladePool, shown: Standing, /, *, eye: tuple[float, float]) -> Numbers:
-    """Return the numbers of the blades that grow on the patches shown, as seen from `eye` (x, z) [m], far to near, (n,).
+    """Return the numbers of the blades that grow on the patches shown, far to near from `eye` (x, z) [m], shape (n,).
 
     A blade's number is its patch's place among all patches with blades, times the blades on a patch, plus its own. An
     order by patches would turn over along a whole border between two of them when the viewer crosses its line.
@@ -20,7 +20,7 @@ def gather_blades(pool: BladePool, shown: Standing, /, *, eye: tuple[float, floa
     patch, blade = np.divmod(at, each)
     place = pool.place.reshape(-1, 2).take(shown.slots.take(patch) * each + blade, axis=0)
     numbers = shown.places.take(patch) * each + blade
-    return numbers.take(far_first(place - np.array(eye, np.float32))).astype(np.uint32)
+    return np.asarray(numbers.take(far_first(place - np.array(eye, np.float32))), np.uint32)
 
 
 def far_first(away: NDArray[np.float32], /) -> NDArray[np.intp]:

@@ -37,7 +37,7 @@ def gather_morph(
     queue = _far_slices_first(slices, pool.place[shown.slots], outlook.viewer.eye)
     grows = np.take_along_axis(pool.present[shown.slots] & (left > 0.0)[:, None], queue, axis=1)
     numbers = shown.places[:, None] * pool.present.shape[1] + queue
-    return numbers[grows].astype(np.uint32)
+    return np.asarray(numbers[grows], np.uint32)
 
 
 def _far_slices_first(slices: Integers, place: Floats, eye: tuple[float, float, float]) -> Integers:

@@ -35,9 +35,7 @@ NUMBER = np.dtype([("number", "u4")])
 class BladesPainter:
     """Draws the blades of all rings, and those on their way to their strips."""
 
-    def __init__(
-        self, canvas: Canvas, stock: BladeStock, strips: StripRepresentation, quality: Quality
-    ) -> None:
+    def __init__(self, canvas: Canvas, stock: BladeStock, strips: StripRepresentation, quality: Quality) -> None:
         ctx, block, units, rings = canvas.ctx, canvas.block, canvas.units, quality.blade_rings
         self.store = BladeStore(ctx, stock, strips.stock)
         self._strips, self._units, self._received, self._models = strips, units, canvas.received, len(stock.rank)

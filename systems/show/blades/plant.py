@@ -34,7 +34,7 @@ class BladeStock:
     @cached_property
     def kinds(self) -> NDArray[np.intp]:
         """The kind of each blade, the same in all models, shape (n,)."""
-        return self.records["kind"][0].astype(np.intp)
+        return np.asarray(self.records["kind"][0], np.intp)
 
 
 def blade_records(blades: Blades, turn: int, /, *, patch: float, kind: int, variants: int) -> NDArray[np.void]:

@@ -93,7 +93,5 @@ def _ranked(rings: list[tuple[StripPool, StripsOfRing]]) -> NDArray[np.bool_]:
 
     Where grass is thin anywhere in a ring, all of the ring is.
     """
-    ranked = [
-        (pool.least[ring.slots] < WHOLE).any() | (ring.most < 1.0) | (ring.least > 0.0) for pool, ring in rings
-    ]
+    ranked = [(pool.least[ring.slots] < WHOLE).any() | (ring.most < 1.0) | (ring.least > 0.0) for pool, ring in rings]
     return np.concatenate(ranked)
