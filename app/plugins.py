@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ..engine.plugged import system_plugins
 from ..engine.plugins import PluginError, wind_kinds
-from ..testing import wind_problems
+from ..testing import NoContextError, headless_context, twin_problems, wind_problems
 from .scaffold import scaffold
 
 
@@ -44,11 +44,17 @@ def check_plugin(kind: str) -> int:
     except PluginError as error:
         print(error)
         return 2
-    problems = wind_problems(primitive)
+    problems, hint = wind_problems(primitive), ""
+    if not problems and primitive.twin is not None:
+        try:
+            with headless_context() as ctx:
+                problems = twin_problems(primitive, ctx)
+        except NoContextError as error:
+            hint = f", but its twin was not looked at: {error}"
     default = primitive.model_fields["kind"].default
     if isinstance(default, str) and default != kind:
         problems.append(f"the field 'kind' defaults to '{default}', but the entry point is called '{kind}'")
-    for line in problems or ["ok"]:
+    for line in problems or [f"ok{hint}"]:
         print(f"{kind}: {line}")
     return 2 if problems else 0
 

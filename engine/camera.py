@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .curve import Curve
 from .declared.camera import CameraSource, Stop
 from .handed import as_floats
 
@@ -113,24 +114,11 @@ def camera_at(source: CameraSource, time: float | None, height_at: Heights, /) -
 
 
 def glide(times: Doubles, values: Doubles, time: float, /) -> Doubles:
-    """Return the value at one time on a curve through all `values`, shape (k,), with a continuous first derivative.
+    """Return the value at one time on the `Curve` through all `values`, shape (k,).
 
-    `times` rise, shape (n,); `values` have shape (n, k). Between two stops the curve is a cubic Hermite polynomial
-    whose tangents come from the parabola through a stop and its neighbours; outside it holds the end values.
+    `times` rise, shape (n,); `values` have shape (n, k).
     """
-    if len(times) == 1 or time <= times[0]:
-        return np.array(values[0])
-    if time >= times[-1]:
-        return np.array(values[-1])
-    i = int(np.searchsorted(times, time, side="right")) - 1
-    span = times[i + 1] - times[i]
-    t = (time - times[i]) / span
-    tangents = _tangents(times, values)
-    hold, leave = t * t * (3.0 - 2.0 * t), t * (1.0 - t) ** 2
-    arrive = t * t * (t - 1.0)
-    return np.asarray(
-        (1.0 - hold) * values[i] + hold * values[i + 1] + span * (leave * tangents[i] + arrive * tangents[i + 1])
-    )
+    return np.array(Curve.through(times, values).at(time))
 
 
 def parse_camera(text: str, /, *, view: float) -> Camera:
@@ -159,13 +147,6 @@ def _number(text: str) -> float:
     if not math.isfinite(number):
         raise ValueError(f"{text.strip()!r} is not a finite number")
     return number
-
-
-def _tangents(times: Doubles, values: Doubles) -> Doubles:
-    steps = np.diff(times)[:, None]
-    slopes = np.diff(values, axis=0) / steps
-    inner = (slopes[:-1] * steps[1:] + slopes[1:] * steps[:-1]) / (steps[:-1] + steps[1:])
-    return np.concatenate([slopes[:1], inner, slopes[-1:]])
 
 
 def _above(place: Doubles, height: float, height_at: Heights) -> Doubles:

@@ -59,6 +59,7 @@ class WindKinds:
         self._entries = self._installed.used
         self._classes: dict[str, type[WindPrimitive]] = {}
         self._ours = frozenset(entry.value for entry in self._installed.all() if owner(entry)[0] == OURS)
+        self._are_ours: dict[type[WindPrimitive], bool] = {}
         for name in unknown_names(chosen, [*self._installed.all(), *others]):
             log.warning("%s names '%s', but no such kind, system or distribution is installed", CHOSEN, name)
 
@@ -79,7 +80,10 @@ class WindKinds:
 
     def is_ours(self, primitive: type[WindPrimitive], /) -> bool:
         """Return whether a class of winds comes along with tallgrass; nothing is imported for it."""
-        return f"{primitive.__module__}:{primitive.__qualname__}" in self._ours
+        known = self._are_ours.get(primitive)
+        if known is None:
+            known = self._are_ours[primitive] = f"{primitive.__module__}:{primitive.__qualname__}" in self._ours
+        return known
 
     def names(self) -> list[str]:
         """Return the kinds a scene may use, in alphabetical order; nothing is imported for it."""

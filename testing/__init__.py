@@ -15,6 +15,7 @@ from .looking import looking
 from .site import little_site, look, systems_on, viewer_on
 from .stage import Stage, stage
 from .step import step, watch
+from .twins import twin_problems
 from .winds import check_wind, wind_problems
 
 __all__ = [
@@ -37,6 +38,7 @@ __all__ = [
     "stage",
     "step",
     "systems_on",
+    "twin_problems",
     "viewer_on",
     "watch",
     "wind_problems",

@@ -85,7 +85,7 @@ def _behaviour(wind: WindPrimitive, seed: int) -> list[str]:
     try:
         _values(wind, report)
         report.ask("model_dump_json", "which settles ties", wind.model_dump_json)
-        times = _timeline(wind)
+        times = timeline(wind)
         if report.twice("hover", "at any time", wind.hover, Hover, type(None)) is not None:
             flight(wind, report, times)
         first = {time: _answers(wind, report, time, seed) for time in times}
@@ -98,8 +98,8 @@ def _behaviour(wind: WindPrimitive, seed: int) -> list[str]:
     return list(report.sentences.values())
 
 
-def _timeline(wind: WindPrimitive) -> list[float]:
-    """Return instants from a wind's start to its stop [s]."""
+def timeline(wind: WindPrimitive, /) -> list[float]:
+    """Return instants to try a wind at, from its start to its stop [s]."""
     times = [wind.start + time for time in _TIMES]
     if wind.stop is None:
         return times

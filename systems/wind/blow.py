@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import partial
+from functools import lru_cache, partial
 from itertools import groupby
 from operator import itemgetter
 from types import NoneType
@@ -154,7 +154,7 @@ def _parts(
     source: WindSource, quarantine: Quarantine, time: float, seed: int, placed: Pose | None
 ) -> Iterator[Blowing]:
     wind = source.primitive
-    own = int(hash3(seed, crc32(source.name.encode()), 0))
+    own = _own_seed(seed, source.name)
     try:
         if not quarantine.ask(source, "its timeline", partial(is_on, wind, time)):
             return
@@ -174,6 +174,11 @@ def _parts(
         return
 
 
+@lru_cache(maxsize=1024)
+def _own_seed(seed: int, name: str) -> int:
+    return int(hash3(seed, crc32(name.encode()), 0))
+
+
 def is_on(wind: WindPrimitive, time: float, /) -> bool:
     """Return whether a wind has begun at `time` [s] and not ended."""
     return wind.start <= time and (wind.stop is None or time < wind.stop)
@@ -182,7 +187,8 @@ def is_on(wind: WindPrimitive, time: float, /) -> bool:
 def _set_in(wind: WindPrimitive, stop: float | None, time: float) -> float:
     begun = (time - wind.start) / wind.ease if wind.ease and wind.start else 1.0
     to_go = (stop - time) / wind.ease if wind.ease and stop is not None else 1.0
-    return float(smooth(np.array([min(begun, to_go)], np.float32))[0])
+    part = min(begun, to_go)
+    return 1.0 if part >= 1.0 else float(smooth(np.array([part], np.float32))[0])
 
 
 def claim(wind: WindPrimitive, /) -> tuple[int, float, str]:

@@ -3,6 +3,7 @@
 import logging
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from math import cos, sin
+from typing import Protocol
 
 import moderngl
 import numpy as np
@@ -13,7 +14,7 @@ from ...engine.complaint import said
 from ...engine.gl.shaders import Line, ShaderError, program
 from ...engine.gl.stream import release_all
 from ..frame.block import frame_binding
-from ..grow.record import Growth
+from ..grow.record import Response
 from .blow import BESIDE, Blowing, ReceiverArrays, claim, send
 from .flutter import flutter_values
 from .quarantine import Quarantine
@@ -39,6 +40,15 @@ _TRIED = "systems/wind/hear.vert"
 log = logging.getLogger("tallgrass")
 
 
+class Answering(Protocol):
+    """What grass of a kind is known by here, as a `Growth` is."""
+
+    @property
+    def response(self) -> Response:
+        """How it answers a wind over time."""
+        ...
+
+
 class CardWinds:
     """The winds that act, as one GL context holds them.
 
@@ -46,13 +56,15 @@ class CardWinds:
     A program that was asked for before is another one after a new kind of wind has come.
     """
 
-    def __init__(self, ctx: moderngl.Context, units: Mapping[str, int], growths: Sequence[Growth]) -> None:
+    def __init__(self, ctx: moderngl.Context, units: Mapping[str, int], growths: Sequence[Answering]) -> None:
         self.ctx = ctx
         self._units = {name: units[name] for name in SAMPLERS}
         self._rows = np.zeros((8, HEAD + MOST_NUMBERS), np.float32)
         self._sent = b""
         self._records = self._room()
         self._sheets, self._told, self._curves = Sheets(ctx), Told(ctx), curve_texture(ctx, growths)
+        self.reasons: dict[type[WindPrimitive], str] = {}
+        """Why the twin of a class of winds is left out."""
         self._numbers: dict[type[WindPrimitive], int] = {}
         self._twins: list[Twin] = []
         self._order: list[int] = []
@@ -244,6 +256,7 @@ class CardWinds:
         self._numbers[kind] = TOLD
         log.debug("%s", kind.__name__, exc_info=error)
         why = str(error) if isinstance(error, TwinError | ShaderError) else said(error)
+        self.reasons[kind] = why
         log.warning("the twin of %s.%s cannot be used: %s; numpy does without it", kind.__module__, kind.__name__, why)
 
     def _room(self) -> moderngl.Texture:
@@ -258,7 +271,7 @@ class CardWinds:
         release_all(*(made for _, made in self._programs.values()))
 
 
-def curve_texture(ctx: moderngl.Context, growths: Sequence[Growth], /) -> moderngl.Texture:
+def curve_texture(ctx: moderngl.Context, growths: Sequence[Answering], /) -> moderngl.Texture:
     """Return how kinds of grass answer a wind: a row each, the index after it starts and stops, and the step [s]."""
     texels = np.zeros((len(growths), len(growths[0].response.rise), 3), np.float32)
     for row, growth in zip(texels, growths, strict=True):

@@ -12,12 +12,16 @@ from pydantic import Field, model_validator
 from ...components.declaration import DeclarationError, Pair
 from ...components.pose import Pose
 from ...components.wind import Extent, Grass, TwinValues, WindPrimitive
+from ...engine.memo import by_identity
 from .shape import rim, rim_width
 
 Floats = NDArray[np.float32]
 
 LATEST = 36000.0
 """End of every timeline [s]."""
+
+MOST_KEPT = 64
+"""How many of a gust's repetitions are kept."""
 
 
 class Gust(WindPrimitive):
@@ -91,9 +95,15 @@ class Gust(WindPrimitive):
             return (self,) if self.start <= time < self.start + self.life else ()
         waits, sides = _repetitions(seed, *self.every)
         first, last = np.searchsorted(waits, [time - self.start - self.life, time - self.start], side="right").tolist()
-        return [self._again(float(waits[k]), float(sides[k])) for k in range(first, last)]
+        known = _again(self)
+        if len(known) > MOST_KEPT:
+            known.clear()
+        return [
+            known.get((seed, k)) or known.setdefault((seed, k), self._repeated(float(waits[k]), float(sides[k])))
+            for k in range(first, last)
+        ]
 
-    def _again(self, wait: float, side: float) -> "Gust":
+    def _repeated(self, wait: float, side: float) -> "Gust":
         heading, aside = radians(self.direction), self.wander * side
         x, z = self.position[0] + aside * cos(heading), self.position[1] + aside * sin(heading)
         return self.model_copy(update={"start": self.start + wait, "position": [x, z], "every": None})
@@ -141,6 +151,12 @@ class Gust(WindPrimitive):
         first, second = (np.float32(phase) for phase in _phases(seed))
         wave = np.sin(across / np.float32(4.1) + first) + np.sin(across / np.float32(1.7) + second) * np.float32(0.6)
         return np.asarray(np.float32(self.ragged) * (np.float32(0.5) + wave / np.float32(3.2)), np.float32)
+
+
+@by_identity(most=256)
+def _again(_: Gust) -> dict[tuple[int, int], Gust]:
+    """Return where a gust's repetitions are kept, by its seed and their number."""
+    return {}
 
 
 @lru_cache(maxsize=256)

@@ -1,5 +1,6 @@
 """Winds that are somewhere: at a fixed place, or on their way along a path (paper, section 3.3)."""
 
+from dataclasses import dataclass
 from itertools import pairwise
 from math import atan2, radians
 from typing import Self
@@ -11,7 +12,8 @@ from pydantic import Field, model_validator
 from ...components.declaration import Declaration, DeclarationError, Pair
 from ...components.pose import Pose
 from ...components.wind import WindPrimitive
-from ...engine.camera import glide
+from ...engine.curve import Curve
+from ...engine.memo import by_identity
 
 Doubles = NDArray[np.float64]
 
@@ -58,26 +60,49 @@ class PlacedWind(WindPrimitive):
         """Return where its frame is at `time` [s]."""
         if not self.path:
             return Pose(self.position[0], self.position[1], radians(self.yaw))
-        x, z = along(self.path, time).tolist()
+        x, z = _ways(self.path).place.at(time)
         return Pose(x, z, _heading(self.path, time, radians(self.yaw)))
+
+
+@dataclass(frozen=True, slots=True)
+class _Ways:
+    """A path as curves."""
+
+    place: Curve
+    """Ground position (x, z) [m]."""
+
+    yaw: Curve | None
+    """Heading, where points of the path declare it [degrees]."""
+
+    legs: list[tuple[float, float]]
+    """When it sets out and arrives on each leg that leads somewhere [s]."""
+
+
+@by_identity(most=256)
+def _ways(path: list[Waypoint]) -> _Ways:
+    times = np.array([stop.at for stop in path], np.float64)
+    declared = [(stop.at, stop.yaw) for stop in path if stop.yaw is not None]
+    turns, yaws = np.array(declared, np.float64).T if declared else (np.zeros(0), np.zeros(0))
+    return _Ways(
+        Curve.through(times, np.array([stop.position for stop in path], np.float64)),
+        Curve.through(turns, yaws[:, None]) if declared else None,
+        [(here.at, there.at) for here, there in pairwise(path) if here.position != there.position],
+    )
 
 
 def along(path: list[Waypoint], time: float, /) -> Doubles:
     """Return the ground position (x, z) [m] on a path at `time` [s], shape (2,)."""
-    times = np.array([stop.at for stop in path], np.float64)
-    return glide(times, np.array([stop.position for stop in path], np.float64), time)
+    return np.array(_ways(path).place.at(time))
 
 
 def _heading(path: list[Waypoint], time: float, first: float) -> float:
     """Return the heading on a path [rad]: what its points declare, or else where it leads, last led, or will lead."""
-    declared = [(stop.at, stop.yaw) for stop in path if stop.yaw is not None]
-    if declared:
-        times, yaws = np.array(declared, np.float64).T
-        return radians(float(glide(times, yaws[:, None], time)[0]))
-    legs = [(here.at, there.at) for here, there in pairwise(path) if here.position != there.position]
-    if not legs:
+    ways = _ways(path)
+    if ways.yaw is not None:
+        return radians(ways.yaw.at(time)[0])
+    if not ways.legs:
         return first
-    begin, end = next((leg for leg in reversed(legs) if leg[0] <= time), legs[0])
+    begin, end = next((leg for leg in reversed(ways.legs) if leg[0] <= time), ways.legs[0])
     moment = max(min(time, end - _MOMENT), begin + _MOMENT)
-    x, z = (along(path, moment + _MOMENT) - along(path, moment - _MOMENT)).tolist()
-    return atan2(x, -z)
+    after, before = ways.place.at(moment + _MOMENT), ways.place.at(moment - _MOMENT)
+    return atan2(after[0] - before[0], -(after[1] - before[1]))

@@ -6,7 +6,7 @@ the machine is.
 
 import logging
 from collections.abc import Callable, Iterable
-from dataclasses import astuple, dataclass, field
+from dataclasses import dataclass, field
 from functools import partial
 from math import inf, isnan
 from time import thread_time
@@ -83,13 +83,15 @@ class Quarantine:
         """Return what a wind answers; raises QuarantinedError where it fails to, or has failed before."""
         if source in self.reasons:
             raise QuarantinedError
-        start = thread_time()
+        is_timed = not wind_kinds().is_ours(type(source.primitive))
+        start = thread_time() if is_timed else 0.0
         try:
             answer = ask()
         except Exception as error:  # a plugin may raise anything
             log.debug("%s", source.name, exc_info=error)
             raise self.leave_out(source, f"{what} raised {said(error)}") from error
-        self._judge(source, what, thread_time() - start, receivers)
+        if is_timed:
+            self._judge(source, what, thread_time() - start, receivers)
         return answer
 
     def ask_for(self, source: WindSource, what: str, ask: Callable[[], Floats], /, *, shape: tuple[int, ...]) -> Floats:
@@ -127,8 +129,8 @@ class Quarantine:
         self.must_be(source, "parts, of the kind of one,", part.kind, str)
         told = {
             "parts, of what one declares,": (part.priority, part.weight, part.swing, part.start, part.ease),
-            "pose": astuple(pose),
-            "extent": () if extent is None else astuple(extent),
+            "pose": (pose.x, pose.z, pose.yaw),
+            "extent": () if extent is None else (extent.left, extent.right, extent.ahead, extent.behind),
         }
         for what, numbers in told.items():
             self._must_count(source, what, numbers)
@@ -141,6 +143,8 @@ class Quarantine:
 
     def _must_count(self, source: WindSource, what: str, numbers: Iterable[float]) -> None:
         for number in numbers:
+            if type(number) is float and -inf < number < inf:
+                continue
             self.must_be(source, what, number, float, int, np.floating, np.integer)
             if isnan(number) or (abs(number) == inf and what != "extent"):
                 raise self.leave_out(source, f"{what} returned numbers that are not finite")
@@ -155,8 +159,6 @@ class Quarantine:
 
     def _judge(self, source: WindSource, what: str, took: float, receivers: int) -> None:
         """Tell of a wind that often takes long; raises QuarantinedError where that is too long for a game."""
-        if wind_kinds().is_ours(type(source.primitive)):
-            return
         each = SLOW_EACH * receivers
         is_noticed = self._is_often(source, what, "noticed", is_long=took > max(NOTICED, each))
         is_slow = self._is_often(source, what, "slow", is_long=took > SLOW + each) or took > STALLED
