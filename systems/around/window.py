@@ -35,5 +35,6 @@ def window_cells(centre: Ints, /, *, side: int) -> Ints:
     low = np.asarray(centre, np.int64) - side // 2
     line = np.arange(side, dtype=np.int64)
     i, j = (corner + np.mod(line - corner, side) for corner in low)
-    cells: Ints = np.stack(np.meshgrid(i, j), axis=-1).reshape(-1, 2).astype(np.int32)
-    return cells
+    cells = np.empty((side, side, 2), np.int32)
+    cells[..., 0], cells[..., 1] = i, j[:, None]
+    return cells.reshape(-1, 2)

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...around.cone import far_to_near
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
 from ...around.window import window_rows
@@ -57,8 +56,7 @@ def show_blades(outlook: Outlook, cover: Floats, /, *, level: int, side: int, ri
     """
     patches = outlook.patches
     assert outlook.appearance is not None
-    near = np.flatnonzero(patches.shown & (cover > 0.0))
-    near = near[far_to_near(patches.cell[near], outlook.viewer.centre)]
+    near = patches.far_to_near(np.flatnonzero(patches.shown & (cover > 0.0)))
     slots = window_rows(patches.cell[near], side=side)
     moving = outlook.appearance.morph[near] > 0.0
     still, places = near[~moving], slots[~moving]

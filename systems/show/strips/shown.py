@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...around.cone import far_to_near
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
 from ...around.window import window_rows
@@ -64,7 +63,7 @@ def show_strips(outlook: Outlook, cover: Floats, /, *, level: int, sides: list[i
     reached = (appears.handed > 0.0) | (appears.morph > 0.0)
     # Farther out than there is room for strips, patches have no sub-level.
     seen = np.flatnonzero(patches.shown & (cover > 0.0) & reached & (patches.sublevel[level] >= 0))
-    entries = _entries(patches, seen[far_to_near(patches.cell[seen], outlook.viewer.centre)], level)
+    entries = _entries(patches, patches.far_to_near(seen), level)
     return StripsShown([_of_ring(patches, cover, entries, number, side) for number, side in enumerate(sides)])
 
 

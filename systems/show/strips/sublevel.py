@@ -34,12 +34,12 @@ def strip_ring(
 
     def ring(away: Ints, steep: Floats) -> NDArray[np.int64]:
         widest = height / (3.0 * np.maximum(steep, 1e-3))
-        by_slope = np.searchsorted(spacing, widest, side="right") - 1
-        return np.clip(np.minimum(np.searchsorted(limits, away), by_slope), 0, len(spacing) - 1)
+        by_slope = spacing.searchsorted(widest, side="right") - 1
+        return np.maximum(np.minimum(limits.searchsorted(away), by_slope), 0)
 
     coarse = ring(distance, slope)
     fine = ring(distance - slack, slope * np.float32(TIGHTER if slack else 1.0))
-    return np.where(current < 0, coarse, np.clip(current, fine, coarse)).astype(np.int8)
+    return np.where(current < 0, coarse, np.minimum(np.maximum(current, fine), coarse)).astype(np.int8)
 
 
 def strips_along(cell: Ints, centre: Ints, current: NDArray[np.integer], /) -> Levels:
@@ -56,10 +56,10 @@ def strips_along(cell: Ints, centre: Ints, current: NDArray[np.integer], /) -> L
 
 def viewing_slope(patches: PatchTable, rows: Rows, /, *, eye: tuple[float, float, float], patch: float) -> Floats:
     """Return the tangent of the angle between the line of sight and the ground on each patch, shape (n,)."""
-    away = patches.middle[rows] - np.array([eye[0], eye[2]], np.float32)
-    reach = np.maximum(np.hypot(away[:, 0], away[:, 1]), np.float32(0.5 * patch))
-    rise = np.einsum("ij,ij->i", patches.slope[rows], away)
-    slope: Floats = (np.float32(eye[1]) - patches.height[rows] + rise) / reach
+    x, z = (patches.middle[rows] - np.array([eye[0], eye[2]], np.float32)).T
+    along_x, along_z = patches.slope[rows].T
+    reach = np.maximum(np.hypot(x, z), np.float32(0.5 * patch))
+    slope: Floats = (np.float32(eye[1]) - patches.height[rows] + (along_x * x + along_z * z)) / reach
     return slope
 
 
