@@ -38,12 +38,18 @@ def wanted_representation(
     A patch keeps a finer representation for `slack` patches beyond its reach, so that a walker who stands on a
     limit leaves nothing in transition (paper, section 4.1). `current` is -1 for a patch that has none yet.
     """
-    due, late = np.zeros(len(distance), np.int8), np.zeros(len(distance), np.int8)
+    due = _beyond(distance, reach)
+    finer = np.flatnonzero((current >= 0) & (current < due))
+    due[finer] = np.maximum(_beyond(distance[finer] - slack, reach), current[finer])
+    return due
+
+
+def _beyond(distance: NDArray[np.int32], reach: tuple[int, ...]) -> Levels:
+    """Return how many representations do not reach as far as each discrete distance (n,), shape (n,)."""
+    beyond = np.zeros(len(distance), np.int8)
     for limit in reach[:-1]:
-        due += distance > limit
-        late += distance > limit + slack
-    keeps = (current >= 0) & (current < due)
-    return np.where(keeps, np.maximum(late, current), due).astype(np.int8)
+        beyond += distance > limit
+    return beyond
 
 
 def farthest(reach: tuple[int, ...], /) -> tuple[int, ...]:

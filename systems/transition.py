@@ -140,9 +140,8 @@ def _refine(
     now, before, progress = (
         levels[level] for levels in (patches.sublevel, patches.sublevel_before, patches.sublevel_progress)
     )
-    has, (weight, both) = now[rows], _standing(patches, rows, level)
-    settled = (patches.was_visible & patches.visible)[rows] & (not outlook.viewer.jumped)
-    shows = settled & (weight > 0.0) & (has >= 0)
+    has, (shows, both) = now[rows], _standing(patches, rows, level)
+    shows &= (patches.was_visible & patches.visible)[rows] & (has >= 0) & (not outlook.viewer.jumped)
     slack = SLACK if transitions.hysteresis else 0
     due = representation.sublevels(outlook, rows, np.where(shows, has, np.int8(-1)), slack=slack)
     shows &= transitions.gradual
@@ -153,11 +152,15 @@ def _refine(
         move_rows(now, before, progress, rows[here], wanted[here], shows[here], step=step)
 
 
-def _standing(patches: PatchTable, rows: Rows, level: int) -> tuple[Floats, Mask]:
-    """Return how far patches (n,) are a representation, and whether they go between two that stand on the ground."""
-    weight = weights(patches, rows)
-    going = (patches.progress[rows] < 1.0) & (patches.representation[rows] != patches.previous[rows])
-    return weight[level], going & (weight[-1] == 0.0)
+def _standing(patches: PatchTable, rows: Rows, level: int) -> tuple[Mask, Mask]:
+    """Return which patches (n,) are a representation at all, and which go between two that stand on the ground."""
+    now, before, progress = (column[rows] for column in (patches.representation, patches.previous, patches.progress))
+    come, going = progress > 0.0, progress < 1.0
+
+    def counts(level: int) -> Mask:  # where its weight is above 0
+        return np.asarray(((now == level) & come) | ((before == level) & going))
+
+    return counts(level), going & (now != before) & ~counts(len(patches.names) - 1)
 
 
 @dataclass(slots=True)

@@ -113,13 +113,13 @@ def _moved(blades: Floats, strips: Floats, transitions: Transitions) -> tuple[Fl
     """Return how much blades cover, how far they have moved, and how much of them has been handed over."""
     both = (blades > 0.0) & (strips > 0.0)
     if not transitions.morph:
-        gone = np.where(strips > 0.0, np.float32(1.0), np.float32(0.0))
+        gone = (strips > 0.0).astype(np.float32)
         return _early(blades, transitions), np.zeros_like(blades), gone
     morph = np.zeros_like(blades)
     morph[both] = np.minimum(strips[both] / np.float32(ARRIVED), np.float32(1.0)) ** np.float32(GENTLY)
     handed = _part((strips - np.float32(NEARLY)) / np.float32(1.0 - NEARLY))
     shown = np.where(both, np.float32(1.0), _early(blades, transitions))
-    return shown, morph, np.where(both, handed, np.where(strips > 0.0, np.float32(1.0), np.float32(0.0)))
+    return shown, morph, np.where(both, handed, (strips > 0.0).astype(np.float32))
 
 
 def _early(weight: Floats, transitions: Transitions) -> Floats:
@@ -135,11 +135,11 @@ def _early(weight: Floats, transitions: Transitions) -> Floats:
 
 def _grown(progress: Floats, transitions: Transitions) -> tuple[Floats, Floats, Floats]:
     """Return how much strips cover, how high they stand, and how much carpet there is, on the way from it to them."""
-    whole = np.ones_like(progress)
     if transitions.growth:
         height = smooth(progress / np.float32(GROWN))
         sunk = smooth((progress - np.float32(SINKS)) / np.float32(1.0 - SINKS))
-        return (progress > 0.0).astype(np.float32), height, whole - sunk
+        return (progress > 0.0).astype(np.float32), height, np.float32(1.0) - sunk
+    whole = np.ones_like(progress)
     if transitions.fade:
         return progress, whole, whole - progress
     switched = (progress >= np.float32(0.5)).astype(np.float32)

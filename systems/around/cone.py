@@ -62,8 +62,9 @@ def beyond_cone(
     sine, cosine = np.float32(sin(middle)), np.float32(cos(middle))
     x, z = x - np.float32(apex[0]), z - np.float32(apex[1])
     along, across = x * sine - z * cosine, np.abs(x * cosine + z * sine)
-    outside = across * np.float32(cos(half)) - along * np.float32(sin(half))
-    return np.maximum(outside, -along)
+    across *= np.float32(cos(half))
+    across -= along * np.float32(sin(half))
+    return np.maximum(across, -along)
 
 
 def discrete_distance(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArray[np.int32]:

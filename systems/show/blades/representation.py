@@ -86,9 +86,10 @@ class BladeRepresentation(Representation):
     def plant(self, outlook: Outlook, /) -> None:
         """Plant the blades of patches whose slot holds another's."""
         patches, pool, shown = outlook.patches, self.pool(outlook), self.shown(outlook).standing
-        stale = (pool.stamp[shown.slots] != patches.cell[shown.rows]).any(axis=1)
-        rows = shown.rows[stale]
-        if rows.size:
+        differs = pool.stamp[shown.slots] != patches.cell[shown.rows]
+        if differs.any():
+            stale = differs.any(axis=1)
+            rows = shown.rows[stale]
             cell, model, turn = patches.cell[rows], patches.model[rows], patches.turn[rows]
             plant_blades(pool, shown.slots[stale], cell, model, turn, self.stock, self.ground)
 

@@ -144,7 +144,7 @@ class StripRepresentation(Representation):
         """Return the patches with strips, by ring."""
         level = outlook.patches.names.index(self.name)
         kept: StripsKept = outlook.kept[self.name]
-        shown = show_strips(outlook, cover, level=level, sides=[pool.side for pool in kept.pools])
+        shown = show_strips(outlook, cover, level=level, side=kept.pools[0].side, rings=self.rings())
         for receiving, ring in zip(kept.receiving, shown.rings, strict=True):
             receiving.show(ring.rows, ring.slots)
         return shown
@@ -153,10 +153,10 @@ class StripRepresentation(Representation):
         """Plant the strips of patches whose slot holds another's, or strips that run the other way."""
         patches = outlook.patches
         for number, (pool, shown) in enumerate(zip(self.pools(outlook), self.shown(outlook), strict=True)):
-            wanted = np.column_stack([patches.cell[shown.rows], shown.along])
-            stale = (pool.stamp[shown.slots] != wanted).any(axis=1)
-            rows = shown.rows[stale]
-            if rows.size:
+            differs = pool.stamp[shown.slots] != np.column_stack([patches.cell[shown.rows], shown.along])
+            if differs.any():
+                stale = differs.any(axis=1)
+                rows = shown.rows[stale]
                 plant_strips(
                     pool, shown.slots[stale], patches.cell[rows], patches.model[rows], patches.turn[rows],
                     shown.along[stale], self.stock.strips[number], self.stock.first_layer[number], self.ground,
