@@ -39,7 +39,7 @@ def wanted_representation(
     limit leaves nothing in transition (paper, section 4.1). `current` is -1 for a patch that has none yet.
     """
     due = _beyond(distance, reach)
-    finer = np.flatnonzero((current >= 0) & (current < due))
+    finer = ((current >= 0) & (current < due)).nonzero()[0]
     due[finer] = np.maximum(_beyond(distance[finer] - slack, reach), current[finer])
     return due
 
@@ -75,5 +75,6 @@ class ChooseLevels:
         for outlook in self.outlooks:
             patches = outlook.patches
             settled = patches.was_visible & patches.visible & (not outlook.viewer.jumped)
-            held = np.where(settled, patches.representation, np.int8(-1))
+            none = settled.view(np.int8) - np.int8(1)  # 0 where settled, elsewhere -1, which has all bits
+            held = patches.representation | none
             patches.wanted[:] = wanted_representation(patches.distance, held, reach=self.reach, slack=self.slack)

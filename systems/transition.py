@@ -56,7 +56,8 @@ def move_on(now: Levels, before: Levels, progress: Floats, wanted: Levels, slowl
 
 def unsettled(now: Levels, before: Levels, progress: Floats, wanted: Levels, /) -> Rows:
     """Return where anything is changing or has to change, shape (m,): everywhere else `move_on` would do nothing."""
-    return np.flatnonzero((wanted != now) | (before != now) | (progress < 1.0))
+    going: Mask = (wanted != now) | (before != now) | (progress < 1.0)
+    return going.nonzero()[0]
 
 
 def move_rows(
@@ -88,9 +89,9 @@ def held(patches: PatchTable, /, *, reach: tuple[int, ...]) -> Levels:
     Where there is no room for so fine a one, it is the finest that there is room for; where none is wanted, the
     coarsest.
     """
-    chosen, rows = patches.wanted.copy(), np.flatnonzero(patches.hold >= 0)
+    chosen, rows = patches.wanted.copy(), (patches.hold >= 0).nonzero()[0]
     chosen[rows] = patches.hold[rows]
-    chosen[chosen < 0] = len(reach) - 1
+    np.minimum(chosen.view(np.uint8), len(reach) - 1, out=chosen.view(np.uint8))  # without a sign, none is coarsest
     finest = np.zeros(len(chosen), np.int8)
     for limit in reach[:-1]:
         finest += patches.distance > limit + SLACK + 1  # from there on there is still room to come back slowly
@@ -127,7 +128,7 @@ def refine(
     seen = patches.alive & patches.visible
     for level, representation in enumerate(representations[:last]):
         has = (patches.representation == level) | (patches.previous == level)
-        rows = np.flatnonzero((seen & has) | (patches.sublevel_progress[level] < 1.0))
+        rows = ((seen & has) | (patches.sublevel_progress[level] < 1.0)).nonzero()[0]
         if rows.size:
             _refine(outlook, representation, level, rows, step=step, transitions=transitions)
 
@@ -193,4 +194,4 @@ class Transition:
         change(patches, wanted, settled & self.transitions.gradual, reach=self.reach, step=step)
         refine(outlook, self.representations, step=step, transitions=self.transitions)
         changing = (patches.progress < 1.0) | ((before != patches.representation) & settled)
-        outlook.changing = int((patches.shown & changing).sum())
+        outlook.changing = int(np.count_nonzero(patches.shown & changing))

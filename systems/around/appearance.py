@@ -54,13 +54,12 @@ class Appearance:
 
     def among(self, rows: NDArray[np.int64], count: int, /) -> "Appearance":
         """Return this as the appearance of some rows among `count` of them; the others have carpet alone."""
-        cover = np.zeros((len(self.cover), count), np.float32)
-        cover[-1] = 1.0
-        cover[:, rows] = self.cover
-        spread = np.zeros((3, count), np.float32)
-        for row, values in zip(spread, (self.morph, self.handed, self.growth), strict=True):
+        last, parts = len(self.cover) - 1, (*self.cover, self.morph, self.handed, self.growth)
+        spread = np.zeros((len(parts), count), np.float32)
+        spread[last] = 1.0
+        for row, values in zip(spread, parts, strict=True):
             row[rows] = values
-        return Appearance(cover, *spread)
+        return Appearance(spread[: last + 1], *spread[last + 1 :])
 
 
 def smooth(progress: Floats, /) -> Floats:

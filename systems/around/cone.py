@@ -69,9 +69,13 @@ def beyond_cone(
 
 def discrete_distance(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArray[np.int32]:
     """Return the patches' distance (paper, section 2.2): 0 for the viewer's, 1 for its eight neighbours, ..."""
-    apart = np.abs(cell - centre)
-    farther: NDArray[np.int32] = np.maximum(apart[..., 0], apart[..., 1])
-    return farther
+    aside, ahead = cells_apart(cell, centre)
+    return np.maximum(aside, ahead)
+
+
+def cells_apart(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Return how many cells (..., 2) are away along x, and along z, each of shape (...)."""
+    return np.abs(cell[..., 0] - centre[0]), np.abs(cell[..., 1] - centre[1])
 
 
 def far_to_near(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArray[np.int64]:
@@ -88,7 +92,6 @@ def nearness(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArray[n
 
     It is 0 for the viewer's own cell, and its amount is below the square of the discrete distance plus 1.
     """
-    aside, ahead = np.abs(cell - centre).T
+    aside, ahead = cells_apart(cell, centre)
     ring = np.maximum(aside, ahead)
-    nearer: NDArray[np.int32] = -(ring * ring + np.minimum(aside, ahead))
-    return nearer
+    return -(ring * ring + np.minimum(aside, ahead))

@@ -25,8 +25,8 @@ def cell_of(place: NDArray[np.float32], /, *, patch: float) -> Ints:
 
 def window_rows(cell: Ints, /, *, side: int) -> NDArray[np.int64]:
     """Return the row of each cell (n, 2) in a window of `side` by `side` that wraps round, shape (n,)."""
-    wrapped = np.mod(cell, side).astype(np.int64)
-    rows: NDArray[np.int64] = wrapped[:, 1] * side + wrapped[:, 0]
+    i, j = cell.T
+    rows: NDArray[np.int64] = (j % side * side + i % side).astype(np.int64)
     return rows
 
 

@@ -86,7 +86,7 @@ class BladeRepresentation(Representation):
     def plant(self, outlook: Outlook, /) -> None:
         """Plant the blades of patches whose slot holds another's."""
         patches, pool, shown = outlook.patches, self.pool(outlook), self.shown(outlook).standing
-        differs = pool.stamp[shown.slots] != patches.cell[shown.rows]
+        differs = pool.stamp.take(shown.slots, axis=0) != patches.cell.take(shown.rows, axis=0)
         if differs.any():
             stale = differs.any(axis=1)
             rows = shown.rows[stale]

@@ -56,12 +56,12 @@ def show_blades(outlook: Outlook, cover: Floats, /, *, level: int, side: int, ri
     """
     patches = outlook.patches
     assert outlook.appearance is not None
-    near = patches.far_to_near(np.flatnonzero(patches.shown & (cover > 0.0)))
-    slots = window_rows(patches.cell[near], side=side)
+    near = patches.far_to_near((patches.shown & (cover > 0.0)).nonzero()[0])
+    slots = window_rows(patches.cell.take(near, axis=0), side=side)
     moving = outlook.appearance.morph[near] > 0.0
     still, places = near[~moving], slots[~moving]
     ring, slide = _rings(patches, still, level)
-    chosen = [np.flatnonzero(ring == number) for number in range(rings)]
+    chosen = [(ring == number).nonzero()[0] for number in range(rings)]
     return BladesShown(
         standing=Standing.whole(near, slots),
         rings=[Standing(still[each], places[each], cover[still[each]], slide[each]) for each in chosen],

@@ -62,9 +62,10 @@ def show_strips(outlook: Outlook, cover: Floats, /, *, level: int, side: int, ri
     assert appears is not None
     reached = (appears.handed > 0.0) | (appears.morph > 0.0)
     # Farther out than there is room for strips, patches have no sub-level.
-    seen = np.flatnonzero(patches.shown & (cover > 0.0) & reached & (patches.sublevel[level] >= 0))
+    seen = (patches.shown & (cover > 0.0) & reached & (patches.sublevel[level] >= 0)).nonzero()[0]
     entries = _entries(patches, patches.far_to_near(seen), level)
-    slots = window_rows(patches.cell[entries.rows], side=side) + entries.along.astype(np.int64) * (side * side)
+    cell = patches.cell.take(entries.rows, axis=0)
+    slots = window_rows(cell, side=side) + side * side * entries.along.astype(np.int64)
     return StripsShown([_of_ring(cover, entries, slots, number) for number in range(rings)])
 
 
@@ -104,6 +105,6 @@ def _entries(patches: PatchTable, rows: Rows, level: int) -> _Entries:
 
 
 def _of_ring(cover: Floats, entries: _Entries, slots: Rows, number: int) -> StripsOfRing:
-    queue = np.flatnonzero(entries.ring == number)
+    queue = (entries.ring == number).nonzero()[0]
     rows, along = entries.rows[queue], entries.along[queue]
     return StripsOfRing(rows, slots[queue], cover[rows], along, queue, entries.least[queue], entries.most[queue])
