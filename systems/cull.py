@@ -3,7 +3,9 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from .around.cone import HALF_DIAGONAL, inside_cone
+import numpy as np
+
+from .around.cone import HALF_DIAGONAL, beyond_cone
 from .around.outlook import Outlook
 
 
@@ -23,6 +25,6 @@ class Cull:
         for outlook in self.outlooks:
             patches, viewer = outlook.patches, outlook.viewer
             patches.was_visible[:] = patches.visible
-            apex = viewer.eye[0], viewer.eye[2]
-            for rows, far in ((patches.visible, HALF_DIAGONAL * self.patch), (patches.near, 2.0 * self.patch)):
-                rows[:] = inside_cone(patches.middle, apex=apex, cone=viewer.cone, radius=far + self.sway)
+            beyond = beyond_cone(*patches.lines, apex=(viewer.eye[0], viewer.eye[2]), cone=viewer.cone).ravel()
+            np.less_equal(beyond, HALF_DIAGONAL * self.patch + self.sway, out=patches.visible)
+            np.less_equal(beyond, 2.0 * self.patch + self.sway, out=patches.near)

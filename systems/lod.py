@@ -38,12 +38,18 @@ def wanted_representation(
     A patch keeps a finer representation for `slack` patches beyond its reach, so that a walker who stands on a
     limit leaves nothing in transition (paper, section 4.1). `current` is -1 for a patch that has none yet.
     """
-    due, late = np.zeros(len(distance), np.int8), np.zeros(len(distance), np.int8)
+    due = _beyond(distance, reach)
+    finer = ((current >= 0) & (current < due)).nonzero()[0]
+    due[finer] = np.maximum(_beyond(distance[finer] - slack, reach), current[finer])
+    return due
+
+
+def _beyond(distance: NDArray[np.int32], reach: tuple[int, ...]) -> Levels:
+    """Return how many representations do not reach as far as each discrete distance (n,), shape (n,)."""
+    beyond = np.zeros(len(distance), np.int8)
     for limit in reach[:-1]:
-        due += distance > limit
-        late += distance > limit + slack
-    keeps = (current >= 0) & (current < due)
-    return np.where(keeps, np.maximum(late, current), due).astype(np.int8)
+        beyond += distance > limit
+    return beyond
 
 
 def farthest(reach: tuple[int, ...], /) -> tuple[int, ...]:
@@ -69,5 +75,6 @@ class ChooseLevels:
         for outlook in self.outlooks:
             patches = outlook.patches
             settled = patches.was_visible & patches.visible & (not outlook.viewer.jumped)
-            held = np.where(settled, patches.representation, np.int8(-1))
+            none = settled.view(np.int8) - np.int8(1)  # 0 where settled, elsewhere -1, which has all bits
+            held = patches.representation | none
             patches.wanted[:] = wanted_representation(patches.distance, held, reach=self.reach, slack=self.slack)

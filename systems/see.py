@@ -26,8 +26,8 @@ def strips_kept(
     limit = reach[outlook.patches.names.index("strips")]
     if limit < reach[-2]:
         return np.ones(len(outlook.patches.progress[rows]), np.float32)
-    eye = np.array([outlook.viewer.eye[0], outlook.viewer.eye[2]], np.float32)
-    away = np.abs(outlook.patches.middle[rows] - eye).max(axis=1)
+    (x, z), eye = outlook.patches.middle.T, outlook.viewer.eye
+    away = np.maximum(np.abs(x[rows] - np.float32(eye[0])), np.abs(z[rows] - np.float32(eye[2])))
     return kept_near(away / np.float32(patch), reach=limit)
 
 
@@ -51,9 +51,13 @@ class See:
                 outlook.shown[representation.name] = representation.show(outlook, cover)
 
     def _appearance(self, outlook: Outlook) -> Appearance:
-        """Return how patches appear that are in view or next to it; of all others it is as if there were carpet."""
-        patches = outlook.patches
-        rows = np.flatnonzero(patches.near | patches.visible)
+        """Return how patches appear that are in view or next to it; of all others it is as if there were carpet.
+
+        So is it of those that have the carpet alone.
+        """
+        patches, last = outlook.patches, len(self.representations) - 1
+        finer = (patches.representation != last) | (patches.previous != last)
+        rows = (patches.alive & finer & (patches.near | patches.visible)).nonzero()[0]
         kept = strips_kept(outlook, rows, reach=self.reach, patch=self.patch)
         seen = appearance(weights(patches, rows), kept, transitions=self.transitions, names=patches.names)
         return seen.among(rows, len(patches.progress))

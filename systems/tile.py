@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from ..engine.random import hash3
 from ..engine.terrain.record import Terrain
 from ..engine.terrain.sample import height_at, slope_at
-from .around.cone import discrete_distance
+from .around.cone import discrete_distance, nearness
 from .around.outlook import Outlook
 from .around.patches import PatchTable
-from .around.window import cell_of, window_cells, window_rows
+from .around.window import cell_of, window_cells
 from .entities import PatchEntities
 
 Ints = NDArray[np.int32]
@@ -38,12 +38,11 @@ def hash_cells(seed: int, cell: Ints) -> NDArray[np.uint32]:
 
 def tile(patches: PatchTable, centre: Ints, terrain: Terrain, /, *, patch: float, seed: int, models: int) -> Ints:
     """Move the window of patches to `centre` and return the rows whose patch is new, shape (n,)."""
-    half = patches.side // 2
-    corners = np.array([centre - half, centre - half + patches.side - 1], np.int32)
-    if (patches.cell[window_rows(corners, side=patches.side)] == corners).all():
+    if _stands(patches, centre):
         return np.zeros(0, np.int32)
     cells = window_cells(centre, side=patches.side)
-    changed = np.flatnonzero((cells != patches.cell).any(axis=1)).astype(np.int32)
+    moved = cells != patches.cell
+    changed = np.flatnonzero(moved[:, 0] | moved[:, 1]).astype(np.int32)
     fresh = cells[changed]
     patches.cell[changed] = fresh
     patches.alive[changed] = cells_on(terrain, fresh, patch=patch)
@@ -52,7 +51,19 @@ def tile(patches: PatchTable, centre: Ints, terrain: Terrain, /, *, patch: float
     middle = patches.middle[changed].astype(np.float32)
     patches.height[changed], patches.slope[changed] = height_at(terrain, middle), slope_at(terrain, middle)
     patches.empty(changed)
+    patches.distance[:] = discrete_distance(cells, centre)
+    patches.nearness[:] = nearness(cells, centre)
     return changed
+
+
+def _stands(patches: PatchTable, centre: Ints) -> bool:
+    """Return whether the window stands around `centre` already: then two opposite corners of it are in their rows."""
+    i, j = (centre - patches.side // 2).tolist()
+    for step in (0, patches.side - 1):
+        row = (j + step) % patches.side * patches.side + (i + step) % patches.side
+        if patches.cell[row].tolist() != [i + step, j + step]:
+            return False
+    return True
 
 
 @dataclass(slots=True)
@@ -77,5 +88,4 @@ class Tile:
             viewer.centre = cell_of(np.array([viewer.eye[0], viewer.eye[2]], np.float32), patch=self.patch)
             fresh = tile(patches, viewer.centre, self.terrain, patch=self.patch, seed=self.seed, models=self.models)
             self.entities.leave(outlook, fresh)
-            patches.distance[:] = discrete_distance(patches.cell, viewer.centre)
             self.entities.enlist(outlook)

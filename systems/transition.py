@@ -54,15 +54,33 @@ def move_on(now: Levels, before: Levels, progress: Floats, wanted: Levels, slowl
     progress[start & slowly] = 0.0
 
 
+def unsettled(now: Levels, before: Levels, progress: Floats, wanted: Levels, /) -> Rows:
+    """Return where anything is changing or has to change, shape (m,): everywhere else `move_on` would do nothing."""
+    going: Mask = (wanted != now) | (before != now) | (progress < 1.0)
+    return going.nonzero()[0]
+
+
+def move_rows(
+    now: Levels, before: Levels, progress: Floats, rows: Rows, wanted: Levels, slowly: Mask, /, *, step: float
+) -> None:
+    """Do to some rows (m,) of three columns what `move_on` does; `wanted` and `slowly` have shape (m,)."""
+    moved = now[rows], before[rows], progress[rows]
+    move_on(*moved, wanted, slowly, step=step)
+    now[rows], before[rows], progress[rows] = moved
+
+
 def change(patches: PatchTable, wanted: Levels, settled: Mask, /, *, reach: tuple[int, ...], step: float) -> None:
     """Advance changes of representation by `step` and start those that are due (paper, section 4.1).
 
     A patch that is not visible, or was not, as `settled` says, takes its representation at once, as does one that is
     left behind farther than there is room for.
     """
-    slowly = settled & patches.visible & (patches.representation >= 0) & ~_left_behind(patches, reach)
-    due = np.where(patches.alive, wanted, patches.representation)
-    move_on(patches.representation, patches.previous, patches.progress, due, slowly, step=step)
+    now, before, progress = patches.representation, patches.previous, patches.progress
+    rows = unsettled(now, before, progress, wanted)
+    rows = rows[patches.alive[rows]]
+    if rows.size:
+        slowly = (settled & patches.visible)[rows] & (now[rows] >= 0) & ~_left_behind(patches, rows, reach)
+        move_rows(now, before, progress, rows, wanted[rows], slowly, step=step)
 
 
 def held(patches: PatchTable, /, *, reach: tuple[int, ...]) -> Levels:
@@ -71,69 +89,79 @@ def held(patches: PatchTable, /, *, reach: tuple[int, ...]) -> Levels:
     Where there is no room for so fine a one, it is the finest that there is room for; where none is wanted, the
     coarsest.
     """
-    last = len(reach) - 1
-    chosen = np.where(patches.hold >= 0, patches.hold, np.where(patches.wanted >= 0, patches.wanted, last))
+    chosen, rows = patches.wanted.copy(), (patches.hold >= 0).nonzero()[0]
+    chosen[rows] = patches.hold[rows]
+    np.minimum(chosen.view(np.uint8), len(reach) - 1, out=chosen.view(np.uint8))  # without a sign, none is coarsest
     finest = np.zeros(len(chosen), np.int8)
     for limit in reach[:-1]:
         finest += patches.distance > limit + SLACK + 1  # from there on there is still room to come back slowly
-    return np.clip(chosen, finest, last).astype(np.int8)
+    return np.maximum(chosen, finest)
 
 
-def _left_behind(patches: PatchTable, reach: tuple[int, ...]) -> Mask:
-    """Return which patches are too far away for a representation that they have or come from, shape (rows,)."""
+def _left_behind(patches: PatchTable, rows: Rows, reach: tuple[int, ...]) -> Mask:
+    """Return which patches (n,) are too far away for a representation that they have or come from, shape (n,)."""
     limit = np.array([*farthest(reach), np.iinfo(np.int32).max], np.int32)
-    finest = np.minimum(limit[patches.representation], limit[patches.previous])
-    return np.asarray(patches.distance > finest)
+    finest = np.minimum(limit[patches.representation[rows]], limit[patches.previous[rows]])
+    return np.asarray(patches.distance[rows] > finest)
 
 
 def weights(patches: PatchTable, rows: Rows | slice = slice(None), /) -> Floats:
     """Return how far each patch is each representation, shape (representations, rows): they sum to 1 or to 0."""
     now, before, progress = (column[rows] for column in (patches.representation, patches.previous, patches.progress))
-    shown = np.zeros((len(patches.names), len(progress)), np.float32)
+    left = np.float32(1.0) - progress
+    shown = np.empty((len(patches.names), len(progress)), np.float32)
     for level in range(len(shown)):
-        shown[level] = np.where(now == level, progress, 0.0)
-        shown[level] += np.where(before == level, 1.0 - progress, 0.0)
+        np.add((now == level) * progress, (before == level) * left, out=shown[level])
     return shown
 
 
 def refine(
-    outlook: Outlook,
-    representations: tuple[Representation, ...],
-    /,
-    *,
-    reach: tuple[int, ...],
-    step: float,
-    transitions: Transitions,
+    outlook: Outlook, representations: tuple[Representation, ...], /, *, step: float, transitions: Transitions
 ) -> None:
     """Advance changes of sub-levels by `step` and start those that are due.
 
     Where a representation does not show, its sub-level is due at once; while a patch goes between two representations
-    that stand on the ground, none changes, so that each blade keeps its painted place. Patches too far away for a
-    representation stay as they are, and change no more.
+    that stand on the ground, none changes, so that each blade keeps its painted place. Patches that are not visible,
+    and those without the representation, end their changes and begin no others: their sub-levels will be due anew.
     """
     patches, last = outlook.patches, len(representations) - 1
-    limits = farthest(reach)
-    near = np.flatnonzero(patches.distance <= max(limits))
-    weight = weights(patches, near)
-    settled = (patches.was_visible & patches.visible)[near] & (not outlook.viewer.jumped)
-    has, had = patches.representation[near], patches.previous[near]
-    standing = (patches.progress[near] < 1.0) & (weight[last] == 0.0) & (has != had)
+    seen = patches.alive & patches.visible
     for level, representation in enumerate(representations[:last]):
-        here = np.flatnonzero(patches.distance[near] <= limits[level])
-        rows, both = near[here], standing[here]
-        now, before, progress = (
-            levels[level, rows] for levels in (patches.sublevel, patches.sublevel_before, patches.sublevel_progress)
-        )
-        seen = settled[here] & (weight[level, here] > 0.0) & (now >= 0)
-        wanted = representation.sublevels(
-            outlook, rows, np.where(seen, now, np.int8(-1)), slack=SLACK if transitions.hysteresis else 0
-        )
-        progress[both] = 1.0
-        shows = seen & transitions.gradual
-        move_on(now, before, progress, np.where(both & shows, now, wanted), shows, step=step)
-        patches.sublevel[level, rows], patches.sublevel_before[level, rows] = now, before
-        patches.sublevel_progress[level] = 1.0
-        patches.sublevel_progress[level, rows] = progress
+        has = (patches.representation == level) | (patches.previous == level)
+        rows = ((seen & has) | (patches.sublevel_progress[level] < 1.0)).nonzero()[0]
+        if rows.size:
+            _refine(outlook, representation, level, rows, step=step, transitions=transitions)
+
+
+def _refine(
+    outlook: Outlook, representation: Representation, level: int, rows: Rows, *, step: float, transitions: Transitions
+) -> None:
+    """Advance and start changes of the sub-levels of one representation on some rows of the patch table."""
+    patches = outlook.patches
+    now, before, progress = (
+        levels[level] for levels in (patches.sublevel, patches.sublevel_before, patches.sublevel_progress)
+    )
+    has, (shows, both) = now[rows], _standing(patches, rows, level)
+    shows &= (patches.was_visible & patches.visible)[rows] & (has >= 0) & (not outlook.viewer.jumped)
+    slack = SLACK if transitions.hysteresis else 0
+    due = representation.sublevels(outlook, rows, np.where(shows, has, np.int8(-1)), slack=slack)
+    shows &= transitions.gradual
+    wanted = np.where(both & shows, has, due)
+    here = unsettled(has, before[rows], progress[rows], wanted)
+    if here.size:
+        progress[rows[both]] = 1.0
+        move_rows(now, before, progress, rows[here], wanted[here], shows[here], step=step)
+
+
+def _standing(patches: PatchTable, rows: Rows, level: int) -> tuple[Mask, Mask]:
+    """Return which patches (n,) are a representation at all, and which go between two that stand on the ground."""
+    now, before, progress = (column[rows] for column in (patches.representation, patches.previous, patches.progress))
+    come, going = progress > 0.0, progress < 1.0
+
+    def counts(level: int) -> Mask:  # where its weight is above 0
+        return np.asarray(((now == level) & come) | ((before == level) & going))
+
+    return counts(level), going & (now != before) & ~counts(len(patches.names) - 1)
 
 
 @dataclass(slots=True)
@@ -164,6 +192,6 @@ class Transition:
         before = patches.representation.copy()
         wanted = held(patches, reach=self.reach)
         change(patches, wanted, settled & self.transitions.gradual, reach=self.reach, step=step)
-        refine(outlook, self.representations, reach=self.reach, step=step, transitions=self.transitions)
+        refine(outlook, self.representations, step=step, transitions=self.transitions)
         changing = (patches.progress < 1.0) | ((before != patches.representation) & settled)
-        outlook.changing = int((patches.shown & changing).sum())
+        outlook.changing = int(np.count_nonzero(patches.shown & changing))

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from .transitions import Transitions
 
 Floats = NDArray[np.float32]
+Doubles = NDArray[np.float64]
 
 THREE = ("blades", "strips", "carpet")
 """The representations whose changes into one another are more than a fade."""
@@ -53,29 +54,32 @@ class Appearance:
 
     def among(self, rows: NDArray[np.int64], count: int, /) -> "Appearance":
         """Return this as the appearance of some rows among `count` of them; the others have carpet alone."""
-        cover = np.zeros((len(self.cover), count), np.float32)
-        cover[-1] = 1.0
-        cover[:, rows] = self.cover
-        spread = np.zeros((3, count), np.float32)
-        for row, values in zip(spread, (self.morph, self.handed, self.growth), strict=True):
+        last, parts = len(self.cover) - 1, (*self.cover, self.morph, self.handed, self.growth)
+        spread = np.zeros((len(parts), count), np.float32)
+        spread[last] = 1.0
+        for row, values in zip(spread, parts, strict=True):
             row[rows] = values
-        return Appearance(cover, *spread)
+        return Appearance(spread[: last + 1], *spread[last + 1 :])
 
 
 def smooth(progress: Floats, /) -> Floats:
     """Return a step from 0 to 1 that starts and ends gently, where `progress` goes from 0 to 1."""
-    x = np.clip(progress, np.float32(0.0), np.float32(1.0))
+    x = _part(progress)
     return np.asarray(x * x * (np.float32(3.0) - np.float32(2.0) * x))
 
 
-def kept_near(away: Floats, /, *, reach: int) -> Floats:
+def _part(value: Floats, /) -> Floats:
+    """Return what lies between 0 and 1 of some values; `np.clip` takes longer for few."""
+    return np.minimum(np.maximum(value, np.float32(0.0)), np.float32(1.0))
+
+
+def kept_near(away: Floats | Doubles, /, *, reach: int) -> Floats:
     """Return how much of the strips the distance leaves, from 1 to 0 over their outermost `BORDER` patches.
 
     `away` is the patches' distance from the viewer [patch sides]. So no line shows where the strips end, and a patch
     that changes between strips and carpet far away has next to nothing to change.
     """
-    kept: Floats = np.clip((reach + 0.5 - away) / BORDER, 0.0, 1.0).astype(np.float32)
-    return kept
+    return _part(((reach + 0.5 - away) / BORDER).astype(np.float32))
 
 
 def appearance(
@@ -108,13 +112,13 @@ def _moved(blades: Floats, strips: Floats, transitions: Transitions) -> tuple[Fl
     """Return how much blades cover, how far they have moved, and how much of them has been handed over."""
     both = (blades > 0.0) & (strips > 0.0)
     if not transitions.morph:
-        gone = np.where(strips > 0.0, np.float32(1.0), np.float32(0.0))
+        gone = (strips > 0.0).astype(np.float32)
         return _early(blades, transitions), np.zeros_like(blades), gone
-    way = np.minimum(strips / np.float32(ARRIVED), np.float32(1.0)) ** np.float32(GENTLY)
-    morph = np.where(both, way, np.float32(0.0))
-    handed = np.clip((strips - np.float32(NEARLY)) / np.float32(1.0 - NEARLY), 0.0, 1.0).astype(np.float32)
+    morph = np.zeros_like(blades)
+    morph[both] = np.minimum(strips[both] / np.float32(ARRIVED), np.float32(1.0)) ** np.float32(GENTLY)
+    handed = _part((strips - np.float32(NEARLY)) / np.float32(1.0 - NEARLY))
     shown = np.where(both, np.float32(1.0), _early(blades, transitions))
-    return shown, morph, np.where(both, handed, np.where(strips > 0.0, np.float32(1.0), np.float32(0.0)))
+    return shown, morph, np.where(both, handed, (strips > 0.0).astype(np.float32))
 
 
 def _early(weight: Floats, transitions: Transitions) -> Floats:
@@ -130,11 +134,11 @@ def _early(weight: Floats, transitions: Transitions) -> Floats:
 
 def _grown(progress: Floats, transitions: Transitions) -> tuple[Floats, Floats, Floats]:
     """Return how much strips cover, how high they stand, and how much carpet there is, on the way from it to them."""
-    whole = np.ones_like(progress)
     if transitions.growth:
         height = smooth(progress / np.float32(GROWN))
         sunk = smooth((progress - np.float32(SINKS)) / np.float32(1.0 - SINKS))
-        return (progress > 0.0).astype(np.float32), height, whole - sunk
+        return (progress > 0.0).astype(np.float32), height, np.float32(1.0) - sunk
+    whole = np.ones_like(progress)
     if transitions.fade:
         return progress, whole, whole - progress
     switched = (progress >= np.float32(0.5)).astype(np.float32)

@@ -1,6 +1,6 @@
 """The view cone, and distances as patches count them (paper, section 2.2, figure 5)."""
 
-from math import pi
+from math import cos, pi, sin
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,21 +45,37 @@ def inside_cone(
     place: Floats | Doubles, /, *, apex: tuple[float, float], cone: tuple[float, float], radius: float
 ) -> NDArray[np.bool_]:
     """Return whether discs of `radius` [m] around ground positions (n, 2) touch the view cone, shape (n,)."""
+    return np.asarray(beyond_cone(place[:, 0], place[:, 1], apex=apex, cone=cone) <= radius)
+
+
+def beyond_cone(
+    x: Floats | Doubles, z: Floats | Doubles, /, *, apex: tuple[float, float], cone: tuple[float, float]
+) -> Floats | Doubles:
+    """Return how large discs around ground positions have to be to touch the view cone [m]: inside it 0 or less.
+
+    `x` and `z` [m] are of one shape, that of what is returned, or make it together: those of the columns of a square
+    and, as a column, those of its lines.
+    """
     middle, half = cone
-    away = place - np.asarray(apex, np.float32)
     if half >= pi:
-        return np.ones(len(away), np.bool_)
-    sine, cosine = np.float32(np.sin(middle)), np.float32(np.cos(middle))
-    ahead, aside = np.array([sine, -cosine]), np.array([cosine, sine])
-    along, across = away @ ahead, np.abs(away @ aside)
-    outside = across * np.float32(np.cos(half)) - along * np.float32(np.sin(half))
-    return np.asarray((outside <= radius) & (along >= -radius))
+        return np.full(np.broadcast_shapes(x.shape, z.shape), -np.inf, np.float32)
+    sine, cosine = np.float32(sin(middle)), np.float32(cos(middle))
+    x, z = x - np.float32(apex[0]), z - np.float32(apex[1])
+    along, across = x * sine - z * cosine, np.abs(x * cosine + z * sine)
+    across *= np.float32(cos(half))
+    across -= along * np.float32(sin(half))
+    return np.maximum(across, -along)
 
 
 def discrete_distance(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArray[np.int32]:
     """Return the patches' distance (paper, section 2.2): 0 for the viewer's, 1 for its eight neighbours, ..."""
-    apart: NDArray[np.int32] = np.abs(cell - centre).max(axis=-1)
-    return apart
+    aside, ahead = cells_apart(cell, centre)
+    return np.maximum(aside, ahead)
+
+
+def cells_apart(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Return how many cells (..., 2) are away along x, and along z, each of shape (...)."""
+    return np.abs(cell[..., 0] - centre[0]), np.abs(cell[..., 1] - centre[1])
 
 
 def far_to_near(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArray[np.int64]:
@@ -68,6 +84,14 @@ def far_to_near(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArra
     A ray leaves square rings from the inside out, and within a ring it moves away from the axis; so rings from the
     outside in, and each from its corners to its axes, never draw a patch over one before it (paper, section 2.2).
     """
-    apart = np.abs(cell - centre)
-    order: NDArray[np.int64] = np.lexsort((-apart.min(axis=-1), -apart.max(axis=-1)))
-    return order
+    return np.argsort(nearness(cell, centre), kind="stable")
+
+
+def nearness(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArray[np.int32]:
+    """Return a number of each cell (n, 2) that rises from far to near, in the order of `far_to_near`, shape (n,).
+
+    It is 0 for the viewer's own cell, and its amount is below the square of the discrete distance plus 1.
+    """
+    aside, ahead = cells_apart(cell, centre)
+    ring = np.maximum(aside, ahead)
+    return -(ring * ring + np.minimum(aside, ahead))

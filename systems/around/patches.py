@@ -48,6 +48,9 @@ class PatchTable:
     distance: NDArray[np.int32]
     """Discrete distance, shape (rows,)."""
 
+    nearness: NDArray[np.int16]
+    """A number that rises in the order in which patches are drawn, from far to near, shape (rows,)."""
+
     visible: NDArray[np.bool_]
     """Whether it is inside the view cone, shape (rows,)."""
 
@@ -92,6 +95,12 @@ class PatchTable:
     """The patch's entity, 0 where there is none, shape (rows,)."""
 
     @property
+    def lines(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The x of the middles of the window's columns, shape (side,), and the z of its lines, shape (side, 1) [m]."""
+        square = self.middle.reshape(self.side, self.side, 2)
+        return square[0, :, 0], square[:, :1, 1]
+
+    @property
     def stands(self) -> NDArray[np.bool_]:
         """Whether there is grass at all, shape (rows,)."""
         return self.alive & self.grows
@@ -116,6 +125,7 @@ class PatchTable:
             model=np.zeros(rows, np.int32),
             turn=np.zeros(rows, np.int32),
             distance=np.zeros(rows, np.int32),
+            nearness=np.zeros(rows, np.int16),
             visible=np.zeros(rows, np.bool_),
             near=np.zeros(rows, np.bool_),
             was_visible=np.zeros(rows, np.bool_),
@@ -131,6 +141,10 @@ class PatchTable:
             sublevel_progress=np.ones(levels, np.float32),
             entity=np.zeros(rows, np.int64),
         )
+
+    def far_to_near(self, rows: NDArray[np.int64], /) -> NDArray[np.int64]:
+        """Return some rows (n,) in the order in which their patches are drawn, from far to near, shape (n,)."""
+        return rows[np.argsort(self.nearness[rows], kind="stable")]
 
     def empty(self, rows: NDArray[np.int32], /) -> None:
         """Forget what is known of the levels of detail of some rows, because another patch is there now."""

@@ -25,8 +25,8 @@ def cell_of(place: NDArray[np.float32], /, *, patch: float) -> Ints:
 
 def window_rows(cell: Ints, /, *, side: int) -> NDArray[np.int64]:
     """Return the row of each cell (n, 2) in a window of `side` by `side` that wraps round, shape (n,)."""
-    wrapped = np.mod(cell, side).astype(np.int64)
-    rows: NDArray[np.int64] = wrapped[:, 1] * side + wrapped[:, 0]
+    i, j = cell.T
+    rows: NDArray[np.int64] = (j % side * side + i % side).astype(np.int64)
     return rows
 
 
@@ -35,5 +35,6 @@ def window_cells(centre: Ints, /, *, side: int) -> Ints:
     low = np.asarray(centre, np.int64) - side // 2
     line = np.arange(side, dtype=np.int64)
     i, j = (corner + np.mod(line - corner, side) for corner in low)
-    cells: Ints = np.stack(np.meshgrid(i, j), axis=-1).reshape(-1, 2).astype(np.int32)
-    return cells
+    cells = np.empty((side, side, 2), np.int32)
+    cells[..., 0], cells[..., 1] = i, j[:, None]
+    return cells.reshape(-1, 2)

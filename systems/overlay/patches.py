@@ -46,9 +46,11 @@ def patch_colors(outlook: Outlook, site: Site, /) -> Floats:
     for level, representation in enumerate(site.representations):
         shades = ring_shades(representation.color, representation.rings())
         rows = np.flatnonzero((here == level) | (here < 0))
-        progress = patches.sublevel_progress[level, rows, None]
+        unseen, progress = ~patches.visible[rows], patches.sublevel_progress[level, rows, None]
+        # What nobody sees has the sub-level that it was seen in last, if any: it is told by the one that is due.
+        due = representation.sublevels(outlook, rows, np.full(len(rows), -1, np.int8), slack=0)
         now, before = (
-            shades[np.maximum(representation.ring(sublevel[level, rows]), 0)]
+            shades[np.maximum(representation.ring(np.where(unseen, due, sublevel[level, rows])), 0)]
             for sublevel in (patches.sublevel, patches.sublevel_before)
         )
         color[rows] = before + (now - before) * progress

@@ -8,6 +8,7 @@ from tallgrass.components.viewer import Viewer
 from tallgrass.engine.schedule import Phase
 from tallgrass.engine.world import World
 from tallgrass.systems.around.clearing import Clearings
+from tallgrass.systems.around.window import window_rows
 from tallgrass.systems.blow import Blow
 from tallgrass.systems.cull import Cull
 from tallgrass.systems.entities import PatchEntities
@@ -36,9 +37,10 @@ def test_tile_lays_patches_around_the_viewer_and_makes_them_entities(world: Worl
 
 def test_cull_keeps_the_patches_in_the_view_cone(world: World) -> None:
     outlook = viewer_on(SITE, world, looking(0.0, 2.0, 0.0, yaw=0.0, view=40.0))
-    outlook.patches.middle[:2] = [(0.0, -10.0), (0.0, 10.0)]
+    Tile([outlook], PatchEntities(world, Clearings()), SITE.ground.terrain, PATCH, seed=5, models=2).run()
     Cull([outlook], PATCH, sway=0.5).run()
-    assert outlook.patches.visible[:2].tolist() == [True, False]
+    ahead, behind = window_rows(np.array([[0, -4], [0, 3]], np.int32), side=outlook.patches.side)
+    assert outlook.patches.visible[[ahead, behind]].tolist() == [True, False]
 
 
 def test_lod_wants_the_representation_of_each_distance(world: World) -> None:

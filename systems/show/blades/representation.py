@@ -87,9 +87,10 @@ class BladeRepresentation(Representation):
     def plant(self, outlook: Outlook, /) -> None:
         """Plant the blades of patches whose slot holds another's."""
         patches, pool, shown = outlook.patches, self.pool(outlook), self.shown(outlook).standing
-        stale = (pool.stamp[shown.slots] != patches.cell[shown.rows]).any(axis=1)
-        rows = shown.rows[stale]
-        if rows.size:
+        differs = pool.stamp.take(shown.slots, axis=0) != patches.cell.take(shown.rows, axis=0)
+        if differs.any():
+            stale = differs.any(axis=1)
+            rows = shown.rows[stale]
             cell, model, turn = patches.cell[rows], patches.model[rows], patches.turn[rows]
             plant_blades(pool, shown.slots[stale], cell, model, turn, self.stock, self.ground)
 

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...around.cone import far_to_near
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
 from ...around.window import window_rows
@@ -61,13 +60,12 @@ def show_blades(outlook: Outlook, cover: Floats, /, *, level: int, side: int, ri
     """
     patches = outlook.patches
     assert outlook.appearance is not None
-    near = np.flatnonzero(patches.shown & (cover > 0.0))
-    near = near[far_to_near(patches.cell[near], outlook.viewer.centre)]
-    slots = window_rows(patches.cell[near], side=side)
+    near = patches.far_to_near((patches.shown & (cover > 0.0)).nonzero()[0])
+    slots = window_rows(patches.cell.take(near, axis=0), side=side)
     moving = outlook.appearance.morph[near] > 0.0
-    still, changing = np.flatnonzero(~moving), np.flatnonzero(moving)
+    still, changing = (~moving).nonzero()[0], moving.nonzero()[0]
     ring, slide = _rings(patches, near[still], level)
-    chosen = [np.flatnonzero(ring == number) for number in range(rings)]
+    chosen = [(ring == number).nonzero()[0] for number in range(rings)]
     places = [still[each] for each in chosen]
     return BladesShown(
         standing=Standing.whole(near, slots),

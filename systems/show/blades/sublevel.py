@@ -9,5 +9,5 @@ Levels = NDArray[np.int8]
 
 def blade_ring(distance: Ints, current: Levels, limits: Ints, /, *, slack: int) -> Levels:
     """Return the ring of 3D patches (n,): by discrete distance; a finer one is kept for `slack` patches longer."""
-    coarse, fine = np.searchsorted(limits, distance), np.searchsorted(limits, distance - slack)
-    return np.where(current < 0, coarse, np.clip(current, fine, coarse)).astype(np.int8)
+    coarse, fine = limits.searchsorted(distance), limits.searchsorted(distance - slack)
+    return np.where(current < 0, coarse, np.minimum(np.maximum(current, fine), coarse)).astype(np.int8)

@@ -86,7 +86,7 @@ class CarpetRepresentation(Representation):
         """Return the patches whose receivers hear the wind: those in the view cone, and their neighbours."""
         del cover
         kept: CarpetKept = outlook.kept[self.name]
-        rows = np.flatnonzero(outlook.patches.alive & outlook.patches.near)
+        rows = (outlook.patches.alive & outlook.patches.near).nonzero()[0]
         kept.receiving[0].show(rows, rows)
         return rows
 

@@ -135,7 +135,7 @@ class StripRepresentation(Representation):
         before = ring_of(held).astype(np.int8)
         ring = strip_ring(patches.distance[rows], slope, before, limits, spacing, height=height, slack=slack)
         keeps = np.where((held < 0) | (slack == 0), -1, axis_of(held))
-        return packed(ring, strips_along(patches.cell[rows], viewer.centre, keeps))
+        return packed(ring, strips_along(patches.cell.take(rows, axis=0), viewer.centre, keeps))
 
     def ring_and_axis(self, outlook: Outlook, rows: Rows, /) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
         """Return the ring that patches (n,) are in, and the axis that their strips run along, shape (n,) each."""
@@ -146,7 +146,7 @@ class StripRepresentation(Representation):
         """Return the patches with strips, by ring."""
         level = outlook.patches.names.index(self.name)
         kept: StripsKept = outlook.kept[self.name]
-        shown = show_strips(outlook, cover, level=level, sides=[pool.side for pool in kept.pools])
+        shown = show_strips(outlook, cover, level=level, side=kept.pools[0].side, rings=self.rings())
         for receiving, ring in zip(kept.receiving, shown.rings, strict=True):
             receiving.show(ring.rows, ring.slots)
         return shown
@@ -155,10 +155,12 @@ class StripRepresentation(Representation):
         """Plant the strips of patches whose slot holds another's, or strips that run the other way."""
         patches = outlook.patches
         for pool, shown in zip(self.pools(outlook), self.shown(outlook), strict=True):
-            wanted = np.column_stack([patches.cell[shown.rows], shown.along])
-            stale = (pool.stamp[shown.slots] != wanted).any(axis=1)
-            rows = shown.rows[stale]
-            if rows.size:
+            wanted = np.empty((len(shown.rows), 3), np.int32)
+            wanted[:, :2], wanted[:, 2] = patches.cell.take(shown.rows, axis=0), shown.along
+            differs = pool.stamp.take(shown.slots, axis=0) != wanted
+            if differs.any():
+                stale = differs.any(axis=1)
+                rows = shown.rows[stale]
                 plant_strips(
                     pool, shown.slots[stale], patches.cell[rows], patches.model[rows], patches.turn[rows],
                     shown.along[stale], self.ground,

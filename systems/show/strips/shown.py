@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...around.cone import far_to_near
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
 from ...around.window import window_rows
@@ -54,18 +53,20 @@ class StripsShown:
     """By ring, those with strips, or with blades on their way to them."""
 
 
-def show_strips(outlook: Outlook, cover: Floats, /, *, level: int, sides: list[int]) -> StripsShown:
+def show_strips(outlook: Outlook, cover: Floats, /, *, level: int, side: int, rings: int) -> StripsShown:
     """Return the patches with strips that a viewer is shown, where `cover` (rows,) says how much they cover.
 
-    `level` is the number of the representation, `sides` those of patches along a side of each ring's pool.
+    `level` is the number of the representation, `side` that of patches along a side of each ring's pool.
     """
     patches, appears = outlook.patches, outlook.appearance
     assert appears is not None
     reached = (appears.handed > 0.0) | (appears.morph > 0.0)
     # Farther out than there is room for strips, patches have no sub-level.
-    seen = np.flatnonzero(patches.shown & (cover > 0.0) & reached & (patches.sublevel[level] >= 0))
-    entries = _entries(patches, seen[far_to_near(patches.cell[seen], outlook.viewer.centre)], level)
-    return StripsShown([_of_ring(patches, cover, entries, number, side) for number, side in enumerate(sides)])
+    seen = (patches.shown & (cover > 0.0) & reached & (patches.sublevel[level] >= 0)).nonzero()[0]
+    entries = _entries(patches, patches.far_to_near(seen), level)
+    cell = patches.cell.take(entries.rows, axis=0)
+    slots = window_rows(cell, side=side) + side * side * entries.along.astype(np.int64)
+    return StripsShown([_of_ring(cover, entries, slots, number) for number in range(rings)])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -83,15 +84,17 @@ def _entries(patches: PatchTable, rows: Rows, level: int) -> _Entries:
     now, before = patches.sublevel[level, rows], patches.sublevel_before[level, rows]
     progress = patches.sublevel_progress[level, rows]
     changing = (progress < 1.0) & (now != before)
-    index = np.repeat(np.arange(len(rows)), 1 + changing)
-    twice, progress = changing[index], progress[index]
-    old = twice & (np.diff(index, append=-1) != 0)
+    if not changing.any():
+        whole = np.ones(len(rows), np.float32)
+        return _Entries(rows, ring_of(now), axis_of(now), least=0.0 * whole, most=whole)
     # Neighbours that change alike are drawn together, or each would take two draws of its own.
     kind = np.where(changing, 256 * (before.astype(np.int64) + 1) + now + 1, 0)
-    alike = np.cumsum(np.diff(kind, prepend=-1) != 0)[index]
-    queue = np.argsort(2 * alike + ~old, kind="stable")
-    index, twice, progress, old = index[queue], twice[queue], progress[queue], old[queue]
-    sublevel = np.where(old, before[index], now[index])
+    alike = np.concatenate([[0], np.cumsum(kind[1:] != kind[:-1])])
+    index = np.concatenate([np.arange(len(rows)), np.flatnonzero(changing)])
+    old = np.arange(len(index)) >= len(rows)
+    queue = np.argsort(2 * alike[index] + ~old, kind="stable")
+    index, old = index[queue], old[queue]
+    twice, progress, sublevel = changing[index], progress[index], np.where(old, before[index], now[index])
     return _Entries(
         rows=rows[index],
         ring=ring_of(sublevel),
@@ -101,8 +104,7 @@ def _entries(patches: PatchTable, rows: Rows, level: int) -> _Entries:
     )
 
 
-def _of_ring(patches: PatchTable, cover: Floats, entries: _Entries, number: int, side: int) -> StripsOfRing:
-    queue = np.flatnonzero(entries.ring == number)
+def _of_ring(cover: Floats, entries: _Entries, slots: Rows, number: int) -> StripsOfRing:
+    queue = (entries.ring == number).nonzero()[0]
     rows, along = entries.rows[queue], entries.along[queue]
-    slots = window_rows(patches.cell[rows], side=side) + along.astype(np.int64) * (side * side)
-    return StripsOfRing(rows, slots, cover[rows], along, queue, entries.least[queue], entries.most[queue])
+    return StripsOfRing(rows, slots[queue], cover[rows], along, queue, entries.least[queue], entries.most[queue])

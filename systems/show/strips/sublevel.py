@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from ...around.cone import cells_apart
 from ...around.patches import PatchTable
 
 Floats = NDArray[np.float32]
@@ -31,15 +32,15 @@ def strip_ring(
     rows on hillsides that face the viewer. `spacing` is the distance between each ring's strips [m]. A finer ring is
     kept for `slack` patches longer.
     """
-
-    def ring(away: Ints, steep: Floats) -> NDArray[np.int64]:
-        widest = height / (3.0 * np.maximum(steep, 1e-3))
-        by_slope = np.searchsorted(spacing, widest, side="right") - 1
-        return np.clip(np.minimum(np.searchsorted(limits, away), by_slope), 0, len(spacing) - 1)
-
-    coarse = ring(distance, slope)
-    fine = ring(distance - slack, slope * np.float32(TIGHTER if slack else 1.0))
-    return np.where(current < 0, coarse, np.clip(current, fine, coarse)).astype(np.int8)
+    # Two lines: what is due on the way out, and what is due on the way back.
+    away = np.stack([distance, distance - slack])
+    steep = np.stack([slope, slope * np.float32(TIGHTER if slack else 1.0)])
+    widest = height / (3.0 * np.maximum(steep, 1e-3))
+    by_slope = spacing.searchsorted(widest, side="right") - 1
+    ring: Levels = np.maximum(np.minimum(limits.searchsorted(away), by_slope), 0).astype(np.int8)
+    coarse, fine = ring
+    kept: Levels = np.where(current < 0, coarse, np.minimum(np.maximum(current, fine), coarse))
+    return kept
 
 
 def strips_along(cell: Ints, centre: Ints, current: NDArray[np.integer], /) -> Levels:
@@ -47,8 +48,7 @@ def strips_along(cell: Ints, centre: Ints, current: NDArray[np.integer], /) -> L
 
     Near the diagonals, where either axis will do, the `current` one stays; -1 is none.
     """
-    apart = np.abs(cell - centre)
-    across, ahead = apart[..., 0], apart[..., 1]
+    across, ahead = cells_apart(cell, centre)
     due = across > ahead
     either = 4 * np.maximum(across, ahead) <= 5 * np.minimum(across, ahead)
     return np.where(either & (current >= 0), current, due).astype(np.int8)
@@ -56,9 +56,10 @@ def strips_along(cell: Ints, centre: Ints, current: NDArray[np.integer], /) -> L
 
 def viewing_slope(patches: PatchTable, rows: Rows, /, *, eye: tuple[float, float, float], patch: float) -> Floats:
     """Return the tangent of the angle between the line of sight and the ground on each patch, shape (n,)."""
-    away = patches.middle[rows] - np.array([eye[0], eye[2]], np.float32)
-    reach = np.maximum(np.hypot(away[:, 0], away[:, 1]), np.float32(0.5 * patch))
-    rise = np.einsum("ij,ij->i", patches.slope[rows], away)
+    (x, z), (along_x, along_z) = patches.middle.T, patches.slope.T
+    x, z = x[rows] - np.float32(eye[0]), z[rows] - np.float32(eye[2])
+    rise = along_x[rows] * x + along_z[rows] * z
+    reach = np.maximum(np.hypot(x, z), np.float32(0.5 * patch))
     slope: Floats = (np.float32(eye[1]) - patches.height[rows] + rise) / reach
     return slope
 
