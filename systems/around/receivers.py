@@ -3,6 +3,7 @@
 import logging
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from math import prod
 from typing import Protocol
 
 import numpy as np
@@ -104,7 +105,7 @@ class Correspondence:
     def heard(self, slots: Rows, /) -> Floats:
         """Return what the wind last told the receivers of some slots, (n, 2)."""
         if self._tell is None:
-            return np.zeros((len(slots) * int(np.prod(self._pool.shape)), 2), np.float32)
+            return np.zeros((len(slots) * prod(self._pool.shape), 2), np.float32)
         return self._tell(slots)
 
     def messages(self, slots: Rows, /) -> Floats:

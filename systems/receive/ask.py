@@ -1,6 +1,7 @@
 """Asking all receivers that are seen: on the graphics card, but for winds and messages that only the CPU knows."""
 
 from collections.abc import Mapping, Sequence
+from math import prod
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +23,7 @@ def numbers_of(outlook: Outlook, first: Mapping[str, Sequence[int]], /) -> NDArr
     parts: list[tuple[bool, NDArray[np.intp]]] = []
     for name, kept in outlook.kept.items():
         for receiving, start in zip(kept.receiving, first[name], strict=True):
-            each = int(np.prod(receiving.pool.shape))
+            each = prod(receiving.pool.shape)
             own = receiving.slots if receiving.still else np.arange(len(receiving.slots) * each)
             parts.append((receiving.still, start + own))
     return np.concatenate([own for _, own in sorted(parts, key=lambda part: part[0])])
@@ -37,7 +38,7 @@ def write_messages(received: Received, outlook: Outlook, first: Mapping[str, Seq
 
 
 def _write(received: Received, receiving: Receiving, start: int, ground: Ground) -> None:
-    each = int(np.prod(receiving.pool.shape))
+    each = prod(receiving.pool.shape)
     for slot, message in receiving.letters.written():
         for place in np.flatnonzero(receiving.slots == slot).tolist():
             received.write(start + place * each, _texels(receiving.pool, slot, message, ground))

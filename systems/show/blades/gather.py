@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 from .pool import BladePool
 from .shown import Standing
 
+Floats = NDArray[np.float32]
 Numbers = NDArray[np.uint32]
 
 
@@ -15,19 +16,35 @@ def gather_blades(pool: BladePool, shown: Standing, /, *, eye: tuple[float, floa
     A blade's number is its patch's place among all patches with blades, times the blades on a patch, plus its own. An
     order by patches would turn over along a whole border between two of them when the viewer crosses its line.
     """
-    each = pool.present.shape[1]
-    at = np.flatnonzero(pool.present.take(shown.slots, axis=0))
-    patch, blade = np.divmod(at, each)
-    place = pool.place.reshape(-1, 2).take(shown.slots.take(patch) * each + blade, axis=0)
-    numbers = shown.places.take(patch) * each + blade
-    return np.asarray(numbers.take(far_first(place - np.array(eye, np.float32))), np.uint32)
+    away = distances(pool, shown.slots, eye).reshape(-1)
+    each = np.arange(pool.present.shape[1], dtype=np.uint32)
+    numbers = ((shown.places * len(each)).astype(np.uint32)[:, None] + each).reshape(-1)
+    present = pool.present.take(shown.slots, axis=0).reshape(-1)
+    if not present.all():
+        grown = present.nonzero()[0]
+        away, numbers = away.take(grown), numbers.take(grown)
+    return numbers.take(far_first(away))
 
 
-def far_first(away: NDArray[np.float32], /) -> NDArray[np.intp]:
-    """Return the order of places (n, 2), given from the eye, by falling distance; shape (n,).
+def distances(pool: BladePool, slots: NDArray[np.int64], eye: tuple[float, float], /) -> Floats:
+    """Return how far the blades of some slots are from `eye` (x, z) [m], shape (m, n)."""
+    x, z = (own.take(slots, axis=0) - np.float32(at) for own, at in zip((pool.x, pool.z), eye, strict=True))
+    x *= x
+    z *= z
+    x += z
+    return np.sqrt(x, out=x)
 
-    Distances are told apart by 1 / 65535 of the farthest: such small numbers are put in order faster than others.
+
+def far_first(away: Floats, /) -> NDArray[np.intp]:
+    """Return the order of distances (n,) from the largest to the least, shape (n,).
+
+    They are told apart by 1 / 65535 of the farthest: such small numbers are put in order faster than others.
     """
-    distance = np.sqrt(np.einsum("ij,ij->i", away, away))
-    nearness = (1.0 - distance / max(float(distance.max(initial=0.0)), 1e-6)) * 65535.0
-    return np.argsort(nearness.astype(np.uint16), kind="stable")
+    return np.argsort(nearness(away), kind="stable")
+
+
+def nearness(away: Floats, /) -> NDArray[np.uint16]:
+    """Return distances as whole numbers that rise from 0 for the farthest to 65535, of the same shape."""
+    near = away * np.float32(-65535.0 / max(float(away.max(initial=0.0)), 1e-6))
+    near += np.float32(65535.0)
+    return near.astype(np.uint16)

@@ -7,12 +7,11 @@ from ...around.outlook import Outlook
 from ..strips.gather import lies_ahead
 from ..strips.representation import StripRepresentation
 from ..strips.stand import falls
-from .gather import Numbers
+from .gather import Numbers, distances, nearness
 from .pool import BladePool
 from .shown import Standing
 
 Floats = NDArray[np.float32]
-Integers = NDArray[np.int64]
 
 
 def gather_morph(
@@ -34,15 +33,10 @@ def gather_morph(
     # Strips are walked from the far side, planes in the order of the model.
     backwards = falls(own, along, turn) != lies_ahead(patches.cell[rows], outlook.viewer.centre, along)
     slices = np.where(backwards[:, None], counts[:, None] - 1 - plane, plane)
-    queue = _far_slices_first(slices, pool.place[shown.slots], outlook.viewer.eye)
+    eye = outlook.viewer.eye[0], outlook.viewer.eye[2]
+    # In a patch slice after slice, and far to near in a slice.
+    key = slices.astype(np.int64) * 65536 + nearness(distances(pool, shown.slots, eye))
+    queue = np.argsort(key, axis=1, kind="stable")
     grows = np.take_along_axis(pool.present[shown.slots] & (left > 0.0)[:, None], queue, axis=1)
     numbers = shown.places[:, None] * pool.present.shape[1] + queue
     return np.asarray(numbers[grows], np.uint32)
-
-
-def _far_slices_first(slices: Integers, place: Floats, eye: tuple[float, float, float]) -> Integers:
-    """Return the order of each patch's blades (m, n): slice after slice, and far to near in a slice."""
-    away = place - np.array([eye[0], eye[2]], np.float32)
-    distance = np.sqrt(np.einsum("ijk,ijk->ij", away, away))
-    nearness = (1.0 - distance / max(float(distance.max(initial=0.0)), 1e-6)) * 65535.0
-    return np.argsort(slices * 65536 + nearness.astype(np.int64), axis=1, kind="stable")

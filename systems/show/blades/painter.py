@@ -1,6 +1,7 @@
 """Painting blades: those on their way first, then all rings from far to near."""
 
 from collections.abc import Mapping
+from math import prod
 
 import moderngl
 import numpy as np
@@ -171,5 +172,5 @@ def _send_away(
         stands = np.zeros(len(appears.morph), np.int64)
         of_ring = strips.shown(outlook)[number].rows
         stands[of_ring] = np.arange(len(of_ring))
-        each = int(np.prod(strips.pools(outlook)[number].shape))
+        each = prod(strips.pools(outlook)[number].shape)
         standing["edges"][places[here]] = first[number] + stands[rows[here]] * each

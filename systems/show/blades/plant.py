@@ -93,7 +93,8 @@ def plant_blades(
     pool.stamp[slots] = cell
     corner = cell.astype(np.float32) * np.float32(ground.patch)
     place = stock.place[model * 4 + turn] + corner[:, None, :]
-    pool.place[slots], pool.present[slots] = place, _grown(stock, place, model, ground)
+    pool.x[slots], pool.z[slots] = place[..., 0], place[..., 1]
+    pool.present[slots] = _grown(stock, place, model, ground)
 
 
 def _grown(stock: BladeStock, place: Floats, model: Ints, ground: Ground) -> NDArray[np.bool_]:

@@ -43,8 +43,11 @@ class BladePool:
     present: NDArray[np.bool_]
     """Whether the blade grows at its place's density, shape (side * side, n)."""
 
-    place: Floats
-    """Receivers' ground positions (x, z) [m], shape (side * side, n, 2)."""
+    x: Floats
+    """Where the receivers are on the ground [m], shape (side * side, n)."""
+
+    z: Floats
+    """The same along z."""
 
     stamp: NDArray[np.int32]
     """Cell (i, j) that each slot is planted for, shape (side * side, 2)."""
@@ -61,7 +64,7 @@ class BladePool:
 
     def places(self, slots: NDArray[np.int64], /) -> Floats:
         """Return the ground positions (x, z) [m] of the receivers of some slots, shape (m, n, 2)."""
-        return self.place[slots]
+        return np.stack([self.x[slots], self.z[slots]], axis=-1)
 
     def kind(self, slots: NDArray[np.int64], /) -> NDArray[np.intp]:
         """Return the kind that each receiver of some slots is of, shape (len(slots) * n,)."""
@@ -80,7 +83,8 @@ class BladePool:
             side=side,
             kinds=kinds,
             present=np.zeros(shape, np.bool_),
-            place=np.zeros((*shape, 2), np.float32),
+            x=np.zeros(shape, np.float32),
+            z=np.zeros(shape, np.float32),
             stamp=np.full((side * side, 2), NOWHERE, np.int32),
         )
 

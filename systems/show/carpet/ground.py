@@ -13,6 +13,8 @@ from ...frame.block import FrameBlock, by_kind, joined
 from ...grow.record import Growth
 from .grow import carpet_of
 
+Doubles = NDArray[np.float64]
+
 TILE = np.dtype([("tile", "4f4")])
 GRID = 8
 """Quads along a side of a tile."""
@@ -44,19 +46,24 @@ def ground_tiles(
     side *= 2.0**levels
     low = np.floor(np.asarray(terrain.origin) / side) * side
     counts = np.ceil((np.asarray(terrain.origin) + terrain.size - low) / side).astype(int)
-    corners = low + side * np.stack(np.meshgrid(*map(np.arange, counts)), -1).reshape(-1, 2)
+    x, z = (
+        axis.reshape(-1) for axis in np.meshgrid(*(at + side * np.arange(n) for at, n in zip(low, counts, strict=True)))
+    )
     done: list[NDArray[np.float64]] = []
     for level in range(levels, -1, -1):
-        corners = corners[_seen(corners, side, terrain, eye, cone)]
-        split = (_nearest(corners, side, eye) < SPREAD * side / 2) if level else np.zeros(len(corners), np.bool_)
-        kept = corners[~split]
-        done.append(np.column_stack([kept, np.full(len(kept), side / GRID), np.full(len(kept), SPREAD * side)]))
+        seen = _seen(x, z, side, terrain, eye, cone)
+        x, z = x[seen], z[seen]
+        split = (_nearest(x, z, side, eye) < SPREAD * side / 2) if level else np.zeros(len(x), np.bool_)
+        done.append(
+            np.stack([x[~split], z[~split], *np.full((2, len(x) - split.sum()), [[side / GRID], [SPREAD * side]])])
+        )
         side /= 2.0
-        corners = (corners[split][:, None, :] + side * np.array([[0, 0], [1, 0], [0, 1], [1, 1]])).reshape(-1, 2)
-    rows = np.concatenate(done)
-    away = np.linalg.norm(rows[:, :2] + rows[:, 2:3] * (GRID / 2) - np.array([eye[0], eye[2]]), axis=1)
-    tiles = np.zeros(len(rows), TILE)
-    tiles["tile"] = rows[np.argsort(-away)]
+        x, z = x[split], z[split]
+        x, z = np.concatenate([x, x + side, x, x + side]), np.concatenate([z, z, z + side, z + side])
+    rows = np.concatenate(done, axis=1)
+    away = (rows[0] + rows[2] * (GRID / 2) - eye[0]) ** 2 + (rows[1] + rows[2] * (GRID / 2) - eye[2]) ** 2
+    tiles = np.zeros(rows.shape[1], TILE)
+    tiles["tile"] = rows.T[np.argsort(-away)]
     return tiles
 
 
@@ -77,22 +84,23 @@ def within(tiles: NDArray[np.void], centre: NDArray[np.int32], /, *, patch: floa
     return inside
 
 
-def _nearest(corners: NDArray[np.float64], side: float, eye: tuple[float, float, float]) -> NDArray[np.float64]:
-    here = np.array([eye[0], eye[2]])
-    away: NDArray[np.float64] = np.linalg.norm(here - np.clip(here, corners, corners + side), axis=1)
-    return away
+def _nearest(x: Doubles, z: Doubles, side: float, eye: tuple[float, float, float]) -> Doubles:
+    """Return how far squares are from the eye along the ground, given by their least corners, shape (n,)."""
+    half = side / 2
+    across = np.maximum(np.abs(x + (half - eye[0])) - half, 0.0)
+    along = np.maximum(np.abs(z + (half - eye[2])) - half, 0.0)
+    return np.sqrt(across * across + along * along)
 
 
 def _seen(
-    corners: NDArray[np.float64],
-    side: float,
-    terrain: Terrain,
-    eye: tuple[float, float, float],
-    cone: tuple[float, float],
+    x: Doubles, z: Doubles, side: float, terrain: Terrain, eye: tuple[float, float, float], cone: tuple[float, float]
 ) -> NDArray[np.bool_]:
-    edge = np.asarray(terrain.origin)
-    over = ((corners < edge + terrain.size) & (corners + side > edge)).all(axis=1)
-    middle = (corners + side / 2).astype(np.float32)
+    """Return which squares, given by their least corners, lie on the terrain and may be seen, shape (n,)."""
+    (left, far), (width, depth), half = terrain.origin, terrain.size, side / 2
+    over = (np.abs(x + (half - left - width / 2)) < (width + side) / 2) & (
+        np.abs(z + (half - far - depth / 2)) < (depth + side) / 2
+    )
+    middle = np.stack([x + half, z + half], axis=1).astype(np.float32)
     return over & inside_cone(middle, apex=(eye[0], eye[2]), cone=cone, radius=side * 0.75)
 
 

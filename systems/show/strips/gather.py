@@ -1,11 +1,12 @@
 """Gathering: the patches with strips that are seen, and their polygon strips in the order of drawing."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ...around.appearance import Appearance, handed_over
 from ...around.patches import PatchTable
-from .pool import StripPool
 from .shown import StripsOfRing
 
 MOST = 8
@@ -32,35 +33,41 @@ along the axis that they are stacked on, plus 16 times the ring. The blades that
 
 def lies_ahead(cell: NDArray[np.int32], centre: NDArray[np.int32], along: NDArray[np.int32], /) -> NDArray[np.bool_]:
     """Return whether cells (m, 2) lie ahead of the viewer on the axis that their strips are stacked along, (m,)."""
-    return np.asarray(np.take_along_axis(cell - centre, 1 - along[:, None], axis=1)[:, 0] > 0)
+    apart = cell - centre
+    return np.asarray(np.where(along == 0, apart[:, 1], apart[:, 0]) > 0)
 
 
 def gather_strips(
-    pool: StripPool,
-    shown: StripsOfRing,
+    rings: Sequence[StripsOfRing],
+    receivers: Sequence[tuple[int, int]],
     appears: Appearance,
     patches: PatchTable,
     centre: NDArray[np.int32],
     /,
     *,
-    ring: int = 0,
-    receiver: int = 0,
     fade: bool = True,
 ) -> NDArray[np.void]:
-    """Return the patches shown of a ring as records of `STOOD`, shape (m,).
+    """Return the patches shown, ring after ring, as records of `STOOD`, shape (m,).
 
-    Their receivers follow one another from the number `receiver` on. `fade` says that a strip appears gradually while
-    blades are handed over to it.
+    `receivers` gives by ring the number of the first receiver, and how many each patch has: they follow one another.
+    `fade` says that a strip appears gradually while blades are handed over to it.
     """
-    rows = shown.rows
+    rows, along, fades, least, most = (
+        np.concatenate([getattr(ring, name) for ring in rings]) for name in ("rows", "along", "fade", "least", "most")
+    )
+    counts = [len(ring.rows) for ring in rings]
+    cell = patches.cell.take(rows, axis=0)
     stood = np.zeros(len(rows), STOOD)
-    stood["cell"], stood["model"] = patches.cell[rows], patches.model[rows]
-    ahead = lies_ahead(patches.cell[rows], centre, shown.along)
-    stood["stand"] = patches.turn[rows] + 4 * shown.along + 8 * ahead + 16 * ring
-    stood["fade"] = shown.fade * handed_over(appears.handed[rows], fade=fade)[1]
-    stood["growth"] = appears.growth[rows]
-    stood["ranks"] = np.where(shown.least > 0.0, -shown.least, shown.most)
-    stood["receiver"] = receiver + np.arange(len(rows)) * int(np.prod(pool.shape))
+    stood["cell"], stood["model"] = cell, patches.model.take(rows)
+    stand = np.repeat(16 * np.arange(len(rings), dtype=np.int32), counts)
+    stand += patches.turn.take(rows) + 4 * along + 8 * lies_ahead(cell, centre, along)
+    stood["stand"] = stand
+    stood["fade"] = fades * handed_over(appears.handed.take(rows), fade=fade)[1]
+    stood["growth"] = appears.growth.take(rows)
+    stood["ranks"] = np.where(least > 0.0, -least, most)
+    stood["receiver"] = np.concatenate([
+        first + each * np.arange(count) for (first, each), count in zip(receivers, counts, strict=True)
+    ])  # fmt: skip
     return stood
 
 
@@ -82,7 +89,7 @@ def polygon_strips(
     """
     kinds = present.shape[1]
     stand = stood["stand"][patch].astype(np.int64)
-    strips, columns = np.array(fineness, np.int64)[stand // 16].reshape(-1, 2).T
+    strips, columns = np.array(fineness, np.int64).take(stand >> 4, axis=0).T
     amount = strips * columns * kinds
     end = np.cumsum(amount)
     own = np.arange(end[-1] if len(end) else 0) - np.repeat(end - amount, amount)

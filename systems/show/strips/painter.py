@@ -1,6 +1,8 @@
 """Painting strips: all rings in one far-to-near order."""
 
 from collections.abc import Mapping, Sequence
+from itertools import accumulate
+from math import prod
 
 import moderngl
 import numpy as np
@@ -33,27 +35,23 @@ class StripsPainter:
 
     def receivers(self, outlook: Outlook, /) -> list[int]:
         """Return how many edges each ring has."""
-        return [len(ring.rows) * int(np.prod(pool.shape)) for pool, ring in _rings(outlook)]
+        return [len(ring.rows) * prod(pool.shape) for pool, ring in _rings(outlook)]
 
     def write(self, outlook: Outlook, first: Mapping[str, list[int]], /) -> int:
         """Send the patches with strips, and the strips that are shown; they are no blades."""
-        rings, appears, starts = _rings(outlook), outlook.appearance, first["strips"]
+        rings, appears = _rings(outlook), outlook.appearance
         assert appears is not None
-        stood = np.concatenate([
-            gather_strips(
-                pool, ring, appears, outlook.patches, outlook.viewer.centre,
-                ring=number, receiver=starts[number], fade=self._fade,
-            )
-            for number, (pool, ring) in enumerate(rings)
-        ])  # fmt: skip
-        before = np.cumsum([0, *(len(ring.rows) for _, ring in rings)])[:-1].tolist()
-        self._asked = list(zip(before, starts, self.receivers(outlook), strict=True))
-        queue = np.argsort(np.concatenate([ring.queue for _, ring in rings]), kind="stable")
-        patch = queue[stood["fade"][queue] > 0.0]
-        present = np.concatenate([pool.present[ring.slots] for pool, ring in rings])[patch]
+        shown = [ring for _, ring in rings]
+        numbered = [(start, prod(pool.shape)) for start, (pool, _) in zip(first["strips"], rings, strict=True)]
+        stood = gather_strips(shown, numbered, appears, outlook.patches, outlook.viewer.centre, fade=self._fade)
+        before = accumulate((len(ring.rows) for ring in shown), initial=0)
+        self._asked = list(zip(before, first["strips"], self.receivers(outlook), strict=False))
+        queue = np.argsort(np.concatenate([ring.queue for ring in shown]), kind="stable")
+        patch = queue[stood["fade"].take(queue) > 0.0]
+        present = np.concatenate([pool.present.take(ring.slots, axis=0) for pool, ring in rings]).take(patch, axis=0)
         strips, amount = polygon_strips(stood, patch, present, self._fineness, most=self.strips.most)
         self.strips.write(stood, strips)
-        self.runs = runs(_ranked(rings)[patch], amount)
+        self.runs = runs(_ranked(rings).take(patch), amount)
         return 0
 
     def hear(self) -> int:
@@ -93,5 +91,7 @@ def _ranked(rings: list[tuple[StripPool, StripsOfRing]]) -> NDArray[np.bool_]:
 
     Where grass is thin anywhere in a ring, all of the ring is.
     """
-    ranked = [(pool.least[ring.slots] < WHOLE).any() | (ring.most < 1.0) | (ring.least > 0.0) for pool, ring in rings]
+    ranked = [
+        (pool.least.take(ring.slots) < WHOLE).any() | (ring.most < 1.0) | (ring.least > 0.0) for pool, ring in rings
+    ]
     return np.concatenate(ranked)
