@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from ..engine.schedule import Schedule
 from .around.outlook import Outlook
 from .painter import Painter
@@ -41,11 +43,10 @@ class Statistics:
     def count(self, outlook: Outlook, site: Site, systems: Schedule, painter: Painter, /, *, draw_ms: float) -> None:
         """Count what a viewer was shown in a frame whose draw calls took so long [ms]."""
         shown, names = outlook.patches.shown, outlook.patches.names
+        level = outlook.patches.representation
         width, depth = site.ground.terrain.size
         share = self.blades_field * site.ground.patch**2 / (width * depth)
-        self.blades_considered = round(share * int(shown.sum()))
-        self.patches = {
-            name: int((shown & (outlook.patches.representation == level)).sum()) for level, name in enumerate(names)
-        }
+        self.blades_considered = round(share * int(np.count_nonzero(shown)))
+        self.patches = {name: int(np.count_nonzero(shown & (level == number))) for number, name in enumerate(names)}
         self.receivers, self.transitions, self.blades_submitted = outlook.heard, outlook.changing, outlook.blades
         self.systems_ms, self.draw_calls, self.draw_ms = dict(systems.milliseconds), painter.draw_calls, draw_ms

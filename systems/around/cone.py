@@ -1,6 +1,7 @@
 """The view cone, and distances as patches count them (paper, section 2.2, figure 5)."""
 
-from math import cos, pi, sin
+from math import atan2, cos, isclose, pi, sin
+from operator import mul
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +11,9 @@ from ...engine.camera import View
 Floats = NDArray[np.float32]
 
 Doubles = NDArray[np.float64]
+
+Rows = list[list[float]]
+"""The rows of a matrix."""
 
 HALF_DIAGONAL = 0.7072
 """Distance from the middle of a square to its corners, of its side."""
@@ -24,21 +28,32 @@ def view_cone(seen: View, /) -> tuple[float, float]:
     They are those of the picture's corners, however the camera is turned, banked or shifted. Where straight up or
     straight down is in the picture, and where there is no perspective, it is all round: then the half width is pi.
     """
-    projection, axes = seen.projection.astype(np.float64), seen.view[:3, :3].astype(np.float64)
-    if not np.allclose(projection[3], (0.0, 0.0, -1.0, 0.0)) or _shows_pole(projection, axes[:, 1]):
+    # Plain numbers: for so few of them, arrays take many times as long.
+    projection, axes = seen.projection.tolist(), seen.view[:3, :3].tolist()
+    perspective = all(map(_is_near, projection[3], (0.0, 0.0, -1.0, 0.0)))
+    if not perspective or _shows_pole(projection, [axis[1] for axis in axes]):
         return 0.0, pi
-    corners = (np.array([[-1, -1], [-1, 1], [1, -1], [1, 1]]) + projection[:2, 2]) / projection[[0, 1], [0, 1]]
-    rays = np.column_stack([corners, np.full(4, -1.0)]) @ axes
-    azimuth = np.arctan2(rays[:, 0], -rays[:, 2])
-    apart = np.mod(azimuth - azimuth[0] + pi, 2 * pi) - pi
-    return float(azimuth[0] + (apart.max() + apart.min()) / 2), float(apart.max() - apart.min()) / 2
+    azimuth = [_azimuth(projection, axes, x, y) for x in (-1.0, 1.0) for y in (-1.0, 1.0)]
+    apart = [(each - azimuth[0] + pi) % (2 * pi) - pi for each in azimuth]
+    return azimuth[0] + (max(apart) + min(apart)) / 2, (max(apart) - min(apart)) / 2
 
 
-def _shows_pole(projection: Doubles, up: Doubles) -> bool:
+def _is_near(one: float, other: float) -> bool:
+    return isclose(one, other, rel_tol=1e-5, abs_tol=1e-8)
+
+
+def _azimuth(projection: Rows, axes: Rows, x: float, y: float) -> float:
+    """Return the azimuth [rad] of a corner of the picture, -1 or 1 along both of its sides."""
+    across, up = (x + projection[0][2]) / projection[0][0], (y + projection[1][2]) / projection[1][1]
+    right, _, back = (across * a + up * b - c for a, b, c in zip(*axes, strict=True))
+    return atan2(right, -back)
+
+
+def _shows_pole(projection: Rows, up: list[float]) -> bool:
     """Return whether straight up or down, given as seen from the eye, is in the picture or just beside it."""
-    pole = up if up[2] < 0.0 else -up
-    across = np.abs(projection[:2, :3] @ pole) / max(-pole[2], 1e-9)
-    return bool((across < 1.0 + BESIDE).all())
+    pole = up if up[2] < 0.0 else [-part for part in up]
+    across = (sum(map(mul, row[:3], pole)) for row in projection[:2])
+    return all(abs(each) / max(-pole[2], 1e-9) < 1.0 + BESIDE for each in across)
 
 
 def inside_cone(

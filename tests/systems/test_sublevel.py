@@ -138,6 +138,19 @@ def test_f1_what_is_not_seen_takes_its_sub_level_at_once(laid: Laid, look: Look)
     assert not sublevels(outlook, 1).any()
 
 
+def test_f1_who_looks_away_and_back_finds_the_sub_levels_of_who_has_never_looked(laid: Laid, look: Look) -> None:
+    there, fresh = laid(terrain=FLAT), laid(terrain=FLAT)
+    look(there, 1.25, 1.2, yaw=0.0)
+    look(there, 1.25, 5.1, yaw=0.0, dt=0.0)
+    away = look(there, 1.25, 5.1, yaw=pi, dt=0.0)
+    assert (away.patches.sublevel_progress == 1.0).all()
+    back, new = look(there, 1.25, 5.1, yaw=0.0, dt=0.0).patches, look(fresh, 1.25, 5.1, yaw=0.0).patches
+    for level in (0, 1):
+        has = back.shown & (back.representation == level)
+        assert has.sum() > 5
+        np.testing.assert_array_equal(back.sublevel[level, has], new.sublevel[level, has])
+
+
 def test_f1_a_patch_whose_strips_change_shows_every_blade_once(laid: Laid, look: Look) -> None:
     site = laid(terrain=FLAT)
     look(site, 1.25, 1.2)

@@ -11,10 +11,12 @@ from numpy.typing import NDArray
 
 from tallgrass.components.patch import Lod, Patch
 from tallgrass.components.viewer import Viewer
+from tallgrass.engine.declared.quality import Quality
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at, slope_at
 from tallgrass.engine.world import World
 from tallgrass.systems.around.clearing import Clearings
+from tallgrass.systems.around.cone import discrete_distance, far_to_near, nearness
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.patches import PatchTable
 from tallgrass.systems.around.window import cell_of, window_cells, window_rows
@@ -173,6 +175,24 @@ def test_t3_the_system_says_where_the_viewer_stands_and_how_far_each_patch_is(ti
         assert tuple(tiled.outlook.viewer.centre.tolist()) == centre
         expected = np.abs(tiled.patches.cell - centre).max(axis=1)
         np.testing.assert_array_equal(tiled.patches.distance, expected)
+
+
+@given(st.lists(centres, min_size=1, max_size=3), st.sampled_from([3, 9, 41]))
+def test_t5_wherever_the_window_goes_the_table_knows_the_order_from_far_to_near(
+    way: list[NDArray[np.int32]], side: int
+) -> None:
+    table = table_of(side)
+    for centre in way:
+        tile(table, centre, WIDE, patch=PATCH, seed=3, models=4)
+    rows = np.arange(0, side * side, 2)
+    np.testing.assert_array_equal(table.distance, discrete_distance(table.cell, way[-1]))
+    np.testing.assert_array_equal(table.far_to_near(rows), rows[far_to_near(table.cell[rows], way[-1])])
+
+
+def test_t5_the_widest_window_there_is_has_room_for_its_order() -> None:
+    table = table_of(2 * Quality.model_json_schema()["properties"]["carpet_to"]["maximum"] + 1)
+    stood(table, (5, 7))
+    np.testing.assert_array_equal(table.nearness, nearness(table.cell, np.array([5, 7], np.int32)))
 
 
 def test_d2_what_is_written_to_the_table_shows_in_the_components(world: World) -> None:

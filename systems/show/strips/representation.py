@@ -132,9 +132,9 @@ class StripRepresentation(Representation):
         spacing = np.array([quality.patch / ring.strips for ring in quality.strip_rings], np.float32)
         height = min(strips.height for strips in self.stock.strips[0])
         slope = viewing_slope(patches, rows, eye=viewer.eye, patch=quality.patch)
-        before = ring_of(held).astype(np.int8)
-        ring = strip_ring(patches.distance[rows], slope, before, limits, spacing, height=height, slack=slack)
-        keeps = np.where((held < 0) | (slack == 0), -1, axis_of(held))
+        # Halved, -1 for none is -1 again.
+        ring = strip_ring(patches.distance[rows], slope, held >> 1, limits, spacing, height=height, slack=slack)
+        keeps = np.where(held < 0, held, held & 1) if slack else np.full_like(held, -1)
         return packed(ring, strips_along(patches.cell.take(rows, axis=0), viewer.centre, keeps))
 
     def ring_and_axis(self, outlook: Outlook, rows: Rows, /) -> tuple[NDArray[np.int64], NDArray[np.int32]]:

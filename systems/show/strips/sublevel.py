@@ -51,7 +51,8 @@ def strips_along(cell: Ints, centre: Ints, current: NDArray[np.integer], /) -> L
     across, ahead = cells_apart(cell, centre)
     due = across > ahead
     either = 4 * np.maximum(across, ahead) <= 5 * np.minimum(across, ahead)
-    return np.where(either & (current >= 0), current, due).astype(np.int8)
+    along: Levels = np.where(either & (current >= 0), current, due).astype(np.int8)
+    return along
 
 
 def viewing_slope(patches: PatchTable, rows: Rows, /, *, eye: tuple[float, float, float], patch: float) -> Floats:
@@ -66,7 +67,7 @@ def viewing_slope(patches: PatchTable, rows: Rows, /, *, eye: tuple[float, float
 
 def packed(ring: Levels, axis: Levels, /) -> Levels:
     """Return the sub-level that a ring and the axis that strips run along make together, shape (n,)."""
-    return (2 * ring + axis).astype(np.int8)
+    return 2 * ring + axis
 
 
 def ring_of(sublevel: Levels, /) -> NDArray[np.int64]:

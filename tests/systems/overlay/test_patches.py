@@ -64,6 +64,16 @@ def test_n8_rings_are_shades_from_strong_to_pale(outlook: Outlook, site: Site) -
     assert colors[far].min() > colors[near].min() + 0.1
 
 
+def test_n8_what_nobody_has_seen_has_the_shade_of_its_distance(outlook: Outlook, site: Site) -> None:
+    colors, patches = patch_colors(outlook, site), outlook.patches
+    for distance in (1, 2):
+        ring = patches.alive & (patches.distance == distance)
+        seen, unseen = (np.flatnonzero(ring & (patches.visible == visible)) for visible in (True, False))
+        assert seen.size
+        assert unseen.size
+        np.testing.assert_array_equal(colors[unseen], np.tile(colors[seen[0]], (len(unseen), 1)))
+
+
 def changing(outlook: Outlook, progress: float) -> int:
     """Let one visible patch be on its way from strips to blades; return its row."""
     patches = outlook.patches
