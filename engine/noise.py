@@ -40,3 +40,26 @@ def smooth_noise(table: Floats, place: Floats, /, *, shift: tuple[float, float] 
     near += s * (flat.take(below + right, axis=0) - near)
     far += t * (near - far)
     return far
+
+
+def noise_grid(table: Floats, x: Floats, z: Floats, /) -> Floats:
+    """Return `smooth_noise` at all places of a grid, `x` (columns,) by `z` (rows,), shape (rows, columns, channels).
+
+    `table` may have fewer channels than a whole one. To the bit the same, in a fraction of the time: one axis after
+    the other, and the first only on the table's own lines.
+    """
+    left, right, s = _between(x)
+    far, near, t = _between(z)
+    lines = table[:, left]
+    lines += s[:, None] * (table[:, right] - lines)
+    grid: Floats = lines[far]
+    grid += t[:, None, None] * (lines[near] - grid)
+    return grid
+
+
+def _between(place: Floats) -> tuple[NDArray[np.int32], NDArray[np.int32], Floats]:
+    """Return the lattice points before and after places on an axis, and the weights of those after, shape (n,) each."""
+    low = np.floor(place)
+    part = place - low
+    before = low.astype(np.int32) & (PERIOD - 1)
+    return before, (before + 1) & (PERIOD - 1), part * part * (np.float32(3.0) - np.float32(2.0) * part)

@@ -1,4 +1,4 @@
-"""GL's functions by their addresses, and its numbers: a host's state without any library that the host may not have."""
+"""GL's functions by their addresses, and its numbers: what moderngl does not do, without any other library."""
 
 import sys
 from ctypes import CFUNCTYPE, c_int, c_ubyte, c_void_p
@@ -22,7 +22,8 @@ NUMBERS = {
     "FRONT_FACE": 0x0B46, "CULL_FACE_MODE": 0x0B45, "DEPTH_FUNC": 0x0B74, "DEPTH_WRITEMASK": 0x0B72,
     "COLOR_WRITEMASK": 0x0C23, "BLEND_EQUATION_RGB": 0x8009, "BLEND_EQUATION_ALPHA": 0x883D, "VIEWPORT": 0x0BA2,
     "SCISSOR_BOX": 0x0C10, "PRIMITIVE_RESTART_INDEX": 0x8F9E, "DRAW_BUFFER0": 0x8825, "COLOR_ATTACHMENT1": 0x8CE1,
-    "FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE": 0x8CD0,
+    "FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE": 0x8CD0, "TEXTURE_2D_ARRAY": 0x8C1A, "UNSIGNED_BYTE": 0x1401, "RED": 0x1903,
+    "R8": 0x8229, "RGBA": 0x1908, "RGBA8": 0x8058,
 }  # fmt: skip
 """What OpenGL calls its constants, without GL_."""
 
@@ -41,8 +42,9 @@ DOES = {
     "glScissor": (c_int,) * 4, "glPolygonMode": (c_int,) * 2, "glFrontFace": (c_int,), "glCullFace": (c_int,),
     "glDepthFunc": (c_int,), "glDepthMask": (c_ubyte,), "glColorMaski": (c_int, *(c_ubyte,) * 4),
     "glBlendFuncSeparate": (c_int,) * 4, "glBlendEquationSeparate": (c_int,) * 2,
+    "glBindTexture": (c_int,) * 2, "glTexImage3D": (*(c_int,) * 9, c_void_p),
 }  # fmt: skip
-"""All others that a state is read and brought back with."""
+"""All others that a state is read and brought back with, and that textures are written with."""
 
 
 class Functions:

@@ -4,13 +4,18 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ...engine.noise import noise_table, smooth_noise
+from ...engine.noise import noise_grid, noise_table
 from ...engine.terrain.record import Density, Terrain
 from ...engine.terrain.sample import slope_at
 from ..grow.record import Growth
 
 FINEST_MAP = 1024
 """Samples along a side of the maps laid over the terrain."""
+
+_ROWS = 32
+"""Rows of a map worked on at a time: few enough to stay in the processor's own memory."""
+
+Floats = NDArray[np.float32]
 
 
 def posture_texture(ctx: moderngl.Context, growths: list[Growth]) -> moderngl.TextureArray:
@@ -45,15 +50,24 @@ def tone_map(terrain: Terrain, *, seed: int) -> NDArray[np.uint8]:
     """Return the terrain's slope (x, z) and two slow noises, each as 0.5 + 0.5 n, shape (rows, columns, 4)."""
     rows, columns = _map_shape(terrain.size)
     (width, depth), (left, far) = terrain.size, terrain.origin
-    x = left + (np.arange(columns) + 0.5) / columns * width
-    z = far + (np.arange(rows) + 0.5) / rows * depth
-    place = np.stack(np.meshgrid(x, z), axis=-1).reshape(-1, 2).astype(np.float32)
-    wide = smooth_noise(noise_table(seed, 16), place / np.float32(23.0))
-    close = smooth_noise(noise_table(seed, 17), place / np.float32(6.0))
-    slow = 0.6 * wide[:, :2] + 0.4 * close[:, :2]
-    values = np.concatenate([slope_at(terrain, place), slow], axis=1)
-    packed = np.clip(np.round((0.5 + 0.5 * values) * 255.0), 0, 255).astype(np.uint8)
-    return packed.reshape(rows, columns, 4)
+    x = (left + (np.arange(columns) + 0.5) / columns * width).astype(np.float32)
+    z = (far + (np.arange(rows) + 0.5) / rows * depth).astype(np.float32)
+    packed, slow = np.empty((rows, columns, 4), np.uint8), _slow_noise(x, z, seed)
+    for start in range(0, rows, _ROWS):
+        some = slice(start, start + _ROWS)
+        place = np.stack(np.meshgrid(x, z[some]), axis=-1)
+        slope = slope_at(terrain, place.reshape(-1, 2)).reshape(place.shape)
+        values = np.concatenate([slope, slow[some]], axis=-1)
+        packed[some] = np.clip(np.round((0.5 + 0.5 * values) * 255.0), 0, 255)
+    return packed
+
+
+def _slow_noise(x: Floats, z: Floats, seed: int) -> Floats:
+    wide, close = (
+        noise_grid(noise_table(seed, stream)[..., :2], x / np.float32(wave), z / np.float32(wave))
+        for stream, wave in ((16, 23.0), (17, 6.0))
+    )
+    return 0.6 * wide + 0.4 * close
 
 
 def tone_texture(ctx: moderngl.Context, terrain: Terrain, *, seed: int) -> moderngl.Texture:

@@ -1,5 +1,6 @@
 """An orthographic rasteriser with a depth buffer: many small triangles at once, in numpy."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -9,7 +10,9 @@ from numpy.typing import NDArray
 Doubles = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-_CHUNK = 1 << 20
+_CHUNK = 1 << 15
+"""Few enough that all that is worked on stays in the processor's own memory."""
+
 _SLIVER = 1e-9
 
 _STAGGER = np.array([0.125, 0.625, 0.375, 0.875])
@@ -44,41 +47,33 @@ def rasterise(
     off. `chunk` bounds the fragments that are held at a time.
     """
     planes = plane_of(corners, nearness)
-    spans = _row_spans(corners, shape, wrap=wrap)
     low, high = (float(nearness.min()), float(nearness.max())) if nearness.size else (0.0, 0.0)
     scale = (2.0**32 - 1.0) / max(high - low, 1e-12)
-    best = np.zeros(shape[0] * shape[1], np.uint64)
-    kept: list[tuple[Integers, NDArray[np.uint64], Integers, Integers]] = []
-    for start, stop in _chunks(spans.length, chunk):
-        span, column = _expand(spans.length[start:stop])
-        span += start
-        triangle, row, column = spans.triangle[span], spans.row[span], column + spans.first[span]
-        near = _value(planes, triangle, _across(row, column), _centre(row))
-        steps = np.clip((near - low) * scale, 0.0, 2.0**32 - 1.0).astype(np.uint64)
-        key = (steps << np.uint64(32)) | (triangle + 1).astype(np.uint64)
-        sample = (row % shape[0]) * shape[1] + column % shape[1]
-        np.maximum.at(best, sample, key)
-        wins = best[sample] == key
-        kept.append((sample[wins], key[wins], row[wins], column[wins]))
-    return _winners(best, kept)
+    seen = _Seen(shape, wrap=wrap)
+    for triangle, row, column in _samples_inside(corners, shape, wrap=wrap, chunk=chunk):
+        x, y = _across(row, column), _centre(row)
+        steps = np.clip((_value(planes, triangle, x, y) - low) * scale, 0.0, 2.0**32 - 1.0).astype(np.uint64)
+        seen.show((steps << np.uint64(32)) | (triangle + 1).astype(np.uint64), row, column)
+    return seen.fragments()
 
 
 def plane_of(corners: Doubles, values: Doubles, /) -> Doubles:
-    """Return (value at 0, slope in x, slope in y) of what is linear over each triangle, shape (n, 3)."""
+    """Return (value at 0, slope in x, slope in y) of what is linear over each triangle, shape (3, n)."""
     (x0, y0), (x1, y1), (x2, y2) = (corners[:, k].T for k in range(3))
     area = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)
     area = np.where(np.abs(area) < _SLIVER, np.inf, area)
     first, second = values[:, 1] - values[:, 0], values[:, 2] - values[:, 0]
     in_x = (first * (y2 - y0) - second * (y1 - y0)) / area
     in_y = (second * (x1 - x0) - first * (x2 - x0)) / area
-    return np.stack([values[:, 0] - in_x * x0 - in_y * y0, in_x, in_y], axis=1)
+    return np.stack([values[:, 0] - in_x * x0 - in_y * y0, in_x, in_y])
 
 
 def interpolate(corners: Doubles, values: Doubles, fragments: Fragments, /) -> Doubles:
     """Return at each fragment what is given at the corners of the triangles, (n, 3); shape (f,)."""
     at = _value(plane_of(corners, values), fragments.triangle, fragments.x, fragments.y)
     lowest, highest = values.min(axis=1), values.max(axis=1)
-    return np.asarray(np.clip(at, lowest[fragments.triangle], highest[fragments.triangle]))
+    np.clip(at, lowest.take(fragments.triangle), highest.take(fragments.triangle), out=at)
+    return at
 
 
 def ribbon_triangles(left: Doubles, right: Doubles, /) -> Doubles:
@@ -88,52 +83,122 @@ def ribbon_triangles(left: Doubles, right: Doubles, /) -> Doubles:
     return np.stack([lower, upper], axis=2).reshape(-1, 3, left.shape[2])
 
 
+class _Seen:
+    """The nearest triangle at each sample so far."""
+
+    def __init__(self, shape: tuple[int, int], *, wrap: bool) -> None:
+        self._shape = shape
+        self._best = np.zeros(shape[0] * shape[1], np.uint64)
+        self._met = [np.empty(len(self._best), np.int32) for _ in shape] if wrap else None
+
+    def show(self, key: NDArray[np.uint64], row: Integers, column: Integers) -> None:
+        """Show triangles, by nearness and number, at some samples, which with wrapping may lie beyond the image."""
+        rows, columns = self._shape
+        if self._met is None:
+            np.maximum.at(self._best, row * columns + column, key)
+            return
+        sample = (row - row // rows * rows) * columns + (column - column // columns * columns)
+        np.maximum.at(self._best, sample, key)
+        wins = np.flatnonzero(self._best.take(sample) == key)
+        where = sample.take(wins)
+        for met, at in zip(self._met, (row, column), strict=True):
+            met[where] = at.take(wins)
+
+    def fragments(self) -> Fragments:
+        """Return what is seen in the end."""
+        sample = np.flatnonzero(self._best != 0)
+        triangle = (self._best.take(sample) & np.uint64(0xFFFFFFFF)).astype(np.int64) - 1
+        if self._met is None:
+            row = sample // self._shape[1]
+            column = sample - row * self._shape[1]
+        else:
+            row, column = (met.take(sample).astype(np.int64) for met in self._met)
+        return Fragments(sample, triangle, _across(row, column), _centre(row))
+
+
+def _samples_inside(
+    corners: Doubles, shape: tuple[int, int], /, *, wrap: bool, chunk: int
+) -> Iterator[tuple[Integers, Integers, Integers]]:
+    """Yield the samples inside all triangles, some at a time: triangle, row and column, shape (m,) each."""
+    halves = _halves(corners, shape, wrap=wrap)
+    for start, stop in _chunks(halves.count, chunk):
+        half, row = _expand(halves.count[start:stop], halves.low[start:stop])
+        triangle, first, last = halves.row_spans(half + start, row)
+        if not wrap:
+            first, last = np.clip(first, 0, shape[1]), np.clip(last, 0, shape[1])
+        length = np.maximum(last - first, 0)
+        for begin, end in _chunks(length, chunk):
+            span, column = _expand(length[begin:end], first[begin:end])
+            yield triangle[begin:end].take(span), row[begin:end].take(span), column
+
+
 @dataclass(frozen=True, slots=True, eq=False)
-class _Spans:
-    triangle: Integers
-    row: Integers
-    first: Integers
-    length: Integers
+class _Edges:
+    """Lines that rise in y, one for each of the things that they bound."""
+
+    x: Doubles
+    y: Doubles
+    run: Doubles
+    rise: Doubles
+
+    @classmethod
+    def between(cls, start: Doubles, end: Doubles, /) -> "_Edges":
+        """Return the lines from `start` to `end`, (n, 2)."""
+        rise = end[:, 1] - start[:, 1]
+        columns = start[:, 0], start[:, 1], end[:, 0] - start[:, 0], np.where(rise > 0.0, rise, 1.0)
+        return cls(*(np.ascontiguousarray(column) for column in columns))
+
+    def at(self, number: Integers, y: Doubles, /) -> Doubles:
+        """Return where some of the lines cross constant y."""
+        part = (y - self.y.take(number)) / self.rise.take(number)
+        np.clip(part, 0.0, 1.0, out=part)
+        part *= self.run.take(number)
+        part += self.x.take(number)
+        return part
 
 
-def _row_spans(corners: Doubles, shape: tuple[int, int], /, *, wrap: bool) -> _Spans:
-    """Return the samples inside each triangle as runs along the rows."""
+@dataclass(frozen=True, slots=True, eq=False)
+class _Halves:
+    """Triangles, each cut at the height of its middle corner into a lower half and an upper one."""
+
+    bent: _Edges
+    """What bounds each half on the side of the middle corner."""
+
+    straight: _Edges
+    """What bounds each triangle on the other side."""
+
+    low: Integers
+    """First row of each half."""
+
+    count: Integers
+    """Rows of each half."""
+
+    def row_spans(self, half: Integers, row: Integers, /) -> tuple[Integers, Integers, Integers]:
+        """Return the triangles of halves, and their first columns on rows and those after their last."""
+        triangle, y, shift = half >> 1, _centre(row), _STAGGER.take(row & 3)
+        bent, straight = self.bent.at(half, y), self.straight.at(triangle, y)
+        first, last = np.minimum(bent, straight) - shift, np.maximum(bent, straight) - shift
+        return triangle, np.ceil(first).astype(np.int64), np.ceil(last).astype(np.int64)
+
+
+def _halves(corners: Doubles, shape: tuple[int, int], /, *, wrap: bool) -> _Halves:
     ordered = np.take_along_axis(corners, np.argsort(corners[:, :, 1], axis=1, kind="stable")[:, :, None], axis=1)
-    low = np.ceil(ordered[:, 0, 1] - 0.5).astype(np.int64)
-    high = np.ceil(ordered[:, 2, 1] - 0.5).astype(np.int64)
+    rows = np.ceil(ordered[:, :, 1] - 0.5).astype(np.int64)
     if not wrap:
-        low, high = np.clip(low, 0, shape[0]), np.clip(high, 0, shape[0])
-    triangle, offset = _expand(np.maximum(high - low, 0))
-    row = low[triangle] + offset
-    ends = _crossings(ordered, triangle, _centre(row))
-    first, last = (np.ceil(end - _STAGGER[row % 4]).astype(np.int64) for end in ends)
-    if not wrap:
-        first, last = np.clip(first, 0, shape[1]), np.clip(last, 0, shape[1])
-    full = last > first
-    return _Spans(triangle[full], row[full], first[full], (last - first)[full])
+        rows = np.clip(rows, 0, shape[0])
+    return _Halves(
+        bent=_Edges.between(ordered[:, :2].reshape(-1, 2), ordered[:, 1:].reshape(-1, 2)),
+        straight=_Edges.between(ordered[:, 0], ordered[:, 2]),
+        low=rows[:, :2].reshape(-1),
+        count=np.diff(rows, axis=1).reshape(-1),
+    )
 
 
-def _crossings(ordered: Doubles, triangle: Integers, y: Doubles, /) -> tuple[Doubles, Doubles]:
-    """Return where lines of constant y enter and leave triangles whose corners rise in y."""
-    bottom, middle, top = (ordered[triangle, k] for k in range(3))
-    lower = y < middle[:, 1]
-    start, end = np.where(lower[:, None], bottom, middle), np.where(lower[:, None], middle, top)
-    bent = _along(start, end, y)
-    straight = _along(bottom, top, y)
-    return np.minimum(bent, straight), np.maximum(bent, straight)
-
-
-def _along(start: Doubles, end: Doubles, y: Doubles, /) -> Doubles:
-    rise = end[:, 1] - start[:, 1]
-    part = np.where(rise > 0.0, (y - start[:, 1]) / np.where(rise > 0.0, rise, 1.0), 0.0)
-    return np.asarray(start[:, 0] + np.clip(part, 0.0, 1.0) * (end[:, 0] - start[:, 0]))
-
-
-def _expand(length: Integers, /) -> tuple[Integers, Integers]:
-    """Return, for runs of the given lengths one after another, each element's run and its place in it."""
+def _expand(length: Integers, first: Integers, /) -> tuple[Integers, Integers]:
+    """Return, for runs of integers from `first` on, one after another, each element's run and its number."""
     owner = np.repeat(np.arange(length.shape[0]), length)
-    start = np.cumsum(length) - length
-    return owner, np.arange(owner.shape[0]) - start[owner]
+    start = first - np.cumsum(length) + length
+    return owner, np.arange(owner.shape[0]) + start.take(owner)
 
 
 def _chunks(length: Integers, chunk: int, /) -> list[tuple[int, int]]:
@@ -146,7 +211,10 @@ def _chunks(length: Integers, chunk: int, /) -> list[tuple[int, int]]:
 
 
 def _value(planes: Doubles, triangle: Integers, x: Doubles, y: Doubles, /) -> Doubles:
-    return np.asarray(planes[triangle, 0] + planes[triangle, 1] * x + planes[triangle, 2] * y)
+    value: Doubles = planes[1].take(triangle) * x
+    value += planes[0].take(triangle)
+    value += planes[2].take(triangle) * y
+    return value
 
 
 def _centre(row: Integers, /) -> Doubles:
@@ -154,19 +222,4 @@ def _centre(row: Integers, /) -> Doubles:
 
 
 def _across(row: Integers, column: Integers, /) -> Doubles:
-    return np.asarray(column + _STAGGER[row % 4])
-
-
-def _winners(
-    best: NDArray[np.uint64], kept: list[tuple[Integers, NDArray[np.uint64], Integers, Integers]], /
-) -> Fragments:
-    if not kept:
-        nothing, nowhere = np.zeros(0, np.int64), np.zeros(0)
-        return Fragments(nothing, nothing, nowhere, nowhere)
-    sample, key, row, column = (np.concatenate(parts) for parts in zip(*kept, strict=True))
-    wins = np.flatnonzero(best[sample] == key)
-    owner = np.full(best.shape[0], -1)
-    owner[sample[wins]] = wins
-    owner = owner[owner >= 0]
-    triangle = (key[owner] & np.uint64(0xFFFFFFFF)).astype(np.int64) - 1
-    return Fragments(sample[owner], triangle, _across(row[owner], column[owner]), _centre(row[owner]))
+    return np.asarray(column + _STAGGER.take(row & 3))

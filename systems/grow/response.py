@@ -15,7 +15,7 @@ _FINAL = 0.55
 """Posture index that the wind ends at: a gust that shows."""
 
 _REST = 0.01
-_CYCLES, _LONGEST = 4.0, 16.0
+_CYCLES, _LONGEST, _STILL = 4.0, 16.0, 3.0
 _STEPS_PER_SWING = 240
 _HEAVY = 0.7
 
@@ -31,14 +31,10 @@ def grow_response(kind: GrassKind, /, *, samples: int = SAMPLES) -> Response:
     step = 2.0 * np.pi / float(lowest_swing(chain)[0]) / _STEPS_PER_SWING
     angle, wind = bend_slowly(chain)
     bent, speed = _bent(chain, angle[:, 0], wind[:, 0], step)
-    count = int(_STEPS_PER_SWING * _LONGEST)
-    start = np.stack([np.zeros(LINKS), bent])
-    winds = np.broadcast_to(np.array([speed, 0.0]), (count, 2))
-    history, _ = simulate(_twice(chain), start, np.zeros_like(start), winds, step=step)
-    index = chord_angle(history) / chord_angle(bent)
+    index = _swung(chain, bent, speed, step)
     length = _length(index)
     time = np.linspace(0.0, length, samples)
-    rise, fall = (np.interp(time, np.arange(count + 1), index[:, k]) for k in range(2))
+    rise, fall = (np.interp(time, np.arange(len(index)), index[:, k]) for k in range(2))
     return Response(
         step=length * step / chain.second / (samples - 1), rise=_settled(rise, 1.0), fall=_settled(fall, 0.0)
     )
@@ -53,14 +49,32 @@ def _bent(chain: Chain, angle: Doubles, wind: Doubles, step: float, /) -> tuple[
     return settled[-1, 0], float(wind[number])
 
 
-def _twice(chain: Chain, /) -> Chain:
-    return replace(chain, stiffness=np.repeat(chain.stiffness, 2, axis=0), damping=np.repeat(chain.damping, 2, axis=0))
+def _swung(chain: Chain, bent: Doubles, speed: float, step: float, /) -> Doubles:
+    """Return the index over time of a blade that the wind begins to bend, and of a bent one let go, shape (steps, 2).
+
+    A swing only ever dies down: once both have been at rest for `_STILL` swings, nothing more is to come.
+    """
+    twice = replace(chain, stiffness=np.repeat(chain.stiffness, 2, 0), damping=np.repeat(chain.damping, 2, 0))
+    angle = np.stack([np.zeros(LINKS), bent])[None]
+    rate = np.zeros_like(angle[0])
+    winds = np.broadcast_to(np.array([speed, 0.0]), (_STEPS_PER_SWING, 2))
+    for swing in range(int(_LONGEST)):
+        more, rate = simulate(twice, angle[-1], rate, winds, step=step)
+        angle = np.concatenate([angle, more[1:]])
+        index = chord_angle(angle) / chord_angle(bent)
+        if swing + 1 >= _CYCLES and len(index) - _last_away(index) > _STILL * _STEPS_PER_SWING:
+            break
+    return np.asarray(index)
+
+
+def _last_away(index: Doubles, /) -> int:
+    """Return the last step at which one of both curves is not near rest."""
+    return int(np.flatnonzero((np.abs(index - [1.0, 0.0]) > _REST).any(axis=1))[-1])
 
 
 def _length(index: Doubles, /) -> int:
     """Return the steps after which both curves stay near rest, within the bounds."""
-    away = np.flatnonzero((np.abs(index - [1.0, 0.0]) > _REST).any(axis=1))
-    return int(np.clip(away[-1] * 1.15, _STEPS_PER_SWING * _CYCLES, index.shape[0] - 1))
+    return int(np.clip(_last_away(index) * 1.15, _STEPS_PER_SWING * _CYCLES, index.shape[0] - 1))
 
 
 def _settled(curve: Doubles, rest: float, /) -> np.ndarray[tuple[int], np.dtype[np.float32]]:

@@ -1,5 +1,6 @@
 """Everything that is grown for one kind of grass, from the finest to the coarsest (paper, sections 2.2, 3.2)."""
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import fields, is_dataclass
 
 import numpy as np
@@ -19,11 +20,15 @@ ROWS = 129
 
 _MIPMAPS = 4.0 / 3.0
 
+_HANDS = 2
+"""Threads that draw patch models: more of them would wait for Python, not for a processor."""
+
 
 def grow(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
     """Return all that is precomputed for a kind of grass at a quality: the same for the same seed.
 
-    The textures of all patch models have the same size, height and margin, so that they can be layers of one.
+    The textures of all patch models have the same size, height and margin, so that they can be layers of one. They
+    are drawn on several threads: each is a function of its own patch model alone.
     """
     postures = grow_postures(kind, variants=VARIANTS, rows=ROWS, seed=seed)
     patches = [
@@ -33,7 +38,7 @@ def grow(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
         for number in range(quality.models)
     ]
     height, margin = _extent(patches, postures, quality.patch)
-    models = tuple(_model(Seedling(blades, postures, kind, quality, height, margin)) for blades in patches)
+    models = _models([Seedling(blades, postures, kind, quality, height, margin) for blades in patches])
     return Growth(postures=postures, response=grow_response(kind), models=models)
 
 
@@ -49,10 +54,18 @@ def precompute_bytes(growth: Growth, /) -> int:
     return sum(seen.values())
 
 
-def _model(seedling: Seedling, /) -> PatchModel:
-    return PatchModel(
-        blades=seedling.blades,
-        pictures={each.name: each.grow(seedling) for each in REPRESENTATIONS if each.record is not None},
+def _models(seedlings: list[Seedling], /) -> tuple[PatchModel, ...]:
+    """Return patch models; large arrays leave Python to other threads while they are worked on."""
+    drawn = [each for each in REPRESENTATIONS if each.record is not None]
+    with ThreadPoolExecutor(_HANDS) as hands:
+        pieces = {
+            (number, each.name): hands.submit(each.grow, seedling)
+            for number, seedling in enumerate(seedlings)
+            for each in drawn
+        }
+    return tuple(
+        PatchModel(seedling.blades, {each.name: pieces[number, each.name].result() for each in drawn})
+        for number, seedling in enumerate(seedlings)
     )
 
 

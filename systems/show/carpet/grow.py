@@ -111,9 +111,9 @@ class _Field:
         along, across = (1, 0) if turned else (0, 1)
         corners = np.stack([ground[:, :, along] * columns, ground[:, :, across] * rows], axis=2) / self._patch
         seen = rasterise(corners, self._ribbons[:, :, 1], shape=(rows, columns), wrap=True)
-        values = self._meaning(corners, seen, heading, slope)
         dense = np.zeros((4, rows * columns))
-        dense[:, seen.sample] = values
+        for plane, values in zip(dense, self._meaning(corners, seen, heading, slope), strict=True):
+            plane[seen.sample] = values
         image = _average(dense.reshape(4, rows, columns), self._texels)
         image = image.transpose(2, 1, 0) if turned else image.transpose(1, 2, 0)
         return np.ascontiguousarray(np.rint(image * 255.0).astype(np.uint8))
@@ -124,14 +124,15 @@ class _Field:
         octaves = int(np.clip(np.round(np.log2(2.0 * drawn_out)), -2, 2))
         return max(int(self._texels * 2.0**octaves), 1)
 
-    def _meaning(self, corners: Doubles, seen: Fragments, heading: NDArray[np.float64], slope: float, /) -> Doubles:
-        """Return place along the blade, height, normal along the view, and 1 at each sample, shape (4, f)."""
-        normal = self._normals[seen.triangle]
-        back = -(normal[:, ::2] @ heading)
-        toward = np.where(back + slope * normal[:, 1] < 0.0, -1.0, 1.0)
+    def _meaning(
+        self, corners: Doubles, seen: Fragments, heading: NDArray[np.float64], slope: float, /
+    ) -> tuple[Doubles | float, ...]:
+        """Return place along the blade, height, normal along the view, each (f,), and 1, at each sample."""
+        back = -(self._normals[:, ::2] @ heading)
+        toward = np.where(back + slope * self._normals[:, 1] < 0.0, -1.0, 1.0)
         place = interpolate(corners, self._place, seen)
         height = interpolate(corners, self._ribbons[:, :, 1], seen) / self._height
-        return np.stack([place, np.clip(height, 0.0, 1.0), 0.5 + 0.5 * back * toward, np.ones_like(place)])
+        return place, np.clip(height, 0.0, 1.0), (0.5 + 0.5 * back * toward).take(seen.triangle), 1.0
 
 
 def _average(dense: Doubles, texels: int, /) -> Doubles:

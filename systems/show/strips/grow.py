@@ -150,10 +150,10 @@ class _Sheet:
         """Return at each sample: place along the blade, normal x and z, rank, and 1."""
         ends = tone(self._blades, np.linspace(0.0, 1.0, _SEGMENTS + 1))[:, :, None]
         along = interpolate(corners, ribbon_triangles(ends, ends)[:, :, 0], seen)
-        segment = seen.triangle // 2
-        blade = segment // _SEGMENTS
-        facing, rank = self._blades.facing[blade].astype(np.float64), self._blades.rank[blade].astype(np.float64)
-        return [along, 0.5 + 0.5 * np.cos(facing), 0.5 + 0.5 * np.sin(facing), rank, np.ones_like(along)]
+        facing, rank = self._blades.facing.astype(np.float64), self._blades.rank.astype(np.float64)
+        blade = seen.triangle // (2 * _SEGMENTS)
+        of_blade = (0.5 + 0.5 * np.cos(facing), 0.5 + 0.5 * np.sin(facing), rank)
+        return [along, *(values.take(blade) for values in of_blade), np.ones_like(along)]
 
 
 def fill_ranks(rank: Doubles, covered: NDArray[np.bool_], /) -> Bytes:

@@ -6,8 +6,12 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ....engine.gl.mipmaps import mipmapped
 from ...grow.record import Growth
 from .grow import Strips, strips_of
+
+_WHOLE = 16
+"""Layers are so many texels wide and high, or twice, three times as many: the finest mip-maps are whole then."""
 
 
 def strip_stock(growths: Sequence[Growth], ring: int) -> list[list[Strips]]:
@@ -23,17 +27,13 @@ def strip_textures(
     Pictures stand in the lower left corner of layers that are large enough for all of them.
     """
     every = [strips for kinds in stock for models in kinds for strips in models]
-    size = np.max([strips.rank.shape[2:] for strips in every], axis=0)
-    atlas = np.concatenate([_padded(strips.texels, size) for strips in every])
-    ranks = np.concatenate([_padded(_premultiplied_rank(strips), size) for strips in every])
-    layers, rows, columns, _ = atlas.shape
+    largest = np.max([strips.rank.shape[2:] for strips in every], axis=0)
+    size = -(-largest // _WHOLE) * _WHOLE
     made = (
-        ctx.texture_array((columns, rows, layers), 4, np.ascontiguousarray(atlas).tobytes(), alignment=1),
-        ctx.texture_array((columns, rows, layers), 1, np.ascontiguousarray(ranks).tobytes(), alignment=1),
+        mipmapped(ctx, np.concatenate([_padded(strips.texels, size) for strips in every])),
+        mipmapped(ctx, np.concatenate([_padded(_premultiplied_rank(strips), size) for strips in every])),
     )
     for texture in made:
-        texture.build_mipmaps()
-        texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
         texture.repeat_x = texture.repeat_y = False
     return made
 

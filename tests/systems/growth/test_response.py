@@ -8,6 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass.engine.declared.grass import GrassKind
+from tallgrass.systems.grow import response
 from tallgrass.systems.grow.record import Response
 from tallgrass.systems.grow.response import grow_response
 
@@ -87,3 +88,14 @@ def test_w4_the_response_ends_at_rest_however_a_kind_is_damped(damping: float) -
     assert response.rise[-1] == pytest.approx(1.0, abs=1e-6)
     assert response.fall[-1] == pytest.approx(0.0, abs=1e-6)
     assert response.fall.dtype == np.float32
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_a_simulation_that_ends_once_all_is_still_misses_nothing(
+    responses: dict[str, Response], name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(response, "_STILL", np.inf)
+    short, whole = responses[name], grow_response(KINDS[name])
+    assert short.step == whole.step
+    assert (short.rise == whole.rise).all()
+    assert (short.fall == whole.fall).all()

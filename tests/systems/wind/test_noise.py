@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.engine.noise import PERIOD, noise_table, smooth_noise
+from tallgrass.engine.noise import PERIOD, noise_grid, noise_table, smooth_noise
 
 TABLE = noise_table(3, 0)
 spots = st.tuples(st.floats(-400.0, 400.0), st.floats(-400.0, 400.0))
@@ -63,3 +63,10 @@ def test_a_shift_moves_the_places(place: tuple[float, float], shift: tuple[float
 def test_hours_of_travel_cost_no_precision() -> None:
     far = 1e6 * PERIOD
     np.testing.assert_array_equal(noise((3.25, 4.5), shift=(far + 0.5, -far)), noise((3.25, 4.5), shift=(0.5, 0.0)))
+
+
+def test_a_grid_has_the_noise_of_its_places_to_the_bit() -> None:
+    x, z = np.linspace(-300.0, 250.0, 83, dtype=np.float32), np.linspace(-7.0, 9.0, 41, dtype=np.float32)
+    places = np.stack(np.meshgrid(x, z), axis=-1).reshape(-1, 2)
+    np.testing.assert_array_equal(noise_grid(TABLE, x, z).reshape(-1, 4), smooth_noise(TABLE, places))
+    np.testing.assert_array_equal(noise_grid(TABLE[..., :2], x, z), noise_grid(TABLE, x, z)[..., :2])

@@ -1,0 +1,43 @@
+"""Texture arrays whose mip-maps are made here.
+
+So they are the same with every driver; and a software one would have to compile a program for each shape of texture
+first, which takes longer than the averages do.
+"""
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from .functions import NUMBERS, functions_of
+
+Bytes = NDArray[np.uint8]
+
+_FORMATS = {1: ("R8", "RED"), 4: ("RGBA8", "RGBA")}
+
+
+def mipmapped(ctx: moderngl.Context, texels: Bytes, /) -> moderngl.TextureArray:
+    """Return a texture of layers (layers, rows, columns, 4), or of one channel without the last axis, with mip-maps."""
+    layers, rows, columns, channels = (*texels.shape, 1)[:4]
+    texture = ctx.texture_array((columns, rows, layers), channels, np.ascontiguousarray(texels), alignment=1)
+    stored, given = (NUMBERS[name] for name in _FORMATS[channels])
+    gl, target = functions_of(ctx), NUMBERS["TEXTURE_2D_ARRAY"]
+    gl.glBindTexture(target, texture.glo)
+    gl.glPixelStorei(NUMBERS["UNPACK_ALIGNMENT"], 1)
+    level = 0
+    while max(rows, columns) > 1:
+        level, texels = level + 1, halved(texels)
+        rows, columns = texels.shape[1:3]
+        size = columns, rows, layers
+        gl.glTexImage3D(target, level, stored, *size, 0, given, NUMBERS["UNSIGNED_BYTE"], texels.ctypes.data)
+    texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
+    return texture
+
+
+def halved(texels: Bytes, /) -> Bytes:
+    """Return the means of two by two texels (layers, rows, columns, ...), rounded; an odd last one is left out."""
+    whole = texels.astype(np.uint16)
+    for axis in (1, 2):
+        count = whole.shape[axis]
+        first, second = (whole[(slice(None),) * axis + (slice(k, count - 1 + k, 2),)] for k in (0, 1))
+        whole = first + second if count > 1 else 2 * whole
+    return ((whole + 2) >> 2).astype(np.uint8)
