@@ -70,7 +70,7 @@ class Painter:
         self._first: dict[str, list[int]] = {}
         self._lay(site)
         self._grow(site)
-        self.record = frame_record(site.scene, site.growths, site.ground.terrain, site.quality.patch)
+        self._read(site)
 
     @property
     def carpet(self) -> CarpetPainter:
@@ -93,7 +93,12 @@ class Painter:
         if self.bodies is not None and site.scene.light != before.scene.light:
             self.bodies.release()
             self.bodies = None
+        self._read(site)
+
+    def _read(self, site: Site) -> None:
+        """Take over what a scene says of its light and its winds."""
         self.record = frame_record(site.scene, site.growths, site.ground.terrain, site.quality.patch)
+        self.air.meet(type(wind) for wind in site.scene.wind)
 
     def _lay(self, site: Site) -> None:
         """Bring the ground into GL."""

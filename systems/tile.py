@@ -12,10 +12,14 @@ from ..engine.terrain.sample import height_at, slope_at
 from .around.cone import discrete_distance, nearness
 from .around.outlook import Outlook
 from .around.patches import PatchTable
-from .around.window import cell_of, window_cells
+from .around.window import window_cells
 from .entities import PatchEntities
 
 Ints = NDArray[np.int32]
+
+
+EDGE = 1e-4
+"""How far beyond its edge a cell is still the one that a viewer stands in [patch sides]."""
 
 
 def cells_on(terrain: Terrain, cell: Ints, /, *, patch: float) -> NDArray[np.bool_]:
@@ -34,6 +38,17 @@ def patch_models(cell: Ints, /, *, seed: int, models: int) -> tuple[Ints, Ints]:
 def hash_cells(seed: int, cell: Ints) -> NDArray[np.uint32]:
     """Return a well mixed number for each cell (n, 2)."""
     return hash3(seed, cell[..., 0], cell[..., 1])
+
+
+def cell_stood_in(eye: tuple[float, float, float], before: Ints, /, *, patch: float) -> Ints:
+    """Return the cell (i, j) that a viewer stands in, shape (2,), who stood in the cell `before`.
+
+    On its very edge that is still the one: rounding alone must not move a whole line of patches to and fro.
+    """
+    at = np.array([eye[0], eye[2]], np.float64) / patch
+    if (np.abs(at - before - 0.5) <= 0.5 + EDGE).all():
+        return before
+    return np.floor(at).astype(np.int32)
 
 
 def tile(patches: PatchTable, centre: Ints, terrain: Terrain, /, *, patch: float, seed: int, models: int) -> Ints:
@@ -85,7 +100,7 @@ class Tile:
         self.entities.hear(self.outlooks)
         for outlook in self.outlooks:
             patches, viewer = outlook.patches, outlook.viewer
-            viewer.centre = cell_of(np.array([viewer.eye[0], viewer.eye[2]], np.float32), patch=self.patch)
+            viewer.centre = cell_stood_in(viewer.eye, viewer.centre, patch=self.patch)
             fresh = tile(patches, viewer.centre, self.terrain, patch=self.patch, seed=self.seed, models=self.models)
             self.entities.leave(outlook, fresh)
             self.entities.enlist(outlook)

@@ -22,7 +22,7 @@ from tallgrass.systems.around.patches import PatchTable
 from tallgrass.systems.around.window import cell_of, window_cells, window_rows
 from tallgrass.systems.entities import BATCH, PatchEntities
 from tallgrass.systems.show.registry import NAMES
-from tallgrass.systems.tile import Tile, cells_on, patch_models, tile
+from tallgrass.systems.tile import Tile, cell_stood_in, cells_on, patch_models, tile
 
 SIDE, PATCH = 9, 2.5
 WIDE = Terrain(np.zeros((3, 3), np.float32), 5000.0)
@@ -504,3 +504,17 @@ def test_d6_right_after_a_game_has_cleared_its_world_a_patch_that_is_asked_for_i
     tiled.at(0, 0)
     assert tiled.entity(0, 0) == asked
     assert len(tiled.world) == SIDE * SIDE
+
+
+@given(st.floats(-9e-5, 9e-5), st.floats(-9e-5, 9e-5), st.integers(-50, 50), st.integers(-50, 50))
+def test_who_stands_on_the_edge_of_a_cell_does_not_move_to_and_fro(dx: float, dz: float, i: int, j: int) -> None:
+    for before in ((i, j), (i - 1, j), (i, j - 1), (i - 1, j - 1)):
+        eye = ((i + dx) * 2.5, 1.7, (j + dz) * 2.5)
+        assert tuple(cell_stood_in(eye, np.array(before, np.int32), patch=2.5)) == before
+
+
+@given(st.floats(0.001, 0.999), st.floats(0.001, 0.999), st.integers(-50, 50), st.integers(-50, 50))
+def test_inside_a_cell_a_viewer_stands_in_it_wherever_it_was_before(x: float, z: float, i: int, j: int) -> None:
+    for before in ((i, j), (i - 1, j), (i + 1, j + 1), (0, 0)):
+        eye = ((i + x) * 2.5, 1.7, (j + z) * 2.5)
+        assert tuple(cell_stood_in(eye, np.array(before, np.int32), patch=2.5)) == (i, j)
