@@ -98,7 +98,7 @@ class Painter:
     def _read(self, site: Site) -> None:
         """Take over what a scene says of its light and its winds."""
         self.record = frame_record(site.scene, site.growths, site.ground.terrain, site.quality.patch)
-        self.air.meet(type(wind) for wind in site.scene.wind)
+        self.air.meet(site.scene.wind)
 
     def _lay(self, site: Site) -> None:
         """Bring the ground into GL."""
