@@ -33,7 +33,12 @@ def view_cone(seen: View, /) -> tuple[float, float]:
     perspective = all(map(_is_near, projection[3], (0.0, 0.0, -1.0, 0.0)))
     if not perspective or _shows_pole(projection, [axis[1] for axis in axes]):
         return 0.0, pi
-    azimuth = [_azimuth(projection, axes, x, y) for x in (-1.0, 1.0) for y in (-1.0, 1.0)]
+    (a, b, right, _), (c, d, up, _) = projection[:2]
+    area = a * d - b * c
+    if area == 0.0:
+        return 0.0, pi
+    corners = [(x + right, y + up) for x in (-1.0, 1.0) for y in (-1.0, 1.0)]
+    azimuth = [_azimuth((d * x - b * y) / area, (a * y - c * x) / area, axes) for x, y in corners]
     apart = [(each - azimuth[0] + pi) % (2 * pi) - pi for each in azimuth]
     return azimuth[0] + (max(apart) + min(apart)) / 2, (max(apart) - min(apart)) / 2
 
@@ -42,10 +47,9 @@ def _is_near(one: float, other: float) -> bool:
     return isclose(one, other, rel_tol=1e-5, abs_tol=1e-8)
 
 
-def _azimuth(projection: Rows, axes: Rows, x: float, y: float) -> float:
-    """Return the azimuth [rad] of a corner of the picture, -1 or 1 along both of its sides."""
-    across, up = (x + projection[0][2]) / projection[0][0], (y + projection[1][2]) / projection[1][1]
-    right, _, back = (across * a + up * b - c for a, b, c in zip(*axes, strict=True))
+def _azimuth(x: float, y: float, axes: Rows) -> float:
+    """Return the azimuth [rad] of what is seen at (x, y, -1) from the eye."""
+    right, _, back = (x * a + y * b - c for a, b, c in zip(*axes, strict=True))
     return atan2(right, -back)
 
 
@@ -105,7 +109,7 @@ def far_to_near(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArra
 def nearness(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArray[np.int32]:
     """Return a number of each cell (n, 2) that rises from far to near, in the order of `far_to_near`, shape (n,).
 
-    It is 0 for the viewer's own cell, and its amount is below the square of the discrete distance plus 1.
+    It is 0 for the viewer's own cell, and for one at the discrete distance d more than -(d + 1) * (d + 1).
     """
     aside, ahead = cells_apart(cell, centre)
     ring = np.maximum(aside, ahead)

@@ -103,6 +103,21 @@ def test_t2_a_camera_that_looks_straight_down_or_up_sees_all_round(pitch: float)
     assert kept(seen_by(Camera((0.0, 30.0, 0.0), 1.0, radians(pitch), radians(50)))).all()
 
 
+@given(cameras, st.floats(-pi, pi))
+def test_t2_nothing_is_culled_that_shows_on_a_screen_that_is_turned(camera: Camera, turn: float) -> None:
+    seen = seen_by(camera)
+    c, s = np.cos(turn), np.sin(turn)
+    turned = np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) @ seen.projection
+    seen = View(seen.view, turned.astype(np.float32))
+    assert kept(seen)[in_picture(seen, points_of(AROUND)).any(axis=1)].all()
+
+
+def test_t2_a_picture_that_is_laid_on_its_side_has_the_same_view_cone() -> None:
+    seen = seen_by(Camera((0.0, 1.7, 0.0), 0.3, 0.0, radians(40)))
+    on_its_side = View(seen.view, seen.projection[[1, 0, 2, 3]])
+    assert view_cone(on_its_side) == pytest.approx(view_cone(seen), abs=1e-6)
+
+
 def test_t2_without_perspective_nothing_is_culled() -> None:
     camera = Camera((0.0, 30.0, 0.0), 1.0, -0.3, radians(50))
     flat = np.diag([0.1, 0.1, -0.01, 1.0]).astype(np.float32)

@@ -14,7 +14,7 @@ from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.patches import PatchTable
 from tallgrass.systems.lod import SLACK, ChooseLevels, farthest, wanted_representation
 from tallgrass.systems.show.registry import NAMES, REPRESENTATIONS
-from tallgrass.systems.transition import FADE, change, held, move_on, move_rows, step_of_change, unsettled, weights
+from tallgrass.systems.transition import FADE, change, held, step_of_change, weights
 
 REACH = (2, 5, 9)
 BLADES, STRIPS, CARPET = range(3)
@@ -378,28 +378,6 @@ def test_x1_a_held_patch_too_is_never_finer_than_there_is_room_for(story: list[i
         walk.go(distance, dt=0.01)
         assert walk.shown[BLADES] == 0.0 or distance <= blades
         assert walk.shown[STRIPS] == 0.0 or distance <= strips
-
-
-@given(
-    st.lists(
-        st.tuples(*[st.integers(-1, 2)] * 3, st.sampled_from([0.0, 0.3, 1.0]), st.booleans()), min_size=1, max_size=20
-    ),
-    st.floats(0.0, 2.0),
-)
-def test_x1_what_is_settled_and_wants_nothing_is_left_alone(
-    patches: list[tuple[int, int, int, float, bool]], step: float
-) -> None:
-    def columns() -> tuple[Any, ...]:
-        types = (np.int8, np.int8, np.int8, np.float32, np.bool_)
-        return tuple(np.array(column, kind) for column, kind in zip(zip(*patches, strict=True), types, strict=True))
-
-    now, before, wanted, progress, slowly = columns()
-    move_on(now, before, progress, wanted, slowly, step=step)
-    few_now, few_before, _, few_progress, _ = columns()
-    rows = unsettled(few_now, few_before, few_progress, wanted)
-    move_rows(few_now, few_before, few_progress, rows, wanted[rows], slowly[rows], step=step)
-    for one, other in ((now, few_now), (before, few_before), (progress, few_progress)):
-        np.testing.assert_array_equal(one, other)
 
 
 def test_where_nothing_is_wanted_a_patch_is_the_coarsest() -> None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import fields, replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -21,7 +22,7 @@ from tallgrass.systems.around.window import window_rows
 from tallgrass.systems.lod import SLACK
 from tallgrass.systems.show.registry import NAMES
 from tallgrass.systems.site import Site, outlook_on
-from tallgrass.systems.transition import FADE
+from tallgrass.systems.transition import FADE, move_on, move_rows, unsettled
 from tallgrass.testing import systems_on
 
 Laid = Callable[..., Site]
@@ -133,6 +134,28 @@ def test_x5_towards_their_end_the_distance_leaves_less_and_less_of_strips() -> N
     assert kept[away >= 20.5].max() == 0.0
     assert (np.diff(kept) <= 0.0).all()
     assert np.abs(np.diff(kept)).max() <= 0.25 / BORDER + 1e-6
+
+
+@given(
+    st.lists(
+        st.tuples(*[st.integers(-1, 2)] * 3, st.sampled_from([0.0, 0.3, 1.0]), st.booleans()), min_size=1, max_size=20
+    ),
+    st.floats(0.0, 2.0),
+)
+def test_x1_what_is_settled_and_wants_nothing_is_left_alone(
+    patches: list[tuple[int, int, int, float, bool]], step: float
+) -> None:
+    def columns() -> tuple[Any, ...]:
+        types = (np.int8, np.int8, np.int8, np.float32, np.bool_)
+        return tuple(np.array(column, kind) for column, kind in zip(zip(*patches, strict=True), types, strict=True))
+
+    now, before, wanted, progress, slowly = columns()
+    move_on(now, before, progress, wanted, slowly, step=step)
+    few_now, few_before, _, few_progress, _ = columns()
+    rows = unsettled(few_now, few_before, few_progress, wanted)
+    move_rows(few_now, few_before, few_progress, rows, wanted[rows], slowly[rows], step=step)
+    for one, other in ((now, few_now), (before, few_before), (progress, few_progress)):
+        np.testing.assert_array_equal(one, other)
 
 
 # ---- The system ----------------------------------------------------------------------------------
