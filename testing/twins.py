@@ -34,7 +34,7 @@ def twin_problems(
     """Return what is wrong with the twin of a wind, or of a class's defaults, one sentence for each thing.
 
     It is compiled, and what it says all along the timeline is compared with `mask` and `action`, at random places of
-    the extent and by both mixings. A wind without a twin has no problem. A framebuffer must be bound in `ctx`. `seed` is
+    the extent and by both mixings. A wind without one has no problem. A framebuffer must be bound in `ctx`. `seed` is
     the wind's own.
     """
     made: Any = primitive

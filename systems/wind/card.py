@@ -20,7 +20,7 @@ from .flutter import flutter_values
 from .quarantine import Quarantine
 from .sheets import Sheets
 from .told import Told
-from .twin import LARGEST, MOST_NUMBERS, TOLD, Twin, TwinError, check_values, fitted, joined_twins, twin_of
+from .twin import ANY, LARGEST, MOST_NUMBERS, TOLD, Twin, TwinError, check_values, fitted_few, joined_twins, twin_of
 
 Floats = NDArray[np.float32]
 Rows = NDArray[np.intp]
@@ -30,9 +30,6 @@ SAMPLERS = ("winds", "wind_sheets", "wind_curves", "wind_told")
 
 HEAD, SHARE, SHEET = 16, 8, 12
 """Numbers in a row before those of `twin_values`, as `hear.glsl` reads them; where the share and the sheets stand."""
-
-MOST_EMPTY = 16
-"""How many runs of winds a program may have that are empty before it is made anew without them."""
 
 _NOTHING = (0.0,) * (SHEET - 1)
 _TRIED = "systems/wind/hear.vert"
@@ -68,8 +65,7 @@ class CardWinds:
         self._numbers: dict[type[WindPrimitive], int] = {}
         self._twins: list[Twin] = []
         self._order: list[int] = []
-        self._programs: dict[object, tuple[tuple[int, ...], moderngl.Program]] = {}
-        self._stale: list[moderngl.Program] = []
+        self._programs: dict[object, moderngl.Program] = {}
         self._winds: list[Blowing] = []
         self._untwinned: list[int] = []
         self._asked: tuple[float, Mixing] = 0.0, "priority"
@@ -113,16 +109,12 @@ class CardWinds:
         after = self._winds[number + 1].primitive.priority if number + 1 < len(self._winds) else None
         ends = not weighs or after != primitive.priority
         share = 0.0 if twin == TOLD else wind.strength * (primitive.weight if weighs else 1.0)
-        self._put(number + 1, (*_frame_of(wind), share, primitive.swing, float(ends), 0.0), values)
+        self._put(number + 1, (*_frame_of(wind), share, primitive.swing, float(ends), float(twin)), values)
         return twin
 
     def _runs(self, numbers: Sequence[int]) -> list[int]:
         """Return in which row each run of a program ends, with room in programs for all that are needed."""
-        order, ends = fitted(self._order, numbers)
-        if len(order) > len(self._order) > MOST_EMPTY + len(fitted((), numbers)[0]):
-            order, ends = fitted((), numbers)
-        if len(order) != len(self._order):
-            self._order = order
+        self._order, ends = fitted_few(self._order, numbers)
         return ends
 
     def _reserve(self, rows: int, numbers: int) -> None:
@@ -193,14 +185,12 @@ class CardWinds:
         It knows where the textures are, and the frame's block if it has one. Raises `ShaderError` as
         `engine.gl.shaders.program` does.
         """
-        key, order = (vertex, fragment, tuple((defines or {}).items()), varyings), tuple(self._order)
-        before, made = self._programs.get(key, (None, None))
-        if made is None or before != order:
-            if made is not None:
-                self._stale.append(made)  # vertex arrays may still be of it
-            made = self._made(vertex, fragment, defines, varyings, joined_twins(self._twins, order))
-            self._programs[key] = order, made
-        return made
+        order = tuple(self._order)
+        among = len(self._twins) if ANY in order else 0
+        key = vertex, fragment, tuple((defines or {}).items()), varyings, order, among
+        if key not in self._programs:
+            self._programs[key] = self._made(vertex, fragment, defines, varyings, joined_twins(self._twins, order))
+        return self._programs[key]
 
     def _made(
         self,
@@ -255,7 +245,8 @@ class CardWinds:
         """Leave a twin out from now on, and say so."""
         self._numbers[kind] = TOLD
         log.debug("%s", kind.__name__, exc_info=error)
-        why = str(error) if isinstance(error, TwinError | ShaderError) else said(error)
+        told = str(error) if isinstance(error, TwinError | ShaderError) else said(error)
+        why = " ".join(told.split())
         self.reasons[kind] = why
         log.warning("the twin of %s.%s cannot be used: %s; numpy does without it", kind.__module__, kind.__name__, why)
 
@@ -267,8 +258,7 @@ class CardWinds:
 
     def release(self) -> None:
         """Give everything back to the context."""
-        release_all(self._records, self._sheets, self._told, self._curves, *self._stale)
-        release_all(*(made for _, made in self._programs.values()))
+        release_all(self._records, self._sheets, self._told, self._curves, *self._programs.values())
 
 
 def curve_texture(ctx: moderngl.Context, growths: Sequence[Answering], /) -> moderngl.Texture:

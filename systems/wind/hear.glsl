@@ -57,7 +57,7 @@ struct Claims {
 struct Asked {
     Wind wind;
     vec4 pose;  // place; cosine and sine of the yaw
-    vec4 how;   // share in a claim; swing; whether a claim ends with it
+    vec4 how;   // share in a claim; swing; whether a claim ends with it; number of the twin
     vec2 own;   // the receiver's place in its frame
     bool held;  // whether its extent holds it
 };
@@ -101,7 +101,12 @@ void lay_told(inout Claims claims, int row, int receiver) {
     lay(claims, how, told.xy, told.z * how.x);
 }
 
-// Where a run of winds of one kind ends.
+// The number of a wind's twin, -1 for one that has none.
+int twin_of(int row) {
+    return int(texelFetch(winds, ivec2(2, row), 0).w);
+}
+
+// Where a run of winds ends.
 int end_of(int run) {
     return int(value(Wind(0, 0), 3 + run));
 }

@@ -24,8 +24,11 @@ PLACE = "systems/wind/twins.glsl"
 MOST_NUMBERS, MOST_SHEETS, MOST_SIDE = 64, 4, 2048
 """How many numbers and sheets a twin may read, and how many texels a side of a sheet may have."""
 
-TOLD = -1
-"""In place of a twin's number: a wind without one."""
+TOLD, ANY = -1, -2
+"""In place of a twin's number: a wind without one; a run of winds of any."""
+
+MOST_RUNS = 12
+"""How many runs a program may have: drivers take long over large ones."""
 
 LARGEST = 1e30
 """No number may be this large: single precision ends there."""
@@ -111,17 +114,17 @@ def check_values(twin: Twin, values: TwinValues, /) -> None:
 def joined_twins(twins: Sequence[Twin], order: Sequence[int], /) -> dict[str, list[Line]]:
     """Return the lines that stand in for `PLACE`: winds go by runs, each of one twin's number.
 
-    `TOLD` stands for those without one. Runs are loops, because a software rasteriser goes through every branch of a
-    choice. What a twin defines has a name of its own here, so that no two can clash.
+    `TOLD` stands for those without one, `ANY` for all. Runs of one twin are loops without a choice, because a software
+    rasteriser goes through every branch of it. What a twin defines has a name of its own here, and no two can clash.
     """
     lines: list[Line] = []
-    for number in sorted(set(order) - {TOLD}):
+    for number in range(len(twins)) if ANY in order else sorted(set(order) - {TOLD}):
         twin = twins[number]
         lines += _head(f"#define {name} {name}_{number}" for name in twin.names)
         lines += [(twin.file, at, text) for at, text in enumerate(twin.text, 1)]
         macros = (_MACRO.match(text) for text in twin.text)
         lines += _head(f"#undef {name}" for name in [*twin.names, *(macro[1] for macro in macros if macro)])
-    runs = chain.from_iterable(_run(run, number) for run, number in enumerate(order))
+    runs = chain.from_iterable(_run(run, number, len(twins)) for run, number in enumerate(order))
     lines += _head([_HEAD, "    int row = 1;", *runs, "}"])
     return {PLACE: lines}
 
@@ -144,26 +147,39 @@ def fitted(order: Sequence[int], numbers: Sequence[int], /) -> tuple[list[int], 
     return found, list(accumulate(counts, initial=1))[1:]
 
 
+def fitted_few(order: Sequence[int], numbers: Sequence[int], /) -> tuple[list[int], list[int]]:
+    """Return what `fitted` does, with no more than `MOST_RUNS` runs: those needed alone, or one for all winds."""
+    for before in (order, ()):
+        found, ends = fitted(before, numbers)
+        if len(found) <= MOST_RUNS:
+            return found, ends
+    return [ANY], [len(numbers) + 1]
+
+
 _HEAD = "void blow(inout Claims claims, vec2 place, int kind, int receiver) {"
 
 
-def _run(run: int, number: int) -> list[str]:
+def _run(run: int, number: int, twins: int) -> list[str]:
     loop = f"    for (int end = end_of({run}); row < end && claims.left > 0.0; ++row) {{"
+    told = "        lay_told(claims, row, receiver);"
     if number == TOLD:
-        return [loop, "        lay_told(claims, row, receiver);", "    }"]
+        return [loop, told, "    }"]
+    if number != ANY:
+        return [loop, *_sent(number), "    }"]
+    cases = ((f"        case {each}: {{", *_sent(each), "        } break;") for each in range(twins))
+    choice = "        switch (twin_of(row)) {"
+    return [loop, choice, *chain.from_iterable(cases), f"        default: {told.strip()}", "        }", "    }"]
+
+
+def _sent(number: int) -> list[str]:
     return [
-        loop,
         "        Asked one = asked(row, place, kind);",
         "        vec2 message = vec2(0.0);",
-        "        float weight = 0.0;",
-        "        if (one.held) {",
-        f"            weight = mask_{number}(one.own, one.wind);",
-        "        }",
+        f"        float weight = one.held ? mask_{number}(one.own, one.wind) : 0.0;",
         "        if (weight > 0.0) {",
         f"            message = action_{number}(one.own, one.wind);",
         "        }",
         "        lay_sent(claims, one, weight, message);",
-        "    }",
     ]
 
 
