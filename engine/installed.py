@@ -3,7 +3,8 @@
 import os
 import re
 from collections.abc import Collection, Iterable
-from importlib.metadata import EntryPoint
+from functools import lru_cache
+from importlib.metadata import Distribution, EntryPoint
 from typing import Literal
 
 CHOSEN = "TALLGRASS_PLUGINS"
@@ -65,7 +66,13 @@ def unknown_names(chosen: Collection[str] | None, entries: Iterable[EntryPoint])
 
 def owner(entry: EntryPoint) -> tuple[str, str]:
     """Return the distribution that brings an entry, and its version."""
-    return (entry.dist.name, entry.dist.version) if entry.dist else (f"the entry point {entry.value}", "")
+    return _told(entry.dist) if entry.dist else (f"the entry point {entry.value}", "")
+
+
+@lru_cache(maxsize=64)
+def _told(distribution: Distribution) -> tuple[str, str]:
+    """Return what a distribution says of itself: it reads its own file each time it is asked."""
+    return distribution.name, distribution.version
 
 
 def owners(entries: list[EntryPoint]) -> str:

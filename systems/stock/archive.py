@@ -36,17 +36,18 @@ def unpack(data: bytes, /, *, key: str, quality: Quality, blades: int) -> Growth
 
     Nothing is parsed before the checksum holds, and nothing is ever unpickled.
     """
-    if data[:_DIGEST] != _checksum(data[_DIGEST:], key):
+    told = memoryview(data)[_DIGEST:]
+    if data[:_DIGEST] != _checksum(told, key):
         return None
     try:
-        with np.load(io.BytesIO(data[_DIGEST:]), allow_pickle=False) as archive:
+        with np.load(io.BytesIO(told), allow_pickle=False) as archive:
             growth = _rebuild({name: archive[name] for name in archive.files}, quality)
     except (OSError, ValueError, KeyError, zipfile.BadZipFile):
         return None
     return growth if _fits(growth, quality, blades) else None
 
 
-def _checksum(data: bytes, key: str, /) -> bytes:
+def _checksum(data: bytes | memoryview, key: str, /) -> bytes:
     return blake2b(data, digest_size=_DIGEST, key=key.encode()).digest()
 
 
@@ -95,7 +96,7 @@ def _record(kind: type[Record], arrays: Arrays, name: str, /) -> Record:
         value = arrays[f"{name}.{field}"]
         last = get_args(hint)[-1:] or (np.float64,)  # from numpy 2.5 on, NDArray[T] is an alias
         (wanted,) = get_args(*last) or last
-        if value.dtype != wanted or not np.isfinite(value).all():
+        if value.dtype != wanted or (value.dtype.kind == "f" and not np.isfinite(value).all()):
             raise ValueError(f"{name}.{field} is not finite {np.dtype(wanted)}")
         values[field] = float(value) if hint is float else value
     return kind(**values)

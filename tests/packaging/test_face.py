@@ -50,6 +50,27 @@ print("esper" in sys.modules)
         assert done.stdout.strip() == str(name in {"Prairie", "install"}), name
 
 
+def test_the_import_alone_loads_no_other_package_and_no_module_of_ours() -> None:
+    program = """
+import sys
+before = set(sys.modules)
+import tallgrass
+print(*sorted({name for name in set(sys.modules) - before if name.partition(".")[0] not in sys.stdlib_module_names}))
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["tallgrass"]
+
+
+def test_a_prairie_loads_nothing_of_the_command_line() -> None:
+    program = """
+import sys
+from tallgrass import Prairie
+print(*sorted({"matplotlib", "rich", "typer", "tallgrass.app", "tallgrass.testing"} & set(sys.modules)))
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == []
+
+
 def test_a_name_that_is_not_there_is_refused_as_python_does() -> None:
     with pytest.raises(AttributeError, match="module 'tallgrass' has no attribute 'Meadow'"):
         tallgrass.Meadow  # noqa: B018 - looking it up is the test

@@ -111,10 +111,11 @@ class _Field:
         along, across = (1, 0) if turned else (0, 1)
         corners = np.stack([ground[:, :, along] * columns, ground[:, :, across] * rows], axis=2) / self._patch
         seen = rasterise(corners, self._ribbons[:, :, 1], shape=(rows, columns), wrap=True)
-        dense = np.zeros((4, rows * columns))
-        for plane, values in zip(dense, self._meaning(corners, seen, heading, slope), strict=True):
-            plane[seen.sample] = values
-        image = _average(dense.reshape(4, rows, columns), self._texels)
+        where = seen.sample // (columns * self._fine) * columns + seen.sample % columns
+        count = self._texels * columns
+        sums = [np.bincount(where, values, count) for values in self._meaning(corners, seen, heading, slope)]
+        means = np.stack(sums).reshape(4, self._texels, columns) / self._fine
+        image = _spread(means, self._texels)
         image = image.transpose(2, 1, 0) if turned else image.transpose(1, 2, 0)
         return np.ascontiguousarray(np.rint(image * 255.0).astype(np.uint8))
 
@@ -126,19 +127,18 @@ class _Field:
 
     def _meaning(
         self, corners: Doubles, seen: Fragments, heading: NDArray[np.float64], slope: float, /
-    ) -> tuple[Doubles | float, ...]:
-        """Return place along the blade, height, normal along the view, each (f,), and 1, at each sample."""
+    ) -> tuple[Doubles | None, ...]:
+        """Return place along the blade, height, normal along the view, each (f,), and none for 1, at each sample."""
         back = -(self._normals[:, ::2] @ heading)
         toward = np.where(back + slope * self._normals[:, 1] < 0.0, -1.0, 1.0)
         place = interpolate(corners, self._place, seen)
         height = interpolate(corners, self._ribbons[:, :, 1], seen) / self._height
-        return place, np.clip(height, 0.0, 1.0), (0.5 + 0.5 * back * toward).take(seen.triangle), 1.0
+        return place, np.clip(height, 0.0, 1.0), (0.5 + 0.5 * back * toward).take(seen.triangle), None
 
 
-def _average(dense: Doubles, texels: int, /) -> Doubles:
-    """Return the means of samples (4, rows, columns) over each texel, shape (4, texels, texels)."""
-    _, rows, columns = dense.shape
-    dense = dense.reshape(4, texels, rows // texels, columns).mean(axis=2)
+def _spread(means: Doubles, texels: int, /) -> Doubles:
+    """Return columns of samples (4, texels, columns) as texels: means of several, or each more than once."""
+    columns = means.shape[2]
     if columns < texels:
-        return dense[:, :, np.arange(texels) * columns // texels]
-    return np.asarray(dense.reshape(4, texels, texels, columns // texels).mean(axis=3))
+        return means[:, :, np.arange(texels) * columns // texels]
+    return np.asarray(means.reshape(4, texels, texels, columns // texels).mean(axis=3))

@@ -17,6 +17,7 @@ from tallgrass.systems.grow.bend import spine
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.show.carpet.grow import carpet_of
 from tallgrass.systems.show.strips.grow import strips_of
+from tallgrass.systems.stock import models
 from tallgrass.systems.stock.models import grow, precompute_bytes
 
 SMALL = Quality(
@@ -111,6 +112,14 @@ def test_growing_is_the_same_in_every_process(growth: Growth) -> None:
     environment = os.environ | {"PYTHONHASHSEED": "12345", "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=environment)
     assert run.stdout.strip() == digest(growth)
+
+
+@pytest.mark.parametrize("hands", [1, 5])
+def test_growing_is_the_same_on_any_number_of_threads(
+    growth: Growth, hands: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(models, "_HANDS", hands)
+    assert digest(grow(KIND, SMALL, seed=11)) == digest(growth)
 
 
 def test_another_seed_is_another_field(growth: Growth) -> None:
