@@ -138,7 +138,7 @@ patches = st.tuples(st.integers(0, 1), st.booleans(), st.booleans(), st.booleans
 def test_t5_all_strips_of_the_kinds_that_grow_stand_once_in_the_order_of_their_patches(
     on: list[tuple[int, bool, bool, bool]], data: st.DataObject
 ) -> None:
-    """Whatever ring a patch is in, wherever it lies, whatever grows on it: from the far side of each to the near one."""
+    """Whatever ring a patch is in, wherever it lies, whatever grows on it: from its far side to its near one."""
     stood = np.zeros(len(on), STOOD)
     stood["stand"] = [8 * ahead + 16 * ring for ring, ahead, *_ in on]
     order = data.draw(st.permutations(range(len(on))))
