@@ -1,6 +1,7 @@
 """Gathering: what is sent to the graphics card, in the order of drawing (T5, W1)."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -11,28 +12,32 @@ from numpy.typing import NDArray
 
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.around.outlook import Outlook
-from tallgrass.systems.blow import Hear
 from tallgrass.systems.show.blades.gather import gather_blades
 from tallgrass.systems.show.blades.pool import BladePool
 from tallgrass.systems.show.blades.shown import Standing
-from tallgrass.systems.show.strips.draw import KINDS, STRIP
-from tallgrass.systems.show.strips.gather import MOST, gather_strips, in_one_queue, runs
+from tallgrass.systems.show.strips.gather import MOST, STOOD, gather_strips, polygon_strips, runs
 from tallgrass.systems.show.strips.pool import StripPool
 from tallgrass.systems.show.strips.shown import StripsOfRing
 from tallgrass.systems.site import Site
-from tallgrass.systems.wind.breeze import Breeze
 
+Integers = NDArray[np.int64]
 Laid = Callable[..., Site]
 Look = Callable[..., Outlook]
 
 FLAT = Terrain(np.zeros((81, 81), np.float32), 1.0)
 EYE = (1.1, 0.4)
+SIDE = 2.5
+KINDS, FINENESS = 2, [(3, 2), (2, 1)]
+"""Kinds of grass; strips and columns of each ring."""
+
+ROOM = 100
+"""Numbers that are set aside for the polygon strips of a patch."""
 
 
 @pytest.fixture
-def outlook(laid: Laid, look: Look, wind: Callable[..., Hear]) -> Outlook:
-    """What somebody sees all round on flat ground, in a breeze."""
-    return look(laid(terrain=FLAT), *EYE, hear=wind(Breeze(), time=1.0))
+def outlook(laid: Laid, look: Look) -> Outlook:
+    """What somebody sees all round on flat ground."""
+    return look(laid(terrain=FLAT), *EYE)
 
 
 def blades(outlook: Outlook) -> tuple[BladePool, list[Standing]]:
@@ -45,30 +50,67 @@ def strips(outlook: Outlook) -> list[tuple[StripPool, StripsOfRing]]:
     return list(zip(outlook.kept["strips"].pools, outlook.shown["strips"].rings, strict=True))
 
 
-def of_ring(outlook: Outlook, ring: int) -> tuple[NDArray[np.void], NDArray[np.int64]]:
-    """The polygon strips of one ring, and how many there are on each patch."""
-    pool, shown = strips(outlook)[ring]
+def of_ring(outlook: Outlook, number: int, *, receiver: int = 0) -> NDArray[np.void]:
+    """The patches of one ring, their receivers from a number on."""
+    pool, shown = strips(outlook)[number]
     assert outlook.appearance is not None
-    return gather_strips(pool, shown, outlook.appearance, outlook.patches, outlook.viewer.centre)
+    return gather_strips(
+        pool, shown, outlook.appearance, outlook.patches, outlook.viewer.centre, ring=number, receiver=receiver
+    )
 
 
-def as_drawn(outlook: Outlook) -> tuple[NDArray[np.void], NDArray[np.int32]]:
-    """All polygon strips in the order in which they are drawn, and the cell of the patch that each is of."""
-    shown = [ring for _, ring in strips(outlook)]
-    drawn, amount = in_one_queue(shown, [of_ring(outlook, ring) for ring in range(len(shown))])
-    rows = np.concatenate([ring.rows for ring in shown])[np.argsort(np.concatenate([ring.queue for ring in shown]))]
-    return drawn, np.repeat(outlook.patches.cell[rows], amount, axis=0)
+@dataclass
+class Polygons:
+    """Polygon strips, taken apart as `strips.vert` takes their numbers apart; each array has shape (n,)."""
+
+    patch: Integers
+    kind: Integers
+    stack: Integers
+    """Place of its strip in the stack."""
+
+    column: Integers
+    edge: Integers
+    """Number of the receiver of its first edge; that of the second follows."""
+
+
+def polygons(numbers: NDArray[np.uint32], stood: NDArray[np.void], *, most: int = ROOM) -> Polygons:
+    """Take the numbers of polygon strips apart."""
+    patch, own = np.divmod(numbers.astype(np.int64), most)
+    stand = stood["stand"][patch].astype(np.int64)
+    strips, columns = np.array(FINENESS)[stand // 16].T
+    walked, column = np.divmod(own, columns)
+    walked //= KINDS
+    stack = np.where(stand // 8 % 2 == 1, strips - 1 - walked, walked)
+    kind = (own // columns + stack) % KINDS
+    first = stood["receiver"][patch].astype(np.int64)
+    return Polygons(patch, kind, stack, column, first + (kind * strips + stack) * (columns + 1) + column)
+
+
+def drawn(outlook: Outlook) -> tuple[Polygons, NDArray[np.void], NDArray[np.float32]]:
+    """All polygon strips in the order in which they are drawn, the patches that they are on, and all edges' feet."""
+    rings, stood, feet, first = strips(outlook), [], [], 0
+    for number, (pool, ring) in enumerate(rings):
+        stood.append(of_ring(outlook, number, receiver=first))
+        feet.append(pool.places(ring.slots).reshape(-1, 2))
+        first += len(feet[-1])
+    patch = np.argsort(np.concatenate([ring.queue for _, ring in rings]))
+    present = np.concatenate([pool.present[ring.slots] for pool, ring in rings])[patch]
+    numbers, amount = polygon_strips(np.concatenate(stood), patch, present, FINENESS, most=ROOM)
+    found = polygons(numbers, np.concatenate(stood))
+    np.testing.assert_array_equal(found.patch, np.repeat(patch, amount))
+    return found, np.concatenate(stood), np.concatenate(feet)
 
 
 def test_t5_along_any_ray_from_the_eye_strips_are_drawn_from_far_to_near(outlook: Outlook) -> None:
-    drawn, cell = as_drawn(outlook)
-    a, b = drawn["a"][:, ::2].astype(float) - EYE, drawn["b"][:, ::2].astype(float) - EYE
+    found, stood, feet = drawn(outlook)
+    a, b = feet[found.edge].astype(float) - EYE, feet[found.edge + 1].astype(float) - EYE
+    cell = stood["cell"][found.patch]
     for azimuth in np.linspace(0.0, 2 * np.pi, 97)[:-1] + 0.013:
         ray, beside = np.array([np.cos(azimuth), np.sin(azimuth)]), np.array([-np.sin(azimuth), np.cos(azimuth)])
         side_a, side_b = a @ beside, b @ beside
         part = np.divide(side_a, side_a - side_b, out=np.full(len(a), -1.0), where=side_a * side_b < 0.0)
         hit = a + part[:, None] * (b - a)
-        met = (part >= 0.0) & (hit @ ray > 0.0) & (np.floor((hit + EYE) / 2.5) == cell).all(axis=1)
+        met = (part >= 0.0) & (hit @ ray > 0.0) & (np.floor((hit + EYE) / SIDE) == cell).all(axis=1)
         away = (hit @ ray)[met]
         assert len(away) > 8
         assert (np.diff(away) <= 1e-4).all()
@@ -89,98 +131,105 @@ def test_t5_patches_that_follow_one_another_are_one_draw_and_all_are_where_that_
     assert by_rank[np.repeat(np.array(ranked, np.bool_), amount)].all()
 
 
-@given(st.lists(st.integers(0, 2), max_size=30), st.data())
-def test_t5_the_strips_of_all_rings_stand_in_one_order(ring_of: list[int], data: st.DataObject) -> None:
-    amount = data.draw(st.lists(st.integers(0, 5), min_size=len(ring_of), max_size=len(ring_of)))
-    shown, gathered = [], []
-    for ring in range(3):
-        queue = np.flatnonzero(np.array(ring_of, np.int64) == ring)
-        none, whole = np.zeros(len(queue), np.float32), np.ones(len(queue), np.float32)
-        shown.append(StripsOfRing(queue, queue, whole, none.astype(np.int32), queue, none, whole))
-        counts = np.array(amount, np.int64)[queue]
-        records = np.zeros(int(counts.sum()), STRIP)
-        records["layer"] = np.repeat(queue, counts)
-        gathered.append((records, counts))
-    drawn, told = in_one_queue(shown, gathered)
-    assert drawn["layer"].tolist() == [patch for patch, count in enumerate(amount) for _ in range(count)]
-    assert told.tolist() == amount
+patches = st.tuples(st.integers(0, 1), st.booleans(), st.booleans(), st.booleans())
 
 
-def test_w1_a_strip_has_the_messages_of_its_two_edges(outlook: Outlook) -> None:
-    for number, (pool, ring) in enumerate(strips(outlook)):
-        records, _ = of_ring(outlook, number)
-        place, message = pool.place[ring.slots].reshape(-1, 2), pool.message[ring.slots].reshape(-1, 2)
-        heard = {tuple(p): tuple(m) for p, m in zip(place.tolist(), message.tolist(), strict=True)}
-        for side, wind in (("a", slice(0, 2)), ("b", slice(2, 4))):
-            feet = [tuple(foot) for foot in records[side][:, ::2].tolist()]
-            assert [heard[foot] for foot in feet] == [tuple(row) for row in records["wind"][:, wind].tolist()]
+@given(st.lists(patches, max_size=12), st.data())
+def test_t5_all_strips_of_the_kinds_that_grow_stand_once_in_the_order_of_their_patches(
+    on: list[tuple[int, bool, bool, bool]], data: st.DataObject
+) -> None:
+    """Whatever ring a patch is in, wherever it lies, whatever grows on it: from its far side to its near one."""
+    stood = np.zeros(len(on), STOOD)
+    stood["stand"] = [8 * ahead + 16 * ring for ring, ahead, *_ in on]
+    order = data.draw(st.permutations(range(len(on))))
+    present = np.array([on[patch][2:] for patch in order], np.bool_).reshape(len(on), KINDS)
+    numbers, amount = polygon_strips(stood, np.array(order, np.int64), present, FINENESS, most=ROOM)
+    found = polygons(numbers, stood)
+    assert found.patch.tolist() == [patch for patch, count in zip(order, amount, strict=True) for _ in range(count)]
+    for patch, grows in zip(order, present, strict=True):
+        ring, ahead, *_ = on[patch]
+        (strips, columns), here = FINENESS[ring], found.patch == patch
+        kind, stack, column = found.kind[here], found.stack[here], found.column[here]
+        assert sorted(zip(kind, stack, column, strict=True)) == [
+            (k, s, c) for k in np.flatnonzero(grows) for s in range(strips) for c in range(columns)
+        ]
+        assert (np.diff(stack) * (-1 if ahead else 1) >= 0).all()
 
 
 def test_g3_neighbouring_polygons_of_a_strip_follow_one_another_and_share_their_edge(outlook: Outlook) -> None:
-    records, _ = of_ring(outlook, 0)
-    pairs = records.reshape(-1, 2)
-    np.testing.assert_array_equal(pairs["b"][:, 0], pairs["a"][:, 1])
-    np.testing.assert_array_equal(pairs["wind"][:, 0, 2:], pairs["wind"][:, 1, :2])
-    np.testing.assert_array_equal(pairs["layer"][:, 0], pairs["layer"][:, 1])
+    found, _, feet = drawn(outlook)
+    two = np.flatnonzero(found.column == 1)
+    assert len(two) > 100
+    for one in (found.patch, found.kind, found.stack):
+        np.testing.assert_array_equal(one[two - 1], one[two])
+    np.testing.assert_array_equal(found.edge[two - 1] + 1, found.edge[two])
+    width = np.linalg.norm(feet[found.edge + 1] - feet[found.edge], axis=1)
+    np.testing.assert_allclose(width[two - 1], width[two], rtol=1e-4)
 
 
-def test_g1_every_kind_is_gathered_on_its_own_layers_with_the_patchs_turn(outlook: Outlook) -> None:
-    pool, ring = strips(outlook)[0]
-    records, counts = of_ring(outlook, 0)
-    assert (counts == 2 * 3 * 2).all()
-    own = records.reshape(len(ring.rows), -1)
-    np.testing.assert_array_equal(own["stand"] % 4, np.tile(outlook.patches.turn[ring.rows][:, None], own.shape[1]))
-    layer = records["layer"].astype(int)
-    np.testing.assert_array_equal(records["stand"] // 4, np.arange(len(records)) % 2)
-    np.testing.assert_array_equal(records["picture"] % KINDS, layer >= 12)
-    expected = np.sort(pool.layer[ring.slots].reshape(len(ring.rows), -1), axis=1)
-    np.testing.assert_array_equal(np.sort(own["layer"][:, ::2], axis=1), expected)
+def test_g1_strips_are_told_the_model_and_the_turn_of_their_patch_and_how_they_run(outlook: Outlook) -> None:
+    patches, centre = outlook.patches, outlook.viewer.centre
+    for number, (_, ring) in enumerate(strips(outlook)):
+        stood = of_ring(outlook, number)
+        stand = stood["stand"].astype(int)
+        np.testing.assert_array_equal(stood["cell"], patches.cell[ring.rows])
+        np.testing.assert_array_equal(stood["model"], patches.model[ring.rows])
+        np.testing.assert_array_equal(stand % 4, patches.turn[ring.rows])
+        np.testing.assert_array_equal(stand // 4 % 2, ring.along)
+        np.testing.assert_array_equal(stand // 16, number)
+        away = np.where(ring.along == 0, *(patches.cell[ring.rows] - centre).T[::-1])
+        np.testing.assert_array_equal(stand // 8 % 2, away > 0)
+        assert set(patches.turn[ring.rows].tolist()) == {0, 1, 2, 3}
+        assert set(ring.along.tolist()) == {0, 1}
+
+
+def test_w1_the_receivers_of_the_patches_of_a_ring_follow_one_another(outlook: Outlook) -> None:
+    for number, (pool, ring) in enumerate(strips(outlook)):
+        every = np.arange(len(ring.rows)) * int(np.prod(pool.shape))
+        np.testing.assert_array_equal(of_ring(outlook, number, receiver=7168)["receiver"], 7168 + every)
 
 
 def test_a_kind_that_does_not_grow_on_a_patch_is_not_gathered_there(laid: Laid, look: Look) -> None:
     dense = np.ones((2, 81, 81), np.float32)
     dense[1, :, 40:] = 0.0
     outlook = look(laid(terrain=FLAT, dense=dense), *EYE)
-    records, counts = of_ring(outlook, 0)
-    assert set(counts.tolist()) == {6, 12}
-    assert records["a"][records["picture"] == 1][:, 0].max() < 4.0
-    assert records["a"][records["picture"] == 0][:, 0].max() > 8.0
-    plants, rings = blades(outlook)
-    grown = np.concatenate([gather_blades(plants, ring)[0] for ring in rings])
-    assert grown["root"][grown["kind"] == 1][:, 0].max() < 0.1
-    assert len(grown) == int(sum(plants.present[ring.slots].sum() for ring in rings))
-
-
-def test_w1_each_blade_is_gathered_with_its_own_message_and_fade(outlook: Outlook) -> None:
+    found, _, feet = drawn(outlook)
+    x = feet[found.edge, 0]
+    assert x[found.kind == 1].max() < 4.0
+    assert x[found.kind == 0].max() > 8.0
     pool, rings = blades(outlook)
     for ring in rings:
-        blade, moved = gather_blades(pool, ring)
-        assert len(blade) == len(moved) == 42 * len(ring.rows)
-        heard = {
-            tuple(place): tuple(told)
-            for place, told in zip(
-                pool.place[ring.slots].reshape(-1, 2).tolist(),
-                pool.message[ring.slots].reshape(-1, 2).tolist(),
-                strict=True,
-            )
-        }
-        assert [heard[tuple(root)] for root in blade["root"][:, ::2].tolist()] == [
-            tuple(m) for m in moved["message"].tolist()
-        ]
-        assert (moved["fade"] == 1.0).all()
+        numbers = gather_blades(pool, ring, eye=EYE)
+        kind, root = pool.kinds[numbers % 42], placed(outlook, numbers)
+        assert root[kind == 1][:, 0].max() < 0.1
+        assert root[kind == 0][:, 0].max() > 2.0
+        assert len(numbers) == pool.present[ring.slots].sum()
+
+
+def placed(outlook: Outlook, numbers: NDArray[np.uint32]) -> NDArray[np.float32]:
+    """Where the blades of these numbers stand, counted among all patches with blades, shape (n, 2)."""
+    standing: Standing = outlook.shown["blades"].standing
+    patch, blade = np.divmod(numbers.astype(np.int64), 42)
+    found: NDArray[np.float32] = blades(outlook)[0].place[standing.slots[patch], blade]
+    return found
+
+
+def test_g1_every_blade_that_grows_on_the_patches_of_a_ring_is_gathered_once(laid: Laid, look: Look) -> None:
+    dense = np.random.default_rng(1).uniform(0.0, 1.0, (2, 20, 20)).astype(np.float32)
+    outlook = look(laid(terrain=FLAT, dense=dense), *EYE)
+    pool, rings = blades(outlook)
+    for ring in rings:
+        numbers = gather_blades(pool, ring, eye=EYE)
+        patch, blade = np.divmod(np.sort(numbers.astype(np.int64)), 42)
+        grown = [(place, number) for place, slot in zip(ring.places, ring.slots, strict=True)
+                 for number in np.flatnonzero(pool.present[slot])]  # fmt: skip
+        assert list(zip(patch, blade, strict=True)) == sorted(grown)
+        assert 0 < len(numbers) < 42 * len(ring.rows)
 
 
 def test_t5_seen_from_the_eye_blades_of_all_patches_go_from_far_to_near(outlook: Outlook) -> None:
     pool, rings = blades(outlook)
     for ring in rings:
-        plain, told = gather_blades(pool, ring)
-        blade, moved = gather_blades(pool, ring, eye=EYE)
-        away = np.hypot(blade["root"][:, 0] - EYE[0], blade["root"][:, 2] - EYE[1])
+        away = np.hypot(*(placed(outlook, gather_blades(pool, ring, eye=EYE)) - EYE).T)
+        assert len(away) == 42 * len(ring.rows)
         assert (np.diff(away) < away.max() / 65000.0).all()
-        message = {
-            tuple(root): tuple(each)
-            for root, each in zip(plain["root"].tolist(), told["message"].tolist(), strict=True)
-        }
-        assert [message[tuple(root)] for root in blade["root"].tolist()] == [
-            tuple(m) for m in moved["message"].tolist()
-        ]

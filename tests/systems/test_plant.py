@@ -12,11 +12,18 @@ from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.systems.around.ground import Ground, turned
 from tallgrass.systems.grow.record import Growth
-from tallgrass.systems.show.blades.plant import blade_records, plant_blades, stock_blades
+from tallgrass.systems.show.blades.plant import (
+    BladeStock,
+    blade_records,
+    plant_blades,
+    standing_blades,
+    stock_blades,
+)
 from tallgrass.systems.show.blades.pool import BLADE, BladePool
 from tallgrass.systems.show.strips.grow import strips_of
-from tallgrass.systems.show.strips.plant import plant_strips, strip_edges
+from tallgrass.systems.show.strips.plant import plant_strips
 from tallgrass.systems.show.strips.pool import StripPool
+from tallgrass.systems.show.strips.stand import falls, strip_edges
 from tallgrass.systems.show.strips.stock import stock_strips
 
 PATCH = 2.5
@@ -43,21 +50,25 @@ def bilinear(terrain: Terrain, place: NDArray[Any]) -> NDArray[np.float64]:
 
 def planted(growths: list[Growth], terrain: Terrain, maps: NDArray[np.float32] = EVERYWHERE) -> BladePool:
     stock = stock_blades(growths, PATCH)
-    pool = BladePool.allocate_slots(10, stock.records.shape[1])
+    pool = BladePool.allocate(4, stock.kinds)
     ground = Ground(terrain, Density(maps, terrain.size), PATCH)
     plant_blades(pool, SLOTS, CELLS, MODELS, TURNS, stock, ground)
     return pool
 
 
+def standing(growths: list[Growth], terrain: Terrain) -> tuple[BladeStock, NDArray[np.void]]:
+    """The stock, and the blades of all cells where they stand."""
+    stock = stock_blades(growths, PATCH)
+    ground = Ground(terrain, Density(EVERYWHERE, terrain.size), PATCH)
+    return stock, standing_blades(stock, CELLS, MODELS, TURNS, ground)[0]
+
+
 def stripped(
     growths: list[Growth], terrain: Terrain, along: int, ring: int = 0, maps: NDArray[np.float32] = EVERYWHERE
 ) -> StripPool:
-    stock = stock_strips(growths)
-    strips = stock.strips[ring]
-    pool = StripPool.allocate(4, 2, len(strips[0].plane), 2)
+    pool = StripPool(4, stock_strips(growths).strips[ring], 2, PATCH)
     ground = Ground(terrain, Density(maps, terrain.size), PATCH)
-    first = stock.first_layer[ring]
-    plant_strips(pool, SLOTS, CELLS, MODELS, TURNS, np.full(8, along, np.int32), strips, first, ground)
+    plant_strips(pool, SLOTS, CELLS, MODELS, TURNS, np.full(8, along, np.int32), ground)
     return pool
 
 
@@ -97,21 +108,11 @@ def test_g1_a_blade_turns_as_a_whole_with_its_patch(growths: list[Growth], turn:
 
 
 def test_t1_roots_stand_exactly_on_the_bilinear_terrain_on_slopes_too(growths: list[Growth], hills: Terrain) -> None:
-    pool = planted(growths, hills)
-    root = pool.blade["root"][SLOTS].reshape(-1, 3)
+    root = standing(growths, hills)[1]["root"].reshape(-1, 3)
     np.testing.assert_array_equal(root[:, 1], height_at(hills, np.ascontiguousarray(root[:, ::2])))
     np.testing.assert_allclose(root[:, 1], bilinear(hills, root[:, ::2]), atol=2e-5)
-    np.testing.assert_array_equal(root[:, ::2], pool.place[SLOTS].reshape(-1, 2))
+    np.testing.assert_array_equal(root[:, ::2], planted(growths, hills).place[SLOTS].reshape(-1, 2))
     assert np.ptp(root[:, 1]) > 3.0
-
-
-def test_t1_the_feet_of_strips_stand_exactly_on_the_bilinear_terrain(growths: list[Growth], hills: Terrain) -> None:
-    for along in (0, 1):
-        pool = stripped(growths, hills, along)
-        place, ground = pool.place[SLOTS].reshape(-1, 2), pool.ground[SLOTS].reshape(-1)
-        np.testing.assert_array_equal(ground, height_at(hills, place))
-        np.testing.assert_allclose(ground, bilinear(hills, place), atol=2e-5)
-        assert np.ptp(ground) > 3.0
 
 
 def test_t1_every_root_lies_in_its_own_patch(growths: list[Growth], hills: Terrain) -> None:
@@ -131,11 +132,9 @@ def test_g1_every_blade_stands_within_half_a_slice_of_the_strip_it_is_painted_on
             strips, blades = strips_of(growth.models[model])[ring], growth.models[model].blades
             own = (along + int(turn)) % 2
             count = len(strips.plane)
-            layer = pool.layer[slot, kind].astype(int) - stock_strips(growths).first_layer[ring][kind]
-            assert sorted(layer % count) == list(range(count))
-            assert (layer // count == model * 2 + own).all()
-            stands = np.argsort(layer % count)[strips.slice[own]]
-            feet = pool.place[slot, kind, stands].astype(float)
+            _, order = strip_edges(strips, 2, np.array([along]), np.array([turn]), patch=PATCH)
+            stands = np.argsort(order[0])[strips.slice[own]]
+            feet = pool.places(np.array([slot]))[0, kind, stands].astype(float)
             root = turned(blades.root, turn, patch=PATCH) + cell * PATCH
             run = feet[:, -1] - feet[:, 0]
             length = np.linalg.norm(run, axis=1)
@@ -158,15 +157,17 @@ def test_g3_strips_are_parallel_planes_stored_by_rising_place(growths: list[Grow
     np.testing.assert_allclose(np.ptp(feet[0, :, :, 1 - along], axis=1), 0.0, atol=1e-6)
     assert (np.diff(feet[0, :, 0, 1 - along]) > 0.0).all()
     np.testing.assert_allclose(np.diff(feet[0, :, 0, 1 - along]), PATCH / len(strips.plane), atol=1e-5)
-    assert sorted(order[0]) == list(range(len(strips.plane)))
+    rising = list(range(len(strips.plane)))
+    (backwards,) = falls(np.array([(along + turn) % 2]), np.array([along]), np.array([turn]))
+    assert order[0].tolist() == (rising[::-1] if backwards else rising)
 
 
-def test_g1_the_blades_of_a_slot_stand_in_the_order_of_their_models_one_kind_after_another(
+def test_g1_the_blades_of_a_patch_stand_in_the_order_of_their_models_one_kind_after_another(
     growths: list[Growth], hills: Terrain
 ) -> None:
     """What is known of each blade of a model, as its place on the strips, is known by its number."""
-    pool = planted(growths, hills)
-    for slot, cell, model, turn in zip(SLOTS, CELLS, MODELS, TURNS, strict=True):
+    stock, found = standing(growths, hills)
+    for blades, cell, model, turn in zip(found, CELLS, MODELS, TURNS, strict=True):
         parts = [
             blade_records(growth.models[model].blades, int(turn), patch=PATCH, kind=kind, variants=4)
             for kind, growth in enumerate(growths)
@@ -174,9 +175,11 @@ def test_g1_the_blades_of_a_slot_stand_in_the_order_of_their_models_one_kind_aft
         expected = np.concatenate(parts)
         for name in BLADE.names or ():
             if name != "root":
-                np.testing.assert_array_equal(pool.blade[slot][name], expected[name])
-        np.testing.assert_allclose(pool.place[slot], expected["root"][:, ::2] + cell * PATCH, atol=1e-5)
-        assert {int(kind) for kind in pool.blade["kind"][slot]} == {0, 1}
+                np.testing.assert_array_equal(blades[name], expected[name])
+        away = blades["root"] - expected["root"]
+        np.testing.assert_allclose(away[:, ::2], np.tile(cell * PATCH, (42, 1)), atol=1e-5)
+        np.testing.assert_array_equal(blades["kind"], stock.kinds)
+    assert stock.kinds.tolist() == 30 * [0] + 12 * [1]
 
 
 def test_a_kind_grows_as_densely_as_the_map_says(growths: list[Growth]) -> None:
@@ -184,14 +187,13 @@ def test_a_kind_grows_as_densely_as_the_map_says(growths: list[Growth]) -> None:
     maps = np.zeros((2, 2, 2), np.float32)
     maps[0], maps[1] = 0.4, 0.0
     pool = planted(growths, flat, maps)
-    kind = pool.blade["kind"][SLOTS]
-    assert not pool.present[SLOTS][kind == 1].any()
-    assert pool.present[SLOTS][kind == 0].mean() == pytest.approx(0.4, abs=0.02)
+    assert not pool.present[SLOTS][:, pool.kinds == 1].any()
+    assert pool.present[SLOTS][:, pool.kinds == 0].mean() == pytest.approx(0.4, abs=0.02)
 
 
 def test_thinning_takes_the_same_blades_first_wherever_a_patch_stands(growths: list[Growth]) -> None:
     flat = Terrain(np.zeros((41, 41), np.float32), 1.0)
-    before = np.zeros((10, 42), np.bool_)
+    before = np.zeros((16, 42), np.bool_)
     for density in (0.2, 0.5, 0.8, 1.0):
         present = planted(growths, flat, np.full((2, 2, 2), density, np.float32)).present
         assert (present | ~before).all()
@@ -215,7 +217,7 @@ def test_strips_know_where_their_kind_does_not_grow_and_where_it_is_thin(growths
 
 def test_only_the_slots_that_are_named_are_planted(growths: list[Growth], hills: Terrain) -> None:
     pool = planted(growths, hills)
-    rest = np.setdiff1d(np.arange(10), SLOTS)
+    rest = np.setdiff1d(np.arange(16), SLOTS)
     assert (pool.place[rest] == 0.0).all()
     assert not pool.present[rest].any()
     np.testing.assert_array_equal(pool.stamp[SLOTS], CELLS)

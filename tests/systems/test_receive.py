@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.around.cone import far_to_near
 from tallgrass.systems.around.outlook import Outlook
+from tallgrass.systems.around.receivers import Receiving
 from tallgrass.systems.blow import Hear
 from tallgrass.systems.show.blades.pool import BladePool
 from tallgrass.systems.show.blades.shown import Standing
@@ -58,6 +59,12 @@ def pooled(outlook: Outlook) -> list[tuple[BladePool | StripPool, Shown]]:
     ]
 
 
+def receiving(outlook: Outlook) -> list[Receiving]:
+    """What receives of each pool, blades' first."""
+    found: list[Receiving] = [*outlook.kept["blades"].receiving, *outlook.kept["strips"].receiving]
+    return found
+
+
 def test_t4_what_is_shown_lies_in_its_representations_range(site: Site, look: Look) -> None:
     outlook = look(site, 1.0, 1.0)
     near, far = rows(blades(outlook)), rows(strips(outlook))
@@ -95,14 +102,21 @@ def test_t2_only_patches_in_the_view_cone_are_shown(site: Site, look: Look) -> N
 
 def test_only_what_is_new_is_planted(site: Site, look: Look) -> None:
     outlook = look(site, 1.0, 1.0)
-    for pool, _ in pooled(outlook):
-        pool.place[:] = 99.0
+    marks = [pool.place if isinstance(pool, BladePool) else pool.least for pool, _ in pooled(outlook)]
+    stamps = [pool.stamp.copy() for pool, _ in pooled(outlook)]
+    for mark in marks:
+        mark[:] = 99.0
     look(site, 1.0, 1.0)
-    assert all((pool.place == 99.0).all() for pool, _ in pooled(outlook))
-    look(site, 1.0 + 2.5, 1.0)
-    pool, shown = pooled(outlook)[0]
-    fresh = (pool.place[shown.slots] != 99.0).any(axis=(1, 2))
-    np.testing.assert_array_equal(fresh, outlook.patches.cell[shown.rows, 0] == 3)
+    assert all((mark == 99.0).all() for mark in marks)
+    look(site, 1.0 + 2.5, 1.0, jumped=True)
+    for (pool, shown), mark, before in zip(pooled(outlook), marks, stamps, strict=True):
+        fresh = (pool.stamp[shown.slots] != before[shown.slots]).any(axis=1)
+        planted = (mark[shown.slots] != 99.0).reshape(len(fresh), -1).any(axis=1)
+        np.testing.assert_array_equal(planted, fresh)
+        assert 0 < fresh.sum() < len(fresh)
+    (_, shown), *_ = pooled(outlook)
+    near = outlook.patches.cell[shown.rows, 0] == 3
+    np.testing.assert_array_equal((marks[0][shown.slots] != 99.0).any(axis=(1, 2)), near)
 
 
 def test_every_shown_slot_holds_its_own_patch_wherever_the_viewer_walks(site: Site, look: Look) -> None:
@@ -113,7 +127,7 @@ def test_every_shown_slot_holds_its_own_patch_wherever_the_viewer_walks(site: Si
             cell = outlook.patches.cell[shown.rows]
             np.testing.assert_array_equal(pool.stamp[shown.slots, :2], cell)
             low = cell * 2.5
-            place = pool.place[shown.slots].reshape(len(low), -1, 2)
+            place = pool.places(shown.slots).reshape(len(low), -1, 2)
             reach = 0.0 if isinstance(pool, BladePool) else 1.0
             assert (place >= low[:, None] - reach - 1e-4).all()
             assert (place <= low[:, None] + 2.5 + reach + 1e-4).all()
@@ -133,7 +147,7 @@ def test_g3_strips_are_planted_anew_when_their_orientation_changes(site: Site, l
     outlook = look(site, 1.0, 9.0)
     turned = 0
     for pool, shown in zip(outlook.kept["strips"].pools, strips(outlook), strict=True):
-        feet = pool.place[shown.slots, 0]
+        feet = pool.places(shown.slots)[:, 0]
         across = np.take_along_axis(feet, (1 - shown.along)[:, None, None, None], axis=-1)
         np.testing.assert_allclose(np.ptp(across, axis=2), 0.0, atol=1e-5)
         for rows_before, along in zip(before[0].rows, before[0].along, strict=True):
@@ -145,8 +159,9 @@ def test_w1_every_receiver_that_is_seen_hears_the_wind(site: Site, look: Look, w
     hear = wind(WIND, time=2.0)
     outlook = look(site, 1.0, 1.0, hear=hear)
     count = 0
-    for pool, shown in pooled(outlook):
-        place, message = pool.place[shown.slots].reshape(-1, 2), pool.message[shown.slots].reshape(-1, 2)
+    for (pool, shown), hears in zip(pooled(outlook), receiving(outlook), strict=True):
+        np.testing.assert_array_equal(hears.slots, shown.slots)
+        place, message = pool.places(shown.slots).reshape(-1, 2), hears.letters.heard(shown.slots)
         alone = places_alone(place, grass_of(site.growths, pool.kind(shown.slots)))
         np.testing.assert_array_equal(message, hear(alone, time=0.0))
         assert np.linalg.norm(message, axis=1).mean() > 0.3
@@ -166,27 +181,32 @@ def test_w1_receivers_hear_the_instant_that_the_viewer_sees(site: Site, look: Lo
     outlook = look(site, 1.0, 1.0, hear=hear)
     outlook.viewer.time = 7.5
     look(site, 1.0, 1.0, hear=hear)
-    assert asked == [0.0, 7.5]
-    np.testing.assert_array_equal(outlook.air, [0.25, 0.25])
+    assert outlook.blown_at == 7.5
+    assert asked == [], "numpy is asked by those alone who want to know"
+    for hears in receiving(outlook):
+        assert (hears.letters.heard(hears.slots) == 0.25).all()
+    assert asked == [7.5] * 3
 
 
 def test_w1_the_same_place_gets_the_same_message_in_blades_and_strips(site: Site, look: Look, wind: Wind) -> None:
     hear = wind(WIND, time=5.0)
-    (blade, near), (edge, far), *_ = pooled(look(site, 1.0, 1.0, hear=hear))
-    at_blade, at_edge = near.slots[0], far.slots[0]
-    blade.place[at_blade, :6] = edge.place[at_edge, 0].reshape(-1, 2)[:6]
-    look(site, 1.0, 1.0, hear=hear)
-    edges = edge.message[at_edge, 0].reshape(-1, 2)[:6]
+    outlook = look(site, 1.0, 1.0, hear=hear)
+    (blade, near), (edge, far), *_ = pooled(outlook)
+    to_blades, to_edges, _ = receiving(outlook)
+    at_blade, at_edge = near.slots[:1], far.slots[:1]
+    blade.place[at_blade, :6] = edge.places(at_edge)[0, 0].reshape(-1, 2)[:6]
+    edges = to_edges.letters.heard(at_edge)[:6]
     assert np.linalg.norm(edges, axis=1).min() > 0.1
-    np.testing.assert_array_equal(blade.message[at_blade, :6], edges)
+    np.testing.assert_array_equal(to_blades.letters.heard(at_blade)[:6], edges)
 
 
-def test_patches_out_of_sight_are_left_alone(site: Site, look: Look, wind: Wind) -> None:
+def test_t2_patches_out_of_sight_do_not_hear(site: Site, look: Look, wind: Wind) -> None:
     hear = wind(WIND, time=2.0)
-    (pool, _), *_ = pooled(look(site, 1.0, 1.0, hear=hear))
-    pool.message[:] = 9.0
-    (_, shown), *_ = pooled(look(site, 1.0, 1.0, yaw=0.0, hear=hear))
-    unseen = np.setdiff1d(np.arange(len(pool.message)), shown.slots)
-    assert len(unseen) > 0
-    assert (pool.message[unseen] == 9.0).all()
-    assert (np.abs(pool.message[shown.slots]) <= 1.0).all()
+    outlook = look(site, 1.0, 1.0, hear=hear)
+    every = outlook.heard
+    look(site, 1.0, 1.0, yaw=0.0, hear=hear)
+    count = 0
+    for hears in receiving(outlook):
+        assert outlook.patches.visible[hears.rows].all()
+        count += len(hears.slots) * int(np.prod(hears.pool.shape))
+    assert outlook.heard == count < 0.5 * every

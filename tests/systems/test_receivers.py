@@ -13,12 +13,14 @@ from tallgrass.components.receivers import Receivers
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.world import World
 from tallgrass.systems.around.outlook import Outlook
+from tallgrass.systems.around.receivers import Receiving
 from tallgrass.systems.blow import Hear
 from tallgrass.systems.gather import Gather
 from tallgrass.systems.painter import Painter
 from tallgrass.systems.site import Site
-from tallgrass.systems.wind.blow import ReceiverArrays
+from tallgrass.systems.wind.blow import ReceiverArrays, places_alone
 from tallgrass.systems.wind.breeze import Breeze
+from tallgrass.systems.wind.grass import grass_of
 
 Floats = NDArray[np.float32]
 Looking = Callable[..., Outlook]
@@ -59,11 +61,20 @@ class Game:
         return outlook
 
     def write(self, outlook: Outlook, _: object) -> int:
-        """Take the picture, as a painter does: here, the messages of all pools."""
+        """Take the picture, as a painter does: here, the messages of all pools by their slots."""
         self.picture = {
-            name: [receiving.pool.message.copy() for receiving in kept.receiving] for name, kept in outlook.kept.items()
+            name: [pictured(receiving) for receiving in kept.receiving] for name, kept in outlook.kept.items()
         }
         return 0
+
+
+def pictured(receiving: Receiving) -> Floats:
+    """What a pool's receivers are drawn with, (slots, receivers of each, 2): what a game wrote lies over the wind's."""
+    shows = np.zeros((receiving.pool.slots, int(np.prod(receiving.pool.shape)), 2), np.float32)
+    shows[receiving.slots] = receiving.letters.heard(receiving.slots).reshape(len(receiving.slots), -1, 2)
+    for slot, message in receiving.letters.written():
+        shows[slot] = message
+    return shows
 
 
 @pytest.fixture
@@ -79,8 +90,8 @@ def of(world: World, name: str) -> list[tuple[int, Receivers]]:
 def shown_of(game: Game, outlook: Outlook, name: str) -> Floats:
     """What the picture shows of a representation's patches, (patches, receivers of each, 2), of the first pool."""
     receiving = outlook.kept[name].receiving[0]
-    pictured: Floats = game.picture[name][0][receiving.slots]
-    return pictured.reshape(len(receiving.slots), -1, 2)
+    shows: Floats = game.picture[name][0][receiving.slots]
+    return shows
 
 
 def times(game: Game, name: str, message: list[float]) -> int:
@@ -135,15 +146,16 @@ def test_d2_a_patch_in_a_change_has_receivers_in_both_representations(world: Wor
 
 
 def test_d2_what_receivers_hear_is_read_from_their_component(
-    world: World, looking: Looking, wind: Callable[..., Hear]
+    world: World, site: Site, looking: Looking, wind: Callable[..., Hear]
 ) -> None:
-    outlook = looking(1.0, 1.0, hear=wind(Breeze(), time=1.0))
+    hear = wind(Breeze(), time=1.0)
+    outlook = looking(1.0, 1.0, hear=hear)
     found = of(world, "blades") + of(world, "strips")
     assert all(np.linalg.norm(receivers.message, axis=1).mean() > 0.05 for _, receivers in found)
-    pool = outlook.kept["blades"].pool
-    pool.message[:] = 0.25
-    assert all((receivers.message == 0.25).all() for _, receivers in of(world, "blades"))
-    where = {tuple(place) for place in pool.place.reshape(-1, 2).tolist()}
+    for _, receivers in found:
+        alone = places_alone(receivers.place, grass_of(site.growths, receivers.kind))
+        np.testing.assert_array_equal(receivers.message, hear(alone, time=0.0))
+    where = {tuple(place) for place in outlook.kept["blades"].pool.place.reshape(-1, 2).tolist()}
     for _, receivers in of(world, "blades"):
         assert {tuple(place) for place in receivers.place.tolist()} <= where
 
@@ -181,9 +193,9 @@ def test_d2_what_a_game_writes_stands_above_the_wind_in_the_next_frame_and_in_th
         receivers.message[:] = (0.0, -0.5)
     game.wind = [0.375, 0.0]
     game.frame()
-    for pictured in game.picture:
-        many = sum(len(receivers.message) for receivers in told) if pictured == name else 0
-        assert times(game, pictured, [0.0, -0.5]) == many
+    for each in game.picture:
+        many = sum(len(receivers.message) for receivers in told) if each == name else 0
+        assert times(game, each, [0.0, -0.5]) == many
     for receivers in told:
         np.testing.assert_array_equal(receivers.message, np.tile([0.375, 0.0], (len(receivers.place), 1)))
     game.wind = [0.125, 0.0]
@@ -302,6 +314,11 @@ def test_d2_who_only_reads_messages_changes_no_picture(
         taken.append(game.picture)
         for _, receivers in world.all(Receivers):
             assert np.isfinite(receivers.message).all()
+    game.frame()
+    kept = look(site, 1.0, 1.0, hear=hear).kept.values()
+    letters = [receiving.letters for each in kept for receiving in each.receiving]
+    assert all(each.busy for each in letters)
+    assert not any(list(each.written()) for each in letters)
     longest = np.linalg.norm(taken[0]["blades"][0], axis=-1).max()
     assert longest > 0.999
     for name in taken[0]:
@@ -336,14 +353,14 @@ def test_what_was_written_for_a_patch_goes_with_it(world: World, looking: Lookin
     for _, receivers in world.all(Receivers):
         receivers.message[:] = (0.0, -0.5)
     outlook = looking(36.0, 1.0, hear=calm)
-    told = [(each.pool, each.rows, each.slots) for kept in outlook.kept.values() for each in kept.receiving]
+    told = [(each.letters, each.rows, each.slots) for kept in outlook.kept.values() for each in kept.receiving]
     fresh = np.array([tuple(cell) not in first for cell in outlook.patches.cell.tolist()])
-    for pool, rows, slots in told:
+    for letters, rows, slots in told:
         assert fresh[rows].any()
-        assert not pool.message[slots[fresh[rows]]].any()
+        assert not letters.messages(slots[fresh[rows]]).any()
     outlook.settle()
     looking(1.0, 1.0, hear=calm)
-    assert not any(pool.message[slots].any() for pool, _, slots in told)
+    assert not any(letters.messages(slots).any() for letters, _, slots in told)
 
 
 def test_an_entity_lives_as_long_as_its_patch_is_shown(world: World, looking: Looking) -> None:
