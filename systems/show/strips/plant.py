@@ -16,11 +16,9 @@ def plant_strips(
     """Stand the strips of each cell (m, 2), running along axis `along` (m,), in its slot of the pool."""
     pool.stamp[slots, :2], pool.stamp[slots, 2] = cell, along
     pool.stand[slots] = np.column_stack([model, turn])
-    place = pool.places(slots)
-    least = np.ones(len(slots), np.float32)
-    for kind in range(len(pool.strips)):
-        dense = density_at(ground.density, place[:, kind].reshape(-1, 2))[kind].reshape(len(slots), -1)
-        grows = dense.max(axis=1) > PRESENT
-        pool.present[slots, kind] = grows
-        least = np.where(grows, np.minimum(least, dense.min(axis=1)), least)
-    pool.least[slots] = least
+    kinds = len(pool.strips)
+    every = density_at(ground.density, pool.places(slots).reshape(-1, 2)).reshape(kinds, len(slots), kinds, -1)
+    dense = np.stack([every[kind, :, kind] for kind in range(kinds)], axis=1)
+    grows = dense.max(axis=2) > PRESENT
+    pool.present[slots] = grows
+    pool.least[slots] = np.where(grows, dense.min(axis=2), np.float32(1.0)).min(axis=1)

@@ -6,7 +6,6 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ...around.ground import turned
 from .grow import Strips
 
 Floats = NDArray[np.float32]
@@ -19,14 +18,16 @@ def strip_edges(strips: Strips, columns: int, along: Ints, turn: Ints, /, *, pat
     The first array (m, strips, columns + 1, 2) holds positions in the patch, strips by rising place in their stack;
     the second (m, strips) says which of the model's planes each strip is.
     """
-    reach = np.linspace(-strips.margin, patch + strips.margin, columns + 1, dtype=np.float32)
-    u, plane = np.broadcast_arrays(reach[None, :], strips.plane[:, None])
-    own = (along + turn) % 2
-    local = np.where(own[:, None, None, None] == 0, np.stack([u, plane], -1), np.stack([plane, u], -1))
-    spun = turned(local, turn[:, None, None], patch=patch)
-    stack = np.take_along_axis(spun[:, :, 0, :], (1 - along)[:, None, None], axis=2)[..., 0]
-    order = np.argsort(stack, axis=1).astype(np.int32)
-    return np.take_along_axis(spun, order[:, :, None, None], axis=1), order
+    count, own = len(strips.plane), (along + turn) % 2
+    u = np.linspace(-strips.margin, patch + strips.margin, columns + 1, dtype=np.float32)
+    # The edges of a strip and the planes of a patch lie evenly about its middle: a turn only counts them backwards.
+    backwards = (turn == 2) | (turn == np.where(own == 0, 3, 1))
+    run = np.where(backwards[:, None], u[::-1], u)[:, None, :]
+    feet = np.empty((len(turn), count, columns + 1, 2), np.float32)
+    for axis in (0, 1):
+        feet[..., axis] = np.where((along == axis)[:, None, None], run, strips.plane[:, None])
+    order = np.arange(count, dtype=np.int32)
+    return feet, np.where(falls(own, along, turn)[:, None], order[::-1], order)
 
 
 def falls(own: Ints, along: Ints, turn: Ints, /) -> NDArray[np.bool_]:
