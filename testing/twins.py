@@ -106,7 +106,8 @@ class CardEar:
         form = " ".join(part if name in made else f"{4 * int(part[0])}x" for name, part in names.items())
         source = self.ctx.buffer(np.stack(each, axis=1).astype(np.float32))
         result = self.ctx.buffer(reserve=8 * count)
-        array = self.ctx.vertex_array(made, [(source, form, *(name for name in names if name in made))])
+        read = [name for name in names if name in made]  # where nothing blows, nothing
+        array = self.ctx.vertex_array(made, [(source, form, *read)] if read else [])
         array.transform(result, moderngl.POINTS, vertices=count)
         message = np.frombuffer(result.read(), np.float32).reshape(count, 2)
         release_all(array, source, result)

@@ -11,9 +11,7 @@ def example_pages() -> str:
     """Return every example with its source, as Markdown."""
     parts = []
     for name, files in examples().items():
-        told = (
-            ast.get_docstring(ast.parse(next(file for file in files if file.suffix == ".py").read_text("utf-8"))) or ""
-        )
+        told = ast.get_docstring(ast.parse(next(file for file in files if _is_module(file)).read_text("utf-8"))) or ""
         parts += [f"## {name}", told]
         parts += [f"`{file.relative_to(ROOT)}`:\n\n{fenced(file)}" for file in files]
     return "\n\n".join(parts) + "\n"
@@ -23,14 +21,18 @@ def examples() -> dict[str, list[Path]]:
     """Return the files of each example by its name: a program, or the folder of a package."""
     folder = ROOT / "examples"
     found = {file.stem: [file] for file in sorted(folder.glob("*.py"))}
-    found |= {inner.name: sorted(_sources(inner)) for inner in sorted(folder.iterdir()) if any(inner.glob("*.py"))}
+    found |= {inner.name: sorted(_sources(inner)) for inner in sorted(folder.iterdir()) if any(inner.rglob("*.py"))}
     return found
 
 
 def _sources(folder: Path) -> Iterator[Path]:
     for file in folder.rglob("*"):
-        if file.suffix in {".py", ".toml", ".yaml"} and not any(part.startswith((".", "__")) for part in file.parts):
+        if file.suffix in {".py", ".toml", ".yaml", ".glsl"} and not any(part.startswith(".") for part in file.parts):
             yield file
+
+
+def _is_module(file: Path) -> bool:
+    return file.suffix == ".py" and file.parent.name != "tests"
 
 
 def fenced(file: Path, /) -> str:

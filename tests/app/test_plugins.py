@@ -6,7 +6,7 @@ import subprocess
 import sys
 from importlib.metadata import EntryPoint
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
@@ -125,6 +125,23 @@ def test_every_problem_of_a_kind_is_one_line(kinds: WindKinds, capsys: pytest.Ca
         "loud: action returned a posture index of 3, which is over 1 (at 0 s)",
         "loud: the field 'kind' defaults to 'noisy', but the entry point is called 'loud'",
     ]
+
+
+def test_a_twin_that_is_not_there_is_a_problem(kinds: WindKinds, capsys: pytest.CaptureFixture[str]) -> None:
+    class Twinned(Loud):
+        """A wind to the right, whose twin is on no disk."""
+
+        twin: ClassVar[str | None] = "nowhere.glsl"
+        kind: str = "twinned"
+        """A wind to the right."""
+
+        def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
+            return np.full_like(place, [0.3, 0.0])
+
+    kinds.add("twinned", Twinned)
+    assert check_plugin("twinned") == 2
+    why = f"there is no file 'nowhere.glsl' beside its module {__name__}"
+    assert capsys.readouterr().out == f"twinned: its twin cannot be used: {why}\n"
 
 
 @pytest.mark.usefixtures("kinds")

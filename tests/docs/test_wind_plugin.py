@@ -78,7 +78,7 @@ def test_every_block_of_the_tutorial_is_a_file_or_is_run() -> None:
     assert len(blocks) == TEXT.count("\n```") // 2
     for block in blocks:
         assert block["file"] or block["language"] in {"sh", "text"}
-    assert {"sh", "text", "toml", "python", "yaml"} == {block["language"] for block in blocks}
+    assert {"sh", "text", "toml", "python", "yaml", "glsl"} == {block["language"] for block in blocks}
 
 
 def test_the_plugin_is_as_short_as_it_is_said_to_be() -> None:

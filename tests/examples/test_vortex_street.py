@@ -83,9 +83,9 @@ def test_d5_the_same_class_works_by_decorator(run: Run, scene: Path) -> None:
 
 def test_the_examples_own_tests_pass(run: Run, site: Path) -> None:
     told = run(site, "-m", "pytest", "-q", "-p", "no:cacheprovider", EXAMPLE / "tests")
-    assert "3 passed" in told
+    assert "4 passed" in told
 
 
 def test_an_example_is_as_short_as_a_plugin_may_be() -> None:
-    for module in EXAMPLE.glob("*.py"):
-        assert len(module.read_text("utf-8").splitlines()) <= 40
+    (module,) = EXAMPLE.glob("vortex_street/*.py")
+    assert len(module.read_text("utf-8").splitlines()) <= 45, "40 without what its twin reads"

@@ -4,7 +4,7 @@ import numpy as np
 from vortex_street import VortexStreet
 
 from tallgrass import Grass
-from tallgrass.testing import check_wind
+from tallgrass.testing import check_wind, headless_context, twin_problems
 
 STREET = VortexStreet(rock=2.0, speed=1.0, strength=1.0)
 GRASS = Grass(np.zeros(2, np.intp), *np.ones((3, 1, 2), np.float32))
@@ -13,6 +13,12 @@ GRASS = Grass(np.zeros(2, np.intp), *np.ones((3, 1, 2), np.float32))
 def test_it_is_a_wind_as_tallgrass_asks() -> None:
     """Its kit checks all that."""
     check_wind(VortexStreet)
+
+
+def test_its_twin_on_the_graphics_card_says_the_same() -> None:
+    """Wherever there is one, and a software rasteriser counts."""
+    with headless_context() as ctx:
+        assert twin_problems(STREET, ctx) == []
 
 
 def test_whirls_on_either_side_blow_ahead_outside_and_back_inside() -> None:

@@ -137,3 +137,11 @@ def test_a_program_may_be_asked_what_it_computes(ctx: moderngl.Context, library:
     np.testing.assert_array_equal(np.frombuffer(result.read(), np.float32), 2.0 * numbers)
     for thing in (array, source, result, made):
         thing.release()
+
+
+def test_lines_that_are_handed_in_stand_in_place_of_a_file(library: dict[str, list[str]]) -> None:
+    library["plain.vert"][:0] = ['#include "a.glsl"']
+    library["a.glsl"] = ["float a = 1.0;"]
+    source, lines = compose("plain.vert", made={"a.glsl": [("mine.glsl", 7, "float b = 2.0;")]})
+    assert "float a" not in source
+    assert locate("0:2: error: x", lines) == "mine.glsl:7: error: x"

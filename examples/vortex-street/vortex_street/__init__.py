@@ -3,12 +3,13 @@
 import numpy as np
 from pydantic import Field
 
-from tallgrass import Extent, Grass, PlacedWind
+from tallgrass import Extent, Grass, PlacedWind, TwinValues
 
 
 class VortexStreet(PlacedWind):
     """Whirls that leave a rock on either side in turn, drift ahead, grow and fade; the rock is at `position`."""
 
+    twin = "vortex_street.glsl"
     kind: str = "vortex-street"
     """A vortex street behind a rock."""
     rock: float = Field(default=2.0, ge=0.2, le=50.0)
@@ -37,3 +38,8 @@ class VortexStreet(PlacedWind):
             turn = side * self.strength * min(10.0 * age, 1.0 - age**2) * np.exp(0.5 - 0.5 * (away**2).sum(axis=1))
             message += turn[:, None] * np.stack([away[:, 1], -away[:, 0]], axis=1)
         return np.asarray(message / np.maximum(1.0, np.linalg.norm(message, axis=1, keepdims=True)))
+
+    def twin_values(self, *, time: float, seed: int) -> TwinValues:
+        """Return what its twin reads."""
+        latest, age = divmod(time * self.speed / (2.5 * self.rock), 1.0)
+        return TwinValues((self.rock, self.strength, latest % 2 * 2 - 1, age))
