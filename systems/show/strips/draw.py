@@ -12,7 +12,7 @@ from ....engine.gl.stream import release_all
 from ...around.representation import Canvas
 from ...frame.block import by_kind, joined
 from .grow import Strips
-from .textures import strip_textures
+from .textures import strip_texture
 
 KINDS = 4
 """Kinds of grass that there is room for."""
@@ -50,7 +50,7 @@ class StripPainter:
     def __init__(self, canvas: Canvas, rings: Sequence[StripRing], stock: Sequence[list[list[Strips]]]) -> None:
         self.units = canvas.units
         self.sections = max(ring.sections for ring in rings)
-        self.atlas, self.ranks = strip_textures(canvas.ctx, stock)
+        self.atlas = strip_texture(canvas.ctx, stock)
         layers = [sum(2 * len(strips.plane) for models in kinds for strips in models) for kinds in stock]
         self.first_layer = np.cumsum([0, *layers])
         self.strips = Records(canvas.ctx, STRIP, PER_ROW, rows=1024)
@@ -75,7 +75,7 @@ class StripPainter:
         sizes = [(0.0, 0.0)] * (KINDS * len(stock))
         for ring, kinds in enumerate(stock):
             for kind, models in enumerate(kinds):
-                rows, columns = models[0].rank.shape[2:]
+                rows, columns = models[0].texels.shape[2:4]
                 sizes[KINDS * ring + kind] = columns / self.atlas.width, rows / self.atlas.height
         return sizes
 
@@ -91,7 +91,6 @@ class StripPainter:
         if not count:
             return 0
         self.atlas.use(self.units["atlas"])
-        self.ranks.use(self.units["ranks"])
         self.strips.texture.use(self.units["strips"])
         self.programs[thin]["first"] = first
         self.arrays[thin].render(moderngl.TRIANGLE_STRIP, vertices=2 * self.sections + 2, instances=count)
@@ -99,4 +98,4 @@ class StripPainter:
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(*self.arrays, *self.programs, self.strips, self.atlas, self.ranks)
+        release_all(*self.arrays, *self.programs, self.strips, self.atlas)

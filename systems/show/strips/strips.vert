@@ -14,8 +14,7 @@ out float h;
 flat out float lifted;
 flat out vec3 foot_color;
 flat out vec3 rise_color;
-flat out vec3 grain_u;
-flat out vec3 grain_v;
+flat out vec3 grain;  // change of colour with the normal across the strip
 flat out float sheet;
 flat out float hidden;
 flat out float shown;
@@ -51,10 +50,8 @@ void main() {
     hidden = haze_at(middle);
     foot_color = root[k].rgb * here;
     rise_color = (tip[k].rgb - root[k].rgb) * here;
-    float c = turn == 0 ? 1.0 : turn == 2 ? -1.0 : 0.0;
-    float s = turn == 1 ? 1.0 : turn == 3 ? -1.0 : 0.0;
-    grain_u = c * grain_x[k].rgb + s * grain_z[k].rgb;
-    grain_v = c * grain_z[k].rgb - s * grain_x[k].rgb;
+    grain = abs(b.x - a.x) > abs(b.z - a.z) ? (turn < 2 ? 1.0 : -1.0) * grain_z[k].rgb
+                                            : (turn % 3 == 0 ? 1.0 : -1.0) * grain_x[k].rgb;
     shown = part3.y;
     boost = boosted(normalize(b.xz - a.xz), middle);
 #ifdef THIN
