@@ -94,7 +94,8 @@ void main() {
     place = mix(place, target.place, morph);
     tangent = mix(tangent, target.tangent, morph);
     across = mix(across, run * dot(run, across) * boosted(run, target.middle), morph);
-    color = mix(color, light(k, ripe, facing, target.middle, target.h, target.message), morph);
+    vec2 off = vec2(-run.y, run.x);  // a strip knows but the normals across it
+    color = mix(color, light(k, ripe, off * dot(off, facing), target.middle, target.h, target.message), morph);
 #endif
 #ifdef SOFT
     gl_Position = widened(place, tangent, across);
