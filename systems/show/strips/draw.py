@@ -54,7 +54,13 @@ class StripPainter:
         layers = [sum(2 * len(strips.plane) for models in kinds for strips in models) for kinds in stock]
         self.first_layer = np.cumsum([0, *layers])
         self.strips = Records(canvas.ctx, STRIP, PER_ROW, rows=1024)
-        whole = {"SECTIONS": self.sections, "RINGS": len(rings), "KINDS": KINDS, "PER_ROW": PER_ROW}
+        whole: dict[str, str | int] = {
+            "SECTIONS": self.sections,
+            "RINGS": len(rings),
+            "KINDS": KINDS,
+            "PER_ROW": PER_ROW,
+            "ATLAS": f"{self.atlas.height}.0",
+        }
         self.programs = [
             joined(
                 canvas.ctx, canvas.block, canvas.units, "systems/show/strips/strips.vert",
