@@ -186,8 +186,8 @@ def painted(one: Sample, texels: NDArray[np.uint8], /) -> Doubles:
     """Return the colours and opacity of a strip's texels (h, w, 4), shape (h, w, 4)."""
     part = texels.astype(np.float64) / 255.0
     meaning = part[..., :3] / np.maximum(part[..., 3:], 1.0 / 255.0)
-    normal = 2.0 * meaning[..., 1:] - 1.0
-    color = shade(one, meaning[..., :1], normal[..., :1], normal[..., 1:])
+    across = 2.0 * meaning[..., 1:2] - 1.0
+    color = shade(one, meaning[..., :1], np.zeros_like(across), across)
     return np.concatenate([color, part[..., 3:]], axis=2)
 
 

@@ -6,6 +6,5 @@ float share_at(ivec2 cell) {
     ivec2 apart = abs(cell - window.xy);
     if (max(apart.x, apart.y) > window.z)
         return 1.0;
-    ivec2 side = textureSize(shares, 0);
-    return texelFetch(shares, (cell + 4096 * side) % side, 0).r;
+    return textureLod(shares, (vec2(cell) + 0.5) / vec2(textureSize(shares, 0)), 0.0).r;
 }

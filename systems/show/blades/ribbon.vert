@@ -82,7 +82,8 @@ void main() {
     place = mix(place, target.place, painted.w);
     tangent = mix(tangent, target.tangent, painted.w);
     across = mix(across, run * dot(run, across) * boosted(run, target.middle), painted.w);
-    vec2 facing = normalize(vec2(lie.w, -lie.z));
+    vec2 off = vec2(-run.y, run.x);  // a strip knows but the normals across it
+    vec2 facing = off * dot(off, normalize(vec2(lie.w, -lie.z)));
     color = mix(color, painted_light(k, crown.y > 0.0 ? 1.0 : t, facing, target), painted.w);
 #endif
 #ifdef SOFT

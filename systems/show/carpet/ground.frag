@@ -29,16 +29,21 @@ vec2 spun(vec2 v, int turns) {
     return turns == 0 ? v : turns == 1 ? vec2(-v.y, v.x) : turns == 2 ? -v : vec2(v.y, -v.x);
 }
 
-// What a ray that meets the carpet here sees of one kind: from the nearest of the four sides, blended between elevations.
-vec4 carpet_image(float layer, vec2 at, vec2 heading, float slope, vec2 dx, vec2 dy) {
-    int low = 0;
-    for (int i = 1; i < SLOPES - 1; i++)
-        low = slope >= slopes[i] ? i : low;
-    float part = clamp((slope - slopes[low]) / (slopes[low + 1] - slopes[low]), 0.0, 1.0);
+// The images of a kind that a ray sees: the first of two by number, that from the nearest of the four sides; and how far
+// its elevation is on the way from the one to the other.
+vec2 images_seen(vec2 heading, float slope) {
+    float row = 0.0;
+    for (int i = 0; i < SLOPES - 1; i++)
+        row += clamp((slope - slopes[i]) / (slopes[i + 1] - slopes[i]), 0.0, 1.0);
+    float low = min(floor(row), float(SLOPES - 2));
     bool across = abs(heading.x) > abs(heading.y);
-    float image = layer + float(low * 4) + (across ? (heading.x > 0.0 ? 1.0 : 3.0) : (heading.y > 0.0 ? 2.0 : 0.0));
-    vec4 near = textureGrad(images, vec3(at, image), dx, dy), steep = textureGrad(images, vec3(at, image + 4.0), dx, dy);
-    return mix(near, steep, part);
+    return vec2(low * 4.0 + (across ? (heading.x > 0.0 ? 1.0 : 3.0) : (heading.y > 0.0 ? 2.0 : 0.0)), row - low);
+}
+
+// From a low angle a pixel is a long stripe of ground: a sharper image is nearer to how grass looks there.
+float sharper(vec2 dx, vec2 dy) {
+    float one = dot(dx, dx), other = dot(dy, dy), longer = max(one, other);
+    return sqrt(max(min(one, other) / longer, 1.0 / (STRETCH * STRETCH)));
 }
 
 const float LEAST = 0.01; // height of the carpet where nothing grows, so that nothing is divided by 0 [m]
@@ -69,26 +74,26 @@ vec2 message_at(vec2 at) {
 vec3 carpet_light(float slope) {
     ivec2 cell = ivec2(floor(place.xz / soil.w));
     uint drawn = hash3(stock.y, cell.x, cell.y);
-    int model = int(drawn % uint(stock.x)), turn = int((drawn >> 16u) % 4u);
-    vec2 at = spun(place.xz / soil.w - vec2(cell) - 0.5, (4 - turn) % 4) + 0.5;
-    vec2 dx = spun(dFdx(place.xz), (4 - turn) % 4) / soil.w, dy = spun(dFdy(place.xz), (4 - turn) % 4) / soil.w;
-    // From a low angle a pixel is a long stripe of ground: a sharper image is nearer to how grass looks there.
-    float long_side = sqrt(max(dot(dx, dx), dot(dy, dy))), short_side = sqrt(min(dot(dx, dx), dot(dy, dy)));
-    float sharper = max(short_side, long_side / STRETCH) / long_side;
-    dx *= sharper;
-    dy *= sharper;
+    int model = int(drawn % uint(stock.x)), back = int(4u - (drawn >> 16u)) & 3;
+    vec2 at = spun(place.xz / soil.w - vec2(cell) - 0.5, back) + 0.5;
+    vec2 dx = dFdx(place.xz) / soil.w, dy = dFdy(place.xz) / soil.w;
+    float fine = sharper(dx, dy);
+    dx *= fine;
+    dy *= fine;
     vec3 ray = place - eye.xyz;
     vec2 heading = ray.xz / max(length(ray.xz), 1e-4);
     float lifted = lift(message_at(place.xz), place);
     // The leaves that are seen stand deeper in the grass, where the line of sight has met enough of them.
     float deeper = min(tall * inversesqrt(max(slope, slopes[0]) * max(dense, 0.01)), 15.0);
     vec3 here = place_tone(place.xz + heading * deeper);
+    vec2 seen = images_seen(spun(heading, back), slope);
     vec4 sum = vec4(0.0);
     for (int kind = 0; kind < KINDS; kind++) {
         if (met[kind] < 0.004)
             continue;
-        float layer = first[kind] + float(model * SLOPES * 4);
-        vec4 image = carpet_image(layer, at, spun(heading, (4 - turn) % 4), max(slope, slopes[0]), dx, dy);
+        float layer = first[kind] + float(model * SLOPES * 4) + seen.x;
+        vec4 near = textureGrad(images, vec3(at, layer), dx, dy), steep = textureGrad(images, vec3(at, layer + 4.0), dx, dy);
+        vec4 image = mix(near, steep, seen.y);
         vec3 grass = root[kind].rgb * image.a + (tip[kind].rgb - root[kind].rgb) * image.r;
         float h = image.g / max(image.a, 1e-3);
         sum += met[kind] * vec4(grass * here * canopy(h, lifted), image.a);
@@ -104,8 +109,8 @@ void main() {
 #if defined(CARPET) && !defined(UNDER)
     float slope = viewing_slope(rise, place);
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / soil.w))) : 0.0;
-    color = mix(color, carpet_light(slope), share);
     covered = mix(1.0, outline_cover(slope), share);
+    color = mix(color, carpet_light(slope), share);
     if (covered < 0.004)
         discard;
 #endif

@@ -14,7 +14,7 @@ from ...frame.block import by_kind, joined
 from ...receive.hearing import Hearing
 from .gather import STOOD
 from .grow import Strips
-from .textures import strip_textures
+from .textures import strip_texture
 
 KINDS = 4
 """Kinds of grass that there is room for."""
@@ -36,13 +36,14 @@ class StripPainter:
         self.received = canvas.received
         self.sections = max(ring.sections for ring in rings)
         self.most = self.kinds * max(ring.strips * ring.columns for ring in rings)
-        self.atlas, self.ranks = strip_textures(canvas.ctx, stock)
+        self.atlas = strip_texture(canvas.ctx, stock)
         self._stock = stock
         self.stood = Records(canvas.ctx, STOOD, STOOD_ROW)
         self.strips = Records(canvas.ctx, NUMBER, STRIPS_ROW)
         laid: dict[str, str | int] = {"RINGS": len(rings), "GROWING": self.kinds, "STOOD_ROW": STOOD_ROW}
         self.hearing = Hearing(canvas, "systems/show/strips/receivers.frag", laid, self._tell)
         whole = {**laid, "SECTIONS": self.sections, "KINDS": KINDS, "STRIPS_ROW": STRIPS_ROW}
+        whole["ATLAS"] = f"{self.atlas.height}.0"
         self.programs = [
             joined(
                 canvas.ctx, canvas.block, canvas.units, "systems/show/strips/strips.vert",
@@ -69,7 +70,7 @@ class StripPainter:
         sizes = [(0.0, 0.0)] * (KINDS * len(self._stock))
         for ring, kinds in enumerate(self._stock):
             for kind, models in enumerate(kinds):
-                rows, columns = models[0].rank.shape[2:]
+                rows, columns = models[0].texels.shape[2:4]
                 sizes[KINDS * ring + kind] = columns / self.atlas.width, rows / self.atlas.height
         return sizes
 
@@ -102,7 +103,6 @@ class StripPainter:
         if not count:
             return 0
         self.atlas.use(self.units["atlas"])
-        self.ranks.use(self.units["ranks"])
         self.stood.texture.use(self.units["stood"])
         self.strips.texture.use(self.units["strips"])
         self.programs[thin]["first"] = first
@@ -111,7 +111,7 @@ class StripPainter:
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(*self.arrays, *self.programs, self.hearing, self.stood, self.strips, self.atlas, self.ranks)
+        release_all(*self.arrays, *self.programs, self.hearing, self.stood, self.strips, self.atlas)
 
 
 def tell_stacks(made: moderngl.Program, rings: Sequence[StripRing], /) -> None:

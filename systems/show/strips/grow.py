@@ -22,10 +22,7 @@ class Strips:
 
     texels: Bytes
     """Coverage-premultiplied meaning of each texel, bottom row first, shape (2, strips, h, w, 4): place along
-    the blade, face normal x and z (each as 0.5 + 0.5 n), coverage."""
-
-    rank: Bytes
-    """Rank of the blade at each texel, not premultiplied, shape (2, strips, h, w)."""
+    the blade, face normal across the strip (0.5 + 0.5 n), rank of the blade, coverage."""
 
     height: float
     """Height of the texture [m]."""
@@ -42,7 +39,6 @@ class Strips:
 
 
 _SEGMENTS = 12
-_DILATIONS = 3
 
 
 def strips_of(model: PatchModel, /) -> tuple[Strips, ...]:
@@ -69,7 +65,7 @@ def grow_strips(
     hidden by one that goes. Face normals are the blades' own, whichever side is seen: light is linear in them, so that
     the mean of many is right. The texture reaches from -`margin` to `patch` + `margin`, and from the ground to
     `height` [m] (without it, over the highest tip); its texels are square but for rounding, `texel` metres wide at
-    most. Where nothing is painted, ranks are those of what is painted nearby, or else 255.
+    most.
     """
     centre = spine(blades, postures, (0.0, 0.0), points=postures.shape.shape[2])
     height = highest_tip(centre, texel) if height is None else height
@@ -78,8 +74,7 @@ def grow_strips(
     images = [shared.draw(orientation) for orientation in (0, 1)]
     return Strips(
         plane=((np.arange(strips) + 0.5) * (patch / strips)).astype(np.float32),
-        texels=np.stack([texels for texels, _ in images]),
-        rank=np.stack([rank for _, rank in images]),
+        texels=np.stack(images),
         height=height,
         margin=margin,
         slice=np.stack([shared.slice(orientation) for orientation in (0, 1)]),
@@ -125,8 +120,8 @@ class _Sheet:
         depth = self._blades.root[:, 1 - orientation].astype(np.float64)
         return np.clip(depth / self._patch * self._strips, 0, self._strips - 1).astype(np.int32)
 
-    def draw(self, orientation: int, /) -> tuple[Bytes, Bytes]:
-        """Return the texels, shape (strips, h, w, 4), and ranks, shape (strips, h, w), of one orientation."""
+    def draw(self, orientation: int, /) -> Bytes:
+        """Return the texels of one orientation, shape (strips, h, w, 4)."""
         h, w = self._size
         fine = self._fine
         span = 2 * _SEGMENTS
@@ -138,38 +133,16 @@ class _Sheet:
         shape = self._strips * h * fine, w * fine
         front = np.repeat(-self._blades.rank.astype(np.float64), span)[:, None].repeat(3, axis=1)
         seen = rasterise(corners, front, shape=shape)
-        values = self._meaning(corners, seen)
+        values = self._meaning(corners, seen, orientation)
         texel = (seen.sample // shape[1] // fine) * w + seen.sample % shape[1] // fine
         sums = [np.bincount(texel, weights=value, minlength=self._strips * h * w) for value in values]
-        covered = sums[-1]
-        texels = np.stack([*sums[:-2], covered], axis=1) * (255.0 / fine**2)
-        rank = fill_ranks((sums[-2] / np.maximum(covered, 1.0)).reshape(-1, h, w), (covered > 0).reshape(-1, h, w))
-        return np.rint(texels).astype(np.uint8).reshape(-1, h, w, 4), rank
+        texels = np.stack(sums, axis=1) * (255.0 / fine**2)
+        return np.rint(texels).astype(np.uint8).reshape(-1, h, w, 4)
 
-    def _meaning(self, corners: Doubles, seen: Fragments, /) -> list[Doubles]:
-        """Return at each sample: place along the blade, normal x and z, rank, and 1."""
+    def _meaning(self, corners: Doubles, seen: Fragments, orientation: int, /) -> list[Doubles]:
+        """Return at each sample: place along the blade, normal across the strip, rank, and 1."""
         ends = tone(self._blades, np.linspace(0.0, 1.0, _SEGMENTS + 1))[:, :, None]
         along = interpolate(corners, ribbon_triangles(ends, ends)[:, :, 0], seen)
         facing, rank = self._blades.facing.astype(np.float64), self._blades.rank.astype(np.float64)
-        blade = seen.triangle // (2 * _SEGMENTS)
-        of_blade = (0.5 + 0.5 * np.cos(facing), 0.5 + 0.5 * np.sin(facing), rank)
-        return [along, *(values.take(blade) for values in of_blade), np.ones_like(along)]
-
-
-def fill_ranks(rank: Doubles, covered: NDArray[np.bool_], /) -> Bytes:
-    """Return ranks as bytes, spread some texels beyond what is covered; shape (strips, h, w)."""
-    value, weight = np.where(covered, rank, 0.0), covered.astype(np.float64)
-    for _ in range(_DILATIONS):
-        near, count = _neighbours(value), _neighbours(weight)
-        fresh = (weight == 0.0) & (count > 0.0)
-        value = np.where(fresh, near / np.maximum(count, 1.0), value)
-        weight = np.where(fresh, 1.0, weight)
-    return np.where(weight > 0.0, np.rint(np.clip(value, 0.0, 1.0) * 255.0), 255.0).astype(np.uint8)
-
-
-def _neighbours(value: Doubles, /) -> Doubles:
-    """Return the sum of each texel and its eight neighbours."""
-    rows = np.pad(value, ((0, 0), (1, 1), (0, 0)))
-    rows = rows[:, :-2] + rows[:, 1:-1] + rows[:, 2:]
-    columns = np.pad(rows, ((0, 0), (0, 0), (1, 1)))
-    return np.asarray(columns[:, :, :-2] + columns[:, :, 1:-1] + columns[:, :, 2:])
+        blade, across = seen.triangle // (2 * _SEGMENTS), (np.sin, np.cos)[orientation](facing)
+        return [along, (0.5 + 0.5 * across).take(blade), rank.take(blade), np.ones_like(along)]

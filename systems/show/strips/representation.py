@@ -37,7 +37,7 @@ class StripRepresentation(Representation):
     name: ClassVar[str] = "strips"
     label: ClassVar[str] = "2.5D strips"
     color: ClassVar[Color] = (0.12, 0.50, 0.98)
-    samplers: ClassVar[tuple[str, ...]] = ("atlas", "ranks", "strips", "stood")
+    samplers: ClassVar[tuple[str, ...]] = ("atlas", "strips", "stood")
     asked: ClassVar[tuple[str, ...]] = ("stood",)
     record: ClassVar[type | None] = Strips
 
@@ -79,7 +79,6 @@ class StripRepresentation(Representation):
             and strips.texels.ndim == 5
             and strips.texels.shape[:2] == (2, ring.strips)
             and strips.texels.shape[4] == 4
-            and strips.rank.shape == strips.texels.shape[:4]
             and strips.slice.shape == (2, blades)
             and strips.targets.shape == (2, blades, LINKS + 1, 2)
             for strips, ring in zip(pictures, rings, strict=True)

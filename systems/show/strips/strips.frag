@@ -1,53 +1,34 @@
 #include "lib/light.glsl"
 
-uniform sampler2DArray atlas;  // place along the blade, face normal x and z, coverage; premultiplied
-uniform sampler2DArray ranks;  // rank of the blade, premultiplied by coverage
+uniform sampler2DArray atlas;  // place along the blade, normal across the strip, rank, coverage; premultiplied
 
 in vec2 at;
 in float h;
 flat in float lifted;
 flat in vec3 foot_color;
 flat in vec3 rise_color;
-flat in vec3 grain_u;
-flat in vec3 grain_v;
+flat in vec3 grain;
+flat in vec3 veil;  // haze before it
 flat in float sheet;
-flat in float hidden;
 flat in float shown;
 flat in float boost;  // of coverage
 #ifdef THIN
-in float grows;
-flat in float below;  // rank up to which blades show, or negative: from which on
+in float grows;       // rank up to which blades grow, in steps of the softness
+flat in vec2 stays;   // what shows by rank: slope and start, 0 to 1
+flat in float sharp;  // 1 / softness
 #endif
 
 out vec4 pixel;
 
-#ifdef THIN
-// How much of a texel stays where its kind grows thinly, and where only blades of some ranks show: the others go,
-// sharply where the texel is one blade, in proportion where it is the mean of many.
-float thinned(float coverage) {
-    vec2 step = fwidth(at) * vec2(textureSize(ranks, 0).xy);
-    float soft = clamp(0.35 * log2(max(max(step.x, step.y), 1.0)), 0.06, 1.0);
-    float rank = texture(ranks, vec3(at, sheet)).r / coverage;
-    float dense = grows > 0.995 ? 1.0 : clamp((grows - rank) / soft + 0.5, 0.0, 1.0);
-    // The span must reach from below all ranks to above them, softness included.
-    float edge = mix(-0.5 * soft, 1.0 + 0.5 * soft, abs(below));
-    float over = clamp((edge - rank) / soft + 0.5, 0.0, 1.0);
-    return dense * (below < 0.0 ? 1.0 - over : over);
-}
-#endif
+const float FAINT = 0.006; // coverage that is left out: in bytes, layer upon layer, it would but be rounded up
 
 void main() {
     vec4 texel = texture(atlas, vec3(at, sheet));
-    if (texel.a < 0.008)
-        discard;
-    texel *= min(boost, 1.0 / texel.a);
-    vec2 normal = 2.0 * texel.gb / texel.a - 1.0;
-    vec3 grass = foot_color * texel.a + rise_color * texel.r;
-    grass *= (1.0 + grain_u * normal.x + grain_v * normal.y) * canopy(h, lifted);
+    vec3 mean = texel.rgb / max(texel.a, 0.002);
+    vec3 grass = (foot_color + rise_color * mean.r) * (1.0 + grain * (2.0 * mean.g - 1.0)) * canopy(h, lifted) + veil;
+    float covered = shown * min(texel.a * boost, 1.0);
 #ifdef THIN
-    float stays = shown * thinned(texel.a);
-#else
-    float stays = shown;
+    covered *= clamp(grows - mean.b * sharp, 0.0, 1.0) * clamp(stays.x * mean.b + stays.y, 0.0, 1.0);
 #endif
-    pixel = vec4(mix(grass, haze.rgb * texel.a, hidden), texel.a) * stays;
+    pixel = vec4(grass, 1.0) * (covered < FAINT ? 0.0 : covered);
 }

@@ -20,16 +20,35 @@ out float h;
 flat out float lifted;
 flat out vec3 foot_color;
 flat out vec3 rise_color;
-flat out vec3 grain_u;
-flat out vec3 grain_v;
+flat out vec3 grain;  // change of colour with the normal across the strip
 flat out float sheet;
-flat out float hidden;
+flat out vec3 veil;
 flat out float shown;
 flat out float boost;
 #ifdef THIN
 out float grows;
-flat out float below;
+flat out vec2 stays;
+flat out float sharp;
+
+// How much of a texel stays where its kind grows thinly, and where only blades of some ranks show: the others go, over a
+// span of ranks that is narrow where a texel is one blade, and wide where a pixel is the mean of many.
+void thin(float dense, float below, float texels) {
+    float soft = clamp(0.35 * log2(max(texels, 1.0)), 0.06, 1.0);
+    sharp = 1.0 / soft;
+    grows = (dense > 0.995 ? 1.0 : dense - 0.5 * soft) * sharp + 1.0;
+    // The span must reach from below all ranks to above them, softness included.
+    float edge = mix(-0.5 * soft, 1.0 + 0.5 * soft, abs(below));
+    stays = vec2(-sharp, edge * sharp + 0.5);
+    if (below < 0.0)
+        stays = vec2(0.0, 1.0) - stays;
+}
 #endif
+
+// Pixels that a metre is long on the screen, across the line of sight.
+float pixels_at(vec3 place) {
+    vec4 up = vec4(clip[0][1], clip[1][1], clip[2][1], 0.0);
+    return screen.y * length(up) / max(dot(vec4(clip[0][3], clip[1][3], clip[2][3], clip[3][3]), vec4(place, 1.0)), 0.1);
+}
 
 void main() {
     int queued = first + gl_InstanceID;
@@ -62,17 +81,18 @@ void main() {
     vec3 middle = 0.5 * (a + b);
     lifted = lift(0.5 * (told_a.xy + told_b.xy), middle);
     vec3 here = place_tone(middle.xz);
-    hidden = haze_at(middle);
+    float hidden = haze_at(middle);
+    veil = haze.rgb * hidden;
+    here *= 1.0 - hidden;
     foot_color = root[k].rgb * here;
     rise_color = (tip[k].rgb - root[k].rgb) * here;
-    float c = turn == 0 ? 1.0 : turn == 2 ? -1.0 : 0.0;
-    float s = turn == 1 ? 1.0 : turn == 3 ? -1.0 : 0.0;
-    grain_u = c * grain_x[k].rgb + s * grain_z[k].rgb;
-    grain_v = c * grain_z[k].rgb - s * grain_x[k].rgb;
+    grain = abs(b.x - a.x) > abs(b.z - a.z) ? (turn < 2 ? 1.0 : -1.0) * grain_z[k].rgb
+                                            : (turn % 3 == 0 ? 1.0 : -1.0) * grain_x[k].rgb;
     shown = how.x;
-    boost = boosted(normalize(b.xz - a.xz), middle);
+    vec2 run = normalize(b.xz - a.xz), sight = normalize(middle.xz - eye.xz);
+    boost = boosted(run, middle);
 #ifdef THIN
-    grows = told.w;
-    below = how.z;
+    float texels = picture_to[picture].y * ATLAS / tall[k] / pixels_at(middle);
+    thin(told.w, how.z, texels / abs(run.x * sight.y - run.y * sight.x));
 #endif
 }

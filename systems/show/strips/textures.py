@@ -19,32 +19,23 @@ def strip_stock(growths: Sequence[Growth], ring: int) -> list[list[Strips]]:
     return [[strips_of(model)[ring] for model in growth.models] for growth in growths]
 
 
-def strip_textures(
-    ctx: moderngl.Context, stock: Sequence[list[list[Strips]]]
-) -> tuple[moderngl.TextureArray, moderngl.TextureArray]:
-    """Return atlas and ranks: rings, kinds, models, orientations and strips are layers, in this order.
+def strip_texture(ctx: moderngl.Context, stock: Sequence[list[list[Strips]]]) -> moderngl.TextureArray:
+    """Return the atlas of all strips: rings, kinds, models, orientations and strips are layers, in this order.
 
     Pictures stand in the lower left corner of layers that are large enough for all of them.
     """
     every = [strips for kinds in stock for models in kinds for strips in models]
-    largest = np.max([strips.rank.shape[2:] for strips in every], axis=0)
-    size = -(-largest // _WHOLE) * _WHOLE
-    made = (
-        mipmapped(ctx, np.concatenate([_padded(strips.texels, size) for strips in every])),
-        mipmapped(ctx, np.concatenate([_padded(_premultiplied_rank(strips), size) for strips in every])),
+    largest = np.max([strips.texels.shape[2:4] for strips in every], axis=0)
+    texture = mipmapped(
+        ctx, np.concatenate([_padded(strips.texels, -(-largest // _WHOLE) * _WHOLE) for strips in every])
     )
-    for texture in made:
-        texture.repeat_x = texture.repeat_y = False
-    return made
-
-
-def _premultiplied_rank(strips: Strips) -> NDArray[np.uint8]:
-    coverage = strips.texels[..., 3].astype(np.float32)
-    return np.round(strips.rank * (coverage / 255.0)).astype(np.uint8)
+    texture.repeat_x = texture.repeat_y = False
+    return texture
 
 
 def _padded(texels: NDArray[np.uint8], size: NDArray[np.int64]) -> NDArray[np.uint8]:
     flat = texels.reshape(-1, *texels.shape[2:])
-    more = [(0, 0), (0, size[0] - flat.shape[1]), (0, size[1] - flat.shape[2]), (0, 0)][: flat.ndim]
-    padded: NDArray[np.uint8] = np.pad(flat, more)
+    padded: NDArray[np.uint8] = np.pad(
+        flat, [(0, 0), (0, size[0] - flat.shape[1]), (0, size[1] - flat.shape[2]), (0, 0)]
+    )
     return padded

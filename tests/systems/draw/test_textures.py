@@ -12,7 +12,7 @@ from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.show.carpet.grow import carpet_of
 from tallgrass.systems.show.carpet.textures import carpet_texture
 from tallgrass.systems.show.strips.stock import stock_strips
-from tallgrass.systems.show.strips.textures import strip_stock, strip_textures
+from tallgrass.systems.show.strips.textures import strip_stock, strip_texture
 
 
 @pytest.mark.parametrize("ring", [0, 1])
@@ -20,11 +20,10 @@ def test_g1_each_layer_is_the_strip_that_planting_reckons_with(
     ctx: moderngl.Context, growths: list[Growth], ring: int
 ) -> None:
     every = [strip_stock(growths, number) for number in (0, 1)]
-    atlas, ranks = strip_textures(ctx, every)
+    atlas = strip_texture(ctx, every)
     before = sum(2 * len(strips.plane) for kinds in every[:ring] for models in kinds for strips in models)
     width, height, layers = atlas.size
     texels = np.frombuffer(atlas.read(), np.uint8).reshape(layers, height, width, 4)
-    rank = np.frombuffer(ranks.read(alignment=1), np.uint8).reshape(layers, height, width)
     first = stock_strips(growths).first_layer[ring]
     for kind, models in enumerate(every[ring]):
         for model, strips in enumerate(models):
@@ -33,12 +32,10 @@ def test_g1_each_layer_is_the_strip_that_planting_reckons_with(
                 start = before + first[kind] + (model * 2 + orientation) * count
                 mine = slice(start, start + count)
                 np.testing.assert_array_equal(texels[mine, :h, :w], strips.texels[orientation])
-                coverage = strips.texels[orientation, ..., 3] / 255.0
-                np.testing.assert_allclose(rank[mine, :h, :w], strips.rank[orientation] * coverage, atol=0.51)
                 assert (texels[mine, h:] == 0).all()
                 assert (texels[mine, :, w:] == 0).all()
     assert (start + count == layers) == (ring == 1)
-    release_all(atlas, ranks)
+    release_all(atlas)
 
 
 def test_w3_posture_layers_hold_places_and_directions(ctx: moderngl.Context, growths: list[Growth]) -> None:
