@@ -87,9 +87,10 @@ def test_d6_the_type_checker_passes_on_the_examples_and_the_tutorial_against_the
 ) -> None:
     """As people have it who write a game: with strict rules, without our configuration and without plugins."""
     python = site.parents[2] / "bin" / "python"
-    programs = sorted([*(ROOT / "examples").glob("*.py"), *(ROOT / "examples").glob("*/*.py")])
+    programs = sorted((ROOT / "examples").rglob("*.py"))
     assert len(programs) >= 5
-    copies = [shutil.copy(program, tmp_path) for program in programs]
+    names = [path.parent.name + ".py" if path.stem == "__init__" else path.name for path in programs]
+    copies = [shutil.copy(path, tmp_path / name) for path, name in zip(programs, names, strict=True)]
     tutorial = (ROOT / "docs" / "wind-plugin.md").read_text("utf-8")
     for name, text in re.findall(
         r"^`(?:[\w-]+/)*(\w+\.py)`:\n\n```python\n(.*?)^```$", tutorial, re.MULTILINE | re.DOTALL
