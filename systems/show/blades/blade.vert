@@ -7,7 +7,7 @@
 #include "lib/received.glsl"
 
 in uint number;            // of its receiver, among those of blades
-uniform ivec2 blades_from; // the first of these receivers among all; blades on a patch
+uniform int blades_from;   // the first of these receivers among all
 uniform sampler2D blades;  // by model, quarter turn and blade: BLADE
 uniform sampler2D standing; // by patch: STANDING
 uniform float near;        // distance up to which blades hide one another by depth [m]; beyond it order alone says
@@ -44,17 +44,17 @@ out vec4 joints; // slide to those of a coarser blade; coverage from which on it
 
 void main() {
 #ifdef STORED
-    int patch_number = int(number) / blades_from.y, blade = int(number) % blades_from.y;
+    int patch_number = int(number) / EACH, blade = int(number) % EACH;
     ivec2 at = ivec2(patch_number % STANDING_ROW * 3, patch_number / STANDING_ROW);
     vec4 where = texelFetch(standing, at, 0), how = texelFetch(standing, at + ivec2(1, 0), 0);
 #ifdef MORPH
     vec4 strips = texelFetch(standing, at + ivec2(2, 0), 0);
 #endif
-    int record = int(where.z) * blades_from.y + blade;
+    int record = int(where.z) * EACH + blade;
     at = ivec2(record % BLADES_ROW * 3, record / BLADES_ROW);
     vec4 part0 = texelFetch(blades, at, 0), part1 = texelFetch(blades, at + ivec2(1, 0), 0);
     vec4 part2 = texelFetch(blades, at + ivec2(2, 0), 0);
-    vec4 told = received_by(blades_from.x + int(number));
+    vec4 told = received_by(blades_from + int(number));
     vec3 root_at = vec3(part0.x + where.x * soil.w, told.z, part0.z + where.y * soil.w);
     float height = part0.w, width = part2.x, variant = part2.y, stem = part2.w;
     vec2 rest = part1.xy, facing = part1.zw, message = told.xy;
@@ -82,7 +82,7 @@ void main() {
 #ifdef MORPH
     int ring = int(strips.x), model = int(where.z) / 4, turn = int(where.z) % 4, along = int(how.w);
     int own = (along + turn) % 2, count = stacks[ring].z, columns = stacks[ring].x;
-    int row = (model * 2 + own) * blades_from.y + blade, slice = ring * models * 2 * blades_from.y + row;
+    int row = (model * 2 + own) * EACH + blade, slice = ring * models * 2 * EACH + row;
     int plane = int(texelFetch(slices, ivec2(slice % SLICES_ROW, slice / SLICES_ROW), 0).r);
     int strip = k * count + stacked(plane, count, own, along, turn);
     vec2 first = edge_foot(where.xy, turn, own, plane, count, 0, columns, margin[k]);

@@ -68,7 +68,6 @@ class BladesPainter:
         """Tell a program what it has to know of blades and of strips."""
         kinds = self._strips.stock.strips[0]
         for name, value in (
-            ("each", self.store.count),
             ("near", self._near),
             ("models", self._models),
             ("margin", by_kind([strips.margin for strips in kinds])),
@@ -111,7 +110,7 @@ class BladesPainter:
         self.standing.texture.use(self._units["standing"])
         self.store.slices.use(self._units["slices"])
         for made in self.passes:
-            made["blades_from"] = self._first, self.store.count
+            made["blades_from"] = self._first
         calls = first = 0
         for ribbons, count in zip((self.morph, *self.rings), self._counts, strict=True):
             calls += ribbons.fill(self.arrays[ribbons is self.morph], count, first=first)

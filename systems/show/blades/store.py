@@ -52,6 +52,7 @@ class BladeStore:
             "SLICES_ROW": SLICES_ROW,
             "TARGETS_ROW": TARGETS_ROW,
             "POINTS": self.points,
+            "EACH": self.count,
         }
 
     def release(self) -> None:
