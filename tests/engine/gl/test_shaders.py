@@ -33,7 +33,8 @@ def library(monkeypatch: pytest.MonkeyPatch) -> dict[str, list[str]]:
 
 def test_there_are_shaders_to_try() -> None:
     assert {
-        "systems/show/blades/blades.vert",
+        "systems/show/blades/blade.vert",
+        "systems/show/blades/ribbon.vert",
         "systems/show/blades/blades.frag",
         "systems/show/strips/strips.vert",
         "systems/show/strips/strips.frag",
