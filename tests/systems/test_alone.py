@@ -80,7 +80,7 @@ def test_plant_stands_blades_where_their_patch_is_and_makes_their_receivers_enti
     systems_on(SITE, [outlook], world).run(last=Phase.SEE)
     Plant([outlook], SITE.representations, world).run()
     shown, pool = outlook.shown["blades"].standing, outlook.kept["blades"].pool
-    away = pool.place[shown.slots] - outlook.patches.middle[shown.rows][:, None]
+    away = pool.places(shown.slots) - outlook.patches.middle[shown.rows][:, None]
     assert np.abs(away).max() <= PATCH / 2 + 1e-4
     blades = [receivers for _, receivers in world.all(Receivers) if receivers.representation == "blades"]
     assert len(blades) == len(shown.rows)

@@ -80,7 +80,7 @@ def test_each_viewer_has_patches_and_pools_of_its_own(laid: Laid) -> None:
     assert (one.patches.viewer, other.patches.viewer) == ("left", "right")
     assert list(one.kept) == list(other.kept) == list(NAMES)
     assert not np.shares_memory(one.patches.cell, other.patches.cell)
-    assert not np.shares_memory(one.kept["blades"].pool.place, other.kept["blades"].pool.place)
+    assert not np.shares_memory(one.kept["blades"].pool.present, other.kept["blades"].pool.present)
     for name in NAMES:
         for mine, theirs in zip(one.kept[name].receiving, other.kept[name].receiving, strict=True):
             assert mine.pool is not theirs.pool

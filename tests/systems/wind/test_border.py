@@ -108,7 +108,7 @@ def put_together(flat: Seen) -> list[tuple[int, NDArray[np.intp]]]:
         assert edges[:, 0].min() < BORDER < edges[:, 0].max()
         rows = np.flatnonzero(kind == number)[: len(edges)]
         assert len(rows) == len(edges) >= 9
-        blades.place[at_blade, rows] = edges
+        blades.x[at_blade, rows], blades.z[at_blade, rows] = edges.T
         told.append((number, rows))
     return told
 
