@@ -29,7 +29,7 @@ class Air:
         `first` is the number of the first of them among all receivers.
         """
         array = self.hearing.array()
-        if "around" in array.program:  # a driver leaves out what nothing depends on where there is no wind
+        if "around" in array.program:  # where nothing blows, it does not matter where one is
             array.program["around"] = int(centre[0]), int(centre[1]), self.side, first
         self._target.use()
         array.render(moderngl.TRIANGLES, vertices=3)
