@@ -5,11 +5,12 @@ import numpy as np
 from tallgrass.components.patch import Lod, Patch
 from tallgrass.components.receivers import Receivers
 from tallgrass.components.viewer import Viewer
+from tallgrass.components.wind import WindSource
 from tallgrass.engine.schedule import Phase
 from tallgrass.engine.world import World
 from tallgrass.systems.around.clearing import Clearings
 from tallgrass.systems.around.window import window_rows
-from tallgrass.systems.blow import Blow
+from tallgrass.systems.blow import Blow, hearing
 from tallgrass.systems.cull import Cull
 from tallgrass.systems.entities import PatchEntities
 from tallgrass.systems.gather import Gather
@@ -18,8 +19,10 @@ from tallgrass.systems.plant import Plant
 from tallgrass.systems.see import See
 from tallgrass.systems.tile import Tile
 from tallgrass.systems.transition import Transition
-from tallgrass.systems.wind.blow import ReceiverArrays
-from tallgrass.testing import little_site, looking, systems_on, viewer_on
+from tallgrass.systems.wind.blow import ReceiverArrays, blowing
+from tallgrass.systems.wind.breeze import Breeze
+from tallgrass.systems.wind.quarantine import Quarantine
+from tallgrass.testing import little_site, look, looking, systems_on, viewer_on
 
 SITE = little_site()
 PATCH = SITE.ground.patch
@@ -77,22 +80,29 @@ def test_plant_stands_blades_where_their_patch_is_and_makes_their_receivers_enti
     systems_on(SITE, [outlook], world).run(last=Phase.SEE)
     Plant([outlook], SITE.representations, world).run()
     shown, pool = outlook.shown["blades"].standing, outlook.kept["blades"].pool
-    away = pool.place[shown.slots] - outlook.patches.middle[shown.rows][:, None]
+    away = pool.places(shown.slots) - outlook.patches.middle[shown.rows][:, None]
     assert np.abs(away).max() <= PATCH / 2 + 1e-4
     blades = [receivers for _, receivers in world.all(Receivers) if receivers.representation == "blades"]
     assert len(blades) == len(shown.rows)
 
 
-def test_wind_brings_every_receiver_that_is_shown_what_it_hears(world: World) -> None:
+def test_wind_tells_which_winds_act_and_what_receivers_hear_that_a_game_asks_for(world: World) -> None:
     def eastwards(receivers: ReceiverArrays, /, *, time: float) -> np.ndarray[tuple[int, ...], np.dtype[np.float32]]:
         return np.tile(np.array([0.5 + time, 0.0], np.float32), (len(receivers.place), 1))
 
     outlook = viewer_on(SITE, world)
-    systems_on(SITE, [outlook], world).run(last=Phase.SEE)
-    Blow([outlook], eastwards, SITE.growths, PATCH, margin=0.5).run()
-    for kept in outlook.kept.values():
-        for receiving in kept.receiving:
-            assert (receiving.pool.message[receiving.slots] == (0.5, 0.0)).all()
+    look(outlook, SITE, time=0.25)
+    systems = systems_on(SITE, [outlook], world)
+    systems.run(last=Phase.SEE)
+    systems.step("plant")
+    asked = [receiving.letters.ask(int(receiving.slots[0])) for receiving in hearing(outlook)]
+    source = WindSource(Breeze(), "breeze")
+    now = blowing([source], Quarantine(), time=0.25, seed=1)
+    Blow([outlook], lambda time: now if time == 0.25 else [], eastwards, SITE.growths).run()
+    assert (list(outlook.winds), outlook.blown_at) == (now, 0.25)
+    for message, receiving in zip(asked, hearing(outlook), strict=True):
+        assert (message == (0.75, 0.0)).all()
+        assert (receiving.letters.heard(receiving.slots) == (0.75, 0.0)).all()
     assert outlook.heard > 1000
 
 

@@ -50,13 +50,17 @@ def strips(outlook: Outlook) -> list[tuple[StripPool, StripsOfRing]]:
     return list(zip(outlook.kept["strips"].pools, outlook.shown["strips"].rings, strict=True))
 
 
-def of_ring(outlook: Outlook, number: int, *, receiver: int = 0) -> NDArray[np.void]:
-    """The patches of one ring, their receivers from a number on."""
-    pool, shown = strips(outlook)[number]
+def gathered(outlook: Outlook, *, first: int = 0) -> tuple[NDArray[np.void], NDArray[np.float32]]:
+    """The patches of all rings, ring after ring, and the feet of all edges, whose numbers begin with `first`."""
+    receivers, feet, start = [], [], first
+    for pool, ring in strips(outlook):
+        feet.append(pool.places(ring.slots).reshape(-1, 2))
+        receivers.append((start, len(feet[-1]) // len(ring.rows)))
+        start += len(feet[-1])
     assert outlook.appearance is not None
-    return gather_strips(
-        pool, shown, outlook.appearance, outlook.patches, outlook.viewer.centre, ring=number, receiver=receiver
-    )
+    shown = [ring for _, ring in strips(outlook)]
+    stood = gather_strips(shown, receivers, outlook.appearance, outlook.patches, outlook.viewer.centre)
+    return stood, np.concatenate(feet)
 
 
 @dataclass
@@ -88,17 +92,13 @@ def polygons(numbers: NDArray[np.uint32], stood: NDArray[np.void], *, most: int 
 
 def drawn(outlook: Outlook) -> tuple[Polygons, NDArray[np.void], NDArray[np.float32]]:
     """All polygon strips in the order in which they are drawn, the patches that they are on, and all edges' feet."""
-    rings, stood, feet, first = strips(outlook), [], [], 0
-    for number, (pool, ring) in enumerate(rings):
-        stood.append(of_ring(outlook, number, receiver=first))
-        feet.append(pool.places(ring.slots).reshape(-1, 2))
-        first += len(feet[-1])
+    rings, (stood, feet) = strips(outlook), gathered(outlook)
     patch = np.argsort(np.concatenate([ring.queue for _, ring in rings]))
     present = np.concatenate([pool.present[ring.slots] for pool, ring in rings])[patch]
-    numbers, amount = polygon_strips(np.concatenate(stood), patch, present, FINENESS, most=ROOM)
-    found = polygons(numbers, np.concatenate(stood))
+    numbers, amount = polygon_strips(stood, patch, present, FINENESS, most=ROOM)
+    found = polygons(numbers, stood)
     np.testing.assert_array_equal(found.patch, np.repeat(patch, amount))
-    return found, np.concatenate(stood), np.concatenate(feet)
+    return found, stood, feet
 
 
 def test_t5_along_any_ray_from_the_eye_strips_are_drawn_from_far_to_near(outlook: Outlook) -> None:
@@ -169,24 +169,24 @@ def test_g3_neighbouring_polygons_of_a_strip_follow_one_another_and_share_their_
 
 def test_g1_strips_are_told_the_model_and_the_turn_of_their_patch_and_how_they_run(outlook: Outlook) -> None:
     patches, centre = outlook.patches, outlook.viewer.centre
-    for number, (_, ring) in enumerate(strips(outlook)):
-        stood = of_ring(outlook, number)
-        stand = stood["stand"].astype(int)
-        np.testing.assert_array_equal(stood["cell"], patches.cell[ring.rows])
-        np.testing.assert_array_equal(stood["model"], patches.model[ring.rows])
-        np.testing.assert_array_equal(stand % 4, patches.turn[ring.rows])
-        np.testing.assert_array_equal(stand // 4 % 2, ring.along)
-        np.testing.assert_array_equal(stand // 16, number)
-        away = np.where(ring.along == 0, *(patches.cell[ring.rows] - centre).T[::-1])
-        np.testing.assert_array_equal(stand // 8 % 2, away > 0)
-        assert set(patches.turn[ring.rows].tolist()) == {0, 1, 2, 3}
-        assert set(ring.along.tolist()) == {0, 1}
+    stood, _ = gathered(outlook)
+    rings = [ring for _, ring in strips(outlook)]
+    rows, along = (np.concatenate([getattr(ring, name) for ring in rings]) for name in ("rows", "along"))
+    stand = stood["stand"].astype(int)
+    np.testing.assert_array_equal(stood["cell"], patches.cell[rows])
+    np.testing.assert_array_equal(stood["model"], patches.model[rows])
+    np.testing.assert_array_equal(stand % 4, patches.turn[rows])
+    np.testing.assert_array_equal(stand // 4 % 2, along)
+    away = np.where(along == 0, *(patches.cell[rows] - centre).T[::-1])
+    np.testing.assert_array_equal(stand // 8 % 2, away > 0)
+    np.testing.assert_array_equal(stand // 16, np.repeat([0, 1], [len(ring.rows) for ring in rings]))
+    assert set((stand % 16).tolist()) == set(range(16)), "all ways to stand"
 
 
-def test_w1_the_receivers_of_the_patches_of_a_ring_follow_one_another(outlook: Outlook) -> None:
-    for number, (pool, ring) in enumerate(strips(outlook)):
-        every = np.arange(len(ring.rows)) * int(np.prod(pool.shape))
-        np.testing.assert_array_equal(of_ring(outlook, number, receiver=7168)["receiver"], 7168 + every)
+def test_w1_the_receivers_of_patches_follow_one_another_from_the_first_of_their_ring(outlook: Outlook) -> None:
+    numbers = gathered(outlook, first=7168)[0]["receiver"].astype(int)
+    every = [np.full(len(ring.rows), np.prod(pool.shape)) for pool, ring in strips(outlook)]
+    np.testing.assert_array_equal(numbers, 7168 + np.cumsum([0, *np.concatenate(every)])[:-1])
 
 
 def test_a_kind_that_does_not_grow_on_a_patch_is_not_gathered_there(laid: Laid, look: Look) -> None:
@@ -210,8 +210,7 @@ def placed(outlook: Outlook, numbers: NDArray[np.uint32]) -> NDArray[np.float32]
     """Where the blades of these numbers stand, counted among all patches with blades, shape (n, 2)."""
     standing: Standing = outlook.shown["blades"].standing
     patch, blade = np.divmod(numbers.astype(np.int64), 42)
-    found: NDArray[np.float32] = blades(outlook)[0].place[standing.slots[patch], blade]
-    return found
+    return np.asarray(blades(outlook)[0].places(standing.slots)[patch, blade])
 
 
 def test_g1_every_blade_that_grows_on_the_patches_of_a_ring_is_gathered_once(laid: Laid, look: Look) -> None:

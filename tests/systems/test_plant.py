@@ -111,12 +111,12 @@ def test_t1_roots_stand_exactly_on_the_bilinear_terrain_on_slopes_too(growths: l
     root = standing(growths, hills)[1]["root"].reshape(-1, 3)
     np.testing.assert_array_equal(root[:, 1], height_at(hills, np.ascontiguousarray(root[:, ::2])))
     np.testing.assert_allclose(root[:, 1], bilinear(hills, root[:, ::2]), atol=2e-5)
-    np.testing.assert_array_equal(root[:, ::2], planted(growths, hills).place[SLOTS].reshape(-1, 2))
+    np.testing.assert_array_equal(root[:, ::2], planted(growths, hills).places(SLOTS).reshape(-1, 2))
     assert np.ptp(root[:, 1]) > 3.0
 
 
 def test_t1_every_root_lies_in_its_own_patch(growths: list[Growth], hills: Terrain) -> None:
-    place = planted(growths, hills).place[SLOTS]
+    place = planted(growths, hills).places(SLOTS)
     low = CELLS[:, None] * PATCH
     assert ((place >= low - 1e-5) & (place <= low + PATCH + 1e-5)).all()
 
@@ -218,6 +218,6 @@ def test_strips_know_where_their_kind_does_not_grow_and_where_it_is_thin(growths
 def test_only_the_slots_that_are_named_are_planted(growths: list[Growth], hills: Terrain) -> None:
     pool = planted(growths, hills)
     rest = np.setdiff1d(np.arange(16), SLOTS)
-    assert (pool.place[rest] == 0.0).all()
+    assert (pool.places(rest) == 0.0).all()
     assert not pool.present[rest].any()
     np.testing.assert_array_equal(pool.stamp[SLOTS], CELLS)

@@ -102,21 +102,20 @@ def test_t2_only_patches_in_the_view_cone_are_shown(site: Site, look: Look) -> N
 
 def test_only_what_is_new_is_planted(site: Site, look: Look) -> None:
     outlook = look(site, 1.0, 1.0)
-    marks = [pool.place if isinstance(pool, BladePool) else pool.least for pool, _ in pooled(outlook)]
+    marks = [pool.present for pool, _ in pooled(outlook)]
     stamps = [pool.stamp.copy() for pool, _ in pooled(outlook)]
     for mark in marks:
-        mark[:] = 99.0
+        mark[:] = False
     look(site, 1.0, 1.0)
-    assert all((mark == 99.0).all() for mark in marks)
+    assert not any(mark.any() for mark in marks)
     look(site, 1.0 + 2.5, 1.0, jumped=True)
     for (pool, shown), mark, before in zip(pooled(outlook), marks, stamps, strict=True):
         fresh = (pool.stamp[shown.slots] != before[shown.slots]).any(axis=1)
-        planted = (mark[shown.slots] != 99.0).reshape(len(fresh), -1).any(axis=1)
-        np.testing.assert_array_equal(planted, fresh)
+        np.testing.assert_array_equal(mark[shown.slots].any(axis=1), fresh)
         assert 0 < fresh.sum() < len(fresh)
     (_, shown), *_ = pooled(outlook)
     near = outlook.patches.cell[shown.rows, 0] == 3
-    np.testing.assert_array_equal((marks[0][shown.slots] != 99.0).any(axis=(1, 2)), near)
+    np.testing.assert_array_equal(marks[0][shown.slots].any(axis=1), near)
 
 
 def test_every_shown_slot_holds_its_own_patch_wherever_the_viewer_walks(site: Site, look: Look) -> None:
@@ -191,10 +190,11 @@ def test_w1_receivers_hear_the_instant_that_the_viewer_sees(site: Site, look: Lo
 def test_w1_the_same_place_gets_the_same_message_in_blades_and_strips(site: Site, look: Look, wind: Wind) -> None:
     hear = wind(WIND, time=5.0)
     outlook = look(site, 1.0, 1.0, hear=hear)
-    (blade, near), (edge, far), *_ = pooled(outlook)
+    (_, near), (edge, far), *_ = pooled(outlook)
     to_blades, to_edges, _ = receiving(outlook)
+    blade: BladePool = outlook.kept["blades"].pool
     at_blade, at_edge = near.slots[:1], far.slots[:1]
-    blade.place[at_blade, :6] = edge.places(at_edge)[0, 0].reshape(-1, 2)[:6]
+    blade.x[at_blade, :6], blade.z[at_blade, :6] = edge.places(at_edge)[0, 0].reshape(-1, 2)[:6].T
     edges = to_edges.letters.heard(at_edge)[:6]
     assert np.linalg.norm(edges, axis=1).min() > 0.1
     np.testing.assert_array_equal(to_blades.letters.heard(at_blade)[:6], edges)

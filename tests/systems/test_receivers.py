@@ -155,7 +155,8 @@ def test_d2_what_receivers_hear_is_read_from_their_component(
     for _, receivers in found:
         alone = places_alone(receivers.place, grass_of(site.growths, receivers.kind))
         np.testing.assert_array_equal(receivers.message, hear(alone, time=0.0))
-    where = {tuple(place) for place in outlook.kept["blades"].pool.place.reshape(-1, 2).tolist()}
+    near = outlook.kept["blades"].receiving[0]
+    where = {tuple(place) for place in near.pool.places(near.slots).reshape(-1, 2).tolist()}
     for _, receivers in of(world, "blades"):
         assert {tuple(place) for place in receivers.place.tolist()} <= where
 

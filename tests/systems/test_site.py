@@ -66,10 +66,12 @@ def test_pools_have_room_for_all_that_can_be_shown_at_once(laid: Laid) -> None:
     pool, pools = outlook.kept["blades"].pool, outlook.kept["strips"].pools
     assert pool.side == 2 * (blades + SLACK + ROOM) + 1
     assert [each.side for each in pools] == [2 * (strips + SLACK + ROOM) + 1] * 2
-    assert pool.blade.shape == (pool.side**2, 30 + 12)
-    assert [each.layer.shape[1:] for each in pools] == [(2, 3), (2, 2)]
-    assert [each.place.shape[3] for each in pools] == [3, 2]
-    assert outlook.kept["carpet"].pool.message.shape == (outlook.patches.side**2, 1, 2)
+    assert (pool.slots, pool.shape) == (pool.side**2, (30 + 12,))
+    assert [(each.slots, each.shape) for each in pools] == [
+        (2 * each.side**2, (2, strips, edges)) for each, strips, edges in zip(pools, (3, 2), (3, 2), strict=True)
+    ]
+    over = outlook.kept["carpet"].pool
+    assert (over.slots, over.shape) == (outlook.patches.side**2, (1,))
 
 
 def test_each_viewer_has_patches_and_pools_of_its_own(laid: Laid) -> None:
@@ -78,9 +80,13 @@ def test_each_viewer_has_patches_and_pools_of_its_own(laid: Laid) -> None:
     assert (one.patches.viewer, other.patches.viewer) == ("left", "right")
     assert list(one.kept) == list(other.kept) == list(NAMES)
     assert not np.shares_memory(one.patches.cell, other.patches.cell)
+    assert not np.shares_memory(one.kept["blades"].pool.present, other.kept["blades"].pool.present)
     for name in NAMES:
         for mine, theirs in zip(one.kept[name].receiving, other.kept[name].receiving, strict=True):
-            assert not np.shares_memory(mine.pool.message, theirs.pool.message)
+            assert mine.pool is not theirs.pool
+            mine.letters.ask(0)[:] = (0.0, 0.5)
+            assert mine.letters.busy
+            assert not theirs.letters.busy
 
 
 def test_the_finest_level_is_the_most_segments_of_any_ring(laid: Laid) -> None:

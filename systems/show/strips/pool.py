@@ -49,8 +49,10 @@ class StripPool:
 
     def __post_init__(self) -> None:
         slots = 2 * self.side * self.side
+        stamp = np.full((slots, 3), NOWHERE, np.int32)
+        stamp[:, 2] = 0  # so that it can be asked where anything is, planted or not
         for name, value in (
-            ("stamp", np.full((slots, 3), NOWHERE, np.int32)),
+            ("stamp", stamp),
             ("stand", np.zeros((slots, 2), np.int32)),
             ("present", np.zeros((slots, len(self.strips)), np.bool_)),
             ("least", np.zeros(slots, np.float32)),

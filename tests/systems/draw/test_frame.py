@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 from tallgrass.engine.camera import Camera, View, projection_matrix, view_matrix, view_of
 from tallgrass.systems.frame.block import FRAME, FrameBlock, aim, by_kind, frame_record
 from tallgrass.systems.painter import UNITS
-from tallgrass.systems.show.blades.draw import MOVED, BladePainter
+from tallgrass.systems.show.blades.draw import MESSAGE, BladePainter
 from tallgrass.systems.show.blades.pool import BLADE
-from tallgrass.systems.show.strips.draw import STRIP
+from tallgrass.systems.show.blades.store import STANDING
+from tallgrass.systems.show.strips.gather import STOOD
 from tallgrass.systems.site import Site
 
 Laid = Callable[..., Site]
@@ -85,20 +86,20 @@ def test_figures_by_kind_fill_a_vector_of_four() -> None:
     assert by_kind([1.0, 2.0]) == (1.0, 2.0, 0.0, 0.0)
 
 
-@pytest.mark.parametrize("soft", [True, False])
-def test_every_field_of_a_blade_is_an_attribute_of_its_shader(
-    ctx: moderngl.Context, block: FrameBlock, *, soft: bool
-) -> None:
-    painter = BladePainter(ctx, block, 3, UNITS, soft=soft)
+def test_every_field_of_a_blade_is_an_attribute_of_its_shader(ctx: moderngl.Context, block: FrameBlock) -> None:
+    painter = BladePainter(ctx, block, 3, UNITS)
     names = {name for name in painter.program if isinstance(painter.program[name], moderngl.Attribute)}
-    expected = {*(BLADE.names or ()), *(MOVED.names or ())} - {"root"} | {"root_at"}
+    expected = {*(BLADE.names or ()), *(MESSAGE.names or ())} - {"root"} | {"root_at"}
     assert names - {"gl_VertexID"} == expected
     painter.release()
 
 
-def test_a_polygon_strip_is_four_texels_of_four_floats() -> None:
-    assert STRIP.itemsize == 4 * 16
-    assert all(STRIP[name].base == np.float32 for name in STRIP.names or ())
+@pytest.mark.parametrize(
+    ("record", "texels"), [(BLADE, 3), (STANDING, 3), (STOOD, 2)], ids=["blade", "blades", "strips"]
+)
+def test_a_record_of_the_stores_is_as_many_texels_as_its_shaders_read(record: np.dtype[np.void], texels: int) -> None:
+    assert record.itemsize == texels * 4 * 4
+    assert all(record[name].base == np.float32 for name in record.names or ())
 
 
 matrices = st.lists(st.floats(-10, 10, width=32), min_size=16, max_size=16)

@@ -53,6 +53,11 @@ def test_n8_the_index_is_read_from_the_colour() -> None:
     assert apart.min() > 0.15
 
 
+def bent(angle: float) -> Floats:
+    """A message in a direction [rad]."""
+    return np.array([np.cos(angle), np.sin(angle)], np.float32) * np.float32(0.5)
+
+
 def scattered(count: int = 40000) -> Floats:
     return np.random.default_rng(3).uniform(-60.0, 60.0, (count, 2)).astype(np.float32)
 
@@ -86,18 +91,18 @@ def test_n8_ground_that_faces_away_has_no_arrows() -> None:
     assert np.abs(place[rows, 0]).max() < 5.0
 
 
-def test_n8_arrows_are_read_from_the_pools(laid: Laid, look: Look) -> None:
-    site = laid()
-    outlook = look(site, 0.0, 0.0)
+def test_n8_arrows_are_what_receivers_have_been_told_whoever_has_told_them(laid: Laid, look: Look) -> None:
+    site, angles = laid(), (0.3, 1.3, 2.3)
+    outlook = look(site, 0.0, 0.0, hear=lambda heard, **_: np.full_like(heard.place, bent(0.3)))
     kept, shown = outlook.kept, outlook.shown
-    pools = (kept["blades"].pool, *kept["strips"].pools)
     rings = (shown["blades"].standing, *shown["strips"].rings)
-    for pool, angle in zip(pools, (0.3, 1.3, 2.3), strict=True):
-        pool.message[...] = np.array([np.cos(angle), np.sin(angle)]) * 0.5
+    for receiving, angle in zip(kept["strips"].receiving, angles[1:], strict=True):
+        for slot in receiving.slots.tolist():
+            receiving.letters.ask(slot)[:] = bent(angle)
     place, message = felt(outlook)
     assert len(place) > 1000
     reach = site.ground.patch * 0.5 + site.representations[1].margin() + 1e-3
-    for ring, angle in zip(rings, (0.3, 1.3, 2.3), strict=True):
+    for ring, angle in zip(rings, angles, strict=True):
         here = place[np.abs(np.arctan2(message[:, 1], message[:, 0]) - angle) < 1e-3]
         middles = (outlook.patches.cell[ring.rows] + 0.5) * site.ground.patch
         assert len(here) > len(middles) > 0
@@ -106,7 +111,7 @@ def test_n8_arrows_are_read_from_the_pools(laid: Laid, look: Look) -> None:
     marks = arrow_marks(outlook, site.ground.terrain)
     runs = (marks.lines["b"] - marks.lines["a"])[: len(marks.lines) // 6, ::2]
     found = np.unique(np.arctan2(runs[:, 1], runs[:, 0]).round(2))
-    assert found == pytest.approx([0.3, 1.3, 2.3])
+    assert found == pytest.approx(angles)
 
 
 def test_n8_only_grass_that_grows_has_arrows(laid: Laid, look: Look) -> None:

@@ -11,12 +11,9 @@ from tallgrass.components.wind import Mixing, WindPrimitive
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.world import World
 from tallgrass.systems.around.outlook import Outlook
-from tallgrass.systems.blow import Blow, Hear
+from tallgrass.systems.around.receivers import Receiving
+from tallgrass.systems.blow import Blow, Hear, receivers_shown
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.show.blades.pool import BladePool
-from tallgrass.systems.show.blades.shown import Standing
-from tallgrass.systems.show.strips.pool import StripPool
-from tallgrass.systems.show.strips.shown import StripsOfRing
 from tallgrass.systems.site import Site
 from tallgrass.systems.wind.blast import Blast, Shape
 from tallgrass.systems.wind.blow import ReceiverArrays
@@ -53,20 +50,15 @@ def flat(laid: Laid, look: Look) -> Seen:
     return site, look(site, 1.0, 1.0)
 
 
-def pooled(outlook: Outlook) -> list[tuple[BladePool | StripPool, Standing | StripsOfRing]]:
-    """What is shown of blades and strips, each with the pool that holds it."""
-    kept, shown = outlook.kept, outlook.shown
-    return [
-        (kept["blades"].pool, shown["blades"].standing),
-        *zip(kept["strips"].pools, shown["strips"].rings, strict=True),
-    ]
+def pooled(outlook: Outlook) -> list[Receiving]:
+    """What receives of blades and of each ring of strips."""
+    return [*outlook.kept["blades"].receiving, *outlook.kept["strips"].receiving]
 
 
 def blow(flat: Seen, hear: Hear) -> None:
     """Let everything that is seen hear."""
     site, outlook = flat
-    margin = max(representation.margin() for representation in site.representations)
-    Blow([outlook], hear, site.growths, site.ground.patch, margin).run()
+    Blow([outlook], lambda _: (), hear, site.growths).run()
 
 
 def at_time(winds: Winds, time: float) -> Hear:
@@ -92,33 +84,31 @@ def slots_at_the_border(flat: Seen) -> tuple[int, int]:
     """The slots of two patches that meet at the border: one of blades, one of strips."""
     patches = flat[1].patches
 
-    def slot(shown: Standing | StripsOfRing, cell: tuple[int, int]) -> int:
-        (found,) = np.flatnonzero((patches.cell[shown.rows] == cell).all(axis=1))
-        return int(shown.slots[found])
+    def slot(receiving: Receiving, cell: tuple[int, int]) -> int:
+        (found,) = np.flatnonzero((patches.cell[receiving.rows] == cell).all(axis=1))
+        return int(receiving.slots[found])
 
     for cell, name in (((2, 0), "blades"), ((3, 0), "strips")):
         (number,) = patches.representation[(patches.cell == cell).all(axis=1)]
         assert patches.names[number] == name
-    (_, near), (_, far), *_ = pooled(flat[1])
+    near, far, *_ = pooled(flat[1])
     return slot(near, (2, 0)), slot(far, (3, 0))
 
 
 def put_together(flat: Seen) -> list[tuple[int, NDArray[np.intp]]]:
-    """Put blades and strip edges in the same places on both sides of the border; return the blades' rows by kind."""
+    """Put blades where strip edges are, on both sides of the border; return the blades' rows by kind."""
     site, outlook = flat
-    (blades, _), (strips, _), *_ = pooled(outlook)
+    blades, strips = outlook.kept["blades"].pool, outlook.kept["strips"].pools[0]
     at_blade, at_edge = slots_at_the_border(flat)
-    margin = max(representation.margin() for representation in site.representations)
     kind = blades.kind(np.array([at_blade]))
-    assert margin > 0.05
+    strips.stamp[at_edge, 2] = 0  # as if they ran across the border
     told = []
     for number in range(len(site.growths)):
-        edges = strips.place[at_edge, number].reshape(-1, 2)
+        edges = strips.places(np.array([at_edge]))[0, number].reshape(-1, 2)
+        assert edges[:, 0].min() < BORDER < edges[:, 0].max()
         rows = np.flatnonzero(kind == number)[: len(edges)]
         assert len(rows) == len(edges) >= 9
-        edges[:, 0] = BORDER + np.linspace(-margin, margin, len(edges))
-        edges[:, 1] = np.linspace(0.1, 2.4, len(edges))
-        blades.place[at_blade, rows] = edges
+        blades.x[at_blade, rows], blades.z[at_blade, rows] = edges.T
         told.append((number, rows))
     return told
 
@@ -129,12 +119,13 @@ def test_w5_a_wind_across_a_border_of_representations_bends_both_sides_alike(
     world: World, flat: Seen, winds: list[WindPrimitive], mixing: Mixing
 ) -> None:
     pairs = put_together(flat)
-    at_blade, at_edge = slots_at_the_border(flat)
-    (blades, _), (strips, _), *_ = pooled(flat[1])
+    slots = slots_at_the_border(flat)
     blown(world, flat, winds, mixing)
+    blades, strips = (
+        receiving.letters.heard(np.array([slot])) for receiving, slot in zip(pooled(flat[1])[:2], slots, strict=True)
+    )
     for number, rows in pairs:
-        blade = blades.message[at_blade, rows]
-        edge = strips.message[at_edge, number].reshape(-1, 2)
+        blade, edge = blades[rows], strips.reshape(len(pairs), -1, 2)[number]
         index, other = np.linalg.norm(blade, axis=1), np.linalg.norm(edge, axis=1)
         assert index.max() > 0.1
         np.testing.assert_allclose(index, other, atol=1e-5)
@@ -150,24 +141,20 @@ def test_n4_what_is_asked_of_the_wind_is_what_receivers_of_that_kind_hold(
     world: World, flat: Seen, winds: list[WindPrimitive], mixing: Mixing
 ) -> None:
     site, outlook = flat
+    asked = [(receiving, receiving.letters.ask(int(receiving.slots[0]))) for receiving in pooled(outlook)]
     made = blown(world, flat, winds, mixing)
-    for pool, shown in pooled(outlook):
-        kind = pool.kind(shown.slots)
-        place, message = pool.place[shown.slots].reshape(-1, 2), pool.message[shown.slots].reshape(-1, 2)
+    for receiving, first in asked:
+        pool, slots = receiving.pool, receiving.slots
+        kind, place, message = pool.kind(slots), pool.places(slots).reshape(-1, 2), receiving.letters.heard(slots)
         for number in range(len(site.growths)):
             felt = made.at(place[kind == number], time=2.6, kind=number)
             np.testing.assert_array_equal(felt.view(np.uint32), message[kind == number].view(np.uint32))
+        np.testing.assert_array_equal(first, message[: len(first)])
 
 
 def test_w5_every_receiver_is_as_near_its_patchs_middle_as_is_counted_on(flat: Seen) -> None:
-    told: list[ReceiverArrays] = []
-
-    def listen(receivers: ReceiverArrays, /, **_: float) -> Floats:
-        told.append(receivers)
-        return np.zeros_like(receivers.place)
-
-    blow(flat, listen)
-    (heard,) = told
+    site, outlook = flat
+    heard = receivers_shown(outlook, site.growths, patch=SIDE, margin=site.margin)
     away = np.linalg.norm(heard.place - heard.middle[heard.patch], axis=1)
     assert away.max() <= heard.radius
     assert away.max() > 0.5 * heard.radius
@@ -189,14 +176,13 @@ def test_n4_a_carpet_hears_what_is_asked_for_in_its_patchs_middle_less_the_small
     world.delete(moving)
     made.add(gust.model_copy(update={"swing": 0.0}), "gust")
     middle = ((outlook.patches.cell[rows] + 0.5) * SIDE).astype(np.float32)
-    heard = outlook.kept["carpet"].pool.message[rows, 0]
+    heard = outlook.kept["carpet"].receiving[0].letters.heard(rows)
     np.testing.assert_array_equal(heard, made.at(middle, time=5.0))
     west = middle[:, 0] < 0.0
     for kind, side in ((0, west), (1, ~west)):
         assert np.linalg.norm(heard[side], axis=1).max() > 0.3
         np.testing.assert_array_equal(heard[side], made.at(middle[side], time=5.0, kind=kind))
-    assert outlook.heard == sum(pool.message[shown.slots].size // 2 for pool, shown in pooled(outlook))
-    np.testing.assert_array_equal(outlook.air, heard.mean(axis=0))
+    assert outlook.heard == sum(len(each.pool.kind(each.slots)) for each in pooled(outlook))
 
 
 SCENE = """\
