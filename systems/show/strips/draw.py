@@ -12,7 +12,7 @@ from ....engine.gl.stream import release_all
 from ...around.representation import Canvas
 from ...frame.block import by_kind, joined
 from .grow import Strips
-from .textures import strip_texture
+from .textures import extent_texture, strip_texture
 
 KINDS = 4
 """Kinds of grass that there is room for."""
@@ -51,6 +51,7 @@ class StripPainter:
         self.units = canvas.units
         self.sections = max(ring.sections for ring in rings)
         self.atlas = strip_texture(canvas.ctx, stock)
+        self.extents = extent_texture(canvas.ctx, stock, [ring.columns for ring in rings])
         layers = [sum(2 * len(strips.plane) for models in kinds for strips in models) for kinds in stock]
         self.first_layer = np.cumsum([0, *layers])
         self.strips = Records(canvas.ctx, STRIP, PER_ROW, rows=1024)
@@ -97,6 +98,7 @@ class StripPainter:
         if not count:
             return 0
         self.atlas.use(self.units["atlas"])
+        self.extents.use(self.units["extents"])
         self.strips.texture.use(self.units["strips"])
         self.programs[thin]["first"] = first
         self.arrays[thin].render(moderngl.TRIANGLE_STRIP, vertices=2 * self.sections + 2, instances=count)
@@ -104,4 +106,4 @@ class StripPainter:
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(*self.arrays, *self.programs, self.strips, self.atlas)
+        release_all(*self.arrays, *self.programs, self.strips, self.atlas, self.extents)

@@ -2,7 +2,8 @@
 #include "lib/light.glsl"
 #include "lib/posture.glsl"
 
-uniform sampler2D strips;  // four texels for each polygon strip
+uniform sampler2D strips;   // four texels for each polygon strip
+uniform sampler2D extents;  // by column and layer: where paint begins and ends across the column, and up to where
 uniform int first;
 
 uniform vec4 tall;  // by kind: height of the strips [m]
@@ -44,6 +45,14 @@ float pixels_at(vec3 place) {
     return screen.y * length(up) / max(dot(vec4(clip[0][3], clip[1][3], clip[2][3], clip[3][3]), vec4(place, 1.0)), 0.1);
 }
 
+// Where a point of an edge is, `t` of the way up its section's quads, and its height in the canopy.
+vec4 on_edge(vec3 foot, vec2 message, float t, int k, float sections, float growth) {
+    float low = min(floor(t * sections), sections - 1.0), variant = float(k) * field.w;
+    vec3 from = posture(variant, message, low / sections).place, to = posture(variant, message, (low + 1.0) / sections).place;
+    vec3 spine = mix(from, to, t * sections - low) * tall[k];
+    return vec4(foot + spine * growth, spine.y / (root[k].w * lodged(message)));
+}
+
 void main() {
     int number = first + gl_InstanceID;
     ivec2 at_record = ivec2(number % PER_ROW * 4, number / PER_ROW);
@@ -54,17 +63,17 @@ void main() {
     int picture = int(part2.w), stand = int(part3.x), turn = stand % 4, k = picture % KINDS;
     ivec2 fine = fineness[picture / KINDS];
     float growth = part3.z;
-    float t = float(min(gl_VertexID / 2, fine.y)) / float(fine.y);
-    bool right = (gl_VertexID & 1) == 1;
-    vec3 foot = right ? b : a;
-    vec2 message = right ? wind.zw : wind.xy;
-    vec3 spine = posture(float(k) * field.w, message, t).place * tall[k];
-    gl_Position = clip * vec4(foot + spine * growth, 1.0);
-    float u = float(stand / 4 + (right ? 1 : 0)) / float(fine.x);
-    at = vec2(u, t) * picture_to[picture];
     sheet = part2.z;
-    h = spine.y / (root[k].w * lodged(message));
     vec3 middle = 0.5 * (a + b);
+    // Nothing is drawn where nothing is painted: a strip ends a pixel beyond its paint.
+    vec4 extent = texelFetch(extents, ivec2(stand / 4, int(sheet)), 0);
+    float pixels = pixels_at(middle), beside = 1.0 / (pixels * distance(a.xz, b.xz));
+    float across = (gl_VertexID & 1) == 1 ? min(extent.y + beside, 1.0) : max(extent.x - beside, 0.0);
+    float t = min(float(gl_VertexID / 2) / float(fine.y), min(extent.z + 1.0 / (pixels * tall[k]), 1.0));
+    vec4 point = mix(on_edge(a, wind.xy, t, k, float(fine.y), growth), on_edge(b, wind.zw, t, k, float(fine.y), growth), across);
+    gl_Position = clip * vec4(point.xyz, 1.0);
+    h = point.w;
+    at = vec2((float(stand / 4) + across) / float(fine.x), t) * picture_to[picture];
     lifted = lift(0.5 * (wind.xy + wind.zw), middle);
     vec3 here = place_tone(middle.xz);
     float hidden = haze_at(middle);
@@ -78,7 +87,7 @@ void main() {
     vec2 run = normalize(b.xz - a.xz), sight = normalize(middle.xz - eye.xz);
     boost = boosted(run, middle);
 #ifdef THIN
-    float texels = picture_to[picture].y * ATLAS / tall[k] / pixels_at(middle);
-    thin(textureLod(density, on_map(foot.xz), 0.0)[k], part3.w, texels / abs(run.x * sight.y - run.y * sight.x));
+    float texels = picture_to[picture].y * ATLAS / tall[k] / pixels;
+    thin(textureLod(density, on_map(mix(a.xz, b.xz, across)), 0.0)[k], part3.w, texels / abs(run.x * sight.y - run.y * sight.x));
 #endif
 }
