@@ -199,15 +199,19 @@ class Drawn:
     """Clip coordinates of their vertices, shape (n, 2 * sections + 2, 4)."""
 
 
-def strips_drawn(scene: Scene, number: int) -> Drawn:
-    """One ring's strips, also those that do not show yet."""
+def strips_drawn(scene: Scene, number: int, *, whole: bool = True) -> Drawn:
+    """One ring's strips, also those that do not show yet: whole, or up to where they are painted."""
     outlook, strips = scene.outlook, scene.strips.strips
     pool, shown = outlook.kept["strips"].pools[number], outlook.shown["strips"].rings[number]
-    whole = replace(scene.appears, handed=np.ones_like(scene.appears.handed))
-    records, counts = gather_strips(pool, shown, whole, outlook.patches, outlook.viewer.centre, ring=number)
+    appears = replace(scene.appears, handed=np.ones_like(scene.appears.handed))
+    records, counts = gather_strips(pool, shown, appears, outlook.patches, outlook.viewer.centre, ring=number)
     strips.strips.write(records)
     strips.strips.texture.use(UNITS["strips"])
+    everywhere = np.tile(np.array([0, 1, 1, 0], np.float32), (*strips.extents.size[::-1], 1))
+    extents = scene.painter.ctx.texture(strips.extents.size, 4, everywhere.tobytes(), dtype="f4")
+    (extents if whole else strips.extents).use(UNITS["extents"])
     data = caught(scene.painter, strip_program(scene, strips), [], 2 * strips.sections + 2, len(records))
+    extents.release()
     sections = scene.representation.quality.strip_rings[number].sections
     return Drawn(np.repeat(shown.rows, counts), records["layer"], data[:, : 2 * sections + 2, :4])
 
@@ -282,6 +286,25 @@ def test_x3_when_it_has_arrived_a_blade_lies_on_its_painted_place(scene: Scene) 
     arrived, painted = drawn(scene, 1.0), painted_places(scene)
     assert np.linalg.norm(arrived - painted, axis=2).max() < 0.5
     assert np.linalg.norm(arrived - in_their_own_places(scene), axis=2).mean() > 1.0
+
+
+def test_g3_a_strip_that_ends_where_its_paint_ends_is_a_part_of_the_whole_one(scene: Scene) -> None:
+    texture = scene.strips.strips.extents
+    extents = np.frombuffer(texture.read(), np.float32).reshape(texture.height, texture.width, 4)
+    for number, ring in enumerate(scene.representation.quality.strip_rings):
+        drawn = strips_drawn(scene, number)
+        whole, part = drawn.clip, strips_drawn(scene, number, whole=False).clip
+        layer = drawn.layer.astype(int)
+        top = extents[layer, np.arange(len(layer)) % ring.columns, 2]
+        below = np.arange(ring.sections) <= ring.sections * top[:, None]
+        foot, run = whole[:, :-2:2, None], (whole[:, 1:-2:2] - whole[:, :-2:2])[:, :, None]
+        edges = np.stack([part[:, :-2:2], part[:, 1:-2:2]], axis=2)
+        across = ((edges - foot) * run).sum(axis=3) / (run * run).sum(axis=3)
+        np.testing.assert_allclose(edges[below], (foot + across[..., None] * run)[below], atol=1e-3)
+        assert below.mean() > 0.5
+        assert (across[below] > -1e-4).all()
+        assert (across[below] < 1.0 + 1e-4).all()
+        assert (across[..., 1] - across[..., 0])[below].min() < 0.95
 
 
 def test_x3_in_between_it_is_on_the_straight_way(scene: Scene) -> None:

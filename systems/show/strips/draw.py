@@ -14,7 +14,7 @@ from ...frame.block import by_kind, joined
 from ...receive.hearing import Hearing
 from .gather import STOOD
 from .grow import Strips
-from .textures import strip_texture
+from .textures import extent_texture, strip_texture
 
 KINDS = 4
 """Kinds of grass that there is room for."""
@@ -37,6 +37,7 @@ class StripPainter:
         self.sections = max(ring.sections for ring in rings)
         self.most = self.kinds * max(ring.strips * ring.columns for ring in rings)
         self.atlas = strip_texture(canvas.ctx, stock)
+        self.extents = extent_texture(canvas.ctx, stock, [ring.columns for ring in rings])
         self._stock = stock
         self.stood = Records(canvas.ctx, STOOD, STOOD_ROW)
         self.strips = Records(canvas.ctx, NUMBER, STRIPS_ROW)
@@ -104,6 +105,7 @@ class StripPainter:
             return 0
         self.atlas.use(self.units["atlas"])
         self.stood.texture.use(self.units["stood"])
+        self.extents.use(self.units["extents"])
         self.strips.texture.use(self.units["strips"])
         self.programs[thin]["first"] = first
         self.arrays[thin].render(moderngl.TRIANGLE_STRIP, vertices=2 * self.sections + 2, instances=count)
@@ -111,7 +113,7 @@ class StripPainter:
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(*self.arrays, *self.programs, self.hearing, self.stood, self.strips, self.atlas)
+        release_all(*self.arrays, *self.programs, self.hearing, self.stood, self.strips, self.atlas, self.extents)
 
 
 def tell_stacks(made: moderngl.Program, rings: Sequence[StripRing], /) -> None:

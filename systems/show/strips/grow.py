@@ -136,8 +136,8 @@ class _Sheet:
         values = self._meaning(corners, seen, orientation)
         texel = (seen.sample // shape[1] // fine) * w + seen.sample % shape[1] // fine
         sums = [np.bincount(texel, weights=value, minlength=self._strips * h * w) for value in values]
-        texels = np.stack(sums, axis=1) * (255.0 / fine**2)
-        return np.rint(texels).astype(np.uint8).reshape(-1, h, w, 4)
+        texels: Bytes = np.rint(np.stack(sums, axis=1) * (255.0 / fine**2)).astype(np.uint8)
+        return texels.reshape(-1, h, w, 4)
 
     def _meaning(self, corners: Doubles, seen: Fragments, orientation: int, /) -> list[Doubles]:
         """Return at each sample: place along the blade, normal across the strip, rank, and 1."""

@@ -37,7 +37,7 @@ class StripRepresentation(Representation):
     name: ClassVar[str] = "strips"
     label: ClassVar[str] = "2.5D strips"
     color: ClassVar[Color] = (0.12, 0.50, 0.98)
-    samplers: ClassVar[tuple[str, ...]] = ("atlas", "strips", "stood")
+    samplers: ClassVar[tuple[str, ...]] = ("atlas", "extents", "strips", "stood")
     asked: ClassVar[tuple[str, ...]] = ("stood",)
     record: ClassVar[type | None] = Strips
 

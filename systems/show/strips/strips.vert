@@ -6,6 +6,7 @@
 
 uniform usampler2D strips;  // by place in the queue: the polygon strip that is drawn
 uniform sampler2D stood;    // by patch: STOOD
+uniform sampler2D extents;  // by column and layer: where paint begins and ends across the column, and up to where
 uniform int first;
 uniform int most;           // numbers of polygon strips that are set aside for a patch
 
@@ -50,6 +51,14 @@ float pixels_at(vec3 place) {
     return screen.y * length(up) / max(dot(vec4(clip[0][3], clip[1][3], clip[2][3], clip[3][3]), vec4(place, 1.0)), 0.1);
 }
 
+// Where a point of an edge is, `t` of the way up its section's quads, and its height in the canopy.
+vec4 on_edge(vec3 foot, vec2 message, float t, int k, float sections, float growth) {
+    float low = min(floor(t * sections), sections - 1.0), variant = float(k) * field.w;
+    vec3 from = posture(variant, message, low / sections).place, to = posture(variant, message, (low + 1.0) / sections).place;
+    vec3 spine = mix(from, to, t * sections - low) * tall[k];
+    return vec4(foot + spine * growth, spine.y / (root[k].w * lodged(message)));
+}
+
 void main() {
     int queued = first + gl_InstanceID;
     int number = int(texelFetch(strips, ivec2(queued % STRIPS_ROW, queued / STRIPS_ROW), 0).r);
@@ -68,17 +77,18 @@ void main() {
     vec2 foot_b = edge_foot(where.xy, turn, own, plane, count, column + 1, fine.x, margin[k]);
     vec3 a = vec3(foot_a.x, told_a.z, foot_a.y), b = vec3(foot_b.x, told_b.z, foot_b.y);
 
-    float t = float(min(gl_VertexID / 2, fine.y)) / float(fine.y);
-    bool right = (gl_VertexID & 1) == 1;
-    vec3 foot = right ? b : a;
-    vec4 told = right ? told_b : told_a;
-    vec3 spine = posture(float(k) * field.w, told.xy, t).place * tall[k];
-    gl_Position = clip * vec4(foot + spine * how.y, 1.0);
-    int picture = ring * KINDS + k;
-    at = vec2(float(column + (right ? 1 : 0)) / float(fine.x), t) * picture_to[picture];
-    sheet = float(first_layer[picture] + (int(where.z) * 2 + own) * count + plane);
-    h = spine.y / (root[k].w * lodged(told.xy));
+    int picture = ring * KINDS + k, layer = first_layer[picture] + (int(where.z) * 2 + own) * count + plane;
+    sheet = float(layer);
     vec3 middle = 0.5 * (a + b);
+    // Nothing is drawn where nothing is painted: a strip ends a pixel beyond its paint.
+    vec4 extent = texelFetch(extents, ivec2(column, layer), 0);
+    float pixels = pixels_at(middle), beside = 1.0 / (pixels * distance(a.xz, b.xz));
+    float across = (gl_VertexID & 1) == 1 ? min(extent.y + beside, 1.0) : max(extent.x - beside, 0.0);
+    float t = min(float(gl_VertexID / 2) / float(fine.y), min(extent.z + 1.0 / (pixels * tall[k]), 1.0));
+    vec4 point = mix(on_edge(a, told_a.xy, t, k, float(fine.y), how.y), on_edge(b, told_b.xy, t, k, float(fine.y), how.y), across);
+    gl_Position = clip * vec4(point.xyz, 1.0);
+    h = point.w;
+    at = vec2((float(column) + across) / float(fine.x), t) * picture_to[picture];
     lifted = lift(0.5 * (told_a.xy + told_b.xy), middle);
     vec3 here = place_tone(middle.xz);
     float hidden = haze_at(middle);
@@ -92,7 +102,7 @@ void main() {
     vec2 run = normalize(b.xz - a.xz), sight = normalize(middle.xz - eye.xz);
     boost = boosted(run, middle);
 #ifdef THIN
-    float texels = picture_to[picture].y * ATLAS / tall[k] / pixels_at(middle);
-    thin(told.w, how.z, texels / abs(run.x * sight.y - run.y * sight.x));
+    float texels = picture_to[picture].y * ATLAS / tall[k] / pixels;
+    thin(mix(told_a.w, told_b.w, across), how.z, texels / abs(run.x * sight.y - run.y * sight.x));
 #endif
 }

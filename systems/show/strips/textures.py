@@ -13,6 +13,8 @@ from .grow import Strips, strips_of
 _WHOLE = 16
 """Layers are so many texels wide and high, or twice, three times as many: the finest mip-maps are whole then."""
 
+Mask = NDArray[np.bool_]
+
 
 def strip_stock(growths: Sequence[Growth], ring: int) -> list[list[Strips]]:
     """Return a ring's strips by kind and model."""
@@ -24,13 +26,64 @@ def strip_texture(ctx: moderngl.Context, stock: Sequence[list[list[Strips]]]) ->
 
     Pictures stand in the lower left corner of layers that are large enough for all of them.
     """
-    every = [strips for kinds in stock for models in kinds for strips in models]
+    every = _each(stock)
     largest = np.max([strips.texels.shape[2:4] for strips in every], axis=0)
     texture = mipmapped(
         ctx, np.concatenate([_padded(strips.texels, -(-largest // _WHOLE) * _WHOLE) for strips in every])
     )
     texture.repeat_x = texture.repeat_y = False
     return texture
+
+
+def extent_texture(
+    ctx: moderngl.Context, stock: Sequence[list[list[Strips]]], columns: Sequence[int]
+) -> moderngl.Texture:
+    """Return where each layer of the atlas is painted, by column: from and to, across the column, and up to, in [0, 1].
+
+    A texel more on every side is taken for painted; `columns` are those of each ring's strips.
+    """
+    extents = np.zeros((sum(_layers(strips) for strips in _each(stock)), max(columns), 4), np.float32)
+    layer = 0
+    for ring, count in zip(stock, columns, strict=True):
+        for strips in _each([ring]):
+            extents[layer : layer + _layers(strips), :count, :3] = painted_extents(strips, count)
+            layer += _layers(strips)
+    texture = ctx.texture((max(columns), len(extents)), 4, extents.tobytes(), dtype="f4")
+    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+    return texture
+
+
+def painted_extents(strips: Strips, columns: int, /) -> NDArray[np.float32]:
+    """Return from where to where across each column there is paint, and up to where: shape (layers, columns, 3).
+
+    All are fractions of the column and of the strip's height, with a texel to spare; layers as in the atlas.
+    """
+    painted: Mask = np.asarray(strips.texels[..., 3].reshape(-1, *strips.texels.shape[2:4]) > 0)
+    width = painted.shape[2]
+    extents = np.zeros((len(painted), columns, 3), np.float32)
+    for column in range(columns):
+        low, high = column * width / columns, (column + 1) * width / columns
+        first = int(low)
+        mine = painted[:, :, first : int(np.ceil(high))]
+        (start, end), (_, top) = _ends(np.asarray(mine.any(axis=1))), _ends(np.asarray(mine.any(axis=2)))
+        extents[:, column, 0] = (start - 1 + first - low) / (high - low)
+        extents[:, column, 1] = (end + 1 + first - low) / (high - low)
+        extents[:, column, 2] = (top + 1) / painted.shape[1]
+        extents[~mine.any(axis=(1, 2)), column] = 0.0
+    return np.clip(extents, 0.0, 1.0)
+
+
+def _ends(painted: Mask) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the first painted place in each row (m, n), and the one after the last, shape (m,) each."""
+    return painted.argmax(axis=1), painted.shape[1] - painted[:, ::-1].argmax(axis=1)
+
+
+def _each(stock: Sequence[list[list[Strips]]]) -> list[Strips]:
+    return [strips for kinds in stock for models in kinds for strips in models]
+
+
+def _layers(strips: Strips) -> int:
+    return 2 * len(strips.plane)
 
 
 def _padded(texels: NDArray[np.uint8], size: NDArray[np.int64]) -> NDArray[np.uint8]:

@@ -1,5 +1,7 @@
 """Textures made from what was grown and from the terrain (G1)."""
 
+from dataclasses import replace
+
 import moderngl
 import numpy as np
 import pytest
@@ -12,7 +14,7 @@ from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.show.carpet.grow import carpet_of
 from tallgrass.systems.show.carpet.textures import carpet_texture
 from tallgrass.systems.show.strips.stock import stock_strips
-from tallgrass.systems.show.strips.textures import strip_stock, strip_texture
+from tallgrass.systems.show.strips.textures import extent_texture, painted_extents, strip_stock, strip_texture
 
 
 @pytest.mark.parametrize("ring", [0, 1])
@@ -36,6 +38,44 @@ def test_g1_each_layer_is_the_strip_that_planting_reckons_with(
                 assert (texels[mine, :, w:] == 0).all()
     assert (start + count == layers) == (ring == 1)
     release_all(atlas)
+
+
+@pytest.mark.parametrize("columns", [1, 2, 3])
+def test_nothing_is_painted_beyond_a_columns_extents(growths: list[Growth], columns: int) -> None:
+    for strips in strip_stock(growths, 0)[1]:
+        painted = strips.texels[..., 3].reshape(-1, *strips.texels.shape[2:4]) > 0
+        layers, rows, width = painted.shape
+        extents = painted_extents(strips, columns)
+        assert extents.shape == (layers, columns, 3)
+        up, across = (np.arange(rows) + 0.5) / rows, (np.arange(width) + 0.5) / width * columns
+        column = across.astype(int)
+        start, end, top = np.moveaxis(extents[:, column], 2, 0)[:, :, None]
+        inside = (across - column >= start) & (across - column <= end) & (up[:, None] <= top)
+        assert not (painted & ~inside).any()
+        # They are tight: so much of what they leave out would be drawn for nothing.
+        assert inside.mean() < 0.85
+        assert (extents[..., 2].max(axis=1) * rows <= painted.any(axis=2).cumsum(axis=1).argmax(axis=1) + 2.01).all()
+
+
+def test_an_empty_column_has_no_extents(growths: list[Growth]) -> None:
+    strips = strip_stock(growths, 0)[0][0]
+    half = strips.texels.shape[3] // 2
+    texels = strips.texels.copy()
+    texels[:, :, :, :half] = 0
+    extents = painted_extents(replace(strips, texels=texels), 2)
+    assert (extents[:, 0] == 0.0).all()
+    assert (extents[:, 1, 2] > 0.5).all()
+
+
+def test_extents_stand_by_layer_of_the_atlas(ctx: moderngl.Context, growths: list[Growth]) -> None:
+    every = [strip_stock(growths, number) for number in (0, 1)]
+    texture = extent_texture(ctx, every, [2, 1])
+    read = np.frombuffer(texture.read(), np.float32).reshape(texture.height, 2, 4)
+    fine = [painted_extents(strips, 2) for models in every[0] for strips in models]
+    np.testing.assert_array_equal(read[: sum(map(len, fine)), :, :3], np.concatenate(fine))
+    coarse = [painted_extents(strips, 1) for models in every[1] for strips in models]
+    np.testing.assert_array_equal(read[sum(map(len, fine)) :, :1, :3], np.concatenate(coarse))
+    texture.release()
 
 
 def test_w3_posture_layers_hold_places_and_directions(ctx: moderngl.Context, growths: list[Growth]) -> None:
