@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ....engine.declared.quality import Quality
 from ....engine.gl.records import Records
 from ....engine.gl.stream import Stream, release_all
+from ....engine.gl.unchanged import Unchanged
 from ...around.appearance import handed_over
 from ...around.outlook import Outlook
 from ...around.representation import Canvas
@@ -62,6 +63,7 @@ class BladesPainter:
         self._tell(self.morph.program)
         self._parted = 1 + sum(ring.to < PARTED for ring in rings[:-1])
         self._counts: list[int] = []
+        self._unchanged = Unchanged()
         self._first = self._asked = 0
 
     def _tell(self, made: moderngl.Program) -> None:
@@ -90,11 +92,14 @@ class BladesPainter:
         eye = outlook.viewer.eye[0], outlook.viewer.eye[2]
         assert outlook.appearance is not None
         left, _ = handed_over(outlook.appearance.handed[shown.morphing.rows], fade=self._fade)
-        numbers = [gather_morph(outlook, kept.pool, self._strips, shown.morphing, left=left)]
-        numbers += [gather_blades(kept.pool, ring, eye=eye) for ring in shown.rings]
+        slots, places = shown.standing.slots, (ring.places.tobytes() for ring in shown.rings)
+        same = self._unchanged.since(eye, kept.pool, slots, kept.pool.stamp.take(slots, axis=0), *places)
+        if not same or len(shown.morphing.rows):
+            numbers = [gather_morph(outlook, kept.pool, self._strips, shown.morphing, left=left)]
+            numbers += [gather_blades(kept.pool, ring, eye=eye) for ring in shown.rings]
+            self.numbers.write(np.concatenate(numbers).view(NUMBER))
+            self._counts = [len(each) for each in numbers]
         self.standing.write(_standing(outlook, shown, self._strips, left, first["strips"]))
-        self.numbers.write(np.concatenate(numbers).view(NUMBER))
-        self._counts = [len(each) for each in numbers]
         (self._asked,), (self._first,) = self.receivers(outlook), first["blades"]
         return sum(self._counts)
 

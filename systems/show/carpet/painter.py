@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....engine.gl.stream import release_all
+from ....engine.gl.unchanged import Unchanged
 from ...around.appearance import BORDER
 from ...around.ground import Ground
 from ...around.outlook import Outlook
@@ -27,6 +28,7 @@ class CarpetPainter:
         self.stand_on(ground)
         self._whole_to = canvas.reach[-2] - int(BORDER) - 1
         self._units = canvas.units
+        self._unchanged = Unchanged()
         self.images = carpet_texture(canvas.ctx, growths)
         self.air = Air(canvas, side)
         self._heard: tuple[NDArray[np.int32], int, CarpetKept] | None = None
@@ -71,9 +73,10 @@ class CarpetPainter:
         taken the grass away there is none.
         """
         patches, viewer = outlook.patches, outlook.viewer
-        tiles = ground_tiles(self._ground.terrain, viewer.eye, viewer.cone, spacing=self._spacing)
-        near = within(tiles, viewer.centre, patch=self._ground.patch, reach=self._whole_to)
-        self.ground.write(tiles, np.zeros_like(near) if cover is None else ~near)
+        if not self._unchanged.since(self._ground, viewer.eye, viewer.cone, viewer.centre, cover is None):
+            tiles = ground_tiles(self._ground.terrain, viewer.eye, viewer.cone, spacing=self._spacing)
+            near = within(tiles, viewer.centre, patch=self._ground.patch, reach=self._whole_to)
+            self.ground.write(tiles, np.zeros_like(near) if cover is None else ~near)
         if cover is not None:
             whole = np.where(patches.alive, cover, np.float32(1.0))
             self.ground.write_shares(np.where(patches.grows, whole, np.float32(0.0)), viewer.centre)
@@ -82,6 +85,7 @@ class CarpetPainter:
         """Send a carpet that lies everywhere, at this part of the height of the grass."""
         tiles = ground_tiles(self._ground.terrain, outlook.viewer.eye, outlook.viewer.cone, spacing=self._spacing)
         self.ground.write(tiles, np.ones(len(tiles), np.bool_))
+        self._unchanged.since()
         self.ground.write_shares(np.ones(len(outlook.patches.progress), np.float32), outlook.viewer.centre)
         self.ground.raise_carpet(height)
 

@@ -84,9 +84,12 @@ class StripPainter:
                 layer += sum(2 * len(strips.plane) for strips in models)
         return first
 
-    def write(self, stood: NDArray[np.void], strips: NDArray[np.uint32]) -> None:
-        """Send the patches, ring after ring, and the numbers of the polygon strips (n,), far to near."""
+    def write(self, stood: NDArray[np.void]) -> None:
+        """Send the patches, ring after ring."""
         self.stood.write(stood)
+
+    def write_strips(self, strips: NDArray[np.uint32]) -> None:
+        """Send the numbers of the polygon strips (n,), far to near."""
         self.strips.write(strips.view(NUMBER))
 
     def hear(self, ring: int, *, patch: int, first: int, count: int) -> int:

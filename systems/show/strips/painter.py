@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....engine.declared.quality import Quality
+from ....engine.gl.unchanged import Unchanged
 from ...around.outlook import Outlook
 from ...around.representation import Canvas
 from ...grow.record import Growth
@@ -32,6 +33,8 @@ class StripsPainter:
         self.strips = StripPainter(canvas, quality.strip_rings, stock)
         self.runs: list[tuple[int, int, bool]] = []
         self._asked: list[tuple[int, int, int]] = []
+        self._amount = np.zeros(0, np.int64)
+        self._unchanged = Unchanged()
 
     def receivers(self, outlook: Outlook, /) -> list[int]:
         """Return how many edges each ring has."""
@@ -49,9 +52,11 @@ class StripsPainter:
         queue = np.argsort(np.concatenate([ring.queue for ring in shown]), kind="stable")
         patch = queue[stood["fade"].take(queue) > 0.0]
         present = np.concatenate([pool.present.take(ring.slots, axis=0) for pool, ring in rings]).take(patch, axis=0)
-        strips, amount = polygon_strips(stood, patch, present, self._fineness, most=self.strips.most)
-        self.strips.write(stood, strips)
-        self.runs = runs(_ranked(rings).take(patch), amount)
+        self.strips.write(stood)
+        if not self._unchanged.since(stood["stand"], patch, present):
+            strips, self._amount = polygon_strips(stood, patch, present, self._fineness, most=self.strips.most)
+            self.strips.write_strips(strips)
+        self.runs = runs(_ranked(rings).take(patch), self._amount)
         return 0
 
     def hear(self) -> int:
