@@ -29,14 +29,15 @@ def gather_morph(
     model, turn = patches.model[rows], patches.turn[rows]
     own = (along + turn) % 2
     counts = np.array([each.strips for each in strips.quality.strip_rings])[ring]
-    plane = np.stack([strips.stock.slices[r][m, o] for r, m, o in zip(ring, model, own, strict=True)])
+    plane = strips.stock.slices[ring, model, own]
     # Strips are walked from the far side, planes in the order of the model.
     backwards = falls(own, along, turn) != lies_ahead(patches.cell[rows], outlook.viewer.centre, along)
     slices = np.where(backwards[:, None], counts[:, None] - 1 - plane, plane)
-    eye = outlook.viewer.eye[0], outlook.viewer.eye[2]
-    # In a patch slice after slice, and far to near in a slice.
-    key = slices.astype(np.int64) * 65536 + nearness(distances(pool, shown.slots, eye))
-    queue = np.argsort(key, axis=1, kind="stable")
-    grows = np.take_along_axis(pool.present[shown.slots] & (left > 0.0)[:, None], queue, axis=1)
-    numbers = shown.places[:, None] * pool.present.shape[1] + queue
-    return np.asarray(numbers[grows], np.uint32)
+    away = nearness(distances(pool, shown.slots, (outlook.viewer.eye[0], outlook.viewer.eye[2])))
+    # Patch after patch, in a patch slice after slice, far to near in a slice: one number says all of it.
+    each = pool.present.shape[1]
+    key = (np.arange(len(rows), dtype=np.uint64)[:, None] << 48) | (slices.astype(np.uint64) << 40)
+    key |= (away.astype(np.uint64) << 24) | np.arange(each, dtype=np.uint64)
+    queue = np.sort(key[pool.present.take(shown.slots, axis=0) & (left > 0.0)[:, None]])
+    blade = (queue & np.uint64(0xFFFFFF)).astype(np.uint32)
+    return (shown.places * each).astype(np.uint32).take((queue >> np.uint64(48)).astype(np.intp)) + blade

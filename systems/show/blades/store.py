@@ -40,7 +40,7 @@ class BladeStore:
         self.blades = Records(ctx, blades.records.dtype, BLADES_ROW, rows=-(-blades.records.size // BLADES_ROW))
         self.blades.write(blades.records.reshape(-1))
         self.points = strips.targets.shape[3]
-        self.slices = _texture(ctx, np.stack(strips.slices).reshape(-1, 1, 1), SLICES_ROW)
+        self.slices = _texture(ctx, strips.slices.reshape(-1, 1, 1), SLICES_ROW)
         self.targets = _texture(ctx, strips.targets.reshape(-1, self.points, 2), TARGETS_ROW)
 
     @property

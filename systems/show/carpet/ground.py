@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 
 from ....engine.gl.stream import Stream, release_all
 from ....engine.terrain.record import Terrain
-from ...around.cone import inside_cone
+from ...around.cone import beyond_cone
 from ...frame.block import FrameBlock, by_kind, joined
 from ...grow.record import Growth
 from .grow import carpet_of
 
-Doubles = NDArray[np.float64]
+Tiles = NDArray[np.float64]
 
 TILE = np.dtype([("tile", "4f4")])
 GRID = 8
@@ -33,38 +33,48 @@ SPREAD = 7.0
 that is split must lie inside it."""
 
 
-def ground_tiles(
-    terrain: Terrain, eye: tuple[float, float, float], cone: tuple[float, float], /, *, spacing: float
-) -> NDArray[np.void]:
-    """Return the tiles that cover what is seen of the terrain, records of `TILE`, far to near.
+def tiles_around(terrain: Terrain, place: tuple[float, float], /, *, spacing: float, about: float = 0.0) -> Tiles:
+    """Return the tiles that cover a terrain for who is at most `about` [m] from `place` (x, z) [m], shape (n, 4).
 
     A tile of `GRID` quads is split in four while it is nearer than `SPREAD` sides of its quarters, down to
-    `spacing` [m] between grid points.
+    `spacing` [m] between grid points. Its row is what `TILE` says. `about` may be a third of the finest tiles' side.
     """
     side = spacing * GRID
     levels = max(0, int(np.ceil(np.log2(max(terrain.size) / side))))
     side *= 2.0**levels
     low = np.floor(np.asarray(terrain.origin) / side) * side
     counts = np.ceil((np.asarray(terrain.origin) + terrain.size - low) / side).astype(int)
-    x, z = (
-        axis.reshape(-1) for axis in np.meshgrid(*(at + side * np.arange(n) for at, n in zip(low, counts, strict=True)))
-    )
-    done: list[NDArray[np.float64]] = []
+    corners = low + side * np.stack(np.meshgrid(*map(np.arange, counts)), -1).reshape(-1, 2)
+    done: list[Tiles] = []
     for level in range(levels, -1, -1):
-        seen = _seen(x, z, side, terrain, eye, cone)
-        x, z = x[seen], z[seen]
-        split = (_nearest(x, z, side, eye) < SPREAD * side / 2) if level else np.zeros(len(x), np.bool_)
-        done.append(
-            np.stack([x[~split], z[~split], *np.full((2, len(x) - split.sum()), [[side / GRID], [SPREAD * side]])])
-        )
+        edge = np.asarray(terrain.origin)
+        corners = corners[((corners < edge + terrain.size) & (corners + side > edge)).all(axis=1)]
+        near = _nearest(corners, side, place) - about
+        split = (near < SPREAD * side / 2) if level else np.zeros(len(corners), np.bool_)
+        kept = corners[~split]
+        done.append(np.column_stack([kept, np.full(len(kept), side / GRID), np.full(len(kept), SPREAD * side)]))
         side /= 2.0
-        x, z = x[split], z[split]
-        x, z = np.concatenate([x, x + side, x, x + side]), np.concatenate([z, z, z + side, z + side])
-    rows = np.concatenate(done, axis=1)
-    away = (rows[0] + rows[2] * (GRID / 2) - eye[0]) ** 2 + (rows[1] + rows[2] * (GRID / 2) - eye[2]) ** 2
-    tiles = np.zeros(rows.shape[1], TILE)
-    tiles["tile"] = rows.T[np.argsort(-away)]
-    return tiles
+        corners = (corners[split][:, None, :] + side * np.array([[0, 0], [1, 0], [0, 1], [1, 1]])).reshape(-1, 2)
+    return np.concatenate(done)
+
+
+def tiles_seen(tiles: Tiles, eye: tuple[float, float, float], cone: tuple[float, float], /) -> NDArray[np.void]:
+    """Return those of `tiles_around` (n, 4) that may be seen, records of `TILE`, far to near."""
+    side = tiles[:, 2] * GRID
+    x, z = tiles[:, 0] + 0.5 * side, tiles[:, 1] + 0.5 * side
+    seen = (beyond_cone(x, z, apex=(eye[0], eye[2]), cone=cone) <= 0.75 * side).nonzero()[0]
+    across, along = x.take(seen) - eye[0], z.take(seen) - eye[2]
+    order = seen.take(np.argsort(-(across * across + along * along)))
+    found = np.zeros(len(order), TILE)
+    found["tile"] = tiles.take(order, axis=0)
+    return found
+
+
+def ground_tiles(
+    terrain: Terrain, eye: tuple[float, float, float], cone: tuple[float, float], /, *, spacing: float
+) -> NDArray[np.void]:
+    """Return the tiles that cover what is seen of the terrain, records of `TILE`, far to near."""
+    return tiles_seen(tiles_around(terrain, (eye[0], eye[2]), spacing=spacing), eye, cone)
 
 
 def finest_spacing(terrain: Terrain, patch: float, /) -> float:
@@ -84,24 +94,10 @@ def within(tiles: NDArray[np.void], centre: NDArray[np.int32], /, *, patch: floa
     return inside
 
 
-def _nearest(x: Doubles, z: Doubles, side: float, eye: tuple[float, float, float]) -> Doubles:
-    """Return how far squares are from the eye along the ground, given by their least corners, shape (n,)."""
-    half = side / 2
-    across = np.maximum(np.abs(x + (half - eye[0])) - half, 0.0)
-    along = np.maximum(np.abs(z + (half - eye[2])) - half, 0.0)
-    return np.sqrt(across * across + along * along)
-
-
-def _seen(
-    x: Doubles, z: Doubles, side: float, terrain: Terrain, eye: tuple[float, float, float], cone: tuple[float, float]
-) -> NDArray[np.bool_]:
-    """Return which squares, given by their least corners, lie on the terrain and may be seen, shape (n,)."""
-    (left, far), (width, depth), half = terrain.origin, terrain.size, side / 2
-    over = (np.abs(x + (half - left - width / 2)) < (width + side) / 2) & (
-        np.abs(z + (half - far - depth / 2)) < (depth + side) / 2
-    )
-    middle = np.stack([x + half, z + half], axis=1).astype(np.float32)
-    return over & inside_cone(middle, apex=(eye[0], eye[2]), cone=cone, radius=side * 0.75)
+def _nearest(corners: Tiles, side: float, place: tuple[float, float]) -> Tiles:
+    here = np.array(place)
+    away: Tiles = np.linalg.norm(here - np.clip(here, corners, corners + side), axis=1)
+    return away
 
 
 def leaf_area(growth: Growth, patch: float, /) -> float:

@@ -9,16 +9,20 @@ from numpy.typing import NDArray
 from ....engine.gl.stream import release_all
 from ....engine.gl.unchanged import Unchanged
 from ...around.appearance import BORDER
+from ...around.cone import HALF_DIAGONAL
 from ...around.ground import Ground
 from ...around.outlook import Outlook
 from ...around.representation import Canvas
 from ...grow.record import Growth
 from .air import Air
-from .ground import RAISED, GroundPainter, finest_spacing, ground_tiles, within
+from .ground import GRID, RAISED, GroundPainter, Tiles, finest_spacing, ground_tiles, tiles_around, tiles_seen, within
 from .pool import CarpetKept
 from .textures import carpet_texture
 
 Floats = NDArray[np.float32]
+
+STEP = 0.4
+"""How far the eye goes before tiles are chosen anew, in sides of the finest."""
 
 
 class CarpetPainter:
@@ -28,7 +32,8 @@ class CarpetPainter:
         self.stand_on(ground)
         self._whole_to = canvas.reach[-2] - int(BORDER) - 1
         self._units = canvas.units
-        self._unchanged = Unchanged()
+        self._unchanged, self._stays = Unchanged(), Unchanged()
+        self._tiles: Tiles = np.zeros((0, 4))
         self.images = carpet_texture(canvas.ctx, growths)
         self.air = Air(canvas, side)
         self._heard: tuple[NDArray[np.int32], int, CarpetKept] | None = None
@@ -74,12 +79,20 @@ class CarpetPainter:
         """
         patches, viewer = outlook.patches, outlook.viewer
         if not self._unchanged.since(self._ground, viewer.eye, viewer.cone, viewer.centre, cover is None):
-            tiles = ground_tiles(self._ground.terrain, viewer.eye, viewer.cone, spacing=self._spacing)
+            tiles = tiles_seen(self._tiles_around(viewer.eye), viewer.eye, viewer.cone)
             near = within(tiles, viewer.centre, patch=self._ground.patch, reach=self._whole_to)
             self.ground.write(tiles, np.zeros_like(near) if cover is None else ~near)
         if cover is not None:
             whole = np.where(patches.alive, cover, np.float32(1.0))
             self.ground.write_shares(np.where(patches.grows, whole, np.float32(0.0)), viewer.centre)
+
+    def _tiles_around(self, eye: tuple[float, float, float]) -> Tiles:
+        """Return the tiles all around: the same as long as the eye stays about where it is."""
+        step = STEP * self._spacing * GRID
+        place = round(eye[0] / step) * step, round(eye[2] / step) * step
+        if not self._stays.since(self._ground, place):
+            self._tiles = tiles_around(self._ground.terrain, place, spacing=self._spacing, about=step * HALF_DIAGONAL)
+        return self._tiles
 
     def lay_everywhere(self, outlook: Outlook, /, *, height: float) -> None:
         """Send a carpet that lies everywhere, at this part of the height of the grass."""

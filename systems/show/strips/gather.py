@@ -91,12 +91,13 @@ def polygon_strips(
     stand = stood["stand"][patch].astype(np.int64)
     strips, columns = np.array(fineness, np.int64).take(stand >> 4, axis=0).T
     amount = strips * columns * kinds
-    end = np.cumsum(amount)
-    own = np.arange(end[-1] if len(end) else 0) - np.repeat(end - amount, amount)
-    numbers = (np.repeat(patch * most, amount) + own).astype(np.uint32)
+    start = np.cumsum(amount) - amount
+    numbers = np.arange(amount.sum(), dtype=np.uint32)
+    numbers += np.repeat((patch * most - start).astype(np.uint32), amount)
     if present.all():
         return numbers, amount
     index = np.repeat(np.arange(len(patch)), amount)
+    own = numbers - patch[index] * most
     strip, turn = np.divmod(own // columns[index], kinds)
     ahead = stand[index] // 8 % 2 == 1
     drawn = present[index, (turn + np.where(ahead, strips[index] - 1 - strip, strip)) % kinds]

@@ -22,9 +22,9 @@ class StripStock:
     first_layer: list[list[int]]
     """By ring and kind: where the kind's layers start in the ring's texture array."""
 
-    slices: list[NDArray[np.int32]]
-    """By ring: the plane that each blade is painted on, by model and orientation, shape (models, 2, n); the blades of
-    all kinds one after another."""
+    slices: NDArray[np.int32]
+    """The plane that each blade is painted on, by ring, model and orientation, shape (rings, models, 2, n): the blades
+    of all kinds one after another."""
 
     targets: Floats
     """Where each blade's points are painted, (u, v), shape (models, 2, n, points, 2): the same in all rings."""
@@ -51,4 +51,4 @@ def stock_strips(growths: Sequence[Growth], /) -> StripStock:
     targets = [
         np.concatenate([strips_of(growth.models[model])[0].targets for growth in growths], 1) for model in models
     ]
-    return StripStock(strips=strips, first_layer=first, slices=slices, targets=np.stack(targets))
+    return StripStock(strips=strips, first_layer=first, slices=np.stack(slices), targets=np.stack(targets))

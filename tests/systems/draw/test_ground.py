@@ -16,7 +16,15 @@ from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.systems.frame.block import FrameBlock, frame_record
 from tallgrass.systems.frame.maps import density_texture, height_texture, tone_texture
-from tallgrass.systems.show.carpet.ground import GRID, TILE, finest_spacing, ground_tiles, within
+from tallgrass.systems.show.carpet.ground import (
+    GRID,
+    TILE,
+    finest_spacing,
+    ground_tiles,
+    tiles_around,
+    tiles_seen,
+    within,
+)
 from tallgrass.systems.site import Site
 
 Laid = Callable[..., Site]
@@ -153,11 +161,14 @@ def borders(points: NDArray[np.float32]) -> list[NDArray[np.float32]]:
     return [points[0], points[-1], points[:, 0], points[:, -1]]
 
 
-@pytest.mark.parametrize("eye", [(0.3, 3.0, 0.7), (-31.0, 3.0, 17.0), (7.77, 3.0, -22.2)])
-def test_t1_tiles_of_different_fineness_meet_without_cracks(
-    corners: Corners, hills: Terrain, eye: tuple[float, float, float]
+@pytest.mark.parametrize(
+    ("eye", "off"), [((0.3, 3.0, 0.7), 0.0), ((-31.0, 3.0, 17.0), 0.33), ((7.77, 3.0, -22.2), -0.33)]
+)
+def test_t1_tiles_of_different_fineness_meet_without_cracks_for_all_who_stand_about_there(
+    corners: Corners, hills: Terrain, eye: tuple[float, float, float], off: float
 ) -> None:
-    tiles = ground_tiles(hills, eye, ALL_ROUND, spacing=0.125)
+    around = tiles_around(hills, (eye[0] + off, eye[2]), spacing=0.125, about=abs(off))
+    tiles = tiles_seen(around, eye, ALL_ROUND)
     assert len(set(tiles["tile"][:, 2].tolist())) >= 4
     points = corners(tiles, eye)
     everything = np.unique(np.round(np.concatenate([np.concatenate(borders(tile)) for tile in points]), 3), axis=0)
