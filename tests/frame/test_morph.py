@@ -27,6 +27,7 @@ from tallgrass.systems.show.strips.draw import KINDS
 from tallgrass.systems.show.strips.gather import gather_strips, polygon_strips
 from tallgrass.systems.show.strips.painter import StripsPainter
 from tallgrass.systems.show.strips.representation import StripRepresentation
+from tallgrass.systems.show.strips.stand import falls
 from tallgrass.systems.transition import FADE
 from tallgrass.testing import Stage as Room
 
@@ -324,6 +325,48 @@ def test_x3_when_it_has_arrived_a_blade_lies_on_its_painted_place(scene: Scene) 
     arrived, painted = drawn(scene, 1.0), painted_places(scene)
     assert np.linalg.norm(arrived - painted, axis=2).max() < 0.5
     assert np.linalg.norm(arrived - in_their_own_places(scene), axis=2).mean() > 1.0
+
+
+def bent(scene: Scene, kind: NDArray[np.int64], message: NDArray[np.float32]) -> Doubles:
+    """Where the tip of an edge of length 1 is that is bent by a message, for kinds (n,) and messages (n, 2)."""
+    table = np.stack([growth.postures.shape[0, :, -1] for growth in scene.prairie.site.growths]).astype(float)
+    index = np.linalg.norm(message, axis=1)
+    row = (0.5 + 0.5 * np.minimum(index, 1.0)) * (table.shape[1] - 1)
+    low = np.minimum(row.astype(int), table.shape[1] - 2)
+    part = (row - low)[:, None]
+    ahead, up = (table[kind, low] * (1.0 - part) + table[kind, low + 1] * part).T
+    heading = message / np.maximum(index, 1e-6)[:, None]
+    return np.stack([heading[:, 0] * ahead, up, heading[:, 1] * ahead], axis=1)
+
+
+def test_w1_a_strip_stands_between_two_edges_on_the_ground_each_bent_as_numpy_says(scene: Scene) -> None:
+    everything, stock, quality = strips_drawn(scene), scene.representation.stock, scene.representation.quality
+    clip = scene.painter.record[0]["clip"].reshape(4, 4).astype(float)
+    layers = np.array(scene.strips.strips.programs[0]["first_layer"].value)  # type: ignore[union-attr]
+    patches, kept = scene.outlook.patches, scene.outlook.kept["strips"].receiving
+    for number, (receiving, ring) in enumerate(zip(kept, scene.outlook.shown["strips"].rings, strict=True)):
+        here, count = everything.ring == number, quality.strip_rings[number].strips
+        first = layers[KINDS * number :][:2]
+        layer, column = everything.layer[here], everything.column[here].astype(int)
+        kind = (layer >= first[1]).astype(int)
+        patch = np.repeat(np.arange(len(ring.rows)), len(layer) // len(ring.rows))
+        picture, plane = np.divmod(layer - first[kind], count)
+        turn, along = patches.turn[ring.rows], ring.along
+        own = (along + turn) % 2
+        np.testing.assert_array_equal(picture, (patches.model[ring.rows] * 2 + own)[patch])
+        stack = np.where(falls(own, along, turn)[patch], count - 1 - plane, plane)
+        places = receiving.pool.places(ring.slots)
+        heard = receiving.letters.heard(ring.slots).reshape(places.shape)
+        height = np.array([strips.height for strips in stock.strips[0]])[kind] * scene.appears.growth[ring.rows][patch]
+        for side in (0, 1):
+            at, message = (each[patch, kind, stack, column + side] for each in (places, heard))
+            foot = np.column_stack([at[:, 0], scene.prairie.height_at(at), at[:, 1]])
+            tip = foot + height[:, None] * bent(scene, kind, message)
+            for place, vertex in ((foot, side), (tip, 2 * quality.strip_rings[number].sections + side)):
+                expected = np.column_stack([place, np.ones(len(place))]) @ clip
+                np.testing.assert_allclose(everything.clip[here, vertex], expected, atol=5e-3)
+        assert np.linalg.norm(heard, axis=-1).mean() > 0.15
+        assert len(set(turn.tolist())) == 4
 
 
 def test_g3_a_strip_that_ends_where_its_paint_ends_is_a_part_of_the_whole_one(scene: Scene) -> None:
