@@ -274,7 +274,7 @@ def painted_places(scene: Scene) -> Doubles:
     """Where the strips as they are drawn show each blade's points, from the root to the tip [pixels]."""
     patches, drawn = scene.outlook.patches, strips_drawn(scene)
     stock, rings = scene.representation.stock, scene.representation.quality.strip_rings
-    first = scene.strips.strips.programs[0]["first_layer"].value  # type: ignore[union-attr]
+    first = np.array(scene.strips.strips.programs[0]["first_layer"].value)  # type: ignore[union-attr]
     segments, points = scene.blades.morph.segments, stock.targets.shape[3]
     expected = np.zeros((len(scene.records), segments + 1, 2))
     for index, (blade, row, which) in enumerate(zip(scene.records, scene.row, scene.own, strict=True)):
