@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import moderngl
 
-from ..engine.gl.guest import host_context, kept
+from ..engine.gl.guest import arrive, host_context, kept
 from ..engine.gl.homes import Homes
 from .painter import Painter
 from .site import Site
@@ -42,6 +42,7 @@ class Screen:
             if 0 in state.viewport[2:]:
                 yield None
                 return
+            arrive(ctx)
             self.painter = self._painters.here(ctx, partial(Painter, site=site, quarantine=self._quarantine))
             if self.painter.site is not site:
                 self.painter.change(site)

@@ -4,7 +4,7 @@ import ctypes
 import os
 import shutil
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from typing import NoReturn
 
@@ -12,8 +12,11 @@ import moderngl
 import numpy as np
 import pytest
 from hypothesis import settings
+from numpy.typing import NDArray
 
 from tallgrass.engine.world import World
+from tallgrass.systems.around.receivers import Receiving
+from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import NoContextError, headless_context, private_world
 
 # The floor of what is supported, so that nothing newer is used by accident; only Mesa reads these.
@@ -23,6 +26,8 @@ os.environ.setdefault("MESA_GLSL_VERSION_OVERRIDE", "330")
 # The same examples on every machine, however slow it is.
 settings.register_profile("tallgrass", deadline=None, derandomize=True)
 settings.load_profile("tallgrass")
+
+OnCard = list[tuple[Receiving, NDArray[np.float32]]]
 
 _HOME = pytest.StashKey[moderngl.Framebuffer]()
 
@@ -85,6 +90,30 @@ def _gl_is_left_without_errors(request: pytest.FixtureRequest) -> Iterator[None]
         context = request.getfixturevalue("ctx")
         with context:
             assert context.error == "GL_NO_ERROR"
+
+
+@pytest.fixture(scope="session")
+def on_card() -> Callable[[Prairie], OnCard]:
+    """Read what the graphics card told receivers of blades and strips in the last frame, by their pools.
+
+    Of each receiver of the patches shown: message, height of the ground, density of its kind, shape (m, n, 4).
+    """
+
+    def read(prairie: Prairie) -> OnCard:
+        painter, outlook = prairie.painter, prairie.viewers["main"]
+        assert painter is not None
+        counts = {name: each.receivers(outlook) for name, each in painter.painters.items()}
+        numbers = iter(painter.received.lay([count for each in counts.values() for count in each]))
+        texels = np.frombuffer(painter.received.texture.read(), np.float32).reshape(-1, 4)
+        found: OnCard = []
+        for name, each in counts.items():
+            for receiving, count, first in zip(outlook.kept[name].receiving, each, numbers, strict=False):
+                if not receiving.still:
+                    shape = len(receiving.slots), int(np.prod(receiving.pool.shape)), 4
+                    found.append((receiving, texels[first : first + count].reshape(shape)))
+        return found
+
+    return read
 
 
 @pytest.fixture

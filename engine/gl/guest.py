@@ -53,6 +53,15 @@ def kept(ctx: moderngl.Context | None) -> Iterator[State]:
         _kept.pop().restore()
 
 
+def arrive(ctx: moderngl.Context) -> None:
+    """Tell moderngl which framebuffer the host has bound.
+
+    Whenever it makes one, it binds again what it knows of; of a host that does not draw with it, that is an old one,
+    which the host may have deleted.
+    """
+    _host_framebuffer(ctx, ctx.detect_framebuffer()).use()
+
+
 def _functions(ctx: moderngl.Context | None) -> Functions:
     """Return GL's functions for the host."""
     if ctx is None:

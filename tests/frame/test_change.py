@@ -30,8 +30,8 @@ quality:
   carpet: 32
 """
 STEP = 0.05
-BEFORE, BEHIND = 20.0001, 19.9999
-"""On either side of a border between patches, at z = 20 m."""
+BEFORE, BEHIND = 20.0005, 19.9995
+"""On either side of a border between patches, at z = 20 m: beyond what is still taken for the edge itself."""
 
 
 @pytest.fixture(scope="module")

@@ -74,7 +74,7 @@ def drawn(room: Room, prairie: Prairie, camera: Camera, shows: Appearance, *, ba
     outlook.appearance = shows
     outlook.shown["strips"] = strips.show(outlook, shows.cover[1])
     strips.plant(outlook)
-    painter.painters["strips"].write(outlook)
+    painter.write(outlook, [])
     painter.carpet.lay(outlook, None if bare else shows.cover[2])
     room.target.use()
     room.target.clear(depth=1.0)

@@ -8,7 +8,10 @@ import pytest
 
 from tallgrass.engine.camera import Camera, view_of
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.show.blades.plant import standing_blades
+from tallgrass.systems.show.blades.representation import BladeRepresentation
 from tallgrass.systems.show.strips.painter import StripsPainter
+from tallgrass.systems.tile import patch_models
 
 Stage = Any
 Load = Callable[..., Prairie]
@@ -129,8 +132,13 @@ def test_each_representation_draws_something_else(stage: Stage, load: Load) -> N
 def test_t1_blades_grow_out_of_the_ground_and_do_not_float(stage: Stage, load: Load, camera: Aim) -> None:
     prairie = load(LONE, lod="blades")
     stage.shot(prairie, camera(0, 10, 0, pitch=-89))
-    pool = prairie.viewers["main"].kept["blades"].pool
-    blades = pool.blade[pool.present].copy()
+    pool, site, near = prairie.viewers["main"].kept["blades"].pool, prairie.site, prairie.site.representations[0]
+    assert isinstance(near, BladeRepresentation)
+    cells = pool.stamp[pool.present.any(axis=1)]
+    standing, grows = standing_blades(
+        near.stock, cells, *patch_models(cells, seed=site.scene.seed, models=site.quality.models), site.ground
+    )
+    blades = standing[grows]
     seen = 0
     for blade in blades[np.abs(blades["root"][:, ::2]).max(axis=1) < 36.0]:
         root, away = blade["root"].astype(float), 3.0 * blade["facing"].astype(float)

@@ -84,17 +84,22 @@ def test_n3_every_blade_on_the_terrain_is_drawn_once(prairie: Prairie) -> None:
     every.release()
 
 
-def test_n3_the_blades_of_the_reference_stand_where_the_near_ones_are_drawn(prairie: Prairie) -> None:
-    pool, every = prairie.viewers["main"].kept["blades"].pool, EveryBlade(prairie)
-    rows = np.flatnonzero((pool.stamp[:, 0] > -1000) & pool.present.any(axis=1))
-    assert len(rows) > 6
-    for slot in rows[:6]:
-        cell = pool.stamp[slot]
-        count = stand_all(prairie, cell[None], every.blades)
-        assert count == pool.present[slot].sum()
-        data = np.frombuffer(every.blades.blades.buffer.read(), every.blades.blades.record)[:count]
-        near = pool.blade[slot][pool.present[slot]]["root"]
-        assert {tuple(root) for root in data["root_at"].tolist()} == {tuple(root) for root in near.tolist()}
+def test_n3_the_blades_of_the_reference_stand_and_bend_as_the_near_ones_are_drawn(
+    prairie: Prairie, on_card: Callable[[Prairie], Any]
+) -> None:
+    (near, told), every = on_card(prairie)[0], EveryBlade(prairie)
+    pool = prairie.viewers["main"].kept["blades"].pool
+    assert near.pool is pool
+    assert len(near.slots) > 6
+    for slot, texels in zip(near.slots[:6], told, strict=False):
+        count = stand_all(prairie, pool.stamp[slot, None], every.blades)
+        grows = pool.present[slot]
+        assert count == grows.sum() > 0
+        reference = every.blades.blades, every.blades.messages
+        blades, messages = (np.frombuffer(each.buffer.read(), each.record)[:count] for each in reference)
+        np.testing.assert_array_equal(blades["root_at"][:, ::2], pool.places(np.array([slot]))[0][grows])
+        np.testing.assert_allclose(blades["root_at"][:, 1], texels[grows, 2], atol=1e-4)
+        np.testing.assert_allclose(messages["message"], texels[grows, :2], atol=1e-3)
     every.release()
 
 

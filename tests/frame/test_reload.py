@@ -17,12 +17,11 @@ from tallgrass.components.pose import Pose
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.scene import SceneError
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.show.blades.pool import BladePool
-from tallgrass.systems.show.strips.pool import StripPool
 from tallgrass.systems.wind.gust import Gust
 
 Stage = Any
 Aim = Callable[..., Camera]
+Told = Callable[[Prairie], str]
 
 TEXT = """\
 tallgrass: 1
@@ -90,15 +89,22 @@ def untouched(ctx: moderngl.Context, tmp_path: Path) -> Iterator[Prairie]:
     made.prairie.release()
 
 
-def receivers(prairie: Prairie) -> str:
-    told = hashlib.blake2b(digest_size=8)
-    outlook = prairie.viewers["main"]
-    pools: list[BladePool | StripPool] = [outlook.kept["blades"].pool, *outlook.kept["strips"].pools]
-    for pool in pools:
-        told.update(pool.stamp.tobytes() + pool.place.tobytes() + pool.message.tobytes())
-    patches, carpet = outlook.patches, outlook.kept["carpet"].pool
-    told.update(patches.representation.tobytes() + patches.progress.tobytes() + carpet.message.tobytes())
-    return told.hexdigest()
+@pytest.fixture
+def receivers(on_card: Callable[[Prairie], Any]) -> Told:
+    """All that receivers are told, by numpy and on the graphics card, in one word."""
+
+    def digest(prairie: Prairie) -> str:
+        told, patches = hashlib.blake2b(digest_size=8), prairie.viewers["main"].patches
+        for receiving, texels in on_card(prairie):
+            slots = receiving.slots
+            told.update(slots.tobytes() + receiving.pool.places(slots).tobytes() + texels.tobytes())
+            told.update(receiving.letters.heard(slots).tobytes())
+        told.update(patches.representation.tobytes() + patches.progress.tobytes())
+        assert prairie.painter is not None
+        told.update(prairie.painter.carpet.air.texture.read())
+        return told.hexdigest()
+
+    return digest
 
 
 def in_gl() -> dict[int, str]:
@@ -122,7 +128,7 @@ NOTHING: dict[str, list[tuple[str, str]]] = {
 
 @pytest.mark.parametrize("changes", NOTHING.values(), ids=NOTHING)
 def test_n7_what_grass_feels_goes_on_bit_for_bit_where_nothing_of_it_changed(
-    edited: Edited, untouched: Prairie, stage: Stage, camera: Aim, changes: list[tuple[str, str]]
+    edited: Edited, untouched: Prairie, stage: Stage, camera: Aim, receivers: Told, changes: list[tuple[str, str]]
 ) -> None:
     for step in range(12):
         if step == 5:
@@ -239,7 +245,7 @@ def test_n7_winds_that_a_game_added_blow_on(edited: Edited) -> None:
 
 
 def test_n7_a_scene_that_is_wrong_changes_nothing(
-    edited: Edited, untouched: Prairie, stage: Stage, camera: Aim
+    edited: Edited, untouched: Prairie, stage: Stage, camera: Aim, receivers: Told
 ) -> None:
     for wrong in ("strength: strong", "strength: 0.4, strength: 0.5", "strenght: 0.4", "strength: [0.4"):
         with pytest.raises(SceneError, match=r"scene\.yaml:8:"):

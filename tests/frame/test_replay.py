@@ -13,12 +13,11 @@ import pytest
 
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.show.blades.pool import BladePool
-from tallgrass.systems.show.strips.pool import StripPool
 
 Stage = Any
 Load = Callable[..., Prairie]
 Aim = Callable[..., Camera]
+OnCard = Callable[[Prairie], Any]
 
 PROGRAM = """
 import hashlib, sys
@@ -38,9 +37,15 @@ for step in range(6):
     prairie.advance(0.25)
 np.save(sys.argv[1], np.frombuffer(target.read(components=3, alignment=1), np.uint8).reshape(90, 160, 3))
 told = hashlib.blake2b(digest_size=8)
-outlook = prairie.viewers["main"]
-for pool in (outlook.kept["blades"].pool, *outlook.kept["strips"].pools):
-    told.update(pool.place.tobytes() + pool.message.tobytes())
+outlook, painter = prairie.viewers["main"], prairie.painter
+for receiving in (*outlook.kept["blades"].receiving, *outlook.kept["strips"].receiving):
+    slots = receiving.slots
+    told.update(slots.tobytes() + receiving.pool.places(slots).tobytes() + receiving.letters.heard(slots).tobytes())
+counts = [count for each in painter.painters.values() for count in each.receivers(outlook)]
+texels = np.frombuffer(painter.received.texture.read(), np.float32).reshape(-1, 4)
+for first, count in zip(painter.received.lay(counts), counts[:-1], strict=False):
+    told.update(texels[first : first + count].tobytes())
+told.update(painter.carpet.air.texture.read())
 patches = outlook.patches
 told.update(patches.representation.tobytes() + patches.progress.tobytes() + patches.model.tobytes())
 print(told.hexdigest())
@@ -74,19 +79,9 @@ def test_n5_its_pictures_are_the_same_within_one_level_in_another_process(played
     assert len(np.unique(one.reshape(-1, 3), axis=0)) > 500
 
 
-def pools(prairie: Prairie) -> list[BladePool | StripPool]:
-    kept = prairie.viewers["main"].kept
-    return [kept["blades"].pool, *kept["strips"].pools]
-
-
-def receivers(prairie: Prairie) -> str:
-    told = hashlib.blake2b(digest_size=8)
-    for pool in pools(prairie):
-        told.update(pool.place.tobytes() + pool.message.tobytes())
-    return told.hexdigest()
-
-
-def test_n5_the_wind_does_not_depend_on_the_steps_that_time_took(stage: Stage, load: Load, camera: Aim) -> None:
+def test_n5_the_wind_does_not_depend_on_the_steps_that_time_took(
+    stage: Stage, load: Load, camera: Aim, on_card: OnCard
+) -> None:
     aim = camera(0.3, 1.9, 12.0, pitch=-14)
     stories = []
     for steps in ([2.0], [0.25] * 8, [1.5, 0.0, 0.5]):
@@ -94,7 +89,10 @@ def test_n5_the_wind_does_not_depend_on_the_steps_that_time_took(stage: Stage, l
         for dt in steps:
             prairie.advance(dt)
             stage.shot(prairie, aim)
-        stories.append(receivers(prairie))
+        told = hashlib.blake2b(digest_size=8)
+        for receiving, texels in on_card(prairie):
+            told.update(texels.tobytes() + receiving.letters.heard(receiving.slots).tobytes())
+        stories.append(told.hexdigest())
     assert len(set(stories)) == 1
 
 
@@ -105,14 +103,18 @@ def test_n5_a_prairie_comes_back_to_the_same_picture(stage: Stage, load: Load, c
     np.testing.assert_array_equal(pictures[0], pictures[2])
 
 
-def test_n4_what_the_wind_is_asked_is_what_the_grass_feels(stage: Stage, load: Load, camera: Aim) -> None:
+def test_n4_what_the_wind_is_asked_is_what_the_grass_feels(
+    stage: Stage, load: Load, camera: Aim, on_card: OnCard
+) -> None:
     prairie = load()
     prairie.advance(1.7)
     stage.shot(prairie, camera(0.3, 1.9, 12.0, pitch=-14))
     felt = 0
-    for pool in pools(prairie):
-        planted = pool.message.any(axis=-1)
-        place, message = pool.place[planted], pool.message[planted]
-        np.testing.assert_array_equal(prairie.wind_at(place), message)
-        felt += len(message)
+    for receiving, texels in on_card(prairie):
+        slots = receiving.slots
+        asked = prairie.wind_at(receiving.pool.places(slots).reshape(-1, 2))
+        np.testing.assert_array_equal(receiving.letters.messages(slots).reshape(-1, 2), asked)
+        np.testing.assert_allclose(texels[..., :2].reshape(-1, 2), asked, atol=1e-3)
+        assert np.linalg.norm(asked, axis=1).max() > 0.1
+        felt += len(asked)
     assert felt == prairie.statistics.receivers
