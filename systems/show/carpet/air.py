@@ -29,7 +29,8 @@ class Air:
         `first` is the number of the first of them among all receivers.
         """
         array = self.hearing.array()
-        array.program["around"] = int(centre[0]), int(centre[1]), self.side, first
+        if "around" in array.program:  # without a wind, no place counts
+            array.program["around"] = int(centre[0]), int(centre[1]), self.side, first
         self._target.use()
         array.render(moderngl.TRIANGLES, vertices=3)
         return 1
