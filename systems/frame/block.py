@@ -11,7 +11,7 @@ from ...engine.camera import View, eye_of
 from ...engine.declared.scene import Scene
 from ...engine.gl.shaders import program
 from ...engine.terrain.record import Terrain
-from ..grow.record import Growth
+from ..grow.record import GIVES, Growth
 from .light import daylight, display, grain, linear, lit_kind, to_sun
 
 FRAME = np.dtype(
@@ -31,6 +31,7 @@ FRAME = np.dtype(
         ("tip", "(4,4)f4"),
         ("grain_x", "(4,4)f4"),
         ("grain_z", "(4,4)f4"),
+        ("give", f"({GIVES},4)f4"),
     ]
 )
 """The block's fields, as `lib/frame.glsl` declares them (std140)."""
@@ -63,6 +64,7 @@ def frame_record(scene: Scene, growths: list[Growth], terrain: Terrain, patch: f
         row["root"][index] = (*root, canopy_height(growth))
         row["tip"][index] = (*tip, kind.taper)
         row["grain_x"][index, :3], row["grain_z"][index, :3] = grain(kind, light)
+        row["give"][:, index] = growth.postures.give
     return record
 
 

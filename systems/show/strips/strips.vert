@@ -71,15 +71,15 @@ void main() {
     float t = float(min(gl_VertexID / 2, fine.y)) / float(fine.y);
     bool right = (gl_VertexID & 1) == 1;
     vec3 foot = right ? b : a;
-    vec4 told = right ? told_b : told_a;
-    vec3 spine = posture(float(k) * field.w, told.xy, t).place * tall[k];
+    vec2 bend_a = bending(k, told_a.xy), bend_b = bending(k, told_b.xy), bend = right ? bend_b : bend_a;
+    vec3 spine = posture(float(k) * field.w, bend, t).place * tall[k];
     gl_Position = clip * vec4(foot + spine * how.y, 1.0);
     int picture = ring * KINDS + k;
     at = vec2(float(column + (right ? 1 : 0)) / float(fine.x), t) * picture_to[picture];
     sheet = float(first_layer[picture] + (int(where.z) * 2 + own) * count + plane);
-    h = spine.y / (root[k].w * lodged(told.xy));
+    h = spine.y / (root[k].w * lodged(bend));
     vec3 middle = 0.5 * (a + b);
-    lifted = lift(0.5 * (told_a.xy + told_b.xy), middle);
+    lifted = lift(0.5 * (bend_a + bend_b), middle);
     vec3 here = place_tone(middle.xz);
     float hidden = haze_at(middle);
     veil = haze.rgb * hidden;
@@ -93,6 +93,6 @@ void main() {
     boost = boosted(run, middle);
 #ifdef THIN
     float texels = picture_to[picture].y * ATLAS / tall[k] / pixels_at(middle);
-    thin(told.w, how.z, texels / abs(run.x * sight.y - run.y * sight.x));
+    thin(right ? told_b.w : told_a.w, how.z, texels / abs(run.x * sight.y - run.y * sight.x));
 #endif
 }
