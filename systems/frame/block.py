@@ -11,6 +11,7 @@ from ...engine.camera import View, eye_of
 from ...engine.declared.scene import Scene
 from ...engine.gl.shaders import program
 from ...engine.terrain.record import Terrain
+from ..around.canopy import canopy_height
 from ..grow.record import GIVES, Growth
 from .light import daylight, display, grain, linear, lit_kind, to_sun
 
@@ -35,15 +36,6 @@ FRAME = np.dtype(
     ]
 )
 """The block's fields, as `lib/frame.glsl` declares them (std140)."""
-
-
-def canopy_height(growth: Growth) -> float:
-    """Return the height that a kind's shade is measured by [m]: what nearly all its blades stay below."""
-    return float(
-        np.quantile(
-            np.concatenate([np.maximum(model.blades.height, model.blades.stem) for model in growth.models]), 0.9
-        )
-    )
 
 
 def frame_record(scene: Scene, growths: list[Growth], terrain: Terrain, patch: float) -> NDArray[np.void]:
