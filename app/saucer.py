@@ -70,9 +70,9 @@ def launched(x: float, z: float, yaw: float, ground: Ground, /) -> Saucer:
 
 
 def put(saucer: Saucer, ground: Ground, /) -> Saucer:
-    """Return the saucer where it is, but on this terrain and at its height above it."""
+    """Return the saucer where it is, but over this terrain and at its height above the grass."""
     x, z, _, _ = on_terrain(saucer.place[0], saucer.place[2], ground)
-    return replace(saucer, place=(x, level(x, z, ground.height_at), z))
+    return replace(saucer, place=(x, level(x, z, ground.top_at), z))
 
 
 def looked(saucer: Saucer, /, *, right: float, up: float) -> Saucer:
@@ -82,7 +82,7 @@ def looked(saucer: Saucer, /, *, right: float, up: float) -> Saucer:
 
 
 def flown(saucer: Saucer, held: AbstractSet[Move], dt: float, ground: Ground, /) -> Saucer:
-    """Return the saucer after `dt` [s] of the held keys, on the terrain and at its height above it.
+    """Return the saucer after `dt` [s] of the held keys, over the terrain and at its height above the grass.
 
     Turning and power approach what is asked for exponentially, the velocity approaches the power along the heading,
     and the camera the heading. All this is integrated exactly, so that the result does not depend on how time is cut
@@ -103,7 +103,7 @@ def flown(saucer: Saucer, held: AbstractSet[Move], dt: float, ground: Ground, /)
     slower = math.exp(-dt / TURNING)
     return replace(
         saucer,
-        place=(x, level(x, z, ground.height_at), z),
+        place=(x, level(x, z, ground.top_at), z),
         yaw=saucer.yaw + turn * dt + (saucer.turning - turn) * TURNING * (1.0 - slower),
         velocity=(float(velocity[0]) * free_x, float(velocity[1]) * free_z),
         turning=turn + (saucer.turning - turn) * slower,

@@ -121,7 +121,8 @@ class Walk:
     @property
     def ground(self) -> Ground:
         """The ground of the prairie that is walked in."""
-        return Ground(self.prairie.height_at, self.prairie.site.ground.terrain.size)
+        site = self.prairie.site
+        return Ground(self.prairie.height_at, site.ground.terrain.size, site.top_at)
 
     @property
     def camera(self) -> Camera:

@@ -9,7 +9,7 @@ Model = Literal["saucer"]
 """What a body looks like."""
 
 HIGHEST = 1000.0
-"""How high a body may fly above the ground [m]."""
+"""How high a body may fly above the grass [m]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +39,7 @@ class Hover:
     """What it looks like."""
 
     height: float = 2.0
-    """How high its middle flies above the ground [m]."""
+    """How high its middle flies above the grass [m]."""
 
     def __post_init__(self) -> None:
         """Raise ValueError for what cannot be drawn, or not there."""

@@ -2,11 +2,9 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from functools import partial
 
 from ..components.body import Body
 from ..engine.schedule import HasRun, Phase, Schedule
-from ..engine.terrain.sample import height_at
 from ..engine.world import World
 from .around.clearing import Clearings
 from .around.outlook import Outlook, Outlooks
@@ -46,8 +44,7 @@ class Assembly:
         """Return the systems of a site in running order."""
 
         def bodies(time: float) -> list[Body]:
-            heights = partial(height_at, site.ground.terrain)
-            return flying(self.world, heights, self.winds.quarantine, time=time)
+            return flying(self.world, site.top_at, self.winds.quarantine, time=time)
 
         return built_in(
             site,

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from itertools import starmap
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..components.viewer import Viewer
 from ..engine.declared.grass import GrassKind
@@ -12,6 +13,7 @@ from ..engine.declared.quality import Quality
 from ..engine.declared.scene import Scene
 from ..engine.scene import LoadedScene, load_maps
 from ..engine.world import World
+from .around.canopy import canopy_height, top_at
 from .around.ground import Ground
 from .around.outlook import Outlook
 from .around.patches import PatchTable
@@ -39,7 +41,14 @@ class Site:
     sway: float
     """How far grass may reach beyond its patch, leaning and blown [m]."""
 
+    canopy: tuple[float, ...]
+    """Height of each kind's canopy [m]."""
+
     transitions: Transitions = SEAMLESS
+
+    def top_at(self, place: NDArray[np.float32], /) -> NDArray[np.float32]:
+        """Return how high the top of the grass is (y) at ground positions (n, 2) [m], shape (n,)."""
+        return top_at(self.ground, self.canopy, place)
 
     @property
     def finest(self) -> int:
@@ -89,6 +98,7 @@ def lay_out(
         representations=made,
         reach=reach_of(limits, None if lod == "auto" else NAMES.index(lod)),
         sway=max(starmap(farthest_reach, zip(scene.grass.values(), growths, strict=True))),
+        canopy=tuple(map(canopy_height, growths)),
         transitions=transitions,
     )
 

@@ -17,6 +17,7 @@ from ..components.wind import WindPrimitive, WindSource
 from ..engine.declared.scene import Scene
 from ..engine.terrain.sample import height_at
 from ..engine.world import World
+from .around.canopy import canopy_height, top_at
 from .around.ground import Ground, densest_kind
 from .bodies.fly import foot, hover_of, hovering
 from .grow.record import Growth
@@ -51,6 +52,7 @@ class Winds:
         """
         self._scene, self._ground, self._growths = scene, ground, growths
         self._height_at = partial(height_at, ground.terrain)
+        self._top_at = partial(top_at, ground, tuple(map(canopy_height, growths)))
         there = dict(self._world.all(WindSource))
         before = {entity: there[entity] for entity in self._declared if entity in there}
         after = matched(list(before.values()), scene.wind)
@@ -127,7 +129,7 @@ class Winds:
             with suppress(QuarantinedError):
                 if source in poses:
                     hover_of(source, self.quarantine)  # one that fails is left out of this very frame
-                elif (body := hovering(source, self._height_at, self.quarantine, time=time)) is not None:
+                elif (body := hovering(source, self._top_at, self.quarantine, time=time)) is not None:
                     poses[source] = foot(body, self._height_at)
         sources = [source for _, source in found]
         return blowing(sources, self.quarantine, time=time, seed=self._scene.seed, poses=poses)

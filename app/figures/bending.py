@@ -1,18 +1,20 @@
 """How a blade bends: its postures, and its answer over time to wind that starts and stops (figures 6 and 8)."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
 from ...components.wind import Grass
 from ...engine.declared.grass import GrassKind
 from ...engine.scene import read_scene
+from ...systems.grow.bend import bending
+from ...systems.grow.give import grow_give
 from ...systems.grow.postures import grow_postures
 from ...systems.grow.record import Postures, Response
 from ...systems.grow.response import grow_response
@@ -26,6 +28,9 @@ Doubles = NDArray[np.float64]
 SHOWN = (("meadow", "feather"), ("meadow", "fresh"), ("gust", "barley"))
 """Scenes and kinds of grass that are told apart."""
 
+STIFFNESS = (0.2, 1.0, 8.0)
+"""Of blades that are alike otherwise."""
+
 POSTURES = 17
 """How many postures of a kind are shown."""
 
@@ -36,19 +41,25 @@ def kinds() -> dict[str, GrassKind]:
 
 
 def draw_postures(detail: Detail, /) -> Figure:
-    """Return figure 6: blades of several kinds at posture indices from -1 to 1."""
-    shown = {name: (kind, grow_postures(kind, variants=1)) for name, kind in kinds().items()}
-    reach = [0.8 * _length(kind) + 0.22 for kind, _ in shown.values()]
-    figure = sheet(2.25, detail)
+    """Return figure 6: blades of several kinds, and of several stiffnesses, in winds of indices from -1 to 1."""
+    figure = sheet(4.0, detail)
+    upper, lower = np.ravel(figure.subfigures(2, 1, squeeze=False))
+    _fans(upper, {f"{name}, {_length(kind):.2f} m": kind for name, kind in kinds().items()})
+    _fans(lower, {f"stiffness {each:g}": GrassKind(stiffness=each, height=[0.6, 0.6]) for each in STIFFNESS})
+    lower.supxlabel("along the bending direction [m]", fontsize=8.5)
+    return figure
+
+
+def _fans(figure: SubFigure, shown: Mapping[str, GrassKind]) -> None:
+    reach = [0.8 * _length(kind) + 0.22 for kind in shown.values()]
+    tallest = max(map(_length, shown.values()))
     row = figure.subplots(1, len(shown), sharey=True, width_ratios=reach)
-    for axes, far, (name, (kind, postures)) in zip(row, reach, shown.items(), strict=True):
-        _fan(axes, kind, postures)
-        axes.set(title=f"{name}, {_length(kind):.2f} m", xlim=(-far, far), ylim=(0.0, 0.95), aspect="equal")
+    for axes, far, (title, kind) in zip(row, reach, shown.items(), strict=True):
+        _fan(axes, kind, replace(grow_postures(kind, variants=1), give=grow_give(kind)))
+        axes.set(title=title, xlim=(-far, far), ylim=(0.0, 1.1 * tallest), aspect="equal")
         axes.xaxis.set_major_locator(MultipleLocator(0.4))
         axes.yaxis.set_major_locator(MultipleLocator(0.2))
     row[0].set_ylabel("height [m]")
-    figure.supxlabel("along the bending direction [m]", fontsize=8.5)
-    return figure
 
 
 def _length(kind: GrassKind) -> float:
@@ -57,9 +68,10 @@ def _length(kind: GrassKind) -> float:
 
 def _fan(axes: Axes, kind: GrassKind, postures: Postures) -> None:
     length = _length(kind)
-    rows = np.round(np.linspace(0, len(postures.index) - 1, POSTURES)).astype(int)
+    index = np.linspace(-1.0, 1.0, POSTURES)
+    bent = bending(postures, np.stack([index, np.zeros(POSTURES)], axis=1))[:, 0]
+    rows = np.round((0.5 + 0.5 * bent) * (len(postures.index) - 1)).astype(int)
     spines = postures.shape[0, rows].astype(np.float64) * length
-    index = postures.index[rows]
     tips = postures.shape[0, :, -1] * length
     axes.plot(*tips.T, color=FAINT, linewidth=0.7, linestyle=(0, (1, 2)))
     blades = PolyCollection([_outline(spine, kind) for spine in spines], linewidth=0.5)
@@ -67,6 +79,8 @@ def _fan(axes: Axes, kind: GrassKind, postures: Postures) -> None:
     axes.add_collection(blades)
     for number in range(0, POSTURES, (POSTURES - 1) // 4):
         x, y = spines[number, -1]
+        if index[number] and abs(x) < 0.15 * length:
+            continue  # upright still: there is no room for it beside the 0
         away = np.array([x, y]) / np.hypot(x, y) * 4.0
         text = f"{index[number]:+g}".replace("-", "\N{MINUS SIGN}") if index[number] else "0"
         side = "center" if abs(x) < 0.2 * length else "left" if x > 0.0 else "right"
@@ -161,9 +175,10 @@ FIGURES = (
     PaperFigure(
         6,
         "Precomputed postures",
-        "Blades of three kinds at posture indices from \N{MINUS SIGN}1 over 0, upright, to 1, their tips near flat.",
+        "Blades of three kinds in winds of posture indices from \N{MINUS SIGN}1 over 0, upright, to 1, which lays "
+        "grass of stiffness 1 flat; below, blades that differ in their stiffness alone.",
         "A simulated chain of springs is bent by a wind that slowly grows; each posture keeps the blade's length. "
-        "The dotted line is the way of the tip.",
+        "The dotted line is the way of the tip till it lies flat.",
         draw_postures,
     ),
     PaperFigure(

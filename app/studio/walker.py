@@ -68,6 +68,9 @@ class Ground:
     size: tuple[float, float]
     """Width (x) and depth (z) of the terrain, centred on the origin [m]."""
 
+    top_at: Heights
+    """How high the top of the grass is at ground positions [m]."""
+
     def height(self, x: float, z: float) -> float:
         """Return the height of the ground at one place [m]."""
         return float(self.height_at(np.array([[x, z]], np.float32))[0])

@@ -34,7 +34,10 @@ class GrassKind(Declaration):
     """Width of a blade at its root [m]."""
 
     stiffness: float = Field(default=1.0, gt=0.01, le=100.0)
-    """Stiffness of the springs between the links of a blade, 1 is a common meadow grass."""
+    """Stiffness of the springs between the links of a blade, 1 is a common meadow grass.
+
+    The same wind bends a stiffer kind less and a softer one more: index 1 lays grass of stiffness 1 flat, softer grass
+    lies flat before, and stiffer grass still stands."""
 
     damping: float = Field(default=1.0, gt=0.01, le=100.0)
     """How fast a blade's swing dies away, 1 is a common meadow grass."""

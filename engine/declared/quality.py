@@ -96,8 +96,11 @@ PRESETS: dict[str, Quality] = {
     "ultra": _quality(
         800, [(2, 8), (4, 6), (6, 4)], [(10, 8, 2, 3, 0.006), (16, 4, 2, 2, 0.012), (28, 3, 1, 2, 0.016)], 48
     ),
-    "paper-low": _quality(160, [(2, 3)], [(8, 8, 2, 3, 0.008)], 32),
-    "paper-medium": _quality(320, [(1, 4)], [(12, 8, 2, 3, 0.008)], 36),
-    "paper-high": _quality(500, [(2, 8)], [(20, 8, 2, 3, 0.008)], 40),
+    "paper-low": _quality(160, [(2, 3)], [(8, 8, 2, 3, 0.008)], 29),
+    "paper-medium": _quality(320, [(1, 4)], [(12, 8, 2, 3, 0.008)], 48),
+    "paper-high": _quality(500, [(2, 8)], [(20, 8, 2, 3, 0.008)], 56),
 }
-"""The presets by name: the paper's three instances, and those that people use (paper, section 5.1)."""
+"""The presets by name: the paper's three instances, and those that people use (paper, section 5.1).
+
+The paper's reach so far that the image of `plain` has about 100,000, 500,000 and 1,000,000 blades.
+"""

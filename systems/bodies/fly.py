@@ -23,13 +23,13 @@ Path = Callable[[float], Pose]
 """Where something is on the ground and where it heads, at a time [s]."""
 
 HOVER = 2.0
-"""Height of a saucer's middle above the prairie [m]."""
+"""Height of a saucer's middle above the grass (paper, section 3.3) [m]."""
 
 LOWEST = 1.0
-"""Least height of its middle above any ground under it [m]."""
+"""Least height of its middle above any grass under it [m]."""
 
 REACH = 3.0
-"""How far around the ground is levelled for it, so that it glides over bumps [m]."""
+"""How far around the grass is levelled for it, so that it glides over bumps [m]."""
 
 GRAVITY = 9.81
 """[m/s²]."""
@@ -48,8 +48,8 @@ _AROUND = np.column_stack([np.cos(_ANGLES), np.sin(_ANGLES)]) * REACH
 _UNDER = np.concatenate([np.zeros((1, 2)), 0.5 * _AROUND, _AROUND]).astype(np.float32)
 
 
-def carried(path: Path, time: float, height_at: Heights, /, *, height: float = HOVER, model: Model = "saucer") -> Body:
-    """Return the body that flies along a path, at one time [s] and at a height above the ground [m].
+def carried(path: Path, time: float, top_at: Heights, /, *, height: float = HOVER, model: Model = "saucer") -> Body:
+    """Return the body that flies along a path, at one time [s] and at a height above the top of the grass [m].
 
     It leans as the path's velocity and acceleration ask for, taken from differences over `GLANCE`.
     """
@@ -57,17 +57,18 @@ def carried(path: Path, time: float, height_at: Heights, /, *, height: float = H
     velocity = (after.x - before.x) / (2.0 * GLANCE), (after.z - before.z) / (2.0 * GLANCE)
     gain = (after.x - 2.0 * here.x + before.x) / GLANCE**2, (after.z - 2.0 * here.z + before.z) / GLANCE**2
     nose, bank = lean(velocity, gain, here.yaw)
-    y = level(here.x, here.z, height_at, height=height)
+    y = level(here.x, here.z, top_at, height=height)
     return Body((here.x, y, here.z), here.yaw, nose, bank, model)
 
 
-def level(x: float, z: float, height_at: Heights, /, *, height: float = HOVER) -> float:
-    """Return how high something flies (y) [m] that keeps a height [m] above the ground around (x, z).
+def level(x: float, z: float, top_at: Heights, /, *, height: float = HOVER) -> float:
+    """Return how high something flies (y) [m] that keeps a height [m] above the grass around (x, z).
 
-    The ground is levelled over a disc of radius `REACH`; nothing under that disc comes nearer than `LOWEST`.
+    `top_at` says how high the top of the grass is. It is levelled over a disc of radius `REACH`; nothing under that
+    disc comes nearer than `LOWEST`.
     """
-    ground = height_at(np.array([x, z], np.float32) + _UNDER).astype(np.float64)
-    return max(float(ground.mean()) + height, float(ground.max()) + LOWEST)
+    top = top_at(np.array([x, z], np.float32) + _UNDER).astype(np.float64)
+    return max(float(top.mean()) + height, float(top.max()) + LOWEST)
 
 
 def lean(velocity: Flat, gain: Flat, yaw: float, /) -> tuple[float, float]:
@@ -110,7 +111,7 @@ def hover_of(source: WindSource, quarantine: Quarantine, /) -> Hover | None:
 
 
 def hovering(
-    source: WindSource, height_at: Heights, quarantine: Quarantine, /, *, time: float, pose: Pose | None = None
+    source: WindSource, top_at: Heights, quarantine: Quarantine, /, *, time: float, pose: Pose | None = None
 ) -> Body | None:
     """Return what hovers over a wind at `time` [s]: at a pose, or else along the wind's own path.
 
@@ -124,20 +125,20 @@ def hovering(
     def path(moment: float) -> Pose:
         return pose or quarantine.ask_pose(source, time=moment)
 
-    return carried(path, time, height_at, height=hover.height, model=hover.model)
+    return carried(path, time, top_at, height=hover.height, model=hover.model)
 
 
-def flying(world: World, height_at: Heights, quarantine: Quarantine, /, *, time: float) -> list[Body]:
+def flying(world: World, top_at: Heights, quarantine: Quarantine, /, *, time: float) -> list[Body]:
     """Return what is in the air at `time` [s]: the bodies that entities have, and what hovers over winds.
 
-    The latter flies where the wind is, along its path or with the pose of its entity.
+    The latter flies where the wind is, along its path or with the pose of its entity, over the top of the grass.
     """
     own = dict(world.all(Body))
     bodies = list(own.values())
     for entity, source in world.all(WindSource):
         if entity not in own:
             with suppress(QuarantinedError):
-                body = hovering(source, height_at, quarantine, time=time, pose=world.find(entity, Pose))
+                body = hovering(source, top_at, quarantine, time=time, pose=world.find(entity, Pose))
                 if body is not None:
                     bodies.append(body)
     return bodies

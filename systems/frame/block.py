@@ -11,7 +11,8 @@ from ...engine.camera import View, eye_of
 from ...engine.declared.scene import Scene
 from ...engine.gl.shaders import program
 from ...engine.terrain.record import Terrain
-from ..grow.record import Growth
+from ..around.canopy import canopy_height
+from ..grow.record import GIVES, Growth
 from .light import daylight, display, grain, linear, lit_kind, to_sun
 
 FRAME = np.dtype(
@@ -31,18 +32,10 @@ FRAME = np.dtype(
         ("tip", "(4,4)f4"),
         ("grain_x", "(4,4)f4"),
         ("grain_z", "(4,4)f4"),
+        ("give", f"({GIVES},4)f4"),
     ]
 )
 """The block's fields, as `lib/frame.glsl` declares them (std140)."""
-
-
-def canopy_height(growth: Growth) -> float:
-    """Return the height that a kind's shade is measured by [m]: what nearly all its blades stay below."""
-    return float(
-        np.quantile(
-            np.concatenate([np.maximum(model.blades.height, model.blades.stem) for model in growth.models]), 0.9
-        )
-    )
 
 
 def frame_record(scene: Scene, growths: list[Growth], terrain: Terrain, patch: float) -> NDArray[np.void]:
@@ -63,6 +56,7 @@ def frame_record(scene: Scene, growths: list[Growth], terrain: Terrain, patch: f
         row["root"][index] = (*root, canopy_height(growth))
         row["tip"][index] = (*tip, kind.taper)
         row["grain_x"][index, :3], row["grain_z"][index, :3] = grain(kind, light)
+        row["give"][:, index] = growth.postures.give
     return record
 
 

@@ -11,11 +11,11 @@ Doubles = NDArray[np.float64]
 def spine(blades: Blades, postures: Postures, message: ArrayLike, /, *, points: int) -> Floats:
     """Return points along bent blades, from root to tip at even steps, in the patch [m], shape (n, points, 3).
 
-    `message` is the wind's, shape (n, 2) or (2,). Rest leans add to it by what it leaves over:
-    total = message + rest (1 - |message|); its norm is the posture index, never above 1, its direction the
-    bending direction. Shapes are looked up linearly in index and in the place along the blade.
+    `message` is the wind's, shape (n, 2) or (2,); it bends a kind as far as that gives way. Rest leans add to this by
+    what it leaves over: total = bending + rest (1 - |bending|); its norm is the posture index, never above 1, its
+    direction the bending direction. Shapes are looked up linearly in index and in the place along the blade.
     """
-    index, direction = posture_of(blades.rest, message)
+    index, direction = posture_of(blades.rest, bending(postures, message))
     along, up = _look_up(postures, blades.variant, index, np.linspace(0.0, 1.0, points))
     height = blades.height[:, None].astype(np.float64)
     place = np.empty((*along.shape, 3))
@@ -27,7 +27,7 @@ def spine(blades: Blades, postures: Postures, message: ArrayLike, /, *, points: 
 
 def _stem_top(blades: Blades, postures: Postures, message: ArrayLike, /) -> Doubles:
     """Return where the tops of the stems are that blades stand on, from their roots [m], shape (n, 3)."""
-    index, direction = posture_of(np.zeros_like(blades.rest), message)
+    index, direction = posture_of(np.zeros_like(blades.rest), bending(postures, message))
     along, up = _look_up(postures, np.zeros_like(blades.variant), index, np.ones(1))
     x, z = (along[:, 0] * direction[:, k] for k in (0, 1))
     return np.asarray(np.stack([x, up[:, 0], z], axis=1) * blades.stem[:, None].astype(np.float64))
@@ -39,11 +39,19 @@ def tone(blades: Blades, place: Doubles, /) -> Doubles:
     return np.where(low, 1.0, place[None])
 
 
-def posture_of(rest: ArrayLike, message: ArrayLike, /) -> tuple[Doubles, Doubles]:
+def bending(postures: Postures, message: ArrayLike, /) -> Doubles:
+    """Return how messages bend a kind: vectors along them as long as the posture index, same shape as `message`."""
+    message = np.asarray(message, np.float64)
+    length = np.linalg.norm(message, axis=-1, keepdims=True)
+    index = np.interp(length, np.linspace(0.0, 1.0, len(postures.give)), postures.give)
+    return np.asarray(message / np.maximum(length, 1e-9) * index)
+
+
+def posture_of(rest: ArrayLike, bending: ArrayLike, /) -> tuple[Doubles, Doubles]:
     """Return posture indices in [0, 1], shape (n,), and unit bending directions (x, z), shape (n, 2)."""
-    rest, message = np.asarray(rest, np.float64), np.asarray(message, np.float64)
-    left = np.maximum(1.0 - np.linalg.norm(message, axis=-1, keepdims=True), 0.0)
-    total = message + rest * left
+    rest, bending = np.asarray(rest, np.float64), np.asarray(bending, np.float64)
+    left = np.maximum(1.0 - np.linalg.norm(bending, axis=-1, keepdims=True), 0.0)
+    total = bending + rest * left
     index = np.linalg.norm(total, axis=-1)
     still = index < 1e-9
     direction = np.where(still[:, None], [1.0, 0.0], total / np.where(still, 1.0, index)[:, None])

@@ -9,8 +9,10 @@ from .simulate import LINKS, Chain, Doubles, build_chain, damp, lowest_swing, pl
 NEAR_FLAT = np.radians(83.0)
 """Angle of the tip from the vertical at posture index 1 [rad]."""
 
+CALM, STORM = 0.02, 400.0
+"""Squared speeds of winds that bend blades, from the least to the most, in what their stiffness withstands."""
+
 _GOLDEN = 0.618
-_CALM, _STORM = 0.02, 400.0
 _STEPS, _LONGEST_STEP, _ANGLE_STEP = 1200, 0.1, 0.15
 _HEAVY = 0.7
 
@@ -45,7 +47,7 @@ def bend_slowly(chain: Chain, /) -> tuple[Doubles, Doubles]:
     heavy = damp(chain, ratio=_HEAVY)
     step = min(_ANGLE_STEP / float(lowest_swing(chain)[0]), _LONGEST_STEP)
     scale = np.sqrt(chain.stiffness[:, 0] / (links * chain.area.sum()))
-    wind = np.sqrt(np.geomspace(_CALM, _STORM, _STEPS))[:, None] * scale
+    wind = np.sqrt(np.geomspace(CALM, STORM, _STEPS))[:, None] * scale
     angle, rate = np.zeros((1, batch, links)), np.zeros((batch, links))
     for start in range(0, _STEPS, 100):
         more, rate = simulate(heavy, angle[-1], rate, wind[start : start + 100], step=step)

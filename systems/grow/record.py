@@ -10,6 +10,9 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float32]
 Bytes = NDArray[np.uint8]
 
+GIVES = 17
+"""Lengths of messages, evenly spaced from 0 to 1, for which it is known how far a kind gives way."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Postures:
@@ -21,6 +24,10 @@ class Postures:
     shape: Floats
     """Control points (along the bending direction, up) of a blade of length 1 that stands at the origin,
     shape (variants, rows, links + 1, 2). Variant 0 has even links; the others have random ones."""
+
+    give: Floats = field(default_factory=lambda: np.linspace(0.0, 1.0, GIVES, dtype=np.float32))
+    """Posture index that messages of evenly spaced lengths from 0 to 1 bend a blade to, shape (GIVES,): a stiff kind
+    gives way less than the message says, a soft one more, and one of stiffness 1 as far."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -31,6 +31,9 @@ _DRAG = 0.5 * 1.2 * 1.2
 _SLENDERNESS = 0.022
 """Width over length of a common blade."""
 
+_MOST_TRIES, _LONGEST_TURN, _AT_REST = 60, 0.2, 1e-9
+"""Newton's steps to a blade's rest at most; how far one turns a link, and below which no other follows [rad]."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Chain:
@@ -120,7 +123,7 @@ class _Motion:
         self._load = _load(chain.mass)
         self._stiff = _joint_matrix(chain.stiffness)
         self._damp = _joint_matrix(chain.damping)
-        self._reach = (np.tri(links, k=-1) + 0.5 * np.eye(links)) / links
+        self._reach = _reach(links)
 
     def change(self, angle: Doubles, rate: Doubles, wind: Doubles, step: float, /) -> Doubles:
         """Return the change of the rates over one step, shape (batch, links)."""
@@ -140,8 +143,50 @@ class _Motion:
         return np.asarray(np.linalg.solve(left, step * force[:, :, None])[:, :, 0])
 
 
+def settle(chain: Chain, wind: Doubles, /) -> Doubles:
+    """Return the angles of blades at rest in constant winds, shape (winds, batch, links).
+
+    `wind` is the horizontal wind's speed, rising from near nothing, shape (winds,); each rest is looked for from the
+    one before it.
+    """
+    links = chain.mass.shape[0]
+    load, stiff = _load(chain.mass), _joint_matrix(chain.stiffness)
+    reach = _reach(links)
+    angle = np.zeros(chain.stiffness.shape)
+    rests = np.empty((len(wind), *angle.shape))
+    for number, speed in enumerate(wind):
+        pressure = chain.area * speed * speed
+        for _ in range(_MOST_TRIES):
+            step = _towards_rest(angle, stiff, load, reach, pressure)
+            angle = angle + np.clip(step, -_LONGEST_TURN, _LONGEST_TURN)
+            if np.abs(step).max() < _AT_REST:
+                break
+        rests[number] = angle
+    return rests
+
+
+def _towards_rest(angle: Doubles, stiff: Doubles, load: Doubles, reach: Doubles, pressure: Doubles, /) -> Doubles:
+    """Return Newton's step to where springs, weight and the wind's pressure on each link hold one another."""
+    sine, cosine = np.sin(angle), np.cos(angle)
+    apart = angle[:, :, None] - angle[:, None, :]
+    even, odd = reach * np.cos(apart), reach * np.sin(apart)
+    push = pressure * cosine * np.abs(cosine)
+    less = -2.0 * pressure * np.abs(cosine) * sine
+    turned = np.swapaxes(even, 1, 2)
+    torque = _times(turned, push) + load * sine - _times(stiff, angle)
+    slope = turned * less[:, None, :] - np.swapaxes(odd * push[:, :, None], 1, 2) - stiff
+    here = np.arange(angle.shape[1])
+    slope[:, here, here] += load * cosine + (odd * push[:, :, None]).sum(axis=1)
+    return np.asarray(np.linalg.solve(slope, -torque[:, :, None])[:, :, 0])
+
+
 def _times(matrix: Doubles, vector: Doubles, /) -> Doubles:
     return np.asarray((matrix @ vector[:, :, None])[:, :, 0])
+
+
+def _reach(links: int, /) -> Doubles:
+    """Return how far the middle of each link (a row) moves when a link turns, straight rods."""
+    return np.asarray((np.tri(links, k=-1) + 0.5 * np.eye(links)) / links)
 
 
 def _above(mass: Doubles, /) -> Doubles:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.declared.quality import Quality
-from ..grow.record import Blades, Growth, PatchModel, Postures, Response
+from ..grow.record import GIVES, Blades, Growth, PatchModel, Postures, Response
 from ..grow.response import SAMPLES
 from ..grow.simulate import LINKS
 from ..show.registry import REPRESENTATIONS
@@ -107,6 +107,7 @@ def _fits(growth: Growth, quality: Quality, blades: int, /) -> bool:
     postures, response = growth.postures, growth.response
     return (
         postures.index.shape == (ROWS,)
+        and postures.give.shape == (GIVES,)
         and postures.shape.shape == (VARIANTS, ROWS, LINKS + 1, 2)
         and response.rise.shape == response.fall.shape == (SAMPLES,)
         and all(_model_fits(model, quality, blades) for model in growth.models)

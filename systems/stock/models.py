@@ -1,7 +1,7 @@
 """Everything that is grown for one kind of grass, from the finest to the coarsest (paper, sections 2.2, 3.2)."""
 
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import fields, is_dataclass
+from dataclasses import fields, is_dataclass, replace
 
 import numpy as np
 
@@ -9,6 +9,7 @@ from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
 from ..around.representation import Seedling
 from ..grow.bend import spine
+from ..grow.give import grow_give
 from ..grow.plants import PLANTS
 from ..grow.postures import grow_postures
 from ..grow.record import Blades, Growth, PatchModel, Postures
@@ -30,7 +31,7 @@ def grow(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
     The textures of all patch models have the same size, height and margin, so that they can be layers of one. They
     are drawn on several threads: each is a function of its own patch model alone.
     """
-    postures = grow_postures(kind, variants=VARIANTS, rows=ROWS, seed=seed)
+    postures = replace(grow_postures(kind, variants=VARIANTS, rows=ROWS, seed=seed), give=grow_give(kind))
     patches = [
         PLANTS[kind.plant](
             kind, count=blade_count(kind, quality), patch=quality.patch, variants=VARIANTS, seed=_mixed(seed, number)

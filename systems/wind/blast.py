@@ -98,7 +98,7 @@ class Blast(PlacedWind):
     """What is drawn flying there; without it, nothing."""
 
     height: float = Field(default=2.0, ge=0.5, le=100.0)
-    """How high the body flies above the ground [m]."""
+    """How high the body flies above the grass [m]."""
 
     def hover(self) -> Hover | None:
         """Return the body that it comes from."""

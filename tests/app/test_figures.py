@@ -12,11 +12,12 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 from matplotlib.quiver import Quiver
+from matplotlib.text import Annotation
 from numpy.lib.stride_tricks import sliding_window_view
 from PIL import Image
 
 from tallgrass.app.cli import run
-from tallgrass.app.figures.bending import draw_postures, draw_responses, extreme, gust_profile, kinds
+from tallgrass.app.figures.bending import STIFFNESS, draw_postures, draw_responses, extreme, gust_profile, kinds
 from tallgrass.app.figures.figure import Detail
 from tallgrass.app.figures.morph import (
     STAGES,
@@ -208,11 +209,20 @@ def test_t2_figure_5_colours_the_patches_in_the_view_cone_alone() -> None:
 def test_w3_the_blades_of_figure_6_have_the_lengths_of_their_kinds() -> None:
     with look():
         figure = draw_postures(SMALL)
-    for axes, kind in zip(figure.axes, kinds().values(), strict=True):
+    for axes, kind in zip(figure.axes[:3], kinds().values(), strict=True):
         length = sum(kind.height) / 2
         tips = axes.lines[0].get_xydata()
         assert f"{length:.2f} m" in axes.get_title("left")
         assert np.hypot(*np.asarray(tips).T).max() == pytest.approx(length, rel=1e-3)
+
+
+def test_w12_in_figure_6_the_stiffest_blades_stand_highest_in_the_same_wind() -> None:
+    with look():
+        figure = draw_postures(SMALL)
+    told = [[text for text in axes.texts if text.get_text() == "+1"] for axes in figure.axes[3:]]
+    tips = [text.xy[1] for (text,) in told if isinstance(text, Annotation)]
+    assert len(tips) == len(STIFFNESS)
+    assert tips[-1] > max(tips[:-1]) + 0.25 * 0.6
 
 
 def test_w4_figure_8_plots_the_response_of_each_kind() -> None:

@@ -43,9 +43,16 @@ def hills(xz: Floats) -> Floats:
     return np.asarray(3.0 * np.sin(0.1 * xz[:, 0]) + 2.0 * np.cos(0.13 * xz[:, 1]), np.float32)
 
 
-HILLS = Ground(hills, (200.0, 100.0))
-WIDE = Ground(hills, (1e6, 1e6))
-FLAT = Ground(lambda xz: np.zeros(len(xz), np.float32), (1e6, 1e6))
+def grassy(xz: Floats) -> Floats:
+    return hills(xz) + np.float32(GRASS)
+
+
+GRASS = 0.75
+"""How high grass stands on all these grounds [m]."""
+
+HILLS = Ground(hills, (200.0, 100.0), grassy)
+WIDE = Ground(hills, (1e6, 1e6), grassy)
+FLAT = Ground(lambda xz: np.zeros(len(xz), np.float32), (1e6, 1e6), lambda xz: np.full(len(xz), GRASS, np.float32))
 
 
 def after(saucer: Saucer, held: set[Move], seconds: float, ground: Ground = FLAT) -> Saucer:
@@ -62,7 +69,7 @@ def test_r4_wherever_keys_lead_the_saucer_stays_over_the_terrain(script: list[tu
         x, y, z = saucer.place
         assert abs(x) <= 100.0 - MARGIN
         assert abs(z) <= 50.0 - MARGIN
-        assert y >= HILLS.height(x, z) + LOWEST - 1e-5
+        assert y >= HILLS.height(x, z) + GRASS + LOWEST - 1e-5
         eye = chase(saucer, 0.7, HILLS).position
         assert eye[1] >= HILLS.height(eye[0], eye[2]) + CLEAR - 1e-5
 
@@ -78,9 +85,10 @@ def test_r4_the_flight_does_not_depend_on_how_time_is_cut_into_frames(
         np.testing.assert_allclose(getattr(whole, name), getattr(cut, name), atol=1e-6, err_msg=name)
 
 
-def test_r4_it_cruises_two_metres_above_the_prairie() -> None:
+def test_r4_it_cruises_two_metres_above_the_grass() -> None:
     cruising = after(launched(0.0, 0.0, math.pi / 2, FLAT), {"ahead"}, 8.0)
-    assert cruising.place[1] == pytest.approx(HOVER)
+    assert HOVER == 2.0
+    assert cruising.place[1] == pytest.approx(GRASS + HOVER)
     assert cruising.velocity == pytest.approx((CRUISE, 0.0), abs=0.01)
     assert after(cruising, {"ahead", "run"}, 8.0).velocity == pytest.approx((FAST, 0.0), abs=0.01)
     assert after(cruising, {"back"}, 8.0).velocity == pytest.approx((-CRUISE / 2, 0.0), abs=0.01)
@@ -124,7 +132,7 @@ def test_r4_its_jet_meets_the_ground_behind_it_when_it_goes_faster() -> None:
     assert (foot.x, foot.z, foot.yaw) == pytest.approx((3.0, 4.0, 0.0))
     gaining = after(start, {"ahead"}, 0.5)
     behind = jet(gaining, FLAT).z - gaining.place[2]
-    assert behind == pytest.approx(HOVER * math.tan(-body(gaining).nose))
+    assert behind == pytest.approx((GRASS + HOVER) * math.tan(-body(gaining).nose))
 
 
 def test_the_camera_is_behind_it_and_comes_round_after_it() -> None:
@@ -151,7 +159,9 @@ def test_the_mouse_looks_at_it_from_all_around(yaw: float, right: float, up: flo
 
 
 def test_another_ground_lifts_it_onto_it() -> None:
-    higher = Ground(lambda xz: np.full(len(xz), 20.0, np.float32), (50.0, 50.0))
+    higher = Ground(
+        lambda xz: np.full(len(xz), 20.0, np.float32), (50.0, 50.0), lambda xz: np.full(len(xz), 20.5, np.float32)
+    )
     moved = put(launched(95.0, 0.0, 1.0, HILLS), higher)
-    assert moved.place == pytest.approx((25.0 - MARGIN, 20.0 + HOVER, 0.0))
+    assert moved.place == pytest.approx((25.0 - MARGIN, 20.5 + HOVER, 0.0))
     assert moved.yaw == 1.0

@@ -41,8 +41,8 @@ def hills(xz: Floats) -> Floats:
     return np.asarray(3.0 * np.sin(0.1 * xz[:, 0]) + 2.0 * np.cos(0.13 * xz[:, 1]), np.float32)
 
 
-HILLS = Ground(hills, (200.0, 100.0))
-WIDE = Ground(hills, (1e6, 1e6))
+HILLS = Ground(hills, (200.0, 100.0), hills)
+WIDE = Ground(hills, (1e6, 1e6), hills)
 
 
 def on_foot(x: float = 0.0, z: float = 0.0) -> Walker:
@@ -131,7 +131,7 @@ def test_a_low_camera_starts_on_foot_and_a_high_one_in_flight() -> None:
 
 
 def test_another_ground_lifts_the_walker_onto_it() -> None:
-    higher = Ground(lambda xz: hills(xz) + np.float32(20.0), (100.0, 100.0))
+    higher = Ground(lambda xz: hills(xz) + np.float32(20.0), (100.0, 100.0), hills)
     walker = settled(on_foot(95.0, 0.0), higher)
     assert walker.position == pytest.approx((50.0 - MARGIN, higher.height(50.0 - MARGIN, 0.0) + EYE, 0.0))
 

@@ -22,8 +22,12 @@ def hills(xz: Floats) -> Floats:
     return np.asarray(3.0 * np.sin(0.1 * xz[:, 0]) + 2.0 * np.cos(0.13 * xz[:, 1]), np.float32)
 
 
-HILLS = Ground(hills, (200.0, 100.0))
-FLAT = Ground(lambda xz: np.zeros(len(xz), np.float32), (1000.0, 1000.0))
+def level(xz: Floats) -> Floats:
+    return np.zeros(len(xz), np.float32)
+
+
+HILLS = Ground(hills, (200.0, 100.0), hills)
+FLAT = Ground(level, (1000.0, 1000.0), level)
 
 
 def test_n8_a_look_leads_to_where_it_meets_the_ground() -> None:

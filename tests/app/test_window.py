@@ -301,7 +301,7 @@ def test_n7_the_saucer_flies_on_over_a_scene_that_is_read_again(walk: "Walk", sc
     place = walk.flight.saucer.place
     scene.write_text(scene.read_text().replace("seed: 5", "seed: 6"))
     press(walk, "F5")
-    assert walk.flight.saucer.place == pytest.approx(place)
+    assert walk.flight.saucer.place == pytest.approx(place, abs=0.05), "other blades have grown, about as high"
     assert winds(walk) == {"breeze", "blast", "whirlwind"}
     press(walk, "W")
     walk.frame(0.1)

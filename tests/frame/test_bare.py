@@ -12,7 +12,7 @@ from PIL import Image
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import draw_reference
-from tallgrass.testing import Stage
+from tallgrass.testing import LITTLE, Stage
 
 Load = Callable[..., Prairie]
 Aim = Callable[..., Camera]
@@ -59,3 +59,10 @@ def test_t1_bare_ground_far_off_is_as_bright_as_in_the_reference(
     truth = draw_reference(prairie, *small.matrices(seen), small.size, samples=2).astype(np.float64)
     assert np.abs(drawn - truth)[62:].mean(axis=1).max() <= 10.0  # below the terrain's edge
     assert np.abs(drawn - truth)[66:].max() <= 10.0
+
+
+@pytest.mark.parametrize("lod", ["auto", "carpet"])
+def test_a_prairie_where_no_wind_blows_is_drawn(load: Load, small: Stage, camera: Aim, lod: str) -> None:
+    picture = small.shot(load(LITTLE, lod=lod), camera(0.0, 3.0, 20.0, pitch=-15))
+    below = picture[len(picture) // 2 :].mean(axis=(0, 1))
+    assert below[1] > below[2] + 20.0, "grass is greener than it is blue"

@@ -169,7 +169,7 @@ def test_r4_what_hovers_over_a_strangers_wind_is_drawn_where_it_flies(
 ) -> None:
     aim = camera(0.0, 2.5, 10.0, pitch=5)
     rotor = Rotor()
-    there = carried(lambda time: rotor.pose(time=time), prairie.time, prairie.height_at, height=3.0)
+    there = carried(lambda time: rotor.pose(time=time), prairie.time, prairie.site.top_at, height=3.0)
     expected = show(aim, there)
     handle = prairie.add(rotor)
     seen = show(aim)

@@ -109,8 +109,7 @@ Bodies = Callable[[float], list[Body]]
 @pytest.fixture
 def bodies(world: World, site: Site, winds: Winds) -> Bodies:
     """What is in the air at a time."""
-    ground = partial(height_at, site.ground.terrain)
-    return lambda time: flying(world, ground, winds.quarantine, time=time)
+    return lambda time: flying(world, site.top_at, winds.quarantine, time=time)
 
 
 @pytest.mark.parametrize("time", [0.0, 0.4, pi])
@@ -120,8 +119,7 @@ def test_r4_the_body_of_a_strangers_wind_flies_along_its_pose(
     winds.add(Rotor(), "rotor")
     (body,) = bodies(time)
     assert (body.place[0], body.place[2], body.yaw, body.model) == (8.0 * sin(time), 3.0, 0.5, "saucer")
-    ground = partial(height_at, site.ground.terrain)
-    assert body == carried(lambda moment: Rotor().pose(time=moment), time, ground, height=5.0)
+    assert body == carried(lambda moment: Rotor().pose(time=moment), time, site.top_at, height=5.0)
 
 
 def test_r4_a_strangers_wind_acts_where_its_tilted_jet_meets_the_ground(

@@ -15,4 +15,5 @@ layout(std140) uniform Frame {
     vec4 tip[4];      // by kind: display colour at the tip in this light; taper
     vec4 grain_x[4];  // by kind: relative change of colour with a face normal's x
     vec4 grain_z[4];  // by kind: the same with z
+    vec4 give[17];    // by length of a message, evenly from 0 to 1: posture index that it bends the kinds to
 };

@@ -22,18 +22,18 @@ vec3 place_tone(vec2 place) {
     return relief * (1.0 + 0.16 * here.z + 0.14 * here.w * vec3(1.0, 0.1, -0.9));
 }
 
-// How much brighter the tops are than the plain shade: bent by `message`, or seen against the sun.
-float lift(vec2 message, vec3 place) {
+// How much brighter the tops are than the plain shade: bent by `bend`, or seen against the sun.
+float lift(vec2 bend, vec3 place) {
     vec3 ray = normalize(place - eye.xyz);
     float facing = max(dot(ray, sun.xyz), 0.0);
     facing *= facing;
     vec2 away = normalize(ray.xz + 1e-6);
-    return SHEEN * dot(message, message) + NAP * dot(message, away) + THROUGH * sun.w * facing * facing;
+    return SHEEN * dot(bend, bend) + NAP * dot(bend, away) + THROUGH * sun.w * facing * facing;
 }
 
-// How high the canopy stands where `message` bends it, of its height at rest: where all grass lies, its tips are the top.
-float lodged(vec2 message) {
-    return 1.0 - 0.55 * min(dot(message, message), 1.0);
+// How high the canopy stands where `bend` bends it, of its height at rest: where all grass lies, its tips are the top.
+float lodged(vec2 bend) {
+    return 1.0 - 0.55 * min(dot(bend, bend), 1.0);
 }
 
 // Brightness at height `h` (1 is the top of the canopy).

@@ -10,7 +10,7 @@ uniform vec4 tall;            // by kind: height of the strips [m]
 
 struct Edge {
     vec3 foot;
-    vec2 message;
+    vec2 bend;
 };
 
 struct Painted {
@@ -19,19 +19,19 @@ struct Painted {
     float h;       // height in the canopy, as if the strip had grown up
     vec3 run;      // from the column's first edge to its second, along the ground
     vec3 middle;   // between their feet
-    vec2 message;  // mean of the two
+    vec2 bend;     // mean of the two
 };
 
-Edge edge_at(vec4 base, int receiver, int edge) {
+Edge edge_at(vec4 base, int receiver, int edge, int kind) {
     vec4 told = received_by(receiver + edge);
     vec2 foot = base.xy + base.zw * float(edge);
-    return Edge(vec3(foot.x, told.z, foot.y), told.xy);
+    return Edge(vec3(foot.x, told.z, foot.y), bending(kind, told.xy));
 }
 
 // The point at `part` of an edge's length, on a strip of this height [m], and its height in the canopy.
 vec4 on_edge(Edge edge, int kind, float part, float height) {
-    vec3 spine = posture(float(kind) * field.w, edge.message, part).place;
-    return vec4(edge.foot + spine * height, spine.y * tall[kind] / (root[kind].w * lodged(edge.message)));
+    vec3 spine = posture(float(kind) * field.w, edge.bend, part).place;
+    return vec4(edge.foot + spine * height, spine.y * tall[kind] / (root[kind].w * lodged(edge.bend)));
 }
 
 vec2 target_at(int number, int point) {
@@ -51,7 +51,7 @@ Painted painted_at(vec4 base, int receiver, int blade, float height, float t, in
     way *= fineness;
     ivec2 quad = clamp(ivec2(uv), ivec2(0), ivec2(fineness) - 1);
     vec2 part = uv - vec2(quad);
-    Edge a = edge_at(base, receiver, quad.x), b = edge_at(base, receiver, quad.x + 1);
+    Edge a = edge_at(base, receiver, quad.x, kind), b = edge_at(base, receiver, quad.x + 1, kind);
     float low = float(quad.y) / fineness.y, high = float(quad.y + 1) / fineness.y;
     vec4 near = on_edge(b, kind, low, height), far = on_edge(a, kind, high, height);
     // A quad is two triangles, parted from the second edge's foot to the first edge's head.
@@ -62,5 +62,5 @@ Painted painted_at(vec4 base, int receiver, int blade, float height, float t, in
     vec4 at = corner + across * from.x + up * from.y;
     vec3 run = vec3(b.foot.x - a.foot.x, 0.0, b.foot.z - a.foot.z);
     return Painted(at.xyz, across.xyz * way.x + up.xyz * way.y, at.w, run, 0.5 * (a.foot + b.foot),
-                   0.5 * (a.message + b.message));
+                   0.5 * (a.bend + b.bend));
 }

@@ -66,8 +66,8 @@ void main() {
     joints = vec4(0.0, 2.0, kind, 0.0);
     crown.w = 1.0;
 #endif
-    vec2 bend = message + rest * (1.0 - min(length(message), 1.0));
-    vec3 up = stem > 0.0 ? posture(float(k) * field.w, message, 1.0).place * stem : vec3(0.0);
+    vec2 blown = bending(k, message), bend = blown + rest * (1.0 - min(length(blown), 1.0));
+    vec3 up = stem > 0.0 ? posture(float(k) * field.w, blown, 1.0).place * stem : vec3(0.0);
     vec2 across = vec2(-facing.y, facing.x);
     foot = vec4(root_at + up, height);
     lie = vec4(bend, 0.5 * width * across);
@@ -77,8 +77,8 @@ void main() {
     low = vec4((stem > 0.0 ? tip[k].rgb : root[k].rgb) * here, variant);
     high = vec4(tip[k].rgb * here, tip[k].w);
     tilt = vec4(ROUND * (grain_x[k].rgb * across.x + grain_z[k].rgb * across.y) / grain, veil);
-    float canopy_height = root[k].w * lodged(message);
-    crown.xyz = vec3(lift(message, root_at), up.y / canopy_height, height / canopy_height);
+    float canopy_height = root[k].w * lodged(blown);
+    crown.xyz = vec3(lift(blown, root_at), up.y / canopy_height, height / canopy_height);
 #ifdef MORPH
     int ring = int(strips.x), model = int(where.z) / 4, turn = int(where.z) % 4, along = int(how.w);
     int own = (along + turn) % 2, count = stacks[ring].z, columns = stacks[ring].x;

@@ -50,7 +50,7 @@ vec4 widened(vec3 place, vec3 tangent, vec2 across) {
 // The colour at part `t` of a blade of kind `k` with this face normal, where it is painted.
 vec3 painted_light(int k, float t, vec2 normal, Painted target) {
     vec3 grass = mix(root[k].rgb, tip[k].rgb, t) * (1.0 + grain_x[k].rgb * normal.x + grain_z[k].rgb * normal.y);
-    grass *= place_tone(target.middle.xz) * canopy(target.h, lift(target.message, target.middle));
+    grass *= place_tone(target.middle.xz) * canopy(target.h, lift(target.bend, target.middle));
     return mix(grass, haze.rgb, haze_at(target.middle));
 }
 #endif

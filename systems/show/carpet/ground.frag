@@ -10,6 +10,7 @@ out vec4 pixel;
 #include "lib/random.glsl"
 #include "lib/shares.glsl"
 #include "lib/carpet.glsl"
+#include "lib/posture.glsl"
 
 uniform sampler2DArray images;  // place along the blade, height, normal, coverage; premultiplied
 uniform float slopes[SLOPES];
@@ -82,7 +83,7 @@ vec3 carpet_light(float slope) {
     dy *= fine;
     vec3 ray = place - eye.xyz;
     vec2 heading = ray.xz / max(length(ray.xz), 1e-4);
-    float lifted = lift(message_at(place.xz), place);
+    vec2 message = message_at(place.xz);
     // The leaves that are seen stand deeper in the grass, where the line of sight has met enough of them.
     float deeper = min(tall * inversesqrt(max(slope, slopes[0]) * max(dense, 0.01)), 15.0);
     vec3 here = place_tone(place.xz + heading * deeper);
@@ -96,7 +97,7 @@ vec3 carpet_light(float slope) {
         vec4 image = mix(near, steep, seen.y);
         vec3 grass = root[kind].rgb * image.a + (tip[kind].rgb - root[kind].rgb) * image.r;
         float h = image.g / max(image.a, 1e-3);
-        sum += met[kind] * vec4(grass * here * canopy(h, lifted), image.a);
+        sum += met[kind] * vec4(grass * here * canopy(h, lift(bending(kind, message), place)), image.a);
     }
     return sum.rgb + soil_color * (1.0 - min(sum.a, 1.0));
 }

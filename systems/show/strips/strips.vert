@@ -52,11 +52,11 @@ float pixels_at(vec3 place) {
 }
 
 // Where a point of an edge is, `t` of the way up its section's quads, and its height in the canopy.
-vec4 on_edge(vec3 foot, vec2 message, float t, int k, float sections, float growth) {
+vec4 on_edge(vec3 foot, vec2 bend, float t, int k, float sections, float growth) {
     float low = min(floor(t * sections), sections - 1.0), variant = float(k) * field.w;
-    vec3 from = posture(variant, message, low / sections).place, to = posture(variant, message, (low + 1.0) / sections).place;
+    vec3 from = posture(variant, bend, low / sections).place, to = posture(variant, bend, (low + 1.0) / sections).place;
     vec3 spine = mix(from, to, t * sections - low) * tall[k];
-    return vec4(foot + spine * growth, spine.y / (root[k].w * lodged(message)));
+    return vec4(foot + spine * growth, spine.y / (root[k].w * lodged(bend)));
 }
 
 void main() {
@@ -85,11 +85,12 @@ void main() {
     float pixels = pixels_at(middle), beside = 1.0 / (pixels * distance(a.xz, b.xz));
     float across = (gl_VertexID & 1) == 1 ? min(extent.y + beside, 1.0) : max(extent.x - beside, 0.0);
     float t = min(float(gl_VertexID / 2) / float(fine.y), min(extent.z + 1.0 / (pixels * tall[k]), 1.0));
-    vec4 point = mix(on_edge(a, told_a.xy, t, k, float(fine.y), how.y), on_edge(b, told_b.xy, t, k, float(fine.y), how.y), across);
+    vec2 bend_a = bending(k, told_a.xy), bend_b = bending(k, told_b.xy);
+    vec4 point = mix(on_edge(a, bend_a, t, k, float(fine.y), how.y), on_edge(b, bend_b, t, k, float(fine.y), how.y), across);
     gl_Position = clip * vec4(point.xyz, 1.0);
     h = point.w;
     at = vec2((float(column) + across) / float(fine.x), t) * picture_to[picture];
-    lifted = lift(0.5 * (told_a.xy + told_b.xy), middle);
+    lifted = lift(0.5 * (bend_a + bend_b), middle);
     vec3 here = place_tone(middle.xz);
     float hidden = haze_at(middle);
     veil = haze.rgb * hidden;

@@ -47,7 +47,7 @@ def block(ctx: moderngl.Context) -> Iterator[FrameBlock]:
 
 def test_the_shaders_block_has_the_records_fields_in_its_order() -> None:
     source = files("tallgrass.engine.shaders").joinpath("lib/frame.glsl").read_text("utf-8")
-    declared = re.findall(r"^\s+(mat4|vec4) (\w+)(?:\[(\d)\])?;", source, re.MULTILINE)
+    declared = re.findall(r"^\s+(mat4|vec4) (\w+)(?:\[(\d+)\])?;", source, re.MULTILINE)
     sizes = {name: {"mat4": 64, "vec4": 16}[kind] * int(count or 1) for kind, name, count in declared}
     assert list(sizes.items()) == [(name, FRAME[name].itemsize) for name in FRAME.names or ()]
 
@@ -56,8 +56,9 @@ def test_the_shaders_block_has_the_records_fields_in_its_order() -> None:
 def test_the_graphics_card_reads_every_field_as_it_was_written(
     probe: Probe, record: NDArray[np.void], name: str
 ) -> None:
-    many = FRAME[name].shape == (4, 4)
-    rows = np.ones((4, 4), np.float32) * np.arange(4, dtype=np.float32)[:, None]
+    many = len(FRAME[name].shape) == 2
+    count = FRAME[name].shape[0]
+    rows = np.ones((count, 4), np.float32) * np.arange(count, dtype=np.float32)[:, None]
     told = probe(TELL % (f"{name}[int(row.x)]" if many else f"{name} * row.w"), rows, record, {}, 4)
     expected = record[0][name] if many else rows * record[0][name]
     np.testing.assert_array_equal(told, expected)

@@ -10,7 +10,16 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.engine.declared.grass import GrassKind
-from tallgrass.systems.grow.simulate import GRAVITY, LINKS, Chain, build_chain, lowest_swing, place_links, simulate
+from tallgrass.systems.grow.simulate import (
+    GRAVITY,
+    LINKS,
+    Chain,
+    build_chain,
+    lowest_swing,
+    place_links,
+    settle,
+    simulate,
+)
 
 EVEN = np.ones((1, LINKS))
 
@@ -120,3 +129,15 @@ def test_the_wind_pushes_the_blade_the_way_it_blows_and_mirrors() -> None:
 def test_time_runs_in_roots_of_length_over_gravity() -> None:
     chain = build_chain(GrassKind(height=[GRAVITY / 4, GRAVITY / 4]), EVEN)
     assert chain.second == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize("stiffness", [0.02, 0.2, 1.0, 100.0])
+def test_a_blade_at_rest_in_a_wind_stays_there(stiffness: float) -> None:
+    chain = build_chain(GrassKind(stiffness=stiffness), np.exp(np.linspace(-0.5, 0.5, 2 * LINKS)).reshape(2, LINKS))
+    winds = np.geomspace(0.01, 2.0, 60) * np.sqrt(1.0 + stiffness)
+    rest = settle(chain, winds)
+    for number in (0, 30, 59):
+        steady = np.full((200, 2), winds[number])
+        history, _ = simulate(chain, rest[number], np.zeros((2, LINKS)), steady, step=0.01)
+        np.testing.assert_allclose(history[-1], rest[number], atol=1e-6)
+    assert (np.diff(rest[:, :, -1], axis=0) > 0.0).all()

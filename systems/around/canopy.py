@@ -1,0 +1,32 @@
+"""How high the grass stands over the ground."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...engine.terrain.sample import density_at, height_at
+from ..grow.record import Growth
+from .ground import Ground
+
+Floats = NDArray[np.float32]
+
+
+def canopy_height(growth: Growth, /) -> float:
+    """Return the height of a kind's canopy [m]: what nearly all its blades stay below."""
+    return float(
+        np.quantile(
+            np.concatenate([np.maximum(model.blades.height, model.blades.stem) for model in growth.models]), 0.9
+        )
+    )
+
+
+def top_at(ground: Ground, canopy: Sequence[float], place: Floats, /) -> Floats:
+    """Return how high the top of the grass is (y) at ground positions (x, z), shape (n, 2), [m], shape (n,).
+
+    `canopy` has the height of each kind's. Of kinds that grow together the tallest counts, lowered to the ground as it
+    grows more thinly: the top has no steps where a kind ends. Blades are taken as they stand in calm air, and what a
+    game has cleared counts as if it grew.
+    """
+    tall = np.asarray(canopy, np.float32)[:, None] * density_at(ground.density, place)
+    return np.asarray(height_at(ground.terrain, place) + tall.max(axis=0), np.float32)

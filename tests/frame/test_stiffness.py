@@ -1,0 +1,118 @@
+"""One wind, two kinds: the soft one lies where the stiff one stands, in every representation (W12)."""
+
+from collections.abc import Callable
+
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass.engine.camera import Camera
+from tallgrass.systems.grow.bend import spine
+from tallgrass.systems.prairie import Prairie
+from tallgrass.testing import Stage as Room
+
+Load = Callable[..., Prairie]
+Aim = Callable[..., Camera]
+Pictures = Callable[[str, str], NDArray[np.float64]]
+
+SCENE = """\
+tallgrass: 1
+terrain: {{ size: [40, 40] }}
+grass: {{ reed: {{ height: [0.5, 0.5], width: 0.02, taper: 0.3, lean: 0, variety: 0, stiffness: {stiffness} }} }}
+light: {{ haze: 100000 }}
+quality:
+  blades: 350
+  models: 2
+  blade_rings: [{{ to: 8, segments: 8 }}]
+  strip_rings: [{{ to: 10, strips: 8, columns: 4, sections: 6, texel: 0.008 }}]
+  carpet_to: 24
+  carpet: 64
+"""
+LENGTH = 0.5
+"""Of every blade [m]."""
+
+SOFT, STIFF = 0.2, 8
+NOW = 9.0
+
+WINDS = {
+    "breeze": "{ kind: breeze, strength: 0.5, gustiness: 0 }",
+    "gust": "{ kind: gust, position: [-40, 0], width: 400, reach: 400, hold: 60, ragged: 0, strength: 0.5, swing: 0 }",
+    "whirlwind": "{ kind: whirlwind, position: [0, -90], radius: 300, strength: 0.8, turning: 0, swing: 0 }",
+    "blast": "{ kind: blast, position: [-150, 0], outline: { disc: 400 }, strength: 0.6, swing: 0 }",
+}
+"""Winds that tell all grass of the scene about the same: along x, and half of what lays common grass flat."""
+
+EDGE, EYE, BACK = 20.0, 0.12, 12.0
+"""Where the terrain ends, from beyond which one looks at it: how high the eye is, and how far away [m]."""
+
+
+@pytest.fixture(scope="module")
+def room(ctx: moderngl.Context) -> Room:
+    return Room(ctx, (160, 240))
+
+
+@pytest.fixture(scope="module")
+def prairies(load: Load) -> Callable[[float, str, str], Prairie]:
+    """A prairie of one kind, of a stiffness, in a wind and as one representation."""
+    known: dict[tuple[float, str, str], Prairie] = {}
+
+    def prairie(stiffness: float, wind: str, lod: str) -> Prairie:
+        key = stiffness, wind, lod
+        if key not in known:
+            winds = f"wind: [{WINDS[wind]}]\n" if wind else ""
+            known[key] = load(SCENE.format(stiffness=stiffness) + winds, lod=lod)
+            known[key].advance(NOW)
+        return known[key]
+
+    return prairie
+
+
+def stands(room: Room, prairie: Prairie) -> float:
+    """How high grass stands at the terrain's near edge, in all but a tenth of the picture's columns [m]."""
+    camera = Camera((0.0, EYE, EDGE + BACK), 0.0, 0.0, np.radians(6.0))
+    picture = room.shot(prairie, camera)
+    top = np.quantile(np.argmax(picture[..., 1] > picture[..., 2], axis=0), 0.9)
+    return float(EYE + BACK * (1.0 - 2.0 * top / room.size[1]) * np.tan(camera.view / 2.0))
+
+
+@pytest.mark.parametrize("wind", WINDS)
+def test_w12_numpy_lays_a_soft_blade_lower_than_a_stiff_one(
+    prairies: Callable[[float, str, str], Prairie], wind: str
+) -> None:
+    place = np.array([[0.0, 0.0], [5.0, EDGE]], np.float32)
+    tips = []
+    for stiffness in (SOFT, STIFF):
+        prairie = prairies(stiffness, wind, "blades")
+        message = prairie.wind_at(place)
+        np.testing.assert_allclose(np.hypot(*message.T), 0.5, atol=0.12)
+        growth = prairie.site.growths[0]
+        tips += [spine(growth.models[0].blades, growth.postures, told, points=9)[:, -1, 1].mean() for told in message]
+    assert min(tips[2:]) - max(tips[:2]) > 0.25 * LENGTH
+
+
+@pytest.mark.parametrize(("lod", "apart"), [("blades", 0.16), ("strips", 0.25)])
+@pytest.mark.parametrize("wind", WINDS)
+def test_w12_a_picture_shows_soft_grass_lower_than_stiff_grass(
+    prairies: Callable[[float, str, str], Prairie], room: Room, wind: str, lod: str, apart: float
+) -> None:
+    calm = [stands(room, prairies(stiffness, "", lod)) for stiffness in (SOFT, STIFF)]
+    soft, stiff = (stands(room, prairies(stiffness, wind, lod)) for stiffness in (SOFT, STIFF))
+    # Of blades that stand before one another the highest are seen, and those are of the stiffest variant.
+    assert stiff - soft > apart * LENGTH
+    assert calm[0] == pytest.approx(calm[1], abs=0.01)
+    assert stiff == pytest.approx(calm[1], abs=0.03)
+
+
+@pytest.mark.parametrize("wind", WINDS)
+def test_w12_the_carpets_light_shows_that_soft_grass_lies_and_stiff_grass_stands(
+    prairies: Callable[[float, str, str], Prairie], room: Room, wind: str
+) -> None:
+    camera = Camera((-15.0, 2.5, 0.0), np.pi / 2.0, -0.4, np.radians(30.0))
+    soft, stiff = (
+        float(room.shot(prairies(stiffness, wind, "carpet"), camera).mean())
+        / float(room.shot(prairies(stiffness, "", "carpet"), camera).mean())
+        for stiffness in (SOFT, STIFF)
+    )
+    assert stiff == pytest.approx(1.0, abs=0.04)
+    assert soft > 1.15
