@@ -22,7 +22,9 @@ NUMBERS = {
     "FRONT_FACE": 0x0B46, "CULL_FACE_MODE": 0x0B45, "DEPTH_FUNC": 0x0B74, "DEPTH_WRITEMASK": 0x0B72,
     "COLOR_WRITEMASK": 0x0C23, "BLEND_EQUATION_RGB": 0x8009, "BLEND_EQUATION_ALPHA": 0x883D, "VIEWPORT": 0x0BA2,
     "SCISSOR_BOX": 0x0C10, "PRIMITIVE_RESTART_INDEX": 0x8F9E, "DRAW_BUFFER0": 0x8825, "COLOR_ATTACHMENT1": 0x8CE1,
-    "FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE": 0x8CD0,
+    "FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE": 0x8CD0, "SAMPLES": 0x80A9, "DEPTH": 0x1801, "DEPTH_ATTACHMENT": 0x8D00,
+    "TEXTURE_2D": 0x0DE1, "TEXTURE0": 0x84C0,
+    "TIMESTAMP": 0x8E28, "QUERY_RESULT": 0x8866, "QUERY_RESULT_AVAILABLE": 0x8867,
 }  # fmt: skip
 """What OpenGL calls its constants, without GL_."""
 
@@ -41,8 +43,11 @@ DOES = {
     "glScissor": (c_int,) * 4, "glPolygonMode": (c_int,) * 2, "glFrontFace": (c_int,), "glCullFace": (c_int,),
     "glDepthFunc": (c_int,), "glDepthMask": (c_ubyte,), "glColorMaski": (c_int, *(c_ubyte,) * 4),
     "glBlendFuncSeparate": (c_int,) * 4, "glBlendEquationSeparate": (c_int,) * 2,
+    "glCopyTexSubImage2D": (c_int,) * 8, "glGenQueries": (c_int, c_void_p), "glDeleteQueries": (c_int, c_void_p),
+    "glQueryCounter": (c_int,) * 2, "glGetQueryObjectiv": (c_int, c_int, c_void_p),
+    "glGetQueryObjectui64v": (c_int, c_int, c_void_p),
 }  # fmt: skip
-"""All others that a state is read and brought back with."""
+"""All others: what a state is read and brought back with, and what moderngl has no word for."""
 
 
 class Functions:
