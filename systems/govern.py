@@ -11,19 +11,15 @@ from statistics import median
 
 from .around.outlook import Outlook
 from .painter import Painter
+from .transition import FADE
 
 RUNG = log(2.0) / 6.0
 """How much less a rung takes than the one above it, as a logarithm, at most: as pixels are left out, two of whose
 sides shrink by a twelfth of an octave."""
 
-SCALES = 18
-"""Rungs that leave out pixels; below them, representations are drawn in as well."""
-
-LOWEST = 26
-"""The last rung."""
-
-DRAWN_IN = 2.0 ** (-1.0 / 8.0)
-"""How much nearer the representations end from one rung to the next."""
+LADDER = ((12, 0), (12, 8), (18, 8))
+"""How many twelfths of an octave of pixels are left out, and eighths of one of distances, one by one from each pair to
+the next: pixels first, for they come and go at once, but not so many that grass is a blur before it is drawn in."""
 
 ABOVE = 0.03
 """How much too long frames may take before they are made cheaper, as a logarithm."""
@@ -34,6 +30,9 @@ long right away."""
 
 WATCHED = 0.25
 """How long frames are watched before anything is changed [s]."""
+
+EAGER = 2.0
+"""How many times as far down as pixels alone would need: some of what a frame takes stays whatever is left out."""
 
 FEWEST = 3
 """And how many there are at least."""
@@ -62,12 +61,26 @@ class Fineness:
     """Part of the distances up to which representations are due."""
 
 
+def _rungs() -> tuple[Fineness, ...]:
+    pixels, distances = 0, 0
+    found = [Fineness()]
+    for most, farthest in LADDER:
+        while (pixels, distances) != (most, farthest):
+            pixels, distances = pixels + (pixels < most), distances + (distances < farthest)
+            found.append(Fineness(2.0 ** (-pixels / 12.0), 2.0 ** (-distances / 8.0)))
+    return tuple(found)
+
+
+RUNGS = _rungs()
+"""What is drawn, from everything to the least."""
+
+
 @dataclass(frozen=True, slots=True)
 class Pace:
     """How frames have kept to their time, and what comes of it."""
 
     rung: int = 0
-    """How far down, from 0 where everything is drawn to `LOWEST`."""
+    """Number of what is drawn in `RUNGS`."""
 
     passing: int = BEGINNING
     """Frames that are still to pass uncounted."""
@@ -85,16 +98,11 @@ class Pace:
     """Whether the last change was for the better."""
 
 
-def fineness_at(rung: int, /) -> Fineness:
-    """Return what is drawn on a rung."""
-    return Fineness(2.0 ** (-min(rung, SCALES) / 12.0), DRAWN_IN ** max(0, rung - SCALES))
-
-
 def paced(pace: Pace, seconds: float, /, *, hold: float) -> Pace:
     """Return the pace after a frame of its rung has taken so long; `hold` is how long it may take [s].
 
-    Downwards it goes as far as is needed at most, upwards no farther than there is room for. So it comes to rest under
-    any steady load, and never swings about its aim. A climb that was taken back makes the next one wait for longer.
+    Downwards it hurries, upwards it goes no farther than there is room for in any case: so it comes to rest under any
+    steady load, and never swings about its aim. A climb that was taken back makes the next one wait for longer.
     """
     if pace.passing:
         return replace(pace, passing=pace.passing - 1)
@@ -103,25 +111,32 @@ def paced(pace: Pace, seconds: float, /, *, hold: float) -> Pace:
         return replace(pace, times=times)
     pace, over = replace(pace, times=()), log(max(median(times), 1e-6) / hold)
     if over > ABOVE:
-        return _descended(pace, ceil(over / RUNG))
+        return _descended(pace, ceil(EAGER * over / RUNG), hold)
     if over < -BELOW and pace.short + 1 < pace.patience:
         return replace(pace, short=pace.short + 1)
-    return _climbed(pace, floor(-over / RUNG)) if over < -BELOW else replace(pace, short=0)
+    return _climbed(pace, floor(-over / RUNG), hold) if over < -BELOW else replace(pace, short=0)
 
 
-def _descended(pace: Pace, rungs: int) -> Pace:
-    rung = min(LOWEST, pace.rung + rungs)
+def _descended(pace: Pace, rungs: int, hold: float) -> Pace:
+    rung = min(len(RUNGS) - 1, pace.rung + rungs)
     if rung == pace.rung:
         return pace
     patience = min(LONGEST_PATIENCE, 2 * pace.patience) if pace.climbed else pace.patience
-    return Pace(rung, patience=patience)
+    return Pace(rung, _to_pass(pace.rung, rung, hold), patience=patience)
 
 
-def _climbed(pace: Pace, rungs: int) -> Pace:
+def _climbed(pace: Pace, rungs: int, hold: float) -> Pace:
     rung = max(0, pace.rung - min(rungs, MOST_BETTER))
     if rung == pace.rung:
-        return pace
-    return Pace(rung, patience=max(1, pace.patience // 2) if pace.climbed else pace.patience, climbed=True)
+        return replace(pace, short=0)
+    patience = max(1, pace.patience // 2) if pace.climbed else pace.patience
+    return Pace(rung, _to_pass(pace.rung, rung, hold), patience=patience, climbed=True)
+
+
+def _to_pass(rung: int, other: int, hold: float) -> int:
+    """Return how many frames pass before a change of rungs has come to an end."""
+    same_range = RUNGS[rung].range == RUNGS[other].range
+    return BEGINNING if same_range else BEGINNING + ceil((FADE + EASE) / hold)
 
 
 def eased(now: float, due: float, /, *, dt: float) -> float:
@@ -159,7 +174,7 @@ class Governor:
         viewer = outlook.viewer
         if not self.resting:
             self._drawn[viewer.name] = self._paces.setdefault(viewer.name, Pace()).rung
-        found = fineness_at(self._drawn.get(viewer.name, 0))
+        found = RUNGS[self._drawn.get(viewer.name, 0)]
         if not self.resting:
             outlook.range = eased(outlook.range, found.range, dt=viewer.dt)
         return found

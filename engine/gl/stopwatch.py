@@ -1,9 +1,9 @@
 """How long drawing takes: what the graphics card says, or the clock where there is no card."""
 
 from collections import deque
-from collections.abc import Hashable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-from ctypes import c_int, c_uint, c_uint64
+from ctypes import Array, c_int, c_uint, c_uint64
 from functools import cached_property
 from time import perf_counter
 
@@ -12,8 +12,8 @@ import moderngl
 from .functions import NUMBERS, functions_of
 from .rasteriser import draws_in_software
 
-Stamps = c_uint * 2
-"""The numbers of two queries: when drawing began, and when it was over."""
+Name = tuple[str, int]
+"""What a time is of: somebody's picture, and which one."""
 
 MOST_UNDERWAY = 6
 """Drawings that a card may be behind with; while there are more, none is timed."""
@@ -27,8 +27,8 @@ class Stopwatch:
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self._ctx, self._gl = ctx, functions_of(ctx)
-        self._underway: deque[tuple[Hashable, Stamps]] = deque()
-        self._known: list[tuple[Hashable, float]] = []
+        self._underway: deque[tuple[Name, Array[c_uint]]] = deque()
+        self._known: list[tuple[Name, float]] = []
 
     @cached_property
     def waits(self) -> bool:
@@ -36,7 +36,7 @@ class Stopwatch:
         return draws_in_software(self._ctx)
 
     @contextmanager
-    def timing(self, name: Hashable, /) -> Iterator[None]:
+    def timing(self, name: Name, /) -> Iterator[None]:
         """Time what is drawn meanwhile."""
         if self.waits:
             start = perf_counter()
@@ -46,7 +46,7 @@ class Stopwatch:
         elif len(self._underway) >= MOST_UNDERWAY:
             yield
         else:
-            stamps = Stamps()
+            stamps = (c_uint * 2)()
             self._gl.glGenQueries(2, stamps)
             self._gl.glQueryCounter(stamps[0], NUMBERS["TIMESTAMP"])
             try:
@@ -55,7 +55,7 @@ class Stopwatch:
                 self._gl.glQueryCounter(stamps[1], NUMBERS["TIMESTAMP"])
                 self._underway.append((name, stamps))
 
-    def read(self) -> list[tuple[Hashable, float]]:
+    def read(self) -> list[tuple[Name, float]]:
         """Return what has come in since it was last asked, the earliest first: names and times [s]."""
         while self._underway and self._is_over(self._underway[0][1]):
             name, stamps = self._underway.popleft()
@@ -69,12 +69,12 @@ class Stopwatch:
             self._gl.glDeleteQueries(2, stamps)
         self._underway.clear()
 
-    def _is_over(self, stamps: Stamps) -> bool:
+    def _is_over(self, stamps: Array[c_uint]) -> bool:
         found = (c_int * 1)()
         self._gl.glGetQueryObjectiv(stamps[1], NUMBERS["QUERY_RESULT_AVAILABLE"], found)
         return bool(found[0])
 
-    def _took(self, stamps: Stamps) -> float:
+    def _took(self, stamps: Array[c_uint]) -> float:
         """Return the time between two stamps that are known [s], and give them back."""
         times = []
         for stamp in stamps:
