@@ -168,16 +168,11 @@ class Governor:
 
     def fineness(self, outlook: Outlook, /) -> Fineness:
         """Return what is drawn of a viewer's picture now, and let the representations around it follow."""
-        if self.hold is None:
-            outlook.range = 1.0
-            return Fineness()
-        viewer = outlook.viewer
+        name = outlook.viewer.name
         if not self.resting:
-            self._drawn[viewer.name] = self._paces.setdefault(viewer.name, Pace()).rung
-        found = RUNGS[self._drawn.get(viewer.name, 0)]
-        if not self.resting:
-            outlook.range = eased(outlook.range, found.range, dt=viewer.dt)
-        return found
+            self._drawn[name] = 0 if self.hold is None else self._paces.setdefault(name, Pace()).rung
+            outlook.range = eased(outlook.range, RUNGS[self._drawn[name]].range, dt=outlook.viewer.dt)
+        return RUNGS[self._drawn.get(name, 0)]
 
     @contextmanager
     def watching(self, painter: Painter, viewer: str, /, *, spent: float) -> Iterator[None]:

@@ -6,5 +6,5 @@ out vec4 pixel;
 
 void main() {
     pixel = vec4(0.0);
-    gl_FragDepth = depth_before(ivec2(gl_FragCoord.xy));
+    gl_FragDepth = texture(before, middle_of(at)).r;
 }

@@ -5,9 +5,8 @@
 out vec4 pixel;
 
 void main() {
-    ivec2 texel = min(ivec2(place_in_it()), size - 1);
-    float drawn = texelFetch(deep, texel, 0).r;
-    if (drawn >= depth_before(texel)) {
+    float drawn = texture(deep, at).r;
+    if (drawn >= texture(before, middle_of(at)).r) {
         discard;
     }
     pixel = vec4(0.0);

@@ -7,7 +7,7 @@ const float LEAST = 0.05;  // opacity of a gap between the host's things that is
 out vec4 pixel;
 
 void main() {
-    vec4 drawn = sharp(place_in_it());
+    vec4 drawn = sharp(at);
     if (drawn.a < LEAST) {
         discard;
     }

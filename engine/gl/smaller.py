@@ -17,6 +17,9 @@ log = logging.getLogger("tallgrass")
 
 Size = tuple[int, int]
 
+MOST = 4
+"""Sizes whose buffers are kept: a viewer's last and present one, and another viewer's."""
+
 UNITS = {"before": FIRST_UNIT, "picture": FIRST_UNIT + 1, "deep": FIRST_UNIT + 2}
 """Texture units: what stands there is bound anew whenever it is read."""
 
@@ -35,19 +38,20 @@ def smaller_size(size: Size, scale: float, /) -> Size:
 class Buffers:
     """What is drawn into, and the host's depth beside it."""
 
-    size: Size
     before: moderngl.Texture
     picture: moderngl.Texture
     deep: moderngl.Texture
     target: moderngl.Framebuffer
 
     @classmethod
-    def made(cls, ctx: moderngl.Context, size: Size, /) -> "Buffers":
-        """Return new ones of this size [pixels]."""
-        before, picture, deep = ctx.depth_texture(size), ctx.texture(size, 4), ctx.depth_texture(size)
+    def made(cls, ctx: moderngl.Context, full: Size, small: Size, /) -> "Buffers":
+        """Return new ones for a viewport and a picture of these sizes [pixels]."""
+        before, picture, deep = ctx.depth_texture(full), ctx.texture(small, 4), ctx.depth_texture(small)
+        for texture in (before, picture, deep):
+            texture.repeat_x = texture.repeat_y = False
         for depth in (before, deep):
             depth.compare_func, depth.filter = "", (moderngl.NEAREST, moderngl.NEAREST)
-        return cls(size, before, picture, deep, ctx.framebuffer([picture], deep))
+        return cls(before, picture, deep, ctx.framebuffer([picture], deep))
 
     def use(self) -> None:
         """Bind what is read where the passes read it."""
@@ -63,15 +67,14 @@ class Buffers:
 class Smaller:
     """A buffer that a guest draws into in place of the host's framebuffer, with fewer pixels.
 
-    It is as large as the largest viewport has been, and a part of it is used, so that another scale costs nothing.
-    There is none before it is needed.
+    There is none before it is needed, and one for each of the last sizes.
     """
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self._ctx, self._gl = ctx, functions_of(ctx)
         self._programs: dict[str, moderngl.Program] = {}
         self._passes: dict[str, moderngl.VertexArray] = {}
-        self._buffers: Buffers | None = None
+        self._buffers: dict[tuple[Size, Size], Buffers] = {}
         self._told: set[str] = set()
 
     @contextmanager
@@ -86,13 +89,11 @@ class Smaller:
             yield host
             return
         x, y, width, height = host.viewport
-        small, buffers = smaller_size((width, height), scale), self._room((width, height))
-        self._tell({"size": small, "shrunk": (small[0] / width, small[1] / height), "corner": (x, y)})
+        buffers = self._room((width, height), smaller_size((width, height), scale))
         with aside(self._ctx, host):
             buffers.use()
             self._gl.glActiveTexture(NUMBERS["TEXTURE0"] + UNITS["before"])
             self._gl.glCopyTexSubImage2D(NUMBERS["TEXTURE_2D"], 0, 0, 0, x, y, width, height)
-            buffers.target.viewport = (0, 0, *small)
             buffers.target.depth_mask = True
             buffers.target.use()
             self._do("bring")
@@ -106,9 +107,7 @@ class Smaller:
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(*self._passes.values(), *self._programs.values())
-        if self._buffers is not None:
-            self._buffers.release()
+        release_all(*self._passes.values(), *self._programs.values(), *self._buffers.values())
 
     def _do(self, name: str, *, blending: tuple[int, int] | None = None) -> None:
         """Do one of the passes."""
@@ -140,17 +139,16 @@ class Smaller:
             return "no colour"
         return None if self._has_depth(host) else "no depth"
 
-    def _room(self, size: Size) -> Buffers:
-        """Return buffers that have room for a viewport of this size."""
+    def _room(self, full: Size, small: Size) -> Buffers:
+        """Return buffers for a viewport and a picture of these sizes."""
         if not self._passes:
             self._make()
-        has = self._buffers
-        if has is None or has.size[0] < size[0] or has.size[1] < size[1]:
-            if has is not None:
-                has.release()
-                size = max(size[0], has.size[0]), max(size[1], has.size[1])
-            self._buffers = has = Buffers.made(self._ctx, size)
-        return has
+        if (full, small) not in self._buffers:
+            if len(self._buffers) == MOST:
+                self._buffers.pop(next(iter(self._buffers))).release()
+            self._buffers[full, small] = Buffers.made(self._ctx, full, small)
+        self._tell({"size": small, "unit": (1.0 / small[0], 1.0 / small[1])})
+        return self._buffers[full, small]
 
     def _tell(self, values: Mapping[str, object]) -> None:
         for each in self._programs.values():
