@@ -17,8 +17,8 @@ RUNG = log(2.0) / 6.0
 """How much less a rung takes than the one above it, as a logarithm, at most: as pixels are left out, two of whose
 sides shrink by a twelfth of an octave."""
 
-LADDER = ((12, 0), (12, 8), (18, 8))
-"""How many twelfths of an octave of pixels are left out, and eighths of one of distances, one by one from each pair to
+LADDER = ((12, 0), (12, 12), (18, 12))
+"""How many twelfths of an octave of pixels are left out, and of distances, one by one from each pair to
 the next: pixels first, for they come and go at once, but not so many that grass is a blur before it is drawn in."""
 
 ABOVE = 0.03
@@ -67,7 +67,7 @@ def _rungs() -> tuple[Fineness, ...]:
     for most, farthest in LADDER:
         while (pixels, distances) != (most, farthest):
             pixels, distances = pixels + (pixels < most), distances + (distances < farthest)
-            found.append(Fineness(2.0 ** (-pixels / 12.0), 2.0 ** (-distances / 8.0)))
+            found.append(Fineness(2.0 ** (-pixels / 12.0), 2.0 ** (-distances / 12.0)))
     return tuple(found)
 
 
@@ -121,7 +121,7 @@ def _descended(pace: Pace, rungs: int, hold: float) -> Pace:
     rung = min(len(RUNGS) - 1, pace.rung + rungs)
     if rung == pace.rung:
         return pace
-    patience = min(LONGEST_PATIENCE, 2 * pace.patience) if pace.climbed else pace.patience
+    patience = min(LONGEST_PATIENCE, 2 * pace.patience) if pace.climbed else 1
     return Pace(rung, _to_pass(pace.rung, rung, hold), patience=patience)
 
 
@@ -129,8 +129,7 @@ def _climbed(pace: Pace, rungs: int, hold: float) -> Pace:
     rung = max(0, pace.rung - min(rungs, MOST_BETTER))
     if rung == pace.rung:
         return replace(pace, short=0)
-    patience = max(1, pace.patience // 2) if pace.climbed else pace.patience
-    return Pace(rung, _to_pass(pace.rung, rung, hold), patience=patience, climbed=True)
+    return Pace(rung, _to_pass(pace.rung, rung, hold), patience=pace.patience, climbed=True)
 
 
 def _to_pass(rung: int, other: int, hold: float) -> int:
