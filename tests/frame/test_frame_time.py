@@ -122,7 +122,8 @@ def test_n11_what_the_host_drew_before_stands_in_the_grass_as_sharp_as_ever(
     hidden = ~bare & (np.abs(whole - alone).max(axis=-1) > 0)
     assert bare.sum() > 300, "it rises above the grass"
     assert hidden.sum() > 15, "and there is grass before its foot"
-    assert (held[bare] == (255, 0, 255)).all(axis=-1).mean() > 0.95
+    above = bare & np.roll(bare, -6, axis=0)
+    assert np.abs(held[above] - (255.0, 0.0, 255.0)).max() <= 3.0
     assert np.abs(held[hidden] - whole[hidden]).mean() < 40.0
     np.testing.assert_allclose(depth[bare], deep[bare], atol=1e-6)
 
