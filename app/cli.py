@@ -37,6 +37,10 @@ Laid = Annotated[
 ]
 Output = Annotated[str, typer.Option("-o", "--output", help="Where it is written.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+Hold = Annotated[
+    float | None,
+    typer.Option(min=0.0, max=1000.0, metavar="FPS", help="Frames a second to hold, by drawing less; 0 draws it all."),
+]
 Fullscreen = Annotated[bool, typer.Option("--fullscreen", help="Fill the screen.")]
 
 
@@ -74,15 +78,19 @@ def walk(
     fullscreen: Fullscreen = False,
     seconds: Annotated[float | None, typer.Option(min=0.1, max=36000.0, help="Close by itself after so long.")] = None,
     overlay: Laid = None,
+    hold: Hold = None,
 ) -> None:
-    """Walk through a scene in a window; F1 shows the keys."""
+    """Walk through a scene in a window; F1 shows the keys.
+
+    60 frames a second are held, and 20 where there is no graphics card: what takes too long is drawn with fewer pixels.
+    """
     take = Take(scene, _size(size), preset, overlay=_overlay(overlay))
     from .display import need_display
 
     need_display()
     from .window import walk_in
 
-    walk_in(take, fullscreen=fullscreen, seconds=seconds)
+    walk_in(take, fullscreen=fullscreen, seconds=seconds, hold=hold)
 
 
 @app.command()
@@ -206,12 +214,13 @@ def pop(
     json: Json = False,
     parts: Annotated[bool, typer.Option("--parts", help="Also leave out each part of the transitions alone.")] = False,
     output: Annotated[str | None, typer.Option("-o", "--output", help="A folder for pictures of what shows.")] = None,
+    hold: Hold = None,
 ) -> int:
     """Measure whether a change of representation can be seen on a walk; this takes minutes."""
     pixels = _size(size)
     from .bench.pop import bench_pop
 
-    return bench_pop(scene, preset=preset, size=pixels, json=json, parts=parts, output=output)
+    return bench_pop(scene, preset=preset, size=pixels, json=json, parts=parts, output=output, hold=hold)
 
 
 @plugins.command("list")

@@ -12,12 +12,12 @@ from dataclasses import dataclass
 from importlib.metadata import EntryPoint, PackageNotFoundError, entry_points, requires, version
 from typing import Literal
 
+from ..engine.gl.rasteriser import is_software
 from ..engine.installed import OURS
 from ..engine.plugins import GROUP, PluginError, WindKinds, wind_kinds
 
 _DISTRIBUTION = "tallgrass"
 _OPTIONAL = re.compile(r"extra\s*==\s*.(bench|video)\b")
-_SOFTWARE = re.compile(r"llvmpipe|softpipe|swrast|swiftshader|software|gdi generic", re.IGNORECASE)
 _NEWER_DRIVER = "update the graphics driver, or draw in software: LIBGL_ALWAYS_SOFTWARE=1"
 
 _OTHER_CURES = (
@@ -116,7 +116,7 @@ def drawing(answer: dict[str, str], /) -> Finding:
     if "error" in answer:
         return Finding("OpenGL", "missing", answer["error"], cure(answer["error"]))
     text = "{version}, {renderer}, {vendor}".format(**answer)
-    if _SOFTWARE.search(answer["renderer"]):
+    if is_software(answer["renderer"]):
         return Finding("OpenGL", "note", f"{text}; a software rasteriser draws right, but slowly")
     return Finding("OpenGL", "ok", text)
 

@@ -35,9 +35,11 @@ def statistics_lines(statistics: Statistics, /, *, frame_ms: float, time: float)
     systems = ", ".join(f"{name} {spent:.2f}" for name, spent in statistics.systems_ms.items())
     drawn, seen = statistics.blades_submitted, statistics.blades_considered
     blades = f"{drawn} drawn of {seen} in view, {statistics.blades_field} in the field"
+    fine = statistics.fineness
     rate = 1000.0 / frame_ms if frame_ms > 0.0 else 0.0
     return [
         f"frame      {frame_ms:.1f} ms, {rate:.0f} per second; time {time:.1f} s",
+        f"pixels     {100.0 * fine.scale:.0f} % across and up; grass drawn in to {100.0 * fine.range:.0f} %",
         f"blades     {blades}",
         f"receivers  {statistics.receivers}",
         f"patches    {patches}",

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from pyglet.window import key
 
 from ..engine.camera import Camera, camera_at, projection_matrix, view_matrix
+from ..engine.gl.rasteriser import draws_in_software
 from ..engine.scene import SceneError
 from ..systems.overlay.layers import LAYERS, Layer
 from ..systems.overlay.overlay import Overlay
@@ -57,6 +58,12 @@ LONGEST_STEP = 0.1
 RATE = 120
 """Most frames per second, where the display does not set the pace."""
 
+CARD_RATE, SOFTWARE_RATE = 60.0, 20.0
+"""Frames per second that are held, with a graphics card and without one."""
+
+OURS = 0.9
+"""Part of a frame's time that the prairie may take; the rest is the window's."""
+
 PATIENCE = 6.0
 """How long a message stands [s]."""
 
@@ -67,14 +74,19 @@ MOST_TOLD = 4
 """Most problems of a scene that are shown at once."""
 
 
-def walk_in(take: Take, /, *, fullscreen: bool = False, seconds: float | None = None) -> None:
+def walk_in(
+    take: Take, /, *, fullscreen: bool = False, seconds: float | None = None, hold: float | None = None
+) -> None:
     """Open a window on a scene and return when it is closed: by the user, or after `seconds` by itself.
 
-    Raises `SceneError` where the scene is wrong, MachineError where no window can be opened.
+    So many frames a second as `hold` says are held; with None what suits the machine, with 0 none. Raises
+    `SceneError` where the scene is wrong, MachineError where no window can be opened.
     """
     with busy("growing the prairie"):
         prairie = Prairie.load(take.scene, preset=take.preset)
-    Walk(open_window(take.size, fullscreen=fullscreen), prairie, take).run(seconds)
+    walk = Walk(open_window(take.size, fullscreen=fullscreen), prairie, take)
+    walk.hold(hold)
+    walk.run(seconds)
 
 
 def open_window(size: tuple[int, int], /, *, fullscreen: bool = False) -> pyglet.window.Window:
@@ -129,6 +141,12 @@ class Walk:
         """The camera of this instant."""
         view = radians(self.prairie.scene.camera.view)
         return self.walker.camera(view) if self.flight is None else self.flight.camera(view, self.ground)
+
+    def hold(self, rate: float | None = None) -> None:
+        """Hold so many frames a second by drawing less; with None what suits the machine, with 0 none at all."""
+        suits = SOFTWARE_RATE if draws_in_software(self.ctx) else CARD_RATE
+        chosen = suits if rate is None else rate
+        self.prairie.governor.hold = OURS / chosen if chosen else None
 
     def run(self, seconds: float | None = None) -> None:
         """Walk until the window closes: by the user, or after `seconds`."""
@@ -241,7 +259,10 @@ class Walk:
         name = _free_name(Path(self.take.scene).stem)
         with Offscreen(self.window.get_framebuffer_size(), self.ctx) as offscreen:
             offscreen.begin()
+            governor = self.prairie.governor
+            held, governor.hold = governor.hold, None
             self._draw_prairie(offscreen.size)
+            governor.hold = held
             picture = offscreen.read()
         try:
             picture_writer(name)(picture, {**about(self.prairie, self.take), "camera": written(self.camera)})

@@ -31,7 +31,7 @@ def reach_of(limits: tuple[int, ...], forced: int | None = None, /) -> tuple[int
 
 
 def wanted_representation(
-    distance: NDArray[np.int32], current: Levels, /, *, reach: tuple[int, ...], slack: int = SLACK
+    distance: NDArray[np.int32], current: Levels, /, *, reach: tuple[float, ...], slack: int = SLACK
 ) -> Levels:
     """Return the representation due at each discrete distance, shape (n,).
 
@@ -44,7 +44,7 @@ def wanted_representation(
     return due
 
 
-def _beyond(distance: NDArray[np.int32], reach: tuple[int, ...]) -> Levels:
+def _beyond(distance: NDArray[np.int32], reach: tuple[float, ...]) -> Levels:
     """Return how many representations do not reach as far as each discrete distance (n,), shape (n,)."""
     beyond = np.zeros(len(distance), np.int8)
     for limit in reach[:-1]:
@@ -77,4 +77,5 @@ class ChooseLevels:
             settled = patches.was_visible & patches.visible & (not outlook.viewer.jumped)
             none = settled.view(np.int8) - np.int8(1)  # 0 where settled, elsewhere -1, which has all bits
             held = patches.representation | none
-            patches.wanted[:] = wanted_representation(patches.distance, held, reach=self.reach, slack=self.slack)
+            reach = outlook.drawn_in(self.reach)
+            patches.wanted[:] = wanted_representation(patches.distance, held, reach=reach, slack=self.slack)

@@ -9,6 +9,8 @@ from ..components.body import Body
 from ..engine.camera import View
 from ..engine.gl.guest import FIRST_UNIT, aside, guest
 from ..engine.gl.shaders import program
+from ..engine.gl.smaller import Smaller
+from ..engine.gl.stopwatch import Stopwatch
 from ..engine.gl.stream import release_all
 from .around.outlook import Outlook
 from .around.representation import Canvas, RepresentationPainter
@@ -63,6 +65,7 @@ class Painter:
         self.block.join(self.sky)
         self.sky_array = ctx.vertex_array(self.sky, [])
         self.bodies: BodyPainter | None = None
+        self.smaller, self.stopwatch = Smaller(ctx), Stopwatch(ctx)
         self.painters: dict[str, RepresentationPainter] = {}
         self.draw_calls = 0
         self.site = site
@@ -159,13 +162,14 @@ class Painter:
         self.draw(view, blades=[])
         self.carpet.lay_as_always()
 
-    def draw(self, view: View, *, blades: Iterable[BladePainter] | None = None) -> None:
+    def draw(self, view: View, *, blades: Iterable[BladePainter] | None = None, scale: float = 1.0) -> None:
         """Draw the frame into the framebuffer that the host has bound.
 
-        With `blades`, these alone stand on the ground and the carpet.
+        With `blades`, these alone stand on the ground and the carpet. Of the host's pixels, `scale` times as many are
+        drawn, across and up.
         """
         ctx = self.ctx
-        with guest(ctx) as target:
+        with guest(ctx) as host, self.smaller.instead_of(host, scale) as target:
             aim(self.record, view, target.viewport[2:])
             self.block.write(self.record)
             for name, texture in self.textures.items():
@@ -210,4 +214,5 @@ class Painter:
         if self.bodies is not None:
             self.bodies.release()
         release_all(*self.painters.values(), self.air, self.received, self.block, self.sky_array, self.sky)
+        release_all(self.smaller, self.stopwatch)
         release_all(*self.textures.values())

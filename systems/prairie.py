@@ -27,6 +27,7 @@ from .around.outlook import Outlook, Outlooks
 from .around.transitions import SEAMLESS, Transitions
 from .around.window import as_places, cell_of
 from .assembly import Assembly, settle_in
+from .govern import Governor
 from .painter import Painter
 from .screen import Screen
 from .site import Site, found_again, found_site, outlook_on, settle_on
@@ -56,6 +57,9 @@ class Prairie:
     statistics: Statistics
     """What the last frame took and held."""
 
+    governor: Governor
+    """What holds the time of a draw, if anything does; its `hold` may be changed at any time."""
+
     def __init__(
         self,
         loaded: LoadedScene,
@@ -65,12 +69,13 @@ class Prairie:
         lod: LodName = "auto",
         transitions: Transitions = SEAMLESS,
         live: bool = True,
+        hold: float | None = None,
     ) -> None:
         _must_be_read(loaded)
         self.site: Site = found_site(loaded, preset=preset, lod=lod, transitions=transitions)
         self.lod: LodName = lod
         self.statistics = Statistics(blades_field=self.site.blades)
-        self.world = World(self.advance)
+        self.world, self.governor = World(self.advance), Governor(hold)
         self.viewers, self.clearings = Outlooks(self.world), Clearings()
         self.winds = Winds(self.world, loaded.scene, self.site.ground, self.site.growths, live=live)
         self.systems = Schedule()
@@ -92,19 +97,21 @@ class Prairie:
         lod: LodName = "auto",
         transitions: Transitions = SEAMLESS,
         live: bool = True,
+        hold: float | None = None,
     ) -> "Prairie":
         """Return the prairie of a scene file, or of a bundled scene by its name.
 
         `ctx` is the context to draw in; without it the one that is current at the first draw. `preset` overrides
         the scene's quality, `lod` shows everything in one representation, `transitions` leaves out parts of what
         carries a patch from one representation to another. A `live` prairie leaves a plugin's wind out for a while
-        that takes too long; others keep it. Raises `SceneError` with every problem of the file and its maps,
-        ValueError for an unknown preset or representation.
+        that takes too long; others keep it. With `hold`, as little as is needed is left out of a picture for a draw to
+        take no longer than that [s], pixels first. Raises `SceneError` with every problem of the file and its maps,
+        ValueError for an unknown preset or representation, and for a `hold` that is no time.
         """
         for what, name, known in (("preset", preset, tuple(PRESETS)), ("representation", lod, get_args(LodName))):
             if name is not None and name not in known:
                 raise ValueError(f"unknown {what} '{name}'; there are {', '.join(known)}")
-        return cls(read_scene(scene), ctx=ctx, preset=preset, lod=lod, transitions=transitions, live=live)
+        return cls(read_scene(scene), ctx=ctx, preset=preset, lod=lod, transitions=transitions, live=live, hold=hold)
 
     def reseeded(self, seed: int) -> "Prairie":
         """Return another prairie of the same scene, quality and terrain, with other grass."""
@@ -163,9 +170,12 @@ class Prairie:
             if painter is None:
                 return
             outlook = self._look(seen, viewer)
+            fineness, begun = self.governor.fineness(outlook), perf_counter()
             self.systems.run()
             start = perf_counter()
-            painter.draw(seen)
+            with self.governor.watching(painter, viewer, spent=start - begun):
+                painter.draw(seen, scale=fineness.scale)
+            self.statistics.fineness = fineness
             took = 1000.0 * (perf_counter() - start)
             self.statistics.count(outlook, self.site, self.systems, painter, draw_ms=took)
             outlook.settle()

@@ -28,7 +28,7 @@ def strips_kept(
         return np.ones(len(outlook.patches.progress[rows]), np.float32)
     (x, z), eye = outlook.patches.middle.T, outlook.viewer.eye
     away = np.maximum(np.abs(x[rows] - np.float32(eye[0])), np.abs(z[rows] - np.float32(eye[2])))
-    return kept_near(away / np.float32(patch), reach=limit)
+    return kept_near(away / np.float32(patch), reach=limit * outlook.range)
 
 
 @dataclass(slots=True)

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..engine.schedule import Schedule
 from .around.outlook import Outlook
+from .govern import Fineness
 from .painter import Painter
 from .site import Site
 
@@ -36,6 +37,9 @@ class Statistics:
 
     patches: dict[str, int] = field(default_factory=dict)
     """Visible patches by representation."""
+
+    fineness: Fineness = field(default_factory=Fineness)
+    """What was drawn of the picture, where a frame time is held."""
 
     transitions: int = 0
     """Patches that were seen to change their representation, or to be changing it."""

@@ -43,12 +43,13 @@ def bench_pop(
     json: bool,
     parts: bool = False,
     output: str | None = None,
+    hold: float | None = None,
 ) -> int:
     """Walk through a scene, compare its changes with the reference's, print the figures, and return the exit status.
 
     With `parts` the walk is repeated with each part of the transitions left out. Pictures of the frames that show the
-    most go into the folder `output`. Before anything is drawn it raises MachineError where pictures cannot be compared,
-    and InputError where they would be too small or cannot be written.
+    most go into the folder `output`. With `hold`, so many frames a second are held. Before anything is drawn it raises
+    MachineError where pictures cannot be compared, and InputError where they would be too small or cannot be written.
     """
     evaluator()
     if min(size) < SMALLEST:
@@ -58,17 +59,20 @@ def bench_pop(
     take = Take(scene, size, preset=preset)
     with Studio(take) as studio:
         head = {"machine": machine(studio.ctx), "scene": scene, "preset": preset or own_preset(studio.prairie)}
-        result = {**head, "size": list(size), **_measure(studio, parts=parts, output=output)}
+        result = {**head, "size": list(size), **_measure(studio, parts=parts, output=output, hold=hold)}
     tell(result, as_json=json)
     return 0
 
 
-def _measure(studio: Studio, *, parts: bool, output: str | None) -> dict[str, object]:
+def _measure(studio: Studio, *, parts: bool, output: str | None, hold: float | None) -> dict[str, object]:
     walk = legs(studio.prairie)
     left_out = {WHOLE: SEAMLESS, "morph, fade, growth": HARD}
     for part in PARTS if parts else ():
         left_out[part] = replace(SEAMLESS, **{part: False})
-    records = {name: walked(studio, walk, less, doing=f"without {name}") for name, less in left_out.items()}
+    seconds = 1.0 / hold if hold else None
+    records = {
+        name: walked(studio, walk, less, doing=f"without {name}", hold=seconds) for name, less in left_out.items()
+    }
     whole = records[WHOLE]
     near = [each for record in records.values() for step in record.steps for each in (step.earlier, step.moment)]
     truth = find_truth(studio, walk, near, [moment for moment, _ in whole.stills])

@@ -57,10 +57,17 @@ class Record:
     """Frames spread over the walk."""
 
 
-def walked(studio: Studio, walk: list[Leg], transitions: Transitions, /, *, doing: str) -> Record:
-    """Walk through the studio's scene with these transitions, and return what has been seen."""
+def walked(
+    studio: Studio, walk: list[Leg], transitions: Transitions, /, *, doing: str, hold: float | None = None
+) -> Record:
+    """Walk through the studio's scene with these transitions, and return what has been seen.
+
+    With `hold`, frames are held to a time [s].
+    """
     take, record = studio.take, Record()
-    prairie = Prairie.load(take.scene, ctx=studio.ctx, preset=take.preset, transitions=transitions, live=False)
+    prairie = Prairie.load(
+        take.scene, ctx=studio.ctx, preset=take.preset, transitions=transitions, live=False, hold=hold
+    )
     raise_gusts(prairie, walk)
     frames = {leg: list(moments(prairie, leg)) for leg in walk}
     total = sum(len(each) - 1 for each in frames.values())
@@ -110,6 +117,7 @@ def held(prairie: Prairie) -> Iterator[None]:
     stopped = [system.name for system in prairie.systems if system.enabled and system.name in CHANGING]
     outlook = prairie.viewers["main"]
     before, eye = outlook.drawn_at, outlook.viewer.eye
+    prairie.governor.resting = True
     for name in stopped:
         prairie.systems.disable(name)
     try:
@@ -118,6 +126,7 @@ def held(prairie: Prairie) -> Iterator[None]:
         for name in stopped:
             prairie.systems.enable(name)
         outlook.drawn_at, outlook.viewer.eye = before, eye
+        prairie.governor.resting = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)

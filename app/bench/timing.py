@@ -6,8 +6,7 @@ from time import perf_counter
 import moderngl
 import numpy as np
 
-SOFTWARE = ("llvmpipe", "softpipe", "swrast", "software", "swiftshader", "basic render", "gdi generic", "noop")
-"""Parts of the names of renderers that are no graphics cards, in small letters."""
+from ...engine.gl.rasteriser import draws_in_software
 
 
 def timed(ctx: moderngl.Context, work: Callable[[], object]) -> float:
@@ -21,8 +20,7 @@ def timed(ctx: moderngl.Context, work: Callable[[], object]) -> float:
 
 def card_timer(ctx: moderngl.Context) -> moderngl.Query | None:
     """Return what times the graphics card itself, or None where there is no card: there it would time the CPU."""
-    renderer = str(ctx.info["GL_RENDERER"]).lower()
-    return None if any(name in renderer for name in SOFTWARE) else ctx.query(time=True)
+    return None if draws_in_software(ctx) else ctx.query(time=True)
 
 
 def spread(times: Sequence[float], /, *parts: int) -> dict[str, float]:

@@ -24,6 +24,9 @@ NUMBERS = {
     "SCISSOR_BOX": 0x0C10, "PRIMITIVE_RESTART_INDEX": 0x8F9E, "DRAW_BUFFER0": 0x8825, "COLOR_ATTACHMENT1": 0x8CE1,
     "FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE": 0x8CD0, "TEXTURE_2D_ARRAY": 0x8C1A, "UNSIGNED_BYTE": 0x1401, "RED": 0x1903,
     "R8": 0x8229, "RGBA": 0x1908, "RGBA8": 0x8058,
+    "SAMPLES": 0x80A9, "DEPTH": 0x1801, "DEPTH_ATTACHMENT": 0x8D00,
+    "TEXTURE_2D": 0x0DE1, "TEXTURE0": 0x84C0,
+    "TIMESTAMP": 0x8E28, "QUERY_RESULT": 0x8866, "QUERY_RESULT_AVAILABLE": 0x8867,
 }  # fmt: skip
 """What OpenGL calls its constants, without GL_."""
 
@@ -43,8 +46,11 @@ DOES = {
     "glDepthFunc": (c_int,), "glDepthMask": (c_ubyte,), "glColorMaski": (c_int, *(c_ubyte,) * 4),
     "glBlendFuncSeparate": (c_int,) * 4, "glBlendEquationSeparate": (c_int,) * 2,
     "glBindTexture": (c_int,) * 2, "glTexImage3D": (*(c_int,) * 9, c_void_p),
+    "glCopyTexSubImage2D": (c_int,) * 8, "glGenQueries": (c_int, c_void_p), "glDeleteQueries": (c_int, c_void_p),
+    "glQueryCounter": (c_int,) * 2, "glGetQueryObjectiv": (c_int, c_int, c_void_p),
+    "glGetQueryObjectui64v": (c_int, c_int, c_void_p),
 }  # fmt: skip
-"""All others that a state is read and brought back with, and that textures are written with."""
+"""All others: what a state is read and brought back with, and what moderngl has no word for."""
 
 
 class Functions:

@@ -99,7 +99,8 @@ def aside(ctx: moderngl.Context, target: moderngl.Framebuffer) -> Iterator[None]
         target.use()
         target.viewport = box
         target.scissor = cut if cut != (0, 0, *target.size) else None  # type: ignore[assignment]
-        _kept[-1].narrow()
+        if target.glo == _kept[-1].framebuffer:
+            _kept[-1].narrow()
 
 
 @contextmanager

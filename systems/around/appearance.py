@@ -73,7 +73,7 @@ def _part(value: Floats, /) -> Floats:
     return np.minimum(np.maximum(value, np.float32(0.0)), np.float32(1.0))
 
 
-def kept_near(away: Floats | Doubles, /, *, reach: int) -> Floats:
+def kept_near(away: Floats | Doubles, /, *, reach: float) -> Floats:
     """Return how much of the strips the distance leaves, from 1 to 0 over their outermost `BORDER` patches.
 
     `away` is the patches' distance from the viewer [patch sides]. So no line shows where the strips end, and a patch

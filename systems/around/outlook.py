@@ -40,6 +40,9 @@ class Outlook:
     shown: dict[str, Any] = field(default_factory=dict)
     """What each representation shows in this frame, by its name."""
 
+    range: float = 1.0
+    """Part of the distances up to which representations are due."""
+
     winds: Sequence["Blowing"] = ()
     """The winds that act in this frame, the strongest claim first."""
 
@@ -63,6 +66,10 @@ class Outlook:
 
     generation: int = 0
     """Generation of the world that the patches' entities are of."""
+
+    def drawn_in(self, limits: tuple[int, ...], /) -> tuple[float, ...]:
+        """Return distances up to which something is due, as near as they are now."""
+        return limits if self.range == 1.0 else tuple(limit * self.range if limit > 0 else limit for limit in limits)
 
     def settle(self) -> None:
         """End the frame: what a game has written into messages holds no longer."""

@@ -3,11 +3,12 @@
 import numpy as np
 from numpy.typing import NDArray
 
+Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
 Levels = NDArray[np.int8]
 
 
-def blade_ring(distance: Ints, current: Levels, limits: Ints, /, *, slack: int) -> Levels:
+def blade_ring(distance: Ints, current: Levels, limits: Floats, /, *, slack: int) -> Levels:
     """Return the ring of 3D patches (n,): by discrete distance; a finer one is kept for `slack` patches longer."""
     coarse, fine = limits.searchsorted(distance), limits.searchsorted(distance - slack)
     return np.where(current < 0, coarse, np.minimum(np.maximum(current, fine), coarse)).astype(np.int8)

@@ -127,7 +127,7 @@ class StripRepresentation(Representation):
     def sublevels(self, outlook: Outlook, rows: Rows, held: Levels, /, *, slack: int) -> Levels:
         """Return the ring and the axis that are due on patches (n,), as one number each."""
         patches, viewer, quality = outlook.patches, outlook.viewer, self.quality
-        limits = np.array([ring.to for ring in quality.strip_rings[:-1]], np.int32)
+        limits = np.array(outlook.drawn_in(tuple(ring.to for ring in quality.strip_rings[:-1])), np.float32)
         spacing = np.array([quality.patch / ring.strips for ring in quality.strip_rings], np.float32)
         height = min(strips.height for strips in self.stock.strips[0])
         slope = viewing_slope(patches, rows, eye=viewer.eye, patch=quality.patch)

@@ -19,7 +19,7 @@ def strip_ring(
     distance: Ints,
     slope: Floats,
     current: Levels,
-    limits: Ints,
+    limits: Floats,
     spacing: Floats,
     /,
     *,

@@ -1,0 +1,26 @@
+// A picture with fewer pixels than the host's, and how it is read in the host's. All places go from 0 to 1.
+
+uniform sampler2D before;   // how deep the host's pixels were before anything was drawn here
+uniform sampler2D picture;  // what was drawn smaller, premultiplied
+uniform sampler2D deep;     // and how deep that is
+uniform vec2 size;          // pixels of the smaller picture
+uniform vec2 unit;          // how large each of them is
+
+in vec2 at;
+
+// The middle of the smaller picture's pixel.
+vec2 middle_of(vec2 place) {
+    return (floor(place * size) + 0.5) * unit;
+}
+
+// Filtered up: by Catmull-Rom's cubic across, in 3 samples of 2 texels, and evenly up. Grass is lines that stand upright.
+vec4 sharp(vec2 place) {
+    float middle = floor(place.x * size.x - 0.5) + 0.5, part = place.x * size.x - middle;
+    float first = part * (-0.5 + part * (1.0 - 0.5 * part)), fourth = part * part * (-0.5 + 0.5 * part);
+    float third = part * (0.5 + part * (2.0 - 1.5 * part)), inner = 1.0 - first - fourth;
+    vec3 across = vec3(middle - 1.0, middle + third / inner, middle + 2.0) * unit.x;
+    vec4 sum = texture(picture, vec2(across.x, place.y)) * first
+        + texture(picture, vec2(across.y, place.y)) * inner
+        + texture(picture, vec2(across.z, place.y)) * fourth;
+    return clamp(sum, 0.0, 1.0);
+}

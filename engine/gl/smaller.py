@@ -1,0 +1,169 @@
+"""Drawing with fewer pixels than the host has: into a buffer of one's own, which is filtered up into the host's."""
+
+import logging
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from ctypes import c_int
+from dataclasses import dataclass
+
+import moderngl
+
+from .functions import NUMBERS, functions_of
+from .guest import FIRST_UNIT, aside
+from .shaders import program
+from .stream import release_all
+
+log = logging.getLogger("tallgrass")
+
+Size = tuple[int, int]
+
+MOST = 4
+"""Sizes whose buffers are kept: a viewer's last and present one, and another viewer's."""
+
+UNITS = {"before": FIRST_UNIT, "picture": FIRST_UNIT + 1, "deep": FIRST_UNIT + 2}
+"""Texture units: what stands there is bound anew whenever it is read."""
+
+PASSES = {"bring": "1", "enlarge": "<=", "fit": ">", "deepen": "<"}
+"""What is done, and by which test of depth: to bring the host's depth over; to write the picture where the host has
+drawn nothing, and over what it has drawn; and to write its depth. The second and third are as far away as can be."""
+
+
+def smaller_size(size: Size, scale: float, /) -> Size:
+    """Return a picture's size [pixels] with `scale` times as many pixels across and up, at least one."""
+    width, height = size
+    return max(1, round(width * scale)), max(1, round(height * scale))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Buffers:
+    """What is drawn into, and the host's depth beside it."""
+
+    before: moderngl.Texture
+    picture: moderngl.Texture
+    deep: moderngl.Texture
+    target: moderngl.Framebuffer
+
+    @classmethod
+    def made(cls, ctx: moderngl.Context, full: Size, small: Size, /) -> "Buffers":
+        """Return new ones for a viewport and a picture of these sizes [pixels]."""
+        before, picture, deep = ctx.depth_texture(full), ctx.texture(small, 4), ctx.depth_texture(small)
+        for texture in (before, picture, deep):
+            texture.repeat_x = texture.repeat_y = False
+        for depth in (before, deep):
+            depth.compare_func, depth.filter = "", (moderngl.NEAREST, moderngl.NEAREST)
+        return cls(before, picture, deep, ctx.framebuffer([picture], deep))
+
+    def use(self) -> None:
+        """Bind what is read where the passes read it."""
+        self.before.use(UNITS["before"])
+        self.picture.use(UNITS["picture"])
+        self.deep.use(UNITS["deep"])
+
+    def release(self) -> None:
+        """Give everything back."""
+        release_all(self.target, self.before, self.picture, self.deep)
+
+
+class Smaller:
+    """A buffer that a guest draws into in place of the host's framebuffer, with fewer pixels.
+
+    There is none before it is needed, and one for each of the last sizes.
+    """
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self._ctx, self._gl = ctx, functions_of(ctx)
+        self._programs: dict[str, moderngl.Program] = {}
+        self._passes: dict[str, moderngl.VertexArray] = {}
+        self._buffers: dict[tuple[Size, Size], Buffers] = {}
+        self._told: set[str] = set()
+
+    @contextmanager
+    def instead_of(self, host: moderngl.Framebuffer, scale: float) -> Iterator[moderngl.Framebuffer]:
+        """Give a framebuffer with `scale` times as many pixels, across and up, in which the host's depth stands.
+
+        In the end, what was drawn there lies over the host's picture, and the host's depth is that of what is nearer.
+        The host's framebuffer must be bound as `guest` binds it. It is given itself where `scale` is 1, and where
+        another one cannot stand in for it, which is told once.
+        """
+        if scale >= 1.0 or self._is_obstructed(host):
+            yield host
+            return
+        x, y, width, height = host.viewport
+        buffers = self._room((width, height), smaller_size((width, height), scale))
+        with aside(self._ctx, host):
+            buffers.use()
+            self._gl.glActiveTexture(NUMBERS["TEXTURE0"] + UNITS["before"])
+            self._gl.glCopyTexSubImage2D(NUMBERS["TEXTURE_2D"], 0, 0, 0, x, y, width, height)
+            buffers.target.depth_mask = True
+            buffers.target.use()
+            self._do("bring")
+            yield buffers.target
+        buffers.use()
+        host.depth_mask = False
+        self._do("enlarge")
+        self._do("fit", blending=(moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA))
+        host.depth_mask = True
+        self._do("deepen", blending=(moderngl.ZERO, moderngl.ONE))
+
+    def release(self) -> None:
+        """Give everything back."""
+        release_all(*self._passes.values(), *self._programs.values(), *self._buffers.values())
+
+    def _do(self, name: str, *, blending: tuple[int, int] | None = None) -> None:
+        """Do one of the passes."""
+        ctx = self._ctx
+        ctx.enable_only(moderngl.DEPTH_TEST if blending is None else moderngl.DEPTH_TEST | moderngl.BLEND)
+        ctx.blend_func = blending or (moderngl.ONE, moderngl.ZERO)
+        ctx.depth_func = PASSES[name]
+        self._passes[name].render(moderngl.TRIANGLES, 3)
+        ctx.depth_func = "<="
+
+    def _make(self) -> None:
+        for name in PASSES:
+            self._programs[name] = program(self._ctx, "engine/gl/fill.vert", f"engine/gl/{name}.frag")
+            self._passes[name] = self._ctx.vertex_array(self._programs[name], [])
+        self._tell(UNITS)
+
+    def _is_obstructed(self, host: moderngl.Framebuffer) -> bool:
+        """Return whether nothing can stand in for the host's framebuffer, and tell it once."""
+        obstacle = self._obstacle(host)
+        if obstacle is not None and obstacle not in self._told:
+            self._told.add(obstacle)
+            log.warning("a framebuffer is drawn into with all its pixels, whatever it takes: it has %s", obstacle)
+        return obstacle is not None
+
+    def _obstacle(self, host: moderngl.Framebuffer) -> str | None:
+        if self._number("SAMPLES"):
+            return "several samples a pixel"
+        if host.glo and self._number("DRAW_BUFFER0") == NUMBERS["NONE"]:
+            return "no colour"
+        return None if self._has_depth(host) else "no depth"
+
+    def _room(self, full: Size, small: Size) -> Buffers:
+        """Return buffers for a viewport and a picture of these sizes."""
+        if not self._passes:
+            self._make()
+        if (full, small) not in self._buffers:
+            if len(self._buffers) == MOST:
+                self._buffers.pop(next(iter(self._buffers))).release()
+            self._buffers[full, small] = Buffers.made(self._ctx, full, small)
+        self._tell({"size": small, "unit": (1.0 / small[0], 1.0 / small[1])})
+        return self._buffers[full, small]
+
+    def _tell(self, values: Mapping[str, object]) -> None:
+        for each in self._programs.values():
+            for name, value in values.items():
+                if name in each:
+                    each[name] = value
+
+    def _has_depth(self, host: moderngl.Framebuffer) -> bool:
+        found, name = (c_int * 1)(), "DEPTH_ATTACHMENT" if host.glo else "DEPTH"
+        self._gl.glGetFramebufferAttachmentParameteriv(
+            NUMBERS["DRAW_FRAMEBUFFER"], NUMBERS[name], NUMBERS["FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE"], found
+        )
+        return found[0] != NUMBERS["NONE"]
+
+    def _number(self, name: str) -> int:
+        found = (c_int * 1)()
+        self._gl.glGetIntegerv(NUMBERS[name], found)
+        return found[0]

@@ -1,0 +1,85 @@
+"""How long drawing takes: what the graphics card says, or the clock where there is no card."""
+
+from collections import deque
+from collections.abc import Iterator
+from contextlib import contextmanager
+from ctypes import Array, c_int, c_uint, c_uint64
+from functools import cached_property
+from time import perf_counter
+
+import moderngl
+
+from .functions import NUMBERS, functions_of
+from .rasteriser import draws_in_software
+
+Name = tuple[str, int]
+"""What a time is of: somebody's picture, and which one."""
+
+MOST_UNDERWAY = 6
+"""Drawings that a card may be behind with; while there are more, none is timed."""
+
+
+class Stopwatch:
+    """Times what is drawn in one GL context, and holds no card up: what it took comes in some frames later.
+
+    Without a card, it waits until everything is drawn. Each drawing has a name, which its time comes with.
+    """
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self._ctx, self._gl = ctx, functions_of(ctx)
+        self._underway: deque[tuple[Name, Array[c_uint]]] = deque()
+        self._known: list[tuple[Name, float]] = []
+
+    @cached_property
+    def waits(self) -> bool:
+        """Whether there is no card, so that what is timed is over when `timing` is."""
+        return draws_in_software(self._ctx)
+
+    @contextmanager
+    def timing(self, name: Name, /) -> Iterator[None]:
+        """Time what is drawn meanwhile."""
+        if self.waits:
+            start = perf_counter()
+            yield
+            self._ctx.finish()
+            self._known.append((name, perf_counter() - start))
+        elif len(self._underway) >= MOST_UNDERWAY:
+            yield
+        else:
+            stamps = (c_uint * 2)()
+            self._gl.glGenQueries(2, stamps)
+            self._gl.glQueryCounter(stamps[0], NUMBERS["TIMESTAMP"])
+            try:
+                yield
+            finally:
+                self._gl.glQueryCounter(stamps[1], NUMBERS["TIMESTAMP"])
+                self._underway.append((name, stamps))
+
+    def read(self) -> list[tuple[Name, float]]:
+        """Return what has come in since it was last asked, the earliest first: names and times [s]."""
+        while self._underway and self._is_over(self._underway[0][1]):
+            name, stamps = self._underway.popleft()
+            self._known.append((name, self._took(stamps)))
+        known, self._known = self._known, []
+        return known
+
+    def release(self) -> None:
+        """Give everything back."""
+        for _, stamps in self._underway:
+            self._gl.glDeleteQueries(2, stamps)
+        self._underway.clear()
+
+    def _is_over(self, stamps: Array[c_uint]) -> bool:
+        found = (c_int * 1)()
+        self._gl.glGetQueryObjectiv(stamps[1], NUMBERS["QUERY_RESULT_AVAILABLE"], found)
+        return bool(found[0])
+
+    def _took(self, stamps: Array[c_uint]) -> float:
+        """Return the time between two stamps that are known [s], and give them back."""
+        times = []
+        for stamp in stamps:
+            found = (c_uint64 * 1)()
+            self._gl.glGetQueryObjectui64v(stamp, NUMBERS["QUERY_RESULT"], found)
+            times.append(found[0])
+        self._gl.glDeleteQueries(2, stamps)
+        return 1e-9 * (times[1] - times[0])

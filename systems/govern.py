@@ -1,0 +1,191 @@
+"""The governor: how much of a picture is drawn, so that a frame keeps to its time.
+
+It is the one thing that depends on how busy the machine is, and there is none unless a game asks for it.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from math import ceil, exp, floor, inf, log
+from statistics import median
+
+from .around.outlook import Outlook
+from .painter import Painter
+from .transition import FADE
+
+RUNG = log(2.0) / 6.0
+"""How much less a rung takes than the one above it, as a logarithm, at most: as pixels are left out, two of whose
+sides shrink by a twelfth of an octave."""
+
+LADDER = ((12, 0), (12, 12), (18, 12))
+"""How many twelfths of an octave of pixels are left out, and of distances, one by one from each pair to
+the next: pixels first, for they come and go at once, but not so many that grass is a blur before it is drawn in."""
+
+ABOVE = 0.03
+"""How much too long frames may take before they are made cheaper, as a logarithm."""
+
+BELOW = 0.16
+"""How much shorter they must be before they are made better, as a logarithm: more than a rung, or they would be too
+long right away."""
+
+WATCHED = 0.25
+"""How long frames are watched before anything is changed [s]."""
+
+EAGER = 2.0
+"""How many times as far down as pixels alone would need: some of what a frame takes stays whatever is left out."""
+
+FEWEST = 3
+"""And how many there are at least."""
+
+BEGINNING = 2
+"""Frames at first, and after every change, that make things and do not count."""
+
+MOST_BETTER = 2
+"""Most rungs that are climbed at once."""
+
+LONGEST_PATIENCE = 16
+"""How many times in a row frames must at most be seen to be short before they are made better."""
+
+EASE = 0.4
+"""How soon representations follow to where they are to end [s]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fineness:
+    """What is drawn of a picture."""
+
+    scale: float = 1.0
+    """Part of the pixels, across and up."""
+
+    range: float = 1.0
+    """Part of the distances up to which representations are due."""
+
+
+def _rungs() -> tuple[Fineness, ...]:
+    pixels, distances = 0, 0
+    found = [Fineness()]
+    for most, farthest in LADDER:
+        while (pixels, distances) != (most, farthest):
+            pixels, distances = pixels + (pixels < most), distances + (distances < farthest)
+            found.append(Fineness(2.0 ** (-pixels / 12.0), 2.0 ** (-distances / 12.0)))
+    return tuple(found)
+
+
+RUNGS = _rungs()
+"""What is drawn, from everything to the least."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pace:
+    """How frames have kept to their time, and what comes of it."""
+
+    rung: int = 0
+    """Number of what is drawn in `RUNGS`."""
+
+    passing: int = BEGINNING
+    """Frames that are still to pass uncounted."""
+
+    times: tuple[float, ...] = ()
+    """What those that count have taken [s]."""
+
+    short: int = 0
+    """How many times in a row they have been too short."""
+
+    patience: int = 1
+    """How many times they must be."""
+
+    climbed: bool = False
+    """Whether the last change was for the better."""
+
+
+def paced(pace: Pace, seconds: float, /, *, hold: float) -> Pace:
+    """Return the pace after a frame of its rung has taken so long; `hold` is how long it may take [s].
+
+    Downwards it hurries, upwards it goes no farther than there is room for in any case: so it comes to rest under any
+    steady load, and never swings about its aim. A climb that was taken back makes the next one wait for longer.
+    """
+    if pace.passing:
+        return replace(pace, passing=pace.passing - 1)
+    times = (*pace.times, seconds)
+    if len(times) < FEWEST or sum(times) < WATCHED:
+        return replace(pace, times=times)
+    pace, over = replace(pace, times=()), log(max(median(times), 1e-6) / hold)
+    if over > ABOVE:
+        return _descended(pace, ceil(EAGER * over / RUNG), hold)
+    if over < -BELOW and pace.short + 1 < pace.patience:
+        return replace(pace, short=pace.short + 1)
+    return _climbed(pace, floor(-over / RUNG), hold) if over < -BELOW else replace(pace, short=0)
+
+
+def _descended(pace: Pace, rungs: int, hold: float) -> Pace:
+    rung = min(len(RUNGS) - 1, pace.rung + rungs)
+    if rung == pace.rung:
+        return pace
+    patience = min(LONGEST_PATIENCE, 2 * pace.patience) if pace.climbed else 1
+    return Pace(rung, _to_pass(pace.rung, rung, hold), patience=patience)
+
+
+def _climbed(pace: Pace, rungs: int, hold: float) -> Pace:
+    rung = max(0, pace.rung - min(rungs, MOST_BETTER))
+    if rung == pace.rung:
+        return replace(pace, short=0)
+    return Pace(rung, _to_pass(pace.rung, rung, hold), patience=pace.patience, climbed=True)
+
+
+def _to_pass(rung: int, other: int, hold: float) -> int:
+    """Return how many frames pass before a change of rungs has come to an end."""
+    same_range = RUNGS[rung].range == RUNGS[other].range
+    return BEGINNING if same_range else BEGINNING + ceil((FADE + EASE) / hold)
+
+
+def eased(now: float, due: float, /, *, dt: float) -> float:
+    """Return where a value is after `dt` [s] on its way to the one that is due."""
+    return due if abs(due - now) < 1e-3 else due + (now - due) * exp(-dt / EASE)
+
+
+class Governor:
+    """Holds the time of a prairie's draws, for each viewer by itself."""
+
+    def __init__(self, hold: float | None = None) -> None:
+        self.hold = hold
+        self.resting = False
+        """Whether everything stays as it was in the frame before."""
+
+        self._paces: dict[str, Pace] = {}
+        self._drawn: dict[str, int] = {}
+
+    @property
+    def hold(self) -> float | None:
+        """How long a draw may take [s]; None to draw everything, whatever it takes. ValueError for what is no time."""
+        return self._hold
+
+    @hold.setter
+    def hold(self, seconds: float | None) -> None:
+        if seconds is not None and not 0.0 < seconds < inf:
+            raise ValueError(f"a frame is held to a time above 0 s, or by None to none, not to {seconds}")
+        self._hold = seconds
+
+    def fineness(self, outlook: Outlook, /) -> Fineness:
+        """Return what is drawn of a viewer's picture now, and let the representations around it follow."""
+        name = outlook.viewer.name
+        if not self.resting:
+            self._drawn[name] = 0 if self.hold is None else self._paces.setdefault(name, Pace()).rung
+            outlook.range = eased(outlook.range, RUNGS[self._drawn[name]].range, dt=outlook.viewer.dt)
+        return RUNGS[self._drawn.get(name, 0)]
+
+    @contextmanager
+    def watching(self, painter: Painter, viewer: str, /, *, spent: float) -> Iterator[None]:
+        """Time what is drawn meanwhile for a viewer, after `spent` seconds on what a picture is made of.
+
+        With a graphics card it is the card that is timed, and what is known of it comes later.
+        """
+        if self.hold is None:
+            yield
+            return
+        watch = painter.stopwatch
+        with watch.timing((viewer, self._drawn[viewer])):
+            yield
+        for (name, rung), seconds in watch.read():
+            pace = self._paces[name]
+            if rung == pace.rung and not self.resting:
+                self._paces[name] = paced(pace, seconds + (spent if watch.waits else 0.0), hold=self.hold)

@@ -1,0 +1,63 @@
+"""How long drawing takes, by the clock and by the graphics card (N11)."""
+
+import moderngl
+import pytest
+
+from tallgrass.engine.gl.rasteriser import is_software
+from tallgrass.engine.gl.stopwatch import MOST_UNDERWAY, Stopwatch
+
+
+@pytest.mark.parametrize("waits", [True, False])
+def test_each_drawing_is_told_of_once_under_its_name(ctx: moderngl.Context, waits: bool) -> None:  # noqa: FBT001
+    watch = Stopwatch(ctx)
+    watch.__dict__["waits"] = waits
+    for number in range(2):
+        with watch.timing(("main", number)):
+            ctx.clear()
+    ctx.finish()
+    told = watch.read()
+    assert [name for name, _ in told] == [("main", 0), ("main", 1)]
+    assert all(0.0 <= seconds < 10.0 for _, seconds in told)
+    assert watch.read() == []
+    watch.release()
+
+
+def test_a_card_that_is_far_behind_is_asked_no_more(ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch) -> None:
+    watch = Stopwatch(ctx)
+    watch.__dict__["waits"] = False
+    monkeypatch.setattr(watch, "_is_over", lambda _: False)
+    for number in range(MOST_UNDERWAY + 3):
+        with watch.timing(("main", number)):
+            ctx.clear()
+        assert watch.read() == []
+    monkeypatch.undo()
+    ctx.finish()
+    assert len(watch.read()) == MOST_UNDERWAY
+
+
+def test_a_drawing_that_fails_leaves_the_watch_in_order(ctx: moderngl.Context) -> None:
+    watch = Stopwatch(ctx)
+    watch.__dict__["waits"] = False
+
+    def fail() -> None:
+        with watch.timing(("main", 0)):
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        fail()
+    ctx.finish()
+    assert len(watch.read()) == 1
+
+
+@pytest.mark.parametrize(
+    ("renderer", "software"),
+    [
+        ("llvmpipe (LLVM 15.0.6, 256 bits)", True),
+        ("Google SwiftShader", True),
+        ("GDI Generic", True),
+        ("NVIDIA GeForce RTX 3070/PCIe/SSE2", False),
+        ("Mesa Intel(R) UHD Graphics 620 (KBL GT2)", False),
+    ],
+)
+def test_a_rasteriser_is_known_by_its_name(renderer: str, software: bool) -> None:  # noqa: FBT001
+    assert is_software(renderer) is software

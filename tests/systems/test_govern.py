@@ -1,0 +1,116 @@
+"""The governor's ladder and how it is climbed (N11)."""
+
+from itertools import pairwise
+from math import exp, log
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tallgrass.systems.govern import ABOVE, BELOW, RUNG, RUNGS, Governor, Pace, eased, paced
+
+HOLD = 0.05
+LAST = len(RUNGS) - 1
+
+shares = st.floats(0.0, 10.0)
+
+
+def walked(times: list[float], *, frames: int = 4000, pace: Pace | None = None) -> list[int]:
+    """Return the rungs of so many frames where each rung takes a time of its own [s]."""
+    now, rungs = pace or Pace(), []
+    for _ in range(frames):
+        now = paced(now, times[now.rung], hold=HOLD)
+        rungs.append(now.rung)
+    return rungs
+
+
+def takes(fixed: float, ranged: float, drawn: float) -> list[float]:
+    """Return what each rung takes [s]: what stays, what goes with the distances, and what goes with the pixels."""
+    return [HOLD * (fixed + ranged * each.range**2 + drawn * each.scale**2) for each in RUNGS]
+
+
+def turns(rungs: list[int]) -> int:
+    """Return how many times a change went the other way than the one before."""
+    ways = [one < other for one, other in pairwise(rungs) if one != other]
+    return sum(one != other for one, other in pairwise(ways))
+
+
+def test_n11_no_rung_takes_away_more_than_is_reckoned_with() -> None:
+    for one, other in pairwise(RUNGS):
+        assert other.scale <= one.scale
+        assert other.range <= one.range
+        assert 2.0 * log(one.scale / other.scale) <= RUNG + 1e-9
+        assert 2.0 * log(one.range / other.range) <= RUNG + 1e-9
+    assert (RUNGS[0].scale, RUNGS[0].range) == (1.0, 1.0)
+    assert RUNGS[-1].scale >= 0.35
+
+
+@given(shares, shares, shares)
+def test_n11_under_a_steady_load_it_comes_to_rest_and_turns_back_once_at_most(
+    fixed: float, ranged: float, drawn: float
+) -> None:
+    rungs = walked(takes(fixed, ranged, drawn))
+    assert turns(rungs) <= 1
+    assert len(set(rungs[-1000:])) == 1
+
+
+@given(shares, shares, shares)
+def test_n11_where_it_rests_the_time_is_held_and_no_more_is_left_out_than_that_takes(
+    fixed: float, ranged: float, drawn: float
+) -> None:
+    times = takes(fixed, ranged, drawn)
+    rung = walked(times)[-1]
+    assert times[rung] <= HOLD * exp(ABOVE) * 1.001 or rung == LAST
+    assert times[rung] >= HOLD * exp(-BELOW) * 0.999 or rung == 0
+
+
+@given(st.lists(st.floats(0.0, 1e6), max_size=300), st.floats(1e-3, 10.0))
+def test_n11_whatever_frames_take_it_stays_on_the_ladder(times: list[float], hold: float) -> None:
+    pace = Pace()
+    for seconds in times:
+        pace = paced(pace, seconds, hold=hold)
+        assert 0 <= pace.rung <= LAST
+
+
+@given(st.integers(0, LAST), st.floats(0.3, 3.0))
+def test_n11_when_the_load_goes_everything_is_drawn_again(rung: int, load: float) -> None:
+    heavy = walked(takes(0.2, 0.5 * load, load), pace=Pace(rung))
+    assert walked(takes(0.1, 0.1, 0.1), pace=Pace(heavy[-1]))[-1] == 0
+
+
+def test_n11_a_load_that_comes_and_goes_is_followed_ever_more_patiently() -> None:
+    pace, climbs = Pace(), []
+    for _ in range(6000):
+        before, alone = pace, 0.84 if pace.rung else 1.2  # as if all of a frame's time went at once
+        pace = paced(pace, HOLD * alone, hold=HOLD)
+        climbs.append(pace.rung < before.rung)
+    early, late = sum(climbs[:500]), sum(climbs[-500:])
+    assert early > 2 * late
+
+
+def test_n11_a_single_slow_frame_changes_nothing() -> None:
+    pace = Pace()
+    for number in range(600):
+        pace = paced(pace, 0.4 if number % 10 == 7 else 0.9 * HOLD, hold=HOLD)
+        assert pace.rung == 0
+
+
+def test_n11_the_first_frames_do_not_count() -> None:
+    pace = Pace()
+    for seconds in (3.0, 0.5, *[0.9 * HOLD] * 30):
+        pace = paced(pace, seconds, hold=HOLD)
+        assert pace.rung == 0
+
+
+def test_ranges_follow_little_by_little_and_arrive() -> None:
+    place, last = 1.0, 1.0
+    for _ in range(300):
+        last, place = place, eased(place, 0.5, dt=1 / 60)
+        assert 0.0 <= last - place < 0.03
+    assert place == 0.5
+
+
+@pytest.mark.parametrize("seconds", [0.0, -1.0, float("nan"), float("inf")])
+def test_what_is_no_time_cannot_be_held(seconds: float) -> None:
+    with pytest.raises(ValueError, match="a frame is held to a time above 0 s"):
+        Governor(seconds)
