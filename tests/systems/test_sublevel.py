@@ -26,7 +26,7 @@ NONE = np.full(1, -1, np.int8)
 HOME = np.zeros(2, np.int32)
 
 
-LIMITS, SPACING = np.array([4, 8], np.int32), np.array([0.4, 0.8, 1.25], np.float32)
+LIMITS, SPACING = np.array([4, 8], np.float32), np.array([0.4, 0.8, 1.25], np.float32)
 
 
 @given(st.integers(0, 30), st.floats(-2.0, 3.0), st.floats(0.2, 3.0))

@@ -32,7 +32,7 @@ def distances(pool: BladePool, slots: NDArray[np.int64], eye: tuple[float, float
     x *= x
     z *= z
     x += z
-    return np.sqrt(x, out=x)
+    return np.asarray(np.sqrt(x, out=x))
 
 
 def far_first(away: Floats, /) -> NDArray[np.intp]:

@@ -40,4 +40,5 @@ def gather_morph(
     key |= (away.astype(np.uint64) << 24) | np.arange(each, dtype=np.uint64)
     queue = np.sort(key[pool.present.take(shown.slots, axis=0) & (left > 0.0)[:, None]])
     blade = (queue & np.uint64(0xFFFFFF)).astype(np.uint32)
-    return (shown.places * each).astype(np.uint32).take((queue >> np.uint64(48)).astype(np.intp)) + blade
+    first = (shown.places * each).astype(np.uint32).take((queue >> np.uint64(48)).astype(np.intp))
+    return np.asarray(first + blade, np.uint32)
