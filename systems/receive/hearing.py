@@ -6,7 +6,7 @@ import moderngl
 
 from ..around.representation import Canvas
 
-VERTEX = "systems/receive/receive.vert"
+VERTEX = "engine/gl/fill.vert"
 
 
 class Hearing:
