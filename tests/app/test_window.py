@@ -107,8 +107,10 @@ def test_the_window_shows_what_is_drawn_headless(walk: "Walk", tallgrass: Tallgr
     with Image.open(scene.parent / name) as image:
         picture, story = np.asarray(image), dict(image.info)
     walk.tell([])
-    # Windows and framebuffers may round a few pixels differently.
-    np.testing.assert_allclose(seen(walk), picture.astype(float), atol=1.0)
+    # Windows and framebuffers may round a few pixels differently, each time that something is blended over them.
+    apart = np.abs(seen(walk) - picture.astype(float))
+    assert apart.max() <= 2.0
+    assert (apart > 0.0).mean() < 0.001
     options = ("--time", story["time"], "--camera", story["camera"], "--size", "160x90")
     assert tallgrass("shot", scene, "-o", "a.png", *options).returncode == 0
     with Image.open(scene.parent / "a.png") as image:
