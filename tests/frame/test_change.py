@@ -30,8 +30,8 @@ quality:
   carpet: 32
 """
 STEP = 0.05
-BEFORE, BEHIND = 20.0001, 19.9999
-"""On either side of a border between patches, at z = 20 m."""
+BEFORE, BEHIND = 20.0003, 19.9997
+"""On either side of a border between patches, at z = 20 m: as far from it as a viewer has to be to have crossed it."""
 
 
 @pytest.fixture(scope="module")
@@ -61,9 +61,11 @@ def test_x4_over_a_border_the_picture_changes_by_and_by(stage: Stage, prairie: P
     changes = [float(np.abs(after - before).mean()) for before, after in pairwise(story)]
     assert whole > 0.1
     assert changes[0] < 0.1 * whole
-    assert max(changes[1:]) < 0.35 * whole
     steps = round(FADE / STEP)
-    assert sum(change > 0.0 for change in changes[1:]) >= steps - 1
+    going = changes[1 : steps + 1]
+    assert min(going) > 0.0
+    assert max(going) < 0.2 * whole
+    assert max(going) < 1.6 * float(np.mean(going)), "no frame changes much more than the others"
     assert sum(changes[steps + 2 :]) == 0.0
 
 
