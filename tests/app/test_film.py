@@ -2,7 +2,10 @@
 
 import hashlib
 import json
+import signal
 import subprocess
+import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -122,3 +125,23 @@ def test_n5_a_manifest_says_what_a_film_was_made_from(tallgrass: Tallgrass, stor
 def test_frames_that_a_film_has_not_are_one_line(tallgrass: Tallgrass, scene: Path, span: str, told: str) -> None:
     done = tallgrass("film", scene, "-o", "a/", "--frames", span, "--fps", 4, "--size", "96x54")
     assert (done.returncode, done.stdout, done.stderr) == (2, "", told + "\n")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a process is ended there without being asked")
+@pytest.mark.parametrize("name", ["a.webp", "a.gif", "a/"])
+def test_a_film_that_is_asked_to_end_leaves_no_part_of_a_file(scene: Path, name: str) -> None:
+    words = [sys.executable, "-m", "tallgrass.app.cli", "film", scene.name, "-o", name, "--seconds", "3600"]
+    folder = scene.parent / "a" if name == "a/" else scene.parent
+    with subprocess.Popen([*words, "--size", "96x54"], cwd=scene.parent, stderr=subprocess.PIPE, text=True) as filming:
+        until = time.monotonic() + 60.0
+        while not (list(folder.glob(".*.part.*")) or list(folder.glob("*.png"))) and time.monotonic() < until:
+            time.sleep(0.02)
+        filming.send_signal(signal.SIGTERM)
+        _, told = filming.communicate(timeout=60)
+    assert filming.returncode == 143
+    assert "Traceback" not in told
+    assert not [path.name for path in folder.iterdir() if ".part" in path.name]
+    left = {path.name for path in scene.parent.iterdir()} - {scene.name, "a"}
+    assert left == set()
+    for picture in folder.glob("*.png"):
+        assert pixels(picture).shape == (54, 96, 3), "what is there is whole"
