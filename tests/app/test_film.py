@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import re
 import signal
 import subprocess
 import sys
@@ -13,6 +14,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from PIL import Image
+
+TOUR = (Path(__file__).parents[2] / "docs" / "tour.md").read_text("utf-8")
 
 Tallgrass = Callable[..., subprocess.CompletedProcess[str]]
 pytestmark = pytest.mark.gl
@@ -111,6 +114,8 @@ def test_n5_a_manifest_says_what_a_film_was_made_from(tallgrass: Tallgrass, stor
         name: hashlib.sha256((folder / name).read_bytes()).hexdigest() for name in (stormy.name, "ring.png")
     }
     assert str(folder) not in (folder / "a.webp.json").read_text()
+    told = {key for line in TOUR.splitlines() if line.startswith("| `") for key in re.findall("`(\\w+)`", line)}
+    assert whole.keys() | whole["frames"].keys() | whole["pictures"][0].keys() <= told, "the tour tells of every key"
 
 
 @pytest.mark.parametrize(
