@@ -5,8 +5,9 @@ Every command exits with 0 on success, with 2 on bad input (one line per problem
 
 import math
 import os
+import signal
 import sys
-from typing import Annotated
+from typing import Annotated, NoReturn
 
 import typer
 
@@ -20,7 +21,6 @@ from .studio.take import LARGEST, SAMPLES, Take, parse_frames, parse_size
 app = typer.Typer(
     help="Grow, animate and draw whole prairies in real time.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
 )
 bench = typer.Typer(help="Measure: what frames take, how true they are, and whether they pop.", no_args_is_help=True)
@@ -28,7 +28,18 @@ app.add_typer(bench, name="bench")
 plugins = typer.Typer(help="Kinds of wind and systems that other packages bring.", no_args_is_help=True)
 app.add_typer(plugins, name="plugins")
 
-Scene = Annotated[str, typer.Argument(metavar="SCENE", help="A scene file, or the name of a bundled scene.")]
+
+def _bundled(beginning: str) -> list[str]:
+    """Return the bundled scenes whose names begin so; where there are none, a shell goes on with files."""
+    from ..engine.scene import bundled_scenes
+
+    return [name for name in bundled_scenes() if name.startswith(beginning)]
+
+
+Scene = Annotated[
+    str,
+    typer.Argument(metavar="SCENE", help="A scene file, or the name of a bundled scene.", autocompletion=_bundled),
+]
 Size = Annotated[str, typer.Option(metavar="WxH", help="Width and height in pixels.")]
 Preset = Annotated[PresetName | None, typer.Option(help="Quality, in place of the scene's own.")]
 Reference = Annotated[bool, typer.Option("--reference", help="Draw every blade in 3D, supersampled.")]
@@ -45,8 +56,19 @@ Fullscreen = Annotated[bool, typer.Option("--fullscreen", help="Fill the screen.
 
 
 def main() -> None:
-    """Run the command line and leave Python with its exit status."""
-    sys.exit(run(sys.argv[1:]))
+    """Run the command line and leave Python with its exit status.
+
+    Asked to end, as by `kill`, it takes away what is half written, and exits with 143.
+    """
+    asked: list[int] = []
+
+    def end(number: int, _: object) -> NoReturn:
+        asked.append(128 + number)
+        raise KeyboardInterrupt
+
+    signal.signal(signal.SIGTERM, end)
+    status = run(sys.argv[1:])
+    sys.exit(asked[0] if asked else status)
 
 
 def run(arguments: list[str], /) -> int:
@@ -140,7 +162,11 @@ def film(
 
 
 @app.command()
-def check(scenes: Annotated[list[str], typer.Argument(metavar="SCENE...", help="Files or bundled names.")]) -> int:
+def check(
+    scenes: Annotated[
+        list[str], typer.Argument(metavar="SCENE...", help="Files or bundled names.", autocompletion=_bundled)
+    ],
+) -> int:
     """Validate scenes, and tell every problem of each."""
     from .check import check
 

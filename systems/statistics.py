@@ -42,7 +42,7 @@ class Statistics:
     """What was drawn of the picture, where a frame time is held."""
 
     transitions: int = 0
-    """Patches that were seen to change their representation, or to be changing it."""
+    """Patches that were seen to change their representation, or to be changing it; a change of sub-level is none."""
 
     def count(self, outlook: Outlook, site: Site, systems: Schedule, painter: Painter, /, *, draw_ms: float) -> None:
         """Count what a viewer was shown in a frame whose draw calls took so long [ms]."""

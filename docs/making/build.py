@@ -1,4 +1,4 @@
-"""`./dev docs`: gathers the manual's pages, writes those that are generated, makes its pictures, and builds it."""
+"""`./dev docs`: writes what is generated of the manual's pages, gathers them, makes its pictures, and builds it."""
 
 import re
 import shutil
@@ -6,31 +6,26 @@ import subprocess
 import sys
 from pathlib import Path
 
-from .api import api
-from .examples import example_pages
+from .pages import write
 from .pictures import ROOT, make_pictures
-from .reference import scene_reference
 
 DOCS = ROOT / "docs"
 SOURCE = ROOT / "out" / "manual-source"
-FLOORS = ("app", "components", "engine", "scenes", "systems", "testing")
-MARK = re.compile(r"^<!-- generated: (?P<what>\w+) -->$", re.MULTILINE)
 OUTSIDE = re.compile(r"\[(?P<text>[^\]]+)\]\(\.\./(?P<target>[^)#]+)\)")
-GENERATED = {"api": api, "scene": scene_reference, "examples": example_pages}
 
 
 def main() -> None:
     """Build the manual into out/manual."""
+    write()
     shutil.rmtree(SOURCE, ignore_errors=True)
     shutil.copytree(DOCS, SOURCE, ignore=shutil.ignore_patterns("making", "mkdocs.yml", "__pycache__"))
     for page in SOURCE.glob("*.md"):
-        page.write_text(complete(page.read_text("utf-8")), "utf-8")
+        page.write_text(OUTSIDE.sub(_inside, page.read_text("utf-8")), "utf-8")
     kept = ROOT / "out" / "manual-pictures"
     make_pictures(kept)
     shutil.copytree(
         kept, SOURCE / "pictures", ignore=shutil.ignore_patterns("*.yaml", "*.json", "*.html", ".made-from")
     )
-    link_package(ROOT / "out" / "manual-package" / "tallgrass")
     (SOURCE / "manual.css").write_text(style(), "utf-8")
     mkdocs: list[str | Path] = [
         sys.executable,
@@ -45,21 +40,6 @@ def main() -> None:
     ]
     subprocess.run(mkdocs, check=True)
     print(f"{ROOT / 'out' / 'manual' / 'index.html'}")
-
-
-def link_package(folder: Path, /) -> None:
-    """Link the package's parts into a folder of its name, where what reads docstrings looks for it."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for name in ("__init__.py", *FLOORS):
-        place = folder / name
-        if not place.is_symlink():
-            place.symlink_to(ROOT / name)
-
-
-def complete(text: str, /) -> str:
-    """Return a page with what is generated in its place, and with no links out of the manual."""
-    text = MARK.sub(lambda mark: GENERATED[mark["what"]](), text)
-    return OUTSIDE.sub(_inside, text)
 
 
 def _inside(link: re.Match[str]) -> str:

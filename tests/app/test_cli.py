@@ -1,5 +1,6 @@
 """The command line: what it says, and how it ends."""
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -169,3 +170,28 @@ def test_without_a_display_walk_says_what_needs_none(monkeypatch: pytest.MonkeyP
     assert done.stderr.startswith("no window can be opened here (")
     assert done.stderr.endswith("); tallgrass shot and tallgrass film need none\n")
     assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "offered"),
+    [
+        ("tallgrass sh", ["shot"]),
+        ("tallgrass bench p", ["picture", "pop"]),
+        ("tallgrass film --preset paper-", ["paper-low", "paper-medium", "paper-high"]),
+        ("tallgrass shot m", ["meadow"]),
+        ("tallgrass check w", ["whirlwind"]),
+        ("tallgrass shot ./m", []),
+    ],
+)
+def test_a_shell_completes_commands_values_and_bundled_scenes(words: str, offered: list[str]) -> None:
+    asked = {"_TALLGRASS_COMPLETE": "complete_bash", "COMP_WORDS": words, "COMP_CWORD": str(words.count(" "))}
+    command = [sys.executable, "-m", "tallgrass.app.cli"]
+    done = subprocess.run(command, env=os.environ | asked, capture_output=True, text=True, timeout=60, check=False)
+    assert (done.stdout.split(), done.stderr) == (offered, "")
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_the_script_that_completes_is_shown_for_a_shell(shell: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match="0"):
+        run(["--show-completion", shell])
+    assert "_TALLGRASS_COMPLETE" in capsys.readouterr().out

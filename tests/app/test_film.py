@@ -2,7 +2,11 @@
 
 import hashlib
 import json
+import re
+import signal
 import subprocess
+import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,6 +14,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from PIL import Image
+
+TOUR = (Path(__file__).parents[2] / "docs" / "tour.md").read_text("utf-8")
 
 Tallgrass = Callable[..., subprocess.CompletedProcess[str]]
 pytestmark = pytest.mark.gl
@@ -108,6 +114,8 @@ def test_n5_a_manifest_says_what_a_film_was_made_from(tallgrass: Tallgrass, stor
         name: hashlib.sha256((folder / name).read_bytes()).hexdigest() for name in (stormy.name, "ring.png")
     }
     assert str(folder) not in (folder / "a.webp.json").read_text()
+    told = {key for line in TOUR.splitlines() if line.startswith("| `") for key in re.findall("`(\\w+)`", line)}
+    assert whole.keys() | whole["frames"].keys() | whole["pictures"][0].keys() <= told, "the tour tells of every key"
 
 
 @pytest.mark.parametrize(
@@ -122,3 +130,23 @@ def test_n5_a_manifest_says_what_a_film_was_made_from(tallgrass: Tallgrass, stor
 def test_frames_that_a_film_has_not_are_one_line(tallgrass: Tallgrass, scene: Path, span: str, told: str) -> None:
     done = tallgrass("film", scene, "-o", "a/", "--frames", span, "--fps", 4, "--size", "96x54")
     assert (done.returncode, done.stdout, done.stderr) == (2, "", told + "\n")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a process is ended there without being asked")
+@pytest.mark.parametrize("name", ["a.webp", "a.gif", "a/"])
+def test_a_film_that_is_asked_to_end_leaves_no_part_of_a_file(scene: Path, name: str) -> None:
+    words = [sys.executable, "-m", "tallgrass.app.cli", "film", scene.name, "-o", name, "--seconds", "3600"]
+    folder = scene.parent / "a" if name == "a/" else scene.parent
+    with subprocess.Popen([*words, "--size", "96x54"], cwd=scene.parent, stderr=subprocess.PIPE, text=True) as filming:
+        until = time.monotonic() + 60.0
+        while not (list(folder.glob(".*.part.*")) or list(folder.glob("*.png"))) and time.monotonic() < until:
+            time.sleep(0.02)
+        filming.send_signal(signal.SIGTERM)
+        _, told = filming.communicate(timeout=60)
+    assert filming.returncode == 143
+    assert "Traceback" not in told
+    assert not [path.name for path in folder.iterdir() if ".part" in path.name]
+    left = {path.name for path in scene.parent.iterdir()} - {scene.name, "a"}
+    assert left == set()
+    for picture in folder.glob("*.png"):
+        assert pixels(picture).shape == (54, 96, 3), "what is there is whole"

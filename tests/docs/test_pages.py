@@ -3,6 +3,7 @@
 The tutorial on wind plugins needs an environment of its own and has a test of its own; the README has one too.
 """
 
+import ast
 import os
 import re
 import subprocess
@@ -10,13 +11,22 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import pyglet
 import pytest
 
 from tallgrass.engine.scene import parse_scene
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = sorted(page.name for page in DOCS.glob("*.md"))
-FOLLOWED = [name for name in PAGES if name != "wind-plugin.md" and "\n```" in (DOCS / name).read_text("utf-8")]
+GENERATED = re.compile("^<!-- generated: .*?^<!-- end of what is generated -->$", re.MULTILINE | re.DOTALL)
+
+
+def written(page: str) -> str:
+    """What people have written of a page: the generated parts of one are held by tests of their own."""
+    return GENERATED.sub("", (DOCS / page).read_text("utf-8"))
+
+
+FOLLOWED = [name for name in PAGES if name != "wind-plugin.md" and "\n```" in written(name)]
 BLOCK = re.compile(
     r"(?:^<!-- not run: (?P<reason>[^\n]+) -->\n)?(?:^`(?P<file>[^`\n]+)`:\n\n)?"
     r"^```(?P<language>\w*)\n(?P<text>.*?)^```$",
@@ -34,7 +44,7 @@ COARSE = re.compile("^tallgrass (shot|film)", re.MULTILINE)
 
 
 def blocks(page: str) -> list[re.Match[str]]:
-    return list(BLOCK.finditer((DOCS / page).read_text("utf-8")))
+    return list(BLOCK.finditer(written(page)))
 
 
 def opens_a_window(page: str) -> bool:
@@ -86,7 +96,7 @@ def test_what_a_page_with_windows_tells_to_do_works(page: str, tmp_path: Path, d
 
 @pytest.mark.parametrize("page", FOLLOWED)
 def test_every_block_of_a_page_is_of_a_language_that_is_run(page: str) -> None:
-    text = (DOCS / page).read_text("utf-8")
+    text = written(page)
     assert len(blocks(page)) == len(re.findall("^```", text, re.MULTILINE)) // 2
     assert {block["language"] for block in blocks(page)} <= {"python", "sh", "text", "yaml"}
 
@@ -94,7 +104,7 @@ def test_every_block_of_a_page_is_of_a_language_that_is_run(page: str) -> None:
 def test_blocks_that_are_not_run_are_few_and_say_why() -> None:
     reasons = [block["reason"] for page in FOLLOWED for block in blocks(page) if block["reason"]]
     assert len(reasons) <= 3
-    text = "".join((DOCS / page).read_text("utf-8") for page in FOLLOWED)
+    text = "".join(map(written, FOLLOWED))
     assert text.count("<!-- not run") == len(reasons), "a reason stands right above a block"
 
 
@@ -128,14 +138,13 @@ def anchors(page: Path) -> set[str]:
 
 @pytest.mark.parametrize("page", PAGES)
 def test_every_link_of_a_page_leads_somewhere(page: str) -> None:
-    generated = {"scene.md": {"quality"}, "api.md": {"testing"}}
     for target, anchor in re.findall(r"\]\(([^)#\s]*)(?:#([^)]+))?\)", (DOCS / page).read_text("utf-8")):
         if target.startswith(("https://", "pictures/")):
             continue
         place = DOCS / (target or page)
         assert place.exists(), f"{page} links to {target}"
         if anchor:
-            assert anchor in anchors(place) | generated.get(place.name, set()), f"{page} links to {target}#{anchor}"
+            assert anchor in anchors(place), f"{page} links to {target}#{anchor}"
 
 
 def test_no_page_is_left_out_of_the_manual() -> None:
@@ -143,3 +152,34 @@ def test_no_page_is_left_out_of_the_manual() -> None:
     assert set(listed) <= set(PAGES)
     linked = {name for page in listed for name in re.findall(r"\]\(([\w-]+\.md)", (DOCS / page).read_text("utf-8"))}
     assert set(PAGES) - set(listed) <= linked, "neither in the list of mkdocs.yml nor linked by a page that is"
+
+
+def test_what_is_generated_of_the_pages_is_fresh() -> None:
+    command = [sys.executable, "-m", "docs.making.pages", "--check"]
+    done = subprocess.run(command, cwd=DOCS.parent, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_the_pages_that_are_generated_can_be_read_where_they_lie() -> None:
+    told_by = {
+        "scene.md": "| `stiffness` | a number |",
+        "api.md": "### Prairie\n",
+        "examples.md": "from tallgrass import",
+    }
+    for page, told in told_by.items():
+        text = (DOCS / page).read_text("utf-8")
+        assert told in text
+        assert len(text) > 5 * len(written(page)), "only the generator's mark is there"
+
+
+def test_a_trap_tells_that_pyglets_framebuffers_bring_no_viewport_of_their_own_and_they_do_not() -> None:
+    parsed = ast.parse((Path(pyglet.__file__).parent / "image" / "buffer.py").read_text("utf-8"))
+    (kind,) = [each for each in parsed.body if isinstance(each, ast.ClassDef) and each.name == "Framebuffer"]
+    methods = [each for each in kind.body if isinstance(each, ast.FunctionDef) and each.name in {"bind", "unbind"}]
+    source = "".join(map(ast.unparse, methods))
+    assert source.count("glBindFramebuffer") == 2
+    assert "iewport" not in source
+    traps = written("embedding.md").partition("## Traps")[2]
+    (trap,) = re.findall(r"^- \*\*Viewports of your own framebuffers\.\*\*.*\n(?:  .*\n)*", traps, re.MULTILINE)
+    assert "`Framebuffer.bind`" in trap
+    assert "glViewport" in trap

@@ -42,7 +42,7 @@ def test_every_bundled_scene_says_its_story_in_its_first_line(name: str) -> None
 def test_r1_the_plain_is_a_flat_square_like_the_papers_and_wide_enough_for_a_million_blades_in_the_image() -> None:
     loaded = read_scene("plain")
     terrain, density = load_maps(loaded)
-    assert terrain.size == pytest.approx((140.0, 140.0))
+    assert terrain.size == pytest.approx((170.0, 170.0))
     assert np.ptp(terrain.heights) == 0.0
     assert density.maps.min() == 1.0
 

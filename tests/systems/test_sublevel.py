@@ -44,7 +44,7 @@ def test_f1_strips_are_coarser_with_distance_and_finer_seen_from_above(
         assert float(SPACING[ring(distance, slope)]) * slope <= height / 3.0 * 1.0001
 
 
-def test_f2_the_viewing_slope_is_the_grounds_own_slope_and_the_eyes_height(laid: Laid, look: Look) -> None:
+def test_the_viewing_slope_is_the_grounds_own_slope_and_the_eyes_height(laid: Laid, look: Look) -> None:
     z = np.arange(81.0)[:, None] - 40.0
     hillside = Terrain(np.tile(-0.5 * z, 81).astype(np.float32), 1.0)
     site = laid(terrain=hillside)
@@ -120,6 +120,15 @@ def test_f1_what_is_seen_goes_to_another_sub_level_by_and_by(laid: Laid, look: L
     assert not sublevels(look(site, 1.25, 1.25, dt=0.0), level).any()
     assert sublevels(look(site, 1.25, 5.1, dt=0.0), level).any()
     assert not sublevels(look(site, 1.25, 5.1, dt=FADE * 1.01), level).any()
+
+
+def test_patches_that_change_their_sub_level_alone_count_as_no_transition(laid: Laid, look: Look) -> None:
+    site = laid(terrain=FLAT)
+    look(site, 1.25, 1.2)
+    outlook = look(site, 1.25, 5.1, dt=0.0)
+    changing = outlook.patches.shown & (outlook.patches.progress < 1.0)
+    assert ((sublevels(outlook, 0) | sublevels(outlook, 1)) & ~changing).sum() > 5
+    assert outlook.changing == changing.sum() > 5
 
 
 def test_f1_the_coarsest_has_one_sub_level_everywhere(laid: Laid, look: Look) -> None:

@@ -1,0 +1,69 @@
+"""The carpet's light follows the wind that bends the grass (F6)."""
+
+from collections.abc import Callable
+
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass.components.pose import Pose
+from tallgrass.engine.camera import Camera
+from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.wind.blast import Blast, Shape
+from tallgrass.systems.wind.breeze import Breeze
+from tallgrass.testing import Stage
+
+Load = Callable[..., Prairie]
+
+CALM = """\
+tallgrass: 1
+terrain: { size: [60, 60] }
+grass: { turf: { height: [0.4, 0.7], width: 0.02, taper: 0.4, blades: 800 } }
+quality:
+  models: 1
+  blade_rings: [{ to: 1, segments: 2 }]
+  strip_rings: [{ to: 2, strips: 2, texel: 0.05 }]
+  carpet_to: 16
+  carpet: 64
+"""
+RADIUS, PATCH = 6.0, 2.5
+CAMERA = Camera((0.0, 4.0, 29.0), 0.0, -0.15, np.radians(14.0))
+
+
+@pytest.fixture(scope="module")
+def room(ctx: moderngl.Context) -> Stage:
+    return Stage(ctx, (240, 160))
+
+
+@pytest.fixture(scope="module")
+def prairie(load: Load) -> Prairie:
+    """All of it is carpet, and no wind blows."""
+    return load(CALM, lod="carpet")
+
+
+def brighter(room: Stage, prairie: Prairie, wind: Breeze | Blast) -> NDArray[np.float64]:
+    """How much brighter each pixel is in a wind than in calm air, of what it was, shape (height, width)."""
+    calm = room.shot(prairie, CAMERA).mean(axis=2)
+    handle = prairie.add(wind, pose=Pose())
+    blown = room.shot(prairie, CAMERA).mean(axis=2)
+    prairie.remove(handle)
+    return np.asarray(blown / calm - 1.0)
+
+
+def test_f6_grass_that_bends_away_from_the_eye_is_brighter_and_towards_it_darker(room: Stage, prairie: Prairie) -> None:
+    away, aside, towards = (
+        brighter(room, prairie, Breeze(direction=yaw, strength=0.6, gustiness=0.0, swing=0.0)).mean()
+        for yaw in (0.0, 90.0, 180.0)
+    )
+    assert away > aside + 0.03
+    assert aside > towards + 0.03
+
+
+def test_f6_only_where_a_wind_bends_it_the_carpet_is_lit_otherwise(room: Stage, prairie: Prairie) -> None:
+    blast = Blast(outline=Shape(disc=RADIUS), strength=0.9, swing=0.0)
+    change = np.abs(brighter(room, prairie, blast))
+    from_middle = np.hypot(*np.moveaxis(room.ground(CAMERA, level=0.3), -1, 0))
+    under, beyond = (from_middle > 1.5) & (from_middle < RADIUS - 1.5), from_middle > RADIUS + 2.0 * PATCH
+    assert change[under].mean() > 0.04
+    assert change[beyond].max() < 0.015
