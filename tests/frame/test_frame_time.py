@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from tallgrass import testing
 from tallgrass.engine.camera import camera_at
 from tallgrass.engine.gl.functions import Functions
 from tallgrass.engine.gl.stream import release_all
@@ -161,6 +162,17 @@ def test_n11_representations_are_drawn_in_little_by_little_and_come_back(stage: 
     assert standing() < 0.6 * before
     at(1.0, 1.0)
     assert standing() == before
+
+
+def test_n11_where_representations_have_been_drawn_in_the_carpet_lies(
+    ctx: moderngl.Context, load: Load, at: At
+) -> None:
+    at(1.0, 0.5)
+    with testing.stage(ctx, (320, 180)) as wide:
+        _, deep = shown(wide, load("plain", preset="low"))
+    land = deep < 1.0
+    assert land.any()
+    assert not (np.maximum.accumulate(land, axis=0) & ~land).any(), "the sky shows through the land"
 
 
 RUN = """

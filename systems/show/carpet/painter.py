@@ -10,6 +10,7 @@ from ....engine.gl.stream import release_all
 from ...around.appearance import BORDER
 from ...around.ground import Ground
 from ...around.outlook import Outlook
+from ...around.patches import PatchTable
 from ...around.representation import Canvas
 from ...grow.record import Growth
 from .air import Air
@@ -72,11 +73,18 @@ class CarpetPainter:
         """
         patches, viewer = outlook.patches, outlook.viewer
         tiles = ground_tiles(self._ground.terrain, viewer.eye, viewer.cone, spacing=self._spacing)
-        near = within(tiles, viewer.centre, patch=self._ground.patch, reach=self._whole_to)
+        near = within(tiles, viewer.centre, patch=self._ground.patch, reach=self._bare_to(patches, cover))
         self.ground.write(tiles, np.zeros_like(near) if cover is None else ~near)
         if cover is not None:
             whole = np.where(patches.alive, cover, np.float32(1.0))
             self.ground.write_shares(np.where(patches.grows, whole, np.float32(0.0)), viewer.centre)
+
+    def _bare_to(self, patches: PatchTable, cover: Floats | None) -> int:
+        """Return the discrete distance up to which there is no carpet: it is nearer than always while ranges are."""
+        if cover is None:
+            return self._whole_to
+        nearest = patches.distance.min(where=patches.alive & (cover > 0.0), initial=self._whole_to + 1)
+        return int(nearest) - 1
 
     def lay_everywhere(self, outlook: Outlook, /, *, height: float) -> None:
         """Send a carpet that lies everywhere, at this part of the height of the grass."""
