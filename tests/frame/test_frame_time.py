@@ -150,7 +150,7 @@ def test_n11_representations_are_drawn_in_little_by_little_and_come_back(stage: 
 
     def standing() -> int:
         for _ in range(30):
-            prairie.advance(0.1)
+            prairie.advance(0.2)
             shown(stage, prairie)
         return prairie.statistics.patches["blades"] + prairie.statistics.patches["strips"]
 
