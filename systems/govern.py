@@ -6,7 +6,7 @@ It is the one thing that depends on how busy the machine is, and there is none u
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from math import ceil, exp, floor, inf, log
+from math import ceil, floor, inf, log
 from statistics import median
 
 from .around.outlook import Outlook
@@ -40,14 +40,17 @@ FEWEST = 3
 BEGINNING = 2
 """Frames at first, and after every change, that make things and do not count."""
 
-MOST_BETTER = 2
-"""Most rungs that are climbed at once."""
-
 LONGEST_PATIENCE = 16
 """How many times in a row frames must at most be seen to be short before they are made better."""
 
-EASE = 0.4
-"""How soon representations follow to where they are to end [s]."""
+SUDDEN = 0.35
+"""How much too long frames must take for more than `GENTLE` rungs to be descended at once, as a logarithm."""
+
+GENTLE = 2
+"""Rungs whose change is lost in what the wind changes from frame to frame."""
+
+SPEED = 0.15
+"""How much of their distances representations are drawn in or out by in a second: strips grow no faster in a change."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +114,8 @@ def paced(pace: Pace, seconds: float, /, *, hold: float) -> Pace:
         return replace(pace, times=times)
     pace, over = replace(pace, times=()), log(max(median(times), 1e-6) / hold)
     if over > ABOVE:
-        return _descended(pace, ceil(EAGER * over / RUNG), hold)
+        rungs = ceil(EAGER * over / RUNG)
+        return _descended(pace, rungs if over > SUDDEN else min(rungs, GENTLE), hold)
     if over < -BELOW and pace.short + 1 < pace.patience:
         return replace(pace, short=pace.short + 1)
     return _climbed(pace, floor(-over / RUNG), hold) if over < -BELOW else replace(pace, short=0)
@@ -126,7 +130,7 @@ def _descended(pace: Pace, rungs: int, hold: float) -> Pace:
 
 
 def _climbed(pace: Pace, rungs: int, hold: float) -> Pace:
-    rung = max(0, pace.rung - min(rungs, MOST_BETTER))
+    rung = max(0, pace.rung - min(rungs, GENTLE))
     if rung == pace.rung:
         return replace(pace, short=0)
     return Pace(rung, _to_pass(pace.rung, rung, hold), patience=pace.patience, climbed=True)
@@ -134,13 +138,13 @@ def _climbed(pace: Pace, rungs: int, hold: float) -> Pace:
 
 def _to_pass(rung: int, other: int, hold: float) -> int:
     """Return how many frames pass before a change of rungs has come to an end."""
-    same_range = RUNGS[rung].range == RUNGS[other].range
-    return BEGINNING if same_range else BEGINNING + ceil((FADE + EASE) / hold)
+    way = abs(RUNGS[rung].range - RUNGS[other].range)
+    return BEGINNING + (ceil((FADE + way / SPEED) / hold) if way else 0)
 
 
 def eased(now: float, due: float, /, *, dt: float) -> float:
-    """Return where a value is after `dt` [s] on its way to the one that is due."""
-    return due if abs(due - now) < 1e-3 else due + (now - due) * exp(-dt / EASE)
+    """Return where a range is after `dt` [s] on its way to the one that is due."""
+    return max(due, now - SPEED * dt) if due < now else min(due, now + SPEED * dt)
 
 
 class Governor:

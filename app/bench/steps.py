@@ -8,6 +8,8 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from ...systems.around.transitions import Transitions
 from ...systems.lod import farthest
 from ...systems.prairie import Prairie
@@ -24,6 +26,9 @@ KEPT = 3
 
 STILLS = 8
 """Frames kept besides, spread over the walk."""
+
+SETTLING = 90
+"""Frames before each leg in which a frame time comes to be held."""
 
 CHANGING = ("tile", "cull", "lod", "transition", "see", "plant")
 """The systems that decide what is shown, and how."""
@@ -90,6 +95,7 @@ def walked(
 
 def _steps(studio: Studio, prairie: Prairie, frames: Iterable[list[Moment]]) -> Iterator[Step]:
     for leg in frames:
+        _settle(studio, prairie, leg[0])
         _go(studio, prairie, leg[0], time=leg[0].time - REST / 2)
         earlier, before = leg[0], _go(studio, prairie, leg[0])
         for moment in leg[1:]:
@@ -98,6 +104,13 @@ def _steps(studio: Studio, prairie: Prairie, frames: Iterable[list[Moment]]) -> 
             now = _go(studio, prairie, moment)
             yield Step(earlier, moment, before, now, without, prairie.statistics.transitions)
             earlier, before = moment, now
+
+
+def _settle(studio: Studio, prairie: Prairie, moment: Moment) -> None:
+    """Let what holds the frame time find out what frames take before any counts."""
+    if prairie.governor.hold is not None:
+        for part in np.linspace(1.0, 0.5, SETTLING):
+            _go(studio, prairie, moment, time=moment.time - REST * part)
 
 
 def _go(studio: Studio, prairie: Prairie, moment: Moment, *, time: float | None = None) -> Picture:

@@ -12,6 +12,7 @@ from ...around.appearance import BORDER
 from ...around.cone import HALF_DIAGONAL
 from ...around.ground import Ground
 from ...around.outlook import Outlook
+from ...around.patches import PatchTable
 from ...around.representation import Canvas
 from ...grow.record import Growth
 from .air import Air
@@ -78,9 +79,10 @@ class CarpetPainter:
         taken the grass away there is none.
         """
         patches, viewer = outlook.patches, outlook.viewer
-        if not self._unchanged.since(self._ground, viewer.eye, viewer.cone, viewer.centre, cover is None):
+        bare_to = self._bare_to(patches, cover)
+        if not self._unchanged.since(self._ground, viewer.eye, viewer.cone, viewer.centre, cover is None, bare_to):
             tiles = tiles_seen(self._tiles_around(viewer.eye), viewer.eye, viewer.cone)
-            near = within(tiles, viewer.centre, patch=self._ground.patch, reach=self._whole_to)
+            near = within(tiles, viewer.centre, patch=self._ground.patch, reach=bare_to)
             self.ground.write(tiles, np.zeros_like(near) if cover is None else ~near)
         if cover is not None:
             whole = np.where(patches.alive, cover, np.float32(1.0))
@@ -93,6 +95,13 @@ class CarpetPainter:
         if not self._stays.since(self._ground, place):
             self._tiles = tiles_around(self._ground.terrain, place, spacing=self._spacing, about=step * HALF_DIAGONAL)
         return self._tiles
+
+    def _bare_to(self, patches: PatchTable, cover: Floats | None) -> int:
+        """Return the discrete distance up to which there is no carpet: it is nearer than always while ranges are."""
+        if cover is None:
+            return self._whole_to
+        nearest = patches.distance.min(where=patches.alive & (cover > 0.0), initial=self._whole_to + 1)
+        return int(nearest) - 1
 
     def lay_everywhere(self, outlook: Outlook, /, *, height: float) -> None:
         """Send a carpet that lies everywhere, at this part of the height of the grass."""
