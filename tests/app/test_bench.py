@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.app.bench import processor, stroll, timing, yardstick
+from tallgrass.app.bench import processor, stroll, yardstick
 from tallgrass.app.bench.frame import sample
 from tallgrass.app.bench.rival import inside_frustum
 from tallgrass.app.bench.rivals import Rivals
@@ -24,6 +24,7 @@ from tallgrass.app.cli import run
 from tallgrass.app.studio.studio import Studio
 from tallgrass.app.studio.take import Take
 from tallgrass.engine.camera import Camera, projection_matrix, view_matrix, view_of
+from tallgrass.engine.gl import rasteriser
 from tallgrass.engine.scene import read_scene
 
 COMMON = {"machine", "scene", "preset", "size", "frames"}
@@ -127,7 +128,7 @@ def test_a_software_rasteriser_has_no_card_to_time(renderer: str) -> None:
 def test_a_graphics_card_is_timed_by_its_own_clock(
     ctx: moderngl.Context, scene: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(timing, "SOFTWARE", ("none such",))
+    monkeypatch.setattr(rasteriser, "SOFTWARE", ("none such",))
     assert card_timer(ctx) is not None
     with Studio(Take(str(scene), (96, 54))) as studio:
         still = Still(studio)

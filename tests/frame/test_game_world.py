@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
-from statistics import median
 from typing import Any
 
 import esper
@@ -168,7 +167,7 @@ def test_d6_a_crowd_that_comes_and_goes_every_frame_does_not_slow_the_systems(
 
     took = [(frame(0, 2 * number), frame(1000, 2 * number + 1)) for number in range(30)][4:]
     prairie.release()
-    alone, crowded = (median(times) for times in zip(*took, strict=True))
+    alone, crowded = (min(times) for times in zip(*took, strict=True))  # others may keep the processor busy
     assert crowded < 1.5 * alone, f"{crowded:.2f} ms in a crowd, {alone:.2f} ms alone"
 
 

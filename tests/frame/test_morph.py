@@ -14,6 +14,7 @@ from tallgrass.engine.gl.shaders import program
 from tallgrass.engine.gl.stream import Stream, release_all
 from tallgrass.systems.around.appearance import Appearance
 from tallgrass.systems.around.outlook import Outlook
+from tallgrass.systems.grow.bend import bending
 from tallgrass.systems.painter import UNITS, Painter
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.show.blades import draw as blades_draw
@@ -327,9 +328,11 @@ def test_x3_when_it_has_arrived_a_blade_lies_on_its_painted_place(scene: Scene) 
     assert np.linalg.norm(arrived - in_their_own_places(scene), axis=2).mean() > 1.0
 
 
-def bent(scene: Scene, kind: NDArray[np.int64], message: NDArray[np.float32]) -> Doubles:
+def bent(scene: Scene, kind: NDArray[np.int64], message: NDArray[np.floating]) -> Doubles:
     """Where the tip of an edge of length 1 is that is bent by a message, for kinds (n,) and messages (n, 2)."""
     table = np.stack([growth.postures.shape[0, :, -1] for growth in scene.prairie.site.growths]).astype(float)
+    bends = [bending(growth.postures, message) for growth in scene.prairie.site.growths]
+    message = np.where(kind[:, None] == 0, *bends)
     index = np.linalg.norm(message, axis=1)
     row = (0.5 + 0.5 * np.minimum(index, 1.0)) * (table.shape[1] - 1)
     low = np.minimum(row.astype(int), table.shape[1] - 2)
