@@ -29,9 +29,10 @@ from .wind.card import CardWinds
 from .wind.quarantine import Quarantine
 
 SHARED = ("postures", "tone", "density", "heights", "received")
-
+"""The samplers that are no representation's own."""
 
 LAST_UNIT = FIRST_UNIT + 15
+"""The last texture unit that every OpenGL has."""
 
 
 def _units() -> dict[str, int]:
@@ -174,8 +175,7 @@ class Painter:
             self.block.write(self.record)
             for name, texture in self.textures.items():
                 texture.use(UNITS[name])
-            if blades is None:
-                self.draw_calls = self._hear(target)
+            self.draw_calls = self._hear(target) if blades is None else 0
             self._draw_land(target)
             if blades is None:
                 self._draw_grass(target)
