@@ -14,6 +14,7 @@ from tallgrass.engine.gl.shaders import program
 from tallgrass.engine.gl.stream import Stream, release_all
 from tallgrass.systems.around.appearance import Appearance
 from tallgrass.systems.around.outlook import Outlook
+from tallgrass.systems.grow.bend import bending
 from tallgrass.systems.painter import UNITS, Painter
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.show.blades import draw as blades_draw
@@ -188,8 +189,7 @@ def on_screen(clip: Doubles) -> Doubles:
 
 def middles(data: Doubles) -> Doubles:
     """Middle lines of ribbons, from root to tip [pixels], shape (n, points, 2)."""
-    edges = on_screen(data[..., :4])
-    return np.asarray((edges[:, ::2] + edges[:, 1::2]) / 2)
+    return on_screen(data[:, ::2, :4]) / 2 + on_screen(data[:, 1::2, :4]) / 2
 
 
 def drawn(scene: Scene, weight: float) -> Doubles:
@@ -329,13 +329,15 @@ def test_x3_when_it_has_arrived_a_blade_lies_on_its_painted_place(scene: Scene) 
 
 def bent(scene: Scene, kind: NDArray[np.int64], message: NDArray[np.float32]) -> Doubles:
     """Where the tip of an edge of length 1 is that is bent by a message, for kinds (n,) and messages (n, 2)."""
-    table = np.stack([growth.postures.shape[0, :, -1] for growth in scene.prairie.site.growths]).astype(float)
-    index = np.linalg.norm(message, axis=1)
+    postures = [growth.postures for growth in scene.prairie.site.growths]
+    table = np.stack([each.shape[0, :, -1] for each in postures]).astype(float)
+    bend = np.where(kind[:, None] == 0, *(bending(each, message) for each in postures))
+    index = np.linalg.norm(bend, axis=1)
     row = (0.5 + 0.5 * np.minimum(index, 1.0)) * (table.shape[1] - 1)
     low = np.minimum(row.astype(int), table.shape[1] - 2)
     part = (row - low)[:, None]
     ahead, up = (table[kind, low] * (1.0 - part) + table[kind, low + 1] * part).T
-    heading = message / np.maximum(index, 1e-6)[:, None]
+    heading = bend / np.maximum(index, 1e-6)[:, None]
     return np.stack([heading[:, 0] * ahead, up, heading[:, 1] * ahead], axis=1)
 
 
