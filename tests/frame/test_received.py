@@ -245,12 +245,10 @@ def test_w1_each_blade_is_drawn_where_it_stands_with_its_own_message(
         at = np.divmod(numbers[first : first + count].astype(np.int64), standing.shape[1])
         blade, message = standing[at], heard[at]
         np.testing.assert_allclose(made["foot"], np.column_stack([blade["root"], blade["height"]]), atol=CLOSE)
-        blown = np.zeros_like(message, np.float64)
-        for kind, growth in enumerate(mapped.site.growths):
-            blown[blade["kind"] == kind] = bending(growth.postures, message[blade["kind"] == kind])
-        length = np.linalg.norm(blown, axis=1, keepdims=True)
-        bend = blown + blade["rest"] * (1.0 - np.minimum(length, 1.0))
-        np.testing.assert_allclose(made["lie"][:, :2], bend, atol=CLOSE)
+        of_kind = [bending(growth.postures, message) for growth in mapped.site.growths]
+        bent = np.where(blade["kind"][:, None] == 0.0, *of_kind)
+        lie = bent + blade["rest"] * (1.0 - np.minimum(np.linalg.norm(bent, axis=1, keepdims=True), 1.0))
+        np.testing.assert_allclose(made["lie"][:, :2], lie, atol=CLOSE)
         np.testing.assert_array_equal(made["joints"][:, 2], blade["kind"])
         assert count > 100
         first += count
