@@ -179,7 +179,8 @@ class WindPrimitive(Declaration):
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
         """Return the messages to receivers at positions (x, z) in its frame [m], both of shape (n, 2).
 
-        A message is a vector of the frame along the bending direction whose norm is the posture index, in [0, 1].
+        A message is a vector of the frame along the bending direction whose norm is the posture index, in [0, 1], that
+        it bends grass of stiffness 1 to: a wind says how strong it is, and each kind gives way as it can.
         `seed` is the wind's own; `grass` tells how the grass there answers.
         """
 

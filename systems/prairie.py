@@ -215,7 +215,8 @@ class Prairie:
     def wind_at(self, xz: ArrayLike, time: float | None = None, *, kind: str | None = None) -> Floats:
         """Return what grass at ground positions (x, z) [m], shape (n, 2), feels at `time` [s], or now.
 
-        Messages of shape (n, 2): vectors along the bending direction whose norm is the posture index, in [0, 1].
+        Messages of shape (n, 2): vectors along the bending direction whose norm is the posture index, in [0, 1], of
+        grass of stiffness 1.
         They are those of grass of a `kind`, or else of the kind that grows most densely at each place. Raises
         ValueError for an unknown kind.
         """
