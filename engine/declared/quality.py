@@ -102,5 +102,5 @@ PRESETS: dict[str, Quality] = {
 }
 """The presets by name: the paper's three instances, and those that people use (paper, section 5.1).
 
-The paper's reach so far that the image of `plain` has about 100,000, 500,000 and 1,000,000 blades.
+The paper's reach so far that the image of a wide enough `plain` has about 100,000, 500,000 and 1,000,000 blades.
 """

@@ -62,7 +62,7 @@ def test_n6_the_frame_benchmark_tells_every_key_of_the_contract(capsys: pytest.C
     assert told["machine"].keys() == {"renderer", "gl", "cpu", "cores", "python", "version"}
     assert told["frame_ms"].keys() == {"p50", "p95", "p99"}
     assert told["first_frame_ms"]["cold"] > told["first_frame_ms"]["cached"] > 0.0
-    assert told["blades"]["field"] == 68 * 68 * 160
+    assert told["blades"]["field"] == 40 * 40 * 160
     assert told["blades"]["field"] > told["blades"]["considered"] > told["blades"]["submitted"] > 0
     assert told["systems_total_ms"] >= max(told["systems_ms"].values())
     assert told["ratio_to_all_3d"] == pytest.approx(told["all_3d_ms"] / told["frame_ms"]["p50"], rel=0.01)

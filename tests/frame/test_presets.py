@@ -1,6 +1,7 @@
 """The paper's three presets have the paper's numbers (R1)."""
 
 from collections.abc import Callable
+from importlib.resources import files
 
 import pytest
 
@@ -29,8 +30,13 @@ def test_r1_a_paper_preset_has_the_numbers_of_the_papers_table(preset: str) -> N
 
 
 @pytest.mark.parametrize("preset", PAPER)
-def test_r1_the_image_of_the_plain_has_the_papers_number_of_blades(preset: str, load: Load, stage: Stage) -> None:
-    prairie = load("plain", preset=preset)
+def test_r1_the_image_of_a_wide_enough_plain_has_the_papers_number_of_blades(
+    preset: str, load: Load, stage: Stage
+) -> None:
+    plain = (files("tallgrass.scenes") / "plain.yaml").read_text("utf-8")
+    wide = plain.replace("size: [100, 100]", "size: [170, 170]")
+    assert wide != plain, "1600 patches of 500 blades are no million"
+    prairie = load(wide, preset=preset)
     stage.shot(prairie)
     assert prairie.statistics.blades_considered == pytest.approx(PAPER[preset][3], rel=0.15)
 

@@ -39,10 +39,10 @@ def test_every_bundled_scene_says_its_story_in_its_first_line(name: str) -> None
     assert second == "tallgrass: 1"
 
 
-def test_r1_the_plain_is_a_flat_square_like_the_papers_and_wide_enough_for_a_million_blades_in_the_image() -> None:
+def test_r1_the_plain_is_the_papers_field_of_a_hundred_metres() -> None:
     loaded = read_scene("plain")
     terrain, density = load_maps(loaded)
-    assert terrain.size == pytest.approx((170.0, 170.0))
+    assert terrain.size == pytest.approx((100.0, 100.0))
     assert np.ptp(terrain.heights) == 0.0
     assert density.maps.min() == 1.0
 
