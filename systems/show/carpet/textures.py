@@ -5,7 +5,6 @@ from collections.abc import Sequence
 import moderngl
 import numpy as np
 
-from ....engine.gl.mipmaps import mipmapped
 from ...grow.record import Growth
 from .grow import carpet_of
 
@@ -19,4 +18,8 @@ def carpet_texture(ctx: moderngl.Context, growths: Sequence[Growth]) -> moderngl
             for model in growth.models
         ]
     )
-    return mipmapped(ctx, images)
+    layers, rows, columns, _ = images.shape
+    texture = ctx.texture_array((columns, rows, layers), 4, np.ascontiguousarray(images).tobytes())
+    texture.build_mipmaps()
+    texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
+    return texture
