@@ -100,7 +100,8 @@ class CarpetPainter:
         """Return the discrete distance up to which there is no carpet: it is nearer than always while ranges are."""
         if cover is None:
             return self._whole_to
-        nearest = patches.distance.min(where=patches.alive & (cover > 0.0), initial=self._whole_to + 1)
+        seen = patches.alive & patches.near & (cover > 0.0)
+        nearest = patches.distance.min(where=seen, initial=self._whole_to + 1)
         return int(nearest) - 1
 
     def lay_everywhere(self, outlook: Outlook, /, *, height: float) -> None:
