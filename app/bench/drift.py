@@ -1,8 +1,8 @@
 """Drift and ghosting: what a patch's slow change of representation does that no two frames in succession show.
 
 Some instants of each leg are held against the reference, from before its patches change until they have changed. At
-each, a tile around the middle of every patch that changes tells how bright it is and how much contrast it has, both
-relative to the reference's own.
+each, a tile around the middle of every patch that changes tells how bright it is, relative to the reference's own, and
+whether it shows two representations laid over one another.
 """
 
 from collections.abc import Iterator, Sequence
@@ -16,7 +16,8 @@ from ...engine.camera import projection_matrix, view_matrix
 from ...systems.prairie import Prairie
 from ..studio.encode import Picture
 from . import stroll
-from .contrast import LEAST, luma, tile_side
+from .contrast import luma, tile_side
+from .ghost import ghosted
 from .stroll import Moment
 from .verdict import Step
 
@@ -29,6 +30,9 @@ INSTANTS = 5
 
 ASIDE = 0.05
 """How long before the leg's border the first of them is, and how long before its end the last [s]."""
+
+TOP = 0.75
+"""Height over a patch's middle that the middle of its tile shows, of its tallest grass."""
 
 WINDOW = 1.5
 """Time in which a change of brightness counts as drift [s]."""
@@ -44,6 +48,12 @@ class Sample:
 
     true: Doubles
     """Luma of the reference, shape (height, width)."""
+
+    before: Doubles
+    """Luma of the picture as if no change had begun yet, shape (height, width)."""
+
+    after: Doubles
+    """Luma of the picture as if all changes were over, shape (height, width)."""
 
     cell: NDArray[np.int32]
     """Cells of the patches, shape (rows, 2)."""
@@ -81,8 +91,8 @@ class Change:
     bright: Doubles
     """Mean luma over the reference's, shape (instants, patches)."""
 
-    crisp: Doubles
-    """Standard deviation of luma over the reference's, NaN where that is flat, shape (instants, patches)."""
+    ghosted: Doubles
+    """How much all of them together are two pictures laid over one another, 0 to 1, shape (instants,)."""
 
     distance: NDArray[np.int32]
     """Discrete distance at first, shape (patches,)."""
@@ -92,22 +102,24 @@ class Change:
 
     @property
     def drift(self) -> Doubles:
-        """The largest change of brightness within `WINDOW` of each patch, relative to the reference's, (patches,)."""
-        pairs = combinations(range(len(self.time)), 2)
-        near = [(a, b) for a, b in pairs if self.time[b] - self.time[a] <= WINDOW + 1e-6]
-        return np.asarray(np.max([np.abs(self.bright[b] / self.bright[a] - 1.0) for a, b in near], axis=0))
+        """The largest change of brightness of each patch, relative to the reference's, shape (patches,)."""
+        return _largest_change(self.bright, self.time)
+
+    @property
+    def mean_drift(self) -> float:
+        """The same of the mean over all patches: what is left where the grain of single tiles cancels out."""
+        return float(_largest_change(self.bright.mean(axis=1), self.time))
 
     @property
     def ghosting(self) -> float:
-        """The part of their contrast that the patches lose on their way, of what they have before or after, or 0.
+        """How much the patches are two pictures laid over one another, 0 to 1, in the mean over their way."""
+        return float(self.ghosted[1:-1].mean())
 
-        It is the mean over them: grain differs from tile to tile.
-        """
-        told = self.crisp[:, ~np.isnan(self.crisp).any(axis=0)]
-        if not told.size:
-            return 0.0
-        mean = told.mean(axis=1)
-        return max(0.0, 1.0 - float(mean[1:-1].min() / min(mean[0], mean[-1])))
+
+def _largest_change(values: Doubles, time: Doubles) -> Doubles:
+    """Return the largest relative change within `WINDOW` of values (instants, ...) at times (instants,), (...)."""
+    pairs = [(a, b) for a, b in combinations(range(len(time)), 2) if time[b] - time[a] <= WINDOW + 1e-6]
+    return np.asarray(np.max([np.abs(values[b] / values[a] - 1.0) for a, b in pairs], axis=0))
 
 
 def sampled_frames() -> list[int]:
@@ -116,14 +128,14 @@ def sampled_frames() -> list[int]:
     return [max(1, round(float(time) * stroll.RATE)) for time in times]
 
 
-def sample(prairie: Prairie, step: Step, reference: Picture, /) -> Sample:
-    """Return the sample of a frame that has just been drawn."""
+def sample(prairie: Prairie, step: Step, reference: Picture, ends: tuple[Doubles, Doubles], /) -> Sample:
+    """Return the sample of a frame that has just been drawn; `ends` are those of its changes."""
     patches = prairie.viewers["main"].patches
     tallest = max(kind.height[1] for kind in prairie.scene.grass.values())
-    corner, inside = _tiles(patches.middle, patches.height + tallest / 2.0, step.moment, step.now.shape[:2])
+    corner, inside = _tiles(patches.middle, patches.height + TOP * tallest, step.moment, step.now.shape[:2])
     level = np.where(patches.shown, patches.representation, np.int8(-1))
     return Sample(
-        step.moment, luma(step.now), luma(reference), patches.cell.copy(), level,
+        step.moment, luma(step.now), luma(reference), *ends, patches.cell.copy(), level,
         patches.sublevel[np.maximum(level, 0), np.arange(len(level))], patches.distance.copy(), corner, inside,
         patches.names,
     )  # fmt: skip
@@ -161,15 +173,15 @@ def changes(samples: Sequence[Sample], /) -> Iterator[Change]:
 
 
 def _change(samples: Sequence[Sample], name: str, rows: NDArray[np.int64]) -> Change:
-    bright, crisp = np.empty((2, len(samples), len(rows)))
+    bright, ghosts = np.empty((len(samples), len(rows))), np.empty(len(samples))
     for number, each in enumerate(samples):
-        seen, true = (_cut(picture, each.corner[rows]) for picture in (each.seen, each.true))
+        pictures = (each.seen, each.true, each.before, each.after)
+        seen, true, before, after = (_cut(picture, each.corner[rows]) for picture in pictures)
         bright[number] = seen.mean(axis=1) / np.maximum(true.mean(axis=1), 1.0)
-        spread = true.std(axis=1)
-        crisp[number] = np.where(spread >= LEAST, seen.std(axis=1) / np.maximum(spread, LEAST), np.nan)
+        ghosts[number] = ghosted(seen, before, after)
     time = np.array([each.moment.time - each.moment.leg.start for each in samples])
     first, last = samples[0], samples[-1]
-    return Change(first.moment.leg.name, name, time, bright, crisp, first.distance[rows], last.corner[rows])
+    return Change(first.moment.leg.name, name, time, bright, ghosts, first.distance[rows], last.corner[rows])
 
 
 def _cut(picture: Doubles, corner: NDArray[np.int64]) -> Doubles:

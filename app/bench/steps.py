@@ -13,7 +13,9 @@ from ...systems.prairie import Prairie
 from ..studio.encode import Picture
 from ..studio.progress import counted
 from ..studio.studio import Studio
+from . import stroll
 from .drift import Change, Sample, changes, sample, sampled_frames
+from .ghost import ends_of_change
 from .stroll import REST, Leg, Moment, moments, raise_gusts
 from .truth import Truth
 from .verdict import Step, Verdict, judge
@@ -21,8 +23,8 @@ from .verdict import Step, Verdict, judge
 TOLD = 6
 """Frames that are told of."""
 
-HARD_FRAMES = 40
-"""Frames of a leg that are walked where patches switch at once: at its border between patches."""
+BORDER = 2.0
+"""How much of a leg is walked where patches switch at once: they do it at its border, after `stroll.LEAD` [of that]."""
 
 STILLS = 8
 """Frames kept besides, spread over the walk."""
@@ -58,12 +60,13 @@ def walked(studio: Studio, walk: list[Leg], transitions: Transitions, /, *, doin
     raise_gusts(prairie, walk)
     frames = {leg: list(moments(prairie, leg)) for leg in walk}
     if not transitions.gradual:
-        frames = {leg: each[: HARD_FRAMES + 1] for leg, each in frames.items()}
+        last = round(BORDER * stroll.LEAD * stroll.RATE)
+        frames = {leg: each[: last + 1] for leg, each in frames.items()}
     total = sum(len(each) - 1 for each in frames.values())
     apart = max(1, total // STILLS)
     try:
         with Truth(studio, walk) as truth:
-            seen = _Seen(prairie, truth, record)
+            seen = _Seen(studio, prairie, truth, record)
             for number, step in enumerate(counted(_steps(studio, prairie, frames.values()), total=total, doing=doing)):
                 seen.see(step, still=number % apart == apart // 2)
     finally:
@@ -74,8 +77,8 @@ def walked(studio: Studio, walk: list[Leg], transitions: Transitions, /, *, doin
 class _Seen:
     """What is made of the frames of a walk, one after the other."""
 
-    def __init__(self, prairie: Prairie, truth: Truth, record: Record) -> None:
-        self._prairie, self._truth, self._record = prairie, truth, record
+    def __init__(self, studio: Studio, prairie: Prairie, truth: Truth, record: Record) -> None:
+        self._studio, self._prairie, self._truth, self._record = studio, prairie, truth, record
         self._samples: list[Sample] = []
         self._due = sampled_frames()
 
@@ -98,7 +101,8 @@ class _Seen:
     def _sample(self, step: Step) -> None:
         first = step.moment.number == self._due[0]
         self._samples = [] if first else self._samples
-        self._samples.append(sample(self._prairie, step, self._truth.near(step.moment)))
+        ends = ends_of_change(self._studio, self._prairie, step.moment.camera)
+        self._samples.append(sample(self._prairie, step, self._truth.near(step.moment), ends))
         if step.moment.number == self._due[-1]:
             self._record.changes.extend(changes(self._samples))
 
