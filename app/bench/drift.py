@@ -132,7 +132,8 @@ def sample(prairie: Prairie, step: Step, reference: Picture, ends: tuple[Doubles
     """Return the sample of a frame that has just been drawn; `ends` are those of its changes."""
     patches = prairie.viewers["main"].patches
     tallest = max(kind.height[1] for kind in prairie.scene.grass.values())
-    corner, inside = _tiles(patches.middle, patches.height + TOP * tallest, step.moment, step.now.shape[:2])
+    shown_at = patches.height.astype(np.float64) + TOP * tallest
+    corner, inside = _tiles(patches.middle, shown_at, step.moment, step.now.shape[:2])
     level = np.where(patches.shown, patches.representation, np.int8(-1))
     return Sample(
         step.moment, luma(step.now), luma(reference), *ends, patches.cell.copy(), level,
@@ -150,7 +151,8 @@ def _tiles(middle: Doubles, level: Doubles, moment: Moment, size: tuple[int, ...
     across, down = (np.where(before, each / np.where(before, ahead, 1.0), 9.0) for each in (x, -y))
     at = np.stack([(across + 1.0) / 2.0 * width, (down + 1.0) / 2.0 * height], axis=1)
     corner = np.round(np.clip(at, -1e6, 1e6) - side / 2.0).astype(np.int64)
-    return corner, ((corner >= 0) & (corner + side <= [width, height])).all(axis=1)
+    inside = ((corner >= 0) & (corner + side <= [width, height])).all(axis=1)
+    return corner, np.asarray(inside)
 
 
 def changes(samples: Sequence[Sample], /) -> Iterator[Change]:

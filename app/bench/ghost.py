@@ -52,9 +52,9 @@ def ghosted(seen: Doubles, before: Doubles, after: Doubles, /) -> float:
     is in between, as blades are that move from one place to another.
     """
     apart, way = before - after, seen - after
-    whole, gone = float((apart * apart).sum()), float((way * way).sum())
-    if whole <= FAINT * FAINT * apart.size or gone == 0.0:
+    whole = float((apart * apart).sum())
+    if whole <= FAINT * FAINT * apart.size:
         return 0.0
     share = min(max(float((way * apart).sum()) / whole, 0.0), 1.0)
     rest = float(((way - share * apart) ** 2).sum())
-    return 4.0 * share * (1.0 - share) * max(0.0, 1.0 - rest / gone)
+    return max(0.0, 4.0 * (share * (1.0 - share) - rest / whole))

@@ -86,7 +86,7 @@ class _Seen:
         """Judge a frame, and keep what is to be told of it."""
         record, truth = self._record, self._truth
         record.changing.append(step.changing)
-        least = record.worst[-1].ratio if len(record.worst) == TOLD else 0.0
+        least = max(1.0, record.worst[-1].ratio) if len(record.worst) == TOLD else 0.0
         verdict = judge(step, truth, unless_below=least)
         if verdict is not None:
             record.judged += 1

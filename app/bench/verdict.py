@@ -48,13 +48,13 @@ class Verdict:
 
 
 def judge(one: Step, truth: Truth, /, *, unless_below: float = 0.0) -> Verdict | None:
-    """Return a verdict on a frame, or None where its ratio cannot be as large as `unless_below`.
+    """Return a verdict on a frame, or None where its ratio cannot be larger than `unless_below`.
 
     The frame differs from the held one by its step. So its flicker exceeds the held one's by no more than that,
     wherever the reference may be.
     """
     jumps = step(one.now, one.held)
-    if 1.0 + float(jumps.max()) / LEAST < unless_below:
+    if 1.0 + float(jumps.max()) / LEAST <= unless_below:
         return None
     found = prominence(one.now, one.held, one.before)
     row, column = divmod(int(np.argmax(found)), found.shape[1])

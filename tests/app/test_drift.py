@@ -55,10 +55,11 @@ def test_n2_the_mean_of_two_pictures_is_a_ghost_and_neither_of_them_is() -> None
     assert ghosted(after, before, after) == 0.0
 
 
-def test_n2_what_has_moved_half_of_its_way_is_no_ghost() -> None:
+def test_n2_what_is_on_its_way_from_place_to_place_is_no_ghost() -> None:
+    assert ghosted(grass(3), grass(1), grass(2)) == 0.0
     place = np.linspace(0.0, 60.0, 400)
     before, between, after = (100.0 + 20.0 * np.sin(place + shift) for shift in (0.0, 1.5, 3.0))
-    assert ghosted(between, before, after) < 0.1
+    assert ghosted(between, before, after) < 0.15
 
 
 @given(st.floats(0.0, 1.0))

@@ -15,10 +15,10 @@ from tallgrass.app.bench import pop, stroll
 from tallgrass.app.bench.stroll import legs
 from tallgrass.app.cli import run
 from tallgrass.engine.gl import shaders
-from tallgrass.systems import see
-from tallgrass.systems.around.appearance import Appearance
+from tallgrass.systems.around.appearance import Appearance, appearance
 from tallgrass.systems.show.blades import painter as blades
 from tallgrass.systems.show.strips import gather as strips
+from tallgrass.systems.transition import weights
 
 pytestmark = [pytest.mark.gl, pytest.mark.usefixtures("ctx")]
 
@@ -111,13 +111,13 @@ class _Late:
 def test_n3_a_jump_at_the_end_of_a_change_is_named_as_flicker(
     sound: Told, measure: Callable[[], Told], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    real = see.weights
+    real = weights
 
     def waited(patches: Any, rows: Any) -> Floats:
         progress = np.where(patches.progress < 0.98, np.float32(0.02) * patches.progress, np.float32(1.0))
         return real(_Late(patches.representation, patches.previous, progress, patches.names), rows)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(see, "weights", waited)
+    monkeypatch.setattr("tallgrass.systems.see.weights", waited)
     told = measure()
     assert "flicker" in told["over"]
     assert told["flicker"]["ratio"] > 1.2 * sound["flicker"]["ratio"]
@@ -128,7 +128,7 @@ def test_n3_a_jump_at_the_end_of_a_change_is_named_as_flicker(
 def test_n3_two_representations_half_transparent_are_named_as_ghosting(
     sound: Told, measure: Callable[[], Told], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    real = see.appearance
+    real = appearance
 
     def half(handed: Floats, *, fade: bool) -> tuple[Floats, Floats]:
         del fade
@@ -141,7 +141,7 @@ def test_n3_two_representations_half_transparent_are_named_as_ghosting(
         still = np.where(both, np.float32(1e-4), made.morph)
         return replace(made, morph=still, handed=np.where(both, np.float32(0.5), made.handed))
 
-    monkeypatch.setattr(see, "appearance", doubled)
+    monkeypatch.setattr("tallgrass.systems.see.appearance", doubled)
     monkeypatch.setattr(blades, "handed_over", half)
     monkeypatch.setattr(strips, "handed_over", half)
     told = measure()

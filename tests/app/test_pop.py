@@ -8,8 +8,8 @@ import pytest
 from PIL import Image
 
 from tallgrass.app.bench import pop, stroll
-from tallgrass.app.bench.pop import HARD
 from tallgrass.app.bench.flicker import TILE
+from tallgrass.app.bench.pop import HARD
 from tallgrass.app.bench.steps import Record, walked
 from tallgrass.app.bench.stroll import legs, moments
 from tallgrass.app.bench.truth import Truth
