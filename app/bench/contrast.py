@@ -23,7 +23,7 @@ def tile_side(lines: int, /) -> int:
 
 def luma(picture: Picture, /) -> Doubles:
     """Return the luma of sRGB bytes (..., 3), in display space from 0 to 255, shape (...)."""
-    return picture.astype(np.float64) @ np.array([0.2126, 0.7152, 0.0722])
+    return np.asarray(picture.astype(np.float64) @ np.array([0.2126, 0.7152, 0.0722]))
 
 
 def tiled(values: NDArray[np.generic], side: int, /) -> NDArray[np.generic]:
