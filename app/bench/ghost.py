@@ -10,9 +10,6 @@ from .contrast import luma
 
 Doubles = NDArray[np.float64]
 
-DECIDING = ("tile", "cull", "lod", "transition")
-"""The systems that say how far patches are on their way."""
-
 FAINT = 1.0
 """Difference between the two pictures that nobody sees, as a root of the mean square [steps of 255]."""
 
@@ -20,28 +17,21 @@ FAINT = 1.0
 def ends_of_change(studio: Studio, prairie: Prairie, camera: Camera, /) -> tuple[Doubles, Doubles]:
     """Return the luma of this instant as if no change had begun yet, and as if all were over, both (height, width).
 
-    The prairie must have been drawn at this instant from there; nothing that it keeps is changed.
+    The prairie must have been drawn at this instant from there, and be held as to how far its changes are. Nothing that
+    it keeps is changed.
     """
-    patches = prairie.viewers["main"].patches
+    patches, matrices = prairie.viewers["main"].patches, studio.matrices(camera)
     columns = (patches.progress, patches.sublevel_progress)
-    kept = [column.copy() for column in columns]
-    stopped = [system.name for system in prairie.systems if system.enabled and system.name in DECIDING]
-    pictures = []
-    for name in stopped:
-        prairie.systems.disable(name)
-    try:
-        for end in (0.0, 1.0):
-            for column, before in zip(columns, kept, strict=True):
-                column[:] = np.where(before < 1.0, np.float32(end), before)
-            studio.begin()
-            prairie.draw(*studio.matrices(camera))
-            pictures.append(luma(studio.read()))
-    finally:
+    kept, pictures = [column.copy() for column in columns], []
+    for end in (0.0, 1.0):
         for column, before in zip(columns, kept, strict=True):
-            column[:] = before
-        prairie.follow(*studio.matrices(camera))  # what the next frame goes on from is this one as it was
-        for name in stopped:
-            prairie.systems.enable(name)
+            column[:] = np.where(before < 1.0, np.float32(end), before)
+        studio.begin()
+        prairie.draw(*matrices)
+        pictures.append(luma(studio.read()))
+    for column, before in zip(columns, kept, strict=True):
+        column[:] = before
+    prairie.follow(*matrices)  # what the next frame goes on from is this one as it was
     return pictures[0], pictures[1]
 
 

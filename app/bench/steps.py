@@ -32,6 +32,9 @@ STILLS = 8
 CHANGING = ("tile", "cull", "lod", "transition", "see", "plant")
 """The systems that decide what is shown, and how."""
 
+DECIDING = CHANGING[:4]
+"""Those that say how far patches are on their way."""
+
 
 @dataclass(slots=True, eq=False)
 class Record:
@@ -101,7 +104,8 @@ class _Seen:
     def _sample(self, step: Step) -> None:
         first = step.moment.number == self._due[0]
         self._samples = [] if first else self._samples
-        ends = ends_of_change(self._studio, self._prairie, step.moment.camera)
+        with held(self._prairie, systems=DECIDING):
+            ends = ends_of_change(self._studio, self._prairie, step.moment.camera)
         self._samples.append(sample(self._prairie, step, self._truth.near(step.moment), ends))
         if step.moment.number == self._due[-1]:
             self._record.changes.extend(changes(self._samples))
@@ -127,13 +131,13 @@ def _go(studio: Studio, prairie: Prairie, moment: Moment, *, time: float | None 
 
 
 @contextmanager
-def held(prairie: Prairie) -> Iterator[None]:
+def held(prairie: Prairie, *, systems: tuple[str, ...] = CHANGING) -> Iterator[None]:
     """Let every patch be shown as the frame before showed it, though seen from where the viewer is then, in that wind.
 
     What is drawn meanwhile is the next frame without its changes of representation. Afterwards it never was: the next
-    frame follows the one before.
+    frame follows the one before. `systems` are those that rest meanwhile, of what decides what is shown.
     """
-    stopped = [system.name for system in prairie.systems if system.enabled and system.name in CHANGING]
+    stopped = [system.name for system in prairie.systems if system.enabled and system.name in systems]
     outlook = prairie.viewers["main"]
     before, eye = outlook.drawn_at, outlook.viewer.eye
     for name in stopped:
