@@ -2,7 +2,8 @@
 
 The scenes stand in `tests/cameras`. `tallgrass bench picture tests/cameras` prints the same figures of larger pictures,
 finer references, and rivals. `today.toml` has what each camera falls short by: none may get worse, and where one gets
-better, `TALLGRASS_RECORD=1` in the environment writes the file anew. The goals are the constants here.
+better, `TALLGRASS_RECORD=1` in the environment, in one process (`-n 0`), writes the file anew. The goals are the
+constants here.
 """
 
 import os
