@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
-from ...systems.around.transitions import Transitions
+from ...systems.around.transitions import SEAMLESS, Transitions
 from ...systems.prairie import Prairie
 from ..studio.encode import Picture
 from ..studio.progress import counted
@@ -50,10 +50,10 @@ class Record:
     """Patches in transition, by frame."""
 
     stills: list[tuple[Picture, Picture]] = field(default_factory=list)
-    """Frames spread over the walk, and their references."""
+    """Frames spread over the walk, and their references, where nothing is left out of the transitions."""
 
     changes: list[Change] = field(default_factory=list)
-    """What patches looked like on their way from one representation or sub-level to another."""
+    """What patches looked like on their way from one representation or sub-level to another, where nothing is."""
 
 
 def walked(studio: Studio, walk: list[Leg], transitions: Transitions, /, *, doing: str) -> Record:
@@ -71,7 +71,7 @@ def walked(studio: Studio, walk: list[Leg], transitions: Transitions, /, *, doin
         with Truth(studio, walk) as truth:
             seen = _Seen(studio, prairie, truth, record)
             for number, step in enumerate(counted(_steps(studio, prairie, frames.values()), total=total, doing=doing)):
-                seen.see(step, still=number % apart == apart // 2)
+                seen.see(step, still=transitions == SEAMLESS and number % apart == apart // 2)
     finally:
         prairie.release()
     return record
@@ -83,7 +83,7 @@ class _Seen:
     def __init__(self, studio: Studio, prairie: Prairie, truth: Truth, record: Record) -> None:
         self._studio, self._prairie, self._truth, self._record = studio, prairie, truth, record
         self._samples: list[Sample] = []
-        self._due = sampled_frames()
+        self._due = sampled_frames() if prairie.site.transitions == SEAMLESS else []
 
     def see(self, step: Step, *, still: bool) -> None:
         """Judge a frame, and keep what is to be told of it."""
