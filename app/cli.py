@@ -223,12 +223,21 @@ def frame(
 
 
 @bench.command("picture")
-def picture(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720", *, json: Json = False) -> int:
-    """Measure how far a picture is from every blade in 3D, supersampled."""
+def picture(
+    scene: Annotated[
+        str, typer.Argument(metavar="SCENE", help="A scene file, a bundled scene, or a folder.")
+    ] = "meadow",
+    preset: Preset = None,
+    size: Size = "1280x720",
+    *,
+    json: Json = False,
+    output: Annotated[str | None, typer.Option("-o", "--output", help="A folder for pictures with references.")] = None,
+) -> int:
+    """Measure how far a picture is from every blade in 3D, supersampled; of a folder, those of all its scenes."""
     pixels = _size(size)
     from .bench.picture import bench_picture
 
-    return bench_picture(scene, preset=preset, size=pixels, json=json)
+    return bench_picture(scene, preset=preset, size=pixels, json=json, output=output)
 
 
 @bench.command("pop")

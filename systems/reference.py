@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ..components.viewer import Viewer
 from ..engine.camera import View, view_of
-from .around.cone import HALF_DIAGONAL, discrete_distance, inside_cone
+from .around.cone import HALF_DIAGONAL, discrete_distance, inside_cone, view_cone
 from .around.ground import Ground
 from .around.outlook import Outlook
 from .around.window import cell_of
@@ -22,6 +22,7 @@ from .wind.blow import places_alone
 from .wind.grass import grass_of
 
 Ints = NDArray[np.int32]
+Place = tuple[float, float, float]
 CHUNK = 400
 """Patches drawn at a time in a reference, so that a large terrain needs no large buffers."""
 
@@ -38,10 +39,15 @@ def terrain_cells(ground: Ground, /) -> Ints:
 
 def seen_cells(ground: Ground, viewer: Viewer, /, *, sway: float) -> Ints:
     """Return the cells of the terrain inside a viewer's cone, shape (n, 2); `sway` is how far grass may reach [m]."""
+    return cells_within(ground, viewer.eye, viewer.cone, sway=sway)
+
+
+def cells_within(ground: Ground, eye: Place, cone: tuple[float, float], /, *, sway: float) -> Ints:
+    """Return the cells of the terrain inside a view cone from an eye, shape (n, 2); `sway` as for `seen_cells`."""
     cells = terrain_cells(ground)
     middles = (cells + np.float32(0.5)) * np.float32(ground.patch)
     radius = ground.patch * HALF_DIAGONAL + sway
-    return cells[inside_cone(middles, apex=(viewer.eye[0], viewer.eye[2]), cone=viewer.cone, radius=radius)]
+    return cells[inside_cone(middles, apex=(eye[0], eye[2]), cone=cone, radius=radius)]
 
 
 def stand_all(prairie: Prairie, cells: Ints, painter: BladePainter, /) -> int:
@@ -146,7 +152,8 @@ def draw_reference(
     """Return the reference picture of a prairie that has been drawn, top row first, shape (height, width, 3).
 
     Each pixel is the mean of `samples` by `samples` of a larger picture, in display space as blending is. With
-    `reach`, blades stand only up to this discrete distance, and beyond it lies the carpet that the prairie draws.
+    `reach`, blades stand only up to this discrete distance, and beyond it lies the carpet that the prairie draws. The
+    matrices may show a part of what the prairie was drawn with, as those of `cropped` do.
     """
     seen = view_of(view, projection)
     every = EveryBlade(prairie)
@@ -161,7 +168,8 @@ def draw_reference(
         target.use()
         target.clear(depth=1.0)
         site = prairie.site
-        every.draw(seen, seen_cells(site.ground, every.outlook.viewer, sway=site.sway), reach=reach)
+        cells = cells_within(site.ground, every.outlook.viewer.eye, view_cone(seen), sway=site.sway)
+        every.draw(seen, cells, reach=reach)
         return box_filtered(target, size, samples)
     finally:
         quarantine.live = live
@@ -177,3 +185,18 @@ def box_filtered(target: moderngl.Framebuffer, size: tuple[int, int], samples: i
     fine = fine.reshape(height, samples, width, samples, 3)
     mean = fine.astype(np.uint16).sum(axis=(1, 3)) if samples <= 16 else fine.mean(axis=(1, 3))
     return np.ascontiguousarray(np.round(mean / (samples * samples)).astype(np.uint8)[::-1])
+
+
+def cropped(
+    projection: NDArray[np.float32], corner: tuple[int, int], part: tuple[int, int], whole: tuple[int, int], /
+) -> NDArray[np.float32]:
+    """Return the projection (4, 4) that shows a part of a picture alone.
+
+    `corner` is the column and row of the part's first pixel from the top left, `part` and `whole` are (width, height)
+    [pixels].
+    """
+    (left, top), (wide, high), (width, height) = corner, part, whole
+    narrow = np.eye(4)
+    narrow[0, [0, 3]] = width / wide, (width - 2 * left) / wide - 1.0
+    narrow[1, [1, 3]] = height / high, 1.0 - (height - 2 * top) / high
+    return np.asarray(narrow @ projection, np.float32)

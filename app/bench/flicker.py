@@ -39,12 +39,13 @@ def tiles(difference: Floats, /) -> Floats:
     return np.asarray(blocks.mean(axis=(1, 3)), np.float32)
 
 
-def flicker(now: Picture, before: Picture, true_now: Picture, true_before: Picture, /) -> Floats:
-    """Return in each tile how far a picture's change is from the truth's, in steps of 255, shape (rows, columns).
+def change_of_tile(now: Picture, before: Picture, true_now: Picture, true_before: Picture, /) -> float:
+    """Return how far a tile's change is from the truth's [steps of 255].
 
-    All four are sRGB, (height, width, 3).
+    All four are sRGB, a tile and the pixels around it, (TILE + 2, TILE + 2, 3).
     """
-    return tiles((low_passed(now) - low_passed(before)) - (low_passed(true_now) - low_passed(true_before)))
+    seen = low_passed(now) - low_passed(before)
+    return float(np.abs(seen - (low_passed(true_now) - low_passed(true_before))).mean())
 
 
 def step(now: Picture, held: Picture, /) -> Floats:
@@ -55,8 +56,8 @@ def step(now: Picture, held: Picture, /) -> Floats:
     return tiles(low_passed(now) - low_passed(held))
 
 
-def prominence(now: Picture, held: Picture, before: Picture, /) -> float:
-    """Return the largest step in a frame, in terms of what changes there anyway."""
+def prominence(now: Picture, held: Picture, before: Picture, /) -> Floats:
+    """Return in each tile the step in terms of what changes there anyway, shape (rows, columns)."""
     kept = low_passed(held)
     stepped, anyway = tiles(low_passed(now) - kept), tiles(kept - low_passed(before))
-    return float((stepped / np.maximum(anyway, LEAST)).max())
+    return np.asarray(stepped / np.maximum(anyway, LEAST))

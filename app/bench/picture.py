@@ -1,24 +1,28 @@
 """`tallgrass bench picture`: how true a picture is to every blade in 3D, supersampled."""
 
 import importlib
+from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...engine.camera import view_of
+from ...engine.camera import View, view_of
 from ...engine.declared.quality import Quality
 from ...systems.frame.light import decoded
 from ...systems.reference import EveryBlade, draw_reference, patch_distances, seen_cells
 from ...systems.show.registry import NAMES
-from ..studio.encode import Picture
+from ..studio.encode import Picture, make_folder, picture_writer
 from ..studio.errors import MachineError
 from ..studio.progress import busy
-from ..studio.studio import Studio
+from ..studio.studio import Studio, about
 from ..studio.take import SAMPLES, Take
+from .contrast import contrast
 from .frame import own_preset
 from .machine import machine, tell
+from .multisampled import Multisampled
 
 MOMENT = 2.0
 """Instant of the picture [s]."""
@@ -32,31 +36,53 @@ FEWEST = 400
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pictures:
-    """The same view at the same instant, four times, and what each pixel shows."""
+    """The same view at the same instant, drawn in several ways, and what each pixel shows."""
 
     lod: Picture
     all_3d: Picture
+
+    msaa: Picture | None
+    """Every blade, several samples a pixel; None where the driver has not so many."""
+
     reference: Picture
     other_seed: Picture
     distance: NDArray[np.int32]
     """Discrete distance, -1 for the sky, shape (height, width)."""
 
 
-def bench_picture(scene: str, *, preset: str | None, size: tuple[int, int], json: bool) -> int:
+def bench_picture(
+    scene: str, *, preset: str | None, size: tuple[int, int], json: bool, output: str | None = None
+) -> int:
     """Compare a scene's picture with its reference, print the figures, and return the exit status.
 
-    Raises MachineError, before anything is drawn, where pictures cannot be compared.
+    Where `scene` is a folder, all scenes in it are compared, and a table is printed. Into the folder `output` goes each
+    picture beside its reference. Before anything is drawn it raises MachineError where pictures cannot be compared, and
+    InputError where none can be written, or the folder has no scenes.
     """
     evaluator()
-    take = Take(scene, size, preset=preset)
+    if output is not None:
+        make_folder(Path(output))
+    if Path(scene).is_dir():
+        from .cameras import bench_cameras
+
+        return bench_cameras(scene, preset=preset, size=size, json=json, output=output)
     with busy("drawing every blade"):
-        with Studio(take) as studio:
-            pictures = _draw(studio)
-            head = {"machine": machine(studio.ctx), "scene": scene, "preset": preset or own_preset(studio.prairie)}
-            quality = studio.prairie.site.quality
-        result = {**head, "size": list(size), "frames": 1, **compare(pictures, quality)}
-    tell(result, as_json=json)
+        tell(measured(Take(scene, size, preset=preset), output), as_json=json)
     return 0
+
+
+def measured(take: Take, output: str | None = None, /) -> dict[str, object]:
+    """Return what the benchmark tells of a scene; into the folder `output` goes its picture beside its reference."""
+    with Studio(take) as studio:
+        pictures = _draw(studio)
+        head = {
+            "machine": machine(studio.ctx), "scene": take.scene, "preset": take.preset or own_preset(studio.prairie),
+        }  # fmt: skip
+        if output is not None:
+            beside = np.concatenate([pictures.lod, pictures.reference], axis=1)
+            name = str(Path(output) / f"{Path(take.scene).stem}.png")
+            picture_writer(name)(beside, about(studio.prairie, take))
+        return {**head, "size": list(take.size), "frames": 1, **compare(pictures, studio.prairie.site.quality)}
 
 
 def _draw(studio: Studio) -> Pictures:
@@ -66,11 +92,7 @@ def _draw(studio: Studio) -> Pictures:
     studio.begin()
     prairie.draw(view, projection)
     lod = studio.read()
-    every = EveryBlade(prairie)
-    studio.begin()
-    every.draw(view_of(view, projection), seen_cells(prairie.site.ground, every.outlook.viewer, sway=prairie.site.sway))
-    all_3d = studio.read()
-    every.release()
+    all_3d, msaa = _every_blade(studio, view_of(view, projection))
     reference = draw_reference(prairie, view, projection, size, samples=SAMPLES)
     distance = patch_distances(prairie, view, projection, size)
     other = prairie.reseeded(prairie.scene.seed + OTHER_SEED)
@@ -79,23 +101,53 @@ def _draw(studio: Studio) -> Pictures:
     other.draw(view, projection)
     unrelated = draw_reference(other, view, projection, size, samples=SAMPLES)
     other.release()
-    return Pictures(lod, all_3d, reference, unrelated, distance)
+    return Pictures(lod, all_3d, msaa, reference, unrelated, distance)
+
+
+def _every_blade(studio: Studio, view: View) -> tuple[Picture, Picture | None]:
+    """Return every blade with one sample a pixel, and with several where the driver has so many."""
+    prairie, every = studio.prairie, EveryBlade(studio.prairie)
+    cells = seen_cells(prairie.site.ground, every.outlook.viewer, sway=prairie.site.sway)
+    studio.begin()
+    target = studio.ctx.detect_framebuffer()
+    every.draw(view, cells)
+    all_3d = studio.read()
+    fine = Multisampled(studio.ctx, studio.take.size)
+    fine.begin()
+    every.draw(view, cells)
+    fine.resolve(target)
+    msaa = studio.read() if fine.smooth else None
+    every.release()
+    fine.release()
+    return all_3d, msaa
 
 
 def compare(pictures: Pictures, quality: Quality) -> dict[str, object]:
-    """Return the benchmark's figures: FLIP of each picture, the score, and the bands.
-
-    The score is 0 where the levels of detail are as true as every blade and 1 where they are as far off as unrelated
-    grass. In pictures so small that every blade, not supersampled, is farther off than that, its sign still tells
-    which of the two is truer.
-    """
-    flips = {name: flip(getattr(pictures, name), pictures.reference) for name in ("lod", "all_3d", "other_seed")}
-    span = abs(flips["other_seed"] - flips["all_3d"])
-    return {
-        "flip": {name: round(value, 5) for name, value in flips.items()},
-        "score": round((flips["lod"] - flips["all_3d"]) / span, 4) if span else None,
-        "bands": bands(pictures, quality),
+    """Return the benchmark's figures: FLIP of each picture, the scores, the contrast, and the bands."""
+    flips = {
+        name: flip(picture, pictures.reference)
+        for name in ("lod", "all_3d", "msaa", "other_seed")
+        if (picture := getattr(pictures, name)) is not None
     }
+    kept = contrast(pictures.lod, pictures.reference, pictures.distance >= 0)
+    return {
+        "flip": {"msaa": None} | {name: round(value, 5) for name, value in flips.items()},
+        "score": score(flips, "all_3d"),
+        "score_msaa": score(flips, "msaa"),
+        "contrast": None if kept is None else round(kept, 4),
+        "bands": bands(pictures.lod, pictures.reference, pictures.distance, quality),
+    }
+
+
+def score(flips: Mapping[str, float], rival: str, /) -> float | None:
+    """Return where `lod` lies between its rival and unrelated grass, by their FLIP against the reference.
+
+    It is 0 where the levels of detail are as true as the rival and 1 where they are as far off as unrelated grass. In
+    pictures so small that the rival is farther off than that, its sign still tells which of the two is truer. It is
+    None where there is no such rival, or both are as far off.
+    """
+    span = abs(flips["other_seed"] - flips.get(rival, flips["other_seed"]))
+    return round((flips["lod"] - flips[rival]) / span, 4) if span else None
 
 
 def flip(picture: Picture, reference: Picture) -> float:
@@ -114,20 +166,23 @@ def evaluator() -> Any:
         raise MachineError("pictures are compared by flip-evaluator: pip install 'tallgrass[bench]'") from None
 
 
-def bands(pictures: Pictures, quality: Quality) -> list[dict[str, object]]:
+def bands(
+    picture: Picture, reference: Picture, distance: NDArray[np.int32], quality: Quality
+) -> list[dict[str, object]]:
     """Return how brightness and hue of each ring of distance compare with the reference's.
 
-    A band's colour is the mean of its pixels in display space, where all averages of pixels are taken; its luminance
-    and hue are those of the linear light of that colour.
+    `distance` (height, width) is the discrete distance of what each pixel shows, -1 for the sky. A band's
+    colour is the mean of its pixels in display space, where all averages of pixels are taken; its luminance and hue are
+    those of the linear light of that colour.
     """
     edges = [ring.to for ring in quality.blade_rings] + [ring.to for ring in quality.strip_rings]
-    edges += [quality.carpet_to, int(pictures.distance.max())]
+    edges += [quality.carpet_to, int(distance.max())]
     rows: list[dict[str, object]] = []
     start = 0
     for number, end in enumerate(edges):
-        inside = (pictures.distance >= start) & (pictures.distance <= end)
+        inside = (distance >= start) & (distance <= end)
         if inside.sum() >= FEWEST:
-            drawn, true = (decoded(each[inside].mean(axis=0) / 255.0) for each in (pictures.lod, pictures.reference))
+            drawn, true = (decoded(each[inside].mean(axis=0) / 255.0) for each in (picture, reference))
             rows.append({
                 "distance": [start, end],
                 "representation": _representation(number, quality),

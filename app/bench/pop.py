@@ -1,7 +1,9 @@
 """`tallgrass bench pop`: whether a change of representation can be seen while the wind blows and the viewer walks."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -10,14 +12,15 @@ from ..studio.encode import make_folder
 from ..studio.errors import InputError
 from ..studio.studio import Studio, about
 from ..studio.take import Take
+from .drift import Change
 from .evidence import save
 from .flicker import MARGIN, TILE
 from .frame import own_preset
 from .machine import machine, tell
 from .picture import evaluator, flip
-from .steps import Record, find_truth, walked
+from .steps import Record, walked
 from .stroll import legs
-from .verdict import Verdict, judge
+from .verdict import Verdict
 
 HARD = Transitions(morph=False, fade=False, growth=False)
 """Patches switch at once."""
@@ -31,8 +34,8 @@ PARTS = ("morph", "fade", "growth", "hysteresis")
 SMALLEST = TILE + 2 * MARGIN + 2
 """Least side of a picture [pixels]."""
 
-TOLD = 6
-"""Frames that are told of."""
+LIMITS = {"flicker": 1.15, "drift": 0.03, "ghosting": 0.5}
+"""What is not to be seen at all stays below: the flicker's ratio, the drift of patches together, and ghosting."""
 
 
 def bench_pop(
@@ -74,30 +77,74 @@ def _measure(studio: Studio, *, parts: bool, output: str | None, hold: float | N
         name: walked(studio, walk, less, doing=f"without {name}", hold=seconds) for name, less in left_out.items()
     }
     whole = records[WHOLE]
-    near = [each for record in records.values() for step in record.steps for each in (step.earlier, step.moment)]
-    truth = find_truth(studio, walk, near, [moment for moment, _ in whole.stills])
-    verdicts = {name: judge(record, truth) for name, record in records.items()}
     if output is not None:
-        save(verdicts[WHOLE][:TOLD], output, about(studio.prairie, studio.take))
-    result = _told(whole, verdicts, [flip(picture, truth.whole[moment.time]) for moment, picture in whole.stills])
+        save(whole.worst, output, about(studio.prairie, studio.take))
+    result = _told(records)
     if parts:
         result["contributions"] = [
-            {"without": name, **_figures(verdicts[name][0]), "changing": _changing(record)["mean"]}
+            {"without": name, **_figures(record.worst[0]), "changing": _changing(record)["mean"]}
             for name, record in records.items()
         ]
     return result
 
 
-def _told(whole: Record, verdicts: dict[str, list[Verdict]], errors: list[float]) -> dict[str, object]:
-    worst = verdicts[WHOLE][:TOLD]
+def _told(records: Mapping[str, Record]) -> dict[str, object]:
+    whole = records[WHOLE]
+    errors = [flip(picture, reference) for picture, reference in whole.stills]
+    flicker, drift, ghosting = _figures(whole.worst[0]), _drift(whole.changes), _ghosting(whole.changes)
+    most = {"flicker": flicker["ratio"], "drift": drift["mean"], "ghosting": ghosting["max"]}
     return {
         "frames": len(whole.changing),
+        "judged": whole.judged,
         "error": {"p50": round(float(np.median(errors)), 5), "max": round(max(errors), 5)},
-        "flicker": _figures(worst[0]),
-        "hard_switch_ratio": _figures(verdicts["morph, fade, growth"][0])["ratio"],
+        "flicker": flicker,
+        "hard_switch_ratio": _figures(records["morph, fade, growth"].worst[0])["ratio"],
+        "drift": drift,
+        "ghosting": ghosting,
+        "over": [name for name, limit in LIMITS.items() if most[name] > limit],
         "changing": _changing(whole),
-        "worst": [_row(verdict) for verdict in worst],
+        "changes": _changes(whole.changes),
+        "worst": [_row(verdict) for verdict in whole.worst],
     }
+
+
+def _drift(changes: list[Change]) -> dict[str, Any]:
+    if not changes:
+        return {"max": 0.0, "mean": 0.0, "where": None}
+    worst = max(changes, key=lambda change: float(change.drift.max()))
+    patch = int(np.argmax(worst.drift))
+    where = {
+        "leg": worst.leg,
+        "change": worst.name,
+        "distance": int(worst.distance[patch]),
+        "tile": worst.corner[patch].tolist(),
+        "relative": [round(float(ratio), 3) for ratio in worst.bright[:, patch]],
+    }
+    mean = max(change.mean_drift for change in changes)
+    return {"max": round(float(worst.drift[patch]), 4), "mean": round(mean, 4), "where": where}
+
+
+def _ghosting(changes: list[Change]) -> dict[str, Any]:
+    if not changes:
+        return {"max": 0.0, "where": None}
+    worst = max(changes, key=lambda change: change.ghosting)
+    return {"max": round(worst.ghosting, 4), "where": {"leg": worst.leg, "change": worst.name}}
+
+
+def _changes(changes: list[Change]) -> list[dict[str, object]]:
+    """Return a row for each change that patches made: how many did, and what that did to them at most."""
+    rows: list[dict[str, object]] = []
+    for name in sorted({change.name for change in changes}):
+        those = [change for change in changes if change.name == name]
+        drift = _drift(those)
+        rows.append({
+            "change": name,
+            "patches": sum(len(change.distance) for change in those),
+            "drift": drift["max"],
+            "mean_drift": drift["mean"],
+            "ghosting": _ghosting(those)["max"],
+        })  # fmt: skip
+    return rows
 
 
 def _figures(verdict: Verdict) -> dict[str, float]:

@@ -7,14 +7,12 @@ import numpy as np
 from ...systems.reference import draw_reference
 from ..studio.errors import MachineError
 from ..studio.take import SAMPLES
+from .multisampled import Multisampled
 from .rival import ByHand
 from .still import Still
 from .timing import timed
 
 HARD, SMOOTH = "by hand", "by hand, 4 samples a pixel"
-
-FINE = 4
-"""Samples of a pixel where a rival's edges are smooth."""
 
 WARM_UP = 3
 """Draws of each that are not measured."""
@@ -29,9 +27,7 @@ class Rivals:
         assert prairie.painter is not None
         self._carpet, self._outlook = prairie.painter.carpet, prairie.viewers["main"]
         self._hand = ByHand(prairie.painter, prairie.site)
-        self._color = self._ctx.renderbuffer(size, 4, samples=min(FINE, self._ctx.max_samples))
-        self._depth = self._ctx.depth_renderbuffer(size, samples=self._color.samples)
-        self._fine = self._ctx.framebuffer([self._color], self._depth)
+        self._fine = Multisampled(self._ctx, size)
         self.times: dict[str, list[float]] = {}
         for _ in range(WARM_UP):
             self.measure()
@@ -41,7 +37,7 @@ class Rivals:
         """Draw this instant once in each way, and keep how long that takes."""
         self._carpet.lay(self._outlook, None)
         self._add(HARD, timed(self._ctx, self._draw_hard))
-        if self._color.samples == FINE:
+        if self._fine.smooth:
             self._add(SMOOTH, timed(self._ctx, self._draw_smooth))
 
     def _add(self, name: str, took: float) -> None:
@@ -54,11 +50,9 @@ class Rivals:
     def _draw_smooth(self) -> None:
         self._still.studio.begin()
         target = self._ctx.fbo
-        self._fine.use()
-        self._fine.clear(0.0, 0.0, 0.0, 1.0, depth=1.0)
+        self._fine.begin()
         self._hand.draw(self._still.view, time=self._still.studio.prairie.time)
-        self._ctx.copy_framebuffer(target, self._fine)
-        target.use()
+        self._fine.resolve(target)
 
     def rows(self, ours: Sequence[float]) -> list[dict[str, object]]:
         """Return a row for each; `ours` are the times of our own frames [ms].
@@ -99,5 +93,5 @@ class Rivals:
 
     def release(self) -> None:
         """Give everything back."""
-        for thing in (self._fine, self._color, self._depth, self._hand):
+        for thing in (self._fine, self._hand):
             thing.release()

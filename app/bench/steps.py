@@ -1,4 +1,4 @@
-"""The frames of a walk in which changes of representation show the most, and the truth about them.
+"""A walk: the frames in which changes of representation show the most, and what patches look like on their way.
 
 Every frame is drawn twice: as it is, and held, that is with every patch shown as in the frame before. The two differ by
 that frame's changes of representation and by nothing else; changes of orientation and of sub-levels are among them.
@@ -10,19 +10,23 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ...systems.around.transitions import Transitions
-from ...systems.lod import farthest
+from ...systems.around.transitions import SEAMLESS, Transitions
 from ...systems.prairie import Prairie
-from ...systems.reference import draw_reference
 from ..studio.encode import Picture
 from ..studio.progress import counted
 from ..studio.studio import Studio
-from ..studio.take import SAMPLES
-from .flicker import prominence
+from . import stroll
+from .drift import Change, Sample, changes, sample, sampled_frames
+from .ghost import ends_of_change
 from .stroll import REST, Leg, Moment, moments, raise_gusts
+from .truth import Truth
+from .verdict import Step, Verdict, judge
 
-KEPT = 3
-"""Frames of each leg that are kept."""
+TOLD = 6
+"""Frames that are told of."""
+
+BORDER = 2.0
+"""How much of a leg is walked where patches switch at once: they do it at its border, after `stroll.LEAD` [of that]."""
 
 STILLS = 8
 """Frames kept besides, spread over the walk."""
@@ -33,33 +37,28 @@ SETTLING = 90
 CHANGING = ("tile", "cull", "lod", "transition", "see", "plant")
 """The systems that decide what is shown, and how."""
 
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Step:
-    """A frame of the walk, the one before it, and what it would be without its changes of representation."""
-
-    earlier: Moment
-    moment: Moment
-    before: Picture
-    now: Picture
-    held: Picture
-
-    changing: int
-    """Patches in transition."""
+DECIDING = CHANGING[:4]
+"""Those that say how far patches are on their way."""
 
 
 @dataclass(slots=True, eq=False)
 class Record:
     """What a walk has shown."""
 
-    steps: list[Step] = field(default_factory=list)
-    """The frames of each leg whose changes are the most prominent."""
+    worst: list[Verdict] = field(default_factory=list)
+    """The frames whose changes show the most, the worst first."""
+
+    judged: int = 0
+    """Frames that were held against the reference; in all others changes show less than in the last of the worst."""
 
     changing: list[int] = field(default_factory=list)
     """Patches in transition, by frame."""
 
-    stills: list[tuple[Moment, Picture]] = field(default_factory=list)
-    """Frames spread over the walk."""
+    stills: list[tuple[Picture, Picture]] = field(default_factory=list)
+    """Frames spread over the walk, and their references, where nothing is left out of the transitions."""
+
+    changes: list[Change] = field(default_factory=list)
+    """What patches looked like on their way from one representation or sub-level to another, where nothing is."""
 
 
 def walked(
@@ -75,22 +74,53 @@ def walked(
     )
     raise_gusts(prairie, walk)
     frames = {leg: list(moments(prairie, leg)) for leg in walk}
+    if not transitions.gradual:
+        last = round(BORDER * stroll.LEAD * stroll.RATE)
+        frames = {leg: each[: last + 1] for leg, each in frames.items()}
     total = sum(len(each) - 1 for each in frames.values())
     apart = max(1, total // STILLS)
-    kept: dict[Leg, list[tuple[float, Step]]] = {leg: [] for leg in walk}
     try:
-        for number, step in enumerate(counted(_steps(studio, prairie, frames.values()), total=total, doing=doing)):
-            best = kept[step.moment.leg]
-            best.append((prominence(step.now, step.held, step.before), step))
-            best.sort(key=lambda one: -one[0])
-            del best[KEPT:]
-            record.changing.append(step.changing)
-            if number % apart == apart // 2:
-                record.stills.append((step.moment, step.now))
+        with Truth(studio, walk) as truth:
+            seen = _Seen(studio, prairie, truth, record)
+            for number, step in enumerate(counted(_steps(studio, prairie, frames.values()), total=total, doing=doing)):
+                seen.see(step, still=transitions == SEAMLESS and number % apart == apart // 2)
     finally:
         prairie.release()
-    record.steps = [step for best in kept.values() for _, step in best]
     return record
+
+
+class _Seen:
+    """What is made of the frames of a walk, one after the other."""
+
+    def __init__(self, studio: Studio, prairie: Prairie, truth: Truth, record: Record) -> None:
+        self._studio, self._prairie, self._truth, self._record = studio, prairie, truth, record
+        self._samples: list[Sample] = []
+        self._due = sampled_frames() if prairie.site.transitions == SEAMLESS else []
+
+    def see(self, step: Step, *, still: bool) -> None:
+        """Judge a frame, and keep what is to be told of it."""
+        record, truth = self._record, self._truth
+        record.changing.append(step.changing)
+        least = max(1.0, record.worst[-1].ratio) if len(record.worst) == TOLD else 0.0
+        verdict = judge(step, truth, unless_below=least)
+        if verdict is not None:
+            record.judged += 1
+            record.worst.append(verdict)
+            record.worst.sort(key=lambda one: -one.ratio)
+            del record.worst[TOLD:]
+        if step.moment.number in self._due:
+            self._sample(step)
+        if still:
+            record.stills.append((step.now, truth.whole(step.moment)))
+
+    def _sample(self, step: Step) -> None:
+        first = step.moment.number == self._due[0]
+        self._samples = [] if first else self._samples
+        with held(self._prairie, systems=DECIDING):
+            ends = ends_of_change(self._studio, self._prairie, step.moment.camera)
+        self._samples.append(sample(self._prairie, step, self._truth.near(step.moment), ends))
+        if step.moment.number == self._due[-1]:
+            self._record.changes.extend(changes(self._samples))
 
 
 def _steps(studio: Studio, prairie: Prairie, frames: Iterable[list[Moment]]) -> Iterator[Step]:
@@ -121,13 +151,13 @@ def _go(studio: Studio, prairie: Prairie, moment: Moment, *, time: float | None 
 
 
 @contextmanager
-def held(prairie: Prairie) -> Iterator[None]:
+def held(prairie: Prairie, *, systems: tuple[str, ...] = CHANGING) -> Iterator[None]:
     """Let every patch be shown as the frame before showed it, though seen from where the viewer is then, in that wind.
 
     What is drawn meanwhile is the next frame without its changes of representation. Afterwards it never was: the next
-    frame follows the one before.
+    frame follows the one before. `systems` are those that rest meanwhile, of what decides what is shown.
     """
-    stopped = [system.name for system in prairie.systems if system.enabled and system.name in CHANGING]
+    stopped = [system.name for system in prairie.systems if system.enabled and system.name in systems]
     outlook = prairie.viewers["main"]
     before, eye = outlook.drawn_at, outlook.viewer.eye
     prairie.governor.resting = True
@@ -140,32 +170,3 @@ def held(prairie: Prairie) -> Iterator[None]:
             prairie.systems.enable(name)
         outlook.drawn_at, outlook.viewer.eye = before, eye
         prairie.governor.resting = False
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Truth:
-    """The reference's pictures by the instant they show."""
-
-    near: dict[float, Picture]
-    """Every blade up to where strips end; beyond it the prairie's own carpet, which does not change."""
-
-    whole: dict[float, Picture]
-    """Every blade there is, as `--reference` draws it."""
-
-
-def find_truth(studio: Studio, walk: list[Leg], near: Iterable[Moment], whole: Iterable[Moment], /) -> Truth:
-    """Draw the reference at some moments of the walk, up to the end of the strips and as a whole."""
-    prairie, truth, size = studio.prairie, Truth({}, {}), studio.take.size
-    raise_gusts(prairie, walk)
-    reach = farthest(prairie.site.reach)[-1]
-    fine, full = ({moment.time: moment for moment in each} for each in (near, whole))
-    times = sorted(fine | full)
-    for time in counted(times, total=len(times), doing="drawing every blade"):
-        moment = fine.get(time) or full[time]
-        _go(studio, prairie, moment)
-        matrices = studio.matrices(moment.camera)
-        if time in fine:
-            truth.near[time] = draw_reference(prairie, *matrices, size, samples=SAMPLES, reach=reach)
-        if time in full:
-            truth.whole[time] = draw_reference(prairie, *matrices, size, samples=SAMPLES)
-    return truth

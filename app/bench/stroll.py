@@ -29,8 +29,8 @@ PITCH = math.radians(-5.0)
 LEAD = 0.25
 """When each leg comes to the first border between patches [s]."""
 
-SECONDS = 1.4
-"""How long a leg lasts: its patches change, and are done [s]."""
+SECONDS = 1.7
+"""How long a leg lasts: its patches change, and have been done for a while [s]."""
 
 REST = 4.0
 """Time between two legs, in which everything settles [s]."""

@@ -1,16 +1,31 @@
-"""Verdicts: where in a frame its changes of representation show the most, and how much."""
+"""Verdicts: how much a frame's changes of representation show, where they are the most prominent."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from .flicker import LEAST, MARGIN, TILE, flicker, step
-from .steps import Record, Step, Truth
+from .flicker import LEAST, MARGIN, TILE, Picture, change_of_tile, prominence, step
+from .stroll import Moment
+from .truth import Truth
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Step:
+    """A frame of the walk, the one before it, and what it would be without its changes of representation."""
+
+    earlier: Moment
+    moment: Moment
+    before: Picture
+    now: Picture
+    held: Picture
+
+    changing: int
+    """Patches in transition."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Verdict:
-    """The tile of a frame in which changes of representation show the most."""
+    """The tile of a frame in which changes of representation are the most prominent."""
 
     step: Step
 
@@ -21,7 +36,7 @@ class Verdict:
     """How far the frame's change is from the reference's [steps of 255]."""
 
     steady: float
-    """The same for the frame held: what it would be without its changes of representation."""
+    """The same for the frame held: what it would be without its changes of representation; `LEAST` at least."""
 
     jump: float
     """How much those changed the frame [steps of 255]."""
@@ -32,15 +47,25 @@ class Verdict:
         return self.flicker / self.steady
 
 
-def judge(record: Record, truth: Truth, /) -> list[Verdict]:
-    """Return a verdict on every step that was kept, the worst first."""
-    return sorted((_verdict(one, truth) for one in record.steps), key=lambda verdict: -verdict.ratio)
+def judge(one: Step, truth: Truth, /, *, unless_below: float = 0.0) -> Verdict | None:
+    """Return a verdict on a frame, or None where its ratio cannot be larger than `unless_below`.
 
-
-def _verdict(one: Step, truth: Truth) -> Verdict:
-    true = truth.near[one.moment.time], truth.near[one.earlier.time]
-    seen, steady = flicker(one.now, one.before, *true), np.maximum(flicker(one.held, one.before, *true), LEAST)
-    row, column = divmod(int(np.argmax(seen / steady)), seen.shape[1])
+    The frame differs from the held one by its step. So its flicker exceeds the held one's by no more than that,
+    wherever the reference may be.
+    """
+    jumps = step(one.now, one.held)
+    if 1.0 + float(jumps.max()) / LEAST <= unless_below:
+        return None
+    found = prominence(one.now, one.held, one.before)
+    row, column = divmod(int(np.argmax(found)), found.shape[1])
     corner = MARGIN + 1 + TILE * column, MARGIN + 1 + TILE * row
-    jump = step(one.now, one.held)
-    return Verdict(one, corner, *(float(figure[row, column]) for figure in (seen, steady, jump)))
+    true_before, true_now = truth.tile(one.earlier, corner), truth.tile(one.moment, corner)
+    before, now, held = (_around(picture, corner) for picture in (one.before, one.now, one.held))
+    flicker = change_of_tile(now, before, true_now, true_before)
+    steady = max(change_of_tile(held, before, true_now, true_before), LEAST)
+    return Verdict(one, corner, flicker, steady, float(jumps[row, column]))
+
+
+def _around(picture: Picture, corner: tuple[int, int]) -> Picture:
+    left, top = corner[0] - 1, corner[1] - 1
+    return picture[top : top + TILE + 2, left : left + TILE + 2]

@@ -11,6 +11,7 @@ import moderngl
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from PIL import Image
 
 from tallgrass.app.bench import processor, stroll, yardstick
 from tallgrass.app.bench.frame import sample
@@ -33,7 +34,7 @@ FRAME = COMMON | {
     "ratio_to_all_3d", "floor_ms", "precompute_mb", "first_frame_ms", "rivals", "cpu_ms", "cpu_by_system_ms", "gpu_ms",
     "seen_3d_ms", "ratio_to_seen_3d", "yardstick_ms", "cpu_over_yardstick",
 }  # fmt: skip
-PICTURE = COMMON | {"flip", "score", "bands"}
+PICTURE = COMMON | {"flip", "score", "score_msaa", "contrast", "bands"}
 pytestmark = pytest.mark.gl
 
 
@@ -218,10 +219,35 @@ def test_g1_every_representation_is_as_bright_as_its_blades(scene: str, capsys: 
     assert told.keys() >= PICTURE
     assert told["flip"]["lod"] < min(told["flip"]["all_3d"], told["flip"]["other_seed"])
     assert told["score"] < 0.0
+    assert told["flip"]["msaa"] < told["flip"]["all_3d"]
+    lod, msaa, other = (told["flip"][name] for name in ("lod", "msaa", "other_seed"))
+    assert told["score_msaa"] == pytest.approx((lod - msaa) / abs(other - msaa), rel=0.02)
+    assert 0.1 < told["contrast"] < 1.1
     assert {band["representation"] for band in told["bands"]} == {"blades", "strips", "carpet"}
     for band in told["bands"]:
         assert band["luminance_ratio"] == pytest.approx(1.0, abs=0.07), band
         assert band["hue_degrees"] < 5.0, band
+
+
+@pytest.mark.usefixtures("ctx")
+def test_of_a_folder_every_scene_has_a_row_and_a_picture_beside_its_reference(
+    scene: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("flip_evaluator")
+    folder, pictures = scene.parent, scene.parent / "pictures"
+    (folder / "again.yaml").write_text(scene.read_text())
+    command = ["bench", "picture", str(folder), "--size", "96x54"]
+    assert run([*command, "--json", "-o", str(pictures)]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert [row["camera"] for row in told["rows"]] == ["again", "little"]
+    assert told["rows"][0] | {"camera": "little"} == told["rows"][1]
+    assert np.asarray(Image.open(pictures / "little.png")).shape == (54, 2 * 96, 3)
+    (folder / "again.yaml").unlink()
+    assert run(command) == 0
+    head, line = (text.split() for text in capsys.readouterr().out.splitlines())
+    assert dict(zip(head, line, strict=True))["flip"] == str(told["rows"][1]["flip"])
+    assert run(["bench", "picture", str(pictures)]) == 2
+    assert capsys.readouterr().err == f"{pictures}: there is no scene in this folder\n"
 
 
 def test_without_the_evaluator_the_picture_benchmark_says_what_installs_it(
@@ -244,7 +270,7 @@ def test_r2_the_walk_benchmark_tells_every_key_of_the_contract(
         "frame_ms", "p99_over_p50", "busy_over_p50", "transitions", "sublevel_changes", "rss_mb", "cpu_ms",
         "yardstick_ms",
     }  # fmt: skip
-    assert told["frames"] % 14 == 0
+    assert told["frames"] % 17 == 0
     times = told["frame_ms"]
     assert 0.0 < times["p50"] <= times["p95"] <= times["p99"] <= times["max"]
     assert told["p99_over_p50"] == pytest.approx(times["p99"] / times["p50"], rel=0.01)

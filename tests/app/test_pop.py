@@ -8,10 +8,11 @@ import pytest
 from PIL import Image
 
 from tallgrass.app.bench import pop, stroll
+from tallgrass.app.bench.flicker import TILE
 from tallgrass.app.bench.pop import HARD
-from tallgrass.app.bench.steps import Record, find_truth, walked
-from tallgrass.app.bench.stroll import legs
-from tallgrass.app.bench.verdict import judge
+from tallgrass.app.bench.steps import Record, walked
+from tallgrass.app.bench.stroll import legs, moments
+from tallgrass.app.bench.truth import Truth
 from tallgrass.app.cli import run
 from tallgrass.app.studio.studio import Studio
 from tallgrass.app.studio.take import Take
@@ -19,7 +20,10 @@ from tallgrass.systems.around.transitions import SEAMLESS
 
 pytestmark = [pytest.mark.gl, pytest.mark.usefixtures("ctx")]
 
-POP = {"machine", "scene", "preset", "size", "frames", "error", "flicker", "hard_switch_ratio", "changing", "worst"}
+POP = {
+    "machine", "scene", "preset", "size", "frames", "judged", "error", "flicker", "hard_switch_ratio", "drift",
+    "ghosting", "over", "changing", "changes", "worst",
+}  # fmt: skip
 
 SCENE = """\
 tallgrass: 1
@@ -49,8 +53,8 @@ def scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return path
 
 
-def prominent(record: Record) -> list[tuple[str, int, int]]:
-    return [(step.moment.leg.name, step.moment.number, step.changing) for step in record.steps]
+def told(record: Record) -> list[tuple[str, int, tuple[int, int], float]]:
+    return [(each.step.moment.leg.name, each.step.moment.number, each.corner, each.ratio) for each in record.worst]
 
 
 def test_n3_the_pop_benchmark_tells_every_key_and_sees_a_pop(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -65,6 +69,10 @@ def test_n3_the_pop_benchmark_tells_every_key_and_sees_a_pop(scene: Path, capsys
     assert flicker.keys() == {"steady", "transition_max", "ratio"}
     assert flicker["ratio"] == pytest.approx(flicker["transition_max"] / flicker["steady"], rel=0.01)
     assert told["hard_switch_ratio"] > flicker["ratio"]
+    assert told["drift"].keys() == {"max", "mean", "where"}
+    assert told["ghosting"].keys() == {"max", "where"}
+    for row in told["changes"]:
+        assert row.keys() == {"change", "patches", "drift", "mean_drift", "ghosting"}
     assert told["changing"]["max"] > told["changing"]["mean"] > 0.0
     assert [row["ratio"] for row in told["worst"]] == sorted((row["ratio"] for row in told["worst"]), reverse=True)
     names = [f"{rank}-{row['leg']}-{row['frame']:03}.png" for rank, row in enumerate(told["worst"], 1)]
@@ -82,17 +90,33 @@ def test_n3_the_walk_shows_the_same_again_and_hard_switches_show_where_they_happ
         walk = legs(studio.prairie)[:1]
         once, again = (walked(studio, walk, SEAMLESS, doing="walking") for _ in range(2))
         hard = walked(studio, walk, HARD, doing="walking")
-        near = [each for record in (once, hard) for step in record.steps for each in (step.earlier, step.moment)]
-        truth = find_truth(studio, walk, near, [])
-    assert prominent(once) == prominent(again)
-    worst = judge(hard, truth)[0]
+    assert told(once) == told(again)
+    assert len(once.changing) == 15
+    worst = hard.worst[0]
     border = round(stroll.LEAD * stroll.RATE)
     assert abs(worst.step.moment.number - border) <= 1
     assert worst.step.changing > 5
     assert worst.jump > worst.steady
-    assert judge(once, truth)[0].ratio < worst.ratio
-    assert truth.near.keys() == {each.time for each in near}
-    assert not truth.whole
+    assert once.worst[0].ratio < worst.ratio
+
+
+def test_n3_frames_that_are_not_held_against_the_reference_show_less_than_those_that_are_told_of(scene: Path) -> None:
+    with Studio(Take(str(scene), (192, 108))) as studio:
+        hard = walked(studio, legs(studio.prairie)[:1], HARD, doing="walking")
+    assert len(hard.worst) <= hard.judged < len(hard.changing)
+
+
+def test_n3_a_tile_of_the_reference_is_cut_from_it(scene: Path) -> None:
+    with Studio(Take(str(scene), (192, 108))) as studio:
+        walk = legs(studio.prairie)[:1]
+        first, then = list(moments(studio.prairie, walk[0]))[2:4]
+        with Truth(studio, walk) as truth:
+            near, tile = truth.near(first), truth.tile(first, (89, 49))
+            later = truth.tile(then, (89, 49))
+    cut = near[48 : 50 + TILE, 88 : 90 + TILE]
+    assert tile.shape == cut.shape
+    assert np.abs(tile.astype(int) - cut).mean() < 0.1
+    assert np.abs(later.astype(int) - cut).mean() > 1.0
 
 
 def test_n3_a_picture_too_small_to_compare_is_refused_in_a_line(

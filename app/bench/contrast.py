@@ -1,0 +1,51 @@
+"""Contrast: whether a picture has the grain of grass, which no mean over it tells, and which blur takes away."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+Doubles = NDArray[np.float64]
+Picture = NDArray[np.uint8]
+
+TILE, LINES = 40, 720
+"""Pixels along a side of a tile, in a picture of so many lines; in others it is as much of the picture."""
+
+LEAST = 1.5
+"""Deviation in the reference below which a tile has no grain to compare with [steps of 255]."""
+
+WORST = 5.0
+"""The percentile of tiles that is told of, from the flattest."""
+
+
+def tile_side(lines: int, /) -> int:
+    """Return how many pixels a tile's side has in a picture of so many lines, 4 at least."""
+    return max(4, round(TILE * lines / LINES))
+
+
+def luma(picture: Picture, /) -> Doubles:
+    """Return the luma of sRGB bytes (..., 3), in display space from 0 to 255, shape (...)."""
+    return np.asarray(picture.astype(np.float64) @ np.array([0.2126, 0.7152, 0.0722]))
+
+
+def tiled(values: NDArray[np.generic], side: int, /) -> NDArray[np.generic]:
+    """Return an array (height, width) by tiles, shape (rows, columns, side * side); what is left over is dropped."""
+    rows, columns = values.shape[0] // side, values.shape[1] // side
+    blocks = values[: rows * side, : columns * side].reshape(rows, side, columns, side)
+    return blocks.swapaxes(1, 2).reshape(rows, columns, side * side)
+
+
+def relative_contrast(picture: Picture, reference: Picture, grass: NDArray[np.bool_], /) -> Doubles:
+    """Return the standard deviation of luma over the reference's, for each tile that is all grass, shape (tiles,).
+
+    Both pictures are sRGB bytes (height, width, 3); `grass` (height, width) says where they show any. Tiles where the
+    reference is flat are left out.
+    """
+    side = tile_side(len(picture))
+    drawn, true = (tiled(luma(each), side).std(axis=-1) for each in (picture, reference))
+    told = tiled(grass, side).all(axis=-1) & (true >= LEAST)
+    return np.asarray(drawn[told] / true[told])
+
+
+def contrast(picture: Picture, reference: Picture, grass: NDArray[np.bool_], /) -> float | None:
+    """Return the `WORST` percentile of `relative_contrast`, or None where no tile is all grass."""
+    tiles = relative_contrast(picture, reference, grass)
+    return float(np.percentile(tiles, WORST)) if tiles.size else None

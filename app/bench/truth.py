@@ -1,0 +1,76 @@
+"""The reference along a walk: drawn where it is asked for, whole or a tile of it alone."""
+
+from types import TracebackType
+from typing import Self
+
+from ...engine.gl.stream import release_all
+from ...systems.lod import farthest
+from ...systems.prairie import Prairie
+from ...systems.reference import cropped, draw_reference
+from ..studio.encode import Picture
+from ..studio.studio import Matrix, Studio
+from ..studio.take import SAMPLES
+from .flicker import TILE
+from .stroll import Leg, Moment, raise_gusts
+
+TINY = (16, 9)
+"""Size of the picture by which the prairie comes to an instant; nobody sees it [pixels]."""
+
+
+class Truth:
+    """Every blade of a studio's scene at the moments of a walk, which have to be asked for in their order.
+
+    A context manager. It has a prairie of its own.
+    """
+
+    def __init__(self, studio: Studio, walk: list[Leg]) -> None:
+        self._studio, ctx, take = studio, studio.ctx, studio.take
+        self._prairie = Prairie.load(take.scene, ctx=ctx, preset=take.preset, live=False)
+        raise_gusts(self._prairie, walk)
+        self._color, self._depth = ctx.texture(TINY, 4), ctx.depth_renderbuffer(TINY)
+        self._target = ctx.framebuffer([self._color], self._depth)
+        self._at: Moment | None = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._prairie.release()
+        release_all(self._target, self._color, self._depth)
+
+    def whole(self, moment: Moment) -> Picture:
+        """Return every blade there is, as `--reference` draws it."""
+        view, projection = self._go(moment)
+        return draw_reference(self._prairie, view, projection, self._studio.take.size, samples=SAMPLES)
+
+    def near(self, moment: Moment) -> Picture:
+        """Return every blade up to where strips end; beyond it lies the prairie's own carpet, which does not change."""
+        view, projection = self._go(moment)
+        return self._near(view, projection, self._studio.take.size)
+
+    def tile(self, moment: Moment, corner: tuple[int, int]) -> Picture:
+        """Return what `near` shows of a tile, and of a pixel around it: shape (TILE + 2, TILE + 2, 3).
+
+        `corner` is the column and row of the tile's first pixel, from the top left.
+        """
+        view, projection = self._go(moment)
+        first, part = (corner[0] - 1, corner[1] - 1), (TILE + 2, TILE + 2)
+        return self._near(view, cropped(projection, first, part, self._studio.take.size), part)
+
+    def _near(self, view: Matrix, projection: Matrix, size: tuple[int, int]) -> Picture:
+        reach = farthest(self._prairie.site.reach)[-1]
+        return draw_reference(self._prairie, view, projection, size, samples=SAMPLES, reach=reach)
+
+    def _go(self, moment: Moment) -> tuple[Matrix, Matrix]:
+        matrices = self._studio.matrices(moment.camera)
+        if self._at != moment:
+            self._prairie.advance(max(0.0, moment.time - self._prairie.time))
+            host = self._studio.ctx.detect_framebuffer()
+            self._target.use()
+            self._target.clear(depth=1.0)
+            self._prairie.draw(*matrices)
+            host.use()
+            self._at = moment
+        return matrices

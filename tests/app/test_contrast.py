@@ -1,0 +1,56 @@
+"""Contrast: what it takes for grain, and that no blur is rewarded (G4)."""
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass.app.bench.contrast import contrast, luma, relative_contrast, tile_side, tiled
+
+Picture = NDArray[np.uint8]
+ALL = np.ones((180, 320), np.bool_)
+
+
+def grass(seed: int = 1, grain: float = 20.0) -> Picture:
+    """A picture of 180 lines whose pixels differ by this much."""
+    noise = np.random.default_rng(seed).normal(100.0, grain, (180, 320, 1))
+    return np.clip(noise, 0.0, 255.0).repeat(3, axis=2).astype(np.uint8)
+
+
+def test_a_tile_is_as_much_of_a_picture_whatever_its_size() -> None:
+    assert [tile_side(lines) for lines in (1440, 720, 360, 180, 10)] == [80, 40, 20, 10, 4]
+
+
+def test_tiles_hold_the_pixels_of_their_square() -> None:
+    numbers = np.arange(7 * 9).reshape(7, 9)
+    tiles = tiled(numbers, 3)
+    assert tiles.shape == (2, 3, 9)
+    np.testing.assert_array_equal(tiles[1, 2].reshape(3, 3), numbers[3:6, 6:9])
+
+
+def test_luma_is_grey_for_grey() -> None:
+    np.testing.assert_allclose(luma(np.full((2, 3, 3), 77, np.uint8)), 77.0)
+
+
+def test_g4_the_reference_has_all_its_contrast_and_a_blur_little_of_it() -> None:
+    true = grass()
+    assert contrast(true, true, ALL) == 1.0
+    wide = true.astype(np.float64)
+    blurred = np.mean([np.roll(wide, (y, x), (0, 1)) for y in range(3) for x in range(3)], axis=0)
+    kept = contrast(blurred.astype(np.uint8), true, ALL)
+    assert kept is not None
+    assert kept < 0.4
+
+
+def test_one_flat_part_of_the_picture_is_not_lost_in_its_mean() -> None:
+    true, seen = grass(), grass()
+    seen[:, :32] = 100
+    assert relative_contrast(seen, true, ALL).mean() > 0.85
+    assert contrast(seen, true, ALL) == 0.0
+
+
+def test_tiles_that_show_sky_or_are_flat_in_the_reference_are_left_out() -> None:
+    true, seen, shows = grass(), grass(2), ALL.copy()
+    seen[:90], shows[:89] = 100, False
+    assert contrast(seen, true, shows) == pytest.approx(0.9, abs=0.15)
+    true[90:] = 100
+    assert contrast(seen, true, shows) is None

@@ -1,0 +1,102 @@
+"""Pictures from cameras that nobody tuned for, each beside the reference (G3, G4, G5).
+
+The scenes stand in `tests/cameras`. `tallgrass bench picture tests/cameras` prints the same figures of larger pictures,
+finer references, and rivals. `today.toml` has what each camera falls short by: none may get worse, and where one gets
+better, `TALLGRASS_RECORD=1` in the environment, in one process (`-n 0`), writes the file anew. The goals are the
+constants here.
+"""
+
+import os
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+
+import moderngl
+import pytest
+
+from tallgrass import testing
+from tallgrass.app.bench.contrast import contrast
+from tallgrass.app.bench.picture import MOMENT, bands, flip
+from tallgrass.engine.camera import camera_at
+from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.reference import draw_reference, patch_distances
+from tallgrass.testing import Stage
+
+pytest.importorskip("flip_evaluator")
+
+CAMERAS = Path(__file__).parents[1] / "cameras"
+TODAY = CAMERAS / "today.toml"
+SIZE, SAMPLES = (320, 180), 4
+
+GOAL = {"luminance": 0.05, "hue": 3.0, "contrast": 0.8, "flip": 0.0}
+"""By how much the worst band may be too bright or too dark; by how many degrees off; the least contrast; and FLIP."""
+
+LOW_CONTRAST = 0.7
+"""The least contrast in the preset low."""
+
+ROOM = {"luminance": 0.003, "hue": 0.2, "contrast": 0.01, "flip": 0.001}
+"""What drivers differ by."""
+
+Figures = dict[str, float]
+
+
+@pytest.fixture(scope="module")
+def stage(ctx: moderngl.Context) -> Iterator[Stage]:
+    """A stage as large as the pictures."""
+    with testing.stage(ctx, SIZE) as made:
+        yield made
+
+
+@pytest.fixture(scope="module")
+def today() -> Iterator[dict[str, Figures]]:
+    """What was measured last, by camera; what is measured now is written down where that is asked for."""
+    told: dict[str, Figures] = tomllib.loads(TODAY.read_text("utf-8"))
+    yield told
+    if os.environ.get("TALLGRASS_RECORD") == "1":
+        lines = [f"[{name}]\n" + "".join(f"{key} = {value}\n" for key, value in told[name].items()) for name in told]
+        TODAY.write_text("\n".join(lines), "utf-8")
+
+
+def measured(stage: Stage, prairie: Prairie) -> Figures:
+    """What a prairie's own camera sees, against the reference."""
+    prairie.advance(MOMENT)
+    view, projection = stage.matrices(camera_at(prairie.scene.camera, None, prairie.height_at))
+    stage.begin()
+    prairie.draw(view, projection)
+    seen = stage.read().astype("uint8")
+    true = draw_reference(prairie, view, projection, SIZE, samples=SAMPLES)
+    distance = patch_distances(prairie, view, projection, SIZE)
+    rows = bands(seen, true, distance, prairie.site.quality)
+    kept = contrast(seen, true, distance >= 0)
+    return {
+        "luminance": round(max(abs(float(str(row["luminance_ratio"])) - 1.0) for row in rows), 4),
+        "hue": max(float(str(row["hue_degrees"])) for row in rows),
+        "contrast": 1.0 if kept is None else round(kept, 4),
+        "flip": round(flip(seen, true), 5),
+    }
+
+
+def test_there_are_more_than_twenty_cameras_in_three_presets() -> None:
+    told = [path.read_text("utf-8") for path in CAMERAS.glob("*.yaml")]
+    assert len(told) > 20
+    for preset in ("low", "medium", "high"):
+        assert any(f"quality: {preset}\n" in text for text in told)
+
+
+@pytest.mark.parametrize("camera", sorted(path.stem for path in CAMERAS.glob("*.yaml")))
+def test_g5_a_picture_is_as_true_as_it_was(
+    ctx: moderngl.Context, stage: Stage, today: dict[str, Figures], camera: str
+) -> None:
+    prairie = Prairie.load(CAMERAS / f"{camera}.yaml", ctx=ctx, live=False)
+    low = prairie.scene.quality == "low"
+    try:
+        figures = measured(stage, prairie)
+    finally:
+        prairie.release()
+    if os.environ.get("TALLGRASS_RECORD") == "1":
+        today[camera] = figures
+        return
+    goal = GOAL | {"contrast": LOW_CONTRAST if low else GOAL["contrast"]}
+    for name in ("luminance", "hue", "flip"):
+        assert figures[name] <= max(goal[name], today[camera][name]) + ROOM[name], name
+    assert figures["contrast"] >= min(goal["contrast"], today[camera]["contrast"]) - ROOM["contrast"]
