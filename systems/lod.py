@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .around.outlook import Outlook
+from .around.representation import Representation
 
 Levels = NDArray[np.int8]
 
@@ -59,7 +60,7 @@ def farthest(reach: tuple[int, ...], /) -> tuple[int, ...]:
 
 @dataclass(slots=True)
 class ChooseLevels:
-    """The system `lod`: which representation is due on each patch, by its discrete distance.
+    """The system `lod`: which representation is due on each patch, by its discrete distance and how it is seen.
 
     It writes `wanted`, and nothing else; the system `transition` carries patches there.
     """
@@ -67,6 +68,9 @@ class ChooseLevels:
     outlooks: Iterable[Outlook]
     reach: tuple[int, ...]
     """Largest discrete distance of each representation."""
+
+    representations: tuple[Representation, ...] = ()
+    """All of them, from the finest: each may be unfit for how a patch is seen, though it is near enough."""
 
     slack: int = SLACK
 
@@ -79,3 +83,12 @@ class ChooseLevels:
             held = patches.representation | none
             reach = outlook.drawn_in(self.reach)
             patches.wanted[:] = wanted_representation(patches.distance, held, reach=reach, slack=self.slack)
+            self._pass_on(outlook, held)
+
+    def _pass_on(self, outlook: Outlook, held: Levels) -> None:
+        """Leave patches to the next coarser representation where theirs would not do."""
+        patches = outlook.patches
+        for level, representation in enumerate(self.representations[:-1]):
+            rows = (patches.visible & (patches.wanted == level)).nonzero()[0]
+            unfit = representation.unfit(outlook, rows, held[rows] == level, slack=self.slack)
+            patches.wanted[rows[unfit]] = level + 1

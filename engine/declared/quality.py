@@ -21,7 +21,8 @@ class StripRing(Declaration):
     """A sub-level of the 2.5D strips."""
 
     to: int = Field(ge=0, le=128)
-    """Largest discrete distance it serves."""
+    """Largest discrete distance it serves. A ring that reaches no farther than the one before it, or than the blades,
+    serves only patches that are seen from above: the coarser strips would show there as rows."""
 
     strips: int = Field(ge=1, le=32)
     """Strips per patch and orientation."""
@@ -68,8 +69,10 @@ class Quality(Declaration):
             (self.carpet_to, ("carpet_to",)),
         ]
         for (before, _), (to, where) in pairwise(limits):
-            if to <= before:
-                raise DeclarationError(f"{where[-1]} must exceed {before}, where the ring before it ends", *where)
+            also = where[0] == "strip_rings"
+            if to < before or (to == before and not also):
+                least = "be at least" if also else "exceed"
+                raise DeclarationError(f"{where[-1]} must {least} {before}, where the ring before it ends", *where)
         return self
 
 
@@ -88,13 +91,23 @@ def _quality(
 
 
 PRESETS: dict[str, Quality] = {
-    "low": _quality(160, [(1, 3), (2, 2)], [(4, 3, 2, 2, 0.008), (8, 2, 1, 1, 0.016)], 32),
-    "medium": _quality(320, [(1, 4), (3, 3)], [(6, 4, 2, 3, 0.008), (12, 2, 1, 2, 0.016)], 36),
+    "low": _quality(
+        160, [(1, 3), (2, 2)], [(2, 7, 1, 2, 0.016), (2, 5, 1, 2, 0.016), (4, 3, 2, 2, 0.008), (8, 2, 1, 1, 0.016)], 32
+    ),
+    "medium": _quality(
+        320, [(1, 4), (3, 3)], [(3, 9, 1, 2, 0.012), (3, 6, 1, 2, 0.012), (6, 4, 2, 3, 0.008), (12, 2, 1, 2, 0.016)], 36
+    ),
     "high": _quality(
-        500, [(1, 8), (2, 5), (4, 3)], [(7, 4, 2, 3, 0.006), (11, 3, 2, 2, 0.012), (20, 2, 1, 1, 0.016)], 40
+        500,
+        [(1, 8), (2, 5), (4, 3)],
+        [(4, 9, 1, 2, 0.012), (4, 6, 1, 2, 0.01), (7, 4, 2, 3, 0.006), (11, 3, 2, 2, 0.012), (20, 2, 1, 1, 0.016)],
+        40,
     ),
     "ultra": _quality(
-        800, [(2, 8), (4, 6), (6, 4)], [(10, 8, 2, 3, 0.006), (16, 4, 2, 2, 0.012), (28, 3, 1, 2, 0.016)], 48
+        800,
+        [(2, 8), (4, 6), (6, 4)],
+        [(6, 18, 1, 2, 0.012), (6, 12, 1, 2, 0.01), (10, 8, 2, 3, 0.006), (16, 4, 2, 2, 0.012), (28, 3, 1, 2, 0.016)],
+        48,
     ),
     "paper-low": _quality(160, [(2, 3)], [(8, 8, 2, 3, 0.008)], 29),
     "paper-medium": _quality(320, [(1, 4)], [(12, 8, 2, 3, 0.008)], 48),

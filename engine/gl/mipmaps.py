@@ -29,7 +29,7 @@ def mipmapped(ctx: moderngl.Context, texels: Bytes, /) -> moderngl.TextureArray:
         rows, columns = texels.shape[1:3]
         size = columns, rows, layers
         gl.glTexImage3D(target, level, stored, *size, 0, given, NUMBERS["UNSIGNED_BYTE"], texels.ctypes.data)
-    texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
+    texture.filter = (moderngl.NEAREST_MIPMAP_NEAREST, moderngl.LINEAR)
     return texture
 
 

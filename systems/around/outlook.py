@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from math import radians, tan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
 
 LEAP = 5.0
 """A viewer who moves more than this in one frame has jumped [m]."""
+
+USUAL = 1.0 / tan(radians(30.0))
+"""What a projection stretches heights by where the picture is 60 degrees high: rings are made for it."""
 
 
 @dataclass(slots=True, eq=False)
@@ -42,6 +46,9 @@ class Outlook:
 
     range: float = 1.0
     """Part of the distances up to which representations are due."""
+
+    zoom: float = 1.0
+    """How many times larger things are seen than where the picture is 60 degrees high, 1 at least."""
 
     winds: Sequence["Blowing"] = ()
     """The winds that act in this frame, the strongest claim first."""
@@ -71,6 +78,10 @@ class Outlook:
         """Return distances up to which something is due, as near as they are now."""
         return limits if self.range == 1.0 else tuple(limit * self.range if limit > 0 else limit for limit in limits)
 
+    def rings_in(self, limits: tuple[int, ...], /) -> tuple[float, ...]:
+        """Return distances up to which rings are due, as near as they are now and as far as the lens brings them."""
+        return tuple(limit * self.zoom for limit in self.drawn_in(limits))
+
     def settle(self) -> None:
         """End the frame: what a game has written into messages holds no longer."""
         for kept in self.kept.values():
@@ -83,6 +94,8 @@ class Outlook:
         viewer.way = float(np.hypot(eye[0] - viewer.eye[0], eye[2] - viewer.eye[2]))
         viewer.jumped = viewer.way > leap
         viewer.eye, viewer.cone, viewer.time = eye, view_cone(view), time
+        perspective, tall = view.projection[3, 3] == 0.0, abs(float(view.projection[1, 1]))
+        self.zoom = max(tall / USUAL, 1.0) if perspective else 1.0
         viewer.dt = 1e9 if self.drawn_at is None else time - self.drawn_at
         self.drawn_at = time
 

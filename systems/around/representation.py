@@ -24,6 +24,7 @@ from .transitions import Transitions
 
 Levels = NDArray[np.int8]
 Rows = NDArray[np.int64]
+Mask = NDArray[np.bool_]
 Color = tuple[float, float, float]
 
 
@@ -210,6 +211,13 @@ class Representation(ABC):
         One is kept for `slack` patches longer on the way to a coarser one than on the way back.
         """
         return np.zeros(len(rows), np.int8)
+
+    def unfit(self, outlook: Outlook, rows: Rows, has: Mask, /, *, slack: int) -> Mask:  # noqa: ARG002 - the same
+        """Return on which of these patches (n,) it would show what it is, so that a coarser one is due instead.
+
+        With `slack`, it is kept a little longer by those that it is on, as `has` (n,) says.
+        """
+        return np.zeros(len(rows), np.bool_)
 
     @abstractmethod
     def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> object:

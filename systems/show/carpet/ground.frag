@@ -26,19 +26,24 @@ in vec4 met;
 uniform sampler2D air;  // the wind's message in the middle of each patch, wrapping round
 uniform sampler2D mean_air;
 
-vec2 spun(vec2 v, int turns) {
-    return turns == 0 ? v : turns == 1 ? vec2(-v.y, v.x) : turns == 2 ? -v : vec2(v.y, -v.x);
+// The rotation that turns the line of sight into the heading of the images that are taken: of four headings, one on each
+// patch. So blades are drawn out along the line of sight, from wherever they are seen.
+vec2 turned(vec2 heading, int side) {
+    vec2 image = side == 0 ? vec2(0.0, -1.0) : side == 1 ? vec2(1.0, 0.0) : side == 2 ? vec2(0.0, 1.0) : vec2(-1.0, 0.0);
+    return vec2(dot(image, heading), image.y * heading.x - image.x * heading.y);
 }
 
-// The images of a kind that a ray sees: the first of two by number, that from the nearest of the four sides; and how far
-// its elevation is on the way from the one to the other.
-vec2 images_seen(vec2 heading, float slope) {
+vec2 rotated(vec2 v, vec2 by) {
+    return vec2(by.x * v.x - by.y * v.y, by.y * v.x + by.x * v.y);
+}
+
+// Which of the viewing elevations' images a ray sees: the first of two by number, and how far it is on the way to the next.
+vec2 elevation_seen(float slope) {
     float row = 0.0;
     for (int i = 0; i < SLOPES - 1; i++)
         row += clamp((slope - slopes[i]) / (slopes[i + 1] - slopes[i]), 0.0, 1.0);
     float low = min(floor(row), float(SLOPES - 2));
-    bool across = abs(heading.x) > abs(heading.y);
-    return vec2(low * 4.0 + (across ? (heading.x > 0.0 ? 1.0 : 3.0) : (heading.y > 0.0 ? 2.0 : 0.0)), row - low);
+    return vec2(low, row - low);
 }
 
 // From a low angle a pixel is a long stripe of ground: a sharper image is nearer to how grass looks there.
@@ -47,8 +52,10 @@ float sharper(vec2 dx, vec2 dy) {
     return sqrt(max(min(one, other) / longer, 1.0 / (STRETCH * STRETCH)));
 }
 
+const float GRAIN = 1.5;  // how far images are from their mean, for what filtering takes away
+const float COARSEST = 16.0; // or the last level that there is
+const float SHARP = 0.4;  // size of what is taken from the images for a pixel, of the pixel's own
 const float LEAST = 0.01; // height of the carpet where nothing grows, so that nothing is divided by 0 [m]
-const float CREST = 2.5;  // leaves met over a crest, of those met before an edge as deep: as the reference shows it
 
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,
 // whose leaf area falls off linearly with height, meets leaves of (deep / tall)^2 times the whole.
@@ -75,26 +82,33 @@ vec2 message_at(vec2 at) {
 vec3 carpet_light(float slope) {
     ivec2 cell = ivec2(floor(place.xz / soil.w));
     uint drawn = hash3(stock.y, cell.x, cell.y);
-    int model = int(drawn % uint(stock.x)), back = int(4u - (drawn >> 16u)) & 3;
-    vec2 at = spun(place.xz / soil.w - vec2(cell) - 0.5, back) + 0.5;
+    int model = int(drawn % uint(stock.x)), side = int(drawn >> 16u) & 3;
+    vec3 ray = place - eye.xyz;
+    vec2 heading = ray.xz / max(length(ray.xz), 1e-4), turn = turned(heading, side);
+    vec2 at = rotated(place.xz / soil.w - vec2(cell) - 0.5, turn) + 0.5;
     vec2 dx = dFdx(place.xz) / soil.w, dy = dFdy(place.xz) / soil.w;
-    float fine = sharper(dx, dy);
+    float fine = sharper(dx, dy) * SHARP;
     dx *= fine;
     dy *= fine;
-    vec3 ray = place - eye.xyz;
-    vec2 heading = ray.xz / max(length(ray.xz), 1e-4);
     vec2 message = message_at(place.xz);
     // The leaves that are seen stand deeper in the grass, where the line of sight has met enough of them.
     float deeper = min(tall * inversesqrt(max(slope, slopes[0]) * max(dense, 0.01)), 15.0);
     vec3 here = place_tone(place.xz + heading * deeper);
-    vec2 seen = images_seen(spun(heading, back), slope);
+    vec2 seen = elevation_seen(slope);
+    // Two images that have nothing to do with one another are flatter once they are mixed: as much is put back (Heitz and
+    // Neyret, High-Performance By-Example Noise, 2018).
+    float grain = GRAIN * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
     vec4 sum = vec4(0.0);
     for (int kind = 0; kind < KINDS; kind++) {
         if (met[kind] < 0.004)
             continue;
-        float layer = first[kind] + float(model * SLOPES * 4) + seen.x;
-        vec4 near = textureGrad(images, vec3(at, layer), dx, dy), steep = textureGrad(images, vec3(at, layer + 4.0), dx, dy);
-        vec4 image = mix(near, steep, seen.y);
+        float layer = first[kind] + float((model * SLOPES + int(seen.x)) * 4 + side);
+        vec3 low = vec3(at, layer), high = vec3(at, layer + 4.0);
+        vec4 mean = mix(textureLod(images, low, COARSEST), textureLod(images, high, COARSEST), seen.y);
+        vec4 image = mix(textureGrad(images, low, dx, dy), textureGrad(images, high, dx, dy), seen.y);
+        image = mean + (image - mean) * grain;
+        image.a = clamp(image.a, 0.0, 1.0);
+        image.rg = clamp(image.rg, 0.0, image.a);
         vec3 grass = root[kind].rgb * image.a + (tip[kind].rgb - root[kind].rgb) * image.r;
         float h = image.g / max(image.a, 1e-3);
         sum += met[kind] * vec4(grass * here * canopy(h, lift(bending(kind, message), place)), image.a);

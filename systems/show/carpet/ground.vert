@@ -9,6 +9,8 @@ in vec4 tile;    // x, z [m]; spacing [m]; distance at which the next coarser sp
 #ifdef CARPET  // with UNDER, an opaque layer beneath the carpet, which the tips of outlines stand out from
 #include "lib/shares.glsl"
 #include "lib/carpet.glsl"
+const float SUNK = 2.5;  // leaves that a line of sight has met where nothing is seen through them
+const float THROUGH_CREST = 0.6;  // the same over a crest, as the reference shows it
 uniform vec4 raised;  // by kind: height of the carpet above the ground [m]
 uniform vec4 leaf;    // by kind: leaf area seen from the side, of the ground's area
 
@@ -63,26 +65,28 @@ void main() {
     vec4 grows = textureLod(density, on_map(flat_at), 0.0);
     tall = dot(grows, raised) / max(dot(grows, vec4(1.0)), 1.0);
     dense = dot(grows, leaf);
-#ifdef UNDER
-    place.y += carpet * tall * 0.5;
-#else
-    place.y += carpet * tall;
-#endif
     vec2 step = vec2(max(terrain.z, tile.z), 0.0);
     rise = vec2(height_at(flat_at + step.xy) - height_at(flat_at - step.xy),
                 height_at(flat_at + step.yx) - height_at(flat_at - step.yx)) / (2.0 * step.x);
+    place.y += carpet * tall;
     vec2 ahead = normalize(flat_at - eye.xz + 1e-4) * max(4.0 * terrain.z, 2.0 * tile.z);
     float bulge = 2.0 * height_at(flat_at) - height_at(flat_at + ahead) - height_at(flat_at - ahead);
     crest = bulge / dot(ahead, ahead);
+#ifdef UNDER
+    // It lies as deep in the grass as is seen into it: before an edge, and through a crest of this curvature.
+    float sunk = sqrt(SUNK * max(viewing_slope(rise, place), 0.0) / max(dense, 1e-3));
+    float over_crest = pow(THROUGH_CREST * sqrt(2.0 * max(crest, 0.0) * tall) / (CREST * max(dense, 1e-3)), 0.667);
+    place.y -= carpet * tall * clamp(max(sunk, over_crest), 0.05, 1.0);
+#endif
     met = kinds_met(grows, max(viewing_slope(rise, place), 0.02));
 #endif
     soil_color = soil_light(flat_at);
 #ifdef UNDER
     vec3 grass = vec3(0.0);
     for (int kind = 0; kind < KINDS; kind++)
-        grass += met[kind] * mix(root[kind].rgb, tip[kind].rgb, 0.5);
+        grass += met[kind] * mix(root[kind].rgb, tip[kind].rgb, 0.55);
     // Where grass grows thinly or not at all, what lies beneath is the soil.
-    grass = soil_color * (1.0 - dot(met, vec4(1.0))) + grass * place_tone(flat_at) * canopy(0.6, 0.0);
+    grass = soil_color * (1.0 - dot(met, vec4(1.0))) + grass * place_tone(flat_at) * canopy(0.78, 0.0);
     soil_color = mix(soil_color, grass, carpet);
 #endif
     veiled = haze_at(place);

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....engine.declared.grass import GrassKind
-from ....engine.declared.quality import Quality
+from ....engine.declared.quality import Quality, StripRing
 from ...around.ground import Ground
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
@@ -21,9 +21,10 @@ from .plant import plant_strips
 from .pool import StripPool, StripsKept
 from .shown import StripsOfRing, StripsShown, show_strips
 from .stock import StripStock, stock_strips
-from .sublevel import axis_of, packed, ring_of, strip_ring, strips_along, viewing_slope
+from .sublevel import axis_of, packed, ring_of, shows_rows, strip_ring, strips_along, viewing_slope
 
 Levels = NDArray[np.int8]
+Mask = NDArray[np.bool_]
 Rows = NDArray[np.int64]
 
 _TEXELS_UP = 96
@@ -127,14 +128,32 @@ class StripRepresentation(Representation):
     def sublevels(self, outlook: Outlook, rows: Rows, held: Levels, /, *, slack: int) -> Levels:
         """Return the ring and the axis that are due on patches (n,), as one number each."""
         patches, viewer, quality = outlook.patches, outlook.viewer, self.quality
-        limits = np.array(outlook.drawn_in(tuple(ring.to for ring in quality.strip_rings[:-1])), np.float32)
-        spacing = np.array([quality.patch / ring.strips for ring in quality.strip_rings], np.float32)
-        height = min(strips.height for strips in self.stock.strips[0])
+        limits = np.array([self._reach(outlook, ring) for ring in quality.strip_rings[:-1]], np.float32)
+        spacing, height = self._spacing(), self._height()
         slope = viewing_slope(patches, rows, eye=viewer.eye, patch=quality.patch)
         # Halved, -1 for none is -1 again.
         ring = strip_ring(patches.distance[rows], slope, held >> 1, limits, spacing, height=height, slack=slack)
         keeps = np.where(held < 0, held, held & 1) if slack else np.full_like(held, -1)
         return packed(ring, strips_along(patches.cell.take(rows, axis=0), viewer.centre, keeps))
+
+    def unfit(self, outlook: Outlook, rows: Rows, has: Mask, /, *, slack: int) -> Mask:
+        """Return which patches (n,) are seen from so high that strips would show as rows, however fine."""
+        slope = viewing_slope(outlook.patches, rows, eye=outlook.viewer.eye, patch=self.quality.patch)
+        return shows_rows(slope, has, height=self._height(), spacing=float(self._spacing().min()), slack=slack)
+
+    def _reach(self, outlook: Outlook, ring: StripRing) -> float:
+        """Return up to where a ring is due: nowhere beyond the blades, where it is for patches seen from above."""
+        near = self.quality.blade_rings[-1].to
+        (limit,) = outlook.rings_in((ring.to,)) if ring.to > near else outlook.drawn_in((ring.to,))
+        return limit
+
+    def _spacing(self) -> NDArray[np.float32]:
+        """Return the distance between each ring's strips [m]."""
+        return np.array([self.quality.patch / ring.strips for ring in self.quality.strip_rings], np.float32)
+
+    def _height(self) -> float:
+        """Return the height of the lowest kind's strips [m]."""
+        return min(strips.height for strips in self.stock.strips[0])
 
     def ring_and_axis(self, outlook: Outlook, rows: Rows, /) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
         """Return the ring that patches (n,) are in, and the axis that their strips run along, shape (n,) each."""

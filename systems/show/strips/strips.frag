@@ -11,6 +11,7 @@ flat in vec3 grain;
 flat in vec3 veil;  // haze before it
 flat in float sheet;
 flat in float shown;
+flat in float level;  // of the mip-maps
 flat in float boost;  // of coverage
 #ifdef THIN
 in float grows;       // rank up to which blades grow, in steps of the softness
@@ -23,7 +24,7 @@ out vec4 pixel;
 const float FAINT = 0.006; // coverage that is left out: in bytes, layer upon layer, it would but be rounded up
 
 void main() {
-    vec4 texel = texture(atlas, vec3(at, sheet));
+    vec4 texel = textureLod(atlas, vec3(at, sheet), level);
     vec3 mean = texel.rgb / max(texel.a, 0.002);
     vec3 grass = (foot_color + rise_color * mean.r) * (1.0 + grain * (2.0 * mean.g - 1.0)) * canopy(h, lifted) + veil;
     float covered = shown * min(texel.a * boost, 1.0);

@@ -26,6 +26,7 @@ flat out float sheet;
 flat out vec3 veil;
 flat out float shown;
 flat out float boost;
+flat out float level;
 #ifdef THIN
 out float grows;
 flat out vec2 stays;
@@ -44,6 +45,8 @@ void thin(float dense, float below, float texels) {
         stays = vec2(0.0, 1.0) - stays;
 }
 #endif
+
+const float SHARPER = 0.5;  // how much finer texels are than pixels, in levels: blades would be washed out
 
 // Pixels that a metre is long on the screen, across the line of sight.
 float pixels_at(vec3 place) {
@@ -102,8 +105,9 @@ void main() {
     shown = how.x;
     vec2 run = normalize(b.xz - a.xz), sight = normalize(middle.xz - eye.xz);
     boost = boosted(run, middle);
+    float texels = picture_to[picture].y * ATLAS / (tall[k] * pixels);
+    level = log2(texels) - SHARPER;
 #ifdef THIN
-    float texels = picture_to[picture].y * ATLAS / tall[k] / pixels;
-    thin(mix(told_a.w, told_b.w, across), how.z, texels / abs(run.x * sight.y - run.y * sight.x));
+    thin(mix(told_a.w, told_b.w, across), how.z, 0.5 * texels / abs(run.x * sight.y - run.y * sight.x));
 #endif
 }

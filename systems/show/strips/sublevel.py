@@ -9,10 +9,17 @@ from ...around.patches import PatchTable
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
 Levels = NDArray[np.int8]
+Mask = NDArray[np.bool_]
 Rows = NDArray[np.int64]
 
 TIGHTER = 1.15
 """How much steeper than needed a patch must be seen for a finer ring to be kept: the slack of slopes."""
+
+ENOUGH = 3.0
+"""How many strips a line of sight crosses, at least, where finer ones are to be had."""
+
+CROSSED = 1.25
+"""How many strips a line of sight must cross for them not to show as rows, where no finer ones are to be had."""
 
 
 def strip_ring(
@@ -28,19 +35,29 @@ def strip_ring(
 ) -> Levels:
     """Return the ring of each 2.5D patch (n,): by discrete distance, but finer where it is seen from above.
 
-    A line of sight shall cross at least three strips on its way through grass of this `height` [m], or they show as
+    A line of sight shall cross `ENOUGH` strips on its way through grass of this `height` [m], or they show as
     rows on hillsides that face the viewer. `spacing` is the distance between each ring's strips [m]. A finer ring is
     kept for `slack` patches longer.
     """
     # Two lines: what is due on the way out, and what is due on the way back.
     away = np.stack([distance, distance - slack])
     steep = np.stack([slope, slope * np.float32(TIGHTER if slack else 1.0)])
-    widest = height / (3.0 * np.maximum(steep, 1e-3))
+    widest = height / (ENOUGH * np.maximum(steep, 1e-3))
     by_slope = spacing.searchsorted(widest, side="right") - 1
     ring: Levels = np.maximum(np.minimum(limits.searchsorted(away), by_slope), 0).astype(np.int8)
     coarse, fine = ring
     kept: Levels = np.where(current < 0, coarse, np.minimum(np.maximum(current, fine), coarse))
     return kept
+
+
+def shows_rows(slope: Floats, has: Mask, /, *, height: float, spacing: float, slack: int) -> Mask:
+    """Return on which patches (n,) the finest strips would show as rows, seen at these slopes.
+
+    A line of sight crosses fewer than `CROSSED` strips, `spacing` [m] apart, on its way through grass of this `height`
+    [m]. With `slack`, patches that have strips already, as `has` (n,) says, keep them a little longer.
+    """
+    steepest = height / (CROSSED * spacing)
+    return np.asarray(slope > np.where(has, steepest * TIGHTER, steepest) if slack else slope > steepest)
 
 
 def strips_along(cell: Ints, centre: Ints, current: NDArray[np.integer], /) -> Levels:
