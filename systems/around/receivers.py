@@ -110,7 +110,7 @@ class Correspondence:
 
     def messages(self, slots: Rows, /) -> Floats:
         """Return the messages of some slots (m,), whoever has written them, shape (m, n, 2)."""
-        found = self.heard(slots).reshape(len(slots), -1, 2)
+        found = self.heard(slots).reshape(len(slots), prod(self._pool.shape), 2)
         for row, slot in enumerate(slots.tolist() if self._letters else ()):
             if slot in self._letters:
                 found[row] = self._letters[slot].message
