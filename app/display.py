@@ -23,4 +23,5 @@ def need_display() -> None:
 
 def no_window(error: Exception, /) -> str:
     """Return the sentence that says that no window can be opened, and what to do instead."""
-    return f"no window can be opened here ({error}); tallgrass shot and tallgrass film need none"
+    why = str(error).replace('Cannot connect to "None"', "there is no display")
+    return f"no window can be opened here ({why}); tallgrass shot and tallgrass film need none"

@@ -17,11 +17,12 @@ from ..engine.installed import OURS
 from ..engine.plugins import GROUP, PluginError, WindKinds, wind_kinds
 
 _DISTRIBUTION = "tallgrass"
-_OPTIONAL = re.compile(r"extra\s*==\s*.(bench|video)\b")
+_EXTRA = re.compile(r"extra\s*==\s*.(\w+)")
+_NEEDED_BY = {"bench": "bench picture and bench pop", "figures": "figures", "video": "films in .mp4"}
 _NEWER_DRIVER = "update the graphics driver, or draw in software: LIBGL_ALWAYS_SOFTWARE=1"
 
 _OTHER_CURES = (
-    (r"externally-managed-environment", "python3 -m venv .venv && .venv/bin/pip install tallgrass"),
+    (r"externally-managed-environment", "python3 -m venv .venv && .venv/bin/pip install ."),
     (r"eglCreateContext failed|Could not create GL context|OpenGL version", _NEWER_DRIVER),
 )
 
@@ -96,19 +97,20 @@ def packages(requirements: Sequence[str], /) -> list[Finding]:
     findings = []
     for requirement in requirements:
         need, _, marker = (part.strip() for part in requirement.partition(";"))
-        if _OPTIONAL.search(marker):
-            findings.append(_package(need, "note"))
-        elif "extra" not in marker:
-            findings.append(_package(need, "missing"))
+        extra = _EXTRA.search(marker)
+        if extra is None:
+            findings.append(_package(need, "missing", "not installed"))
+        elif extra[1] in _NEEDED_BY:
+            findings.append(_package(need, "note", f"not installed; only {_NEEDED_BY[extra[1]]} need it"))
     return findings
 
 
-def _package(need: str, otherwise: Literal["note", "missing"]) -> Finding:
+def _package(need: str, otherwise: Literal["note", "missing"], text: str) -> Finding:
     name = re.split(r"[^\w.-]", need, maxsplit=1)[0]
     try:
         return Finding(name, "ok", version(name))
     except PackageNotFoundError:
-        return Finding(name, otherwise, "not installed", _pip(need))
+        return Finding(name, otherwise, text, _pip(need))
 
 
 def drawing(answer: dict[str, str], /) -> Finding:

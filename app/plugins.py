@@ -42,7 +42,7 @@ def check_plugin(kind: str) -> int:
     try:
         primitive = wind_kinds().find(kind)
     except PluginError as error:
-        print(error)
+        print(_system(kind) or error)
         return 2
     problems, hint = wind_problems(primitive), ""
     if not problems and primitive.twin is not None:
@@ -57,6 +57,16 @@ def check_plugin(kind: str) -> int:
     for line in problems or [f"ok{hint}"]:
         print(f"{kind}: {line}")
     return 2 if problems else 0
+
+
+def _system(name: str) -> str | None:
+    """Return what to say to somebody who asks for the check of a system; None where no system has that name."""
+    owners = [row.distribution for row in system_plugins().provided() if row.system == name]
+    if not owners:
+        return None
+    return (
+        f"'{name}' is a system of {' and '.join(owners)}; check is for kinds of wind, systems have tests of their own"
+    )
 
 
 def new_plugin(kind: str, folder: str | None) -> None:

@@ -77,6 +77,9 @@ class Patch:
     def __init__(self, cell: Cell, model: int, turn: int, cleared: Cleared) -> None:
         self._cell, self._model, self._turn, self._cleared = cell, model, turn, cleared
 
+    def __repr__(self) -> str:
+        return f"Patch(cell={self.cell}, model={self.model}, turn={self.turn}, grows={self.grows})"
+
     @property
     def cell(self) -> Cell:
         """Cell (i, j) of the tiling."""
@@ -116,6 +119,10 @@ class Lod:
 
     def __init__(self, levels: Levels, row: int, cell: Cell) -> None:
         self._levels, self._row, self._cell = levels, row, cell
+
+    def __repr__(self) -> str:
+        fields = ("viewer", "distance", "visible", "representation", "previous", "progress", "wanted", "hold")
+        return f"Lod({', '.join(f'{name}={getattr(self, name)!r}' for name in fields)})"
 
     @property
     def viewer(self) -> str:

@@ -41,6 +41,9 @@ class Receivers:
         self._messages, self._places, self._slot = messages, places, slot
         self._patch, self._representation, self._viewer = patch, representation, viewer
 
+    def __repr__(self) -> str:
+        return f"Receivers(patch={self.patch}, representation={self.representation!r}, viewer={self.viewer!r})"
+
     @property
     def patch(self) -> int:
         """The entity of the patch; 0 where it is the same entity."""

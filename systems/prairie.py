@@ -147,9 +147,8 @@ class Prairie:
         return round(self._clock, 6)
 
     def advance(self, dt: float) -> None:
-        """Move time on by `dt` [s]; negative or non-finite steps raise ValueError."""
-        if not (np.isfinite(dt) and dt >= 0.0):
-            raise ValueError(f"a prairie advances by 0 s or more, not by {dt}")
+        """Move time on by `dt` [s]; negative or non-finite steps raise ValueError, what is no number TypeError."""
+        _must_be_step(dt)
         self._clock += dt
         self.winds.quarantine.let_back(self.time)
 
@@ -314,3 +313,10 @@ def _must_be_read(thing: object) -> None:
 def _must_be_viewer(thing: object) -> None:
     if not isinstance(thing, str):
         raise TypeError(f"a viewer is called by a text such as 'main', not by {shortened(thing)}")
+
+
+def _must_be_step(thing: object) -> None:
+    if not isinstance(thing, float | int | np.floating | np.integer):
+        raise TypeError(f"a prairie advances by a number of seconds, not by {shortened(thing)}")
+    if not (np.isfinite(thing) and thing >= 0.0):
+        raise ValueError(f"a prairie advances by 0 s or more, not by {thing}")

@@ -84,7 +84,7 @@ def _row(key: str, declared: Schema, required: bool, titles: dict[str, str]) -> 
     choices = [each for each in declared.get("anyOf", [declared]) if each.get("type") != "null"]
     takes = " or ".join(_takes(each, titles) for each in choices)
     limits = "; ".join(filter(None, (_range(each) for each in choices)))
-    default = "required" if required or "const" in declared else _written(declared.get("default"))
+    default = "required" if required or key == "kind" else _written(declared.get("default"))
     cells = (f"`{key}`", takes, unit[1] if unit else "", limits, default, UNIT.sub("", sentence))
     return f"| {' | '.join(cell.replace('|', '&#124;') for cell in cells)} |"
 

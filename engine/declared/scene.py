@@ -24,6 +24,9 @@ LodName = Literal["auto", "blades", "strips", "carpet"]
 """Which representation is drawn: the one due at each distance, or one of them everywhere."""
 
 
+_MISSING_KIND = "the key 'kind' is missing, which says what wind it is, such as 'breeze'"
+
+
 class Reading(TypedDict):
     """The validation context that a scene's winds need: `Scene.model_validate(data, context=Reading(wind=...))`."""
 
@@ -42,8 +45,10 @@ def _of_its_kind(value: Any, _: object, info: ValidationInfo) -> WindPrimitive:
     if not info.context:
         raise PydanticCustomError("no_kinds", "winds written as mappings need the validation context Reading(wind=...)")
     kind = value.get("kind")
+    if "kind" not in value:
+        raise _at_kind(PydanticCustomError("missing_kind", _MISSING_KIND), value)
     if not isinstance(kind, str):
-        raise _at_kind("string_type" if "kind" in value else "missing", kind)
+        raise _at_kind("string_type", kind)
     try:
         primitive = info.context["wind"](kind)
     except ValueError as error:

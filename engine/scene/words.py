@@ -158,4 +158,5 @@ _SENTENCES: dict[str, Callable[[ErrorDetails, Field], str]] = {
     "string_pattern_mismatch": _of_pattern,
     "value_error": lambda error, _: str(error["ctx"]["error"]),
     "unknown_kind": lambda error, _: error["msg"],
+    "missing_kind": lambda error, _: error["msg"],
 }

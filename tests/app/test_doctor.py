@@ -1,6 +1,7 @@
 """The doctor names what is missing, and the exact line that installs it."""
 
 import os
+import re
 from importlib.metadata import EntryPoint, distributions, entry_points, version
 from pathlib import Path
 
@@ -56,7 +57,7 @@ def test_a_driver_that_is_too_old_is_not_cured_by_a_display() -> None:
 
 
 def test_a_managed_python_is_cured_by_an_environment_of_ones_own() -> None:
-    assert cure("error: externally-managed-environment") == ("python3 -m venv .venv && .venv/bin/pip install tallgrass")
+    assert cure("error: externally-managed-environment") == "python3 -m venv .venv && .venv/bin/pip install ."
 
 
 def test_an_unknown_complaint_has_no_cure() -> None:
@@ -71,6 +72,16 @@ def test_a_missing_requirement_is_told_with_its_line_and_an_optional_one_only_no
         ("no-such-film", "note"),
     ]
     assert (found[1].cure or "").endswith("-m pip install --upgrade 'no-such-grass[fast]>=1.2'")
+
+
+def test_of_what_is_optional_it_is_told_what_needs_it() -> None:
+    extras = re.findall(r"\(with the extra `(\w+)`\)", (Path(__file__).parents[2] / "README.md").read_text("utf-8"))
+    assert set(extras) >= {"bench", "figures"}
+    for extra in {*extras, "video"}:
+        (found,) = packages([f'no-such-thing>=1; extra == "{extra}"'])
+        assert found.level == "note"
+        assert found.text.startswith("not installed; only ")
+        assert found.text.endswith(" need it")
 
 
 def test_a_software_rasteriser_is_noted_but_suffices() -> None:

@@ -77,6 +77,18 @@ def test_installed_systems_are_listed_in_a_table_of_their_own_after_the_winds(
     assert json.loads(capsys.readouterr().out)[-1] == last
 
 
+@pytest.mark.usefixtures("kinds")
+def test_whoever_asks_for_the_check_of_a_system_is_told_that_it_is_one(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    balls = SystemPlugins([EntryPoint("ball", "game:bring", SYSTEMS)])
+    monkeypatch.setattr("tallgrass.app.plugins.system_plugins", lambda: balls)
+    assert (check_plugin("ball"), check_plugin("bal")) == (2, 2)
+    told, unknown = capsys.readouterr().out.splitlines()
+    assert told.startswith("'ball' is a system of ")
+    assert unknown.startswith("unknown kind 'bal'")
+
+
 @pytest.fixture
 def rude(tmp_path: Path) -> Path:
     """A folder with a distribution that claims a built-in kind, and ends Python where its own is imported."""

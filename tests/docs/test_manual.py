@@ -92,6 +92,12 @@ def test_ranges_units_and_defaults_are_those_of_the_models(reference: str) -> No
     assert "| `tip` | a colour `#rrggbb` |  |  | #a8b65a | Colour at the tip. |" in reference
 
 
+def test_a_key_is_required_on_the_page_where_a_scene_without_it_is_refused(reference: str) -> None:
+    told = set(re.findall(r"^\| `(\w+)` \|(?:[^|]*\|){3} required \|", reference, re.MULTILINE))
+    required = {key for model in all_models() for key, field in model.model_fields.items() if field.is_required()}
+    assert told == required | {"kind"}, "a wind's kind has a default in Python alone"
+
+
 def test_every_link_of_the_reference_leads_to_a_heading_of_it(reference: str) -> None:
     module = making("reference")
     headings = {module.anchor(title) for title in re.findall(r"^## (.+)$", reference, re.MULTILINE)}

@@ -260,3 +260,17 @@ def test_a_viewer_whose_entity_is_deleted_begins_anew(prairie: Prairie, easel: S
 
 def test_the_face_has_what_a_game_writes() -> None:
     assert {"Patch", "Lod", "Receivers", "Phase", "Viewer"} <= set(tallgrass.__all__)
+
+
+def test_what_is_printed_of_an_entity_is_what_it_holds(prairie: Prairie, easel: Stage) -> None:
+    settled(prairie, easel)
+    entity = patch_of(prairie, PLACES["strips"])
+    lod = esper.component_for_entity(entity, Lod)
+    lod.hold = "carpet"
+    assert repr(lod).startswith("Lod(viewer='main', distance=4, visible=True, representation='strips', ")
+    assert repr(lod).endswith(" hold='carpet')")
+    patch = esper.component_for_entity(entity, Patch)
+    assert repr(patch).startswith(f"Patch(cell={patch.cell}, model=")
+    assert repr(patch).endswith(" grows=True)")
+    said = {repr(receivers) for _, receivers in esper.get_component(Receivers)}
+    assert f"Receivers(patch={entity}, representation='strips', viewer='main')" in said

@@ -1,12 +1,15 @@
 """The paper's three presets have the paper's numbers (R1)."""
 
+import re
 from collections.abc import Callable
 from importlib.resources import files
+from pathlib import Path
 
 import pytest
 
 from tallgrass.engine.declared.quality import PRESETS
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.stock.models import precompute_bytes
 from tallgrass.testing import Stage
 
 Load = Callable[..., Prairie]
@@ -17,6 +20,61 @@ PAPER = {
     "paper-high": (500, (3, 20), 8, 1_000_000),
 }
 """Blades per patch, the distances of the 2.5D strips, segments per blade, about how many blades in the image."""
+
+
+PAGE = (Path(__file__).parents[2] / "docs" / "performance.md").read_text("utf-8")
+
+
+def wide_plain() -> str:
+    """The plain on 170 m, as the page of performance says."""
+    plain = (files("tallgrass.scenes") / "plain.yaml").read_text("utf-8")
+    wide = plain.replace("size: [100, 100]", "size: [170, 170]")
+    assert wide != plain, "1600 patches of 500 blades are no million"
+    return wide
+
+
+def rows(told: str) -> dict[str, dict[str, str]]:
+    """The rows of the first table of a text, by their first cells: each cell by the head of its column."""
+    table = re.search(r"(?:^\|.*\|\n)+", told, re.MULTILINE)
+    assert table
+    first, _, *others = (line.strip("| ").split(" | ") for line in table[0].splitlines())
+    return {cells[0].strip("`"): dict(zip(first, cells, strict=True)) for cells in others}
+
+
+def counted(prairie: Prairie) -> dict[str, str]:
+    """What the page counts of a picture, in its words."""
+    seen = prairie.statistics
+    counts = {
+        "blades in the field": seen.blades_field,
+        "in view": seen.blades_considered,
+        "drawn as ribbons": seen.blades_submitted,
+        "receivers": seen.receivers,
+        "draw calls": seen.draw_calls,
+    }
+    grown = sum(map(precompute_bytes, prairie.site.growths)) / 1e6
+    return {head: f"{count:,}" for head, count in counts.items()} | {"grown": f"{grown:.0f} MB"}
+
+
+@pytest.mark.parametrize(
+    ("scene", "before", "presets"),
+    [
+        ("meadow", "## What it takes here", ("low", "medium", "high")),
+        (wide_plain(), "## The paper's instances", tuple(PAPER)),
+        ("plain", "on the 100 m that come along", tuple(PAPER)),
+    ],
+    ids=["meadow", "wide plain", "plain"],
+)
+def test_the_page_of_performance_counts_what_is_drawn(
+    scene: str, before: str, presets: tuple[str, ...], load: Load, stage: Stage
+) -> None:
+    table = rows(PAGE.partition(before)[2])
+    for preset in presets:
+        prairie = load(scene, preset=preset)
+        stage.shot(prairie)
+        counts = counted(prairie)
+        told = {head: cell for head, cell in table[preset].items() if head in counts}
+        assert len(told) >= 2
+        assert told == {head: counts[head] for head in told}, preset
 
 
 @pytest.mark.parametrize("preset", PAPER)
@@ -33,10 +91,7 @@ def test_r1_a_paper_preset_has_the_numbers_of_the_papers_table(preset: str) -> N
 def test_r1_the_image_of_a_wide_enough_plain_has_the_papers_number_of_blades(
     preset: str, load: Load, stage: Stage
 ) -> None:
-    plain = (files("tallgrass.scenes") / "plain.yaml").read_text("utf-8")
-    wide = plain.replace("size: [100, 100]", "size: [170, 170]")
-    assert wide != plain, "1600 patches of 500 blades are no million"
-    prairie = load(wide, preset=preset)
+    prairie = load(wide_plain(), preset=preset)
     stage.shot(prairie)
     assert prairie.statistics.blades_considered == pytest.approx(PAPER[preset][3], rel=0.15)
 

@@ -13,7 +13,7 @@ import typer
 import tallgrass
 from tallgrass.app.cli import app
 from tallgrass.engine.scene import parse_scene
-from tallgrass.testing import Phase, private_world, receivers_of, step, watch
+from tallgrass.testing import Phase, looking, private_world, receivers_of, step, watch
 
 pytestmark = pytest.mark.packaging
 
@@ -63,10 +63,11 @@ def test_the_system_that_a_game_adds_bends_the_grass() -> None:
     with private_world():
         exec(SYSTEM, told)  # noqa: S102 - it is our own page
         prairie = told["prairie"]
+        eye = float(prairie.height_at([(0, 30)])[0]) + 1.7
         for _ in range(3):  # a few entities are made in each frame
-            watch(prairie)
+            watch(prairie, looking(0.0, eye, 30.0))
             step(prairie, Phase.BLOW)
-        under = receivers_of(prairie).near(10.0, -36.0, within=0.9)
+        under = receivers_of(prairie).near(0.0, 26.0, within=0.9)
         assert len(under) > 100
         assert np.allclose(under.message, (0.0, -0.9))
         prairie.release()

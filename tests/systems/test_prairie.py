@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import esper
 import moderngl
@@ -156,6 +156,13 @@ def test_a_reseeded_prairie_has_other_grass_and_the_same_ground(prairie: Prairie
 @pytest.mark.parametrize("dt", [-0.01, float("nan"), float("inf")])
 def test_time_does_not_go_back_or_leap(prairie: Prairie, dt: float) -> None:
     with pytest.raises(ValueError, match=r"^a prairie advances by 0 s or more, not by "):
+        prairie.advance(dt)
+    assert prairie.time == 0.0
+
+
+@pytest.mark.parametrize("dt", ["0.1", None, [0.1]])
+def test_time_goes_on_by_numbers_alone(prairie: Prairie, dt: Any) -> None:
+    with pytest.raises(TypeError, match=r"^a prairie advances by a number of seconds, not by "):
         prairie.advance(dt)
     assert prairie.time == 0.0
 
