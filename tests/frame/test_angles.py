@@ -1,0 +1,82 @@
+"""What gives levels of detail away from odd angles: rows, combing, holes (G3, G4, X5)."""
+
+import math
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass import testing
+from tallgrass.app.bench.contrast import luma
+from tallgrass.app.bench.picture import MOMENT
+from tallgrass.engine.camera import Camera, camera_at
+from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.reference import draw_reference, patch_distances
+from tallgrass.testing import Stage
+
+Doubles = NDArray[np.float64]
+Load = Callable[..., Prairie]
+
+CAMERAS = Path(__file__).parents[1] / "cameras"
+SAMPLES = 4
+
+
+@pytest.fixture(scope="module")
+def wide(ctx: moderngl.Context) -> Iterator[Stage]:
+    """A stage of 480 by 270 pixels."""
+    with testing.stage(ctx, (480, 270)) as made:
+        yield made
+
+
+def both(stage: Stage, prairie: Prairie, camera: Camera) -> tuple[Doubles, Doubles]:
+    """What a camera sees of a prairie, and the reference: luma, (height, width) each."""
+    seen = stage.shot(prairie, camera)
+    return luma(seen), luma(draw_reference(prairie, *stage.matrices(camera), stage.size, samples=SAMPLES))
+
+
+def rows(picture: Doubles) -> float:
+    """How much the means of a picture's lines differ from those of the lines around them, in blocks of 120 columns."""
+    level = np.ones(9) / 9
+    blocks = [picture[120:, start : start + 120].mean(axis=1) for start in range(0, picture.shape[1], 120)]
+    return float(np.mean([(block - np.convolve(block, level, "same"))[6:-6].std() for block in blocks]))
+
+
+@pytest.mark.parametrize("name", ["above-30", "above-60", "lawn"])
+def test_g3_no_rows_show_from_twelve_metres_up_or_in_a_lawn(ctx: moderngl.Context, wide: Stage, name: str) -> None:
+    prairie = Prairie.load(CAMERAS / f"{name}.yaml", ctx=ctx, live=False)
+    prairie.advance(MOMENT)
+    drawn, true = both(wide, prairie, camera_at(prairie.scene.camera, None, prairie.height_at))
+    prairie.release()
+    assert rows(drawn) < 1.5 * rows(true)
+
+
+@pytest.mark.parametrize("heading", [0, 20, 40, 60])
+def test_g4_blades_of_the_carpet_stand_upright_whichever_way_they_are_seen(
+    load: Load, wide: Stage, heading: int
+) -> None:
+    """Where they are drawn out across the line of sight, brightness changes from line to line and not along lines."""
+    prairie, yaw = load("plain"), math.radians(heading)
+    camera = Camera((-30.0 * math.sin(yaw), 6.0, 30.0 * math.cos(yaw)), yaw, -0.08, math.radians(8.0))
+    drawn, true = both(wide, prairie, camera)
+    distance = patch_distances(prairie, *wide.matrices(camera), wide.size)
+    far = ((distance >= 24) & (distance <= 36)).all(axis=1)
+    upright = [
+        (np.diff(each[far], axis=1) ** 2).mean() / (np.diff(each[far], axis=0) ** 2).mean() for each in (drawn, true)
+    ]
+    assert far.sum() > 3
+    assert upright[0] == pytest.approx(upright[1], rel=0.7)
+
+
+def test_x5_the_sky_does_not_shine_through_ground_behind_a_far_crest(ctx: moderngl.Context) -> None:
+    prairie = Prairie.load("hills", ctx=ctx, live=False)
+    prairie.advance(3.0)
+    with testing.stage(ctx, (960, 540)) as large:
+        _, green, blue = np.moveaxis(large.shot(prairie), -1, 0)
+    prairie.release()
+    grass, sky = blue < 0.75 * green, blue > 0.85 * green
+    under = np.logical_or.accumulate(grass, axis=0)[:, 150:230]
+    assert grass.any()
+    assert not (under & sky[:, 150:230]).any()
