@@ -61,6 +61,11 @@ class Site:
         return max(each.margin() for each in self.representations)
 
     @property
+    def choosy(self) -> tuple[Representation, ...]:
+        """The representations that may pass patches on to coarser ones: none where one stands for finer ones."""
+        return self.representations if self.reach[0] >= 0 else ()
+
+    @property
     def blades(self) -> int:
         """Blades that grow on the whole terrain, from the kinds' mean densities."""
         width, depth = self.ground.terrain.size

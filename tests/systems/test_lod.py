@@ -14,6 +14,7 @@ from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.patches import PatchTable
 from tallgrass.systems.lod import SLACK, ChooseLevels, farthest, wanted_representation
 from tallgrass.systems.show.registry import NAMES, REPRESENTATIONS
+from tallgrass.systems.show.strips.representation import StripRepresentation
 from tallgrass.systems.transition import FADE, change, held, step_of_change, weights
 
 REACH = (2, 5, 9)
@@ -383,3 +384,24 @@ def test_x1_a_held_patch_too_is_never_finer_than_there_is_room_for(story: list[i
 def test_where_nothing_is_wanted_a_patch_is_the_coarsest() -> None:
     table = PatchTable.allocate(1, NAMES)
     assert held(table, reach=REACH).tolist() == [CARPET]
+
+
+class Choosy(StripRepresentation):
+    """Strips that would not do on the first of the patches that are to have them."""
+
+    def unfit(self, outlook: Outlook, rows: Any, has: Any, /, *, slack: int) -> Any:
+        del outlook, has, slack
+        return rows == 3
+
+
+def test_a_representation_passes_patches_that_it_would_not_do_for_on_to_the_next() -> None:
+    outlook = Outlook(Viewer(jumped=False), 0, PatchTable.allocate(3, NAMES))
+    outlook.patches.distance[:] = np.arange(9)
+    outlook.patches.visible[:] = True
+    ChooseLevels([outlook], REACH).run()
+    alone = outlook.patches.wanted.copy()
+    first, _, last = (object.__new__(each) for each in REPRESENTATIONS)
+    ChooseLevels([outlook], REACH, (first, object.__new__(Choosy), last)).run()
+    assert np.flatnonzero(outlook.patches.wanted != alone).tolist() == [3]
+    assert alone[3] == STRIPS
+    assert outlook.patches.wanted[3] == CARPET

@@ -10,13 +10,27 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from tallgrass.engine.camera import projection_matrix, view_matrix, view_of
+from tallgrass.engine.declared.quality import BladeRing, Quality, StripRing
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.lod import SLACK
 from tallgrass.systems.show.blades.sublevel import blade_ring
-from tallgrass.systems.show.strips.sublevel import axis_of, packed, ring_of, strip_ring, strips_along, viewing_slope
+from tallgrass.systems.show.strips.sublevel import (
+    CROSSED,
+    ENOUGH,
+    TIGHTER,
+    axis_of,
+    packed,
+    ring_of,
+    shows_rows,
+    strip_ring,
+    strips_along,
+    viewing_slope,
+)
 from tallgrass.systems.site import Site
 from tallgrass.systems.transition import FADE
+from tallgrass.testing import looking
 
 Laid = Callable[..., Site]
 Look = Callable[..., Outlook]
@@ -41,7 +55,19 @@ def test_f1_strips_are_coarser_with_distance_and_finer_seen_from_above(
     assert ring(distance, slope) <= ring(distance, slope - 0.5)
     assert ring(distance, slope) <= ring(distance + 3, slope)
     if ring(distance, slope) > 0 and slope > 0.0:
-        assert float(SPACING[ring(distance, slope)]) * slope <= height / 3.0 * 1.0001
+        assert float(SPACING[ring(distance, slope)]) * slope <= height / ENOUGH * 1.0001
+
+
+@given(st.floats(-2.0, 20.0), st.floats(0.05, 3.0), st.booleans())
+def test_g3_strips_show_as_rows_where_a_line_of_sight_crosses_too_few(slope: float, height: float, has: bool) -> None:  # noqa: FBT001
+    at = np.array([slope], np.float32), np.array([has])
+    crossed = height / (0.3 * slope) if slope > 0.0 else np.inf
+    slow = shows_rows(*at, height=height, spacing=0.3, slack=SLACK)[0]
+    assert shows_rows(*at, height=height, spacing=0.3, slack=0)[0] == (crossed < CROSSED) or crossed == pytest.approx(
+        CROSSED
+    )
+    kept = crossed * (TIGHTER if has else 1.0)
+    assert slow == (kept < CROSSED) or kept == pytest.approx(CROSSED)
 
 
 def test_the_viewing_slope_is_the_grounds_own_slope_and_the_eyes_height(laid: Laid, look: Look) -> None:
@@ -192,3 +218,24 @@ def test_f1_blades_slide_from_one_ring_to_the_next_in_the_finer_one(laid: Laid, 
     assert all(len(values) == 1 for values in slides[:5])
     assert all(before[0] > after[0] for before, after in pairwise(slides[:4]))
     assert slides[5] == []
+
+
+@pytest.mark.parametrize(("view", "zoom"), [(90.0, 1.0), (60.0, 1.0), (8.0, 8.26)])
+def test_g3_a_narrow_lens_brings_finer_rings_as_far_as_it_brings_things_near(
+    laid: Laid, look: Look, view: float, zoom: float
+) -> None:
+    outlook = look(laid(), 0.6, 0.6)
+    camera = looking(0.6, 1.7, 0.6, view=view)
+    outlook.look(view_of(view_matrix(camera), projection_matrix(camera.view, 16 / 9)), time=0.0)
+    assert outlook.zoom == pytest.approx(zoom, rel=1e-3)
+    assert outlook.rings_in((3, 7)) == pytest.approx((3.0 * zoom, 7.0 * zoom), rel=1e-3)
+
+
+def test_a_ring_of_strips_may_serve_no_distance_but_only_what_is_seen_from_above() -> None:
+    blades = [BladeRing(to=2, segments=2)]
+    strips = [StripRing(to=to, strips=count) for to, count in ((2, 8), (2, 5), (6, 3))]
+    assert Quality(blade_rings=blades, strip_rings=strips, carpet_to=9).strip_rings == strips
+    with pytest.raises(ValueError, match="to must be at least 2, where the ring before it ends"):
+        Quality(blade_rings=blades, strip_rings=[StripRing(to=1, strips=8), *strips], carpet_to=9)
+    with pytest.raises(ValueError, match="to must exceed 2"):
+        Quality(blade_rings=[*blades, *blades], strip_rings=strips, carpet_to=9)
