@@ -34,7 +34,7 @@ def wide(ctx: moderngl.Context) -> Iterator[Stage]:
 def both(stage: Stage, prairie: Prairie, camera: Camera) -> tuple[Doubles, Doubles]:
     """What a camera sees of a prairie, and the reference: luma, (height, width) each."""
     seen = stage.shot(prairie, camera)
-    return luma(seen), luma(draw_reference(prairie, *stage.matrices(camera), stage.size, samples=SAMPLES))
+    return luma(seen.astype(np.uint8)), luma(draw_reference(prairie, *stage.matrices(camera), stage.size, samples=SAMPLES))
 
 
 def rows(picture: Doubles) -> float:
