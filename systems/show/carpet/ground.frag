@@ -87,7 +87,10 @@ vec3 carpet_light(float slope) {
     vec2 heading = ray.xz / max(length(ray.xz), 1e-4), turn = turned(heading, side);
     vec2 at = rotated(place.xz / soil.w - vec2(cell) - 0.5, turn) + 0.5;
     vec2 dx = dFdx(place.xz) / soil.w, dy = dFdy(place.xz) / soil.w;
-    float fine = sharper(dx, dy) * SHARP;
+    float fine = sharper(dx, dy);
+    float texels = fine * max(length(dx), length(dy)) * float(textureSize(images, 0).x);
+    float shrunk = clamp(log2(texels) - 0.8, 0.0, 1.0);
+    fine *= SHARP;
     dx *= fine;
     dy *= fine;
     vec2 message = message_at(place.xz);
@@ -97,7 +100,7 @@ vec3 carpet_light(float slope) {
     vec2 seen = elevation_seen(slope);
     // Two images that have nothing to do with one another are flatter once they are mixed: as much is put back (Heitz and
     // Neyret, High-Performance By-Example Noise, 2018).
-    float grain = GRAIN * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
+    float grain = mix(1.0, GRAIN, shrunk) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
     vec4 sum = vec4(0.0);
     for (int kind = 0; kind < KINDS; kind++) {
         if (met[kind] < 0.004)
