@@ -46,7 +46,7 @@ void thin(float dense, float below, float texels) {
 }
 #endif
 
-const float SHARPER = 0.5;  // how much finer texels are than pixels, in levels: blades would be washed out
+const float SHARPER = 0.25;  // how much finer texels are than pixels, in levels: blades would be washed out
 
 // Pixels that a metre is long on the screen, across the line of sight.
 float pixels_at(vec3 place) {
