@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 LEAP = 5.0
 """A viewer who moves more than this in one frame has jumped [m]."""
 
-USUAL = 1.0 / tan(radians(30.0))
-"""What a projection stretches heights by where the picture is 60 degrees high: rings are made for it."""
+USUAL = 1.0 / tan(radians(22.5))
+"""What a projection stretches heights by where the picture is 45 degrees high: rings are made for it."""
 
 
 @dataclass(slots=True, eq=False)
@@ -48,7 +48,7 @@ class Outlook:
     """Part of the distances up to which representations are due."""
 
     zoom: float = 1.0
-    """How many times larger things are seen than where the picture is 60 degrees high, 1 at least."""
+    """How many times larger things are seen than where the picture is 45 degrees high, 1 at least."""
 
     winds: Sequence["Blowing"] = ()
     """The winds that act in this frame, the strongest claim first."""
