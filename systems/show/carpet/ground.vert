@@ -10,6 +10,7 @@ in vec4 tile;    // x, z [m]; spacing [m]; distance at which the next coarser sp
 #include "lib/shares.glsl"
 #include "lib/carpet.glsl"
 const float SUNK = 2.5;  // leaves that a line of sight has met where nothing is seen through them
+const float SHADED = 0.6;  // how far down what is seen stands, of how deep is seen into the grass
 const float THROUGH_CREST = 0.6;  // the same over a crest, as the reference shows it
 uniform vec4 raised;  // by kind: height of the carpet above the ground [m]
 uniform vec4 leaf;    // by kind: leaf area seen from the side, of the ground's area
@@ -76,7 +77,8 @@ void main() {
     // It lies as deep in the grass as is seen into it: before an edge, and through a crest of this curvature.
     float sunk = sqrt(SUNK * max(viewing_slope(rise, place), 0.0) / max(dense, 1e-3));
     float over_crest = pow(THROUGH_CREST * sqrt(2.0 * max(crest, 0.0) * tall) / (CREST * max(dense, 1e-3)), 0.667);
-    place.y -= carpet * tall * clamp(max(sunk, over_crest), 0.05, 1.0);
+    sunk = clamp(max(sunk, over_crest), 0.05, 1.0);
+    place.y -= carpet * tall * sunk;
 #endif
     met = kinds_met(grows, max(viewing_slope(rise, place), 0.02));
 #endif
@@ -84,9 +86,9 @@ void main() {
 #ifdef UNDER
     vec3 grass = vec3(0.0);
     for (int kind = 0; kind < KINDS; kind++)
-        grass += met[kind] * mix(root[kind].rgb, tip[kind].rgb, 0.55);
+        grass += met[kind] * mix(tip[kind].rgb, root[kind].rgb, SHADED * sunk);
     // Where grass grows thinly or not at all, what lies beneath is the soil.
-    grass = soil_color * (1.0 - dot(met, vec4(1.0))) + grass * place_tone(flat_at) * canopy(0.78, 0.0);
+    grass = soil_color * (1.0 - dot(met, vec4(1.0))) + grass * place_tone(flat_at) * canopy(1.0 - SHADED * sunk, 0.0);
     soil_color = mix(soil_color, grass, carpet);
 #endif
     veiled = haze_at(place);
