@@ -103,7 +103,9 @@ class EveryBlade:
 
 
 def patch_distances(prairie: Prairie, view: object, projection: object, size: tuple[int, int]) -> NDArray[np.int32]:
-    """Return the discrete distance of what each pixel shows, top row first, shape (height, width); -1 is sky.
+    """Return the discrete distance of what each pixel shows, top row first, shape (height, width).
+
+    -1 is the sky, and ground beyond the terrain, where no patch is.
 
     What a pixel shows is taken at the carpet's height, about the middle of the grass.
     """
@@ -125,19 +127,20 @@ def patch_distances(prairie: Prairie, view: object, projection: object, size: tu
         for thing in (target, depth):
             thing.release()
     centre = prairie.viewers["main"].viewer.centre
-    return _distances(fine.astype(np.float64), seen, centre, patch=prairie.site.ground.patch)
+    return _distances(fine.astype(np.float64), seen, centre, prairie.site.ground)
 
 
-def _distances(depth: NDArray[np.float64], seen: View, centre: Ints, *, patch: float) -> NDArray[np.int32]:
+def _distances(depth: NDArray[np.float64], seen: View, centre: Ints, ground: Ground) -> NDArray[np.int32]:
     height, width = depth.shape
     across = (np.arange(width) + 0.5) / width * 2.0 - 1.0
     up = 1.0 - (np.arange(height) + 0.5) / height * 2.0
     x, y = np.meshgrid(across, up)
     clip = np.stack([x, y, depth * 2.0 - 1.0, np.ones_like(x)], axis=-1)
     world = clip @ np.linalg.inv(seen.projection.astype(np.float64) @ seen.view.astype(np.float64)).T
-    ground = np.stack([world[..., 0] / world[..., 3], world[..., 2] / world[..., 3]], axis=-1)
-    cell = cell_of(np.clip(ground, -1e6, 1e6), patch=patch)
-    return np.where(depth < 1.0, discrete_distance(cell, centre), -1).astype(np.int32)
+    place = np.stack([world[..., 0] / world[..., 3], world[..., 2] / world[..., 3]], axis=-1)
+    cell = cell_of(np.clip(place, -1e6, 1e6), patch=ground.patch)
+    here = (depth < 1.0) & (np.abs(place) <= np.asarray(ground.terrain.size) / 2.0).all(axis=-1)
+    return np.where(here, discrete_distance(cell, centre), -1).astype(np.int32)
 
 
 def draw_reference(

@@ -13,6 +13,7 @@ from tallgrass import testing
 from tallgrass.app.bench.contrast import luma
 from tallgrass.app.bench.picture import MOMENT
 from tallgrass.engine.camera import Camera, camera_at
+from tallgrass.engine.declared.scene import LodName
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import draw_reference, patch_distances
 from tallgrass.testing import Stage
@@ -34,7 +35,9 @@ def wide(ctx: moderngl.Context) -> Iterator[Stage]:
 def both(stage: Stage, prairie: Prairie, camera: Camera) -> tuple[Doubles, Doubles]:
     """What a camera sees of a prairie, and the reference: luma, (height, width) each."""
     seen = stage.shot(prairie, camera)
-    return luma(seen.astype(np.uint8)), luma(draw_reference(prairie, *stage.matrices(camera), stage.size, samples=SAMPLES))
+    return luma(seen.astype(np.uint8)), luma(
+        draw_reference(prairie, *stage.matrices(camera), stage.size, samples=SAMPLES)
+    )
 
 
 def rows(picture: Doubles) -> float:
@@ -80,3 +83,20 @@ def test_x5_the_sky_does_not_shine_through_ground_behind_a_far_crest(ctx: modern
     under = np.logical_or.accumulate(grass, axis=0)[:, 150:230]
     assert grass.any()
     assert not (under & sky[:, 150:230]).any()
+
+
+@pytest.mark.parametrize("lod", ["auto", "carpet"])
+def test_the_ground_goes_on_to_the_horizon_beyond_the_terrains_edge(
+    ctx: moderngl.Context, wide: Stage, lod: LodName
+) -> None:
+    prairie = Prairie.load(CAMERAS / "edge.yaml", ctx=ctx, live=False, lod=lod)
+    camera = camera_at(prairie.scene.camera, None, prairie.height_at)
+    seen = wide.shot(prairie, camera)
+    true = draw_reference(prairie, *wide.matrices(camera), wide.size, samples=SAMPLES)
+    prairie.release()
+    height = wide.size[1]
+    up = np.arctan((1.0 - (2.0 * np.arange(height) + 1.0) / height) * math.tan(camera.view / 2.0)) + camera.pitch
+    for picture in (seen, np.asarray(true)):
+        below = picture[up < -math.radians(1.0)]
+        assert len(below) > height / 3
+        assert (below[..., 2] < 0.9 * below[..., 1]).mean() > 0.999

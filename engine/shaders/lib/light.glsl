@@ -11,8 +11,9 @@ const float SHEEN = 0.30;   // how much grass bent flat is brighter
 const float NAP = 0.35;     // how much grass bent flat is brighter that leans away from the eye, and darker towards it
 const float THROUGH = 0.55; // how much grass is brighter with the sun behind it
 
+// Where a place lies on what is laid over the terrain; beyond the edge that goes on as in a mirror.
 vec2 on_map(vec2 place) {
-    return (place - terrain.xy) / field.xy;
+    return 1.0 - abs(1.0 - mod((place - terrain.xy) / field.xy, 2.0));
 }
 
 // Colour factor of a place: the lie of the land to the sun, and drier and fresher stretches.

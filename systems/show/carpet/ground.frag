@@ -61,14 +61,11 @@ const float LEAST = 0.01; // height of the carpet where nothing grows, so that n
 // whose leaf area falls off linearly with height, meets leaves of (deep / tall)^2 times the whole.
 float outline_cover(float slope) {
     slope = max(slope, 1e-4);
-    vec3 ray = place - eye.xyz;
-    vec2 heading = ray.xz / max(length(ray.xz), 1e-4);
-    vec2 to_edge = (step(0.0, heading) * field.xy + terrain.xy - place.xz) / (heading + 1e-6);
-    float height = max(tall, LEAST), before_edge = min(to_edge.x, to_edge.y) * slope / height;
+    float height = max(tall, LEAST);
     // Over a crest of this curvature the line of sight would have to be higher by so much.
     float before_crest = slope * slope / (2.0 * max(crest, 1e-5)) / height;
     float leaves = dense / slope;
-    return (1.0 - exp(-leaves * before_edge * before_edge)) * (1.0 - exp(-CREST * leaves * before_crest * before_crest));
+    return 1.0 - exp(-CREST * leaves * before_crest * before_crest);
 }
 
 // The wind's message; far off, where nobody asks for it, the mean of those nearer by.

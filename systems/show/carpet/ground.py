@@ -28,27 +28,31 @@ STRETCH = "5.0"
 FINE, COARSENESS = 1.25, 0.3
 """Largest distance between grid points near the viewer: on cells of 1 m and more, and on the smallest cells [m]."""
 
+BEYOND = 600.0
+"""How far the ground goes on beyond the terrain's edge [m]: a walker's horizon lies two pixels higher."""
+
 SPREAD = 7.0
 """Distance at which a spacing gives way to the next, in tile sides: the farthest corner of a tile of twice the side
 that is split must lie inside it."""
 
 
 def tiles_around(terrain: Terrain, place: tuple[float, float], /, *, spacing: float, about: float = 0.0) -> Tiles:
-    """Return the tiles that cover a terrain for who is at most `about` [m] from `place` (x, z) [m], shape (n, 4).
+    """Return the tiles that cover a terrain and what lies `BEYOND`, for who is near a place (x, z) [m], shape (n, 4).
 
-    A tile of `GRID` quads is split in four while it is nearer than `SPREAD` sides of its quarters, down to
-    `spacing` [m] between grid points. Its row is what `TILE` says. `about` may be a third of the finest tiles' side.
+    "Near" is at most `about` [m] away, which may be a third of the finest tiles' side. A tile of `GRID` quads is split
+    in four while it is nearer than `SPREAD` sides of its quarters, down to `spacing` [m] between grid points. Its row
+    is what `TILE` says.
     """
     side = spacing * GRID
-    levels = max(0, int(np.ceil(np.log2(max(terrain.size) / side))))
+    edge, size = np.asarray(terrain.origin) - BEYOND, np.asarray(terrain.size) + 2.0 * BEYOND
+    levels = max(0, int(np.ceil(np.log2(max(size) / side))))
     side *= 2.0**levels
-    low = np.floor(np.asarray(terrain.origin) / side) * side
-    counts = np.ceil((np.asarray(terrain.origin) + terrain.size - low) / side).astype(int)
+    low = np.floor(edge / side) * side
+    counts = np.ceil((edge + size - low) / side).astype(int)
     corners = low + side * np.stack(np.meshgrid(*map(np.arange, counts)), -1).reshape(-1, 2)
     done: list[Tiles] = []
     for level in range(levels, -1, -1):
-        edge = np.asarray(terrain.origin)
-        corners = corners[((corners < edge + terrain.size) & (corners + side > edge)).all(axis=1)]
+        corners = corners[((corners < edge + size) & (corners + side > edge)).all(axis=1)]
         near = _nearest(corners, side, place) - about
         split = (near < SPREAD * side / 2) if level else np.zeros(len(corners), np.bool_)
         kept = corners[~split]
@@ -73,7 +77,7 @@ def tiles_seen(tiles: Tiles, eye: tuple[float, float, float], cone: tuple[float,
 def ground_tiles(
     terrain: Terrain, eye: tuple[float, float, float], cone: tuple[float, float], /, *, spacing: float
 ) -> NDArray[np.void]:
-    """Return the tiles that cover what is seen of the terrain, records of `TILE`, far to near."""
+    """Return the tiles that cover what is seen of the ground, records of `TILE`, far to near."""
     return tiles_seen(tiles_around(terrain, (eye[0], eye[2]), spacing=spacing), eye, cone)
 
 
@@ -92,6 +96,22 @@ def within(tiles: NDArray[np.void], centre: NDArray[np.int32], /, *, patch: floa
     corner, side = tiles["tile"][:, :2], tiles["tile"][:, 2:3] * GRID
     inside: NDArray[np.bool_] = ((corner >= low - 1e-3) & (corner + side <= high + 1e-3)).all(axis=1)
     return inside
+
+
+def on_terrain(tiles: NDArray[np.void], terrain: Terrain, /) -> NDArray[np.bool_]:
+    """Return which tiles (n,) lie wholly on the terrain, shape (n,)."""
+    low = np.asarray(terrain.origin)
+    corner, side = tiles["tile"][:, :2], tiles["tile"][:, 2:3] * GRID
+    inside: NDArray[np.bool_] = ((corner >= low - 1e-3) & (corner + side <= low + terrain.size + 1e-3)).all(axis=1)
+    return inside
+
+
+def reaches_terrain(tiles: NDArray[np.void], terrain: Terrain, /) -> NDArray[np.bool_]:
+    """Return which tiles (n,) lie on the terrain in part at least, shape (n,)."""
+    low = np.asarray(terrain.origin)
+    corner, side = tiles["tile"][:, :2], tiles["tile"][:, 2:3] * GRID
+    reaching: NDArray[np.bool_] = ((corner < low + terrain.size) & (corner + side > low)).all(axis=1)
+    return reaching
 
 
 def _nearest(corners: Tiles, side: float, place: tuple[float, float]) -> Tiles:
@@ -152,7 +172,7 @@ class GroundPainter:
         self.units = units
         corners, indices = _grid()
         self.grid = ctx.buffer(corners), ctx.buffer(indices)
-        self.streams = Stream(ctx, TILE), Stream(ctx, TILE)
+        self.streams = Stream(ctx, TILE), Stream(ctx, TILE), Stream(ctx, TILE)
         slopes = carpet_of(growths[0].models[0]).slope
         laid: dict[str, str | int] = {"CARPET": 1, "STRETCH": STRETCH, "SLOPES": len(slopes), "KINDS": len(growths)}
 
@@ -167,7 +187,7 @@ class GroundPainter:
 
         self.bare = layer({}, self.streams[0])
         self.under = layer({**laid, "UNDER": 1}, self.streams[1])
-        self.carpet = layer(laid, self.streams[1])
+        self.carpet = layer(laid, self.streams[2])
         images = [len(growth.models) * len(slopes) * 4 for growth in growths]
         self.carpet.program["slopes"] = slopes.tolist()
         self.carpet.program["first"] = by_kind([sum(images[:index]) for index in range(len(images))])
@@ -179,18 +199,22 @@ class GroundPainter:
         for layer in (self.under, self.carpet):
             layer.program[name] = value
 
-    def write(self, tiles: NDArray[np.void], laid: NDArray[np.bool_]) -> None:
-        """Send the tiles (n,), and on which of them carpet may lie."""
-        for stream, chosen in zip(self.streams, (~laid, laid), strict=True):
+    def write(self, tiles: NDArray[np.void], laid: NDArray[np.bool_], terrain: Terrain) -> None:
+        """Send the tiles (n,), and on which of them carpet may lie; under it something lies where there is terrain."""
+        for stream, chosen in zip(self.streams, (~laid, laid & reaches_terrain(tiles, terrain), laid), strict=True):
             stream.write(tiles[chosen])
 
     def raise_carpet(self, part: float) -> None:
         """Lay the carpet at this part of the height of the grass."""
         self._tell("raised", by_kind([part * carpet_of(growth.models[0]).height for growth in self.growths]))
 
-    def write_shares(self, shares: NDArray[np.float32], centre: NDArray[np.int32]) -> None:
-        """Send how much the carpet shows on each row of the patch table (rows,) around the viewer's cell."""
+    def write_shares(self, shares: NDArray[np.float32], centre: NDArray[np.int32], *, beyond: float) -> None:
+        """Send how much the carpet shows on each row of the patch table (rows,) around the viewer's cell.
+
+        `beyond` is how much on the rest of the terrain.
+        """
         self.shares.write(np.round(shares * 255.0).astype(np.uint8))
+        self._tell("beyond", beyond)
         self._tell("window", (int(centre[0]), int(centre[1]), self.shares.width // 2))
 
     def draw_opaque(self) -> int:

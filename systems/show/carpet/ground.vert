@@ -59,7 +59,6 @@ void main() {
     vec2 flat_at = tile.xy + corner * tile.z;
     float slide = clamp(distance(flat_at, eye.xz) / tile.w * 4.0 - 3.0, 0.0, 1.0);
     flat_at -= fract(corner * 0.5) * 2.0 * tile.z * slide;
-    flat_at = clamp(flat_at, terrain.xy, terrain.xy + field.xy);
     place = vec3(flat_at, height_at(flat_at)).xzy;
 #ifdef CARPET
     carpet = lowest_share(flat_at);
@@ -74,7 +73,7 @@ void main() {
     float bulge = 2.0 * height_at(flat_at) - height_at(flat_at + ahead) - height_at(flat_at - ahead);
     crest = bulge / dot(ahead, ahead);
 #ifdef UNDER
-    // It lies as deep in the grass as is seen into it: before an edge, and through a crest of this curvature.
+    // It lies as deep in the grass as is seen into it: from above, and through a crest of this curvature.
     float sunk = sqrt(SUNK * max(viewing_slope(rise, place), 0.0) / max(dense, 1e-3));
     float over_crest = pow(THROUGH_CREST * sqrt(2.0 * max(crest, 0.0) * tall) / (CREST * max(dense, 1e-3)), 0.667);
     sunk = clamp(max(sunk, over_crest), 0.05, 1.0);
@@ -86,9 +85,9 @@ void main() {
 #ifdef UNDER
     vec3 grass = vec3(0.0);
     for (int kind = 0; kind < KINDS; kind++)
-        grass += met[kind] * mix(tip[kind].rgb, root[kind].rgb, SHADED * sunk);
+        grass += met[kind] * mix(tip[kind].rgb, root[kind].rgb, 0.1 + SHADED * sunk);
     // Where grass grows thinly or not at all, what lies beneath is the soil.
-    grass = soil_color * (1.0 - dot(met, vec4(1.0))) + grass * place_tone(flat_at) * canopy(1.0 - SHADED * sunk, 0.0);
+    grass = soil_color * (1.0 - dot(met, vec4(1.0))) + grass * place_tone(flat_at) * canopy(0.9 - SHADED * sunk, 0.0);
     soil_color = mix(soil_color, grass, carpet);
 #endif
     veiled = haze_at(place);

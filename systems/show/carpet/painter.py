@@ -16,7 +16,18 @@ from ...around.patches import PatchTable
 from ...around.representation import Canvas
 from ...grow.record import Growth
 from .air import Air
-from .ground import GRID, RAISED, GroundPainter, Tiles, finest_spacing, ground_tiles, tiles_around, tiles_seen, within
+from .ground import (
+    GRID,
+    RAISED,
+    GroundPainter,
+    Tiles,
+    finest_spacing,
+    ground_tiles,
+    on_terrain,
+    tiles_around,
+    tiles_seen,
+    within,
+)
 from .pool import CarpetKept
 from .textures import carpet_texture
 
@@ -75,18 +86,21 @@ class CarpetPainter:
     def lay(self, outlook: Outlook, cover: Floats | None, /) -> None:
         """Send the tiles of the ground, and how much carpet lies on each patch.
 
-        `cover` has shape (rows,); without it there is none. Beyond the terrain's edge it is whole, where a game has
-        taken the grass away there is none.
+        `cover` has shape (rows,); without it there is none on the terrain. Beyond the terrain's edge it is whole, where
+        a game has taken the grass away there is none.
         """
         patches, viewer = outlook.patches, outlook.viewer
         bare_to = self._bare_to(patches, cover)
         if not self._unchanged.since(self._ground, viewer.eye, viewer.cone, viewer.centre, cover is None, bare_to):
             tiles = tiles_seen(self._tiles_around(viewer.eye), viewer.eye, viewer.cone)
-            near = within(tiles, viewer.centre, patch=self._ground.patch, reach=bare_to)
-            self.ground.write(tiles, np.zeros_like(near) if cover is None else ~near)
-        if cover is not None:
-            whole = np.where(patches.alive, cover, np.float32(1.0))
-            self.ground.write_shares(np.where(patches.grows, whole, np.float32(0.0)), viewer.centre)
+            bare = on_terrain(tiles, self._ground.terrain)
+            if cover is not None:
+                bare &= within(tiles, viewer.centre, patch=self._ground.patch, reach=bare_to)
+            self.ground.write(tiles, ~bare, self._ground.terrain)
+        whole = np.where(patches.alive, np.float32(0.0) if cover is None else cover, np.float32(1.0))
+        self.ground.write_shares(
+            np.where(patches.grows, whole, np.float32(0.0)), viewer.centre, beyond=float(cover is not None)
+        )
 
     def _tiles_around(self, eye: tuple[float, float, float]) -> Tiles:
         """Return the tiles all around: the same as long as the eye stays about where it is."""
@@ -107,9 +121,9 @@ class CarpetPainter:
     def lay_everywhere(self, outlook: Outlook, /, *, height: float) -> None:
         """Send a carpet that lies everywhere, at this part of the height of the grass."""
         tiles = ground_tiles(self._ground.terrain, outlook.viewer.eye, outlook.viewer.cone, spacing=self._spacing)
-        self.ground.write(tiles, np.ones(len(tiles), np.bool_))
+        self.ground.write(tiles, np.ones(len(tiles), np.bool_), self._ground.terrain)
         self._unchanged.since()
-        self.ground.write_shares(np.ones(len(outlook.patches.progress), np.float32), outlook.viewer.centre)
+        self.ground.write_shares(np.ones(len(outlook.patches.progress), np.float32), outlook.viewer.centre, beyond=1.0)
         self.ground.raise_carpet(height)
 
     def lay_as_always(self) -> None:
