@@ -100,3 +100,18 @@ def test_the_ground_goes_on_to_the_horizon_beyond_the_terrains_edge(
         below = picture[up < -math.radians(1.0)]
         assert len(below) > height / 3
         assert (below[..., 2] < 0.9 * below[..., 1]).mean() > 0.999
+
+
+def test_f5_the_suns_disc_is_half_a_degree_wide(load: Load, wide: Stage) -> None:
+    prairie = load("plain")
+    light = prairie.scene.light
+    view = math.radians(4.0)
+    seen = wide.shot(
+        prairie, Camera((0.0, 30.0, 0.0), math.radians(light.azimuth), math.radians(light.elevation), view)
+    )
+    shine = seen[seen.shape[0] // 2, :, 0]
+    edge = (shine.max() + np.median(shine)) / 2.0
+    across = np.flatnonzero(shine > edge)
+    assert (np.diff(across) == 1).all()
+    degrees = math.degrees(2.0 * math.atan(len(across) / wide.size[1] * math.tan(view / 2.0)))
+    assert degrees == pytest.approx(0.53, rel=0.12)
