@@ -1,25 +1,34 @@
 """One wind, two kinds: the soft one lies where the stiff one stands, in every representation (W12)."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import moderngl
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from PIL import Image
 
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.grow.bend import spine
 from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import Stage as Room
 
-Load = Callable[..., Prairie]
 Aim = Callable[..., Camera]
 Pictures = Callable[[str, str], NDArray[np.float64]]
 
 SCENE = """\
 tallgrass: 1
-terrain: {{ size: [40, 40] }}
-grass: {{ reed: {{ height: [0.5, 0.5], width: 0.02, taper: 0.3, lean: 0, variety: 0, stiffness: {stiffness} }} }}
+terrain: {{ size: [104, 104] }}
+grass:
+  reed:
+    height: [0.5, 0.5]
+    width: 0.02
+    taper: 0.3
+    lean: 0
+    variety: 0
+    stiffness: {stiffness}
+    place: {{ map: half.png }}
 light: {{ haze: 100000 }}
 quality:
   blades: 350
@@ -44,7 +53,7 @@ WINDS = {
 """Winds that tell all grass of the scene about the same: along x, and half of what lays common grass flat."""
 
 EDGE, EYE, BACK = 20.0, 0.12, 12.0
-"""Where the terrain ends, from beyond which one looks at it: how high the eye is, and how far away [m]."""
+"""Where the grass ends, from beyond which one looks at it: how high the eye is, and how far away [m]."""
 
 
 @pytest.fixture(scope="module")
@@ -53,23 +62,30 @@ def room(ctx: moderngl.Context) -> Room:
 
 
 @pytest.fixture(scope="module")
-def prairies(load: Load) -> Callable[[float, str, str], Prairie]:
-    """A prairie of one kind, of a stiffness, in a wind and as one representation."""
+def prairies(
+    ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Callable[[float, str, str], Prairie]]:
+    """A prairie of one kind, of a stiffness, in a wind and as one representation; it is bare near by."""
     known: dict[tuple[float, str, str], Prairie] = {}
+    folder: Path = tmp_path_factory.mktemp("half")
+    Image.fromarray(np.repeat(np.arange(208)[:, None] < 144, 208, 1).astype(np.uint8) * 255).save(folder / "half.png")
 
     def prairie(stiffness: float, wind: str, lod: str) -> Prairie:
         key = stiffness, wind, lod
         if key not in known:
             winds = f"wind: [{WINDS[wind]}]\n" if wind else ""
-            known[key] = load(SCENE.format(stiffness=stiffness) + winds, lod=lod)
+            (folder / "scene.yaml").write_text(SCENE.format(stiffness=stiffness) + winds, "utf-8")
+            known[key] = Prairie.load(folder / "scene.yaml", ctx=ctx, lod=lod, live=False)
             known[key].advance(NOW)
         return known[key]
 
-    return prairie
+    yield prairie
+    for each in known.values():
+        each.release()
 
 
 def stands(room: Room, prairie: Prairie) -> float:
-    """How high grass stands at the terrain's near edge, in all but a tenth of the picture's columns [m]."""
+    """How high grass stands at the near edge of the grass, in all but a tenth of the picture's columns [m]."""
     camera = Camera((0.0, EYE, EDGE + BACK), 0.0, 0.0, np.radians(6.0))
     picture = room.shot(prairie, camera)
     top = np.quantile(np.argmax(picture[..., 1] > picture[..., 2], axis=0), 0.9)
