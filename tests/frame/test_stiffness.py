@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from tallgrass.engine.camera import Camera
+from tallgrass.engine.declared.scene import LodName
 from tallgrass.systems.grow.bend import spine
 from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import Stage as Room
 
+Grown = Callable[[float, str, LodName], Prairie]
 Aim = Callable[..., Camera]
 Pictures = Callable[[str, str], NDArray[np.float64]]
 
@@ -62,15 +64,13 @@ def room(ctx: moderngl.Context) -> Room:
 
 
 @pytest.fixture(scope="module")
-def prairies(
-    ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory
-) -> Iterator[Callable[[float, str, str], Prairie]]:
+def prairies(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Grown]:
     """A prairie of one kind, of a stiffness, in a wind and as one representation; it is bare near by."""
-    known: dict[tuple[float, str, str], Prairie] = {}
+    known: dict[tuple[float, str, LodName], Prairie] = {}
     folder: Path = tmp_path_factory.mktemp("half")
     Image.fromarray(np.repeat(np.arange(208)[:, None] < 144, 208, 1).astype(np.uint8) * 255).save(folder / "half.png")
 
-    def prairie(stiffness: float, wind: str, lod: str) -> Prairie:
+    def prairie(stiffness: float, wind: str, lod: LodName) -> Prairie:
         key = stiffness, wind, lod
         if key not in known:
             winds = f"wind: [{WINDS[wind]}]\n" if wind else ""
@@ -93,9 +93,7 @@ def stands(room: Room, prairie: Prairie) -> float:
 
 
 @pytest.mark.parametrize("wind", WINDS)
-def test_w12_numpy_lays_a_soft_blade_lower_than_a_stiff_one(
-    prairies: Callable[[float, str, str], Prairie], wind: str
-) -> None:
+def test_w12_numpy_lays_a_soft_blade_lower_than_a_stiff_one(prairies: Grown, wind: str) -> None:
     place = np.array([[0.0, 0.0], [5.0, EDGE]], np.float32)
     tips = []
     for stiffness in (SOFT, STIFF):
@@ -110,7 +108,7 @@ def test_w12_numpy_lays_a_soft_blade_lower_than_a_stiff_one(
 @pytest.mark.parametrize(("lod", "apart"), [("blades", 0.16), ("strips", 0.25)])
 @pytest.mark.parametrize("wind", WINDS)
 def test_w12_a_picture_shows_soft_grass_lower_than_stiff_grass(
-    prairies: Callable[[float, str, str], Prairie], room: Room, wind: str, lod: str, apart: float
+    prairies: Grown, room: Room, wind: str, lod: LodName, apart: float
 ) -> None:
     calm = [stands(room, prairies(stiffness, "", lod)) for stiffness in (SOFT, STIFF)]
     soft, stiff = (stands(room, prairies(stiffness, wind, lod)) for stiffness in (SOFT, STIFF))
@@ -122,7 +120,7 @@ def test_w12_a_picture_shows_soft_grass_lower_than_stiff_grass(
 
 @pytest.mark.parametrize("wind", WINDS)
 def test_w12_the_carpets_light_shows_that_soft_grass_lies_and_stiff_grass_stands(
-    prairies: Callable[[float, str, str], Prairie], room: Room, wind: str
+    prairies: Grown, room: Room, wind: str
 ) -> None:
     camera = Camera((-15.0, 2.5, 0.0), np.pi / 2.0, -0.4, np.radians(30.0))
     soft, stiff = (
