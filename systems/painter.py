@@ -8,7 +8,6 @@ import moderngl
 from ..components.body import Body
 from ..engine.camera import View
 from ..engine.gl.guest import FIRST_UNIT, aside, guest
-from ..engine.gl.shaders import program
 from ..engine.gl.smaller import Smaller
 from ..engine.gl.stopwatch import Stopwatch
 from ..engine.gl.stream import release_all
@@ -16,8 +15,10 @@ from .around.outlook import Outlook
 from .around.representation import Canvas, RepresentationPainter
 from .blow import receivers_shown
 from .bodies.draw import BodyPainter
-from .frame.block import FrameBlock, aim, frame_record
-from .frame.maps import density_texture, height_texture, posture_texture, tone_texture
+from .frame.block import FrameBlock, aim, cast, frame_record
+from .frame.maps import density_texture, height_texture, posture_texture
+from .light.draw import SAMPLERS as LIGHTS
+from .light.draw import LightPainter
 from .receive.ask import numbers_of, write_messages
 from .receive.received import Received
 from .show.blades.draw import BladePainter
@@ -28,7 +29,7 @@ from .wind.card import SAMPLERS as WINDS
 from .wind.card import CardWinds
 from .wind.quarantine import Quarantine
 
-SHARED = ("postures", "tone", "density", "heights", "received")
+SHARED = ("postures", "density", "heights", "received", *LIGHTS)
 """The samplers that are no representation's own."""
 
 LAST_UNIT = FIRST_UNIT + 15
@@ -62,9 +63,7 @@ class Painter:
         self.received = Received(ctx)
         self.air: CardWinds
         self.textures: dict[str, moderngl.Texture | moderngl.TextureArray] = {}
-        self.sky = program(ctx, "systems/frame/sky.vert", "systems/frame/sky.frag")
-        self.block.join(self.sky)
-        self.sky_array = ctx.vertex_array(self.sky, [])
+        self.light = LightPainter(ctx, self.block, UNITS)
         self.bodies: BodyPainter | None = None
         self.smaller, self.stopwatch = Smaller(ctx), Stopwatch(ctx)
         self.painters: dict[str, RepresentationPainter] = {}
@@ -102,11 +101,12 @@ class Painter:
     def _read(self, site: Site) -> None:
         """Take over what a scene says of its light and its winds."""
         self.record = frame_record(site.scene, site.growths, site.ground.terrain, site.quality.patch)
+        self.light.shine(site.scene.light, site.ground.terrain)
         self.air.meet(site.scene.wind)
 
     def _lay(self, site: Site) -> None:
         """Bring the ground into GL."""
-        self._put("tone", tone_texture(self.ctx, site.ground.terrain, seed=site.scene.seed))
+        self.light.lay(site.ground.terrain, seed=site.scene.seed)
         self._put("density", density_texture(self.ctx, site.ground.density))
         self._put("heights", height_texture(self.ctx, site.ground.terrain))
 
@@ -152,7 +152,7 @@ class Painter:
             self.quarantine, numbers=partial(numbers_of, outlook, self._first),
         )  # fmt: skip
         with aside(self.ctx, target):
-            calls = sum(painter.hear() for painter in self.painters.values())
+            calls = self.light.prepare() + sum(painter.hear() for painter in self.painters.values())
             write_messages(self.received, outlook, self._first, site.ground)
             self.received.texture.use(UNITS["received"])
             return calls + sum(painter.prepare() for painter in self.painters.values())
@@ -175,6 +175,7 @@ class Painter:
             self.block.write(self.record)
             for name, texture in self.textures.items():
                 texture.use(UNITS[name])
+            self.light.use()
             self.draw_calls = self._hear(target) if blades is None else 0
             self._draw_land(target)
             if blades is None:
@@ -186,11 +187,11 @@ class Painter:
     def _draw_land(self, target: moderngl.Framebuffer) -> None:
         """Draw all that is opaque, the sky, and the carpet, on which bodies have their soft outlines."""
         self.ctx.enable_only(moderngl.DEPTH_TEST)
-        self.draw_calls += 1 + sum(painter.draw_solid() for painter in self.painters.values())
+        self.draw_calls += sum(painter.draw_solid() for painter in self.painters.values())
         if self.bodies is not None:
             self.draw_calls += self.bodies.draw()
         target.depth_mask = False
-        self.sky_array.render(moderngl.TRIANGLES, vertices=3)
+        self.draw_calls += self.light.draw()
         self._blend()
         self.draw_calls += self.carpet.draw(target)
         target.depth_mask = True
@@ -213,6 +214,6 @@ class Painter:
         """Give everything back to the context."""
         if self.bodies is not None:
             self.bodies.release()
-        release_all(*self.painters.values(), self.air, self.received, self.block, self.sky_array, self.sky)
+        release_all(*self.painters.values(), self.air, self.received, self.block, self.light)
         release_all(self.smaller, self.stopwatch)
         release_all(*self.textures.values())

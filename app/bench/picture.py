@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ...engine.camera import View, view_of
 from ...engine.declared.quality import Quality
-from ...systems.frame.light import decoded
+from ...systems.light.color import decoded
 from ...systems.reference import EveryBlade, draw_reference, patch_distances, seen_cells
 from ...systems.show.registry import NAMES
 from ..studio.encode import Picture, make_folder, picture_writer

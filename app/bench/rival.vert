@@ -29,9 +29,11 @@ vec2 swayed(vec2 place) {
 }
 
 vec3 light(int k, float t, vec2 normal, vec3 place, float h, vec2 bent) {
-    vec3 grass = mix(root[k].rgb, tip[k].rgb, t) * (1.0 + grain_x[k].rgb * normal.x + grain_z[k].rgb * normal.y);
-    grass *= place_tone(place.xz) * canopy(h, lift(bent, place));
-    return mix(grass, haze.rgb, haze_at(place));
+    vec4 here = lie_at(place.xz), grows = textureLod(density, on_map(place.xz), 0.0);
+    vec2 twice = vec2(normal.x * normal.x - normal.y * normal.y, 2.0 * normal.x * normal.y);
+    vec3 grass = mix(root[k].rgb, tip[k].rgb, t) * (1.0 + grain_c[k].rgb * twice.x + grain_s[k].rgb * twice.y);
+    vec3 lit = radiance(grass * stretch(here), h, lit_at(k, bent, place, here, grows));
+    return shown_of(mix(lit, haze_light(place), haze_at(place)));
 }
 
 void main() {
@@ -55,7 +57,7 @@ void main() {
     float angle = max(CURL * min(length(bend), 1.0), 1e-3);
     vec2 spine = vec2(1.0 - cos(angle * t), sin(angle * t)) / angle * stem.z;
     vec2 across = vec2(-lean.w, lean.z) * (float(gl_VertexID % 2) * 2.0 - 1.0);
-    float h = spine.y / (root[k].w * lodged(message));
+    float h = spine.y / (crown[k] * lodged(message));
     color = light(k, t, lean.zw + ROUNDED * across, foot, h, message);
     across *= 0.5 * stem.w / share * pow(1.0 - t, tip[k].w);
     vec2 over = normalize(bend + 1e-6) * spine.x + across;

@@ -30,7 +30,7 @@ class GrassKind(Declaration):
     height: Pair = Field(default=[0.4, 0.7])
     """Shortest and tallest blade, measured along the blade [m]."""
 
-    width: float = Field(default=0.012, gt=0.0005, le=0.2)
+    width: float = Field(default=0.02, gt=0.0005, le=0.2)
     """Width of a blade at its root [m]."""
 
     stiffness: float = Field(default=1.0, gt=0.01, le=100.0)
@@ -45,7 +45,7 @@ class GrassKind(Declaration):
     lean: float = Field(default=0.3, ge=0.0, le=0.9)
     """Largest posture index that a blade holds at rest; each blade has its own, in its own direction."""
 
-    taper: float = Field(default=1.0, ge=0.2, le=4.0)
+    taper: float = Field(default=0.6, ge=0.2, le=4.0)
     """How the width falls from root to tip: 1 is a triangle, below 1 keeps it broad for longer."""
 
     root: Color = "#4b6128"
@@ -56,6 +56,12 @@ class GrassKind(Declaration):
 
     variety: float = Field(default=0.15, ge=0.0, le=0.6)
     """How far blades differ in brightness and hue from one another, as a fraction."""
+
+    translucency: float = Field(default=0.8, ge=0.0, le=1.5)
+    """How much light its leaves let through, of what they send back: grass glows against the sun."""
+
+    gloss: float = Field(default=0.06, ge=0.0, le=2.0)
+    """How much its leaves mirror the sun along themselves: wind runs over glossy grass as bands of light."""
 
     blades: int | None = Field(default=None, ge=1, le=5000)
     """Blades per patch at full density; without it the quality's number."""

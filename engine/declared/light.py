@@ -14,20 +14,38 @@ class Light(Declaration):
     elevation: float = Field(default=35.0, ge=0.0, le=90.0)
     """Height of the sun above the horizon [degrees]."""
 
+    hour: float | None = Field(default=None, ge=0.0, le=24.0)
+    """Solar time of day [h], 12 is noon: it gives azimuth and elevation, with the day and the latitude; -z is north."""
+
+    day: int = Field(default=172, ge=1, le=366)
+    """Day of the year, for `hour`; 172 is midsummer in the north."""
+
+    latitude: float = Field(default=48.0, ge=-90.0, le=90.0)
+    """Degrees north of the equator, for `hour`; negative is south."""
+
     sun: Color = "#fff1d6"
     """Colour of the sunlight."""
 
     strength: float = Field(default=1.0, ge=0.0, le=10.0)
     """Strength of the sunlight; 1 is a clear day."""
 
-    zenith: Color = "#4f86c6"
-    """Colour of the sky overhead."""
+    turbidity: float = Field(default=2.6, ge=1.8, le=10.0)
+    """How hazy the air is: 2 is very clear, 3 clear, 6 hazy. The sky's colours follow from it and the sun's height."""
 
-    horizon: Color = "#cfdfe8"
-    """Colour of the sky at the horizon, and of the haze."""
+    zenith: Color | None = None
+    """Colour of the sky overhead; without it, that of a clear sky."""
+
+    horizon: Color | None = None
+    """Colour of the sky at the horizon, and of the haze; without it, that of a clear sky."""
+
+    clouds: float = Field(default=0.0, ge=0.0, le=1.0)
+    """How much of the sky has clouds; their shadows drift over the grass with the first breeze."""
+
+    exposure: float = Field(default=0.0, ge=-8.0, le=8.0)
+    """How much brighter the picture is taken than it would be by itself, in stops: 1 is twice as bright."""
 
     ground: Color = "#4a3f2a"
     """Colour of bare ground."""
 
-    haze: float = Field(default=900.0, ge=10.0, le=1e6)
+    haze: float = Field(default=1800.0, ge=10.0, le=1e6)
     """Distance at which the haze hides 63 % of what is behind it [m]."""

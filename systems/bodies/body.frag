@@ -4,7 +4,7 @@ const float HULL = 0.0, GLASS = 1.0, JET = 2.0, FIN = 3.0;
 const float LAMPS = 12.0, LAMPS_AT = 1.22, LAMP = 0.055;  // how many, how far from the middle, how large [m]
 const vec3 AHEAD = vec3(1.0, 0.42, 0.16), AROUND = vec3(0.80, 1.0, 0.86), BREATH = vec3(0.74, 0.95, 1.0);
 
-uniform vec3 metal;  // display colours in this light
+uniform vec3 metal;  // albedos
 uniform vec3 glass;
 uniform vec3 paint;
 
@@ -16,14 +16,19 @@ in float cover;
 
 out vec4 pixel;
 
+// Radiance of grass in this light, seen from above: the pigment at this part of its blades.
+vec3 meadow(float at) {
+    vec3 pigment = mix(root[0].rgb, tip[0].rgb, at);
+    return pigment * pigment * (0.6 * sunlight.rgb * max(sun.y, 0.2) + 0.8 * skylight.rgb);
+}
+
 // What a mirror shows that looks this way: the sky, and below the horizon the grass.
 vec3 around(vec3 toward) {
     float low = 1.0 - max(toward.y, 0.0);
-    vec3 sky = mix(zenith.rgb, haze.rgb, low * low * low);
+    vec3 sky = mix(zenith.rgb, haze_light(eye.xyz + toward), low * low * low);
     float near_sun = max(dot(toward, sun.xyz), 0.0);
-    sky += glow.rgb * (0.25 * pow(near_sun, 8.0) + 0.9 * pow(near_sun, 160.0)) * min(sun.w * 2.0, 1.0);
-    vec3 grass = mix(root[0].rgb, tip[0].rgb, 0.45);
-    return mix(grass, sky, smoothstep(-0.12, 0.06, toward.y));
+    sky += sunlight.rgb * (0.12 * pow(near_sun, 8.0) + 4.0 * pow(near_sun, 400.0));
+    return mix(meadow(0.45), sky, smoothstep(-0.12, 0.06, toward.y));
 }
 
 // How much of a line of this half width [m] at this distance from its middle a pixel sees.
@@ -49,28 +54,25 @@ vec3 fitted(vec3 plate) {
     float off = distance(own.xz, LAMPS_AT * vec2(sin(turn), -cos(turn)));
     float soft = max(fwidth(off), 1e-4), seen = min(1.0, size / soft);
     color *= 1.0 - 0.55 * seen * smoothstep(soft, -soft, off - 1.5 * size);
-    color += lamp * 0.22 * exp(-off * off / (6.0 * size * size));
-    vec3 bulb = mix(lamp, vec3(1.0), 0.6 * smoothstep(size, 0.0, off));
+    color += lamp * lamp * 0.15 * exp(-off * off / (6.0 * size * size));
+    vec3 bulb = 1.6 * mix(lamp * lamp, vec3(1.0), 0.6 * smoothstep(size, 0.0, off));
     return mix(color, bulb, seen * smoothstep(soft, -soft, off - size));
 }
 
 void main() {
     vec3 normal = normalize(facing), ray = normalize(seen_at - eye.xyz);
     float open = 0.5 + 0.5 * normal.y, grazing = 1.0 - max(-dot(ray, normal), 0.0);
-    vec3 grass = mix(root[0].rgb, tip[0].rgb, 0.7);
-    grass = mix(grass, vec3(dot(grass, vec3(0.3, 0.6, 0.1))), 0.55);
-    float direct = 0.55 * max(dot(normal, sun.xyz), 0.0) * min(sun.w * 1.6, 1.0);
-    vec3 light = mix(grass * 0.95, mix(zenith.rgb, haze.rgb, 0.7) * 0.75, smoothstep(0.0, 1.0, open)) + glow.rgb * direct;
+    vec3 light = mix(meadow(0.7) * 0.8, skylight.rgb, open) + 1.25 * sunlight.rgb * max(dot(normal, sun.xyz), 0.0);
     vec3 mirrored = around(reflect(ray, normal));
     float sheen = grazing * grazing * grazing;
     vec3 color;
     if (made_of == GLASS)
-        color = mix(glass * (0.5 + 0.5 * open), mirrored, 0.30 + 0.65 * sheen);
+        color = mix(glass * light, mirrored, 0.30 + 0.65 * sheen);
     else if (made_of == JET)
-        color = BREATH * mix(1.0, 0.75, smoothstep(0.0, 0.34, length(own.xz)));
+        color = BREATH * BREATH * mix(1.0, 0.75, smoothstep(0.0, 0.34, length(own.xz)));
     else if (made_of == FIN)
-        color = mix(paint * light * 1.1, mirrored, 0.05 + 0.4 * sheen);
+        color = mix(paint * light, mirrored, 0.05 + 0.4 * sheen);
     else
         color = fitted(mix(metal * light, mirrored, 0.24 + 0.5 * sheen));
-    pixel = vec4(mix(min(color, vec3(1.0)), haze.rgb, haze_at(seen_at)), 1.0) * cover;
+    pixel = vec4(shown_of(mix(color, haze_light(seen_at), haze_at(seen_at))), 1.0) * cover;
 }

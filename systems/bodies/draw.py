@@ -11,7 +11,7 @@ from ...components.body import Body
 from ...engine.declared.light import Light
 from ...engine.gl.stream import Stream, attributes, release_all
 from ..frame.block import FrameBlock, joined
-from ..frame.light import daylight, display, linear
+from ..light.color import linear
 from .saucer import borders, saucer
 
 PLACED = np.dtype([("middle", "3f4"), ("right", "3f4"), ("up", "3f4"), ("back", "3f4")])
@@ -47,7 +47,7 @@ class _Layer:
     ) -> None:
         self.program = made
         for name, color in COLORS.items():
-            made[name] = tuple(display(linear(color) * daylight(light)))
+            made[name] = tuple(linear(color))
         self.buffers = [made.ctx.buffer(part) for part in mesh]
         form, names = attributes(mesh[0].dtype)
         contents = [(self.buffers[0], form, *names), stream.binding(made)]

@@ -1,19 +1,27 @@
 """What every program knows of a frame, in one uniform block."""
 
 from collections.abc import Mapping, Sequence
-from math import cos, radians
+from math import cos, radians, sin
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.shade import Shade
 from ...engine.camera import View, eye_of
+from ...engine.declared.grass import GrassKind
+from ...engine.declared.light import Light
 from ...engine.declared.scene import Scene
 from ...engine.gl.shaders import program
 from ...engine.terrain.record import Terrain
 from ..around.canopy import canopy_height
 from ..grow.record import GIVES, Growth
-from .light import daylight, display, grain, linear, lit_kind, to_sun
+from ..light.daylight import Daylight, daylight
+from ..light.materials import grain, leaves_of, let_through, pigment
+from ..light.sun import sun_at
+
+SHADES = 4
+"""How many bodies cast shadows at most."""
 
 FRAME = np.dtype(
     [
@@ -21,43 +29,78 @@ FRAME = np.dtype(
         ("unclip", "16f4"),
         ("eye", "4f4"),
         ("sun", "4f4"),
+        ("sunlight", "4f4"),
+        ("skylight", "4f4"),
         ("zenith", "4f4"),
-        ("haze", "4f4"),
-        ("glow", "4f4"),
+        ("horizon", "(3,4)f4"),
+        ("drift", "4f4"),
+        ("shades", f"({SHADES},4)f4"),
         ("soil", "4f4"),
         ("terrain", "4f4"),
         ("field", "4f4"),
         ("screen", "4f4"),
+        ("crown", "4f4"),
+        ("leaf", "4f4"),
+        ("lying", "4f4"),
         ("root", "(4,4)f4"),
         ("tip", "(4,4)f4"),
-        ("grain_x", "(4,4)f4"),
-        ("grain_z", "(4,4)f4"),
+        ("through", "(4,4)f4"),
+        ("grain_c", "(4,4)f4"),
+        ("grain_s", "(4,4)f4"),
         ("give", f"({GIVES},4)f4"),
     ]
 )
 """The block's fields, as `lib/frame.glsl` declares them (std140)."""
 
 
-def frame_record(scene: Scene, growths: list[Growth], terrain: Terrain, patch: float) -> NDArray[np.void]:
-    """Return the block with all that holds for the whole scene, shape (1,); `aim` fills in the rest."""
+def frame_record(
+    scene: Scene, growths: list[Growth], terrain: Terrain, patch: float, /, *, raw: bool = False
+) -> NDArray[np.void]:
+    """Return the block with all that holds for the whole scene, shape (1,); `aim` and `cast` fill in the rest.
+
+    With `raw`, linear radiance is written in place of display colours.
+    """
     record = np.zeros(1, FRAME)
-    light = scene.light
     row = record[0]
-    row["sun"] = (*to_sun(light), light.strength * max(0.0, cos(radians(light.elevation))))
-    row["zenith"][:3] = display(linear(light.zenith))
-    row["haze"] = (*display(linear(light.horizon)), 1.0 / light.haze)
-    row["glow"][:3] = display(linear(light.sun)) * min(1.0, light.strength)
-    row["soil"] = (*display(linear(light.ground) * daylight(light)), patch)
+    light = daylight(scene.light)
+    _write_light(row, light, scene.light, raw=raw)
+    row["soil"] = (*pigment(scene.light.ground), patch)
     postures = growths[0].postures.shape
     row["terrain"] = (*terrain.origin, terrain.cell, postures.shape[2] - 1)
     row["field"] = (*terrain.size, postures.shape[1], postures.shape[0])
     for index, (kind, growth) in enumerate(zip(scene.grass.values(), growths, strict=True)):
-        root, tip = lit_kind(kind, light)
-        row["root"][index] = (*root, canopy_height(growth))
-        row["tip"][index] = (*tip, kind.taper)
-        row["grain_x"][index, :3], row["grain_z"][index, :3] = grain(kind, light)
+        _write_kind(row, index, kind, light)
+        leaves = leaves_of(kind, growth, patch)
+        row["crown"][index], row["leaf"][index] = canopy_height(growth), leaves.side
+        row["lying"][index] = leaves.above / leaves.side
         row["give"][:, index] = growth.postures.give
     return record
+
+
+def _write_light(row: np.void, light: Daylight, declared: Light, *, raw: bool) -> None:
+    row["sun"] = (*light.direction, float(raw))
+    row["sunlight"] = (*light.sun, declared.clouds)
+    row["skylight"] = (*light.down, 1.0 / declared.haze)
+    row["zenith"][:3] = light.sky.map[-1].mean(axis=0)
+    row["horizon"][:, :3] = light.sky.horizon
+    azimuth = radians(sun_at(declared)[0])
+    row["drift"][2:] = sin(azimuth), -cos(azimuth)
+
+
+def _write_kind(row: np.void, index: int, kind: GrassKind, light: Daylight) -> None:
+    row["root"][index] = (*pigment(kind.root), kind.gloss)
+    row["tip"][index] = (*pigment(kind.tip), kind.taper)
+    row["through"][index, :3] = let_through(kind)
+    row["grain_c"][index, :3], row["grain_s"][index, :3] = grain(kind, light)
+
+
+def cast(record: NDArray[np.void], shades: Sequence[Shade], drift: tuple[float, float], /) -> None:
+    """Write what casts shadows, of which the first `SHADES` count, and how far the clouds have drifted, in sides."""
+    row = record[0]
+    row["shades"] = 0.0
+    for into, shade in zip(row["shades"], shades, strict=False):
+        into[:] = (*shade.place, shade.radius)
+    row["drift"][:2] = drift
 
 
 def aim(record: NDArray[np.void], view: View, size: tuple[int, int], /) -> None:

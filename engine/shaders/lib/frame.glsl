@@ -3,17 +3,24 @@ layout(std140) uniform Frame {
     mat4 clip;        // world to clip space
     mat4 unclip;      // clip space to world
     vec4 eye;         // eye [m]
-    vec4 sun;         // direction to the sun; strength
-    vec4 zenith;      // display colour overhead
-    vec4 haze;        // display colour of the horizon; 1 / haze distance [1/m]
-    vec4 glow;        // display colour of the sun's glow
-    vec4 soil;        // display colour of bare ground in this light; patch side [m]
+    vec4 sun;         // direction to the sun; 1 where raw radiance is written
+    vec4 sunlight;    // radiance of a white leaf in full sun; how much of the sky has clouds
+    vec4 skylight;    // radiance of a white leaf under the whole sky; 1 / haze distance [1/m]
+    vec4 zenith;      // radiance overhead
+    vec4 horizon[3];  // radiance of horizon and haze, by powers of the cosine of the azimuth from the sun
+    vec4 drift;       // where the clouds have drifted to, in their own sides; the sun's azimuth as a direction (x, z)
+    vec4 shades[4];   // of bodies that cast shadows: middle, radius [m]; radius 0 where there is none
+    vec4 soil;        // pigment of bare ground; patch side [m]
     vec4 terrain;     // origin x, z [m]; metres per cell; posture links
     vec4 field;       // size x, z [m]; posture rows; variants per kind
     vec4 screen;      // pixels from the middle to the edge, across and up
-    vec4 root[4];     // by kind: display colour at the root in this light; canopy height [m]
-    vec4 tip[4];      // by kind: display colour at the tip in this light; taper
-    vec4 grain_x[4];  // by kind: relative change of colour with a face normal's x
-    vec4 grain_z[4];  // by kind: the same with z
+    vec4 crown;       // by kind: height of the canopy [m]
+    vec4 leaf;        // by kind: leaf area seen from the side, of the ground's area
+    vec4 lying;       // by kind: leaf area seen from above, of that from the side
+    vec4 root[4];     // by kind: pigment at the root; gloss
+    vec4 tip[4];      // by kind: pigment at the tip; taper
+    vec4 through[4];  // by kind: light that a leaf lets through, of what it sends back
+    vec4 grain_c[4];  // by kind: relative change of pigment with the cosine of twice the face normal's azimuth
+    vec4 grain_s[4];  // by kind: the same with the sine
     vec4 give[17];    // by length of a message, evenly from 0 to 1: posture index that it bends the kinds to
 };

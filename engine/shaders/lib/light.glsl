@@ -1,35 +1,67 @@
-// The one light function: blades, strips, carpet and ground all take their colours from here, in display space.
+// The one light function: blades, strips, carpet and ground all take their colours from here. Light is linear radiance;
+// pigments are square roots of albedos, so that what lies between two pigments looks as if it did.
 #include "lib/frame.glsl"
 
-uniform sampler2D tone;     // over the terrain: slope x, z and two slow noises, each as 0.5 + 0.5 n
+uniform sampler2D lie;      // over the terrain: sine of the sun's elevation over the slope; how much of it is seen; two slow noises
 uniform sampler2D density;  // over the terrain: how densely each kind grows
+uniform sampler2D clouds;   // how dense the clouds are, a square that repeats
 
-const float SHADE = 0.56;   // brightness at the foot of the grass, of that at its top
-const float FLOOR = 0.66;   // brightness of the ground under grass, of bare ground's
-const float SLOPE = 0.8;    // how much a hillside that faces the sun is brighter
-const float SHEEN = 0.30;   // how much grass bent flat is brighter
-const float NAP = 0.35;     // how much grass bent flat is brighter that leans away from the eye, and darker towards it
-const float THROUGH = 0.55; // how much grass is brighter with the sun behind it
+const float CLOUDS_AT = 450.0;  // height of the clouds [m]
+const float CLOUDS_SIDE = 900.0;// side of the square that repeats [m]
+const float CLOUD_TAKES = 0.75; // what a dense cloud takes of the sun's light
+const float OPEN_SKY = 1.6;     // leaves that the sky's light meets, of those seen from the side
+const float AGAIN = 0.7;        // what leaves send to one another of the sun's light, of one with this albedo
+const float LITTER = 0.75;      // how much of the ground under dense grass is covered by what has fallen
 
-// Where a place lies on what is laid over the terrain; beyond the edge that goes on as in a mirror.
+// Light that a leaf of a kind gets at a place, as radiance towards the eye of a white one, and what is mirrored.
+struct Lit {
+    vec3 sun;     // in full sun
+    vec3 sky;     // under the whole sky
+    float gloss;  // mirrored of the sun, where it is seen
+    vec2 way;     // how many leaves the sun's and the sky's light meet, of those that stand above, seen from the side
+    vec2 leaves;  // that stand above the kind's top, and between that and the ground, of the ground's area
+};
+
+// What lies over the terrain at a place, as `lie` has it; beyond the edge that goes on as in a mirror.
 vec2 on_map(vec2 place) {
     return 1.0 - abs(1.0 - mod((place - terrain.xy) / field.xy, 2.0));
 }
 
-// Colour factor of a place: the lie of the land to the sun, and drier and fresher stretches.
-vec3 place_tone(vec2 place) {
-    vec4 here = 2.0 * textureLod(tone, on_map(place), 0.0) - 1.0;
-    float relief = 1.0 - SLOPE * dot(here.xy, sun.xz);
-    return relief * (1.0 + 0.16 * here.z + 0.14 * here.w * vec3(1.0, 0.1, -0.9));
+vec4 lie_at(vec2 place) {
+    vec4 here = textureLod(lie, on_map(place), 0.0);
+    return vec4(here.xy, 2.0 * here.zw - 1.0);
 }
 
-// How much brighter the tops are than the plain shade: bent by `bend`, or seen against the sun.
-float lift(vec2 bend, vec3 place) {
-    vec3 ray = normalize(place - eye.xyz);
-    float facing = max(dot(ray, sun.xyz), 0.0);
-    facing *= facing;
-    vec2 away = normalize(ray.xz + 1e-6);
-    return SHEEN * dot(bend, bend) + NAP * dot(bend, away) + THROUGH * sun.w * facing * facing;
+// Drier and fresher stretches, as a factor of the pigment.
+vec3 stretch(vec4 here) {
+    return 1.0 + 0.16 * here.z + 0.14 * here.w * vec3(1.0, 0.1, -0.9);
+}
+
+// How much of the sun is seen past the clouds, from a place.
+float past_clouds(vec3 place) {
+    vec2 at = place.xz + sun.xz * (CLOUDS_AT / max(sun.y, 0.1));
+    float dense = textureLod(clouds, at / CLOUDS_SIDE - drift.xy, 0.0).r;
+    return 1.0 - CLOUD_TAKES * smoothstep(1.0 - sunlight.w, 1.25 - sunlight.w, dense);
+}
+
+// How much of the sun is seen past bodies, from a place: each is a ball with a soft edge.
+float past_bodies(vec3 place) {
+    float seen = 1.0;
+    for (int i = 0; i < 4 && shades[i].w > 0.0; i++) {
+        vec3 apart = shades[i].xyz - place;
+        float along = dot(apart, sun.xyz), off = length(apart - sun.xyz * along);
+        float soft = 0.12 * shades[i].w + 0.01 * abs(along);
+        seen *= along > 0.0 ? smoothstep(shades[i].w - soft, shades[i].w + soft, off) : 1.0;
+    }
+    return seen;
+}
+
+// How much of the sun is seen from a place, `past` of it past the terrain.
+float sun_seen(vec3 place, float past) {
+    float seen = past;
+    if (sunlight.w > 0.0)
+        seen *= past_clouds(place);
+    return shades[0].w > 0.0 ? seen * past_bodies(place) : seen;
 }
 
 // How high the canopy stands where `bend` bends it, of its height at rest: where all grass lies, its tips are the top.
@@ -37,24 +69,76 @@ float lodged(vec2 bend) {
     return 1.0 - 0.55 * min(dot(bend, bend), 1.0);
 }
 
-// Brightness at height `h` (1 is the top of the canopy).
-float canopy(float h, float lifted) {
-    return mix(SHADE, 1.0, h) * (1.0 + lifted * h);
+// Leaf area above a kind's top and between that and the ground. Leaf area thins out towards the top of each kind.
+vec2 leaves_over(vec4 grows, int k) {
+    vec4 above = max(1.0 - crown[k] / max(crown, 0.01), 0.0), area = grows * leaf;
+    float over = dot(area, above * above);
+    return vec2(over, dot(area, vec4(1.0)) - over);
+}
+
+// How many leaves the sun's and the sky's light meets on its way, where the sun's elevation over the slope has this sine.
+vec2 ways(int k, float high) {
+    high = max(high, 0.08);
+    return vec2(sqrt(1.0 - min(high * high, 1.0)) / high + lying[k], OPEN_SKY);
+}
+
+// The light on leaves of kind `k` at a place: `here` of lie_at, `grows` of density, the wind bending them by `bend`.
+Lit lit_at(int k, vec2 bend, vec3 place, vec4 here, vec4 grows) {
+    vec3 ray = normalize(place - eye.xyz);
+    float seen = sun_seen(place, here.y), facing = dot(ray, sun.xyz);
+    // Leaves that face all ways send back what the eye sees lit, and let through what it sees against the light.
+    float back = 0.5 - 0.5 * facing, against = 1.0 - back;
+    vec3 phase = back * sqrt(back) + against * sqrt(against) * through[k].rgb;
+    vec3 direct = sunlight.rgb * seen;
+    // Bent grass shows its faces to the sky, and more so to an eye that it leans away from.
+    float lies = min(dot(bend, bend), 1.0), face = 1.0 + 0.22 * lies + 0.18 * dot(bend, normalize(ray.xz + 1e-6));
+    // A blade mirrors the sun along itself like a thread (Kajiya and Kay, Rendering Fur, 1989).
+    vec3 spine = normalize(vec3(1.3 * bend.x, 1.0 - 0.7 * length(bend), 1.3 * bend.y)), half_way = normalize(sun.xyz - ray);
+    float along = dot(spine, half_way), thread = 1.0 - along * along;
+    thread *= thread;
+    thread *= thread;
+    return Lit(direct * phase * face * mix(0.75, 1.0, here.x), skylight.rgb * face, seen * root[k].w * thread * thread,
+               ways(k, here.x), leaves_over(grows, k));
+}
+
+// Radiance of a leaf with this pigment at height `h` in its kind's canopy, of which 1 is the top.
+vec3 radiance(vec3 pigment, float h, Lit lit) {
+    float deep = clamp(1.0 - h, 0.0, 1.0);
+    vec2 seen = exp(-lit.way * (lit.leaves.x + lit.leaves.y * deep * deep));
+    vec3 albedo = pigment * pigment;
+    vec3 again = albedo * lit.sun * (AGAIN * seen.y);
+    return albedo * (lit.sun * seen.x + lit.sky * seen.y + again) + sunlight.rgb * (lit.gloss * seen.x);
+}
+
+// Radiance of the haze that lies before a place.
+vec3 haze_light(vec3 place) {
+    vec2 ray = place.xz - eye.xz;
+    float c = dot(ray, drift.zw) * inversesqrt(dot(ray, ray) + 1e-6);
+    return horizon[0].rgb + c * (horizon[1].rgb + c * horizon[2].rgb);
 }
 
 float haze_at(vec3 place) {
-    return 1.0 - exp(-distance(place, eye.xyz) * haze.w);
+    return 1.0 - exp(-distance(place, eye.xyz) * skylight.w);
 }
 
-// Bare ground, darkened where grass stands on it.
-vec3 soil_light(vec2 place) {
-    vec4 grows = textureLod(density, on_map(place), 0.0);
+// Bare ground, and what lies on it and shades it where grass stands.
+vec3 soil_light(vec3 place) {
+    vec4 here = lie_at(place.xz), grows = textureLod(density, on_map(place.xz), 0.0);
     float total = min(dot(grows, vec4(1.0)), 1.0);
     vec3 under = vec3(0.0);
     for (int kind = 0; kind < 4; kind++)
-        under += grows[kind] * root[kind].rgb;
+        under += grows[kind] * mix(root[kind].rgb, tip[kind].rgb, 0.3);
     under /= max(dot(grows, vec4(1.0)), 1e-3);
-    return place_tone(place) * mix(soil.rgb, mix(soil.rgb, under, 0.6) * FLOOR, total);
+    vec3 pigment = mix(soil.rgb, mix(soil.rgb, under, LITTER), total) * stretch(here);
+    vec2 seen = exp(-ways(0, here.x) * dot(grows, leaf));
+    return pigment * pigment * (sunlight.rgb * (1.3 * here.x * seen.x * sun_seen(place, here.y)) + skylight.rgb * seen.y);
+}
+
+// What the door shows of radiance: dark and middle tones as a display of gamma 2 has them, then a shoulder up to white;
+// or the radiance itself.
+vec3 shown_of(vec3 light) {
+    light = max(light, 0.0);
+    return sun.w > 0.5 ? light : sqrt(light * inversesqrt(1.0 + light * light));
 }
 
 // How much more a strip that runs along `run` covers for being seen at an angle: a line of sight then crosses fewer

@@ -31,7 +31,7 @@ Edge edge_at(vec4 base, int receiver, int edge, int kind) {
 // The point at `part` of an edge's length, on a strip of this height [m], and its height in the canopy.
 vec4 on_edge(Edge edge, int kind, float part, float height) {
     vec3 spine = posture(float(kind) * field.w, edge.bend, part).place;
-    return vec4(edge.foot + spine * height, spine.y * tall[kind] / (root[kind].w * lodged(edge.bend)));
+    return vec4(edge.foot + spine * height, spine.y * tall[kind] / (crown[kind] * lodged(edge.bend)));
 }
 
 vec2 target_at(int number, int point) {

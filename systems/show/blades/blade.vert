@@ -35,11 +35,14 @@ in vec2 message;
 #endif
 
 out vec4 foot;   // where its ribbon begins [m]; its length [m]
-out vec4 lie;    // bending vector; half its way across at the root [m]
-out vec4 low;    // colour at the root; row of the posture table
-out vec4 high;   // colour at the tip; taper
-out vec4 tilt;   // relative change of colour to its sides; how far haze veils it
-out vec4 crown;  // how much brighter its top is; where its foot is in the canopy, and how much of it is its length; cover
+out vec4 lie_of; // bending vector; half its way across at the root [m]
+out vec4 low;    // pigment at the root; row of the posture table
+out vec4 high;   // pigment at the tip; taper
+out vec4 tilt;   // relative change of pigment to its sides; leaf area above its kind's top
+out vec4 direct; // the sun's light on it, past the haze; leaf area from there to the ground
+out vec4 open_to;// the sky's light; how many leaves the sun's light meets
+out vec4 veil;   // haze before it, and what it mirrors of the sun's light
+out vec4 stands; // where its foot is in the canopy, and how much of it is its length; cover
 out vec4 joints; // slide to those of a coarser blade; coverage from which on it hides what is behind; kind; ring of strips
 
 void main() {
@@ -60,25 +63,30 @@ void main() {
     vec2 rest = part1.xy, facing = part1.zw, message = told.xy;
     int k = int(part2.z);
     joints = vec4(how.x, mix(0.5, 2.0, smoothstep(0.8 * near, near, distance(root_at.xz, eye.xz))), float(k), 0.0);
-    crown.w = where.w;
+    stands.w = where.w;
 #else
     int k = int(kind);
     joints = vec4(0.0, 2.0, kind, 0.0);
-    crown.w = 1.0;
+    stands.w = 1.0;
 #endif
     vec2 blown = bending(k, message), bend = blown + rest * (1.0 - min(length(blown), 1.0));
     vec3 up = stem > 0.0 ? posture(float(k) * field.w, blown, 1.0).place * stem : vec3(0.0);
     vec2 across = vec2(-facing.y, facing.x);
     foot = vec4(root_at + up, height);
-    lie = vec4(bend, 0.5 * width * across);
-    float veil = haze_at(root_at);
-    vec3 grain = 1.0 + grain_x[k].rgb * facing.x + grain_z[k].rgb * facing.y;
-    vec3 here = place_tone(root_at.xz) * grain * (1.0 - veil);
-    low = vec4((stem > 0.0 ? tip[k].rgb : root[k].rgb) * here, variant);
-    high = vec4(tip[k].rgb * here, tip[k].w);
-    tilt = vec4(ROUND * (grain_x[k].rgb * across.x + grain_z[k].rgb * across.y) / grain, veil);
-    float canopy_height = root[k].w * lodged(blown);
-    crown.xyz = vec3(lift(blown, root_at), up.y / canopy_height, height / canopy_height);
+    lie_of = vec4(bend, 0.5 * width * across);
+    float hidden = haze_at(root_at), seen = 1.0 - hidden;
+    vec2 twice = vec2(facing.x * facing.x - facing.y * facing.y, 2.0 * facing.x * facing.y);
+    vec4 here = lie_at(root_at.xz);
+    vec3 grain = 1.0 + grain_c[k].rgb * twice.x + grain_s[k].rgb * twice.y, dry = stretch(here) * grain;
+    low = vec4((stem > 0.0 ? tip[k].rgb : root[k].rgb) * dry, variant);
+    high = vec4(tip[k].rgb * dry, tip[k].w);
+    Lit lit = lit_at(k, blown, root_at, here, textureLod(density, on_map(root_at.xz), 0.0));
+    tilt = vec4(2.0 * ROUND * (grain_s[k].rgb * twice.x - grain_c[k].rgb * twice.y) / grain, lit.leaves.x);
+    direct = vec4(lit.sun * seen, lit.leaves.y);
+    open_to = vec4(lit.sky * seen, lit.way.x);
+    veil = vec4(haze_light(root_at) * hidden, lit.gloss * seen);
+    float canopy_height = crown[k] * lodged(blown);
+    stands.xyz = vec3(up.y / canopy_height, height / canopy_height, 0.0);
 #ifdef MORPH
     int ring = int(strips.x), model = int(where.z) / 4, turn = int(where.z) % 4, along = int(how.w);
     int own = (along + turn) % 2, count = stacks[ring].z, columns = stacks[ring].x;

@@ -5,11 +5,14 @@
 #include "lib/posture.glsl"
 
 in vec4 foot;
-in vec4 lie;
+in vec4 lie_of;
 in vec4 low;
 in vec4 high;
 in vec4 tilt;
-in vec4 crown;
+in vec4 direct;
+in vec4 open_to;
+in vec4 veil;
+in vec4 stands;
 in vec4 joints;
 #ifdef MORPH
 #include "lib/painted.glsl"
@@ -47,11 +50,13 @@ vec4 widened(vec3 place, vec3 tangent, vec2 across) {
 #endif
 
 #ifdef MORPH
-// The colour at part `t` of a blade of kind `k` with this face normal, where it is painted.
-vec3 painted_light(int k, float t, vec2 normal, Painted target) {
-    vec3 grass = mix(root[k].rgb, tip[k].rgb, t) * (1.0 + grain_x[k].rgb * normal.x + grain_z[k].rgb * normal.y);
-    grass *= place_tone(target.middle.xz) * canopy(target.h, lift(target.bend, target.middle));
-    return mix(grass, haze.rgb, haze_at(target.middle));
+// The radiance at part `t` of a blade of kind `k` with this face normal's doubled azimuth, where it is painted.
+vec3 painted_light(int k, float t, float twice, Painted target) {
+    vec4 here = lie_at(target.middle.xz);
+    vec3 pigment = mix(root[k].rgb, tip[k].rgb, t) * stretch(here) * (1.0 + grain_c[k].rgb * twice);
+    vec4 grows = textureLod(density, on_map(target.middle.xz), 0.0);
+    vec3 light = radiance(pigment, target.h, lit_at(k, target.bend, target.middle, here, grows));
+    return mix(light, haze_light(target.middle), haze_at(target.middle));
 }
 #endif
 
@@ -70,11 +75,12 @@ void main() {
     t = mix(t, floor(t * float(COARSER) + 0.5) / float(COARSER), joints.x);
 #endif
     float side = float(gl_VertexID % 2) * 2.0 - 1.0;
-    Spine spine = posture(low.w, lie.xy, t);
+    Spine spine = posture(low.w, lie_of.xy, t);
     vec3 place = foot.xyz + spine.place * foot.w, tangent = spine.tangent * foot.w;
-    vec2 across = lie.zw * (side * pow(max(1.0 - t, 0.0), high.w));
-    color = mix(low.rgb, high.rgb, t) * (1.0 + side * tilt.rgb) * canopy(crown.y + spine.place.y * crown.z, crown.x);
-    color += haze.rgb * tilt.w;
+    vec2 across = lie_of.zw * (side * pow(max(1.0 - t, 0.0), high.w));
+    Lit lit = Lit(direct.rgb, open_to.rgb, veil.w, vec2(open_to.w, OPEN_SKY), vec2(tilt.w, direct.w));
+    vec3 light = radiance(mix(low.rgb, high.rgb, t) * (1.0 + side * tilt.rgb), stands.x + spine.place.y * stands.y, lit);
+    light += veil.rgb;
 #ifdef MORPH
     int k = int(joints.z);
     Painted target = painted_at(base, int(painted.x), int(painted.y), painted.z, t, k, int(joints.w));
@@ -82,14 +88,15 @@ void main() {
     place = mix(place, target.place, painted.w);
     tangent = mix(tangent, target.tangent, painted.w);
     across = mix(across, run * dot(run, across) * boosted(run, target.middle), painted.w);
-    vec2 off = vec2(-run.y, run.x);  // a strip knows but the normals across it
-    vec2 facing = off * dot(off, normalize(vec2(lie.w, -lie.z)));
-    color = mix(color, painted_light(k, crown.y > 0.0 ? 1.0 : t, facing, target), painted.w);
+    vec2 face = normalize(vec2(lie_of.w, -lie_of.z));
+    vec3 painted_as = painted_light(k, stands.x > 0.0 ? 1.0 : t, face.x * face.x - face.y * face.y, target);
+    light = mix(light, painted_as, painted.w);
 #endif
+    color = shown_of(light);
 #ifdef SOFT
     gl_Position = widened(place, tangent, across);
 #else
     gl_Position = clip * vec4(place.x + across.x, place.y, place.z + across.y, 1.0);
 #endif
-    shown = crown.w;
+    shown = stands.w;
 }

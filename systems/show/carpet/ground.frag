@@ -1,7 +1,7 @@
 #include "lib/light.glsl"
 
 in vec3 place;
-in vec3 soil_color;
+in vec3 soil_seen;
 in float veiled;
 
 out vec4 pixel;
@@ -12,7 +12,7 @@ out vec4 pixel;
 #include "lib/carpet.glsl"
 #include "lib/posture.glsl"
 
-uniform sampler2DArray images;  // place along the blade, height, normal, coverage; premultiplied
+uniform sampler2DArray images;  // place along the blade, height, twice the azimuth, coverage; premultiplied
 uniform float slopes[SLOPES];
 uniform vec4 first;             // by kind: first layer of the images
 uniform ivec2 stock;            // patch models; seed
@@ -93,7 +93,11 @@ vec3 carpet_light(float slope) {
     vec2 message = message_at(place.xz);
     // The leaves that are seen stand deeper in the grass, where the line of sight has met enough of them.
     float deeper = min(tall * inversesqrt(max(slope, slopes[0]) * max(dense, 0.01)), 15.0);
-    vec3 here = place_tone(place.xz + heading * deeper);
+    vec3 there = vec3(place.x + heading.x * deeper, place.y, place.z + heading.y * deeper);
+    vec4 here = lie_at(there.xz), grows = textureLod(density, on_map(there.xz), 0.0);
+    vec3 own = stretch(here);
+    // A blade's doubled azimuth against the line of sight; what it is against the world's axes is as far turned.
+    float sight = heading.x * heading.x - heading.y * heading.y, aside = 2.0 * heading.x * heading.y;
     vec2 seen = elevation_seen(slope);
     // Two images that have nothing to do with one another are flatter once they are mixed: as much is put back (Heitz and
     // Neyret, High-Performance By-Example Noise, 2018).
@@ -108,26 +112,29 @@ vec3 carpet_light(float slope) {
         vec4 image = mix(textureGrad(images, low, dx, dy), textureGrad(images, high, dx, dy), seen.y);
         image = mean + (image - mean) * grain;
         image.a = clamp(image.a, 0.0, 1.0);
-        image.rg = clamp(image.rg, 0.0, image.a);
-        vec3 grass = root[kind].rgb * image.a + (tip[kind].rgb - root[kind].rgb) * image.r;
-        float h = image.g / max(image.a, 1e-3);
-        sum += met[kind] * vec4(grass * here * canopy(h, lift(bending(kind, message), place)), image.a);
+        image.rgb = clamp(image.rgb, 0.0, image.a);
+        vec3 mean_of = image.rgb / max(image.a, 1e-3);
+        vec3 grain = (grain_c[kind].rgb * sight + grain_s[kind].rgb * aside) * (2.0 * mean_of.b - 1.0);
+        vec3 pigment = mix(root[kind].rgb, tip[kind].rgb, mean_of.r) * own * (1.0 + grain);
+        vec3 light = radiance(pigment, mean_of.g, lit_at(kind, bending(kind, message), there, here, grows));
+        sum += met[kind] * image.a * vec4(light, 1.0);
     }
-    return sum.rgb + soil_color * (1.0 - min(sum.a, 1.0));
+    return sum.rgb + soil_seen * (1.0 - min(sum.a, 1.0));
 }
 
 #endif
 
 void main() {
-    vec3 color = soil_color;
+    vec3 color = soil_seen;
     float covered = 1.0;
 #if defined(CARPET) && !defined(UNDER)
     float slope = viewing_slope(rise, place);
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / soil.w))) : 0.0;
     covered = mix(1.0, outline_cover(slope), share);
-    color = mix(color, carpet_light(slope), share);
+    if (share > 0.0)
+        color = mix(color, carpet_light(slope), share);
     if (covered < 0.004)
         discard;
 #endif
-    pixel = vec4(mix(color, haze.rgb, veiled), 1.0) * covered;
+    pixel = vec4(shown_of(mix(color, haze_light(place), veiled)), 1.0) * covered;
 }

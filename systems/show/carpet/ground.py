@@ -120,12 +120,6 @@ def _nearest(corners: Tiles, side: float, place: tuple[float, float]) -> Tiles:
     return away
 
 
-def leaf_area(growth: Growth, patch: float, /) -> float:
-    """Return the area of a kind's blades seen from the side, of the ground's area; `patch` is a patch's side [m]."""
-    blades = growth.models[0].blades
-    return float((blades.height * blades.width).sum() / (np.pi * patch * patch))
-
-
 def _grid() -> tuple[NDArray[np.float32], NDArray[np.int32]]:
     line = np.arange(GRID + 1)
     corners = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2).astype(np.float32)
@@ -192,7 +186,6 @@ class GroundPainter:
         self.carpet.program["slopes"] = slopes.tolist()
         self.carpet.program["first"] = by_kind([sum(images[:index]) for index in range(len(images))])
         self.carpet.program["stock"] = (len(growths[0].models), seed)
-        self._tell("leaf", by_kind([leaf_area(growth, patch) for growth in growths]))
         self.raise_carpet(RAISED)
 
     def _tell(self, name: str, value: object) -> None:

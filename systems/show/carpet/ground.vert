@@ -13,7 +13,6 @@ const float SUNK = 2.5;  // leaves that a line of sight has met where nothing is
 const float SHADED = 0.6;  // how far down what is seen stands, of how deep is seen into the grass
 const float THROUGH_CREST = 0.6;  // the same over a crest, as the reference shows it
 uniform vec4 raised;  // by kind: height of the carpet above the ground [m]
-uniform vec4 leaf;    // by kind: leaf area seen from the side, of the ground's area
 
 out float carpet;
 out vec2 rise;   // of the ground, along x and z
@@ -27,14 +26,14 @@ out float dense; // leaf area seen from the side, of the ground's area
 vec4 kinds_met(vec4 grows, float slope) {
     float top = 0.0;
     for (int kind = 0; kind < KINDS; kind++)
-        top = max(top, grows[kind] > 0.004 ? root[kind].w : 0.0);
+        top = max(top, grows[kind] > 0.004 ? crown[kind] : 0.0);
     vec4 met = vec4(0.0);
     float through = 1.0;
     for (int layer = 0; layer < 4; layer++) {
         float height = top * (0.875 - 0.25 * float(layer));
         vec4 stop = vec4(0.0);
         for (int kind = 0; kind < KINDS; kind++) {
-            float canopy_height = root[kind].w;
+            float canopy_height = crown[kind];
             stop[kind] = grows[kind] * leaf[kind] * 2.0 * max(1.0 - height / canopy_height, 0.0) * top / canopy_height;
         }
         float sum = dot(stop, vec4(1.0));
@@ -52,7 +51,7 @@ float lowest_share(vec2 place) {
 #endif
 
 out vec3 place;
-out vec3 soil_color;
+out vec3 soil_seen;  // its radiance
 out float veiled;  // by haze
 
 void main() {
@@ -81,14 +80,16 @@ void main() {
 #endif
     met = kinds_met(grows, max(viewing_slope(rise, place), 0.02));
 #endif
-    soil_color = soil_light(flat_at);
+    soil_seen = soil_light(vec3(flat_at, height_at(flat_at)).xzy);
 #ifdef UNDER
-    vec3 grass = vec3(0.0);
-    for (int kind = 0; kind < KINDS; kind++)
-        grass += met[kind] * mix(tip[kind].rgb, root[kind].rgb, 0.1 + SHADED * sunk);
+    vec3 under = vec3(0.0);
+    vec4 here = lie_at(flat_at);
+    for (int kind = 0; kind < KINDS; kind++) {
+        vec3 pigment = mix(tip[kind].rgb, root[kind].rgb, 0.1 + SHADED * sunk) * stretch(here);
+        under += met[kind] * radiance(pigment, 0.9 - SHADED * sunk, lit_at(kind, vec2(0.0), place, here, grows));
+    }
     // Where grass grows thinly or not at all, what lies beneath is the soil.
-    grass = soil_color * (1.0 - dot(met, vec4(1.0))) + grass * place_tone(flat_at) * canopy(0.9 - SHADED * sunk, 0.0);
-    soil_color = mix(soil_color, grass, carpet);
+    soil_seen = mix(soil_seen, soil_seen * (1.0 - dot(met, vec4(1.0))) + under, carpet);
 #endif
     veiled = haze_at(place);
     gl_Position = clip * vec4(place, 1.0);

@@ -22,7 +22,8 @@ class Carpet:
 
     texels: Bytes
     """Coverage-premultiplied meaning of each texel, shape (slopes, 4, r, r, 4): place along the blade, height
-    as a fraction of `height`, face normal along the view (0.5 + 0.5 n), coverage. The four viewing directions
+    as a fraction of `height`, cosine c of twice the face normal's azimuth from the view (0.5 + 0.5 c), coverage. The four
+    viewing directions
     are -z, +x, +z, -x in this order; rows go along z, columns along x."""
 
     height: float
@@ -62,8 +63,7 @@ def grow_carpet(
 
     A ray that travels along a heading h and falls by `slope` meets a point at (x, z) and height y where it
     goes through the plane at mid-height o at (x, z) + h (y - o) / slope; of all such points it meets the
-    highest first. Blades reach over the patch's edge into the next one, which is the same patch again. Face
-    normals are turned to the viewer. `height` is the canopy's [m]; without it, the highest tip's.
+    highest first. Blades reach over the patch's edge into the next one, which is the same patch again. `height` is the canopy's [m]; without it, the highest tip's.
     """
     left, right = (
         edge.astype(np.float64) for edge in ribbon(blades, postures, (0.0, 0.0), points=_SEGMENTS + 1, taper=taper)
@@ -113,7 +113,7 @@ class _Field:
         seen = rasterise(corners, self._ribbons[:, :, 1], shape=(rows, columns), wrap=True)
         where = seen.sample // (columns * self._fine) * columns + seen.sample % columns
         count = self._texels * columns
-        sums = [np.bincount(where, values, count) for values in self._meaning(corners, seen, heading, slope)]
+        sums = [np.bincount(where, values, count) for values in self._meaning(corners, seen, heading)]
         means = np.stack(sums).reshape(4, self._texels, columns) / self._fine
         image = _spread(means, self._texels)
         image = image.transpose(2, 1, 0) if turned else image.transpose(1, 2, 0)
@@ -126,14 +126,14 @@ class _Field:
         return max(int(self._texels * 2.0**octaves), 1)
 
     def _meaning(
-        self, corners: Doubles, seen: Fragments, heading: NDArray[np.float64], slope: float, /
+        self, corners: Doubles, seen: Fragments, heading: NDArray[np.float64], /
     ) -> tuple[Doubles | None, ...]:
-        """Return place along the blade, height, normal along the view, each (f,), and none for 1, at each sample."""
-        back = -(self._normals[:, ::2] @ heading)
-        toward = np.where(back + slope * self._normals[:, 1] < 0.0, -1.0, 1.0)
+        """Return place along the blade, height, twice the azimuth from the view, each (f,), and none for 1, at each sample."""
+        level = np.maximum(np.hypot(self._normals[:, 0], self._normals[:, 2]), 1e-6)
+        twice = 2.0 * (self._normals[:, ::2] @ heading / level) ** 2 - 1.0
         place = interpolate(corners, self._place, seen)
         height = interpolate(corners, self._ribbons[:, :, 1], seen) / self._height
-        return place, np.clip(height, 0.0, 1.0), (0.5 + 0.5 * back * toward).take(seen.triangle), None
+        return place, np.clip(height, 0.0, 1.0), (0.5 + 0.5 * twice).take(seen.triangle), None
 
 
 def _spread(means: Doubles, texels: int, /) -> Doubles:

@@ -22,7 +22,7 @@ class Strips:
 
     texels: Bytes
     """Coverage-premultiplied meaning of each texel, bottom row first, shape (2, strips, h, w, 4): place along
-    the blade, face normal across the strip (0.5 + 0.5 n), rank of the blade, coverage."""
+    the blade, cosine c of twice the face normal's azimuth (0.5 + 0.5 c), rank of the blade, coverage."""
 
     height: float
     """Height of the texture [m]."""
@@ -62,8 +62,8 @@ def grow_strips(
 
     A strip shows the blades whose roots lie in its slice, along the slice's normal. Where they cross, those of lower
     rank lie in front: the strip is flat anyway, and a blade that stays where its kind grows thinly must not have been
-    hidden by one that goes. Face normals are the blades' own, whichever side is seen: light is linear in them, so that
-    the mean of many is right. The texture reaches from -`margin` to `patch` + `margin`, and from the ground to
+    hidden by one that goes. Of face normals the doubled azimuth is kept, for both sides of a blade are lit alike, and light
+    is linear in its cosine: the mean of many is right. The texture reaches from -`margin` to `patch` + `margin`, and from the ground to
     `height` [m] (without it, over the highest tip); its texels are square but for rounding, `texel` metres wide at
     most.
     """
@@ -140,9 +140,9 @@ class _Sheet:
         return texels.reshape(-1, h, w, 4)
 
     def _meaning(self, corners: Doubles, seen: Fragments, orientation: int, /) -> list[Doubles]:
-        """Return at each sample: place along the blade, normal across the strip, rank, and 1."""
+        """Return at each sample: place along the blade, twice the normal's azimuth, rank, and 1."""
         ends = tone(self._blades, np.linspace(0.0, 1.0, _SEGMENTS + 1))[:, :, None]
         along = interpolate(corners, ribbon_triangles(ends, ends)[:, :, 0], seen)
         facing, rank = self._blades.facing.astype(np.float64), self._blades.rank.astype(np.float64)
-        blade, across = seen.triangle // (2 * _SEGMENTS), (np.sin, np.cos)[orientation](facing)
+        blade, across = seen.triangle // (2 * _SEGMENTS), np.cos(2.0 * facing)
         return [along, (0.5 + 0.5 * across).take(blade), rank.take(blade), np.ones_like(along)]

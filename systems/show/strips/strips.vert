@@ -18,12 +18,14 @@ uniform ivec4 stacks[RINGS];             // by ring: columns of a strip, section
 
 out vec2 at;
 out float h;
-flat out float lifted;
-flat out vec3 foot_color;
+flat out vec3 foot_color;  // pigment
 flat out vec3 rise_color;
-flat out vec3 grain;  // change of colour with the normal across the strip
+flat out vec3 grain;   // change of pigment with twice the normal's azimuth
+flat out vec3 direct;  // light, past the haze
+flat out vec3 open_to;
+flat out vec4 veil;    // haze before it; what is mirrored of the sun's light
+flat out vec3 shade;   // leaf area above the kind's top, and from there to the ground; leaves that the sun's light meets
 flat out float sheet;
-flat out vec3 veil;
 flat out float shown;
 flat out float boost;
 flat out float level;
@@ -59,7 +61,7 @@ vec4 on_edge(vec3 foot, vec2 bend, float t, int k, float sections, float growth)
     float low = min(floor(t * sections), sections - 1.0), variant = float(k) * field.w;
     vec3 from = posture(variant, bend, low / sections).place, to = posture(variant, bend, (low + 1.0) / sections).place;
     vec3 spine = mix(from, to, t * sections - low) * tall[k];
-    return vec4(foot + spine * growth, spine.y / (root[k].w * lodged(bend)));
+    return vec4(foot + spine * growth, spine.y / (crown[k] * lodged(bend)));
 }
 
 void main() {
@@ -93,15 +95,17 @@ void main() {
     gl_Position = clip * vec4(point.xyz, 1.0);
     h = point.w;
     at = vec2((float(column) + across) / float(fine.x), t) * picture_to[picture];
-    lifted = lift(0.5 * (bend_a + bend_b), middle);
-    vec3 here = place_tone(middle.xz);
-    float hidden = haze_at(middle);
-    veil = haze.rgb * hidden;
-    here *= 1.0 - hidden;
-    foot_color = root[k].rgb * here;
-    rise_color = (tip[k].rgb - root[k].rgb) * here;
-    grain = abs(b.x - a.x) > abs(b.z - a.z) ? (turn < 2 ? 1.0 : -1.0) * grain_z[k].rgb
-                                            : (turn % 3 == 0 ? 1.0 : -1.0) * grain_x[k].rgb;
+    vec4 here = lie_at(middle.xz);
+    Lit lit = lit_at(k, 0.5 * (bend_a + bend_b), middle, here, textureLod(density, on_map(middle.xz), 0.0));
+    float hidden = haze_at(middle), seen = 1.0 - hidden;
+    direct = lit.sun * seen;
+    open_to = lit.sky * seen;
+    veil = vec4(haze_light(middle) * hidden, lit.gloss * seen);
+    shade = vec3(lit.leaves, lit.way.x);
+    vec3 dry = stretch(here);
+    foot_color = root[k].rgb * dry;
+    rise_color = (tip[k].rgb - root[k].rgb) * dry;
+    grain = (turn % 2 == 0 ? 1.0 : -1.0) * grain_c[k].rgb;
     shown = how.x;
     vec2 run = normalize(b.xz - a.xz), sight = normalize(middle.xz - eye.xz);
     boost = boosted(run, middle);

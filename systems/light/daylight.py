@@ -1,0 +1,56 @@
+"""Daylight: what a scene's sun and sky send to the grass, in radiance as the picture is exposed."""
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...engine.declared.light import Light
+from .color import linear, luminance
+from .sky import SUN, Sky, sky_of
+from .sun import sun_at, to_sun, transmitted
+
+Doubles = NDArray[np.float64]
+
+USUAL = 1.3
+"""Luminance of a white leaf in usual daylight, sun and sky together."""
+
+ADAPTS = 0.55
+"""Exponent by which the exposure follows the light: 0 is a camera that is never set anew, 1 knows no dusk."""
+
+LEAF = 0.80
+"""What a leaf gets of the sun's light, on the mean over all that face it or not, of one square to it."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Daylight:
+    """The light of a scene, linear radiance, each colour of shape (3,)."""
+
+    direction: tuple[float, float, float]
+    """To the sun, unit length."""
+
+    sun: Doubles
+    """Radiance of a white leaf in full sun."""
+
+    down: Doubles
+    """Radiance of a white leaf under the whole sky."""
+
+    sky: Sky
+    """The colours of the sky."""
+
+
+def daylight(light: Light, /) -> Daylight:
+    """Return the light that a scene declares, as bright as the picture is exposed."""
+    _, elevation = sun_at(light)
+    sky = sky_of(light)
+    sun = SUN / pi * LEAF * light.strength * transmitted(elevation, light.turbidity) * linear(light.sun)
+    exposure = exposure_of(light, sun, sky.down)
+    shown = Sky(sky.map * exposure, sky.horizon * exposure, sky.down * exposure)
+    return Daylight(to_sun(light), sun * exposure, shown.down, shown)
+
+
+def exposure_of(light: Light, sun: Doubles, down: Doubles, /) -> float:
+    """Return the factor by which a picture is exposed: in part it makes up for little light, as eyes and films do."""
+    level = float(luminance(sun + down))
+    return float(2.0**light.exposure * (USUAL / max(level, 1e-3)) ** ADAPTS)

@@ -1,0 +1,65 @@
+"""What a kind of grass does to light: its pigments, what its leaves let through, and how many there are."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...engine.declared.grass import GrassKind
+from ..grow.bend import across, spine
+from ..grow.record import Growth
+from .color import linear, luminance
+from .daylight import Daylight
+
+Doubles = NDArray[np.float64]
+
+LEAVES_THROUGH = np.array([1.05, 1.18, 0.55])
+"""What a leaf lets through of the light that it does not take, of what it sends back: more yellow and green."""
+
+_POINTS = 9
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Leaves:
+    """How much leaf there is in a kind's canopy at full density, of the ground's area."""
+
+    side: float
+    """Area seen from the side, on the mean over all sides."""
+
+    above: float
+    """Area seen from above."""
+
+
+def pigment(color: str, /) -> Doubles:
+    """Return the square root of a colour's albedo, shape (3,): what lies between two of them looks as if it did."""
+    return np.sqrt(linear(color))
+
+
+def let_through(kind: GrassKind, /) -> Doubles:
+    """Return what a kind's leaves let through, of what they send back, shape (3,)."""
+    return np.asarray(kind.translucency * LEAVES_THROUGH)
+
+
+def leaves_of(kind: GrassKind, growth: Growth, patch: float, /) -> Leaves:
+    """Return how much leaf a kind's canopy has at rest, by its first model; `patch` is a patch's side [m]."""
+    blades = growth.models[0].blades
+    centre = spine(blades, growth.postures, (0.0, 0.0), points=_POINTS).astype(np.float64)
+    along = (np.arange(_POINTS - 1) + 0.5) / (_POINTS - 1)
+    width = blades.width[:, None].astype(np.float64) * (1.0 - along) ** kind.taper
+    normal = np.cross(np.diff(centre, axis=1), across(blades)[:, None]) * width[..., None]
+    level, ground = np.hypot(normal[..., 0], normal[..., 2]), patch * patch
+    return Leaves(float(level.sum() * 2.0 / np.pi) / ground, float(np.abs(normal[..., 1]).sum()) / ground)
+
+
+def grain(kind: GrassKind, light: Daylight, /) -> tuple[Doubles, Doubles]:
+    """Return how a blade's pigment seems to change with the cosine and sine of twice its azimuth, each of shape (3,).
+
+    One part is the sun: blades that face it, or turn their backs on it, are lit more than those edge on. The other is
+    the kind's variety: blades that face one way are greener, another way paler. Both are linear in what is kept of a
+    blade, so that the mean of many has exactly the light of their mean.
+    """
+    x, _, z = light.direction
+    sun, down = float(luminance(light.sun)), float(luminance(light.down))
+    shine = 0.22 * sun / max(sun + down, 1e-9)
+    warm, pale = np.array([1.0, 0.2, -0.6]), np.array([0.9, 1.0, 0.8])
+    return shine * (x * x - z * z) + kind.variety * pale, shine * 2.0 * x * z + kind.variety * warm
