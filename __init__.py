@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from .components.patch import Lod, Patch
     from .components.pose import Pose
     from .components.receivers import Receivers
+    from .components.shade import Shade
     from .components.viewer import Viewer
     from .components.wind import Extent, Grass, TwinValues, WindPrimitive, WindSource
     from .engine.plugins import wind
@@ -39,6 +40,7 @@ __all__ = [
     "Prairie",
     "Receivers",
     "SceneError",
+    "Shade",
     "Shape",
     "TwinValues",
     "Viewer",
@@ -65,6 +67,7 @@ _HOMES = {
     "Prairie": ".systems.prairie",
     "Receivers": ".components.receivers",
     "SceneError": ".engine.scene",
+    "Shade": ".components.shade",
     "Shape": ".systems.wind.blast",
     "TwinValues": ".components.wind",
     "Viewer": ".components.viewer",

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 from ..components.body import Body
+from ..components.shade import Shade
 from ..engine.schedule import HasRun, Phase, Schedule
 from ..engine.world import World
 from .around.clearing import Clearings
@@ -46,6 +47,9 @@ class Assembly:
         def bodies(time: float) -> list[Body]:
             return flying(self.world, site.top_at, self.winds.quarantine, time=time)
 
+        def shades() -> list[Shade]:
+            return [shade for _, shade in self.world.all(Shade)]
+
         return built_in(
             site,
             self.viewers,
@@ -54,6 +58,7 @@ class Assembly:
             hear=self.winds.heard,
             painter=self.screen.current,
             bodies=bodies,
+            shades=shades,
         )
 
 
@@ -67,6 +72,7 @@ def built_in(
     hear: Hear,
     painter: Callable[[], Painter],
     bodies: Callable[[float], Sequence[Body]],
+    shades: Callable[[], Sequence[Shade]],
 ) -> list[BuiltIn]:
     """Return the systems of a site in running order: phase, name, and the system itself."""
     ground, shown, reach = site.ground, site.representations, site.reach
@@ -87,7 +93,7 @@ def built_in(
         (Phase.SEE, "see", See(outlooks, shown, reach, patch, change)),
         (Phase.BLOW, "plant", Plant(outlooks, shown, entities.world)),
         (Phase.BLOW, "wind", Blow(outlooks, now, hear, site.growths)),
-        (Phase.DRAW, "gather", Gather(outlooks, painter, bodies)),
+        (Phase.DRAW, "gather", Gather(outlooks, painter, bodies, shades)),
     ]  # fmt: skip
 
 

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 from ..components.body import Body
+from ..components.shade import Shade
 from .around.outlook import Outlook
 from .painter import Painter
 
@@ -19,7 +20,10 @@ class Gather:
     bodies: Callable[[float], Sequence[Body]]
     """Gives what is in the air at a time [s]."""
 
+    shades: Callable[[], Sequence[Shade]]
+    """Gives what else casts shadows."""
+
     def run(self) -> None:
         """Gather for every viewer that looks."""
         for outlook in self.outlooks:
-            outlook.blades = self.painter().write(outlook, self.bodies(outlook.viewer.time))
+            outlook.blades = self.painter().write(outlook, self.bodies(outlook.viewer.time), self.shades())

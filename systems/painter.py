@@ -6,6 +6,7 @@ from functools import partial
 import moderngl
 
 from ..components.body import Body
+from ..components.shade import Shade
 from ..engine.camera import View
 from ..engine.gl.guest import FIRST_UNIT, aside, guest
 from ..engine.gl.smaller import Smaller
@@ -14,11 +15,12 @@ from ..engine.gl.stream import release_all
 from .around.outlook import Outlook
 from .around.representation import Canvas, RepresentationPainter
 from .blow import receivers_shown
-from .bodies.draw import BodyPainter
-from .frame.block import FrameBlock, aim, cast, frame_record
+from .bodies.draw import BodyPainter, shade_of
+from .frame.block import FrameBlock, aim, cast, frame_record, nearest
 from .frame.maps import density_texture, height_texture, posture_texture
 from .light.draw import SAMPLERS as LIGHTS
 from .light.draw import LightPainter
+from .light.repeating import drifted
 from .receive.ask import numbers_of, write_messages
 from .receive.received import Received
 from .show.blades.draw import BladePainter
@@ -129,8 +131,12 @@ class Painter:
         """Return a painter of opaque blades with this many segments, in any order."""
         return BladePainter(self.ctx, self.block, segments, UNITS)
 
-    def write(self, outlook: Outlook, bodies: Sequence[Body]) -> int:
-        """Send what a viewer is shown, and what flies; return how many blades that is as geometry."""
+    def write(self, outlook: Outlook, bodies: Sequence[Body], shades: Sequence[Shade] = ()) -> int:
+        """Send what a viewer is shown, what flies and what casts shadows; return how many blades that is as geometry."""
+        cast(
+            self.record, nearest([*map(shade_of, bodies), *shades], outlook.viewer.eye),
+            drifted(self.site.scene.wind, outlook.viewer.time),
+        )  # fmt: skip
         if self.bodies is None and bodies:
             self.bodies = BodyPainter(self.ctx, self.block, self.site.scene.light)
         if self.bodies is not None:

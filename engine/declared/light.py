@@ -23,8 +23,8 @@ class Light(Declaration):
     latitude: float = Field(default=48.0, ge=-90.0, le=90.0)
     """Degrees north of the equator, for `hour`; negative is south."""
 
-    sun: Color = "#fff1d6"
-    """Colour of the sunlight."""
+    sun: Color = "#ffffff"
+    """Colour of the sun before the air, which makes it warmer the lower it stands."""
 
     strength: float = Field(default=1.0, ge=0.0, le=10.0)
     """Strength of the sunlight; 1 is a clear day."""

@@ -8,11 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.body import Body
+from ...components.shade import Shade
 from ...engine.declared.light import Light
 from ...engine.gl.stream import Stream, attributes, release_all
 from ..frame.block import FrameBlock, joined
 from ..light.color import linear
-from .saucer import borders, saucer
+from .saucer import RADIUS, borders, saucer
 
 PLACED = np.dtype([("middle", "3f4"), ("right", "3f4"), ("up", "3f4"), ("back", "3f4")])
 """Where a body is [m], and its own axes in the world."""
@@ -28,6 +29,11 @@ def placed(bodies: Sequence[Body], /) -> NDArray[np.void]:
         right, up, back = axes(body)
         row["middle"], row["right"], row["up"], row["back"] = body.place, right, up, back
     return rows
+
+
+def shade_of(body: Body, /) -> Shade:
+    """Return what a body is to the sun."""
+    return Shade(body.place, 0.9 * RADIUS)
 
 
 def axes(body: Body, /) -> NDArray[np.float64]:

@@ -1,7 +1,7 @@
 """What every program knows of a frame, in one uniform block."""
 
 from collections.abc import Mapping, Sequence
-from math import cos, radians, sin
+from math import cos, dist, radians, sin
 
 import moderngl
 import numpy as np
@@ -94,8 +94,13 @@ def _write_kind(row: np.void, index: int, kind: GrassKind, light: Daylight) -> N
     row["grain_c"][index, :3], row["grain_s"][index, :3] = grain(kind, light)
 
 
+def nearest(shades: Sequence[Shade], eye: tuple[float, float, float], /) -> list[Shade]:
+    """Return the shades that count, nearest to the eye first: at most `SHADES`."""
+    return sorted(shades, key=lambda shade: dist(shade.place, eye))[:SHADES]
+
+
 def cast(record: NDArray[np.void], shades: Sequence[Shade], drift: tuple[float, float], /) -> None:
-    """Write what casts shadows, of which the first `SHADES` count, and how far the clouds have drifted, in sides."""
+    """Write what casts shadows, at most `SHADES`, and how far the clouds have drifted, in sides."""
     row = record[0]
     row["shades"] = 0.0
     for into, shade in zip(row["shades"], shades, strict=False):

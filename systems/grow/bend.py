@@ -58,15 +58,25 @@ def posture_of(rest: ArrayLike, bending: ArrayLike, /) -> tuple[Doubles, Doubles
     return np.minimum(index, 1.0), direction
 
 
+WAIST, WIDENS = 0.45, 0.16
+"""Width of a blade where it leaves the ground, as a part of that above, and the part of its length until there."""
+
+
+def profile(along: Doubles, taper: float, /) -> Doubles:
+    """Return the width at places along a blade, 0 to 1, as a part of its own: it widens from the root, then tapers."""
+    waist = 1.0 - (1.0 - WAIST) * np.maximum(1.0 - along / WIDENS, 0.0)
+    return np.asarray((1.0 - along) ** taper * waist)
+
+
 def ribbon(
     blades: Blades, postures: Postures, message: ArrayLike, /, *, points: int, taper: float
 ) -> tuple[Floats, Floats]:
     """Return the left and right edge of bent blades [m], each of shape (n, points, 3).
 
-    The half width at place t is width (1 - t)^taper / 2 along the fixed horizontal axis across the face.
+    The half width follows `profile`, along the fixed horizontal axis across the face.
     """
     centre = spine(blades, postures, message, points=points)
-    half = 0.5 * blades.width[:, None] * (1.0 - np.linspace(0.0, 1.0, points)[None]) ** taper
+    half = 0.5 * blades.width[:, None] * profile(np.linspace(0.0, 1.0, points), taper)[None]
     side = half[:, :, None] * across(blades)[:, None, :]
     return (centre - side).astype(np.float32), (centre + side).astype(np.float32)
 

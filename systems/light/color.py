@@ -5,6 +5,9 @@ from numpy.typing import NDArray
 
 Doubles = NDArray[np.float64]
 
+TOE = 0.02, 0.035
+"""Radiance x is taken as x (x + a) / (x + b) by these two: what is dark becomes darker by up to a / b."""
+
 BRIGHTEST = 0.985
 """The brightest display colour that has a finite radiance of its own."""
 
@@ -27,9 +30,10 @@ def srgb(color: str) -> Doubles:
 def display(radiance: NDArray[np.floating]) -> Doubles:
     """Return linear radiance, 0 and more, as display colours in [0, 1), same shape: the tone curve of `lib/light.glsl`.
 
-    Dark and middle tones are those of a display of gamma 2; above a half they bend into a shoulder that ends in white.
+    A toe deepens the shadows, middle tones are those of a display of gamma 2, and a shoulder ends in white.
     """
     light = np.maximum(radiance, 0.0)
+    light = light * (light + TOE[0]) / (light + TOE[1])
     return np.asarray(np.sqrt(light / np.sqrt(1.0 + light * light)), np.float64)
 
 
@@ -39,7 +43,9 @@ def shown_as(color: NDArray[np.floating]) -> Doubles:
     What is brighter than `BRIGHTEST` counts as that.
     """
     squared = np.clip(color, 0.0, BRIGHTEST) ** 2
-    return np.asarray(squared / np.sqrt(1.0 - squared * squared), np.float64)
+    toed = squared / np.sqrt(1.0 - squared * squared)
+    half = 0.5 * (toed - TOE[0])
+    return np.asarray(half + np.sqrt(half * half + toed * TOE[1]), np.float64)
 
 
 def luminance(light: NDArray[np.floating]) -> Doubles:

@@ -19,6 +19,12 @@ USUAL = 1.3
 ADAPTS = 0.55
 """Exponent by which the exposure follows the light: 0 is a camera that is never set anew, 1 knows no dusk."""
 
+PALER = 0.45
+"""How much paler the sky's light is taken than it is, as eyes do and films that are balanced for shade."""
+
+BOUNCED = 0.05
+"""What grass and air all around send back of the sun's light into its shadows."""
+
 LEAF = 0.80
 """What a leaf gets of the sun's light, on the mean over all that face it or not, of one square to it."""
 
@@ -47,7 +53,8 @@ def daylight(light: Light, /) -> Daylight:
     sun = SUN / pi * LEAF * light.strength * transmitted(elevation, light.turbidity) * linear(light.sun)
     exposure = exposure_of(light, sun, sky.down)
     shown = Sky(sky.map * exposure, sky.horizon * exposure, sky.down * exposure)
-    return Daylight(to_sun(light), sun * exposure, shown.down, shown)
+    down = shown.down + PALER * (luminance(shown.down) - shown.down)
+    return Daylight(to_sun(light), sun * exposure, down + BOUNCED * sun * exposure, shown)
 
 
 def exposure_of(light: Light, sun: Doubles, down: Doubles, /) -> float:

@@ -11,17 +11,17 @@ from ...engine.gl.stream import release_all
 from ...engine.terrain.record import Terrain
 from ..frame.block import FrameBlock, joined
 from ..frame.maps import laid_over, map_shape, slow_map
-from .clouds import cloud_texture
 from .daylight import daylight
+from .repeating import repeating_texture
 
-SAMPLERS = ("lie", "clouds", "sky")
+SAMPLERS = ("lie", "repeating", "sky")
 """What programs read of it. `sky` is read by the sky alone."""
 
 FILLED = "engine/gl/fill.vert"
 
 
 class LightPainter:
-    """Holds the sky's colours, the clouds, and how the terrain lies to the sun; draws the sky."""
+    """Holds the sky's colours, clouds and litter, and how the terrain lies to the sun; draws the sky."""
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int]) -> None:
         self.ctx, self._units = ctx, units
@@ -36,7 +36,7 @@ class LightPainter:
         self._put("slow", laid_over(self.ctx, slow_map(terrain, seed=seed)))
         rows, columns = map_shape(terrain.size)
         self._put("lie", laid_over(self.ctx, np.zeros((rows, columns, 4), np.uint8)))
-        self._put("clouds", cloud_texture(self.ctx, seed=seed))
+        self._put("repeating", repeating_texture(self.ctx, seed=seed))
 
     def shine(self, light: Light, terrain: Terrain) -> None:
         """Take over another light, or another terrain under it; its shadows are drawn with the next frame."""

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.declared.grass import GrassKind
-from ..grow.bend import across, spine
+from ..grow.bend import across, profile, spine
 from ..grow.record import Growth
 from .color import linear, luminance
 from .daylight import Daylight
@@ -45,7 +45,7 @@ def leaves_of(kind: GrassKind, growth: Growth, patch: float, /) -> Leaves:
     blades = growth.models[0].blades
     centre = spine(blades, growth.postures, (0.0, 0.0), points=_POINTS).astype(np.float64)
     along = (np.arange(_POINTS - 1) + 0.5) / (_POINTS - 1)
-    width = blades.width[:, None].astype(np.float64) * (1.0 - along) ** kind.taper
+    width = blades.width[:, None].astype(np.float64) * profile(along, kind.taper)
     normal = np.cross(np.diff(centre, axis=1), across(blades)[:, None]) * width[..., None]
     level, ground = np.hypot(normal[..., 0], normal[..., 2]), patch * patch
     return Leaves(float(level.sum() * 2.0 / np.pi) / ground, float(np.abs(normal[..., 1]).sum()) / ground)
@@ -62,4 +62,5 @@ def grain(kind: GrassKind, light: Daylight, /) -> tuple[Doubles, Doubles]:
     sun, down = float(luminance(light.sun)), float(luminance(light.down))
     shine = 0.22 * sun / max(sun + down, 1e-9)
     warm, pale = np.array([1.0, 0.2, -0.6]), np.array([0.9, 1.0, 0.8])
-    return shine * (x * x - z * z) + kind.variety * pale, shine * 2.0 * x * z + kind.variety * warm
+    variety = 0.6 * kind.variety
+    return shine * (x * x - z * z) + variety * pale, shine * 2.0 * x * z + variety * warm

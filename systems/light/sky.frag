@@ -17,7 +17,7 @@ float angle_of(float cosine) {
 // Clouds as they are seen from below: they take from the sky, and are bright about the sun.
 vec3 clouded(vec3 light, vec3 toward) {
     vec2 at = eye.xz + toward.xz * (CLOUDS_AT / max(toward.y, 0.02));
-    float dense = smoothstep(1.0 - sunlight.w, 1.45 - sunlight.w, textureLod(clouds, at / CLOUDS_SIDE - drift.xy, 0.0).r);
+    float dense = smoothstep(1.0 - sunlight.w, 1.45 - sunlight.w, textureLod(repeating, at / CLOUDS_SIDE - drift.xy, 0.0).r);
     dense *= smoothstep(0.02, 0.16, toward.y);
     float ahead = 0.5 + 0.5 * dot(toward, sun.xyz);
     vec3 lit = skylight.rgb * 1.1 + sunlight.rgb * (0.42 - 0.22 * dense + 0.5 * ahead * ahead * ahead * (1.0 - dense));

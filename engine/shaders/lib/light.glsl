@@ -4,12 +4,14 @@
 
 uniform sampler2D lie;      // over the terrain: sine of the sun's elevation over the slope; how much of it is seen; two slow noises
 uniform sampler2D density;  // over the terrain: how densely each kind grows
-uniform sampler2D clouds;   // how dense the clouds are, a square that repeats
+uniform sampler2D repeating;// squares that repeat: how dense clouds are; how bright what lies on the ground is
 
 const float CLOUDS_AT = 450.0;  // height of the clouds [m]
 const float CLOUDS_SIDE = 900.0;// side of the square that repeats [m]
 const float CLOUD_TAKES = 0.75; // what a dense cloud takes of the sun's light
 const float OPEN_SKY = 1.6;     // leaves that the sky's light meets, of those seen from the side
+const float LITTER_SIDE = 1.8; // side of the square of litter that repeats [m]
+const float LITTER_ONE = 255.0 / 64.0;  // what stands for ground as bright as its mean
 const float AGAIN = 0.7;        // what leaves send to one another of the sun's light, of one with this albedo
 const float LITTER = 0.75;      // how much of the ground under dense grass is covered by what has fallen
 
@@ -40,7 +42,7 @@ vec3 stretch(vec4 here) {
 // How much of the sun is seen past the clouds, from a place.
 float past_clouds(vec3 place) {
     vec2 at = place.xz + sun.xz * (CLOUDS_AT / max(sun.y, 0.1));
-    float dense = textureLod(clouds, at / CLOUDS_SIDE - drift.xy, 0.0).r;
+    float dense = textureLod(repeating, at / CLOUDS_SIDE - drift.xy, 0.0).r;
     return 1.0 - CLOUD_TAKES * smoothstep(1.0 - sunlight.w, 1.25 - sunlight.w, dense);
 }
 
@@ -104,7 +106,7 @@ Lit lit_at(int k, vec2 bend, vec3 place, vec4 here, vec4 grows) {
 // Radiance of a leaf with this pigment at height `h` in its kind's canopy, of which 1 is the top.
 vec3 radiance(vec3 pigment, float h, Lit lit) {
     float deep = clamp(1.0 - h, 0.0, 1.0);
-    vec2 seen = exp(-lit.way * (lit.leaves.x + lit.leaves.y * deep * deep));
+    vec2 seen = exp(-lit.way * (lit.leaves.x + lit.leaves.y * deep * deep * (0.75 + 0.25 * deep)));
     vec3 albedo = pigment * pigment;
     vec3 again = albedo * lit.sun * (AGAIN * seen.y);
     return albedo * (lit.sun * seen.x + lit.sky * seen.y + again) + sunlight.rgb * (lit.gloss * seen.x);
@@ -134,11 +136,16 @@ vec3 soil_light(vec3 place) {
     return pigment * pigment * (sunlight.rgb * (1.3 * here.x * seen.x * sun_seen(place, here.y)) + skylight.rgb * seen.y);
 }
 
-// What the door shows of radiance: dark and middle tones as a display of gamma 2 has them, then a shoulder up to white;
-// or the radiance itself.
+const vec2 TOE = vec2(0.02, 0.035);
+
+// What the door shows of radiance: a toe, middle tones as a display of gamma 2 has them, then a shoulder up to white; or
+// the radiance itself.
 vec3 shown_of(vec3 light) {
     light = max(light, 0.0);
-    return sun.w > 0.5 ? light : sqrt(light * inversesqrt(1.0 + light * light));
+    if (sun.w > 0.5)
+        return light;
+    light *= (light + TOE.x) / (light + TOE.y);
+    return sqrt(light * inversesqrt(1.0 + light * light));
 }
 
 // How much more a strip that runs along `run` covers for being seen at an angle: a line of sight then crosses fewer

@@ -60,6 +60,11 @@ vec3 painted_light(int k, float t, float twice, Painted target) {
 }
 #endif
 
+// Width of a blade at part `t` of it: as systems/grow/bend.py has it.
+float profile(float t, float taper) {
+    return pow(max(1.0 - t, 0.0), taper) * (1.0 - 0.55 * max(1.0 - t / 0.16, 0.0));
+}
+
 void main() {
 #ifdef SOFT
     hides = joints.y;
@@ -77,7 +82,7 @@ void main() {
     float side = float(gl_VertexID % 2) * 2.0 - 1.0;
     Spine spine = posture(low.w, lie_of.xy, t);
     vec3 place = foot.xyz + spine.place * foot.w, tangent = spine.tangent * foot.w;
-    vec2 across = lie_of.zw * (side * pow(max(1.0 - t, 0.0), high.w));
+    vec2 across = lie_of.zw * (side * profile(t, high.w));
     Lit lit = Lit(direct.rgb, open_to.rgb, veil.w, vec2(open_to.w, OPEN_SKY), vec2(tilt.w, direct.w));
     vec3 light = radiance(mix(low.rgb, high.rgb, t) * (1.0 + side * tilt.rgb), stands.x + spine.place.y * stands.y, lit);
     light += veil.rgb;

@@ -126,6 +126,9 @@ vec3 carpet_light(float slope) {
 
 void main() {
     vec3 color = soil_seen;
+#ifndef CARPET
+    color *= texture(repeating, place.xz / LITTER_SIDE).g * LITTER_ONE;
+#endif
     float covered = 1.0;
 #if defined(CARPET) && !defined(UNDER)
     float slope = viewing_slope(rise, place);
