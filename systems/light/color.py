@@ -5,11 +5,11 @@ from numpy.typing import NDArray
 
 Doubles = NDArray[np.float64]
 
-TOE = 0.02, 0.035
-"""Radiance x is taken as x (x + a) / (x + b) by these two: what is dark becomes darker by up to a / b."""
+CURVE = 0.78, 0.349, -0.287
+"""What is shown of radiance, by powers of its root: a toe in the shadows, middle tones, and a shoulder."""
 
-BRIGHTEST = 0.985
-"""The brightest display colour that has a finite radiance of its own."""
+WHITE = 1.44
+"""Root of the radiance that is shown as white as can be."""
 
 
 def decoded(color: NDArray[np.floating]) -> Doubles:
@@ -28,24 +28,15 @@ def srgb(color: str) -> Doubles:
 
 
 def display(radiance: NDArray[np.floating]) -> Doubles:
-    """Return linear radiance, 0 and more, as display colours in [0, 1), same shape: the tone curve of `lib/light.glsl`.
-
-    A toe deepens the shadows, middle tones are those of a display of gamma 2, and a shoulder ends in white.
-    """
-    light = np.maximum(radiance, 0.0)
-    light = light * (light + TOE[0]) / (light + TOE[1])
-    return np.asarray(np.sqrt(light / np.sqrt(1.0 + light * light)), np.float64)
+    """Return linear radiance, 0 and more, as display colours in [0, 1), same shape: the tone curve of `lib/light.glsl`."""
+    root = np.minimum(np.sqrt(np.maximum(radiance, 0.0)), WHITE)
+    return np.asarray(root * (CURVE[0] + root * (CURVE[1] + root * CURVE[2])), np.float64)
 
 
 def shown_as(color: NDArray[np.floating]) -> Doubles:
-    """Return the linear radiance that the tone curve shows as a display colour in [0, 1], same shape.
-
-    What is brighter than `BRIGHTEST` counts as that.
-    """
-    squared = np.clip(color, 0.0, BRIGHTEST) ** 2
-    toed = squared / np.sqrt(1.0 - squared * squared)
-    half = 0.5 * (toed - TOE[0])
-    return np.asarray(half + np.sqrt(half * half + toed * TOE[1]), np.float64)
+    """Return the linear radiance that the tone curve shows as a display colour in [0, 1], same shape."""
+    root = np.linspace(0.0, WHITE, 4096)
+    return np.asarray(np.interp(color, display(root * root), root) ** 2, np.float64)
 
 
 def luminance(light: NDArray[np.floating]) -> Doubles:

@@ -103,13 +103,29 @@ Lit lit_at(int k, vec2 bend, vec3 place, vec4 here, vec4 grows) {
                ways(k, here.x), leaves_over(grows, k));
 }
 
-// Radiance of a leaf with this pigment at height `h` in its kind's canopy, of which 1 is the top.
-vec3 radiance(vec3 pigment, float h, Lit lit) {
+// What reaches leaves at some height, and is sent from there to the eye: of a white leaf; what leaves send to one another,
+// of one of albedo 1; what is mirrored.
+struct Reached {
+    vec3 light;
+    vec3 again;
+    vec3 gloss;
+};
+
+// What reaches height `h` in a kind's canopy, of which 1 is the top.
+Reached reached(float h, Lit lit) {
     float deep = clamp(1.0 - h, 0.0, 1.0);
     vec2 seen = exp(-lit.way * (lit.leaves.x + lit.leaves.y * deep * deep * (0.75 + 0.25 * deep)));
+    return Reached(lit.sun * seen.x + lit.sky * seen.y, lit.sun * (AGAIN * seen.y), sunlight.rgb * (lit.gloss * seen.x));
+}
+
+vec3 radiance(vec3 pigment, Reached light) {
     vec3 albedo = pigment * pigment;
-    vec3 again = albedo * lit.sun * (AGAIN * seen.y);
-    return albedo * (lit.sun * seen.x + lit.sky * seen.y + again) + sunlight.rgb * (lit.gloss * seen.x);
+    return albedo * (light.light + albedo * light.again) + light.gloss;
+}
+
+// Radiance of a leaf with this pigment at height `h` in its kind's canopy.
+vec3 radiance(vec3 pigment, float h, Lit lit) {
+    return radiance(pigment, reached(h, lit));
 }
 
 // Radiance of the haze that lies before a place.
@@ -136,16 +152,16 @@ vec3 soil_light(vec3 place) {
     return pigment * pigment * (sunlight.rgb * (1.3 * here.x * seen.x * sun_seen(place, here.y)) + skylight.rgb * seen.y);
 }
 
-const vec2 TOE = vec2(0.02, 0.035);
+const vec3 CURVE = vec3(0.78, 0.349, -0.287);  // a toe, middle tones and a shoulder, by powers of the root of radiance
+const float WHITE = 1.44;  // root of the radiance that is as white as can be
 
-// What the door shows of radiance: a toe, middle tones as a display of gamma 2 has them, then a shoulder up to white; or
-// the radiance itself.
+// What the door shows of radiance, with a toe in the shadows and a shoulder up to white; or the radiance itself.
 vec3 shown_of(vec3 light) {
     light = max(light, 0.0);
     if (sun.w > 0.5)
         return light;
-    light *= (light + TOE.x) / (light + TOE.y);
-    return sqrt(light * inversesqrt(1.0 + light * light));
+    vec3 root_of = min(sqrt(light), WHITE);
+    return root_of * (CURVE.x + root_of * (CURVE.y + root_of * CURVE.z));
 }
 
 // How much more a strip that runs along `run` covers for being seen at an angle: a line of sight then crosses fewer

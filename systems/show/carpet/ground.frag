@@ -2,7 +2,7 @@
 
 in vec3 place;
 in vec3 soil_seen;
-in float veiled;
+in vec4 veil;
 
 out vec4 pixel;
 
@@ -10,8 +10,6 @@ out vec4 pixel;
 #include "lib/random.glsl"
 #include "lib/shares.glsl"
 #include "lib/carpet.glsl"
-#include "lib/posture.glsl"
-
 uniform sampler2DArray images;  // place along the blade, height, twice the azimuth, coverage; premultiplied
 uniform float slopes[SLOPES];
 uniform vec4 first;             // by kind: first layer of the images
@@ -23,8 +21,10 @@ in float crest;
 in float tall;
 in float dense;
 in vec4 met;
-uniform sampler2D air;  // the wind's message in the middle of each patch, wrapping round
-uniform sampler2D mean_air;
+in vec3 direct;
+in vec3 open_to;
+in vec4 shade;
+in vec3 dry;
 
 // The rotation that turns the line of sight into the heading of the images that are taken: of four headings, one on each
 // patch. So blades are drawn out along the line of sight, from wherever they are seen.
@@ -68,14 +68,6 @@ float outline_cover(float slope) {
     return 1.0 - exp(-CREST * leaves * before_crest * before_crest);
 }
 
-// The wind's message; far off, where nobody asks for it, the mean of those nearer by.
-vec2 message_at(vec2 at) {
-    float side = float(textureSize(air, 0).x) * soil.w;
-    vec2 apart = abs(at - (vec2(window.xy) + 0.5) * soil.w);
-    float far = smoothstep(0.35, 0.48, max(apart.x, apart.y) / side);
-    return mix(texture(air, at / side).xy, texelFetch(mean_air, ivec2(0), 0).xy, far);
-}
-
 vec3 carpet_light(float slope) {
     ivec2 cell = ivec2(floor(place.xz / soil.w));
     uint drawn = hash3(stock.y, cell.x, cell.y);
@@ -90,12 +82,7 @@ vec3 carpet_light(float slope) {
     fine *= SHARP;
     dx *= fine;
     dy *= fine;
-    vec2 message = message_at(place.xz);
-    // The leaves that are seen stand deeper in the grass, where the line of sight has met enough of them.
-    float deeper = min(tall * inversesqrt(max(slope, slopes[0]) * max(dense, 0.01)), 15.0);
-    vec3 there = vec3(place.x + heading.x * deeper, place.y, place.z + heading.y * deeper);
-    vec4 here = lie_at(there.xz), grows = textureLod(density, on_map(there.xz), 0.0);
-    vec3 own = stretch(here);
+    Lit lit = Lit(direct, open_to, shade.x, vec2(shade.y, OPEN_SKY), shade.zw);
     // A blade's doubled azimuth against the line of sight; what it is against the world's axes is as far turned.
     float sight = heading.x * heading.x - heading.y * heading.y, aside = 2.0 * heading.x * heading.y;
     vec2 seen = elevation_seen(slope);
@@ -115,9 +102,8 @@ vec3 carpet_light(float slope) {
         image.rgb = clamp(image.rgb, 0.0, image.a);
         vec3 mean_of = image.rgb / max(image.a, 1e-3);
         vec3 grain = (grain_c[kind].rgb * sight + grain_s[kind].rgb * aside) * (2.0 * mean_of.b - 1.0);
-        vec3 pigment = mix(root[kind].rgb, tip[kind].rgb, mean_of.r) * own * (1.0 + grain);
-        vec3 light = radiance(pigment, mean_of.g, lit_at(kind, bending(kind, message), there, here, grows));
-        sum += met[kind] * image.a * vec4(light, 1.0);
+        vec3 pigment = mix(root[kind].rgb, tip[kind].rgb, mean_of.r) * dry * (1.0 + grain);
+        sum += met[kind] * image.a * vec4(radiance(pigment, mean_of.g, lit), 1.0);
     }
     return sum.rgb + soil_seen * (1.0 - min(sum.a, 1.0));
 }
@@ -139,5 +125,5 @@ void main() {
     if (covered < 0.004)
         discard;
 #endif
-    pixel = vec4(shown_of(mix(color, haze_light(place), veiled)), 1.0) * covered;
+    pixel = vec4(shown_of(mix(color, veil.rgb, veil.w)), 1.0) * covered;
 }

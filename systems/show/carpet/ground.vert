@@ -6,6 +6,8 @@
 in vec2 corner;  // of the grid, 0 .. GRID
 in vec4 tile;    // x, z [m]; spacing [m]; distance at which the next coarser spacing has taken over [m]
 
+out vec3 place;
+
 #ifdef CARPET  // with UNDER, an opaque layer beneath the carpet, which the tips of outlines stand out from
 #include "lib/shares.glsl"
 #include "lib/carpet.glsl"
@@ -20,6 +22,49 @@ out vec4 met;    // by kind: how much of what a line of sight meets
 out float crest; // how fast the rise falls off along the line of sight [1/m]
 out float tall;  // height of the grass [m]
 out float dense; // leaf area seen from the side, of the ground's area
+#ifndef UNDER
+#include "lib/posture.glsl"
+
+uniform sampler2D air;  // the wind's message in the middle of each patch, wrapping round
+uniform sampler2D mean_air;
+
+out vec3 direct;  // light on leaves of the kinds that are met: the sun's
+out vec3 open_to; // the sky's
+out vec4 shade;   // what they mirror; leaves that the sun's light meets; leaf area above them, and from there to the ground
+out vec3 dry;     // factor of their pigment
+
+const float STEEP = 0.02;  // a line of sight counts as at least so steep, for how deep it goes
+
+// The wind's message; far off, where nobody asks for it, the mean of those nearer by.
+vec2 message_at(vec2 at) {
+    float side = float(textureSize(air, 0).x) * soil.w;
+    vec2 apart = abs(at - (vec2(window.xy) + 0.5) * soil.w);
+    float far = smoothstep(0.35, 0.48, max(apart.x, apart.y) / side);
+    return mix(textureLod(air, at / side, 0.0).xy, texelFetch(mean_air, ivec2(0), 0).xy, far);
+}
+
+// Write the light on what is met. Leaves that are seen stand deeper in the grass, where the line of sight has met enough.
+void light_up(float slope) {
+    float deeper = min(tall * inversesqrt(max(slope, STEEP) * max(dense, 0.01)), 15.0);
+    vec2 on = normalize(place.xz - eye.xz + 1e-4) * deeper;
+    vec3 there = vec3(place.x + on.x, place.y, place.z + on.y);
+    vec4 here = lie_at(there.xz), grows = textureLod(density, on_map(there.xz), 0.0);
+    vec2 message = message_at(place.xz);
+    direct = open_to = vec3(0.0);
+    shade = vec4(0.0);
+    for (int kind = 0; kind < KINDS; kind++) {
+        Lit lit = lit_at(kind, bending(kind, message), there, here, grows);
+        direct += met[kind] * lit.sun;
+        open_to += met[kind] * lit.sky;
+        shade += met[kind] * vec4(lit.gloss, lit.way.x, lit.leaves);
+    }
+    float all = 1.0 / max(dot(met, vec4(1.0)), 1e-4);
+    direct *= all;
+    open_to *= all;
+    shade *= all;
+    dry = stretch(here);
+}
+#endif
 
 // How much of what a line of sight meets is of each kind: taller kinds hide the others at a low angle. The grass is
 // taken in four layers from the top; its leaf area falls off linearly with height.
@@ -50,9 +95,8 @@ float lowest_share(vec2 place) {
 }
 #endif
 
-out vec3 place;
 out vec3 soil_seen;  // its radiance
-out float veiled;  // by haze
+out vec4 veil;  // haze before it, and how much
 
 void main() {
     vec2 flat_at = tile.xy + corner * tile.z;
@@ -79,6 +123,9 @@ void main() {
     place.y -= carpet * tall * sunk;
 #endif
     met = kinds_met(grows, max(viewing_slope(rise, place), 0.02));
+#ifndef UNDER
+    light_up(viewing_slope(rise, place));
+#endif
 #endif
     soil_seen = soil_light(vec3(flat_at, height_at(flat_at)).xzy);
 #ifdef UNDER
@@ -91,7 +138,7 @@ void main() {
     // Where grass grows thinly or not at all, what lies beneath is the soil.
     soil_seen = mix(soil_seen, soil_seen * (1.0 - dot(met, vec4(1.0))) + under, carpet);
 #endif
-    veiled = haze_at(place);
+    veil = vec4(haze_light(place), haze_at(place));
     gl_Position = clip * vec4(place, 1.0);
 #ifdef UNDER
     gl_Position.z += 1e-6 * gl_Position.w;  // kilometres away depths are too coarse to part the two layers

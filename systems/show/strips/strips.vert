@@ -17,14 +17,12 @@ uniform int first_layer[RINGS * KINDS];
 uniform ivec4 stacks[RINGS];             // by ring: columns of a strip, sections of a column, strips of a kind on a patch
 
 out vec2 at;
-out float h;
 flat out vec3 foot_color;  // pigment
 flat out vec3 rise_color;
 flat out vec3 grain;   // change of pigment with twice the normal's azimuth
-flat out vec3 direct;  // light, past the haze
-flat out vec3 open_to;
-flat out vec4 veil;    // haze before it; what is mirrored of the sun's light
-flat out vec3 shade;   // leaf area above the kind's top, and from there to the ground; leaves that the sun's light meets
+out vec3 light;        // what reaches it, past the haze
+out vec3 again;        // and from one leaf to another
+out vec3 over_all;      // what it mirrors, and the haze before it
 flat out float sheet;
 flat out float shown;
 flat out float boost;
@@ -93,15 +91,14 @@ void main() {
     vec2 bend_a = bending(k, told_a.xy), bend_b = bending(k, told_b.xy);
     vec4 point = mix(on_edge(a, bend_a, t, k, float(fine.y), how.y), on_edge(b, bend_b, t, k, float(fine.y), how.y), across);
     gl_Position = clip * vec4(point.xyz, 1.0);
-    h = point.w;
     at = vec2((float(column) + across) / float(fine.x), t) * picture_to[picture];
     vec4 here = lie_at(middle.xz);
     Lit lit = lit_at(k, 0.5 * (bend_a + bend_b), middle, here, textureLod(density, on_map(middle.xz), 0.0));
     float hidden = haze_at(middle), seen = 1.0 - hidden;
-    direct = lit.sun * seen;
-    open_to = lit.sky * seen;
-    veil = vec4(haze_light(middle) * hidden, lit.gloss * seen);
-    shade = vec3(lit.leaves, lit.way.x);
+    Reached here_light = reached(point.w, lit);
+    light = here_light.light * seen;
+    again = here_light.again * seen;
+    over_all = here_light.gloss * seen + haze_light(middle) * hidden;
     vec3 dry = stretch(here);
     foot_color = root[k].rgb * dry;
     rise_color = (tip[k].rgb - root[k].rgb) * dry;
