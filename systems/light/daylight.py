@@ -13,7 +13,7 @@ from .sun import sun_at, to_sun, transmitted
 
 Doubles = NDArray[np.float64]
 
-USUAL = 1.7
+USUAL = 1.5
 """Luminance of a white leaf in usual daylight, sun and sky together."""
 
 ADAPTS = 0.55

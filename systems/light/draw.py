@@ -17,6 +17,9 @@ from .repeating import repeating_texture
 SAMPLERS = ("lie", "repeating", "sky")
 """What programs read of it. `sky` is read by the sky alone."""
 
+ACROSS, UP = 48, 48
+"""Squares across and up the picture, at whose corners the sky's colour is looked up."""
+
 FILLED = "engine/gl/fill.vert"
 
 
@@ -25,7 +28,7 @@ class LightPainter:
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int]) -> None:
         self.ctx, self._units = ctx, units
-        self._sky = joined(ctx, block, units, "systems/light/sky.vert", "systems/light/sky.frag", {})
+        self._sky = joined(ctx, block, units, "systems/light/sky.vert", "systems/light/sky.frag", {"ACROSS": ACROSS, "UP": UP})
         self._cast = joined(ctx, block, units | {"slow": units["lie"]}, FILLED, "systems/light/lie.frag", {})
         self._arrays = ctx.vertex_array(self._sky, []), ctx.vertex_array(self._cast, [])
         self._textures: dict[str, moderngl.Texture] = {}
@@ -69,7 +72,7 @@ class LightPainter:
 
     def draw(self) -> int:
         """Draw the sky behind all that has been drawn; return the number of draw calls."""
-        self._arrays[0].render(moderngl.TRIANGLES, vertices=3)
+        self._arrays[0].render(moderngl.TRIANGLE_STRIP, vertices=2 * (ACROSS + 1), instances=UP)
         return 1
 
     def release(self) -> None:

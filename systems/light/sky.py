@@ -22,6 +22,9 @@ SUN = 5.0
 BRIGHTER = 2.0
 """How much brighter the sky is shown than it is beside the sun, as photographs are exposed that show both."""
 
+MEETS = 0.05
+"""Sine of the elevation up to which the sky passes into the haze of the horizon."""
+
 NIGHT = np.array([0.0030, 0.0052, 0.0120])
 """Radiance of the sky at night, by stars and by a moon that is not seen."""
 
@@ -47,8 +50,10 @@ def sky_of(light: Light, /) -> Sky:
     azimuth = np.linspace(0.0, pi, COLUMNS)
     map_ = _clouded(_given(clear_sky(light, height, azimuth), light, height), light.clouds)
     c = np.cos(azimuth)
-    horizon = np.linalg.lstsq(np.stack([np.ones_like(c), c, c * c], axis=1), map_[0], rcond=None)[0]
-    return Sky(map_, horizon, _sent_down(map_, height))
+    powers = np.stack([np.ones_like(c), c, c * c], axis=1)
+    horizon = np.linalg.lstsq(powers, map_[0], rcond=None)[0]
+    low = np.clip(1.0 - height / MEETS, 0.0, 1.0)[:, None, None]
+    return Sky(map_ * (1.0 - low) + np.maximum(powers @ horizon, 0.0) * low, horizon, _sent_down(map_, height))
 
 
 def clear_sky(light: Light, height: Doubles, azimuth: Doubles, /) -> Doubles:

@@ -1,10 +1,25 @@
-#include "lib/frame.glsl"
+// The sky over the whole picture, in rows of squares: between their corners its colour hardly bends.
+#include "lib/light.glsl"
+
+uniform sampler2D sky;  // by azimuth from the sun, from 0 to pi, and by the root of the elevation's sine
 
 out vec3 ray;
+out vec3 light;
+
+// An angle in [0, pi] by its cosine, within 0.004 of itself; acos is dearer.
+float angle_of(float cosine) {
+    float c = abs(cosine), near = sqrt(1.0 - c) * (1.5707 - 0.2121 * c + 0.0742 * c * c);
+    return cosine < 0.0 ? 3.14159 - near : near;
+}
 
 void main() {
-    vec2 corner = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1)) * 4.0 - 1.0;
+    vec2 cell = vec2(float(gl_VertexID / 2), float(gl_InstanceID + (gl_VertexID & 1)));
+    vec2 corner = cell * vec2(2.0 / float(ACROSS), 2.0 / float(UP)) - 1.0;
     vec4 far = unclip * vec4(corner, 1.0, 1.0);
     ray = far.xyz / far.w - eye.xyz;
+    vec3 toward = normalize(ray);
+    float c = dot(toward.xz, drift.zw) * inversesqrt(dot(toward.xz, toward.xz) + 1e-6);
+    vec2 size = vec2(textureSize(sky, 0)), at = vec2(angle_of(clamp(c, -1.0, 1.0)) / 3.14159, sqrt(max(toward.y, 0.0)));
+    light = textureLod(sky, (at * (size - 1.0) + 0.5) / size, 0.0).rgb;
     gl_Position = vec4(corner, 1.0, 1.0);
 }
