@@ -72,7 +72,7 @@ def built_in(
     hear: Hear,
     painter: Callable[[], Painter],
     bodies: Callable[[float], Sequence[Body]],
-    shades: Callable[[], Sequence[Shade]],
+    shades: Callable[[], Sequence[Shade]] = tuple,
 ) -> list[BuiltIn]:
     """Return the systems of a site in running order: phase, name, and the system itself."""
     ground, shown, reach = site.ground, site.representations, site.reach

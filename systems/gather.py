@@ -20,7 +20,7 @@ class Gather:
     bodies: Callable[[float], Sequence[Body]]
     """Gives what is in the air at a time [s]."""
 
-    shades: Callable[[], Sequence[Shade]]
+    shades: Callable[[], Sequence[Shade]] = tuple
     """Gives what else casts shadows."""
 
     def run(self) -> None:

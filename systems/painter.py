@@ -95,9 +95,6 @@ class Painter:
             release_all(*self.painters.values(), self.air)
             self._grow(site)
         self.carpet.stand_on(site.ground)
-        if self.bodies is not None and site.scene.light != before.scene.light:
-            self.bodies.release()
-            self.bodies = None
         self._read(site)
 
     def _read(self, site: Site) -> None:
@@ -132,13 +129,13 @@ class Painter:
         return BladePainter(self.ctx, self.block, segments, UNITS)
 
     def write(self, outlook: Outlook, bodies: Sequence[Body], shades: Sequence[Shade] = ()) -> int:
-        """Send what a viewer is shown, what flies and what casts shadows; return how many blades that is as geometry."""
+        """Send what a viewer is shown, what flies and what casts shadows; return how many blades stand as geometry."""
         cast(
             self.record, nearest([*map(shade_of, bodies), *shades], outlook.viewer.eye),
             drifted(self.site.scene.wind, outlook.viewer.time),
         )  # fmt: skip
         if self.bodies is None and bodies:
-            self.bodies = BodyPainter(self.ctx, self.block, self.site.scene.light)
+            self.bodies = BodyPainter(self.ctx, self.block)
         if self.bodies is not None:
             self.bodies.write(bodies)
         counts = {name: painter.receivers(outlook) for name, painter in self.painters.items()}

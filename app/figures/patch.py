@@ -15,9 +15,11 @@ from ...engine.declared.grass import GrassKind
 from ...engine.declared.light import Light
 from ...engine.declared.quality import Quality
 from ...engine.declared.scene import LodName
-from ...systems.frame.light import grain, lit_kind
 from ...systems.grow.bend import ribbon, spine
 from ...systems.grow.record import Blades, Growth
+from ...systems.light.color import display
+from ...systems.light.daylight import daylight
+from ...systems.light.materials import grain, pigment
 from ...systems.prairie import Prairie
 from ...systems.show.strips.grow import Strips, strips_of
 from ..studio.encode import Picture
@@ -101,10 +103,11 @@ def ribbons(one: Sample, rows: NDArray[np.intp], /, seen: Callable[[Floats], Dou
 
 
 def shade(one: Sample, along: Doubles, normal_x: Doubles, normal_z: Doubles, /) -> Doubles:
-    """Return display colours (..., 3) by the place along a blade and its face normal, all (..., 1)."""
-    foot, tip = lit_kind(one.kind, one.light)
-    by_x, by_z = grain(one.kind, one.light)
-    return np.clip((foot + (tip - foot) * along) * (1.0 + by_x * normal_x + by_z * normal_z), 0.0, 1.0)
+    """Return display colours (..., 3) in full light by the place along a blade and its face normal, all (..., 1)."""
+    foot, tip, light = pigment(one.kind.root), pigment(one.kind.tip), daylight(one.light)
+    cosine, sine = grain(one.kind, light)
+    own = 1.0 + cosine * (normal_x**2 - normal_z**2) + sine * (2.0 * normal_x * normal_z)
+    return display(((foot + (tip - foot) * along) * own) ** 2 * (light.sun + light.down))
 
 
 def draw_blades(detail: Detail, /) -> Figure:

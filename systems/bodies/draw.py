@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from ...components.body import Body
 from ...components.shade import Shade
-from ...engine.declared.light import Light
 from ...engine.gl.stream import Stream, attributes, release_all
 from ..frame.block import FrameBlock, joined
 from ..light.color import linear
@@ -49,7 +48,7 @@ class _Layer:
     """A mesh with its program: the body itself, or the border along its outline."""
 
     def __init__(
-        self, made: moderngl.Program, mesh: tuple[NDArray[np.void], NDArray[np.int32]], stream: Stream, light: Light
+        self, made: moderngl.Program, mesh: tuple[NDArray[np.void], NDArray[np.int32]], stream: Stream
     ) -> None:
         self.program = made
         for name, color in COLORS.items():
@@ -66,7 +65,7 @@ class _Layer:
 class BodyPainter:
     """Draws saucers."""
 
-    def __init__(self, ctx: moderngl.Context, block: FrameBlock, light: Light) -> None:
+    def __init__(self, ctx: moderngl.Context, block: FrameBlock) -> None:
         self.stream = Stream(ctx, PLACED)
         mesh = saucer()
 
@@ -75,7 +74,6 @@ class BodyPainter:
                 joined(ctx, block, {}, "systems/bodies/body.vert", "systems/bodies/body.frag", defines),
                 mesh,
                 self.stream,
-                light,
             )
 
         self.solid, self.border = layer(mesh, {}), layer(borders(*mesh), {"BORDER": 1})

@@ -28,8 +28,10 @@ class LightPainter:
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int]) -> None:
         self.ctx, self._units = ctx, units
-        self._sky = joined(ctx, block, units, "systems/light/sky.vert", "systems/light/sky.frag", {"ACROSS": ACROSS, "UP": UP})
-        self._cast = joined(ctx, block, units | {"slow": units["lie"]}, FILLED, "systems/light/lie.frag", {})
+        self._sky = joined(
+            ctx, block, units, "systems/light/sky.vert", "systems/light/sky.frag", {"ACROSS": ACROSS, "UP": UP}
+        )
+        self._cast = joined(ctx, block, {**units, "slow": units["lie"]}, FILLED, "systems/light/lie.frag", {})
         self._arrays = ctx.vertex_array(self._sky, []), ctx.vertex_array(self._cast, [])
         self._textures: dict[str, moderngl.Texture] = {}
         self._due: Terrain | None = None

@@ -57,7 +57,7 @@ def sky_of(light: Light, /) -> Sky:
 
 
 def clear_sky(light: Light, height: Doubles, azimuth: Doubles, /) -> Doubles:
-    """Return the radiance of clear air by the sine of the elevation (r,) and the azimuth from the sun (c,), (r, c, 3)."""
+    """Return the radiance of clear air by sine of elevation (r,) and azimuth from the sun (c,), shape (r, c, 3)."""
     up = radians(sun_at(light)[1])
     sun = np.array([0.0, sin(up), -cos(up)])
     level = np.sqrt(1.0 - height**2)[:, None]

@@ -10,6 +10,7 @@ from .air import EYE, sunlight
 
 Doubles = NDArray[np.float64]
 
+
 def sun_at(light: Light, /) -> tuple[float, float]:
     """Return azimuth and elevation of the sun [degrees]; below the horizon the elevation is negative.
 
@@ -33,4 +34,5 @@ def to_sun(light: Light, /) -> tuple[float, float, float]:
 
 def transmitted(elevation: float, turbidity: float, /) -> Doubles:
     """Return the part of the sun's light that comes through the air, red, green and blue, shape (3,)."""
-    return sunlight(np.array([EYE]), np.array([sin(radians(elevation))]), turbidity)[0]
+    left = sunlight(np.array([EYE]), np.array([sin(radians(elevation))]), turbidity)
+    return np.asarray(left[0])

@@ -10,7 +10,12 @@ from ....engine.gl.stream import Stream, release_all
 from ...frame.block import FrameBlock, joined
 from .pool import BLADE
 
-RIBBON = np.dtype([(name, "4f4") for name in ("foot", "lie_of", "low", "high", "tilt", "direct", "open_to", "veil", "stands", "joints")])
+RIBBON = np.dtype(
+    [
+        (name, "4f4")
+        for name in ("foot", "lie_of", "low", "high", "tilt", "direct", "open_to", "veil", "stands", "joints")
+    ]
+)
 """What the pass over the blades finds out about each, as `blade.vert` says."""
 
 PAINTED = np.dtype([*((name, "4f4") for name in RIBBON.names or ()), ("base", "4f4"), ("painted", "4f4")])

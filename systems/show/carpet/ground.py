@@ -158,7 +158,6 @@ class GroundPainter:
         *,
         side: int,
         seed: int,
-        patch: float,
     ) -> None:
         self.growths = growths
         self.shares = ctx.texture((side, side), 1, alignment=1)

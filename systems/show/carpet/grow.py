@@ -22,9 +22,8 @@ class Carpet:
 
     texels: Bytes
     """Coverage-premultiplied meaning of each texel, shape (slopes, 4, r, r, 4): place along the blade, height
-    as a fraction of `height`, cosine c of twice the face normal's azimuth from the view (0.5 + 0.5 c), coverage. The four
-    viewing directions
-    are -z, +x, +z, -x in this order; rows go along z, columns along x."""
+    as a fraction of `height`, cosine c of twice the face normal's azimuth from the view (0.5 + 0.5 c), coverage. The
+    four viewing directions are -z, +x, +z, -x in this order; rows go along z, columns along x."""
 
     height: float
     """Height of the canopy [m]."""
@@ -63,7 +62,8 @@ def grow_carpet(
 
     A ray that travels along a heading h and falls by `slope` meets a point at (x, z) and height y where it
     goes through the plane at mid-height o at (x, z) + h (y - o) / slope; of all such points it meets the
-    highest first. Blades reach over the patch's edge into the next one, which is the same patch again. `height` is the canopy's [m]; without it, the highest tip's.
+    highest first. Blades reach over the patch's edge into the next one, which is the same patch again. `height` is the
+    canopy's [m]; without it, the highest tip's.
     """
     left, right = (
         edge.astype(np.float64) for edge in ribbon(blades, postures, (0.0, 0.0), points=_SEGMENTS + 1, taper=taper)
@@ -128,7 +128,7 @@ class _Field:
     def _meaning(
         self, corners: Doubles, seen: Fragments, heading: NDArray[np.float64], /
     ) -> tuple[Doubles | None, ...]:
-        """Return place along the blade, height, twice the azimuth from the view, each (f,), and none for 1, at each sample."""
+        """Return place along the blade, height and doubled azimuth from the view, each (f,), and none for 1."""
         level = np.maximum(np.hypot(self._normals[:, 0], self._normals[:, 2]), 1e-6)
         twice = 2.0 * (self._normals[:, ::2] @ heading / level) ** 2 - 1.0
         place = interpolate(corners, self._place, seen)

@@ -49,9 +49,7 @@ class CarpetPainter:
         self.images = carpet_texture(canvas.ctx, growths)
         self.air = Air(canvas, side)
         self._heard: tuple[NDArray[np.int32], int, CarpetKept] | None = None
-        self.ground = GroundPainter(
-            canvas.ctx, canvas.block, growths, canvas.units, side=side, seed=canvas.seed, patch=ground.patch
-        )
+        self.ground = GroundPainter(canvas.ctx, canvas.block, growths, canvas.units, side=side, seed=canvas.seed)
 
     def stand_on(self, ground: Ground, /) -> None:
         """Draw on this ground from now on."""

@@ -62,10 +62,10 @@ def grow_strips(
 
     A strip shows the blades whose roots lie in its slice, along the slice's normal. Where they cross, those of lower
     rank lie in front: the strip is flat anyway, and a blade that stays where its kind grows thinly must not have been
-    hidden by one that goes. Of face normals the doubled azimuth is kept, for both sides of a blade are lit alike, and light
-    is linear in its cosine: the mean of many is right. The texture reaches from -`margin` to `patch` + `margin`, and from the ground to
-    `height` [m] (without it, over the highest tip); its texels are square but for rounding, `texel` metres wide at
-    most.
+    hidden by one that goes. Of face normals the doubled azimuth is kept: both sides of a blade are lit alike, and light
+    is linear in its cosine, so that the mean of many is right. The texture reaches from -`margin` to `patch` +
+    `margin`, and from the ground to `height` [m] (without it, over the highest tip); its texels are square but for
+    rounding, `texel` metres wide at most.
     """
     centre = spine(blades, postures, (0.0, 0.0), points=postures.shape.shape[2])
     height = highest_tip(centre, texel) if height is None else height
@@ -133,13 +133,13 @@ class _Sheet:
         shape = self._strips * h * fine, w * fine
         front = np.repeat(-self._blades.rank.astype(np.float64), span)[:, None].repeat(3, axis=1)
         seen = rasterise(corners, front, shape=shape)
-        values = self._meaning(corners, seen, orientation)
+        values = self._meaning(corners, seen)
         texel = (seen.sample // shape[1] // fine) * w + seen.sample % shape[1] // fine
         sums = [np.bincount(texel, weights=value, minlength=self._strips * h * w) for value in values]
         texels: Bytes = np.rint(np.stack(sums, axis=1) * (255.0 / fine**2)).astype(np.uint8)
         return texels.reshape(-1, h, w, 4)
 
-    def _meaning(self, corners: Doubles, seen: Fragments, orientation: int, /) -> list[Doubles]:
+    def _meaning(self, corners: Doubles, seen: Fragments, /) -> list[Doubles]:
         """Return at each sample: place along the blade, twice the normal's azimuth, rank, and 1."""
         ends = tone(self._blades, np.linspace(0.0, 1.0, _SEGMENTS + 1))[:, :, None]
         along = interpolate(corners, ribbon_triangles(ends, ends)[:, :, 0], seen)
