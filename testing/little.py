@@ -16,7 +16,7 @@ from ..systems.around.transitions import SEAMLESS, Transitions
 from ..systems.prairie import Prairie
 
 LITTLE = """\
-tallgrass: 1
+tallgrass: 2
 seed: 5
 terrain: { noise: rolling, seed: 2, size: [60, 60], feature: 30, scale: 4 }
 grass:

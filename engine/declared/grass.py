@@ -45,6 +45,9 @@ class GrassKind(Declaration):
     lean: float = Field(default=0.3, ge=0.0, le=0.9)
     """Largest posture index that a blade holds at rest; each blade has its own, in its own direction."""
 
+    clumping: float = Field(default=0.5, ge=0.0, le=1.0)
+    """How much neighbours are alike over about half a metre: in height, lean, facing and, by that, in tint."""
+
     taper: float = Field(default=0.6, ge=0.2, le=4.0)
     """How the width falls from root to tip: 1 is a triangle, below 1 keeps it broad for longer."""
 

@@ -15,7 +15,7 @@ from .light import Light
 from .quality import PRESETS, Quality
 from .terrain import TerrainSource
 
-FORMAT = 1
+FORMAT = 2
 """Version of the scene format that this release writes."""
 
 PresetName = Literal["low", "medium", "high", "ultra", "paper-low", "paper-medium", "paper-high"]
@@ -81,7 +81,7 @@ def _quality_form(value: Any) -> str:
 class Scene(Declaration):
     """A prairie: grass kinds, terrain, winds, camera, light and quality."""
 
-    tallgrass: Literal[1]
+    tallgrass: Literal[2]
     """Version of the scene format; always the first key."""
 
     seed: int = Field(default=1, ge=0, le=2**31 - 1)

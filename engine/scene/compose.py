@@ -93,7 +93,7 @@ class _Composer:
         else:
             if self.root is not None:
                 return Document(self.file, self.lines, self.root, self.problems)
-            self._report(0, 0, "the file is empty; a scene begins with 'tallgrass: 1'")
+            self._report(0, 0, "the file is empty; a scene begins with 'tallgrass: 2'")
         raise SceneError(self.problems)
 
     def _take(self, event: yaml.Event) -> None:

@@ -1,5 +1,7 @@
 """The blades of a patch: a few hundred, at random but evenly spread (paper, section 2.2)."""
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,6 +16,12 @@ _PLASTIC = 1.32471795724474602596
 _JITTER = 0.33
 _CLUMPING = 0.14
 _LEAST_LEAN = 0.05
+
+_TUSSOCK = 0.55
+"""Width of a tussock [m]."""
+
+_ALIKE = 0.8
+"""How much alike blades of a tussock are at most."""
 
 
 def grow_blades(kind: GrassKind, /, *, count: int, patch: float, variants: int, seed: int) -> Blades:
@@ -30,12 +38,18 @@ def grow_blades(kind: GrassKind, /, *, count: int, patch: float, variants: int, 
     blend = np.clip(0.75 * random.random(count) + 0.25 * (0.5 + 0.5 * clump), 0.0, 1.0)
     lean = random.uniform(min(_LEAST_LEAN, kind.lean), kind.lean, count)
     toward = random.uniform(-np.pi, np.pi, count)
+    facing = random.uniform(-np.pi, np.pi, count)
+    if kind.clumping:
+        tussock = _tussocks(place, patch, seed)
+        alike = kind.clumping * _ALIKE
+        blend = (1.0 - 0.6 * alike) * blend + 0.6 * alike * tussock.height
+        toward, facing = tussock.away + (1.0 - alike) * toward, tussock.facing + (1.0 - alike) * facing
     rest = lean[:, None] * np.stack([np.cos(toward), np.sin(toward)], axis=1)
     return Blades(
         root=_inside(place * patch, patch),
         height=np.clip(low + (high - low) * blend, low, high).astype(np.float32),
         width=(kind.width * random.uniform(0.75, 1.15, count)).astype(np.float32),
-        facing=random.uniform(-np.pi, np.pi, count).astype(np.float32),
+        facing=((facing + np.pi) % (2.0 * np.pi) - np.pi).astype(np.float32),
         rest=rest.astype(np.float32),
         variant=random.integers(0, variants, count, dtype=np.int32),
         rank=(np.arange(count) / count).astype(np.float32),
@@ -66,6 +80,36 @@ def _clumps(place: Doubles, random: np.random.Generator, /) -> Doubles:
     waves = random.integers(-3, 4, (6, 2))
     phase = random.uniform(0.0, 2.0 * np.pi, 6)
     return np.asarray(np.clip(np.sin(2.0 * np.pi * place @ waves.T + phase).sum(axis=1) / 3.0, -1.0, 1.0))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Tussocks:
+    """What the tussocks that blades stand in are like, each (n,)."""
+
+    height: Doubles
+    """From 0 to 1."""
+
+    away: Doubles
+    """Azimuth of the way from the middle [rad]."""
+
+    facing: Doubles
+    """Azimuth that its blades face [rad]."""
+
+
+def _tussocks(place: Doubles, patch: float, seed: int, /) -> _Tussocks:
+    """Return the tussocks that blades at places on the unit torus stand in, about `_TUSSOCK` wide.
+
+    They face all ways evenly, so that no patch as a whole has a tint of its own.
+    """
+    random = np.random.default_rng([seed, 0x74757373])
+    count = max(round((patch / _TUSSOCK) ** 2), 1)
+    centres = random.random((count, 2))
+    apart = place[:, None] - centres[None]
+    apart -= np.round(apart)
+    nearest = np.argmin((apart**2).sum(axis=2), axis=1)
+    own = apart[np.arange(len(place)), nearest]
+    facing = random.permutation(count) * (np.pi / count) + random.uniform(0.0, np.pi)
+    return _Tussocks(random.random(count)[nearest], np.arctan2(own[:, 1], own[:, 0]), facing[nearest])
 
 
 def _inside(root: Doubles, patch: float, /) -> NDArray[np.float32]:

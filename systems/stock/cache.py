@@ -66,7 +66,7 @@ def growth_key(kind: GrassKind, quality: Quality, /, *, seed: int) -> str:
         "version": _version(),
         "seed": seed,
         "kind": kind.model_dump(
-            include={"plant", "height", "width", "stiffness", "damping", "lean", "taper"}, mode="json"
+            include={"plant", "height", "width", "stiffness", "damping", "lean", "taper", "clumping"}, mode="json"
         ),
         "blades": blade_count(kind, quality),
         "quality": quality.model_dump(include={"patch", "models"}, mode="json"),

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 SCENE = """\
-tallgrass: 1
+tallgrass: 2
 seed: 5
 terrain: { noise: rolling, size: [60, 60], scale: 3 }
 grass:

@@ -7,7 +7,7 @@ import pytest
 from tallgrass.app.check import check
 from tallgrass.engine.scene import bundled_scenes
 
-GOOD = "tallgrass: 1\ngrass: { lawn: {} }\n"
+GOOD = "tallgrass: 2\ngrass: { lawn: {} }\n"
 
 
 def test_what_is_right_is_called_ok_and_ends_with_0(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -23,7 +23,7 @@ from tallgrass.systems.transition import weights
 pytestmark = [pytest.mark.gl, pytest.mark.usefixtures("ctx")]
 
 SCENE = """\
-tallgrass: 1
+tallgrass: 2
 terrain: { noise: flat, size: [60, 60] }
 grass:
   tall: { height: [0.4, 0.6], width: 0.02, lean: 0.2, variety: 0.1 }

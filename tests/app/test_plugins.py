@@ -106,7 +106,7 @@ def test_a_plugin_that_ends_python_and_takes_a_built_in_name_ends_no_command(
 ) -> None:
     monkeypatch.setenv("PYTHONPATH", str(rude), prepend=os.pathsep)
     for kind in ("rude", "gust"):
-        (tmp_path / f"{kind}.yaml").write_text(f"tallgrass: 1\ngrass: {{ lawn: {{}} }}\nwind: [{{ kind: {kind} }}]\n")
+        (tmp_path / f"{kind}.yaml").write_text(f"tallgrass: 2\ngrass: {{ lawn: {{}} }}\nwind: [{{ kind: {kind} }}]\n")
     choice = "uninstall tallgrass-rude, or leave it out by TALLGRASS_PLUGINS, which names what to use"
     taken = f"kind 'gust' is built in, and the one of tallgrass-rude 0.3.1 is not used; {choice}"
     left = "kind 'rude' of tallgrass-rude 0.3.1 cannot be loaded: SystemExit: 7"

@@ -34,7 +34,7 @@ quality:
 def load(folder: Path, terrain: str, position: str = "[3, 20]") -> Prairie:
     path = folder / "scene.yaml"
     camera = f"camera: {{ position: {position}, yaw: 35 }}"
-    path.write_text(f"tallgrass: 1\nterrain: {terrain}\ngrass: {{ green: {{}} }}\n{camera}\n{SMALL}")
+    path.write_text(f"tallgrass: 2\nterrain: {terrain}\ngrass: {{ green: {{}} }}\n{camera}\n{SMALL}")
     return Prairie.load(path)
 
 

@@ -75,7 +75,7 @@ def follow(page: str, folder: Path, display: str = "") -> None:
             game = ["-c", GAME.format(file=name.name)] if "pyglet.app.run()" in text else [name.name]
             run([sys.executable, "-W", "error", *game], folder, display)
         elif language == "yaml":
-            parse_scene(text if "tallgrass:" in text else f"tallgrass: 1\ngrass: {{ lawn: {{}} }}\n{text}")
+            parse_scene(text if "tallgrass:" in text else f"tallgrass: 2\ngrass: {{ lawn: {{}} }}\n{text}")
         elif language == "text":
             assert text.strip() in told or not told, f"{page}: {text}"
         told = run(["/bin/sh", "-e", "-c", COARSE.sub(r"\g<0> --preset low", text)], folder) if language == "sh" else ""

@@ -250,7 +250,7 @@ def test_a_wind_is_traced_to_who_brought_it(dust: WindKinds) -> None:
 
 def test_d5_a_games_own_class_becomes_a_kind_of_scene_files() -> None:
     assert wind("test-calm")(Calm) is Calm
-    scene = parse_scene("tallgrass: 1\ngrass: { lawn: {} }\nwind: [{ kind: test-calm, stop: 4 }]")
+    scene = parse_scene("tallgrass: 2\ngrass: { lawn: {} }\nwind: [{ kind: test-calm, stop: 4 }]")
     assert type(scene.wind[0]) is Calm
     assert scene.wind[0].stop == 4
 

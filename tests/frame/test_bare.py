@@ -18,7 +18,7 @@ Load = Callable[..., Prairie]
 Aim = Callable[..., Camera]
 
 SOIL = """\
-tallgrass: 1
+tallgrass: 2
 terrain: { size: [200, 200] }
 grass:
   turf: { blades: 60, place: { map: none.png } }

@@ -22,7 +22,7 @@ Aim = Callable[..., Camera]
 Picture = NDArray[np.float64]
 
 FLAT = """\
-tallgrass: 1
+tallgrass: 2
 seed: 5
 terrain: { noise: flat, size: [60, 60] }
 grass:

@@ -17,7 +17,7 @@ from tallgrass.testing import Stage
 Load = Callable[..., Prairie]
 
 CALM = """\
-tallgrass: 1
+tallgrass: 2
 terrain: { size: [60, 60] }
 grass: { turf: { height: [0.4, 0.7], width: 0.02, taper: 0.4, blades: 800 } }
 quality:

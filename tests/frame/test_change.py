@@ -17,7 +17,7 @@ Load = Callable[..., Prairie]
 Aim = Callable[..., Camera]
 
 STILL = """\
-tallgrass: 1
+tallgrass: 2
 terrain: { noise: flat, size: [60, 60] }
 grass:
   tall: { height: [0.5, 0.9], width: 0.02, root: "#5a5a2c", tip: "#dcc98f" }

@@ -39,7 +39,7 @@ OnCard = Callable[[Prairie], list[tuple[Any, NDArray[np.float32]]]]
 Defines = dict[str, str | int]
 
 WINDY = """\
-tallgrass: 1
+tallgrass: 2
 seed: 5
 terrain: { noise: ridges, seed: 2, size: [120, 120], feature: 30, scale: 12 }
 grass:

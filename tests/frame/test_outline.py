@@ -19,7 +19,7 @@ Load = Callable[..., Prairie]
 Aim = Callable[..., Camera]
 
 RIDGE = """\
-tallgrass: 1
+tallgrass: 2
 terrain: { heights: ridge.npy, cell: 1.0, scale: 1.0 }
 grass:
   bunch: { height: [0.45, 0.85], width: 0.018, lean: 0.35, blades: 400, root: "#4a5f2b", tip: "#bcc26c" }

@@ -20,7 +20,7 @@ Picture = NDArray[np.float64]
 Show = Callable[..., Picture]
 
 STORMY = """\
-tallgrass: 1
+tallgrass: 2
 seed: 5
 terrain: { noise: flat, size: [100, 100] }
 grass:

@@ -31,7 +31,7 @@ quality:
 """
 PURPLE = (
     """\
-tallgrass: 1
+tallgrass: 2
 terrain: { noise: flat, size: [60, 60] }
 grass:
   green: { height: [0.4, 0.6], width: 0.03, root: "#1a4010", tip: "#408020", lean: 0.2 }
@@ -41,7 +41,7 @@ light: { zenith: "#ff00ff", horizon: "#ff00ff", haze: 1000000, ground: "#ff0000"
 )
 TWO = (
     """\
-tallgrass: 1
+tallgrass: 2
 terrain: { noise: flat, size: [60, 60] }
 grass:
   red: { height: [0.4, 0.6], width: 0.02, root: "#601010", tip: "#ff2020" }
@@ -51,7 +51,7 @@ light: { elevation: 90 }
     + QUALITY
 )
 LONE = """\
-tallgrass: 1
+tallgrass: 2
 terrain: { noise: hills, seed: 3, size: [80, 80], scale: 12, feature: 30 }
 grass:
   lone: { height: [0.8, 0.8], width: 0.1, root: "#ffffff", tip: "#ffffff", lean: 0.0 }

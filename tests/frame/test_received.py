@@ -40,7 +40,7 @@ CLOSE = 1e-3
 """By how much a message on the graphics card may differ from that of numpy, and a height [m]."""
 
 MAPPED = """\
-tallgrass: 1
+tallgrass: 2
 seed: 5
 terrain: { noise: ridges, seed: 2, size: [60, 60], feature: 20, scale: 9 }
 grass:

@@ -160,7 +160,7 @@ def test_t5_blades_around_the_viewer_hide_one_another_as_in_the_reference(
     stage: Stage, load: Load, camera: Aim, yaw: float
 ) -> None:
     dense = load("""\
-tallgrass: 1
+tallgrass: 2
 terrain: { noise: flat, size: [20, 20] }
 grass:
   broad: { height: [0.5, 0.9], width: 0.05, root: "#102040", tip: "#ffe080", variety: 0.6 }

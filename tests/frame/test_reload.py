@@ -24,7 +24,7 @@ Aim = Callable[..., Camera]
 Told = Callable[[Prairie], str]
 
 TEXT = """\
-tallgrass: 1
+tallgrass: 2
 seed: 5
 terrain: { noise: rolling, seed: 2, size: [60, 60], feature: 30, scale: 4 }
 grass:

@@ -20,7 +20,7 @@ Aim = Callable[..., Camera]
 Pictures = Callable[[str, str], NDArray[np.float64]]
 
 SCENE = """\
-tallgrass: 1
+tallgrass: 2
 terrain: {{ size: [104, 104] }}
 grass:
   reed:

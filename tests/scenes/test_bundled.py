@@ -36,7 +36,7 @@ def test_every_bundled_scene_and_its_maps_can_be_read(name: str) -> None:
 def test_every_bundled_scene_says_its_story_in_its_first_line(name: str) -> None:
     first, second = bundled_scenes()[name].read_text("utf-8").splitlines()[:2]
     assert re.fullmatch(r"# [A-Z].*\.", first)
-    assert second == "tallgrass: 1"
+    assert second == "tallgrass: 2"
 
 
 def test_r1_the_plain_is_the_papers_field_of_a_hundred_metres() -> None:

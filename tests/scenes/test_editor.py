@@ -21,7 +21,7 @@ from tallgrass.engine.scene import bundled_scenes
 NAME = "yaml-language-server"
 VERSION = "1.25.0"
 FULL = Path(__file__).parent / "format-1" / "full.yaml"
-HEAD = "# yaml-language-server: $schema={}\ntallgrass: 1\n"
+HEAD = "# yaml-language-server: $schema={}\ntallgrass: 2\n"
 
 
 class Editor:

@@ -56,7 +56,7 @@ FRAGMENTS = [
     "{", "}", "[", "]", ":", ": ", "- ", "-", "#", "&a ", "*a", "<<: *a", "!!python/object:os.system ", "!tag ", "|\n",
     ">\n", "'", '"', "\\", "?", "? ", ",", "%YAML 9.9\n", "---\n", "...\n", "\t", "  ", "\n", "\r", "\0", "\x7f",
     "\ufeff", "\ud7ff", "é", "\u2029", "1e999", "-.inf", ".nan", "0x1F", "0o17", "1_000", "12:30", "~", "null",
-    "wind:\n", "seed: 1\n", "tallgrass: 1\n", "tallgrass: 2\n", "kind: ", "&b [*b]", "{a: &c {b: *c}}", "@", "`",
+    "wind:\n", "seed: 1\n", "tallgrass: 2\n", "tallgrass: 2\n", "kind: ", "&b [*b]", "{a: &c {b: *c}}", "@", "`",
     "9" * 70,
 ]  # fmt: skip
 
@@ -91,7 +91,7 @@ class Bellows(WindPrimitive):
 
 
 PLUGIN = """\
-tallgrass: 1
+tallgrass: 2
 grass: { lawn: {} }
 wind:
   - { kind: test-bellows, power: 0.25, name: abc, puffs: [{ at: [1, 2], size: 3 }, { size: 0.5 }] }

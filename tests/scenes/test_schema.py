@@ -107,7 +107,7 @@ def test_d4_the_schema_refuses_the_broken_scenes_that_a_schema_can(fits: Fits, p
 
 def test_a_wind_has_the_keys_of_its_kind(fits: Fits) -> None:
     def scene(wind: str) -> Any:
-        return values(f"tallgrass: 1\ngrass: {{ lawn: {{}} }}\nwind: [{wind}]\n")
+        return values(f"tallgrass: 2\ngrass: {{ lawn: {{}} }}\nwind: [{wind}]\n")
 
     assert fits(scene("{ kind: gust, hold: 2 }"))
     assert not fits(scene("{ kind: breeze, hold: 2 }"))
@@ -150,7 +150,7 @@ def test_d1_a_plugin_s_keys_are_in_the_schema() -> None:
     assert "test-dust" in schema["$comment"]
     assert schema["definitions"]["Grain"]["properties"]["size"]["description"].startswith("How large it is [m].")
     fits = checker(schema)
-    scene = "tallgrass: 1\ngrass: {{ lawn: {{}} }}\nwind: [{{ kind: test-dust, grains: [{{ {} }}] }}]\n"
+    scene = "tallgrass: 2\ngrass: {{ lawn: {{}} }}\nwind: [{{ kind: test-dust, grains: [{{ {} }}] }}]\n"
     assert fits(values(scene.format("size: 1")))
     assert not fits(values(scene.format("size: 3")))
     assert not fits(values(scene.format("sise: 1")))
@@ -162,14 +162,14 @@ def test_d1_a_plugin_that_cannot_be_described_costs_no_other() -> None:
     schema, told = described(wind_kinds())
     assert [line.partition(":")[0] for line in told] == ["kind 'test-odd' has no schema, any keys are taken as right"]
     fits = checker(schema)
-    scene = "tallgrass: 1\ngrass: {{ lawn: {{}} }}\nwind: [{{ kind: {}, shape: 1 }}]\n"
+    scene = "tallgrass: 2\ngrass: {{ lawn: {{}} }}\nwind: [{{ kind: {}, shape: 1 }}]\n"
     assert fits(values(scene.format("test-odd")))
     assert not fits(values(scene.format("gust")))
 
 
 def test_what_can_be_read_fits_the_schema(fits: Fits) -> None:
     text = (
-        "tallgrass: 1\ngrass: { a: { height: [1, 2], place: null } }\nwind: [{ kind: gust, stop: null, start: 1e0 }]\n"
+        "tallgrass: 2\ngrass: { a: { height: [1, 2], place: null } }\nwind: [{ kind: gust, stop: null, start: 1e0 }]\n"
     )
     parse_scene(text)
     assert fits(values(text))

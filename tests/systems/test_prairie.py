@@ -21,7 +21,7 @@ Floats = NDArray[np.float32]
 Load = Callable[..., Prairie]
 
 SCENE = """\
-tallgrass: 1
+tallgrass: 2
 seed: 5
 terrain: { noise: rolling, seed: 2, size: [60, 60], feature: 30, scale: 4 }
 grass: { green: { height: [0.3, 0.5] } }

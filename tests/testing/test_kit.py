@@ -129,9 +129,9 @@ def test_a_little_prairie_needs_no_gl_and_leaves_nothing_behind() -> None:
 
 def test_a_little_prairie_grows_other_scenes_and_refuses_bad_ones() -> None:
     with private_world():
-        with little_prairie(scene="tallgrass: 1\ngrass: { lawn: { height: [0.1, 0.2] } }\nquality: low\n") as lawn:
+        with little_prairie(scene="tallgrass: 2\ngrass: { lawn: { height: [0.1, 0.2] } }\nquality: low\n") as lawn:
             assert list(lawn.scene.grass) == ["lawn"]
-        with pytest.raises(SceneError, match="<scene>:2"), little_prairie(scene="tallgrass: 1\nmeadow: 2\n"):
+        with pytest.raises(SceneError, match="<scene>:2"), little_prairie(scene="tallgrass: 2\nmeadow: 2\n"):
             pass
 
 

@@ -100,7 +100,7 @@ def test_an_empty_file_says_how_a_scene_begins(text: str) -> None:
     if text.startswith("---"):
         assert read_document(text, file="f").root.data is None
     else:
-        assert problems(text) == ["1:1 the file is empty; a scene begins with 'tallgrass: 1'"]
+        assert problems(text) == ["1:1 the file is empty; a scene begins with 'tallgrass: 2'"]
 
 
 @pytest.mark.parametrize("newline", ["\n", "\r\n", "\r", "\x85", "\u2028"])

@@ -15,7 +15,7 @@ from tallgrass.engine.declared.terrain import TerrainSource
 from tallgrass.engine.plugins import wind, wind_kinds
 from tallgrass.engine.scene import SceneError, bundled_scenes, parse_scene, read_scene
 
-GOOD = "tallgrass: 1\ngrass: { lawn: {} }\n"
+GOOD = "tallgrass: 2\ngrass: { lawn: {} }\n"
 BUNDLED = [path.read_text("utf-8") for path in bundled_scenes().values()]
 WORDS = sorted(
     {word for text in BUNDLED for word in text.split()} | set("[]{}:-#&*!|>'\",?\n\t ") | {"  ", "\n  ", "<<:"}
@@ -38,7 +38,7 @@ def refusal(text: str) -> list[str]:
 def test_d4_a_scene_declares_kinds_terrain_and_winds(tmp_path: Path) -> None:
     path = tmp_path / "a.yaml"
     path.write_text(
-        "tallgrass: 1\nseed: 5\nterrain: { noise: hills, scale: 1e1 }\n"
+        "tallgrass: 2\nseed: 5\nterrain: { noise: hills, scale: 1e1 }\n"
         "grass:\n  lawn: { height: [0.1, 1], stiffness: 2 }\nwind:\n  - { kind: breeze, strength: 0.25, start: 3 }\n"
     )
     loaded = read_scene(path)
@@ -71,7 +71,7 @@ def test_a_scene_reads_the_same_with_a_byte_order_mark_and_other_line_ends(tmp_p
 
 def test_files_that_are_missing_are_told_together_with_all_else(tmp_path: Path) -> None:
     path = tmp_path / "a.yaml"
-    path.write_text("tallgrass: 1\nsed: 1\ngrass:\n  lawn: { place: { map: a.png } }\nterrain: { heights: b.png }\n")
+    path.write_text("tallgrass: 2\nsed: 1\ngrass:\n  lawn: { place: { map: a.png } }\nterrain: { heights: b.png }\n")
     with pytest.raises(SceneError) as error:
         read_scene(path)
     assert [(problem.line, problem.column) for problem in error.value.problems] == [(2, 1), (4, 25), (5, 21)]
@@ -79,7 +79,7 @@ def test_files_that_are_missing_are_told_together_with_all_else(tmp_path: Path) 
 
 def test_a_file_named_with_impossible_characters_is_missing(tmp_path: Path) -> None:
     path = tmp_path / "a.yaml"
-    path.write_text('tallgrass: 1\ngrass: { lawn: { place: { map: "a\\0\\n\\e" } } }\n')
+    path.write_text('tallgrass: 2\ngrass: { lawn: { place: { map: "a\\0\\n\\e" } } }\n')
     with pytest.raises(SceneError, match="no file 'a"):
         read_scene(path)
 
@@ -90,12 +90,12 @@ def test_keys_that_are_not_known_are_told_with_those_that_are() -> None:
 
 
 def test_a_key_that_has_the_name_of_a_grass_kind_confuses_nothing() -> None:
-    (told,) = refusal("tallgrass: 1\ngrass: { height: { heigth: [1, 2] } }")
+    (told,) = refusal("tallgrass: 2\ngrass: { height: { heigth: [1, 2] } }")
     assert told == "2:20 unknown key 'heigth', did you mean 'height'?"
 
 
 def test_a_problem_inside_what_an_alias_repeats_is_told_where_it_stands() -> None:
-    told = refusal("tallgrass: 1\ngrass:\n  a: &a { width: 9 }\n  b: *a\n")
+    told = refusal("tallgrass: 2\ngrass:\n  a: &a { width: 9 }\n  b: *a\n")
     assert told == ["3:18 width must be more than 0.0005 and at most 0.2 m, found 9"] * 2
 
 
@@ -171,7 +171,7 @@ def test_any_text_is_a_scene_or_problems(text: str) -> None:
 
 @given(st.lists(st.sampled_from(WORDS), max_size=60).map(" ".join))
 def test_any_words_of_scenes_are_a_scene_or_problems(text: str) -> None:
-    outcome("tallgrass: 1\n" + text)
+    outcome("tallgrass: 2\n" + text)
 
 
 @given(st.sampled_from(BUNDLED), st.data())
@@ -191,4 +191,4 @@ KEYS = ["seed", "terrain", "grass", "wind", "camera", "light", "quality"]
 
 @given(st.dictionaries(st.sampled_from(KEYS), trees, min_size=1))
 def test_any_value_of_any_key_is_a_scene_or_problems(values: dict[str, object]) -> None:
-    outcome("tallgrass: 1\n" + "".join(f"{key}: {json.dumps(value)}\n" for key, value in values.items()))
+    outcome("tallgrass: 2\n" + "".join(f"{key}: {json.dumps(value)}\n" for key, value in values.items()))

@@ -22,7 +22,7 @@ Feel = Callable[..., Floats]
 
 SQUARE = Shape(polygon=[[-4.0, -4.0], [4.0, -4.0], [4.0, 4.0], [-4.0, 4.0]])
 ELL = Shape(polygon=[[-5.0, -5.0], [-1.0, -5.0], [-1.0, 1.0], [5.0, 1.0], [5.0, 5.0], [-5.0, 5.0]])
-GOOD = "tallgrass: 1\ngrass: { lawn: {} }\nwind:\n  - kind: blast\n"
+GOOD = "tallgrass: 2\ngrass: { lawn: {} }\nwind:\n  - kind: blast\n"
 
 
 def blast(outline: Shape, **more: object) -> Blast:

@@ -186,7 +186,7 @@ def test_n4_a_carpet_hears_what_is_asked_for_in_its_patchs_middle_less_the_small
 
 
 SCENE = """\
-tallgrass: 1
+tallgrass: 2
 terrain: { size: [60, 60] }
 grass: { soft: { stiffness: 0.4, height: [0.8, 0.9] }, stiff: { stiffness: 4 } }
 wind:

@@ -210,7 +210,7 @@ BAD = [
 
 @pytest.mark.parametrize(("kind", "field", "told"), BAD)
 def test_d4_a_winds_bad_value_is_told_at_its_place(kind: str, field: str, told: str) -> None:
-    text = f"tallgrass: 1\ngrass: {{ lawn: {{}} }}\nwind:\n  - kind: {kind}\n    {field}\n"
+    text = f"tallgrass: 2\ngrass: {{ lawn: {{}} }}\nwind:\n  - kind: {kind}\n    {field}\n"
     with pytest.raises(SceneError) as error:
         parse_scene(text)
     (problem,) = error.value.problems
@@ -221,7 +221,7 @@ def test_d4_a_winds_bad_value_is_told_at_its_place(kind: str, field: str, told: 
 
 def test_d4_a_paths_times_rise_and_the_one_that_does_not_is_pointed_at() -> None:
     text = (
-        "tallgrass: 1\ngrass: { lawn: {} }\nwind:\n  - kind: blast\n    path:\n"
+        "tallgrass: 2\ngrass: { lawn: {} }\nwind:\n  - kind: blast\n    path:\n"
         "      - { at: 3, position: [0, 0] }\n      - { at: 3, position: [1, 0] }\n"
     )
     with pytest.raises(SceneError) as error:
