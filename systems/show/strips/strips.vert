@@ -46,6 +46,7 @@ void thin(float dense, float below, float texels) {
 }
 #endif
 
+const float FACING = 0.3333;  // mean cosine of twice the azimuth from the eye of blades that face all ways, as they are seen
 const float SHARPER = 0.25;  // how much finer texels are than pixels, in levels: blades would be washed out
 
 // Pixels that a metre is long on the screen, across the line of sight.
@@ -99,12 +100,15 @@ void main() {
     light = here_light.light * seen;
     again = here_light.again * seen;
     over_all = here_light.gloss * seen + haze_light(middle) * hidden;
-    vec3 dry = stretch(here);
+    // Of blades, those are seen most that face the eye; on a strip, those that face as it does.
+    vec2 run = normalize(b.xz - a.xz), sight = normalize(middle.xz - eye.xz);
+    float faces = run.y * run.y - run.x * run.x;
+    vec3 facing = FACING * (grain_c[k].rgb * (sight.x * sight.x - sight.y * sight.y - faces) + grain_s[k].rgb * (2.0 * sight.x * sight.y));
+    vec3 dry = stretch(here) * (1.0 + facing);
     foot_color = root[k].rgb * dry;
     rise_color = (tip[k].rgb - root[k].rgb) * dry;
     grain = (turn % 2 == 0 ? 1.0 : -1.0) * grain_c[k].rgb;
     shown = how.x;
-    vec2 run = normalize(b.xz - a.xz), sight = normalize(middle.xz - eye.xz);
     boost = boosted(run, middle);
     float texels = picture_to[picture].y * ATLAS / (tall[k] * pixels);
     level = log2(texels) - SHARPER;
