@@ -20,7 +20,7 @@ from tallgrass.engine.scene import bundled_scenes
 
 NAME = "yaml-language-server"
 VERSION = "1.25.0"
-FULL = Path(__file__).parent / "format-1" / "full.yaml"
+FULL = Path(__file__).parent / "format-2" / "full.yaml"
 HEAD = "# yaml-language-server: $schema={}\ntallgrass: 2\n"
 
 

@@ -98,7 +98,7 @@ wind:
   - { kind: test-bellows, table: { first: { at: [0, 1] }, second: {} }, start: 3, stop: 5 }
 """
 SOURCES = [path.read_text("utf-8") for path in bundled_scenes().values()]
-SOURCES += [(HERE / "format-1" / "full.yaml").read_text("utf-8"), PLUGIN]
+SOURCES += [(HERE / "format-2" / "full.yaml").read_text("utf-8"), PLUGIN]
 BROKEN = [path.read_text("utf-8") for path in sorted((HERE / "broken").glob("*.yaml"))]
 WORDS = sorted({word for text in SOURCES for word in re.findall(r"[\w.-]+|[^\w\s]", text)})
 

@@ -18,7 +18,7 @@ from tallgrass.engine.scene.compose import decode, read_document
 
 Fits = Callable[[object], bool]
 BROKEN = sorted((Path(__file__).parent / "broken").glob("*.yaml"))
-FULL = Path(__file__).parent / "format-1" / "full.yaml"
+FULL = Path(__file__).parent / "format-2" / "full.yaml"
 BEYOND = {
     "camera-off-the-terrain", "folder-for-a-map", "map-is-no-image", "no-alpha-channel", "no-density-file",
     "no-elevation-file", "not-a-number", "two-bad-maps", "blast-picture-missing",

@@ -41,7 +41,7 @@ QUALITY = Quality(
     carpet_to=9,
     carpet=8,
 )
-SCENE = Scene(tallgrass=1, seed=3, grass=KINDS, quality=QUALITY)
+SCENE = Scene(tallgrass=2, seed=3, grass=KINDS, quality=QUALITY)
 
 Laid = Callable[..., Site]
 Look = Callable[..., Outlook]

@@ -15,7 +15,7 @@ from tallgrass.engine.gl.stream import release_all
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.systems.frame.block import FrameBlock, frame_record
-from tallgrass.systems.frame.maps import density_texture, height_texture, tone_texture
+from tallgrass.systems.frame.maps import density_texture, height_texture, laid_over
 from tallgrass.systems.show.carpet.ground import (
     BEYOND,
     GRID,
@@ -130,7 +130,7 @@ def corners(ctx: moderngl.Context, laid: Laid) -> Iterator[Corners]:
     record = frame_record(site.scene, site.growths, site.ground.terrain, site.quality.patch)
     textures = {
         "heights": height_texture(ctx, site.ground.terrain),
-        "tone": tone_texture(ctx, site.ground.terrain, seed=1),
+        "lie": laid_over(ctx, np.full((4, 4, 4), 128, np.uint8)),
         "density": density_texture(ctx, site.ground.density),
     }
     made, block = program(ctx, "systems/show/carpet/ground.vert", None, varyings=("place",)), FrameBlock(ctx)

@@ -1,0 +1,104 @@
+"""What a kind of grass does to light, and how far light comes into its canopy (F10)."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from tallgrass.engine.declared.grass import GrassKind
+from tallgrass.engine.declared.light import Light
+from tallgrass.engine.declared.quality import PRESETS
+from tallgrass.systems.around.canopy import canopy_height
+from tallgrass.systems.grow.bend import profile, ribbon
+from tallgrass.systems.grow.raster import rasterise, ribbon_triangles
+from tallgrass.systems.grow.record import Growth
+from tallgrass.systems.light.daylight import daylight
+from tallgrass.systems.light.materials import grain, leaves_of, pigment
+from tallgrass.systems.stock.models import grow
+
+PATCH = 2.5
+HEIGHTS = np.array([0.0, 0.2, 0.4, 0.6, 0.8, 0.95])
+SAMPLES = 700
+
+KINDS = {
+    "meadow": GrassKind(height=[0.4, 0.7]),
+    "fescue": GrassKind(height=[0.6, 1.0], width=0.014, taper=0.9, lean=0.2),
+}
+
+
+@pytest.fixture(scope="module", params=KINDS)
+def grown(request: pytest.FixtureRequest) -> tuple[GrassKind, Growth]:
+    kind = KINDS[request.param]
+    return kind, grow(kind, PRESETS["low"].model_copy(update={"blades": 400, "models": 1}), seed=3)
+
+
+def met(kind: GrassKind, growth: Growth, elevation: float, height: float, density: float) -> float:
+    """How much of the sun reaches a height [m] through an endless field of a patch's blades: by brute force."""
+    blades = growth.models[0].blades
+    edges = ribbon(blades, growth.postures, (0.0, 0.0), points=25, taper=kind.taper)
+    stays = blades.rank < density
+    triangles = ribbon_triangles(*(edge[stays].astype(np.float64) for edge in edges))
+    above = triangles[triangles[:, :, 1].min(axis=1) >= height]
+    if not len(above):
+        return 1.0
+    way = np.array([np.sin(0.7), -np.cos(0.7)]) / np.tan(np.radians(elevation))
+    ground = above[:, :, ::2] - way * (above[:, :, 1:2] - height)
+    hit = rasterise(ground * (SAMPLES / PATCH), above[:, :, 1], shape=(SAMPLES, SAMPLES), wrap=True)
+    return 1.0 - len(hit.sample) / SAMPLES**2
+
+
+def closed_form(kind: GrassKind, growth: Growth, elevation: float, density: float) -> NDArray[np.float64]:
+    """What `lib/light.glsl` says of it, at HEIGHTS of the canopy."""
+    leaves = leaves_of(kind, growth, PATCH)
+    deep = 1.0 - HEIGHTS
+    way = 1.0 / np.tan(np.radians(elevation)) + leaves.above / leaves.side
+    return np.asarray(np.exp(-way * leaves.side * density * deep**2 * (0.75 + 0.25 * deep)))
+
+
+@pytest.mark.parametrize("density", [1.0, 0.5, 0.2])
+def test_f10_light_reaches_into_the_canopy_as_rays_through_its_blades_do(
+    grown: tuple[GrassKind, Growth], density: float
+) -> None:
+    kind, growth = grown
+    canopy = canopy_height(growth)
+    for elevation in (10.0, 20.0, 35.0, 55.0, 80.0):
+        rays = np.array([met(kind, growth, elevation, height * canopy, density) for height in HEIGHTS])
+        apart = np.abs(closed_form(kind, growth, elevation, density) - rays)
+        assert apart.max() < 0.08, elevation
+        assert apart.mean() < 0.04, elevation
+
+
+def test_a_blade_is_narrower_where_it_leaves_the_ground_and_ends_in_a_tip() -> None:
+    along = np.linspace(0.0, 1.0, 101)
+    width = profile(along, 0.6)
+    assert width[0] == pytest.approx(0.45)
+    assert width[-1] == 0.0
+    assert 0.1 <= along[np.argmax(width)] <= 0.2
+    assert (np.diff(width[20:]) < 0.0).all()
+
+
+@given(st.floats(0.0, 360.0), st.floats(0.0, 90.0), st.floats(0.0, 0.6))
+def test_blades_that_face_all_ways_have_the_pigment_of_their_mean(
+    azimuth: float, elevation: float, variety: float
+) -> None:
+    light = daylight(Light(azimuth=azimuth, elevation=elevation))
+    cosine, sine = grain(GrassKind(variety=variety), light)
+    angle = np.linspace(-np.pi, np.pi, 360, endpoint=False)
+    factor = 1.0 + np.cos(2.0 * angle)[:, None] * cosine + np.sin(2.0 * angle)[:, None] * sine
+    np.testing.assert_allclose(factor.mean(axis=0), 1.0, atol=1e-9)
+
+
+def test_both_sides_of_a_blade_are_lit_alike() -> None:
+    light = daylight(Light(azimuth=30.0, elevation=20.0))
+    cosine, sine = grain(GrassKind(variety=0.0), light)
+    toward = np.radians(30.0) - np.pi / 2.0  # azimuth of the sun from +x towards +z
+    lit = 1.0 + np.cos(2.0 * toward) * cosine + np.sin(2.0 * toward) * sine
+    aside = 1.0 + np.cos(2.0 * toward + np.pi) * cosine + np.sin(2.0 * toward + np.pi) * sine
+    assert (lit > 1.05).all()
+    assert (aside < 0.95).all()
+
+
+def test_a_pigment_is_the_root_of_an_albedo() -> None:
+    np.testing.assert_allclose(pigment("#ffffff"), 1.0)
+    np.testing.assert_allclose(pigment("#bcbcbc") ** 2, 0.5, atol=0.005)

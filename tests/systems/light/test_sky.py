@@ -1,0 +1,123 @@
+"""Sun, air and sky (F5)."""
+
+from math import radians
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tallgrass.engine.camera import forward
+from tallgrass.engine.declared.light import Light
+from tallgrass.systems.light.air import EYE, GROUND, from_all_sides, seen, sunlight
+from tallgrass.systems.light.color import display, luminance
+from tallgrass.systems.light.daylight import daylight
+from tallgrass.systems.light.sky import COLUMNS, ROWS, sky_of
+from tallgrass.systems.light.sun import sun_at, to_sun, transmitted
+
+lights = st.builds(
+    Light,
+    azimuth=st.floats(-360, 360),
+    elevation=st.floats(0, 90),
+    strength=st.floats(0, 10),
+    turbidity=st.floats(2, 9),
+)
+
+
+@given(lights)
+def test_the_sun_stands_where_the_scene_says(light: Light) -> None:
+    sun = to_sun(light)
+    np.testing.assert_allclose(sun, forward(radians(light.azimuth), radians(light.elevation)), atol=1e-9)
+    assert np.linalg.norm(sun) == pytest.approx(1.0)
+
+
+@given(st.floats(-66.0, 66.0), st.integers(1, 365))
+def test_at_noon_the_sun_stands_highest_and_over_the_meridian(latitude: float, day: int) -> None:
+    noon, before, after = (sun_at(Light(hour=hour, day=day, latitude=latitude)) for hour in (12.0, 11.0, 13.0))
+    assert noon[1] > before[1]
+    assert noon[1] > after[1]
+    assert before[1] == pytest.approx(after[1])
+    assert min(abs(noon[0]), abs(abs(noon[0]) - 180.0)) < 1e-6
+
+
+def test_the_sun_rises_in_the_east_and_a_midsummer_noon_is_as_high_as_it_should_be() -> None:
+    azimuth, elevation = sun_at(Light(hour=6.0, day=80, latitude=48.0))
+    assert azimuth == pytest.approx(90.0, abs=1.0)
+    assert elevation == pytest.approx(0.0, abs=1.0)
+    assert sun_at(Light(hour=12.0, day=172, latitude=48.0))[1] == pytest.approx(90.0 - 48.0 + 23.44, abs=0.1)
+
+
+def test_the_lower_the_sun_the_less_of_it_comes_through_and_the_redder() -> None:
+    through = np.array([transmitted(elevation, 2.6) for elevation in (60.0, 30.0, 10.0, 3.0, 0.5)])
+    assert (np.diff(through, axis=0) < 0.0).all()
+    assert (np.diff(through[:, 0] / through[:, 2]) > 0.0).all()
+
+
+def test_no_sun_comes_from_below_the_horizon() -> None:
+    assert transmitted(-6.0, 2.6) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_from_outside_the_air_all_of_the_sun_is_seen() -> None:
+    np.testing.assert_allclose(sunlight(np.array([GROUND + 100.0]), np.array([1.0]), 2.6)[0], 1.0, atol=1e-3)
+
+
+def test_light_that_is_scattered_again_makes_the_sky_brighter_and_never_endless() -> None:
+    sun = np.array([0.0, 0.5, -np.sqrt(0.75)])
+    up = np.array([[0.0, 1.0, 0.0], [0.0, 0.05, 1.0]])
+    once = seen(up, sun, 2.6)
+    often = seen(up, sun, 2.6, around=from_all_sides(sun, 2.6))
+    assert (often > once).all()
+    assert (often < 3.0 * once + 0.05).all()
+    assert EYE > GROUND
+
+
+@settings(max_examples=12)
+@given(lights)
+def test_every_sky_is_a_map_of_finite_colours_with_a_horizon(light: Light) -> None:
+    sky = sky_of(light)
+    assert sky.map.shape == (ROWS, COLUMNS, 3)
+    assert np.isfinite(sky.map).all()
+    assert (sky.map >= 0.0).all()
+    c = np.cos(np.linspace(0.0, np.pi, COLUMNS))[:, None]
+    horizon = sky.horizon[0] + c * (sky.horizon[1] + c * sky.horizon[2])
+    np.testing.assert_allclose(np.maximum(horizon, 0.0), sky.map[0], atol=1e-9)
+
+
+def test_a_clear_sky_is_blue_above_and_paler_below_and_brightest_about_the_sun() -> None:
+    sky = sky_of(Light(elevation=35.0))
+    zenith, horizon = sky.map[-1, 0], sky.map[0, -1]
+    assert zenith[2] > 2.0 * zenith[0]
+    assert horizon[0] / horizon[2] > zenith[0] / zenith[2]
+    bright = luminance(sky.map)
+    assert bright[8, 0] > bright[8, -1]
+
+
+def test_a_setting_sun_colours_the_horizon_about_it() -> None:
+    sky = sky_of(Light(elevation=1.0))
+    assert sky.map[2, 0, 0] > 1.5 * sky.map[2, 0, 2]
+
+
+def test_a_scene_may_give_the_colours_of_its_sky() -> None:
+    sky = sky_of(Light(zenith="#203040", horizon="#c0a080"))
+    np.testing.assert_allclose(display(sky.map[-1, 0]) * 255.0, (0x20, 0x30, 0x40), atol=2.0)
+    np.testing.assert_allclose(display(sky.map[0, 5]) * 255.0, (0xC0, 0xA0, 0x80), atol=2.0)
+
+
+def test_f5_a_higher_sun_gives_more_light_and_an_exposure_makes_up_for_a_part_of_it() -> None:
+    low, high = daylight(Light(elevation=8.0)), daylight(Light(elevation=50.0))
+    assert luminance(low.sun) < luminance(high.sun)
+    ratio = luminance(high.sun) / luminance(low.sun)
+    assert 1.05 < ratio < luminance(transmitted(50.0, 2.6)) / luminance(transmitted(8.0, 2.6))
+
+
+@given(st.floats(-3.0, 3.0))
+def test_exposure_counts_in_stops(stops: float) -> None:
+    plain, other = daylight(Light()), daylight(Light(exposure=stops))
+    np.testing.assert_allclose(other.sun, plain.sun * 2.0**stops)
+    np.testing.assert_allclose(other.sky.map, plain.sky.map * 2.0**stops)
+
+
+def test_nights_and_dusks_can_be_seen() -> None:
+    dusk, night = (daylight(Light(hour=hour)) for hour in (20.3, 1.0))
+    assert 0.0 < luminance(night.down) < luminance(dusk.down) < luminance(daylight(Light(hour=12.0)).down)
+    assert display(night.sky.map[-1, 0]).max() > 0.12
