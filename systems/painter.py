@@ -59,15 +59,15 @@ OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
 class Painter:
     """Everything that one GL context holds of a site, and the drawing of it."""
 
-    def __init__(self, ctx: moderngl.Context, site: Site, quarantine: Quarantine) -> None:
-        self.ctx, self.quarantine = ctx, quarantine
+    def __init__(self, ctx: moderngl.Context, site: Site, quarantine: Quarantine, *, linear: bool = False) -> None:
+        self.ctx, self.quarantine, self.linear = ctx, quarantine, linear
         self.block = FrameBlock(ctx)
         self.received = Received(ctx)
         self.air: CardWinds
         self.textures: dict[str, moderngl.Texture | moderngl.TextureArray] = {}
         self.light = LightPainter(ctx, self.block, UNITS)
         self.bodies: BodyPainter | None = None
-        self.smaller, self.stopwatch = Smaller(ctx), Stopwatch(ctx)
+        self.smaller, self.stopwatch = Smaller(ctx, floats=linear), Stopwatch(ctx)
         self.painters: dict[str, RepresentationPainter] = {}
         self.draw_calls = 0
         self.site = site
@@ -99,7 +99,7 @@ class Painter:
 
     def _read(self, site: Site) -> None:
         """Take over what a scene says of its light and its winds."""
-        self.record = frame_record(site.scene, site.growths, site.ground.terrain, site.quality.patch)
+        self.record = frame_record(site.scene, site.growths, site.ground.terrain, site.quality.patch, raw=self.linear)
         self.light.shine(site.scene.light, site.ground.terrain)
         self.air.meet(site.scene.wind)
 

@@ -70,6 +70,7 @@ class Prairie:
         transitions: Transitions = SEAMLESS,
         live: bool = True,
         hold: float | None = None,
+        linear: bool = False,
     ) -> None:
         _must_be_read(loaded)
         self.site: Site = found_site(loaded, preset=preset, lod=lod, transitions=transitions)
@@ -80,7 +81,7 @@ class Prairie:
         self.winds = Winds(self.world, loaded.scene, self.site.ground, self.site.growths, live=live)
         self.systems = Schedule()
         self._loaded, self._preset, self._clock, self._released = loaded, preset, 0.0, False
-        screen = Screen(ctx, self.winds.quarantine)
+        screen = Screen(ctx, self.winds.quarantine, linear=linear)
         self._assembly = Assembly(self.world, self.viewers, self.clearings, self.winds, screen)
         self._built = self._assembly.on(self.site)
         for phase, name, system in self._built:
@@ -98,6 +99,7 @@ class Prairie:
         transitions: Transitions = SEAMLESS,
         live: bool = True,
         hold: float | None = None,
+        linear: bool = False,
     ) -> "Prairie":
         """Return the prairie of a scene file, or of a bundled scene by its name.
 
@@ -105,13 +107,23 @@ class Prairie:
         the scene's quality, `lod` shows everything in one representation, `transitions` leaves out parts of what
         carries a patch from one representation to another. A `live` prairie leaves a plugin's wind out for a while
         that takes too long; others keep it. With `hold`, as little as is needed is left out of a picture for a draw to
-        take no longer than that [s], pixels first. Raises `SceneError` with every problem of the file and its maps,
+        take no longer than that [s], pixels first. A `linear` prairie draws linear radiance in place of display colours,
+        for a game that has a framebuffer of floats and a tone curve of its own. Raises `SceneError` with every problem of the file and its maps,
         ValueError for an unknown preset or representation, and for a `hold` that is no time.
         """
         for what, name, known in (("preset", preset, tuple(PRESETS)), ("representation", lod, get_args(LodName))):
             if name is not None and name not in known:
                 raise ValueError(f"unknown {what} '{name}'; there are {', '.join(known)}")
-        return cls(read_scene(scene), ctx=ctx, preset=preset, lod=lod, transitions=transitions, live=live, hold=hold)
+        return cls(
+            read_scene(scene),
+            ctx=ctx,
+            preset=preset,
+            lod=lod,
+            transitions=transitions,
+            live=live,
+            hold=hold,
+            linear=linear,
+        )
 
     def reseeded(self, seed: int) -> "Prairie":
         """Return another prairie of the same scene, quality and terrain, with other grass."""
@@ -119,6 +131,7 @@ class Prairie:
         return Prairie(
             loaded, ctx=self._assembly.screen.ctx, preset=self._preset, lod=self.lod,
             transitions=self.site.transitions, live=self.winds.quarantine.live,
+            linear=self._assembly.screen.linear,
         )  # fmt: skip
 
     @property

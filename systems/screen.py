@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 class Screen:
     """The host's framebuffers, in the context that is given or else in whichever is current."""
 
-    def __init__(self, ctx: moderngl.Context | None, quarantine: Quarantine) -> None:
-        self.ctx = ctx
+    def __init__(self, ctx: moderngl.Context | None, quarantine: Quarantine, *, linear: bool = False) -> None:
+        self.ctx, self.linear = ctx, linear
         self._quarantine = quarantine
         self.painter: Painter | None = None
         """The painter of the context that was drawn in last; None before the first time."""
@@ -43,7 +43,9 @@ class Screen:
                 yield None
                 return
             arrive(ctx)
-            self.painter = self._painters.here(ctx, partial(Painter, site=site, quarantine=self._quarantine))
+            self.painter = self._painters.here(
+                ctx, partial(Painter, site=site, quarantine=self._quarantine, linear=self.linear)
+            )
             if self.painter.site is not site:
                 self.painter.change(site)
             yield self.painter

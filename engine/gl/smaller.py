@@ -44,9 +44,13 @@ class Buffers:
     target: moderngl.Framebuffer
 
     @classmethod
-    def made(cls, ctx: moderngl.Context, full: Size, small: Size, /) -> "Buffers":
+    def made(cls, ctx: moderngl.Context, full: Size, small: Size, /, *, floats: bool = False) -> "Buffers":
         """Return new ones for a viewport and a picture of these sizes [pixels]."""
-        before, picture, deep = ctx.depth_texture(full), ctx.texture(small, 4), ctx.depth_texture(small)
+        before, picture, deep = (
+            ctx.depth_texture(full),
+            ctx.texture(small, 4, dtype="f2" if floats else "f1"),
+            ctx.depth_texture(small),
+        )
         for texture in (before, picture, deep):
             texture.repeat_x = texture.repeat_y = False
         for depth in (before, deep):
@@ -70,8 +74,8 @@ class Smaller:
     There is none before it is needed, and one for each of the last sizes.
     """
 
-    def __init__(self, ctx: moderngl.Context) -> None:
-        self._ctx, self._gl = ctx, functions_of(ctx)
+    def __init__(self, ctx: moderngl.Context, *, floats: bool = False) -> None:
+        self._ctx, self._gl, self._floats = ctx, functions_of(ctx), floats
         self._programs: dict[str, moderngl.Program] = {}
         self._passes: dict[str, moderngl.VertexArray] = {}
         self._buffers: dict[tuple[Size, Size], Buffers] = {}
@@ -146,7 +150,7 @@ class Smaller:
         if (full, small) not in self._buffers:
             if len(self._buffers) == MOST:
                 self._buffers.pop(next(iter(self._buffers))).release()
-            self._buffers[full, small] = Buffers.made(self._ctx, full, small)
+            self._buffers[full, small] = Buffers.made(self._ctx, full, small, floats=self._floats)
         self._tell({"size": small, "unit": (1.0 / small[0], 1.0 / small[1])})
         return self._buffers[full, small]
 

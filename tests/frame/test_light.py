@@ -1,0 +1,145 @@
+"""Light on whole pictures: shadows, slopes away from the sun, clouds, dusk, and what a host may do with it (F5, F10)."""
+
+from collections.abc import Callable
+
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass import Shade
+from tallgrass.engine.camera import Camera
+from tallgrass.engine.world import World
+from tallgrass.systems.light.color import display
+from tallgrass.systems.prairie import Prairie
+from tallgrass.testing import Stage
+
+Load = Callable[..., Prairie]
+Picture = NDArray[np.uint8]
+
+SCENE = """\
+tallgrass: 2
+terrain: { size: [60, 60] }
+grass: { turf: { height: [0.3, 0.5], blades: 300 } }
+quality:
+  models: 1
+  blade_rings: [{ to: 1, segments: 2 }]
+  strip_rings: [{ to: 5, strips: 2, texel: 0.05 }]
+  carpet_to: 16
+  carpet: 64
+"""
+CAMERA = Camera((0.0, 9.0, 16.0), 0.0, -0.6, np.radians(40.0))
+NOON = "light: { azimuth: 90, elevation: 60 }\n"
+
+
+@pytest.fixture(scope="module")
+def room(ctx: moderngl.Context) -> Stage:
+    return Stage(ctx, (240, 160))
+
+
+def bright(picture: Picture) -> NDArray[np.float64]:
+    return np.asarray(picture.mean(axis=2, dtype=np.float64))
+
+
+def test_what_a_game_puts_between_sun_and_grass_casts_a_shadow_there_and_nowhere_else(room: Stage, load: Load) -> None:
+    prairie = load(SCENE + NOON)
+    before = bright(room.shot(prairie, CAMERA))
+    away = 4.0 / np.tan(np.radians(60.0))
+    handle = prairie.world.create(Shade((away, 4.0, 0.0), 1.5))
+    after = bright(room.shot(prairie, CAMERA))
+    prairie.world.delete(handle)
+    ratio, from_middle = after / before, np.hypot(*np.moveaxis(room.ground(CAMERA, level=0.2), -1, 0))
+    assert ratio[from_middle < 0.8].mean() < 0.75
+    assert ratio[from_middle > 3.5].min() > 0.99
+    np.testing.assert_array_equal(bright(room.shot(prairie, CAMERA)), before)
+
+
+@pytest.mark.parametrize("wrong", [(0.0, 1.0), (0.0, float("nan"), 0.0)])
+def test_a_shade_that_is_nowhere_is_refused(wrong: tuple[float, ...]) -> None:
+    with pytest.raises(ValueError, match="a shade's place is three finite numbers"):
+        Shade(wrong, 1.0)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="a shade's radius is above 0 m"):
+        Shade((0.0, 0.0, 0.0), 0.0)
+
+
+def test_of_many_shades_the_nearest_count(room: Stage, load: Load) -> None:
+    prairie = load(SCENE + NOON)
+    before = bright(room.shot(prairie, CAMERA))
+    far = [prairie.world.create(Shade((200.0 + number, 400.0, 0.0), 1.0)) for number in range(9)]
+    near = prairie.world.create(Shade((2.3, 4.0, 0.0), 1.5))
+    assert bright(room.shot(prairie, CAMERA)).min() < before.min()
+    for entity in (*far, near):
+        prairie.world.delete(entity)
+
+
+def test_a_ridge_casts_its_shadow_behind_it_and_light_comes_back_with_distance(
+    room: Stage, load: Load, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    folder = tmp_path_factory.mktemp("ridge")
+    x = np.arange(61, dtype=np.float32) - 30.0
+    np.save(folder / "ridge.npy", np.tile(5.0 * np.exp(-((x + 8.0) ** 2) / 6.0), (61, 1)).astype(np.float32))
+    low = "light: { azimuth: -90, elevation: 25 }\n"
+    text = SCENE.replace("{ size: [60, 60] }", f"{{ heights: {folder / 'ridge.npy'}, scale: 1 }}") + low
+    prairie = load(text)
+    picture = bright(room.shot(prairie, Camera((6.0, 14.0, 16.0), 0.0, -0.7, np.radians(50.0))))
+    ground = room.ground(Camera((6.0, 14.0, 16.0), 0.0, -0.7, np.radians(50.0)), level=0.2)
+    near = np.abs(ground[..., 1]) < 8.0
+    shaded = picture[near & (ground[..., 0] > -3.0) & (ground[..., 0] < 0.0)].mean()
+    lit = picture[near & (ground[..., 0] > 8.0) & (ground[..., 0] < 12.0)].mean()
+    assert shaded < 0.8 * lit
+
+
+def test_a_slope_away_from_the_sun_is_not_crushed(
+    room: Stage, load: Load, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    folder = tmp_path_factory.mktemp("roof")
+    x = np.abs(np.arange(61, dtype=np.float32) - 30.0)
+    np.save(folder / "roof.npy", np.tile((30.0 - x) * np.tan(np.radians(35.0)), (61, 1)).astype(np.float32))
+    text = SCENE.replace("{ size: [60, 60] }", f"{{ heights: {folder / 'roof.npy'}, scale: 1 }}")
+    prairie = load(text + "light: { azimuth: 90, elevation: 35 }\n")
+    top = 30.0 * np.tan(np.radians(35.0))
+    views = [Camera((side * 15.0, top + 4.0, 0.0), 0.0, -1.2, np.radians(30.0)) for side in (1.0, -1.0)]
+    facing, away = ((room.shot(prairie, view).astype(np.float64) / 255.0) ** 2.2 for view in views)
+    assert away.mean() > 0.12 * facing.mean()
+    assert away.mean() < 0.9 * facing.mean()
+
+
+def test_clouds_cast_shadows_that_drift_with_the_breeze(room: Stage, load: Load) -> None:
+    breeze = "wind: [{ kind: breeze, direction: 90, strength: 0.0, speed: 20, swing: 0 }]\n"
+    clear, cloudy = load(SCENE + NOON + breeze), load(SCENE + NOON.replace("60 }", "60, clouds: 0.6 }") + breeze)
+    ratios = []
+    for _ in range(6):
+        ratios.append(bright(room.shot(cloudy, CAMERA)) / bright(room.shot(clear, CAMERA)))
+        for prairie in (clear, cloudy):
+            prairie.advance(4.0)
+    means = [ratio.mean() for ratio in ratios]
+    assert max(means) - min(means) > 0.05
+
+
+def test_a_night_is_dark_and_not_black(room: Stage, load: Load) -> None:
+    day, night = (room.shot(load(SCENE + f"light: {{ hour: {hour} }}\n"), CAMERA) for hour in (12, 1))
+    assert bright(night).mean() < 0.5 * bright(day).mean()
+    assert (night.max(axis=2) > 2).mean() > 0.99
+
+
+def test_a_linear_prairie_draws_the_radiance_that_others_show(ctx: moderngl.Context, load: Load) -> None:
+    size = 96, 64
+    shown = Stage(ctx, size).shot(load(SCENE + NOON), CAMERA)
+    prairie = load(SCENE + NOON, linear=True)
+    target = ctx.framebuffer([ctx.texture(size, 4, dtype="f4")], ctx.depth_renderbuffer(size))
+    target.use()
+    target.clear()
+    prairie.draw(*Stage(ctx, size).matrices(CAMERA))
+    radiance = np.frombuffer(target.read(components=3, dtype="f4"), np.float32).reshape(size[1], size[0], 3)[::-1]
+    told = display(radiance) * 255.0
+    assert np.abs(told - shown).mean() < 8.0
+    sky = np.zeros(size[::-1], np.bool_)
+    sky[:2] = shown[:2, :, 2] > shown[:2, :, 1] + 20
+    np.testing.assert_allclose(told[sky], shown[sky], atol=2.0)
+
+
+def test_scenes_of_format_1_keep_their_sky(room: Stage, load: Load, world: World) -> None:
+    old = load(SCENE.replace("tallgrass: 2", "tallgrass: 1") + NOON)
+    up = room.shot(old, Camera((0.0, 2.0, 0.0), 0.0, 1.5, np.radians(30.0)))
+    middle = up[60:100, 100:140].reshape(-1, 3).mean(axis=0)
+    np.testing.assert_allclose(middle, (0x4F, 0x86, 0xC6), atol=30)
