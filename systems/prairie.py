@@ -107,9 +107,9 @@ class Prairie:
         the scene's quality, `lod` shows everything in one representation, `transitions` leaves out parts of what
         carries a patch from one representation to another. A `live` prairie leaves a plugin's wind out for a while
         that takes too long; others keep it. With `hold`, as little as is needed is left out of a picture for a draw to
-        take no longer than that [s], pixels first. A `linear` prairie draws linear radiance in place of display colours,
-        for a game that has a framebuffer of floats and a tone curve of its own. Raises `SceneError` with every problem of the file and its maps,
-        ValueError for an unknown preset or representation, and for a `hold` that is no time.
+        take no longer than that [s], pixels first. A `linear` prairie draws linear radiance, for a game that has a
+        framebuffer of floats and a tone curve of its own. Raises `SceneError` with every problem of the file and its
+        maps, ValueError for an unknown preset or representation, and for a `hold` that is no time.
         """
         for what, name, known in (("preset", preset, tuple(PRESETS)), ("representation", lod, get_args(LodName))):
             if name is not None and name not in known:
