@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .systems.wind.breeze import Breeze
     from .systems.wind.gust import Gust
     from .systems.wind.placed import PlacedWind
+    from .systems.wind.turbulence import Turbulence
     from .systems.wind.whirlwind import Whirlwind
 
 __version__ = "0.1.0"
@@ -40,6 +41,7 @@ __all__ = [
     "Receivers",
     "SceneError",
     "Shape",
+    "Turbulence",
     "TwinValues",
     "Viewer",
     "Whirlwind",
@@ -66,6 +68,7 @@ _HOMES = {
     "Receivers": ".components.receivers",
     "SceneError": ".engine.scene",
     "Shape": ".systems.wind.blast",
+    "Turbulence": ".systems.wind.turbulence",
     "TwinValues": ".components.wind",
     "Viewer": ".components.viewer",
     "Whirlwind": ".systems.wind.whirlwind",
