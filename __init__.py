@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from .systems.wind.blast import Blast, Shape
     from .systems.wind.breeze import Breeze
     from .systems.wind.gust import Gust
+    from .systems.wind.mean import MeanWind
     from .systems.wind.placed import PlacedWind
     from .systems.wind.turbulence import Turbulence
     from .systems.wind.whirlwind import Whirlwind
@@ -33,6 +34,7 @@ __all__ = [
     "Gust",
     "Hover",
     "Lod",
+    "MeanWind",
     "Patch",
     "Phase",
     "PlacedWind",
@@ -60,6 +62,7 @@ _HOMES = {
     "Gust": ".systems.wind.gust",
     "Hover": ".components.body",
     "Lod": ".components.patch",
+    "MeanWind": ".systems.wind.mean",
     "Patch": ".components.patch",
     "Phase": ".engine.schedule",
     "PlacedWind": ".systems.wind.placed",

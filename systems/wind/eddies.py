@@ -1,21 +1,18 @@
 """Eddies: tables of turbulence with von Karman's spectrum, as the paper wishes for in section 3.3 (its [13, 14])."""
 
 from functools import lru_cache
-from math import atan, cos, gamma, pi, sin, sqrt
+from math import gamma, pi, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...engine.noise import PERIOD, power_left
+from ...engine.noise import ASLANT, PERIOD, power_left
 
 Floats = NDArray[np.float32]
 Doubles = NDArray[np.float64]
 
 WIDE, FINER = 24.0, 8.0
 """After how many length scales the table of large eddies repeats, and how much sooner that of small ones does."""
-
-ASLANT = atan((sqrt(5.0) - 1.0) / 2.0)
-"""How the tables lie to the wind [rad]: by the golden section, so that no way along it soon comes back to its start."""
 
 BETWEEN, SMALLEST, SOFT = 6.5, 90.0, 0.8
 """Wave numbers where small eddies take over from large ones, and where they end, of the length scale; and over how wide
@@ -31,7 +28,7 @@ def eddy_tables(seed: int, /) -> tuple[Floats, Floats]:
 
     They are a horizontal slice of isotropic turbulence, for a length scale of 1: velocity along the wind and to its
     right, and both once more a quarter of a turn on. Table points are WIDE / PERIOD apart, and those of small eddies
-    FINER times closer; columns lie `ASLANT` to the right of the wind's direction. What `smooth_noise` reads of both
+    FINER times closer; the wind crosses them `ASLANT`. What `smooth_noise` reads of both
     tables together has, in each component, the variance 1. So it has where the two halves of a table are mixed by the
     cosine and sine of any angle.
     """
@@ -49,7 +46,8 @@ def _waves(period: float) -> Doubles:
     """Return the wave numbers of a table, along the wind and to its right, shape (2, rows, columns)."""
     number = 2.0 * pi * np.fft.fftfreq(PERIOD, period / PERIOD)
     column, row = np.meshgrid(number, number)
-    return np.stack([cos(ASLANT) * column - sin(ASLANT) * row, sin(ASLANT) * column + cos(ASLANT) * row])
+    ahead, aside = ASLANT
+    return np.stack([ahead * column - aside * row, aside * column + ahead * row])
 
 
 def _power(waves: Doubles, least: float, most: float) -> Doubles:
