@@ -20,7 +20,9 @@ if TYPE_CHECKING:
     from .systems.wind.blast import Blast, Shape
     from .systems.wind.breeze import Breeze
     from .systems.wind.gust import Gust
+    from .systems.wind.mean import MeanWind
     from .systems.wind.placed import PlacedWind
+    from .systems.wind.turbulence import Turbulence
     from .systems.wind.whirlwind import Whirlwind
 
 __version__ = "0.1.0"
@@ -33,6 +35,7 @@ __all__ = [
     "Gust",
     "Hover",
     "Lod",
+    "MeanWind",
     "Patch",
     "Phase",
     "PlacedWind",
@@ -42,6 +45,7 @@ __all__ = [
     "SceneError",
     "Shade",
     "Shape",
+    "Turbulence",
     "TwinValues",
     "Viewer",
     "Whirlwind",
@@ -60,6 +64,7 @@ _HOMES = {
     "Gust": ".systems.wind.gust",
     "Hover": ".components.body",
     "Lod": ".components.patch",
+    "MeanWind": ".systems.wind.mean",
     "Patch": ".components.patch",
     "Phase": ".engine.schedule",
     "PlacedWind": ".systems.wind.placed",
@@ -69,6 +74,7 @@ _HOMES = {
     "SceneError": ".engine.scene",
     "Shade": ".components.shade",
     "Shape": ".systems.wind.blast",
+    "Turbulence": ".systems.wind.turbulence",
     "TwinValues": ".components.wind",
     "Viewer": ".components.viewer",
     "Whirlwind": ".systems.wind.whirlwind",

@@ -1,6 +1,7 @@
 """Smooth noise on the ground, read from periodic tables of random numbers."""
 
 from functools import lru_cache
+from math import atan, cos, sin, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,6 +9,10 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float32]
 PERIOD = 128
 """Lattice points along a side of a table, after which the noise repeats; a power of two."""
+
+
+ASLANT = cos(atan((sqrt(5.0) - 1.0) / 2.0)), sin(atan((sqrt(5.0) - 1.0) / 2.0))
+"""A direction on the lattice whose slope is the golden section, so that no way along it soon comes near its start."""
 
 
 @lru_cache(maxsize=64)
@@ -40,6 +45,27 @@ def smooth_noise(table: Floats, place: Floats, /, *, shift: tuple[float, float] 
     near += s * (flat.take(below + right, axis=0) - near)
     far += t * (near - far)
     return far
+
+
+@lru_cache(maxsize=64)
+def wander(seed: int, stream: int, steps: float, /) -> tuple[float, float, float, float]:
+    """Return four numbers in [-1, 1] that wander independently, each elsewhere after a step or two.
+
+    They are the noise of a table along a way that crosses it aslant, by the golden section: it is 7000 steps long
+    before it comes within a lattice point of itself.
+    """
+    way = [[steps * part % PERIOD for part in ASLANT]]
+    first, second, third, fourth = smooth_noise(noise_table(seed, stream), np.array(way, np.float32))[0].tolist()
+    return first, second, third, fourth
+
+
+def power_left(turn: NDArray[np.float64], /) -> NDArray[np.float64]:
+    """Return how much of the power of waves on a table's lattice is left between its points, on average, same shape.
+
+    `turn` is how far each wave turns from point to point along one axis [rad]. Of a wave aslant, the product over both
+    axes is left.
+    """
+    return 1.0 - 9.0 / 35.0 * (1.0 - np.cos(turn))  # the integral of (1-w)^2 + w^2 + 2 w (1-w) cos(turn), w = 3t^2-2t^3
 
 
 def noise_grid(table: Floats, x: Floats, z: Floats, /) -> Floats:

@@ -27,6 +27,7 @@ from .show.blades.draw import BladePainter
 from .show.carpet.painter import CarpetPainter
 from .show.registry import REPRESENTATIONS
 from .site import Site
+from .wind.blow import mean_yaw
 from .wind.card import SAMPLERS as WINDS
 from .wind.card import CardWinds
 from .wind.quarantine import Quarantine
@@ -149,7 +150,9 @@ class Painter:
         outlook, air, site = self._outlook, self.air, self.site
         if outlook is None:
             return 0
-        air.write(outlook.winds, time=outlook.blown_at, seed=site.scene.seed, mixing=site.scene.mixing)
+        scene = site.scene
+        to = mean_yaw(scene.wind)
+        air.write(outlook.winds, time=outlook.blown_at, seed=scene.seed, mixing=scene.mixing, to=to)
         air.tell(
             partial(receivers_shown, outlook, site.growths, patch=site.ground.patch, margin=site.margin),
             self.quarantine, numbers=partial(numbers_of, outlook, self._first),

@@ -21,7 +21,7 @@ from .around.canopy import canopy_height, top_at
 from .around.ground import Ground, densest_kind
 from .bodies.fly import foot, hover_of, hovering
 from .grow.record import Growth
-from .wind.blow import Blowing, ReceiverArrays, blowing, hear, places_alone
+from .wind.blow import Blowing, ReceiverArrays, blowing, hear, mean_yaw, places_alone
 from .wind.grass import grass_of
 from .wind.quarantine import Quarantine, QuarantinedError
 
@@ -136,8 +136,8 @@ class Winds:
 
     def heard(self, receivers: ReceiverArrays, /, *, time: float) -> Floats:
         """Return the message that each receiver ends up with at `time` [s], shape (n, 2)."""
-        seed, mixing = self._scene.seed, self._scene.mixing
-        return hear(self.now(time), receivers, self.quarantine, time=time, seed=seed, mixing=mixing)
+        seed, mixing, to = self._scene.seed, self._scene.mixing, mean_yaw(self._scene.wind)
+        return hear(self.now(time), receivers, self.quarantine, time=time, seed=seed, mixing=mixing, to=to)
 
     def at(self, place: Floats, /, *, time: float, kind: int | None = None) -> Floats:
         """Return what grass of a kind, or the densest there, feels at ground positions (n, 2) [m], shape (n, 2)."""

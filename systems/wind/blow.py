@@ -5,6 +5,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache, partial
 from itertools import groupby
+from math import radians
 from operator import itemgetter
 from types import NoneType
 from zlib import crc32
@@ -16,6 +17,7 @@ from ...components.pose import HERE, Pose
 from ...components.wind import Extent, Grass, Mixing, WindPrimitive, WindSource
 from ...engine.random import hash3
 from .flutter import flutter
+from .mean import TOWARDS, MeanWind
 from .quarantine import Quarantine, QuarantinedError
 from .shape import smooth
 
@@ -97,18 +99,26 @@ def hear(
     time: float,
     seed: int,
     mixing: Mixing = "priority",
+    to: float = 0.0,
 ) -> Floats:
     """Return the message that each receiver ends up with, shape (n, 2).
 
     By `priority`, the first wind in `winds` whose mask holds a receiver cancels the others (paper, section 3.3). By
     `weight`, a wind covers those of lower priority as far as its mask, its weight and its setting in say, and winds of
-    one priority are averaged. Where no mask reaches, grass is at rest.
+    one priority are averaged. Where no mask reaches, grass is at rest. The small oscillations are carried to the yaw
+    `to` [rad], whichever winds act.
     """
     left_out = -1
     while left_out < len(quarantine.reasons):  # what a wind sent before it failed is no message
         left_out = len(quarantine.reasons)
         sums = _heard(winds, heard, quarantine, time, mixing)
-    return _bounded(_fluttered(sums, heard, time, seed))
+    return _bounded(_fluttered(sums, heard, time, seed, to))
+
+
+def mean_yaw(winds: Iterable[WindPrimitive], /) -> float:
+    """Return where a scene's mean wind blows to [rad]: of those that blow everywhere, the one that claims least."""
+    found = [(claim(wind), wind.direction) for wind in winds if isinstance(wind, MeanWind)]
+    return radians(min(found)[1] if found else TOWARDS)
 
 
 def _heard(winds: list[Blowing], heard: ReceiverArrays, quarantine: Quarantine, time: float, mixing: Mixing) -> "_Sums":
@@ -296,13 +306,13 @@ def _lay(sums: _Sums, rows: Rows | slice, weight: Floats, message: Floats, swing
     sums.left[rows] -= share
 
 
-def _fluttered(sums: _Sums, heard: ReceiverArrays, time: float, seed: int) -> Floats:
+def _fluttered(sums: _Sums, heard: ReceiverArrays, time: float, seed: int, to: float) -> Floats:
     moving = len(heard.place) - heard.still
     swing = sums.swing[:moving]
     rows = np.flatnonzero(swing)
     chosen = slice(moving) if len(rows) == moving else rows
     if len(rows):
-        sums.message[chosen] += swing[chosen, None] * flutter(heard.place[chosen], time=time, seed=seed)
+        sums.message[chosen] += swing[chosen, None] * flutter(heard.place[chosen], time=time, seed=seed, to=to)
     return sums.message
 
 

@@ -7,8 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from ...components.wind import Grass, TwinValues, WindPrimitive
+from ...components.wind import Grass, TwinValues
 from ...engine.noise import PERIOD, noise_table, smooth_noise
+from .mean import MeanWind
 
 Floats = NDArray[np.float32]
 
@@ -16,7 +17,7 @@ WAVE = 7.0
 """Distance between the waves that travel over the field [m]."""
 
 
-class Breeze(WindPrimitive):
+class Breeze(MeanWind):
     """A light wind over the whole prairie, whose strength and direction drift in waves that travel with it."""
 
     twin: ClassVar[str | None] = "breeze.glsl"
@@ -25,21 +26,8 @@ class Breeze(WindPrimitive):
     kind: Literal["breeze"] = "breeze"
     """A gentle breeze."""
 
-    direction: float = Field(default=90.0, ge=-360.0, le=360.0)
-    """Where it blows to, as a camera's yaw: 0 is -z, 90 is +x [degrees]."""
-
-    strength: float = Field(default=0.3, ge=0.0, le=1.0)
-    """Mean posture index of the grass in it."""
-
     gustiness: float = Field(default=0.5, ge=0.0, le=1.0)
     """How far its strength and direction drift in waves, 0 is steady."""
-
-    speed: float = Field(default=4.0, ge=0.0, le=40.0)
-    """How fast its waves travel [m/s]."""
-
-    def mask(self, place: Floats, /, *, time: float) -> Floats:
-        """Return 1 everywhere: a breeze has no edge."""
-        return np.ones(len(place), np.float32)
 
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
         """Return its messages at ground positions (n, 2): a rest that drifts slowly, shape (n, 2)."""

@@ -77,11 +77,13 @@ class CardWinds:
         order = sorted(winds, key=claim, reverse=True)
         self._runs([self._number_of(type(wind)) for wind in order])
 
-    def write(self, winds: Sequence[Blowing], /, *, time: float, seed: int, mixing: Mixing) -> list[Blowing]:
+    def write(
+        self, winds: Sequence[Blowing], /, *, time: float, seed: int, mixing: Mixing, to: float = 0.0
+    ) -> list[Blowing]:
         """Send the winds of a frame, the strongest claim first, and return those that have no twin.
 
-        `time` [s], `seed` and `mixing` are those of `systems.wind.blow.hear`. Winds without a twin say nothing until
-        `tell` has asked them.
+        `time` [s], `seed`, `mixing` and `to` are those of `systems.wind.blow.hear`. Winds without a twin say nothing
+        until `tell` has asked them.
         """
         self._asked = time, mixing
         weighs = mixing == "weight"
@@ -90,7 +92,7 @@ class CardWinds:
         self._sheets.begin()
         numbers = [self._write(number, wind, time, weighs=weighs) for number, wind in enumerate(self._winds)]
         self._untwinned = [number for number, twin in enumerate(numbers) if twin == TOLD]
-        frame = flutter_values(time=time, seed=seed)
+        frame = flutter_values(time=time, seed=seed, to=to)
         self._put(0, (float(weighs), *_NOTHING), TwinValues([*frame.numbers, *self._runs(numbers)], frame.sheets))
         self._send()
         return [self._winds[number] for number in self._untwinned]

@@ -108,7 +108,7 @@ int twin_of(int row) {
 
 // Where a run of winds ends.
 int end_of(int run) {
-    return int(value(Wind(0, 0), 3 + run));
+    return int(value(Wind(0, 0), FLUTTER + run));
 }
 
 #include "systems/wind/twins.glsl"

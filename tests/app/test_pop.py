@@ -27,6 +27,7 @@ POP = {
 
 SCENE = """\
 tallgrass: 2
+seed: 2
 terrain: { noise: flat, size: [60, 60] }
 grass:
   tall: { height: [0.5, 0.9], width: 0.03, root: "#5a5a2c", tip: "#dcc98f" }

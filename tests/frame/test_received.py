@@ -27,6 +27,7 @@ from tallgrass.systems.show.blades.plant import standing_blades
 from tallgrass.systems.show.blades.representation import BladeRepresentation
 from tallgrass.systems.wind.blast import Blast, Shape
 from tallgrass.systems.wind.breeze import Breeze
+from tallgrass.systems.wind.turbulence import Turbulence
 from tallgrass.systems.wind.whirlwind import Whirlwind
 from tallgrass.testing import LITTLE
 
@@ -277,6 +278,18 @@ def test_w1_more_receivers_than_there_was_room_for_are_all_told(
     assert prairie.painter.received.texture.height > 64
     assert sum(texels.shape[0] * texels.shape[1] for _, texels in on_card(prairie)) > 64 * ROW
     assert told_alike(prairie, on_card)["blades"] > 0.3
+
+
+def test_f8_every_representation_feels_turbulence_alike_even_after_hours(
+    stage: Stage, load: Load, camera: Aim, on_card: OnCard
+) -> None:
+    prairie = load(LITTLE)
+    prairie.add(Turbulence(strength=0.5, scale=6.0, speed=11.0))
+    prairie.advance(20_000.0)
+    for _ in range(3):
+        prairie.advance(0.4)
+        stage.shot(prairie, camera(0.3, 9.0, 1.7))
+        assert min(told_alike(prairie, on_card).values()) > 0.2
 
 
 @given(st.lists(st.integers(0, 3 * ROW), max_size=8))

@@ -15,7 +15,7 @@ pytestmark = pytest.mark.packaging
 
 
 def test_the_face_shows_what_programs_are_written_with() -> None:
-    winds = {"Blast", "Breeze", "Gust", "PlacedWind", "Whirlwind", "WindPrimitive"}
+    winds = {"Blast", "Breeze", "Gust", "MeanWind", "PlacedWind", "Turbulence", "Whirlwind", "WindPrimitive"}
     records = {
         "Extent",
         "Grass",

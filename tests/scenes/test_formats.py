@@ -67,4 +67,4 @@ def test_the_scene_of_todays_format_uses_every_key() -> None:
     assert values["grass"]["tall"].keys() == fields(type(scene.grass["tall"]))
     used = {declared["kind"]: declared.keys() for declared in reversed(values["wind"])}
     assert used == {kind: fields(wind_kinds().find(kind)) for kind in used}
-    assert set(used) >= {"breeze", "gust", "whirlwind", "blast"}
+    assert set(used) >= {"breeze", "gust", "whirlwind", "blast", "turbulence"}

@@ -1,6 +1,7 @@
 """A prairie without any GL: what a game asks of it (N4, D2, D5, D6)."""
 
 from collections.abc import Callable, Iterator
+from math import radians
 from pathlib import Path
 from typing import Any, Literal
 
@@ -15,6 +16,7 @@ from tallgrass.components.wind import Grass, WindPrimitive, WindSource
 from tallgrass.engine.scene import SceneError
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.wind.flutter import flutter
 from tallgrass.systems.wind.gust import Gust
 
 Floats = NDArray[np.float32]
@@ -108,6 +110,15 @@ def test_n5_the_wind_of_any_instant_is_known_in_advance(prairie: Prairie) -> Non
     np.testing.assert_array_equal(prairie.wind_at(PLACES), soon)
     strength = [float(np.linalg.norm(prairie.wind_at(PLACES, time), axis=1).mean()) for time in (4.9, 5.5, 6.1)]
     assert strength[1] > 1.3 * max(strength[0], strength[2])
+
+
+@pytest.mark.parametrize("direction", [0.0, 90.0, -35.0])
+def test_f8_the_scenes_mean_wind_carries_the_small_oscillations(load: Load, tmp_path: Path, direction: float) -> None:
+    swinging = f"{{ kind: breeze, strength: 0, swing: 0.25, direction: {direction} }}"
+    (tmp_path / "swinging.yaml").write_text(SCENE.replace("{ kind: breeze, strength: 0.4 }", swinging), "utf-8")
+    prairie = load(tmp_path / "swinging.yaml")
+    due = flutter(PLACES, time=40.0, seed=5, to=radians(direction))
+    np.testing.assert_allclose(prairie.wind_at(PLACES, 40.0), np.float32(0.25) * due, atol=1e-6)
 
 
 def test_d5_a_games_own_wind_may_come_and_go(prairie: Prairie) -> None:

@@ -45,7 +45,7 @@ def write(monkeypatch: pytest.MonkeyPatch) -> Write:
     return written
 
 
-@pytest.mark.parametrize("kind", ["breeze", "gust", "whirlwind", "blast"])
+@pytest.mark.parametrize("kind", ["breeze", "gust", "whirlwind", "blast", "turbulence"])
 def test_built_in_winds_and_their_twins_say_the_same(ctx: moderngl.Context, kind: str) -> None:
     assert twin_problems(wind_kinds().find(kind), ctx) == []
 

@@ -12,6 +12,7 @@ from tallgrass.systems.wind.blow import ReceiverArrays, blowing, hear
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.quarantine import Quarantine
+from tallgrass.systems.wind.turbulence import Turbulence
 from tallgrass.systems.wind.whirlwind import Whirlwind
 
 Answer = Callable[..., Grass]
@@ -54,3 +55,15 @@ def test_w5_three_more_winds_on_a_tenth_of_the_grass_cost_little_more_than_the_b
     times = np.array([(took(Breeze()), took(Breeze(), *OTHERS)) for _ in range(30)])
     alone, together = np.median(times, axis=0)
     assert together / alone < 2.0
+
+
+def test_f8_turbulence_costs_a_receiver_at_most_three_times_what_the_breeze_does(answer: Answer) -> None:
+    receivers = in_front(answer)
+
+    def took(wind: WindPrimitive) -> int:
+        start = thread_time_ns()
+        wind.action(receivers.place, time=TIME, seed=1, grass=receivers.grass)
+        return thread_time_ns() - start
+
+    breeze, turbulence = np.median([(took(Breeze()), took(Turbulence())) for _ in range(30)], axis=0)
+    assert turbulence / breeze < 3.0

@@ -1,7 +1,8 @@
 """Small oscillations of random direction and strength on every wind (W10)."""
 
 from collections.abc import Callable
-from math import radians, sin
+from itertools import permutations
+from math import cos, pi, radians, sin
 
 import numpy as np
 import pytest
@@ -10,9 +11,11 @@ from numpy.typing import NDArray
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import WindPrimitive
 from tallgrass.systems.wind.blast import Blast, Shape
+from tallgrass.systems.wind.blow import mean_yaw
 from tallgrass.systems.wind.breeze import Breeze
-from tallgrass.systems.wind.flutter import flutter
+from tallgrass.systems.wind.flutter import CARRIED, PACES, flutter
 from tallgrass.systems.wind.gust import Gust
+from tallgrass.systems.wind.turbulence import Turbulence
 from tallgrass.systems.wind.whirlwind import Whirlwind
 
 Floats = NDArray[np.float32]
@@ -80,7 +83,7 @@ def test_w10_a_swing_of_0_is_the_prescribed_motion_exactly(feel: Feel, wind: Win
 
 
 @kinds
-def test_w10_their_noise_stands_on_the_ground_while_the_wind_moves(feel: Feel, wind: WindPrimitive) -> None:
+def test_w10_a_wind_that_passes_does_not_drag_their_noise_along(feel: Feel, wind: WindPrimitive) -> None:
     here = added(feel, wind)
     if isinstance(wind, Breeze):
         np.testing.assert_allclose(here, flutter(FIELD, time=2.5, seed=7), atol=2e-5)
@@ -105,3 +108,52 @@ def test_w10_swings_are_as_large_as_they_are_declared(feel: Feel, wind: WindPrim
 def test_w10_another_seed_swings_otherwise(feel: Feel) -> None:
     one, other = (added(feel, WINDS[2], seed=seed) for seed in (1, 2))
     assert abs(np.corrcoef(one.ravel(), other.ravel())[0, 1]) < 0.2
+
+
+@pytest.mark.parametrize("to", [0.0, 0.5 * pi, 2.3])
+@pytest.mark.parametrize("time", [0.0, 1000.0, 36000.0])
+def test_f8_the_mean_wind_carries_the_oscillations_along(to: float, time: float) -> None:
+    """After a whole turn of the slowest beat, and with what they wander on the way."""
+    later = 2.0 * pi / PACES[1]
+    before = flutter(FIELD, time=time, seed=7, to=to)[:, 1]
+    away = np.linspace(-1.5, 1.5, 31)
+    ahead = np.array([sin(to), -cos(to)])
+    found = [
+        np.corrcoef(before, flutter((FIELD + on * ahead).astype(np.float32), time=time + later, seed=7, to=to)[:, 1])
+        for on in away
+    ]
+    best = np.array([each[0, 1] for each in found])
+    assert away[best.argmax()] == pytest.approx(CARRIED * later, abs=0.35)
+    assert best.max() > 0.45
+    assert np.abs(best[np.abs(away) < 0.05]).max() < 0.5 * best.max(), "nothing stands on the spot"
+
+
+@pytest.mark.parametrize("to", [0.0, 0.5 * pi])
+def test_f8_the_oscillations_do_not_come_again_within_an_hour(to: float) -> None:
+    """Whichever way they are carried, along an axis of their noise's table too."""
+    steps = np.arange(0.0, 2.0 * 3600.0, 0.5)
+    story = np.stack([flutter(FIELD[:60], time=time, seed=7, to=to) for time in steps], axis=2)
+    power = (np.abs(np.fft.rfft(story, 2 * len(steps), axis=2)) ** 2).mean(axis=0)
+    correlation = np.fft.irfft(power)[:, : len(steps)] / (len(steps) - np.arange(len(steps)))
+    within = correlation[:, 20 : 3600 * 2 + 1] / correlation[:, :1]
+    assert np.abs(within).max() < 0.05
+
+
+def test_f8_the_mean_wind_is_that_which_claims_least_of_those_everywhere() -> None:
+    winds: list[WindPrimitive] = [
+        Gust(direction=10.0, priority=-9),
+        Turbulence(direction=200.0),
+        Breeze(direction=-45.0),
+        Breeze(direction=20.0, start=3.0),
+    ]
+    assert all(mean_yaw(order) == pytest.approx(radians(-45.0)) for order in permutations(winds))
+    assert mean_yaw(winds[:2]) == pytest.approx(radians(200.0))
+    assert mean_yaw(winds[:1]) == mean_yaw([]) == mean_yaw([Breeze()])
+
+
+def test_f8_after_ten_hours_they_go_on_as_smoothly_as_at_first() -> None:
+    changes = [
+        np.abs(flutter(FIELD, time=time + 1e-3, seed=7, to=1.0) - flutter(FIELD, time=time, seed=7, to=1.0)).max()
+        for time in (0.0, 36000.0)
+    ]
+    assert max(changes) < 0.05

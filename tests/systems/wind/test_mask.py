@@ -205,6 +205,8 @@ BAD = [
     ("blast", "start: -1", "start must be"),
     ("breeze", "gustiness: 2", "gustiness must be"),
     ("breeze", "speed: 41", "speed must be"),
+    ("turbulence", "intensity: 1.1", "intensity must be"),
+    ("turbulence", "scale: 1", "scale must be"),
 ]
 
 

@@ -24,6 +24,7 @@ from tallgrass.systems.wind.quarantine import (
     Quarantine,
     QuarantinedError,
 )
+from tallgrass.systems.wind.turbulence import Turbulence
 from tallgrass.systems.wind.whirlwind import Whirlwind
 
 Floats = NDArray[np.float32]
@@ -315,7 +316,9 @@ def test_a_slow_call_is_forgiven_but_a_slow_wind_is_not(ask: Ask, took: list[flo
 
 
 @pytest.mark.parametrize("live", [True, False])
-@pytest.mark.parametrize("wind", [Breeze(), Gust(), Whirlwind(), Blast()], ids=lambda wind: str(wind.kind))
+@pytest.mark.parametrize(
+    "wind", [Breeze(), Gust(), Whirlwind(), Blast(), Turbulence()], ids=lambda wind: str(wind.kind)
+)
 def test_winds_that_come_along_are_never_too_slow(
     ask: Ask, caplog: pytest.LogCaptureFixture, wind: WindPrimitive, *, live: bool
 ) -> None:

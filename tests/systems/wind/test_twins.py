@@ -20,6 +20,7 @@ from tallgrass.systems.wind.blow import Blowing, blowing, hear, places_alone
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.quarantine import Quarantine
+from tallgrass.systems.wind.turbulence import Turbulence
 from tallgrass.systems.wind.whirlwind import Whirlwind
 from tallgrass.testing.twins import CLOSE_TWIN, CardEar
 
@@ -66,6 +67,14 @@ WINDS: dict[str, st.SearchStrategy[WindPrimitive]] = {
         strength=INDEX,
         soft=SOFT,
         yaw=st.floats(-360.0, 360.0),
+    ),
+    "turbulence": st.builds(
+        Turbulence,
+        direction=st.floats(-360.0, 360.0),
+        strength=INDEX,
+        intensity=INDEX,
+        scale=st.floats(2.0, 1000.0),
+        speed=st.floats(0.0, 40.0),
     ),
 }
 

@@ -1,0 +1,101 @@
+"""Eddies: tables of turbulence with von Karman's spectrum, as the paper wishes for in section 3.3 (its [13, 14])."""
+
+from functools import lru_cache
+from math import gamma, pi, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...engine.noise import ASLANT, PERIOD, power_left
+
+Floats = NDArray[np.float32]
+Doubles = NDArray[np.float64]
+
+WIDE, FINER = 24.0, 8.0
+"""After how many length scales the table of large eddies repeats, and how much sooner that of small ones does."""
+
+BETWEEN, SMALLEST, SOFT = 6.5, 90.0, 0.8
+"""Wave numbers where small eddies take over from large ones, and where they end, of the length scale; and over how wide
+a ratio's logarithm they do."""
+
+CORNER = 1.285
+"""What the length scale is multiplied by in the spectrum: 1.339 where it has no end, and less here, as it has."""
+
+
+@lru_cache(maxsize=16)
+def eddy_tables(seed: int, /) -> tuple[Floats, Floats]:
+    """Return tables of large and of small eddies, each of shape (PERIOD, PERIOD, 4).
+
+    They are a horizontal slice of isotropic turbulence, for a length scale of 1: velocity along the wind and to its
+    right, and both once more a quarter of a turn on. Table points are WIDE / PERIOD apart, and those of small eddies
+    FINER times closer; the wind crosses them `ASLANT`. What `smooth_noise` reads of both
+    tables together has, in each component, the variance 1. So it has where the two halves of a table are mixed by the
+    cosine and sine of any angle.
+    """
+    random = np.random.default_rng((seed, 0x65646479))
+    coarse, fine = _waves(WIDE), _waves(WIDE / FINER)
+    powers = [_power(coarse, 0.0, BETWEEN), _power(fine, BETWEEN, SMALLEST)]
+    felt = sum(float((power.sum(axis=0) * _left(PERIOD)).sum()) / 2.0 for power in powers)
+    made = [_velocity(waves, power / felt, random) for waves, power in zip((coarse, fine), powers, strict=True)]
+    for table in made:
+        table.setflags(write=False)
+    return made[0], made[1]
+
+
+def _waves(period: float) -> Doubles:
+    """Return the wave numbers of a table, along the wind and to its right, shape (2, rows, columns)."""
+    number = 2.0 * pi * np.fft.fftfreq(PERIOD, period / PERIOD)
+    column, row = np.meshgrid(number, number)
+    ahead, aside = ASLANT
+    return np.stack([ahead * column - aside * row, aside * column + ahead * row])
+
+
+def _power(waves: Doubles, least: float, most: float) -> Doubles:
+    """Return the power of each wave's velocity, along it and across, shape (2, rows, columns).
+
+    Of von Karman's isotropic spectrum, E(k) ~ k^4 / (k^2 + 1 / CORNER^2)^(17/6), all waves are summed up that a
+    horizontal plane sees as the same one; between `least` and `most` of the wave numbers. Of what the tables hold,
+    `smooth_noise` takes some away, which is added here.
+    """
+    square = (waves * waves).sum(axis=0)
+    low = 1.0 / CORNER**2
+
+    def over(power: float) -> Doubles:
+        """Return the integral of (square + low + h^2)^-power over the height's wave number h."""
+        return np.asarray(sqrt(pi) * gamma(power - 0.5) / gamma(power) * (square + low) ** (0.5 - power))
+
+    across = over(11.0 / 6.0) - low * over(17.0 / 6.0)
+    along = across - square * over(17.0 / 6.0)
+    held = _share(square, most) if least == 0.0 else _share(square, most) - _share(square, least)
+    cell = (waves[0, 0, 1] ** 2 + waves[1, 0, 1] ** 2) * held / _left(PERIOD)
+    return np.stack([along * cell, across * cell])
+
+
+def _left(points: int) -> Doubles:
+    """Return how much of each wave's power is left between a table's points, shape (points, points)."""
+    axis = power_left(2.0 * pi * np.fft.fftfreq(points).astype(np.float64))
+    return axis[:, None] * axis
+
+
+def _share(square: Doubles, most: float) -> Doubles:
+    """Return 1 for wave numbers well below `most`, 0 for those well above it, from their squares."""
+    ratio = np.log(np.maximum(square, 1e-30)) / 2.0 - np.log(most)
+    return np.asarray(0.5 - 0.5 * np.sin(pi * np.clip(ratio / SOFT, -0.5, 0.5)))
+
+
+def _velocity(waves: Doubles, power: Doubles, random: np.random.Generator) -> Floats:
+    """Return a table of waves of these powers whose phases are random, shape (PERIOD, PERIOD, 4).
+
+    Each wave's two directions, and its two halves, are a quarter of a turn apart, so that no chance changes the
+    variance. Of a wave and its opposite, which are one, the table has one.
+    """
+    drawn = random.random(power.shape[1:])
+    opposite = np.roll(drawn[::-1, ::-1], 1, (0, 1))
+    height = np.select([drawn > opposite, drawn == opposite], [2.0, sqrt(2.0)])
+    phase = np.exp(2j * pi * random.random(drawn.shape)) * height
+    along, across = np.sqrt(power) * phase
+    across = across * 1j * random.choice([-1.0, 1.0], drawn.shape)
+    length = np.sqrt((waves * waves).sum(axis=0))
+    x, z = np.divide(waves, length, out=np.full_like(waves, sqrt(0.5)), where=length > 0.0)
+    velocity = np.fft.ifft2(np.stack([x * along - z * across, z * along + x * across]), norm="forward")
+    return np.stack([*velocity.real, *velocity.imag], axis=2, dtype=np.float32, casting="same_kind")

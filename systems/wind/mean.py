@@ -1,0 +1,30 @@
+"""Winds that blow everywhere, about a mean that has a direction."""
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from ...components.wind import WindPrimitive
+
+Floats = NDArray[np.float32]
+
+
+TOWARDS = 90.0
+"""Where winds blow to unless they are told, as a camera's yaw [degrees]."""
+
+
+class MeanWind(WindPrimitive):
+    """A wind over the whole prairie; what drifts in it travels with it."""
+
+    direction: float = Field(default=TOWARDS, ge=-360.0, le=360.0)
+    """Where it blows to, as a camera's yaw: 0 is -z, 90 is +x [degrees]."""
+
+    strength: float = Field(default=0.3, ge=0.0, le=1.0)
+    """Mean posture index of the grass in it."""
+
+    speed: float = Field(default=4.0, ge=0.0, le=40.0)
+    """How fast its waves or eddies travel [m/s]."""
+
+    def mask(self, place: Floats, /, *, time: float) -> Floats:
+        """Return 1 everywhere: it has no edge."""
+        return np.ones(len(place), np.float32)

@@ -1,0 +1,80 @@
+"""Turbulence: eddies of all sizes about a mean wind, as real wind has them (paper, section 3.3)."""
+
+from math import cos, pi, radians, sin
+from typing import ClassVar, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from ...components.wind import Grass, TwinValues
+from ...engine.noise import ASLANT, PERIOD, smooth_noise, wander
+from .eddies import FINER, WIDE, eddy_tables
+from .mean import MeanWind
+
+Floats = NDArray[np.float32]
+
+LIFE = 64.0
+"""How many length scales the wind goes while large eddies become others; small ones do `FINER` times sooner."""
+
+TURNS = 2.0 * pi
+"""Largest phase that eddies come to as they become others [rad]."""
+
+SWAY = 4.0
+"""How many length scales, ahead and aside, they wander from the way that the mean wind carries them."""
+
+
+class Turbulence(MeanWind):
+    """A wind over the whole prairie that is as turbulent as real wind, with von Karman's spectrum of eddies."""
+
+    twin: ClassVar[str | None] = "turbulence.glsl"
+    color: ClassVar[tuple[float, float, float] | None] = (0.62, 0.70, 1.00)
+
+    kind: Literal["turbulence"] = "turbulence"
+    """A turbulent wind."""
+
+    intensity: float = Field(default=0.35, ge=0.0, le=1.0)
+    """Standard deviation of it along its direction, and across, of its mean; 0 is steady."""
+
+    scale: float = Field(default=12.0, ge=2.0, le=1000.0)
+    """How large its eddies are: the integral length scale along its direction [m]."""
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
+        """Return its messages at ground positions (n, 2): the mean with its eddies, shape (n, 2)."""
+        values = self.twin_values(time=time, seed=seed)
+        ahead_x, ahead_z, across, along, *_ = (np.float32(number) for number in values.numbers)
+        x, z = place[:, 0], place[:, 1]
+        faster, aside = self._eddies(np.stack([across * x - along * z, along * x + across * z], axis=1), values)
+        faster += np.float32(1.0)
+        x, z = ahead_x * faster - ahead_z * aside, ahead_z * faster + ahead_x * aside
+        length = np.maximum(np.sqrt(x * x + z * z), np.float32(1.0))
+        return np.stack([x / length, z / length], axis=1)
+
+    @staticmethod
+    def _eddies(at: Floats, values: TwinValues) -> tuple[Floats, Floats]:
+        """Return how much faster the wind is than its mean, and how much goes aside, of the mean, shape (n,) each."""
+        shift, share = values.numbers[4:8], [np.float32(number) for number in values.numbers[8:]]
+        large = smooth_noise(values.sheets[0], at, shift=(shift[0], shift[1]))
+        small = smooth_noise(values.sheets[1], np.float32(FINER) * at, shift=(shift[2], shift[3]))
+        faster, aside = (
+            share[0] * large[:, part]
+            + share[1] * large[:, part + 2]
+            + share[2] * small[:, part]
+            + share[3] * small[:, part + 2]
+            for part in (0, 1)
+        )
+        return faster, aside
+
+    def twin_values(self, *, time: float, seed: int) -> TwinValues:
+        """Return the mean, how the tables lie, how far they are carried, and how much is felt of each half of both."""
+        heading, step, gone = radians(self.direction), self.scale * WIDE / PERIOD, self.speed * time / self.scale
+        ahead, aside = ASLANT
+        large, _, more, across = wander(seed, 2, gone / LIFE)
+        _, small, _, _ = wander(seed, 2, gone * FINER / LIFE)
+        way, off = (gone + SWAY * more) * PERIOD / WIDE, SWAY * across * PERIOD / WIDE
+        carried = -ahead * way - aside * off, aside * way - ahead * off
+        shift = [finer * part % PERIOD for finer in (1.0, FINER) for part in carried]
+        share = [self.intensity * part for phase in (TURNS * large, TURNS * small) for part in (cos(phase), sin(phase))]
+        x, z = sin(heading), -cos(heading)
+        lie = (ahead * x - aside * z) / step, (-ahead * z - aside * x) / step
+        return TwinValues((self.strength * x, self.strength * z, *lie, *shift, *share), eddy_tables(seed))
