@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ...components.wind import WindPrimitive
 from ..grow.raster import rasterise
-from ..wind.breeze import Breeze
+from ..wind.mean import MeanWind
 
 SIDE = 512
 """Texels along a side."""
@@ -30,7 +30,7 @@ FASTER = 1.5
 
 def drifted(winds: Sequence[WindPrimitive], time: float, /) -> tuple[float, float]:
     """Return how far clouds have drifted with the first breeze at a time [s], along x and z, in sides from 0 to 1."""
-    for breeze in (wind for wind in winds if isinstance(wind, Breeze)):
+    for breeze in (wind for wind in winds if isinstance(wind, MeanWind)):
         heading, way = radians(breeze.direction), FASTER * breeze.speed * time / CLOUDS_SIDE
         return sin(heading) * way % 1.0, -cos(heading) * way % 1.0
     return 0.0, 0.0
