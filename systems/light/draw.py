@@ -20,6 +20,8 @@ SAMPLERS = ("lie", "repeating", "sky")
 ACROSS, UP = 48, 48
 """Squares across and up the picture, at whose corners the sky's colour is looked up."""
 
+GRID: dict[str, str | int] = {"ACROSS": ACROSS, "UP": UP}
+
 FILLED = "engine/gl/fill.vert"
 
 
@@ -28,11 +30,13 @@ class LightPainter:
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int]) -> None:
         self.ctx, self._units = ctx, units
-        self._sky = joined(
-            ctx, block, units, "systems/light/sky.vert", "systems/light/sky.frag", {"ACROSS": ACROSS, "UP": UP}
+        self._skies = tuple(
+            joined(ctx, block, units, "systems/light/sky.vert", "systems/light/sky.frag", GRID | clouds)
+            for clouds in ({}, {"CLOUDS": 1})
         )
         self._cast = joined(ctx, block, {**units, "slow": units["lie"]}, FILLED, "systems/light/lie.frag", {})
-        self._arrays = ctx.vertex_array(self._sky, []), ctx.vertex_array(self._cast, [])
+        self._arrays = [ctx.vertex_array(each, []) for each in (*self._skies, self._cast)]
+        self._cloudy = False
         self._textures: dict[str, moderngl.Texture] = {}
         self._due: Terrain | None = None
 
@@ -46,7 +50,7 @@ class LightPainter:
     def shine(self, light: Light, terrain: Terrain) -> None:
         """Take over another light, or another terrain under it; its shadows are drawn with the next frame."""
         self._put("sky", _sky_texture(self.ctx, daylight(light).sky.map))
-        self._due = terrain
+        self._due, self._cloudy = terrain, light.clouds > 0.0
 
     def _put(self, name: str, texture: moderngl.Texture) -> None:
         if name in self._textures:
@@ -67,19 +71,19 @@ class LightPainter:
         target = self.ctx.framebuffer([self._textures["lie"]])
         self._textures["slow"].use(self._units["lie"])
         target.use()
-        self._arrays[1].render(moderngl.TRIANGLES, vertices=3)
+        self._arrays[2].render(moderngl.TRIANGLES, vertices=3)
         target.release()
         self._textures["lie"].use(self._units["lie"])
         return 1
 
     def draw(self) -> int:
         """Draw the sky behind all that has been drawn; return the number of draw calls."""
-        self._arrays[0].render(moderngl.TRIANGLE_STRIP, vertices=2 * (ACROSS + 1), instances=UP)
+        self._arrays[self._cloudy].render(moderngl.TRIANGLE_STRIP, vertices=2 * (ACROSS + 1), instances=UP)
         return 1
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(*self._arrays, self._sky, self._cast, *self._textures.values())
+        release_all(*self._arrays, *self._skies, self._cast, *self._textures.values())
 
 
 def _sky_texture(ctx: moderngl.Context, colors: NDArray[np.float64]) -> moderngl.Texture:

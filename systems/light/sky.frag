@@ -8,6 +8,7 @@ const float LIMB = 0.00483;  // sine of the outer edge of the sun's disc, which 
 const float DISC = 12.0;     // radiance of the disc, of a white leaf's in full sun: far above white
 const float WIDE = 900.0;    // how narrow the aureole is about it
 
+#ifdef CLOUDS
 // Clouds as they are seen from below: they take from the sky, and are bright about the sun.
 vec3 clouded(vec3 light, vec3 toward) {
     vec2 at = eye.xz + toward.xz * (CLOUDS_AT / max(toward.y, 0.02));
@@ -18,12 +19,14 @@ vec3 clouded(vec3 light, vec3 toward) {
     vec3 lit = skylight.rgb * 0.9 + sunlight.rgb * (0.75 - 0.4 * dense + 0.5 * ahead * ahead * ahead * (1.0 - dense));
     return mix(light, lit, 0.9 * dense);
 }
+#endif
 
 void main() {
     vec3 seen = light, off = cross(ray, sun.xyz);
     float aside = dot(ray, sun.xyz) > 0.0 ? dot(off, off) / dot(ray, ray) : 1.0;  // squared sine of the angle to the sun
-    if (sunlight.w > 0.0)
-        seen = clouded(seen, normalize(ray));
+#ifdef CLOUDS
+    seen = clouded(seen, normalize(ray));
+#endif
     float aureole = 1.0 / (1.0 + WIDE * aside), disc = smoothstep(LIMB * LIMB, (LIMB - 0.0004) * (LIMB - 0.0004), aside);
     if (ray.y > 0.0)
         seen += sunlight.rgb * (DISC * disc + 0.35 * aureole * aureole);
