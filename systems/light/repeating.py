@@ -76,5 +76,5 @@ def repeating_texture(ctx: moderngl.Context, *, seed: int) -> moderngl.Texture:
     texels = np.stack([cloud_map(seed=seed), litter_map(seed=seed)], axis=-1)
     texture = ctx.texture((SIDE, SIDE), 2, texels.tobytes(), alignment=1)
     texture.build_mipmaps()
-    texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
+    texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
     return texture
