@@ -68,7 +68,7 @@ def cast(origin: NDArray[Any], ray: NDArray[Any], corners: NDArray[Any]) -> tupl
 
 
 def meet(start: NDArray[Any], heading: NDArray[Any], slope: float, carpet: Carpet) -> list[float]:
-    """Return what a ray through a point of the plane at mid-height meets: place, height, doubled azimuth from it, coverage."""
+    """Return what a ray through a point of the plane at mid-height meets: as texels of the carpet mean it."""
     corners, places, normals = soup()
     reach = carpet.height / slope
     ray = np.array([heading[0], -slope, heading[1]])
