@@ -68,13 +68,20 @@ def litter_map(*, seed: int) -> NDArray[np.uint8]:
     seen = rasterise(corners, front, shape=(SIDE, SIDE), wrap=True)
     lit = np.full(SIDE * SIDE, 0.12)
     lit[seen.sample] = (bright * (0.35 + 0.65 * random.random(STRAWS)))[seen.triangle // 2]
-    return np.asarray(np.clip(lit / lit.mean() * LITTER_ONE, 0, 255), np.uint8).reshape(SIDE, SIDE)
+    return np.asarray(np.clip(np.rint(lit / lit.mean() * LITTER_ONE), 0, 255), np.uint8).reshape(SIDE, SIDE)
 
 
 def repeating_texture(ctx: moderngl.Context, *, seed: int) -> moderngl.Texture:
-    """Return `cloud_map` and `litter_map` as the two channels of a texture that repeats."""
+    """Return `cloud_map` and `litter_map` as the two channels of a texture that repeats.
+
+    Its coarser levels are means of the finest: drivers that round up at each would make ground brighter far off.
+    """
     texels = np.stack([cloud_map(seed=seed), litter_map(seed=seed)], axis=-1)
     texture = ctx.texture((SIDE, SIDE), 2, texels.tobytes(), alignment=1)
     texture.build_mipmaps()
+    mean, level = texels.astype(np.float64), 0
+    while len(mean) > 1:
+        mean, level = 0.25 * (mean[::2, ::2] + mean[1::2, ::2] + mean[::2, 1::2] + mean[1::2, 1::2]), level + 1
+        texture.write(np.rint(mean).astype(np.uint8).tobytes(), level=level, alignment=1)
     texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
     return texture

@@ -57,8 +57,11 @@ def test_t1_bare_ground_far_off_is_as_bright_as_in_the_reference(
     drawn = small.shot(prairie, seen)
     small.begin()
     truth = draw_reference(prairie, *small.matrices(seen), small.size, samples=2).astype(np.float64)
-    assert np.abs(drawn - truth)[62:].mean(axis=1).max() <= 10.0  # below the terrain's edge
-    assert np.abs(drawn - truth)[66:].max() <= 10.0
+    error = drawn - truth
+    assert np.abs(error)[62:].mean(axis=1).max() <= 10.0  # below the terrain's edge
+    assert np.abs(error)[66:90].max() <= 10.0
+    # Nearer by, single straws of litter can be told, which the carpet shows by their mean alone.
+    assert np.abs(error[66:132].reshape(11, 6, 40, 6, 3).mean(axis=(1, 3))).max() <= 5.0
 
 
 @pytest.mark.parametrize("lod", ["auto", "carpet"])

@@ -70,7 +70,8 @@ def test_the_page_of_performance_counts_what_is_drawn(
     table = rows(PAGE.partition(before)[2])
     for preset in presets:
         prairie = load(scene, preset=preset)
-        stage.shot(prairie)
+        for _ in range(2):  # the first picture alone has a call more, for the terrain's shadows
+            stage.shot(prairie)
         counts = counted(prairie)
         told = {head: cell for head, cell in table[preset].items() if head in counts}
         assert len(told) >= 2

@@ -163,7 +163,7 @@ def test_t5_blades_around_the_viewer_hide_one_another_as_in_the_reference(
 tallgrass: 2
 terrain: { noise: flat, size: [20, 20] }
 grass:
-  broad: { height: [0.5, 0.9], width: 0.05, root: "#102040", tip: "#ffe080", variety: 0.6 }
+  broad: { height: [0.5, 0.9], width: 0.05, taper: 1.0, clumping: 0.0, root: "#102040", tip: "#ffe080", variety: 0.6 }
 quality:
   blades: 300
   models: 1

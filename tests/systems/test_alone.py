@@ -108,11 +108,11 @@ def test_wind_tells_which_winds_act_and_what_receivers_hear_that_a_game_asks_for
 
 def test_gather_sends_what_is_shown_to_the_painter(world: World) -> None:
     class Painter:
-        def write(self, outlook: object, bodies: object) -> int:
-            return 7 if (outlook, bodies) == (viewers[0], ["a saucer at 0 s"]) else 0
+        def write(self, *what: object) -> int:
+            return 7 if what == (viewers[0], ["a saucer at 0 s"], ["a barn"]) else 0
 
     viewers = [viewer_on(SITE, world)]
-    Gather(viewers, Painter, lambda time: [f"a saucer at {time:g} s"]).run()  # type: ignore[arg-type, list-item]
+    Gather(viewers, Painter, lambda time: [f"a saucer at {time:g} s"], lambda: ["a barn"]).run()  # type: ignore[arg-type, list-item]
     assert viewers[0].blades == 7
 
 

@@ -60,7 +60,7 @@ class Game:
         outlook.settle()
         return outlook
 
-    def write(self, outlook: Outlook, _: object) -> int:
+    def write(self, outlook: Outlook, *_: object) -> int:
         """Take the picture, as a painter does: here, the messages of all pools by their slots."""
         self.picture = {
             name: [pictured(receiving) for receiving in kept.receiving] for name, kept in outlook.kept.items()

@@ -112,14 +112,18 @@ vec3 carpet_light(float slope) {
 
 void main() {
     vec3 color = soil_seen;
+#ifndef UNDER
+    float litter = texture(repeating, place.xz / LITTER_SIDE).g * LITTER_ONE;
+#endif
 #ifndef CARPET
-    color *= texture(repeating, place.xz / LITTER_SIDE).g * LITTER_ONE;
+    color *= litter;
 #endif
     float covered = 1.0;
 #if defined(CARPET) && !defined(UNDER)
     float slope = viewing_slope(rise, place);
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / soil.w))) : 0.0;
     covered = mix(1.0, outline_cover(slope), share);
+    color *= mix(litter, 1.0, share);
     if (share > 0.0)
         color = mix(color, carpet_light(slope), share);
     if (covered < 0.004)

@@ -79,10 +79,10 @@ def test_the_shape_at_a_table_index_is_the_tables() -> None:
 
 
 @pytest.mark.parametrize("taper", [0.5, 1.0, 2.0])
-def test_a_ribbon_is_as_wide_as_its_taper_says_across_its_face(taper: float) -> None:
-    left, right = ribbon(BLADES, POSTURES, (0.3, 0.1), points=9, taper=taper)
-    side = right.astype(np.float64) - left
-    width = BLADES.width[:, None] * (1.0 - np.linspace(0.0, 1.0, 9)) ** taper
+def test_a_ribbon_widens_from_its_waist_and_narrows_as_its_taper_says_across_its_face(taper: float) -> None:
+    left, right = ribbon(BLADES, POSTURES, (0.3, 0.1), points=26, taper=taper)
+    side, along = right.astype(np.float64) - left, np.linspace(0.0, 1.0, 26)
+    width = BLADES.width[:, None] * (1.0 - along) ** taper * np.interp(along, [0.0, 0.16], [0.45, 1.0])
     np.testing.assert_allclose(np.linalg.norm(side, axis=2), width, atol=1e-6)
     face = np.stack([np.cos(BLADES.facing), np.sin(BLADES.facing)], axis=1)
     np.testing.assert_allclose((side[:, :, ::2] * face[:, None]).sum(axis=2), 0.0, atol=1e-6)

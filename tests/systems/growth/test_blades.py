@@ -93,8 +93,27 @@ def test_heights_use_the_whole_range_and_lean_never_stops() -> None:
     assert lean.max() > 0.28
 
 
-def test_lean_and_facing_point_everywhere() -> None:
-    blades = meadow()
-    for angle in (blades.facing, np.arctan2(blades.rest[:, 1], blades.rest[:, 0])):
+@pytest.mark.parametrize("clumping", [0.0, 0.5, 1.0])
+def test_lean_and_facing_point_everywhere(clumping: float) -> None:
+    """Of facings, only the doubled azimuth counts: both sides of a blade are lit alike."""
+    blades = meadow(kind=GrassKind(clumping=clumping))
+    for way in (2.0 * blades.facing, np.arctan2(blades.rest[:, 1], blades.rest[:, 0])):
+        angle = (way + np.pi) % (2.0 * np.pi) - np.pi
         assert abs(np.exp(1j * angle).mean()) < 0.15
         assert np.histogram(angle, 8, (-np.pi, np.pi))[0].min() > 35
+
+
+def test_neighbours_face_and_lean_alike_where_a_kind_stands_in_tussocks() -> None:
+    alike = {clumping: np.mean([alikeness(clumping, seed) for seed in range(6)], axis=0) for clumping in (0.0, 1.0)}
+    np.testing.assert_allclose(alike[0.0], 0.0, atol=0.05)
+    assert (alike[1.0] > 0.3).all()
+
+
+def alikeness(clumping: float, seed: int) -> tuple[float, float]:
+    """Mean cosine of how far neighbours' doubled facings and leans lie apart."""
+    blades = meadow(seed, kind=GrassKind(clumping=clumping))
+    away = blades.root[:, None] - blades.root[None]
+    distance = np.linalg.norm(away - PATCH * np.round(away / PATCH), axis=2)
+    near, lean = (distance < 0.15) & (distance > 0.0), np.arctan2(blades.rest[:, 1], blades.rest[:, 0])
+    face, lies = (np.cos(way[:, None] - way[None])[near].mean() for way in (2.0 * blades.facing, lean))
+    return face, lies

@@ -1,5 +1,6 @@
 """The carpet: images of an endless field from several angles (paper, section 2.2)."""
 
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -23,6 +24,13 @@ BLADES = grow_blades(KIND, count=60, patch=PATCH, variants=4, seed=4)
 @pytest.fixture(scope="module")
 def carpet() -> Carpet:
     return grow_carpet(BLADES, POSTURES, patch=PATCH, texels=TEXELS, taper=KIND.taper)
+
+
+@pytest.fixture(scope="module")
+def dense() -> Carpet:
+    """One of so many blades that it tells what grass is like, and not how these few happen to stand."""
+    blades = grow_blades(KIND, count=240, patch=PATCH, variants=4, seed=4)
+    return grow_carpet(blades, POSTURES, patch=PATCH, texels=64, taper=KIND.taper)
 
 
 @cache
@@ -60,7 +68,7 @@ def cast(origin: NDArray[Any], ray: NDArray[Any], corners: NDArray[Any]) -> tupl
 
 
 def meet(start: NDArray[Any], heading: NDArray[Any], slope: float, carpet: Carpet) -> list[float]:
-    """Return what a ray through a point of the plane at mid-height meets: place, height, normal along it, coverage."""
+    """Return what a ray through a point of the plane at mid-height meets: as texels of the carpet mean it."""
     corners, places, normals = soup()
     reach = carpet.height / slope
     ray = np.array([heading[0], -slope, heading[1]])
@@ -79,9 +87,9 @@ def meet(start: NDArray[Any], heading: NDArray[Any], slope: float, carpet: Carpe
     number, u, v = hit
     triangle = near[number] % corners.shape[0]
     weights = np.array([1.0 - u - v, u, v])
-    normal = normals[triangle] * (-1.0 if normals[triangle] @ ray > 0.0 else 1.0)
+    azimuth = np.arctan2(normals[triangle][2], normals[triangle][0]) - np.arctan2(heading[1], heading[0])
     height = weights @ corners[triangle, :, 1] / carpet.height
-    return [weights @ places[triangle], height, 0.5 - 0.5 * (normal[[0, 2]] @ heading), 1.0]
+    return [weights @ places[triangle], height, 0.5 + 0.5 * np.cos(2.0 * azimuth), 1.0]
 
 
 @pytest.mark.parametrize("direction", range(4))
@@ -97,7 +105,7 @@ def test_g4_the_carpet_means_what_rays_through_the_field_meet(carpet: Carpet, ro
 
 
 def test_g4_a_carpet_of_fine_texels_shows_each_ray_what_it_meets() -> None:
-    fine = grow_carpet(BLADES, POSTURES, patch=PATCH, texels=400, taper=1.0, slopes=(0.4,))
+    fine = grow_carpet(BLADES, POSTURES, patch=PATCH, texels=400, taper=KIND.taper, slopes=(0.4,))
     spots = np.random.default_rng(7).random((150, 2)) * PATCH
     truth = np.array([meet(spot, HEADINGS[1], 0.4, fine) for spot in spots])
     column, row = (spots / PATCH * 400).astype(int).T
@@ -106,29 +114,30 @@ def test_g4_a_carpet_of_fine_texels_shows_each_ray_what_it_meets() -> None:
     assert np.corrcoef(found[:, 1], truth[:, 1])[0, 1] > 0.85
 
 
-def test_g4_a_flatter_view_sees_less_ground_and_more_of_the_tips(carpet: Carpet) -> None:
-    texels = carpet.texels.astype(float).mean(axis=(1, 2, 3))
-    assert (np.diff(carpet.slope) > 0.0).all()
+def test_g4_a_flatter_view_sees_less_ground_and_more_of_the_tips(dense: Carpet) -> None:
+    texels = dense.texels.astype(float).mean(axis=(1, 2, 3))
+    assert (np.diff(dense.slope) > 0.0).all()
     assert (np.diff(texels[:, 3]) < 0.0).all()
     assert (np.diff(texels[:, 1] / texels[:, 3]) < 0.0).all()
 
 
-def test_g4_the_view_from_behind_sees_as_much_as_the_view_from_before(carpet: Carpet) -> None:
-    coverage = carpet.texels[..., 3].mean(axis=(2, 3)) / 255.0
+def test_g4_the_view_from_behind_sees_as_much_as_the_view_from_before(dense: Carpet) -> None:
+    coverage = dense.texels[..., 3].mean(axis=(2, 3)) / 255.0
     np.testing.assert_allclose(coverage[:3, 0], coverage[:3, 2], rtol=0.03)
     np.testing.assert_allclose(coverage[:3, 1], coverage[:3, 3], rtol=0.03)
 
 
 def test_g4_the_images_repeat_without_a_seam(carpet: Carpet) -> None:
-    image = carpet.texels[2, :, :, :, 3].astype(float)
-    for axis in (1, 2):
-        inner = np.abs(np.diff(image, axis=axis)).mean()
-        seam = np.abs(np.take(image, 0, axis=axis) - np.take(image, -1, axis=axis)).mean()
-        assert seam < 1.3 * inner
+    """The same field, cut out half a patch farther on, is the same image, shifted by as much."""
+    moved = replace(BLADES, root=((BLADES.root + 0.5 * PATCH) % PATCH).astype(np.float32))
+    other = grow_carpet(moved, POSTURES, patch=PATCH, texels=TEXELS, taper=KIND.taper).texels
+    apart = np.abs(np.roll(carpet.texels, (TEXELS // 2, TEXELS // 2), axis=(2, 3)).astype(int) - other)
+    assert apart.mean() < 0.05
+    assert (apart > 2).mean() < 0.005
 
 
 def test_g1_the_carpet_shows_the_roots_of_the_same_blades() -> None:
-    texels = grow_carpet(BLADES, POSTURES, patch=PATCH, texels=256, taper=1.0, slopes=(50.0,)).texels[0, 0]
+    texels = grow_carpet(BLADES, POSTURES, patch=PATCH, texels=256, taper=KIND.taper, slopes=(50.0,)).texels[0, 0]
     column, row = (BLADES.root / PATCH * 256).astype(int).T
     near = np.max([texels[(row + i) % 256, (column + j) % 256, 3] for i in (-1, 0, 1) for j in (-1, 0, 1)], axis=0)
     assert (near > 0).mean() > 0.9
@@ -149,7 +158,7 @@ def test_the_plane_is_at_mid_height(carpet: Carpet) -> None:
 
 @pytest.mark.parametrize("texels", [8, 50, 96])
 def test_g5_a_coarser_carpet_has_the_same_means(carpet: Carpet, texels: int) -> None:
-    other = grow_carpet(BLADES, POSTURES, patch=PATCH, texels=texels, taper=1.0)
+    other = grow_carpet(BLADES, POSTURES, patch=PATCH, texels=texels, taper=KIND.taper)
     assert other.texels.shape == (5, 4, texels, texels, 4)
     np.testing.assert_allclose(
         other.texels.mean(axis=(2, 3)) / 255.0, carpet.texels.mean(axis=(2, 3)) / 255.0, atol=0.02

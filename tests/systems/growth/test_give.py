@@ -53,13 +53,13 @@ def test_w12_a_kind_bends_as_the_simulation_does_in_the_wind_that_bends_common_g
     stiffness: float, level: float
 ) -> None:
     common, own = (build_chain(GrassKind(stiffness=each), np.ones((1, LINKS))) for each in (1.0, stiffness))
-    winds = np.linspace(0.02, 4.0, 200)
+    winds = np.linspace(0.02, 16.0, 800)
     rest = settle(common, winds)[:, 0]
     flat = int(np.argmax(rest[:, -1] >= NEAR_FLAT))
     wind = np.interp(level * chord_angle(rest[flat]), chord_angle(rest[: flat + 1]), winds[: flat + 1])
     steady = np.full((4000, 1), wind)
     history, _ = simulate(damp(own, ratio=0.7), np.zeros((1, LINKS)), np.zeros((1, LINKS)), steady, step=0.02)
-    own_rest = settle(own, np.linspace(0.02, 16.0, 400))[:, 0]
+    own_rest = settle(own, np.linspace(0.02, 32.0, 800))[:, 0]
     own_flat = own_rest[int(np.argmax(own_rest[:, -1] >= NEAR_FLAT))]
     expected = min(float(chord_angle(history[-1, 0]) / chord_angle(own_flat)), 1.0)
     given_way = np.interp(level, LEVEL, grow_give(GrassKind(stiffness=stiffness)))
