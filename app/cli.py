@@ -52,6 +52,10 @@ Hold = Annotated[
     float | None,
     typer.Option(min=0.0, max=1000.0, metavar="FPS", help="Frames a second to hold, by drawing less; 0 draws it all."),
 ]
+On = Annotated[
+    str | None,
+    typer.Option(metavar="PLACE", help="Let workers do it: local, local:4, or the address of a Dask scheduler."),
+]
 Fullscreen = Annotated[bool, typer.Option("--fullscreen", help="Fill the screen.")]
 
 
@@ -151,6 +155,7 @@ def film(
     frames: Annotated[
         str | None, typer.Option(metavar="A:B", help="Only frame A to the one before B of the whole film.")
     ] = None,
+    on: On = None,
 ) -> None:
     """Film a scene along its camera's path, without a window: .webp, .gif, .mp4, or a folder of pictures."""
     span = _frames(frames)
@@ -158,7 +163,7 @@ def film(
     take = Take(scene, _size(size, reference=reference), preset, reference=reference, overlay=laid)
     from .film import film
 
-    film(take, output, seconds=seconds, fps=fps, frames=span)
+    film(take, output, seconds=seconds, fps=fps, frames=span, on=on)
 
 
 @app.command()

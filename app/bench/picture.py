@@ -81,7 +81,7 @@ def measured(take: Take, output: str | None = None, /) -> dict[str, object]:
         if output is not None:
             beside = np.concatenate([pictures.lod, pictures.reference], axis=1)
             name = str(Path(output) / f"{Path(take.scene).stem}.png")
-            picture_writer(name)(beside, about(studio.prairie, take))
+            picture_writer(name)(beside, about(studio.prairie.scene, take, time=studio.prairie.time))
         return {**head, "size": list(take.size), "frames": 1, **compare(pictures, studio.prairie.site.quality)}
 
 

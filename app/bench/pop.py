@@ -78,7 +78,7 @@ def _measure(studio: Studio, *, parts: bool, output: str | None, hold: float | N
     }
     whole = records[WHOLE]
     if output is not None:
-        save(whole.worst, output, about(studio.prairie, studio.take))
+        save(whole.worst, output, about(studio.prairie.scene, studio.take, time=studio.prairie.time))
     result = _told(records)
     if parts:
         result["contributions"] = [
