@@ -10,6 +10,7 @@ import numpy as np
 from ...systems.around.transitions import SEAMLESS, Transitions
 from ..studio.encode import make_folder
 from ..studio.errors import InputError
+from ..studio.progress import course
 from ..studio.studio import Studio, about
 from ..studio.take import Take
 from .drift import Change
@@ -18,7 +19,7 @@ from .flicker import MARGIN, TILE
 from .frame import own_preset
 from .machine import machine, tell
 from .picture import evaluator, flip
-from .steps import Record, walked
+from .steps import Record, seconds_of, walked
 from .stroll import legs
 from .verdict import Verdict
 
@@ -59,12 +60,21 @@ def bench_pop(
         raise InputError(f"--size: {size[0]}x{size[1]}: here each side must be at least {SMALLEST} pixels")
     if output is not None:
         make_folder(Path(output))
-    take = Take(scene, size, preset=preset)
-    with Studio(take) as studio:
-        head = {"machine": machine(studio.ctx), "scene": scene, "preset": preset or own_preset(studio.prairie)}
-        result = {**head, "size": list(size), **_measure(studio, parts=parts, output=output, hold=hold)}
-    tell(result, as_json=json)
+    tell(pop_measured(Take(scene, size, preset=preset), parts=parts, output=output, hold=hold), as_json=json)
     return 0
+
+
+def pop_measured(
+    take: Take, /, *, parts: bool = False, output: str | None = None, hold: float | None = None
+) -> dict[str, object]:
+    """Return what the benchmark tells of a walk through a scene."""
+    with Studio(take) as studio:
+        head = {
+            "machine": machine(studio.ctx),
+            "scene": take.scene,
+            "preset": take.preset or own_preset(studio.prairie),
+        }
+        return {**head, "size": list(take.size), **_measure(studio, parts=parts, output=output, hold=hold)}
 
 
 def _measure(studio: Studio, *, parts: bool, output: str | None, hold: float | None) -> dict[str, object]:
@@ -72,10 +82,12 @@ def _measure(studio: Studio, *, parts: bool, output: str | None, hold: float | N
     left_out = {WHOLE: SEAMLESS, "morph, fade, growth": HARD}
     for part in PARTS if parts else ():
         left_out[part] = replace(SEAMLESS, **{part: False})
-    seconds = 1.0 / hold if hold else None
-    records = {
-        name: walked(studio, walk, less, doing=f"without {name}", hold=seconds) for name, less in left_out.items()
-    }
+    held = 1.0 / hold if hold else None
+    records: dict[str, Record] = {}
+    with course("walks", {name: seconds_of(less) for name, less in left_out.items()}) as way:
+        for name, less in left_out.items():
+            with way.part(name):
+                records[name] = walked(studio, walk, less, doing=f"without {name}", hold=held)
     whole = records[WHOLE]
     if output is not None:
         save(whole.worst, output, about(studio.prairie.scene, studio.take, time=studio.prairie.time))

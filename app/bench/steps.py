@@ -74,9 +74,8 @@ def walked(
     )
     raise_gusts(prairie, walk)
     frames = {leg: list(moments(prairie, leg)) for leg in walk}
-    if not transitions.gradual:
-        last = round(BORDER * stroll.LEAD * stroll.RATE)
-        frames = {leg: each[: last + 1] for leg, each in frames.items()}
+    last = round(seconds_of(transitions) * stroll.RATE)
+    frames = {leg: each[: last + 1] for leg, each in frames.items()}
     total = sum(len(each) - 1 for each in frames.values())
     apart = max(1, total // STILLS)
     try:
@@ -87,6 +86,11 @@ def walked(
     finally:
         prairie.release()
     return record
+
+
+def seconds_of(transitions: Transitions, /) -> float:
+    """Return how much of each leg is walked with these transitions [s]."""
+    return stroll.SECONDS if transitions.gradual else BORDER * stroll.LEAD
 
 
 class _Seen:
