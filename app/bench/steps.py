@@ -80,7 +80,7 @@ def walked(
     `only` the frames are drawn; those before are followed, so that the records of all legs are that of the walk. `told`
     frames are kept of the worst.
     """
-    take, record = studio.take, Record()
+    take = studio.take
     prairie = Prairie.load(
         take.scene, ctx=studio.ctx, preset=take.preset, transitions=transitions, live=False, hold=hold
     )
@@ -93,16 +93,17 @@ def walked(
     try:
         with Truth(studio, walk) as truth:
             _follow(studio, prairie, frames[: only or 0])
-            seen = _Seen(studio, prairie, truth, record, told)
+            seen = {leg.name: _Seen(studio, prairie, truth, told) for leg in walk}
             for number, step in enumerate(watch(_steps(studio, prairie, drawn), last * len(drawn)), first):
-                seen.see(step, still=transitions == SEAMLESS and number % apart == apart // 2)
+                still = transitions == SEAMLESS and number % apart == apart // 2
+                seen[step.moment.leg.name].see(step, still=still)
     finally:
         prairie.release()
-    return record
+    return merged((each.record for each in seen.values()), told=told)
 
 
-def merged(records: Iterable[Record], /) -> Record:
-    """Return the record of a walk from those of its legs, in their order."""
+def merged(records: Iterable[Record], /, *, told: int = TOLD) -> Record:
+    """Return the record of a walk from those of its legs, in their order, with `told` frames of the worst."""
     whole = Record()
     for each in records:
         whole.worst.extend(each.worst)
@@ -111,7 +112,7 @@ def merged(records: Iterable[Record], /) -> Record:
         whole.stills.extend(each.stills)
         whole.changes.extend(each.changes)
     whole.worst.sort(key=lambda one: -one.ratio)
-    del whole.worst[TOLD:]
+    del whole.worst[told:]
     return whole
 
 
@@ -121,17 +122,17 @@ def seconds_of(transitions: Transitions, /) -> float:
 
 
 class _Seen:
-    """What is made of the frames of a walk, one after the other."""
+    """What is made of the frames of a leg, one after the other."""
 
-    def __init__(self, studio: Studio, prairie: Prairie, truth: Truth, record: Record, told: int) -> None:
-        self._studio, self._prairie, self._truth, self._record = studio, prairie, truth, record
-        self._told = told
+    def __init__(self, studio: Studio, prairie: Prairie, truth: Truth, told: int) -> None:
+        self._studio, self._prairie, self._truth, self._told = studio, prairie, truth, told
+        self.record = Record()
         self._samples: list[Sample] = []
         self._due = sampled_frames() if prairie.site.transitions == SEAMLESS else []
 
     def see(self, step: Step, *, still: bool) -> None:
         """Judge a frame, and keep what is to be told of it."""
-        record, truth = self._record, self._truth
+        record, truth = self.record, self._truth
         record.changing.append(step.changing)
         least = max(1.0, record.worst[-1].ratio) if len(record.worst) == self._told else 0.0
         verdict = judge(step, truth, unless_below=least)
@@ -152,7 +153,7 @@ class _Seen:
             ends = ends_of_change(self._studio, self._prairie, step.moment.camera)
         self._samples.append(sample(self._prairie, step, self._truth.near(step.moment), ends))
         if step.moment.number == self._due[-1]:
-            self._record.changes.extend(changes(self._samples))
+            self.record.changes.extend(changes(self._samples))
 
 
 def _steps(studio: Studio, prairie: Prairie, frames: Iterable[list[Moment]]) -> Iterator[Step]:

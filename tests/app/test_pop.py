@@ -115,7 +115,7 @@ def test_n3_legs_that_are_walked_alone_are_those_of_the_whole_walk(scene: Path, 
         alone = [walked(studio, walk, transitions, watch=unwatched, only=number) for number in range(2)]
     parts = merged(alone)
     assert told(parts) == told(whole)
-    assert parts.changing == whole.changing
+    assert (parts.changing, parts.judged) == (whole.changing, whole.judged)
     assert [each.changing for each in alone] != [alone[0].changing] * 2
     assert len(parts.stills) == len(whole.stills)
     for ours, theirs in zip(parts.stills, whole.stills, strict=True):
