@@ -3,7 +3,6 @@
 Every command exits with 0 on success, with 2 on bad input (one line per problem), and with 1 on a failure of its own.
 """
 
-import math
 import os
 import signal
 import sys
@@ -12,47 +11,36 @@ from typing import Annotated, NoReturn
 import typer
 
 from .. import __version__
-from ..engine.camera import Camera, parse_camera
-from ..engine.declared.scene import LodName, PresetName
-from ..systems.overlay.layers import LAYERS, Layer, parse_layers
+from ..engine.declared.scene import LodName
+from .bench.commands import bench
+from .options import (
+    Fullscreen,
+    Hold,
+    Json,
+    Laid,
+    On,
+    Output,
+    Preset,
+    Reference,
+    Scene,
+    Size,
+    bundled,
+    camera_of,
+    frames_of,
+    overlay_of,
+    size_of,
+)
 from .studio.errors import InputError, MachineError
-from .studio.take import LARGEST, SAMPLES, Take, parse_frames, parse_size
+from .studio.take import Take
 
 app = typer.Typer(
     help="Grow, animate and draw whole prairies in real time.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
 )
-bench = typer.Typer(help="Measure: what frames take, how true they are, and whether they pop.", no_args_is_help=True)
 app.add_typer(bench, name="bench")
 plugins = typer.Typer(help="Kinds of wind and systems that other packages bring.", no_args_is_help=True)
 app.add_typer(plugins, name="plugins")
-
-
-def _bundled(beginning: str) -> list[str]:
-    """Return the bundled scenes whose names begin so; where there are none, a shell goes on with files."""
-    from ..engine.scene import bundled_scenes
-
-    return [name for name in bundled_scenes() if name.startswith(beginning)]
-
-
-Scene = Annotated[
-    str,
-    typer.Argument(metavar="SCENE", help="A scene file, or the name of a bundled scene.", autocompletion=_bundled),
-]
-Size = Annotated[str, typer.Option(metavar="WxH", help="Width and height in pixels.")]
-Preset = Annotated[PresetName | None, typer.Option(help="Quality, in place of the scene's own.")]
-Reference = Annotated[bool, typer.Option("--reference", help="Draw every blade in 3D, supersampled.")]
-Laid = Annotated[
-    str | None, typer.Option("--overlay", metavar="PART,...", help=f"Show how it works: {', '.join(LAYERS)}, or all.")
-]
-Output = Annotated[str, typer.Option("-o", "--output", help="Where it is written.")]
-Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
-Hold = Annotated[
-    float | None,
-    typer.Option(min=0.0, max=1000.0, metavar="FPS", help="Frames a second to hold, by drawing less; 0 draws it all."),
-]
-Fullscreen = Annotated[bool, typer.Option("--fullscreen", help="Fill the screen.")]
 
 
 def main() -> None:
@@ -106,7 +94,7 @@ def walk(
 
     60 frames a second are held, and 20 where there is no graphics card: what takes too long is drawn with fewer pixels.
     """
-    take = Take(scene, _size(size), preset, overlay=_overlay(overlay))
+    take = Take(scene, size_of(size), preset, overlay=overlay_of(overlay))
     from .display import need_display
 
     need_display()
@@ -129,9 +117,9 @@ def shot(
     overlay: Laid = None,
 ) -> None:
     """Draw one picture, without a window."""
-    laid = _overlay(overlay, reference=reference)
-    take = Take(scene, _size(size, reference=reference), preset, lod, reference, laid)
-    place = None if camera is None else _camera(camera)
+    laid = overlay_of(overlay, reference=reference)
+    take = Take(scene, size_of(size, reference=reference), preset, lod, reference, laid)
+    place = None if camera is None else camera_of(camera)
     from .shot import shot
 
     shot(take, output, time=time, camera=place)
@@ -151,20 +139,21 @@ def film(
     frames: Annotated[
         str | None, typer.Option(metavar="A:B", help="Only frame A to the one before B of the whole film.")
     ] = None,
+    on: On = None,
 ) -> None:
     """Film a scene along its camera's path, without a window: .webp, .gif, .mp4, or a folder of pictures."""
-    span = _frames(frames)
-    laid = _overlay(overlay, reference=reference)
-    take = Take(scene, _size(size, reference=reference), preset, reference=reference, overlay=laid)
+    span = frames_of(frames)
+    laid = overlay_of(overlay, reference=reference)
+    take = Take(scene, size_of(size, reference=reference), preset, reference=reference, overlay=laid)
     from .film import film
 
-    film(take, output, seconds=seconds, fps=fps, frames=span)
+    film(take, output, seconds=seconds, fps=fps, frames=span, on=on)
 
 
 @app.command()
 def check(
     scenes: Annotated[
-        list[str], typer.Argument(metavar="SCENE...", help="Files or bundled names.", autocompletion=_bundled)
+        list[str], typer.Argument(metavar="SCENE...", help="Files or bundled names.", autocompletion=bundled)
     ],
 ) -> int:
     """Validate scenes, and tell every problem of each."""
@@ -181,7 +170,7 @@ def figures(
     preset: Preset = None,
 ) -> None:
     """Draw the figures of the paper into a folder, with a page index.html that shows them."""
-    pixels = _size(size)
+    pixels = size_of(size)
     from .figures.make import make_figures
 
     make_figures(output, only=only, size=pixels, preset=preset)
@@ -204,58 +193,6 @@ def doctor() -> int:
     from .doctor import doctor
 
     return doctor()
-
-
-@bench.command("frame")
-def frame(
-    scene: Scene = "meadow",
-    preset: Preset = None,
-    size: Size = "1280x720",
-    *,
-    json: Json = False,
-    viewers: Annotated[int, typer.Option(min=1, max=16, help="Viewers in every frame, side by side.")] = 1,
-) -> int:
-    """Measure how long a frame takes, and what it is made of."""
-    pixels = _size(size)
-    from .bench.frame import bench_frame
-
-    return bench_frame(scene, preset=preset, size=pixels, json=json, viewers=viewers)
-
-
-@bench.command("picture")
-def picture(
-    scene: Annotated[
-        str, typer.Argument(metavar="SCENE", help="A scene file, a bundled scene, or a folder.")
-    ] = "meadow",
-    preset: Preset = None,
-    size: Size = "1280x720",
-    *,
-    json: Json = False,
-    output: Annotated[str | None, typer.Option("-o", "--output", help="A folder for pictures with references.")] = None,
-) -> int:
-    """Measure how far a picture is from every blade in 3D, supersampled; of a folder, those of all its scenes."""
-    pixels = _size(size)
-    from .bench.picture import bench_picture
-
-    return bench_picture(scene, preset=preset, size=pixels, json=json, output=output)
-
-
-@bench.command("pop")
-def pop(
-    scene: Scene = "meadow",
-    preset: Preset = None,
-    size: Size = "640x360",
-    *,
-    json: Json = False,
-    parts: Annotated[bool, typer.Option("--parts", help="Also leave out each part of the transitions alone.")] = False,
-    output: Annotated[str | None, typer.Option("-o", "--output", help="A folder for pictures of what shows.")] = None,
-    hold: Hold = None,
-) -> int:
-    """Measure whether a change of representation can be seen on a walk; this takes minutes."""
-    pixels = _size(size)
-    from .bench.pop import bench_pop
-
-    return bench_pop(scene, preset=preset, size=pixels, json=json, parts=parts, output=output, hold=hold)
 
 
 @plugins.command("list")
@@ -285,24 +222,6 @@ def new(
     new_plugin(name, output)
 
 
-@bench.command("walk")
-def bench_walk(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720", *, json: Json = False) -> int:
-    """Measure whether frames keep taking the same time on a walk."""
-    pixels = _size(size)
-    from .bench.walk import bench_walk
-
-    return bench_walk(scene, preset=preset, size=pixels, json=json)
-
-
-@bench.command("scale")
-def scale(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720", *, json: Json = False) -> int:
-    """Measure what a larger terrain costs, up to 10 km."""
-    pixels = _size(size)
-    from .bench.scale import bench_scale
-
-    return bench_scale(scene, preset=preset, size=pixels, json=json)
-
-
 def _print_version(wanted: bool) -> None:  # noqa: FBT001 - typer passes it by place
     if wanted:
         print(f"tallgrass {__version__}")
@@ -317,41 +236,6 @@ def _options(
     ] = False,
 ) -> None:
     pass
-
-
-def _size(text: str, *, reference: bool = False) -> tuple[int, int]:
-    try:
-        size = parse_size(text)
-    except ValueError as error:
-        raise InputError(f"--size: {error}") from None
-    if reference and max(size) > LARGEST // SAMPLES:
-        raise InputError(f"--size: {text}: with --reference each side must be at most {LARGEST // SAMPLES} pixels")
-    return size
-
-
-def _overlay(text: str | None, *, reference: bool = False) -> frozenset[Layer]:
-    if text is None:
-        return frozenset()
-    if reference:
-        raise InputError("--overlay: a reference has no levels of detail to show; leave one of the two out")
-    try:
-        return parse_layers(text)
-    except ValueError as error:
-        raise InputError(f"--overlay: {error}") from None
-
-
-def _frames(text: str | None) -> tuple[int, int | None]:
-    try:
-        return (0, None) if text is None else parse_frames(text)
-    except ValueError as error:
-        raise InputError(f"--frames: {error}") from None
-
-
-def _camera(text: str) -> Camera:
-    try:
-        return parse_camera(text, view=math.radians(40.0))
-    except ValueError as error:
-        raise InputError(f"--camera: {error}") from None
 
 
 def _tell(text: str, *, status: int) -> int:

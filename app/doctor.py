@@ -18,7 +18,12 @@ from ..engine.plugins import GROUP, PluginError, WindKinds, wind_kinds
 
 _DISTRIBUTION = "tallgrass"
 _EXTRA = re.compile(r"extra\s*==\s*.(\w+)")
-_NEEDED_BY = {"bench": "bench picture and bench pop", "figures": "figures", "video": "films in .mp4"}
+_NEEDED_BY = {
+    "bench": "bench picture, bench pop and bench all",
+    "farm": "films on many machines",
+    "figures": "figures and bench all",
+    "video": "films in .mp4",
+}
 _NEWER_DRIVER = "update the graphics driver, or draw in software: LIBGL_ALWAYS_SOFTWARE=1"
 
 _OTHER_CURES = (

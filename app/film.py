@@ -1,12 +1,16 @@
 """A scene's camera path with its wind timeline, headless, at a fixed step."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 
+from ..engine.declared.scene import Scene
+from ..engine.scene import read_scene
 from .manifest import Manifest, Span
-from .studio.encode import Picture, Reel, film_writer
+from .studio.encode import Reel, film_writer, is_folder
 from .studio.errors import InputError
 from .studio.progress import busy, counted
-from .studio.studio import Studio, about
+from .studio.shooting import Shooting, Shot
+from .studio.studio import about
 from .studio.take import Take
 
 STILL_SECONDS = 8.0
@@ -16,45 +20,56 @@ Frames = tuple[int, int | None]
 """The first frame, and the one after the last; None is the film's end."""
 
 
-def film(take: Take, output: str, *, seconds: float | None = None, fps: int = 24, frames: Frames = (0, None)) -> None:
+def film(
+    take: Take,
+    output: str,
+    *,
+    seconds: float | None = None,
+    fps: int = 24,
+    frames: Frames = (0, None),
+    on: str | None = None,
+) -> None:
     """Film a scene from its time 0 on: frame k shows the time k / fps [s]. A manifest stands beside the film.
 
     Without `seconds` it lasts as long as the camera's path. Of `frames` only these are drawn; they are those of the
-    whole film byte for byte, so that several machines can share it. Frames are drawn as they are written. Raises
-    InputError where `output` cannot hold such a film or the film has no such frames, `SceneError` where the scene is
-    wrong.
+    whole film byte for byte, so that several machines can share it. Frames are drawn as they are written: here, or on
+    the workers that `on` names, as `farm.hands.hired` takes it. Raises InputError where `output` cannot hold such a
+    film or the film has no such frames, `SceneError` where the scene is wrong, MachineError where nothing can draw it.
     """
     write = film_writer(output, take.size, fps)
-    with busy("growing the prairie"):
-        studio = Studio(take)
-    with studio:
-        span = _span(studio, seconds, fps, frames)
-        manifest, count = Manifest(span), span.end - span.first
-        drawn = counted(_frames(studio, span), total=count, doing="filming")
-        told = {**about(studio.prairie, take), "time": f"{span.first / fps:.6g}"}
+    loaded = read_scene(take.scene)
+    span = _span(loaded.scene, seconds, fps, frames)
+    told = about(loaded.scene, take, time=span.first / fps)
+    files = told if is_folder(output) else None
+    manifest, count = Manifest(span), span.end - span.first
+    if on is None:
+        shooting = _shot_here(take, span, files)
+    else:
+        from .farm.film import shot_on
+
+        shooting = shot_on(on, take, loaded, span, files)
+    with shooting as shots:
+        drawn = counted(shots, total=count, doing="filming")
         write(Reel(manifest.noted(drawn), count, fps, told, span.first))
-        renderer = str(studio.ctx.info["GL_RENDERER"])
-        manifest.write(output, studio.prairie, take, renderer=renderer)
+    manifest.write(output, loaded, take)
 
 
-def _span(studio: Studio, seconds: float | None, fps: int, frames: Frames) -> Span:
-    count = max(1, round((_length(studio) if seconds is None else seconds) * fps))
+def _span(scene: Scene, seconds: float | None, fps: int, frames: Frames) -> Span:
+    count = max(1, round((_length(scene) if seconds is None else seconds) * fps))
     first, end = frames
     if first >= count or (end or 0) > count:
         raise InputError(f"--frames: {first}:{end or ''}: the film has the frames 0:{count}")
     return Span(first, count if end is None else end, count, fps)
 
 
-def _length(studio: Studio) -> float:
-    path = studio.prairie.scene.camera.path
+def _length(scene: Scene) -> float:
+    path = scene.camera.path
     return path[-1].at if path and path[-1].at > 0.0 else STILL_SECONDS
 
 
-def _frames(studio: Studio, span: Span) -> Iterator[Picture]:
-    for number in range(span.end):
-        time = number / span.fps
-        studio.prairie.advance(time - studio.prairie.time)
-        if number < span.first:
-            studio.follow(studio.camera(time))
-        else:
-            yield studio.picture(studio.camera(time))
+@contextmanager
+def _shot_here(take: Take, span: Span, files: Mapping[str, str] | None) -> Iterator[Iterator[Shot]]:
+    with busy("growing the prairie"):
+        shooting = Shooting(take, span.fps)
+    with shooting:
+        yield shooting.shots(span.first, span.end, files=files)

@@ -10,8 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from .. import __version__
-from ..systems.prairie import Prairie
-from .studio.encode import Picture, write_whole
+from ..engine.scene import LoadedScene
+from .studio.encode import Frame, write_whole
+from .studio.shooting import Shot
 from .studio.take import Take
 
 
@@ -45,17 +46,21 @@ class Manifest:
     hashes: list[str] = field(default_factory=list)
     """SHA-256 of each picture's bytes: sRGB, top row first."""
 
-    def noted(self, frames: Iterable[Picture], /) -> Iterator[Picture]:
-        """Yield the frames, and note the hash of each."""
-        for picture in frames:
-            self.hashes.append(sha256(np.ascontiguousarray(picture).data).hexdigest())
-            yield picture
+    renderer: str = ""
+    """What drew them."""
 
-    def write(self, output: str, prairie: Prairie, take: Take, *, renderer: str) -> None:
+    def noted(self, shots: Iterable[Shot], /) -> Iterator[Frame]:
+        """Yield the frames, and note the hash of each."""
+        for shot in shots:
+            self.hashes.append(shot.sha256)
+            self.renderer = shot.renderer
+            yield shot.frame
+
+    def write(self, output: str, loaded: LoadedScene, take: Take) -> None:
         """Write it beside a film, as JSON: `walk.webp.json`, or of frames 100 to 129 `walk.webp.100-130.json`."""
         path = Path(output.rstrip("/" + os.sep))
         part = "" if self.span.whole else f".{self.span.first}-{self.span.end}"
-        told = {**_made_from(prairie, take), "renderer": renderer, **self._pictures()}
+        told = {**_made_from(loaded, take), "renderer": self.renderer, **self._pictures()}
         write_whole(json.dumps(told, indent=1) + "\n", path.with_name(f"{path.name}{part}.json"))
 
     def _pictures(self) -> dict[str, object]:
@@ -67,15 +72,15 @@ class Manifest:
         return {"fps": span.fps, "frames": {"first": span.first, "end": span.end, "of": span.of}, "pictures": rows}
 
 
-def _made_from(prairie: Prairie, take: Take) -> dict[str, object]:
+def _made_from(loaded: LoadedScene, take: Take) -> dict[str, object]:
     return {
         "tallgrass": __version__,
         "numpy": np.__version__,
-        "scene": prairie.path.name,
-        "seed": prairie.scene.seed,
-        "files": {name: _hash(path) for name, path in prairie.files.items()},
+        "scene": loaded.path.name,
+        "seed": loaded.scene.seed,
+        "files": {name: _hash(path) for name, path in loaded.paths.items()},
         "size": list(take.size),
-        "quality": prairie.site.quality.model_dump(mode="json"),
+        "quality": loaded.scene.numbers(take.preset).model_dump(mode="json"),
         "lod": take.lod,
         "reference": take.reference,
         "overlay": sorted(take.overlay),

@@ -21,4 +21,5 @@ def shot(take: Take, output: str, *, time: float = 0.0, camera: Camera | None = 
         studio.prairie.advance(time)
         view = math.radians(studio.prairie.scene.camera.view)
         place = studio.camera(None) if camera is None else replace(camera, view=view)
-        write(studio.picture(place), {**about(studio.prairie, take), "camera": written(place)})
+        told = about(studio.prairie.scene, take, time=studio.prairie.time)
+        write(studio.picture(place), {**told, "camera": written(place)})

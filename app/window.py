@@ -265,7 +265,8 @@ class Walk:
             governor.hold = held
             picture = offscreen.read()
         try:
-            picture_writer(name)(picture, {**about(self.prairie, self.take), "camera": written(self.camera)})
+            told = about(self.prairie.scene, self.take, time=self.prairie.time)
+            picture_writer(name)(picture, {**told, "camera": written(self.camera)})
             self.tell([f"{name} is written"])
         except (InputError, OSError) as error:
             self.tell([str(error)])

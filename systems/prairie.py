@@ -147,7 +147,7 @@ class Prairie:
     @property
     def files(self) -> dict[str, Path]:
         """The scene's file and those that it names, by the names that it calls them."""
-        return {self.path.name: self.path} | {name: self._loaded.folder / name for name in self._loaded.files}
+        return self._loaded.paths
 
     @property
     def painter(self) -> Painter | None:

@@ -23,6 +23,9 @@ from .wind.grass import grass_of
 
 Ints = NDArray[np.int32]
 Place = tuple[float, float, float]
+ROOM = 1.5
+"""How far a blade is taken to reach from its root, of its length: more than it can be bent and leaned to."""
+
 CHUNK = 400
 """Patches drawn at a time in a reference, so that a large terrain needs no large buffers."""
 
@@ -50,17 +53,35 @@ def cells_within(ground: Ground, eye: Place, cone: tuple[float, float], /, *, sw
     return cells[inside_cone(middles, apex=(eye[0], eye[2]), cone=cone, radius=radius)]
 
 
-def stand_all(prairie: Prairie, cells: Ints, painter: BladePainter, /) -> int:
-    """Send all blades of `cells` (n, 2) to a painter, bent by the wind of now; return how many."""
+def stand_all(prairie: Prairie, cells: Ints, painter: BladePainter, /, *, seen: View | None = None) -> int:
+    """Send all blades of `cells` (n, 2) to a painter, bent by the wind of now; return how many.
+
+    Where it is told what is `seen`, those that cannot come into the picture are left out.
+    """
     site = prairie.site
     (stock,) = (each.stock for each in site.representations if isinstance(each, BladeRepresentation))
     model, turn = patch_models(cells, seed=site.scene.seed, models=site.quality.models)
     standing, grows = standing_blades(stock, cells, model, turn, site.ground)
     blades = standing[grows]
+    if seen is not None:
+        blades = blades[near_picture(blades, seen)]
+    if not len(blades):
+        return 0
     place = np.ascontiguousarray(blades["root"][:, ::2])
     grass = grass_of(site.growths, blades["kind"].astype(np.intp))
     painter.write(blades, prairie.winds.heard(places_alone(place, grass), time=prairie.time))
     return len(blades)
+
+
+def near_picture(blades: NDArray[np.void], seen: View, /) -> NDArray[np.bool_]:
+    """Return which blades, records of `BLADE` (n,), might reach into the picture however they are bent, shape (n,)."""
+    root = blades["root"].astype(np.float64)
+    reach = ROOM * (blades["height"] + blades["stem"]).astype(np.float64) + blades["width"]
+    x, y, _, ahead = seen.projection.astype(np.float64) @ seen.view
+    inside = np.ones(len(blades), np.bool_)
+    for plane in (ahead + x, ahead - x, ahead + y, ahead - y):
+        inside &= root @ plane[:3] + plane[3] >= -reach * np.linalg.norm(plane[:3])
+    return inside
 
 
 class EveryBlade:
@@ -90,12 +111,12 @@ class EveryBlade:
             cells = cells[discrete_distance(cells, self.outlook.viewer.centre) <= reach]
         cells = cells[self.prairie.clearings.spare(cells)]
         self.painter.carpet.lay(self.outlook, cover)
-        self.painter.draw(view, blades=self._chunks(cells))
+        self.painter.draw(view, blades=self._chunks(cells, view))
 
-    def _chunks(self, cells: Ints) -> Iterator[BladePainter]:
+    def _chunks(self, cells: Ints, seen: View) -> Iterator[BladePainter]:
         for start in range(0, len(cells), CHUNK):
-            stand_all(self.prairie, cells[start : start + CHUNK], self.blades)
-            yield self.blades
+            if stand_all(self.prairie, cells[start : start + CHUNK], self.blades, seen=seen):
+                yield self.blades
 
     def release(self) -> None:
         """Give everything back."""

@@ -48,16 +48,17 @@ def change_of_tile(now: Picture, before: Picture, true_now: Picture, true_before
     return float(np.abs(seen - (low_passed(true_now) - low_passed(true_before))).mean())
 
 
-def step(now: Picture, held: Picture, /) -> Floats:
+def step(now: Floats, held: Floats, /) -> Floats:
     """Return in each tile how much changes of representation changed a frame, in steps of 255, shape (rows, columns).
 
-    `held` is the same frame without them.
+    `held` is the same frame without them; both are low-passed.
     """
-    return tiles(low_passed(now) - low_passed(held))
+    return tiles(now - held)
 
 
-def prominence(now: Picture, held: Picture, before: Picture, /) -> Floats:
-    """Return in each tile the step in terms of what changes there anyway, shape (rows, columns)."""
-    kept = low_passed(held)
-    stepped, anyway = tiles(low_passed(now) - kept), tiles(kept - low_passed(before))
-    return np.asarray(stepped / np.maximum(anyway, LEAST))
+def prominence(stepped: Floats, held: Floats, before: Floats, /) -> Floats:
+    """Return in each tile the step (rows, columns) in terms of what changes there anyway, in the same shape.
+
+    That is what changes from the frame before to the frame held, both low-passed.
+    """
+    return np.asarray(stepped / np.maximum(tiles(held - before), LEAST))

@@ -14,7 +14,7 @@ from ...systems.prairie import Prairie
 from ...systems.reference import EveryBlade, seen_cells, stand_all, terrain_cells
 from ...systems.show.blades.draw import BladePainter
 from ...systems.stock.models import precompute_bytes
-from ..studio.progress import counted
+from ..studio.progress import counted, course
 from ..studio.studio import Studio
 from ..studio.take import Take
 from .machine import machine, tell
@@ -28,6 +28,9 @@ from .yardstick import yardstick_ms
 EVERY = 12
 """Frames between two draws of every blade: taken in turn, since such machines change their speed."""
 
+PARTS = {"growing": 6.0, "drawing": 60.0, "without drawing": 6.0}
+"""What there is to do, and how long it takes [s], about."""
+
 TURN = 6
 """Frames between two draws of the rivals."""
 
@@ -37,17 +40,25 @@ def bench_frame(scene: str, *, preset: str | None, size: tuple[int, int], json: 
 
     Of more than one viewer, each one's part of a frame is measured besides.
     """
-    take = Take(scene, size, preset=preset)
-    first = {"cold": 0.0, "cached": 0.0}
-    with _empty_cache():
-        first["cold"] = _first_frame(take)
-        first["cached"] = _first_frame(take)
-    with Studio(take) as studio:
-        result = _measure(studio, take, first)
-        if viewers > 1:
-            result["viewers"] = side_by_side(studio, viewers)
-    tell(result | _on_processor(take) | {"yardstick_ms": yardstick_ms()}, as_json=json)
+    tell(frame_measured(Take(scene, size, preset=preset), viewers=viewers), as_json=json)
     return 0
+
+
+def frame_measured(take: Take, /, *, viewers: int = 1) -> dict[str, object]:
+    """Return what the benchmark tells of a scene's frame."""
+    first = {"cold": 0.0, "cached": 0.0}
+    with course("a frame", PARTS | ({"viewers": 30.0} if viewers > 1 else {})) as way:
+        with way.part("growing"), _empty_cache():
+            first["cold"] = _first_frame(take)
+            first["cached"] = _first_frame(take)
+        with Studio(take) as studio:
+            with way.part("drawing"):
+                result = _measure(studio, take, first)
+            if viewers > 1:
+                with way.part("viewers"):
+                    result["viewers"] = side_by_side(studio, viewers)
+        with way.part("without drawing"):
+            return result | _on_processor(take) | {"yardstick_ms": yardstick_ms()}
 
 
 @contextmanager

@@ -16,7 +16,7 @@ from ...systems.reference import EveryBlade, draw_reference, patch_distances, se
 from ...systems.show.registry import NAMES
 from ..studio.encode import Picture, make_folder, picture_writer
 from ..studio.errors import MachineError
-from ..studio.progress import busy
+from ..studio.progress import Course, course
 from ..studio.studio import Studio, about
 from ..studio.take import SAMPLES, Take
 from .contrast import contrast
@@ -29,6 +29,9 @@ MOMENT = 2.0
 
 OTHER_SEED = 7919
 """Added to the scene's seed for unrelated grass of the same look."""
+
+PARTS = {"every blade": 3.0, "the reference": 4.0, "unrelated grass": 6.0}
+"""What there is to draw, and how long it takes in terms of one another, about."""
 
 FEWEST = 400
 """Pixels that a band must have to be told of."""
@@ -66,41 +69,43 @@ def bench_picture(
         from .cameras import bench_cameras
 
         return bench_cameras(scene, preset=preset, size=size, json=json, output=output)
-    with busy("drawing every blade"):
-        tell(measured(Take(scene, size, preset=preset), output), as_json=json)
+    tell(measured(Take(scene, size, preset=preset), output), as_json=json)
     return 0
 
 
 def measured(take: Take, output: str | None = None, /) -> dict[str, object]:
     """Return what the benchmark tells of a scene; into the folder `output` goes its picture beside its reference."""
-    with Studio(take) as studio:
-        pictures = _draw(studio)
+    with course("a picture", PARTS) as way, Studio(take) as studio:
+        pictures = _draw(studio, way)
         head = {
             "machine": machine(studio.ctx), "scene": take.scene, "preset": take.preset or own_preset(studio.prairie),
         }  # fmt: skip
         if output is not None:
             beside = np.concatenate([pictures.lod, pictures.reference], axis=1)
             name = str(Path(output) / f"{Path(take.scene).stem}.png")
-            picture_writer(name)(beside, about(studio.prairie, take))
+            picture_writer(name)(beside, about(studio.prairie.scene, take, time=studio.prairie.time))
         return {**head, "size": list(take.size), "frames": 1, **compare(pictures, studio.prairie.site.quality)}
 
 
-def _draw(studio: Studio) -> Pictures:
+def _draw(studio: Studio, way: Course) -> Pictures:
     prairie, size = studio.prairie, studio.take.size
     prairie.advance(MOMENT)
     view, projection = studio.matrices(studio.camera(None))
-    studio.begin()
-    prairie.draw(view, projection)
-    lod = studio.read()
-    all_3d, msaa = _every_blade(studio, view_of(view, projection))
-    reference = draw_reference(prairie, view, projection, size, samples=SAMPLES)
-    distance = patch_distances(prairie, view, projection, size)
-    other = prairie.reseeded(prairie.scene.seed + OTHER_SEED)
-    other.advance(MOMENT)
-    studio.begin()
-    other.draw(view, projection)
-    unrelated = draw_reference(other, view, projection, size, samples=SAMPLES)
-    other.release()
+    with way.part("every blade"):
+        studio.begin()
+        prairie.draw(view, projection)
+        lod = studio.read()
+        all_3d, msaa = _every_blade(studio, view_of(view, projection))
+    with way.part("the reference"):
+        reference = draw_reference(prairie, view, projection, size, samples=SAMPLES)
+        distance = patch_distances(prairie, view, projection, size)
+    with way.part("unrelated grass"):
+        other = prairie.reseeded(prairie.scene.seed + OTHER_SEED)
+        other.advance(MOMENT)
+        studio.begin()
+        other.draw(view, projection)
+        unrelated = draw_reference(other, view, projection, size, samples=SAMPLES)
+        other.release()
     return Pictures(lod, all_3d, msaa, reference, unrelated, distance)
 
 

@@ -1,7 +1,8 @@
 """`tallgrass bench pop`: whether a change of representation can be seen while the wind blows and the viewer walks."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -10,17 +11,20 @@ import numpy as np
 from ...systems.around.transitions import SEAMLESS, Transitions
 from ..studio.encode import make_folder
 from ..studio.errors import InputError
+from ..studio.progress import counted, course
 from ..studio.studio import Studio, about
 from ..studio.take import Take
+from . import stroll
+from .crew import by_many, cores, ticked
 from .drift import Change
 from .evidence import save
 from .flicker import MARGIN, TILE
 from .frame import own_preset
 from .machine import machine, tell
 from .picture import evaluator, flip
-from .steps import Record, walked
-from .stroll import legs
-from .verdict import Verdict
+from .steps import TOLD, Record, merged, seconds_of, walked
+from .stroll import Leg, legs
+from .verdict import Step, Verdict
 
 HARD = Transitions(morph=False, fade=False, growth=False)
 """Patches switch at once."""
@@ -33,6 +37,9 @@ PARTS = ("morph", "fade", "growth", "hysteresis")
 
 SMALLEST = TILE + 2 * MARGIN + 2
 """Least side of a picture [pixels]."""
+
+MOST = 8
+"""Most processes that walk at a time, each with a prairie of its own: one for each core, up to so many."""
 
 LIMITS = {"flicker": 1.15, "drift": 0.03, "ghosting": 0.5}
 """What is not to be seen at all stays below: the flicker's ratio, the drift of patches together, and ghosting."""
@@ -59,12 +66,21 @@ def bench_pop(
         raise InputError(f"--size: {size[0]}x{size[1]}: here each side must be at least {SMALLEST} pixels")
     if output is not None:
         make_folder(Path(output))
-    take = Take(scene, size, preset=preset)
-    with Studio(take) as studio:
-        head = {"machine": machine(studio.ctx), "scene": scene, "preset": preset or own_preset(studio.prairie)}
-        result = {**head, "size": list(size), **_measure(studio, parts=parts, output=output, hold=hold)}
-    tell(result, as_json=json)
+    tell(pop_measured(Take(scene, size, preset=preset), parts=parts, output=output, hold=hold), as_json=json)
     return 0
+
+
+def pop_measured(
+    take: Take, /, *, parts: bool = False, output: str | None = None, hold: float | None = None
+) -> dict[str, object]:
+    """Return what the benchmark tells of a walk through a scene."""
+    with Studio(take) as studio:
+        head = {
+            "machine": machine(studio.ctx),
+            "scene": take.scene,
+            "preset": take.preset or own_preset(studio.prairie),
+        }
+        return {**head, "size": list(take.size), **_measure(studio, parts=parts, output=output, hold=hold)}
 
 
 def _measure(studio: Studio, *, parts: bool, output: str | None, hold: float | None) -> dict[str, object]:
@@ -72,13 +88,10 @@ def _measure(studio: Studio, *, parts: bool, output: str | None, hold: float | N
     left_out = {WHOLE: SEAMLESS, "morph, fade, growth": HARD}
     for part in PARTS if parts else ():
         left_out[part] = replace(SEAMLESS, **{part: False})
-    seconds = 1.0 / hold if hold else None
-    records = {
-        name: walked(studio, walk, less, doing=f"without {name}", hold=seconds) for name, less in left_out.items()
-    }
+    records = _walks(studio, walk, left_out, hold=hold)
     whole = records[WHOLE]
     if output is not None:
-        save(whole.worst, output, about(studio.prairie, studio.take))
+        save(whole.worst, output, about(studio.prairie.scene, studio.take, time=studio.prairie.time))
     result = _told(records)
     if parts:
         result["contributions"] = [
@@ -86,6 +99,43 @@ def _measure(studio: Studio, *, parts: bool, output: str | None, hold: float | N
             for name, record in records.items()
         ]
     return result
+
+
+def _walks(
+    studio: Studio, walk: list[Leg], left_out: Mapping[str, Transitions], *, hold: float | None
+) -> dict[str, Record]:
+    """Return the record of each walk; where frame times are to be held, nothing else goes on meanwhile."""
+    steps = {name: round(seconds_of(less) * stroll.RATE) * len(walk) for name, less in left_out.items()}
+    jobs = [(name, number) for name in left_out for number in reversed(range(len(walk)))]
+    workers = 1 if hold else min(cores(), MOST, len(jobs))
+    if workers > 1:
+        asked = [(studio.take, walk, left_out[name], number, _kept(name)) for name, number in jobs]
+        found = by_many(leg_walked, asked, workers=workers, steps=sum(steps.values()), doing="walking")
+        by_job = dict(zip(jobs, found, strict=True))
+        return {name: merged(by_job[name, number] for number in range(len(walk))) for name in left_out}
+    records = {}
+    with course("walking", steps) as way:
+        for name, less in left_out.items():
+            with way.part(name):
+                watch = partial(_counted, doing=f"without {name}")
+                held = 1.0 / hold if hold else None
+                records[name] = walked(studio, walk, less, watch=watch, hold=held, told=_kept(name))
+    return records
+
+
+def _kept(name: str) -> int:
+    """Return how many of the worst frames are told of."""
+    return TOLD if name == WHOLE else 1
+
+
+def _counted(steps: Iterator[Step], total: int, *, doing: str) -> Iterator[Step]:
+    return counted(steps, total=total, doing=doing)
+
+
+def leg_walked(take: Take, walk: list[Leg], transitions: Transitions, number: int, told: int, /) -> Record:
+    """Return the record of one leg of a walk, in a process of a crew."""
+    with Studio(take) as studio:
+        return walked(studio, walk, transitions, watch=lambda steps, _: ticked(steps), only=number, told=told)
 
 
 def _told(records: Mapping[str, Record]) -> dict[str, object]:

@@ -32,11 +32,16 @@ def bench_scale(scene: str, *, preset: str | None, size: tuple[int, int], json: 
 
     Each terrain has a process of its own. Raises InputError where the scene's terrain is not made from noise.
     """
+    tell(scale_measured(scene, preset=preset, size=size), as_json=json)
+    return 0
+
+
+def scale_measured(scene: str, *, preset: str | None, size: tuple[int, int]) -> dict[str, object]:
+    """Return what the benchmark tells of a scene on larger and larger terrains; raises InputError as `bench_scale`."""
     head = _head(scene, preset, size)
     one = partial(_measured, scene, preset, size)
-    rows = list(counted(_alone(one, SIDES), total=len(SIDES), doing="terrains"))
-    tell({**head, "frames": round(SECONDS * RATE), "rows": rows}, as_json=json)
-    return 0
+    rows = list(counted(_alone(one, SIDES), total=len(SIDES), doing="larger and larger terrains"))
+    return {**head, "frames": round(SECONDS * RATE), "rows": rows}
 
 
 def _head(scene: str, preset: str | None, size: tuple[int, int]) -> dict[str, object]:

@@ -4,16 +4,15 @@ Every frame is drawn twice: as it is, and held, that is with every patch shown a
 that frame's changes of representation and by nothing else; changes of orientation and of sub-levels are among them.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from ...systems.around.transitions import SEAMLESS, Transitions
 from ...systems.prairie import Prairie
 from ..studio.encode import Picture
-from ..studio.progress import counted
 from ..studio.studio import Studio
 from . import stroll
 from .drift import Change, Sample, changes, sample, sampled_frames
@@ -21,6 +20,9 @@ from .ghost import ends_of_change
 from .stroll import REST, Leg, Moment, moments, raise_gusts
 from .truth import Truth
 from .verdict import Step, Verdict, judge
+
+Watch = Callable[[Iterator[Step], int], Iterator[Step]]
+"""Passes the steps of a walk on, of which there are so many."""
 
 TOLD = 6
 """Frames that are told of."""
@@ -62,52 +64,83 @@ class Record:
 
 
 def walked(
-    studio: Studio, walk: list[Leg], transitions: Transitions, /, *, doing: str, hold: float | None = None
+    studio: Studio,
+    walk: list[Leg],
+    transitions: Transitions,
+    /,
+    *,
+    watch: Watch,
+    hold: float | None = None,
+    only: int | None = None,
+    told: int = TOLD,
 ) -> Record:
     """Walk through the studio's scene with these transitions, and return what has been seen.
 
-    With `hold`, frames are held to a time [s].
+    `watch` is told of the steps and of how many there are. With `hold`, frames are held to a time [s]. Of the leg
+    `only` the frames are drawn; those before are followed, so that the records of all legs are that of the walk. `told`
+    frames are kept of the worst.
     """
-    take, record = studio.take, Record()
+    take = studio.take
     prairie = Prairie.load(
         take.scene, ctx=studio.ctx, preset=take.preset, transitions=transitions, live=False, hold=hold
     )
     raise_gusts(prairie, walk)
-    frames = {leg: list(moments(prairie, leg)) for leg in walk}
-    if not transitions.gradual:
-        last = round(BORDER * stroll.LEAD * stroll.RATE)
-        frames = {leg: each[: last + 1] for leg, each in frames.items()}
-    total = sum(len(each) - 1 for each in frames.values())
-    apart = max(1, total // STILLS)
+    last = round(seconds_of(transitions) * stroll.RATE)
+    frames = [list(moments(prairie, leg))[: last + 1] for leg in walk]
+    apart = max(1, last * len(walk) // STILLS)
+    first = 0 if only is None else last * only
+    drawn = frames if only is None else frames[only : only + 1]
     try:
         with Truth(studio, walk) as truth:
-            seen = _Seen(studio, prairie, truth, record)
-            for number, step in enumerate(counted(_steps(studio, prairie, frames.values()), total=total, doing=doing)):
-                seen.see(step, still=transitions == SEAMLESS and number % apart == apart // 2)
+            _follow(studio, prairie, frames[: only or 0])
+            seen = {leg.name: _Seen(studio, prairie, truth, told) for leg in walk}
+            for number, step in enumerate(watch(_steps(studio, prairie, drawn), last * len(drawn)), first):
+                still = transitions == SEAMLESS and number % apart == apart // 2
+                seen[step.moment.leg.name].see(step, still=still)
     finally:
         prairie.release()
-    return record
+    return merged((each.record for each in seen.values()), told=told)
+
+
+def merged(records: Iterable[Record], /, *, told: int = TOLD) -> Record:
+    """Return the record of a walk from those of its legs, in their order, with `told` frames of the worst."""
+    whole = Record()
+    for each in records:
+        whole.worst.extend(each.worst)
+        whole.judged += each.judged
+        whole.changing.extend(each.changing)
+        whole.stills.extend(each.stills)
+        whole.changes.extend(each.changes)
+    whole.worst.sort(key=lambda one: -one.ratio)
+    del whole.worst[told:]
+    return whole
+
+
+def seconds_of(transitions: Transitions, /) -> float:
+    """Return how much of each leg is walked with these transitions [s]."""
+    return stroll.SECONDS if transitions.gradual else BORDER * stroll.LEAD
 
 
 class _Seen:
-    """What is made of the frames of a walk, one after the other."""
+    """What is made of the frames of a leg, one after the other."""
 
-    def __init__(self, studio: Studio, prairie: Prairie, truth: Truth, record: Record) -> None:
-        self._studio, self._prairie, self._truth, self._record = studio, prairie, truth, record
+    def __init__(self, studio: Studio, prairie: Prairie, truth: Truth, told: int) -> None:
+        self._studio, self._prairie, self._truth, self._told = studio, prairie, truth, told
+        self.record = Record()
         self._samples: list[Sample] = []
         self._due = sampled_frames() if prairie.site.transitions == SEAMLESS else []
 
     def see(self, step: Step, *, still: bool) -> None:
         """Judge a frame, and keep what is to be told of it."""
-        record, truth = self._record, self._truth
+        record, truth = self.record, self._truth
         record.changing.append(step.changing)
-        least = max(1.0, record.worst[-1].ratio) if len(record.worst) == TOLD else 0.0
+        least = max(1.0, record.worst[-1].ratio) if len(record.worst) == self._told else 0.0
         verdict = judge(step, truth, unless_below=least)
         if verdict is not None:
             record.judged += 1
             record.worst.append(verdict)
             record.worst.sort(key=lambda one: -one.ratio)
-            del record.worst[TOLD:]
+            del record.worst[self._told :]
         if step.moment.number in self._due:
             self._sample(step)
         if still:
@@ -120,7 +153,7 @@ class _Seen:
             ends = ends_of_change(self._studio, self._prairie, step.moment.camera)
         self._samples.append(sample(self._prairie, step, self._truth.near(step.moment), ends))
         if step.moment.number == self._due[-1]:
-            self._record.changes.extend(changes(self._samples))
+            self.record.changes.extend(changes(self._samples))
 
 
 def _steps(studio: Studio, prairie: Prairie, frames: Iterable[list[Moment]]) -> Iterator[Step]:
@@ -134,6 +167,15 @@ def _steps(studio: Studio, prairie: Prairie, frames: Iterable[list[Moment]]) -> 
             now = _go(studio, prairie, moment)
             yield Step(earlier, moment, before, now, without, prairie.statistics.transitions)
             earlier, before = moment, now
+
+
+def _follow(studio: Studio, prairie: Prairie, frames: Iterable[list[Moment]]) -> None:
+    """Let the prairie go through legs as `_steps` does, without a picture."""
+    for leg in frames:
+        begin = replace(leg[0], time=leg[0].time - REST / 2)
+        for moment in (begin, *leg):
+            prairie.advance(max(0.0, moment.time - prairie.time))
+            prairie.follow(*studio.matrices(moment.camera))
 
 
 def _settle(studio: Studio, prairie: Prairie, moment: Moment) -> None:

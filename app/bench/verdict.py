@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .flicker import LEAST, MARGIN, TILE, Picture, change_of_tile, prominence, step
+from .flicker import LEAST, MARGIN, TILE, Picture, change_of_tile, low_passed, prominence, step
 from .stroll import Moment
 from .truth import Truth
 
@@ -53,10 +53,11 @@ def judge(one: Step, truth: Truth, /, *, unless_below: float = 0.0) -> Verdict |
     The frame differs from the held one by its step. So its flicker exceeds the held one's by no more than that,
     wherever the reference may be.
     """
-    jumps = step(one.now, one.held)
+    kept = low_passed(one.held)
+    jumps = step(low_passed(one.now), kept)
     if 1.0 + float(jumps.max()) / LEAST <= unless_below:
         return None
-    found = prominence(one.now, one.held, one.before)
+    found = prominence(jumps, kept, low_passed(one.before))
     row, column = divmod(int(np.argmax(found)), found.shape[1])
     corner = MARGIN + 1 + TILE * column, MARGIN + 1 + TILE * row
     true_before, true_now = truth.tile(one.earlier, corner), truth.tile(one.moment, corner)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ...engine.camera import projection_matrix, view_matrix
 from ...systems.prairie import Prairie
 from ..studio.offscreen import Offscreen
-from ..studio.progress import counted
+from ..studio.progress import counted, course
 from .frame import own_preset
 from .machine import machine, resident_mb, tell
 from .processor import on_processor
@@ -18,6 +18,9 @@ from .timing import spread, timed
 from .yardstick import yardstick_ms
 
 Levels = NDArray[np.int8]
+
+PARTS = {"drawing": 10.0, "without drawing": 1.0}
+"""What there is to do, and how long it takes in terms of one another, about."""
 
 MANY = 12
 """Patches in transition from which a frame counts as busy."""
@@ -41,16 +44,23 @@ class Pace:
 
 def bench_walk(scene: str, *, preset: str | None, size: tuple[int, int], json: bool) -> int:
     """Walk through a scene, print what its frames took, and return the exit status."""
-    with Offscreen(size) as target:
-        prairie = Prairie.load(scene, ctx=target.ctx, preset=preset, live=False)
-        try:
-            head = {"machine": machine(target.ctx), "scene": scene, "preset": preset or own_preset(prairie)}
-            result = {**head, "size": list(size), **_measure(target, prairie)}
-        finally:
-            prairie.release()
-    told = on_processor(scene, preset=preset, size=size, walk=True)
-    tell(result | {"cpu_ms": told and told["cpu_ms"], "yardstick_ms": yardstick_ms()}, as_json=json)
+    tell(walk_measured(scene, preset=preset, size=size), as_json=json)
     return 0
+
+
+def walk_measured(scene: str, *, preset: str | None, size: tuple[int, int]) -> dict[str, object]:
+    """Return what the benchmark tells of a walk through a scene."""
+    with course("a walk", PARTS) as way:
+        with way.part("drawing"), Offscreen(size) as target:
+            prairie = Prairie.load(scene, ctx=target.ctx, preset=preset, live=False)
+            try:
+                head = {"machine": machine(target.ctx), "scene": scene, "preset": preset or own_preset(prairie)}
+                result = {**head, "size": list(size), **_measure(target, prairie)}
+            finally:
+                prairie.release()
+        with way.part("without drawing"):
+            told = on_processor(scene, preset=preset, size=size, walk=True)
+            return result | {"cpu_ms": told and told["cpu_ms"], "yardstick_ms": yardstick_ms()}
 
 
 def _measure(target: Offscreen, prairie: Prairie) -> dict[str, object]:

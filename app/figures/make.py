@@ -21,7 +21,7 @@ def make_figures(output: str, *, only: str | None = None, size: tuple[int, int],
     in place of the scenes' own. Raises InputError where the folder cannot be written or a number is no figure's,
     MachineError without Matplotlib or without OpenGL.
     """
-    _need_matplotlib()
+    need_matplotlib()
     from .figure import Detail
     from .page import index_page
     from .plot import look, put_on_paper
@@ -49,7 +49,8 @@ def choose(figures: Sequence["PaperFigure"], only: str, /) -> list["PaperFigure"
     return [each for each in figures if each.number in wanted]
 
 
-def _need_matplotlib() -> None:
+def need_matplotlib() -> None:
+    """Raise MachineError where Matplotlib is not installed."""
     try:
         importlib.import_module("matplotlib")
     except ImportError:

@@ -8,7 +8,7 @@ from .figure import PaperFigure
 
 PAPER = "Frank Perbet and Marie-Paule Cani, <cite>Animating Prairies in Real-Time</cite>, I3D 2001"
 
-_STYLE = """\
+STYLE = """\
 :root { color-scheme: light dark;
   --paper: #f6f7f3; --card: #ffffff; --ink: #26301f; --faint: #667060; --line: #dfe2da; }
 @media (prefers-color-scheme: dark) {
@@ -45,7 +45,7 @@ def index_page(figures: Sequence[PaperFigure], /) -> str:
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <title>The figures of Animating Prairies in Real-Time, drawn by tallgrass</title>
 <style>
-{_STYLE}</style>
+{STYLE}</style>
 </head>
 <body>
 <header>

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
+from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -22,12 +23,16 @@ Picture = NDArray[np.uint8]
 """sRGB, top row first, shape (height, width, 3)."""
 
 
+Frame = Picture | bytes
+"""A picture; or, for a folder of pictures, the bytes of its file, as `png` returns them."""
+
+
 @dataclass(frozen=True, slots=True)
 class Reel:
     """The frames of a film, drawn as they are asked for."""
 
-    frames: Iterator[Picture]
-    """Pictures of one size, `count` of them."""
+    frames: Iterator[Frame]
+    """Frames of one size, `count` of them."""
 
     count: int
     """How many frames there are."""
@@ -51,7 +56,7 @@ def picture_writer(output: str, /) -> Callable[[Picture, Mapping[str, str]], Non
     if path.suffix.lower() != ".png":
         raise InputError(f"-o: {output}: a picture ends in .png")
     _make_room(path)
-    return lambda picture, about: _write_png(picture, path, about)
+    return lambda picture, about: _write_bytes(png(picture, about), path)
 
 
 def film_writer(output: str, size: tuple[int, int], fps: int, /) -> Callable[[Reel], None]:
@@ -63,7 +68,7 @@ def film_writer(output: str, size: tuple[int, int], fps: int, /) -> Callable[[Re
     path = Path(output)
     ending = path.suffix.lower()
     write: Callable[[Reel], None]
-    if output.endswith(("/", os.sep)) or path.is_dir():
+    if is_folder(output):
         make_folder(path)
         return lambda reel: _write_folder(reel, path)
     if ending == ".webp":
@@ -84,6 +89,11 @@ def film_writer(output: str, size: tuple[int, int], fps: int, /) -> Callable[[Re
     return write
 
 
+def is_folder(output: str, /) -> bool:
+    """Return whether a film goes into a folder, as numbered pictures."""
+    return output.endswith(("/", os.sep)) or Path(output).is_dir()
+
+
 class _Animation(Image.Image):
     """An image of many frames that draws the next one when an encoder seeks it, so that they are never all kept."""
 
@@ -99,7 +109,7 @@ class _Animation(Image.Image):
         if frame >= self.n_frames:
             raise EOFError
         while self._at < frame:
-            image = Image.fromarray(next(self._reel.frames))
+            image = Image.fromarray(np.asarray(next(self._reel.frames)))
             self.im, self._mode, self._size = image.im, image.mode, image.size
             self._at += 1
 
@@ -128,17 +138,29 @@ def _make_room(path: Path) -> None:
         raise InputError(f"-o: {path}: is a folder, not a file")
 
 
-def _write_png(picture: Picture, path: Path, about: Mapping[str, str]) -> None:
-    info = PngInfo()
+def png(picture: Picture, about: Mapping[str, str], /) -> bytes:
+    """Return a picture as the bytes of a PNG file, with text entries that say how it was made."""
+    info, file = PngInfo(), BytesIO()
     for key, text in about.items():
         info.add_itxt(key, text)
+    Image.fromarray(picture).save(file, "PNG", pnginfo=info)
+    return file.getvalue()
+
+
+def at_frame(about: Mapping[str, str], number: int, fps: int, /) -> dict[str, str]:
+    """Return what the picture of a film's frame says of itself."""
+    return {**about, "time": f"{number / fps:.6g}"}
+
+
+def _write_bytes(data: bytes, path: Path) -> None:
     with _whole(path) as part:
-        Image.fromarray(picture).save(part, "PNG", pnginfo=info)
+        part.write_bytes(data)
 
 
 def _write_folder(reel: Reel, folder: Path) -> None:
-    for number, picture in enumerate(reel.frames, reel.first):
-        _write_png(picture, folder / f"{number:05d}.png", {**reel.about, "time": f"{number / reel.fps:.6g}"})
+    for number, frame in enumerate(reel.frames, reel.first):
+        data = frame if isinstance(frame, bytes) else png(frame, at_frame(reel.about, number, reel.fps))
+        _write_bytes(data, folder / f"{number:05d}.png")
 
 
 def _write_webp(reel: Reel, path: Path) -> None:
@@ -164,8 +186,8 @@ def _write_mp4(reel: Reel, path: Path, size: tuple[int, int], ffmpeg: ModuleType
             str(part), size, fps=reel.fps, codec="libx264", macro_block_size=1, quality=None, output_params=about
         )
         sink.send(None)
-        for picture in reel.frames:
-            sink.send(picture)
+        for frame in reel.frames:
+            sink.send(frame)
         sink.close()
 
 
@@ -178,8 +200,7 @@ def _ffmpeg() -> ModuleType:
 
 def write_whole(text: str, path: Path, /) -> None:
     """Write a text file, which takes the place of another only once it is whole."""
-    with _whole(path) as part:
-        part.write_text(text, "utf-8")
+    _write_bytes(text.encode(), path)
 
 
 def _sentence(about: Mapping[str, str]) -> str:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ... import __version__
 from ...engine.camera import Camera, camera_at, projection_matrix, view_matrix
+from ...engine.declared.scene import Scene
 from ...systems.overlay.overlay import Overlay
 from ...systems.prairie import Prairie
 from ...systems.reference import draw_reference
@@ -80,14 +81,14 @@ class Studio:
         return self.read()
 
 
-def about(prairie: Prairie, take: Take) -> dict[str, str]:
-    """Return what a file says of how it was made."""
+def about(scene: Scene, take: Take, *, time: float) -> dict[str, str]:
+    """Return what a file says of how it was made: a take of a scene, at an instant [s]."""
     return {
         "Software": f"tallgrass {__version__}",
         "version": __version__,
         "scene": Path(take.scene).stem,
-        "seed": str(prairie.scene.seed),
-        "time": f"{prairie.time:.6g}",
+        "seed": str(scene.seed),
+        "time": f"{time:.6g}",
     }
 
 

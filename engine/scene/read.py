@@ -42,6 +42,11 @@ class LoadedScene:
     files: Mapping[str, Stamp] = field(default_factory=dict)
     """The files that the scene names, as it names them, and what they were like when it was read."""
 
+    @property
+    def paths(self) -> dict[str, Path]:
+        """The scene's file and those that it names, by the names that it calls them."""
+        return {self.path.name: self.path} | {name: self.folder / name for name in self.files}
+
 
 def bundled_scenes() -> dict[str, Path]:
     """Return the bundled scenes: name and file."""

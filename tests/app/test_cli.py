@@ -18,6 +18,7 @@ COMMANDS = (
     ["check"],
     ["doctor"],
     ["bench"],
+    ["bench", "all"],
     ["bench", "frame"],
     ["bench", "picture"],
     ["bench", "pop"],

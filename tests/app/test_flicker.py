@@ -40,14 +40,15 @@ def test_n3_a_tile_that_changes_as_the_truth_does_has_no_flicker() -> None:
 
 @given(st.integers(0, 200), st.integers(0, 200))
 def test_n3_a_frame_without_changes_has_no_step(now: int, before: int) -> None:
-    np.testing.assert_array_equal(step(grass(now), grass(now)), 0.0)
-    np.testing.assert_array_equal(prominence(grass(now), grass(now), grass(before)), 0.0)
+    held = low_passed(grass(now))
+    np.testing.assert_array_equal(step(held, held), 0.0)
+    np.testing.assert_array_equal(prominence(step(held, held), held, low_passed(grass(before))), 0.0)
 
 
 def test_n3_a_pop_shows_in_its_tile_and_in_no_other() -> None:
-    held, before = grass(1), grass(2)
-    now = popped(held, 30)
-    changed, found = step(now, held), prominence(now, held, before)
+    held, before, now = (low_passed(each) for each in (grass(1), grass(2), popped(grass(1), 30)))
+    changed = step(now, held)
+    found = prominence(changed, held, before)
     for tiles_of in (changed, found):
         assert tiles_of.shape == (2, 3)
         assert tiles_of.argmax() == 4
@@ -57,9 +58,10 @@ def test_n3_a_pop_shows_in_its_tile_and_in_no_other() -> None:
 
 
 def test_n3_what_moves_anyway_makes_a_step_less_prominent() -> None:
-    held, now = grass(1), popped(grass(1), 30)
-    np.testing.assert_allclose(prominence(now, held, held), step(now, held) / LEAST, rtol=1e-5)
-    assert prominence(now, held, grass(2)).max() < 0.5 * prominence(now, held, held).max()
+    held, before, now = (low_passed(each) for each in (grass(1), grass(2), popped(grass(1), 30)))
+    changed = step(now, held)
+    np.testing.assert_allclose(prominence(changed, held, held), changed / LEAST, rtol=1e-5)
+    assert prominence(changed, held, before).max() < 0.5 * prominence(changed, held, held).max()
 
 
 def test_a_tile_tells_the_mean_size_of_a_difference() -> None:

@@ -1,6 +1,7 @@
 """Whether changes of representation can be seen: the benchmark, and that it can see a pop (N3)."""
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -10,13 +11,14 @@ from PIL import Image
 from tallgrass.app.bench import pop, stroll
 from tallgrass.app.bench.flicker import TILE
 from tallgrass.app.bench.pop import HARD
-from tallgrass.app.bench.steps import Record, walked
+from tallgrass.app.bench.steps import Record, merged, walked
 from tallgrass.app.bench.stroll import legs, moments
 from tallgrass.app.bench.truth import Truth
+from tallgrass.app.bench.verdict import Step
 from tallgrass.app.cli import run
 from tallgrass.app.studio.studio import Studio
 from tallgrass.app.studio.take import Take
-from tallgrass.systems.around.transitions import SEAMLESS
+from tallgrass.systems.around.transitions import SEAMLESS, Transitions
 
 pytestmark = [pytest.mark.gl, pytest.mark.usefixtures("ctx")]
 
@@ -48,10 +50,15 @@ def scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A small scene, walked through on one leg, in few frames."""
     monkeypatch.setattr(stroll, "RATE", 30)
     monkeypatch.setattr(stroll, "SECONDS", 0.5)
+    monkeypatch.setattr(pop, "MOST", 1)
     monkeypatch.setattr(pop, "legs", lambda prairie: legs(prairie)[:1])
     path = tmp_path / "scene.yaml"
     path.write_text(SCENE)
     return path
+
+
+def unwatched(steps: Iterator[Step], _: int) -> Iterator[Step]:
+    return steps
 
 
 def told(record: Record) -> list[tuple[str, int, tuple[int, int], float]]:
@@ -89,8 +96,8 @@ def test_n3_the_pop_benchmark_tells_every_key_and_sees_a_pop(scene: Path, capsys
 def test_n3_the_walk_shows_the_same_again_and_hard_switches_show_where_they_happen(scene: Path) -> None:
     with Studio(Take(str(scene), (192, 108))) as studio:
         walk = legs(studio.prairie)[:1]
-        once, again = (walked(studio, walk, SEAMLESS, doing="walking") for _ in range(2))
-        hard = walked(studio, walk, HARD, doing="walking")
+        once, again = (walked(studio, walk, SEAMLESS, watch=unwatched) for _ in range(2))
+        hard = walked(studio, walk, HARD, watch=unwatched)
     assert told(once) == told(again)
     assert len(once.changing) == 15
     worst = hard.worst[0]
@@ -101,9 +108,28 @@ def test_n3_the_walk_shows_the_same_again_and_hard_switches_show_where_they_happ
     assert once.worst[0].ratio < worst.ratio
 
 
+@pytest.mark.parametrize("transitions", [SEAMLESS, HARD], ids=["seamless", "hard"])
+def test_n3_legs_that_are_walked_alone_are_those_of_the_whole_walk(scene: Path, transitions: Transitions) -> None:
+    with Studio(Take(str(scene), (192, 108))) as studio:
+        walk = legs(studio.prairie)[:2]
+        whole = walked(studio, walk, transitions, watch=unwatched)
+        alone = [walked(studio, walk, transitions, watch=unwatched, only=number) for number in range(2)]
+    parts = merged(alone)
+    assert told(parts) == told(whole)
+    assert (parts.changing, parts.judged) == (whole.changing, whole.judged)
+    assert [each.changing for each in alone] != [alone[0].changing] * 2
+    assert len(parts.stills) == len(whole.stills)
+    for ours, theirs in zip(parts.stills, whole.stills, strict=True):
+        np.testing.assert_array_equal(ours, theirs)
+    assert [change.name for change in parts.changes] == [change.name for change in whole.changes]
+    for one, other in zip(parts.changes, whole.changes, strict=True):
+        np.testing.assert_array_equal(one.bright, other.bright)
+        np.testing.assert_array_equal(one.ghosted, other.ghosted)
+
+
 def test_n3_frames_that_are_not_held_against_the_reference_show_less_than_those_that_are_told_of(scene: Path) -> None:
     with Studio(Take(str(scene), (192, 108))) as studio:
-        hard = walked(studio, legs(studio.prairie)[:1], HARD, doing="walking")
+        hard = walked(studio, legs(studio.prairie)[:1], HARD, watch=unwatched)
     assert len(hard.worst) <= hard.judged < len(hard.changing)
 
 

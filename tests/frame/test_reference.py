@@ -7,12 +7,14 @@ import moderngl
 import numpy as np
 import pytest
 
-from tallgrass.engine.camera import Camera, view_of
+from tallgrass.engine.camera import Camera, View, view_of
+from tallgrass.systems import reference as module
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import (
     EveryBlade,
     box_filtered,
     draw_reference,
+    near_picture,
     patch_distances,
     seen_cells,
     stand_all,
@@ -103,7 +105,16 @@ def test_n3_the_blades_of_the_reference_stand_and_bend_as_the_near_ones_are_draw
     every.release()
 
 
-def test_t2_the_reference_leaves_out_only_what_is_not_seen(stage: Stage, prairie: Prairie, aim: Camera) -> None:
+def test_t2_the_reference_leaves_out_only_what_is_not_seen(
+    stage: Stage, prairie: Prairie, aim: Camera, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kept = []
+
+    def counting(blades: Any, seen: View) -> Any:
+        kept.append(near_picture(blades, seen))
+        return kept[-1]
+
+    monkeypatch.setattr(module, "near_picture", counting)
     every, seen = EveryBlade(prairie), view_of(*stage.matrices(aim))
     pictures, site = [], prairie.site
     cone = seen_cells(site.ground, prairie.viewers["main"].viewer, sway=site.sway)
@@ -112,7 +123,9 @@ def test_t2_the_reference_leaves_out_only_what_is_not_seen(stage: Stage, prairie
         stage.target.clear(depth=1.0)
         every.draw(seen, cells)
         pictures.append(stage.read())
+        monkeypatch.setattr(module, "near_picture", lambda blades, _: np.ones(len(blades), np.bool_))
     every.release()
+    assert 0.1 < np.concatenate(kept).mean() < 0.9
     np.testing.assert_array_equal(pictures[0], pictures[1])
     assert len(cone) < 0.6 * 24 * 24
 

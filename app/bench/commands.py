@@ -1,0 +1,100 @@
+"""The commands of `tallgrass bench`: what each of them takes."""
+
+from typing import Annotated
+
+import typer
+
+from ..options import Hold, Json, Output, Preset, Scene, Size, size_of
+
+bench = typer.Typer(help="Measure: what frames take, how true they are, and whether they pop.", no_args_is_help=True)
+
+
+@bench.command("frame")
+def frame(
+    scene: Scene = "meadow",
+    preset: Preset = None,
+    size: Size = "1280x720",
+    *,
+    json: Json = False,
+    viewers: Annotated[int, typer.Option(min=1, max=16, help="Viewers in every frame, side by side.")] = 1,
+) -> int:
+    """Measure how long a frame takes, and what it is made of."""
+    pixels = size_of(size)
+    from .frame import bench_frame
+
+    return bench_frame(scene, preset=preset, size=pixels, json=json, viewers=viewers)
+
+
+@bench.command("picture")
+def picture(
+    scene: Annotated[
+        str, typer.Argument(metavar="SCENE", help="A scene file, a bundled scene, or a folder.")
+    ] = "meadow",
+    preset: Preset = None,
+    size: Size = "1280x720",
+    *,
+    json: Json = False,
+    output: Annotated[str | None, typer.Option("-o", "--output", help="A folder for pictures with references.")] = None,
+) -> int:
+    """Measure how far a picture is from every blade in 3D, supersampled; of a folder, those of all its scenes."""
+    pixels = size_of(size)
+    from .picture import bench_picture
+
+    return bench_picture(scene, preset=preset, size=pixels, json=json, output=output)
+
+
+@bench.command("pop")
+def pop(
+    scene: Scene = "meadow",
+    preset: Preset = None,
+    size: Size = "640x360",
+    *,
+    json: Json = False,
+    parts: Annotated[bool, typer.Option("--parts", help="Also leave out each part of the transitions alone.")] = False,
+    output: Annotated[str | None, typer.Option("-o", "--output", help="A folder for pictures of what shows.")] = None,
+    hold: Hold = None,
+) -> int:
+    """Measure whether a change of representation can be seen on a walk; this takes minutes."""
+    pixels = size_of(size)
+    from .pop import bench_pop
+
+    return bench_pop(scene, preset=preset, size=pixels, json=json, parts=parts, output=output, hold=hold)
+
+
+@bench.command("walk")
+def bench_walk(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720", *, json: Json = False) -> int:
+    """Measure whether frames keep taking the same time on a walk."""
+    pixels = size_of(size)
+    from .walk import bench_walk
+
+    return bench_walk(scene, preset=preset, size=pixels, json=json)
+
+
+@bench.command("scale")
+def scale(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720", *, json: Json = False) -> int:
+    """Measure what a larger terrain costs, up to 10 km."""
+    pixels = size_of(size)
+    from .scale import bench_scale
+
+    return bench_scale(scene, preset=preset, size=pixels, json=json)
+
+
+@bench.command("all")
+def all_(
+    output: Output,
+    scene: Scene = "meadow",
+    preset: Preset = None,
+    size: Annotated[
+        str | None, typer.Option(metavar="WxH", help="Of all pictures; else each benchmark has its own.")
+    ] = None,
+    against: Annotated[
+        str | None, typer.Option(metavar="FILE", help="The bench.json of another version, to be shown beside.")
+    ] = None,
+    *,
+    json: Json = False,
+) -> int:
+    """Run every benchmark, and write bench.json and a page with plots into a folder."""
+    pixels = None if size is None else size_of(size)
+    from .whole import bench_all
+
+    return bench_all(scene, output, preset=preset, size=pixels, against=against, json=json)

@@ -1,0 +1,107 @@
+"""The page of `bench all`: plots and all figures, of one time of measuring or of two, in a file that needs no other."""
+
+from base64 import b64encode
+from collections.abc import Iterator, Sequence
+from html import escape
+from io import BytesIO
+from typing import Any
+
+from matplotlib.figure import Figure
+
+from ..figures.page import STYLE
+from ..figures.plot import look
+from .plots import PLOTS, Plot, Told, color
+
+TABLE = """\
+table { border-collapse: collapse; font-size: 0.92rem; font-variant-numeric: tabular-nums; }
+th, td { padding: 0.1rem 0.9rem 0.1rem 0; text-align: right; border-bottom: 1px solid var(--line); }
+th:first-child, td:first-child { text-align: left; }
+.key { display: inline-block; width: 0.8em; height: 0.8em; border-radius: 0.2em; }
+"""
+
+
+def page(told: Told, before: Told | None = None, /) -> str:
+    """Return the HTML page of what `bench all` has told, beside what it told `before`."""
+    times = [told] if before is None else [before, told]
+    plots = "\n".join(_shown(plot, times) for plot in PLOTS)
+    title = f"tallgrass {told['version']}: {told['scene']}, {told['preset']}"
+    return f"""\
+<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{escape(title)}</title>
+<style>
+{STYLE}{TABLE}</style>
+</head>
+<body>
+<header>
+<h1>{escape(title)}</h1>
+{_machines(times)}
+</header>
+<main>
+{plots}
+<details>
+<summary>All figures</summary>
+{_table(times)}
+</details>
+</main>
+<footer>Made by <code>tallgrass bench all</code>.</footer>
+</body>
+</html>
+"""
+
+
+def _machines(times: Sequence[Told]) -> str:
+    lines = []
+    for number, each in enumerate(times):
+        machine, when = each["machine"], "now" if number == len(times) - 1 else "before"
+        what = f"{each['version']}, {each['scene']}, {each['preset']}; {machine['renderer']}, {machine['cpu']}"
+        rule = f"yardstick {each['frame']['yardstick_ms']} ms"
+        key = f'<span class="key" style="background: {color(number, len(times))}"></span>'
+        lines.append(f"<p>{key} {when}: {escape(what)}; {rule}</p>")
+    return "\n".join(lines)
+
+
+def _shown(plot: Plot, times: Sequence[Told]) -> str:
+    told = [{"limits": each["limits"], **each[plot.part]} for each in times if each[plot.part] is not None]
+    if not told or times[-1][plot.part] is None:
+        return ""
+    with look():
+        picture = _embedded(plot.draw(told))
+    return f"""\
+<figure>
+<img src="{picture}" alt="{escape(plot.title)}">
+<figcaption><strong>{escape(plot.title)}.</strong> <p>{escape(plot.shows)}</p></figcaption>
+</figure>"""
+
+
+def _embedded(figure: Figure) -> str:
+    file = BytesIO()
+    figure.savefig(file, format="png", dpi="figure")
+    return f"data:image/png;base64,{b64encode(file.getvalue()).decode('ascii')}"
+
+
+def _table(times: Sequence[Told]) -> str:
+    columns = [dict(figures(each)) for each in times]
+    head = "<th>now</th>" if len(times) == 1 else "<th>before</th><th>now</th><th>now / before</th>"
+    rows = []
+    for name, value in columns[-1].items():
+        cells = [column.get(name) for column in columns]
+        if len(cells) == 2:
+            cells.append(round(value / cells[0], 3) if cells[0] else None)
+        text = "".join(f"<td>{'' if cell is None else f'{cell:g}'}</td>" for cell in cells)
+        rows.append(f"<tr><td>{escape(name)}</td>{text}</tr>")
+    return f"<table>\n<tr><th></th>{head}</tr>\n" + "\n".join(rows) + "\n</table>"
+
+
+def figures(told: Any, name: str = "", /) -> Iterator[tuple[str, float]]:
+    """Yield every number in a result with its name, as `frame.frame_ms.p50` or `scale.rows.0.rss_mb`."""
+    if isinstance(told, bool):
+        return
+    if isinstance(told, int | float):
+        yield name, float(told)
+    inner = told.items() if isinstance(told, dict) else enumerate(told) if isinstance(told, list) else ()
+    for key, value in inner:
+        yield from figures(value, f"{name}.{key}".lstrip("."))

@@ -1,0 +1,139 @@
+"""The plots of `bench all`: one time of measuring, or two beside one another."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..figures.figure import Detail
+from ..figures.plot import FAINT, SERIES, sheet
+
+Told = dict[str, Any]
+
+Row = tuple[str, Sequence[float | None]]
+"""What is measured, and its value each time; None where there is none."""
+
+BAR = 0.36
+"""How thick a bar is, of the room that a row has."""
+
+
+@dataclass(frozen=True, slots=True)
+class Plot:
+    """A plot of the page: what it is of, what it shows, and what draws it."""
+
+    title: str
+
+    shows: str
+    """One or two sentences on what is to be seen."""
+
+    part: str
+    """The benchmark that it is of."""
+
+    draw: Callable[[Sequence[Told]], Figure]
+    """Draws what that benchmark told each time, the time that counts last."""
+
+
+def color(number: int, times: int, /) -> str:
+    """Return the colour of a time of measuring: the last one is the one that counts."""
+    return SERIES[0] if number == times - 1 else FAINT
+
+
+def bars(axes: Axes, rows: Sequence[Row], /, *, unit: str) -> None:
+    """Draw a bar for each value of each row, from the top down, with its number."""
+    times = len(rows[0][1]) if rows else 0
+    for number in range(times):
+        at = np.arange(len(rows)) + (number - (times - 1) / 2.0) * BAR
+        values = [row[1][number] for row in rows]
+        axes.barh(at, [value or 0.0 for value in values], 0.9 * BAR, color=color(number, times))
+        for place, value in zip(at, values, strict=True):
+            text = "none" if value is None else f"{value:.3g}"
+            axes.annotate(text, (value or 0.0, place), (3, 0), textcoords="offset points", va="center", size=7.0)
+    axes.set_yticks(np.arange(len(rows)), [row[0] for row in rows])
+    axes.set(ylim=(len(rows) - 0.4, -0.6), xlabel=unit)
+    axes.margins(x=0.18)
+    axes.grid(visible=True, axis="x")
+
+
+def _frame(told: Sequence[Told]) -> Figure:
+    figure = sheet(2.6, Detail())
+    left, right = figure.subplots(1, 2, width_ratios=(3, 2))
+    percentiles = [(f"frame {part}", [each["frame_ms"][part] for each in told]) for part in ("p50", "p95", "p99")]
+    kinds = (("CPU", "cpu_ms"), ("GPU", "gpu_ms"))
+    alone = [(what, [_inner(each[key], "p50") for each in told]) for what, key in kinds]
+    bars(left, [*percentiles, *alone, ("sky and ground", [each["floor_ms"] for each in told])], unit="ms")
+    against = [("all in view", "ratio_to_seen_3d"), ("all there are", "ratio_to_all_3d")]
+    bars(right, [(what, [each[key] for each in told]) for what, key in against], unit="every blade in 3D, in frames")
+    return figure
+
+
+def _systems(told: Sequence[Told]) -> Figure:
+    found = [each["cpu_by_system_ms"] or each["systems_ms"] for each in told]
+    names = list(dict.fromkeys(name for each in reversed(found) for name in each))
+    figure = sheet(0.6 + 0.3 * len(names), Detail())
+    bars(figure.subplots(), [(name, [each.get(name) for each in found]) for name in names], unit="ms, on the CPU")
+    return figure
+
+
+def _walk(told: Sequence[Told]) -> Figure:
+    figure = sheet(2.2, Detail())
+    left, right = figure.subplots(1, 2)
+    bars(left, [(part, [each["frame_ms"][part] for each in told]) for part in ("p50", "p95", "p99", "max")], unit="ms")
+    bars(right, [(part, [each["rss_mb"][part] for each in told]) for part in ("start", "end")], unit="memory [MB]")
+    return figure
+
+
+def _scale(told: Sequence[Told]) -> Figure:
+    figure = sheet(2.4, Detail())
+    keys = (("frame_ms", "a frame [ms]"), ("first_frame_ms", "the first frame [ms]"), ("rss_mb", "memory [MB]"))
+    for axes, (key, unit) in zip(figure.subplots(1, 3), keys, strict=True):
+        for number, each in enumerate(told):
+            sides, values = zip(*((row["terrain_m"], row[key] or np.nan) for row in each["rows"]), strict=True)
+            axes.plot(sides, values, "o-", color=color(number, len(told)), markersize=4.0)
+        axes.set(xscale="log", xlabel="side of the terrain [m]", ylabel=unit, ylim=(0.0, None))
+        axes.grid(visible=True)
+    return figure
+
+
+def _picture(told: Sequence[Told]) -> Figure:
+    figure = sheet(2.6, Detail())
+    left, right = figure.subplots(1, 2)
+    names = {"lod": "ours", "msaa": "every blade, smooth", "all_3d": "every blade, hard", "other_seed": "other grass"}
+    bars(left, [(name, [each["flip"][key] for each in told]) for key, name in names.items()], unit="FLIP")
+    for number, each in enumerate(told):
+        middle = [sum(band["distance"]) / 2.0 for band in each["bands"]]
+        ratio = [band["luminance_ratio"] for band in each["bands"]]
+        right.plot(middle, ratio, "o-", color=color(number, len(told)), markersize=4.0)
+    right.axhline(1.0, color=FAINT, linewidth=0.7)
+    right.set(xlabel="distance [patches]", ylabel="brightness over the reference's")
+    right.grid(visible=True)
+    return figure
+
+
+def _pop(told: Sequence[Told]) -> Figure:
+    figure = sheet(2.6, Detail())
+    left, right = figure.subplots(1, 2, width_ratios=(2, 3))
+    keys = (("flicker", "ratio"), ("drift", "mean"), ("ghosting", "max"))
+    rows = [(key, [each[key][part] / each["limits"][key] for each in told]) for key, part in keys]
+    bars(left, rows, unit="of what is not to be seen")
+    left.axvline(1.0, color=SERIES[1], linewidth=1.0)
+    found = [{row["change"]: row["mean_drift"] for row in each["changes"]} for each in told]
+    names = list(dict.fromkeys(name for each in reversed(found) for name in each))
+    bars(right, [(name, [each.get(name) for each in found]) for name in names], unit="mean drift")
+    return figure
+
+
+def _inner(value: dict[str, float] | None, key: str) -> float | None:
+    return None if value is None else value[key]
+
+
+PLOTS = (
+    Plot("A frame", "To its end on the graphics card, and what every blade in 3D would take.", "frame", _frame),
+    Plot("Systems", "What each system takes in that frame, at the median.", "frame", _systems),
+    Plot("A walk", "Frames of a walk in gusts, and the memory at its beginning and end.", "walk", _walk),
+    Plot("Larger terrains", "The same scene on larger and larger ground.", "scale", _scale),
+    Plot("A picture", "How far it is from every blade in 3D, supersampled; less is truer.", "picture", _picture),
+    Plot("Changes of representation", "In terms of their limits: above 1 they can be seen.", "pop", _pop),
+)

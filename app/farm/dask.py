@@ -1,0 +1,56 @@
+"""Finding Dask, and keeping it quiet: it is needed only where work is handed out. And what has to be alike there."""
+
+import importlib
+import logging
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+
+from ... import __version__
+from ..studio.errors import MachineError
+
+SETTINGS = {
+    "distributed.admin.large-graph-warning-threshold": "4GiB",  # maps are large, and sent once
+    "distributed.nanny.pre-spawn-environ.MALLOC_TRIM_THRESHOLD_": None,  # trimmed, memory is asked for in every frame
+}
+"""What is not as Dask has it."""
+
+
+SILENT = logging.CRITICAL + 1
+"""The level of a log that says nothing."""
+
+
+def need_distributed() -> Any:
+    """Return Dask's `distributed`; raises MachineError where it is not installed."""
+    try:
+        return importlib.import_module("distributed")
+    except ImportError:
+        raise MachineError("work is handed out by Dask's distributed: pip install 'tallgrass[farm]'") from None
+
+
+def versions() -> str:
+    """Return the versions here of what pictures depend on."""
+    return f"tallgrass {__version__} with numpy {np.__version__}"
+
+
+def cores() -> int:
+    """Return how many cores this process may use."""
+    return int(importlib.import_module("dask.system").CPU_COUNT)
+
+
+@contextmanager
+def quiet() -> Iterator[None]:
+    """Let Dask say nothing of workers that come and go: what matters of it is raised."""
+    need_distributed()  # as it is imported it says how loud each of its parts is
+    names = [name for name in logging.root.manager.loggerDict if name.partition(".")[0] == "distributed"]
+    before = {name: logging.getLogger(name).level for name in names}
+    for name in names:
+        logging.getLogger(name).setLevel(SILENT)
+    with importlib.import_module("dask").config.set(SETTINGS):
+        try:
+            yield
+        finally:
+            for name, level in before.items():
+                logging.getLogger(name).setLevel(level)

@@ -1,0 +1,74 @@
+"""Shooting a film: frame k of a scene shows the time k / fps, and is the same whoever draws it."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from hashlib import sha256
+from types import TracebackType
+from typing import Self
+
+import numpy as np
+
+from .encode import Frame, Picture, at_frame, png
+from .studio import Studio
+from .take import Take
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Shot:
+    """One frame of a film, drawn."""
+
+    frame: Frame
+
+    sha256: str
+    """Hash of its pixels: sRGB, three bytes each, top row first."""
+
+    renderer: str
+    """What drew it, as GL tells it."""
+
+
+class Shooting:
+    """A film that is being shot, from frame to frame and never back; a context manager.
+
+    Frames that are not drawn are followed, since what a frame shows depends on those before. Raises what `Studio` does.
+    """
+
+    def __init__(self, take: Take, fps: int) -> None:
+        self._studio, self._fps = Studio(take), fps
+        self.following = 0
+        """Number of the frame that may be drawn next, or one after it."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._studio.__exit__(kind, error, trace)
+
+    def shots(self, first: int, end: int, /, *, files: Mapping[str, str] | None = None) -> Iterator[Shot]:
+        """Yield the frames from `first` to the one before `end`, drawn as they are asked for.
+
+        Where `files` says what a film says of itself, each is a PNG file's bytes. Raises ValueError for a frame that
+        has gone by.
+        """
+        if first < self.following:
+            raise ValueError(f"the frame {first} has gone by: the next one is {self.following}")
+        renderer = str(self._studio.ctx.info["GL_RENDERER"])
+        for number in range(first, end):
+            picture = self._picture(number)
+            told = sha256(np.ascontiguousarray(picture).data).hexdigest()
+            frame = picture if files is None else png(picture, at_frame(files, number, self._fps))
+            yield Shot(frame, told, renderer)
+
+    def _picture(self, number: int) -> Picture:
+        studio = self._studio
+        while self.following < number:
+            studio.follow(studio.camera(self._go()))
+        return studio.picture(studio.camera(self._go()))
+
+    def _go(self) -> float:
+        """Let the prairie come to the next frame's instant, and return that [s]."""
+        time = self.following / self._fps
+        self._studio.prairie.advance(time - self._studio.prairie.time)
+        self.following += 1
+        return time
