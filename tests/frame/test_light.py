@@ -14,7 +14,7 @@ from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import Stage
 
 Load = Callable[..., Prairie]
-Picture = NDArray[np.uint8]
+Picture = NDArray[np.float64]
 
 SCENE = """\
 tallgrass: 2
