@@ -70,9 +70,10 @@ def test_the_page_of_performance_counts_what_is_drawn(
     table = rows(PAGE.partition(before)[2])
     for preset in presets:
         prairie = load(scene, preset=preset)
-        for _ in range(2):  # the first picture alone has a call more, for the terrain's shadows
-            stage.shot(prairie)
+        stage.shot(prairie)
         counts = counted(prairie)
+        stage.shot(prairie)  # the first alone has a call more, for the terrain's shadows
+        counts["draw calls"] = counted(prairie)["draw calls"]
         told = {head: cell for head, cell in table[preset].items() if head in counts}
         assert len(told) >= 2
         assert told == {head: counts[head] for head in told}, preset

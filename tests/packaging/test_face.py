@@ -24,6 +24,7 @@ def test_the_face_shows_what_programs_are_written_with() -> None:
         "Patch",
         "Pose",
         "Receivers",
+        "Shade",
         "Shape",
         "TwinValues",
         "Viewer",

@@ -60,9 +60,11 @@ vec3 painted_light(int k, float t, float twice, Painted target) {
 }
 #endif
 
-// Width of a blade at part `t` of it: as systems/grow/bend.py has it.
+// Width of a blade at part `t` of it: as systems/grow/bend.py has it. Where segments are longer than the waist, it is less
+// drawn in, so that the blade is as broad in the mean.
 float profile(float t, float taper) {
-    return pow(max(1.0 - t, 0.0), taper) * (1.0 - 0.55 * max(1.0 - t / 0.16, 0.0));
+    float segments = mix(float(SEGMENTS), float(COARSER), joints.x), waist = 0.55 * min(0.16 * segments, 1.0);
+    return pow(max(1.0 - t, 0.0), taper) * (1.0 - waist * max(1.0 - t / 0.16, 0.0));
 }
 
 void main() {

@@ -19,7 +19,7 @@ TILE = np.dtype([("tile", "4f4")])
 GRID = 8
 """Quads along a side of a tile."""
 
-RAISED = 0.59
+RAISED = 0.66
 """Height of the carpet, as a part of the grass's: where outlines against the sky stay in their place."""
 
 STRETCH = "5.0"

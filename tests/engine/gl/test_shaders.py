@@ -73,7 +73,7 @@ def test_parts_that_include_each_other_are_still_included_once(library: dict[str
 
 
 def test_definitions_follow_the_version_line() -> None:
-    source, lines = compose("systems/frame/sky.frag", {"SEGMENTS": 3, "ROUND": "0.5"})
+    source, lines = compose("systems/light/sky.frag", {"SEGMENTS": 3, "ROUND": "0.5"})
     assert source.splitlines()[:3] == ["#version 330 core", "#define SEGMENTS 3", "#define ROUND 0.5"]
     assert [line for _, line, _ in lines[:3]] == [0, 0, 0]
     assert len(source.splitlines()) == len(lines)
@@ -96,7 +96,7 @@ def test_any_line_that_a_driver_names_is_put_back_to_its_file(name: str, data: s
 
 
 def test_lines_that_are_not_ours_are_left_as_they_are() -> None:
-    _, lines = compose("systems/frame/sky.vert")
+    _, lines = compose("systems/light/sky.vert")
     message = f"0:0: x\n0:{len(lines) + 1}(3): y\nno line here"
     assert locate(message, lines) == message
 
