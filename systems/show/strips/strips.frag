@@ -6,9 +6,11 @@ in vec2 at;
 flat in vec3 foot_color;  // pigment
 flat in vec3 rise_color;
 flat in vec3 grain;   // change of pigment with twice the normal's azimuth
-in vec3 light;        // what reaches it, past the haze
-in vec3 again;        // and from one leaf to another
-in vec3 over_all;      // what it mirrors, and the haze before it
+in float h;            // height in the canopy
+flat in vec3 direct;  // light on leaves, past the haze: the sun's
+flat in vec3 open_to; // the sky's
+flat in vec4 veil;    // haze before it; what it mirrors of the sun's light
+flat in vec3 shade;   // leaf area above its kind's top, and from there to the ground; leaves that the sun's light meets
 flat in float sheet;
 flat in float shown;
 flat in float level;  // of the mip-maps
@@ -27,7 +29,7 @@ void main() {
     vec4 texel = textureLod(atlas, vec3(at, sheet), level);
     vec3 mean = texel.rgb / max(texel.a, 0.002);
     vec3 pigment = (foot_color + rise_color * mean.r) * (1.0 + grain * (2.0 * mean.g - 1.0));
-    vec3 grass = shown_of(radiance(pigment, Reached(light, again, over_all)));
+    vec3 grass = shown_of(radiance(pigment, h, Lit(direct, open_to, veil.w, vec2(shade.z, OPEN_SKY), shade.xy)) + veil.rgb);
     float covered = shown * min(texel.a * boost, 1.0);
 #ifdef THIN
     covered *= clamp(grows - mean.b * sharp, 0.0, 1.0) * clamp(stays.x * mean.b + stays.y, 0.0, 1.0);

@@ -20,9 +20,11 @@ out vec2 at;
 flat out vec3 foot_color;  // pigment
 flat out vec3 rise_color;
 flat out vec3 grain;   // change of pigment with twice the normal's azimuth
-out vec3 light;        // what reaches it, past the haze
-out vec3 again;        // and from one leaf to another
-out vec3 over_all;      // what it mirrors, and the haze before it
+out float h;            // height in the canopy
+flat out vec3 direct;  // light on leaves, past the haze: the sun's
+flat out vec3 open_to; // the sky's
+flat out vec4 veil;    // haze before it; what it mirrors of the sun's light
+flat out vec3 shade;   // leaf area above its kind's top, and from there to the ground; leaves that the sun's light meets
 flat out float sheet;
 flat out float shown;
 flat out float boost;
@@ -96,10 +98,11 @@ void main() {
     vec4 here = lie_at(middle.xz);
     Lit lit = lit_at(k, 0.5 * (bend_a + bend_b), middle, here, textureLod(density, on_map(middle.xz), 0.0));
     float hidden = haze_at(middle), seen = 1.0 - hidden;
-    Reached here_light = reached(point.w, lit);
-    light = here_light.light * seen;
-    again = here_light.again * seen;
-    over_all = here_light.gloss * seen + haze_light(middle) * hidden;
+    h = point.w;
+    direct = lit.sun * seen;
+    open_to = lit.sky * seen;
+    veil = vec4(haze_light(middle) * hidden, lit.gloss * seen);
+    shade = vec3(lit.leaves, lit.way.x);
     // Of blades, those are seen most that face the eye; on a strip, those that face as it does.
     vec2 run = normalize(b.xz - a.xz), sight = normalize(middle.xz - eye.xz);
     float faces = run.y * run.y - run.x * run.x;
