@@ -30,6 +30,23 @@ PICTURES = (
         "crossing.webp", ("film", "crossing.yaml", "--size", "480x270", "--seconds", "5", "--fps", "12"), "tour.md"
     ),
     Picture("levels.png", ("shot", "meadow", "--size", "960x540", "--time", "3", "--overlay", "levels,map")),
+    Picture("noon.png", ("shot", "plain", "--size", "960x540", "--time", "2")),
+    *(
+        Picture(f"{name}.png", ("shot", f"{name}.yaml", "--size", "960x540", "--time", time, *more), "gallery.md")
+        for name, time, *more in (
+            ("against", "3"),
+            ("clouds", "20"),
+            ("telephoto", "3", "--preset", "ultra"),
+            ("ridge", "3"),
+            ("dusk", "3"),
+            ("reeds", "3"),
+        )
+    ),
+    Picture("after.png", ("shot", "storm", "--size", "960x540", "--time", "12")),
+    Picture("saucer.png", ("shot", "saucer", "--size", "960x540", "--time", "5")),
+    Picture("walk.png", ("shot", "meadow", "--size", "960x540", "--time", "9")),
+    Picture("gust.webp", ("film", "gust", "--size", "480x270", "--seconds", "5", "--fps", "12")),
+    Picture("flight.webp", ("film", "saucer", "--size", "480x270", "--seconds", "5", "--fps", "12")),
     Picture("storm.png", ("shot", "storm", "--size", "960x540", "--time", "12", "--overlay", "masks,arrows")),
 )
 
