@@ -222,7 +222,8 @@ def test_w12_in_figure_6_the_stiffest_blades_stand_highest_in_the_same_wind() ->
     told = [[text for text in axes.texts if text.get_text() == "+1"] for axes in figure.axes[3:]]
     tips = [text.xy[1] for (text,) in told if isinstance(text, Annotation)]
     assert len(tips) == len(STIFFNESS)
-    assert tips[-1] > max(tips[:-1]) + 0.25 * 0.6
+    # Less than blades that taper evenly: broad tips catch more wind.
+    assert tips[-1] > max(tips[:-1]) + 0.22 * 0.6
 
 
 def test_w4_figure_8_plots_the_response_of_each_kind() -> None:

@@ -24,6 +24,7 @@ Picture = NDArray[np.float64]
 FLAT = """\
 tallgrass: 2
 seed: 5
+light: { strength: 0 }
 terrain: { noise: flat, size: [60, 60] }
 grass:
   tall: { height: [0.5, 0.9], width: 0.02 }
@@ -39,7 +40,7 @@ quality:
 
 @pytest.fixture(scope="module")
 def prairie(load: Load, stage: Stage, camera: Aim) -> Prairie:
-    """Flat ground without wind, drawn once."""
+    """Flat ground without wind, drawn once, and without a sun: what flies casts no shadow."""
     made = load(FLAT)
     stage.shot(made, camera(0.0, 1.7, 10.0))
     return made
@@ -79,6 +80,23 @@ def test_r4_a_saucer_is_seen_where_it_flies(show: Show, stage: Stage, camera: Ai
     assert rows.max() == pytest.approx(bottom[1], abs=3.0)
     middle = stage.project(aim, np.array([[1.0, 3.6, 0.0]]))[0].astype(int)
     assert seen[middle[1], middle[0]]
+
+
+def test_a_saucers_shadow_lies_where_the_sun_casts_it(load: Load, stage: Stage, camera: Aim) -> None:
+    sunny = load(FLAT.replace("strength: 0", "azimuth: 90, elevation: 45"))
+    aim, height = camera(0.0, 9.0, 9.0, pitch=-42), 4.0
+    stage.shot(sunny, aim)
+    before = stage.shot(sunny, aim)
+    saucer = sunny.world.create(Body((2.5, height, 0.0)))
+    after = stage.shot(sunny, aim)
+    sunny.world.delete(saucer)
+    darker = (before - after).min(axis=-1) > 8.0
+    darker[:, 90:] = False  # there, it is seen itself
+    low, high = stage.project(aim, np.array([[2.5 - height, 0.0, 0.0], [2.5 - height + 0.9, 0.9, 0.0]]))
+    rows, columns = np.nonzero(darker)
+    assert darker.sum() > 60
+    assert low[0] <= columns.mean() <= high[0]
+    assert high[1] - 2.0 <= rows.mean() <= low[1] + 2.0
 
 
 def test_r4_a_hill_hides_a_saucer_behind_it(load: Load, stage: Stage, camera: Aim) -> None:
