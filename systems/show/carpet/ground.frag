@@ -122,7 +122,9 @@ void main() {
 #if defined(CARPET) && !defined(UNDER)
     float slope = viewing_slope(rise, place);
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / soil.w))) : 0.0;
-    covered = mix(1.0, outline_cover(slope), share);
+    // Beyond the terrain nothing lies beneath the carpet that could be seen past its outlines.
+    vec2 beside = abs(place.xz - terrain.xy - 0.5 * field.xy) - 0.5 * field.xy;
+    covered = max(beside.x, beside.y) > 0.0 ? 1.0 : mix(1.0, outline_cover(slope), share);
     color *= mix(litter, 1.0, share);
     if (share > 0.0)
         color = mix(color, carpet_light(slope), share);
