@@ -42,6 +42,7 @@ PICTURES = (
             ("reeds", "3"),
         )
     ),
+    Picture("against.png", ("shot", "sundown", "--size", "960x540", "--time", "3")),
     Picture("after.png", ("shot", "storm", "--size", "960x540", "--time", "12")),
     Picture("saucer.png", ("shot", "saucer", "--size", "960x540", "--time", "5")),
     Picture("walk.png", ("shot", "meadow", "--size", "960x540", "--time", "9")),
