@@ -34,7 +34,6 @@ PICTURES = (
     *(
         Picture(f"{name}.png", ("shot", f"{name}.yaml", "--size", "960x540", "--time", time, *more), "gallery.md")
         for name, time, *more in (
-            ("against", "3"),
             ("clouds", "20"),
             ("telephoto", "3", "--preset", "ultra"),
             ("ridge", "3"),
