@@ -12,8 +12,8 @@ from .trail import BEGUN, CAME, FIRST, HEADING, LAST, LEFT, REACH, STRENGTH
 
 Floats = NDArray[np.float32]
 
-TREADS = 0.6
-"""How much of the grass right under a presser stays down after it: once more for each that comes after."""
+TREADS, FLAT = 0.75, 0.9
+"""How much of the way to `FLAT` each who comes treads the grass right underfoot; flat for good is 1."""
 
 AHEAD = 0.5
 """How far grass in the middle of a way is taken along it, for how far it is pushed aside at the edge."""
@@ -32,7 +32,7 @@ class Lying:
     """Index at the beginning of the touch that was last."""
 
     trod: Floats
-    """How much of that stays down."""
+    """How far it was trodden then, in [0, 1]: it wears off evenly, and grass stands up slowly at first."""
 
     lay: Floats
     """Where grass lay then, a unit vector or nothing."""
@@ -143,15 +143,20 @@ def _away(off: Floats, part: Floats, mark: Floats) -> Floats:
 
 
 def _left(lying: Lying, then: Floats, grass: Grass, recovery: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return the index at an instant [s] (n,), how much of it stays down, and the unit vectors (n, 2) of both."""
+    """Return the index at an instant [s] (n,), how far it is trodden then, and where it lies: unit vectors (n, 2)."""
     elapsed = np.maximum(then - lying.until, np.float32(0.0))
-    deep = np.maximum(np.maximum(lying.deep, lying.was), lying.trod)
-    treads = np.float32(TREADS) * lying.deep * lying.deep * lying.deep
-    trod = lying.trod + (deep - lying.trod) * treads
-    stays = np.maximum(trod - elapsed / recovery[grass.kind], np.float32(0.0))
-    index = (deep - trod) * grass.after_stop(elapsed) + stays
-    towards = _unit(lying.deep[:, None] * lying.aside + np.maximum(lying.was, lying.trod)[:, None] * lying.lay)
-    return np.asarray(index, np.float32), np.asarray(stays, np.float32), towards
+    before = np.maximum(lying.was, _stays(lying.trod))
+    flat = np.float32(FLAT) * (lying.deep * lying.deep) * (lying.deep * lying.deep)
+    trod = lying.trod + np.float32(TREADS) * np.maximum(flat - lying.trod, np.float32(0.0))
+    left = np.maximum(trod - elapsed / recovery[grass.kind], np.float32(0.0))
+    index = (np.maximum(lying.deep, before) - _stays(trod)) * grass.after_stop(elapsed) + _stays(left)
+    towards = _unit(lying.deep[:, None] * lying.aside + before[:, None] * lying.lay)
+    return np.asarray(index, np.float32), np.asarray(left, np.float32), towards
+
+
+def _stays(trod: Floats) -> Floats:
+    """Return the index at which trodden grass lies."""
+    return np.asarray(trod * (np.float32(2.0) - trod), np.float32)
 
 
 def _unit(vector: Floats) -> Floats:

@@ -5,7 +5,7 @@ uniform sampler2D pressed;  // the frame; how kinds swing back; the squares' lis
 const int PRESSED_ROW = 1024;  // texels in a row; the first row is the frame's
 const int SWINGS = PRESSED_ROW, SQUARES = 2 * PRESSED_ROW;  // texels before them
 const int SIDE = 128;  // squares along the ground after which they are counted from 0 again
-const float SQUARE = 2.0, TREADS = 0.6, AHEAD = 0.5, SAME = 1e-3, LONG_AGO = -1e6;
+const float SQUARE = 2.0, TREADS = 0.75, FLAT = 0.9, AHEAD = 0.5, SAME = 1e-3, LONG_AGO = -1e6;
 
 struct Lying {
     vec2 lay;    // where grass lay before
@@ -28,14 +28,19 @@ float swung_back(float elapsed, int kind) {
     return before + (texel_of(SWINGS + int(low) + 1)[kind] - before) * (at - low);
 }
 
-// The index at an instant; how much of it stays down.
+// The index at which trodden grass lies.
+float stays(float trod) {
+    return trod * (2.0 - trod);
+}
+
+// The index at an instant; how far it is trodden then. `towards` is where it lies.
 vec2 left_at(Lying lying, float then, int kind, out vec2 towards) {
     float elapsed = max(then - lying.until, 0.0);
-    float deep = max(max(lying.deep, lying.was), lying.trod);
-    float trod = lying.trod + (deep - lying.trod) * TREADS * lying.deep * lying.deep * lying.deep;
-    float stays = max(trod - elapsed / texel_of(1)[kind], 0.0);
-    towards = unit(lying.deep * lying.aside + max(lying.was, lying.trod) * lying.lay);
-    return vec2((deep - trod) * swung_back(elapsed, kind) + stays, stays);
+    float before = max(lying.was, stays(lying.trod));
+    float trod = lying.trod + TREADS * max(FLAT * (lying.deep * lying.deep) * (lying.deep * lying.deep) - lying.trod, 0.0);
+    float left = max(trod - elapsed / texel_of(1)[kind], 0.0);
+    towards = unit(lying.deep * lying.aside + before * lying.lay);
+    return vec2((max(lying.deep, before) - stays(trod)) * swung_back(elapsed, kind) + stays(left), left);
 }
 
 void touch(inout Lying lying, int mark, vec2 place, int kind) {
