@@ -23,7 +23,6 @@ from ..engine.schedule import Phase, Schedule
 from ..engine.terrain.sample import height_at
 from ..engine.world import World
 from .around.clearing import Clearings
-from .around.ground import densest_kind
 from .around.outlook import Outlook, Outlooks
 from .around.transitions import SEAMLESS, Transitions
 from .around.window import as_places, cell_of
@@ -34,8 +33,6 @@ from .pressers import Pressers
 from .screen import Screen
 from .site import Site, found_again, found_site, outlook_on, settle_on
 from .statistics import Statistics
-from .wind.blow import ReceiverArrays, places_alone
-from .wind.grass import grass_of
 from .winds import Winds
 
 if TYPE_CHECKING:
@@ -237,7 +234,8 @@ class Prairie:
         They are those of grass of a `kind`, or else of the kind that grows most densely at each place. Raises
         ValueError for an unknown kind.
         """
-        return self.winds.heard(self._standing(xz, kind), time=self.time if time is None else time)
+        number = self._number_of(kind)
+        return self.winds.at(as_places(xz), time=self.time if time is None else time, kind=number)
 
     def bent_at(self, xz: ArrayLike, *, kind: str | None = None) -> Floats:
         """Return what grass at ground positions (x, z) [m], shape (n, 2), feels now of winds and of pressers.
@@ -246,8 +244,9 @@ class Prairie:
         has walked, they are the same. Every presser has come to where its `Pose` is now. Raises ValueError for an
         unknown kind.
         """
+        receivers = self.winds.standing(as_places(xz), kind=self._number_of(kind))
         self.pressers.note(self.time)
-        return self._assembly.felt(self._standing(xz, kind), time=self.time)
+        return self._assembly.felt(receivers, time=self.time)
 
     def patch_at(self, xz: ArrayLike, *, viewer: str = "main") -> NDArray[np.int64]:
         """Return the entity of the patch at each ground position (x, z) [m], shape (n, 2), as a viewer has it: (n,).
@@ -319,15 +318,11 @@ class Prairie:
         self.systems.clear()
         self._built.clear()
 
-    def _standing(self, xz: ArrayLike, kind: str | None) -> ReceiverArrays:
-        """Return receivers at ground positions, of a kind of grass or of the densest there."""
-        place, ground = as_places(xz), self.site.ground
-        if kind is None:
-            return places_alone(place, grass_of(self.site.growths, densest_kind(ground.density, place)))
-        if kind not in self.scene.grass:
+    def _number_of(self, kind: str | None) -> int | None:
+        """Return the number of a kind of grass; raises ValueError where there is none of that name."""
+        if kind is not None and kind not in self.scene.grass:
             raise ValueError(f"unknown grass '{kind}'; there are {', '.join(self.scene.grass)}")
-        number = list(self.scene.grass).index(kind)
-        return places_alone(place, grass_of(self.site.growths, np.full(len(place), number, np.intp)))
+        return None if kind is None else list(self.scene.grass).index(kind)
 
     def _must_be_there(self, purpose: str) -> None:
         if self._released:

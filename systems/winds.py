@@ -18,10 +18,11 @@ from ..engine.declared.scene import Scene
 from ..engine.terrain.sample import height_at
 from ..engine.world import World
 from .around.canopy import canopy_height, top_at
-from .around.ground import Ground
+from .around.ground import Ground, densest_kind
 from .bodies.fly import foot, hover_of, hovering
 from .grow.record import Growth
-from .wind.blow import Blowing, ReceiverArrays, blowing, hear, mean_yaw
+from .wind.blow import Blowing, ReceiverArrays, blowing, hear, mean_yaw, places_alone
+from .wind.grass import grass_of
 from .wind.quarantine import Quarantine, QuarantinedError
 
 Floats = NDArray[np.float32]
@@ -137,6 +138,15 @@ class Winds:
         """Return the message that each receiver ends up with at `time` [s], shape (n, 2)."""
         seed, mixing, to = self._scene.seed, self._scene.mixing, mean_yaw(self._scene.wind)
         return hear(self.now(time), receivers, self.quarantine, time=time, seed=seed, mixing=mixing, to=to)
+
+    def at(self, place: Floats, /, *, time: float, kind: int | None = None) -> Floats:
+        """Return what grass of a kind, or the densest there, feels at ground positions (n, 2) [m], shape (n, 2)."""
+        return self.heard(self.standing(place, kind=kind), time=time)
+
+    def standing(self, place: Floats, /, *, kind: int | None = None) -> ReceiverArrays:
+        """Return receivers in grass of a kind, or of the densest there, at ground positions (n, 2) [m]."""
+        kinds = densest_kind(self._ground.density, place) if kind is None else np.full(len(place), kind, np.intp)
+        return places_alone(place, grass_of(self._growths, kinds))
 
     def _revive(self) -> None:
         """Let the winds of the scene be entities again after the game has cleared its world; say so once."""

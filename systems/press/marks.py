@@ -6,7 +6,7 @@ from math import floor
 import numpy as np
 from numpy.typing import NDArray
 
-from .trail import BEGUN, FIRST, LAST, LEFT, NUMBERS, REACH, Stretches, Trail
+from .trail import BEGUN, FIRST, LAST, LEFT, NUMBERS, REACH, SERIAL, Stretches, Trail
 
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
@@ -19,6 +19,13 @@ SIDE = 128
 
 MOST = 64
 """Marks that a square has at most: the latest."""
+
+
+ROUNDED = 1e-6
+"""Instants so near to one another count as the same [s]."""
+
+APART = 0.0917
+"""Marks settle that ended so long before a full second [s]: hardly one ends then, and rounding decides about none."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -71,8 +78,8 @@ class Listed:
 
     @classmethod
     def of(cls, stretches: Stretches) -> "Listed":
-        """Return stretches (n, NUMBERS) in the order in which they began."""
-        ordered = stretches[np.argsort(stretches[:, BEGUN], kind="stable")]
+        """Return stretches (n, NUMBERS) in the order in which they began, and then of their ways."""
+        ordered = stretches[np.lexsort((stretches[:, SERIAL], np.round(stretches[:, BEGUN] / ROUNDED)))]
         return cls(ordered, *_touched(ordered))
 
     def after(self, time: float) -> "Listed":
@@ -154,6 +161,8 @@ class Memory:
 
     def _settle(self, since: float) -> None:
         self._since = since
-        self._kept = self._kept.and_then(Listed.of(self.trail.over())).after(since - self.lasts)
-        self.trail.closed.clear()
+        over = self.trail.over()
+        then = over[:, LEFT] <= since - APART
+        self._kept = self._kept.and_then(Listed.of(over[then])).after(since - self.lasts)
+        self.trail.closed = [over[~then]]
         self._settled = self._kept.marks(since=since) if len(self._kept.stretches) else NOTHING

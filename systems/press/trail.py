@@ -19,8 +19,11 @@ BEGUN, CAME, LEFT = 4, 5, 6
 REACH, STRENGTH, HEADING = 7, 8, slice(9, 11)
 """How far from its middle grass bends aside [m]; the message there; where it went, or looked if it only stood."""
 
+SERIAL = 11
+"""The number of the way that it is a part of, as they began."""
+
 NUMBERS = 12
-"""What a stretch is made of; the last is 0."""
+"""What a stretch is made of."""
 
 BESIDE = 1.5
 """How far from the middle grass bends aside, in radii."""
@@ -64,6 +67,9 @@ class Trail:
 
     closed: list[Stretches] = field(default_factory=list)
     """Stretches that are over, in the order in which they ended."""
+
+    begun: int = 0
+    """How many ways have begun."""
 
     _way: Doubles = field(default_factory=lambda: np.zeros(0))
     """How far each has come on its stretch [m]."""
@@ -124,13 +130,14 @@ class Trail:
         if which.any():
             self.closed.append(self.open[which])
 
-    @staticmethod
-    def _begun(discs: Discs, rows: NDArray[np.intp], time: float) -> Stretches:
+    def _begun(self, discs: Discs, rows: NDArray[np.intp], time: float) -> Stretches:
         begun = np.zeros((len(rows), NUMBERS))
         begun[:, FIRST] = begun[:, LAST] = discs.place[rows]
         begun[:, BEGUN] = begun[:, CAME] = begun[:, LEFT] = time
         begun[:, REACH], begun[:, STRENGTH] = BESIDE * discs.radius[rows], discs.strength[rows]
         begun[:, HEADING] = discs.facing[rows]
+        begun[:, SERIAL] = self.begun + np.arange(len(rows))
+        self.begun += len(rows)
         return begun
 
 
