@@ -17,6 +17,10 @@ _APART, _LEAST = 0.9, 0.3
 """How far apart discs stand, of the larger one's radius; the least depth of one, of the deepest."""
 
 
+_ALONG = 1.4
+"""How far apart a capsule's stand, of their radius: between them grass is pressed almost as deep."""
+
+
 @lru_cache(maxsize=256)
 def discs_of(presser: Presser, /) -> Doubles:
     """Return the discs of a footprint in its own frame: middles (x, z) and radii [m], shape (n, 3)."""
@@ -26,7 +30,7 @@ def discs_of(presser: Presser, /) -> Doubles:
 
 
 def _in_capsule(radius: float, length: float) -> Doubles:
-    count = min(1 + int(np.ceil(length / radius)), MOST)
+    count = min(1 + int(np.ceil(length / (_ALONG * radius))), MOST)
     ahead = np.linspace(-0.5, 0.5, count) * length if count > 1 else np.zeros(1)
     return np.stack([np.zeros(count), ahead, np.full(count, radius)], axis=1)
 

@@ -147,11 +147,11 @@ def _left(lying: Lying, then: Floats, grass: Grass, recovery: Floats) -> tuple[F
     elapsed = np.maximum(then - lying.until, np.float32(0.0))
     before = np.maximum(lying.was, _stays(lying.trod))
     flat = np.float32(FLAT) * (lying.deep * lying.deep) * (lying.deep * lying.deep)
-    trod = lying.trod + np.float32(TREADS) * np.maximum(flat - lying.trod, np.float32(0.0))
+    trod = np.asarray(lying.trod + np.float32(TREADS) * np.maximum(flat - lying.trod, np.float32(0.0)), np.float32)
     left = np.maximum(trod - elapsed / recovery[grass.kind], np.float32(0.0))
     index = (np.maximum(lying.deep, before) - _stays(trod)) * grass.after_stop(elapsed) + _stays(left)
-    towards = _unit(lying.deep[:, None] * lying.aside + before[:, None] * lying.lay)
-    return np.asarray(index, np.float32), np.asarray(left, np.float32), towards
+    towards = lying.deep[:, None] * lying.aside + before[:, None] * lying.lay
+    return np.asarray(index, np.float32), np.asarray(left, np.float32), _unit(np.asarray(towards, np.float32))
 
 
 def _stays(trod: Floats) -> Floats:

@@ -17,7 +17,7 @@ SQUARE = 2.0
 SIDE = 128
 """Squares along the ground after which they are counted from 0 again: what lies so far apart shares a list."""
 
-MOST = 64
+MOST = 96
 """Marks that a square has at most: the latest."""
 
 

@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from collections.abc import Iterator
+from time import process_time
 
 import esper
 import numpy as np
@@ -124,6 +125,23 @@ def test_f4_two_processes_with_different_steps_tread_the_same(tmp_path_factory: 
         found.append(np.load(folder / f"{steps}.npy"))
     assert np.linalg.norm(found[0], axis=1).max() > 0.9
     np.testing.assert_allclose(found[0], found[1], atol=1e-4)
+
+
+def test_f4_a_hundred_pressers_cost_less_than_a_millisecond(prairie: Prairie) -> None:
+    rng = np.random.default_rng(1)
+    place, yaw = rng.uniform(-25.0, 25.0, (100, 2)), rng.uniform(0.0, 6.3, 100)
+    way = 1.5 / 60 * np.stack([np.sin(yaw), -np.cos(yaw)], axis=1)
+    entities, spent = [esper.create_entity(Presser()) for _ in place], []
+    for _ in range(300):
+        place += way
+        for entity, (x, z), turned in zip(entities, place.tolist(), yaw.tolist(), strict=True):
+            esper.add_component(entity, Pose(x, z, turned))
+        prairie.advance(1 / 60)
+        begun = process_time()
+        prairie.pressers.note(prairie.time)
+        spent.append(process_time() - begun)
+    assert len(prairie.pressers.trodden.settled.marks) > 1000
+    assert np.median(spent) < 1e-3
 
 
 def test_f4_a_polygon_presses_where_its_corners_are_turned_to(prairie: Prairie) -> None:

@@ -145,9 +145,9 @@ def test_f4_of_more_who_walk_over_a_place_than_are_kept_the_latest_count() -> No
     def around(time: float) -> tuple[float, float]:
         return 0.5 * float(np.cos(9.0 * time)), 0.5 * float(np.sin(9.0 * time))
 
-    trodden = walked(around, until=10.0, steps=900)
+    trodden = walked(around, until=16.0, steps=1200)
     assert trodden.settled.count.max() == MOST
-    assert np.linalg.norm(felt(trodden, around(10.0))) > 0.9
+    assert np.linalg.norm(felt(trodden, around(16.0))) > 0.9
 
 
 def test_f4_nobody_is_remembered_for_longer_than_is_asked() -> None:
