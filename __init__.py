@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from .components.body import Hover
     from .components.patch import Lod, Patch
     from .components.pose import Pose
+    from .components.presser import Presser
     from .components.receivers import Receivers
     from .components.shade import Shade
     from .components.viewer import Viewer
@@ -41,6 +42,7 @@ __all__ = [
     "PlacedWind",
     "Pose",
     "Prairie",
+    "Presser",
     "Receivers",
     "SceneError",
     "Shade",
@@ -70,6 +72,7 @@ _HOMES = {
     "PlacedWind": ".systems.wind.placed",
     "Pose": ".components.pose",
     "Prairie": ".systems.prairie",
+    "Presser": ".components.presser",
     "Receivers": ".components.receivers",
     "SceneError": ".engine.scene",
     "Shade": ".components.shade",

@@ -13,6 +13,7 @@ import esper
 from ..components.resident import Resident
 
 Component = TypeVar("Component")
+Other = TypeVar("Other")
 
 PRIORITY = 100
 """Priority of the processor that `install` adds. A game's own of lower numbers, 0 without more, run after it."""
@@ -106,6 +107,13 @@ class World:
         self._must_be_current()
         mine = (None, self._mark)  # the game's, and our own
         found = [row for row in esper.get_component(kind) if self._owner(row[0]) in mine]
+        return sorted(found, key=lambda row: row[0])
+
+    def both(self, kind: type[Component], other: type[Other]) -> list[tuple[int, Component, Other]]:
+        """Return every entity with components of exactly these two types, in the order and as far as `all` does."""
+        self._must_be_current()
+        mine = (None, self._mark)
+        found = [(row[0], *row[1]) for row in esper.get_components(kind, other) if self._owner(row[0]) in mine]
         return sorted(found, key=lambda row: row[0])
 
     def _owner(self, entity: int) -> object | None:

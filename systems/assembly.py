@@ -3,6 +3,9 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ..components.body import Body
 from ..components.shade import Shade
 from ..engine.schedule import HasRun, Phase, Schedule
@@ -17,12 +20,17 @@ from .gather import Gather
 from .lod import SLACK, ChooseLevels
 from .painter import Painter
 from .plant import Plant
+from .press.marks import UNTRODDEN, Trodden
+from .pressers import Press, Pressers
 from .screen import Screen
 from .see import See
 from .site import Site
 from .tile import Tile
 from .transition import Transition
+from .wind.blow import ReceiverArrays
 from .winds import Winds
+
+Floats = NDArray[np.float32]
 
 BuiltIn = tuple[Phase, str, HasRun]
 
@@ -35,11 +43,16 @@ class Assembly:
     viewers: Outlooks
     clearings: Clearings
     winds: Winds
+    pressers: Pressers
     screen: Screen
 
     def entities(self, site: Site, /) -> PatchEntities:
         """Return what keeps the entities of patches on a site."""
         return PatchEntities(self.world, self.clearings, site.representations, self.viewers.values)
+
+    def felt(self, receivers: ReceiverArrays, /, *, time: float) -> Floats:
+        """Return what receivers feel at `time` [s] of the winds and of those who walk there, shape (n, 2)."""
+        return self.pressers.over(self.winds.heard(receivers, time=time), receivers)
 
     def on(self, site: Site, /) -> list[BuiltIn]:
         """Return the systems of a site in running order."""
@@ -55,7 +68,8 @@ class Assembly:
             self.viewers,
             self.entities(site),
             now=self.winds.now,
-            hear=self.winds.heard,
+            hear=self.felt,
+            note=self.pressers.note,
             painter=self.screen.current,
             bodies=bodies,
             shades=shades,
@@ -73,12 +87,14 @@ def built_in(
     painter: Callable[[], Painter],
     bodies: Callable[[float], Sequence[Body]],
     shades: Callable[[], Sequence[Shade]] = tuple,
+    note: Callable[[float], Trodden] = lambda _: UNTRODDEN,
 ) -> list[BuiltIn]:
     """Return the systems of a site in running order: phase, name, and the system itself."""
     ground, shown, reach = site.ground, site.representations, site.reach
     patch, change = ground.patch, site.transitions
 
     return [
+        (Phase.TILE, "press", Press(outlooks, note)),
         (
             Phase.TILE,
             "tile",

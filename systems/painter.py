@@ -21,6 +21,9 @@ from .frame.maps import density_texture, height_texture, posture_texture
 from .light.draw import SAMPLERS as LIGHTS
 from .light.draw import LightPainter
 from .light.repeating import drifted
+from .press.card import SAMPLERS as PRESSING
+from .press.card import CardPress
+from .press.lie import recoveries
 from .receive.ask import numbers_of, write_messages
 from .receive.received import Received
 from .show.blades.draw import BladePainter
@@ -45,7 +48,7 @@ def _units() -> dict[str, int]:
     drawn = [name for each in REPRESENTATIONS for name in each.samplers]
     throughout = [*SHARED, *(name for name in drawn if name in asked)]
     first = [*throughout, *(name for name in drawn if name not in asked)]
-    before = [*WINDS, *sorted(asked - set(throughout))]
+    before = [*WINDS, *sorted(asked - set(throughout)), *PRESSING]
     return {name: unit for unit, name in enumerate(first, FIRST_UNIT)} | {
         name: LAST_UNIT - number for number, name in enumerate(before)
     }
@@ -65,6 +68,7 @@ class Painter:
         self.block = FrameBlock(ctx)
         self.received = Received(ctx)
         self.air: CardWinds
+        self.press = CardPress(ctx)
         self.textures: dict[str, moderngl.Texture | moderngl.TextureArray] = {}
         self.light = LightPainter(ctx, self.block, UNITS)
         self.bodies: BodyPainter | None = None
@@ -103,6 +107,7 @@ class Painter:
         self.record = frame_record(site.scene, site.growths, site.ground.terrain, site.quality.patch, raw=self.linear)
         self.light.shine(site.scene.light, site.ground.terrain)
         self.air.meet(site.scene.wind)
+        self.press.stand(site.growths, recoveries(site.scene))
 
     def _lay(self, site: Site) -> None:
         """Bring the ground into GL."""
@@ -157,6 +162,8 @@ class Painter:
             partial(receivers_shown, outlook, site.growths, patch=site.ground.patch, margin=site.margin),
             self.quarantine, numbers=partial(numbers_of, outlook, self._first),
         )  # fmt: skip
+        self.press.write(outlook.trodden)
+        self.press.texture.use(UNITS["pressed"])
         with aside(self.ctx, target):
             calls = self.light.prepare() + sum(painter.hear() for painter in self.painters.values())
             write_messages(self.received, outlook, self._first, site.ground)
@@ -182,6 +189,7 @@ class Painter:
             for name, texture in self.textures.items():
                 texture.use(UNITS[name])
             self.light.use()
+            self.press.texture.use(UNITS["pressed"])
             self.draw_calls = self._hear(target) if blades is None else 0
             self._draw_land(target)
             if blades is None:
@@ -220,6 +228,6 @@ class Painter:
         """Give everything back to the context."""
         if self.bodies is not None:
             self.bodies.release()
-        release_all(*self.painters.values(), self.air, self.received, self.block, self.light)
+        release_all(*self.painters.values(), self.air, self.received, self.block, self.light, self.press)
         release_all(self.smaller, self.stopwatch)
         release_all(*self.textures.values())

@@ -29,6 +29,7 @@ from .around.window import as_places, cell_of
 from .assembly import Assembly, settle_in
 from .govern import Governor
 from .painter import Painter
+from .pressers import Pressers
 from .screen import Screen
 from .site import Site, found_again, found_site, outlook_on, settle_on
 from .statistics import Statistics
@@ -79,10 +80,11 @@ class Prairie:
         self.world, self.governor = World(self.advance), Governor(hold)
         self.viewers, self.clearings = Outlooks(self.world), Clearings()
         self.winds = Winds(self.world, loaded.scene, self.site.ground, self.site.growths, live=live)
+        self.pressers = Pressers(self.world, loaded.scene, self.site.growths)
         self.systems = Schedule()
         self._loaded, self._preset, self._clock, self._released = loaded, preset, 0.0, False
         screen = Screen(ctx, self.winds.quarantine, linear=linear)
-        self._assembly = Assembly(self.world, self.viewers, self.clearings, self.winds, screen)
+        self._assembly = Assembly(self.world, self.viewers, self.clearings, self.winds, self.pressers, screen)
         self._built = self._assembly.on(self.site)
         for phase, name, system in self._built:
             self.systems.add(phase, name, system, trusted=True)
@@ -232,10 +234,19 @@ class Prairie:
         They are those of grass of a `kind`, or else of the kind that grows most densely at each place. Raises
         ValueError for an unknown kind.
         """
-        if kind is not None and kind not in self.scene.grass:
-            raise ValueError(f"unknown grass '{kind}'; there are {', '.join(self.scene.grass)}")
-        number = None if kind is None else list(self.scene.grass).index(kind)
+        number = self._number_of(kind)
         return self.winds.at(as_places(xz), time=self.time if time is None else time, kind=number)
+
+    def bent_at(self, xz: ArrayLike, *, kind: str | None = None) -> Floats:
+        """Return what grass at ground positions (x, z) [m], shape (n, 2), feels now of winds and of pressers.
+
+        Messages of shape (n, 2), of grass of a `kind` or of the densest, as those of `wind_at`: where nobody walks or
+        has walked, they are the same. Every presser has come to where its `Pose` is now. Raises ValueError for an
+        unknown kind.
+        """
+        receivers = self.winds.standing(as_places(xz), kind=self._number_of(kind))
+        self.pressers.note(self.time)
+        return self._assembly.felt(receivers, time=self.time)
 
     def patch_at(self, xz: ArrayLike, *, viewer: str = "main") -> NDArray[np.int64]:
         """Return the entity of the patch at each ground position (x, z) [m], shape (n, 2), as a viewer has it: (n,).
@@ -293,6 +304,7 @@ class Prairie:
         self._built, built = self._assembly.on(self.site), self._built
         settle_in(self.systems, self._built, built)
         self.winds.change(loaded.scene, self.site.ground, self.site.growths)
+        self.pressers.change(loaded.scene, self.site.growths)
         self._loaded, self.statistics.blades_field = loaded, self.site.blades
 
     def release(self) -> None:
@@ -305,6 +317,12 @@ class Prairie:
         self.world.release()
         self.systems.clear()
         self._built.clear()
+
+    def _number_of(self, kind: str | None) -> int | None:
+        """Return the number of a kind of grass; raises ValueError where there is none of that name."""
+        if kind is not None and kind not in self.scene.grass:
+            raise ValueError(f"unknown grass '{kind}'; there are {', '.join(self.scene.grass)}")
+        return None if kind is None else list(self.scene.grass).index(kind)
 
     def _must_be_there(self, purpose: str) -> None:
         if self._released:

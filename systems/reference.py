@@ -69,7 +69,8 @@ def stand_all(prairie: Prairie, cells: Ints, painter: BladePainter, /, *, seen: 
         return 0
     place = np.ascontiguousarray(blades["root"][:, ::2])
     grass = grass_of(site.growths, blades["kind"].astype(np.intp))
-    painter.write(blades, prairie.winds.heard(places_alone(place, grass), time=prairie.time))
+    receivers = places_alone(place, grass)
+    painter.write(blades, prairie.pressers.over(prairie.winds.heard(receivers, time=prairie.time), receivers))
     return len(blades)
 
 

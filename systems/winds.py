@@ -141,8 +141,12 @@ class Winds:
 
     def at(self, place: Floats, /, *, time: float, kind: int | None = None) -> Floats:
         """Return what grass of a kind, or the densest there, feels at ground positions (n, 2) [m], shape (n, 2)."""
+        return self.heard(self.standing(place, kind=kind), time=time)
+
+    def standing(self, place: Floats, /, *, kind: int | None = None) -> ReceiverArrays:
+        """Return receivers in grass of a kind, or of the densest there, at ground positions (n, 2) [m]."""
         kinds = densest_kind(self._ground.density, place) if kind is None else np.full(len(place), kind, np.intp)
-        return self.heard(places_alone(place, grass_of(self._growths, kinds)), time=time)
+        return places_alone(place, grass_of(self._growths, kinds))
 
     def _revive(self) -> None:
         """Let the winds of the scene be entities again after the game has cleared its world; say so once."""

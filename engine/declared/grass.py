@@ -42,6 +42,9 @@ class GrassKind(Declaration):
     damping: float = Field(default=1.0, gt=0.01, le=100.0)
     """How fast a blade's swing dies away, 1 is a common meadow grass."""
 
+    recovery: float = Field(default=20.0, ge=0.1, le=3600.0)
+    """How long grass that was trodden flat takes to stand again [s]; what was trodden less stands earlier."""
+
     lean: float = Field(default=0.3, ge=0.0, le=0.9)
     """Largest posture index that a blade holds at rest; each blade has its own, in its own direction."""
 

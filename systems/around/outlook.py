@@ -10,6 +10,7 @@ import numpy as np
 from ...components.viewer import Viewer
 from ...engine.camera import View, eye_of
 from ...engine.world import World
+from ..press.marks import UNTRODDEN, Trodden
 from .appearance import Appearance
 from .cone import view_cone
 from .patches import PatchTable
@@ -52,6 +53,9 @@ class Outlook:
 
     winds: Sequence["Blowing"] = ()
     """The winds that act in this frame, the strongest claim first."""
+
+    trodden: Trodden = UNTRODDEN
+    """What presses or has pressed the grass in this frame."""
 
     blown_at: float = 0.0
     """The instant at which they do [s]."""

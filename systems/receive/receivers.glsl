@@ -3,6 +3,7 @@
 #include "lib/terrain.glsl"
 #include "lib/received.glsl"
 #include "systems/wind/hear.glsl"
+#include "systems/press/press.glsl"
 
 uniform ivec2 pool;  // row of its first receiver; how many it has
 
@@ -16,5 +17,6 @@ int number_here() {
 // What a receiver is told, and what it stands on.
 vec4 told_at(vec2 place, int kind, int number) {
     float grows = textureLod(density, on_map(place), 0.0)[kind];
-    return vec4(hear(place, kind, false, pool.x * RECEIVED_ROW + number), height_at(place), grows);
+    vec2 message = laid_over(hear(place, kind, false, pool.x * RECEIVED_ROW + number), pressing(place, kind));
+    return vec4(message, height_at(place), grows);
 }

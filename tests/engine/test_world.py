@@ -219,6 +219,11 @@ def test_all_that_were_deleted_are_told_of_in_their_order(world: World) -> None:
     assert world.lost() == [entities[4], entities[1], entities[2]]
 
 
+def test_entities_with_two_components_are_found_by_rising_number_and_no_others(world: World) -> None:
+    first, _, last = world.create(Grass(0.5), Score(1)), world.create(Grass(0.5)), world.create(Grass(0.7), Score(2))
+    assert [(entity, grass.height) for entity, grass, _ in world.both(Grass, Score)] == [(first, 0.5), (last, 0.7)]
+
+
 def test_what_we_delete_ourselves_is_not_lost(world: World) -> None:
     ours = [world.create(Grass(0.5)) for _ in range(3)]
     world.delete(ours[0])

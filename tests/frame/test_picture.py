@@ -230,7 +230,7 @@ def test_statistics_tell_what_was_drawn(stage: Stage, load: Load) -> None:
     assert 0 < told.blades_submitted <= told.blades_considered
     assert told.receivers > told.blades_submitted
     assert 4 <= told.draw_calls < 40
-    assert set(told.systems_ms) == {"tile", "cull", "lod", "transition", "see", "plant", "wind", "gather"}
+    assert set(told.systems_ms) == {"press", "tile", "cull", "lod", "transition", "see", "plant", "wind", "gather"}
 
 
 def test_t1_ten_kilometres_of_hills_are_drawn_without_speckles(stage: Stage, load: Load, camera: Aim) -> None:

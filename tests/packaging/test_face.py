@@ -23,6 +23,7 @@ def test_the_face_shows_what_programs_are_written_with() -> None:
         "Lod",
         "Patch",
         "Pose",
+        "Presser",
         "Receivers",
         "Shade",
         "Shape",

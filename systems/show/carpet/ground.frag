@@ -10,6 +10,8 @@ out vec4 pixel;
 #include "lib/random.glsl"
 #include "lib/shares.glsl"
 #include "lib/carpet.glsl"
+#include "systems/show/carpet/lit.glsl"
+#include "systems/press/press.glsl"
 uniform sampler2DArray images;  // place along the blade, height, twice the azimuth, coverage; premultiplied
 uniform float slopes[SLOPES];
 uniform vec4 first;             // by kind: first layer of the images
@@ -68,6 +70,26 @@ float outline_cover(float slope) {
     return 1.0 - exp(-CREST * leaves * before_crest * before_crest);
 }
 
+// The light where somebody walks or has walked: a way is narrower than the mesh that light is made out on.
+Sum trodden_light(float slope) {
+    vec3 there = seen_at(place, slope, tall, dense);
+    vec2 message = message_at(place.xz), messages[KINDS], blown[KINDS];
+    float most = 0.0;
+    for (int kind = 0; kind < KINDS; kind++) {
+        vec2 lies = pressing(place.xz, kind);
+        most = max(most, length(lies));
+        blown[kind] = message;
+        messages[kind] = laid_over(message, lies);
+    }
+    Sum sum = Sum(direct, open_to, shade);
+    if (most < 1e-3)
+        return sum;
+    vec4 here = lie_at(there.xz);
+    Sum with = summed(met, there, here, messages), without = summed(met, there, here, blown);
+    return Sum(max(sum.direct + with.direct - without.direct, 0.0),
+               max(sum.open_to + with.open_to - without.open_to, 0.0), sum.shade + with.shade - without.shade);
+}
+
 vec3 carpet_light(float slope) {
     ivec2 cell = ivec2(floor(place.xz / soil.w));
     uint drawn = hash3(stock.y, cell.x, cell.y);
@@ -82,7 +104,8 @@ vec3 carpet_light(float slope) {
     fine *= SHARP;
     dx *= fine;
     dy *= fine;
-    Lit lit = Lit(direct, open_to, shade.x, vec2(shade.y, OPEN_SKY), shade.zw);
+    Sum light = trodden_at(place.xz) ? trodden_light(slope) : Sum(direct, open_to, shade);
+    Lit lit = Lit(light.direct, light.open_to, light.shade.x, vec2(light.shade.y, OPEN_SKY), light.shade.zw);
     // A blade's doubled azimuth against the line of sight; what it is against the world's axes is as far turned.
     float sight = heading.x * heading.x - heading.y * heading.y, aside = 2.0 * heading.x * heading.y;
     vec2 seen = elevation_seen(slope);

@@ -23,45 +23,24 @@ out float crest; // how fast the rise falls off along the line of sight [1/m]
 out float tall;  // height of the grass [m]
 out float dense; // leaf area seen from the side, of the ground's area
 #ifndef UNDER
-#include "lib/posture.glsl"
-
-uniform sampler2D air;  // the wind's message in the middle of each patch, wrapping round
-uniform sampler2D mean_air;
+#include "systems/show/carpet/lit.glsl"
 
 out vec3 direct;  // light on leaves of the kinds that are met: the sun's
 out vec3 open_to; // the sky's
 out vec4 shade;   // what they mirror; leaves that the sun's light meets; leaf area above them, and from there to the ground
 out vec3 dry;     // factor of their pigment
 
-const float STEEP = 0.02;  // a line of sight counts as at least so steep, for how deep it goes
-
-// The wind's message; far off, where nobody asks for it, the mean of those nearer by.
-vec2 message_at(vec2 at) {
-    float side = float(textureSize(air, 0).x) * soil.w;
-    vec2 apart = abs(at - (vec2(window.xy) + 0.5) * soil.w);
-    float far = smoothstep(0.35, 0.48, max(apart.x, apart.y) / side);
-    return mix(textureLod(air, at / side, 0.0).xy, texelFetch(mean_air, ivec2(0), 0).xy, far);
-}
-
-// Write the light on what is met. Leaves that are seen stand deeper in the grass, where the line of sight has met enough.
+// Write the light on what is met.
 void light_up(float slope) {
-    float deeper = min(tall * inversesqrt(max(slope, STEEP) * max(dense, 0.01)), 15.0);
-    vec2 on = normalize(place.xz - eye.xz + 1e-4) * deeper;
-    vec3 there = vec3(place.x + on.x, place.y, place.z + on.y);
-    vec4 here = lie_at(there.xz), grows = textureLod(density, on_map(there.xz), 0.0);
-    vec2 message = message_at(place.xz);
-    direct = open_to = vec3(0.0);
-    shade = vec4(0.0);
-    for (int kind = 0; kind < KINDS; kind++) {
-        Lit lit = lit_at(kind, bending(kind, message), there, here, grows);
-        direct += met[kind] * lit.sun;
-        open_to += met[kind] * lit.sky;
-        shade += met[kind] * vec4(lit.gloss, lit.way.x, lit.leaves);
-    }
-    float all = 1.0 / max(dot(met, vec4(1.0)), 1e-4);
-    direct *= all;
-    open_to *= all;
-    shade *= all;
+    vec3 there = seen_at(place, slope, tall, dense);
+    vec4 here = lie_at(there.xz);
+    vec2 message = message_at(place.xz), messages[KINDS];
+    for (int kind = 0; kind < KINDS; kind++)
+        messages[kind] = message;
+    Sum sum = summed(met, there, here, messages);
+    direct = sum.direct;
+    open_to = sum.open_to;
+    shade = sum.shade;
     dry = stretch(here);
 }
 #endif

@@ -1,0 +1,50 @@
+"""Footprints: every shape is made of discs, and discs are all that the rest of pressing knows."""
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.presser import Presser
+from ..wind.outline import outline_of_polygon
+
+Doubles = NDArray[np.float64]
+
+MOST = 12
+"""How many discs a footprint is made of at most."""
+
+_APART, _LEAST = 0.9, 0.3
+"""How far apart discs stand, of the larger one's radius; the least depth of one, of the deepest."""
+
+
+_ALONG = 1.4
+"""How far apart a capsule's stand, of their radius: between them grass is pressed almost as deep."""
+
+
+@lru_cache(maxsize=256)
+def discs_of(presser: Presser, /) -> Doubles:
+    """Return the discs of a footprint in its own frame: middles (x, z) and radii [m], shape (n, 3)."""
+    found = _in_polygon(presser.corners) if presser.corners else _in_capsule(presser.radius, presser.length)
+    found.flags.writeable = False
+    return found
+
+
+def _in_capsule(radius: float, length: float) -> Doubles:
+    count = min(1 + int(np.ceil(length / (_ALONG * radius))), MOST)
+    ahead = np.linspace(-0.5, 0.5, count) * length if count > 1 else np.zeros(1)
+    return np.stack([np.zeros(count), ahead, np.full(count, radius)], axis=1)
+
+
+def _in_polygon(corners: tuple[tuple[float, float], ...]) -> Doubles:
+    """Return discs that fill a polygon, the largest first; each stands outside the middles of those before it."""
+    outline = outline_of_polygon(corners)
+    rows, columns = np.indices(outline.depth.shape)
+    x, z = outline.corner[0] + columns * outline.step, outline.corner[1] + rows * outline.step
+    left = outline.depth.astype(np.float64)
+    discs: list[tuple[float, float, float]] = []
+    while len(discs) < MOST and left.max() > _LEAST * outline.deepest:
+        at = int(left.argmax())
+        disc = float(x.flat[at]), float(z.flat[at]), float(left.flat[at])
+        discs.append(disc)
+        left[np.hypot(x - disc[0], z - disc[1]) < _APART * disc[2]] = 0.0
+    return np.array(discs)

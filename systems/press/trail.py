@@ -1,0 +1,145 @@
+"""Trails: the way of every disc that presses, cut into stretches of the same length whatever the steps in time."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+Doubles = NDArray[np.float64]
+
+Stretches = NDArray[np.float64]
+"""Stretches of the ways of discs, one a row, shape (n, NUMBERS)."""
+
+FIRST, LAST = slice(0, 2), slice(2, 4)
+"""Where the disc's middle was at the beginning of a stretch and at its end (x, z) [m]."""
+
+BEGUN, CAME, LEFT = 4, 5, 6
+"""When it was at the beginning; when it came to the end, and when it left it, later where it has stood there [s]."""
+
+REACH, STRENGTH, HEADING = 7, 8, slice(9, 11)
+"""How far from its middle grass bends aside [m]; the message there; where it went, or looked if it only stood."""
+
+SERIAL = 11
+"""The number of the way that it is a part of, as they began."""
+
+NUMBERS = 12
+"""What a stretch is made of."""
+
+BESIDE = 1.5
+"""How far from the middle grass bends aside, in radii."""
+
+LEAST, PART = 0.3, 0.75
+"""Length of a stretch: this much at least [m], or this part of the radius."""
+
+STAYS = 0.25
+"""How long a disc stands in a place before a stretch ends there [s]."""
+
+LEAP, FASTEST = 2.0, 40.0
+"""What moves farther than `LEAP` [m] and as far as this speed brings it [m/s] has jumped, and trod on nothing."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Discs:
+    """The discs of all pressers at one instant, in a fixed order."""
+
+    place: Doubles
+    """Middles (x, z) [m], shape (n, 2)."""
+
+    facing: Doubles
+    """Where their pressers look, unit vectors, shape (n, 2)."""
+
+    radius: Doubles
+    """Radii [m], shape (n,)."""
+
+    strength: Doubles
+    """Messages in their middles, shape (n,)."""
+
+    def __len__(self) -> int:
+        return len(self.radius)
+
+
+@dataclass(slots=True, eq=False)
+class Trail:
+    """The open stretches of discs that press, and those that have been closed since they were last taken."""
+
+    open: Stretches = field(default_factory=lambda: np.zeros((0, NUMBERS)))
+    """The stretch that each disc is on, which ends where it is now."""
+
+    closed: list[Stretches] = field(default_factory=list)
+    """Stretches that are over, in the order in which they ended."""
+
+    begun: int = 0
+    """How many ways have begun."""
+
+    _way: Doubles = field(default_factory=lambda: np.zeros(0))
+    """How far each has come on its stretch [m]."""
+
+    def keep(self, before: NDArray[np.intp], after: NDArray[np.intp], discs: Discs, time: float) -> None:
+        """Take over other discs: those numbered `before` (m,) are numbered `after` (m,) now, all others are new."""
+        gone = np.ones(len(self.open), np.bool_)
+        gone[before] = False
+        if gone.any():
+            self.closed.append(self.open[gone])
+        opened, way = self._begun(discs, np.arange(len(discs)), time), np.zeros(len(discs))
+        opened[after], way[after] = self.open[before], self._way[before]
+        self.open, self._way = opened, way
+
+    def over(self) -> Stretches:
+        """Return the stretches that have been closed, in one array."""
+        if len(self.closed) != 1:
+            self.closed = [np.concatenate([np.zeros((0, NUMBERS)), *self.closed])]
+        return self.closed[0]
+
+    def tread(self, discs: Discs, time: float) -> None:
+        """Bring all discs to where they are at `time` [s]; on the way there they are taken to have gone straight."""
+        on = self.open
+        gone = discs.place - on[:, LAST]
+        far, took = np.hypot(gone[:, 0], gone[:, 1]), time - on[:, LEFT]
+        jumped, moved = far > LEAP + FASTEST * took, far > 0.0
+        stood = moved & ~jumped & (on[:, LEFT] - on[:, CAME] > STAYS)
+        self._close(jumped | stood)
+        on[stood, FIRST], on[stood, BEGUN], self._way[stood] = on[stood, LAST], on[stood, LEFT], 0.0
+        for number in np.flatnonzero(moved & ~jumped & (self._way + far >= _length(on[:, REACH]))):
+            self._mark(int(number), gone[number], float(far[number]), time)
+        moved &= ~jumped
+        on[moved, LAST], on[moved, CAME] = discs.place[moved], time
+        on[moved, HEADING] = gone[moved] / far[moved, None]
+        self._way[moved] += far[moved]
+        on[:, LEFT] = time
+        if jumped.any():
+            rows = np.flatnonzero(jumped)
+            on[rows], self._way[rows] = self._begun(discs, rows, time), 0.0
+
+    def _mark(self, number: int, gone: Doubles, far: float, time: float) -> None:
+        """Close a disc's stretches on its way of one step; the last one stays open."""
+        on, length = self.open, float(_length(self.open[number, REACH]))
+        start, since = on[number, LAST].copy(), float(on[number, LEFT])
+        before = float(self._way[number])
+        on[number, HEADING] = gone / far
+        at = length - before
+        while at <= far:
+            part = at / far
+            on[number, LAST] = place = start + part * gone
+            on[number, CAME] = on[number, LEFT] = then = since + part * (time - since)
+            self.closed.append(on[number : number + 1].copy())
+            on[number, FIRST], on[number, BEGUN] = place, then
+            at += length
+        self._way[number] = -(at - length)  # `tread` adds the whole of the step
+
+    def _close(self, which: NDArray[np.bool_]) -> None:
+        if which.any():
+            self.closed.append(self.open[which])
+
+    def _begun(self, discs: Discs, rows: NDArray[np.intp], time: float) -> Stretches:
+        begun = np.zeros((len(rows), NUMBERS))
+        begun[:, FIRST] = begun[:, LAST] = discs.place[rows]
+        begun[:, BEGUN] = begun[:, CAME] = begun[:, LEFT] = time
+        begun[:, REACH], begun[:, STRENGTH] = BESIDE * discs.radius[rows], discs.strength[rows]
+        begun[:, HEADING] = discs.facing[rows]
+        begun[:, SERIAL] = self.begun + np.arange(len(rows))
+        self.begun += len(rows)
+        return begun
+
+
+def _length(reach: Doubles) -> Doubles:
+    return np.maximum(LEAST, PART / BESIDE * reach)

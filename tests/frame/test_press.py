@@ -1,0 +1,125 @@
+"""Trodden grass in frames: alike on all representations, and the same whenever it is drawn (F4, N5)."""
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import esper
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass import Pose, Presser
+from tallgrass.engine.camera import Camera
+from tallgrass.engine.gl.stream import release_all
+from tallgrass.systems.around.receivers import Receiving
+from tallgrass.systems.painter import UNITS
+from tallgrass.systems.prairie import Prairie
+from tallgrass.testing import LITTLE
+
+Floats = NDArray[np.float32]
+Stage = Any
+Load = Callable[..., Prairie]
+Aim = Callable[..., Camera]
+OnCard = Callable[[Prairie], list[tuple[Receiving, Floats]]]
+
+CLOSE = 1e-5
+"""By how much a message on the graphics card may differ from that of numpy where only pressers act."""
+
+
+def run(prairie: Prairie, entity: int, *, far: float) -> None:
+    """Put a runner where it is at the prairie's time: to the right, `far` away along -z [m]."""
+    esper.add_component(entity, Pose(-6.0 + 2.5 * prairie.time, far, np.pi / 2))
+
+
+@pytest.fixture
+def runners() -> Iterator[list[int]]:
+    made = [esper.create_entity(Presser(radius=0.5)) for _ in range(2)]
+    yield made
+    for entity in made:
+        esper.delete_entity(entity, immediate=True)
+
+
+def told_by_card(ctx: moderngl.Context, prairie: Prairie, place: Floats, kind: int) -> Floats:
+    """Ask on the card how grass of a kind is pressed at places (n, 2), as the carpet's pixels do."""
+    painter = prairie.painter
+    assert painter is not None
+    made = painter.air.program("systems/press/press.vert", None, varyings=("lies",))
+    made["pressed"] = UNITS["pressed"]
+    painter.press.texture.use(UNITS["pressed"])
+    asked = np.column_stack([place, np.full(len(place), kind)]).astype(np.float32)
+    source, result = ctx.buffer(asked), ctx.buffer(reserve=8 * len(place))
+    array = ctx.vertex_array(made, [(source, "2f 1f", "place", "grass")])
+    array.transform(result, moderngl.POINTS, vertices=len(place))
+    lies = np.frombuffer(result.read(), np.float32).reshape(-1, 2)
+    release_all(array, source, result)
+    return lies
+
+
+def test_f4_blades_strips_and_carpet_are_told_what_a_game_is_told_at_the_same_place(
+    ctx: moderngl.Context, stage: Stage, load: Load, camera: Aim, on_card: OnCard, runners: list[int]
+) -> None:
+    prairie, names = load(LITTLE), ["tall", "short"]
+    aim, most = camera(0.0, 6.0, 22.0, pitch=-15), {"blades": 0.0, "strips": 0.0}
+    for _ in range(8):
+        for entity, far in zip(runners, (18.0, 8.0), strict=True):
+            run(prairie, entity, far=far)
+        stage.shot(prairie, aim)
+        for receiving, texels in on_card(prairie):
+            place, kind = receiving.pool.places(receiving.slots).reshape(-1, 2), receiving.pool.kind(receiving.slots)
+            for number, name in enumerate(names):
+                due, found = (
+                    prairie.bent_at(place[kind == number], kind=name),
+                    texels.reshape(-1, 4)[kind == number, :2],
+                )
+                np.testing.assert_allclose(found, due, atol=CLOSE, rtol=0.0)
+                most[receiving.representation] = max(
+                    most[receiving.representation], float(np.abs(due).max(initial=0.0))
+                )
+                np.testing.assert_allclose(told_by_card(ctx, prairie, place[kind == number], number), due, atol=CLOSE)
+        prairie.advance(0.45)
+    assert min(most.values()) > 0.6, "there is something to compare"
+
+
+@pytest.mark.parametrize("lod", ["blades", "strips", "carpet"])
+def test_f4_a_way_shows_on_every_representation_where_it_is_and_nowhere_else(
+    stage: Stage, load: Load, camera: Aim, runners: list[int], lod: str
+) -> None:
+    aim, pictures = camera(0.0, 9.0, 12.0, pitch=-50), []
+    for walks in (False, True):
+        prairie = load(LITTLE, lod=lod)
+        for entity in runners:
+            esper.add_component(entity, Pose(0.0, 500.0))
+        for _ in range(12):
+            if walks:
+                run(prairie, runners[0], far=4.0)
+            prairie.bent_at([(0.0, 4.0)])
+            prairie.advance(0.3)
+        pictures.append(stage.shot(prairie, aim))
+        prairie.release()
+    changed = np.abs(pictures[1] - pictures[0]).max(axis=2)
+    ground = np.array([(0.0, 4.0), (0.0, 6.5)])
+    feet = np.column_stack([ground[:, 0], prairie.height_at(ground), ground[:, 1]])
+    (_, row), (_, below) = stage.project(aim, feet)
+    near = changed[int(row) - 8 : int(row) + 3]
+    assert (near > 0.02 * pictures[0].max()).mean() > 0.02
+    assert changed[int(below) :].max() == 0.0
+
+
+def test_n5_a_film_that_begins_in_the_middle_shows_the_same_trodden_grass(
+    stage: Stage, load: Load, camera: Aim, runners: list[int]
+) -> None:
+    aim, pictures = camera(0.0, 5.0, 14.0, pitch=-35), []
+    for begins in (0, 9):
+        prairie = load(LITTLE)
+        for frame in range(11):
+            for entity, far in zip(runners, (8.0, 4.0), strict=True):
+                run(prairie, entity, far=far)
+            if frame < begins:
+                prairie.follow(*stage.matrices(aim))
+            else:
+                picture = stage.shot(prairie, aim)
+            prairie.advance(0.2)
+        pictures.append(picture)
+        prairie.release()
+    np.testing.assert_array_equal(*pictures)

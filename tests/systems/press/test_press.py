@@ -1,0 +1,196 @@
+"""Pressing: ways cut into stretches, and grass that lies down and stands up again (F4)."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from tallgrass.components.presser import Presser
+from tallgrass.systems.press.footprint import discs_of
+from tallgrass.systems.press.lie import laid_over, pressed, touches
+from tallgrass.systems.press.marks import MOST, UNTRODDEN, Memory, Trodden
+from tallgrass.systems.press.trail import BESIDE, Discs, Trail
+from tallgrass.testing.receivers import grass_at
+
+Floats = NDArray[np.float32]
+Doubles = NDArray[np.float64]
+Way = Callable[[float], tuple[float, float]]
+
+RADIUS, RECOVERY = 0.4, np.full(4, 20.0, np.float32)
+
+
+GRASS = grass_at(np.zeros((1, 2), np.float32))
+
+
+def discs_at(*place: tuple[float, float], radius: float = RADIUS, strength: float = 1.0) -> Discs:
+    count = len(place)
+    facing = np.tile([0.0, -1.0], (count, 1))
+    return Discs(np.array(place, np.float64), facing, np.full(count, radius), np.full(count, strength))
+
+
+def walked(*ways: Way, until: float, steps: int, lasts: float = 60.0) -> Trodden:
+    """Return what discs have trodden that go their ways, noted in so many steps."""
+    trail = Trail()
+    memory, none, found = Memory(trail, lasts), np.zeros(0, np.intp), UNTRODDEN
+    for number in range(steps + 1):
+        time = until * number / steps
+        discs = discs_at(*(way(time) for way in ways))
+        if number == 0:
+            trail.keep(none, none, discs, time)
+        trail.tread(discs, time)
+        found = memory.at(time)
+    return found
+
+
+def felt(trodden: Trodden, place: object) -> Floats:
+    at = np.array(place, np.float32).reshape(-1, 2)
+    return pressed(trodden, at, grass_at(at), RECOVERY)
+
+
+def east(time: float) -> tuple[float, float]:
+    """Walk to the right along z = 0, through the origin at 2 s."""
+    return 1.5 * (time - 2.0), 0.0
+
+
+def east_for(seconds: float) -> Way:
+    """Walk to the right and, far behind the origin, stand."""
+    return lambda time: east(min(time, seconds))
+
+
+def test_f4_under_a_presser_grass_lies_down_and_beside_it_it_bends_aside() -> None:
+    trodden = walked(east, until=2.0, steps=120)
+    ahead, under, left, right, beyond = felt(trodden, [(0.3, 0.0), (0.0, 0.0), (0.0, -0.45), (0.0, 0.45), (0.0, 0.7)])
+    assert np.linalg.norm(under) > 0.99
+    assert ahead[0] > 0.9
+    assert abs(ahead[1]) < 1e-6
+    assert left[1] < -0.25 < 0.25 < right[1]
+    assert np.abs(beyond).max() == 0.0
+
+
+def test_f4_beside_a_way_grass_swings_past_rest_as_its_kind_answers_and_comes_to_rest() -> None:
+    place, walk = (0.0, 0.55), walked(east_for(4.0), until=4.0, steps=240)
+    pressed_at_first = float(felt(walked(east, until=2.0, steps=120), place)[0, 1])
+    since = 2.0 + float(np.sqrt((BESIDE * RADIUS) ** 2 - 0.55**2)) / 1.5
+    course = [float(felt(replace(walk, time=time), place)[0, 1]) for time in np.linspace(since + 0.01, 12.0, 300)]
+    assert pressed_at_first > 0.25
+    assert course[0] > 0.9 * pressed_at_first
+    # It goes as far past rest as the response does, less what stays trodden.
+    lowest = float(GRASS.fall[GRASS.kind[0]].min())
+    assert lowest * pressed_at_first <= min(course) < 0.7 * lowest * pressed_at_first < 0.0
+    assert abs(course[-1]) < 0.01
+
+
+def test_f4_a_way_stays_trodden_until_its_recovery_is_over() -> None:
+    walk, index = walked(east_for(4.0), until=4.0, steps=240), dict[float, float]()
+    for after in (6.0, 10.0, 13.0, 20.0):
+        index[after] = float(np.linalg.norm(felt(replace(walk, time=2.0 + after), (0.0, 0.0))))
+    assert index[6.0] > 0.5
+    assert index[6.0] > index[10.0] > index[13.0]
+    assert index[20.0] < 0.01
+
+
+def test_f4_where_many_walk_grass_lies_flatter_and_for_longer() -> None:
+    once = walked(east_for(9.0), until=12.0, steps=300)
+    ways = [lambda time, late=late: east(min(max(time - late, 0.0), 9.0 - late)) for late in (0.0, 1.0, 2.0)]
+    thrice = walked(*ways, until=12.0, steps=300)
+    assert np.linalg.norm(felt(thrice, (0.0, 0.0))) > np.linalg.norm(felt(once, (0.0, 0.0))) + 0.1
+
+
+@settings(deadline=None, max_examples=25)
+@given(
+    speed=st.floats(0.3, 9.0),
+    yaw=st.floats(0.0, 6.28),
+    until=st.floats(0.5, 6.0),
+    few=st.integers(7, 40),
+    many=st.integers(41, 200),
+)
+def test_f4_what_is_trodden_depends_on_the_way_and_not_on_the_steps(
+    speed: float, yaw: float, until: float, few: int, many: int
+) -> None:
+    def way(time: float) -> tuple[float, float]:
+        return speed * time * float(np.sin(yaw)), -speed * time * float(np.cos(yaw))
+
+    along = np.random.default_rng(3).uniform(-0.5, speed * until + 0.5, 300)
+    aside = np.random.default_rng(4).uniform(-0.8, 0.8, 300)
+    heading = np.array([np.sin(yaw), -np.cos(yaw)])
+    place = along[:, None] * heading + aside[:, None] * np.array([-heading[1], heading[0]])
+    one, other = (felt(walked(way, until=until, steps=steps), place) for steps in (few, many))
+    assert np.abs(one).max() > 0.3
+    # Where two stretches meet, rounding may say which of both is nearest: that turns a message by very little.
+    assert np.abs(one - other).max() < 2e-3
+    assert np.abs(one - other).mean() < 1e-5
+
+
+def test_f4_grass_is_held_down_for_as_long_as_somebody_stands_there() -> None:
+    def way(time: float) -> tuple[float, float]:
+        return (1.5 * time, 0.0) if time < 1.0 else (1.5, 0.0) if time < 6.0 else (1.5 + 1.5 * (time - 6.0), 0.0)
+
+    held, left = (walked(way, until=time, steps=round(60 * time)) for time in (6.0, 7.6))
+    assert np.linalg.norm(felt(held, (1.3, 0.3))) > 0.5
+    assert np.linalg.norm(felt(left, (1.3, 0.45))) < 0.4 * np.linalg.norm(felt(held, (1.3, 0.45)))
+
+
+def test_f4_who_jumps_treads_on_nothing_between() -> None:
+    trodden = walked(lambda time: (0.0, 0.0) if time < 1.0 else (20.0, 0.0), until=1.5, steps=45)
+    here, between, there = np.linalg.norm(felt(trodden, [(0.0, 0.0), (10.0, 0.0), (20.0, 0.0)]), axis=1)
+    assert min(here, there) > 0.5
+    assert between == 0.0
+
+
+def test_f4_of_more_who_walk_over_a_place_than_are_kept_the_latest_count() -> None:
+    def around(time: float) -> tuple[float, float]:
+        return 0.5 * float(np.cos(9.0 * time)), 0.5 * float(np.sin(9.0 * time))
+
+    trodden = walked(around, until=16.0, steps=1200)
+    assert trodden.settled.count.max() == MOST
+    assert np.linalg.norm(felt(trodden, around(16.0))) > 0.9
+
+
+def test_f4_nobody_is_remembered_for_longer_than_is_asked() -> None:
+    trodden = walked(east_for(4.0), until=30.0, steps=300, lasts=8.0)
+    assert len(trodden.settled.marks) == 0
+    assert not touches(trodden.settled, np.zeros((1, 2), np.float32))
+
+
+def test_f4_where_grass_is_pressed_the_wind_is_covered_as_much() -> None:
+    wind = np.array([[0.0, 0.5], [0.0, 0.5], [0.0, 0.5]], np.float32)
+    pressing = np.array([[0.0, 0.0], [0.5, 0.0], [1.0, 0.0]], np.float32)
+    np.testing.assert_allclose(laid_over(wind, pressing), [[0.0, 0.5], [0.5, 0.25], [1.0, 0.0]], atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("presser", "inside", "outside"),
+    [
+        (Presser(radius=0.5), [(0.3, 0.3)], [(0.8, 0.0)]),
+        (Presser(radius=0.3, length=2.0), [(0.0, 1.1), (0.0, -1.1), (0.2, 0.4)], [(0.6, 0.0), (0.0, 1.6)]),
+        (
+            Presser(corners=((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))),
+            [(0.0, 0.0), (0.7, 0.7), (-0.7, 0.6)],
+            [(1.6, 0.0), (0.0, -1.6)],
+        ),
+    ],
+    ids=["disc", "capsule", "polygon"],
+)
+def test_f4_a_footprint_is_made_of_discs_that_fill_it(
+    presser: Presser, inside: list[tuple[float, float]], outside: list[tuple[float, float]]
+) -> None:
+    discs = discs_of(presser)
+
+    def covered(place: tuple[float, float], part: float) -> bool:
+        return bool((np.hypot(*(discs[:, :2] - place).T) < part * discs[:, 2]).any())
+
+    assert all(covered(place, 1.0) for place in inside)
+    assert not any(covered(place, BESIDE) for place in outside)
+
+
+@pytest.mark.parametrize(
+    "values",
+    [{"radius": 0.0}, {"length": -1.0}, {"strength": 1.5}, {"corners": ((0.0, 0.0), (1.0, 1.0), (2.0, 2.0))}],
+)
+def test_f4_what_is_no_footprint_is_refused(values: dict[str, object]) -> None:
+    with pytest.raises(ValueError, match=r"footprint|strength"):
+        Presser(**values)  # type: ignore[arg-type]

@@ -1,0 +1,152 @@
+"""Pressers as a game has them: entities with a footprint and a pose, and what `bent_at` says of them (F4)."""
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from time import process_time
+
+import esper
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass import Pose, Presser, Receivers
+from tallgrass.engine.schedule import Phase
+from tallgrass.engine.world import World
+from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.wind.breeze import Breeze
+from tallgrass.testing import LITTLE, little_prairie, step, watch
+
+Floats = NDArray[np.float32]
+
+AROUND = np.stack(np.meshgrid(np.linspace(-3.0, 3.0, 25), np.linspace(-1.0, 1.0, 9)), -1).reshape(-1, 2)
+
+RUN = """
+import sys
+import esper, numpy as np
+from tallgrass import Pose, Presser
+from tallgrass.testing import little_prairie
+steps = int(sys.argv[1])
+place = np.stack(np.meshgrid(np.linspace(-3.0, 3.0, 25), np.linspace(-1.0, 1.0, 9)), -1).reshape(-1, 2)
+with little_prairie() as prairie:
+    runner, cow = (esper.create_entity(Presser(radius=0.4, length=long)) for long in (0.0, 1.5))
+    for number in range(steps + 1):
+        prairie.advance(4.0 / steps if number else 0.0)
+        esper.add_component(runner, Pose(-4.0 + 3.0 * prairie.time, 0.2))
+        esper.add_component(cow, Pose(4.0 - 1.2 * prairie.time, -0.4, 1.5))
+        prairie.bent_at(place[:1])
+    np.save(sys.argv[2], prairie.bent_at(place))
+"""
+
+
+@pytest.fixture
+def prairie(world: World) -> Iterator[Prairie]:
+    del world  # it is made the current one
+    with little_prairie() as made:
+        yield made
+
+
+def walk(prairie: Prairie, entity: int, until: float, *, steps: int = 30) -> None:
+    """Walk east along z = 0, from x = -3 at time 0 on, 1.5 m each second."""
+    begun = prairie.time
+    for _ in range(steps):
+        prairie.advance((until - begun) / steps)
+        esper.add_component(entity, Pose(-3.0 + 1.5 * prairie.time, 0.0, np.pi / 2))
+        prairie.bent_at([(0.0, 0.0)])
+
+
+def test_f4_without_pressers_grass_is_bent_as_the_wind_bends_it(prairie: Prairie) -> None:
+    prairie.add(Breeze(strength=0.4))
+    prairie.advance(1.0)
+    np.testing.assert_array_equal(prairie.bent_at(AROUND), prairie.wind_at(AROUND))
+
+
+def test_f4_a_game_moves_a_presser_by_its_pose_and_is_told_how_grass_is_bent(prairie: Prairie) -> None:
+    walker = esper.create_entity(Presser(radius=0.4), Pose(-3.0, 0.0))
+    walk(prairie, walker, 2.0)
+    bent = prairie.bent_at([(0.0, 0.0), (0.0, 0.45), (2.0, 0.0)], kind="tall")
+    assert bent[0, 0] > 0.95
+    assert bent[1, 1] > 0.25
+    assert np.abs(bent[2]).max() == 0.0
+    assert np.abs(prairie.wind_at(AROUND)).max() == 0.0
+
+
+def test_f4_kinds_stand_up_again_each_in_its_own_time(world: World) -> None:
+    del world
+    with little_prairie(scene=LITTLE.replace("stiffness: 2 }", "stiffness: 2, recovery: 2 }")) as prairie:
+        walker = esper.create_entity(Presser(radius=0.4), Pose(-3.0, 0.0))
+        walk(prairie, walker, 8.0)
+        tall, short = (np.linalg.norm(prairie.bent_at([(0.0, 0.0)], kind=kind)) for kind in ("tall", "short"))
+    assert tall > 0.3
+    assert short < 0.02
+
+
+def test_f4_who_is_taken_away_lets_go_of_the_grass_and_leaves_a_way(prairie: Prairie) -> None:
+    walker = esper.create_entity(Presser(radius=0.4), Pose(-3.0, 0.0))
+    walk(prairie, walker, 2.0)
+    held = float(np.linalg.norm(prairie.bent_at([(0.0, 0.4)])))
+    esper.delete_entity(walker, immediate=True)
+    prairie.advance(0.5)
+    left = prairie.bent_at([(0.0, 0.4), (-1.0, 0.0)])
+    assert np.linalg.norm(left[0]) < 0.7 * held
+    assert np.linalg.norm(left[1]) > 0.5
+
+
+def test_f4_to_ask_again_or_to_draw_in_the_same_frame_changes_nothing(prairie: Prairie) -> None:
+    walker = esper.create_entity(Presser(radius=0.4), Pose(-3.0, 0.0))
+    walk(prairie, walker, 2.0)
+    once = prairie.bent_at(AROUND)
+    watch(prairie)
+    np.testing.assert_array_equal(prairie.bent_at(AROUND), once)
+
+
+def test_f4_what_a_game_reads_of_receivers_is_what_it_is_told_at_their_places(prairie: Prairie) -> None:
+    walker = esper.create_entity(Presser(radius=0.6), Pose(0.0, 17.0))
+    watch(prairie)
+    esper.add_component(walker, Pose(0.6, 17.0))
+    prairie.advance(0.3)
+    watch(prairie)
+    step(prairie, Phase.BLOW)
+    bent = 0.0
+    for _, receivers in esper.get_component(Receivers):
+        if receivers.representation == "blades":
+            kind = receivers.kind
+            for number, name in enumerate(prairie.scene.grass):
+                due = prairie.bent_at(receivers.place[kind == number], kind=name)
+                np.testing.assert_array_equal(receivers.message[kind == number], due)
+                bent = max(bent, float(np.abs(due).max(initial=0.0)))
+    assert bent > 0.8
+
+
+def test_f4_two_processes_with_different_steps_tread_the_same(tmp_path_factory: pytest.TempPathFactory) -> None:
+    folder, found = tmp_path_factory.mktemp("steps"), []
+    for steps in (50, 240):
+        subprocess.run([sys.executable, "-c", RUN, str(steps), str(folder / f"{steps}.npy")], check=True)
+        found.append(np.load(folder / f"{steps}.npy"))
+    assert np.linalg.norm(found[0], axis=1).max() > 0.9
+    np.testing.assert_allclose(found[0], found[1], atol=1e-4)
+
+
+def test_f4_a_hundred_pressers_cost_less_than_a_millisecond(prairie: Prairie) -> None:
+    rng = np.random.default_rng(1)
+    place, yaw = rng.uniform(-25.0, 25.0, (100, 2)), rng.uniform(0.0, 6.3, 100)
+    way = 1.5 / 60 * np.stack([np.sin(yaw), -np.cos(yaw)], axis=1)
+    entities, spent = [esper.create_entity(Presser()) for _ in place], []
+    for _ in range(300):
+        place += way
+        for entity, (x, z), turned in zip(entities, place.tolist(), yaw.tolist(), strict=True):
+            esper.add_component(entity, Pose(x, z, turned))
+        prairie.advance(1 / 60)
+        begun = process_time()
+        prairie.pressers.note(prairie.time)
+        spent.append(process_time() - begun)
+    assert len(prairie.pressers.trodden.settled.marks) > 1000
+    assert np.median(spent) < 1e-3
+
+
+def test_f4_a_polygon_presses_where_its_corners_are_turned_to(prairie: Prairie) -> None:
+    long = ((-0.4, -2.0), (0.4, -2.0), (0.4, 2.0), (-0.4, 2.0))
+    esper.create_entity(Presser(corners=long), Pose(0.0, 0.0, np.pi / 2))
+    ahead, beside = np.linalg.norm(prairie.bent_at([(1.6, 0.05), (0.0, 1.6)]), axis=1)
+    assert ahead > 0.6
+    assert beside == 0.0
