@@ -10,8 +10,10 @@ out vec4 pixel;
 #include "lib/random.glsl"
 #include "lib/shares.glsl"
 #include "lib/carpet.glsl"
+#ifdef TRODDEN
 #include "systems/show/carpet/lit.glsl"
 #include "systems/press/press.glsl"
+#endif
 uniform sampler2DArray images;  // place along the blade, height, twice the azimuth, coverage; premultiplied
 uniform float slopes[SLOPES];
 uniform vec4 first;             // by kind: first layer of the images
@@ -70,6 +72,7 @@ float outline_cover(float slope) {
     return 1.0 - exp(-CREST * leaves * before_crest * before_crest);
 }
 
+#ifdef TRODDEN
 // The light where somebody walks or has walked: a way is narrower than the mesh that light is made out on.
 Sum trodden_light(float slope) {
     vec3 there = seen_at(place, slope, tall, dense);
@@ -89,6 +92,7 @@ Sum trodden_light(float slope) {
     return Sum(max(sum.direct + with.direct - without.direct, 0.0),
                max(sum.open_to + with.open_to - without.open_to, 0.0), sum.shade + with.shade - without.shade);
 }
+#endif
 
 vec3 carpet_light(float slope) {
     ivec2 cell = ivec2(floor(place.xz / soil.w));
@@ -104,8 +108,13 @@ vec3 carpet_light(float slope) {
     fine *= SHARP;
     dx *= fine;
     dy *= fine;
-    Sum light = trodden_at(place.xz) ? trodden_light(slope) : Sum(direct, open_to, shade);
-    Lit lit = Lit(light.direct, light.open_to, light.shade.x, vec2(light.shade.y, OPEN_SKY), light.shade.zw);
+    Lit lit = Lit(direct, open_to, shade.x, vec2(shade.y, OPEN_SKY), shade.zw);
+#ifdef TRODDEN
+    if (trodden_at(place.xz)) {
+        Sum light = trodden_light(slope);
+        lit = Lit(light.direct, light.open_to, light.shade.x, vec2(light.shade.y, OPEN_SKY), light.shade.zw);
+    }
+#endif
     // A blade's doubled azimuth against the line of sight; what it is against the world's axes is as far turned.
     float sight = heading.x * heading.x - heading.y * heading.y, aside = 2.0 * heading.x * heading.y;
     vec2 seen = elevation_seen(slope);

@@ -1,6 +1,7 @@
 """Drawing the ground, and on it the 2D carpet: square tiles that grow coarser with distance."""
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 
 import moderngl
 import numpy as np
@@ -146,6 +147,11 @@ class _Layer:
         return int(self.stream.count > 0)
 
 
+def _tell(layer: _Layer, told: Mapping[str, object]) -> None:
+    for name, value in told.items():
+        layer.program[name] = value
+
+
 class GroundPainter:
     """Draws ground and carpet."""
 
@@ -181,15 +187,26 @@ class GroundPainter:
         self.bare = layer({}, self.streams[0])
         self.under = layer({**laid, "UNDER": 1}, self.streams[1])
         self.carpet = layer(laid, self.streams[2])
+        self.is_trodden = False
+        """Whether anybody treads the grass, or has: then pixels of the carpet ask for that, which costs."""
+        self._trodden: _Layer | None = None
+        self._make_trodden = partial(layer, {**laid, "TRODDEN": 1}, self.streams[2])
         images = [len(growth.models) * len(slopes) * 4 for growth in growths]
-        self.carpet.program["slopes"] = slopes.tolist()
-        self.carpet.program["first"] = by_kind([sum(images[:index]) for index in range(len(images))])
-        self.carpet.program["stock"] = (len(growths[0].models), seed)
+        self._told: dict[str, object] = {
+            "slopes": slopes.tolist(),
+            "first": by_kind([sum(images[:index]) for index in range(len(images))]),
+            "stock": (len(growths[0].models), seed),
+        }
+        _tell(self.carpet, self._told)
         self.raise_carpet(RAISED)
 
     def _tell(self, name: str, value: object) -> None:
-        for layer in (self.under, self.carpet):
+        self._told[name] = value
+        for layer in (self.under, self.carpet, *self._when_trodden()):
             layer.program[name] = value
+
+    def _when_trodden(self) -> list[_Layer]:
+        return [] if self._trodden is None else [self._trodden]
 
     def write(self, tiles: NDArray[np.void], laid: NDArray[np.bool_], terrain: Terrain) -> None:
         """Send the tiles (n,), and on which of them carpet may lie; under it something lies where there is terrain."""
@@ -216,10 +233,15 @@ class GroundPainter:
 
     def draw_carpet(self) -> int:
         """Draw the carpet, whose outlines let through what is behind them; return the number of draw calls."""
-        return self.carpet.draw()
+        if not self.is_trodden:
+            return self.carpet.draw()
+        if self._trodden is None:
+            self._trodden = self._make_trodden()
+            _tell(self._trodden, self._told)
+        return self._trodden.draw()
 
     def release(self) -> None:
         """Give everything back."""
-        layers = (self.bare, self.under, self.carpet)
+        layers = (self.bare, self.under, self.carpet, *self._when_trodden())
         release_all(*(layer.array for layer in layers), *(layer.program for layer in layers))
         release_all(*self.streams, *self.grid, self.shares)

@@ -64,6 +64,7 @@ class CarpetPainter:
         """Send the tiles of the ground, and how much carpet lies on each patch; it has no blades."""
         assert outlook.appearance is not None
         self.lay(outlook, outlook.appearance.cover[-1])
+        self.ground.is_trodden = bool(outlook.trodden)
         self._heard = outlook.viewer.centre, first["carpet"][0], outlook.kept["carpet"]
         return 0
 
