@@ -26,7 +26,7 @@ SCENE = """\
 tallgrass: 2
 terrain: { noise: flat, size: [60, 60] }
 grass:
-  tall: { height: [0.4, 0.6], width: 0.02, lean: 0.2, variety: 0.1, taper: 1.0, clumping: 0.0, gloss: 0.0 }
+  tall: { height: [0.4, 0.6], width: 0.02, lean: 0.2, variety: 0.1, clumping: 0.0, gloss: 0.0 }
 camera: { position: [0, 20], view: 65 }
 quality:
   blades: 200

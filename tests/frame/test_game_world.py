@@ -31,6 +31,9 @@ HERE = np.array([[0.0, 0.0], [3.0, 4.0], [-9.0, 14.0]], np.float32)
 BESIDE = np.array([[0.0, 8.5]], np.float32)
 """Where a runner is passed by, a little to its side."""
 
+SEEN = np.array([[0.0, 12.5]], np.float32)
+"""A place that no crest hides."""
+
 numbers = count()
 
 
