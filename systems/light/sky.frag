@@ -13,8 +13,9 @@ const float WIDE = 900.0;    // how narrow the aureole is about it
 vec3 clouded(vec3 light, vec3 toward) {
     vec2 at = eye.xz + toward.xz * (CLOUDS_AT / max(toward.y, 0.02));
     vec2 square = at / CLOUDS_SIDE - drift.xy;
-    float dense = textureLod(repeating, square, 0.0).r;
-    dense = smoothstep(1.0 - sunlight.w, 1.5 - sunlight.w, dense) * smoothstep(0.02, 0.16, toward.y);
+    // Far off the square repeats often and finely: its mean stands for it, and then haze.
+    float dense = textureLod(repeating, square, max(log2(0.35 / max(toward.y, 0.02)), 0.0)).r;
+    dense = smoothstep(1.0 - sunlight.w, 1.5 - sunlight.w, dense) * smoothstep(0.02, 0.3, toward.y);
     float ahead = 0.5 + 0.5 * dot(toward, sun.xyz);
     vec3 lit = skylight.rgb * 0.9 + sunlight.rgb * (0.75 - 0.4 * dense + 0.5 * ahead * ahead * ahead * (1.0 - dense));
     return mix(light, lit, 0.9 * dense);
