@@ -8,7 +8,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from ..figures.page import STYLE
+from ..figures.page import STYLE, document
 from ..figures.plot import look
 from .plots import PLOTS, Plot, Told, color
 
@@ -25,17 +25,7 @@ def page(told: Told, before: Told | None = None, /) -> str:
     times = [told] if before is None else [before, told]
     plots = "\n".join(_shown(plot, times) for plot in PLOTS)
     title = f"tallgrass {told['version']}: {told['scene']}, {told['preset']}"
-    return f"""\
-<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{escape(title)}</title>
-<style>
-{STYLE}{TABLE}</style>
-</head>
-<body>
+    body = f"""\
 <header>
 <h1>{escape(title)}</h1>
 {_machines(times)}
@@ -47,10 +37,8 @@ def page(told: Told, before: Told | None = None, /) -> str:
 {_table(times)}
 </details>
 </main>
-<footer>Made by <code>tallgrass bench all</code>.</footer>
-</body>
-</html>
-"""
+<footer>Made by <code>tallgrass bench all</code>.</footer>"""
+    return document(title, STYLE + TABLE, body)
 
 
 def _machines(times: Sequence[Told]) -> str:

@@ -33,21 +33,30 @@ figcaption p { margin: 0.3rem 0 0; }
 """
 
 
-def index_page(figures: Sequence[PaperFigure], /) -> str:
-    """Return the HTML page of figures whose files lie beside it; it needs nothing from elsewhere."""
-    links = "\n".join(f'<a href="#figure-{each.number}">{each.number}. {escape(each.title)}</a>' for each in figures)
-    shown = "\n".join(_figure(each) for each in figures)
+def document(title: str, style: str, body: str, /) -> str:
+    """Return a whole HTML page, of a title in plain text, its style and its body; it needs nothing from elsewhere."""
     return f"""\
 <!doctype html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<title>The figures of Animating Prairies in Real-Time, drawn by tallgrass</title>
+<title>{escape(title)}</title>
 <style>
-{STYLE}</style>
+{style}</style>
 </head>
 <body>
+{body}
+</body>
+</html>
+"""
+
+
+def index_page(figures: Sequence[PaperFigure], /) -> str:
+    """Return the HTML page of figures whose files lie beside it."""
+    links = "\n".join(f'<a href="#figure-{each.number}">{each.number}. {escape(each.title)}</a>' for each in figures)
+    shown = "\n".join(_figure(each) for each in figures)
+    body = f"""\
 <header>
 <h1>Animating Prairies in Real-Time: the figures</h1>
 <p>Drawn by tallgrass {escape(__version__)}. Numbers and subjects are those of the paper: {PAPER}.</p>
@@ -58,10 +67,8 @@ def index_page(figures: Sequence[PaperFigure], /) -> str:
 <main>
 {shown}
 </main>
-<footer>Made by <code>tallgrass figures</code>.</footer>
-</body>
-</html>
-"""
+<footer>Made by <code>tallgrass figures</code>.</footer>"""
+    return document("The figures of Animating Prairies in Real-Time, drawn by tallgrass", STYLE, body)
 
 
 def _figure(each: PaperFigure) -> str:

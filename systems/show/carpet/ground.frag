@@ -133,8 +133,8 @@ vec3 carpet_light(float slope) {
         image.a = clamp(image.a, 0.0, 1.0);
         image.rgb = clamp(image.rgb, 0.0, image.a);
         vec3 mean_of = image.rgb / max(image.a, 1e-3);
-        vec3 grain = (grain_c[kind].rgb * sight + grain_s[kind].rgb * aside) * (2.0 * mean_of.b - 1.0);
-        vec3 pigment = mix(root[kind].rgb, tip[kind].rgb, mean_of.r) * dry * (1.0 + grain);
+        vec3 tint = (grain_c[kind].rgb * sight + grain_s[kind].rgb * aside) * (2.0 * mean_of.b - 1.0);
+        vec3 pigment = mix(root[kind].rgb, tip[kind].rgb, mean_of.r) * dry * (1.0 + tint);
         sum += met[kind] * image.a * vec4(radiance(pigment, mean_of.g, lit), 1.0);
     }
     return sum.rgb + soil_seen * (1.0 - min(sum.a, 1.0));
