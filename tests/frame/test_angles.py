@@ -56,6 +56,15 @@ def test_g3_no_rows_show_from_twelve_metres_up_or_in_a_lawn(ctx: moderngl.Contex
     assert rows(drawn) < 1.5 * rows(true)
 
 
+def test_g3_no_rows_show_where_a_whirlwind_lays_grass_towards_the_eye(ctx: moderngl.Context, wide: Stage) -> None:
+    prairie = Prairie.load("whirlwind", ctx=ctx, live=False)
+    prairie.advance(7.0)
+    camera = camera_at(prairie.scene.camera, 7.0, prairie.height_at)
+    drawn, true = (picture[:, 300:420] for picture in both(wide, prairie, camera))
+    prairie.release()
+    assert rows(drawn) < 1.5 * rows(true)
+
+
 @pytest.mark.parametrize("heading", [0, 20, 40, 60])
 def test_g4_blades_of_the_carpet_stand_upright_whichever_way_they_are_seen(
     load: Load, wide: Stage, heading: int

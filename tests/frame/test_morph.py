@@ -341,6 +341,16 @@ def bent(scene: Scene, kind: NDArray[np.int64], message: NDArray[np.float32]) ->
     return np.stack([heading[:, 0] * ahead, up, heading[:, 1] * ahead], axis=1)
 
 
+def laid_back(run: Doubles, foot: Doubles, top: Doubles, height: Doubles, spacing: float) -> Doubles:
+    """How far the tops of strips lie back, so that none is seen on edge: `foot` (n, 3) is told from the eye."""
+    off = np.column_stack([-run[:, 1], np.zeros(len(run)), run[:, 0]]) / np.linalg.norm(run, axis=1)[:, None]
+    off *= np.sign((off * foot).sum(axis=1, keepdims=True))
+    behind = (off * foot).sum(axis=1) / np.maximum(-foot[:, 1], 0.01)
+    least = np.minimum(2.0 * spacing, height * behind)
+    back = np.clip(least - (off * top).sum(axis=1) - top[:, 1] * behind, 0.0, 2.0 * least)
+    return np.asarray(off * back[:, None])
+
+
 def test_w1_a_strip_stands_between_two_edges_on_the_ground_each_bent_as_numpy_says(scene: Scene) -> None:
     everything, stock, quality = strips_drawn(scene), scene.representation.stock, scene.representation.quality
     clip = scene.painter.record[0]["clip"].reshape(4, 4).astype(float)
@@ -363,7 +373,9 @@ def test_w1_a_strip_stands_between_two_edges_on_the_ground_each_bent_as_numpy_sa
         for side in (0, 1):
             at, message = (each[patch, kind, stack, column + side] for each in (places, heard))
             foot = np.column_stack([at[:, 0], scene.prairie.height_at(at), at[:, 1]])
-            tip = foot + height[:, None] * bent(scene, kind, message)
+            top = height[:, None] * bent(scene, kind, message)
+            run = np.diff([places[patch, kind, stack, column + end] for end in (0, 1)], axis=0)[0]
+            tip = foot + top + laid_back(run, foot - scene.outlook.viewer.eye, top, height, quality.patch / count)
             for place, vertex in ((foot, side), (tip, 2 * quality.strip_rings[number].sections + side)):
                 expected = np.column_stack([place, np.ones(len(place))]) @ clip
                 np.testing.assert_allclose(everything.clip[here, vertex], expected, atol=5e-3)

@@ -3,6 +3,7 @@
 #include "lib/light.glsl"
 #include "lib/posture.glsl"
 #include "lib/received.glsl"
+#include "lib/stack.glsl"
 
 uniform sampler2D targets;    // (u, v) of POINTS points for each blade
 uniform ivec4 stacks[RINGS];  // by ring: columns of a strip, sections of a column, strips of a kind on a patch
@@ -11,6 +12,7 @@ uniform vec4 tall;            // by kind: height of the strips [m]
 struct Edge {
     vec3 foot;
     vec2 bend;
+    vec2 back;     // how far its top lies back
 };
 
 struct Painted {
@@ -22,16 +24,18 @@ struct Painted {
     vec2 bend;     // mean of the two
 };
 
-Edge edge_at(vec4 base, int receiver, int edge, int kind) {
+Edge edge_at(vec4 base, int receiver, int edge, int kind, int count, float height) {
     vec4 told = received_by(receiver + edge);
-    vec2 foot = base.xy + base.zw * float(edge);
-    return Edge(vec3(foot.x, told.z, foot.y), bending(kind, told.xy));
+    vec2 at = base.xy + base.zw * float(edge), bend = bending(kind, told.xy);
+    vec3 foot = vec3(at.x, told.z, at.y), top = posture(float(kind) * field.w, bend, 1.0).place * height;
+    return Edge(foot, bend, laid_back(base.zw, foot, top, height, count));
 }
 
 // The point at `part` of an edge's length, on a strip of this height [m], and its height in the canopy.
 vec4 on_edge(Edge edge, int kind, float part, float height) {
     vec3 spine = posture(float(kind) * field.w, edge.bend, part).place;
-    return vec4(edge.foot + spine * height, spine.y * tall[kind] / (crown[kind] * lodged(edge.bend)));
+    vec3 back = vec3(edge.back.x, 0.0, edge.back.y) * part;
+    return vec4(edge.foot + spine * height + back, spine.y * tall[kind] / (crown[kind] * lodged(edge.bend)));
 }
 
 vec2 target_at(int number, int point) {
@@ -51,7 +55,8 @@ Painted painted_at(vec4 base, int receiver, int blade, float height, float t, in
     way *= fineness;
     ivec2 quad = clamp(ivec2(uv), ivec2(0), ivec2(fineness) - 1);
     vec2 part = uv - vec2(quad);
-    Edge a = edge_at(base, receiver, quad.x, kind), b = edge_at(base, receiver, quad.x + 1, kind);
+    int count = stacks[ring].z;
+    Edge a = edge_at(base, receiver, quad.x, kind, count, height), b = edge_at(base, receiver, quad.x + 1, kind, count, height);
     float low = float(quad.y) / fineness.y, high = float(quad.y + 1) / fineness.y;
     vec4 near = on_edge(b, kind, low, height), far = on_edge(a, kind, high, height);
     // A quad is two triangles, parted from the second edge's foot to the first edge's head.

@@ -22,3 +22,16 @@ vec2 edge_foot(vec2 cell, int turn, int own, int plane, int count, int edge, int
     vec2 local = (own == 0 ? vec2(u, v) : vec2(v, u)) - 0.5 * side;
     return cell * side + turned_by(local, turn) + 0.5 * side;
 }
+
+const float SPREAD = 2.0;  // ways between strips that one must reach over, as it is seen from the eye
+
+// How far the top of a strip of some height lies back from its foot (x, z) [m], beyond where its posture `top` has it [m].
+// Seen along its bent blades, a strip would be a line with bare ground on both sides; but those blades have their roots side
+// by side in a slice of the ground, and hide that. `run` is a way along the strip; so many strips stand on a patch.
+vec2 laid_back(vec2 run, vec3 foot, vec3 top, float height, int strips) {
+    vec2 off = normalize(vec2(-run.y, run.x)), ray = foot.xz - eye.xz;
+    off *= sign(dot(off, ray));
+    float behind = dot(ray, off) / max(eye.y - foot.y, 0.01);  // what a metre of height hides of the ground [m]
+    float least = min(SPREAD * soil.w / float(strips), height * behind), reach = dot(top.xz, off) + top.y * behind;
+    return off * clamp(least - reach, 0.0, 2.0 * least);
+}

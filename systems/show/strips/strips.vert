@@ -58,11 +58,13 @@ float pixels_at(vec3 place) {
 }
 
 // Where a point of an edge is, `t` of the way up its section's quads, and its height in the canopy.
-vec4 on_edge(vec3 foot, vec2 bend, float t, int k, float sections, float growth) {
+vec4 on_edge(vec3 foot, vec2 bend, vec2 run, int count, float t, int k, float sections, float growth) {
     float low = min(floor(t * sections), sections - 1.0), variant = float(k) * field.w;
     vec3 from = posture(variant, bend, low / sections).place, to = posture(variant, bend, (low + 1.0) / sections).place;
     vec3 spine = mix(from, to, t * sections - low) * tall[k];
-    return vec4(foot + spine * growth, spine.y / (crown[k] * lodged(bend)));
+    float height = tall[k] * growth;
+    vec2 back = laid_back(run, foot, posture(variant, bend, 1.0).place * height, height, count) * t;
+    return vec4(foot + spine * growth + vec3(back.x, 0.0, back.y), spine.y / (crown[k] * lodged(bend)));
 }
 
 void main() {
@@ -92,7 +94,9 @@ void main() {
     float across = (gl_VertexID & 1) == 1 ? min(extent.y + beside, 1.0) : max(extent.x - beside, 0.0);
     float t = min(float(gl_VertexID / 2) / float(fine.y), min(extent.z + 1.0 / (pixels * tall[k]), 1.0));
     vec2 bend_a = bending(k, told_a.xy), bend_b = bending(k, told_b.xy);
-    vec4 point = mix(on_edge(a, bend_a, t, k, float(fine.y), how.y), on_edge(b, bend_b, t, k, float(fine.y), how.y), across);
+    vec2 way = b.xz - a.xz;
+    float sections = float(fine.y);
+    vec4 point = mix(on_edge(a, bend_a, way, count, t, k, sections, how.y), on_edge(b, bend_b, way, count, t, k, sections, how.y), across);
     gl_Position = clip * vec4(point.xyz, 1.0);
     at = vec2((float(column) + across) / float(fine.x), t) * picture_to[picture];
     vec4 here = lie_at(middle.xz);
