@@ -106,7 +106,7 @@ def built_in(
         (Phase.SEE, "cull", Cull(outlooks, patch, site.sway)),
         (Phase.SEE, "lod", ChooseLevels(outlooks, reach, site.choosy, SLACK if change.hysteresis else 0)),
         (Phase.SEE, "transition", Transition(outlooks, shown, reach, patch, change)),
-        (Phase.SEE, "see", See(outlooks, shown, reach, patch, change)),
+        (Phase.SEE, "see", See(outlooks, shown, reach, patch, change, site.choosy)),
         (Phase.BLOW, "plant", Plant(outlooks, shown, entities.world)),
         (Phase.BLOW, "wind", Blow(outlooks, now, hear, site.growths)),
         (Phase.DRAW, "gather", Gather(outlooks, painter, bodies, shades)),

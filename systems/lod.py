@@ -82,7 +82,7 @@ class ChooseLevels:
             none = settled.view(np.int8) - np.int8(1)  # 0 where settled, elsewhere -1, which has all bits
             held = patches.representation | none
             reach = outlook.drawn_in(self.reach)
-            patches.wanted[:] = wanted_representation(patches.distance, held, reach=reach, slack=self.slack)
+            patches.wanted[:] = wanted_representation(patches.away, held, reach=reach, slack=self.slack)
             self._pass_on(outlook, held)
 
     def _pass_on(self, outlook: Outlook, held: Levels) -> None:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .around.appearance import Appearance, appearance, kept_near
+from .around.cone import seen_from
 from .around.outlook import Outlook
 from .around.representation import Representation
 from .around.transitions import SEAMLESS, Transitions
@@ -17,18 +18,30 @@ Rows = NDArray[np.int64]
 
 
 def strips_kept(
-    outlook: Outlook, rows: Rows | slice = slice(None), /, *, reach: tuple[int, ...], patch: float
+    outlook: Outlook,
+    rows: Rows,
+    /,
+    *,
+    reach: tuple[int, ...],
+    patch: float,
+    choosy: tuple[Representation, ...],
 ) -> Floats:
-    """Return how much of the strips the distance leaves on each patch, shape (rows,); `patch` is its side [m].
+    """Return how much of the strips distance and view leave on patches (n,), shape (n,); `patch` is a side [m].
 
-    It leaves all of them where something else than the carpet comes after them.
+    They leave all of them where something else than the carpet comes after them.
     """
-    limit = reach[outlook.patches.names.index("strips")]
+    number = outlook.patches.names.index("strips")
+    limit = reach[number]
     if limit < reach[-2]:
-        return np.ones(len(outlook.patches.progress[rows]), np.float32)
+        return np.ones(len(rows), np.float32)
     (x, z), eye = outlook.patches.middle.T, outlook.viewer.eye
-    away = np.maximum(np.abs(x[rows] - np.float32(eye[0])), np.abs(z[rows] - np.float32(eye[2])))
-    return kept_near(away / np.float32(patch), reach=limit * outlook.range)
+    along = np.maximum(np.abs(x[rows] - np.float32(eye[0])), np.abs(z[rows] - np.float32(eye[2]))) / np.float32(patch)
+    away = seen_from(along, outlook.patches.height[rows], eye[1], patch=patch)
+    kept = kept_near(away, reach=limit * outlook.range)
+    if not choosy:
+        return kept
+    free = outlook.patches.hold[rows] < 0  # what a game holds is not asked whether it would do
+    return np.where(free, np.minimum(kept, choosy[number].left(outlook, rows)), kept)
 
 
 @dataclass(slots=True)
@@ -42,6 +55,9 @@ class See:
     """Side of a patch [m]."""
 
     transitions: Transitions = SEAMLESS
+
+    choosy: tuple[Representation, ...] = ()
+    """The representations that may pass patches on to coarser ones."""
 
     def run(self) -> None:
         """See for every viewer that looks."""
@@ -58,6 +74,6 @@ class See:
         patches, last = outlook.patches, len(self.representations) - 1
         finer = (patches.representation != last) | (patches.previous != last)
         rows = (patches.alive & finer & (patches.near | patches.visible)).nonzero()[0]
-        kept = strips_kept(outlook, rows, reach=self.reach, patch=self.patch)
+        kept = strips_kept(outlook, rows, reach=self.reach, patch=self.patch, choosy=self.choosy)
         seen = appearance(weights(patches, rows), kept, transitions=self.transitions, names=patches.names)
         return seen.among(rows, len(patches.progress))

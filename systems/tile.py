@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ..engine.random import hash3
 from ..engine.terrain.record import Terrain
 from ..engine.terrain.sample import height_at, slope_at
-from .around.cone import discrete_distance, nearness
+from .around.cone import discrete_distance, nearness, seen_from
 from .around.outlook import Outlook
 from .around.patches import PatchTable
 from .around.window import window_cells
@@ -102,5 +102,6 @@ class Tile:
             patches, viewer = outlook.patches, outlook.viewer
             viewer.centre = cell_stood_in(viewer.eye, viewer.centre, patch=self.patch)
             fresh = tile(patches, viewer.centre, self.terrain, patch=self.patch, seed=self.seed, models=self.models)
+            patches.away[:] = seen_from(patches.distance, patches.height, viewer.eye[1], patch=self.patch)
             self.entities.leave(outlook, fresh)
             self.entities.enlist(outlook)

@@ -15,6 +15,12 @@ Doubles = NDArray[np.float64]
 Rows = list[list[float]]
 """The rows of a matrix."""
 
+WALKER = 2.0
+"""Height of eyes that the reaches of representations are made for [m]."""
+
+HIGH = 0.7
+"""What a metre of height above a walker's eyes counts, of one along the ground."""
+
 HALF_DIAGONAL = 0.7072
 """Distance from the middle of a square to its corners, of its side."""
 
@@ -95,6 +101,19 @@ def discrete_distance(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> 
 def cells_apart(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Return how many cells (..., 2) are away along x, and along z, each of shape (...)."""
     return np.abs(cell[..., 0] - centre[0]), np.abs(cell[..., 1] - centre[1])
+
+
+def seen_from(
+    distance: NDArray[np.generic], height: NDArray[np.float32], eye: float, /, *, patch: float
+) -> NDArray[np.float32]:
+    """Return how far away [patch sides] patches are to an eye at some height [m], shape (n,).
+
+    `distance` is how far they are along the ground [patch sides], and `height` their ground's [m], both (n,). Of the
+    way up from a walker's eyes only `HIGH` counts: from above grass does not hide other grass, so finer representations
+    are told from coarser ones for longer.
+    """
+    up = np.maximum(np.float32(eye - WALKER) - height, np.float32(0.0)) * np.float32(HIGH / patch)
+    return np.asarray(np.hypot(distance, up), np.float32)
 
 
 def far_to_near(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArray[np.int64]:

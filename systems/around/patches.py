@@ -48,6 +48,9 @@ class PatchTable:
     distance: NDArray[np.int32]
     """Discrete distance, shape (rows,)."""
 
+    away: NDArray[np.int32]
+    """Discrete distance of what is seen there: from high above it is farther away than on the ground, shape (rows,)."""
+
     nearness: NDArray[np.int16]
     """A number that rises in the order in which patches are drawn, from far to near, shape (rows,)."""
 
@@ -125,6 +128,7 @@ class PatchTable:
             model=np.zeros(rows, np.int32),
             turn=np.zeros(rows, np.int32),
             distance=np.zeros(rows, np.int32),
+            away=np.zeros(rows, np.int32),
             nearness=np.zeros(rows, np.int16),
             visible=np.zeros(rows, np.bool_),
             near=np.zeros(rows, np.bool_),

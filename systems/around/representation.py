@@ -219,6 +219,10 @@ class Representation(ABC):
         """
         return np.zeros(len(rows), np.bool_)
 
+    def left(self, outlook: Outlook, rows: Rows, /) -> NDArray[np.float32]:  # noqa: ARG002 - the same
+        """Return how much of it is left to be seen on patches (n,) where it comes near to being unfit, from 1 to 0."""
+        return np.ones(len(rows), np.float32)
+
     @abstractmethod
     def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> object:
         """Return what of it a viewer is shown in this frame; `cover` (rows,) says how much it shows on each patch."""

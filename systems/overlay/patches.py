@@ -60,7 +60,8 @@ def patch_colors(outlook: Outlook, site: Site, /) -> Floats:
 def patch_weights(outlook: Outlook, site: Site, /) -> Floats:
     """Return how much each representation counts on each patch, (representations, rows), the strips' border too."""
     share, strips = weights(outlook.patches), outlook.patches.names.index("strips")
-    kept = strips_kept(outlook, reach=site.reach, patch=site.ground.patch)
+    every = np.arange(len(outlook.patches.progress))
+    kept = strips_kept(outlook, every, reach=site.reach, patch=site.ground.patch, choosy=site.choosy)
     handed = share[strips] * (1.0 - kept)
     share[strips] -= handed
     share[-1] += handed

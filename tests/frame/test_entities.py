@@ -97,7 +97,7 @@ def test_d2_a_processor_flattens_one_patch_through_its_receivers_and_no_other_ch
         esper.process()
         flat = easel.shot(prairie, ABOVE)
     changed = apart(before, flat)
-    around = on_patch(easel, PLACES[name], beyond=1.3 if name == "carpet" else 0.8)
+    around = on_patch(easel, PLACES[name], beyond=0.8 if name == "blades" else 1.3)
     assert (changed > 2.0).sum() > FEWEST[name]
     assert changed[around].sum() > 0.99 * changed.sum()
     assert changed[~around].max() <= 15.0
@@ -142,7 +142,7 @@ def test_d2_a_patch_taken_away_leaves_ground_and_comes_back(
     else:
         esper.delete_entity(entity, immediate=True)
     bare = easel.shot(prairie, ABOVE)
-    around = on_patch(easel, PLACES[name], beyond=1.3 if name == "carpet" else 0.8)
+    around = on_patch(easel, PLACES[name], beyond=0.8 if name == "blades" else 1.3)
     changed = apart(before, bare)
     assert (changed > 8.0).sum() > FEWEST[name] / 2
     assert changed[~around].max() <= 15.0

@@ -32,7 +32,7 @@ quality:
   blades: 60
   models: 1
   blade_rings: [{ to: 2, segments: 2 }]
-  strip_rings: [{ to: 7, strips: 3, columns: 1, sections: 1, texel: 0.03 }]
+  strip_rings: [{ to: 7, strips: 6, columns: 1, sections: 1, texel: 0.03 }]
   carpet_to: 12
   carpet: 16
 """
@@ -67,8 +67,8 @@ def apart(one: Picture, other: Picture) -> NDArray[np.bool_]:
 
 @pytest.fixture
 def above(camera: Aim) -> Camera:
-    """A look straight down from 16 m, 13 m of ground from top to bottom."""
-    return camera(0.0, 16.0, 0.0, pitch=-90)
+    """A look straight down from 12 m, 10 m of ground from top to bottom."""
+    return camera(0.0, 12.0, 0.0, pitch=-90)
 
 
 def test_n8_without_an_overlay_the_picture_is_the_same_bit_for_bit(

@@ -48,7 +48,7 @@ def test_cull_keeps_the_patches_in_the_view_cone(world: World) -> None:
 
 def test_lod_wants_the_representation_of_each_distance(world: World) -> None:
     outlook = viewer_on(SITE, world)
-    outlook.patches.distance[:4] = (0, 2, 3, 9)
+    outlook.patches.away[:4] = (0, 2, 3, 9)
     ChooseLevels([outlook], SITE.reach).run()
     names = outlook.patches.names
     assert [names[level] for level in outlook.patches.wanted[:4]] == ["blades", "blades", "strips", "carpet"]

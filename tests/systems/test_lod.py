@@ -279,7 +279,7 @@ def test_t4_a_forced_representation_has_all_the_range() -> None:
 def test_the_system_writes_what_is_due_and_changes_nothing_else() -> None:
     outlook = Outlook(Viewer(jumped=False), 0, PatchTable.allocate(3, NAMES))
     patches = outlook.patches
-    patches.distance[:] = np.arange(9)
+    patches.away[:] = np.arange(9)
     patches.visible[:] = patches.was_visible[:] = True
     patches.visible[3] = patches.was_visible[6] = False
     patches.representation[:] = patches.previous[:] = [0, 0, 0, 0, 1, 1, 1, 2, 2]
@@ -396,7 +396,7 @@ class Choosy(StripRepresentation):
 
 def test_a_representation_passes_patches_that_it_would_not_do_for_on_to_the_next() -> None:
     outlook = Outlook(Viewer(jumped=False), 0, PatchTable.allocate(3, NAMES))
-    outlook.patches.distance[:] = np.arange(9)
+    outlook.patches.away[:] = np.arange(9)
     outlook.patches.visible[:] = True
     ChooseLevels([outlook], REACH).run()
     alone = outlook.patches.wanted.copy()

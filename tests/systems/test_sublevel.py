@@ -17,10 +17,13 @@ from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.lod import SLACK
 from tallgrass.systems.show.blades.sublevel import blade_ring
 from tallgrass.systems.show.strips.sublevel import (
+    APART,
     CROSSED,
     ENOUGH,
+    SINKING,
     TIGHTER,
     axis_of,
+    left_of,
     packed,
     ring_of,
     shows_rows,
@@ -60,7 +63,7 @@ def test_f1_strips_are_coarser_with_distance_and_finer_seen_from_above(
 
 @given(st.floats(-2.0, 20.0), st.floats(0.05, 3.0), st.booleans())
 def test_g3_strips_show_as_rows_where_a_line_of_sight_crosses_too_few(slope: float, height: float, has: bool) -> None:  # noqa: FBT001
-    at = np.array([slope], np.float32), np.array([has])
+    at = np.array([slope], np.float32), np.array([2], np.int32), np.array([has])
     crossed = height / (0.3 * slope) if slope > 0.0 else np.inf
     slow = shows_rows(*at, height=height, spacing=0.3, slack=SLACK)[0]
     assert shows_rows(*at, height=height, spacing=0.3, slack=0)[0] == (crossed < CROSSED) or crossed == pytest.approx(
@@ -68,6 +71,20 @@ def test_g3_strips_show_as_rows_where_a_line_of_sight_crosses_too_few(slope: flo
     )
     kept = crossed * (TIGHTER if has else 1.0)
     assert slow == (kept < CROSSED) or kept == pytest.approx(CROSSED)
+
+
+@given(st.floats(0.05, 20.0), st.integers(0, 40), st.floats(0.05, 3.0))
+def test_g3_strips_have_sunk_before_they_show_as_rows(slope: float, distance: int, height: float) -> None:
+    def at(distance: int) -> tuple[bool, float]:
+        where = np.array([slope], np.float32), np.array([distance], np.int32)
+        rows = shows_rows(*where, np.array([False]), height=height, spacing=0.3, slack=0)
+        return bool(rows[0]), float(left_of(*where, height=height, spacing=0.3)[0])
+
+    shows, left = at(distance)
+    assert left == 0.0 if shows else left > -1e-6
+    assert at(distance + 5)[0] >= shows
+    assert at(distance + 5)[1] <= left
+    assert left == 1.0 or slope * 0.3 * CROSSED * max(distance / APART, 1.0) > 0.99 * SINKING * height
 
 
 def test_the_viewing_slope_is_the_grounds_own_slope_and_the_eyes_height(laid: Laid, look: Look) -> None:

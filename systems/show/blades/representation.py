@@ -74,7 +74,7 @@ class BladeRepresentation(Representation):
     def sublevels(self, outlook: Outlook, rows: Rows, held: Levels, /, *, slack: int) -> Levels:
         """Return the ring that is due on patches (n,)."""
         limits = np.array(outlook.rings_in(tuple(ring.to for ring in self.quality.blade_rings[:-1])), np.float32)
-        return blade_ring(outlook.patches.distance[rows], held, limits, slack=slack)
+        return blade_ring(outlook.patches.away[rows], held, limits, slack=slack)
 
     def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> BladesShown:
         """Return the patches with blades, by ring, and those on their way."""

@@ -15,7 +15,7 @@ out vec4 pixel;
 #include "systems/press/press.glsl"
 #endif
 uniform sampler2DArray images;  // place along the blade, height, twice the azimuth, coverage; premultiplied
-uniform float slopes[SLOPES];
+uniform float slopes[SLOPES];   // logarithms of their viewing slopes
 uniform vec4 first;             // by kind: first layer of the images
 uniform ivec2 stock;            // patch models; seed
 
@@ -42,10 +42,11 @@ vec2 rotated(vec2 v, vec2 by) {
 }
 
 // Which of the viewing elevations' images a ray sees: the first of two by number, and how far it is on the way to the next.
+// A ray meets leaves as the reciprocal of its slope, so the way is told by the slope's logarithm.
 vec2 elevation_seen(float slope) {
-    float row = 0.0;
+    float row = 0.0, at = log(max(slope, 1e-4));
     for (int i = 0; i < SLOPES - 1; i++)
-        row += clamp((slope - slopes[i]) / (slopes[i + 1] - slopes[i]), 0.0, 1.0);
+        row += clamp((at - slopes[i]) / (slopes[i + 1] - slopes[i]), 0.0, 1.0);
     float low = min(floor(row), float(SLOPES - 2));
     return vec2(low, row - low);
 }
@@ -58,7 +59,8 @@ float sharper(vec2 dx, vec2 dy) {
 
 const float GRAIN = 1.5;  // how far images are from their mean, for what filtering takes away
 const float COARSEST = 16.0; // or the last level that there is
-const float SHARP = 0.4;  // size of what is taken from the images for a pixel, of the pixel's own
+const float SHARP = 0.4;  // size of what is taken from the images for a pixel, of the pixel's own; from above it is
+                          // all of it, as nothing is hidden by something else
 const float LEAST = 0.01; // height of the carpet where nothing grows, so that nothing is divided by 0 [m]
 
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,
@@ -94,7 +96,13 @@ Sum trodden_light(float slope) {
 }
 #endif
 
-vec3 carpet_light(float slope) {
+// What is shown of radiance behind the haze.
+vec3 past_haze(vec3 light) {
+    return shown_of(mix(light, veil.rgb, veil.w));
+}
+
+// What the carpet shows: of grass and of the ground between, as much as there is of each, as of blades in front of it.
+vec3 carpet_seen(float slope) {
     ivec2 cell = ivec2(floor(place.xz / soil.w));
     uint drawn = hash3(stock.y, cell.x, cell.y);
     int model = int(drawn % uint(stock.x)), side = int(drawn >> 16u) & 3;
@@ -105,7 +113,8 @@ vec3 carpet_light(float slope) {
     float fine = sharper(dx, dy);
     float texels = fine * max(length(dx), length(dy)) * float(textureSize(images, 0).x);
     float shrunk = clamp(log2(texels) - 0.8, 0.0, 1.0);
-    fine *= SHARP;
+    float steep = smoothstep(0.1, 0.6, slope);
+    fine *= mix(SHARP, 0.6, steep);
     dx *= fine;
     dy *= fine;
     Lit lit = Lit(direct, open_to, shade.x, vec2(shade.y, OPEN_SKY), shade.zw);
@@ -120,7 +129,7 @@ vec3 carpet_light(float slope) {
     vec2 seen = elevation_seen(slope);
     // Two images that have nothing to do with one another are flatter once they are mixed: as much is put back (Heitz and
     // Neyret, High-Performance By-Example Noise, 2018).
-    float grain = mix(1.0, GRAIN, shrunk) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
+    float grain = mix(1.0, mix(GRAIN, 1.0, steep), shrunk) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
     vec4 sum = vec4(0.0);
     for (int kind = 0; kind < KINDS; kind++) {
         if (met[kind] < 0.004)
@@ -135,9 +144,9 @@ vec3 carpet_light(float slope) {
         vec3 mean_of = image.rgb / max(image.a, 1e-3);
         vec3 tint = (grain_c[kind].rgb * sight + grain_s[kind].rgb * aside) * (2.0 * mean_of.b - 1.0);
         vec3 pigment = mix(root[kind].rgb, tip[kind].rgb, mean_of.r) * dry * (1.0 + tint);
-        sum += met[kind] * image.a * vec4(radiance(pigment, mean_of.g, lit), 1.0);
+        sum += met[kind] * image.a * vec4(past_haze(radiance(pigment, mean_of.g, lit)), 1.0);
     }
-    return sum.rgb + soil_seen * (1.0 - min(sum.a, 1.0));
+    return sum.rgb + past_haze(soil_seen) * (1.0 - min(sum.a, 1.0));
 }
 
 #endif
@@ -150,18 +159,19 @@ void main() {
 #ifndef CARPET
     color *= litter;
 #endif
-    float covered = 1.0;
 #if defined(CARPET) && !defined(UNDER)
     float slope = viewing_slope(rise, place);
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / soil.w))) : 0.0;
     // Beyond the terrain nothing lies beneath the carpet that could be seen past its outlines.
     vec2 beside = abs(place.xz - terrain.xy - 0.5 * field.xy) - 0.5 * field.xy;
-    covered = max(beside.x, beside.y) > 0.0 ? 1.0 : mix(1.0, outline_cover(slope), share);
-    color *= mix(litter, 1.0, share);
-    if (share > 0.0)
-        color = mix(color, carpet_light(slope), share);
+    float covered = max(beside.x, beside.y) > 0.0 ? 1.0 : mix(1.0, outline_cover(slope), share);
     if (covered < 0.004)
         discard;
+    color = share < 1.0 ? past_haze(color * litter) : vec3(0.0);
+    if (share > 0.0)
+        color = mix(color, carpet_seen(slope), share);
+    pixel = vec4(color, 1.0) * covered;
+#else
+    pixel = vec4(shown_of(mix(color, veil.rgb, veil.w)), 1.0);
 #endif
-    pixel = vec4(shown_of(mix(color, veil.rgb, veil.w)), 1.0) * covered;
 }

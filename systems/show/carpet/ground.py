@@ -193,7 +193,7 @@ class GroundPainter:
         self._make_trodden = partial(layer, {**laid, "TRODDEN": 1}, self.streams[2])
         images = [len(growth.models) * len(slopes) * 4 for growth in growths]
         self._told: dict[str, object] = {
-            "slopes": slopes.tolist(),
+            "slopes": np.log(slopes).tolist(),
             "first": by_kind([sum(images[:index]) for index in range(len(images))]),
             "stock": (len(growths[0].models), seed),
         }

@@ -32,8 +32,8 @@ class Carpet:
     """Height of the plane above the ground [m]."""
 
 
-SLOPES = (0.02, 0.06, 0.2, 0.6, 2.0)
-"""Tangents of the viewing elevations."""
+SLOPES = (0.02, 0.07, 0.25, 0.9, 3.2)
+"""Tangents of the viewing elevations: each is about as many times the one before."""
 
 _SEGMENTS = 8
 _SAMPLES_PER_WIDTH = 5.0

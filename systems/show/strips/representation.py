@@ -21,7 +21,7 @@ from .plant import plant_strips
 from .pool import StripPool, StripsKept
 from .shown import StripsOfRing, StripsShown, show_strips
 from .stock import StripStock, stock_strips
-from .sublevel import axis_of, packed, ring_of, shows_rows, strip_ring, strips_along, viewing_slope
+from .sublevel import axis_of, left_of, packed, ring_of, shows_rows, strip_ring, strips_along, viewing_slope
 
 Levels = NDArray[np.int8]
 Mask = NDArray[np.bool_]
@@ -132,14 +132,21 @@ class StripRepresentation(Representation):
         spacing, height = self._spacing(), self._height()
         slope = viewing_slope(patches, rows, eye=viewer.eye, patch=quality.patch)
         # Halved, -1 for none is -1 again.
-        ring = strip_ring(patches.distance[rows], slope, held >> 1, limits, spacing, height=height, slack=slack)
+        ring = strip_ring(patches.away[rows], slope, held >> 1, limits, spacing, height=height, slack=slack)
         keeps = np.where(held < 0, held, held & 1) if slack else np.full_like(held, -1)
         return packed(ring, strips_along(patches.cell.take(rows, axis=0), viewer.centre, keeps))
 
     def unfit(self, outlook: Outlook, rows: Rows, has: Mask, /, *, slack: int) -> Mask:
         """Return which patches (n,) are seen from so high that strips would show as rows, however fine."""
         slope = viewing_slope(outlook.patches, rows, eye=outlook.viewer.eye, patch=self.quality.patch)
-        return shows_rows(slope, has, height=self._height(), spacing=float(self._spacing().min()), slack=slack)
+        away, spacing = outlook.patches.away[rows], float(self._spacing().min())
+        return shows_rows(slope, away, has, height=self._height(), spacing=spacing, slack=slack)
+
+    def left(self, outlook: Outlook, rows: Rows, /) -> NDArray[np.float32]:
+        """Return how much of strips is left on patches (n,): they sink where they come near to being unfit."""
+        slope = viewing_slope(outlook.patches, rows, eye=outlook.viewer.eye, patch=self.quality.patch)
+        away, spacing = outlook.patches.away[rows], float(self._spacing().min())
+        return left_of(slope, away, height=self._height(), spacing=spacing)
 
     def _reach(self, outlook: Outlook, ring: StripRing) -> float:
         """Return up to where a ring is due: nowhere beyond the blades, where it is for patches seen from above."""

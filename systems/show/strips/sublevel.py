@@ -21,6 +21,13 @@ ENOUGH = 2.5
 CROSSED = 1.25
 """How many strips a line of sight must cross for them not to show as rows, where no finer ones are to be had."""
 
+SINKING = 0.7
+"""From which part on of the slope where they would, strips sink into the carpet: so no patch of it has an edge."""
+
+APART = 4.0
+"""Discrete distance from which on it must cross more of them, as many times more as it is farther: blades are thinner
+than pixels there, so that nothing would hide their rows."""
+
 
 def strip_ring(
     distance: Ints,
@@ -50,14 +57,25 @@ def strip_ring(
     return kept
 
 
-def shows_rows(slope: Floats, has: Mask, /, *, height: float, spacing: float, slack: int) -> Mask:
-    """Return on which patches (n,) the finest strips would show as rows, seen at these slopes.
+def shows_rows(slope: Floats, distance: Ints, has: Mask, /, *, height: float, spacing: float, slack: int) -> Mask:
+    """Return on which patches (n,) the finest strips would show as rows, seen at these slopes and distances.
 
     A line of sight crosses fewer than `CROSSED` strips, `spacing` [m] apart, on its way through grass of this `height`
     [m]. With `slack`, patches that have strips already, as `has` (n,) says, keep them a little longer.
     """
-    steepest = height / (CROSSED * spacing)
+    steepest = _steepest(distance, height, spacing)
     return np.asarray(slope > np.where(has, steepest * TIGHTER, steepest) if slack else slope > steepest)
+
+
+def left_of(slope: Floats, distance: Ints, /, *, height: float, spacing: float) -> Floats:
+    """Return how much is left of strips on patches (n,) where they come near to showing as rows, from 1 to 0."""
+    steepest = _steepest(distance, height, spacing)
+    return np.clip((1.0 - slope / steepest) / (1.0 - SINKING), 0.0, 1.0).astype(np.float32)
+
+
+def _steepest(distance: Ints, height: float, spacing: float) -> Floats:
+    farther = np.maximum(distance.astype(np.float32), np.float32(APART))
+    return np.asarray(np.float32(height / (spacing * CROSSED) * APART) / farther)
 
 
 def strips_along(cell: Ints, centre: Ints, current: NDArray[np.integer], /) -> Levels:
