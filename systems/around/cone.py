@@ -113,7 +113,8 @@ def seen_from(
     are told from coarser ones for longer.
     """
     up = np.maximum(np.float32(eye - WALKER) - height, np.float32(0.0)) * np.float32(HIGH / patch)
-    return np.asarray(np.hypot(distance, up), np.float32)
+    away = distance.astype(np.float32)
+    return np.asarray(np.sqrt(away * away + up * up))
 
 
 def far_to_near(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArray[np.int64]:

@@ -62,8 +62,8 @@ vec3 painted_light(int k, float t, float twice, Painted target) {
 
 // Width of a blade at part `t` of it: as systems/grow/bend.py has it. Where segments are longer than the waist, it is less
 // drawn in, so that the blade is as broad in the mean.
-float profile(float t, float taper) {
-    float segments = mix(float(SEGMENTS), float(COARSER), joints.x), waist = 0.55 * min(0.16 * segments, 1.0);
+float profile(float t, float taper, float segments) {
+    float waist = 0.55 * min(0.16 * segments, 1.0);
     return pow(max(1.0 - t, 0.0), taper) * (1.0 - waist * max(1.0 - t / 0.16, 0.0));
 }
 
@@ -84,7 +84,8 @@ void main() {
     float side = float(gl_VertexID % 2) * 2.0 - 1.0;
     Spine spine = posture(low.w, lie_of.xy, t);
     vec3 place = foot.xyz + spine.place * foot.w, tangent = spine.tangent * foot.w;
-    vec2 across = lie_of.zw * (side * profile(t, high.w));
+    float segments = mix(float(SEGMENTS), float(COARSER), joints.x);
+    vec2 across = lie_of.zw * (side * profile(t, high.w, segments));
     Lit lit = Lit(direct.rgb, open_to.rgb, veil.w, vec2(open_to.w, OPEN_SKY), vec2(tilt.w, direct.w));
     vec3 light = radiance(mix(low.rgb, high.rgb, t) * (1.0 + side * tilt.rgb), stands.x + spine.place.y * stands.y, lit);
     light += veil.rgb;
@@ -99,7 +100,8 @@ void main() {
     vec3 painted_as = painted_light(k, stands.x > 0.0 ? 1.0 : t, face.x * face.x - face.y * face.y, target);
     light = mix(light, painted_as, painted.w);
 #endif
-    color = shown_of(light);
+    // Between its joints a blade's colour goes straight, where light rises in a bow: so much darker would few joints make it.
+    color = shown_of(light) * (1.0 + 0.115 * pow(segments, -1.5));
 #ifdef SOFT
     gl_Position = widened(place, tangent, across);
 #else

@@ -96,11 +96,6 @@ Sum trodden_light(float slope) {
 }
 #endif
 
-// What is shown of radiance behind the haze.
-vec3 past_haze(vec3 light) {
-    return shown_of(mix(light, veil.rgb, veil.w));
-}
-
 // What the carpet shows: of grass and of the ground between, as much as there is of each, as of blades in front of it.
 vec3 carpet_seen(float slope) {
     ivec2 cell = ivec2(floor(place.xz / soil.w));
@@ -144,9 +139,9 @@ vec3 carpet_seen(float slope) {
         vec3 mean_of = image.rgb / max(image.a, 1e-3);
         vec3 tint = (grain_c[kind].rgb * sight + grain_s[kind].rgb * aside) * (2.0 * mean_of.b - 1.0);
         vec3 pigment = mix(root[kind].rgb, tip[kind].rgb, mean_of.r) * dry * (1.0 + tint);
-        sum += met[kind] * image.a * vec4(past_haze(radiance(pigment, mean_of.g, lit)), 1.0);
+        sum += met[kind] * image.a * vec4(shown_of(mix(radiance(pigment, mean_of.g, lit), veil.rgb, veil.w)), 1.0);
     }
-    return sum.rgb + past_haze(soil_seen) * (1.0 - min(sum.a, 1.0));
+    return sum.rgb + soil_seen * (1.0 - min(sum.a, 1.0));
 }
 
 #endif
@@ -167,7 +162,7 @@ void main() {
     float covered = max(beside.x, beside.y) > 0.0 ? 1.0 : mix(1.0, outline_cover(slope), share);
     if (covered < 0.004)
         discard;
-    color = share < 1.0 ? past_haze(color * litter) : vec3(0.0);
+    color *= sun.w > 0.5 ? litter : sqrt(litter);  // very nearly what is shown of as many times its radiance
     if (share > 0.0)
         color = mix(color, carpet_seen(slope), share);
     pixel = vec4(color, 1.0) * covered;

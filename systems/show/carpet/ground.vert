@@ -74,7 +74,7 @@ float lowest_share(vec2 place) {
 }
 #endif
 
-out vec3 soil_seen;  // its radiance
+out vec3 soil_seen;  // its radiance; with a carpet, what is shown of it
 out vec4 veil;  // haze before it, and how much
 
 void main() {
@@ -118,6 +118,9 @@ void main() {
     soil_seen = mix(soil_seen, soil_seen * (1.0 - dot(met, vec4(1.0))) + under, carpet);
 #endif
     veil = vec4(haze_light(place), haze_at(place));
+#if defined(CARPET) && !defined(UNDER)
+    soil_seen = shown_of(mix(soil_seen, veil.rgb, veil.w));
+#endif
     gl_Position = clip * vec4(place, 1.0);
 #ifdef UNDER
     gl_Position.z += 1e-6 * gl_Position.w;  // kilometres away depths are too coarse to part the two layers

@@ -70,7 +70,7 @@ def shows_rows(slope: Floats, distance: Ints, has: Mask, /, *, height: float, sp
 def left_of(slope: Floats, distance: Ints, /, *, height: float, spacing: float) -> Floats:
     """Return how much is left of strips on patches (n,) where they come near to showing as rows, from 1 to 0."""
     steepest = _steepest(distance, height, spacing)
-    return np.clip((1.0 - slope / steepest) / (1.0 - SINKING), 0.0, 1.0).astype(np.float32)
+    return np.asarray(np.clip((1.0 - slope / steepest) / (1.0 - SINKING), 0.0, 1.0), np.float32)
 
 
 def _steepest(distance: Ints, height: float, spacing: float) -> Floats:
