@@ -8,6 +8,9 @@ from importlib.resources import files
 from pathlib import Path
 from stat import S_ISDIR, S_ISREG
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ... import scenes
 from ..declared.scene import Scene
 from ..plugins import wind_kinds
@@ -41,6 +44,9 @@ class LoadedScene:
 
     files: Mapping[str, Stamp] = field(default_factory=dict)
     """The files that the scene names, as it names them, and what they were like when it was read."""
+
+    pictures: Mapping[str, NDArray[np.uint8]] = field(default_factory=dict, repr=False)
+    """Density maps that stand in for files of these names, shape (rows, columns, 3 or 4); another array is another map."""
 
     @property
     def paths(self) -> dict[str, Path]:
