@@ -295,14 +295,14 @@ class Prairie:
 
         Terrain, kinds of grass, textures and receivers are made anew only where what they come from has changed, and
         winds that have not changed blow on as if nothing had happened; so do those that were added, and the systems
-        that a game has added, replaced or left out. What has been read already is not read again, and what `found` has
-        made of it is its `site`. Raises `SceneError` with every problem, and then nothing has changed at all;
+        that a game has added, replaced or left out. What has been read already is not read again, and what `finding`
+        has made of it is its `site`. Raises `SceneError` with every problem, and then nothing has changed at all;
         RuntimeError after `release`, and while another esper world is current.
         """
         self._must_be_there("read it again")
         self.winds.sources()
         loaded = scene if isinstance(scene, LoadedScene) else read_scene(self.path if scene is None else scene)
-        before, self.site = self.site, self.found(loaded) if site is None else site
+        before, self.site = self.site, self.finding(loaded)() if site is None else site
         for outlook in self.viewers.values():
             settle_on(outlook, self.site, before, self.world)
         self._built, built = self._assembly.on(self.site), self._built
@@ -311,13 +311,13 @@ class Prairie:
         self.pressers.change(loaded.scene, self.site.growths)
         self.loaded, self.statistics.blades_field = loaded, self.site.blades
 
-    def found(self, loaded: LoadedScene) -> Site:
-        """Return the site that another reading of the scene becomes, for `reload`; nothing changes by that.
+    def finding(self, loaded: LoadedScene) -> Callable[[], Site]:
+        """Return what finds the site that another reading of the scene becomes, for `reload`; it changes nothing.
 
-        Grass takes its time to grow, and may be waited for on another thread. Raises `SceneError` with every problem of
-        its maps.
+        As grass takes its time to grow, it may be called on another thread. It raises `SceneError` with every problem
+        of the maps.
         """
-        return found_again(self.site, self.loaded, loaded, preset=self._preset, lod=self.lod)
+        return partial(found_again, self.site, self.loaded, loaded, preset=self._preset, lod=self.lod)
 
     def is_grown(self, loaded: LoadedScene) -> bool:
         """Return whether all the grass and the ground of another reading of the scene is there already."""
