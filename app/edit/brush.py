@@ -48,7 +48,10 @@ def stroked(
     painted = picture[..., number].astype(np.float32)
     x, z = _middles(size[0], columns), _middles(size[1], rows)
     for place in _dabs(line, 0.4 * brush.radius):
-        across, down = (slice(*np.searchsorted(axis, [at - brush.radius, at + brush.radius])) for axis, at in zip((x, z), place, strict=True))
+        across, down = (
+            slice(*np.searchsorted(axis, [at - brush.radius, at + brush.radius]))
+            for axis, at in zip((x, z), place, strict=True)
+        )
         part = _disc(x[across] - place[0], z[down] - place[1], brush.radius) * np.float32(brush.pressure)
         painted[down, across] += part * (np.float32(255.0 * brush.density) - painted[down, across])
     result = picture.copy()
@@ -85,7 +88,11 @@ def new_picture(density: Density, number: int, /) -> Picture:
     columns, rows = (int(np.clip(round(side / pixel), 2, MOST)) for side in (width, depth))
     if max(columns, rows) < LEAST:
         columns, rows = (max(2, round(LEAST * side / max(width, depth))) for side in (width, depth))
-    place = np.stack(np.meshgrid(_middles(width, columns), _middles(depth, rows)), axis=-1).reshape(-1, 2).astype(np.float32)
+    place = (
+        np.stack(np.meshgrid(_middles(width, columns), _middles(depth, rows)), axis=-1)
+        .reshape(-1, 2)
+        .astype(np.float32)
+    )
     values = np.rint(255.0 * density_at(density, place)[number]).astype(np.uint8).reshape(rows, columns)
     return np.repeat(values[..., None], 3, axis=2)
 

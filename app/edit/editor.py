@@ -10,13 +10,15 @@ from pydantic import BaseModel
 
 from ...components.wind import WindPrimitive
 from ...engine.declared.scene import Scene
+from ...engine.plugins import wind_kinds
 from ...engine.scene import LoadedScene, SceneError
 from ...engine.scene.document import Document, noded
 from ...engine.scene.read import load_document
 from ...engine.terrain.density import Picture
 from ...systems.prairie import Prairie
 from .brush import Brush, new_picture, read_picture, stroked
-from .handles import Handle, declared_handles
+from .fields import first_part, keys_of
+from .handles import PLACE, Handle, declared_handles
 from .history import Draft, History
 from .pen import Pen
 from .remake import Remaking
@@ -56,6 +58,8 @@ class Editor:
         """The number of the wind that is picked."""
         self.brush: Brush | None = None
         """What a stroke paints; None while winds are picked."""
+        self.spot: Place = (0.0, 0.0)
+        """Where a new wind is put, (x, z) [m]."""
         self._strokes = count()
         self._stroke: int | None = None
         self._shown: Draft
@@ -99,6 +103,24 @@ class Editor:
         done = self.set(("wind", number), values)
         self.picked = number if done else self.picked
         return done
+
+    def add_wind_of(self, kind: str) -> bool:
+        """Add a wind of a kind: at `spot` where it has a place, and from now on where it would be over already."""
+        try:
+            model = wind_kinds().find(kind)
+        except ValueError as error:
+            self.refusal = Refusal(("wind",), (str(error),))
+            return False
+        values = first_part(model, kind=kind)
+        if any(key.name == PLACE and key.form == "numbers" for key in keys_of(model)):
+            values[PLACE] = [round(each, CENTIMETRES) for each in self.spot]
+        if not self.add_wind(values):
+            return False
+        time, number = self.prairie.time, len(self.winds) - 1
+        if not self.winds[number].parts(time=time, seed=self.scene.seed):
+            self.history.undo()
+            return self.add_wind(values | {"start": round(time, 1)})
+        return True
 
     def remove(self, way: Way) -> bool:
         """Take a key out of the file, or an item out of a list: what it was is its default again, or gone."""

@@ -13,6 +13,7 @@ from pydantic_core import PydanticUndefined
 
 from ...engine.scene.fields import Field, declared, inside
 from .values import NOTHING
+from .yaml_text import yaml_text
 
 Form = Literal[
     "number", "whole", "switch", "choice", "color", "text", "numbers", "part", "parts", "named", "fixed", "yaml"
@@ -21,6 +22,14 @@ Form = Literal[
 
 UNIT = re.compile(r"\s*\[([A-Za-z/²%]+)\]")
 """The unit in a key's sentence."""
+
+DIGITS = 4
+"""Digits of a number that a slider gives."""
+
+EVERYWHERE = 1e6
+"""Numbers of lists have this bound at least, which says nothing."""
+
+TINY = 1e-9
 
 _COLOR = "#[0-9a-fA-F]{6}"
 
@@ -170,9 +179,11 @@ def first_value(key: Key, /) -> Any:
     return ""
 
 
-def first_part(model: type[BaseModel], /) -> dict[str, Any]:
-    """Return values that a model accepts: what it has to be told, and if that is not enough, one of the rest."""
-    needed = {key.name: first_value(key) for key in keys_of(model) if key.default is NOTHING}
+def first_part(model: type[BaseModel], /, **given: Any) -> dict[str, Any]:
+    """Return values that a model accepts: what it has to be told beside what is given, and if need be one of the rest."""
+    needed = given | {
+        key.name: first_value(key) for key in keys_of(model) if key.default is NOTHING and key.name not in given
+    }
     tries = [needed, *(needed | {key.name: first_value(key)} for key in keys_of(model) if key.optional)]
     return next((values for values in tries if _accepts(model, values)), needed)
 
@@ -190,3 +201,25 @@ def _middle(key: Key) -> float:
     low, high = key.low if key.low is not None else 0.0, key.high if key.high is not None else 1.0
     found = next((number for number in (1.0, 0.0) if low < number < high), low + 0.1 * (high - low))
     return round(found) if key.form == "whole" else float(f"{found:.3g}")
+
+
+def tidied(key: Key, number: float, /) -> float:
+    """Return what a slider's number is written as: few digits, and within bounds that may not be met themselves."""
+    if key.form == "whole":
+        return round(number)
+    short = float(f"{number:.{DIGITS}g}")
+    if key.above and key.low is not None and short <= key.low < number + TINY:
+        short = float(f"{key.low + max(abs(key.low), 0.01) * 0.05:.{DIGITS}g}")
+    return short
+
+
+def told_of(key: Key, /) -> str:
+    """Return what is said of a key when one points at it: its sentence, its range and its default."""
+    facts = [key.sentence]
+    if key.low is not None and key.high is not None and key.high < EVERYWHERE:
+        facts.append(f"{key.low:.12g} to {key.high:.12g}{' ' + key.unit if key.unit else ''}")
+    elif key.unit:
+        facts.append(f"in {key.unit}")
+    if key.default not in (NOTHING, None, []) and not isinstance(key.default, BaseModel):
+        facts.append(f"without it: {yaml_text(key.default)}")
+    return "\n".join(facts)

@@ -200,9 +200,7 @@ def test_a_stroke_is_seen_at_once_and_saved_into_the_map_that_the_scene_names(ed
         assert (np.asarray(image) == 51).all()
 
 
-def test_the_first_stroke_of_a_kind_without_a_map_makes_one_that_says_what_was_true(
-    editor: Editor, path: Path
-) -> None:
+def test_the_first_stroke_of_a_kind_without_a_map_makes_one_that_says_what_was_true(editor: Editor, path: Path) -> None:
     editor.brush = Brush("low", radius=5.0).erasing()
     editor.paint([(10.0, 10.0)])
     place = editor.scene.grass["low"].place

@@ -51,9 +51,7 @@ def changed(way: Way, value: Any, text: str = SCENE) -> tuple[str, list[str], li
     values = with_value(read(text), way, value)
     after = rewritten(text, values)
     assert read(after) == values
-    lines = [
-        line for line in difflib.ndiff(text.splitlines(), after.splitlines()) if line.startswith(("- ", "+ "))
-    ]
+    lines = [line for line in difflib.ndiff(text.splitlines(), after.splitlines()) if line.startswith(("- ", "+ "))]
     return after, [line[2:] for line in lines if line[0] == "-"], [line[2:] for line in lines if line[0] == "+"]
 
 
