@@ -292,7 +292,7 @@ class Walk:
         if symbol in MOVES:
             self._held.add(symbol)
         elif symbol in _ACTIONS:
-            _ACTIONS[symbol](self)
+            getattr(self, _ACTIONS[symbol])()
         return pyglet.event.EVENT_HANDLED
 
     def on_key_release(self, symbol: int, modifiers: int) -> None:
@@ -362,19 +362,20 @@ class Walk:
 
 
 _ACTIONS = {
-    key.ESCAPE: Walk.escape,
-    key.SPACE: Walk.pause,
-    key.F: Walk.fly,
-    key.G: Walk.board,
-    ord("1"): Walk.gust,  # pyglet numbers keys so, but its names of them are private
-    ord("2"): Walk.whirlwind,
-    ord("3"): Walk.blast,
-    key.F1: Walk.show_help,
-    key.F2: Walk.next_overlay,
-    key.F3: Walk.show_statistics,
-    key.F5: Walk.reload,
-    key.F12: Walk.save_picture,
+    key.ESCAPE: "escape",
+    key.SPACE: "pause",
+    key.F: "fly",
+    key.G: "board",
+    ord("1"): "gust",  # pyglet numbers keys so, but its names of them are private
+    ord("2"): "whirlwind",
+    ord("3"): "blast",
+    key.F1: "show_help",
+    key.F2: "next_overlay",
+    key.F3: "show_statistics",
+    key.F5: "reload",
+    key.F12: "save_picture",
 }
+"""What a key that is pressed does, by the name of the method."""
 
 
 def _told(error: SceneError) -> list[str]:

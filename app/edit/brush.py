@@ -1,6 +1,7 @@
 """Painting where grass grows: strokes on density maps, as pure functions of pixels."""
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -48,10 +49,7 @@ def stroked(
     painted = picture[..., number].astype(np.float32)
     x, z = _middles(size[0], columns), _middles(size[1], rows)
     for place in _dabs(line, 0.4 * brush.radius):
-        across, down = (
-            slice(*np.searchsorted(axis, [at - brush.radius, at + brush.radius]))
-            for axis, at in zip((x, z), place, strict=True)
-        )
+        across, down = _within(x, place[0], brush.radius), _within(z, place[1], brush.radius)
         part = _disc(x[across] - place[0], z[down] - place[1], brush.radius) * np.float32(brush.pressure)
         painted[down, across] += part * (np.float32(255.0 * brush.density) - painted[down, across])
     result = picture.copy()
@@ -61,7 +59,13 @@ def stroked(
 
 def _middles(length: float, count: int) -> NDArray[np.float64]:
     """Return where the middles of pixels are along a side of the terrain [m], shape (count,)."""
-    return (np.arange(count) + 0.5) * (length / count) - length / 2
+    return np.asarray((np.arange(count) + 0.5) * (length / count) - length / 2, np.float64)
+
+
+def _within(middles: NDArray[np.float64], place: float, radius: float) -> slice:
+    """Return which pixels along a side are so near to a place [m]."""
+    first, last = np.searchsorted(middles, [place - radius, place + radius]).tolist()
+    return slice(first, last)
 
 
 def _disc(x: NDArray[np.float64], z: NDArray[np.float64], radius: float) -> NDArray[np.float32]:
@@ -75,7 +79,7 @@ def _dabs(line: NDArray[np.float64], step: float) -> NDArray[np.float64]:
     if len(line) < 2:
         return line
     pieces = []
-    for start, end in zip(line[:-1], line[1:], strict=True):
+    for start, end in pairwise(line):
         count = max(1, int(np.ceil(np.hypot(*(end - start)) / step)))
         pieces.append(start + (end - start) * (np.arange(1, count + 1) / count)[:, None])
     return np.concatenate(pieces)

@@ -21,10 +21,9 @@ from .fields import first_part, keys_of
 from .handles import PLACE, Handle, declared_handles
 from .history import Draft, History
 from .pen import Pen
+from .pick import Place
 from .remake import Remaking
 from .values import NOTHING, Way, value_at, with_value
-
-Place = tuple[float, float]
 
 CENTIMETRES = 2
 """Decimals of a place that was dragged."""
@@ -77,6 +76,11 @@ class Editor:
         """The winds of the draft."""
         return self.scene.wind
 
+    @property
+    def picked_wind(self) -> WindPrimitive | None:
+        """The wind that is picked, unless it has gone meanwhile."""
+        return self.winds[self.picked] if self.picked is not None and self.picked < len(self.winds) else None
+
     def is_said(self, way: Way) -> bool:
         """Return whether the file says anything at a way."""
         return value_at(self.history.now.values, way) is not NOTHING
@@ -92,7 +96,7 @@ class Editor:
             for way, value in values.items():
                 whole = self._whole(draft.values, way) if value is not NOTHING else draft.values
                 draft = replace(draft, values=with_value(whole, way, value))
-        except KeyError:
+        except LookupError:
             self.refusal = Refusal(next(iter(values)), ("there is no such place in the scene any more",))
             return False
         return self._take(draft, way=next(iter(values)), subject=subject)
@@ -191,7 +195,7 @@ class Editor:
         return f"{' and '.join(names)} {'is' if len(names) == 1 else 'are'} written" if names else "nothing has changed"
 
     def read_again(self) -> None:
-        """Begin anew with what the files say now. Raises SceneError with every problem, and then nothing has changed."""
+        """Begin anew with what the files say now. Raises SceneError with every problem; then nothing has changed."""
         self.prairie.reload(self.pen.path)
         self._begin(self.prairie.loaded)
 
@@ -234,7 +238,7 @@ class Editor:
         return {**self._unpainted, **draft.pictures}
 
     def _whole(self, values: dict[str, Any], way: Way) -> dict[str, Any]:
-        """Return values in which lists on a way stand that the file leaves to their defaults: an item needs the others."""
+        """Return values with the lists on a way that the file leaves to their defaults: an item needs the others."""
         for number, step in enumerate(way):
             if isinstance(step, int) and not isinstance(value_at(values, way[:number]), list):
                 values = with_value(values, way[:number], _plain(self.scene, way[:number]))
@@ -258,7 +262,7 @@ def _plain(scene: Scene, way: Way) -> Any:
     """Return the list that a scene has at a way, as its file would say it; NOTHING where it has none."""
     found: Any = scene
     for step in way:
-        found = found[step] if isinstance(found, dict | list) else getattr(found, str(step), None)
+        found = getattr(found, str(step)) if isinstance(found, BaseModel) else found[step]
     if not isinstance(found, list):
         return NOTHING
     return [each.model_dump(exclude_unset=True) if isinstance(each, BaseModel) else each for each in found]

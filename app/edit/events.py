@@ -19,15 +19,21 @@ MODIFIERS = (
     (key.MOD_ALT, imgui.Key.mod_alt),
     (key.MOD_COMMAND, imgui.Key.mod_super),
 )
+OWN = {
+    key.LCTRL: key.MOD_CTRL, key.RCTRL: key.MOD_CTRL, key.LSHIFT: key.MOD_SHIFT, key.RSHIFT: key.MOD_SHIFT,
+    key.LALT: key.MOD_ALT, key.RALT: key.MOD_ALT, key.LCOMMAND: key.MOD_COMMAND, key.RCOMMAND: key.MOD_COMMAND,
+}  # fmt: skip
+"""What each of these keys is itself."""
+
 BUTTONS = {mouse.LEFT: 0, mouse.RIGHT: 1, mouse.MIDDLE: 2}
 
 
 def tell_key(symbol: int, modifiers: int, *, down: bool) -> None:
     """Tell of a key that was pressed or let go, and of those held with it."""
-    io = imgui.get_io()
-    tell_modifiers(modifiers)
+    own = OWN.get(symbol, 0)  # pyglet tells what was held before
+    tell_modifiers(modifiers | own if down else modifiers & ~own)
     if symbol in KEYS:
-        io.add_key_event(KEYS[symbol], down)
+        imgui.get_io().add_key_event(KEYS[symbol], down)
 
 
 def tell_modifiers(modifiers: int) -> None:

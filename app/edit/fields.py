@@ -23,13 +23,11 @@ Form = Literal[
 UNIT = re.compile(r"\s*\[([A-Za-z/²%]+)\]")
 """The unit in a key's sentence."""
 
-DIGITS = 4
-"""Digits of a number that a slider gives."""
+PULLED, TYPED = 3, 7
+"""Digits of a number that a slider gives, and of one that is typed into it."""
 
 EVERYWHERE = 1e6
 """Numbers of lists have this bound at least, which says nothing."""
-
-TINY = 1e-9
 
 _COLOR = "#[0-9a-fA-F]{6}"
 
@@ -107,25 +105,29 @@ def _key(name: str, info: FieldInfo) -> Key:
     )
 
 
+_PLAIN: dict[Any, Form] = {bool: "switch", int: "whole", float: "number", str: "text"}
+
+
 def _taken(field: Field) -> dict[str, Any]:
     """Return the form of a field, and what goes with it."""
     origin, limits = get_origin(field.annotation), _limits(field)
-    if field.annotation is bool:
-        return {"form": "switch"}
-    if field.annotation in (int, float):
-        return {"form": "whole" if field.annotation is int else "number", **_bounds(limits)}
-    if field.annotation is str:
-        return {"form": "color" if _COLOR in limits.get("pattern", "") else "text"}
+    choices = tuple(_literals(field.annotation))
+    if _COLOR in limits.get("pattern", ""):
+        return {"form": "color"}
+    if field.annotation in _PLAIN:
+        return {"form": _PLAIN[field.annotation], **_bounds(limits)}
     if origin is list:
         return _of_list(field, limits)
-    if origin is dict:
-        return {"form": "named", "model": field.model, "most": limits.get("max_length")}
-    choices = tuple(_literals(field.annotation))
     if choices:
-        fixed = field.model is None and len(choices) == 1 and len(get_args(field.annotation)) == 1
-        texts = tuple(choice for choice in choices if isinstance(choice, str))
-        return {"form": "fixed" if fixed or not texts else "choice", "choices": texts, "model": field.model}
-    return {"form": "part", "model": field.model} if field.model else {"form": "yaml"}
+        return _of_choices(field, choices)
+    form: Form = "named" if origin is dict else "part" if field.model else "yaml"
+    return {"form": form, "model": field.model, "most": limits.get("max_length")}
+
+
+def _of_choices(field: Field, choices: tuple[Any, ...]) -> dict[str, Any]:
+    texts = tuple(choice for choice in choices if isinstance(choice, str))
+    alone = field.model is None and len(choices) == 1
+    return {"form": "fixed" if alone or not texts else "choice", "choices": texts, "model": field.model}
 
 
 def _of_list(field: Field, limits: dict[str, Any]) -> dict[str, Any]:
@@ -159,28 +161,24 @@ def _literals(annotation: Any) -> Iterator[Any]:
             yield from _literals(inner)
 
 
+_FIRST: dict[Form, Any] = {"switch": False, "color": "#808080"}
+
+
 def first_value(key: Key, /) -> Any:
     """Return a value to begin with for a key that has none yet; of a part, one that it accepts where there is one."""
-    match key.form:
-        case "number" | "whole":
-            return _middle(key)
-        case "numbers":
-            return [_middle(replace(key, form="number"))] * key.count
-        case "switch":
-            return False
-        case "choice":
-            return key.choices[0]
-        case "color":
-            return "#808080"
-        case "part" if key.model is not None:
-            return first_part(key.model)
-        case "parts":
-            return [first_value(item_key(key, "0"))]
-    return ""
+    if key.form in ("number", "whole"):
+        return _middle(key)
+    if key.form == "numbers":
+        return [_middle(replace(key, form="number"))] * key.count
+    if key.form == "part" and key.model is not None:
+        return first_part(key.model)
+    if key.form == "parts":
+        return [first_value(item_key(key, "0"))]
+    return key.choices[0] if key.choices else _FIRST.get(key.form, "")
 
 
 def first_part(model: type[BaseModel], /, **given: Any) -> dict[str, Any]:
-    """Return values that a model accepts: what it has to be told beside what is given, and if need be one of the rest."""
+    """Return values that a model accepts: what it has to be told beside what is given, and if need be one more."""
     needed = given | {
         key.name: first_value(key) for key in keys_of(model) if key.default is NOTHING and key.name not in given
     }
@@ -203,13 +201,18 @@ def _middle(key: Key) -> float:
     return round(found) if key.form == "whole" else float(f"{found:.3g}")
 
 
-def tidied(key: Key, number: float, /) -> float:
-    """Return what a slider's number is written as: few digits, and within bounds that may not be met themselves."""
+def tidied(key: Key, number: float, /, *, pulled: bool = True) -> float:
+    """Return what the number of a field is written as: with few digits where it was pulled there and not typed.
+
+    One that was pulled to a bound that has to be passed is a little beyond it.
+    """
     if key.form == "whole":
         return round(number)
-    short = float(f"{number:.{DIGITS}g}")
-    if key.above and key.low is not None and short <= key.low < number + TINY:
-        short = float(f"{key.low + max(abs(key.low), 0.01) * 0.05:.{DIGITS}g}")
+    if not pulled:
+        return float(f"{number:.{TYPED}g}")
+    short = float(f"{number:.{PULLED}g}") if abs(number) < 10.0**PULLED else float(round(number))
+    if key.above and key.low is not None and short <= key.low:
+        return float(f"{key.low + 0.05 * max(abs(key.low), 0.01):.{PULLED}g}")
     return short
 
 

@@ -12,9 +12,8 @@ from ...systems.wind.blow import Blowing
 from ...systems.wind.quarantine import QuarantinedError
 from .editor import Editor
 from .handles import Handle, ahead, declared_handles, heading, turned_to
+from .pick import Floats, Place
 from .values import Way
-
-Place = tuple[float, float]
 
 SHORTEST, LONGEST, USUAL = 2.5, 12.0, 6.0
 """How far from a wind's middle it is turned at least, at most, and where it has no extent [m]."""
@@ -44,8 +43,8 @@ class Grip:
 def grips_of(editor: Editor) -> list[Grip]:
     """Return the grips of all winds: one at each place that they declare, and where the picked one heads."""
     found = [Grip("move", number, handle.place, (handle,)) for number, handle in editor.handles()]
-    if editor.picked is not None and editor.picked < len(editor.winds):
-        wind = editor.winds[editor.picked]
+    wind = editor.picked_wind
+    if wind is not None and editor.picked is not None:
         turns = heading(wind, editor.picked)
         if turns is not None:
             blown = blowing_of(editor.prairie, wind)
@@ -84,7 +83,7 @@ def number_of(editor: Editor, wind: WindPrimitive, /) -> int | None:
     return next((number for number, each in enumerate(editor.winds) if each == wind), None)
 
 
-def _is_on(prairie: Prairie, blown: Blowing, spot: np.ndarray[tuple[int, ...], np.dtype[np.float32]]) -> bool:
+def _is_on(prairie: Prairie, blown: Blowing, spot: Floats) -> bool:
     own, extent = blown.pose.inside(spot), blown.extent
     x, z = own[0].tolist()
     if extent is None or not (extent.left <= x <= extent.right and extent.ahead <= z <= extent.behind):

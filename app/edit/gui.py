@@ -8,6 +8,7 @@ from imgui_bundle import imgui
 
 from ...engine.gl.guest import FIRST_UNIT, guest
 from ...engine.gl.shaders import program
+from ...engine.gl.stream import release_all
 
 _ROOM = 1 << 16
 
@@ -70,8 +71,7 @@ class Gui:
             texture.set_tex_id(0)
             texture.status = imgui.ImTextureStatus.destroyed
         imgui.get_io().backend_flags &= ~imgui.BackendFlags_.renderer_has_textures
-        for each in (self._array, self._program, self._corners, self._numbers, *self._images.values()):
-            each.release()
+        release_all(self._array, self._program, self._corners, self._numbers, *self._images.values())
         imgui.destroy_context(self._context)
 
     def _laid(self) -> moderngl.VertexArray:

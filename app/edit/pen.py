@@ -33,7 +33,7 @@ class Pen:
         self._written.setdefault(name, picture)
 
     def write(self, values: dict[str, Any], pictures: Mapping[str, Picture]) -> list[str]:
-        """Write what has changed and return the names of the files. Raises ValueError with a sentence where it cannot."""
+        """Write what has changed, and return the names of the files. Raises ValueError with a sentence if it cannot."""
         before = decode(self._bytes, file=str(self.path))
         mark = _MARK if self._bytes.startswith(_MARK) else b""
         after = mark + rewritten(before, values).encode()

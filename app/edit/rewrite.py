@@ -1,6 +1,6 @@
 """Writing changed values back into a YAML text: only what changed is touched, to the character."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from difflib import SequenceMatcher
 from typing import Any
 
@@ -96,7 +96,7 @@ def _list(text: str, span: Span, value: list[Any]) -> Iterator[Splice]:
             yield _with(text, span, added if span.flow else [f"- {each}" for each in added])
 
 
-def _steps(span: Span, value: list[Any]) -> list[tuple[str, int, int, int, int]]:
+def _steps(span: Span, value: list[Any]) -> Sequence[tuple[str, int, int, int, int]]:
     """Return how the items of a list become others, as `difflib` tells it."""
     before, after = [yaml_text(item.data) for item in span.items], [yaml_text(item) for item in value]
     if len(before) == len(after):

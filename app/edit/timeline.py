@@ -35,7 +35,7 @@ def show_frame(prairie: Prairie, frames_ms: Sequence[float]) -> None:
 
 
 def spans_of(milliseconds: Sequence[float], draw_ms: float, /) -> list[tuple[float, float]]:
-    """Return from where to where in the frame each system runs, and the drawing after them, as parts of it in [0, 1]."""
+    """Return from where to where in the frame each system runs, and then the drawing, as parts of it in [0, 1]."""
     ends = np.cumsum([*milliseconds, draw_ms])
     whole = max(float(ends[-1]), 1e-9)
     starts = [0.0, *ends[:-1].tolist()]

@@ -1,4 +1,4 @@
-"""Values of a scene file as plain mappings and lists, and other values made from them; none is ever changed in place."""
+"""Values of a scene file as plain mappings and lists, and other values made from them; none is changed in place."""
 
 from typing import Any, Final
 
@@ -34,8 +34,7 @@ def value_at(values: Any, way: Way, /) -> Any:
 def with_value(values: Any, way: Way, value: Any, /) -> Any:
     """Return values with another one at a way; mappings on it that are not there are made, a list may grow by one.
 
-    NOTHING takes the key away, or the item out of its list. Raises KeyError where the way leads through what has no such
-    place.
+    NOTHING takes the key away, or the item out of its list. Raises KeyError where the way leads to no such place.
     """
     if not way:
         return value

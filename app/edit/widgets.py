@@ -1,5 +1,6 @@
 """One field of the panel for one key: a slider, a colour, a choice, a switch, or text."""
 
+from collections.abc import Callable
 from typing import Any
 
 from imgui_bundle import imgui
@@ -7,7 +8,7 @@ from imgui_bundle import imgui
 from ...engine.declared.scene import FORMAT
 from ...engine.scene import SceneError
 from ...engine.scene.compose import read_document
-from .fields import EVERYWHERE, Key, tidied
+from .fields import EVERYWHERE, Form, Key, tidied
 from .values import NOTHING
 from .yaml_text import yaml_text
 
@@ -23,23 +24,8 @@ _WIDTH = 170.0
 def field(key: Key, value: Any) -> Any:
     """Show the field of a key that has a value, and return the new value, or NOTHING where it was left alone."""
     imgui.set_next_item_width(_WIDTH)
-    match key.form:
-        case "number":
-            return _number(key, float(value))
-        case "whole":
-            return _whole(key, int(value))
-        case "numbers":
-            return _numbers(key, list(value))
-        case "switch":
-            changed, new = imgui.checkbox(f"##{key.name}", bool(value))
-            return new if changed else NOTHING
-        case "choice":
-            return _choice(key, value)
-        case "color":
-            return _color(key, str(value))
-        case "text":
-            return _text(key.name, str(value))
-    return written(key.name, value)
+    show = _FIELDS.get(key.form)
+    return written(key.name, value) if show is None else show(key, value)
 
 
 def written(name: str, value: Any) -> Any:
@@ -55,6 +41,7 @@ def written(name: str, value: Any) -> Any:
 
 
 def _number(key: Key, value: float) -> Any:
+    pulled = imgui.is_mouse_down(imgui.MouseButton_.left)
     low, high = key.low, key.high
     told = f"%.{5 if abs(value) < 1 else 6}g {key.unit}".rstrip()
     if low is not None and high is not None and (high - low <= WIDE or low > 0.0):
@@ -63,7 +50,7 @@ def _number(key: Key, value: float) -> Any:
     else:
         least, most = (low if low is not None else 0.0), (high if high is not None else 0.0)
         changed, new = imgui.drag_float(f"##{key.name}", value, max(abs(value), 1.0) * 0.01, least, most, told)
-    return tidied(key, new) if changed else NOTHING
+    return tidied(key, new, pulled=pulled) if changed else NOTHING
 
 
 def _whole(key: Key, value: int) -> Any:
@@ -76,10 +63,11 @@ def _whole(key: Key, value: int) -> Any:
 
 
 def _numbers(key: Key, values: list[float]) -> Any:
+    pulled = imgui.is_mouse_down(imgui.MouseButton_.left)
     bounded = key.low is not None and key.high is not None and key.high < EVERYWHERE
     least, most = (key.low or 0.0, key.high or 0.0) if bounded else (0.0, 0.0)
     width, gap = _WIDTH / len(values), imgui.get_style().item_inner_spacing.x
-    found = NOTHING
+    found: Any = NOTHING
     for number, value in enumerate(values):
         if number:
             imgui.same_line(0.0, gap)
@@ -87,7 +75,7 @@ def _numbers(key: Key, values: list[float]) -> Any:
         speed = max(abs(value), 0.5) * 0.01
         changed, new = imgui.drag_float(f"##{key.name}{number}", float(value), speed, least, most, "%.5g")
         if changed:
-            found = [*values[:number], tidied(key, new), *values[number + 1 :]]
+            found = [*values[:number], tidied(key, new, pulled=pulled), *values[number + 1 :]]
     return found
 
 
@@ -96,7 +84,7 @@ def _choice(key: Key, value: Any) -> Any:
     now = value if isinstance(value, str) else NUMBERS
     if not imgui.begin_combo(f"##{key.name}", now):
         return NOTHING
-    found = NOTHING
+    found: Any = NOTHING
     for each in choices:
         if imgui.selectable(each, each == now)[0] and each != now:
             found = each
@@ -111,6 +99,22 @@ def _color(key: Key, value: str) -> Any:
     return found if changed and found != value.lower() else NOTHING
 
 
+def _switch(key: Key, value: bool) -> Any:  # noqa: FBT001 - it is the key's value
+    changed, new = imgui.checkbox(f"##{key.name}", value)
+    return new if changed else NOTHING
+
+
 def _text(name: str, value: str) -> Any:
     changed, new = imgui.input_text(f"##{name}", value, imgui.InputTextFlags_.enter_returns_true)
     return new if changed else NOTHING
+
+
+_FIELDS: dict[Form, Callable[[Key, Any], Any]] = {
+    "number": _number,
+    "whole": _whole,
+    "numbers": _numbers,
+    "switch": _switch,
+    "choice": _choice,
+    "color": _color,
+    "text": lambda key, value: _text(key.name, value),
+}

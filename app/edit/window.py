@@ -1,5 +1,7 @@
 """A walk in which the scene is edited: the panel, and what the mouse does on the ground."""
 
+from dataclasses import replace
+
 import pyglet
 from pyglet.window import key, mouse
 
@@ -12,11 +14,11 @@ from ..window import Walk
 from . import events
 from .brush import Brush
 from .editor import Editor
-from .gizmo import Gizmo
-from .grips import Grip, Place, grip_at, grips_of, pulled
+from .gizmo import show_gizmo
+from .grips import Grip, grip_at, grips_of, pulled
 from .gui import Gui
 from .panel import Panel
-from .pick import ground_on, nearest, ray_through
+from .pick import Place, Sight, nearest
 
 NEAR = 14.0
 """How near the pointer has to be to a grip to take hold of it [pixels]."""
@@ -85,7 +87,7 @@ class EditWalk(Walk):
         size = self.window.get_size()
         saved = self.editor.history.is_saved
         self.gui.begin(size, self.window.get_framebuffer_size(), self._dt)
-        self._gizmo(size).show(grips_of(self.editor), self._pointed())
+        show_gizmo(self.editor, self._sight(), grips_of(self.editor), self._pointed())
         self.panel.show(list(self.frames))
         self.gui.end()
         if self.editor.history.is_saved and not saved:
@@ -204,18 +206,21 @@ class EditWalk(Walk):
 
     def _pointed(self) -> Place | None:
         """Return where the pointer is on the ground, (x, z) [m]; None where it is on the panel or in the sky."""
-        size = self.window.get_size()
         if self.gui.wants_mouse and self._grip is None and self._stroke is None:
             return None
-        return ground_on(ray_through(self._pointer, size, *self.matrices(size)), self.prairie.height_at)
+        return self._sight().ground(self._pointer)
 
-    def _gizmo(self, size: tuple[int, int]) -> Gizmo:
-        return Gizmo(self.editor, size, *self.matrices(size))
+    def _sight(self) -> Sight:
+        size = self.window.get_size()
+        return Sight(size, *self.matrices(size), self.prairie.site.ground.terrain)
 
     def _take_hold(self, place: Place | None) -> None:
         grips = grips_of(self.editor)
-        found = nearest(self._pointer, self._gizmo(self.window.get_size()).pixels([each.place for each in grips]), NEAR)
-        self._grip = grips[found] if found is not None else None if place is None else grip_at(self.editor, place)
+        found = nearest(self._pointer, self._sight().pixels_on_ground([each.place for each in grips]), NEAR)
+        if place is None:
+            self._grip = None
+        else:
+            self._grip = grip_at(self.editor, place) if found is None else replace(grips[found], place=place)
         self.editor.picked = None if self._grip is None else self._grip.number
 
     def _paint(self, line: list[Place]) -> None:

@@ -14,23 +14,19 @@ _PLAIN = re.compile(r"[A-Za-z_][\w./-]*")
 
 def yaml_text(value: Any, /) -> str:
     """Return a value on one line, as the house writes it: `{ kind: gust, position: [0, 2.5], tip: "#d9c27a" }`."""
-    match value:
-        case None:
-            return "null"
-        case bool():
-            return str(value).lower()
-        case float():
-            return format(value, f".{DIGITS}g")
-        case int():
-            return str(value)
-        case str():
-            return value if is_plain(value) else json.dumps(value, ensure_ascii=False)
-        case list():
-            return f"[{', '.join(map(yaml_text, value))}]"
-        case dict():
-            inner = ", ".join(f"{yaml_text(key)}: {yaml_text(each)}" for key, each in value.items())
-            return f"{{ {inner} }}" if inner else "{}"
-    raise TypeError(f"a scene file cannot write {value!r}")
+    if isinstance(value, dict):
+        inner = ", ".join(f"{yaml_text(key)}: {yaml_text(each)}" for key, each in value.items())
+        return f"{{ {inner} }}" if inner else "{}"
+    if isinstance(value, list):
+        return f"[{', '.join(map(yaml_text, value))}]"
+    if isinstance(value, str):
+        return value if is_plain(value) else json.dumps(value, ensure_ascii=False)
+    if isinstance(value, float):
+        return format(value, f".{DIGITS}g")
+    return _WORDS[value] if value is None or isinstance(value, bool) else str(value)
+
+
+_WORDS = {None: "null", True: "true", False: "false"}
 
 
 def is_plain(text: str, /) -> bool:

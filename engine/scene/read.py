@@ -46,7 +46,7 @@ class LoadedScene:
     """The files that the scene names, as it names them, and what they were like when it was read."""
 
     pictures: Mapping[str, NDArray[np.uint8]] = field(default_factory=dict, repr=False)
-    """Density maps that stand in for files of these names, shape (rows, columns, 3 or 4); another array is another map."""
+    """Density maps in place of files of these names, (rows, columns, 3 or 4) each; another array is another map."""
 
     @property
     def paths(self) -> dict[str, Path]:

@@ -10,7 +10,8 @@ from PIL import Image
 
 from tallgrass.app.edit.brush import Brush
 from tallgrass.app.edit.editor import Editor
-from tallgrass.app.edit.values import NOTHING
+from tallgrass.app.edit.pen import Pen
+from tallgrass.app.edit.values import NOTHING, with_value
 from tallgrass.engine.scene import read_scene
 from tallgrass.systems.prairie import Prairie
 
@@ -81,7 +82,6 @@ def test_grass_grows_behind_the_frame_and_light_does_not_wait_for_it(editor: Edi
     assert editor.prairie.scene.light.elevation == 60.0
     assert editor.prairie.site.growths == before
     editor.remaking.wait()
-    assert not editor.remaking.is_growing
     assert editor.prairie.scene == editor.scene
     assert editor.prairie.site.growths[0] is not before[0]
     assert editor.prairie.site.growths[1] is before[1]
@@ -168,7 +168,6 @@ def test_saving_changes_those_lines_alone_whose_keys_have_changed(editor: Editor
         ("    position: [4, -2]", "    position: [5.5, -2]"),
         ("light: { elevation: 30 }", "light: { elevation: 45 }"),
     ]
-    assert editor.history.is_saved
     assert read_scene(path).scene == editor.scene
     assert editor.save() == "nothing has changed"
     editor.undo()
@@ -237,18 +236,18 @@ def test_a_bundled_scene_stays_and_a_copy_with_its_maps_is_written_here(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    editor = Editor(Prairie.load("meadow", preset="low"))
-    bundled = editor.prairie.path.read_text()
-    editor.set(("light", "elevation"), 45.0)
-    assert editor.save() == "meadow.yaml is written"
-    assert editor.prairie.path == tmp_path / "meadow.yaml"
-    assert (tmp_path / "meadow.yaml").read_text() == bundled.replace("elevation: 30", "elevation: 45")
-    assert read_scene(tmp_path / "meadow.yaml").scene == editor.scene
-    editor.close()
-    other = Editor(Prairie.load("meadow", preset="low"))
-    other.set(("light", "elevation"), 46.0)
-    assert other.save() == ""
-    other.close()
+    loaded = read_scene("meadow")
+    bundled, values = loaded.path.read_text(), loaded.document.root.data
+    changed = with_value(values, ("light", "elevation"), 45.0)
+    pen = Pen(loaded)
+    assert pen.write(changed, {}) == ["meadow.yaml"]
+    assert pen.path == tmp_path / "meadow.yaml"
+    assert pen.path.read_text() == bundled.replace("elevation: 30", "elevation: 45")
+    assert read_scene(pen.path).scene.light.elevation == 45.0
+    assert loaded.path.read_text() == bundled
+    assert pen.write(values, {}) == ["meadow.yaml"]
+    with pytest.raises(ValueError, match="in this folder already"):
+        Pen(loaded).write(changed, {})
 
 
 def test_a_brush_for_a_kind_that_is_gone_does_nothing(editor: Editor) -> None:
