@@ -61,6 +61,9 @@ class Prairie:
     loaded: LoadedScene
     """The scene, and the file that it was read from."""
 
+    preset: str | None
+    """The preset that comes before the scene's own quality."""
+
     governor: Governor
     """What holds the time of a draw, if anything does; its `hold` may be changed at any time."""
 
@@ -85,7 +88,7 @@ class Prairie:
         self.winds = Winds(self.world, loaded.scene, self.site.ground, self.site.growths, live=live)
         self.pressers = Pressers(self.world, loaded.scene, self.site.growths)
         self.systems = Schedule()
-        self.loaded, self._preset, self._clock, self._released = loaded, preset, 0.0, False
+        self.loaded, self.preset, self._clock, self._released = loaded, preset, 0.0, False
         screen = Screen(ctx, self.winds.quarantine, linear=linear)
         self._assembly = Assembly(self.world, self.viewers, self.clearings, self.winds, self.pressers, screen)
         self._built = self._assembly.on(self.site)
@@ -134,7 +137,7 @@ class Prairie:
         """Return another prairie of the same scene, quality and terrain, with other grass."""
         loaded = replace(self.loaded, scene=self.scene.model_copy(update={"seed": seed}))
         return Prairie(
-            loaded, ctx=self._assembly.screen.ctx, preset=self._preset, lod=self.lod,
+            loaded, ctx=self._assembly.screen.ctx, preset=self.preset, lod=self.lod,
             transitions=self.site.transitions, live=self.winds.quarantine.live,
             linear=self._assembly.screen.linear,
         )  # fmt: skip
@@ -317,11 +320,11 @@ class Prairie:
         As grass takes its time to grow, it may be called on another thread. It raises `SceneError` with every problem
         of the maps.
         """
-        return partial(found_again, self.site, self.loaded, loaded, preset=self._preset, lod=self.lod)
+        return partial(found_again, self.site, self.loaded, loaded, preset=self.preset, lod=self.lod)
 
     def is_grown(self, loaded: LoadedScene) -> bool:
         """Return whether all the grass and the ground of another reading of the scene is there already."""
-        return is_grown(self.site, loaded.scene, preset=self._preset)
+        return is_grown(self.site, loaded.scene, preset=self.preset)
 
     def release(self) -> None:
         """Give back everything: GL objects in every window, places in batches, entities, and what `install` added.

@@ -16,9 +16,9 @@ from ...engine.scene.document import Document, noded
 from ...engine.scene.read import load_document
 from ...engine.terrain.density import Picture
 from ...systems.prairie import Prairie
+from .anchors import PLACE, Anchor, declared_anchors
 from .brush import Brush, new_picture, read_picture, stroked
 from .fields import first_part, keys_of
-from .handles import PLACE, Handle, declared_handles
 from .history import Draft, History
 from .pen import Pen
 from .pick import Place
@@ -80,6 +80,11 @@ class Editor:
     def picked_wind(self) -> WindPrimitive | None:
         """The wind that is picked, unless it has gone meanwhile."""
         return self.winds[self.picked] if self.picked is not None and self.picked < len(self.winds) else None
+
+    @property
+    def is_preset(self) -> bool:
+        """Whether the prairie is drawn at another quality than the scene's: that of the command line comes first."""
+        return self.prairie.preset is not None
 
     def is_said(self, way: Way) -> bool:
         """Return whether the file says anything at a way."""
@@ -143,8 +148,8 @@ class Editor:
         """Do again what was undone last."""
         self._go(done=self.history.redo())
 
-    def drag(self, moved: Sequence[Handle], by: Place) -> None:
-        """Put handles elsewhere: each by so far [m] from where it was when they were taken hold of."""
+    def drag(self, moved: Sequence[Anchor], by: Place) -> None:
+        """Put anchors elsewhere: each by so far [m] from where it was when they were taken hold of."""
         there = {
             each.way: [round(each.place[0] + by[0], CENTIMETRES), round(each.place[1] + by[1], CENTIMETRES)]
             for each in moved
@@ -164,9 +169,9 @@ class Editor:
         draft = replace(draft, pictures={**draft.pictures, name: painted})
         self._take(draft, way=("grass", self.brush.kind, "place"), subject=("stroke", self._stroke))
 
-    def handles(self) -> list[tuple[int, Handle]]:
+    def anchors(self) -> list[tuple[int, Anchor]]:
         """Return the places of all winds, each with its wind's number."""
-        return [(number, each) for number, wind in enumerate(self.winds) for each in declared_handles(wind, number)]
+        return [(number, each) for number, wind in enumerate(self.winds) for each in declared_anchors(wind, number)]
 
     def step(self) -> None:
         """Take over what has grown since the last frame; what could not is taken back."""

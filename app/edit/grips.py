@@ -10,8 +10,8 @@ from ...systems.overlay.masks import BEGINS
 from ...systems.prairie import Prairie
 from ...systems.wind.blow import Blowing
 from ...systems.wind.quarantine import QuarantinedError
+from .anchors import Anchor, ahead, declared_anchors, heading, turned_to
 from .editor import Editor
-from .handles import Handle, ahead, declared_handles, heading, turned_to
 from .pick import Floats, Place
 from .values import Way
 
@@ -30,7 +30,7 @@ class Grip:
     place: Place
     """Ground position (x, z) [m]."""
 
-    moved: tuple[Handle, ...] = ()
+    moved: tuple[Anchor, ...] = ()
     """What goes along with it."""
 
     way: Way = ()
@@ -42,13 +42,13 @@ class Grip:
 
 def grips_of(editor: Editor) -> list[Grip]:
     """Return the grips of all winds: one at each place that they declare, and where the picked one heads."""
-    found = [Grip("move", number, handle.place, (handle,)) for number, handle in editor.handles()]
+    found = [Grip("move", number, anchor.place, (anchor,)) for number, anchor in editor.anchors()]
     wind = editor.picked_wind
     if wind is not None and editor.picked is not None:
         turns = heading(wind, editor.picked)
         if turns is not None:
             blown = blowing_of(editor.prairie, wind)
-            middle = (blown[0].pose.x, blown[0].pose.z) if blown else declared_handles(wind, editor.picked)[0].place
+            middle = (blown[0].pose.x, blown[0].pose.z) if blown else declared_anchors(wind, editor.picked)[0].place
             place = ahead(middle, turns[1], _away(blown))
             found.append(Grip("turn", editor.picked, place, way=turns[0], middle=middle))
     return found
@@ -61,7 +61,7 @@ def grip_at(editor: Editor, place: Place, /) -> Grip | None:
         number = number_of(editor, blown.source.primitive)
         if number is None or blown.extent is None or not _is_on(prairie, blown, spot):
             continue
-        return Grip("move", number, place, tuple(declared_handles(editor.winds[number], number)))
+        return Grip("move", number, place, tuple(declared_anchors(editor.winds[number], number)))
     return None
 
 

@@ -85,6 +85,8 @@ class Tree:
         self._name(key, way)
         if new is not NOTHING:
             self._set(key, new, way)
+        if way == ("quality",) and self.editor.is_preset:
+            imgui.text_colored(UNSAID, "drawn at --preset, which comes first")
         if key.model is not None and isinstance(value, BaseModel):
             self._branch(key, value, way)
 

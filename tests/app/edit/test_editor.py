@@ -138,9 +138,9 @@ def test_what_only_shows_when_it_is_made_is_taken_back_with_its_reason(editor: E
 
 def test_undo_and_redo_go_through_every_step_and_a_drag_is_one(editor: Editor) -> None:
     first = editor.scene
-    handle = next(each for number, each in editor.handles() if number == 1)
+    anchor = next(each for number, each in editor.anchors() if number == 1)
     for step in range(5):
-        editor.drag([handle], (step, 0.5 * step))
+        editor.drag([anchor], (step, 0.5 * step))
     editor.rest()
     editor.set(("light", "hour"), 8.0)
     editor.set(("wind", 0), NOTHING)

@@ -7,7 +7,8 @@ What opens windows is imported inside the tests: there has to be a display first
 
 import ctypes
 import difflib
-from collections.abc import Iterator
+import subprocess
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -325,3 +326,12 @@ def test_n13_a_tab_has_a_bar_for_every_system_of_the_frame(walk: "EditWalk", mon
     frames(walk)
     bars = [line.partition(",")[0] for line in told]
     assert bars == [*(system.name for system in walk.prairie.systems), "drawing"]
+
+
+def test_walk_edit_opens_a_window_with_a_panel_and_closes_by_itself(
+    tallgrass: Callable[..., subprocess.CompletedProcess[str]], tmp_path: Path
+) -> None:
+    (tmp_path / "lawn.yaml").write_text(SCENE)
+    done = tallgrass("walk", "lawn.yaml", "--edit", "--size", "400x300", "--seconds", 0.5)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert (tmp_path / "lawn.yaml").read_text() == SCENE

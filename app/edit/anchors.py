@@ -21,7 +21,7 @@ WHOLE = 1
 
 
 @dataclass(frozen=True, slots=True)
-class Handle:
+class Anchor:
     """A place that a wind declares, and the key that says so."""
 
     way: Way
@@ -29,20 +29,20 @@ class Handle:
     """Ground position (x, z) [m]."""
 
 
-def declared_handles(wind: WindPrimitive, number: int, /) -> list[Handle]:
+def declared_anchors(wind: WindPrimitive, number: int, /) -> list[Anchor]:
     """Return the places that the wind of a number declares: those of its path, or else its own."""
     path = getattr(wind, PATH, None)
     if isinstance(path, list) and path:
         found = ((("wind", number, PATH, k), stop) for k, stop in enumerate(path) if isinstance(stop, BaseModel))
-        return [handle for way, stop in found for handle in _handle(stop, way)]
-    return _handle(wind, ("wind", number))
+        return [anchor for way, stop in found for anchor in _anchor(stop, way)]
+    return _anchor(wind, ("wind", number))
 
 
-def _handle(part: BaseModel, way: Way) -> list[Handle]:
+def _anchor(part: BaseModel, way: Way) -> list[Anchor]:
     place: Any = getattr(part, PLACE, None)
     if _key(part, PLACE, form="numbers") is None or not isinstance(place, list) or len(place) != 2:
         return []
-    return [Handle((*way, PLACE), (float(place[0]), float(place[1])))]
+    return [Anchor((*way, PLACE), (float(place[0]), float(place[1])))]
 
 
 def heading(wind: WindPrimitive, number: int, /) -> tuple[Way, float] | None:
@@ -51,7 +51,7 @@ def heading(wind: WindPrimitive, number: int, /) -> tuple[Way, float] | None:
     None for one that is everywhere, whose heading has no place on the ground, and for one on a path, which says where
     it leads.
     """
-    if not declared_handles(wind, number) or getattr(wind, PATH, None):
+    if not declared_anchors(wind, number) or getattr(wind, PATH, None):
         return None
     named = next((name for name in HEADINGS if _key(wind, name, form="number") is not None), None)
     return None if named is None else (("wind", number, named), radians(float(getattr(wind, named))))
