@@ -188,10 +188,14 @@ class Walk:
             self.tell(_told(error), lasting=True)
             return
         self._watch.turn_to(self.prairie.files.values())
+        self.settle()
+        self.tell([f"{self.take.scene} is read again"])
+
+    def settle(self) -> None:
+        """Stand, or hover, on the ground as it is now."""
         self.walker = settled(self.walker, self.ground)
         if self.flight is not None:
             self.flight.settle(self.ground)
-        self.tell([f"{self.take.scene} is read again"])
 
     def escape(self) -> None:
         """Let the mouse go, or else leave."""

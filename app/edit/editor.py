@@ -133,6 +133,8 @@ class Editor:
 
     def remove(self, way: Way) -> bool:
         """Take a key out of the file, or an item out of a list: what it was is its default again, or gone."""
+        if way[:1] == ("wind",):
+            self.picked = None  # those behind it are numbered anew
         return self.set(way, NOTHING)
 
     def rest(self) -> None:

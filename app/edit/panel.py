@@ -71,7 +71,8 @@ class Panel:
             self._remember(name)
             imgui.end_disabled()
             imgui.same_line()
-        imgui.text_unformatted("growing ..." if self.editor.remaking.is_growing else self.message)
+        told = self.message if history.is_saved else ""
+        imgui.text_unformatted("growing ..." if self.editor.remaking.is_growing else told)
         refusal = self.editor.refusal
         if refusal is not None and refusal.way not in self.tree.boxes:
             imgui.push_style_color(imgui.Col_.text, REFUSED)

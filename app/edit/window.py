@@ -52,7 +52,10 @@ class EditWalk(Walk):
         """Move on by `dt` [s], with what has grown since the last frame."""
         super().step(dt)
         self._dt = dt
+        terrain = self.prairie.site.ground.terrain
         self.editor.step()
+        if self.prairie.site.ground.terrain is not terrain:
+            self.settle()
         self.editor.spot = looked_at(self.camera, self.ground)
 
     def reload(self) -> None:

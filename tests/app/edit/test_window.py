@@ -254,6 +254,27 @@ def test_n13_saving_writes_the_changed_keys_and_no_other_line(walk: "EditWalk", 
     assert walk.prairie.site is site, "what was saved here is not read again"
 
 
+def test_the_panel_leaves_the_prairie_as_it_is_drawn_without_one(walk: "EditWalk") -> None:
+    strike(walk, "SPACE")
+    opened(walk, ("light",), ("wind", 0))
+    alone = seen(walk)
+    walk.on_draw()
+    assert (seen(walk) == alone).all()
+    assert walk.ctx.error == "GL_NO_ERROR"
+
+
+def test_n7_who_walks_stands_on_a_terrain_that_was_changed(walk: "EditWalk") -> None:
+    walk.editor.set(("terrain",), {"noise": "hills", "size": [60.0, 60.0], "scale": 40.0})
+    walk.editor.remaking.wait()
+    walk.settle()
+    settled = walk.walker.position
+    walk.editor.undo()
+    while walk.editor.remaking.is_growing:
+        frames(walk)
+    assert settled[1] != pytest.approx(1.7, abs=0.1)
+    assert walk.walker.position[1] == pytest.approx(1.7, abs=0.01)
+
+
 def test_keys_that_are_typed_into_a_field_do_not_walk(walk: "EditWalk") -> None:
     opened(walk, ("light",))
     from pyglet.window import key
