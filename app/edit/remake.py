@@ -1,5 +1,6 @@
 """A prairie that follows its draft: at once where nothing has to grow, and otherwise behind the frames."""
 
+from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import replace
@@ -68,7 +69,17 @@ class Remaking:
 
     def _start(self) -> None:
         if self._growing is None and self._wanted is not None:
-            self._growing = self._wanted, self._hand.submit(self._prairie.finding(self._wanted))
+            find = self._prairie.finding(self._wanted)
+            self._growing = self._wanted, self._hand.submit(_prepared, find, self._prairie.site)
+
+
+def _prepared(find: Callable[[], Site], shown: Site) -> Site:
+    """Return the site that is found, with what painters take long to make where it has other grass than is shown."""
+    site = find()
+    if site.growths != shown.growths or site.quality != shown.quality:
+        for each in site.representations:
+            each.prepare()
+    return site
 
 
 def _meanwhile(loaded: LoadedScene, shown: LoadedScene) -> LoadedScene:
