@@ -24,8 +24,9 @@ def show_gizmo(editor: Editor, sight: Sight, grips: Sequence[Grip], pointed: Pla
     if editor.brush is None:
         if editor.picked_wind is not None:
             _outline(editor, sight)
-        for grip in grips:
-            _grip(editor, sight, grip)
+        ends = _flipped(sight, sight.pixels_on_ground([end for grip in grips for end in (grip.middle, grip.place)]))
+        for grip, (middle, end) in zip(grips, ends.reshape(-1, 2, 2), strict=True):
+            _grip(editor, grip, middle, end)
     elif pointed is not None:
         places = np.array(pointed) + editor.brush.radius * _RING
         pixels = _flipped(sight, sight.pixels_on_ground(places.tolist()))
@@ -42,8 +43,7 @@ def _outline(editor: Editor, sight: Sight) -> None:
         _lines(_flipped(sight, ends).reshape(-1, 4), _packed(mask.color), 2.5)
 
 
-def _grip(editor: Editor, sight: Sight, grip: Grip) -> None:
-    middle, end = _flipped(sight, sight.pixels_on_ground([grip.middle, grip.place]))
+def _grip(editor: Editor, grip: Grip, middle: Doubles, end: Doubles) -> None:
     if np.isnan(end).any():
         return
     canvas, at = imgui.get_background_draw_list(), imgui.ImVec2(*end.tolist())

@@ -90,7 +90,9 @@ class EditWalk(Walk):
         size = self.window.get_size()
         saved = self.editor.history.is_saved
         self.gui.begin(size, self.window.get_framebuffer_size(), self._dt)
-        show_gizmo(self.editor, self._sight(), grips_of(self.editor), self._pointed())
+        brush = self.editor.brush
+        grips, pointed = (grips_of(self.editor), None) if brush is None else ([], self._pointed())
+        show_gizmo(self.editor, self._sight(), grips, pointed)
         self.panel.show(list(self.frames))
         self.gui.end()
         if self.editor.history.is_saved and not saved:
