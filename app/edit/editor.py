@@ -204,6 +204,7 @@ class Editor:
     def read_again(self) -> None:
         """Begin anew with what the files say now. Raises SceneError with every problem; then nothing has changed."""
         self.prairie.reload(self.pen.path)
+        self.remaking.forget()
         self._begin(self.prairie.loaded)
 
     def close(self) -> None:

@@ -100,5 +100,8 @@ def picture_bytes(picture: Picture, name: str, /) -> bytes:
 def _put(path: Path, data: bytes) -> None:
     """Write a file in one step: nobody ever finds half of it."""
     part = path.with_name(path.name + ".part")
-    part.write_bytes(data)
-    part.replace(path)
+    try:
+        part.write_bytes(data)
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)

@@ -41,6 +41,10 @@ class Remaking:
         self._wanted = loaded
         self._start()
 
+    def forget(self) -> None:
+        """Let what is growing come to nothing: the prairie has become something else meanwhile."""
+        self._wanted = None
+
     def step(self) -> None:
         """Take over what has grown since the last frame; raises SceneError where it could not."""
         if self._growing is None or not self._growing[1].done():

@@ -9,7 +9,6 @@ from pydantic import BaseModel
 
 from ...components.wind import WindPrimitive
 from ...engine.declared.grass import GrassKind
-from ...engine.declared.scene import Scene
 from .brush import Brush
 from .editor import Editor
 from .fields import Key, first_part, first_value, item_key, keys_of, told_of
@@ -202,25 +201,3 @@ class Tree:
     def _remember(self, way: Way) -> None:
         low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
         self.boxes[way] = low.x, low.y, high.x, high.y
-
-
-def parts_of(scene: Scene, /) -> list[Way]:
-    """Return the ways to all parts of a scene that can be open: those with keys of their own, and lists of them."""
-    found: list[Way] = []
-
-    def visit(value: Any, way: Way) -> None:
-        inner: list[tuple[str | int, Any]]
-        if isinstance(value, BaseModel):
-            inner = [(key.name, getattr(value, key.name)) for key in keys_of(type(value))]
-        elif isinstance(value, dict):
-            inner = list(value.items())
-        elif isinstance(value, list) and value and isinstance(value[0], BaseModel):
-            inner = list(enumerate(value))
-        else:
-            return
-        found.append(way)
-        for step, each in inner:
-            visit(each, (*way, step))
-
-    visit(scene, ())
-    return found[1:]

@@ -7,21 +7,24 @@ What opens windows is imported inside the tests: there has to be a display first
 
 import ctypes
 import difflib
-import subprocess
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from pydantic import BaseModel
+from pydantic import BaseModel, Field
 
+from tallgrass.app.edit.fields import keys_of
 from tallgrass.app.edit.pick import Sight
 from tallgrass.app.edit.values import Way
 from tallgrass.app.studio.take import Take
+from tallgrass.components.wind import Extent, Floats, Grass
+from tallgrass.engine.plugins import WindKinds, wind_kinds
 from tallgrass.engine.scene import bundled_scenes, read_scene
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.wind.placed import PlacedWind
 
 if TYPE_CHECKING:
     from tallgrass.app.edit.window import EditWalk
@@ -313,9 +316,6 @@ def test_a_file_that_changes_meanwhile_is_read_again_unless_something_is_unsaved
 
 
 def test_n13_every_key_of_a_scene_has_its_field(walk: "EditWalk", tmp_path: Path) -> None:
-    from tallgrass.app.edit.fields import keys_of
-    from tallgrass.app.edit.tree import parts_of
-
     walk.window.set_size(720, 1000)
     text = bundled_scenes()["storm"].read_text().replace("quality: high", SCENE[SCENE.index("quality:") :])
     (tmp_path / "lawn.yaml").write_text(text.replace("[200, 200]", "[100, 100]"))
@@ -331,10 +331,67 @@ def test_n13_every_key_of_a_scene_has_its_field(walk: "EditWalk", tmp_path: Path
                 assert {(*way, key.name), (*way, key.name, "there")} & shown, (*way, key.name)
 
 
+def parts_of(value: Any, way: Way = ()) -> list[Way]:
+    """The ways to all parts of a scene that can be open: those with keys of their own, and lists of them."""
+    if isinstance(value, BaseModel):
+        inner: list[tuple[str | int, Any]] = [(key.name, getattr(value, key.name)) for key in keys_of(type(value))]
+    elif isinstance(value, dict):
+        inner = list(value.items())
+    elif isinstance(value, list) and value and isinstance(value[0], BaseModel):
+        inner = list(enumerate(value))
+    else:
+        return []
+    return [way] * bool(way) + [found for step, each in inner for found in parts_of(each, (*way, step))]
+
+
 def value_of(part: Any, way: Way) -> Any:
     for step in way:
         part = getattr(part, str(step)) if isinstance(part, BaseModel) else part[step]
     return part
+
+
+class Draught(PlacedWind):
+    """A stranger's wind."""
+
+    kind: str = "draught"
+    """A draught."""
+
+    chill: float = Field(default=2.0, ge=0.0, le=8.0)
+    """How cold it is [degrees]."""
+
+    def extent(self, *, time: float) -> Extent:
+        return Extent(-2.0, 2.0, -2.0, 2.0)
+
+    def mask(self, place: Floats, /, *, time: float) -> Floats:
+        return np.ones(len(place), np.float32)
+
+    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
+        return np.full((len(place), 2), 0.2, np.float32)
+
+
+def test_n13_a_strangers_wind_is_added_where_one_looks_and_has_its_fields(
+    walk: "EditWalk", own_kinds: WindKinds, tmp_path: Path
+) -> None:
+    own_kinds.add("draught", Draught)
+    assert walk.editor.add_wind_of("draught")
+    frames(walk, 3)
+    wind = walk.prairie.scene.wind[1]
+    assert isinstance(wind, Draught)
+    assert walk.editor.picked_wind is wind
+    assert wind.position == pytest.approx(walk.editor.spot, abs=0.01)
+    drag(walk, field(walk, ("wind", 1, "chill"), 0.25), field(walk, ("wind", 1, "chill"), 0.75))
+    assert walk.prairie.scene.wind[1].model_dump()["chill"] == pytest.approx(6.0, abs=0.5)
+    strike(walk, "S", ctrl=True)
+    added = [line for line in (tmp_path / "lawn.yaml").read_text().splitlines() if line not in SCENE.splitlines()]
+    (line,) = added
+    assert line.startswith("  - { kind: draught, position: [")
+
+
+@pytest.fixture
+def own_kinds() -> Iterator[WindKinds]:
+    wind_kinds.cache_clear()
+    yield wind_kinds()
+    wind_kinds.cache_clear()
 
 
 def test_n13_a_tab_has_a_bar_for_every_system_of_the_frame(walk: "EditWalk", monkeypatch: pytest.MonkeyPatch) -> None:
@@ -347,12 +404,3 @@ def test_n13_a_tab_has_a_bar_for_every_system_of_the_frame(walk: "EditWalk", mon
     frames(walk)
     bars = [line.partition(",")[0] for line in told]
     assert bars == [*(system.name for system in walk.prairie.systems), "drawing"]
-
-
-def test_walk_edit_opens_a_window_with_a_panel_and_closes_by_itself(
-    tallgrass: Callable[..., subprocess.CompletedProcess[str]], tmp_path: Path
-) -> None:
-    (tmp_path / "lawn.yaml").write_text(SCENE)
-    done = tallgrass("walk", "lawn.yaml", "--edit", "--size", "400x300", "--seconds", 0.5)
-    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
-    assert (tmp_path / "lawn.yaml").read_text() == SCENE
