@@ -32,6 +32,16 @@ class Brush:
     pressure: float = 0.5
     """How much of the way it goes where the disc passes, in (0, 1]."""
 
+    alone: bool = True
+    """Whether other kinds that have maps make room for it."""
+
+    lowers: bool = False
+    """Whether it only ever takes grass away."""
+
+    def making_room(self, kind: str) -> "Brush":
+        """Return the brush by which another kind makes room for what this one paints."""
+        return replace(self, kind=kind, density=1.0 - self.density, lowers=True)
+
     def erasing(self) -> "Brush":
         """Return the brush that takes this grass away."""
         return replace(self, density=0.0)
@@ -51,7 +61,8 @@ def stroked(
     for place in _dabs(line, 0.4 * brush.radius):
         across, down = _within(x, place[0], brush.radius), _within(z, place[1], brush.radius)
         part = _disc(x[across] - place[0], z[down] - place[1], brush.radius) * np.float32(brush.pressure)
-        painted[down, across] += part * (np.float32(255.0 * brush.density) - painted[down, across])
+        way = np.float32(255.0 * brush.density) - painted[down, across]
+        painted[down, across] += part * (np.minimum(way, 0.0) if brush.lowers else way)
     result = picture.copy()
     result[..., number] = np.clip(np.rint(painted), 0.0, 255.0).astype(np.uint8)
     return result

@@ -165,10 +165,10 @@ class Editor:
             return
         if self._stroke is None:
             self._stroke = next(self._strokes)
-        draft, name, channel, picture = self._canvas(self.brush.kind)
-        size = self.prairie.site.ground.terrain.size
-        painted = stroked(picture, channel, self.brush, np.array(line, np.float64).reshape(-1, 2), size)
-        draft = replace(draft, pictures={**draft.pictures, name: painted})
+        brush, draft = self.brush, self.history.now
+        others = [kind for kind, grass in self.scene.grass.items() if grass.place is not None and kind != brush.kind]
+        for each in [brush, *(brush.making_room(kind) for kind in others if brush.alone and brush.density > 0.0)]:
+            draft = self._stroked(draft, each, line)
         self._take(draft, way=("grass", self.brush.kind, "place"), subject=("stroke", self._stroke))
 
     def anchors(self) -> list[tuple[int, Anchor]]:
@@ -252,9 +252,14 @@ class Editor:
                 values = with_value(values, way[:number], _plain(self.scene, way[:number]))
         return values
 
-    def _canvas(self, kind: str) -> tuple[Draft, str, str, Picture]:
+    def _stroked(self, draft: Draft, brush: Brush, line: Sequence[Place]) -> Draft:
+        draft, name, channel, picture = self._canvas(draft, brush.kind)
+        places, size = np.array(line, np.float64).reshape(-1, 2), self.prairie.site.ground.terrain.size
+        return replace(draft, pictures={**draft.pictures, name: stroked(picture, channel, brush, places, size)})
+
+    def _canvas(self, draft: Draft, kind: str) -> tuple[Draft, str, str, Picture]:
         """Return the draft in which a kind has a map, the map's name, its channel, and what is painted so far."""
-        draft, place = self.history.now, self.scene.grass[kind].place
+        place = self.scene.grass[kind].place
         if place is not None:
             if place.map not in self._pictures(draft):
                 self._unpainted[place.map] = read_picture(self.loaded.folder / place.map)

@@ -91,7 +91,8 @@ class Panel:
         _, density = imgui.slider_float("density", brush.density, 0.0, 1.0, "%.2f")
         imgui.set_next_item_width(170.0)
         _, pressure = imgui.slider_float("pressure", brush.pressure, 0.05, 1.0, "%.2f")
-        self.editor.brush = replace(brush, radius=radius, density=density, pressure=pressure)
+        _, alone = imgui.checkbox("other kinds make room", brush.alone)
+        self.editor.brush = replace(brush, radius=radius, density=density, pressure=pressure, alone=alone)
         if imgui.button("done"):
             self.editor.brush = None
         self._remember("done")

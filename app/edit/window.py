@@ -177,7 +177,7 @@ class EditWalk(Walk):
         brush = self.editor.brush
         if brush is not None and not self.gui.wants_mouse:
             radius = min(max(brush.radius * 1.15**scroll_y, 0.5), 50.0)
-            self.editor.brush = Brush(brush.kind, radius, brush.density, brush.pressure)
+            self.editor.brush = replace(brush, radius=radius)
 
     def on_deactivate(self) -> None:
         """Let go of everything when another window takes over."""

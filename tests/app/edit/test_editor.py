@@ -220,6 +220,22 @@ def test_the_first_stroke_of_a_kind_without_a_map_makes_one_that_says_what_was_t
     assert editor.scene.grass["low"].place is None
 
 
+def test_where_one_kind_is_painted_the_others_with_maps_make_room(editor: Editor) -> None:
+    editor.set(("grass", "low", "place"), {"map": "high.png", "channel": "red"})
+    editor.brush = Brush("low", radius=8.0, pressure=1.0)
+    editor.paint([(-10.0, 0.0), (-6.0, 0.0)])
+    low, high = editor.prairie.site.ground.density.maps
+    assert (low - high).max() > 0.8
+    assert high.max() == pytest.approx(0.2, abs=0.01)
+    editor.rest()
+    editor.brush = replace(editor.brush, alone=False, kind="high")
+    editor.paint([(10.0, 0.0), (6.0, 0.0)])
+    low, high = editor.prairie.site.ground.density.maps
+    right = slice(len(low) // 2, None)
+    assert high[:, right].max() > 0.7
+    assert low[:, right].max() == pytest.approx(0.2, abs=0.01)
+
+
 def test_a_file_that_somebody_else_has_changed_is_not_written_over(editor: Editor, path: Path) -> None:
     editor.set(("light", "elevation"), 45.0)
     path.write_text(SCENE.replace("radius: 3", "radius: 2"))
