@@ -209,11 +209,16 @@ def tidied(key: Key, number: float, /, *, pulled: bool = True) -> float:
     if key.form == "whole":
         return round(number)
     if not pulled:
-        return float(f"{number:.{TYPED}g}")
-    short = float(f"{number:.{PULLED}g}") if abs(number) < 10.0**PULLED else float(round(number))
+        return _shortened(number, TYPED)
+    short = _shortened(number, PULLED) if abs(number) < 10.0**PULLED else round(number)
     if key.above and key.low is not None and short <= key.low:
-        return float(f"{key.low + 0.05 * max(abs(key.low), 0.01):.{PULLED}g}")
+        return _shortened(key.low + 0.05 * max(abs(key.low), 0.01), PULLED)
     return short
+
+
+def _shortened(number: float, digits: int) -> float:
+    short = float(f"{number:.{digits}g}")
+    return int(short) if short.is_integer() else short
 
 
 def told_of(key: Key, /) -> str:

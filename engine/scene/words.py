@@ -59,7 +59,7 @@ def found(value: object, /) -> str:
         case dict():
             return "a mapping of keys"
         case _:
-            return _number(value) if isinstance(value, float) else str(value)
+            return str(value)
 
 
 def _of_type(error: ErrorDetails, field: Field) -> str:
