@@ -52,9 +52,12 @@ def stroked(
 ) -> Picture:
     """Return a map (rows, columns, 3 or 4) with a stroke along ground positions (n, 2) [m]; `size` is the terrain's.
 
-    Between two positions the disc is set down as often as needed for the stroke to have no gaps.
+    Between two positions the disc is set down as often as needed for the stroke to have no gaps. Raises ValueError for
+    a channel that the map does not have.
     """
     number = CHANNELS.index(channel)
+    if number >= picture.shape[2]:
+        raise ValueError(f"the map has no {channel} channel to paint in")
     rows, columns = picture.shape[:2]
     painted = picture[..., number].astype(np.float32)
     x, z = _middles(size[0], columns), _middles(size[1], rows)

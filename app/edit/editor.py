@@ -167,9 +167,14 @@ class Editor:
             self._stroke = next(self._strokes)
         brush, draft = self.brush, self.history.now
         others = [kind for kind, grass in self.scene.grass.items() if grass.place is not None and kind != brush.kind]
-        for each in [brush, *(brush.making_room(kind) for kind in others if brush.alone and brush.density > 0.0)]:
-            draft = self._stroked(draft, each, line)
-        self._take(draft, way=("grass", self.brush.kind, "place"), subject=("stroke", self._stroke))
+        way = ("grass", brush.kind, "place")
+        try:
+            for each in [brush, *(brush.making_room(kind) for kind in others if brush.alone and brush.density > 0.0)]:
+                draft = self._stroked(draft, each, line)
+        except (ValueError, OSError) as error:
+            self.refusal = Refusal(way, (str(error),))
+        else:
+            self._take(draft, way=way, subject=("stroke", self._stroke))
 
     def anchors(self) -> list[tuple[int, Anchor]]:
         """Return the places of all winds, each with its wind's number."""

@@ -48,6 +48,11 @@ def test_erasing_leads_to_nothing_and_half_the_density_to_half() -> None:
     assert half[..., 0].min() == pytest.approx(128, abs=1)
 
 
+def test_a_channel_that_a_map_does_not_have_is_not_painted_in() -> None:
+    with pytest.raises(ValueError, match="no alpha channel"):
+        stroked(EMPTY, "alpha", Brush("a"), line((0.0, 0.0)), SIZE)
+
+
 def test_a_new_map_says_what_was_true() -> None:
     maps = np.random.default_rng(1).uniform(0.0, 1.0, (2, 20, 40)).astype(np.float32)
     made = new_picture(Density(maps, SIZE), 1)
