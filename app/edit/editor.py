@@ -11,7 +11,7 @@ from pydantic import BaseModel
 from ...components.wind import WindPrimitive
 from ...engine.declared.scene import Scene
 from ...engine.plugins import wind_kinds
-from ...engine.scene import LoadedScene, SceneError
+from ...engine.scene import LoadedScene, SceneError, load_maps
 from ...engine.scene.document import Document, noded
 from ...engine.scene.read import load_document
 from ...engine.terrain.density import Picture
@@ -195,10 +195,12 @@ class Editor:
         """Write the scene and its maps back, and return what was written in a sentence; a refusal has none."""
         self.rest()
         try:
+            if self.remaking.is_growing:
+                load_maps(self.loaded)  # what is not made yet may still be refused
             draft = self.history.now
             names = self.pen.write(draft.values, self._pictures(draft))
         except ValueError as error:
-            self.refusal = Refusal((), (str(error),))
+            self.refusal = Refusal((), _reasons(error) if isinstance(error, SceneError) else (str(error),))
             return ""
         self.history.save()
         self.refusal = None

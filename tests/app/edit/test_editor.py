@@ -125,9 +125,13 @@ def test_what_cannot_be_is_refused_with_its_reason_and_changes_nothing(
     assert editor.refusal is None
 
 
-def test_what_only_shows_when_it_is_made_is_taken_back_with_its_reason(editor: Editor) -> None:
+def test_what_only_shows_when_it_is_made_is_never_saved_and_taken_back_with_its_reason(
+    editor: Editor, path: Path
+) -> None:
     editor.set(("camera",), {"position": [15.0, 0.0]})
     assert editor.set(("terrain", "size"), [20.0, 20.0])
+    assert editor.save() == ""
+    assert path.read_text() == SCENE
     while editor.remaking.is_growing:
         editor.step()
     assert editor.refusal is not None
