@@ -14,6 +14,7 @@ from .. import __version__
 from ..engine.declared.scene import LodName
 from .bench.commands import bench
 from .options import (
+    Edit,
     Fullscreen,
     Hold,
     Json,
@@ -89,18 +90,17 @@ def walk(
     seconds: Annotated[float | None, typer.Option(min=0.1, max=36000.0, help="Close by itself after so long.")] = None,
     overlay: Laid = None,
     hold: Hold = None,
+    edit: Edit = False,
 ) -> None:
     """Walk through a scene in a window; F1 shows the keys.
 
     60 frames a second are held, and 20 where there is no graphics card: what takes too long is drawn with fewer pixels.
+    With --edit the scene is changed while one walks in it, and written back.
     """
     take = Take(scene, size_of(size), preset, overlay=overlay_of(overlay))
-    from .display import need_display
+    from .walk import walk_in
 
-    need_display()
-    from .window import walk_in
-
-    walk_in(take, fullscreen=fullscreen, seconds=seconds, hold=hold)
+    walk_in(take, fullscreen=fullscreen, seconds=seconds, hold=hold, edit=edit)
 
 
 @app.command()

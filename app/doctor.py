@@ -20,6 +20,7 @@ _DISTRIBUTION = "tallgrass"
 _EXTRA = re.compile(r"extra\s*==\s*.(\w+)")
 _NEEDED_BY = {
     "bench": "bench picture, bench pop and bench all",
+    "edit": "walks with --edit",
     "farm": "films on many machines",
     "figures": "figures and bench all",
     "video": "films in .mp4",

@@ -39,6 +39,7 @@ On = Annotated[
     str | None,
     typer.Option(metavar="PLACE", help="Let workers do it: local, local:4, or the address of a Dask scheduler."),
 ]
+Edit = Annotated[bool, typer.Option("--edit", help="Change the scene by a panel and on the ground.")]
 Fullscreen = Annotated[bool, typer.Option("--fullscreen", help="Fill the screen.")]
 
 

@@ -1,6 +1,7 @@
 """A window to walk through a prairie in."""
 
 from collections import deque
+from collections.abc import Callable
 from itertools import count
 from math import inf, radians
 from pathlib import Path
@@ -24,7 +25,6 @@ from .overlay import HELP, Note, statistics_lines
 from .studio.encode import picture_writer
 from .studio.errors import InputError, MachineError
 from .studio.offscreen import Offscreen
-from .studio.progress import busy
 from .studio.studio import about, written
 from .studio.take import Take
 from .studio.walker import Ground, Move, moved, settled, start, toggled, turned
@@ -74,21 +74,6 @@ MOST_TOLD = 4
 """Most problems of a scene that are shown at once."""
 
 
-def walk_in(
-    take: Take, /, *, fullscreen: bool = False, seconds: float | None = None, hold: float | None = None
-) -> None:
-    """Open a window on a scene and return when it is closed: by the user, or after `seconds` by itself.
-
-    So many frames a second as `hold` says are held; with None what suits the machine, with 0 none. Raises
-    `SceneError` where the scene is wrong, MachineError where no window can be opened.
-    """
-    with busy("growing the prairie"):
-        prairie = Prairie.load(take.scene, preset=take.preset)
-    walk = Walk(open_window(take.size, fullscreen=fullscreen), prairie, take)
-    walk.hold(hold)
-    walk.run(seconds)
-
-
 def open_window(size: tuple[int, int], /, *, fullscreen: bool = False) -> pyglet.window.Window:
     """Return a new window of this size [pixels]; raises MachineError with a sentence where there can be none."""
     try:
@@ -120,8 +105,10 @@ class Walk:
         self.counting = False
         self.leaving = False
         self.closed = False
+        self.keys: tuple[str, ...] = HELP
         self._held: set[int] = set()
-        self._frames: deque[float] = deque(maxlen=60)
+        self.frames: deque[float] = deque(maxlen=60)
+        """Time from frame to frame of the last ones [ms]."""
         self._age = 0.0
         self._told = 0.0
         self._watch = Watch(prairie.files.values())
@@ -168,7 +155,7 @@ class Walk:
 
     def step(self, dt: float) -> None:
         """Move the viewer, and the prairie unless it is paused, on by `dt` [s]; at most by `LONGEST_STEP`."""
-        self._frames.append(1000.0 * dt)
+        self.frames.append(1000.0 * dt)
         self._age += dt
         if self._age - self._looked >= GLANCE:
             self._looked = self._age
@@ -191,16 +178,24 @@ class Walk:
 
     def reload(self) -> None:
         """Read the scene again and go on; a broken one is told of until it is right, and the old one stays."""
+        self.go_on(self.prairie.reload)
+
+    def go_on(self, read: Callable[[], None]) -> None:
+        """Go on in what `read` makes of the scene's files, or tell what is wrong with them."""
         try:
-            self.prairie.reload()
+            read()
         except SceneError as error:
             self.tell(_told(error), lasting=True)
             return
         self._watch.turn_to(self.prairie.files.values())
+        self.settle()
+        self.tell([f"{self.take.scene} is read again"])
+
+    def settle(self) -> None:
+        """Stand, or hover, on the ground as it is now."""
         self.walker = settled(self.walker, self.ground)
         if self.flight is not None:
             self.flight.settle(self.ground)
-        self.tell([f"{self.take.scene} is read again"])
 
     def escape(self) -> None:
         """Let the mouse go, or else leave."""
@@ -290,7 +285,7 @@ class Walk:
         self.window.clear()
         size = self.window.get_framebuffer_size()
         self._draw_prairie(size)
-        self.overlay.draw(self.prairie, *self._matrices(size))
+        self.overlay.draw(self.prairie, *self.matrices(size))
         self._write_notes()
         for note in (self._top, self._bottom):
             note.draw(*self.window.get_size())
@@ -301,7 +296,7 @@ class Walk:
         if symbol in MOVES:
             self._held.add(symbol)
         elif symbol in _ACTIONS:
-            _ACTIONS[symbol](self)
+            getattr(self, _ACTIONS[symbol])()
         return pyglet.event.EVENT_HANDLED
 
     def on_key_release(self, symbol: int, modifiers: int) -> None:
@@ -317,8 +312,11 @@ class Walk:
     def on_mouse_motion(self, x: int, y: int, dx: int, dy: int) -> None:
         """Look around."""
         del x, y
-        if not self.captured:
-            return
+        if self.captured:
+            self.look(dx, dy)
+
+    def look(self, dx: float, dy: float) -> None:
+        """Turn the look as by a mouse that moved so far [pixels]."""
         right, up = dx * SENSITIVITY, dy * SENSITIVITY
         if self.flight is None:
             self.walker = turned(self.walker, right=right, up=up)
@@ -349,16 +347,17 @@ class Walk:
         self.window.set_exclusive_mouse(caught)
 
     def _draw_prairie(self, size: tuple[int, int]) -> None:
-        self.prairie.draw(*self._matrices(size))
+        self.prairie.draw(*self.matrices(size))
 
-    def _matrices(self, size: tuple[int, int]) -> tuple[Floats, Floats]:
+    def matrices(self, size: tuple[int, int]) -> tuple[Floats, Floats]:
+        """Return view and projection of this instant, (4, 4) each, for a picture of this size [pixels]."""
         camera = self.camera
         return view_matrix(camera), projection_matrix(camera.view, size[0] / max(1, size[1]))
 
     def _write_notes(self) -> None:
-        lines: list[str] = list(HELP) if self.helping else []
+        lines: list[str] = list(self.keys) if self.helping else []
         if self.counting:
-            frame_ms = median(self._frames) if self._frames else 0.0
+            frame_ms = median(self.frames) if self.frames else 0.0
             lines += [""] * bool(lines)
             lines += statistics_lines(self.prairie.statistics, frame_ms=frame_ms, time=self.prairie.time)
         self._top.write(lines)
@@ -367,19 +366,20 @@ class Walk:
 
 
 _ACTIONS = {
-    key.ESCAPE: Walk.escape,
-    key.SPACE: Walk.pause,
-    key.F: Walk.fly,
-    key.G: Walk.board,
-    ord("1"): Walk.gust,  # pyglet numbers keys so, but its names of them are private
-    ord("2"): Walk.whirlwind,
-    ord("3"): Walk.blast,
-    key.F1: Walk.show_help,
-    key.F2: Walk.next_overlay,
-    key.F3: Walk.show_statistics,
-    key.F5: Walk.reload,
-    key.F12: Walk.save_picture,
+    key.ESCAPE: "escape",
+    key.SPACE: "pause",
+    key.F: "fly",
+    key.G: "board",
+    ord("1"): "gust",  # pyglet numbers keys so, but its names of them are private
+    ord("2"): "whirlwind",
+    ord("3"): "blast",
+    key.F1: "show_help",
+    key.F2: "next_overlay",
+    key.F3: "show_statistics",
+    key.F5: "reload",
+    key.F12: "save_picture",
 }
+"""What a key that is pressed does, by the name of the method."""
 
 
 def _told(error: SceneError) -> list[str]:

@@ -93,8 +93,10 @@ class Painter:
         """Draw another site from now on, that of a scene read again; what has not changed stays in GL as it is."""
         before, self.site = self.site, site
         same_seed = site.scene.seed == before.scene.seed
-        if site.ground is not before.ground or not same_seed:
+        if site.ground.terrain is not before.ground.terrain or not same_seed:
             self._lay(site)
+        elif site.ground.density is not before.ground.density:
+            self._sow(site)
         same_grass = site.growths == before.growths and site.quality == before.quality and site.reach == before.reach
         if not (same_grass and same_seed):
             release_all(*self.painters.values(), self.air)
@@ -112,8 +114,12 @@ class Painter:
     def _lay(self, site: Site) -> None:
         """Bring the ground into GL."""
         self.light.lay(site.ground.terrain, seed=site.scene.seed)
-        self._put("density", density_texture(self.ctx, site.ground.density))
         self._put("heights", height_texture(self.ctx, site.ground.terrain))
+        self._sow(site)
+
+    def _sow(self, site: Site) -> None:
+        """Bring into GL where each kind grows."""
+        self._put("density", density_texture(self.ctx, site.ground.density))
 
     def _put(self, name: str, texture: moderngl.Texture | moderngl.TextureArray) -> None:
         if name in self.textures:

@@ -31,7 +31,7 @@ from .govern import Governor
 from .painter import Painter
 from .pressers import Pressers
 from .screen import Screen
-from .site import Site, found_again, found_site, outlook_on, settle_on
+from .site import Site, found_again, found_site, is_grown, outlook_on, settle_on
 from .statistics import Statistics
 from .winds import Winds
 
@@ -58,6 +58,12 @@ class Prairie:
     statistics: Statistics
     """What the last frame took and held."""
 
+    loaded: LoadedScene
+    """The scene, and the file that it was read from."""
+
+    preset: str | None
+    """The preset that comes before the scene's own quality."""
+
     governor: Governor
     """What holds the time of a draw, if anything does; its `hold` may be changed at any time."""
 
@@ -82,7 +88,7 @@ class Prairie:
         self.winds = Winds(self.world, loaded.scene, self.site.ground, self.site.growths, live=live)
         self.pressers = Pressers(self.world, loaded.scene, self.site.growths)
         self.systems = Schedule()
-        self._loaded, self._preset, self._clock, self._released = loaded, preset, 0.0, False
+        self.loaded, self.preset, self._clock, self._released = loaded, preset, 0.0, False
         screen = Screen(ctx, self.winds.quarantine, linear=linear)
         self._assembly = Assembly(self.world, self.viewers, self.clearings, self.winds, self.pressers, screen)
         self._built = self._assembly.on(self.site)
@@ -129,9 +135,9 @@ class Prairie:
 
     def reseeded(self, seed: int) -> "Prairie":
         """Return another prairie of the same scene, quality and terrain, with other grass."""
-        loaded = replace(self._loaded, scene=self.scene.model_copy(update={"seed": seed}))
+        loaded = replace(self.loaded, scene=self.scene.model_copy(update={"seed": seed}))
         return Prairie(
-            loaded, ctx=self._assembly.screen.ctx, preset=self._preset, lod=self.lod,
+            loaded, ctx=self._assembly.screen.ctx, preset=self.preset, lod=self.lod,
             transitions=self.site.transitions, live=self.winds.quarantine.live,
             linear=self._assembly.screen.linear,
         )  # fmt: skip
@@ -144,12 +150,12 @@ class Prairie:
     @property
     def path(self) -> Path:
         """The scene's file."""
-        return self._loaded.path
+        return self.loaded.path
 
     @property
     def files(self) -> dict[str, Path]:
         """The scene's file and those that it names, by the names that it calls them."""
-        return self._loaded.paths
+        return self.loaded.paths
 
     @property
     def painter(self) -> Painter | None:
@@ -287,25 +293,38 @@ class Prairie:
         """
         self.winds.remove(handle)
 
-    def reload(self, scene: str | Path | None = None) -> None:
+    def reload(self, scene: str | Path | LoadedScene | None = None, *, site: Site | None = None) -> None:
         """Read the scene again, or another one, and go on with it at the same time: what did not change stays.
 
         Terrain, kinds of grass, textures and receivers are made anew only where what they come from has changed, and
         winds that have not changed blow on as if nothing had happened; so do those that were added, and the systems
-        that a game has added, replaced or left out. Raises `SceneError` with every problem, and then nothing has
-        changed at all; RuntimeError after `release`, and while another esper world is current.
+        that a game has added, replaced or left out. What has been read already is not read again, and what `finding`
+        has made of it is its `site`. Raises `SceneError` with every problem, and then nothing has changed at all;
+        RuntimeError after `release`, and while another esper world is current.
         """
         self._must_be_there("read it again")
         self.winds.sources()
-        loaded, before = read_scene(self.path if scene is None else scene), self.site
-        self.site = found_again(before, self._loaded, loaded, preset=self._preset, lod=self.lod)
+        loaded = scene if isinstance(scene, LoadedScene) else read_scene(self.path if scene is None else scene)
+        before, self.site = self.site, self.finding(loaded)() if site is None else site
         for outlook in self.viewers.values():
             settle_on(outlook, self.site, before, self.world)
         self._built, built = self._assembly.on(self.site), self._built
         settle_in(self.systems, self._built, built)
         self.winds.change(loaded.scene, self.site.ground, self.site.growths)
         self.pressers.change(loaded.scene, self.site.growths)
-        self._loaded, self.statistics.blades_field = loaded, self.site.blades
+        self.loaded, self.statistics.blades_field = loaded, self.site.blades
+
+    def finding(self, loaded: LoadedScene) -> Callable[[], Site]:
+        """Return what finds the site that another reading of the scene becomes, for `reload`; it changes nothing.
+
+        As grass takes its time to grow, it may be called on another thread. It raises `SceneError` with every problem
+        of the maps.
+        """
+        return partial(found_again, self.site, self.loaded, loaded, preset=self.preset, lod=self.lod)
+
+    def is_grown(self, loaded: LoadedScene) -> bool:
+        """Return whether all the grass and the ground of another reading of the scene is there already."""
+        return is_grown(self.site, loaded.scene, preset=self.preset)
 
     def release(self) -> None:
         """Give back everything: GL objects in every window, places in batches, entities, and what `install` added.

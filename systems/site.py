@@ -141,6 +141,13 @@ def found_again(site: Site, before: LoadedScene, loaded: LoadedScene, /, *, pres
     return lay_out(scene, quality, ground, growths, lod=lod, transitions=site.transitions, stocked=stocked)
 
 
+def is_grown(site: Site, scene: Scene, /, *, preset: str | None) -> bool:
+    """Return whether a site has the ground of a scene, and has grown all of its kinds: it follows at once then."""
+    quality, old = scene.numbers(preset), site.scene
+    same = scene.terrain == old.terrain and scene.seed == old.seed and quality == site.quality
+    return same and _keys(scene, quality) == _keys(old, site.quality)
+
+
 def _grown(site: Site, scene: Scene, quality: Quality) -> list[Growth]:
     """Return what grows of a scene's kinds; what the site has of it is not read or grown again."""
     known = dict(zip(_keys(site.scene, site.quality), site.growths, strict=True))

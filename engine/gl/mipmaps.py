@@ -15,17 +15,23 @@ Bytes = NDArray[np.uint8]
 _FORMATS = {1: ("R8", "RED"), 4: ("RGBA8", "RGBA")}
 
 
-def mipmapped(ctx: moderngl.Context, texels: Bytes, /) -> moderngl.TextureArray:
-    """Return a texture of layers (layers, rows, columns, 4), or of one channel without the last axis, with mip-maps."""
-    layers, rows, columns, channels = (*texels.shape, 1)[:4]
-    texture = ctx.texture_array((columns, rows, layers), channels, np.ascontiguousarray(texels), alignment=1)
+def levels(texels: Bytes, /) -> list[Bytes]:
+    """Return layers (layers, rows, columns, ...) and their halves, down to one texel."""
+    found = [np.ascontiguousarray(texels)]
+    while max(found[-1].shape[1:3]) > 1:
+        found.append(halved(found[-1]))
+    return found
+
+
+def mipmapped(ctx: moderngl.Context, made: list[Bytes], /) -> moderngl.TextureArray:
+    """Return a texture of `levels` of layers (layers, rows, columns, 4), or of one channel without the last axis."""
+    layers, rows, columns, channels = (*made[0].shape, 1)[:4]
+    texture = ctx.texture_array((columns, rows, layers), channels, made[0], alignment=1)
     stored, given = (NUMBERS[name] for name in _FORMATS[channels])
     gl, target = functions_of(ctx), NUMBERS["TEXTURE_2D_ARRAY"]
     gl.glBindTexture(target, texture.glo)
     gl.glPixelStorei(NUMBERS["UNPACK_ALIGNMENT"], 1)
-    level = 0
-    while max(rows, columns) > 1:
-        level, texels = level + 1, halved(texels)
+    for level, texels in enumerate(made[1:], 1):
         rows, columns = texels.shape[1:3]
         size = columns, rows, layers
         gl.glTexImage3D(target, level, stored, *size, 0, given, NUMBERS["UNSIGNED_BYTE"], texels.ctypes.data)

@@ -38,6 +38,16 @@ class Node:
     """Values, itself included, each as often as aliases repeat it."""
 
 
+def noded(data: Any, was: Node, /) -> Node:
+    """Return plain values as nodes; each has its place from the node that stood there, or from the nearest above."""
+    node = Node(was.line, was.column, data)
+    if isinstance(data, dict):
+        node.keys = {key: noded(key, was.keys.get(key, was)) for key in data}
+    inner = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ()
+    node.below = {step: noded(value, was.below.get(step, was)) for step, value in inner}
+    return node
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Document:
     """The values of one file, and the problems that did not stop the reading."""

@@ -50,7 +50,7 @@ def field_at(root: Node, where: Where, /, *, find: FindKind) -> Field:
         elif entry:
             field, entry = inside(field, step), False
         elif field.model is not None and step in field.model.model_fields:
-            field = _declared(step, field.model.model_fields[step])
+            field = declared(step, field.model.model_fields[step])
             entry = get_origin(field.annotation) is dict
         node = node.below.get(step, node)
         if isinstance(step, int) and field.model is WindPrimitive:
@@ -58,7 +58,8 @@ def field_at(root: Node, where: Where, /, *, find: FindKind) -> Field:
     return field
 
 
-def _declared(name: str, info: FieldInfo) -> Field:
+def declared(name: str, info: FieldInfo, /) -> Field:
+    """Return the field that a model declares."""
     annotation, more = _bare(info.annotation)
     limits = (*info.metadata, *more)
     return Field(name, annotation, limits, info.description or "", _model(annotation))

@@ -33,7 +33,7 @@ def load_maps(loaded: LoadedScene, /, *, before: tuple[LoadedScene, Maps] | None
         raise SceneError([problem, *_bad_densities(loaded, _NOWHERE)]) from error
     outside = list(_outside(loaded, terrain))
     try:
-        density = _kept_density(loaded, terrain, before) or load_density(scene.grass, terrain, folder)
+        density = _kept_density(loaded, terrain, before) or load_density(scene.grass, terrain, folder, loaded.pictures)
     except MapError as error:
         raise SceneError([*outside, *_bad_densities(loaded, terrain)]) from error
     if outside:
@@ -62,13 +62,18 @@ def _kept_density(loaded: LoadedScene, terrain: Terrain, before: tuple[LoadedSce
 
 def _same_files(loaded: LoadedScene, old: LoadedScene, names: list[str | None]) -> bool:
     same_folder = loaded.folder == old.folder
-    return all(name is None or (same_folder and loaded.files.get(name) == old.files.get(name)) for name in names)
+    return all(name is None or (same_folder and _same_file(loaded, old, name)) for name in names)
+
+
+def _same_file(loaded: LoadedScene, old: LoadedScene, name: str) -> bool:
+    same_picture = loaded.pictures.get(name) is old.pictures.get(name)
+    return same_picture and (name in loaded.pictures or loaded.files.get(name) == old.files.get(name))
 
 
 def _bad_densities(loaded: LoadedScene, terrain: Terrain) -> Iterator[Problem]:
     for name, kind in loaded.scene.grass.items():
         try:
-            load_density({name: kind}, terrain, loaded.folder)
+            load_density({name: kind}, terrain, loaded.folder, loaded.pictures)
         except MapError as error:
             yield loaded.document.problem(("grass", name, "place", "map"), str(error))
 

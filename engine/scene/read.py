@@ -1,12 +1,15 @@
 """Reading scenes, by path or by the name of a bundled one."""
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from importlib.resources import files
 from pathlib import Path
 from stat import S_ISDIR, S_ISREG
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ... import scenes
 from ..declared.scene import Scene
@@ -42,6 +45,9 @@ class LoadedScene:
     files: Mapping[str, Stamp] = field(default_factory=dict)
     """The files that the scene names, as it names them, and what they were like when it was read."""
 
+    pictures: Mapping[str, NDArray[np.uint8]] = field(default_factory=dict, repr=False)
+    """Density maps in place of files of these names, (rows, columns, 3 or 4) each; another array is another map."""
+
     @property
     def paths(self) -> dict[str, Path]:
         """The scene's file and those that it names, by the names that it calls them."""
@@ -60,11 +66,21 @@ def read_scene(scene: str | Path, /) -> LoadedScene:
     The files that the scene names must exist; `load_maps` reads them. Raises SceneError with all problems.
     """
     path = _path(scene)
-    document = read_document(decode(_bytes(path), file=str(path)), file=str(path))
-    missing = _missing_files(document, path.parent)
-    scene_read = validate(document, find=wind_kinds().find, folder=path.parent, also=missing)
+    return load_document(read_document(decode(_bytes(path), file=str(path)), file=str(path)), path)
+
+
+def load_document(
+    document: Document, path: Path, /, *, pictures: Mapping[str, NDArray[np.uint8]] | None = None
+) -> LoadedScene:
+    """Return the scene that the values of a file declare, with `pictures` in place of the files of their names.
+
+    Raises SceneError with all problems.
+    """
+    given = pictures or {}
+    missing = _missing_files(document, path.parent, given)
+    scene = validate(document, find=wind_kinds().find, folder=path.parent, also=missing)
     files = {name: stamp for name in _names(document.root.data) if (stamp := stamp_of(path.parent / name))}
-    return LoadedScene(scene_read, path, path.parent, document, files)
+    return LoadedScene(scene, path, path.parent, document, files, given)
 
 
 def stamp_of(path: Path, /) -> Stamp | None:
@@ -111,8 +127,10 @@ def _bytes(path: Path) -> bytes:
         raise _no_file(str(path), f"the file cannot be read: {error.strerror}") from error
 
 
-def _missing_files(document: Document, folder: Path) -> Iterator[Problem]:
+def _missing_files(document: Document, folder: Path, given: Container[str]) -> Iterator[Problem]:
     for where, name in _named_files(document.root.data):
+        if name in given:
+            continue
         mode = _mode(folder / name)
         if S_ISDIR(mode):
             yield document.problem(where, f"'{name}' is a folder, not a map file")

@@ -16,21 +16,32 @@ Floats = NDArray[np.float32]
 Channels = Mapping[str, Floats]
 """Densities in [0, 1] by channel name, each of shape (rows, columns)."""
 
+Picture = NDArray[np.uint8]
+"""Pixels of a map, shape (rows, columns, 3 or 4)."""
+
+NONE: Mapping[str, Picture] = {}
+
 MOST = 4097
 """Most pixels along a side of a density map."""
 
-_NAMES = ("red", "green", "blue", "alpha")
+CHANNELS = ("red", "green", "blue", "alpha")
 
 
-def load_density(kinds: Mapping[str, GrassKind], terrain: Terrain, folder: Path, /) -> Density:
+def load_density(
+    kinds: Mapping[str, GrassKind], terrain: Terrain, folder: Path, given: Mapping[str, Picture] = NONE, /
+) -> Density:
     """Return how densely each kind grows on the terrain, in the order of `kinds`; map files lie in `folder`.
+
+    Of the files that are `given`, the pictures are taken instead.
 
     Kinds with a place have what is painted; where their sum passes 1 it is brought down to 1. Kinds without one
     share equally what the others leave, so that with such a kind the prairie is full everywhere. Maps of different
     sizes are brought to the longest sides among them. Raises `MapError` where a file cannot be used.
     """
     files = {kind.place.map for kind in kinds.values() if kind.place is not None}
-    pictures = {name: _read_picture(folder / name) for name in sorted(files)}
+    pictures = {
+        name: _channels(given[name]) if name in given else _read_picture(folder / name) for name in sorted(files)
+    }
     painted = {name: _channel(folder, kind.place, pictures) for name, kind in kinds.items() if kind.place is not None}
     rows, columns = (max([2, *(picture.shape[axis] for picture in painted.values())]) for axis in (0, 1))
     maps = np.empty((len(kinds), rows, columns), np.float32)
@@ -59,12 +70,16 @@ def _read_picture(path: Path) -> Channels:
                 width, height = image.size
                 raise MapError(path, f"it is {width} by {height} pixels; a density map has at most {MOST} a side")
             if image.mode in ("I;16", "I;16B", "I;16L"):
-                return dict.fromkeys(_NAMES[:3], np.asarray(image).astype(np.float32) / np.float32(65535.0))
+                return dict.fromkeys(CHANNELS[:3], np.asarray(image).astype(np.float32) / np.float32(65535.0))
             if image.mode not in ("1", "L", "LA", "P", "PA", "RGB", "RGBA"):
                 raise MapError(path, f"its mode is {image.mode}; a density map is a grey, RGB or RGBA picture")
             clear = image.mode in ("LA", "PA", "RGBA") or "transparency" in image.info
-            values = np.asarray(image.convert("RGBA" if clear else "RGB"), np.float32) / np.float32(255.0)
-    return {name: values[..., number] for number, name in enumerate(_NAMES[: values.shape[2]])}
+            return _channels(np.asarray(image.convert("RGBA" if clear else "RGB")))
+
+
+def _channels(picture: Picture) -> Channels:
+    values = picture.astype(np.float32) / np.float32(255.0)
+    return {name: values[..., number] for number, name in enumerate(CHANNELS[: values.shape[2]])}
 
 
 def _stretch(values: Floats, rows: int, columns: int) -> Floats:

@@ -185,6 +185,9 @@ class Representation(ABC):
     def on(self, ground: Ground, /) -> Self:
         """Return it with the same grass, on another ground."""
 
+    def prepare(self) -> None:  # noqa: B027 - for those whose painters take long to make
+        """Make what the next painter of it takes long to make, without any GL: it may be called on another thread."""
+
     def rings(self) -> int:
         """Return how many rings of falling fineness it has around a viewer."""
         return 1

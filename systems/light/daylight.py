@@ -1,6 +1,7 @@
 """Daylight: what a scene's sun and sky send to the grass, in radiance as the picture is exposed."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 from math import pi
 
 import numpy as np
@@ -46,8 +47,9 @@ class Daylight:
     """The colours of the sky."""
 
 
+@lru_cache(maxsize=16)
 def daylight(light: Light, /) -> Daylight:
-    """Return the light that a scene declares, as bright as the picture is exposed."""
+    """Return the light that a scene declares, as bright as the picture is exposed; nobody may write to it."""
     _, elevation = sun_at(light)
     sky = sky_of(light)
     sun = SUN / pi * LEAF * light.strength * transmitted(elevation, light.turbidity) * linear(light.sun)

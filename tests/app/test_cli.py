@@ -43,6 +43,14 @@ def test_python_runs_the_package_like_the_command(tmp_path: Path) -> None:
         assert done.stderr.count("\n") == (status > 0)
 
 
+def test_without_what_draws_the_panel_it_is_said_what_installs_it(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(sys.modules, "imgui_bundle", None)
+    assert run(["walk", "plain", "--edit"]) == 1
+    assert capsys.readouterr().err == "the panel of --edit is drawn by imgui-bundle: pip install 'tallgrass[edit]'\n"
+
+
 def test_the_version_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["--version"]) == 0
     assert capsys.readouterr().out == f"tallgrass {__version__}\n"

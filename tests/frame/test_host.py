@@ -149,7 +149,7 @@ def test_d6_without_a_context_of_its_own_a_prairie_takes_the_current_one(
 ) -> None:
     monkeypatch.setattr(moderngl, "get_context", lambda: stage.ctx)
     given = load()
-    found = Prairie(given._loaded)  # noqa: SLF001
+    found = Prairie(given.loaded)
     np.testing.assert_array_equal(stage.shot(found), stage.shot(given))
     found.release()
 
@@ -161,7 +161,7 @@ def resident() -> float:
 
 
 def test_d6_released_a_prairie_leaves_nothing_behind_in_gl(ctx: moderngl.Context, stage: Stage, load: Load) -> None:
-    scene = load()._loaded  # noqa: SLF001
+    scene = load().loaded
     before, ctx.gc_mode = ctx.gc_mode, "context_gc"
     ctx.objects.clear()
     memory = []
@@ -185,7 +185,7 @@ def test_d2_released_a_prairie_leaves_no_entity_behind(stage: Stage, load: Load)
     kept = load()
     theirs = esper.create_entity("a game's own")
     before = set(esper.get_entities())
-    prairie = Prairie(kept._loaded, ctx=stage.ctx)  # noqa: SLF001
+    prairie = Prairie(kept.loaded, ctx=stage.ctx)
     for _ in range(4):  # patches and receivers become entities by and by
         stage.shot(prairie)
     assert len(set(esper.get_entities()) - before) > 500

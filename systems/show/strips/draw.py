@@ -28,15 +28,21 @@ NUMBER = np.dtype([("number", "u4")])
 class StripPainter:
     """Draws the strips of all rings; it owns their textures.
 
-    `stock` gives the strips by ring, kind and model.
+    `stock` gives the strips by ring, kind and model, and `atlas` is what `atlas_levels` makes of them.
     """
 
-    def __init__(self, canvas: Canvas, rings: Sequence[StripRing], stock: Sequence[list[list[Strips]]]) -> None:
+    def __init__(
+        self,
+        canvas: Canvas,
+        rings: Sequence[StripRing],
+        stock: Sequence[list[list[Strips]]],
+        atlas: list[NDArray[np.uint8]],
+    ) -> None:
         self.units, self.rings, self.kinds = canvas.units, rings, len(stock[0])
         self.received = canvas.received
         self.sections = max(ring.sections for ring in rings)
         self.most = self.kinds * max(ring.strips * ring.columns for ring in rings)
-        self.atlas = strip_texture(canvas.ctx, stock)
+        self.atlas = strip_texture(canvas.ctx, atlas)
         self.extents = extent_texture(canvas.ctx, stock, [ring.columns for ring in rings])
         self._stock = stock
         self.stood = Records(canvas.ctx, STOOD, STOOD_ROW)

@@ -17,7 +17,7 @@ from .draw import StripPainter
 from .gather import gather_strips, polygon_strips, runs
 from .pool import StripPool, StripsKept
 from .shown import StripsOfRing, StripsShown
-from .textures import strip_stock
+from .textures import atlas_levels, strip_stocks
 
 WHOLE = 0.995
 """Density from which on no blade of a kind is missing."""
@@ -26,11 +26,13 @@ WHOLE = 0.995
 class StripsPainter:
     """Draws the strips of all rings from far to near."""
 
-    def __init__(self, canvas: Canvas, growths: Sequence[Growth], quality: Quality) -> None:
+    def __init__(
+        self, canvas: Canvas, growths: Sequence[Growth], quality: Quality, ready: list[NDArray[np.uint8]] | None = None
+    ) -> None:
         self._fade = canvas.transitions.fade
         self._fineness = [(ring.strips, ring.columns) for ring in quality.strip_rings]
-        stock = [strip_stock(growths, number) for number in range(len(quality.strip_rings))]
-        self.strips = StripPainter(canvas, quality.strip_rings, stock)
+        stock = strip_stocks(growths)
+        self.strips = StripPainter(canvas, quality.strip_rings, stock, ready or atlas_levels(stock))
         self.runs: list[tuple[int, int, bool]] = []
         self._asked: list[tuple[int, int, int]] = []
         self._amount = np.zeros(0, np.int64)

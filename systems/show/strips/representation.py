@@ -1,7 +1,7 @@
 """2.5D: vertical strips with the blades painted on them (paper, section 2.1)."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -22,6 +22,7 @@ from .pool import StripPool, StripsKept
 from .shown import StripsOfRing, StripsShown, show_strips
 from .stock import StripStock, stock_strips
 from .sublevel import axis_of, left_of, packed, ring_of, shows_rows, strip_ring, strips_along, viewing_slope
+from .textures import atlas_levels, strip_stocks
 
 Levels = NDArray[np.int8]
 Mask = NDArray[np.bool_]
@@ -46,6 +47,9 @@ class StripRepresentation(Representation):
     quality: Quality
     ground: Ground
     growths: Sequence[Growth]
+
+    ready: list[NDArray[np.uint8]] = field(default_factory=list)
+    """What the next painter takes of what was made beforehand, the atlas; empty where nothing was."""
 
     @staticmethod
     def reach(quality: Quality, /) -> int:
@@ -93,6 +97,10 @@ class StripRepresentation(Representation):
     def on(self, ground: Ground, /) -> Self:
         """Return it with the same strips, on another ground."""
         return replace(self, ground=ground)
+
+    def prepare(self) -> None:
+        """Make the atlas for the next painter."""
+        self.ready[:] = atlas_levels(strip_stocks(self.growths))
 
     def rings(self) -> int:
         """Return how many rings it has."""
@@ -193,4 +201,6 @@ class StripRepresentation(Representation):
 
     def painter(self, canvas: Canvas, /) -> StripsPainter:
         """Return a painter of all rings."""
-        return StripsPainter(canvas, self.growths, self.quality)
+        ready = self.ready[:]
+        self.ready.clear()
+        return StripsPainter(canvas, self.growths, self.quality, ready)

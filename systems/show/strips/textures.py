@@ -6,7 +6,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ....engine.gl.mipmaps import mipmapped
+from ....engine.gl.mipmaps import levels, mipmapped
 from ...grow.record import Growth
 from .grow import Strips, strips_of
 
@@ -21,16 +21,25 @@ def strip_stock(growths: Sequence[Growth], ring: int) -> list[list[Strips]]:
     return [[strips_of(model)[ring] for model in growth.models] for growth in growths]
 
 
-def strip_texture(ctx: moderngl.Context, stock: Sequence[list[list[Strips]]]) -> moderngl.TextureArray:
+def strip_stocks(growths: Sequence[Growth]) -> list[list[list[Strips]]]:
+    """Return the strips of all rings, by ring, kind and model."""
+    return [strip_stock(growths, ring) for ring in range(len(strips_of(growths[0].models[0])))]
+
+
+def atlas_levels(stock: Sequence[list[list[Strips]]]) -> list[NDArray[np.uint8]]:
     """Return the atlas of all strips: rings, kinds, models, orientations and strips are layers, in this order.
 
-    Pictures stand in the lower left corner of layers that are large enough for all of them.
+    Pictures stand in the lower left corner of layers that are large enough for all of them. The atlas comes first, then
+    its mip-maps.
     """
     every = _each(stock)
     largest = np.max([strips.texels.shape[2:4] for strips in every], axis=0)
-    texture = mipmapped(
-        ctx, np.concatenate([_padded(strips.texels, -(-largest // _WHOLE) * _WHOLE) for strips in every])
-    )
+    return levels(np.concatenate([_padded(strips.texels, -(-largest // _WHOLE) * _WHOLE) for strips in every]))
+
+
+def strip_texture(ctx: moderngl.Context, atlas: list[NDArray[np.uint8]]) -> moderngl.TextureArray:
+    """Return the atlas of all strips as a texture, made of what `atlas_levels` says."""
+    texture = mipmapped(ctx, atlas)
     texture.repeat_x = texture.repeat_y = False
     return texture
 

@@ -4,7 +4,7 @@ import moderngl
 import numpy as np
 import pytest
 
-from tallgrass.engine.gl.mipmaps import halved, mipmapped
+from tallgrass.engine.gl.mipmaps import halved, levels, mipmapped
 
 SHOW = """#version 330 core
 uniform sampler2DArray images;
@@ -35,7 +35,7 @@ def test_every_level_of_a_texture_is_the_half_of_the_one_before(
     ctx: moderngl.Context, channels: tuple[int, ...]
 ) -> None:
     texels = np.random.default_rng(0).integers(0, 256, (3, 12, 37, *channels), np.uint8)
-    texture = mipmapped(ctx, texels)
+    texture = mipmapped(ctx, levels(texels))
     program = ctx.program(vertex_shader=COVER, fragment_shader=SHOW)
     array = ctx.vertex_array(program, [])
     texture.use(0)

@@ -14,7 +14,13 @@ from tallgrass.systems.light.repeating import LITTER_ONE, repeating_texture
 from tallgrass.systems.show.carpet.grow import carpet_of
 from tallgrass.systems.show.carpet.textures import carpet_texture
 from tallgrass.systems.show.strips.stock import stock_strips
-from tallgrass.systems.show.strips.textures import extent_texture, painted_extents, strip_stock, strip_texture
+from tallgrass.systems.show.strips.textures import (
+    atlas_levels,
+    extent_texture,
+    painted_extents,
+    strip_stock,
+    strip_texture,
+)
 
 
 @pytest.mark.parametrize("ring", [0, 1])
@@ -22,7 +28,7 @@ def test_g1_each_layer_is_the_strip_that_planting_reckons_with(
     ctx: moderngl.Context, growths: list[Growth], ring: int
 ) -> None:
     every = [strip_stock(growths, number) for number in (0, 1)]
-    atlas = strip_texture(ctx, every)
+    atlas = strip_texture(ctx, atlas_levels(every))
     before = sum(2 * len(strips.plane) for kinds in every[:ring] for models in kinds for strips in models)
     width, height, layers = atlas.size
     texels = np.frombuffer(atlas.read(), np.uint8).reshape(layers, height, width, 4)

@@ -1,0 +1,125 @@
+"""Painting where grass grows: strokes on density maps, as pure functions of pixels."""
+
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from ...engine.terrain.density import CHANNELS, Picture
+from ...engine.terrain.record import Density
+from ...engine.terrain.sample import density_at
+
+FINEST, LEAST, MOST = 0.5, 64, 1024
+"""Side of a pixel of a new map [m], and the fewest and most pixels along its longer side."""
+
+
+@dataclass(frozen=True, slots=True)
+class Brush:
+    """What a stroke does."""
+
+    kind: str
+    """The kind of grass that it is about."""
+
+    radius: float = 4.0
+    """Radius of the disc that it paints [m]; it is soft from its middle on."""
+
+    density: float = 1.0
+    """The density that it leads to, in [0, 1]."""
+
+    pressure: float = 0.5
+    """How much of the way it goes where the disc passes, in (0, 1]."""
+
+    alone: bool = True
+    """Whether other kinds that have maps make room for it."""
+
+    lowers: bool = False
+    """Whether it only ever takes grass away."""
+
+    def making_room(self, kind: str) -> "Brush":
+        """Return the brush by which another kind makes room for what this one paints."""
+        return replace(self, kind=kind, density=1.0 - self.density, lowers=True)
+
+    def erasing(self) -> "Brush":
+        """Return the brush that takes this grass away."""
+        return replace(self, density=0.0)
+
+
+def stroked(
+    picture: Picture, channel: str, brush: Brush, line: NDArray[np.float64], size: tuple[float, float], /
+) -> Picture:
+    """Return a map (rows, columns, 3 or 4) with a stroke along ground positions (n, 2) [m]; `size` is the terrain's.
+
+    Between two positions the disc is set down as often as needed for the stroke to have no gaps. Raises ValueError for
+    a channel that the map does not have.
+    """
+    number = CHANNELS.index(channel)
+    if number >= picture.shape[2]:
+        raise ValueError(f"the map has no {channel} channel to paint in")
+    rows, columns = picture.shape[:2]
+    painted = picture[..., number].astype(np.float32)
+    x, z = _middles(size[0], columns), _middles(size[1], rows)
+    for place in _dabs(line, 0.4 * brush.radius):
+        across, down = _within(x, place[0], brush.radius), _within(z, place[1], brush.radius)
+        part = _disc(x[across] - place[0], z[down] - place[1], brush.radius) * np.float32(brush.pressure)
+        way = np.float32(255.0 * brush.density) - painted[down, across]
+        painted[down, across] += part * (np.minimum(way, 0.0) if brush.lowers else way)
+    result = picture.copy()
+    result[..., number] = np.clip(np.rint(painted), 0.0, 255.0).astype(np.uint8)
+    return result
+
+
+def _middles(length: float, count: int) -> NDArray[np.float64]:
+    """Return where the middles of pixels are along a side of the terrain [m], shape (count,)."""
+    return np.asarray((np.arange(count) + 0.5) * (length / count) - length / 2, np.float64)
+
+
+def _within(middles: NDArray[np.float64], place: float, radius: float) -> slice:
+    """Return which pixels along a side are so near to a place [m]."""
+    first, last = np.searchsorted(middles, [place - radius, place + radius]).tolist()
+    return slice(first, last)
+
+
+def _disc(x: NDArray[np.float64], z: NDArray[np.float64], radius: float) -> NDArray[np.float32]:
+    """Return 1 in the middle of a disc, falling smoothly to 0 at its edge, shape (rows, columns)."""
+    t = np.clip(1.0 - np.sqrt(x[None, :] ** 2 + z[:, None] ** 2) / radius, 0.0, 1.0)
+    return (t * t * (3.0 - 2.0 * t)).astype(np.float32)
+
+
+def _dabs(line: NDArray[np.float64], step: float) -> NDArray[np.float64]:
+    """Return the places along a line at which the disc is set down, shape (m, 2): all but its first, or a lone one."""
+    if len(line) < 2:
+        return line
+    pieces = []
+    for start, end in pairwise(line):
+        count = max(1, int(np.ceil(np.hypot(*(end - start)) / step)))
+        pieces.append(start + (end - start) * (np.arange(1, count + 1) / count)[:, None])
+    return np.concatenate(pieces)
+
+
+def new_picture(density: Density, number: int, /) -> Picture:
+    """Return a map that says of one kind what is true now, in all of its channels: (rows, columns, 3)."""
+    width, depth = density.size
+    pixel = max(FINEST, max(width, depth) / MOST)
+    columns, rows = (int(np.clip(round(side / pixel), 2, MOST)) for side in (width, depth))
+    if max(columns, rows) < LEAST:
+        columns, rows = (max(2, round(LEAST * side / max(width, depth))) for side in (width, depth))
+    place = (
+        np.stack(np.meshgrid(_middles(width, columns), _middles(depth, rows)), axis=-1)
+        .reshape(-1, 2)
+        .astype(np.float32)
+    )
+    values = np.rint(255.0 * density_at(density, place)[number]).astype(np.uint8).reshape(rows, columns)
+    return np.repeat(values[..., None], 3, axis=2)
+
+
+def read_picture(path: Path, /) -> Picture:
+    """Return the pixels of a density map that has been read before, shape (rows, columns, 3 or 4)."""
+    with Image.open(path) as image:
+        if image.mode in ("I;16", "I;16B", "I;16L"):
+            grey = np.rint(np.asarray(image).astype(np.float64) / 257.0).astype(np.uint8)
+            return np.repeat(grey[..., None], 3, axis=2)
+        clear = image.mode in ("LA", "PA", "RGBA") or "transparency" in image.info
+        return np.asarray(image.convert("RGBA" if clear else "RGB")).copy()

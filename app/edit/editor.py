@@ -1,0 +1,292 @@
+"""The editor of a scene: every change, its undoing and its saving, without any window."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import count
+from typing import Any
+
+import numpy as np
+from pydantic import BaseModel
+
+from ...components.wind import WindPrimitive
+from ...engine.declared.scene import Scene
+from ...engine.plugins import wind_kinds
+from ...engine.scene import LoadedScene, SceneError, load_maps
+from ...engine.scene.document import Document, noded
+from ...engine.scene.read import load_document
+from ...engine.terrain.density import Picture
+from ...systems.prairie import Prairie
+from .anchors import PLACE, Anchor, declared_anchors
+from .brush import Brush, new_picture, read_picture, stroked
+from .fields import first_part, keys_of
+from .history import Draft, History
+from .pen import Pen
+from .pick import Place
+from .remake import Remaking
+from .values import NOTHING, Way, value_at, with_value
+
+CENTIMETRES = 2
+"""Decimals of a place that was dragged."""
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """A change that was not made."""
+
+    way: Way
+    """The key that was to be changed."""
+
+    reasons: tuple[str, ...]
+    """Why it was not, a sentence each."""
+
+
+class Editor:
+    """Changes the scene of a prairie while the prairie goes on.
+
+    What cannot be is refused: then nothing changes, and `refusal` says why until something else is done.
+    """
+
+    def __init__(self, prairie: Prairie) -> None:
+        self.prairie = prairie
+        self.remaking = Remaking(prairie)
+        self.pen: Pen
+        self.history: History
+        self.loaded: LoadedScene
+        self.refusal: Refusal | None = None
+        self.picked: int | None = None
+        """The number of the wind that is picked."""
+        self.brush: Brush | None = None
+        """What a stroke paints; None while winds are picked."""
+        self.spot: Place = (0.0, 0.0)
+        """Where a new wind is put, (x, z) [m]."""
+        self._strokes = count()
+        self._stroke: int | None = None
+        self._shown: Draft
+        self._unpainted: dict[str, Picture]
+        """What maps that are painted were before."""
+        self._begin(prairie.loaded)
+
+    @property
+    def scene(self) -> Scene:
+        """The scene of the draft; what has to grow is seen later."""
+        return self.loaded.scene
+
+    @property
+    def winds(self) -> Sequence[WindPrimitive]:
+        """The winds of the draft."""
+        return self.scene.wind
+
+    @property
+    def picked_wind(self) -> WindPrimitive | None:
+        """The wind that is picked, unless it has gone meanwhile."""
+        return self.winds[self.picked] if self.picked is not None and self.picked < len(self.winds) else None
+
+    @property
+    def is_preset(self) -> bool:
+        """Whether the prairie is drawn at another quality than the scene's: that of the command line comes first."""
+        return self.prairie.preset is not None
+
+    def is_said(self, way: Way) -> bool:
+        """Return whether the file says anything at a way."""
+        return value_at(self.history.now.values, way) is not NOTHING
+
+    def set(self, way: Way, value: Any, *, subject: object = None) -> bool:
+        """Give a key another value; changes of one subject in a row are undone together. Return whether it was done."""
+        return self.set_all({way: value}, subject=subject)
+
+    def set_all(self, values: dict[Way, Any], *, subject: object = None) -> bool:
+        """Give several keys other values in one step; NOTHING takes a key away."""
+        draft = self.history.now
+        try:
+            for way, value in values.items():
+                whole = self._whole(draft.values, way) if value is not NOTHING else draft.values
+                draft = replace(draft, values=with_value(whole, way, value))
+        except LookupError:
+            self.refusal = Refusal(next(iter(values)), ("there is no such place in the scene any more",))
+            return False
+        return self._take(draft, way=next(iter(values)), subject=subject)
+
+    def add_wind(self, values: dict[str, Any]) -> bool:
+        """Add a wind that is declared so, and pick it."""
+        number = len(self.winds)
+        done = self.set(("wind", number), values)
+        self.picked = number if done else self.picked
+        return done
+
+    def add_wind_of(self, kind: str) -> bool:
+        """Add a wind of a kind: at `spot` where it has a place, and from now on where it would be over already."""
+        try:
+            model = wind_kinds().find(kind)
+        except ValueError as error:
+            self.refusal = Refusal(("wind",), (str(error),))
+            return False
+        values = first_part(model, kind=kind)
+        if any(key.name == PLACE and key.form == "numbers" for key in keys_of(model)):
+            values[PLACE] = [round(each, CENTIMETRES) for each in self.spot]
+        if not self.add_wind(values):
+            return False
+        time, number = self.prairie.time, len(self.winds) - 1
+        if not self.winds[number].parts(time=time, seed=self.scene.seed):
+            self.history.undo()
+            return self.add_wind(values | {"start": round(time, 1)})
+        return True
+
+    def remove(self, way: Way) -> bool:
+        """Take a key out of the file, or an item out of a list: what it was is its default again, or gone."""
+        if way[:1] == ("wind",):
+            self.picked = None  # those behind it are numbered anew
+        return self.set(way, NOTHING)
+
+    def rest(self) -> None:
+        """Let the next change be a step of its own."""
+        self.history.rest()
+        self._stroke = None
+
+    def undo(self) -> None:
+        """Take the last step back."""
+        self._go(done=self.history.undo())
+
+    def redo(self) -> None:
+        """Do again what was undone last."""
+        self._go(done=self.history.redo())
+
+    def drag(self, moved: Sequence[Anchor], by: Place) -> None:
+        """Put anchors elsewhere: each by so far [m] from where it was when they were taken hold of."""
+        there = {
+            each.way: [round(each.place[0] + by[0], CENTIMETRES), round(each.place[1] + by[1], CENTIMETRES)]
+            for each in moved
+        }
+        if there:
+            self.set_all(there, subject=("drag", tuple(there)))
+
+    def paint(self, line: Sequence[Place]) -> None:
+        """Go on with a stroke of the brush along ground positions (x, z) [m]; `rest` ends it."""
+        if self.brush is None or not {self.brush.kind} <= self.scene.grass.keys() & self.prairie.scene.grass.keys():
+            return
+        if self._stroke is None:
+            self._stroke = next(self._strokes)
+        brush, draft = self.brush, self.history.now
+        others = [kind for kind, grass in self.scene.grass.items() if grass.place is not None and kind != brush.kind]
+        way = ("grass", brush.kind, "place")
+        try:
+            for each in [brush, *(brush.making_room(kind) for kind in others if brush.alone and brush.density > 0.0)]:
+                draft = self._stroked(draft, each, line)
+        except (ValueError, OSError) as error:
+            self.refusal = Refusal(way, (str(error),))
+        else:
+            self._take(draft, way=way, subject=("stroke", self._stroke))
+
+    def anchors(self) -> list[tuple[int, Anchor]]:
+        """Return the places of all winds, each with its wind's number."""
+        return [(number, each) for number, wind in enumerate(self.winds) for each in declared_anchors(wind, number)]
+
+    def step(self) -> None:
+        """Take over what has grown since the last frame; what could not is taken back."""
+        try:
+            self.remaking.step()
+        except SceneError as error:
+            self.refusal = Refusal((), _reasons(error))
+            self.history.change(self._shown, subject=None)
+            self._go(done=True, keep=self.refusal)
+        if not self.remaking.is_growing:
+            self._shown = self.history.now
+
+    def save(self) -> str:
+        """Write the scene and its maps back, and return what was written in a sentence; a refusal has none."""
+        self.rest()
+        try:
+            if self.remaking.is_growing:
+                load_maps(self.loaded)  # what is not made yet may still be refused
+            draft = self.history.now
+            names = self.pen.write(draft.values, self._pictures(draft))
+        except ValueError as error:
+            self.refusal = Refusal((), _reasons(error) if isinstance(error, SceneError) else (str(error),))
+            return ""
+        self.history.save()
+        self.refusal = None
+        self.loaded = self._loaded(self.history.now)
+        self.prairie.loaded = replace(self.prairie.loaded, path=self.pen.path, folder=self.pen.path.parent)
+        return f"{' and '.join(names)} {'is' if len(names) == 1 else 'are'} written" if names else "nothing has changed"
+
+    def read_again(self) -> None:
+        """Begin anew with what the files say now. Raises SceneError with every problem; then nothing has changed."""
+        self.prairie.reload(self.pen.path)
+        self.remaking.forget()
+        self._begin(self.prairie.loaded)
+
+    def close(self) -> None:
+        """Let go of what is still growing."""
+        self.remaking.close()
+
+    def _begin(self, loaded: LoadedScene) -> None:
+        self.pen, self.loaded = Pen(loaded), loaded
+        self.history = History(Draft(loaded.document.root.data))
+        self._unpainted = {}
+        self._shown, self.refusal = self.history.now, None
+
+    def _go(self, *, done: bool, keep: Refusal | None = None) -> None:
+        self._stroke, self.refusal = None, keep
+        if done:
+            self.loaded = self._loaded(self.history.now)
+            self.remaking.follow(self.loaded)
+
+    def _take(self, draft: Draft, *, way: Way, subject: object) -> bool:
+        try:
+            loaded = self._loaded(draft)
+            self.remaking.follow(loaded)
+        except SceneError as error:
+            self.refusal = Refusal(way, _reasons(error))
+            return False
+        self.loaded, self.refusal = loaded, None
+        self.history.change(draft, subject=subject)
+        if not self.remaking.is_growing:
+            self._shown = draft
+        return True
+
+    def _loaded(self, draft: Draft) -> LoadedScene:
+        root = noded(draft.values, self.loaded.document.root)
+        document = Document(self.loaded.document.file, self.loaded.document.lines, root, [])
+        return load_document(document, self.pen.path, pictures=self._pictures(draft))
+
+    def _pictures(self, draft: Draft) -> dict[str, Picture]:
+        """Return the maps of a draft that are not read from their files: those that any draft has painted."""
+        return {**self._unpainted, **draft.pictures}
+
+    def _whole(self, values: dict[str, Any], way: Way) -> dict[str, Any]:
+        """Return values with the lists on a way that the file leaves to their defaults: an item needs the others."""
+        for number, step in enumerate(way):
+            if isinstance(step, int) and not isinstance(value_at(values, way[:number]), list):
+                values = with_value(values, way[:number], _plain(self.scene, way[:number]))
+        return values
+
+    def _stroked(self, draft: Draft, brush: Brush, line: Sequence[Place]) -> Draft:
+        draft, name, channel, picture = self._canvas(draft, brush.kind)
+        places, size = np.array(line, np.float64).reshape(-1, 2), self.prairie.site.ground.terrain.size
+        return replace(draft, pictures={**draft.pictures, name: stroked(picture, channel, brush, places, size)})
+
+    def _canvas(self, draft: Draft, kind: str) -> tuple[Draft, str, str, Picture]:
+        """Return the draft in which a kind has a map, the map's name, its channel, and what is painted so far."""
+        place = self.scene.grass[kind].place
+        if place is not None:
+            if place.map not in self._pictures(draft):
+                self._unpainted[place.map] = read_picture(self.loaded.folder / place.map)
+                self.pen.know(place.map, self._unpainted[place.map])
+            return draft, place.map, place.channel, self._pictures(draft)[place.map]
+        name = self.pen.new_map(kind, draft.pictures)
+        values = with_value(draft.values, ("grass", kind, "place"), {"map": name, "channel": "red"})
+        ground, number = self.prairie.site.ground, list(self.prairie.scene.grass).index(kind)
+        return replace(draft, values=values), name, "red", new_picture(ground.density, number)
+
+
+def _plain(scene: Scene, way: Way) -> Any:
+    """Return the list that a scene has at a way, as its file would say it; NOTHING where it has none."""
+    found: Any = scene
+    for step in way:
+        found = getattr(found, str(step)) if isinstance(found, BaseModel) else found[step]
+    if not isinstance(found, list):
+        return NOTHING
+    return [each.model_dump(exclude_unset=True) if isinstance(each, BaseModel) else each for each in found]
+
+
+def _reasons(error: SceneError) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(problem.message for problem in error.problems[:4]))

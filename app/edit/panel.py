@@ -1,0 +1,122 @@
+"""The panel over the prairie: the scene's keys, the brush, and the frame."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from imgui_bundle import imgui
+
+from ...engine.plugins import wind_kinds
+from .editor import Editor
+from .timeline import show_frame
+from .tree import REFUSED, Box, Tree
+
+WIDTH = 400.0
+"""Of the panel when it is first shown [pixels]."""
+
+_EDGE = 8.0
+
+
+class Panel:
+    """What is shown of an editor, and what is done to it there."""
+
+    def __init__(self, editor: Editor) -> None:
+        self.editor = editor
+        self.tree = Tree(editor, wind_kinds().names())
+        self.message = ""
+        """What the last saving said."""
+        self.buttons: dict[str, Box] = {}
+        """Where each button and tab was shown last."""
+        self._held = False
+        self._picked: int | None = None
+
+    def show(self, frames_ms: Sequence[float]) -> None:
+        """Show it in the frame that was begun; `frames_ms` are the last frames' times [ms]."""
+        size = imgui.get_io().display_size
+        once = imgui.Cond_.first_use_ever
+        width = min(WIDTH, size.x / 2)
+        imgui.set_next_window_pos(imgui.ImVec2(size.x - width - _EDGE, _EDGE), once)
+        imgui.set_next_window_size(imgui.ImVec2(width, size.y - 2 * _EDGE), once)
+        imgui.set_next_window_bg_alpha(0.86)
+        imgui.begin(f"{self.editor.pen.path.name}{'' if self.editor.history.is_saved else ' *'}###scene")
+        self._menu()
+        self._brush()
+        if imgui.begin_tab_bar("tabs"):
+            if self._tab("scene"):
+                self._follow_picked()
+                imgui.begin_child("keys")
+                self.tree.show()
+                imgui.end_child()
+                imgui.end_tab_item()
+            if self._tab("frame"):
+                show_frame(self.editor.prairie, frames_ms)
+                imgui.end_tab_item()
+            imgui.end_tab_bar()
+        imgui.end()
+        self._settle()
+
+    def save(self) -> None:
+        """Save, and say what was written."""
+        self.message = self.editor.save()
+
+    def _menu(self) -> None:
+        history = self.editor.history
+        for name, able, act in (
+            ("save", not history.is_saved, self.save),
+            ("undo", history.can_undo, self.editor.undo),
+            ("redo", history.can_redo, self.editor.redo),
+        ):
+            imgui.begin_disabled(not able)
+            if imgui.button(name):
+                act()
+            self._remember(name)
+            imgui.end_disabled()
+            imgui.same_line()
+        told = self.message if history.is_saved else ""
+        imgui.text_unformatted("growing ..." if self.editor.remaking.is_growing else told)
+        refusal = self.editor.refusal
+        if refusal is not None and refusal.way not in self.tree.boxes:
+            imgui.push_style_color(imgui.Col_.text, REFUSED)
+            for reason in refusal.reasons:
+                imgui.text_wrapped(reason)
+            imgui.pop_style_color()
+
+    def _brush(self) -> None:
+        brush = self.editor.brush
+        if brush is None:
+            return
+        imgui.separator_text(f"painting where {brush.kind} grows")
+        imgui.set_next_item_width(170.0)
+        _, radius = imgui.slider_float("radius", brush.radius, 0.5, 50.0, "%.3g m", imgui.SliderFlags_.logarithmic)
+        imgui.set_next_item_width(170.0)
+        _, density = imgui.slider_float("density", brush.density, 0.0, 1.0, "%.2f")
+        imgui.set_next_item_width(170.0)
+        _, pressure = imgui.slider_float("pressure", brush.pressure, 0.05, 1.0, "%.2f")
+        _, alone = imgui.checkbox("other kinds make room", brush.alone)
+        self.editor.brush = replace(brush, radius=radius, density=density, pressure=pressure, alone=alone)
+        if imgui.button("done"):
+            self.editor.brush = None
+        self._remember("done")
+        imgui.same_line()
+        imgui.text_disabled("Shift takes the grass away")
+
+    def _tab(self, name: str) -> bool:
+        shown = bool(imgui.begin_tab_item(name)[0])
+        self._remember(name)
+        return shown
+
+    def _follow_picked(self) -> None:
+        """Open the wind that was picked on the ground."""
+        if self.editor.picked != self._picked and self.editor.picked is not None:
+            self.tree.open(("wind", self.editor.picked))
+        self._picked = self.editor.picked
+
+    def _settle(self) -> None:
+        """Let a change be a step of its own when the field that it was made by is let go."""
+        held = imgui.is_any_item_active()
+        if self._held and not held:
+            self.editor.rest()
+        self._held = held
+
+    def _remember(self, name: str) -> None:
+        low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
+        self.buttons[name] = low.x, low.y, high.x, high.y

@@ -1,0 +1,93 @@
+"""From pixels to places on the ground and back."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...engine.terrain.record import Terrain
+from ...engine.terrain.sample import height_at
+
+Floats = NDArray[np.float32]
+Doubles = NDArray[np.float64]
+Place = tuple[float, float]
+"""Ground position (x, z) [m]."""
+
+NEAREST, FARTHEST, STEPS = 0.2, 3000.0, 500
+"""From where to where along a ray the ground is looked for [m], and at how many places."""
+
+HALVINGS = 24
+"""How often the last step is halved."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sight:
+    """How a terrain is seen in one frame; pixels are counted from the lower left."""
+
+    size: tuple[int, int]
+    """Width and height of the window [pixels]."""
+
+    view: Floats
+    """World to eye, shape (4, 4), for column vectors."""
+
+    projection: Floats
+    """Eye to clip space, shape (4, 4), for column vectors."""
+
+    terrain: Terrain
+
+    @property
+    def eye(self) -> Doubles:
+        """Where it is seen from, shape (3,) [m]."""
+        return np.asarray(np.linalg.inv(self.view.astype(np.float64))[:3, 3])
+
+    def ground(self, pixel: tuple[float, float], /) -> Place | None:
+        """Return where the ray through a pixel first meets the ground; None where it meets none."""
+        eye, ray = self.eye, self.ray(pixel)
+
+        def above(away: Doubles) -> Doubles:
+            places = eye + away[:, None] * ray
+            return np.asarray(places[:, 1] - height_at(self.terrain, places[:, ::2].astype(np.float32)))
+
+        away = np.geomspace(NEAREST, FARTHEST, STEPS)
+        below = np.flatnonzero(above(away) <= 0.0)
+        if not len(below):
+            return None
+        low, high = (away[below[0] - 1] if below[0] else 0.0), away[below[0]]
+        for _ in range(HALVINGS):
+            middle = (low + high) / 2
+            low, high = (low, middle) if above(np.array([middle]))[0] <= 0.0 else (middle, high)
+        x, _, z = (eye + high * ray).tolist()
+        return x, z
+
+    def ray(self, pixel: tuple[float, float], /) -> Doubles:
+        """Return the unit vector from the eye through a pixel, shape (3,)."""
+        x, y = 2.0 * pixel[0] / self.size[0] - 1.0, 2.0 * pixel[1] / self.size[1] - 1.0
+        back = np.linalg.inv(self._onto)
+        near, far = (ends[:3] / ends[3] for ends in (back @ [x, y, -1.0, 1.0], back @ [x, y, 0.0, 1.0]))
+        return np.asarray((far - near) / np.linalg.norm(far - near))
+
+    def pixels(self, points: ArrayLike, /) -> Doubles:
+        """Return where points (n, 3) [m] are seen, shape (n, 2); NaN behind the eye."""
+        given = np.asarray(points, np.float64).reshape(-1, 3)
+        clip = np.concatenate([given, np.ones((len(given), 1))], axis=1) @ self._onto.T
+        depth = np.where(clip[:, 3] > NEAREST, clip[:, 3], np.nan)
+        return np.asarray((clip[:, :2] / depth[:, None] + 1.0) / 2.0 * np.array(self.size, np.float64))
+
+    def pixels_on_ground(self, places: Sequence[Place], /) -> Doubles:
+        """Return where ground positions are seen, shape (n, 2); NaN behind the eye."""
+        flat = np.array(places, np.float32).reshape(-1, 2)
+        return self.pixels(np.insert(flat, 1, height_at(self.terrain, flat), axis=1))
+
+    @property
+    def _onto(self) -> Doubles:
+        return np.asarray(self.projection.astype(np.float64) @ self.view.astype(np.float64))
+
+
+def nearest(pixel: tuple[float, float], pixels: Doubles, within: float, /) -> int | None:
+    """Return the number of the place (n, 2) that is nearest to a pixel, None where none is so near [pixels]."""
+    if not len(pixels):
+        return None
+    away = np.where(np.isnan(pixels[:, 0]), np.inf, np.hypot(*(pixels - np.array(pixel)).T))
+    found = int(np.argmin(away))
+    return found if away[found] <= within else None

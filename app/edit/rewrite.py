@@ -1,0 +1,164 @@
+"""Writing changed values back into a YAML text: only what changed is touched, to the character."""
+
+from collections.abc import Iterator, Sequence
+from difflib import SequenceMatcher
+from typing import Any
+
+from ...engine.scene import SceneError
+from ...engine.scene.compose import read_document
+from .spans import Span, spans
+from .yaml_text import yaml_text
+
+Splice = tuple[int, int, str]
+"""From which character to which another text is to stand."""
+
+
+class RewriteError(ValueError):
+    """A text cannot be changed in this way; its text says why, and what to do."""
+
+
+def rewritten(text: str, values: dict[str, Any], /) -> str:
+    """Return a YAML text that reads as `values`: comments, order, quotes and spaces stay where nothing has changed.
+
+    The text has to be one that `read_document` reads. Raises RewriteError where the change cannot be written.
+    """
+    splices = sorted(_changed(text, spans(text), values), reverse=True)
+    result = text
+    for start, end, new in splices:
+        result = result[:start] + new + result[end:]
+    try:
+        read = read_document(result, file="").root.data
+    except SceneError as error:
+        raise RewriteError(_NOT_HERE) from error
+    if not _same(read, values):
+        raise RewriteError(_NOT_HERE)
+    return result
+
+
+_NOT_HERE = "what was changed is written once and used at several places (& and *): change it in the file itself"
+
+
+def _same(one: Any, other: Any) -> bool:
+    """Return whether two values are the same to the digits that are written."""
+    if isinstance(one, dict) and isinstance(other, dict):
+        return one.keys() == other.keys() and all(_same(value, other[key]) for key, value in one.items())
+    if isinstance(one, list) and isinstance(other, list):
+        return len(one) == len(other) and all(map(_same, one, other))
+    return yaml_text(one) == yaml_text(other)
+
+
+def _changed(text: str, span: Span, value: Any, key: Span | None = None) -> Iterator[Splice]:
+    """Yield what has to be done for the text of a value, that of a `key` if it has one, to read as another."""
+    if _same(span.data, value):
+        return
+    if isinstance(span.data, dict) and isinstance(value, dict) and span.keys.keys() & value.keys():
+        yield from _mapping(text, span, value)
+    elif isinstance(span.data, list) and isinstance(value, list) and span.items and value and _grows(span, value):
+        yield from _list(text, span, value)
+    else:
+        yield from _replaced(text, span, value, key)
+
+
+def _replaced(text: str, span: Span, value: Any, key: Span | None) -> Iterator[Splice]:
+    new = yaml_text(value)
+    if isinstance(value, str) and text[span.start : span.start + 1] == "'" and "'" not in value and value.isprintable():
+        new = f"'{value}'"
+    if key is not None and span.items and not span.flow:  # it stands on lines of its own, and comments beside its key
+        colon = text.index(":", key.end) + 1
+        yield colon, colon, " " + new
+        yield _line_start(text, span.start), _line_end(text, span.end), ""
+    else:
+        yield span.start, span.end, " " + new if text[span.start - 1 : span.start] in (":", "-") else new
+
+
+def _mapping(text: str, span: Span, value: dict[str, Any]) -> Iterator[Splice]:
+    for key, where in span.keys.items():
+        if key in value:
+            yield from _changed(text, span.value(key), value[key], where)
+    starts = [each.start for each in span.keys.values()]
+    for first, last in _runs([key not in value for key in span.keys]):
+        yield _without(text, span, starts, first, last)
+    new = [f"{yaml_text(key)}: {yaml_text(each)}" for key, each in value.items() if key not in span.keys]
+    if new:
+        yield _with(text, span, new)
+
+
+def _list(text: str, span: Span, value: list[Any]) -> Iterator[Splice]:
+    starts = [item.start if span.flow else _dash(text, item) for item in span.items]
+    for kind, first, last, start, end in _steps(span, value):
+        if kind == "replace":
+            for item, new in zip(span.items[first:last], value[start:end], strict=True):
+                yield from _changed(text, item, new)
+        elif kind == "delete":
+            yield _without(text, span, starts, first, last)
+        elif kind == "insert":
+            added = [yaml_text(item) for item in value[start:end]]
+            yield _with(text, span, added if span.flow else [f"- {each}" for each in added])
+
+
+def _steps(span: Span, value: list[Any]) -> Sequence[tuple[str, int, int, int, int]]:
+    """Return how the items of a list become others, as `difflib` tells it."""
+    before, after = [yaml_text(item.data) for item in span.items], [yaml_text(item) for item in value]
+    if len(before) == len(after):
+        return [("replace", 0, len(before), 0, len(after))]
+    return SequenceMatcher(a=before, b=after, autojunk=False).get_opcodes()
+
+
+def _grows(span: Span, value: list[Any]) -> bool:
+    """Return whether a list becomes another one by items that change, go, or come after the last one."""
+    return all(
+        (kind != "replace" or last - first == end - start) and (kind != "insert" or first == len(span.items))
+        for kind, first, last, start, end in _steps(span, value)
+    )
+
+
+def _runs(gone: list[bool]) -> Iterator[tuple[int, int]]:
+    """Yield from which to which entry each run of those goes that are gone."""
+    first = None
+    for number, each in enumerate([*gone, False]):
+        if each and first is None:
+            first = number
+        elif not each and first is not None:
+            yield first, number
+            first = None
+
+
+def _dash(text: str, item: Span) -> int:
+    return text.rindex("-", 0, item.start)
+
+
+def _without(text: str, span: Span, starts: list[int], first: int, last: int) -> Splice:
+    """Return what takes entries away, from the one numbered `first` to that before `last`."""
+    if span.flow and last < len(starts):
+        return starts[first], starts[last], ""
+    if span.flow:
+        return (span.items[first - 1].end if first else starts[0]), span.items[last - 1].end, ""
+    line = _line_start(text, starts[first])
+    if text[line : starts[first]].strip() and last < len(starts):  # it shares its line with a dash
+        return starts[first], starts[last], ""
+    return line, _line_end(text, span.items[last - 1].end), ""
+
+
+def _with(text: str, span: Span, new: list[str]) -> Splice:
+    """Return what adds entries after the last one."""
+    end = span.items[-1].end
+    if span.flow:
+        return end, end, "".join(f", {each}" for each in new)
+    newline = "\r\n" if "\r\n" in text else "\n"
+    first = span.start if span.keys else _dash(text, span.items[0])
+    indent = " " * (first - _line_start(text, first))
+    lines = newline.join(indent + each for each in new)
+    place = _line_end(text, end)
+    return place, place, lines + newline if text[:place].endswith("\n") else newline + lines
+
+
+def _line_start(text: str, at: int) -> int:
+    return text.rfind("\n", 0, at) + 1
+
+
+def _line_end(text: str, at: int) -> int:
+    """Return where the line after this one begins; a value that ends with its line has ended on it."""
+    if at and text[at - 1] == "\n":
+        return at
+    found = text.find("\n", at)
+    return len(text) if found < 0 else found + 1

@@ -1,0 +1,59 @@
+"""Values of a scene file as plain mappings and lists, and other values made from them; none is changed in place."""
+
+from typing import Any, Final
+
+Way = tuple[str | int, ...]
+"""The way from the root to a value, as in `("wind", 0, "position")`."""
+
+
+class _Nothing:
+    """What stands where a file has no value."""
+
+    def __repr__(self) -> str:
+        return "NOTHING"
+
+    def __bool__(self) -> bool:
+        return False
+
+
+NOTHING: Final = _Nothing()
+
+
+def value_at(values: Any, way: Way, /) -> Any:
+    """Return the value at a way, or NOTHING."""
+    for step in way:
+        if isinstance(values, dict):
+            values = values.get(step, NOTHING)
+        elif isinstance(values, list) and isinstance(step, int) and 0 <= step < len(values):
+            values = values[step]
+        else:
+            return NOTHING
+    return values
+
+
+def with_value(values: Any, way: Way, value: Any, /) -> Any:
+    """Return values with another one at a way; mappings on it that are not there are made, a list may grow by one.
+
+    NOTHING takes the key away, or the item out of its list. Raises KeyError where the way leads to no such place.
+    """
+    if not way:
+        return value
+    step, rest = way[0], way[1:]
+    if isinstance(step, int):
+        return _with_item(values, step, rest, value)
+    if values is NOTHING or values is None:
+        values = {}
+    if not isinstance(values, dict):
+        raise KeyError(step)
+    inner = with_value(values.get(step, NOTHING), rest, value) if rest else value
+    if inner is NOTHING:
+        return {key: kept for key, kept in values.items() if key != step}
+    return values | {step: inner}
+
+
+def _with_item(values: Any, step: int, rest: Way, value: Any) -> Any:
+    items = [] if values is NOTHING or values is None else values
+    if not isinstance(items, list) or not 0 <= step <= len(items):
+        raise KeyError(step)
+    inner = with_value(items[step] if step < len(items) else NOTHING, rest, value) if rest else value
+    return [*items[:step], *([] if inner is NOTHING else [inner]), *items[step + 1 :]]
