@@ -22,6 +22,9 @@ class Viewer:
     cone: tuple[float, float] = (0.0, pi)
     """Azimuths of the view cone: middle and half width [rad]."""
 
+    sides: NDArray[np.float64] = field(default_factory=lambda: np.zeros((4, 4)))
+    """The planes of the picture's four sides: (x, y, z, 1) times a row says how far inside a point is [m], (4, 4)."""
+
     centre: NDArray[np.int32] = field(default_factory=lambda: np.zeros(2, np.int32))
     """The cell (i, j) it stands in, shape (2,)."""
 

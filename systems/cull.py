@@ -1,12 +1,16 @@
-"""Culling: which patches the view cone may hold (paper, section 2.2, figure 5)."""
+"""Culling: which patches the view cone may hold, and from high above the picture (paper, section 2.2, figure 5)."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from math import pi
 
 import numpy as np
 
-from .around.cone import HALF_DIAGONAL, beyond_cone
+from .around.cone import HALF_DIAGONAL, beyond_cone, beyond_sides
 from .around.outlook import Outlook
+
+HIGH_UP = 10.0
+"""Height over all ground around from which on the picture's upper and lower sides are worth asking for [m]."""
 
 
 @dataclass(slots=True)
@@ -25,6 +29,10 @@ class Cull:
         for outlook in self.outlooks:
             patches, viewer = outlook.patches, outlook.viewer
             patches.was_visible[:] = patches.visible
-            beyond = beyond_cone(*patches.lines, apex=(viewer.eye[0], viewer.eye[2]), cone=viewer.cone).ravel()
+            beyond = beyond_cone(*patches.lines, apex=(viewer.eye[0], viewer.eye[2]), cone=viewer.cone)
+            if viewer.cone[1] >= pi or viewer.eye[1] > HIGH_UP + float(patches.height.max()):
+                heights = patches.height.reshape(patches.side, patches.side)
+                beyond = np.maximum(beyond, beyond_sides(*patches.lines, heights, viewer.sides))
+            beyond = beyond.ravel()
             np.less_equal(beyond, HALF_DIAGONAL * self.patch + self.sway, out=patches.visible)
             np.less_equal(beyond, 2.0 * self.patch + self.sway, out=patches.near)

@@ -12,7 +12,7 @@ from ...engine.camera import View, eye_of
 from ...engine.world import World
 from ..press.marks import UNTRODDEN, Trodden
 from .appearance import Appearance
-from .cone import view_cone
+from .cone import picture_sides, view_cone
 from .patches import PatchTable
 
 if TYPE_CHECKING:
@@ -98,6 +98,7 @@ class Outlook:
         viewer.way = float(np.hypot(eye[0] - viewer.eye[0], eye[2] - viewer.eye[2]))
         viewer.jumped = viewer.way > leap
         viewer.eye, viewer.cone, viewer.time = eye, view_cone(view), time
+        viewer.sides = picture_sides(view)
         perspective, tall = view.projection[3, 3] == 0.0, abs(float(view.projection[1, 1]))
         self.zoom = max(tall / USUAL, 1.0) if perspective else 1.0
         viewer.dt = 1e9 if self.drawn_at is None else time - self.drawn_at

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from tallgrass.components.viewer import Viewer
 from tallgrass.engine.camera import Camera, View, eye_of, projection_matrix, view_matrix
-from tallgrass.systems.around.cone import discrete_distance, far_to_near, inside_cone, view_cone
+from tallgrass.systems.around.cone import discrete_distance, far_to_near, inside_cone, picture_sides, view_cone
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.patches import PatchTable
 from tallgrass.systems.cull import Cull
@@ -205,6 +205,29 @@ def test_t2_near_are_the_four_patches_whose_middles_are_around_any_place_in_the_
         assert near[low[:, 1] + j, low[:, 0] + i].all()
     assert near.ravel()[visible].all()
     assert not near.all()
+
+
+high = st.builds(
+    Camera,
+    position=st.tuples(st.floats(-9.0, 9.0), st.floats(14.0, 60.0), st.floats(-9.0, 9.0)),
+    yaw=st.floats(-7.0, 7.0),
+    pitch=st.floats(-1.57, -0.2),
+    view=st.floats(radians(15), radians(100)),
+)
+
+
+@given(camera=high, bank=st.floats(-2.0, 2.0))
+def test_f9_from_high_above_patches_are_kept_that_are_in_the_picture_and_no_others(camera: Camera, bank: float) -> None:
+    seen, outlook = seen_by(camera, bank=bank), around(pi)
+    viewer, points = outlook.viewer, points_of(AROUND)
+    viewer.eye, viewer.cone, viewer.sides = eye_of(seen), view_cone(seen), picture_sides(seen)
+    Cull([outlook], PATCH, 1.0).run()
+    points = points[:, points[0, :, 1] <= 1.0]
+    shown = in_picture(seen, points).any(axis=1)
+    visible = outlook.patches.visible
+    assert visible[shown].all()
+    inside = np.concatenate([points, np.ones((*points.shape[:2], 1))], -1) @ viewer.sides.T
+    assert not visible[(inside.max(axis=1) < -PATCH - 1.0).any(axis=1)].any()
 
 
 def test_x1_what_was_visible_in_the_frame_before_is_known_in_the_next() -> None:
