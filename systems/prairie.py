@@ -354,6 +354,7 @@ class Prairie:
 
     def _look(self, seen: View, viewer: str) -> Outlook:
         outlook = self.viewers.looking(viewer, partial(outlook_on, self.site))
+        outlook.mown = self._mown
         outlook.look(seen, time=self.time, leap=LEAP * self.site.ground.patch)
         return outlook
 

@@ -39,6 +39,7 @@ class Mown:
         """Up to which height blades are left [m], row 0 at the far edge; infinite where nothing is cut."""
         self.changed: NDArray[np.int64] = np.zeros(self.shape[0], np.int64)
         """The number of the stroke that changed each row last, shape (rows,)."""
+        self._tops: _Tops | None = None
 
     @property
     def strokes(self) -> int:
@@ -52,6 +53,17 @@ class Mown:
     def grow(self, footprint: Footprint, height: float, pose: Pose) -> None:
         """Let what was cut under a footprint stand up to `height` [m] again; raises what `stroke` raises."""
         self._stroke("grown", footprint, height, pose)
+
+    def tops(self, cells: NDArray[np.int32], *, patch: float) -> Floats:
+        """Return up to which height the highest grass is left on patches of a side [m], shape (n,).
+
+        `cells` (n, 2) are theirs; grass is not cut beyond the terrain.
+        """
+        if self.heights is None:
+            return np.full(len(cells), np.inf, np.float32)
+        if self._tops is None or self._tops.patch != patch:
+            self._tops = _Tops(self, patch)
+        return self._tops.of(self, cells)
 
     def change(self, terrain: Terrain) -> None:
         """Take over another terrain: what was cut at a place stays cut there."""
@@ -104,6 +116,40 @@ class Mown:
     def _middles(self, first: int, last: int, axis: int) -> Floats:
         """Return where the middles of some cells are along an axis [m]."""
         return np.asarray(self.origin[axis] + (np.arange(first, last) + 0.5) * self.cell[axis], np.float32)
+
+
+class _Tops:
+    """The highest grass that is left on each patch of the terrain, made out anew where strokes have changed it."""
+
+    def __init__(self, mown: Mown, patch: float) -> None:
+        self.patch = patch
+        first_x, self._columns = _firsts(mown.origin[0], mown.cell[0], mown.shape[1], patch)
+        first_z, self._rows = _firsts(mown.origin[1], mown.cell[1], mown.shape[0], patch)
+        self._first = first_x, first_z
+        self._highest = np.full((len(self._rows), len(self._columns)), np.inf, np.float32)
+        self._strokes = 0
+
+    def of(self, mown: Mown, cells: NDArray[np.int32]) -> Floats:
+        """Return the highest of patches (n, 2), shape (n,)."""
+        if mown.heights is not None and mown.strokes != self._strokes:
+            stale = np.maximum.reduceat(mown.changed, self._rows) > self._strokes
+            ends = np.append(self._rows[1:], mown.shape[0])
+            for row in np.flatnonzero(stale).tolist():
+                highest = mown.heights[self._rows[row] : ends[row]].max(axis=0)
+                self._highest[row] = np.maximum.reduceat(highest, self._columns)
+            self._strokes = mown.strokes
+        at = cells - self._first
+        on = ((at >= 0) & (at < self._highest.shape[::-1])).all(axis=1)
+        found = np.full(len(cells), np.inf, np.float32)
+        found[on] = self._highest[at[on, 1], at[on, 0]]
+        return found
+
+
+def _firsts(origin: float, cell: float, count: int, patch: float) -> tuple[int, NDArray[np.intp]]:
+    """Return the number of the first patch along an axis, and the first cell of the map on each patch."""
+    on = np.floor((origin + (np.arange(count) + 0.5) * cell) / patch).astype(np.int64)
+    each, first = np.unique(on, return_index=True)
+    return int(each[0]), first
 
 
 def inside(footprint: Footprint, pose: Pose, place: Floats, /, *, least: float = 0.0) -> Bools:

@@ -19,7 +19,7 @@ float sharper(vec2 dx, vec2 dy) {
 }
 
 #ifdef MOWN
-const float STUBBLE = 1.5;  // how uneven the light on stubble is, for how uneven the grass was
+const float STUBBLE = 1.5;  // how unevenly stubble stands, for how unevenly the grass did
 float left;  // up to which height grass is left to stand, in the mean over the pixel [m]
 
 float left_seen() {
@@ -141,7 +141,7 @@ vec3 carpet_light(float slope, vec3 below) {
     float grain = mix(1.0, GRAIN, shrunk) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
 #ifdef MOWN
     bool cut = is_mown(left);
-    vec4 still = leaves_left(left);
+    float covers = 1.0 - exp(-dot(leaf_area, leaves_left(left)) / max(slope, 0.02));  // by the leaves that are left
 #endif
     vec4 sum = vec4(0.0);
     for (int kind = 0; kind < KINDS; kind++) {
@@ -156,20 +156,19 @@ vec3 carpet_light(float slope, vec3 below) {
         image.rgb = clamp(image.rgb, 0.0, image.a);
         vec3 mean_of = image.rgb / max(image.a, 1e-3);
         Lit met_by = lit;
-        float uneven = 1.0;
 #ifdef MOWN
-        // What is left is taken for the same grass pressed together: a line of sight meets as much less of it.
+        // What is left is taken for the same grass pressed together.
         if (cut) {
             float part = min(left / max(crown[kind], 0.01), 1.0);
-            uneven += STUBBLE * (1.0 - part) * (mean_of.g - mean.g / max(mean.a, 1e-3));
-            image.a = 1.0 - pow(1.0 - image.a, still[kind]);
+            float uneven = 1.0 + STUBBLE * (mean_of.g / max(mean.g / max(mean.a, 1e-3), 1e-3) - 1.0);
+            image.a = mix(min(covers * uneven, 1.0), image.a, part);
             mean_of.rg *= part;
             met_by = mown_to(left, lit, kind, leaf_area);
         }
 #endif
         vec3 tint = (grain_c[kind].rgb * sight + grain_s[kind].rgb * aside) * (2.0 * mean_of.b - 1.0);
         vec3 pigment = mix(root[kind].rgb, tip[kind].rgb, mean_of.r) * dry * (1.0 + tint);
-        sum += met[kind] * image.a * vec4(uneven * radiance(pigment, mean_of.g, met_by), 1.0);
+        sum += met[kind] * image.a * vec4(radiance(pigment, mean_of.g, met_by), 1.0);
     }
     return sum.rgb + below * (1.0 - min(sum.a, 1.0));
 }
@@ -198,6 +197,11 @@ void main() {
     vec2 beside = abs(place.xz - terrain.xy - 0.5 * field.xy) - 0.5 * field.xy;
     covered = max(beside.x, beside.y) > 0.0 ? 1.0 : mix(1.0, outline_cover(slope), share);
     color *= mix(litter, 1.0, share);
+#ifdef MOWN
+    // What lies on the ground is seen as far as the leaves are gone that would hide it.
+    float gone = 1.0 - dot(leaf_area, leaves_left(left)) / max(dot(leaf_area, vec4(1.0)), 1e-3);
+    below *= mix(1.0, litter, gone * seen.y);
+#endif
     if (share > 0.0)
         color = mix(color, carpet_light(slope, below), share);
     if (covered < 0.004)

@@ -137,9 +137,16 @@ class StripRepresentation(Representation):
         return packed(ring, strips_along(patches.cell.take(rows, axis=0), viewer.centre, keeps))
 
     def unfit(self, outlook: Outlook, rows: Rows, has: Mask, /, *, slack: int) -> Mask:
-        """Return which patches (n,) are seen from so high that strips would show as rows, however fine."""
-        slope = viewing_slope(outlook.patches, rows, eye=outlook.viewer.eye, patch=self.quality.patch)
-        return shows_rows(slope, has, height=self._height(), spacing=float(self._spacing().min()), slack=slack)
+        """Return which patches (n,) are seen from so high that strips would show as rows, however fine.
+
+        Where all of a patch is mown short, the strips are as short.
+        """
+        patches, side = outlook.patches, self.quality.patch
+        height = np.full(len(rows), self._height(), np.float32)
+        slope = viewing_slope(patches, rows, eye=outlook.viewer.eye, patch=side)
+        if outlook.mown is not None and outlook.mown.strokes:
+            height = np.minimum(height, outlook.mown.tops(patches.cell[rows], patch=side))
+        return shows_rows(slope, has, height=height, spacing=float(self._spacing().min()), slack=slack)
 
     def _reach(self, outlook: Outlook, ring: StripRing) -> float:
         """Return up to where a ring is due: nowhere beyond the blades, where it is for patches seen from above."""

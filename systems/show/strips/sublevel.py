@@ -50,11 +50,12 @@ def strip_ring(
     return kept
 
 
-def shows_rows(slope: Floats, has: Mask, /, *, height: float, spacing: float, slack: int) -> Mask:
+def shows_rows(slope: Floats, has: Mask, /, *, height: Floats | float, spacing: float, slack: int) -> Mask:
     """Return on which patches (n,) the finest strips would show as rows, seen at these slopes.
 
     A line of sight crosses fewer than `CROSSED` strips, `spacing` [m] apart, on its way through grass of this `height`
-    [m]. With `slack`, patches that have strips already, as `has` (n,) says, keep them a little longer.
+    [m], one or that of each patch (n,). With `slack`, patches that have strips already, as `has` (n,) says, keep them
+    a little longer.
     """
     steepest = height / (CROSSED * spacing)
     return np.asarray(slope > np.where(has, steepest * TIGHTER, steepest) if slack else slope > steepest)

@@ -4,14 +4,16 @@ from math import inf, nan, pi
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.components.footprint import Footprint
 from tallgrass.components.pose import HERE, Pose
 from tallgrass.engine.terrain.record import Terrain
+from tallgrass.engine.world import World
 from tallgrass.systems.mow.mown import CELL, LEAST, MOST, Mown, inside
+from tallgrass.testing import LITTLE, little_prairie, watch
 
 Floats = NDArray[np.float32]
 
@@ -145,3 +147,40 @@ def test_f4_what_cannot_be_cut_is_told_in_a_sentence(arguments: tuple[object, ..
     with pytest.raises(error, match=told):
         mown.cut(*arguments)  # type: ignore[arg-type]
     assert mown.heights is None
+
+
+@settings(max_examples=12)
+@given(st.lists(st.tuples(st.floats(-22.0, 22.0), st.floats(-12.0, 12.0), st.floats(0.5, 9.0)), max_size=6))
+def test_f4_the_top_of_a_patch_is_the_highest_grass_that_is_left_on_it(
+    strokes: list[tuple[float, float, float]],
+) -> None:
+    mown, patch = Mown(ground()), 3.0
+    x, z = np.meshgrid(np.arange(-8, 8), np.arange(-5, 5))
+    cells = np.stack([x, z], axis=-1).reshape(-1, 2).astype(np.int32)
+    for number, (x_at, z_at, radius) in enumerate(strokes):
+        (mown.grow if number % 3 == 2 else mown.cut)(Footprint(radius=radius), 0.1 * number, Pose(x_at, z_at))
+        found = mown.tops(cells, patch=patch)
+        assert mown.heights is not None or (found == inf).all()
+        if mown.heights is not None:
+            row, column = np.indices(mown.shape)
+            middle = np.stack([-20.0 + (column + 0.5) * mown.cell[0], -10.0 + (row + 0.5) * mown.cell[1]], axis=-1)
+            own = np.floor(middle / patch).astype(int)
+            for cell, top in zip(cells.tolist(), found.tolist(), strict=True):
+                here = (own == cell).all(axis=-1)
+                assert top == (mown.heights[here].max() if here.any() else inf)
+
+
+def test_f4_where_grass_is_mown_so_short_that_strips_would_show_as_rows_lies_the_carpet(world: World) -> None:
+    del world  # it is made the current one
+    with little_prairie(scene=LITTLE.replace("scale: 4", "scale: 0")) as prairie:
+        watch(prairie)
+        patches = prairie.viewers["main"].patches
+        before = patches.wanted[patches.visible].copy()
+        prairie.cut(Footprint(radius=90.0), 0.01)
+        watch(prairie)
+        assert (before == 1).sum() > 20
+        assert not (patches.wanted[patches.visible] == 1).any()
+        np.testing.assert_array_equal(patches.wanted[patches.visible] == 0, before == 0)
+        prairie.grow(Footprint(radius=0.5), pose=Pose(*patches.middle[patches.visible][before == 1][0].tolist()))
+        watch(prairie)
+        assert (patches.wanted[patches.visible] == 1).sum() == 1
