@@ -37,7 +37,7 @@ def gather(source: Path, pictures: Path, /) -> None:
 
 def build(config: Path, /) -> None:
     """Build the manual as a configuration of mkdocs says."""
-    mkdocs = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--clean", "-f", config]
+    mkdocs: list[str | Path] = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--clean", "-f", config]
     subprocess.run(mkdocs, check=True)
 
 
@@ -56,7 +56,7 @@ def style() -> str:
     own = """
 .codehilite { background: none !important; }
 .codehilite pre { padding: 0.8rem; border: 1px solid var(--bs-border-color); border-radius: 0.4rem; }
-table { font-size: 0.92rem; margin-bottom: 1.2rem; }
+table { font-size: 0.92rem; margin-bottom: 1.2rem; display: block; overflow-x: auto; }
 td, th { padding: 0.25rem 0.6rem 0.25rem 0; vertical-align: top; border-bottom: 1px solid var(--bs-border-color); }
 img { max-width: 100%; height: auto; }
 """
