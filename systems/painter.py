@@ -66,7 +66,9 @@ OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
 class Painter:
     """Everything that one GL context holds of a site, and the drawing of it."""
 
-    def __init__(self, ctx: moderngl.Context, site: Site, quarantine: Quarantine, *, linear: bool = False) -> None:
+    def __init__(
+        self, ctx: moderngl.Context, site: Site, quarantine: Quarantine, mown: Mown, *, linear: bool = False
+    ) -> None:
         self.ctx, self.quarantine, self.linear = ctx, quarantine, linear
         self.block = FrameBlock(ctx)
         self.received = Received(ctx)
@@ -78,10 +80,11 @@ class Painter:
         self.smaller, self.stopwatch = Smaller(ctx, floats=linear), Stopwatch(ctx)
         self.painters: dict[str, RepresentationPainter] = {}
         self.draw_calls = 0
-        self.site = site
+        self.site, self._mown = site, mown
         self._outlook: Outlook | None = None
         self._first: dict[str, list[int]] = {}
         self._lay(site)
+        self._learn_of_mowing()
         self._grow(site)
         self._read(site)
 
@@ -104,12 +107,18 @@ class Painter:
         self.carpet.stand_on(site.ground)
         self._read(site)
 
-    def mow(self, mown: Mown) -> None:
+    def mow(self) -> None:
         """Take over what has been cut and grown; programs know of it from the first cut on."""
-        if self.mown.write(mown, tallest=self.site.tallest):
-            self.block.defines["MOWN"] = 1
+        if self._learn_of_mowing():
             self._grow_anew()
             self.air.meet(self.site.scene.wind)
+
+    def _learn_of_mowing(self) -> bool:
+        """Send what has been cut and grown; return whether programs have to be made anew, to know of it."""
+        begun = self.mown.write(self._mown, tallest=self.site.tallest)
+        if begun:
+            self.block.defines["MOWN"] = 1
+        return begun
 
     def _grow_anew(self) -> None:
         release_all(*self.painters.values(), self.air)

@@ -47,11 +47,11 @@ class Screen:
                 return
             arrive(ctx)
             self.painter = self._painters.here(
-                ctx, partial(Painter, site=site, quarantine=self._quarantine, linear=self.linear)
+                ctx, partial(Painter, site=site, quarantine=self._quarantine, mown=self._mown, linear=self.linear)
             )
             if self.painter.site is not site:
                 self.painter.change(site)
-            self.painter.mow(self._mown)
+            self.painter.mow()
             yield self.painter
 
     def current(self) -> Painter:
