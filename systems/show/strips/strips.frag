@@ -21,6 +21,7 @@ flat in vec4 leaf_area;// by kind, of the ground's
 flat in int stood_of;  // kind
 flat in float fine_at; // pixels that a metre is long
 flat in int is_cut;    // whether anything is, about its column
+flat in float rows_at; // height of grass below which strips would show as rows [m]
 #endif
 #ifdef THIN
 in float grows;       // rank up to which blades grow, in steps of the softness
@@ -43,6 +44,8 @@ void main() {
         float top = left_at(roots.xy);
         lit = mown_to(top, lit, stood_of, leaf_area);
         covered *= clamp((top - roots.z) * fine_at + 0.5, 0.0, 1.0);
+        if (is_mown(top))
+            covered *= smoothstep(0.3 * rows_at, rows_at, top);
     }
 #endif
     vec3 grass = shown_of(radiance(pigment, h, lit) + veil.rgb);

@@ -35,6 +35,7 @@ flat out vec4 leaf_area;// by kind, of the ground's
 flat out int stood_of; // kind
 flat out float fine_at;// pixels that a metre is long
 flat out int is_cut;   // whether anything is, about its column
+flat out float rows_at;// height of grass below which strips would show as rows [m]
 #endif
 #ifdef THIN
 out float grows;
@@ -55,6 +56,9 @@ void thin(float dense, float below, float texels) {
 }
 #endif
 
+#ifdef MOWN
+const float CROSSED = 1.25;  // strips that a line of sight crosses at least where they do not show as rows
+#endif
 const float FACING = 0.3333;  // mean cosine of twice the azimuth from the eye of blades that face all ways, as they are seen
 const float SHARPER = 0.25;  // how much finer texels are than pixels, in levels: blades would be washed out
 
@@ -110,6 +114,7 @@ void main() {
     leaf_area = grows * leaf;
     stood_of = k;
     fine_at = pixels;
+    rows_at = CROSSED * soil.w / float(count) * abs(eye.y - middle.y) / max(distance(middle.xz, eye.xz), 0.5 * soil.w);
     is_cut = left_about(middle.xz, 2.0 * distance(a.xz, b.xz)) < 0.999 * zenith.w ? 1 : 0;
 #endif
     float hidden = haze_at(middle), seen = 1.0 - hidden;
