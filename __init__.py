@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from . import scenes
     from .components.body import Hover
+    from .components.footprint import Footprint
     from .components.patch import Lod, Patch
     from .components.pose import Pose
     from .components.presser import Presser
@@ -32,6 +33,7 @@ __all__ = [
     "Blast",
     "Breeze",
     "Extent",
+    "Footprint",
     "Grass",
     "Gust",
     "Hover",
@@ -62,6 +64,7 @@ _HOMES = {
     "Blast": ".systems.wind.blast",
     "Breeze": ".systems.wind.breeze",
     "Extent": ".components.wind",
+    "Footprint": ".components.footprint",
     "Grass": ".components.wind",
     "Gust": ".systems.wind.gust",
     "Hover": ".components.body",

@@ -8,10 +8,10 @@ import numpy as np
 
 from ..components.wind import WindPrimitive
 from ..engine.camera import Camera, forward
+from ..engine.declared.way import Waypoint
 from ..systems.prairie import Prairie
 from ..systems.wind.blast import Blast, Shape
 from ..systems.wind.gust import Gust
-from ..systems.wind.placed import Waypoint
 from ..systems.wind.whirlwind import Whirlwind
 from .studio.walker import Ground, on_terrain
 

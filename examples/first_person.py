@@ -1,20 +1,21 @@
-"""A first-person game with pyglet's own camera: walk among boulders that stand in the grass.
+"""A first-person game with pyglet's own camera: walk among boulders that stand in the grass, and leave a way in it.
 
-The game sets `window.view` and `window.projection` as any pyglet game does, and hands both to the prairie. W, A, S and
-D walk, the mouse looks, Escape ends. Run it with `python first_person.py`.
+Who walks is an entity with a `Presser`. The game sets `window.view` and `window.projection` as any pyglet game does,
+and hands both to the prairie. W, A, S and D walk, the mouse looks, Escape ends. Run it with `python first_person.py`.
 """
 
 import sys
 from math import cos, pi, radians, sin
 from typing import Any
 
+import esper
 import pyglet
 from pyglet import gl
 from pyglet.graphics.shader import Shader, ShaderProgram
 from pyglet.math import Mat4, Vec3
 from pyglet.window import key
 
-from tallgrass import Prairie
+from tallgrass import Pose, Prairie, Presser
 
 SIZE = (960, 540)
 BOULDERS = ((-1.2, 60.5, 0.8), (3.5, 57.5, 1.2), (-6.5, 55.0, 1.5), (-1.0, 47.0, 1.8), (9.0, 50.0, 2.4))
@@ -55,6 +56,7 @@ class Game:
         self.models = [self.boulder(x, z, size) for x, z, size in BOULDERS]
         self.text = pyglet.text.Label("W A S D and the mouse", 20, 20, font_size=14)
         self.x, self.z, self.yaw, self.pitch = 1.5, 66.0, radians(-10), radians(-8)
+        self.feet = esper.create_entity(Presser(radius=0.35), Pose(self.x, self.z))
         self.keys = key.KeyStateHandler()
         self.window.push_handlers(self.keys, self.on_draw, self.on_mouse_motion)
 
@@ -72,6 +74,7 @@ class Game:
         ahead, right = self.keys[key.W] - self.keys[key.S], self.keys[key.D] - self.keys[key.A]
         self.x += 2.0 * dt * (ahead * sin(self.yaw) + right * cos(self.yaw))
         self.z += 2.0 * dt * (right * sin(self.yaw) - ahead * cos(self.yaw))
+        esper.add_component(self.feet, Pose(self.x, self.z, self.yaw))
 
     def on_mouse_motion(self, x: int, y: int, dx: int, dy: int) -> None:
         """Look around."""

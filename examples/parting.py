@@ -1,7 +1,7 @@
-"""An esper game: a running character parts the grass, because it carries a small blast of air.
+"""An esper game: a running character parts the grass by a small blast of air, and leaves a trodden way.
 
-The character is one entity with the game's own components and two of tallgrass: where it is (`Pose`) and what it does
-to the grass (`WindSource`). Left and right turn it, up runs faster. Run it with `python parting.py`.
+The character is an entity with the game's own components and three of tallgrass: where it is (`Pose`), its air
+(`WindSource`) and its feet (`Presser`). Left and right turn it, up runs faster. Run it with `python parting.py`.
 """
 
 import sys
@@ -18,7 +18,7 @@ from pyglet.model import MaterialGroup
 from pyglet.window import key
 
 import tallgrass
-from tallgrass import Blast, Pose, Prairie, Shape, WindSource
+from tallgrass import Blast, Pose, Prairie, Presser, Shape, WindSource
 
 SIZE = (960, 540)
 
@@ -74,7 +74,8 @@ class Game:
         tallgrass.install()
         esper.add_processor(Run())
         step = Blast(outline=Shape(disc=1.9), strength=0.95, soft=0.8)
-        self.runner = esper.create_entity(Runner(turning=0.12), Pose(0.0, 45.0, 0.3), WindSource(step, "runner"))
+        treads = Pose(0.0, 45.0, 0.3), Presser(radius=0.35)
+        self.runner = esper.create_entity(Runner(turning=0.12), WindSource(step, "runner"), *treads)
         self.figure = Figure()
         self.keys = key.KeyStateHandler()
         self.window.push_handlers(self.keys, self.on_draw)

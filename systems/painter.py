@@ -21,6 +21,9 @@ from .frame.maps import density_texture, height_texture, posture_texture
 from .light.draw import SAMPLERS as LIGHTS
 from .light.draw import LightPainter
 from .light.repeating import drifted
+from .mow.card import SAMPLERS as MOWING
+from .mow.card import CardMown
+from .mow.mown import Mown
 from .press.card import SAMPLERS as PRESSING
 from .press.card import CardPress
 from .press.lie import recoveries
@@ -35,8 +38,8 @@ from .wind.card import SAMPLERS as WINDS
 from .wind.card import CardWinds
 from .wind.quarantine import Quarantine
 
-SHARED = ("postures", "density", "heights", "received", *LIGHTS)
-"""The samplers that are no representation's own."""
+SHARED = ("postures", "density", "heights", "received", *MOWING, *(name for name in LIGHTS if name != "sky"))
+"""The samplers that are no representation's own. The sky's is free again once the sky is drawn."""
 
 LAST_UNIT = FIRST_UNIT + 15
 """The last texture unit that every OpenGL has."""
@@ -49,9 +52,9 @@ def _units() -> dict[str, int]:
     throughout = [*SHARED, *(name for name in drawn if name in asked)]
     first = [*throughout, *(name for name in drawn if name not in asked)]
     before = [*WINDS, *sorted(asked - set(throughout)), *PRESSING]
-    return {name: unit for unit, name in enumerate(first, FIRST_UNIT)} | {
-        name: LAST_UNIT - number for number, name in enumerate(before)
-    }
+    units = {name: unit for unit, name in enumerate(first, FIRST_UNIT)}
+    units["sky"] = units["images"]
+    return units | {name: LAST_UNIT - number for number, name in enumerate(before)}
 
 
 UNITS = _units()
@@ -63,22 +66,25 @@ OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
 class Painter:
     """Everything that one GL context holds of a site, and the drawing of it."""
 
-    def __init__(self, ctx: moderngl.Context, site: Site, quarantine: Quarantine, *, linear: bool = False) -> None:
+    def __init__(
+        self, ctx: moderngl.Context, site: Site, quarantine: Quarantine, mown: Mown, *, linear: bool = False
+    ) -> None:
         self.ctx, self.quarantine, self.linear = ctx, quarantine, linear
         self.block = FrameBlock(ctx)
         self.received = Received(ctx)
         self.air: CardWinds
-        self.press = CardPress(ctx)
+        self.press, self.mown = CardPress(ctx), CardMown(ctx)
         self.textures: dict[str, moderngl.Texture | moderngl.TextureArray] = {}
         self.light = LightPainter(ctx, self.block, UNITS)
         self.bodies: BodyPainter | None = None
         self.smaller, self.stopwatch = Smaller(ctx, floats=linear), Stopwatch(ctx)
         self.painters: dict[str, RepresentationPainter] = {}
         self.draw_calls = 0
-        self.site = site
+        self.site, self._mown = site, mown
         self._outlook: Outlook | None = None
         self._first: dict[str, list[int]] = {}
         self._lay(site)
+        self._learn_of_mowing()
         self._grow(site)
         self._read(site)
 
@@ -99,14 +105,31 @@ class Painter:
             self._sow(site)
         same_grass = site.growths == before.growths and site.quality == before.quality and site.reach == before.reach
         if not (same_grass and same_seed):
-            release_all(*self.painters.values(), self.air)
-            self._grow(site)
+            self._grow_anew()
         self.carpet.stand_on(site.ground)
         self._read(site)
+
+    def mow(self) -> None:
+        """Take over what has been cut and grown; programs know of it from the first cut on."""
+        if self._learn_of_mowing():
+            self._grow_anew()
+            self.air.meet(self.site.scene.wind)
+
+    def _learn_of_mowing(self) -> bool:
+        """Send what has been cut and grown; return whether programs have to be made anew, to know of it."""
+        begun = self.mown.write(self._mown, tallest=self.site.tallest)
+        if begun:
+            self.block.defines["MOWN"] = 1
+        return begun
+
+    def _grow_anew(self) -> None:
+        release_all(*self.painters.values(), self.air)
+        self._grow(self.site)
 
     def _read(self, site: Site) -> None:
         """Take over what a scene says of its light and its winds."""
         self.record = frame_record(site.scene, site.growths, site.ground.terrain, site.quality.patch, raw=self.linear)
+        self.record["zenith"][:, 3] = site.tallest
         self.light.shine(site.scene.light, site.ground.terrain)
         self.air.meet(site.scene.wind)
         self.press.stand(site.growths, recoveries(site.scene))
@@ -195,6 +218,7 @@ class Painter:
             for name, texture in self.textures.items():
                 texture.use(UNITS[name])
             self.light.use()
+            self.mown.use(UNITS["mown"])
             self.press.texture.use(UNITS["pressed"])
             self.draw_calls = self._hear(target) if blades is None else 0
             self._draw_land(target)
@@ -234,6 +258,6 @@ class Painter:
         """Give everything back to the context."""
         if self.bodies is not None:
             self.bodies.release()
-        release_all(*self.painters.values(), self.air, self.received, self.block, self.light, self.press)
+        release_all(*self.painters.values(), self.air, self.received, self.block, self.light, self.press, self.mown)
         release_all(self.smaller, self.stopwatch)
         release_all(*self.textures.values())

@@ -12,7 +12,8 @@ import moderngl
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..components.pose import Pose
+from ..components.footprint import Footprint
+from ..components.pose import HERE, Pose
 from ..components.wind import WindPrimitive
 from ..engine.camera import View, view_of
 from ..engine.declared.quality import PRESETS
@@ -28,6 +29,7 @@ from .around.transitions import SEAMLESS, Transitions
 from .around.window import as_places, cell_of
 from .assembly import Assembly, settle_in
 from .govern import Governor
+from .mow.mown import Mown
 from .painter import Painter
 from .pressers import Pressers
 from .screen import Screen
@@ -89,7 +91,8 @@ class Prairie:
         self.pressers = Pressers(self.world, loaded.scene, self.site.growths)
         self.systems = Schedule()
         self.loaded, self.preset, self._clock, self._released = loaded, preset, 0.0, False
-        screen = Screen(ctx, self.winds.quarantine, linear=linear)
+        self._mown = Mown(self.site.ground.terrain)
+        screen = Screen(ctx, self.winds.quarantine, self._mown, linear=linear)
         self._assembly = Assembly(self.world, self.viewers, self.clearings, self.winds, self.pressers, screen)
         self._built = self._assembly.on(self.site)
         for phase, name, system in self._built:
@@ -293,6 +296,26 @@ class Prairie:
         """
         self.winds.remove(handle)
 
+    def cut(self, footprint: Footprint, height: float, *, pose: Pose = HERE) -> None:
+        """Cut the grass under a footprint to `height` [m], at once and until it is grown again.
+
+        Blades end where they stand so high in calm air; shorter ones stay as they are. The footprint lies at `pose`,
+        without one its corners are places of the world. Heights are kept on a map whose cells are 0.2 m wide, larger
+        on a terrain of more than 400 m; a cell is cut if its middle is under the footprint. Raises TypeError for what
+        is no footprint, height or pose, ValueError for a negative height and a pose that is not finite, and
+        RuntimeError after `release`.
+        """
+        self._must_be_there("cut its grass")
+        self._mown.cut(footprint, height, pose)
+
+    def grow(self, footprint: Footprint, height: float = np.inf, *, pose: Pose = HERE) -> None:
+        """Let the grass that was cut under a footprint stand up to `height` [m] again, or as high as it grows.
+
+        What stands higher than that stays as it is. It raises the errors of `cut`.
+        """
+        self._must_be_there("grow its grass")
+        self._mown.grow(footprint, height, pose)
+
     def reload(self, scene: str | Path | LoadedScene | None = None, *, site: Site | None = None) -> None:
         """Read the scene again, or another one, and go on with it at the same time: what did not change stays.
 
@@ -312,6 +335,7 @@ class Prairie:
         settle_in(self.systems, self._built, built)
         self.winds.change(loaded.scene, self.site.ground, self.site.growths)
         self.pressers.change(loaded.scene, self.site.growths)
+        self._mown.change(self.site.ground.terrain)
         self.loaded, self.statistics.blades_field = loaded, self.site.blades
 
     def finding(self, loaded: LoadedScene) -> Callable[[], Site]:
@@ -349,6 +373,7 @@ class Prairie:
 
     def _look(self, seen: View, viewer: str) -> Outlook:
         outlook = self.viewers.looking(viewer, partial(outlook_on, self.site))
+        outlook.mown = self._mown
         outlook.look(seen, time=self.time, leap=LEAP * self.site.ground.patch)
         return outlook
 

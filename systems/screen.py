@@ -9,6 +9,7 @@ import moderngl
 
 from ..engine.gl.guest import arrive, host_context, kept
 from ..engine.gl.homes import Homes
+from .mow.mown import Mown
 from .painter import Painter
 from .site import Site
 from .wind.quarantine import Quarantine
@@ -22,9 +23,11 @@ if TYPE_CHECKING:
 class Screen:
     """The host's framebuffers, in the context that is given or else in whichever is current."""
 
-    def __init__(self, ctx: moderngl.Context | None, quarantine: Quarantine, *, linear: bool = False) -> None:
+    def __init__(
+        self, ctx: moderngl.Context | None, quarantine: Quarantine, mown: Mown, *, linear: bool = False
+    ) -> None:
         self.ctx, self.linear = ctx, linear
-        self._quarantine = quarantine
+        self._quarantine, self._mown = quarantine, mown
         self.painter: Painter | None = None
         """The painter of the context that was drawn in last; None before the first time."""
         self._painters: Homes[Painter] = Homes()
@@ -44,10 +47,11 @@ class Screen:
                 return
             arrive(ctx)
             self.painter = self._painters.here(
-                ctx, partial(Painter, site=site, quarantine=self._quarantine, linear=self.linear)
+                ctx, partial(Painter, site=site, quarantine=self._quarantine, mown=self._mown, linear=self.linear)
             )
             if self.painter.site is not site:
                 self.painter.change(site)
+            self.painter.mow()
             yield self.painter
 
     def current(self) -> Painter:

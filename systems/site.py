@@ -44,6 +44,9 @@ class Site:
     canopy: tuple[float, ...]
     """Height of each kind's canopy [m]."""
 
+    tallest: float
+    """Height that no blade comes to [m]."""
+
     transitions: Transitions = SEAMLESS
 
     def top_at(self, place: NDArray[np.float32], /) -> NDArray[np.float32]:
@@ -104,6 +107,7 @@ def lay_out(
         reach=reach_of(limits, None if lod == "auto" else NAMES.index(lod)),
         sway=max(starmap(farthest_reach, zip(scene.grass.values(), growths, strict=True))),
         canopy=tuple(map(canopy_height, growths)),
+        tallest=1.05 * max(tallest_tip(growth) for growth in growths),
         transitions=transitions,
     )
 
@@ -163,8 +167,12 @@ def _keys(scene: Scene, quality: Quality) -> list[str]:
 
 def farthest_reach(kind: GrassKind, growth: Growth) -> float:
     """Return how far the tip of a kind's tallest blade can come to be from its root, along the ground [m]."""
-    tallest = max(float((model.blades.height + model.blades.stem).max()) for model in growth.models)
-    return max(kind.height[1], tallest) * float(np.abs(growth.postures.shape[..., 0]).max())
+    return max(kind.height[1], tallest_tip(growth)) * float(np.abs(growth.postures.shape[..., 0]).max())
+
+
+def tallest_tip(growth: Growth) -> float:
+    """Return how high a kind's highest tip would be if its blade stood upright [m]."""
+    return max(float((model.blades.height + model.blades.stem).max()) for model in growth.models)
 
 
 def outlook_on(site: Site, viewer: Viewer, entity: int, /) -> Outlook:

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from ...components.wind import WindPrimitive
+from ...engine.declared.way import Waypoint
 from ...engine.scene import read_scene
 from ...systems.overlay.masks import BEGINS
 from ...systems.prairie import Prairie
@@ -18,7 +19,6 @@ from ...systems.wind.blast import Blast, Shape
 from ...systems.wind.blow import Blowing
 from ...systems.wind.breeze import Breeze
 from ...systems.wind.gust import Gust
-from ...systems.wind.placed import Waypoint
 from ...systems.wind.whirlwind import Whirlwind
 from .figure import Detail, PaperFigure
 from .plot import FAINT, INDEX, INK, SERIES, seen_from_above, sheet

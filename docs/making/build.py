@@ -17,29 +17,28 @@ OUTSIDE = re.compile(r"\[(?P<text>[^\]]+)\]\(\.\./(?P<target>[^)#]+)\)")
 def main() -> None:
     """Build the manual into out/manual."""
     write()
-    shutil.rmtree(SOURCE, ignore_errors=True)
-    shutil.copytree(DOCS, SOURCE, ignore=shutil.ignore_patterns("making", "mkdocs.yml", "__pycache__"))
-    for page in SOURCE.glob("*.md"):
-        page.write_text(OUTSIDE.sub(_inside, page.read_text("utf-8")), "utf-8")
     kept = ROOT / "out" / "manual-pictures"
     make_pictures(kept)
-    shutil.copytree(
-        kept, SOURCE / "pictures", ignore=shutil.ignore_patterns("*.yaml", "*.json", "*.html", ".made-from")
-    )
-    (SOURCE / "manual.css").write_text(style(), "utf-8")
-    mkdocs: list[str | Path] = [
-        sys.executable,
-        "-m",
-        "mkdocs",
-        "build",
-        "--strict",
-        "--quiet",
-        "--clean",
-        "-f",
-        DOCS / "mkdocs.yml",
-    ]
-    subprocess.run(mkdocs, check=True)
+    gather(SOURCE, kept)
+    build(DOCS / "mkdocs.yml")
     print(f"{ROOT / 'out' / 'manual' / 'index.html'}")
+
+
+def gather(source: Path, pictures: Path, /) -> None:
+    """Gather the manual's pages in a folder, as they are in the repository but for their links, with its pictures."""
+    shutil.rmtree(source, ignore_errors=True)
+    shutil.copytree(DOCS, source, ignore=shutil.ignore_patterns("making", "mkdocs.yml", "__pycache__"))
+    for page in source.glob("*.md"):
+        page.write_text(OUTSIDE.sub(_inside, page.read_text("utf-8")), "utf-8")
+    others = shutil.ignore_patterns("*.yaml", "*.json", "*.html", "*.py", "*.wav", ".made-from")
+    shutil.copytree(pictures, source / "pictures", ignore=others)
+    (source / "manual.css").write_text(style(), "utf-8")
+
+
+def build(config: Path, /) -> None:
+    """Build the manual as a configuration of mkdocs says."""
+    mkdocs: list[str | Path] = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--clean", "-f", config]
+    subprocess.run(mkdocs, check=True)
 
 
 def _inside(link: re.Match[str]) -> str:
@@ -57,7 +56,7 @@ def style() -> str:
     own = """
 .codehilite { background: none !important; }
 .codehilite pre { padding: 0.8rem; border: 1px solid var(--bs-border-color); border-radius: 0.4rem; }
-table { font-size: 0.92rem; margin-bottom: 1.2rem; }
+table { font-size: 0.92rem; margin-bottom: 1.2rem; display: block; overflow-x: auto; }
 td, th { padding: 0.25rem 0.6rem 0.25rem 0; vertical-align: top; border-bottom: 1px solid var(--bs-border-color); }
 img { max-width: 100%; height: auto; }
 """

@@ -16,7 +16,7 @@ FIGURE = re.compile(r"\(pictures/figure-(\d+)\.png\)")
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """One picture: what makes it, and the page that holds the scene it is of."""
+    """One picture: what makes it, and the page that holds the scene or the program that it is of."""
 
     file: str
     command: tuple[str, ...]
@@ -47,6 +47,8 @@ PICTURES = (
     Picture("walk.png", ("shot", "meadow", "--size", "960x540", "--time", "9")),
     Picture("gust.webp", ("film", "gust", "--size", "480x270", "--seconds", "5", "--fps", "12")),
     Picture("flight.webp", ("film", "saucer", "--size", "480x270", "--seconds", "5", "--fps", "12")),
+    Picture("lawn.png", ("python", "lawn.py"), "recipes.md"),
+    Picture("music.webp", ("python", "music.py"), "recipes.md"),
     Picture("storm.png", ("shot", "storm", "--size", "960x540", "--time", "12", "--overlay", "masks,arrows")),
 )
 
@@ -67,7 +69,10 @@ def make_pictures(folder: Path, /) -> None:
         if picture.page is not None:
             for name, text in named_blocks(ROOT / "docs" / picture.page).items():
                 folder.joinpath(name).write_text(text, "utf-8")
-        _run(*picture.command, "-o", picture.file, folder=folder)
+        if picture.command[0] == "python":
+            subprocess.run([sys.executable, *picture.command[1:]], cwd=folder, check=True)
+        else:
+            _run(*picture.command, "-o", picture.file, folder=folder)
     _run("figures", "-o", ".", "--only", ",".join(map(str, figures_shown())), folder=folder)
     stamp.write_text(made, "utf-8")
 

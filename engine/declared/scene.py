@@ -12,6 +12,7 @@ from ...components.wind import Mixing, WindPrimitive
 from .camera import CameraSource
 from .grass import GrassKind
 from .light import Light
+from .presser import PresserOnPath
 from .quality import PRESETS, Quality
 from .terrain import TerrainSource
 
@@ -98,6 +99,9 @@ class Scene(Declaration):
 
     mixing: Mixing = "priority"
     """How winds meet: the highest priority at a place cancels the others, or they are mixed by weight."""
+
+    pressers: list[PresserOnPath] = Field(default=[], max_length=200)
+    """Who walks through the grass and treads it down."""
 
     camera: CameraSource = CameraSource()
     """Where the scene is looked at from."""

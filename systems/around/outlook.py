@@ -10,6 +10,7 @@ import numpy as np
 from ...components.viewer import Viewer
 from ...engine.camera import View, eye_of
 from ...engine.world import World
+from ..mow.mown import Mown
 from ..press.marks import UNTRODDEN, Trodden
 from .appearance import Appearance
 from .cone import picture_sides, view_cone
@@ -56,6 +57,9 @@ class Outlook:
 
     trodden: Trodden = UNTRODDEN
     """What presses or has pressed the grass in this frame."""
+
+    mown: Mown | None = None
+    """What has been cut, if this is told."""
 
     blown_at: float = 0.0
     """The instant at which they do [s]."""

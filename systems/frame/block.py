@@ -127,6 +127,8 @@ class FrameBlock:
     """The uniform block on the graphics card."""
 
     def __init__(self, ctx: moderngl.Context) -> None:
+        self.defines: dict[str, str | int] = {}
+        """What every program is told that is made from now on."""
         self.buffer = ctx.buffer(reserve=FRAME.itemsize, dynamic=True)
         self.binding = frame_binding(ctx)
 
@@ -163,7 +165,7 @@ def joined(
 
     Without a fragment shader, the outputs that `varyings` names are written into a buffer.
     """
-    made = program(ctx, vertex, fragment, defines=defines, varyings=varyings)
+    made = program(ctx, vertex, fragment, defines={**block.defines, **defines}, varyings=varyings)
     block.join(made)
     for name, unit in units.items():
         if name in made:

@@ -41,7 +41,7 @@ def test_a_frame_of_a_still_camera_is_the_shot_of_its_time(
     tallgrass: Tallgrass, scene: Path, overlay: tuple[str, ...]
 ) -> None:
     before, _, after = scene.read_text().partition("  path:\n")
-    scene.write_text(before + after[after.index("quality:") :])
+    scene.write_text(before.replace("\ncamera:", f"{PRESSERS.rstrip()}\ncamera:") + after[after.index("quality:") :])
     options = ("--size", "96x54", *overlay)
     assert tallgrass("film", scene, "-o", "film/", "--seconds", 1, "--fps", 4, *options).returncode == 0
     assert tallgrass("shot", scene, "-o", "shot.png", "--time", 0.75, *options).returncode == 0
@@ -69,13 +69,17 @@ WINDS = """
     outline: { image: ring.png }
     path: [{ at: 0, position: [9, 0] }, { at: 4, position: [0, 9] }]
 """
+PRESSERS = """
+pressers:
+  - { radius: 0.5, path: [{ at: 0, position: [-2, 16] }, { at: 2, position: [3, 12] }, { at: 4, position: [-6, -8] }] }
+"""
 
 
 @pytest.fixture
 def stormy(scene: Path) -> Path:
     """A scene with every wind, and a camera that makes patches change all the time."""
     before, _, after = scene.read_text().partition("  path:\n")
-    before = before.replace("\ncamera:", f"{WINDS.rstrip()}\ncamera:")
+    before = before.replace("\ncamera:", f"{WINDS.rstrip()}\n{PRESSERS.rstrip()}\ncamera:")
     scene.write_text(before + "  path:" + PATH + after[after.index("quality:") :])
     ring = np.zeros((32, 32), np.uint8)
     ring[8:24, 8:24] = 255

@@ -172,8 +172,21 @@ def test_the_manual_is_built_and_what_builds_it_installed_where_it_is_missing(re
     ready.calls.write_text("", "utf-8")
     done = ready.dev("docs")
     assert (done.returncode, done.stdout) == (0, "built\n"), done.stderr
+    assert "the manual is not tried in a browser; to do that: install what Debian calls chromium" in done.stderr
     missing = find_spec("mkdocs") is None
     assert (ready.calls.read_text("utf-8").split() == ["pip"]) == missing
+
+
+def test_the_manual_is_tried_where_there_is_a_browser(ready: Machine) -> None:
+    build = ready.clone / "docs" / "making" / "build.py"
+    build.parent.mkdir(parents=True)
+    build.write_text("print('built')", "utf-8")
+    ready.has("chromium", "exit 0")
+    ready.has("pytest", 'echo "tried by $*"', in_environment=True)
+    done = ready.dev("docs")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.splitlines()[0] == "built"
+    assert done.stdout.splitlines()[1].endswith("tests/docs/test_site.py")
 
 
 def test_the_script_keeps_to_the_posix_shell() -> None:

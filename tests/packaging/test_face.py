@@ -18,6 +18,7 @@ def test_the_face_shows_what_programs_are_written_with() -> None:
     winds = {"Blast", "Breeze", "Gust", "MeanWind", "PlacedWind", "Turbulence", "Whirlwind", "WindPrimitive"}
     records = {
         "Extent",
+        "Footprint",
         "Grass",
         "Hover",
         "Lod",

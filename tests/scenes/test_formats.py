@@ -65,6 +65,7 @@ def test_the_scene_of_todays_format_uses_every_key() -> None:
         assert values[part].keys() == fields(type(getattr(scene, part)))
     assert values["terrain"].keys() == fields(type(scene.terrain)) - {"heights"}
     assert values["grass"]["tall"].keys() == fields(type(scene.grass["tall"]))
+    assert values["pressers"][0].keys() == fields(type(scene.pressers[0]))
     used = {declared["kind"]: declared.keys() for declared in reversed(values["wind"])}
     assert used == {kind: fields(wind_kinds().find(kind)) for kind in used}
     assert set(used) >= {"breeze", "gust", "whirlwind", "blast", "turbulence"}

@@ -24,7 +24,8 @@ BEYOND = {
     "no-elevation-file", "not-a-number", "two-bad-maps", "blast-picture-missing",
     "heights-and-noise", "heights-swapped", "path-goes-back-in-time", "path-off-the-terrain", "quality-rings-fall",
     "wind-stops-before-it-starts", "wind-path-goes-back-in-time", "gust-intervals-fall", "blast-outline-twice",
-    "blast-ellipse-flat", "blast-outline-empty", "version-not-first",
+    "blast-ellipse-flat", "blast-outline-empty", "version-not-first", "presser-corners-in-a-line",
+    "presser-goes-back-in-time",
 }  # fmt: skip
 """What is wrong with the files that a scene names, or with several values together: `check` tells of these."""
 

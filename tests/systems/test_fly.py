@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from tallgrass.components.body import Body
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import WindSource
+from tallgrass.engine.declared.way import Waypoint
 from tallgrass.engine.world import World
 from tallgrass.systems.bodies.draw import axes
 from tallgrass.systems.bodies.fly import DRAG, GRAVITY, HOVER, LOWEST, STEEPEST, carried, flying, foot, lean, level
 from tallgrass.systems.wind.blast import Blast
-from tallgrass.systems.wind.placed import Waypoint
 from tallgrass.systems.wind.quarantine import Quarantine
 
 Floats = NDArray[np.float32]

@@ -150,3 +150,76 @@ def test_f4_a_polygon_presses_where_its_corners_are_turned_to(prairie: Prairie) 
     ahead, beside = np.linalg.norm(prairie.bent_at([(1.6, 0.05), (0.0, 1.6)]), axis=1)
     assert ahead > 0.6
     assert beside == 0.0
+
+
+WALKED = """\
+pressers:
+  - radius: 0.4
+    path:
+      - { at: 0, position: [-3, 0] }
+      - { at: 1, position: [0, 0.6] }
+      - { at: 3, position: [3, -0.4] }
+  - { radius: 0.3, length: 1, position: [-1, 0.7], yaw: 30, strength: 0.8 }
+"""
+
+
+def test_f4_who_a_scene_declares_treads_where_its_path_leads(world: World) -> None:
+    del world
+    with little_prairie(scene=LITTLE + WALKED) as prairie:
+        prairie.advance(2.0)
+        bent = np.linalg.norm(prairie.bent_at([(-3.0, 0.0), (0.0, 0.6), (3.0, -0.4), (-1.0, 0.7)]), axis=1)
+        assert len(esper.get_component(Presser)) == 2
+    assert bent[[0, 1, 3]].min() > 0.4
+    assert bent[2] == 0.0
+
+
+@pytest.mark.parametrize("steps", [[0.7, 0.7, 0.9], [0.01] * 230, [0.25] * 9 + [0.05]])
+def test_n5_what_a_scene_declares_treads_the_same_whenever_it_is_looked_at(world: World, steps: list[float]) -> None:
+    del world
+    found = []
+    for each in ([2.3], steps):
+        with little_prairie(scene=LITTLE + WALKED) as prairie:
+            for step_on in each:
+                prairie.advance(step_on)
+                prairie.bent_at(AROUND[:1])
+            assert prairie.time == pytest.approx(2.3)
+            found.append(prairie.bent_at(AROUND))
+    assert np.linalg.norm(found[0], axis=1).max() > 0.9
+    np.testing.assert_allclose(found[0], found[1], atol=1e-6)
+
+
+def test_f4_a_game_walks_beside_those_that_a_scene_declares(world: World) -> None:
+    del world
+    bent = []
+    for scene in (LITTLE, LITTLE + WALKED.replace("[-3, 0]", "[-3, 20]").replace("[0, 0.6]", "[0, 20]")):
+        with little_prairie(scene=scene) as prairie:
+            walker = esper.create_entity(Presser(radius=0.4), Pose(-3.0, -8.0))
+            for step_on in (0.4, 0.3, 0.5):
+                prairie.advance(step_on)
+                esper.add_component(walker, Pose(-3.0 + 1.5 * prairie.time, -8.0, 6.2 - 6.0 * prairie.time))
+                prairie.bent_at(AROUND[:1])
+            bent.append(prairie.bent_at(AROUND + np.array([0.0, -8.0])))
+            esper.delete_entity(walker, immediate=True)
+    np.testing.assert_allclose(bent[0], bent[1], atol=1e-6)
+
+
+def test_n7_a_scene_read_again_keeps_who_stays_and_lets_go_who_is_gone(
+    world: World, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    del world
+    path = tmp_path_factory.mktemp("walked") / "scene.yaml"
+    path.write_text(LITTLE + WALKED, "utf-8")
+    prairie = Prairie.load(path)
+    try:
+        prairie.advance(1.0)
+        prairie.bent_at(AROUND)
+        first, second = sorted(entity for entity, _ in esper.get_component(Presser))
+        path.write_text(LITTLE + WALKED.replace("strength: 0.8", "strength: 0.5"), "utf-8")
+        prairie.reload()
+        left = {entity for entity, _ in esper.get_component(Presser)}
+        assert first in left
+        assert second not in left
+        assert len(left) == 2
+    finally:
+        prairie.release()
+    assert not esper.get_component(Presser)

@@ -6,7 +6,7 @@ layout(std140) uniform Frame {
     vec4 sun;         // direction to the sun; 1 where raw radiance is written
     vec4 sunlight;    // radiance of a white leaf in full sun; how much of the sky has clouds
     vec4 skylight;    // radiance of a white leaf under the whole sky; 1 / haze distance [1/m]
-    vec4 zenith;      // radiance overhead
+    vec4 zenith;      // radiance overhead; height that no blade comes to [m]
     vec4 horizon[3];  // radiance of horizon and haze, by powers of the cosine of the azimuth from the sun
     vec4 drift;       // where the clouds have drifted to, in their own sides; the sun's azimuth as a direction (x, z)
     vec4 shades[4];   // of bodies that cast shadows: middle, radius [m]; radius 0 where there is none

@@ -34,6 +34,37 @@ vec4 lie_at(vec2 place) {
     return vec4(here.xy, 2.0 * here.zw - 1.0);
 }
 
+#ifdef MOWN
+uniform sampler2D mown;  // over the terrain: up to which height grass is left to stand [m]
+
+// Beyond the terrain nobody mows.
+bool can_be_mown(vec2 place) {
+    vec2 beside = abs(place - terrain.xy - 0.5 * field.xy) - 0.5 * field.xy;
+    return max(beside.x, beside.y) < 0.0;
+}
+
+float left_at(vec2 place) {
+    return can_be_mown(place) ? textureLod(mown, (place - terrain.xy) / field.xy, 0.0).r : zenith.w;
+}
+
+// The mean over squares of `side` [m].
+float left_about(vec2 place, float side) {
+    float cell = field.x / float(textureSize(mown, 0).x), level = log2(max(side / cell, 1.0));
+    return can_be_mown(place) ? textureLod(mown, (place - terrain.xy) / field.xy, level).r : zenith.w;
+}
+
+// Whether that is lower than the canopy of the tallest kind.
+bool is_mown(float left) {
+    return left < max(max(crown.x, crown.y), max(crown.z, crown.w));
+}
+
+// How much of each kind's leaf area is left below a height [m].
+vec4 leaves_left(float top) {
+    vec4 gone = max(1.0 - top / max(crown, 0.01), 0.0);
+    return 1.0 - gone * gone;
+}
+#endif
+
 // Drier and fresher stretches, as a factor of the pigment.
 vec3 stretch(vec4 here) {
     return 1.0 + 0.16 * here.z + 0.14 * here.w * vec3(1.0, 0.1, -0.9);
@@ -111,10 +142,24 @@ struct Reached {
     vec3 gloss;
 };
 
+#ifdef MOWN
+// The light on kind `k` where nothing stands above `top` [m]: leaves over that shade nothing. `area` is that of leaves,
+// by kind.
+Lit mown_to(float top, Lit lit, int k, vec4 area) {
+    vec4 above = max(1.0 - max(top, crown[k]) / max(crown, 0.01), 0.0);
+    float deep = clamp(1.0 - top / max(crown[k], 0.01), 0.0, 1.0);
+    lit.leaves.x -= dot(area, above * above) + lit.leaves.y * deep * deep * (0.75 + 0.25 * deep);
+    return lit;
+}
+#endif
+
 // What reaches height `h` in a kind's canopy, of which 1 is the top.
 Reached reached(float h, Lit lit) {
-    float deep = clamp(1.0 - h, 0.0, 1.0);
-    vec2 seen = exp(-lit.way * (lit.leaves.x + lit.leaves.y * deep * deep * (0.75 + 0.25 * deep)));
+    float deep = clamp(1.0 - h, 0.0, 1.0), over = lit.leaves.x + lit.leaves.y * deep * deep * (0.75 + 0.25 * deep);
+#ifdef MOWN
+    over = max(over, 0.0);  // grass that lies flat stands lower than its cut
+#endif
+    vec2 seen = exp(-lit.way * over);
     return Reached(lit.sun * seen.x + lit.sky * seen.y, lit.sun * (AGAIN * seen.y), sunlight.rgb * (lit.gloss * seen.x));
 }
 
@@ -139,16 +184,20 @@ float haze_at(vec3 place) {
     return 1.0 - exp(-distance(place, eye.xyz) * skylight.w);
 }
 
-// Bare ground, and what lies on it and shades it where grass stands.
-vec3 soil_light(vec3 place) {
-    vec4 here = lie_at(place.xz), grows = textureLod(density, on_map(place.xz), 0.0);
+// What lies on the ground where grass stands, and the ground: `here` of lie_at, `grows` of density.
+vec3 soil_pigment(vec4 here, vec4 grows) {
     float total = min(dot(grows, vec4(1.0)), 1.0);
     vec3 under = vec3(0.0);
     for (int kind = 0; kind < 4; kind++)
         under += grows[kind] * mix(root[kind].rgb, tip[kind].rgb, 0.3);
     under /= max(dot(grows, vec4(1.0)), 1e-3);
-    vec3 pigment = mix(soil.rgb, mix(soil.rgb, under, LITTER), total) * stretch(here);
-    vec2 seen = exp(-ways(0, here.x) * dot(grows, leaf));
+    return mix(soil.rgb, mix(soil.rgb, under, LITTER), total) * stretch(here);
+}
+
+// That in its light, under a leaf area [of the ground's].
+vec3 soil_light(vec3 place, vec4 here, vec4 grows, float leaves) {
+    vec3 pigment = soil_pigment(here, grows);
+    vec2 seen = exp(-ways(0, here.x) * leaves);
     return pigment * pigment * (sunlight.rgb * (1.3 * here.x * seen.x * sun_seen(place, here.y)) + skylight.rgb * seen.y);
 }
 

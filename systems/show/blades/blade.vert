@@ -42,8 +42,22 @@ out vec4 tilt;   // relative change of pigment to its sides; leaf area above its
 out vec4 direct; // the sun's light on it, past the haze; leaf area from there to the ground
 out vec4 open_to;// the sky's light; how many leaves the sun's light meets
 out vec4 veil;   // haze before it, and what it mirrors of the sun's light
-out vec4 stands; // where its foot is in the canopy, and how much of it is its length; cover
+out vec4 stands; // where its foot is in the canopy, and how much of it is its length; part that is cut off; cover
 out vec4 joints; // slide to those of a coarser blade; coverage from which on it hides what is behind; kind; ring of strips
+
+#ifdef MOWN
+// The part of a blade up to where it first stands as high as `top` in calm air, of its length.
+float cut_at(float variant, vec2 rest, float top) {
+    float before = 0.0;
+    for (float link = 1.0; link <= terrain.w; link++) {
+        float here = posture(variant, rest, link / terrain.w).place.y;
+        if (here > top)
+            return max((link - 1.0 + (top - before) / (here - before)) / terrain.w, 0.0);
+        before = here;
+    }
+    return 1.0;
+}
+#endif
 
 void main() {
 #ifdef STORED
@@ -80,13 +94,21 @@ void main() {
     vec3 grain = 1.0 + grain_c[k].rgb * twice.x + grain_s[k].rgb * twice.y, dry = stretch(here) * grain;
     low = vec4((stem > 0.0 ? tip[k].rgb : root[k].rgb) * dry, variant);
     high = vec4(tip[k].rgb * dry, tip[k].w);
-    Lit lit = lit_at(k, blown, root_at, here, textureLod(density, on_map(root_at.xz), 0.0));
+    vec4 grows = textureLod(density, on_map(root_at.xz), 0.0);
+    Lit lit = lit_at(k, blown, root_at, here, grows);
+#ifdef MOWN
+    float top = left_at(root_at.xz);
+    lit = mown_to(top, lit, k, grows * leaf);
+#endif
     tilt = vec4(2.0 * ROUND * (grain_s[k].rgb * twice.x - grain_c[k].rgb * twice.y) / grain, lit.leaves.x);
     direct = vec4(lit.sun * seen, lit.leaves.y);
     open_to = vec4(lit.sky * seen, lit.way.x);
     veil = vec4(haze_light(root_at) * hidden, lit.gloss * seen);
     float canopy_height = crown[k] * lodged(blown);
     stands.xyz = vec3(up.y / canopy_height, height / canopy_height, 0.0);
+#ifdef MOWN
+    stands.z = 1.0 - cut_at(variant, rest, (top - stem) / height);
+#endif
 #ifdef MORPH
     int ring = int(strips.x), model = int(where.z) / 4, turn = int(where.z) % 4, along = int(how.w);
     int own = (along + turn) % 2, count = stacks[ring].z, columns = stacks[ring].x;

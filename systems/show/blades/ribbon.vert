@@ -55,7 +55,11 @@ vec3 painted_light(int k, float t, float twice, Painted target) {
     vec4 here = lie_at(target.middle.xz);
     vec3 pigment = mix(root[k].rgb, tip[k].rgb, t) * stretch(here) * (1.0 + grain_c[k].rgb * twice);
     vec4 grows = textureLod(density, on_map(target.middle.xz), 0.0);
-    vec3 light = radiance(pigment, target.h, lit_at(k, target.bend, target.middle, here, grows));
+    Lit lit = lit_at(k, target.bend, target.middle, here, grows);
+#ifdef MOWN
+    lit = mown_to(left_at(target.place.xz), lit, k, grows * leaf);
+#endif
+    vec3 light = radiance(pigment, target.h, lit);
     return mix(light, haze_light(target.middle), haze_at(target.middle));
 }
 #endif
@@ -80,6 +84,9 @@ void main() {
     float t = float(gl_VertexID / 2) / float(SEGMENTS);
 #ifndef MORPH
     t = mix(t, floor(t * float(COARSER) + 0.5) / float(COARSER), joints.x);
+#endif
+#ifdef MOWN
+    t *= 1.0 - stands.z;
 #endif
     float side = float(gl_VertexID % 2) * 2.0 - 1.0;
     Spine spine = posture(low.w, lie_of.xy, t);

@@ -3,8 +3,32 @@
 in vec3 place;
 in vec3 soil_seen;
 in vec4 veil;
+#ifdef MOWN
+in vec4 leaf_area;
+in vec3 sunlit;
+in vec3 skylit;
+in vec2 to_light;
+#endif
 
 out vec4 pixel;
+
+// From a low angle a pixel is a long stripe of ground: a sharper image is nearer to how grass looks there.
+float sharper(vec2 dx, vec2 dy) {
+    float one = dot(dx, dx), other = dot(dy, dy), longer = max(one, other);
+    return sqrt(max(min(one, other) / longer, 1.0 / (STRETCH * STRETCH)));
+}
+
+#ifdef MOWN
+const float STUBBLE = 1.5;  // how unevenly stubble stands, for how unevenly the grass did
+float left;  // up to which height grass is left to stand, in the mean over the pixel [m]
+
+float left_seen() {
+    vec2 dx = dFdx(place.xz), dy = dFdy(place.xz);
+    float fine = sharper(dx, dy);
+    float here = textureGrad(mown, (place.xz - terrain.xy) / field.xy, dx * fine / field.xy, dy * fine / field.xy).r;
+    return can_be_mown(place.xz) ? here : zenith.w;
+}
+#endif
 
 #if defined(CARPET) && !defined(UNDER)
 #include "lib/random.glsl"
@@ -51,12 +75,6 @@ vec2 elevation_seen(float slope) {
     return vec2(low, row - low);
 }
 
-// From a low angle a pixel is a long stripe of ground: a sharper image is nearer to how grass looks there.
-float sharper(vec2 dx, vec2 dy) {
-    float one = dot(dx, dx), other = dot(dy, dy), longer = max(one, other);
-    return sqrt(max(min(one, other) / longer, 1.0 / (STRETCH * STRETCH)));
-}
-
 const float GRAIN = 1.5;  // how far images are from their mean, for what filtering takes away
 const float COARSEST = 16.0; // or the last level that there is
 const float SHARP = 0.4;  // size of what is taken from the images for a pixel, of the pixel's own; from above it is
@@ -97,7 +115,7 @@ Sum trodden_light(float slope) {
 #endif
 
 // What the carpet shows: of grass and of the ground between, as much as there is of each, as of blades in front of it.
-vec3 carpet_seen(float slope) {
+vec3 carpet_seen(float slope, vec3 below) {
     ivec2 cell = ivec2(floor(place.xz / soil.w));
     uint drawn = hash3(stock.y, cell.x, cell.y);
     int model = int(drawn % uint(stock.x)), side = int(drawn >> 16u) & 3;
@@ -125,6 +143,10 @@ vec3 carpet_seen(float slope) {
     // Two images that have nothing to do with one another are flatter once they are mixed: as much is put back (Heitz and
     // Neyret, High-Performance By-Example Noise, 2018).
     float grain = mix(1.0, mix(GRAIN, 1.0, steep), shrunk) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
+#ifdef MOWN
+    bool cut = is_mown(left);
+    float covers = 1.0 - exp(-dot(leaf_area, leaves_left(left)) / max(slope, 0.02));  // by the leaves that are left
+#endif
     vec4 sum = vec4(0.0);
     for (int kind = 0; kind < KINDS; kind++) {
         if (met[kind] < 0.004)
@@ -137,17 +159,37 @@ vec3 carpet_seen(float slope) {
         image.a = clamp(image.a, 0.0, 1.0);
         image.rgb = clamp(image.rgb, 0.0, image.a);
         vec3 mean_of = image.rgb / max(image.a, 1e-3);
+        Lit met_by = lit;
+#ifdef MOWN
+        // What is left is taken for the same grass pressed together.
+        if (cut) {
+            float part = min(left / max(crown[kind], 0.01), 1.0);
+            float uneven = 1.0 + STUBBLE * (mean_of.g / max(mean.g / max(mean.a, 1e-3), 1e-3) - 1.0);
+            image.a = mix(min(covers * uneven, 1.0), image.a, part);
+            mean_of.rg *= part;
+            met_by = mown_to(left, lit, kind, leaf_area);
+        }
+#endif
         vec3 tint = (grain_c[kind].rgb * sight + grain_s[kind].rgb * aside) * (2.0 * mean_of.b - 1.0);
         vec3 pigment = mix(root[kind].rgb, tip[kind].rgb, mean_of.r) * dry * (1.0 + tint);
-        sum += met[kind] * image.a * vec4(shown_of(mix(radiance(pigment, mean_of.g, lit), veil.rgb, veil.w)), 1.0);
+        sum += met[kind] * image.a * vec4(shown_of(mix(radiance(pigment, mean_of.g, met_by), veil.rgb, veil.w)), 1.0);
     }
-    return sum.rgb + soil_seen * (1.0 - min(sum.a, 1.0));
+    return sum.rgb + below * (1.0 - min(sum.a, 1.0));
 }
 
 #endif
 
 void main() {
-    vec3 color = soil_seen;
+    vec3 below = soil_seen;
+#if defined(MOWN) && !defined(UNDER)
+    left = left_seen();
+    vec2 seen = exp(-to_light * dot(leaf_area, leaves_left(left)));
+    below = sunlit * seen.x + skylit * seen.y;  // the mesh is too coarse for the edges of what is mown
+#ifdef CARPET
+    below = shown_of(mix(below, veil.rgb, veil.w));
+#endif
+#endif
+    vec3 color = below;
 #ifndef UNDER
     float litter = texture(repeating, place.xz / LITTER_SIDE).g * LITTER_ONE;
 #endif
@@ -162,9 +204,15 @@ void main() {
     float covered = max(beside.x, beside.y) > 0.0 ? 1.0 : mix(1.0, outline_cover(slope), share);
     if (covered < 0.004)
         discard;
-    color *= sun.w > 0.5 ? litter : sqrt(litter);  // very nearly what is shown of as many times its radiance
+    float brighter = sun.w > 0.5 ? litter : sqrt(litter);  // very nearly what is shown of as many times the radiance
+    color *= brighter;
+#ifdef MOWN
+    // What lies on the ground is seen as far as the leaves are gone that would hide it.
+    float gone = 1.0 - dot(leaf_area, leaves_left(left)) / max(dot(leaf_area, vec4(1.0)), 1e-3);
+    below *= mix(1.0, brighter, gone * seen.y);
+#endif
     if (share > 0.0)
-        color = mix(color, carpet_seen(slope), share);
+        color = mix(color, carpet_seen(slope, below), share);
     pixel = vec4(color, 1.0) * covered;
 #else
     pixel = vec4(shown_of(mix(color, veil.rgb, veil.w)), 1.0);

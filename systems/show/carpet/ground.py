@@ -184,7 +184,7 @@ class GroundPainter:
                 *self.grid,
             )
 
-        self.bare = layer({}, self.streams[0])
+        self.bare = layer({"STRETCH": STRETCH}, self.streams[0])
         self.under = layer({**laid, "UNDER": 1}, self.streams[1])
         self.carpet = layer(laid, self.streams[2])
         self.is_trodden = False

@@ -47,10 +47,11 @@ void light_up(float slope) {
 
 // How much of what a line of sight meets is of each kind: taller kinds hide the others at a low angle. The grass is
 // taken in four layers from the top; its leaf area falls off linearly with height.
-vec4 kinds_met(vec4 grows, float slope) {
+vec4 kinds_met(vec4 grows, float slope, float left) {
     float top = 0.0;
     for (int kind = 0; kind < KINDS; kind++)
         top = max(top, grows[kind] > 0.004 ? crown[kind] : 0.0);
+    top = min(top, left);
     vec4 met = vec4(0.0);
     float through = 1.0;
     for (int layer = 0; layer < 4; layer++) {
@@ -75,6 +76,12 @@ float lowest_share(vec2 place) {
 #endif
 
 out vec3 soil_seen;  // its radiance; with a carpet, what is shown of it
+#ifdef MOWN
+out vec4 leaf_area; // by kind, of the ground's
+out vec3 sunlit;    // radiance of the soil without any grass: the sun's
+out vec3 skylit;    // the sky's
+out vec2 to_light;  // how many leaves their light meets
+#endif
 out vec4 veil;  // haze before it, and how much
 
 void main() {
@@ -85,8 +92,14 @@ void main() {
 #ifdef CARPET
     carpet = lowest_share(flat_at);
     vec4 grows = textureLod(density, on_map(flat_at), 0.0);
-    tall = dot(grows, raised) / max(dot(grows, vec4(1.0)), 1.0);
+#ifdef MOWN
+    float left = left_about(flat_at, tile.z);
+    dense = dot(grows, leaf * leaves_left(left));
+#else
+    const float left = 1e9;
     dense = dot(grows, leaf);
+#endif
+    tall = dot(grows, min(raised, left)) / max(dot(grows, vec4(1.0)), 1.0);
     vec2 step = vec2(max(terrain.z, tile.z), 0.0);
     rise = vec2(height_at(flat_at + step.xy) - height_at(flat_at - step.xy),
                 height_at(flat_at + step.yx) - height_at(flat_at - step.yx)) / (2.0 * step.x);
@@ -101,18 +114,36 @@ void main() {
     sunk = clamp(max(sunk, over_crest), 0.05, 1.0);
     place.y -= carpet * tall * sunk;
 #endif
-    met = kinds_met(grows, max(viewing_slope(rise, place), 0.02));
+    met = kinds_met(grows, max(viewing_slope(rise, place), 0.02), left);
 #ifndef UNDER
     light_up(viewing_slope(rise, place));
 #endif
 #endif
-    soil_seen = soil_light(vec3(flat_at, height_at(flat_at)).xzy);
+    vec3 ground = vec3(flat_at, height_at(flat_at)).xzy;
+    vec4 lies = lie_at(flat_at), stand = textureLod(density, on_map(flat_at), 0.0);
+#ifdef MOWN
+    leaf_area = stand * leaf;
+    soil_seen = soil_light(ground, lies, stand, dot(leaf_area, leaves_left(left_about(flat_at, tile.z))));
+    vec3 pigment = soil_pigment(lies, stand);
+    sunlit = pigment * pigment * sunlight.rgb * (1.3 * lies.x * sun_seen(ground, lies.y));
+    skylit = pigment * pigment * skylight.rgb;
+    to_light = ways(0, lies.x);
+#else
+    soil_seen = soil_light(ground, lies, stand, dot(stand, leaf));
+#endif
 #ifdef UNDER
     vec3 under = vec3(0.0);
     vec4 here = lie_at(flat_at);
     for (int kind = 0; kind < KINDS; kind++) {
-        vec3 pigment = mix(tip[kind].rgb, root[kind].rgb, 0.1 + SHADED * sunk) * stretch(here);
-        under += met[kind] * radiance(pigment, 0.9 - SHADED * sunk, lit_at(kind, vec2(0.0), place, here, grows));
+        Lit lit = lit_at(kind, vec2(0.0), place, here, grows);
+        float deep = 0.1 + SHADED * sunk, high = 0.9 - SHADED * sunk;
+#ifdef MOWN
+        lit = mown_to(left, lit, kind, grows * leaf);
+        high *= min(left / max(crown[kind], 0.01), 1.0);
+        deep = 1.0 - high;
+#endif
+        vec3 pigment = mix(tip[kind].rgb, root[kind].rgb, deep) * stretch(here);
+        under += met[kind] * radiance(pigment, high, lit);
     }
     // Where grass grows thinly or not at all, what lies beneath is the soil.
     soil_seen = mix(soil_seen, soil_seen * (1.0 - dot(met, vec4(1.0))) + under, carpet);

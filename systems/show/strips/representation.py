@@ -24,6 +24,7 @@ from .stock import StripStock, stock_strips
 from .sublevel import axis_of, left_of, packed, ring_of, shows_rows, strip_ring, strips_along, viewing_slope
 from .textures import atlas_levels, strip_stocks
 
+Floats = NDArray[np.float32]
 Levels = NDArray[np.int8]
 Mask = NDArray[np.bool_]
 Rows = NDArray[np.int64]
@@ -146,15 +147,25 @@ class StripRepresentation(Representation):
 
     def unfit(self, outlook: Outlook, rows: Rows, has: Mask, /, *, slack: int) -> Mask:
         """Return which patches (n,) are seen from so high that strips would show as rows, however fine."""
-        slope = viewing_slope(outlook.patches, rows, eye=outlook.viewer.eye, patch=self.quality.patch)
-        away, spacing = outlook.patches.away[rows], float(self._spacing().min())
-        return shows_rows(slope, away, has, height=self._height(), spacing=spacing, slack=slack)
+        slope, height, spacing = self._seen(outlook, rows)
+        return shows_rows(slope, outlook.patches.away[rows], has, height=height, spacing=spacing, slack=slack)
 
     def left(self, outlook: Outlook, rows: Rows, /) -> NDArray[np.float32]:
         """Return how much of strips is left on patches (n,): they sink where they come near to being unfit."""
-        slope = viewing_slope(outlook.patches, rows, eye=outlook.viewer.eye, patch=self.quality.patch)
-        away, spacing = outlook.patches.away[rows], float(self._spacing().min())
-        return left_of(slope, away, height=self._height(), spacing=spacing)
+        slope, height, spacing = self._seen(outlook, rows)
+        return left_of(slope, outlook.patches.away[rows], height=height, spacing=spacing)
+
+    def _seen(self, outlook: Outlook, rows: Rows) -> tuple[Floats, Floats, float]:
+        """Return at which slopes patches (n,) are seen, how high strips stand there, and how far apart the finest do.
+
+        Where all of a patch is mown short, the strips are as short.
+        """
+        patches, side = outlook.patches, self.quality.patch
+        height = np.full(len(rows), self._height(), np.float32)
+        if outlook.mown is not None and outlook.mown.strokes:
+            height = np.minimum(height, outlook.mown.tops(patches.cell[rows], patch=side))
+        slope = viewing_slope(patches, rows, eye=outlook.viewer.eye, patch=side)
+        return slope, height, float(self._spacing().min())
 
     def _reach(self, outlook: Outlook, ring: StripRing) -> float:
         """Return up to where a ring is due: nowhere beyond the blades, where it is for patches seen from above."""

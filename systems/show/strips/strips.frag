@@ -15,6 +15,14 @@ flat in float sheet;
 flat in float shown;
 flat in float level;  // of the mip-maps
 flat in float boost;  // of coverage
+#ifdef MOWN
+in vec3 roots;         // place on the ground (x, z), and how high over it in calm air [m]
+flat in vec4 leaf_area;// by kind, of the ground's
+flat in int stood_of;  // kind
+flat in float fine_at; // pixels that a metre is long
+flat in int is_cut;    // whether anything is, about its column
+flat in float rows_at; // height of grass below which strips would show as rows [m]
+#endif
 #ifdef THIN
 in float grows;       // rank up to which blades grow, in steps of the softness
 flat in vec2 stays;   // what shows by rank: slope and start, 0 to 1
@@ -29,8 +37,18 @@ void main() {
     vec4 texel = textureLod(atlas, vec3(at, sheet), level);
     vec3 mean = texel.rgb / max(texel.a, 0.002);
     vec3 pigment = (foot_color + rise_color * mean.r) * (1.0 + grain * (2.0 * mean.g - 1.0));
-    vec3 grass = shown_of(radiance(pigment, h, Lit(direct, open_to, veil.w, vec2(shade.z, OPEN_SKY), shade.xy)) + veil.rgb);
+    Lit lit = Lit(direct, open_to, veil.w, vec2(shade.z, OPEN_SKY), shade.xy);
     float covered = shown * min(texel.a * boost, 1.0);
+#ifdef MOWN
+    if (is_cut > 0) {
+        float top = left_at(roots.xy);
+        lit = mown_to(top, lit, stood_of, leaf_area);
+        covered *= clamp((top - roots.z) * fine_at + 0.5, 0.0, 1.0);
+        if (is_mown(top))
+            covered *= smoothstep(0.3 * rows_at, rows_at, top);
+    }
+#endif
+    vec3 grass = shown_of(radiance(pigment, h, lit) + veil.rgb);
 #ifdef THIN
     covered *= clamp(grows - mean.b * sharp, 0.0, 1.0) * clamp(stays.x * mean.b + stays.y, 0.0, 1.0);
 #endif

@@ -29,6 +29,14 @@ flat out float sheet;
 flat out float shown;
 flat out float boost;
 flat out float level;
+#ifdef MOWN
+out vec3 roots;        // place on the ground (x, z), and how high over it in calm air [m]
+flat out vec4 leaf_area;// by kind, of the ground's
+flat out int stood_of; // kind
+flat out float fine_at;// pixels that a metre is long
+flat out int is_cut;   // whether anything is, about its column
+flat out float rows_at;// height of grass below which strips would show as rows [m]
+#endif
 #ifdef THIN
 out float grows;
 flat out vec2 stays;
@@ -48,6 +56,9 @@ void thin(float dense, float below, float texels) {
 }
 #endif
 
+#ifdef MOWN
+const float CROSSED = 1.25;  // strips that a line of sight crosses at least where they do not show as rows
+#endif
 const float FACING = 0.3333;  // mean cosine of twice the azimuth from the eye of blades that face all ways, as they are seen
 const float SHARPER = 0.25;  // how much finer texels are than pixels, in levels: blades would be washed out
 
@@ -100,7 +111,16 @@ void main() {
     gl_Position = clip * vec4(point.xyz, 1.0);
     at = vec2((float(column) + across) / float(fine.x), t) * picture_to[picture];
     vec4 here = lie_at(middle.xz);
-    Lit lit = lit_at(k, 0.5 * (bend_a + bend_b), middle, here, textureLod(density, on_map(middle.xz), 0.0));
+    vec4 grows = textureLod(density, on_map(middle.xz), 0.0);
+    Lit lit = lit_at(k, 0.5 * (bend_a + bend_b), middle, here, grows);
+#ifdef MOWN
+    roots = vec3(mix(a.xz, b.xz, across), t * tall[k]);
+    leaf_area = grows * leaf;
+    stood_of = k;
+    fine_at = pixels;
+    rows_at = CROSSED * soil.w / float(count) * abs(eye.y - middle.y) / max(distance(middle.xz, eye.xz), 0.5 * soil.w);
+    is_cut = left_about(middle.xz, 2.0 * distance(a.xz, b.xz)) < 0.999 * zenith.w ? 1 : 0;
+#endif
     float hidden = haze_at(middle), seen = 1.0 - hidden;
     h = point.w;
     direct = lit.sun * seen;

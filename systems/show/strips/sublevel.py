@@ -57,25 +57,29 @@ def strip_ring(
     return kept
 
 
-def shows_rows(slope: Floats, distance: Ints, has: Mask, /, *, height: float, spacing: float, slack: int) -> Mask:
+def shows_rows(
+    slope: Floats, distance: Ints, has: Mask, /, *, height: Floats | float, spacing: float, slack: int
+) -> Mask:
     """Return on which patches (n,) the finest strips would show as rows, seen at these slopes and distances.
 
     A line of sight crosses fewer than `CROSSED` strips, `spacing` [m] apart, on its way through grass of this `height`
-    [m]. With `slack`, patches that have strips already, as `has` (n,) says, keep them a little longer.
+    [m], one or that of each patch (n,). With `slack`, patches that have strips already, as `has` (n,) says, keep them
+    a little longer.
     """
     steepest = _steepest(distance, height, spacing)
     return np.asarray(slope > np.where(has, steepest * TIGHTER, steepest) if slack else slope > steepest)
 
 
-def left_of(slope: Floats, distance: Ints, /, *, height: float, spacing: float) -> Floats:
+def left_of(slope: Floats, distance: Ints, /, *, height: Floats | float, spacing: float) -> Floats:
     """Return how much is left of strips on patches (n,) where they come near to showing as rows, from 1 to 0."""
     steepest = _steepest(distance, height, spacing)
-    return np.asarray(np.clip((1.0 - slope / steepest) / (1.0 - SINKING), 0.0, 1.0), np.float32)
+    span = np.maximum((1.0 - SINKING) * steepest, 1e-6)
+    return np.asarray(np.clip((steepest - slope) / span, 0.0, 1.0), np.float32)
 
 
-def _steepest(distance: Ints, height: float, spacing: float) -> Floats:
+def _steepest(distance: Ints, height: Floats | float, spacing: float) -> Floats:
     farther = np.maximum(distance.astype(np.float32), np.float32(APART))
-    return np.asarray(np.float32(height / (spacing * CROSSED) * APART) / farther)
+    return np.asarray(height * np.float32(APART / (spacing * CROSSED)) / farther, np.float32)
 
 
 def strips_along(cell: Ints, centre: Ints, current: NDArray[np.integer], /) -> Levels:

@@ -9,9 +9,9 @@ from pydantic import Field
 from tallgrass.app.edit.anchors import ahead, declared_anchors, heading, turned_to
 from tallgrass.components.declaration import Pair
 from tallgrass.components.wind import Floats, Grass, WindPrimitive
+from tallgrass.engine.declared.way import Waypoint
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust
-from tallgrass.systems.wind.placed import Waypoint
 from tallgrass.systems.wind.whirlwind import Whirlwind
 
 

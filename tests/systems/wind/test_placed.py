@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.components.pose import Pose
+from tallgrass.engine.declared.way import Waypoint
 from tallgrass.systems.wind.blast import Blast, Shape
-from tallgrass.systems.wind.placed import Waypoint
 from tallgrass.systems.wind.whirlwind import Whirlwind
 
 Floats = NDArray[np.float32]

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.systems.wind.placed import Waypoint
+from tallgrass.engine.declared.way import Waypoint
 from tallgrass.systems.wind.whirlwind import EYE, LOBES, Whirlwind
 
 Floats = NDArray[np.float32]

@@ -1,0 +1,83 @@
+"""Ways through a scene: places at times, and where one is between them."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+from math import atan2, radians
+
+import numpy as np
+from pydantic import Field
+
+from ...components.declaration import Declaration, DeclarationError, Pair
+from ...components.pose import Pose
+from ..curve import Curve
+from ..memo import by_identity
+
+_MOMENT = 0.05
+"""Time on either side over which the direction of travel is taken [s]."""
+
+
+class Waypoint(Declaration):
+    """One point of a path."""
+
+    at: float = Field(ge=0.0, le=36000.0)
+    """When it is here [s]."""
+
+    position: Pair
+    """Ground position (x, z) [m]."""
+
+    yaw: float | None = Field(default=None, ge=-3600.0, le=3600.0)
+    """Heading, as a camera's yaw; without it, where the path leads [degrees]."""
+
+
+def check_times(path: list[Waypoint], /) -> None:
+    """Raise DeclarationError where the times of a path do not rise."""
+    for i, (before, stop) in enumerate(pairwise(path), 1):
+        if stop.at <= before.at:
+            raise DeclarationError(f"at must be later than {before.at:g} s, the point before", "path", i, "at")
+
+
+def pose_on(path: list[Waypoint], position: list[float], yaw: float, /, *, time: float) -> Pose:
+    """Return the pose on a path at `time` [s]; where there is none, that of a position [m] and a yaw [degrees]."""
+    if not path:
+        return Pose(position[0], position[1], radians(yaw))
+    x, z = _ways(path).place.at(time)
+    return Pose(x, z, _heading(path, time, radians(yaw)))
+
+
+@dataclass(frozen=True, slots=True)
+class _Ways:
+    """A path as curves."""
+
+    place: Curve
+    """Ground position (x, z) [m]."""
+
+    yaw: Curve | None
+    """Heading, where points of the path declare it [degrees]."""
+
+    legs: list[tuple[float, float]]
+    """When it sets out and arrives on each leg that leads somewhere [s]."""
+
+
+@by_identity(most=256)
+def _ways(path: list[Waypoint]) -> _Ways:
+    times = np.array([stop.at for stop in path], np.float64)
+    declared = [(stop.at, stop.yaw) for stop in path if stop.yaw is not None]
+    turns, yaws = np.array(declared, np.float64).T if declared else (np.zeros(0), np.zeros(0))
+    return _Ways(
+        Curve.through(times, np.array([stop.position for stop in path], np.float64)),
+        Curve.through(turns, yaws[:, None]) if declared else None,
+        [(here.at, there.at) for here, there in pairwise(path) if here.position != there.position],
+    )
+
+
+def _heading(path: list[Waypoint], time: float, first: float) -> float:
+    """Return the heading on a path [rad]: what its points declare, or else where it leads, last led, or will lead."""
+    ways = _ways(path)
+    if ways.yaw is not None:
+        return radians(ways.yaw.at(time)[0])
+    if not ways.legs:
+        return first
+    begin, end = next((leg for leg in reversed(ways.legs) if leg[0] <= time), ways.legs[0])
+    moment = max(min(time, end - _MOMENT), begin + _MOMENT)
+    after, before = ways.place.at(moment + _MOMENT), ways.place.at(moment - _MOMENT)
+    return atan2(after[0] - before[0], -(after[1] - before[1]))

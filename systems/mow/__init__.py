@@ -1,0 +1,1 @@
+"""Mowing: how high a game lets grass stand, place by place."""

@@ -1,0 +1,152 @@
+"""Mown grass in frames: as high as it was cut on all representations, and everything else as it was (F4)."""
+
+from collections.abc import Callable
+from math import inf
+from typing import Any
+
+import esper
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass import Footprint, Pose, Presser
+from tallgrass.engine.camera import Camera
+from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.reference import draw_reference
+from tallgrass.testing import LITTLE
+
+Doubles = NDArray[np.float64]
+Stage = Any
+Load = Callable[..., Prairie]
+Aim = Callable[..., Camera]
+
+FLAT = LITTLE.replace("scale: 4", "scale: 0")
+LAWN = FLAT.replace("short: { height: [0.2, 0.4]", "short: { height: [0.5, 0.9]").replace("blades: 60", "blades: 400")
+
+ALL = Footprint(radius=90.0)
+KEPT = ["blades", "strips", "carpet", "auto"]
+
+
+def above_horizon(picture: Doubles) -> Doubles:
+    return picture[: len(picture) // 2]
+
+
+@pytest.mark.parametrize("lod", KEPT)
+def test_f4_grass_stands_as_high_as_it_was_cut_and_no_higher(stage: Stage, load: Load, camera: Aim, lod: str) -> None:
+    prairie, seen = load(FLAT, lod=lod), {}
+    for height in (0.0, 0.25):
+        prairie.cut(ALL, 0.0)
+        prairie.grow(ALL, height)
+        for eye in (0.15, 0.3):
+            seen[height, eye] = above_horizon(stage.shot(prairie, camera(0.0, eye, 20.0)))
+    np.testing.assert_array_equal(seen[0.25, 0.3], seen[0.0, 0.3])
+    assert (np.abs(seen[0.25, 0.15] - seen[0.0, 0.15]).max(axis=2) > 20.0).mean() > 0.01
+
+
+@pytest.mark.parametrize("lod", KEPT)
+def test_f4_only_what_lies_under_the_footprint_is_cut(stage: Stage, load: Load, camera: Aim, lod: str) -> None:
+    prairie, aim = load(LAWN, lod=lod), camera(0.0, 12.0, 12.0, pitch=-50)
+    before = stage.shot(prairie, aim)
+    prairie.cut(Footprint(radius=2.0), 0.05, pose=Pose(2.0, 0.0))
+    changed = np.abs(stage.shot(prairie, aim) - before).max(axis=2) > 2.0
+    away = np.hypot(*np.moveaxis(stage.ground(aim) - (2.0, 0.0), -1, 0))
+    assert changed[away < 1.5].mean() > 0.4
+    assert not changed[away > 4.0].any(), "tall grass hides what is behind it, and is mixed over a cell of the carpet"
+
+
+@pytest.mark.parametrize("height", [0.08, 0.3])
+def test_f4_a_lawn_is_as_bright_on_all_representations_as_every_blade_of_it(
+    stage: Stage, load: Load, camera: Aim, height: float
+) -> None:
+    aim, means = camera(0.0, 6.0, 20.0, pitch=-25), {}
+    for lod in KEPT[:3]:
+        prairie = load(LAWN, lod=lod)
+        prairie.cut(ALL, height)
+        means[lod] = stage.shot(prairie, aim)[20:].mean(axis=(0, 1))
+        if lod == "blades":
+            view, projection = stage.matrices(aim)
+            due = draw_reference(prairie, view, projection, stage.size)[20:].mean(axis=(0, 1))
+    for lod, mean in means.items():
+        np.testing.assert_allclose(mean, due, rtol=0.06, err_msg=lod)
+
+
+@pytest.mark.parametrize("lod", KEPT)
+def test_f4_grass_that_was_grown_again_looks_as_if_it_had_never_been_cut(
+    stage: Stage, load: Load, camera: Aim, lod: str
+) -> None:
+    prairie, aim = load(LITTLE, lod=lod), camera(0.0, 6.0, 20.0, pitch=-25)
+    before = stage.shot(prairie, aim)
+    prairie.cut(ALL, 0.1)
+    cut = stage.shot(prairie, aim)
+    prairie.grow(ALL)
+    assert np.abs(cut - before).max() > 40.0
+    assert np.abs(stage.shot(prairie, aim) - before).max() <= 2.0
+
+
+def test_n5_the_same_strokes_in_the_same_order_give_the_same_picture(stage: Stage, load: Load, camera: Aim) -> None:
+    aim, pictures = camera(0.0, 5.0, 18.0, pitch=-25), []
+    for late in (False, True):
+        prairie = load(LITTLE)
+        if not late:
+            stage.shot(prairie, aim)
+        for number in range(8):
+            prairie.cut(Footprint(radius=0.6, length=20.0), 0.05 + 0.01 * number, pose=Pose(-6.0 + 1.5 * number, 4.0))
+            if not late:
+                stage.shot(prairie, aim)
+        prairie.grow(Footprint(radius=2.0), 0.2, pose=Pose(0.0, 6.0))
+        pictures.append(stage.shot(prairie, aim))
+    np.testing.assert_array_equal(*pictures)
+
+
+def test_f4_blades_that_come_to_no_harm_by_the_cut_are_those_that_are_shorter(
+    stage: Stage, load: Load, camera: Aim
+) -> None:
+    prairie, aim = load(FLAT), camera(0.0, 3.0, 20.0, pitch=-15)
+    before = stage.shot(prairie, aim)
+    prairie.cut(ALL, prairie.site.tallest)
+    assert np.abs(stage.shot(prairie, aim) - before).max() <= 2.0
+
+
+def test_f4_mown_grass_is_trodden_too(stage: Stage, load: Load, camera: Aim) -> None:
+    for lod in KEPT[:3]:
+        prairie, aim = load(FLAT, lod=lod), camera(0.0, 1.5, 14.0, pitch=-10)
+        prairie.cut(ALL, 0.2)
+        before = stage.shot(prairie, aim)
+        entity = esper.create_entity(Presser(radius=1.5), Pose(0.0, 6.0))
+        prairie.advance(0.5)
+        trodden = stage.shot(prairie, aim)
+        esper.delete_entity(entity, immediate=True)
+        assert np.abs(trodden - before).max() >= 2.0, lod
+        prairie.release()
+
+
+def test_f4_a_scene_read_again_keeps_what_was_cut(stage: Stage, load: Load, camera: Aim) -> None:
+    prairie, aim = load(FLAT), camera(0.0, 6.0, 20.0, pitch=-25)
+    prairie.cut(ALL, 0.1)
+    before = stage.shot(prairie, aim)
+    for seed in ("seed: 5", "seed: 6", "seed: 5"):
+        prairie.path.write_text(FLAT.replace("seed: 5", seed), "utf-8")
+        prairie.reload()
+        last = stage.shot(prairie, aim)
+    np.testing.assert_array_equal(last, before)
+
+
+def test_f4_nobody_knows_of_mowing_where_nothing_was_cut(
+    ctx: moderngl.Context, stage: Stage, load: Load, camera: Aim
+) -> None:
+    prairie = load(FLAT)
+    prairie.grow(ALL, inf)
+    stage.shot(prairie, camera(0.0, 3.0, 20.0))
+    assert prairie.painter is not None
+    assert prairie.painter.mown.texture is None
+    assert prairie.painter.block.defines == {}
+    assert ctx.error == "GL_NO_ERROR"
+
+
+def test_f4_a_prairie_that_was_released_is_not_cut(load: Load) -> None:
+    prairie = load(FLAT)
+    prairie.release()
+    for stroke in (prairie.cut, prairie.grow):
+        with pytest.raises(RuntimeError, match="this prairie has been released"):
+            stroke(ALL, 0.1)

@@ -1,0 +1,186 @@
+"""Mowing: what is cut and grown on the map of how high grass stands (F4)."""
+
+from math import inf, nan, pi
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from tallgrass.components.footprint import Footprint
+from tallgrass.components.pose import HERE, Pose
+from tallgrass.engine.terrain.record import Terrain
+from tallgrass.engine.world import World
+from tallgrass.systems.mow.mown import CELL, LEAST, MOST, Mown, inside
+from tallgrass.testing import LITTLE, little_prairie, watch
+
+Floats = NDArray[np.float32]
+
+LONG = Footprint(radius=1.0, length=6.0)
+ELL = Footprint(corners=((-3.0, -3.0), (3.0, -3.0), (3.0, 0.0), (0.0, 0.0), (0.0, 3.0), (-3.0, 3.0)))
+
+
+def ground(width: float = 40.0, depth: float = 20.0) -> Terrain:
+    return Terrain(np.zeros((int(depth) + 1, int(width) + 1), np.float32), 1.0)
+
+
+def left(mown: Mown, x: float, z: float) -> float:
+    """Up to which height grass is left at a place."""
+    assert mown.heights is not None
+    column, row = int((x - mown.origin[0]) / mown.cell[0]), int((z - mown.origin[1]) / mown.cell[1])
+    return float(mown.heights[row, column])
+
+
+def places(*each: tuple[float, float]) -> Floats:
+    return np.array(each, np.float32)
+
+
+def test_f4_a_capsule_lies_along_its_heading_and_is_round_at_its_ends() -> None:
+    at = places((0.0, -3.9), (0.0, -4.1), (0.9, 0.0), (1.1, 0.0), (0.8, -3.8))
+    assert inside(LONG, HERE, at).tolist() == [True, False, True, False, False]
+    turned = places((6.9, 2.0), (7.1, 2.0), (3.0, 2.9), (3.0, 3.1))
+    assert inside(LONG, Pose(3.0, 2.0, pi / 2), turned).tolist() == [True, False, True, False]
+
+
+def test_f4_a_polygon_may_be_hollow_and_is_turned_with_its_pose() -> None:
+    at = places((-2.0, 2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, -2.0), (-3.1, 0.0))
+    assert inside(ELL, HERE, at).tolist() == [True, True, False, True, False]
+    assert inside(ELL, Pose(yaw=pi), at).tolist() == [True, True, True, False, False]
+
+
+def test_f4_what_is_cut_stays_cut_and_what_stands_lower_stays_as_it_is() -> None:
+    mown = Mown(ground())
+    mown.cut(LONG, 0.1, Pose(2.0, 1.0))
+    mown.cut(Footprint(radius=3.0), 0.25, Pose(2.0, 1.0))
+    assert left(mown, 2.0, 1.0) == pytest.approx(0.1)
+    assert left(mown, 4.5, 1.0) == pytest.approx(0.25)
+    assert left(mown, 2.0, 6.0) == inf
+
+
+def test_f4_what_is_grown_stands_as_high_as_it_may_and_never_lower_than_before() -> None:
+    mown = Mown(ground())
+    mown.cut(Footprint(radius=5.0), 0.1, HERE)
+    mown.grow(Footprint(radius=2.0), 0.3, HERE)
+    mown.grow(Footprint(radius=1.0), 0.2, HERE)
+    assert [left(mown, x, 0.0) for x in (0.5, 1.5, 3.0)] == pytest.approx([0.3, 0.3, 0.1])
+    mown.grow(Footprint(radius=1.0), inf, HERE)
+    assert left(mown, 0.5, 0.0) == inf
+
+
+@given(
+    st.lists(st.tuples(st.booleans(), st.floats(0.0, 1.0), st.floats(-25.0, 25.0), st.floats(0.05, 6.0)), max_size=8)
+)
+def test_f4_the_map_says_at_each_place_what_the_strokes_over_it_say(
+    strokes: list[tuple[bool, float, float, float]],
+) -> None:
+    mown, at = Mown(ground()), places((1.1, 0.3))
+    due = np.float32(inf)
+    for grows, height, x, radius in strokes:
+        footprint, pose = Footprint(radius=radius), Pose(x, 0.3)
+        (mown.grow if grows else mown.cut)(footprint, height, pose)
+        if inside(footprint, pose, at, least=LEAST * CELL)[0]:
+            due = (max if grows else min)(due, np.float32(height))
+    assert (inf if mown.heights is None else left(mown, 1.1, 0.3)) == due
+
+
+def test_f4_even_the_narrowest_footprint_cuts_the_cell_that_it_is_on() -> None:
+    for x in np.linspace(3.0, 3.0 + CELL, 7).tolist():
+        mown = Mown(ground())
+        mown.cut(Footprint(radius=0.02), 0.1, Pose(x, 0.07))
+        assert left(mown, x, 0.07) == pytest.approx(0.1)
+
+
+def test_f4_only_the_rows_that_a_stroke_has_changed_are_new() -> None:
+    mown = Mown(ground())
+    assert mown.strokes == 0
+    mown.cut(Footprint(radius=1.0), 0.1, Pose(0.0, 5.0))
+    first = mown.strokes
+    mown.cut(Footprint(radius=0.5), 0.1, Pose(0.0, 5.0))
+    assert mown.strokes == first, "nothing is lower than before"
+    mown.cut(Footprint(radius=1.0), 0.1, Pose(0.0, -5.0))
+    rows = np.flatnonzero(mown.changed > first)
+    far, near = ((z + 10.0) / CELL for z in (-6.2, -3.8))
+    assert far <= rows.min() < rows.max() <= near
+
+
+def test_f4_no_map_is_made_before_something_is_cut_on_the_terrain() -> None:
+    mown = Mown(ground())
+    mown.grow(Footprint(radius=5.0), 0.2, HERE)
+    mown.cut(Footprint(radius=5.0), 0.2, Pose(500.0, 0.0))
+    assert mown.heights is None
+    assert mown.strokes == 0
+
+
+def test_f4_cells_are_as_wide_as_told_and_wider_on_a_large_terrain() -> None:
+    assert Mown(ground()).cell == pytest.approx((CELL, CELL))
+    large = Mown(Terrain(np.zeros((3, 3), np.float32), 1000.0))
+    assert large.shape == (MOST, MOST)
+    assert large.cell == pytest.approx((2000.0 / MOST,) * 2)
+
+
+def test_f4_on_another_terrain_what_was_cut_stays_cut_at_its_place() -> None:
+    mown = Mown(ground())
+    mown.cut(Footprint(radius=1.0), 0.1, Pose(15.0, -3.0))
+    mown.cut(Footprint(radius=1.0), 0.2, Pose(-2.0, 8.0))
+    before = mown.strokes
+    mown.change(ground(100.0, 12.0))
+    assert [left(mown, 15.0, -3.0), left(mown, -40.0, 0.0)] == pytest.approx([0.1, inf])
+    assert (mown.changed > before).all()
+    mown.change(ground())
+    assert [left(mown, 15.0, -3.0), left(mown, -2.0, 8.0)] == pytest.approx([0.1, inf])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error", "told"),
+    [
+        ((Footprint(), -0.1, HERE), ValueError, "grass is cut to 0 m or more, not to -0.1"),
+        ((Footprint(), nan, HERE), ValueError, "grass is cut to 0 m or more, not to nan"),
+        ((Footprint(), "low", HERE), TypeError, "grass is cut to a height in metres, not to 'low'"),
+        ((0.5, 0.1, HERE), TypeError, "grass is cut under a Footprint, not under 0.5"),
+        ((Footprint(), 0.1, (1.0, 2.0)), TypeError, r"a footprint lies at a Pose, not at \(1.0, 2.0\)"),
+        ((Footprint(), 0.1, Pose(nan)), ValueError, "a footprint lies at a pose of finite numbers"),
+    ],
+)
+def test_f4_what_cannot_be_cut_is_told_in_a_sentence(arguments: tuple[object, ...], error: type, told: str) -> None:
+    mown = Mown(ground())
+    with pytest.raises(error, match=told):
+        mown.cut(*arguments)  # type: ignore[arg-type]
+    assert mown.heights is None
+
+
+@settings(max_examples=12)
+@given(st.lists(st.tuples(st.floats(-22.0, 22.0), st.floats(-12.0, 12.0), st.floats(0.5, 9.0)), max_size=6))
+def test_f4_the_top_of_a_patch_is_the_highest_grass_that_is_left_on_it(
+    strokes: list[tuple[float, float, float]],
+) -> None:
+    mown, patch = Mown(ground()), 3.0
+    x, z = np.meshgrid(np.arange(-8, 8), np.arange(-5, 5))
+    cells = np.stack([x, z], axis=-1).reshape(-1, 2).astype(np.int32)
+    for number, (x_at, z_at, radius) in enumerate(strokes):
+        (mown.grow if number % 3 == 2 else mown.cut)(Footprint(radius=radius), 0.1 * number, Pose(x_at, z_at))
+        found = mown.tops(cells, patch=patch)
+        assert mown.heights is not None or (found == inf).all()
+        if mown.heights is not None:
+            row, column = np.indices(mown.shape)
+            middle = np.stack([-20.0 + (column + 0.5) * mown.cell[0], -10.0 + (row + 0.5) * mown.cell[1]], axis=-1)
+            own = np.floor(middle / patch).astype(int)
+            for cell, top in zip(cells.tolist(), found.tolist(), strict=True):
+                here = (own == cell).all(axis=-1)
+                assert top == (mown.heights[here].max() if here.any() else inf)
+
+
+def test_f4_where_grass_is_mown_so_short_that_strips_would_show_as_rows_lies_the_carpet(world: World) -> None:
+    del world  # it is made the current one
+    with little_prairie(scene=LITTLE.replace("scale: 4", "scale: 0")) as prairie:
+        watch(prairie)
+        patches = prairie.viewers["main"].patches
+        before = patches.wanted[patches.visible].copy()
+        prairie.cut(Footprint(radius=90.0), 0.01)
+        watch(prairie)
+        assert (before == 1).sum() > 20
+        assert not (patches.wanted[patches.visible] == 1).any()
+        np.testing.assert_array_equal(patches.wanted[patches.visible] == 0, before == 0)
+        prairie.grow(Footprint(radius=0.5), pose=Pose(*patches.middle[patches.visible][before == 1][0].tolist()))
+        watch(prairie)
+        assert (patches.wanted[patches.visible] == 1).sum() == 1
