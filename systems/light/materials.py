@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.declared.grass import GrassKind
-from ..grow.bend import across, profile, spine
+from ..grow.bend import across, spine, widths
 from ..grow.record import Growth
 from .color import linear, luminance
 from .daylight import Daylight
@@ -45,7 +45,7 @@ def leaves_of(kind: GrassKind, growth: Growth, patch: float, /) -> Leaves:
     blades = growth.models[0].blades
     centre = spine(blades, growth.postures, (0.0, 0.0), points=_POINTS).astype(np.float64)
     along = (np.arange(_POINTS - 1) + 0.5) / (_POINTS - 1)
-    width = blades.width[:, None].astype(np.float64) * profile(along, kind.taper)
+    width = widths(blades, along, kind.taper).astype(np.float64)
     normal = np.cross(np.diff(centre, axis=1), across(blades)[:, None]) * width[..., None]
     level, ground = np.hypot(normal[..., 0], normal[..., 2]), patch * patch
     return Leaves(float(level.sum() * 2.0 / np.pi) / ground, float(np.abs(normal[..., 1]).sum()) / ground)
