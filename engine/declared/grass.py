@@ -88,7 +88,7 @@ class GrassKind(Declaration):
     """Line segments per blade at the finest level; without it the quality's number."""
 
     place: Place | None = None
-    """Where it grows; without it, everywhere."""
+    """Where it grows; without it, everywhere. Kinds share the ground, but flowers stand among the others."""
 
     @model_validator(mode="after")
     def _ordered_heights(self) -> "GrassKind":

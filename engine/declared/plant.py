@@ -24,7 +24,7 @@ SIZES: Mapping[HeadForm, tuple[float, float]] = {
 }
 """Sizes of heads that do not say [m]."""
 
-PETALS: Mapping[HeadForm, int] = {"disc": 12, "bell": 6, "spike": 14, "umbel": 10, "plume": 10}
+PETALS: Mapping[HeadForm, int] = {"disc": 12, "bell": 6, "spike": 18, "umbel": 18, "plume": 16}
 """Petals of heads that do not say."""
 
 FLOWER: Mapping[str, Any] = {

@@ -15,7 +15,7 @@ Doubles = NDArray[np.float64]
 Whorl = tuple[float, float]
 
 DISC_OF_FEW: tuple[Whorl, ...] = ((0.8, 1.0),)
-DISC_OF_MANY: tuple[Whorl, ...] = ((0.97, 1.0), (0.75, 0.9), (0.4, 0.62))
+DISC_OF_MANY: tuple[Whorl, ...] = ((0.97, 1.0), (0.8, 0.88), (0.5, 0.62))
 BELL: tuple[Whorl, ...] = ((0.42, 1.0),)
 """Whorls of petals from the outermost: the posture index at which petals stand, and their length, of the longest."""
 
@@ -25,7 +25,7 @@ MANY = 9
 _REACH = 0.8
 """How far a petal reaches out from its root, of its length, where its posture index is 1."""
 
-_OVERLAP = 1.25
+_OVERLAP = 1.6
 _WIDEST = 1.15
 """Width of a petal at most, of its length."""
 
@@ -66,11 +66,11 @@ def _cup(head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.ran
 def _spike(head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.random.Generator, /) -> Rows:
     """Return florets along the tops of stems, smaller to the tip, where they are still in bud."""
     up, toward = _along(layout, stems, random)
-    length = 0.3 * size[:, None] * (1.0 - 0.55 * up) * random.uniform(0.85, 1.15, up.shape)
+    length = 0.22 * size[:, None] * (1.0 - 0.55 * up) * random.uniform(0.85, 1.15, up.shape)
     shut = up > head.open + random.uniform(-0.15, 0.15, (len(size), 1))
     return stood(
         stems, np.where(shut, BUD, TUFT), part=_part(stems, size, up), height=np.where(shut, 0.7 * length, length),
-        width=np.where(shut, 0.35, 0.6) * length, toward=toward, spread=np.where(shut, 0.25, 0.6 - 0.25 * up),
+        width=np.where(shut, 0.35, 0.7) * length, toward=toward, spread=np.where(shut, 0.25, 0.6 - 0.25 * up),
     )  # fmt: skip
 
 
@@ -81,7 +81,7 @@ def _plume(head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.r
     lean = np.arctan2(stems.rest[:, 1], stems.rest[:, 0])[:, None]
     length = size[:, None] * (0.62 - 0.3 * up) * random.uniform(0.8, 1.15, up.shape)
     return stood(
-        stems, TUFT, part=_part(stems, size, up), height=length, width=np.where(shut, 0.1, 0.17) * length,
+        stems, TUFT, part=_part(stems, size, up), height=length, width=np.where(shut, 0.05, 0.08) * length,
         toward=lean + random.normal(0.0, 0.9, up.shape),
         spread=np.where(shut, 0.15, random.uniform(0.3, 0.8, up.shape)),
     )  # fmt: skip
@@ -96,7 +96,7 @@ def _umbel(head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.r
     toward = random.uniform(-np.pi, np.pi, (len(size), 1)) + GOLDEN * np.arange(count)
     return stood(
         stems, np.where(shut, BUD, RAY), part=1.0, height=np.where(shut, 0.5, 1.0) * ray,
-        width=np.where(shut, 0.12, 1.5 / np.sqrt(count)) * ray, toward=toward,
+        width=np.where(shut, 0.12, 1.15 / np.sqrt(count)) * ray, toward=toward,
         spread=np.where(shut, 0.2, 0.98) * out,
     )  # fmt: skip
 

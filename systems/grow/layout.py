@@ -31,12 +31,15 @@ class Habit:
     leaf: float
     """Length of a leaf, of its plant's height."""
 
+    heads: int = 1
+    """Heads that share the petals of one, as they are small."""
+
 
 HABITS: Mapping[Plant, Habit] = {
     "grass": Habit(0.0, 1, 0, 0.0),
     "flower": Habit(8.0, 1, 4, 0.45),
     "forb": Habit(8.0, 1, 8, 0.4),
-    "shrub": Habit(4.0, 6, 5, 0.16),
+    "shrub": Habit(5.0, 6, 3, 0.16, 2),
 }
 """By plant."""
 
@@ -82,7 +85,7 @@ def layout_of(kind: GrassKind, quality: Quality, /) -> Layout:
     layout = Layout(plants, 0, habit.branches, round(leaves * part), 0, 0)
     if kind.head is None:
         return layout
-    petals = kind.head.petals or PETALS[kind.head.form]
+    petals = kind.head.petals or max(PETALS[kind.head.form] // habit.heads, 3)
     return Layout(
         plants, max(int(plants * kind.head.share), 1), habit.branches, layout.leaves, max(round(petals * part), 3),
         MIDDLES[kind.head.form],

@@ -15,7 +15,7 @@ from .organs import FROND, LEAF, STEM
 from .record import Blades
 from .rows import GOLDEN, Rows, Stems, stood, together
 
-_STEM_WIDTH = 0.008
+_STEM_WIDTH = 0.006
 """Of its length."""
 
 _LEAST_STEM_WIDTH = 0.003
@@ -118,7 +118,7 @@ class _Foliage:
 
 
 _FOLIAGE: Mapping[Plant, _Foliage] = {
-    "flower": _Foliage(0.4, 0.3, (0.35, 0.85)),
+    "flower": _Foliage(0.3, 0.3, (0.5, 0.95)),
     "forb": _Foliage(0.95, 0.55, (0.5, 0.85)),
     "shrub": _Foliage(0.9, 0.4, (0.25, 0.6)),
 }

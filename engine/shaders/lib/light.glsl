@@ -145,7 +145,7 @@ vec3 soil_light(vec3 place) {
     float total = min(dot(grows, vec4(1.0)), 1.0);
     vec3 under = vec3(0.0);
     for (int kind = 0; kind < 4; kind++)
-        under += grows[kind] * mix(root[kind].rgb, tip[kind].rgb, 0.3);
+        under += grows[kind] * mix(root[kind].rgb, tip[kind].rgb, 0.3 * through[kind].w * through[kind].w);
     under /= max(dot(grows, vec4(1.0)), 1e-3);
     vec3 pigment = mix(soil.rgb, mix(soil.rgb, under, LITTER), total) * stretch(here);
     vec2 seen = exp(-ways(0, here.x) * dot(grows, leaf));

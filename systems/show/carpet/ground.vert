@@ -111,7 +111,8 @@ void main() {
     vec3 under = vec3(0.0);
     vec4 here = lie_at(flat_at);
     for (int kind = 0; kind < KINDS; kind++) {
-        vec3 pigment = mix(tip[kind].rgb, root[kind].rgb, 0.1 + SHADED * sunk) * stretch(here);
+        vec3 top = mix(root[kind].rgb, tip[kind].rgb, through[kind].w);
+        vec3 pigment = mix(top, root[kind].rgb, 0.1 + SHADED * sunk) * stretch(here);
         under += met[kind] * radiance(pigment, 0.9 - SHADED * sunk, lit_at(kind, vec2(0.0), place, here, grows));
     }
     // Where grass grows thinly or not at all, what lies beneath is the soil.
