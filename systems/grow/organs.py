@@ -42,6 +42,9 @@ ORGANS: Final = (
 """By number. `LEAF` belongs to a plant with a head, whose colour is the tip's, and `FROND` to one without. `EYE` is the
 middle of an open head, `RAY` one of an umbel's, whose florets are its end; florets and plumes are made of `TUFT`."""
 
+HEADS: Final = (PETAL, EYE, BUD, RAY, TUFT)
+"""Those that heads are made of."""
+
 TONES: Final = np.array([organ.tones for organ in ORGANS])
 """By organ: tone at its root and at its tip, shape (organs, 2)."""
 

@@ -25,6 +25,10 @@ in float crest;
 in float tall;
 in float dense;
 in vec4 met;
+#ifdef HEADS
+in vec4 riper;
+uniform vec3 heads[KINDS];
+#endif
 in vec3 direct;
 in vec3 open_to;
 in vec4 shade;
@@ -133,10 +137,21 @@ vec3 carpet_light(float slope) {
         image.a = clamp(image.a, 0.0, 1.0);
         image.rgb = clamp(image.rgb, 0.0, image.a);
         vec3 mean_of = image.rgb / max(image.a, 1e-3);
+#ifdef HEADS
+        mean_of.r += riper[kind] * (riper[kind] > 0.0 ? 1.0 - mean_of.r : mean_of.r);
+#endif
         vec3 tint = (grain_c[kind].rgb * sight + grain_s[kind].rgb * aside) * (2.0 * mean_of.b - 1.0);
         vec3 pigment = mix(root[kind].rgb, tip[kind].rgb, mean_of.r) * dry * (1.0 + tint);
+#ifdef HEADS
+        // What stands scattered among others has what is met of it where it stands, and nothing between.
+        float covers = heads[kind].x > 0.0 ? image.a / max(mean.a, 0.02) : image.a;
+        sum += met[kind] * covers * vec4(radiance(pigment, mean_of.g, lit), 1.0);
+    }
+    sum /= max(sum.a, 1.0);
+#else
         sum += met[kind] * image.a * vec4(radiance(pigment, mean_of.g, lit), 1.0);
     }
+#endif
     return sum.rgb + soil_seen * (1.0 - min(sum.a, 1.0));
 }
 
