@@ -37,7 +37,7 @@ def grow_patch(kind: GrassKind, layout: Layout, /, *, patch: float, variants: in
 def _parts(kind: GrassKind, layout: Layout, stand: Blades, variants: int, random: np.random.Generator, /) -> list[Rows]:
     bears = _bearing(layout)
     if kind.plant == "grass":
-        culms = _upright(stand, np.flatnonzero(bears))
+        culms = _culms(kind, stand, np.flatnonzero(bears))
         parts = [_blades(stand, np.flatnonzero(~bears)), _stems(culms)]
     else:
         every = _BRANCHED[kind.plant](kind, layout, stand, random)
@@ -57,6 +57,12 @@ def _bearing(layout: Layout, /) -> NDArray[np.bool_]:
 def _upright(stand: Blades, plant: NDArray[np.intp], /) -> Stems:
     """Return a stem for each of some plants (m,), as high and as leaning as its blade."""
     return Stems(plant, stand.height[plant].astype(np.float64), stand.rest[plant].astype(np.float64))
+
+
+def _culms(kind: GrassKind, stand: Blades, plant: NDArray[np.intp], /) -> Stems:
+    """Return the stems of grasses that bear heads (m,): they overtop the leaves, and lean less."""
+    stems = _upright(stand, plant)
+    return Stems(plant, 0.5 * (stems.height + kind.height[1]), 0.6 * stems.rest)
 
 
 def _alone(kind: GrassKind, layout: Layout, stand: Blades, random: np.random.Generator, /) -> Stems:
