@@ -111,8 +111,10 @@ class GrassKind(Declaration):
         grass = self.plant == "grass"
         for key in ("plants", "leaves", "leaf") if grass else ("blades",):
             if getattr(self, key) is not None:
-                least = "blades" if grass else "plants"
-                raise DeclarationError(f"{key} are not counted on a {self.plant}: it has {least}", key)
+                raise DeclarationError(
+                    "plants, leaves and leaf are not for grass, which has blades" if grass
+                    else f"a {self.plant} has plants in place of blades", key,
+                )  # fmt: skip
         return self
 
     @model_validator(mode="after")
