@@ -167,15 +167,13 @@ def _written(value: object) -> str:
 def _plants() -> str:
     keys = list(dict.fromkeys(key for usual in USUAL.values() for key in usual if key != "head"))
     rows = [f"| plant | {' | '.join(f'`{key}`' for key in keys)} |", "|---" * (len(keys) + 1) + "|"]
-    rows += [
-        f"| `{plant}` | {' | '.join(_written(usual.get(key)) for key in keys)} |" for plant, usual in USUAL.items()
-    ]
+    rows += [f"| {plant} | {' | '.join(_written(usual.get(key)) for key in keys)} |" for plant, usual in USUAL.items()]
     return "\n".join(rows)
 
 
 def _forms() -> str:
     rows = ["| form | size [m] | petals |", "|---|---|---|"]
-    rows += [f"| `{form}` | {_written(list(size))} | {PETALS[form]} |" for form, size in SIZES.items()]
+    rows += [f"| {form} | {_written(list(size))} | {PETALS[form]} |" for form, size in SIZES.items()]
     return "\n".join([*rows, "", "Shrubs have half as many, as each of their branches bears a head."])
 
 

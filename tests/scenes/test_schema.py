@@ -25,6 +25,8 @@ BEYOND = {
     "heights-and-noise", "heights-swapped", "path-goes-back-in-time", "path-off-the-terrain", "quality-rings-fall",
     "wind-stops-before-it-starts", "wind-path-goes-back-in-time", "gust-intervals-fall", "blast-outline-twice",
     "blast-ellipse-flat", "blast-outline-empty", "version-not-first",
+    "head-on-grass", "head-of-no-form-on-grass", "head-longer-than-its-stem", "head-sizes-fall", "leaves-fall",
+    "plants-of-grass", "blades-of-a-flower",
 }  # fmt: skip
 """What is wrong with the files that a scene names, or with several values together: `check` tells of these."""
 
