@@ -113,7 +113,8 @@ def test_f3_the_reference_has_the_flowers_of_the_picture(stage: Stage, load: Loa
     prairie, aim = load(FIELD), camera(0.0, 1.2, 50.0, pitch=-20, view=45)
     picture = stage.shot(prairie, aim).astype(float)
     stage.target.use()
-    truth = draw_reference(prairie, *stage.matrices(aim), stage.size, samples=4).astype(float)
+    view, projection = stage.matrices(aim)
+    truth = draw_reference(prairie, view, projection, stage.size, samples=4).astype(float)
     red, red_of_truth = (each[..., 0] > 1.6 * each[..., 1] for each in (picture, truth))
     assert red_of_truth.sum() > 100
     assert (red & red_of_truth).sum() > 0.75 * red_of_truth.sum()
