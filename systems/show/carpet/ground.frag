@@ -27,7 +27,7 @@ in float dense;
 in vec4 met;
 #ifdef HEADS
 in vec4 riper;
-uniform vec3 heads[KINDS];
+uniform vec4 heads[KINDS];
 #endif
 in vec3 direct;
 in vec3 open_to;
@@ -144,15 +144,18 @@ vec3 carpet_light(float slope) {
         vec3 pigment = mix(root[kind].rgb, tip[kind].rgb, mean_of.r) * dry * (1.0 + tint);
 #ifdef HEADS
         // What stands scattered among others has what is met of it where it stands, and nothing between.
-        float covers = heads[kind].x > 0.0 ? image.a / max(mean.a, 0.02) : image.a;
-        sum += met[kind] * covers * vec4(radiance(pigment, mean_of.g, lit), 1.0);
+        float covers = heads[kind].y > 0.0 ? image.a / max(mean.a, 0.02) : image.a;
+        sum += met[kind] * covers * vec4(sqrt(radiance(pigment, mean_of.g, lit)), 1.0);
     }
     sum /= max(sum.a, 1.0);
+    // Petals and grass are far apart in colour: what lies between them must look as if it did.
+    vec3 between = sum.rgb + sqrt(soil_seen) * (1.0 - sum.a);
+    return between * between;
 #else
         sum += met[kind] * image.a * vec4(radiance(pigment, mean_of.g, lit), 1.0);
     }
-#endif
     return sum.rgb + soil_seen * (1.0 - min(sum.a, 1.0));
+#endif
 }
 
 #endif

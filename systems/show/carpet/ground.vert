@@ -52,13 +52,13 @@ void light_up(float slope) {
 // taken in four layers from the top; its leaf area falls off linearly with height.
 #ifdef HEADS
 const int LAYERS = 12;
-uniform vec3 heads[KINDS]; // by kind: their share of its leaf area; from where to where they are in its canopy
+uniform vec4 heads[KINDS]; // by kind: leaf area without them, theirs; from where to where they are in its canopy
 
 // Of the leaf area of a kind, how much is at a part of its canopy's height: in all, and of heads.
 vec2 leaves_at(int kind, float at) {
-    vec3 own = heads[kind];
-    float of_heads = at > own.y && at < own.z ? own.x / (own.z - own.y) : 0.0;
-    return vec2((1.0 - own.x) * 2.0 * max(1.0 - at, 0.0) + of_heads, of_heads);
+    vec4 own = heads[kind];
+    float of_heads = at > own.z && at < own.w ? own.y / (own.w - own.z) : 0.0;
+    return vec2(own.x * 2.0 * max(1.0 - at, 0.0) + of_heads, of_heads);
 }
 
 // The same with the heads that some kinds have. How much more of them is met than where such a kind grows alone, -1 to 1,
@@ -66,7 +66,7 @@ vec2 leaves_at(int kind, float at) {
 vec4 kinds_met(vec4 grows, float slope) {
     float top = 0.0;
     for (int kind = 0; kind < KINDS; kind++)
-        top = max(top, grows[kind] > 0.004 ? crown[kind] * max(heads[kind].z, 1.0) : 0.0);
+        top = max(top, grows[kind] > 0.004 ? crown[kind] * max(heads[kind].w, 1.0) : 0.0);
     vec4 met = vec4(0.0), of_heads = vec4(0.0), alone = vec4(0.0), heads_alone = vec4(0.0), through_alone = vec4(1.0);
     float through = 1.0;
     for (int layer = 0; layer < LAYERS; layer++) {
