@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.engine.declared.grass import GrassKind
-from tallgrass.engine.declared.plant import Head
 from tallgrass.engine.declared.light import Light
+from tallgrass.engine.declared.plant import Head
 from tallgrass.engine.declared.quality import PRESETS
 from tallgrass.systems.around.canopy import canopy_height
 from tallgrass.systems.grow.bend import profile, ribbon
