@@ -30,6 +30,7 @@ from .press.lie import recoveries
 from .receive.ask import numbers_of, write_messages
 from .receive.received import Received
 from .show.blades.draw import BladePainter
+from .show.blades.plant import record_of
 from .show.carpet.painter import CarpetPainter
 from .show.registry import REPRESENTATIONS
 from .site import Site
@@ -161,7 +162,7 @@ class Painter:
 
     def blade_painter(self, segments: int) -> BladePainter:
         """Return a painter of opaque blades with this many segments, in any order."""
-        return BladePainter(self.ctx, self.block, segments, UNITS)
+        return BladePainter(self.ctx, self.block, segments, UNITS, record_of(self.site.growths))
 
     def write(self, outlook: Outlook, bodies: Sequence[Body], shades: Sequence[Shade] = ()) -> int:
         """Send what a viewer is shown, what flies and what casts shadows; return how many blades stand as geometry."""

@@ -75,9 +75,10 @@ def stand_all(prairie: Prairie, cells: Ints, painter: BladePainter, /, *, seen: 
 
 
 def near_picture(blades: NDArray[np.void], seen: View, /) -> NDArray[np.bool_]:
-    """Return which blades, records of `BLADE` (n,), might reach into the picture however they are bent, shape (n,)."""
+    """Return which blades, records (n,), might reach into the picture however they are bent, shape (n,)."""
     root = blades["root"].astype(np.float64)
-    reach = ROOM * (blades["height"] + blades["stem"]).astype(np.float64) + blades["width"]
+    length = blades["height"] + (blades["stem"] if "stem" in (blades.dtype.names or ()) else 0.0)
+    reach = ROOM * length.astype(np.float64) + blades["width"]
     x, y, _, ahead = seen.projection.astype(np.float64) @ seen.view
     inside = np.ones(len(blades), np.bool_)
     for plane in (ahead + x, ahead - x, ahead + y, ahead - y):

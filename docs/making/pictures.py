@@ -23,6 +23,8 @@ class Picture:
     page: str | None = None
 
 
+IN_FLOWER = ("poppies", "dandelions", "heather")
+
 PICTURES = (
     Picture("meadow.png", ("shot", "meadow", "--size", "960x540", "--time", "3")),
     Picture("evening.png", ("shot", "evening.yaml", "--size", "960x540"), "tour.md"),
@@ -38,9 +40,10 @@ PICTURES = (
             ("telephoto", "3", "--preset", "ultra"),
             ("ridge", "3"),
             ("dusk", "3"),
-            ("reeds", "3"),
         )
     ),
+    *(Picture(f"{name}.png", ("shot", name, "--size", "960x540", "--time", "2")) for name in IN_FLOWER),
+    Picture("reeds.png", ("shot", "reeds", "--size", "960x540", "--time", "3")),
     Picture("against.png", ("shot", "sundown", "--size", "960x540", "--time", "3")),
     Picture("after.png", ("shot", "storm", "--size", "960x540", "--time", "12")),
     Picture("saucer.png", ("shot", "saucer", "--size", "960x540", "--time", "5")),

@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
+from tallgrass.engine.declared.plant import PETALS, SIZES, USUAL
 from tallgrass.engine.declared.quality import PRESETS, Quality
 from tallgrass.engine.installed import OURS
 from tallgrass.engine.plugins import wind_kinds
@@ -22,6 +23,7 @@ PLACES = {
     "StripRing": "quality: strip_rings",
     "Stop": "camera: path",
     "Place": "grass: NAME: place",
+    "Head": "grass: NAME: head",
     "Waypoint": "wind: path",
     "Shape": "wind: outline",
 }
@@ -39,6 +41,10 @@ def scene_reference() -> str:
         parts += ["", f"## {title}", "", model["description"], "", _table(model, titles)]
         if name == "Quality":
             parts += ["", "The presets are these numbers:", "", _presets()]
+        if name == "GrassKind":
+            parts += ["", "Other plants have these in place of its defaults:", "", _plants()]
+        if name == "Head":
+            parts += ["", "What suits a form:", "", _forms()]
     return "\n".join(parts) + "\n"
 
 
@@ -156,6 +162,19 @@ def _written(value: object) -> str:
             return f"[{', '.join(map(_written, value))}]"
         case _:
             return str(value)
+
+
+def _plants() -> str:
+    keys = list(dict.fromkeys(key for usual in USUAL.values() for key in usual if key != "head"))
+    rows = [f"| plant | {' | '.join(f'`{key}`' for key in keys)} |", "|---" * (len(keys) + 1) + "|"]
+    rows += [f"| {plant} | {' | '.join(_written(usual.get(key)) for key in keys)} |" for plant, usual in USUAL.items()]
+    return "\n".join(rows)
+
+
+def _forms() -> str:
+    rows = ["| form | size [m] | petals |", "|---|---|---|"]
+    rows += [f"| {form} | {_written(list(size))} | {PETALS[form]} |" for form, size in SIZES.items()]
+    return "\n".join([*rows, "", "Shrubs have half as many, as each of their branches bears a head."])
 
 
 def _presets() -> str:

@@ -1,10 +1,11 @@
 """Grass kinds: what a scene declares of them."""
 
-from typing import Literal
+from typing import Any, Literal
 
 from pydantic import Field, model_validator
 
 from ...components.declaration import Color, Declaration, DeclarationError, Pair
+from .plant import ON_GRASS, SIZES, USUAL, Head, Plant
 
 
 class Place(Declaration):
@@ -17,21 +18,20 @@ class Place(Declaration):
     """The channel that holds this kind's density."""
 
 
-Plant = Literal["grass"]
-"""The kinds of plant that there are."""
-
-
 class GrassKind(Declaration):
-    """A kind of grass, from which postures and patch models are grown (paper, sections 2.1 and 3.2)."""
+    """A kind of grass, or of another plant: postures and patch models are grown from it (paper, sections 2.1, 3.2).
+
+    The defaults are those of grass. Other plants have their own, so that `plant: flower` says enough.
+    """
 
     plant: Plant = "grass"
-    """What kind of plant it is."""
+    """What kind of plant it is: blades of grass; flowers on stems; forbs with broad leaves along theirs; low shrubs."""
 
     height: Pair = Field(default=[0.4, 0.7])
-    """Shortest and tallest blade, measured along the blade [m]."""
+    """Shortest and tallest blade, stem or branch, measured along it [m]."""
 
     width: float = Field(default=0.02, gt=0.0005, le=0.2)
-    """Width of a blade at its root [m]."""
+    """Width of a blade at its root; of other plants, that of a leaf where it is broadest [m]."""
 
     stiffness: float = Field(default=1.0, gt=0.01, le=100.0)
     """Stiffness of the springs between the links of a blade, 1 is a common meadow grass.
@@ -70,17 +70,61 @@ class GrassKind(Declaration):
     """How much its leaves mirror the sun along themselves: wind runs over glossy grass as bands of light."""
 
     blades: int | None = Field(default=None, ge=1, le=5000)
-    """Blades per patch at full density; without it the quality's number."""
+    """Blades of grass per patch at full density; without it the quality's number."""
+
+    plants: int | None = Field(default=None, ge=1, le=1000)
+    """Plants per patch at full density, of those that are not grass; without it, what suits the plant."""
+
+    leaves: int | None = Field(default=None, ge=0, le=24)
+    """Leaves of a flower or forb, or of each branch of a shrub; without it, what suits the plant."""
+
+    leaf: Pair | None = None
+    """Shortest and longest leaf of those [m]; without it, what suits the plant's height."""
+
+    head: Head | None = None
+    """What it bears; without it, flowers bear discs, and other plants nothing."""
 
     segments: int | None = Field(default=None, ge=1, le=16)
     """Line segments per blade at the finest level; without it the quality's number."""
 
     place: Place | None = None
-    """Where it grows; without it, everywhere."""
+    """Where it grows; without it, everywhere. Kinds share the ground, but flowers stand among the others."""
 
     @model_validator(mode="after")
     def _ordered_heights(self) -> "GrassKind":
         low, high = self.height
         if not 0.02 <= low <= high <= 5.0:
             raise DeclarationError("height must be [shortest, tallest], rising, between 0.02 and 5 m", "height")
+        if self.leaf is not None and not 0.005 <= self.leaf[0] <= self.leaf[1] <= 5.0:
+            raise DeclarationError("leaf must be [shortest, longest], rising, between 0.005 and 5 m", "leaf")
+        return self
+
+    @model_validator(mode="before")
+    @classmethod
+    def _as_its_plant(cls, data: Any) -> Any:
+        """Fill in what goes without saying of a plant."""
+        plant = data.get("plant") if isinstance(data, dict) else None
+        return {**USUAL[plant], **data} if isinstance(plant, str) and plant in USUAL else data
+
+    @model_validator(mode="after")
+    def _fits_its_plant(self) -> "GrassKind":
+        grass = self.plant == "grass"
+        for key in ("plants", "leaves", "leaf") if grass else ("blades",):
+            if getattr(self, key) is not None:
+                raise DeclarationError(
+                    "plants, leaves and leaf are not for grass, which has blades" if grass
+                    else f"a {self.plant} has plants in place of blades", key,
+                )  # fmt: skip
+        return self
+
+    @model_validator(mode="after")
+    def _bears_its_head(self) -> "GrassKind":
+        head = self.head
+        if head is None:
+            return self
+        if self.plant == "grass" and head.form not in ON_GRASS:
+            raise DeclarationError(f"grass bears no {head.form}: its heads are spikes and plumes", "head", "form")
+        longest = (head.size or SIZES[head.form])[1]
+        if head.form in ON_GRASS and longest > self.height[0]:
+            raise DeclarationError(f"a {head.form} of {longest} m is longer than the shortest stem", "head", "size")
         return self

@@ -35,8 +35,9 @@ def load_density(
     Of the files that are `given`, the pictures are taken instead.
 
     Kinds with a place have what is painted; where their sum passes 1 it is brought down to 1. Kinds without one
-    share equally what the others leave, so that with such a kind the prairie is full everywhere. Maps of different
-    sizes are brought to the longest sides among them. Raises `MapError` where a file cannot be used.
+    share equally what the others leave, so that with such a kind the prairie is full everywhere. Flowers stand among
+    the others and take no ground from them. Maps of different sizes are brought to the longest sides among them. Raises
+    `MapError` where a file cannot be used.
     """
     files = {kind.place.map for kind in kinds.values() if kind.place is not None}
     pictures = {
@@ -46,11 +47,13 @@ def load_density(
     rows, columns = (max([2, *(picture.shape[axis] for picture in painted.values())]) for axis in (0, 1))
     maps = np.empty((len(kinds), rows, columns), np.float32)
     for number, name in enumerate(kinds):
-        maps[number] = _stretch(painted[name], rows, columns) if name in painted else 0.0
+        maps[number] = _stretch(painted[name], rows, columns) if name in painted else 1.0
     placed = np.array([name in painted for name in kinds])
-    maps[placed] /= np.maximum(maps.sum(axis=0), np.float32(1.0))
-    if not placed.all():
-        maps[~placed] = np.maximum(1.0 - maps[placed].sum(axis=0), 0.0) / np.float32((~placed).sum())
+    among = np.array([kind.plant == "flower" for kind in kinds.values()])
+    placed, others = placed & ~among, ~(placed | among)
+    maps[placed] /= np.maximum(maps[placed].sum(axis=0), np.float32(1.0))
+    if others.any():
+        maps[others] = np.maximum(1.0 - maps[placed].sum(axis=0), 0.0) / np.float32(others.sum())
     return Density(maps, terrain.size)
 
 

@@ -6,19 +6,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.terrain.sample import density_at, height_at
-from ..grow.record import Growth
+from ..grow.record import Blades, Growth
 from .ground import Ground
 
 Floats = NDArray[np.float32]
 
 
 def canopy_height(growth: Growth, /) -> float:
-    """Return the height of a kind's canopy [m]: what nearly all its blades stay below."""
-    return float(
-        np.quantile(
-            np.concatenate([np.maximum(model.blades.height, model.blades.stem) for model in growth.models]), 0.9
-        )
-    )
+    """Return the height of a kind's canopy [m]: what nearly all its plants stay below."""
+    return float(np.quantile(np.concatenate([_tall(model.blades) for model in growth.models]), 0.9))
+
+
+def _tall(blades: Blades, /) -> Floats:
+    """Return how tall each plant is, by its tallest row [m], shape (plants,)."""
+    row = np.maximum(blades.height, blades.stem * blades.part)
+    first = np.flatnonzero(np.diff(blades.rank, prepend=np.float32(-1.0)))
+    return np.asarray(np.maximum.reduceat(row, first), np.float32)
 
 
 def top_at(ground: Ground, canopy: Sequence[float], place: Floats, /) -> Floats:

@@ -17,7 +17,7 @@ from ...engine.terrain.record import Terrain
 from ..around.canopy import canopy_height
 from ..grow.record import GIVES, Growth
 from ..light.daylight import Daylight, daylight
-from ..light.materials import grain, leaves_of, let_through, pigment
+from ..light.materials import bloom, grain, leaves_of, let_through, pigment
 from ..light.sun import sun_at
 
 SHADES = 4
@@ -73,6 +73,7 @@ def frame_record(
         leaves = leaves_of(kind, growth, patch)
         row["crown"][index], row["leaf"][index] = canopy_height(growth), leaves.side
         row["lying"][index] = leaves.above / leaves.side
+        row["through"][index, 3] = bloom(kind, growth)
         row["give"][:, index] = growth.postures.give
     return record
 

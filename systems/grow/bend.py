@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .organs import BLADE, GIVES, TONES, width_along
 from .record import Blades, Floats, Postures
 
 Doubles = NDArray[np.float64]
@@ -15,28 +16,30 @@ def spine(blades: Blades, postures: Postures, message: ArrayLike, /, *, points: 
     what it leaves over: total = bending + rest (1 - |bending|); its norm is the posture index, never above 1, its
     direction the bending direction. Shapes are looked up linearly in index and in the place along the blade.
     """
-    index, direction = posture_of(blades.rest, bending(postures, message))
-    along, up = _look_up(postures, blades.variant, index, np.linspace(0.0, 1.0, points))
+    blown = bending(postures, message)
+    index, direction = posture_of(blades.rest, blown * GIVES[blades.organ][:, None])
+    along, up = _look_up(postures, blades.variant, index, np.linspace(0.0, 1.0, points)[None])
     height = blades.height[:, None].astype(np.float64)
     place = np.empty((*along.shape, 3))
     place[:, :, 0] = blades.root[:, :1] + height * along * direction[:, :1]
     place[:, :, 1] = height * up
     place[:, :, 2] = blades.root[:, 1:] + height * along * direction[:, 1:]
-    return (place + _stem_top(blades, postures, message)[:, None]).astype(np.float32)
+    return (place + _on_stem(blades, postures, blown)[:, None]).astype(np.float32)
 
 
-def _stem_top(blades: Blades, postures: Postures, message: ArrayLike, /) -> Doubles:
-    """Return where the tops of the stems are that blades stand on, from their roots [m], shape (n, 3)."""
-    index, direction = posture_of(np.zeros_like(blades.rest), bending(postures, message))
-    along, up = _look_up(postures, np.zeros_like(blades.variant), index, np.ones(1))
+def _on_stem(blades: Blades, postures: Postures, blown: Doubles, /) -> Doubles:
+    """Return the places on their stems that blades stand on, from their roots [m], shape (n, 3)."""
+    index, direction = posture_of(np.broadcast_to(blades.stem_rest, blades.rest.shape), blown)
+    place = np.broadcast_to(blades.part, blades.height.shape)[:, None].astype(np.float64)
+    along, up = _look_up(postures, np.zeros_like(blades.variant), index, place)
     x, z = (along[:, 0] * direction[:, k] for k in (0, 1))
     return np.asarray(np.stack([x, up[:, 0], z], axis=1) * blades.stem[:, None].astype(np.float64))
 
 
 def tone(blades: Blades, place: Doubles, /) -> Doubles:
     """Return how far points at places (points,) along blades have the tip's colour, shape (n, points)."""
-    low = np.broadcast_to(blades.stem > 0.0, blades.height.shape)[:, None]
-    return np.where(low, 1.0, place[None])
+    low, high = TONES[np.broadcast_to(blades.organ, blades.height.shape)].T[:, :, None]
+    return np.asarray(low + (high - low) * place[None])
 
 
 def bending(postures: Postures, message: ArrayLike, /) -> Doubles:
@@ -68,15 +71,22 @@ def profile(along: Doubles, taper: float, /) -> Doubles:
     return np.asarray((1.0 - along) ** taper * waist)
 
 
+def widths(blades: Blades, along: Doubles, taper: float, /) -> Doubles:
+    """Return how wide blades are at places (points,) along them [m], shape (n, points)."""
+    organ = np.broadcast_to(blades.organ, blades.height.shape)
+    part = np.where((organ == BLADE)[:, None], profile(along, taper)[None], width_along(organ, along))
+    return np.asarray(blades.width[:, None] * part)
+
+
 def ribbon(
     blades: Blades, postures: Postures, message: ArrayLike, /, *, points: int, taper: float
 ) -> tuple[Floats, Floats]:
     """Return the left and right edge of bent blades [m], each of shape (n, points, 3).
 
-    The half width follows `profile`, along the fixed horizontal axis across the face.
+    The half width follows `widths`, along the fixed horizontal axis across the face.
     """
     centre = spine(blades, postures, message, points=points)
-    half = 0.5 * blades.width[:, None] * profile(np.linspace(0.0, 1.0, points), taper)[None]
+    half = 0.5 * widths(blades, np.linspace(0.0, 1.0, points), taper)
     side = half[:, :, None] * across(blades)[:, None, :]
     return (centre - side).astype(np.float32), (centre + side).astype(np.float32)
 
@@ -100,7 +110,7 @@ def segment_normals(blades: Blades, centre: Floats, /) -> Doubles:
 def _look_up(
     postures: Postures, variant: NDArray[np.int32], index: Doubles, place: Doubles, /
 ) -> tuple[Doubles, Doubles]:
-    """Return (along, up) of unit blades at indices (n,) and places (points,), each of shape (n, points)."""
+    """Return (along, up) of unit blades at indices (n,) and places (n or 1, points), each of shape (n, points)."""
     rows, knots = postures.shape.shape[1:3]
     row = (index + 1.0) * 0.5 * (rows - 1)
     below = np.clip(row.astype(np.int64), 0, rows - 2)
@@ -109,8 +119,9 @@ def _look_up(
     upper = (row - below)[:, None, None]
     table = postures.shape
     curve = table[variant, below] * (1.0 - upper) + table[variant, below + 1] * upper
-    later = (knot - before)[None, :, None]
-    point = curve[:, before] * (1.0 - later) + curve[:, before + 1] * later
+    later = (knot - before)[:, :, None]
+    blade = np.arange(len(variant))[:, None]
+    point = curve[blade, before] * (1.0 - later) + curve[blade, before + 1] * later
     return point[:, :, 0], point[:, :, 1]
 
 

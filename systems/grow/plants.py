@@ -1,18 +1,148 @@
-"""The kinds of plant that there are: how the blades of each are laid out in a patch."""
+"""Plants other than blades of grass: stems, leaves and heads, grown from where blades would stand."""
 
-from typing import Protocol
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
-from ...engine.declared.grass import GrassKind, Plant
+import numpy as np
+from numpy.typing import NDArray
+
+from ...engine.declared.grass import GrassKind
+from ...engine.declared.plant import Plant
 from .blades import grow_blades
+from .heads import grow_heads
+from .layout import HABITS, Layout
+from .organs import FROND, LEAF, STEM
 from .record import Blades
+from .rows import GOLDEN, Rows, Stems, stood, together
+
+_STEM_WIDTH = 0.006
+"""Of its length."""
+
+_LEAST_STEM_WIDTH = 0.003
 
 
-class Sow(Protocol):
-    """How a kind of plant becomes the blades of a patch model, from a seed alone."""
+def grow_patch(kind: GrassKind, layout: Layout, /, *, patch: float, variants: int, seed: int) -> Blades:
+    """Return the rows of one patch model of a kind, `patch` metres wide, from a seed.
 
-    def __call__(self, kind: GrassKind, /, *, count: int, patch: float, variants: int, seed: int) -> Blades:
-        """Return `count` blades of a patch whose side is `patch` [m]; each takes its shapes from one of `variants`."""
+    Plants stand where the blades of grass would, of which they have the root, the rank, and for a stem the height and
+    the lean. All rows of a plant have its root and its rank, and follow one another: the stem first, the head last.
+    """
+    stand = grow_blades(kind, count=layout.plants, patch=patch, variants=variants, seed=seed)
+    if kind.plant == "grass" and kind.head is None:
+        return stand
+    random = np.random.default_rng([seed, 0x706C616E])
+    return together(stand, *_parts(kind, layout, stand, variants, random))
 
 
-PLANTS: dict[Plant, Sow] = {"grass": grow_blades}
-"""By the name that scenes call it."""
+def _parts(kind: GrassKind, layout: Layout, stand: Blades, variants: int, random: np.random.Generator, /) -> list[Rows]:
+    bears = _bearing(layout)
+    if kind.plant == "grass":
+        culms = _culms(kind, stand, np.flatnonzero(bears))
+        parts = [_blades(stand, np.flatnonzero(~bears)), _stems(culms)]
+    else:
+        every = _BRANCHED[kind.plant](kind, layout, stand, random)
+        parts = [_stems(every), _leaves(kind, layout, every, variants, random)]
+        culms = every.of(np.flatnonzero(bears[every.plant]))
+    if kind.head is not None:
+        parts.append(grow_heads(kind.head, layout, culms, random))
+    return parts
+
+
+def _bearing(layout: Layout, /) -> NDArray[np.bool_]:
+    """Return which plants bear heads, shape (plants,): of every first few, the same share."""
+    due = np.arange(layout.plants + 1) * layout.bearing // layout.plants
+    return np.diff(due) > 0
+
+
+def _upright(stand: Blades, plant: NDArray[np.intp], /) -> Stems:
+    """Return a stem for each of some plants (m,), as high and as leaning as its blade."""
+    return Stems(plant, stand.height[plant].astype(np.float64), stand.rest[plant].astype(np.float64))
+
+
+def _culms(kind: GrassKind, stand: Blades, plant: NDArray[np.intp], /) -> Stems:
+    """Return the stems of grasses that bear heads (m,): they overtop the leaves, and lean less."""
+    stems = _upright(stand, plant)
+    return Stems(plant, 0.5 * (stems.height + kind.height[1]), 0.6 * stems.rest)
+
+
+def _alone(kind: GrassKind, layout: Layout, stand: Blades, random: np.random.Generator, /) -> Stems:
+    del kind, random
+    return _upright(stand, np.arange(layout.plants))
+
+
+def _branched(kind: GrassKind, layout: Layout, stand: Blades, random: np.random.Generator, /) -> Stems:
+    """Return the branches of shrubs: they lean out all round, the shorter the farther."""
+    count = layout.plants, layout.branches
+    out = (np.arange(layout.branches) + random.uniform(0.2, 0.9, count)) / layout.branches
+    toward = stand.facing[:, None] + GOLDEN * np.arange(layout.branches) + random.normal(0.0, 0.3, count)
+    lean = kind.lean * np.sqrt(out)
+    height = stand.height[:, None] * (1.0 - 0.3 * out) * random.uniform(0.85, 1.0, count)
+    rest = lean[..., None] * np.stack([np.cos(toward), np.sin(toward)], axis=-1)
+    return Stems(np.repeat(np.arange(layout.plants), layout.branches), height.reshape(-1), rest.reshape(-1, 2))
+
+
+_BRANCHED: Mapping[Plant, Callable[[GrassKind, Layout, Blades, np.random.Generator], Stems]] = {
+    "flower": _alone,
+    "forb": _alone,
+    "shrub": _branched,
+}
+"""How the stems of each stand."""
+
+
+def _blades(stand: Blades, plant: NDArray[np.intp], /) -> Rows:
+    """Return the plants that stay blades, as they are."""
+    return Rows(
+        plant=plant, height=stand.height[plant], width=stand.width[plant], facing=stand.facing[plant],
+        rest=stand.rest[plant], variant=stand.variant[plant], organ=np.zeros(len(plant), np.int32),
+        stem=np.zeros(len(plant)), part=np.ones(len(plant)), stem_rest=np.zeros((len(plant), 2)),
+    )  # fmt: skip
+
+
+def _stems(stems: Stems, /) -> Rows:
+    """Return the stems themselves."""
+    count = len(stems.plant)
+    width = np.maximum(_STEM_WIDTH * stems.height, _LEAST_STEM_WIDTH)
+    return Rows(
+        plant=stems.plant, height=stems.height, width=width, facing=GOLDEN * np.arange(count), rest=stems.rest,
+        variant=np.zeros(count, np.int32), organ=np.full(count, STEM, np.int32), stem=np.zeros(count),
+        part=np.ones(count), stem_rest=np.zeros((count, 2)),
+    )  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class _Foliage:
+    """How leaves stand on a stem."""
+
+    up_to: float
+    """Part of the stem that bears them, from below."""
+
+    shrinks: float
+    """How much shorter the highest are than the lowest."""
+
+    spread: tuple[float, float]
+    """Posture indices that they hold at rest."""
+
+
+_FOLIAGE: Mapping[Plant, _Foliage] = {
+    "flower": _Foliage(0.3, 0.3, (0.5, 0.95)),
+    "forb": _Foliage(0.95, 0.55, (0.5, 0.85)),
+    "shrub": _Foliage(0.9, 0.4, (0.25, 0.6)),
+}
+
+
+def _leaves(kind: GrassKind, layout: Layout, stems: Stems, variants: int, random: np.random.Generator, /) -> Rows:
+    """Return the leaves of stems, one after another round each."""
+    form, count = _FOLIAGE[kind.plant], (len(stems.plant), layout.leaves)
+    place = (np.arange(layout.leaves) + random.uniform(0.0, 0.8, count)) / max(layout.leaves, 1)
+    if kind.leaf is None:
+        length = HABITS[kind.plant].leaf * stems.height[:, None] * random.uniform(0.75, 1.1, count)
+    else:
+        short, long = kind.leaf
+        length = random.uniform(short, long, count)
+    toward = random.uniform(-np.pi, np.pi, (count[0], 1)) + GOLDEN * np.arange(layout.leaves)
+    return stood(
+        stems, FROND if kind.head is None else LEAF, part=form.up_to * place,
+        height=length * (1.0 - form.shrinks * place), width=kind.width * random.uniform(0.75, 1.15, count),
+        toward=toward, spread=random.uniform(*form.spread, count),
+        variant=random.integers(0, variants, count, dtype=np.int32),
+    )  # fmt: skip

@@ -46,7 +46,10 @@ class Response:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Blades:
-    """The blades of one patch model, one row per blade (paper, section 2.2)."""
+    """The blades of one patch model, one row per blade (paper, section 2.2).
+
+    A plant other than grass is several rows of the same root and rank: its stem, its leaves, what its head is made of.
+    """
 
     root: Floats
     """Root in the patch, (x, z) in [0, patch) [m], shape (n, 2)."""
@@ -69,9 +72,18 @@ class Blades:
     rank: Floats
     """Order of disappearance in [0, 1): a blade is there where the density exceeds it, shape (n,)."""
 
+    organ: NDArray[np.int32] = field(default_factory=lambda: np.zeros(1, np.int32))
+    """What it is, a number of `ORGANS`, shape (n,), or (1,) for all."""
+
     stem: Floats = field(default_factory=lambda: np.zeros(1, np.float32))
-    """Height of the upright stem on whose top it stands, 0 for the ground [m], shape (n,), or (1,) for all. The stem
-    is a blade of its own, without a lean, of variant 0, with the same root. What stands on one has the tip's colour."""
+    """Length of the stem that it stands on, 0 for the ground [m], shape (n,), or (1,) for all. The stem is a row of its
+    own, of variant 0, with the same root."""
+
+    part: Floats = field(default_factory=lambda: np.ones(1, np.float32))
+    """Where along its stem it stands, from 0 at the root to 1 at the top, shape (n,), or (1,) for all."""
+
+    stem_rest: Floats = field(default_factory=lambda: np.zeros((1, 2), np.float32))
+    """The lean of its stem, as `rest` is its own, shape (n, 2), or (1, 2) for all."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.declared.grass import GrassKind
-from ..grow.bend import across, profile, spine
+from ..grow.bend import across, spine, tone, widths
 from ..grow.record import Growth
 from .color import linear, luminance
 from .daylight import Daylight
@@ -15,6 +15,9 @@ Doubles = NDArray[np.float64]
 
 LEAVES_THROUGH = np.array([1.05, 1.18, 0.55])
 """What a leaf lets through of the light that it does not take, of what it sends back: more yellow and green."""
+
+PETALS_THROUGH = np.array([1.05, 1.05, 0.9])
+"""The same of a plant in flower: petals let through the colour that they have."""
 
 _POINTS = 9
 
@@ -37,7 +40,17 @@ def pigment(color: str, /) -> Doubles:
 
 def let_through(kind: GrassKind, /) -> Doubles:
     """Return what a kind's leaves let through, of what they send back, shape (3,)."""
-    return np.asarray(kind.translucency * LEAVES_THROUGH)
+    return np.asarray(kind.translucency * (LEAVES_THROUGH if kind.head is None else PETALS_THROUGH))
+
+
+def bloom(kind: GrassKind, growth: Growth, /) -> float:
+    """Return how much of a kind's colour `tip` there is at rest, of how much grass has: 1 for grass, and at most."""
+    blades = growth.models[0].blades
+    if not blades.organ.any():
+        return 1.0
+    along = (np.arange(_POINTS - 1) + 0.5) / (_POINTS - 1)
+    area = widths(blades, along, kind.taper) * blades.height[:, None]
+    return min(2.0 * float(np.average(tone(blades, along), weights=area)), 1.0)
 
 
 def leaves_of(kind: GrassKind, growth: Growth, patch: float, /) -> Leaves:
@@ -45,7 +58,7 @@ def leaves_of(kind: GrassKind, growth: Growth, patch: float, /) -> Leaves:
     blades = growth.models[0].blades
     centre = spine(blades, growth.postures, (0.0, 0.0), points=_POINTS).astype(np.float64)
     along = (np.arange(_POINTS - 1) + 0.5) / (_POINTS - 1)
-    width = blades.width[:, None].astype(np.float64) * profile(along, kind.taper)
+    width = widths(blades, along, kind.taper).astype(np.float64)
     normal = np.cross(np.diff(centre, axis=1), across(blades)[:, None]) * width[..., None]
     level, ground = np.hypot(normal[..., 0], normal[..., 2]), patch * patch
     return Leaves(float(level.sum() * 2.0 / np.pi) / ground, float(np.abs(normal[..., 1]).sum()) / ground)

@@ -120,6 +120,7 @@ def _model_fits(model: PatchModel, quality: Quality, blades: int, /) -> bool:
     return (
         grown.root.shape == grown.rest.shape == (blades, 2)
         and all(row.shape == (blades,) for row in rows)
+        and all(len(row) in (1, blades) for row in (grown.organ, grown.stem, grown.part, grown.stem_rest))
         and all(
             each.fits(model.pictures[each.name], quality, blades) for each in REPRESENTATIONS if each.record is not None
         )

@@ -5,6 +5,7 @@ import os
 import tempfile
 from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import asdict
 from functools import cache
 from hashlib import blake2b
 from importlib.resources import files
@@ -15,6 +16,7 @@ import numpy as np
 
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
+from ..grow.layout import layout_of
 from ..grow.record import Growth
 from ..show.registry import REPRESENTATIONS
 from .archive import pack, unpack
@@ -66,9 +68,21 @@ def growth_key(kind: GrassKind, quality: Quality, /, *, seed: int) -> str:
         "version": _version(),
         "seed": seed,
         "kind": kind.model_dump(
-            include={"plant", "height", "width", "stiffness", "damping", "lean", "taper", "clumping"}, mode="json"
+            include={
+                "plant",
+                "height",
+                "width",
+                "stiffness",
+                "damping",
+                "lean",
+                "taper",
+                "clumping",
+                "leaf",
+                "head",
+            },
+            mode="json",
         ),
-        "blades": blade_count(kind, quality),
+        "layout": asdict(layout_of(kind, quality)),
         "quality": quality.model_dump(include={"patch", "models"}, mode="json"),
         "pictures": {each.name: each.depends(kind, quality) for each in REPRESENTATIONS},
     }

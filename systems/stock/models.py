@@ -10,7 +10,8 @@ from ...engine.declared.quality import Quality
 from ..around.representation import Seedling
 from ..grow.bend import spine
 from ..grow.give import grow_give
-from ..grow.plants import PLANTS
+from ..grow.layout import layout_of
+from ..grow.plants import grow_patch
 from ..grow.postures import grow_postures
 from ..grow.record import Blades, Growth, PatchModel, Postures
 from ..grow.response import grow_response
@@ -32,10 +33,9 @@ def grow(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
     are drawn on several threads: each is a function of its own patch model alone.
     """
     postures = replace(grow_postures(kind, variants=VARIANTS, rows=ROWS, seed=seed), give=grow_give(kind))
+    layout = layout_of(kind, quality)
     patches = [
-        PLANTS[kind.plant](
-            kind, count=blade_count(kind, quality), patch=quality.patch, variants=VARIANTS, seed=_mixed(seed, number)
-        )
+        grow_patch(kind, layout, patch=quality.patch, variants=VARIANTS, seed=_mixed(seed, number))
         for number in range(quality.models)
     ]
     height, margin = _extent(patches, postures, quality.patch)
@@ -44,8 +44,8 @@ def grow(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
 
 
 def blade_count(kind: GrassKind, quality: Quality, /) -> int:
-    """Return the blades per patch at full density: the kind's own number, or else the quality's."""
-    return quality.blades if kind.blades is None else kind.blades
+    """Return the rows per patch at full density: of grass the kind's own number of blades, or else the quality's."""
+    return layout_of(kind, quality).rows
 
 
 def precompute_bytes(growth: Growth, /) -> int:

@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 from pydantic import BaseModel
 
+from tallgrass.engine.declared.plant import Head
 from tallgrass.engine.declared.scene import FORMAT, Scene
 from tallgrass.engine.plugins import wind_kinds
 from tallgrass.engine.scene import parse_scene
@@ -64,8 +65,9 @@ def test_the_scene_of_todays_format_uses_every_key() -> None:
     for part in ("camera", "light", "quality"):
         assert values[part].keys() == fields(type(getattr(scene, part)))
     assert values["terrain"].keys() == fields(type(scene.terrain)) - {"heights"}
-    assert values["grass"]["tall"].keys() == fields(type(scene.grass["tall"]))
     assert values["pressers"][0].keys() == fields(type(scene.pressers[0]))
+    assert values["grass"]["tall"].keys() | values["grass"]["poppy"].keys() == fields(type(scene.grass["tall"]))
+    assert values["grass"]["poppy"]["head"].keys() == fields(Head)
     used = {declared["kind"]: declared.keys() for declared in reversed(values["wind"])}
     assert used == {kind: fields(wind_kinds().find(kind)) for kind in used}
     assert set(used) >= {"breeze", "gust", "whirlwind", "blast", "turbulence"}

@@ -26,6 +26,8 @@ BEYOND = {
     "wind-stops-before-it-starts", "wind-path-goes-back-in-time", "gust-intervals-fall", "blast-outline-twice",
     "blast-ellipse-flat", "blast-outline-empty", "version-not-first", "presser-corners-in-a-line",
     "presser-goes-back-in-time",
+    "head-on-grass", "head-of-no-form-on-grass", "head-longer-than-its-stem", "head-sizes-fall", "leaves-fall",
+    "plants-of-grass", "blades-of-a-flower",
 }  # fmt: skip
 """What is wrong with the files that a scene names, or with several values together: `check` tells of these."""
 

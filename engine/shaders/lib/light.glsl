@@ -189,7 +189,7 @@ vec3 soil_pigment(vec4 here, vec4 grows) {
     float total = min(dot(grows, vec4(1.0)), 1.0);
     vec3 under = vec3(0.0);
     for (int kind = 0; kind < 4; kind++)
-        under += grows[kind] * mix(root[kind].rgb, tip[kind].rgb, 0.3);
+        under += grows[kind] * mix(root[kind].rgb, tip[kind].rgb, 0.3 * through[kind].w * through[kind].w);
     under /= max(dot(grows, vec4(1.0)), 1e-3);
     return mix(soil.rgb, mix(soil.rgb, under, LITTER), total) * stretch(here);
 }

@@ -30,8 +30,17 @@ in vec2 facing;
 in float width;
 in float variant;
 in float kind;
-in float stem;  // height of the one that it stands on [m]
+#ifdef ORGANS
+in float organ;
+in float stem;  // length of the one that it stands on [m]
+in float part;  // and the place along it
+in vec2 sways;  // and its lean
+#endif
 in vec2 message;
+#endif
+#ifdef ORGANS
+const vec2 tones[ORGANS] = TONES;
+const float gives[ORGANS] = GIVES;
 #endif
 
 out vec4 foot;   // where its ribbon begins [m]; its length [m]
@@ -42,7 +51,7 @@ out vec4 tilt;   // relative change of pigment to its sides; leaf area above its
 out vec4 direct; // the sun's light on it, past the haze; leaf area from there to the ground
 out vec4 open_to;// the sky's light; how many leaves the sun's light meets
 out vec4 veil;   // haze before it, and what it mirrors of the sun's light
-out vec4 stands; // where its foot is in the canopy, and how much of it is its length; part that is cut off; cover
+out vec4 stands; // where its foot is in the canopy, and how much of it is its length; organ, plus the part that is cut off; cover
 out vec4 joints; // slide to those of a coarser blade; coverage from which on it hides what is behind; kind; ring of strips
 
 #ifdef MOWN
@@ -68,12 +77,17 @@ void main() {
     vec4 strips = texelFetch(standing, at + ivec2(2, 0), 0);
 #endif
     int record = int(where.z) * EACH + blade;
-    at = ivec2(record % BLADES_ROW * 3, record / BLADES_ROW);
+    at = ivec2(record % BLADES_ROW * TEXELS, record / BLADES_ROW);
     vec4 part0 = texelFetch(blades, at, 0), part1 = texelFetch(blades, at + ivec2(1, 0), 0);
     vec4 part2 = texelFetch(blades, at + ivec2(2, 0), 0);
     vec4 told = received_by(blades_from + int(number));
     vec3 root_at = vec3(part0.x + where.x * soil.w, told.z, part0.z + where.y * soil.w);
-    float height = part0.w, width = part2.x, variant = part2.y, stem = part2.w;
+    float height = part0.w, width = part2.x, variant = part2.y;
+#ifdef ORGANS
+    vec4 part3 = texelFetch(blades, at + ivec2(3, 0), 0);
+    float organ = part2.w, stem = part3.x, part = part3.y;
+    vec2 sways = part3.zw;
+#endif
     vec2 rest = part1.xy, facing = part1.zw, message = told.xy;
     int k = int(part2.z);
     joints = vec4(how.x, mix(0.5, 2.0, smoothstep(0.8 * near, near, distance(root_at.xz, eye.xz))), float(k), 0.0);
@@ -83,17 +97,28 @@ void main() {
     joints = vec4(0.0, 2.0, kind, 0.0);
     stands.w = 1.0;
 #endif
-    vec2 blown = bending(k, message), bend = blown + rest * (1.0 - min(length(blown), 1.0));
-    vec3 up = stem > 0.0 ? posture(float(k) * field.w, blown, 1.0).place * stem : vec3(0.0);
-    vec2 across = vec2(-facing.y, facing.x);
+    vec2 blown = bending(k, message), across = vec2(-facing.y, facing.x);
+#ifdef ORGANS
+    vec2 moved = blown * gives[int(organ)], bend = moved + rest * (1.0 - min(length(moved), 1.0));
+    vec2 swayed = blown + sways * (1.0 - min(length(blown), 1.0)), grade = tones[int(organ)];
+    vec3 up = stem > 0.0 ? posture(float(k) * field.w, swayed, part).place * stem : vec3(0.0);
     foot = vec4(root_at + up, height);
+#else
+    vec2 bend = blown + rest * (1.0 - min(length(blown), 1.0));
+    foot = vec4(root_at, height);
+#endif
     lie_of = vec4(bend, 0.5 * width * across);
     float hidden = haze_at(root_at), seen = 1.0 - hidden;
     vec2 twice = vec2(facing.x * facing.x - facing.y * facing.y, 2.0 * facing.x * facing.y);
     vec4 here = lie_at(root_at.xz);
     vec3 grain = 1.0 + grain_c[k].rgb * twice.x + grain_s[k].rgb * twice.y, dry = stretch(here) * grain;
-    low = vec4((stem > 0.0 ? tip[k].rgb : root[k].rgb) * dry, variant);
+#ifdef ORGANS
+    low = vec4(mix(root[k].rgb, tip[k].rgb, grade.x) * dry, variant);
+    high = vec4(mix(root[k].rgb, tip[k].rgb, grade.y) * dry, tip[k].w);
+#else
+    low = vec4(root[k].rgb * dry, variant);
     high = vec4(tip[k].rgb * dry, tip[k].w);
+#endif
     vec4 grows = textureLod(density, on_map(root_at.xz), 0.0);
     Lit lit = lit_at(k, blown, root_at, here, grows);
 #ifdef MOWN
@@ -105,9 +130,16 @@ void main() {
     open_to = vec4(lit.sky * seen, lit.way.x);
     veil = vec4(haze_light(root_at) * hidden, lit.gloss * seen);
     float canopy_height = crown[k] * lodged(blown);
-    stands.xyz = vec3(up.y / canopy_height, height / canopy_height, 0.0);
+#ifdef ORGANS
+    stands.xyz = vec3(up.y / canopy_height, height / canopy_height, organ);
+#else
+    stands.xyz = vec3(0.0, height / canopy_height, 0.0);
+#endif
 #ifdef MOWN
-    stands.z = 1.0 - cut_at(variant, rest, (top - stem) / height);
+#ifdef ORGANS
+    top -= stem > 0.0 ? posture(float(k) * field.w, sways, part).place.y * stem : 0.0;
+#endif
+    stands.z += min(1.0 - cut_at(variant, rest, top / height), 0.999);
 #endif
 #ifdef MORPH
     int ring = int(strips.x), model = int(where.z) / 4, turn = int(where.z) % 4, along = int(how.w);

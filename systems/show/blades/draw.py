@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ....engine.gl.stream import Stream, release_all
 from ...frame.block import FrameBlock, joined
+from .organs import organ_defines
 from .pool import BLADE
 
 RIBBON = np.dtype(
@@ -29,9 +30,6 @@ WHOLE, CORES, EDGES = range(3)
 ROUND = "0.35"
 """How far the face normal turns towards a blade's edges, as if it were rounded."""
 
-SHADER_BLADE = np.dtype([(name if name != "root" else "root_at", BLADE[name]) for name in BLADE.names or ()])
-"""`BLADE` under the shader's names: `root` alone is a colour there."""
-
 Defines = Mapping[str, str | int]
 
 
@@ -43,6 +41,11 @@ def blade_program(
         ctx, block, units, "systems/show/blades/blade.vert", None, {"ROUND": ROUND, **defines},
         varyings=tuple(record.names or ()),
     )  # fmt: skip
+
+
+def shader_record(record: np.dtype[np.void], /) -> np.dtype[np.void]:
+    """Return `BLADE` or `ORGAN` under the shader's names: `root` alone is a colour there."""
+    return np.dtype([(name if name != "root" else "root_at", record[name]) for name in record.names or ()])
 
 
 class Ribbons:
@@ -95,18 +98,26 @@ class Ribbons:
 
 
 class BladePainter:
-    """Draws any blades as they are sent, opaque and in any order."""
+    """Draws any blades as they are sent, opaque and in any order. They come as records of `BLADE` or of `ORGAN`."""
 
-    def __init__(self, ctx: moderngl.Context, block: FrameBlock, segments: int, units: Mapping[str, int]) -> None:
-        self.ribbons = Ribbons(ctx, block, segments, units, soft=False)
-        self.program = blade_program(ctx, block, units, RIBBON, {})
-        self.blades, self.messages = Stream(ctx, SHADER_BLADE), Stream(ctx, MESSAGE)
+    def __init__(
+        self,
+        ctx: moderngl.Context,
+        block: FrameBlock,
+        segments: int,
+        units: Mapping[str, int],
+        record: np.dtype[np.void] = BLADE,
+    ) -> None:
+        organs = organ_defines(record)
+        self.ribbons = Ribbons(ctx, block, segments, units, soft=False, defines=organs)
+        self.program = blade_program(ctx, block, units, RIBBON, organs)
+        self.blades, self.messages = Stream(ctx, shader_record(record)), Stream(ctx, MESSAGE)
         streams = [stream.binding(self.program, each="/v") for stream in (self.blades, self.messages)]
         self.array = ctx.vertex_array(self.program, streams)
 
     def write(self, blades: NDArray[np.void], messages: NDArray[np.float32]) -> None:
-        """Send the blades, records of `BLADE` (n,), and their messages (n, 2)."""
-        self.blades.write(blades.view(SHADER_BLADE))
+        """Send the blades, records (n,), and their messages (n, 2)."""
+        self.blades.write(blades.view(self.blades.record))
         self.messages.write(messages)
 
     def draw(self) -> int:

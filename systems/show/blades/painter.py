@@ -54,7 +54,7 @@ class BladesPainter:
             self._tell(made)
         self.arrays = [ctx.vertex_array(made, [self.numbers.binding(made, each="/v")]) for made in self.passes]
         self.rings = [
-            Ribbons(ctx, block, fine.segments, units, soft=True, coarser=coarse.segments)
+            Ribbons(ctx, block, fine.segments, units, soft=True, coarser=coarse.segments, defines=self.store.organs)
             for fine, coarse in zip(rings, rings[1:] + rings[-1:], strict=True)
         ]
         self.morph = Ribbons(

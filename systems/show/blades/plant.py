@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ....engine.terrain.sample import density_at, height_at
 from ...around.ground import PRESENT, Ground, quarter_turn, turned
 from ...grow.record import Blades, Growth
-from .pool import BLADE, BladePool
+from .pool import BLADE, ORGAN, BladePool
 
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
@@ -37,35 +37,55 @@ class BladeStock:
         return np.asarray(self.records["kind"][0], np.intp)
 
 
-def blade_records(blades: Blades, turn: int, /, *, patch: float, kind: int, variants: int) -> NDArray[np.void]:
-    """Return the records of a patch model's blades after quarter turns, roots relative to the patch, shape (n,)."""
-    c, s = quarter_turn(turn)
-    records = np.zeros(len(blades.height), BLADE)
+def blade_records(
+    blades: Blades, turn: int, /, *, patch: float, kind: int, variants: int, record: np.dtype[np.void] = BLADE
+) -> NDArray[np.void]:
+    """Return the records of a patch model's blades after quarter turns, roots relative to the patch, shape (n,).
+
+    They are of `BLADE`, or of `ORGAN`, without which nothing may stand on a stem.
+    """
+    records = np.zeros(len(blades.height), record)
     spun = turned(blades.root, np.asarray(turn, np.int32), patch=patch)
     records["root"][:, 0], records["root"][:, 2] = spun[:, 0], spun[:, 1]
     records["height"], records["width"], records["kind"] = blades.height, blades.width, kind
-    records["stem"] = blades.stem
+    records["organ"] = blades.organ
     records["variant"] = kind * variants + blades.variant
-    lean_x, lean_z = blades.rest.T
-    records["rest"] = np.stack([c * lean_x - s * lean_z, s * lean_x + c * lean_z], 1)
+    records["rest"] = _spun(blades.rest, turn)
+    if record == ORGAN:
+        records["stem"], records["part"], records["sways"] = blades.stem, blades.part, _spun(blades.stem_rest, turn)
     azimuth = blades.facing + turn * (np.pi / 2)
     records["facing"] = np.stack([np.cos(azimuth), np.sin(azimuth)], 1)
     return records
 
 
+def _spun(lean: Floats, turn: int) -> Floats:
+    """Return leans (n, 2) after quarter turns."""
+    c, s = quarter_turn(turn)
+    x, z = lean.T
+    return np.stack([c * x - s * z, s * x + c * z], 1)
+
+
+def record_of(growths: Sequence[Growth], /) -> np.dtype[np.void]:
+    """Return what the graphics card has to be told of kinds: `BLADE`, unless there are other organs among them."""
+    return ORGAN if any(model.blades.organ.any() for growth in growths for model in growth.models) else BLADE
+
+
 def stock_blades(growths: Sequence[Growth], patch: float, /) -> BladeStock:
     """Return the blades of all kinds' patch models in all four turns; `patch` is a patch's side [m]."""
-    models = range(len(growths[0].models))
+    models, record = range(len(growths[0].models)), record_of(growths)
     return BladeStock(
-        records=np.stack([_turned(growths, model, turn, patch) for model in models for turn in range(4)]),
+        records=np.stack([_turned(growths, model, turn, patch, record) for model in models for turn in range(4)]),
         rank=np.stack([np.concatenate([growth.models[model].blades.rank for growth in growths]) for model in models]),
     )
 
 
-def _turned(growths: Sequence[Growth], model: int, turn: int, patch: float) -> NDArray[np.void]:
+def _turned(
+    growths: Sequence[Growth], model: int, turn: int, patch: float, record: np.dtype[np.void]
+) -> NDArray[np.void]:
     return np.concatenate([
         blade_records(
-            growth.models[model].blades, turn, patch=patch, kind=kind, variants=growth.postures.shape.shape[0]
+            growth.models[model].blades, turn, patch=patch, kind=kind, variants=growth.postures.shape.shape[0],
+            record=record,
         )
         for kind, growth in enumerate(growths)
     ])  # fmt: skip
@@ -76,7 +96,7 @@ def standing_blades(
 ) -> tuple[NDArray[np.void], NDArray[np.bool_]]:
     """Return the blades of each cell (m, 2) where they stand, and which of them grow there, shape (m, n) each.
 
-    They are records of `BLADE` with their roots on the terrain.
+    They are the stock's records with their roots on the terrain.
     """
     chosen = stock.records[model * 4 + turn]
     corner = cell.astype(np.float32) * np.float32(ground.patch)

@@ -20,11 +20,16 @@ BLADE = np.dtype(
         ("width", "f4"),
         ("variant", "f4"),
         ("kind", "f4"),
-        ("stem", "f4"),
+        ("organ", "f4"),
     ]
 )
 """What the graphics card is told of a blade: root [m], length [m], lean, face normal (x, z), width at the root [m],
-row of the posture table, kind, and height of its stem [m]. The field names are the shader's; it reads three texels."""
+row of the posture table, kind, and organ. The field names are the shader's; it reads three texels."""
+
+ORGAN = np.dtype(
+    [*((name, BLADE[name]) for name in BLADE.names or ()), ("stem", "f4"), ("part", "f4"), ("sways", "2f4")]
+)
+"""The same where some stand on stems: the stem's length [m], the place along it, and its lean; four texels."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -13,7 +13,7 @@ void main() {
     int patch_number = number / EACH;
     vec4 where = texelFetch(standing, ivec2(patch_number % STANDING_ROW * 3, patch_number / STANDING_ROW), 0);
     int record = int(where.z) * EACH + number % EACH;
-    ivec2 at = ivec2(record % BLADES_ROW * 3, record / BLADES_ROW);
+    ivec2 at = ivec2(record % BLADES_ROW * TEXELS, record / BLADES_ROW);
     vec2 root_at = texelFetch(blades, at, 0).xz + where.xy * soil.w;
     told = told_at(root_at, int(texelFetch(blades, at + ivec2(2, 0), 0).z), number);
 }

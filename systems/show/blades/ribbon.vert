@@ -64,9 +64,22 @@ vec3 painted_light(int k, float t, float twice, Painted target) {
 }
 #endif
 
+#ifdef ORGANS
+const vec2 tones[ORGANS] = TONES;
+const float widths[ORGANS * KNOTS] = WIDTHS;
+#endif
+
 // Width of a blade at part `t` of it: as systems/grow/bend.py has it. Where segments are longer than the waist, it is less
 // drawn in, so that the blade is as broad in the mean.
 float profile(float t, float taper, float segments) {
+#ifdef ORGANS
+    int organ = int(stands.z);
+    if (organ != BLADE_ITSELF) {
+        float at = t * float(KNOTS - 1);
+        int low = min(int(at), KNOTS - 2), row = organ * KNOTS + low;
+        return mix(widths[row], widths[row + 1], at - float(low));
+    }
+#endif
     float waist = 0.55 * min(0.16 * segments, 1.0);
     return pow(max(1.0 - t, 0.0), taper) * (1.0 - waist * max(1.0 - t / 0.16, 0.0));
 }
@@ -86,7 +99,7 @@ void main() {
     t = mix(t, floor(t * float(COARSER) + 0.5) / float(COARSER), joints.x);
 #endif
 #ifdef MOWN
-    t *= 1.0 - stands.z;
+    t *= 1.0 - fract(stands.z);
 #endif
     float side = float(gl_VertexID % 2) * 2.0 - 1.0;
     Spine spine = posture(low.w, lie_of.xy, t);
@@ -104,7 +117,11 @@ void main() {
     tangent = mix(tangent, target.tangent, painted.w);
     across = mix(across, run * dot(run, across) * boosted(run, target.middle), painted.w);
     vec2 face = normalize(vec2(lie_of.w, -lie_of.z));
-    vec3 painted_as = painted_light(k, stands.x > 0.0 ? 1.0 : t, face.x * face.x - face.y * face.y, target);
+    float tone = t;
+#ifdef ORGANS
+    tone = mix(tones[int(stands.z)].x, tones[int(stands.z)].y, t);
+#endif
+    vec3 painted_as = painted_light(k, tone, face.x * face.x - face.y * face.y, target);
     light = mix(light, painted_as, painted.w);
 #endif
     // Between its joints a blade's colour goes straight, where light rises in a bow: so much darker would few joints make it.

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from ....engine.gl.records import Records
 from ....engine.gl.stream import release_all
 from ..strips.stock import StripStock
+from .organs import organ_defines
 from .plant import BladeStock
 
 STANDING = np.dtype(
@@ -37,6 +38,7 @@ class BladeStore:
 
     def __init__(self, ctx: moderngl.Context, blades: BladeStock, strips: StripStock) -> None:
         self.count = blades.records.shape[1]
+        self.organs = organ_defines(blades.records.dtype)
         self.blades = Records(ctx, blades.records.dtype, BLADES_ROW, rows=-(-blades.records.size // BLADES_ROW))
         self.blades.write(blades.records.reshape(-1))
         self.points = strips.targets.shape[3]
@@ -53,6 +55,8 @@ class BladeStore:
             "TARGETS_ROW": TARGETS_ROW,
             "POINTS": self.points,
             "EACH": self.count,
+            "TEXELS": self.blades.texels,
+            **self.organs,
         }
 
     def release(self) -> None:

@@ -49,6 +49,10 @@ in float crest;
 in float tall;
 in float dense;
 in vec4 met;
+#ifdef HEADS
+in vec4 riper;
+uniform vec4 heads[KINDS];
+#endif
 in vec3 direct;
 in vec3 open_to;
 in vec4 shade;
@@ -145,7 +149,7 @@ vec3 carpet_seen(float slope, vec3 below) {
     float grain = mix(1.0, mix(GRAIN, 1.0, steep), shrunk) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
 #ifdef MOWN
     bool cut = is_mown(left);
-    float covers = 1.0 - exp(-dot(leaf_area, leaves_left(left)) / max(slope, 0.02));  // by the leaves that are left
+    float stubble = 1.0 - exp(-dot(leaf_area, leaves_left(left)) / max(slope, 0.02));  // by the leaves that are left
 #endif
     vec4 sum = vec4(0.0);
     for (int kind = 0; kind < KINDS; kind++) {
@@ -160,20 +164,29 @@ vec3 carpet_seen(float slope, vec3 below) {
         image.rgb = clamp(image.rgb, 0.0, image.a);
         vec3 mean_of = image.rgb / max(image.a, 1e-3);
         Lit met_by = lit;
+        float covers = image.a;
+#ifdef HEADS
+        mean_of.r += riper[kind] * (riper[kind] > 0.0 ? 1.0 - mean_of.r : mean_of.r);
+        // What stands scattered among others has what is met of it where it stands, and nothing between.
+        covers = heads[kind].y > 0.0 ? image.a / max(mean.a, 0.02) : image.a;
+#endif
 #ifdef MOWN
         // What is left is taken for the same grass pressed together.
         if (cut) {
             float part = min(left / max(crown[kind], 0.01), 1.0);
             float uneven = 1.0 + STUBBLE * (mean_of.g / max(mean.g / max(mean.a, 1e-3), 1e-3) - 1.0);
-            image.a = mix(min(covers * uneven, 1.0), image.a, part);
+            covers = mix(min(stubble * uneven, 1.0), covers, part);
             mean_of.rg *= part;
             met_by = mown_to(left, lit, kind, leaf_area);
         }
 #endif
         vec3 tint = (grain_c[kind].rgb * sight + grain_s[kind].rgb * aside) * (2.0 * mean_of.b - 1.0);
         vec3 pigment = mix(root[kind].rgb, tip[kind].rgb, mean_of.r) * dry * (1.0 + tint);
-        sum += met[kind] * image.a * vec4(shown_of(mix(radiance(pigment, mean_of.g, met_by), veil.rgb, veil.w)), 1.0);
+        sum += met[kind] * covers * vec4(shown_of(mix(radiance(pigment, mean_of.g, met_by), veil.rgb, veil.w)), 1.0);
     }
+#ifdef HEADS
+    sum /= max(sum.a, 1.0);
+#endif
     return sum.rgb + below * (1.0 - min(sum.a, 1.0));
 }
 

@@ -13,6 +13,7 @@ from ...around.cone import beyond_cone
 from ...frame.block import FrameBlock, by_kind, joined
 from ...grow.record import Growth
 from .grow import carpet_of
+from .heads import any_heads, heads_of
 
 Tiles = NDArray[np.float64]
 
@@ -174,6 +175,7 @@ class GroundPainter:
         self.streams = Stream(ctx, TILE), Stream(ctx, TILE), Stream(ctx, TILE)
         slopes = carpet_of(growths[0].models[0]).slope
         laid: dict[str, str | int] = {"CARPET": 1, "STRETCH": STRETCH, "SLOPES": len(slopes), "KINDS": len(growths)}
+        laid |= {"HEADS": 1} if any_heads(growths) else {}
 
         def layer(defines: dict[str, str | int], stream: Stream) -> _Layer:
             return _Layer(
@@ -198,6 +200,9 @@ class GroundPainter:
             "stock": (len(growths[0].models), seed),
         }
         _tell(self.carpet, self._told)
+        if "HEADS" in laid:
+            heads = [heads_of(growth) for growth in growths]
+            self._tell("heads", heads if len(heads) > 1 else heads[0])
         self.raise_carpet(RAISED)
 
     def _tell(self, name: str, value: object) -> None:

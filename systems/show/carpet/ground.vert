@@ -19,6 +19,9 @@ uniform vec4 raised;  // by kind: height of the carpet above the ground [m]
 out float carpet;
 out vec2 rise;   // of the ground, along x and z
 out vec4 met;    // by kind: how much of what a line of sight meets
+#ifdef HEADS
+out vec4 riper;  // by kind: how much more of its heads than an image shows; all the others at 1, none at -1
+#endif
 out float crest; // how fast the rise falls off along the line of sight [1/m]
 out float tall;  // height of the grass [m]
 out float dense; // leaf area seen from the side, of the ground's area
@@ -47,6 +50,49 @@ void light_up(float slope) {
 
 // How much of what a line of sight meets is of each kind: taller kinds hide the others at a low angle. The grass is
 // taken in four layers from the top; its leaf area falls off linearly with height.
+#ifdef HEADS
+const int LAYERS = 12;
+uniform vec4 heads[KINDS]; // by kind: leaf area without them, theirs; from where to where they are in its canopy
+
+// Of the leaf area of a kind, how much is at a part of its canopy's height: in all, and of heads.
+vec2 leaves_at(int kind, float at) {
+    vec4 own = heads[kind];
+    float of_heads = at > own.z && at < own.w ? own.y / (own.w - own.z) : 0.0;
+    return vec2(own.x * 2.0 * max(1.0 - at, 0.0) + of_heads, of_heads);
+}
+
+// The same with the heads that some kinds have. How much more of them is met than where such a kind grows alone, -1 to 1,
+// is written to `riper`.
+vec4 kinds_met(vec4 grows, float slope, float left) {
+    float top = 0.0;
+    for (int kind = 0; kind < KINDS; kind++)
+        top = max(top, grows[kind] > 0.004 ? crown[kind] * max(heads[kind].w, 1.0) : 0.0);
+    top = min(top, left);
+    vec4 met = vec4(0.0), of_heads = vec4(0.0), alone = vec4(0.0), heads_alone = vec4(0.0), through_alone = vec4(1.0);
+    float through = 1.0;
+    for (int layer = 0; layer < LAYERS; layer++) {
+        float height = top * (1.0 - (float(layer) + 0.5) / float(LAYERS));
+        vec4 stop = vec4(0.0), some = vec4(0.0);
+        for (int kind = 0; kind < KINDS; kind++) {
+            vec2 here = leaves_at(kind, height / crown[kind]) * (grows[kind] * leaf[kind] * top / crown[kind]);
+            stop[kind] = here.x;
+            some[kind] = here.x > 0.0 ? here.y / here.x : 0.0;
+        }
+        float sum = dot(stop, vec4(1.0)), step = 1.0 / (float(LAYERS) * slope);
+        float stopped = through * (1.0 - exp(-sum * step));
+        vec4 share = stopped * stop / max(sum, 1e-6), stopped_alone = through_alone * (1.0 - exp(-stop / max(grows, 0.004) * step));
+        met += share;
+        of_heads += share * some;
+        alone += stopped_alone;
+        heads_alone += stopped_alone * some;
+        through -= stopped;
+        through_alone -= stopped_alone;
+    }
+    vec4 seen = of_heads / max(met, 1e-6), usual = heads_alone / max(alone, 1e-6);
+    riper = mix((seen - usual) / max(usual, 1e-3), (seen - usual) / max(1.0 - usual, 1e-3), greaterThan(seen, usual));
+    return met / max(dot(met, vec4(1.0)), 1e-6) * min(dot(grows, vec4(1.0)), 1.0);
+}
+#else
 vec4 kinds_met(vec4 grows, float slope, float left) {
     float top = 0.0;
     for (int kind = 0; kind < KINDS; kind++)
@@ -68,6 +114,7 @@ vec4 kinds_met(vec4 grows, float slope, float left) {
     }
     return met / max(dot(met, vec4(1.0)), 1e-6) * min(dot(grows, vec4(1.0)), 1.0);
 }
+#endif
 
 float lowest_share(vec2 place) {
     ivec2 low = ivec2(floor((place - 0.01) / soil.w)), high = ivec2(floor((place + 0.01) / soil.w));
@@ -142,7 +189,7 @@ void main() {
         high *= min(left / max(crown[kind], 0.01), 1.0);
         deep = 1.0 - high;
 #endif
-        vec3 pigment = mix(tip[kind].rgb, root[kind].rgb, deep) * stretch(here);
+        vec3 pigment = mix(mix(root[kind].rgb, tip[kind].rgb, through[kind].w), root[kind].rgb, deep) * stretch(here);
         under += met[kind] * radiance(pigment, high, lit);
     }
     // Where grass grows thinly or not at all, what lies beneath is the soil.

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...grow.bend import Doubles, highest_tip, ribbon, spine, tone
+from ...grow.organs import HEADS
 from ...grow.raster import Fragments, interpolate, rasterise, ribbon_triangles
 from ...grow.record import Blades, Bytes, Floats, PatchModel, Postures
 
@@ -39,6 +40,9 @@ class Strips:
 
 
 _SEGMENTS = 12
+
+SLANT = 0.16
+"""Tangent of the angle from which heads are painted: the same to both sides, as they are about round."""
 
 
 def strips_of(model: PatchModel, /) -> tuple[Strips, ...]:
@@ -128,7 +132,8 @@ class _Sheet:
         along = 2 * orientation
         corners = np.empty((*self._ribbons.shape[:2], 2))
         corners[:, :, 0] = (self._ribbons[:, :, along] + self._margin) * (w * fine / (self._patch + 2.0 * self._margin))
-        corners[:, :, 1] = np.minimum(self._ribbons[:, :, 1] / self._height, 1.0) * (h * fine)
+        up = self._ribbons[:, :, 1] + self._lifted(1 - orientation)
+        corners[:, :, 1] = np.minimum(up / self._height, 1.0) * (h * fine)
         corners[:, :, 1] += np.repeat(self.slice(orientation), span)[:, None] * float(h * fine)
         shape = self._strips * h * fine, w * fine
         front = np.repeat(-self._blades.rank.astype(np.float64), span)[:, None].repeat(3, axis=1)
@@ -138,6 +143,15 @@ class _Sheet:
         sums = [np.bincount(texel, weights=value, minlength=self._strips * h * w) for value in values]
         texels: Bytes = np.rint(np.stack(sums, axis=1) * (255.0 / fine**2)).astype(np.uint8)
         return texels.reshape(-1, h, w, 4)
+
+    def _lifted(self, depth: int, /) -> Doubles | float:
+        """Return how much higher corners of heads are painted, as they are seen from a little above, (triangles, 3)."""
+        heads = np.repeat(np.isin(np.broadcast_to(self._blades.organ, self._blades.rank.shape), HEADS), 2 * _SEGMENTS)
+        if not heads.any():
+            return 0.0
+        away = self._ribbons[:, :, 2 * depth]
+        foot = away.reshape(-1, 2 * _SEGMENTS * 3)[:, :1].repeat(2 * _SEGMENTS, axis=0)
+        return np.asarray(np.where(heads[:, None], SLANT * (away - foot), 0.0))
 
     def _meaning(self, corners: Doubles, seen: Fragments, /) -> list[Doubles]:
         """Return at each sample: place along the blade, twice the normal's azimuth, rank, and 1."""

@@ -108,6 +108,17 @@ def test_kinds_without_a_place_share_what_the_others_leave(tmp_path: Path) -> No
     np.testing.assert_allclose(density.maps[:, 1, 1], [0.4, 0.2, 0.4], atol=1e-6)
 
 
+def test_f3_flowers_stand_among_the_others_and_take_no_ground_from_them(tmp_path: Path) -> None:
+    save(tmp_path / "map.png", channels(count=1))
+    flower = GrassKind(plant="flower", place=Place(map="map.png"))
+    density = load(
+        tmp_path, grass=everywhere, forb=GrassKind(plant="forb"), poppy=flower, daisy=GrassKind(plant="flower")
+    )
+    np.testing.assert_allclose(density.maps[:2], 0.5)
+    np.testing.assert_allclose(density.maps[2], channels(count=1) / 255.0, atol=1e-6)
+    np.testing.assert_allclose(density.maps[3], 1.0)
+
+
 def test_maps_of_different_sizes_lie_over_the_same_ground(tmp_path: Path) -> None:
     save(tmp_path / "coarse.png", np.array([[0, 100], [50, 150]], np.uint8))
     save(tmp_path / "fine.png", channels(count=1).repeat(4, axis=0))

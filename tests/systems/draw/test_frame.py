@@ -15,7 +15,7 @@ from tallgrass.engine.camera import Camera, View, projection_matrix, view_matrix
 from tallgrass.systems.frame.block import FRAME, FrameBlock, aim, by_kind, frame_record
 from tallgrass.systems.painter import UNITS
 from tallgrass.systems.show.blades.draw import MESSAGE, BladePainter
-from tallgrass.systems.show.blades.pool import BLADE
+from tallgrass.systems.show.blades.pool import BLADE, ORGAN
 from tallgrass.systems.show.blades.store import STANDING
 from tallgrass.systems.show.strips.gather import STOOD
 from tallgrass.systems.site import Site
@@ -87,16 +87,21 @@ def test_figures_by_kind_fill_a_vector_of_four() -> None:
     assert by_kind([1.0, 2.0]) == (1.0, 2.0, 0.0, 0.0)
 
 
-def test_every_field_of_a_blade_is_an_attribute_of_its_shader(ctx: moderngl.Context, block: FrameBlock) -> None:
-    painter = BladePainter(ctx, block, 3, UNITS)
+@pytest.mark.parametrize(("record", "unread"), [(BLADE, {"organ"}), (ORGAN, set())], ids=["grass", "plants"])
+def test_every_field_of_a_blade_is_an_attribute_of_its_shader(
+    ctx: moderngl.Context, block: FrameBlock, record: np.dtype[np.void], unread: set[str]
+) -> None:
+    painter = BladePainter(ctx, block, 3, UNITS, record)
     names = {name for name in painter.program if isinstance(painter.program[name], moderngl.Attribute)}
-    expected = {*(BLADE.names or ()), *(MESSAGE.names or ())} - {"root"} | {"root_at"}
+    expected = {*(record.names or ()), *(MESSAGE.names or ())} - {"root"} - unread | {"root_at"}
     assert names - {"gl_VertexID"} == expected
     painter.release()
 
 
 @pytest.mark.parametrize(
-    ("record", "texels"), [(BLADE, 3), (STANDING, 3), (STOOD, 2)], ids=["blade", "blades", "strips"]
+    ("record", "texels"),
+    [(BLADE, 3), (ORGAN, 4), (STANDING, 3), (STOOD, 2)],
+    ids=["blade", "organ", "blades", "strips"],
 )
 def test_a_record_of_the_stores_is_as_many_texels_as_its_shaders_read(record: np.dtype[np.void], texels: int) -> None:
     assert record.itemsize == texels * 4 * 4

@@ -8,13 +8,14 @@ from numpy.typing import NDArray
 
 from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.engine.declared.light import Light
+from tallgrass.engine.declared.plant import Head
 from tallgrass.engine.declared.quality import PRESETS
 from tallgrass.systems.around.canopy import canopy_height
 from tallgrass.systems.grow.bend import profile, ribbon
 from tallgrass.systems.grow.raster import rasterise, ribbon_triangles
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.light.daylight import daylight
-from tallgrass.systems.light.materials import grain, leaves_of, pigment
+from tallgrass.systems.light.materials import bloom, grain, leaves_of, pigment
 from tallgrass.systems.stock.models import grow
 
 PATCH = 2.5
@@ -102,3 +103,16 @@ def test_both_sides_of_a_blade_are_lit_alike() -> None:
 def test_a_pigment_is_the_root_of_an_albedo() -> None:
     np.testing.assert_allclose(pigment("#ffffff"), 1.0)
     np.testing.assert_allclose(pigment("#bcbcbc") ** 2, 0.5, atol=0.005)
+
+
+def test_f3_grass_has_all_of_its_tip_and_a_flower_as_much_as_its_petals_show() -> None:
+    flower = GrassKind(plant="flower")
+    grown = (GrassKind(), flower, GrassKind(plant="flower", head=Head(petals=24, size=[0.08, 0.1])))
+    some = [bloom(kind, grow(kind, PRESETS["low"], seed=3)) for kind in grown]
+    assert some[0] == 1.0
+    assert 0.1 < some[1] < some[2] <= 1.0
+
+
+def test_f3_the_canopy_of_flowers_is_as_high_as_its_heads_and_not_as_its_leaves() -> None:
+    flower = GrassKind(plant="flower", height=[0.5, 0.6], leaves=20, leaf=[0.05, 0.1])
+    assert 0.5 <= canopy_height(grow(flower, PRESETS["low"], seed=3)) <= 0.6

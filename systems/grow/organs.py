@@ -1,0 +1,63 @@
+"""The organs of plants: how wide each is along itself, where on its kind's ramp of pigment, and how it gives way."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+Doubles = NDArray[np.float64]
+
+KNOTS = 5
+"""Places along an organ, evenly from root to tip, at which its width is known."""
+
+
+@dataclass(frozen=True, slots=True)
+class Organ:
+    """What all organs of one sort have in common; each is a ribbon."""
+
+    widths: tuple[float, ...]
+    """Width at `KNOTS` places from root to tip, of its own; none for a blade, which tapers as its kind says."""
+
+    tones: tuple[float, float]
+    """Where its root and its tip are on the way from the kind's colour `root`, 0, to its colour `tip`, 1."""
+
+    gives: float = 1.0
+    """How far the wind bends it by itself, of how far it bends a blade; what it stands on carries it besides."""
+
+
+BLADE, STEM, LEAF, FROND, PETAL, EYE, BUD, RAY, TUFT = range(9)
+
+ORGANS: Final = (
+    Organ((), (0.0, 1.0)),
+    Organ((1.0, 0.9, 0.8, 0.75, 0.7), (0.0, 0.06)),
+    Organ((0.35, 0.85, 1.0, 0.75, 0.05), (0.0, 0.08)),
+    Organ((0.25, 0.9, 1.0, 0.7, 0.05), (0.1, 0.9)),
+    Organ((0.35, 0.75, 1.0, 1.0, 0.7), (0.62, 1.0), 0.35),
+    Organ((0.7, 1.0, 1.0, 0.9, 0.5), (0.2, 0.4), 0.35),
+    Organ((0.6, 1.0, 0.95, 0.7, 0.15), (0.0, 0.3), 0.35),
+    Organ((0.06, 0.06, 0.07, 0.9, 0.6), (0.1, 1.0), 0.35),
+    Organ((0.7, 1.0, 0.9, 0.6, 0.1), (0.8, 1.0), 0.8),
+)
+"""By number. `LEAF` belongs to a plant with a head, whose colour is the tip's, and `FROND` to one without. `EYE` is the
+middle of an open head, `RAY` one of an umbel's, whose florets are its end; florets and plumes are made of `TUFT`."""
+
+HEADS: Final = (PETAL, EYE, BUD, RAY, TUFT)
+"""Those that heads are made of."""
+
+TONES: Final = np.array([organ.tones for organ in ORGANS])
+"""By organ: tone at its root and at its tip, shape (organs, 2)."""
+
+GIVES: Final = np.array([organ.gives for organ in ORGANS])
+"""By organ: how far the wind bends it by itself, shape (organs,)."""
+
+WIDTHS: Final = np.array([organ.widths or (0.0,) * KNOTS for organ in ORGANS])
+"""By organ: width at `KNOTS` places; that of a blade is no row of it, shape (organs, KNOTS)."""
+
+
+def width_along(organ: NDArray[np.int32], place: Doubles, /) -> Doubles:
+    """Return the width of organs other than blades (n,) at places (points,) along them, shape (n, points)."""
+    at = place * (KNOTS - 1)
+    low = np.clip(at.astype(np.int64), 0, KNOTS - 2)
+    part = at - low
+    return np.asarray(WIDTHS[organ][:, low] * (1.0 - part) + WIDTHS[organ][:, low + 1] * part)

@@ -1,0 +1,117 @@
+"""The rows of plants while they are grown: stems, what stands on them, and how they come together."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .record import Blades
+
+Doubles = NDArray[np.float64]
+Numbers = NDArray[np.intp]
+
+GOLDEN = np.pi * (3.0 - np.sqrt(5.0))
+"""The angle from one leaf or floret to the next round a stem [rad]."""
+
+_MOST_SPREAD = 0.98
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stems:
+    """Stems that leaves and heads stand on."""
+
+    plant: Numbers
+    """The plant of each, shape (m,)."""
+
+    height: Doubles
+    """Length [m], shape (m,)."""
+
+    rest: Doubles
+    """Lean, as `Blades.rest`, shape (m, 2)."""
+
+    def of(self, rows: Numbers, /) -> "Stems":
+        """Return some of them, (k,)."""
+        return Stems(self.plant[rows], self.height[rows], self.rest[rows])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rows:
+    """Rows of `Blades`, with the plant that each belongs to in place of root and rank, (k,) or (k, 2) each."""
+
+    plant: Numbers
+    height: NDArray[np.floating]
+    width: NDArray[np.floating]
+    facing: NDArray[np.floating]
+    rest: NDArray[np.floating]
+    variant: NDArray[np.int32]
+    organ: NDArray[np.int32]
+    stem: NDArray[np.floating]
+    part: NDArray[np.floating]
+    stem_rest: NDArray[np.floating]
+
+
+def stood(
+    stems: Stems,
+    organ: ArrayLike,
+    /,
+    *,
+    part: ArrayLike,
+    height: ArrayLike,
+    width: ArrayLike,
+    toward: ArrayLike,
+    spread: ArrayLike,
+    tilt: Doubles | None = None,
+    variant: NDArray[np.int32] | None = None,
+) -> Rows:
+    """Return organs on stems, of which `height` has as many as each bears: shape (m, each), as all are or become.
+
+    They stand at `part` of their stem, and reach out `toward` an azimuth [rad] at the posture index `spread`; what all
+    of a stem lean together is its `tilt`, shape (m, 2). They face to where they reach.
+    """
+    height = np.asarray(height, np.float64)
+    shape = height.shape
+    toward, spread = np.broadcast_to(toward, shape), np.broadcast_to(spread, shape)
+    rest = spread[..., None] * np.stack([np.cos(toward), np.sin(toward)], axis=-1)
+    if tilt is not None:
+        rest = rest + tilt[:, None]
+        rest = rest * np.minimum(1.0, _MOST_SPREAD / np.maximum(np.linalg.norm(rest, axis=-1, keepdims=True), 1e-9))
+    each = shape[1]
+    return Rows(
+        plant=np.repeat(stems.plant, each),
+        height=height.reshape(-1),
+        width=np.broadcast_to(width, shape).reshape(-1),
+        facing=toward.reshape(-1),
+        rest=rest.reshape(-1, 2),
+        variant=np.zeros(height.size, np.int32) if variant is None else variant.reshape(-1),
+        organ=np.broadcast_to(np.asarray(organ, np.int32), shape).reshape(-1),
+        stem=np.repeat(stems.height, each),
+        part=np.broadcast_to(part, shape).reshape(-1),
+        stem_rest=np.repeat(stems.rest, each, axis=0),
+    )
+
+
+def together(stand: Blades, /, *parts: Rows) -> Blades:
+    """Return rows as blades, plant after plant: each has the root and the rank of its plant's blade in `stand`."""
+    plant = np.concatenate([rows.plant for rows in parts])
+    order = np.argsort(plant, kind="stable")
+    plant = plant[order]
+
+    def joined(name: str) -> NDArray[np.float32]:
+        values = np.concatenate([getattr(rows, name) for rows in parts])[order]
+        return np.ascontiguousarray(values, np.float32)
+
+    whole = {name: np.concatenate([getattr(rows, name) for rows in parts])[order] for name in ("variant", "organ")}
+    facing = joined("facing").astype(np.float64)
+    return Blades(
+        root=stand.root[plant],
+        height=joined("height"),
+        width=joined("width"),
+        facing=((facing + np.pi) % (2.0 * np.pi) - np.pi).astype(np.float32),
+        rest=joined("rest"),
+        variant=whole["variant"].astype(np.int32),
+        rank=stand.rank[plant],
+        organ=whole["organ"].astype(np.int32),
+        stem=joined("stem"),
+        part=joined("part"),
+        stem_rest=joined("stem_rest"),
+    )

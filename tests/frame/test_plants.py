@@ -1,0 +1,121 @@
+"""Flowers, forbs and shrubs in whole frames: the shaders say what numpy says (F3)."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tallgrass.engine.camera import Camera
+from tallgrass.systems.grow import organs
+from tallgrass.systems.grow.bend import spine
+from tallgrass.systems.grow.record import Blades, Growth
+from tallgrass.systems.light.materials import pigment
+from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.reference import draw_reference
+from tallgrass.systems.show.blades.draw import RIBBON
+from tallgrass.systems.show.blades.painter import BladesPainter
+from tallgrass.systems.show.blades.plant import standing_blades
+from tallgrass.systems.show.blades.representation import BladeRepresentation
+from tallgrass.testing import LITTLE
+
+Load = Callable[..., Prairie]
+Aim = Callable[..., Camera]
+Stage = Any
+
+GARDEN = LITTLE.replace(
+    LITTLE[LITTLE.index("\ngrass:") + 1 : LITTLE.index("camera:")],
+    """\
+grass:
+  grass: { height: [0.3, 0.5], width: 0.02 }
+  poppy: { plant: flower, plants: 8, tip: "#dd2a12", head: { petals: 5 } }
+  heather: { plant: shrub, plants: 4, tip: "#a45a9e", head: { form: spike } }
+wind: [{ kind: breeze, strength: 0.5 }]
+""",
+).replace("noise: rolling", "noise: flat")
+FIELD = """\
+tallgrass: 2
+seed: 4
+terrain: { noise: flat, size: [120, 120] }
+grass:
+  barley: { height: [0.4, 0.6], width: 0.018 }
+  poppy: { plant: flower, plants: 50, height: [0.45, 0.65], tip: "#dd2a12", head: { petals: 5, size: [0.07, 0.1] } }
+"""
+
+
+@pytest.fixture(scope="module")
+def garden(load: Load) -> Prairie:
+    """A prairie of grass, poppies and heather on flat ground, in a breeze."""
+    prairie = load(GARDEN)
+    prairie.advance(2.0)
+    return prairie
+
+
+def test_f3_each_organ_is_drawn_where_numpy_has_it_and_with_its_own_pigment(stage: Stage, garden: Prairie) -> None:
+    stage.shot(garden)
+    assert garden.painter is not None
+    painter, near = garden.painter.painters["blades"], garden.site.representations[0]
+    assert isinstance(painter, BladesPainter)
+    assert isinstance(near, BladeRepresentation)
+    outlook = garden.viewers["main"]
+    patches, shown = outlook.patches, outlook.shown["blades"].standing
+    rows = patches.cell[shown.rows], patches.model[shown.rows], patches.turn[shown.rows]
+    standing, _ = standing_blades(near.stock, *rows, garden.site.ground)
+    heard = outlook.kept["blades"].receiving[0].letters.heard(shown.slots).reshape(*standing.shape, 2)
+    numbers, first = np.frombuffer(painter.numbers.buffer.read(), np.uint32), painter.morph.stream.count
+    kinds = list(garden.scene.grass.values())
+    met = set()
+    for ribbons in painter.rings:
+        count = ribbons.stream.count
+        made = np.frombuffer(ribbons.stream.buffer.read(), RIBBON)[:count]
+        at = np.divmod(numbers[first : first + count].astype(np.int64), standing.shape[1])
+        blade, message = standing[at], heard[at]
+        for kind, growth in enumerate(garden.site.growths):
+            own = blade["kind"] == kind
+            foot = foot_of(blade[own], growth, message[own])
+            foot[:, 1] += blade["root"][own, 1]
+            np.testing.assert_allclose(made["foot"][own, :3], foot, atol=2e-3)
+            np.testing.assert_array_equal(made["stands"][own, 2], blade["organ"][own])
+            np.testing.assert_array_equal(made["foot"][own, 3], blade["height"][own])
+            low, high = (pigment(color) for color in (kinds[kind].root, kinds[kind].tip))
+            for organ in np.unique(blade["organ"][own]).astype(int).tolist():
+                met.add(organ)
+                some = own & (blade["organ"] == organ)
+                ends = [low + (high - low) * tone for tone in organs.TONES[organ]]
+                # What grain and dry stretches do to a blade they do to both of its ends.
+                ratio = made["low"][some, :3] / ends[0] * ends[1] / made["high"][some, :3]
+                np.testing.assert_allclose(ratio, 1.0, atol=1e-3)
+        first += count
+    assert met >= {organs.BLADE, organs.STEM, organs.LEAF, organs.PETAL, organs.EYE, organs.BUD, organs.TUFT}
+
+
+def foot_of(records: Any, growth: Growth, message: Any) -> Any:
+    """Where blades begin, as numpy has it of their records, shape (n, 3)."""
+    blades = Blades(
+        root=np.ascontiguousarray(records["root"][:, ::2]), height=records["height"], width=records["width"],
+        facing=np.arctan2(*records["facing"].T[::-1]), rest=records["rest"], variant=np.zeros(len(records), np.int32),
+        rank=np.zeros(len(records), np.float32), organ=records["organ"].astype(np.int32), stem=records["stem"],
+        part=records["part"], stem_rest=records["sways"],
+    )  # fmt: skip
+    return spine(blades, growth.postures, message, points=2)[:, 0]
+
+
+def test_f3_in_every_representation_a_field_of_poppies_has_one_colour(stage: Stage, load: Load, camera: Aim) -> None:
+    aim = camera(0.0, 1.6, 50.0, pitch=-3, view=30)
+    whole = stage.shot(load(FIELD), aim).astype(float)
+    rows = slice(50, 66)
+    for lod in ("blades", "strips"):
+        mean = stage.shot(load(FIELD, lod=lod), aim).astype(float)[rows].mean(axis=(0, 1))
+        np.testing.assert_allclose(mean, whole[rows].mean(axis=(0, 1)), rtol=0.06)
+
+
+def test_f3_the_reference_has_the_flowers_of_the_picture(stage: Stage, load: Load, camera: Aim) -> None:
+    prairie, aim = load(FIELD), camera(0.0, 1.2, 50.0, pitch=-20, view=45)
+    picture = stage.shot(prairie, aim).astype(float)
+    stage.target.use()
+    view, projection = stage.matrices(aim)
+    truth = draw_reference(prairie, view, projection, stage.size, samples=4).astype(float)
+    red, red_of_truth = (each[..., 0] > 1.6 * each[..., 1] for each in (picture, truth))
+    assert red_of_truth.sum() > 100
+    assert (red & red_of_truth).sum() > 0.75 * red_of_truth.sum()
+    assert red.sum() == pytest.approx(red_of_truth.sum(), rel=0.2)
