@@ -43,6 +43,7 @@ PICTURES = (
         )
     ),
     *(Picture(f"{name}.png", ("shot", name, "--size", "960x540", "--time", "2")) for name in IN_FLOWER),
+    Picture("above.png", ("shot", "poppies", "--size", "960x540", "--time", "3", "--camera=-30,26,60,20,-24")),
     Picture("reeds.png", ("shot", "reeds", "--size", "960x540", "--time", "3")),
     Picture("against.png", ("shot", "sundown", "--size", "960x540", "--time", "3")),
     Picture("after.png", ("shot", "storm", "--size", "960x540", "--time", "12")),
