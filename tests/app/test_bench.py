@@ -76,33 +76,21 @@ def test_n6_the_frame_benchmark_tells_every_key_of_the_contract(capsys: pytest.C
 
 
 @pytest.mark.usefixtures("ctx", "few_frames")
-def test_the_frame_benchmark_tells_what_a_frame_costs_on_the_cpu_alone(
-    scene: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    if not _draws_nothing():
-        pytest.skip("this driver cannot do without drawing")
-    assert run(["bench", "frame", str(scene), "--size", "96x54", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert told["cpu_ms"].keys() == {"p50", "p95"}
-    assert 0.0 < told["cpu_ms"]["p50"] <= told["cpu_ms"]["p95"]
-    assert told["cpu_by_system_ms"].keys() == told["systems_ms"].keys()
-    assert max(told["cpu_by_system_ms"].values()) < told["cpu_ms"]["p50"]
-    assert told["cpu_over_yardstick"] > 0.0
-
-
-@pytest.mark.usefixtures("ctx", "few_frames")
 @pytest.mark.parametrize("benchmark", ["frame", "walk"])
-def test_where_the_driver_always_draws_no_benchmark_tells_of_the_cpu_alone(
+def test_where_the_driver_always_draws_no_benchmark_tells_of_the_cpu_alone_and_without_the_evaluator_none_of_flip(
     scene: Path,
     capsys: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
     benchmark: str,
 ) -> None:
+    monkeypatch.setitem(sys.modules, "flip_evaluator", None)
     monkeypatch.setattr(processor, "NOOP", {"GALLIUM_NOOP": "0"})
     assert run(["bench", benchmark, str(scene), "--size", "96x54", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert [told[key] for key in told if key.startswith("cpu_")] == [None] * (3 if benchmark == "frame" else 1)
     assert told["yardstick_ms"] > 0.0
+    assert (benchmark == "frame") == bool(told.get("rivals"))
+    assert all(row["flip"] is None for row in told.get("rivals", []))
 
 
 def test_a_child_that_fails_tells_nothing(scene: Path, capfd: pytest.CaptureFixture[str]) -> None:
@@ -141,7 +129,7 @@ def test_a_graphics_card_is_timed_by_its_own_clock(
 
 
 @pytest.mark.usefixtures("ctx", "few_frames")
-def test_rivals_are_drawn_from_the_same_place_and_compared_at_the_same_instant(
+def test_the_frame_benchmark_compares_rivals_at_the_same_place_and_instant_and_tells_of_the_cpu_alone(
     scene: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     pytest.importorskip("flip_evaluator")
@@ -152,6 +140,12 @@ def test_rivals_are_drawn_from_the_same_place_and_compared_at_the_same_instant(
         assert row.keys() == {"name", "frame_ms", "ratio", "flip"}
         assert row["ratio"] == pytest.approx(row["frame_ms"] / told["frame_ms"]["p50"], rel=0.01)
         assert 0.0 < row["flip"] < 0.3
+    if _draws_nothing():
+        assert told["cpu_ms"].keys() == {"p50", "p95"}
+        assert 0.0 < told["cpu_ms"]["p50"] <= told["cpu_ms"]["p95"]
+        assert told["cpu_by_system_ms"].keys() == told["systems_ms"].keys()
+        assert max(told["cpu_by_system_ms"].values()) < told["cpu_ms"]["p50"]
+        assert told["cpu_over_yardstick"] > 0.0
 
 
 @pytest.mark.usefixtures("few_frames")
@@ -178,17 +172,6 @@ def _bare_ground(still: Still) -> NDArray[np.int64]:
     still.studio.begin()
     painter.draw(still.view, blades=[])
     return still.studio.read().astype(np.int64)
-
-
-@pytest.mark.usefixtures("ctx", "few_frames")
-def test_without_the_evaluator_rivals_have_no_flip(
-    scene: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setitem(sys.modules, "flip_evaluator", None)
-    assert run(["bench", "frame", str(scene), "--size", "96x54", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert told["rivals"]
-    assert {row["flip"] for row in told["rivals"]} == {None}
 
 
 def test_the_frustum_holds_what_a_picture_shows_and_nothing_behind_or_far_aside() -> None:
