@@ -65,9 +65,12 @@ def _numbers_fail_loudly() -> Iterator[None]:
 
 @pytest.fixture(scope="session", autouse=True)
 def _own_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Grow into a cache of our own, and leave the user's as it is."""
+    """Grow into a cache of our own, which workers beside one another share, and leave the user's as it is."""
+    folder = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        folder = folder.parent
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("TALLGRASS_CACHE", str(tmp_path_factory.mktemp("cache")))
+        patch.setenv("TALLGRASS_CACHE", str(folder / "cache"))
         yield
 
 

@@ -15,10 +15,25 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
+from tallgrass.app.cli import run
+
 TOUR = (Path(__file__).parents[2] / "docs" / "tour.md").read_text("utf-8")
 
 Tallgrass = Callable[..., subprocess.CompletedProcess[str]]
-pytestmark = pytest.mark.gl
+pytestmark = [pytest.mark.gl, pytest.mark.usefixtures("ctx")]
+
+
+@pytest.fixture
+def tallgrass(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Tallgrass:
+    """Run the command in a folder of its own and in this process, which has begun already."""
+    monkeypatch.chdir(tmp_path)
+
+    def done(*arguments: object) -> subprocess.CompletedProcess[str]:
+        words = [*map(str, arguments)]
+        status = run(words)
+        return subprocess.CompletedProcess(words, status, *capsys.readouterr())
+
+    return done
 
 
 def pixels(path: Path) -> NDArray[np.uint8]:

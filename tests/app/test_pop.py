@@ -110,7 +110,7 @@ def test_n3_the_walk_shows_the_same_again_and_hard_switches_show_where_they_happ
 
 @pytest.mark.parametrize("transitions", [SEAMLESS, HARD], ids=["seamless", "hard"])
 def test_n3_legs_that_are_walked_alone_are_those_of_the_whole_walk(scene: Path, transitions: Transitions) -> None:
-    with Studio(Take(str(scene), (192, 108))) as studio:
+    with Studio(Take(str(scene), (128, 72))) as studio:
         walk = legs(studio.prairie)[:2]
         whole = walked(studio, walk, transitions, watch=unwatched)
         alone = [walked(studio, walk, transitions, watch=unwatched, only=number) for number in range(2)]

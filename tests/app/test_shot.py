@@ -1,6 +1,5 @@
 """One picture from the command line."""
 
-import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,19 +9,20 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from tallgrass import __version__
+from tallgrass.app.cli import run
 
-Tallgrass = Callable[..., subprocess.CompletedProcess[str]]
 Take = Callable[..., NDArray[np.uint8]]
-pytestmark = pytest.mark.gl
+pytestmark = [pytest.mark.gl, pytest.mark.usefixtures("ctx")]
 
 
 @pytest.fixture
-def take(tallgrass: Tallgrass, scene: Path) -> Take:
+def take(scene: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Take:
     """Take a small picture of the small scene, with some options."""
+    monkeypatch.chdir(scene.parent)
 
     def shoot(*options: object) -> NDArray[np.uint8]:
-        done = tallgrass("shot", scene.name, "-o", "a.png", "--size", "96x54", *options)
-        assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+        assert run(["shot", scene.name, "-o", "a.png", "--size", "96x54", *map(str, options)]) == 0
+        assert capsys.readouterr() == ("", "")
         with Image.open(scene.parent / "a.png") as image:
             return np.asarray(image)
 

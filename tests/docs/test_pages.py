@@ -39,7 +39,13 @@ runpy.run_path({file!r}, run_name="__main__")
 """
 """Runs a program that would run until its window is closed."""
 
-COARSE = re.compile("^tallgrass (shot|film)", re.MULTILINE)
+COARSE = {
+    r"^tallgrass (shot|film)": r"\g<0> --preset low",
+    r"--preset (?!low\b)\w+ ": "",
+    r"--size \d+x\d+": "--size 160x90",
+    r"--seconds \d+": "--seconds 1",
+    r"--fps \d+": "--fps 4",
+}
 """What is drawn coarsely here: growing fine grass takes longer than everything else on these pages."""
 
 
@@ -61,8 +67,10 @@ def run(command: list[str], folder: Path, display: str = "") -> str:
 
 
 def coarser(text: str) -> str:
-    """The same commands with small and coarse pictures, which take a tenth of the time."""
-    return re.sub(r"--size \d+x\d+", "--size 160x90", COARSE.sub(r"\g<0> --preset low", text))
+    """The same commands with small, coarse and few pictures, which take a tenth of the time."""
+    for whole, coarse in COARSE.items():
+        text = re.sub(whole, coarse, text, flags=re.MULTILINE)
+    return text
 
 
 def follow(page: str, folder: Path, display: str = "") -> None:

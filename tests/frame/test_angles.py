@@ -56,11 +56,15 @@ def test_g3_no_rows_show_from_twelve_metres_up_or_in_a_lawn(ctx: moderngl.Contex
     assert rows(drawn) < 1.5 * rows(true)
 
 
+@pytest.fixture(scope="module")
+def hills(load: Load) -> Prairie:
+    return load("hills")
+
+
 @pytest.mark.parametrize(("up", "pitch"), [(12.0, -90.0), (30.0, -60.0), (60.0, -30.0), (60.0, -90.0)])
-def test_f2_from_above_it_is_the_same_grass_without_rows(load: Load, wide: Stage, up: float, pitch: float) -> None:
-    prairie = load("hills")
-    ground = float(prairie.height_at(np.array([[0.0, 10.0]], np.float32))[0])
-    drawn, true = both(wide, prairie, Camera((0.0, ground + up, 10.0), 0.0, math.radians(pitch), math.radians(45.0)))
+def test_f2_from_above_it_is_the_same_grass_without_rows(hills: Prairie, wide: Stage, up: float, pitch: float) -> None:
+    ground = float(hills.height_at(np.array([[0.0, 10.0]], np.float32))[0])
+    drawn, true = both(wide, hills, Camera((0.0, ground + up, 10.0), 0.0, math.radians(pitch), math.radians(45.0)))
     assert rows(drawn) < 1.5 * rows(true)
     bands = [band.mean() / other.mean() for band, other in zip(np.split(drawn, 5), np.split(true, 5), strict=True)]
     assert bands == pytest.approx([1.0] * 5, abs=0.05)
@@ -79,15 +83,20 @@ def test_g3_no_rows_show_where_a_whirlwind_lays_grass_towards_the_eye(ctx: moder
     assert rows(drawn) < 1.5 * rows(true)
 
 
+@pytest.fixture(scope="module")
+def plain(load: Load) -> Prairie:
+    return load("plain")
+
+
 @pytest.mark.parametrize("heading", [0, 20, 40, 60])
 def test_g4_blades_of_the_carpet_stand_upright_whichever_way_they_are_seen(
-    load: Load, wide: Stage, heading: int
+    plain: Prairie, wide: Stage, heading: int
 ) -> None:
     """Where they are drawn out across the line of sight, brightness changes from line to line and not along lines."""
-    prairie, yaw = load("plain"), math.radians(heading)
+    yaw = math.radians(heading)
     camera = Camera((-30.0 * math.sin(yaw), 6.0, 30.0 * math.cos(yaw)), yaw, -0.08, math.radians(8.0))
-    drawn, true = both(wide, prairie, camera)
-    distance = patch_distances(prairie, *wide.matrices(camera), wide.size)
+    drawn, true = both(wide, plain, camera)
+    distance = patch_distances(plain, *wide.matrices(camera), wide.size)
     far = ((distance >= 24) & (distance <= 36)).all(axis=1)
     upright = [
         (np.diff(each[far], axis=1) ** 2).mean() / (np.diff(each[far], axis=0) ** 2).mean() for each in (drawn, true)

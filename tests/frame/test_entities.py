@@ -124,8 +124,8 @@ def test_d2_a_patch_held_as_strips_beside_blades_goes_there_and_back_without_a_p
     steps = [apart(one, other)[around].mean() for one, other in pairwise(pictures)]
     assert max(steps) < 0.3 * whole[around].mean()
     lod.hold = None
-    for _ in range(90):
-        prairie.viewers["main"].drawn_at = prairie.time - 1 / 60
+    for _ in range(30):
+        prairie.viewers["main"].drawn_at = prairie.time - 1 / 20
         after = easel.shot(prairie, ABOVE)
     assert lod.representation == "blades"
     np.testing.assert_array_equal(after, before)

@@ -166,7 +166,7 @@ def test_d6_released_a_prairie_leaves_nothing_behind_in_gl(ctx: moderngl.Context
     ctx.objects.clear()
     memory = []
     try:
-        for _ in range(20):
+        for _ in range(12):
             prairie = Prairie(scene, ctx=ctx)
             stage.shot(prairie)
             prairie.release()

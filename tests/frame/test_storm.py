@@ -69,12 +69,12 @@ assert not prairie.winds.quarantine.reasons
 with open(path, "wb") as file:
     pickle.dump(story, file)
 """
-FIRST, COUNT = 7, 200
+FIRST, COUNT = 7, 120
 
 
 @pytest.fixture(scope="module")
 def played(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) -> list[Instants]:
-    """What all receivers held at 200 instants of the storm, in a process that stepped 1/60 s, and in one, 1/30 s."""
+    """What all receivers held at 120 instants of the storm, in a process that stepped 1/60 s, and in one, 1/30 s."""
     assert ctx.error == "GL_NO_ERROR"
     folder = tmp_path_factory.mktemp("storm")
     runs: list[tuple[Path, subprocess.Popen[str]]] = []

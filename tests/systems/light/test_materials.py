@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -79,6 +79,7 @@ def test_a_blade_is_narrower_where_it_leaves_the_ground_and_ends_in_a_tip() -> N
     assert (np.diff(width[20:]) < 0.0).all()
 
 
+@settings(max_examples=12)
 @given(st.floats(0.0, 360.0), st.floats(0.0, 90.0), st.floats(0.0, 0.6))
 def test_blades_that_face_all_ways_have_the_pigment_of_their_mean(
     azimuth: float, elevation: float, variety: float

@@ -110,6 +110,7 @@ def test_f5_a_higher_sun_gives_more_light_and_an_exposure_makes_up_for_a_part_of
     assert 1.05 < ratio < luminance(transmitted(50.0, 2.6)) / luminance(transmitted(8.0, 2.6))
 
 
+@settings(max_examples=8)
 @given(st.floats(-3.0, 3.0))
 def test_exposure_counts_in_stops(stops: float) -> None:
     plain, other = daylight(Light()), daylight(Light(exposure=stops))
