@@ -1,5 +1,6 @@
 """`tallgrass bench picture FOLDER`: how true the pictures of many scenes are, in one table."""
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -12,23 +13,36 @@ from .picture import measured
 COLUMNS = ("camera", "preset", "luminance", "hue", "contrast", "flip", "flip_msaa", "score", "score_msaa")
 
 
-def bench_cameras(folder: str, *, preset: str | None, size: tuple[int, int], json: bool, output: str | None) -> int:
+def bench_cameras(
+    folder: str, *, preset: str | None, size: tuple[int, int], json: bool, output: str | None, on: str | None = None
+) -> int:
     """Compare the picture of every scene in a folder with its reference, print a table, and return the exit status.
 
-    Raises InputError where the folder has no scenes.
+    With `on`, workers do it. Raises InputError where the folder has no scenes.
     """
     paths = sorted(Path(folder).glob("*.yaml"))
     if not paths:
         raise InputError(f"{folder}: there is no scene in this folder")
     told: list[dict[str, Any]] = []
-    for path in counted(paths, total=len(paths), doing="drawing every blade"):
-        told.append(measured(Take(str(path), size, preset=preset), output))
+    takes = [Take(str(path), size, preset=preset) for path in paths]
+    for each in counted(measured_by(on, takes, output), total=len(takes), doing="drawing every blade"):
+        told.append(each)
         if not json:
             _print_row(told[-1], head=len(told) == 1)
     if json:
         common = {name: told[0][name] for name in ("machine", "size", "frames")}
         tell({**common, "rows": [{**row(each), "bands": each["bands"]} for each in told]}, as_json=True)
     return 0
+
+
+def measured_by(on: str | None, takes: list[Take], output: str | None, /) -> Iterator[dict[str, Any]]:
+    """Yield what the benchmark tells of each scene: as this process finds it out, or the workers of a place."""
+    if on is None:
+        yield from (measured(take, output) for take in takes)
+        return
+    from .sent import measured_on
+
+    yield from measured_on(on, takes, output=output)
 
 
 def row(told: dict[str, Any], /) -> dict[str, object]:

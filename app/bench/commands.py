@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from ..options import Hold, Json, Output, Preset, Scene, Size, size_of
+from ..options import Hold, Json, On, Output, Preset, Scene, Size, size_of
 
 bench = typer.Typer(help="Measure: what frames take, how true they are, and whether they pop.", no_args_is_help=True)
 
@@ -35,12 +35,13 @@ def picture(
     *,
     json: Json = False,
     output: Annotated[str | None, typer.Option("-o", "--output", help="A folder for pictures with references.")] = None,
+    on: On = None,
 ) -> int:
     """Measure how far a picture is from every blade in 3D, supersampled; of a folder, those of all its scenes."""
     pixels = size_of(size)
     from .picture import bench_picture
 
-    return bench_picture(scene, preset=preset, size=pixels, json=json, output=output)
+    return bench_picture(scene, preset=preset, size=pixels, json=json, output=output, on=on)
 
 
 @bench.command("pop")

@@ -54,26 +54,33 @@ class Pictures:
 
 
 def bench_picture(
-    scene: str, *, preset: str | None, size: tuple[int, int], json: bool, output: str | None = None
+    scene: str,
+    *,
+    preset: str | None,
+    size: tuple[int, int],
+    json: bool,
+    output: str | None = None,
+    on: str | None = None,
 ) -> int:
     """Compare a scene's picture with its reference, print the figures, and return the exit status.
 
     Where `scene` is a folder, all scenes in it are compared, and a table is printed. Into the folder `output` goes each
-    picture beside its reference. Before anything is drawn it raises MachineError where pictures cannot be compared, and
-    InputError where none can be written, or the folder has no scenes.
+    picture beside its reference. With `on`, workers do it. Before anything is drawn it raises MachineError where
+    pictures cannot be compared, and InputError where none can be written, or the folder has no scenes.
     """
     evaluator()
     if output is not None:
         make_folder(Path(output))
-    if Path(scene).is_dir():
-        from .cameras import bench_cameras
+    from .cameras import bench_cameras, measured_by
 
-        return bench_cameras(scene, preset=preset, size=size, json=json, output=output)
-    tell(measured(Take(scene, size, preset=preset), output), as_json=json)
+    if Path(scene).is_dir():
+        return bench_cameras(scene, preset=preset, size=size, json=json, output=output, on=on)
+    (told,) = measured_by(on, [Take(scene, size, preset=preset)], output)
+    tell(told, as_json=json)
     return 0
 
 
-def measured(take: Take, output: str | None = None, /) -> dict[str, object]:
+def measured(take: Take, output: str | None = None, /) -> dict[str, Any]:
     """Return what the benchmark tells of a scene; into the folder `output` goes its picture beside its reference."""
     with course("a picture", PARTS) as way, Studio(take) as studio:
         pictures = _draw(studio, way)

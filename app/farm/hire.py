@@ -47,7 +47,7 @@ def hired(on: str, /, *, most: int) -> Iterator[Hands]:
 def _here(distributed: Any, count: int) -> Iterator[Any]:
     with TemporaryDirectory(prefix="tallgrass-", ignore_cleanup_errors=True) as scratch:
         cluster = distributed.LocalCluster(
-            n_workers=count, threads_per_worker=1, dashboard_address=None, silence_logs=SILENT,
+            n_workers=count, threads_per_worker=1, dashboard_address="127.0.0.1:0", silence_logs=SILENT,
             local_directory=scratch, env=shared_out(count), preload=worker.__name__,
         )  # fmt: skip
         with cluster, distributed.Client(cluster) as client:

@@ -101,7 +101,7 @@ def let_go() -> None:
 
 
 def _footage(parcel: Parcel, order: Order, first: int, end: int, scratch: str) -> Footage:
-    with _told_in_lines():
+    with told_in_lines():
         held = _kept_for(parcel, order.fps, first, scratch)
     files = order.files if order.codec == codec() else None
     return Footage(list(held.shooting.shots(first, end, files=files)), versions())
@@ -121,7 +121,7 @@ def _let_go() -> None:
 
 
 @contextmanager
-def _told_in_lines() -> Iterator[None]:
+def told_in_lines() -> Iterator[None]:
     """Send the problems of a scene on their way as lines: an error of many parts does not come through."""
     try:
         yield

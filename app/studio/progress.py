@@ -98,6 +98,17 @@ def _bar(doing: str, total: float | None) -> Iterator[_Bar]:
             bar.end()
 
 
+@contextmanager
+def unseen() -> Iterator[None]:
+    """Let nothing be shown meanwhile: who does this for another shows it to nobody."""
+    bar = _Bar(Progress(disable=True), "", None)
+    _shown.append(bar)
+    try:
+        yield
+    finally:
+        _shown.remove(bar)
+
+
 def display() -> Progress:
     """Return where bars are shown: on a terminal's standard error, and otherwise nowhere."""
     console = Console(stderr=True)

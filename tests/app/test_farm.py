@@ -61,6 +61,22 @@ def test_a_film_by_two_workers_is_that_of_one_process_byte_for_byte(
 
 
 @pytest.mark.gl
+def test_pictures_that_workers_compare_have_the_figures_of_one_process(tallgrass: Tallgrass, scene: Path) -> None:
+    pytest.importorskip("flip_evaluator")
+    (scene.parent / "scenes").mkdir()
+    for name in ("one", "other"):
+        (scene.parent / "scenes" / f"{name}.yaml").write_bytes(scene.read_bytes())
+    told = []
+    for folder, place in (("alone", []), ("together", ["--on", "local:2"])):
+        done = tallgrass("bench", "picture", "scenes", "-o", folder, "--size", "64x36", "--json", *place)
+        assert (done.returncode, done.stderr) == (0, "")
+        pictures = {path.name: path.read_bytes() for path in (scene.parent / folder).iterdir()}
+        told.append((done.stdout, pictures))
+    assert told[0] == told[1]
+    assert set(told[0][1]) == {"one.png", "other.png"}
+
+
+@pytest.mark.gl
 @pytest.mark.usefixtures("ctx")
 @pytest.mark.skipif(sys.platform == "win32", reason="a process is ended there in another way")
 def test_what_a_lost_worker_had_is_drawn_by_another(alone: Shooting, scene: Path) -> None:
