@@ -58,8 +58,8 @@ class LightPainter:
         self._textures[name] = texture
 
     def use(self) -> None:
-        """Bind what programs read."""
-        for name in SAMPLERS:
+        """Bind what programs read, but for the sky's own: its unit is another's until it is drawn."""
+        for name in SAMPLERS[:2]:
             self._textures[name].use(self._units[name])
 
     def prepare(self) -> int:
@@ -78,6 +78,7 @@ class LightPainter:
 
     def draw(self) -> int:
         """Draw the sky behind all that has been drawn; return the number of draw calls."""
+        self._textures["sky"].use(self._units["sky"])
         self._arrays[self._cloudy].render(moderngl.TRIANGLE_STRIP, vertices=2 * (ACROSS + 1), instances=UP)
         return 1
 
