@@ -131,7 +131,7 @@ def test_each_representation_draws_something_else(stage: Stage, load: Load) -> N
 
 def test_t1_blades_grow_out_of_the_ground_and_do_not_float(stage: Stage, load: Load, camera: Aim) -> None:
     prairie = load(LONE, lod="blades")
-    stage.shot(prairie, camera(0, 10, 0, pitch=-89))
+    stage.shot(prairie, camera(0, 10, 0, pitch=-89, view=125))
     pool, site, near = prairie.viewers["main"].kept["blades"].pool, prairie.site, prairie.site.representations[0]
     assert isinstance(near, BladeRepresentation)
     cells = pool.stamp[pool.present.any(axis=1)]

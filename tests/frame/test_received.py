@@ -179,8 +179,10 @@ def test_n4_the_wind_as_it_is_asked_read_by_a_game_and_told_on_the_card_is_the_s
 def test_d2_what_a_game_writes_reaches_the_card_for_those_receivers_and_that_frame_alone(
     stage: Stage, mapped: Prairie, camera: Aim, on_card: OnCard, name: str
 ) -> None:
-    # Seen from higher up there would be no strips: they would show as rows.
-    aim = camera(0.3, 6.0, 16.0, pitch=-15) if name == "strips" else camera(0.3, 22.0, 6.0, pitch=-55)
+    # Seen from higher up there would be no strips, which would show as rows; and from higher still no blades.
+    aims = {"blades": (0.3, 9.0, 6.0, -55.0), "strips": (0.3, 6.0, 16.0, -15.0), "carpet": (0.3, 22.0, 6.0, -55.0)}
+    *eye, pitch = aims[name]
+    aim = camera(*eye, pitch=pitch)
 
     def frame() -> tuple[Any, list[Floats], Floats]:
         picture = stage.shot(mapped, aim)
