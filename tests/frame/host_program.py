@@ -573,7 +573,7 @@ def check_rounds(_: Game) -> str:
         memory.append(resident())
     growth = memory[-1] - memory[rounds // 3]
     sys.stderr.write(f"{rounds} rounds: {memory[rounds // 3]:.1f} MB after a third, {memory[-1]:.1f} MB\n")
-    told = "" if growth < 4.0 + 0.01 * rounds else f"{growth:.1f} MB more after {rounds} rounds"
+    told = "" if growth < 8.0 + 0.01 * rounds else f"{growth:.1f} MB more after {rounds} rounds"
     return together(objects=grown(before), memory=told)
 
 
