@@ -14,8 +14,8 @@ from ..studio.walker import EYE, MARGIN
 
 Doubles = NDArray[np.float64]
 
-RATE = 60
-"""Frames per second."""
+RATE = 30
+"""Frames per second: what pops, pops from one frame to the next, however short a frame is."""
 
 PACE = 1.6
 """How fast the walker goes [m/s]."""
