@@ -81,8 +81,8 @@ vec2 elevation_seen(float slope) {
 
 const float GRAIN = 1.5;  // how far images are from their mean, for what filtering takes away
 const float COARSEST = 16.0; // or the last level that there is
-const float SHARP = 0.4;  // size of what is taken from the images for a pixel, of the pixel's own; from above it is
-                          // all of it, as nothing is hidden by something else
+const float SHARP = 0.4;  // size of what is taken from the images for a pixel, of the pixel's own
+const float SHARP_ABOVE = 0.6;  // the same from above, where grass hides less of other grass
 const float LEAST = 0.01; // height of the carpet where nothing grows, so that nothing is divided by 0 [m]
 
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,
@@ -131,7 +131,7 @@ vec3 carpet_seen(float slope, vec3 below) {
     float texels = fine * max(length(dx), length(dy)) * float(textureSize(images, 0).x);
     float shrunk = clamp(log2(texels) - 0.8, 0.0, 1.0);
     float steep = smoothstep(0.1, 0.6, slope);
-    fine *= mix(SHARP, 0.6, steep);
+    fine *= mix(SHARP, SHARP_ABOVE, steep);
     dx *= fine;
     dy *= fine;
     Lit lit = Lit(direct, open_to, shade.x, vec2(shade.y, OPEN_SKY), shade.zw);
