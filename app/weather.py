@@ -4,8 +4,6 @@ from itertools import count
 from math import cos, degrees, remainder, sin, tau
 from typing import Literal
 
-import numpy as np
-
 from ..components.wind import WindPrimitive
 from ..engine.camera import Camera, forward
 from ..engine.declared.way import Waypoint
@@ -13,6 +11,7 @@ from ..systems.prairie import Prairie
 from ..systems.wind.blast import Blast, Shape
 from ..systems.wind.gust import Gust
 from ..systems.wind.whirlwind import Whirlwind
+from .ray import met_by
 from .studio.walker import Ground, on_terrain
 
 Raised = Literal["gust", "whirlwind", "blast"]
@@ -23,9 +22,6 @@ FARTHEST = 60.0
 
 AHEAD = 20.0
 """How far ahead it is set off where one looks at the sky [m]."""
-
-STEP = 0.25
-"""Distance between the points at which a ray is compared with the ground [m]."""
 
 GUST_WIDTH, GUST_REACH = 24.0, 50.0
 """Length of a gust's front and its way [m]."""
@@ -42,15 +38,10 @@ def looked_at(camera: Camera, ground: Ground, /) -> tuple[float, float]:
 
     A look that meets none within `FARTHEST` leads to the ground `AHEAD`.
     """
-    away = np.arange(STEP, FARTHEST + STEP / 2, STEP)
-    ray = np.array(camera.position) + away[:, None] * np.array(forward(camera.yaw, camera.pitch))
-    above = ray[:, 1] - ground.height_at(ray[:, ::2].astype(np.float32))
-    below = np.flatnonzero(above <= 0.0)
-    if len(below):
-        x, z = ray[below[0], ::2].tolist()
-    else:
-        x, z = camera.position[0] + AHEAD * sin(camera.yaw), camera.position[2] - AHEAD * cos(camera.yaw)
-    return on_terrain(x, z, ground)[:2]
+    place = met_by(camera.position, forward(camera.yaw, camera.pitch), ground.height_at, farthest=FARTHEST)
+    if place is None:
+        place = camera.position[0] + AHEAD * sin(camera.yaw), camera.position[2] - AHEAD * cos(camera.yaw)
+    return on_terrain(*place, ground)[:2]
 
 
 def raised(kind: Raised, place: tuple[float, float], yaw: float, time: float, /) -> WindPrimitive:

@@ -2,23 +2,22 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...engine.terrain.record import Terrain
 from ...engine.terrain.sample import height_at
+from ..ray import NEAREST, met_by
 
 Floats = NDArray[np.float32]
 Doubles = NDArray[np.float64]
 Place = tuple[float, float]
 """Ground position (x, z) [m]."""
 
-NEAREST, FARTHEST, STEPS = 0.2, 3000.0, 500
-"""From where to where along a ray the ground is looked for [m], and at how many places."""
-
-HALVINGS = 24
-"""How often the last step is halved."""
+FARTHEST = 3000.0
+"""How far away the ground is looked for [m]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,22 +42,7 @@ class Sight:
 
     def ground(self, pixel: tuple[float, float], /) -> Place | None:
         """Return where the ray through a pixel first meets the ground; None where it meets none."""
-        eye, ray = self.eye, self.ray(pixel)
-
-        def above(away: Doubles) -> Doubles:
-            places = eye + away[:, None] * ray
-            return np.asarray(places[:, 1] - height_at(self.terrain, places[:, ::2].astype(np.float32)))
-
-        away = np.geomspace(NEAREST, FARTHEST, STEPS)
-        below = np.flatnonzero(above(away) <= 0.0)
-        if not len(below):
-            return None
-        low, high = (away[below[0] - 1] if below[0] else 0.0), away[below[0]]
-        for _ in range(HALVINGS):
-            middle = (low + high) / 2
-            low, high = (low, middle) if above(np.array([middle]))[0] <= 0.0 else (middle, high)
-        x, _, z = (eye + high * ray).tolist()
-        return x, z
+        return met_by(self.eye, self.ray(pixel), partial(height_at, self.terrain), farthest=FARTHEST)
 
     def ray(self, pixel: tuple[float, float], /) -> Doubles:
         """Return the unit vector from the eye through a pixel, shape (3,)."""
