@@ -83,5 +83,5 @@ def repeating_texture(ctx: moderngl.Context, *, seed: int) -> moderngl.Texture:
     while len(mean) > 1:
         mean, level = 0.25 * (mean[::2, ::2] + mean[1::2, ::2] + mean[::2, 1::2] + mean[1::2, 1::2]), level + 1
         texture.write(np.rint(mean).astype(np.uint8).tobytes(), level=level, alignment=1)
-    texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
+    texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
     return texture

@@ -12,6 +12,7 @@ const float CLOUD_TAKES = 0.75; // what a dense cloud takes of the sun's light
 const float OPEN_SKY = 1.6;     // leaves that the sky's light meets, of those seen from the side
 const float LITTER_SIDE = 1.8; // side of the square of litter that repeats [m]
 const float LITTER_ONE = 255.0 / 64.0;  // what stands for ground as bright as its mean
+const float LITTER_SHARP = -1.0;  // levels finer at most than the long side of a pixel on the ground asks for
 const float AGAIN = 0.7;        // what leaves send to one another of the sun's light, of one with this albedo
 const float LITTER = 0.75;      // how much of the ground under dense grass is covered by what has fallen
 

@@ -82,7 +82,7 @@ vec2 elevation_seen(float slope) {
 const float GRAIN = 1.5;  // how far images are from their mean, for what filtering takes away
 const float COARSEST = 16.0; // or the last level that there is
 const float SHARP = 0.4;  // size of what is taken from the images for a pixel, of the pixel's own
-const float SHARP_ABOVE = 0.6;  // the same from above, where grass hides less of other grass
+const float SHARP_ABOVE = 0.7;  // the same from above, where grass hides less of other grass
 const float LEAST = 0.01; // height of the carpet where nothing grows, so that nothing is divided by 0 [m]
 
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,
@@ -93,7 +93,8 @@ float outline_cover(float slope) {
     // Over a crest of this curvature the line of sight would have to be higher by so much.
     float before_crest = slope * slope / (2.0 * max(crest, 1e-5)) / height;
     float leaves = dense / slope;
-    return 1.0 - exp(-CREST * leaves * before_crest * before_crest);
+    float hidden = 1.0 - exp(-CREST * leaves * before_crest * before_crest);
+    return mix(1.0, hidden, smoothstep(0.0, 2.0 * LEAST, tall));  // bare ground is its own outline
 }
 
 #ifdef TRODDEN
@@ -204,7 +205,8 @@ void main() {
 #endif
     vec3 color = below;
 #ifndef UNDER
-    float litter = texture(repeating, place.xz / LITTER_SIDE).g * LITTER_ONE;
+    float narrow = log2(sharper(dFdx(place.xz), dFdy(place.xz)));
+    float litter = texture(repeating, place.xz / LITTER_SIDE, max(0.5 * narrow, LITTER_SHARP)).g * LITTER_ONE;
 #endif
 #ifndef CARPET
     color *= litter;
@@ -219,13 +221,8 @@ void main() {
         discard;
     float brighter = sun.w > 0.5 ? litter : sqrt(litter);  // very nearly what is shown of as many times the radiance
     color *= brighter;
-#ifdef MOWN
-    // What lies on the ground is seen as far as the leaves are gone that would hide it.
-    float gone = 1.0 - dot(leaf_area, leaves_left(left)) / max(dot(leaf_area, vec4(1.0)), 1e-3);
-    below *= mix(1.0, brighter, gone * seen.y);
-#endif
     if (share > 0.0)
-        color = mix(color, carpet_seen(slope, below), share);
+        color = mix(color, carpet_seen(slope, color), share);
     pixel = vec4(color, 1.0) * covered;
 #else
     pixel = vec4(shown_of(mix(color, veil.rgb, veil.w)), 1.0);
