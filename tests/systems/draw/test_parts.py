@@ -16,7 +16,7 @@ from tallgrass.systems.frame.maps import height_texture, posture_texture
 from tallgrass.systems.grow.bend import spine
 from tallgrass.systems.grow.give import grow_give
 from tallgrass.systems.grow.postures import grow_postures
-from tallgrass.systems.grow.record import Blades, Growth
+from tallgrass.systems.grow.record import GIVES, Blades, Growth
 from tallgrass.systems.grow.response import grow_response
 from tallgrass.systems.site import Site
 
@@ -118,7 +118,7 @@ def test_w12_on_the_graphics_card_the_stiff_tip_stands_a_quarter_of_its_length_a
     kinds = [GrassKind(stiffness=stiffness) for stiffness in (0.2, 8.0)]
     made = [replace(grow_postures(kind), give=grow_give(kind)) for kind in kinds]
     texture = posture_texture(ctx, [Growth(postures, grow_response(kinds[0]), ()) for postures in made])
-    record[0]["give"][:, :2] = np.stack([postures.give for postures in made], axis=1)
+    record[0]["give"][:GIVES, :2] = np.stack([postures.give for postures in made], axis=1)
     half = np.array([[0.5, 0.0], [0.3, -0.4]], np.float32)
     for variant in range(4):
         soft, stiff = (bent(probe, texture, record, kind * 4 + variant, half)[:, -1, 1] for kind in (0, 1))
