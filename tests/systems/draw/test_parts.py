@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.engine.declared.grass import GrassKind
+from tallgrass.engine.declared.grass import MOST_KINDS, GrassKind
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.systems.frame.block import frame_record
 from tallgrass.systems.frame.maps import height_texture, posture_texture
-from tallgrass.systems.grow.bend import spine
+from tallgrass.systems.grow.bend import bending, spine
 from tallgrass.systems.grow.give import grow_give
 from tallgrass.systems.grow.postures import grow_postures
 from tallgrass.systems.grow.record import GIVES, Blades, Growth
@@ -27,6 +27,10 @@ POSTURE = """#include "lib/posture.glsl"
 in vec4 row;
 out vec3 told;
 void main() { told = posture(row.x, bending(int(row.x) / 4, row.yz), row.w).place; }"""
+BENDING = """#include "lib/posture.glsl"
+in vec3 row;
+out vec2 told;
+void main() { told = bending(int(row.z), row.xy); }"""
 HEIGHT = """#include "lib/terrain.glsl"
 in vec2 row;
 out float told;
@@ -124,6 +128,18 @@ def test_w12_on_the_graphics_card_the_stiff_tip_stands_a_quarter_of_its_length_a
         soft, stiff = (bent(probe, texture, record, kind * 4 + variant, half)[:, -1, 1] for kind in (0, 1))
         assert (stiff - soft > 0.25).all()
     texture.release()
+
+
+@pytest.mark.parametrize("kind", range(MOST_KINDS))
+def test_w12_each_of_sixteen_kinds_gives_way_as_its_own_numbers_say(
+    probe: Probe, record: NDArray[np.void], growths: list[Growth], kind: int
+) -> None:
+    gives = np.sort(np.random.default_rng(3).random((MOST_KINDS, GIVES)).astype(np.float32), axis=1)
+    record[0]["give"] = gives.reshape(-1, 4, GIVES).transpose(0, 2, 1).reshape(-1, 4)
+    wind = messages(50)
+    asked = np.column_stack([wind, np.full(len(wind), kind, np.float32)])
+    told = probe(BENDING, asked, record, {}, 2)
+    np.testing.assert_allclose(told, bending(replace(growths[0].postures, give=gives[kind]), wind), atol=1e-5)
 
 
 def test_t1_the_graphics_card_reads_the_same_bilinear_ground(
