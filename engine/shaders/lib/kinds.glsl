@@ -34,3 +34,10 @@ float weighed(ByKind figures, ByKind weights) {
         sum += dot(figures[group], weights[group]);
     return sum;
 }
+
+// The first kind from `kind` on whose figure is above `least`, KINDS if there is none: of many kinds, few are at one place.
+int next_kind(ByKind figures, float least, int kind) {
+    while (kind < KINDS && OF(figures, kind) <= least)
+        kind++;
+    return kind;
+}

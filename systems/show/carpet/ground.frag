@@ -96,6 +96,7 @@ const float GRAIN = 1.5;  // how far images are from their mean, for what filter
 const float COARSEST = 16.0; // or the last level that there is
 const float SHARP = 0.4;  // size of what is taken from the images for a pixel, of the pixel's own
 const float SHARP_ABOVE = 0.6;  // the same from above, where grass hides less of other grass
+const float LEAST_MET = 0.004;  // of a kind, as a part of all that is: of less, nothing is seen
 const float LEAST = 0.01; // height of the carpet where nothing grows, so that nothing is divided by 0 [m]
 
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,
@@ -165,9 +166,7 @@ vec3 carpet_seen(float slope, vec3 below) {
     float stubble = 1.0 - exp(-weighed(leaf_area, leaves_left(left)) / max(slope, 0.02));  // by the leaves that are left
 #endif
     vec4 sum = vec4(0.0);
-    for (int kind = 0; kind < KINDS; kind++) {
-        if (OF(met, kind) < 0.004)
-            continue;
+    for (int kind = next_kind(met, LEAST_MET, 0); kind < KINDS; kind = next_kind(met, LEAST_MET, kind + 1)) {
         float layer = OF(first, kind) + float((model * SLOPES + int(seen.x)) * 4 + side);
         vec3 low = vec3(at, layer), high = vec3(at, layer + 4.0);
         vec4 mean = mix(textureLod(images, low, COARSEST), textureLod(images, high, COARSEST), seen.y);
