@@ -18,6 +18,7 @@ from tallgrass.engine.terrain.sample import density_at
 from tallgrass.systems.around.receivers import Receiving
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import draw_reference
+from tallgrass.testing import LITTLE
 
 Floats = NDArray[np.float32]
 Doubles = NDArray[np.float64]
@@ -155,6 +156,23 @@ def test_w12_each_of_nine_kinds_is_told_on_the_card_what_a_game_is_told(
     esper.delete_entity(presser, immediate=True)
     assert (dense > 0.99).all()
     assert (bent > 0.5).all()
+
+
+def test_kinds_that_grow_nowhere_change_nothing(ctx: moderngl.Context, stage: Stage, tmp_path: Path) -> None:
+    Image.new("L", (4, 4)).save(tmp_path / "nowhere.png")
+    more = [f"  more-{number}: {{ blades: 1, place: {{ map: nowhere.png }} }}\n" for number in range(3)]
+    pictures = []
+    for number, text in enumerate((LITTLE, LITTLE.replace("camera:", "".join(more) + "camera:"))):
+        path = tmp_path / f"scene-{number}.yaml"
+        path.write_text(text, "utf-8")
+        prairie = Prairie.load(path, ctx=ctx)
+        whole = stage.shot(prairie)
+        prairie.cut(Footprint(radius=8.0), 0.1)
+        pictures.append(np.stack([whole, stage.shot(prairie)]))
+        prairie.release()
+    difference = np.abs(pictures[1] - pictures[0])
+    assert difference.mean() < 0.1
+    assert np.quantile(difference, 0.99) < 2.0
 
 
 def test_n7_a_scene_may_come_to_have_nine_kinds_and_have_few_again(
