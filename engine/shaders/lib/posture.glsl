@@ -10,9 +10,9 @@ struct Spine {
 
 // How a message bends grass of a kind, as a vector along it that is as long as the posture index.
 vec2 bending(int kind, vec2 message) {
-    const int LENGTHS = give.length() / 4;
-    float size = length(message), at = min(size, 1.0) * float(LENGTHS - 1);
-    int low = min(int(at), LENGTHS - 2), row = GROUP(kind) * LENGTHS + low, own = IN_GROUP(kind);
+    int lengths = give.length() / 4;
+    float size = length(message), at = min(size, 1.0) * float(lengths - 1);
+    int low = min(int(at), lengths - 2), row = GROUP(kind) * lengths + low, own = IN_GROUP(kind);
     return message / max(size, 1e-9) * mix(give[row][own], give[row + 1][own], at - float(low));
 }
 

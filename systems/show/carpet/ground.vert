@@ -86,8 +86,8 @@ ByKind kinds_met(ByKind grows, float slope, float left) {
         float height = top * (1.0 - (float(layer) + 0.5) / float(LAYERS));
         ByKind stop = all_kinds(0.0), some = stop;
         for (int kind = 0; kind < KINDS; kind++) {
-            float tall = OF(crown, kind);
-            vec2 here = leaves_at(kind, height / tall) * (OF(grows, kind) * OF(leaf, kind) * top / tall);
+            float canopy_height = OF(crown, kind), area = OF(grows, kind) * OF(leaf, kind);
+            vec2 here = leaves_at(kind, height / canopy_height) * (area * top / canopy_height);
             OF(stop, kind) = here.x;
             OF(some, kind) = here.x > 0.0 ? here.y / here.x : 0.0;
         }
