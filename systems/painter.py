@@ -152,6 +152,7 @@ class Painter:
 
     def _grow(self, site: Site) -> None:
         """Bring the grass into GL."""
+        self.block.defines["KINDS"] = len(site.growths)
         self._put("postures", posture_texture(self.ctx, site.growths))
         self.air = CardWinds(self.ctx, UNITS, site.growths)
         canvas = Canvas(

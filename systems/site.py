@@ -25,6 +25,9 @@ from .lod import farthest, reach_of
 from .show.registry import NAMES, REPRESENTATIONS
 from .stock.cache import cached_growth, growth_key
 
+LAYERS = 2048
+"""Layers of a texture that there is room for on graphics cards: the pictures of all kinds' patch models share them."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Site:
@@ -112,12 +115,23 @@ def lay_out(
     )
 
 
+def numbers_of(scene: Scene, preset: str | None = None, /) -> Quality:
+    """Return the numbers of a scene's quality, or of `preset`.
+
+    Where kinds are so many that there would be no room for all pictures, patch models are fewer.
+    """
+    quality = scene.numbers(preset)
+    each = len(scene.grass) * max(one.layers(quality) for one in REPRESENTATIONS)
+    models = max(min(quality.models, LAYERS // each), 1)
+    return quality if models == quality.models else quality.model_copy(update={"models": models})
+
+
 def found_site(
     loaded: LoadedScene, /, *, preset: str | None = None, lod: str = "auto", transitions: Transitions = SEAMLESS
 ) -> Site:
     """Return the site of a scene that was read: its maps loaded, its kinds grown. Raises SceneError for bad maps."""
     scene = loaded.scene
-    quality = scene.numbers(preset)
+    quality = numbers_of(scene, preset)
     terrain, density = load_maps(loaded)
     growths = [
         cached_growth(kind, quality, seed=scene.seed + number) for number, kind in enumerate(scene.grass.values())
@@ -131,7 +145,7 @@ def found_again(site: Site, before: LoadedScene, loaded: LoadedScene, /, *, pres
     Ground, growths and representations are the same objects where nothing that they come from has changed. Raises
     SceneError where a map cannot be used.
     """
-    scene, quality = loaded.scene, loaded.scene.numbers(preset)
+    scene, quality = loaded.scene, numbers_of(loaded.scene, preset)
     old = site.ground
     terrain, density = load_maps(loaded, before=(before, (old.terrain, old.density)))
     growths = _grown(site, scene, quality)
@@ -147,7 +161,7 @@ def found_again(site: Site, before: LoadedScene, loaded: LoadedScene, /, *, pres
 
 def is_grown(site: Site, scene: Scene, /, *, preset: str | None) -> bool:
     """Return whether a site has the ground of a scene, and has grown all of its kinds: it follows at once then."""
-    quality, old = scene.numbers(preset), site.scene
+    quality, old = numbers_of(scene, preset), site.scene
     same = scene.terrain == old.terrain and scene.seed == old.seed and quality == site.quality
     return same and _keys(scene, quality) == _keys(old, site.quality)
 

@@ -29,7 +29,8 @@ vec2 swayed(vec2 place) {
 }
 
 vec3 light(int k, float t, vec2 normal, vec3 place, float h, vec2 bent) {
-    vec4 here = lie_at(place.xz), grows = textureLod(density, on_map(place.xz), 0.0);
+    vec4 here = lie_at(place.xz);
+    ByKind grows = grows_at(place.xz);
     vec2 twice = vec2(normal.x * normal.x - normal.y * normal.y, 2.0 * normal.x * normal.y);
     vec3 grass = mix(root[k].rgb, tip[k].rgb, t) * (1.0 + grain_c[k].rgb * twice.x + grain_s[k].rgb * twice.y);
     vec3 lit = radiance(grass * stretch(here), h, lit_at(k, bent, place, here, grows));
@@ -49,7 +50,7 @@ void main() {
     int k = int(sort.x);
     color = vec3(0.0);
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-    if (sort.y >= share * textureLod(density, on_map(foot.xz), 0.0)[k] || int(tile.w) + gl_InstanceID % CHUNK >= many)
+    if (sort.y >= share * grows_at(foot.xz, k) || int(tile.w) + gl_InstanceID % CHUNK >= many)
         return;
     float t = float(gl_VertexID / 2) / float(SEGMENTS);
     vec2 message = swayed(foot.xz);
@@ -57,7 +58,7 @@ void main() {
     float angle = max(CURL * min(length(bend), 1.0), 1e-3);
     vec2 spine = vec2(1.0 - cos(angle * t), sin(angle * t)) / angle * stem.z;
     vec2 across = vec2(-lean.w, lean.z) * (float(gl_VertexID % 2) * 2.0 - 1.0);
-    float h = spine.y / (crown[k] * lodged(message));
+    float h = spine.y / (OF(crown, k) * lodged(message));
     color = light(k, t, lean.zw + ROUNDED * across, foot, h, message);
     across *= 0.5 * stem.w / share * pow(1.0 - t, tip[k].w);
     vec2 over = normalize(bend + 1e-6) * spine.x + across;

@@ -7,6 +7,13 @@ from pydantic import Field, model_validator
 from ...components.declaration import Color, Declaration, DeclarationError, Pair
 from .plant import ON_GRASS, SIZES, USUAL, Head, Plant
 
+MOST_KINDS = 16
+"""Kinds of grass in a scene at most.
+
+What bounds them are the numbers that every OpenGL 3.3 takes from the corners of the carpet's mesh to its pixels: 60, of
+which each kind needs one, or two where some bear heads, and the light on what is seen all that are left.
+"""
+
 
 class Place(Declaration):
     """Where a kind grows: one channel of a density map laid over the whole terrain."""

@@ -47,7 +47,8 @@ class Quality(Declaration):
     """Blades per patch at full density, for kinds that do not say."""
 
     models: int = Field(default=3, ge=1, le=16)
-    """Patch models per kind; with four quarter turns each, so that no repetition shows."""
+    """Patch models per kind; with four quarter turns each, so that no repetition shows. Of many kinds there are fewer,
+    where there would be no room for the pictures of all."""
 
     blade_rings: list[BladeRing] = Field(min_length=1, max_length=16)
     """Sub-levels of the 3D blades, from the nearest."""

@@ -10,7 +10,7 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 from ...components.declaration import Declaration
 from ...components.wind import Mixing, WindPrimitive
 from .camera import CameraSource
-from .grass import GrassKind
+from .grass import MOST_KINDS, GrassKind
 from .light import Light
 from .presser import PresserOnPath
 from .quality import PRESETS, Quality
@@ -91,7 +91,7 @@ class Scene(Declaration):
     terrain: TerrainSource = TerrainSource(noise="flat")
     """The ground that the grass stands on."""
 
-    grass: dict[str, GrassKind] = Field(min_length=1, max_length=4)
+    grass: dict[str, GrassKind] = Field(min_length=1, max_length=MOST_KINDS)
     """Grass kinds by name."""
 
     wind: list[Wind] = Field(default=[], max_length=200)

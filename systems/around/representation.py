@@ -176,6 +176,11 @@ class Representation(ABC):
         """Return whether pictures that were read again have the shapes that they are due to have."""
         return not pictures
 
+    @staticmethod
+    def layers(quality: Quality, /) -> int:  # noqa: ARG004 - the same
+        """Return how many layers of a texture its pictures of one patch model take."""
+        return 0
+
     @classmethod
     @abstractmethod
     def stocked(cls, growths: Sequence[Growth], quality: Quality, ground: Ground, /) -> Self:

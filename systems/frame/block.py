@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ...components.shade import Shade
 from ...engine.camera import View, eye_of
-from ...engine.declared.grass import GrassKind
+from ...engine.declared.grass import MOST_KINDS, GrassKind
 from ...engine.declared.light import Light
 from ...engine.declared.scene import Scene
 from ...engine.gl.shaders import program
@@ -22,6 +22,9 @@ from ..light.sun import sun_at
 
 SHADES = 4
 """How many bodies cast shadows at most."""
+
+GROUPS = -(-MOST_KINDS // 4)
+"""Vectors of four that a figure takes for each kind that there can be."""
 
 FRAME = np.dtype(
     [
@@ -39,15 +42,15 @@ FRAME = np.dtype(
         ("terrain", "4f4"),
         ("field", "4f4"),
         ("screen", "4f4"),
-        ("crown", "4f4"),
-        ("leaf", "4f4"),
-        ("lying", "4f4"),
-        ("root", "(4,4)f4"),
-        ("tip", "(4,4)f4"),
-        ("through", "(4,4)f4"),
-        ("grain_c", "(4,4)f4"),
-        ("grain_s", "(4,4)f4"),
-        ("give", f"({GIVES},4)f4"),
+        ("crown", f"({GROUPS},4)f4"),
+        ("leaf", f"({GROUPS},4)f4"),
+        ("lying", f"({GROUPS},4)f4"),
+        ("root", f"({MOST_KINDS},4)f4"),
+        ("tip", f"({MOST_KINDS},4)f4"),
+        ("through", f"({MOST_KINDS},4)f4"),
+        ("grain_c", f"({MOST_KINDS},4)f4"),
+        ("grain_s", f"({MOST_KINDS},4)f4"),
+        ("give", f"({GROUPS * GIVES},4)f4"),
     ]
 )
 """The block's fields, as `lib/frame.glsl` declares them (std140)."""
@@ -68,13 +71,15 @@ def frame_record(
     postures = growths[0].postures.shape
     row["terrain"] = (*terrain.origin, terrain.cell, postures.shape[2] - 1)
     row["field"] = (*terrain.size, postures.shape[1], postures.shape[0])
+    crown, leaf, lying = (row[name].reshape(-1) for name in ("crown", "leaf", "lying"))
+    give = row["give"].reshape(GROUPS, GIVES, 4)
     for index, (kind, growth) in enumerate(zip(scene.grass.values(), growths, strict=True)):
         _write_kind(row, index, kind, light)
         leaves = leaves_of(kind, growth, patch)
-        row["crown"][index], row["leaf"][index] = canopy_height(growth), leaves.side
-        row["lying"][index] = leaves.above / leaves.side
+        crown[index], leaf[index] = canopy_height(growth), leaves.side
+        lying[index] = leaves.above / leaves.side
         row["through"][index, 3] = bloom(kind, growth)
-        row["give"][:, index] = growth.postures.give
+        give[index // 4, :, index % 4] = growth.postures.give
     return record
 
 
@@ -147,9 +152,11 @@ class FrameBlock:
         self.buffer.release()
 
 
-def by_kind(values: Sequence[float]) -> tuple[float, ...]:
-    """Return a figure per kind as the four numbers of a shader's vector."""
-    return (*values, *[0.0] * (4 - len(values)))
+def by_kind(values: Sequence[float], /) -> tuple[float, ...] | list[tuple[float, ...]]:
+    """Return a figure per kind as a shader's `ByKind` takes it: four to a vector, and of one vector that alone."""
+    padded = (*values, *[0.0] * (-len(values) % 4))
+    groups = [padded[start : start + 4] for start in range(0, len(padded), 4)]
+    return groups if len(groups) > 1 else groups[0]
 
 
 def joined(

@@ -66,12 +66,16 @@ def _slow_noise(x: Floats, z: Floats, seed: int) -> Floats:
     return 0.6 * wide + 0.4 * close
 
 
-def density_texture(ctx: moderngl.Context, density: Density) -> moderngl.Texture:
-    """Return the kinds' densities as the channels of a texture over the terrain."""
+def density_texture(ctx: moderngl.Context, density: Density) -> moderngl.TextureArray:
+    """Return the kinds' densities as a texture over the terrain: each layer's channels are those of four kinds."""
     kinds, rows, columns = density.maps.shape
-    packed = np.zeros((rows, columns, 4), np.uint8)
-    packed[..., :kinds] = np.round(np.moveaxis(density.maps, 0, -1) * 255.0)
-    return laid_over(ctx, packed)
+    packed = np.zeros((-(-kinds // 4), rows, columns, 4), np.uint8)
+    for kind, values in enumerate(density.maps):
+        packed[kind // 4, ..., kind % 4] = np.round(values * 255.0)
+    texture = ctx.texture_array((columns, rows, len(packed)), 4, packed.tobytes(), alignment=1)
+    texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
+    texture.repeat_x = texture.repeat_y = False
+    return texture
 
 
 def laid_over(ctx: moderngl.Context, texels: NDArray[np.uint8]) -> moderngl.Texture:

@@ -40,8 +40,9 @@ class CardPress:
         """Take over how kinds of grass swing back, and how long each takes to recover [s], shape (kinds,)."""
         samples = len(growths[0].response.fall)
         for kind, growth in enumerate(growths):
-            self._head[1, kind], self._head[2, kind] = recovery[kind], growth.response.step
-            self._head[ROW : ROW + samples, kind] = growth.response.fall
+            group, own = divmod(kind, 4)
+            self._head[1 + 2 * group, own], self._head[2 + 2 * group, own] = recovery[kind], growth.response.step
+            self._head[ROW + group * samples :, own][:samples] = growth.response.fall
         self._head[0, 2], self._still = samples, False
 
     def write(self, trodden: Trodden) -> None:

@@ -1,4 +1,5 @@
 // What grass feels of those who walk through it: the twin of systems/press/lie.py. `systems/press/card.py` fills the texture.
+#include "lib/kinds.glsl"
 
 uniform sampler2D pressed;  // the frame; how kinds swing back; the squares' lists; fresh marks, then settled ones
 
@@ -23,9 +24,11 @@ vec2 unit(vec2 vector) {
 
 // The index after a constant wind stopped: 1 before, past 0 and back to 0.
 float swung_back(float elapsed, int kind) {
-    float at = clamp(elapsed / texel_of(2)[kind], 0.0, texel_of(0).z - 1.001);
-    float low = floor(at), before = texel_of(SWINGS + int(low))[kind];
-    return before + (texel_of(SWINGS + int(low) + 1)[kind] - before) * (at - low);
+    float at = clamp(elapsed / texel_of(2 + 2 * GROUP(kind))[IN_GROUP(kind)], 0.0, texel_of(0).z - 1.001);
+    float low = floor(at);
+    int first = SWINGS + GROUP(kind) * int(texel_of(0).z) + int(low), own = IN_GROUP(kind);
+    float before = texel_of(first)[own];
+    return before + (texel_of(first + 1)[own] - before) * (at - low);
 }
 
 // The index at which trodden grass lies.
@@ -38,7 +41,7 @@ vec2 left_at(Lying lying, float then, int kind, out vec2 towards) {
     float elapsed = max(then - lying.until, 0.0);
     float before = max(lying.was, stays(lying.trod));
     float trod = lying.trod + TREADS * max(FLAT * (lying.deep * lying.deep) * (lying.deep * lying.deep) - lying.trod, 0.0);
-    float left = max(trod - elapsed / texel_of(1)[kind], 0.0);
+    float left = max(trod - elapsed / texel_of(1 + 2 * GROUP(kind))[IN_GROUP(kind)], 0.0);
     towards = unit(lying.deep * lying.aside + before * lying.lay);
     return vec2((max(lying.deep, before) - stays(trod)) * swung_back(elapsed, kind) + stays(left), left);
 }

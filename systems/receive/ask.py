@@ -6,7 +6,7 @@ from math import prod
 import numpy as np
 from numpy.typing import NDArray
 
-from ...engine.terrain.sample import density_at, height_at
+from ...engine.terrain.sample import height_at, own_density_at
 from ..around.ground import Ground
 from ..around.outlook import Outlook
 from ..around.receivers import Pool, Receiving
@@ -48,5 +48,5 @@ def _texels(pool: Pool, slot: int, message: Floats, ground: Ground) -> Floats:
     """Return the texels (n, 4) of a slot's receivers with these messages (n, 2)."""
     at = np.array([slot])
     place = np.ascontiguousarray(pool.places(at).reshape(-1, 2))
-    dense = np.take_along_axis(density_at(ground.density, place), pool.kind(at)[None], axis=0)[0]
+    dense = own_density_at(ground.density, pool.kind(at), place)
     return np.column_stack([message, height_at(ground.terrain, place), dense]).astype(np.float32)

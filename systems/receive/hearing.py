@@ -28,7 +28,7 @@ class Hearing:
     def array(self) -> moderngl.VertexArray:
         """Return what the receivers are asked with, in the winds of now."""
         canvas = self._canvas
-        made = canvas.air.program(VERTEX, self._fragment, defines=self._defines)
+        made = canvas.air.program(VERTEX, self._fragment, defines={**canvas.block.defines, **self._defines})
         if self._array is None or self._array.program is not made:
             self.release()
             for name, unit in canvas.units.items():

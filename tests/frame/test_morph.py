@@ -24,7 +24,6 @@ from tallgrass.systems.show.blades.plant import standing_blades
 from tallgrass.systems.show.blades.representation import BladeRepresentation
 from tallgrass.systems.show.blades.shown import Standing
 from tallgrass.systems.show.strips import draw as strips_draw
-from tallgrass.systems.show.strips.draw import KINDS
 from tallgrass.systems.show.strips.gather import gather_strips, polygon_strips
 from tallgrass.systems.show.strips.painter import StripsPainter
 from tallgrass.systems.show.strips.representation import StripRepresentation
@@ -165,8 +164,9 @@ def caught(
     """
     vertices, count = size
     made = program(
-        painter.ctx, name, None, defines=defines, varyings=("gl_Position", "sheet" if stream is None else "half_width")
-    )
+        painter.ctx, name, None, defines={**painter.block.defines, **defines},
+        varyings=("gl_Position", "sheet" if stream is None else "half_width"),
+    )  # fmt: skip
     for uniform in made:
         if isinstance(made[uniform], moderngl.Uniform) and uniform in like:
             made[uniform].write(like[uniform].read())  # type: ignore[union-attr]
@@ -270,18 +270,24 @@ def strips_drawn(scene: Scene, *, whole: bool = True) -> Drawn:
     )
 
 
+def first_layers(scene: Scene) -> NDArray[np.int64]:
+    """Where each kind's pictures begin in the atlas, by ring and kind."""
+    pictures = np.array(scene.strips.strips.programs[0]["pictures"].value)  # type: ignore[union-attr]
+    return np.asarray(pictures[:, 2], np.int64)
+
+
 def painted_places(scene: Scene) -> Doubles:
     """Where the strips as they are drawn show each blade's points, from the root to the tip [pixels]."""
     patches, drawn = scene.outlook.patches, strips_drawn(scene)
     stock, rings = scene.representation.stock, scene.representation.quality.strip_rings
-    first = np.array(scene.strips.strips.programs[0]["first_layer"].value)  # type: ignore[union-attr]
+    first, kinds = first_layers(scene), len(stock.strips[0])
     segments, points = scene.blades.morph.segments, stock.targets.shape[3]
     expected = np.zeros((len(scene.records), segments + 1, 2))
     for index, (blade, row, which) in enumerate(zip(scene.records, scene.row, scene.own, strict=True)):
         model, own = int(patches.model[row]), (scene.along + int(patches.turn[row])) % 2
         number = int(patches.sublevel[1, row]) >> 1
         plane = int(stock.slices[number][model, own, which])
-        layer = first[KINDS * number + int(blade["kind"])] + (model * 2 + own) * rings[number].strips + plane
+        layer = first[kinds * number + int(blade["kind"])] + (model * 2 + own) * rings[number].strips + plane
         here = np.flatnonzero((drawn.layer == layer) & (drawn.row == row))
         assert len(here) == rings[number].columns
         clip, target = drawn.clip[here, : 2 * rings[number].sections + 2], stock.targets[model, own, which]
@@ -354,11 +360,11 @@ def laid_back(run: Doubles, foot: Doubles, top: Doubles, height: Doubles, spacin
 def test_w1_a_strip_stands_between_two_edges_on_the_ground_each_bent_as_numpy_says(scene: Scene) -> None:
     everything, stock, quality = strips_drawn(scene), scene.representation.stock, scene.representation.quality
     clip = scene.painter.record[0]["clip"].reshape(4, 4).astype(float)
-    layers = np.array(scene.strips.strips.programs[0]["first_layer"].value)  # type: ignore[union-attr]
+    layers, kinds = first_layers(scene), len(stock.strips[0])
     patches, kept = scene.outlook.patches, scene.outlook.kept["strips"].receiving
     for number, (receiving, ring) in enumerate(zip(kept, scene.outlook.shown["strips"].rings, strict=True)):
         here, count = everything.ring == number, quality.strip_rings[number].strips
-        first = layers[KINDS * number :][:2]
+        first = layers[kinds * number :][:2]
         layer, column = everything.layer[here], everything.column[here].astype(int)
         kind = (layer >= first[1]).astype(int)
         patch = np.repeat(np.arange(len(ring.rows)), len(layer) // len(ring.rows))

@@ -6,15 +6,18 @@ import numpy as np
 import pytest
 
 from tallgrass.components.viewer import Viewer
+from tallgrass.engine.declared.grass import MOST_KINDS, GrassKind
 from tallgrass.engine.declared.quality import PRESETS, Quality
+from tallgrass.engine.declared.scene import Scene
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.lod import ROOM, SLACK, reach_of, wanted_representation
 from tallgrass.systems.show.blades.plant import stock_blades
+from tallgrass.systems.show.carpet.grow import carpet_of
 from tallgrass.systems.show.registry import NAMES, REPRESENTATIONS
 from tallgrass.systems.show.strips.grow import strips_of
 from tallgrass.systems.show.strips.stock import stock_strips
-from tallgrass.systems.site import Site, farthest_reach, outlook_on
+from tallgrass.systems.site import LAYERS, Site, farthest_reach, numbers_of, outlook_on
 
 Laid = Callable[..., Site]
 
@@ -29,6 +32,26 @@ def test_t4_left_alone_each_representation_reaches_as_far_as_the_quality_says(pr
     quality = PRESETS[preset]
     expected = (quality.blade_rings[-1].to, quality.strip_rings[-1].to, quality.carpet_to)
     assert reach_of(limits(quality)) == expected
+
+
+def kinds(count: int) -> Scene:
+    return Scene(tallgrass=2, grass={f"kind-{number}": GrassKind() for number in range(count)})
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_as_many_kinds_as_there_can_be_have_room_for_their_pictures(preset: str) -> None:
+    for count in range(1, MOST_KINDS + 1):
+        quality = numbers_of(kinds(count), preset)
+        assert count * quality.models * max(each.layers(quality) for each in REPRESENTATIONS) <= LAYERS
+        assert quality == PRESETS[preset].model_copy(update={"models": quality.models})
+        assert quality.models == PRESETS[preset].models or count > 4
+
+
+def test_what_layers_are_told_is_what_pictures_take(growths: list[Growth], laid: Laid) -> None:
+    quality, model = laid().quality, growths[0].models[0]
+    told = {each.name: each.layers(quality) for each in REPRESENTATIONS}
+    strips = sum(int(np.prod(each.texels.shape[:2])) for each in strips_of(model))
+    assert told == {"blades": 0, "strips": strips, "carpet": int(np.prod(carpet_of(model).texels.shape[:2]))}
 
 
 @pytest.mark.parametrize(("lod", "shown"), [("blades", {0, 2}), ("strips", {1, 2}), ("carpet", {2})])

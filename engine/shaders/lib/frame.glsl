@@ -1,4 +1,7 @@
-// What every program knows of a frame: the fields of FRAME in systems/frame/block.py, in the same order.
+// What every program knows of a frame: the fields of FRAME in systems/frame/block.py, in the same order. There is room for
+// as many kinds as there can be, MOST_KINDS in engine/declared/grass.py.
+#include "lib/kinds.glsl"
+
 layout(std140) uniform Frame {
     mat4 clip;        // world to clip space
     mat4 unclip;      // clip space to world
@@ -14,13 +17,13 @@ layout(std140) uniform Frame {
     vec4 terrain;     // origin x, z [m]; metres per cell; posture links
     vec4 field;       // size x, z [m]; posture rows; variants per kind
     vec4 screen;      // pixels from the middle to the edge, across and up
-    vec4 crown;       // by kind: height of the canopy [m]
-    vec4 leaf;        // by kind: leaf area seen from the side, of the ground's area
-    vec4 lying;       // by kind: leaf area seen from above, of that from the side
-    vec4 root[4];     // by kind: pigment at the root; gloss
-    vec4 tip[4];      // by kind: pigment at the tip; taper
-    vec4 through[4];  // by kind: light that a leaf lets through, of what it sends back; how much has the tip's pigment
-    vec4 grain_c[4];  // by kind: relative change of pigment with the cosine of twice the face normal's azimuth
-    vec4 grain_s[4];  // by kind: the same with the sine
-    vec4 give[17];    // by length of a message, evenly from 0 to 1: posture index that it bends the kinds to
+    vec4 crown[4];    // by kind, four in each: height of the canopy [m]
+    vec4 leaf[4];     // by kind, four in each: leaf area seen from the side, of the ground's area
+    vec4 lying[4];    // by kind, four in each: leaf area seen from above, of that from the side
+    vec4 root[16];    // by kind: pigment at the root; gloss
+    vec4 tip[16];     // by kind: pigment at the tip; taper
+    vec4 through[16]; // by kind: light that a leaf lets through, of what it sends back; how much has the tip's pigment
+    vec4 grain_c[16]; // by kind: relative change of pigment with the cosine of twice the face normal's azimuth
+    vec4 grain_s[16]; // by kind: the same with the sine
+    vec4 give[68];    // by four kinds, by length of a message, evenly from 0 to 1: posture index that it bends the kinds to
 };

@@ -3,7 +3,7 @@
 #include "lib/frame.glsl"
 
 uniform sampler2D lie;      // over the terrain: sine of the sun's elevation over the slope; how much of it is seen; two slow noises
-uniform sampler2D density;  // over the terrain: how densely each kind grows
+uniform sampler2DArray density;  // over the terrain, four kinds in each layer: how densely each grows
 uniform sampler2D repeating;// squares that repeat: how dense clouds are; how bright what lies on the ground is
 
 const float CLOUDS_AT = 450.0;  // height of the clouds [m]
@@ -35,6 +35,27 @@ vec4 lie_at(vec2 place) {
     return vec4(here.xy, 2.0 * here.zw - 1.0);
 }
 
+// How densely each kind grows at a place.
+ByKind grows_at(vec2 place) {
+    vec2 at = on_map(place);
+    ByKind grows;
+    for (int group = 0; group < GROUPS; group++)
+        grows[group] = textureLod(density, vec3(at, float(group)), 0.0);
+    return grows;
+}
+
+// How densely one does.
+float grows_at(vec2 place, int kind) {
+    return textureLod(density, vec3(on_map(place), float(GROUP(kind))), 0.0)[IN_GROUP(kind)];
+}
+
+// The leaf area of each kind, of the ground's.
+ByKind areas(ByKind grows) {
+    for (int group = 0; group < GROUPS; group++)
+        grows[group] *= leaf[group];
+    return grows;
+}
+
 #ifdef MOWN
 uniform sampler2D mown;  // over the terrain: up to which height grass is left to stand [m]
 
@@ -56,13 +77,20 @@ float left_about(vec2 place, float side) {
 
 // Whether that is lower than the canopy of the tallest kind.
 bool is_mown(float left) {
-    return left < max(max(crown.x, crown.y), max(crown.z, crown.w));
+    float tallest = 0.0;
+    for (int group = 0; group < GROUPS; group++)
+        tallest = max(tallest, max(max(crown[group].x, crown[group].y), max(crown[group].z, crown[group].w)));
+    return left < tallest;
 }
 
 // How much of each kind's leaf area is left below a height [m].
-vec4 leaves_left(float top) {
-    vec4 gone = max(1.0 - top / max(crown, 0.01), 0.0);
-    return 1.0 - gone * gone;
+ByKind leaves_left(float top) {
+    ByKind left;
+    for (int group = 0; group < GROUPS; group++) {
+        vec4 gone = max(1.0 - top / max(crown[group], 0.01), 0.0);
+        left[group] = 1.0 - gone * gone;
+    }
+    return left;
 }
 #endif
 
@@ -103,21 +131,31 @@ float lodged(vec2 bend) {
     return 1.0 - 0.55 * min(dot(bend, bend), 1.0);
 }
 
-// Leaf area above a kind's top and between that and the ground. Leaf area thins out towards the top of each kind.
-vec2 leaves_over(vec4 grows, int k) {
-    vec4 above = max(1.0 - crown[k] / max(crown, 0.01), 0.0), area = grows * leaf;
-    float over = dot(area, above * above);
-    return vec2(over, dot(area, vec4(1.0)) - over);
+// Leaf area above a height [m], where each kind has so much. It thins out towards the top of each.
+float leaves_above(float height, ByKind area) {
+    float over = 0.0;
+    for (int group = 0; group < GROUPS; group++) {
+        vec4 above = max(1.0 - height / max(crown[group], 0.01), 0.0);
+        over += dot(area[group], above * above);
+    }
+    return over;
+}
+
+// Leaf area above a kind's top and between that and the ground.
+vec2 leaves_over(ByKind grows, int k) {
+    ByKind area = areas(grows);
+    float over = leaves_above(OF(crown, k), area);
+    return vec2(over, total(area) - over);
 }
 
 // How many leaves the sun's and the sky's light meets on its way, where the sun's elevation over the slope has this sine.
 vec2 ways(int k, float high) {
     high = max(high, 0.08);
-    return vec2(sqrt(1.0 - min(high * high, 1.0)) / high + lying[k], OPEN_SKY);
+    return vec2(sqrt(1.0 - min(high * high, 1.0)) / high + OF(lying, k), OPEN_SKY);
 }
 
 // The light on leaves of kind `k` at a place: `here` of lie_at, `grows` of density, the wind bending them by `bend`.
-Lit lit_at(int k, vec2 bend, vec3 place, vec4 here, vec4 grows) {
+Lit lit_at(int k, vec2 bend, vec3 place, vec4 here, ByKind grows) {
     vec3 ray = normalize(place - eye.xyz);
     float seen = sun_seen(place, here.y), facing = dot(ray, sun.xyz);
     // Leaves that face all ways send back what the eye sees lit, and let through what it sees against the light.
@@ -146,10 +184,9 @@ struct Reached {
 #ifdef MOWN
 // The light on kind `k` where nothing stands above `top` [m]: leaves over that shade nothing. `area` is that of leaves,
 // by kind.
-Lit mown_to(float top, Lit lit, int k, vec4 area) {
-    vec4 above = max(1.0 - max(top, crown[k]) / max(crown, 0.01), 0.0);
-    float deep = clamp(1.0 - top / max(crown[k], 0.01), 0.0, 1.0);
-    lit.leaves.x -= dot(area, above * above) + lit.leaves.y * deep * deep * (0.75 + 0.25 * deep);
+Lit mown_to(float top, Lit lit, int k, ByKind area) {
+    float deep = clamp(1.0 - top / max(OF(crown, k), 0.01), 0.0, 1.0);
+    lit.leaves.x -= leaves_above(max(top, OF(crown, k)), area) + lit.leaves.y * deep * deep * (0.75 + 0.25 * deep);
     return lit;
 }
 #endif
@@ -186,17 +223,17 @@ float haze_at(vec3 place) {
 }
 
 // What lies on the ground where grass stands, and the ground: `here` of lie_at, `grows` of density.
-vec3 soil_pigment(vec4 here, vec4 grows) {
-    float total = min(dot(grows, vec4(1.0)), 1.0);
+vec3 soil_pigment(vec4 here, ByKind grows) {
+    float all = total(grows);
     vec3 under = vec3(0.0);
-    for (int kind = 0; kind < 4; kind++)
-        under += grows[kind] * mix(root[kind].rgb, tip[kind].rgb, 0.3 * through[kind].w * through[kind].w);
-    under /= max(dot(grows, vec4(1.0)), 1e-3);
-    return mix(soil.rgb, mix(soil.rgb, under, LITTER), total) * stretch(here);
+    for (int kind = 0; kind < KINDS; kind++)
+        under += OF(grows, kind) * mix(root[kind].rgb, tip[kind].rgb, 0.3 * through[kind].w * through[kind].w);
+    under /= max(all, 1e-3);
+    return mix(soil.rgb, mix(soil.rgb, under, LITTER), min(all, 1.0)) * stretch(here);
 }
 
 // That in its light, under a leaf area [of the ground's].
-vec3 soil_light(vec3 place, vec4 here, vec4 grows, float leaves) {
+vec3 soil_light(vec3 place, vec4 here, ByKind grows, float leaves) {
     vec3 pigment = soil_pigment(here, grows);
     vec2 seen = exp(-ways(0, here.x) * leaves);
     return pigment * pigment * (sunlight.rgb * (1.3 * here.x * seen.x * sun_seen(place, here.y)) + skylight.rgb * seen.y);

@@ -7,7 +7,7 @@
 
 uniform sampler2D targets;    // (u, v) of POINTS points for each blade
 uniform ivec4 stacks[RINGS];  // by ring: columns of a strip, sections of a column, strips of a kind on a patch
-uniform vec4 tall;            // by kind: height of the strips [m]
+uniform ByKind tall;          // by kind: height of the strips [m]
 
 struct Edge {
     vec3 foot;
@@ -35,7 +35,7 @@ Edge edge_at(vec4 base, int receiver, int edge, int kind, int count, float heigh
 vec4 on_edge(Edge edge, int kind, float part, float height) {
     vec3 spine = posture(float(kind) * field.w, edge.bend, part).place;
     vec3 back = vec3(edge.back.x, 0.0, edge.back.y) * part;
-    return vec4(edge.foot + spine * height + back, spine.y * tall[kind] / (crown[kind] * lodged(edge.bend)));
+    return vec4(edge.foot + spine * height + back, spine.y * OF(tall, kind) / (OF(crown, kind) * lodged(edge.bend)));
 }
 
 vec2 target_at(int number, int point) {

@@ -10,9 +10,10 @@ struct Spine {
 
 // How a message bends grass of a kind, as a vector along it that is as long as the posture index.
 vec2 bending(int kind, vec2 message) {
-    float size = length(message), at = min(size, 1.0) * float(give.length() - 1);
-    int low = min(int(at), give.length() - 2);
-    return message / max(size, 1e-9) * mix(give[low][kind], give[low + 1][kind], at - float(low));
+    int lengths = give.length() / 4;
+    float size = length(message), at = min(size, 1.0) * float(lengths - 1);
+    int low = min(int(at), lengths - 2), row = GROUP(kind) * lengths + low, own = IN_GROUP(kind);
+    return message / max(size, 1e-9) * mix(give[row][own], give[row + 1][own], at - float(low));
 }
 
 // The point `t` of a blade of length 1 for a bending vector.

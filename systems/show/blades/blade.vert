@@ -13,8 +13,8 @@ uniform sampler2D standing; // by patch: STANDING
 uniform float near;        // distance up to which blades hide one another by depth [m]; beyond it order alone says
 #ifdef MORPH
 uniform sampler2D slices;  // by ring, model, orientation and blade: the strip that it is painted on
-uniform vec4 margin;       // by kind: how far strips reach beyond their patch [m]
-uniform vec4 tall;         // by kind: height of the strips [m]
+uniform ByKind margin;     // by kind: how far strips reach beyond their patch [m]
+uniform ByKind tall;       // by kind: height of the strips [m]
 uniform ivec4 stacks[RINGS]; // by ring: columns of a strip, sections of a column, strips of a kind on a patch
 uniform int models;
 #include "lib/stack.glsl"
@@ -119,17 +119,17 @@ void main() {
     low = vec4(root[k].rgb * dry, variant);
     high = vec4(tip[k].rgb * dry, tip[k].w);
 #endif
-    vec4 grows = textureLod(density, on_map(root_at.xz), 0.0);
+    ByKind grows = grows_at(root_at.xz);
     Lit lit = lit_at(k, blown, root_at, here, grows);
 #ifdef MOWN
     float top = left_at(root_at.xz);
-    lit = mown_to(top, lit, k, grows * leaf);
+    lit = mown_to(top, lit, k, areas(grows));
 #endif
     tilt = vec4(2.0 * ROUND * (grain_s[k].rgb * twice.x - grain_c[k].rgb * twice.y) / grain, lit.leaves.x);
     direct = vec4(lit.sun * seen, lit.leaves.y);
     open_to = vec4(lit.sky * seen, lit.way.x);
     veil = vec4(haze_light(root_at) * hidden, lit.gloss * seen);
-    float canopy_height = crown[k] * lodged(blown);
+    float canopy_height = OF(crown, k) * lodged(blown);
 #ifdef ORGANS
     stands.xyz = vec3(up.y / canopy_height, height / canopy_height, organ);
 #else
@@ -147,10 +147,10 @@ void main() {
     int row = (model * 2 + own) * EACH + blade, slice = ring * models * 2 * EACH + row;
     int plane = int(texelFetch(slices, ivec2(slice % SLICES_ROW, slice / SLICES_ROW), 0).r);
     int strip = k * count + stacked(plane, count, own, along, turn);
-    vec2 first = edge_foot(where.xy, turn, own, plane, count, 0, columns, margin[k]);
-    vec2 second = edge_foot(where.xy, turn, own, plane, count, 1, columns, margin[k]);
+    vec2 first = edge_foot(where.xy, turn, own, plane, count, 0, columns, OF(margin, k));
+    vec2 second = edge_foot(where.xy, turn, own, plane, count, 1, columns, OF(margin, k));
     base = vec4(first, second - first);
-    painted = vec4(strips.y + float(strip * (columns + 1)), float(row), tall[k] * how.z, how.y);
+    painted = vec4(strips.y + float(strip * (columns + 1)), float(row), OF(tall, k) * how.z, how.y);
     joints.yw = vec2(2.0, strips.x);
 #endif
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);

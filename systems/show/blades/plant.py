@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ....engine.terrain.sample import density_at, height_at
+from ....engine.terrain.sample import height_at, own_density_at
 from ...around.ground import PRESENT, Ground, quarter_turn, turned
 from ...grow.record import Blades, Growth
 from .pool import BLADE, ORGAN, BladePool
@@ -119,6 +119,6 @@ def plant_blades(
 
 def _grown(stock: BladeStock, place: Floats, model: Ints, ground: Ground) -> NDArray[np.bool_]:
     """Return which blades grow at their places (m, n, 2), shape (m, n)."""
-    dense = density_at(ground.density, place.reshape(-1, 2))
-    own = np.take_along_axis(dense, np.tile(stock.kinds, len(place))[None], axis=0).reshape(place.shape[:-1])
+    kinds = np.tile(stock.kinds, len(place))
+    own = own_density_at(ground.density, kinds, place.reshape(-1, 2)).reshape(place.shape[:-1])
     return np.asarray((stock.rank[model] < own) & (own > PRESENT))

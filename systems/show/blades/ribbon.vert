@@ -54,10 +54,10 @@ vec4 widened(vec3 place, vec3 tangent, vec2 across) {
 vec3 painted_light(int k, float t, float twice, Painted target) {
     vec4 here = lie_at(target.middle.xz);
     vec3 pigment = mix(root[k].rgb, tip[k].rgb, t) * stretch(here) * (1.0 + grain_c[k].rgb * twice);
-    vec4 grows = textureLod(density, on_map(target.middle.xz), 0.0);
+    ByKind grows = grows_at(target.middle.xz);
     Lit lit = lit_at(k, target.bend, target.middle, here, grows);
 #ifdef MOWN
-    lit = mown_to(left_at(target.place.xz), lit, k, grows * leaf);
+    lit = mown_to(left_at(target.place.xz), lit, k, areas(grows));
 #endif
     vec3 light = radiance(pigment, target.h, lit);
     return mix(light, haze_light(target.middle), haze_at(target.middle));

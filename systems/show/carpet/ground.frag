@@ -1,10 +1,19 @@
 #include "lib/light.glsl"
 
 in vec3 place;
+#if !defined(MOWN) || defined(UNDER)
 in vec3 soil_seen;
+#endif
+#if KINDS > 4
+vec4 veil;
+ByKind leaf_area;
+#else
 in vec4 veil;
 #ifdef MOWN
-in vec4 leaf_area;
+in ByKind leaf_area;
+#endif
+#endif
+#ifdef MOWN
 in vec3 sunlit;
 in vec3 skylit;
 in vec2 to_light;
@@ -40,7 +49,7 @@ float left_seen() {
 #endif
 uniform sampler2DArray images;  // place along the blade, height, twice the azimuth, coverage; premultiplied
 uniform float slopes[SLOPES];   // logarithms of their viewing slopes
-uniform vec4 first;             // by kind: first layer of the images
+uniform ByKind first;           // by kind: first layer of the images
 uniform ivec2 stock;            // patch models; seed
 
 in float carpet;
@@ -48,15 +57,19 @@ in vec2 rise;
 in float crest;
 in float tall;
 in float dense;
-in vec4 met;
+in ByKind met;
 #ifdef HEADS
-in vec4 riper;
+in ByKind riper;
 uniform vec4 heads[KINDS];
 #endif
 in vec3 direct;
 in vec3 open_to;
 in vec4 shade;
+#if KINDS > 4
+vec3 dry;
+#else
 in vec3 dry;
+#endif
 
 // The rotation that turns the line of sight into the heading of the images that are taken: of four headings, one on each
 // patch. So blades are drawn out along the line of sight, from wherever they are seen.
@@ -83,6 +96,7 @@ const float GRAIN = 1.5;  // how far images are from their mean, for what filter
 const float COARSEST = 16.0; // or the last level that there is
 const float SHARP = 0.4;  // size of what is taken from the images for a pixel, of the pixel's own
 const float SHARP_ABOVE = 0.7;  // the same from above, where grass hides less of other grass
+const float LEAST_MET = 0.004;  // of a kind, as a part of all that is: of less, nothing is seen
 const float LEAST = 0.01; // height of the carpet where nothing grows, so that nothing is divided by 0 [m]
 
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,
@@ -150,13 +164,11 @@ vec3 carpet_seen(float slope, vec3 below) {
     float grain = mix(1.0, mix(GRAIN, 1.0, steep), shrunk) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
 #ifdef MOWN
     bool cut = is_mown(left);
-    float stubble = 1.0 - exp(-dot(leaf_area, leaves_left(left)) / max(slope, 0.02));  // by the leaves that are left
+    float stubble = 1.0 - exp(-weighed(leaf_area, leaves_left(left)) / max(slope, 0.02));  // by the leaves that are left
 #endif
     vec4 sum = vec4(0.0);
-    for (int kind = 0; kind < KINDS; kind++) {
-        if (met[kind] < 0.004)
-            continue;
-        float layer = first[kind] + float((model * SLOPES + int(seen.x)) * 4 + side);
+    for (int kind = next_kind(met, LEAST_MET, 0); kind < KINDS; kind = next_kind(met, LEAST_MET, kind + 1)) {
+        float layer = OF(first, kind) + float((model * SLOPES + int(seen.x)) * 4 + side);
         vec3 low = vec3(at, layer), high = vec3(at, layer + 4.0);
         vec4 mean = mix(textureLod(images, low, COARSEST), textureLod(images, high, COARSEST), seen.y);
         vec4 image = mix(textureGrad(images, low, dx, dy), textureGrad(images, high, dx, dy), seen.y);
@@ -167,14 +179,15 @@ vec3 carpet_seen(float slope, vec3 below) {
         Lit met_by = lit;
         float covers = image.a;
 #ifdef HEADS
-        mean_of.r += riper[kind] * (riper[kind] > 0.0 ? 1.0 - mean_of.r : mean_of.r);
+        float more = OF(riper, kind);
+        mean_of.r += more * (more > 0.0 ? 1.0 - mean_of.r : mean_of.r);
         // What stands scattered among others has what is met of it where it stands, and nothing between.
         covers = heads[kind].y > 0.0 ? image.a / max(mean.a, 0.02) : image.a;
 #endif
 #ifdef MOWN
         // What is left is taken for the same grass pressed together.
         if (cut) {
-            float part = min(left / max(crown[kind], 0.01), 1.0);
+            float part = min(left / max(OF(crown, kind), 0.01), 1.0);
             float uneven = 1.0 + STUBBLE * (mean_of.g / max(mean.g / max(mean.a, 1e-3), 1e-3) - 1.0);
             covers = mix(min(stubble * uneven, 1.0), covers, part);
             mean_of.rg *= part;
@@ -183,7 +196,7 @@ vec3 carpet_seen(float slope, vec3 below) {
 #endif
         vec3 tint = (grain_c[kind].rgb * sight + grain_s[kind].rgb * aside) * (2.0 * mean_of.b - 1.0);
         vec3 pigment = mix(root[kind].rgb, tip[kind].rgb, mean_of.r) * dry * (1.0 + tint);
-        sum += met[kind] * covers * vec4(shown_of(mix(radiance(pigment, mean_of.g, met_by), veil.rgb, veil.w)), 1.0);
+        sum += OF(met, kind) * covers * vec4(shown_of(mix(radiance(pigment, mean_of.g, met_by), veil.rgb, veil.w)), 1.0);
     }
 #ifdef HEADS
     sum /= max(sum.a, 1.0);
@@ -193,12 +206,29 @@ vec3 carpet_seen(float slope, vec3 below) {
 
 #endif
 
+#if KINDS > 4
+// What is worked out at the corners of the mesh where kinds are few.
+void work_out() {
+    veil = vec4(haze_light(place), haze_at(place));
+#ifdef MOWN
+    leaf_area = areas(grows_at(place.xz));
+#endif
+#if defined(CARPET) && !defined(UNDER)
+    dry = stretch(lie_at(seen_at(place, viewing_slope(rise, place), tall, dense).xz));
+#endif
+}
+#endif
+
 void main() {
+#if KINDS > 4
+    work_out();
+#endif
+#if !defined(MOWN) || defined(UNDER)
     vec3 below = soil_seen;
-#if defined(MOWN) && !defined(UNDER)
+#else
     left = left_seen();
-    vec2 seen = exp(-to_light * dot(leaf_area, leaves_left(left)));
-    below = sunlit * seen.x + skylit * seen.y;  // the mesh is too coarse for the edges of what is mown
+    vec2 seen = exp(-to_light * weighed(leaf_area, leaves_left(left)));
+    vec3 below = sunlit * seen.x + skylit * seen.y;  // the mesh is too coarse for the edges of what is mown
 #ifdef CARPET
     below = shown_of(mix(below, veil.rgb, veil.w));
 #endif

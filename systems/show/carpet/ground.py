@@ -174,7 +174,7 @@ class GroundPainter:
         self.grid = ctx.buffer(corners), ctx.buffer(indices)
         self.streams = Stream(ctx, TILE), Stream(ctx, TILE), Stream(ctx, TILE)
         slopes = carpet_of(growths[0].models[0]).slope
-        laid: dict[str, str | int] = {"CARPET": 1, "STRETCH": STRETCH, "SLOPES": len(slopes), "KINDS": len(growths)}
+        laid: dict[str, str | int] = {"CARPET": 1, "STRETCH": STRETCH, "SLOPES": len(slopes)}
         laid |= {"HEADS": 1} if any_heads(growths) else {}
 
         def layer(defines: dict[str, str | int], stream: Stream) -> _Layer:

@@ -14,13 +14,13 @@ out vec3 place;
 const float SUNK = 2.5;  // leaves that a line of sight has met where nothing is seen through them
 const float SHADED = 0.6;  // how far down what is seen stands, of how deep is seen into the grass
 const float THROUGH_CREST = 0.6;  // the same over a crest, as the reference shows it
-uniform vec4 raised;  // by kind: height of the carpet above the ground [m]
+uniform ByKind raised; // by kind: height of the carpet above the ground [m]
 
 out float carpet;
 out vec2 rise;   // of the ground, along x and z
-out vec4 met;    // by kind: how much of what a line of sight meets
+out ByKind met;  // by kind: how much of what a line of sight meets
 #ifdef HEADS
-out vec4 riper;  // by kind: how much more of its heads than an image shows; all the others at 1, none at -1
+out ByKind riper;// by kind: how much more of its heads than an image shows; all the others at 1, none at -1
 #endif
 out float crest; // how fast the rise falls off along the line of sight [1/m]
 out float tall;  // height of the grass [m]
@@ -31,7 +31,11 @@ out float dense; // leaf area seen from the side, of the ground's area
 out vec3 direct;  // light on leaves of the kinds that are met: the sun's
 out vec3 open_to; // the sky's
 out vec4 shade;   // what they mirror; leaves that the sun's light meets; leaf area above them, and from there to the ground
+#if KINDS > 4
+vec3 dry;
+#else
 out vec3 dry;     // factor of their pigment
+#endif
 
 // Write the light on what is met.
 void light_up(float slope) {
@@ -48,6 +52,14 @@ void light_up(float slope) {
 }
 #endif
 
+// What is met of each kind, as parts of all the grass that there is.
+ByKind shared_out(ByKind met, ByKind grows) {
+    float all = max(total(met), 1e-6), least = min(total(grows), 1.0);
+    for (int group = 0; group < GROUPS; group++)
+        met[group] = met[group] / all * least;
+    return met;
+}
+
 // How much of what a line of sight meets is of each kind: taller kinds hide the others at a low angle. The grass is
 // taken in four layers from the top; its leaf area falls off linearly with height.
 #ifdef HEADS
@@ -63,56 +75,64 @@ vec2 leaves_at(int kind, float at) {
 
 // The same with the heads that some kinds have. How much more of them is met than where such a kind grows alone, -1 to 1,
 // is written to `riper`.
-vec4 kinds_met(vec4 grows, float slope, float left) {
+ByKind kinds_met(ByKind grows, float slope, float left) {
     float top = 0.0;
     for (int kind = 0; kind < KINDS; kind++)
-        top = max(top, grows[kind] > 0.004 ? crown[kind] * max(heads[kind].w, 1.0) : 0.0);
+        top = max(top, OF(grows, kind) > 0.004 ? OF(crown, kind) * max(heads[kind].w, 1.0) : 0.0);
     top = min(top, left);
-    vec4 met = vec4(0.0), of_heads = vec4(0.0), alone = vec4(0.0), heads_alone = vec4(0.0), through_alone = vec4(1.0);
+    ByKind met = all_kinds(0.0), of_heads = met, alone = met, heads_alone = met, through_alone = all_kinds(1.0);
     float through = 1.0;
     for (int layer = 0; layer < LAYERS; layer++) {
         float height = top * (1.0 - (float(layer) + 0.5) / float(LAYERS));
-        vec4 stop = vec4(0.0), some = vec4(0.0);
+        ByKind stop = all_kinds(0.0), some = stop;
         for (int kind = 0; kind < KINDS; kind++) {
-            vec2 here = leaves_at(kind, height / crown[kind]) * (grows[kind] * leaf[kind] * top / crown[kind]);
-            stop[kind] = here.x;
-            some[kind] = here.x > 0.0 ? here.y / here.x : 0.0;
+            float canopy_height = OF(crown, kind), area = OF(grows, kind) * OF(leaf, kind);
+            vec2 here = leaves_at(kind, height / canopy_height) * (area * top / canopy_height);
+            OF(stop, kind) = here.x;
+            OF(some, kind) = here.x > 0.0 ? here.y / here.x : 0.0;
         }
-        float sum = dot(stop, vec4(1.0)), step = 1.0 / (float(LAYERS) * slope);
+        float sum = total(stop), step = 1.0 / (float(LAYERS) * slope);
         float stopped = through * (1.0 - exp(-sum * step));
-        vec4 share = stopped * stop / max(sum, 1e-6), stopped_alone = through_alone * (1.0 - exp(-stop / max(grows, 0.004) * step));
-        met += share;
-        of_heads += share * some;
-        alone += stopped_alone;
-        heads_alone += stopped_alone * some;
+        for (int group = 0; group < GROUPS; group++) {
+            vec4 share = stopped * stop[group] / max(sum, 1e-6);
+            vec4 stopped_alone = through_alone[group] * (1.0 - exp(-stop[group] / max(grows[group], 0.004) * step));
+            met[group] += share;
+            of_heads[group] += share * some[group];
+            alone[group] += stopped_alone;
+            heads_alone[group] += stopped_alone * some[group];
+            through_alone[group] -= stopped_alone;
+        }
         through -= stopped;
-        through_alone -= stopped_alone;
     }
-    vec4 seen = of_heads / max(met, 1e-6), usual = heads_alone / max(alone, 1e-6);
-    riper = mix((seen - usual) / max(usual, 1e-3), (seen - usual) / max(1.0 - usual, 1e-3), greaterThan(seen, usual));
-    return met / max(dot(met, vec4(1.0)), 1e-6) * min(dot(grows, vec4(1.0)), 1.0);
+    for (int group = 0; group < GROUPS; group++) {
+        vec4 seen = of_heads[group] / max(met[group], 1e-6), usual = heads_alone[group] / max(alone[group], 1e-6);
+        vec4 more = seen - usual;
+        riper[group] = mix(more / max(usual, 1e-3), more / max(1.0 - usual, 1e-3), greaterThan(seen, usual));
+    }
+    return shared_out(met, grows);
 }
 #else
-vec4 kinds_met(vec4 grows, float slope, float left) {
+ByKind kinds_met(ByKind grows, float slope, float left) {
     float top = 0.0;
     for (int kind = 0; kind < KINDS; kind++)
-        top = max(top, grows[kind] > 0.004 ? crown[kind] : 0.0);
+        top = max(top, OF(grows, kind) > 0.004 ? OF(crown, kind) : 0.0);
     top = min(top, left);
-    vec4 met = vec4(0.0);
+    ByKind met = all_kinds(0.0);
     float through = 1.0;
     for (int layer = 0; layer < 4; layer++) {
         float height = top * (0.875 - 0.25 * float(layer));
-        vec4 stop = vec4(0.0);
+        ByKind stop = all_kinds(0.0);
         for (int kind = 0; kind < KINDS; kind++) {
-            float canopy_height = crown[kind];
-            stop[kind] = grows[kind] * leaf[kind] * 2.0 * max(1.0 - height / canopy_height, 0.0) * top / canopy_height;
+            float canopy_height = OF(crown, kind);
+            OF(stop, kind) = OF(grows, kind) * OF(leaf, kind) * 2.0 * max(1.0 - height / canopy_height, 0.0) * top / canopy_height;
         }
-        float sum = dot(stop, vec4(1.0));
+        float sum = total(stop);
         float stopped = through * (1.0 - exp(-0.25 * sum / slope));
-        met += stopped * stop / max(sum, 1e-6);
+        for (int group = 0; group < GROUPS; group++)
+            met[group] += stopped * stop[group] / max(sum, 1e-6);
         through -= stopped;
     }
-    return met / max(dot(met, vec4(1.0)), 1e-6) * min(dot(grows, vec4(1.0)), 1.0);
+    return shared_out(met, grows);
 }
 #endif
 
@@ -122,14 +142,26 @@ float lowest_share(vec2 place) {
 }
 #endif
 
+#if !defined(MOWN) || defined(UNDER)
 out vec3 soil_seen;  // its radiance; with a carpet, what is shown of it
+#else
+vec3 soil_seen;
+#endif
 #ifdef MOWN
-out vec4 leaf_area; // by kind, of the ground's
 out vec3 sunlit;    // radiance of the soil without any grass: the sun's
 out vec3 skylit;    // the sky's
 out vec2 to_light;  // how many leaves their light meets
 #endif
+// No more than 60 numbers are sure to come through: with many kinds, pixels work out themselves what they can.
+#if KINDS > 4
+ByKind leaf_area;
+vec4 veil;
+#else
+#ifdef MOWN
+out ByKind leaf_area; // by kind, of the ground's
+#endif
 out vec4 veil;  // haze before it, and how much
+#endif
 
 void main() {
     vec2 flat_at = tile.xy + corner * tile.z;
@@ -138,15 +170,18 @@ void main() {
     place = vec3(flat_at, height_at(flat_at)).xzy;
 #ifdef CARPET
     carpet = lowest_share(flat_at);
-    vec4 grows = textureLod(density, on_map(flat_at), 0.0);
+    ByKind grows = grows_at(flat_at);
 #ifdef MOWN
     float left = left_about(flat_at, tile.z);
-    dense = dot(grows, leaf * leaves_left(left));
+    dense = weighed(grows, areas(leaves_left(left)));
 #else
     const float left = 1e9;
-    dense = dot(grows, leaf);
+    dense = total(areas(grows));
 #endif
-    tall = dot(grows, min(raised, left)) / max(dot(grows, vec4(1.0)), 1.0);
+    tall = 0.0;
+    for (int group = 0; group < GROUPS; group++)
+        tall += dot(grows[group], min(raised[group], left));
+    tall /= max(total(grows), 1.0);
     vec2 step = vec2(max(terrain.z, tile.z), 0.0);
     rise = vec2(height_at(flat_at + step.xy) - height_at(flat_at - step.xy),
                 height_at(flat_at + step.yx) - height_at(flat_at - step.yx)) / (2.0 * step.x);
@@ -167,16 +202,17 @@ void main() {
 #endif
 #endif
     vec3 ground = vec3(flat_at, height_at(flat_at)).xzy;
-    vec4 lies = lie_at(flat_at), stand = textureLod(density, on_map(flat_at), 0.0);
+    vec4 lies = lie_at(flat_at);
+    ByKind stand = grows_at(flat_at);
 #ifdef MOWN
-    leaf_area = stand * leaf;
-    soil_seen = soil_light(ground, lies, stand, dot(leaf_area, leaves_left(left_about(flat_at, tile.z))));
+    leaf_area = areas(stand);
+    soil_seen = soil_light(ground, lies, stand, weighed(leaf_area, leaves_left(left_about(flat_at, tile.z))));
     vec3 pigment = soil_pigment(lies, stand);
     sunlit = pigment * pigment * sunlight.rgb * (1.3 * lies.x * sun_seen(ground, lies.y));
     skylit = pigment * pigment * skylight.rgb;
     to_light = ways(0, lies.x);
 #else
-    soil_seen = soil_light(ground, lies, stand, dot(stand, leaf));
+    soil_seen = soil_light(ground, lies, stand, total(areas(stand)));
 #endif
 #ifdef UNDER
     vec3 under = vec3(0.0);
@@ -185,15 +221,15 @@ void main() {
         Lit lit = lit_at(kind, vec2(0.0), place, here, grows);
         float deep = 0.1 + SHADED * sunk, high = 0.9 - SHADED * sunk;
 #ifdef MOWN
-        lit = mown_to(left, lit, kind, grows * leaf);
-        high *= min(left / max(crown[kind], 0.01), 1.0);
+        lit = mown_to(left, lit, kind, leaf_area);
+        high *= min(left / max(OF(crown, kind), 0.01), 1.0);
         deep = 1.0 - high;
 #endif
         vec3 pigment = mix(mix(root[kind].rgb, tip[kind].rgb, through[kind].w), root[kind].rgb, deep) * stretch(here);
-        under += met[kind] * radiance(pigment, high, lit);
+        under += OF(met, kind) * radiance(pigment, high, lit);
     }
     // Where grass grows thinly or not at all, what lies beneath is the soil.
-    soil_seen = mix(soil_seen, soil_seen * (1.0 - dot(met, vec4(1.0))) + under, carpet);
+    soil_seen = mix(soil_seen, soil_seen * (1.0 - total(met)) + under, carpet);
 #endif
     veil = vec4(haze_light(place), haze_at(place));
 #if defined(CARPET) && !defined(UNDER)

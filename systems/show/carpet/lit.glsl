@@ -6,8 +6,6 @@
 uniform sampler2D air;  // the wind's message in the middle of each patch, wrapping round
 uniform sampler2D mean_air;
 
-const float STEEP = 0.02;  // a line of sight counts as at least so steep, for how deep it goes
-
 struct Sum {
     vec3 direct;   // light on leaves of the kinds that are met: the sun's
     vec3 open_to;  // the sky's
@@ -22,23 +20,16 @@ vec2 message_at(vec2 at) {
     return mix(textureLod(air, at / side, 0.0).xy, texelFetch(mean_air, ivec2(0), 0).xy, far);
 }
 
-// Where leaves are that are seen: deeper in the grass, where the line of sight has met enough.
-vec3 seen_at(vec3 place, float slope, float tall, float dense) {
-    float deeper = min(tall * inversesqrt(max(slope, STEEP) * max(dense, 0.01)), 15.0);
-    vec2 on = normalize(place.xz - eye.xz + 1e-4) * deeper;
-    return vec3(place.x + on.x, place.y, place.z + on.y);
-}
-
 // The light there on each kind as its message has bent it, in the mean of all that are met.
-Sum summed(vec4 met, vec3 there, vec4 here, vec2 messages[KINDS]) {
-    vec4 grows = textureLod(density, on_map(there.xz), 0.0);
+Sum summed(ByKind met, vec3 there, vec4 here, vec2 messages[KINDS]) {
+    ByKind grows = grows_at(there.xz);
     Sum sum = Sum(vec3(0.0), vec3(0.0), vec4(0.0));
     for (int kind = 0; kind < KINDS; kind++) {
         Lit lit = lit_at(kind, bending(kind, messages[kind]), there, here, grows);
-        sum.direct += met[kind] * lit.sun;
-        sum.open_to += met[kind] * lit.sky;
-        sum.shade += met[kind] * vec4(lit.gloss, lit.way.x, lit.leaves);
+        sum.direct += OF(met, kind) * lit.sun;
+        sum.open_to += OF(met, kind) * lit.sky;
+        sum.shade += OF(met, kind) * vec4(lit.gloss, lit.way.x, lit.leaves);
     }
-    float all = 1.0 / max(dot(met, vec4(1.0)), 1e-4);
+    float all = 1.0 / max(total(met), 1e-4);
     return Sum(sum.direct * all, sum.open_to * all, sum.shade * all);
 }

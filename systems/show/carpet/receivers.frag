@@ -11,9 +11,9 @@ void main() {
     // Rows wrap round: each texel is a cell of the window. What is added keeps the remainder from being that of a negative.
     ivec2 cell = low + (at - low + 4096 * around.z) % around.z;
     vec2 place = (vec2(cell) + 0.5) * soil.w;
-    vec4 grows = textureLod(density, on_map(place), 0.0);
+    ByKind grows = grows_at(place);
     int kind = 0;
-    for (int other = 1; other < 4; other++)
-        kind = grows[other] > grows[kind] ? other : kind;
+    for (int other = 1; other < KINDS; other++)
+        kind = OF(grows, other) > OF(grows, kind) ? other : kind;
     told = hear(place, kind, true, around.w + at.y * around.z + at.x);
 }

@@ -63,6 +63,12 @@ class CarpetRepresentation(Representation):
             pictures[0].slope.shape == (len(SLOPES),) and pictures[0].texels.shape == (len(SLOPES), 4, side, side, 4)
         )
 
+    @staticmethod
+    def layers(quality: Quality, /) -> int:
+        """Return how many images there are, from all angles."""
+        del quality
+        return 4 * len(SLOPES)
+
     @classmethod
     def stocked(cls, growths: Sequence[Growth], quality: Quality, ground: Ground, /) -> Self:
         """Return it with all kinds' images."""

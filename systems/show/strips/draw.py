@@ -16,9 +16,6 @@ from .gather import STOOD
 from .grow import Strips
 from .textures import extent_texture, strip_texture
 
-KINDS = 4
-"""Kinds of grass that there is room for."""
-
 STOOD_ROW, STRIPS_ROW = 64, 1024
 """Records in a row of the textures that hold patches, and the numbers of polygon strips."""
 
@@ -47,9 +44,9 @@ class StripPainter:
         self._stock = stock
         self.stood = Records(canvas.ctx, STOOD, STOOD_ROW)
         self.strips = Records(canvas.ctx, NUMBER, STRIPS_ROW)
-        laid: dict[str, str | int] = {"RINGS": len(rings), "GROWING": self.kinds, "STOOD_ROW": STOOD_ROW}
+        laid: dict[str, str | int] = {"RINGS": len(rings), "STOOD_ROW": STOOD_ROW}
         self.hearing = Hearing(canvas, "systems/show/strips/receivers.frag", laid, self._tell)
-        whole = {**laid, "SECTIONS": self.sections, "KINDS": KINDS, "STRIPS_ROW": STRIPS_ROW}
+        whole = {**laid, "SECTIONS": self.sections, "STRIPS_ROW": STRIPS_ROW}
         whole["ATLAS"] = f"{self.atlas.height}.0"
         self.programs = [
             joined(
@@ -58,10 +55,11 @@ class StripPainter:
             )
             for defines in (whole, {**whole, "THIN": 1})
         ]  # fmt: skip
+        pictures = self._pictures()
         for made in self.programs:
             self._tell(made)
             made["most"] = self.most
-            made["picture_to"], made["first_layer"] = self._picture_sizes(), self._first_layers()
+            made["pictures"] = pictures if len(pictures) > 1 else pictures[0]
         self.arrays = [canvas.ctx.vertex_array(made, []) for made in self.programs]
 
     def _tell(self, made: moderngl.Program) -> None:
@@ -72,23 +70,14 @@ class StripPainter:
         if "tall" in made:
             made["tall"] = by_kind([strips.height for strips in kinds])
 
-    def _picture_sizes(self) -> list[tuple[float, float]]:
-        """Return how far each picture reaches across its layer and up, by ring and kind."""
-        sizes = [(0.0, 0.0)] * (KINDS * len(self._stock))
-        for ring, kinds in enumerate(self._stock):
-            for kind, models in enumerate(kinds):
-                rows, columns = models[0].texels.shape[2:4]
-                sizes[KINDS * ring + kind] = columns / self.atlas.width, rows / self.atlas.height
-        return sizes
-
-    def _first_layers(self) -> list[int]:
-        """Return where each kind's pictures begin among all layers, by ring and kind."""
-        first, layer = [0] * (KINDS * len(self._stock)), 0
-        for ring, kinds in enumerate(self._stock):
-            for kind, models in enumerate(kinds):
-                first[KINDS * ring + kind] = layer
-                layer += sum(2 * len(strips.plane) for strips in models)
-        return first
+    def _pictures(self) -> list[tuple[float, float, float]]:
+        """Return how far each picture reaches across its layer and up, and its first layer, by ring and kind."""
+        found, layer = [], 0
+        for models in (models for kinds in self._stock for models in kinds):
+            rows, columns = models[0].texels.shape[2:4]
+            found.append((columns / self.atlas.width, rows / self.atlas.height, float(layer)))
+            layer += sum(2 * len(strips.plane) for strips in models)
+        return found
 
     def write(self, stood: NDArray[np.void]) -> None:
         """Send the patches, ring after ring."""

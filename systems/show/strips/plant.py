@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ....engine.terrain.sample import density_at
+from ....engine.terrain.sample import own_density_at
 from ...around.ground import PRESENT, Ground
 from .pool import StripPool
 
@@ -16,9 +16,8 @@ def plant_strips(
     """Stand the strips of each cell (m, 2), running along axis `along` (m,), in its slot of the pool."""
     pool.stamp[slots, :2], pool.stamp[slots, 2] = cell, along
     pool.stand[slots] = np.column_stack([model, turn])
-    kinds = len(pool.strips)
-    every = density_at(ground.density, pool.places(slots).reshape(-1, 2)).reshape(kinds, len(slots), kinds, -1)
-    dense = np.stack([every[kind, :, kind] for kind in range(kinds)], axis=1)
+    own = own_density_at(ground.density, pool.kind(slots), pool.places(slots).reshape(-1, 2))
+    dense = own.reshape(len(slots), len(pool.strips), -1)
     grows = dense.max(axis=2) > PRESENT
     pool.present[slots] = grows
     pool.least[slots] = np.where(grows, dense.min(axis=2), np.float32(1.0)).min(axis=1)

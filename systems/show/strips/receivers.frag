@@ -3,7 +3,7 @@
 #include "lib/stack.glsl"
 
 uniform sampler2D stood;     // by patch: STOOD
-uniform vec4 margin;         // by kind: how far strips reach beyond their patch [m]
+uniform ByKind margin;       // by kind: how far strips reach beyond their patch [m]
 uniform ivec4 stacks[RINGS]; // by ring: columns of a strip, sections of a column, strips of a kind on a patch
 uniform ivec2 of_ring;       // the ring that is asked; its first patch
 
@@ -13,9 +13,9 @@ void main() {
         told = vec4(0.0);
         return;
     }
-    int patch_number = of_ring.y + number / (GROWING * count * edges);
+    int patch_number = of_ring.y + number / (KINDS * count * edges);
     vec4 where = texelFetch(stood, ivec2(patch_number % STOOD_ROW * 2, patch_number / STOOD_ROW), 0);
     int stand = int(where.w), turn = stand % 4, along = stand / 4 % 2, own = (along + turn) % 2;
-    int k = number / (count * edges) % GROWING, plane = stacked(number / edges % count, count, own, along, turn);
-    told = told_at(edge_foot(where.xy, turn, own, plane, count, number % edges, edges - 1, margin[k]), k, number);
+    int k = number / (count * edges) % KINDS, plane = stacked(number / edges % count, count, own, along, turn);
+    told = told_at(edge_foot(where.xy, turn, own, plane, count, number % edges, edges - 1, OF(margin, k)), k, number);
 }

@@ -90,6 +90,11 @@ class StripRepresentation(Representation):
             for strips, ring in zip(pictures, rings, strict=True)
         )
 
+    @staticmethod
+    def layers(quality: Quality, /) -> int:
+        """Return how many strips there are in all rings, in both orientations."""
+        return 2 * sum(ring.strips for ring in quality.strip_rings)
+
     @classmethod
     def stocked(cls, growths: Sequence[Growth], quality: Quality, ground: Ground, /) -> Self:
         """Return it with all kinds' strips, ready to be planted on a ground."""

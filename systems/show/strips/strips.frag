@@ -17,7 +17,7 @@ flat in float level;  // of the mip-maps
 flat in float boost;  // of coverage
 #ifdef MOWN
 in vec3 roots;         // place on the ground (x, z), and how high over it in calm air [m]
-flat in vec4 leaf_area;// by kind, of the ground's
+flat in ByKind leaf_area;// by kind, of the ground's
 flat in int stood_of;  // kind
 flat in float fine_at; // pixels that a metre is long
 flat in int is_cut;    // whether anything is, about its column

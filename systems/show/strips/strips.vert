@@ -10,10 +10,9 @@ uniform sampler2D extents;  // by column and layer: where paint begins and ends 
 uniform int first;
 uniform int most;           // numbers of polygon strips that are set aside for a patch
 
-uniform vec4 tall;          // by kind: height of the strips [m]
-uniform vec4 margin;        // by kind: how far strips reach beyond their patch [m]
-uniform vec2 picture_to[RINGS * KINDS];  // how far each picture reaches across its layer of the texture, and up
-uniform int first_layer[RINGS * KINDS];
+uniform ByKind tall;        // by kind: height of the strips [m]
+uniform ByKind margin;      // by kind: how far strips reach beyond their patch [m]
+uniform vec3 pictures[RINGS * KINDS];    // how far each reaches across its layer of the texture, and up; the first layer
 uniform ivec4 stacks[RINGS];             // by ring: columns of a strip, sections of a column, strips of a kind on a patch
 
 out vec2 at;
@@ -31,7 +30,7 @@ flat out float boost;
 flat out float level;
 #ifdef MOWN
 out vec3 roots;        // place on the ground (x, z), and how high over it in calm air [m]
-flat out vec4 leaf_area;// by kind, of the ground's
+flat out ByKind leaf_area;// by kind, of the ground's
 flat out int stood_of; // kind
 flat out float fine_at;// pixels that a metre is long
 flat out int is_cut;   // whether anything is, about its column
@@ -72,10 +71,10 @@ float pixels_at(vec3 place) {
 vec4 on_edge(vec3 foot, vec2 bend, vec2 run, int count, float t, int k, float sections, float growth) {
     float low = min(floor(t * sections), sections - 1.0), variant = float(k) * field.w;
     vec3 from = posture(variant, bend, low / sections).place, to = posture(variant, bend, (low + 1.0) / sections).place;
-    vec3 spine = mix(from, to, t * sections - low) * tall[k];
-    float height = tall[k] * growth;
+    vec3 spine = mix(from, to, t * sections - low) * OF(tall, k);
+    float height = OF(tall, k) * growth;
     vec2 back = laid_back(run, foot, posture(variant, bend, 1.0).place * height, height, count) * t;
-    return vec4(foot + spine * growth + vec3(back.x, 0.0, back.y), spine.y / (crown[k] * lodged(bend)));
+    return vec4(foot + spine * growth + vec3(back.x, 0.0, back.y), spine.y / (OF(crown, k) * lodged(bend)));
 }
 
 void main() {
@@ -86,36 +85,37 @@ void main() {
     vec4 where = texelFetch(stood, at_patch, 0), how = texelFetch(stood, at_patch + ivec2(1, 0), 0);
     int stand = int(where.w), turn = stand % 4, along = stand / 4 % 2, ring = stand / 16, own = (along + turn) % 2;
     ivec4 fine = stacks[ring];
-    int column = own_number % fine.x, walked = own_number / fine.x / GROWING, count = fine.z;
+    int column = own_number % fine.x, walked = own_number / fine.x / KINDS, count = fine.z;
     int stack = stand / 8 % 2 == 1 ? count - 1 - walked : walked;
     // Strips of several kinds share a plane: each kind comes to lie in front as often as behind.
-    int k = (own_number / fine.x + stack) % GROWING, plane = stacked(stack, count, own, along, turn);
+    int k = (own_number / fine.x + stack) % KINDS, plane = stacked(stack, count, own, along, turn);
     int receiver = int(how.w) + (k * count + stack) * (fine.x + 1) + column;
     vec4 told_a = received_by(receiver), told_b = received_by(receiver + 1);
-    vec2 foot_a = edge_foot(where.xy, turn, own, plane, count, column, fine.x, margin[k]);
-    vec2 foot_b = edge_foot(where.xy, turn, own, plane, count, column + 1, fine.x, margin[k]);
+    vec2 foot_a = edge_foot(where.xy, turn, own, plane, count, column, fine.x, OF(margin, k));
+    vec2 foot_b = edge_foot(where.xy, turn, own, plane, count, column + 1, fine.x, OF(margin, k));
     vec3 a = vec3(foot_a.x, told_a.z, foot_a.y), b = vec3(foot_b.x, told_b.z, foot_b.y);
 
-    int picture = ring * KINDS + k, layer = first_layer[picture] + (int(where.z) * 2 + own) * count + plane;
+    vec3 picture = pictures[ring * KINDS + k];
+    int layer = int(picture.z) + (int(where.z) * 2 + own) * count + plane;
     sheet = float(layer);
     vec3 middle = 0.5 * (a + b);
     // Nothing is drawn where nothing is painted: a strip ends a pixel beyond its paint.
     vec4 extent = texelFetch(extents, ivec2(column, layer), 0);
     float pixels = pixels_at(middle), beside = 1.0 / (pixels * distance(a.xz, b.xz));
     float across = (gl_VertexID & 1) == 1 ? min(extent.y + beside, 1.0) : max(extent.x - beside, 0.0);
-    float t = min(float(gl_VertexID / 2) / float(fine.y), min(extent.z + 1.0 / (pixels * tall[k]), 1.0));
+    float t = min(float(gl_VertexID / 2) / float(fine.y), min(extent.z + 1.0 / (pixels * OF(tall, k)), 1.0));
     vec2 bend_a = bending(k, told_a.xy), bend_b = bending(k, told_b.xy);
     vec2 way = b.xz - a.xz;
     float sections = float(fine.y);
     vec4 point = mix(on_edge(a, bend_a, way, count, t, k, sections, how.y), on_edge(b, bend_b, way, count, t, k, sections, how.y), across);
     gl_Position = clip * vec4(point.xyz, 1.0);
-    at = vec2((float(column) + across) / float(fine.x), t) * picture_to[picture];
+    at = vec2((float(column) + across) / float(fine.x), t) * picture.xy;
     vec4 here = lie_at(middle.xz);
-    vec4 grows = textureLod(density, on_map(middle.xz), 0.0);
+    ByKind grows = grows_at(middle.xz);
     Lit lit = lit_at(k, 0.5 * (bend_a + bend_b), middle, here, grows);
 #ifdef MOWN
-    roots = vec3(mix(a.xz, b.xz, across), t * tall[k]);
-    leaf_area = grows * leaf;
+    roots = vec3(mix(a.xz, b.xz, across), t * OF(tall, k));
+    leaf_area = areas(grows);
     stood_of = k;
     fine_at = pixels;
     rows_at = CROSSED * soil.w / float(count) * abs(eye.y - middle.y) / max(distance(middle.xz, eye.xz), 0.5 * soil.w);
@@ -137,7 +137,7 @@ void main() {
     grain = (turn % 2 == 0 ? 1.0 : -1.0) * grain_c[k].rgb;
     shown = how.x;
     boost = boosted(run, middle);
-    float texels = picture_to[picture].y * ATLAS / (tall[k] * pixels);
+    float texels = picture.y * ATLAS / (OF(tall, k) * pixels);
     level = log2(texels) - SHARPER;
 #ifdef THIN
     thin(mix(told_a.w, told_b.w, across), how.z, 0.5 * texels / abs(run.x * sight.y - run.y * sight.x));

@@ -57,6 +57,16 @@ def test_each_kind_takes_its_own_channel_in_the_order_of_the_kinds(tmp_path: Pat
     assert density.maps.flags.c_contiguous
 
 
+def test_nine_kinds_take_the_channels_of_three_maps(tmp_path: Path) -> None:
+    maps = [channels(seed=number, count=3) for number in range(3)]
+    for number, values in enumerate(maps):
+        save(tmp_path / f"map-{number}.png", values)
+    places = [(number, channel) for number in range(3) for channel in ("red", "green", "blue")]
+    density = load(tmp_path, **{f"{on}-{channel}": painted(f"map-{on}.png", channel) for on, channel in places})
+    drawn = np.concatenate([values.transpose(2, 0, 1) / np.float32(255.0) for values in maps])
+    np.testing.assert_allclose(density.maps, drawn / np.maximum(drawn.sum(axis=0), 1.0), atol=1e-6)
+
+
 @pytest.mark.parametrize("channel", ["red", "green", "blue"])
 def test_a_grey_picture_has_the_same_density_in_every_colour(channel: str, tmp_path: Path) -> None:
     save(tmp_path / "map.png", channels(count=1))

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.engine.terrain.record import Density, Terrain
-from tallgrass.engine.terrain.sample import density_at, height_at, slope_at
+from tallgrass.engine.terrain.sample import density_at, height_at, own_density_at, slope_at
 
 Floats = NDArray[np.float32]
 Doubles = NDArray[np.float64]
@@ -111,6 +111,16 @@ def test_any_number_of_places_gives_what_each_gives_alone(count: int) -> None:
         assert height_at(terrain, alone)[0] == height[k]
         assert (slope_at(terrain, alone)[0] == slope[k]).all()
         assert (density_at(density, alone)[:, 0] == dense[:, k]).all()
+
+
+@pytest.mark.parametrize("count", [0, 1, 12289])
+def test_the_density_of_ones_own_kind_is_that_of_all_kinds_at_it(count: int) -> None:
+    terrain, chosen = rough(), np.random.default_rng(4)
+    density = Density(chosen.random((9, 8, 5)).astype(np.float32), terrain.size)
+    place, kind = inside(terrain, max(count, 1))[:count], chosen.integers(0, 9, count)
+    own = own_density_at(density, kind, place)
+    assert own.dtype == np.float32
+    np.testing.assert_array_equal(own, density_at(density, place)[kind, np.arange(count)])
 
 
 def test_a_density_is_that_of_a_pixel_in_its_middle_and_at_the_outer_edge() -> None:

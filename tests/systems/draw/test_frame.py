@@ -83,8 +83,9 @@ def test_d6_the_block_stays_away_from_the_hosts_own_binding_points(ctx: moderngl
     assert block.binding >= 35
 
 
-def test_figures_by_kind_fill_a_vector_of_four() -> None:
+def test_figures_by_kind_fill_vectors_of_four() -> None:
     assert by_kind([1.0, 2.0]) == (1.0, 2.0, 0.0, 0.0)
+    assert by_kind([1.0, 2.0, 3.0, 4.0, 5.0]) == [(1.0, 2.0, 3.0, 4.0), (5.0, 0.0, 0.0, 0.0)]
 
 
 @pytest.mark.parametrize(("record", "unread"), [(BLADE, {"organ"}), (ORGAN, set())], ids=["grass", "plants"])

@@ -128,7 +128,7 @@ def corners(ctx: moderngl.Context, laid: Laid) -> Iterator[Corners]:
     """Where the graphics card puts the grid points of tiles (n,), shape (n, GRID + 1, GRID + 1, 3)."""
     site = laid()
     record = frame_record(site.scene, site.growths, site.ground.terrain, site.quality.patch)
-    textures = {
+    textures: dict[str, moderngl.Texture | moderngl.TextureArray] = {
         "heights": height_texture(ctx, site.ground.terrain),
         "lie": laid_over(ctx, np.full((4, 4, 4), 128, np.uint8)),
         "density": density_texture(ctx, site.ground.density),

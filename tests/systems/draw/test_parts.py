@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.engine.declared.grass import GrassKind
+from tallgrass.engine.declared.grass import MOST_KINDS, GrassKind
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.systems.frame.block import frame_record
 from tallgrass.systems.frame.maps import height_texture, posture_texture
-from tallgrass.systems.grow.bend import spine
+from tallgrass.systems.grow.bend import bending, spine
 from tallgrass.systems.grow.give import grow_give
 from tallgrass.systems.grow.postures import grow_postures
-from tallgrass.systems.grow.record import Blades, Growth
+from tallgrass.systems.grow.record import GIVES, Blades, Growth
 from tallgrass.systems.grow.response import grow_response
 from tallgrass.systems.site import Site
 
@@ -27,6 +27,10 @@ POSTURE = """#include "lib/posture.glsl"
 in vec4 row;
 out vec3 told;
 void main() { told = posture(row.x, bending(int(row.x) / 4, row.yz), row.w).place; }"""
+BENDING = """#include "lib/posture.glsl"
+in vec3 row;
+out vec2 told;
+void main() { told = bending(int(row.z), row.xy); }"""
 HEIGHT = """#include "lib/terrain.glsl"
 in vec2 row;
 out float told;
@@ -118,12 +122,24 @@ def test_w12_on_the_graphics_card_the_stiff_tip_stands_a_quarter_of_its_length_a
     kinds = [GrassKind(stiffness=stiffness) for stiffness in (0.2, 8.0)]
     made = [replace(grow_postures(kind), give=grow_give(kind)) for kind in kinds]
     texture = posture_texture(ctx, [Growth(postures, grow_response(kinds[0]), ()) for postures in made])
-    record[0]["give"][:, :2] = np.stack([postures.give for postures in made], axis=1)
+    record[0]["give"][:GIVES, :2] = np.stack([postures.give for postures in made], axis=1)
     half = np.array([[0.5, 0.0], [0.3, -0.4]], np.float32)
     for variant in range(4):
         soft, stiff = (bent(probe, texture, record, kind * 4 + variant, half)[:, -1, 1] for kind in (0, 1))
         assert (stiff - soft > 0.25).all()
     texture.release()
+
+
+@pytest.mark.parametrize("kind", range(MOST_KINDS))
+def test_w12_each_of_sixteen_kinds_gives_way_as_its_own_numbers_say(
+    probe: Probe, record: NDArray[np.void], growths: list[Growth], kind: int
+) -> None:
+    gives = np.sort(np.random.default_rng(3).random((MOST_KINDS, GIVES)).astype(np.float32), axis=1)
+    record[0]["give"] = gives.reshape(-1, 4, GIVES).transpose(0, 2, 1).reshape(-1, 4)
+    wind = messages(50)
+    asked = np.column_stack([wind, np.full(len(wind), kind, np.float32)])
+    told = probe(BENDING, asked, record, {}, 2)
+    np.testing.assert_allclose(told, bending(replace(growths[0].postures, give=gives[kind]), wind), atol=1e-5)
 
 
 def test_t1_the_graphics_card_reads_the_same_bilinear_ground(

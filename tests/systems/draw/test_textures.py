@@ -115,12 +115,15 @@ def test_t1_heights_are_kept_to_the_bit(ctx: moderngl.Context, hills: Terrain) -
     texture.release()
 
 
-def test_each_kinds_density_is_a_channel(ctx: moderngl.Context) -> None:
-    maps = np.random.default_rng(0).random((3, 5, 7)).astype(np.float32)
+@pytest.mark.parametrize(("kinds", "layers"), [(3, 1), (4, 1), (9, 3)])
+def test_each_kinds_density_is_a_channel_of_a_layer(ctx: moderngl.Context, kinds: int, layers: int) -> None:
+    maps = np.random.default_rng(0).random((kinds, 5, 7)).astype(np.float32)
     texture = density_texture(ctx, Density(maps, (70.0, 50.0)))
-    packed = np.frombuffer(texture.read(), np.uint8).reshape(5, 7, 4)
-    np.testing.assert_allclose(packed[..., :3] / 255.0, np.moveaxis(maps, 0, -1), atol=0.5 / 255 + 1e-6)
-    assert (packed[..., 3] == 0).all()
+    packed = np.frombuffer(texture.read(), np.uint8).reshape(-1, 5, 7, 4)
+    channels = np.moveaxis(packed, -1, 1).reshape(-1, 5, 7)
+    np.testing.assert_allclose(channels[:kinds] / 255.0, maps, atol=0.5 / 255 + 1e-6)
+    assert (channels[kinds:] == 0).all()
+    assert len(packed) == layers
     texture.release()
 
 

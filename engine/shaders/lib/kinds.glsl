@@ -1,0 +1,43 @@
+// Kinds of grass: figures that each has stand in vectors, four kinds in each.
+#ifndef KINDS
+#define KINDS 16  // who is told nothing has room for as many as there can be
+#endif
+#define GROUPS ((KINDS + 3) / 4)
+#define ByKind vec4[GROUPS]
+#if KINDS > 4
+#define GROUP(kind) ((kind) >> 2)
+#define IN_GROUP(kind) ((kind) & 3)
+#else
+#define GROUP(kind) 0
+#define IN_GROUP(kind) (kind)
+#endif
+#define OF(figures, kind) figures[GROUP(kind)][IN_GROUP(kind)]
+
+ByKind all_kinds(float figure) {
+    ByKind all;
+    for (int group = 0; group < GROUPS; group++)
+        all[group] = vec4(figure);
+    return all;
+}
+
+float total(ByKind figures) {
+    float sum = 0.0;
+    for (int group = 0; group < GROUPS; group++)
+        sum += dot(figures[group], vec4(1.0));
+    return sum;
+}
+
+// The sum of products, kind by kind.
+float weighed(ByKind figures, ByKind weights) {
+    float sum = 0.0;
+    for (int group = 0; group < GROUPS; group++)
+        sum += dot(figures[group], weights[group]);
+    return sum;
+}
+
+// The first kind from `kind` on whose figure is above `least`, KINDS if there is none: of many kinds, few are at one place.
+int next_kind(ByKind figures, float least, int kind) {
+    while (kind < KINDS && OF(figures, kind) <= least)
+        kind++;
+    return kind;
+}
