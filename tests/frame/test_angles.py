@@ -117,6 +117,17 @@ def test_x5_the_sky_does_not_shine_through_ground_behind_a_far_crest(ctx: modern
     assert not (under & sky[:, 150:230]).any()
 
 
+def test_x5_the_sky_does_not_shine_through_a_crest_at_the_terrains_edge(ctx: moderngl.Context, wide: Stage) -> None:
+    prairie = Prairie.load("saucer", ctx=ctx, live=False, preset="low")
+    prairie.advance(5.0)
+    camera = camera_at(prairie.scene.camera, None, prairie.height_at)
+    _, green, blue = np.moveaxis(wide.shot(prairie, camera), -1, 0)
+    prairie.release()
+    far = slice(round(0.11 * len(blue)), round(0.25 * len(blue)))
+    assert (blue[: far.start] > green[: far.start]).mean() > 0.4, "above it is sky"
+    assert not (blue[far] > green[far] - 5.0).any()
+
+
 @pytest.mark.parametrize("lod", ["auto", "carpet"])
 def test_the_ground_goes_on_to_the_horizon_beyond_the_terrains_edge(
     ctx: moderngl.Context, wide: Stage, lod: LodName
