@@ -62,14 +62,13 @@ def frame_record(
     """
     record = np.zeros(1, FRAME)
     row = record[0]
-    light = daylight(scene.light)
-    _write_light(row, light, scene.light, raw=raw)
-    row["soil"] = (*pigment(scene.light.ground), patch)
+    row["sun"][3], row["soil"][3] = raw, patch
+    shine(record, scene.light, daylight(scene.light), list(scene.grass.values()))
     postures = growths[0].postures.shape
     row["terrain"] = (*terrain.origin, terrain.cell, postures.shape[2] - 1)
     row["field"] = (*terrain.size, postures.shape[1], postures.shape[0])
     for index, (kind, growth) in enumerate(zip(scene.grass.values(), growths, strict=True)):
-        _write_kind(row, index, kind, light)
+        _write_kind(row, index, kind)
         leaves = leaves_of(kind, growth, patch)
         row["crown"][index], row["leaf"][index] = canopy_height(growth), leaves.side
         row["lying"][index] = leaves.above / leaves.side
@@ -78,21 +77,30 @@ def frame_record(
     return record
 
 
-def _write_light(row: np.void, light: Daylight, declared: Light, *, raw: bool) -> None:
-    row["sun"] = (*light.direction, float(raw))
+def shine(record: NDArray[np.void], declared: Light, light: Daylight, kinds: Sequence[GrassKind], /) -> None:
+    """Write the light that is `declared`, and what it does to the kinds of grass."""
+    row = record[0]
+    row["sun"][:3] = light.direction
     row["sunlight"] = (*light.sun, declared.clouds)
     row["skylight"] = (*light.down, 1.0 / declared.haze)
     row["zenith"][:3] = light.sky.map[-1].mean(axis=0)
     row["horizon"][:, :3] = light.sky.horizon
-    azimuth = radians(sun_at(declared)[0])
-    row["drift"][2:] = sin(azimuth), -cos(azimuth)
+    row["drift"][2:] = toward_sun(declared)
+    row["soil"][:3] = pigment(declared.ground)
+    for index, kind in enumerate(kinds):
+        row["grain_c"][index, :3], row["grain_s"][index, :3] = grain(kind, light)
 
 
-def _write_kind(row: np.void, index: int, kind: GrassKind, light: Daylight) -> None:
+def toward_sun(light: Light, /) -> tuple[float, float]:
+    """Return the direction over the ground that the sun stands in (x, z)."""
+    azimuth = radians(sun_at(light)[0])
+    return sin(azimuth), -cos(azimuth)
+
+
+def _write_kind(row: np.void, index: int, kind: GrassKind) -> None:
     row["root"][index] = (*pigment(kind.root), kind.gloss)
     row["tip"][index] = (*pigment(kind.tip), kind.taper)
     row["through"][index, :3] = let_through(kind)
-    row["grain_c"][index, :3], row["grain_s"][index, :3] = grain(kind, light)
 
 
 def nearest(shades: Sequence[Shade], eye: tuple[float, float, float], /) -> list[Shade]:

@@ -2,10 +2,11 @@
 // pigments are square roots of albedos, so that what lies between two pigments looks as if it did.
 #include "lib/frame.glsl"
 
-uniform sampler2D lie;      // over the terrain: sine of the sun's elevation over the slope; how much of it is seen; two slow noises
+uniform sampler2D lie;      // over the terrain, side by side: its normal (x, z) and two slow noises; how high what stands before the sun
 uniform sampler2D density;  // over the terrain: how densely each kind grows
 uniform sampler2D repeating;// squares that repeat: how dense clouds are; how bright what lies on the ground is
 
+const float PENUMBRA = 0.02;    // half the width of a shadow's edge, of the distance from what casts it; the sun's alone is 0.005
 const float CLOUDS_AT = 450.0;  // height of the clouds [m]
 const float CLOUDS_SIDE = 900.0;// side of the square that repeats [m]
 const float CLOUD_TAKES = 0.75; // what a dense cloud takes of the sun's light
@@ -29,9 +30,15 @@ vec2 on_map(vec2 place) {
     return 1.0 - abs(1.0 - mod((place - terrain.xy) / field.xy, 2.0));
 }
 
+// Sine of the sun's elevation over the slope; how much of its disc is seen past the terrain; two slow noises.
 vec4 lie_at(vec2 place) {
-    vec4 here = textureLod(lie, on_map(place), 0.0);
-    return vec4(here.xy, 2.0 * here.zw - 1.0);
+    vec2 at = on_map(place), half_texel = 0.5 / vec2(textureSize(lie, 0));
+    at.x = clamp(0.5 * at.x, half_texel.x, 0.5 - half_texel.x);
+    vec4 still = textureLod(lie, at, 0.0);
+    float before = textureLod(lie, vec2(at.x + 0.5, at.y), 0.0).r;
+    float high = dot(sun.xz, still.xy) + sun.y * sqrt(max(1.0 - dot(still.xy, still.xy), 0.0));
+    float rise = max(sun.y, 0.01) / max(length(sun.xz), 1e-4), past = clamp(0.5 + 0.5 * (rise - before) / PENUMBRA, 0.0, 1.0);
+    return vec4(max(high, 0.0), past * past * (3.0 - 2.0 * past), still.zw);
 }
 
 #ifdef MOWN
