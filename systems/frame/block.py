@@ -1,7 +1,7 @@
 """What every program knows of a frame, in one uniform block."""
 
 from collections.abc import Mapping, Sequence
-from math import cos, dist, radians, sin
+from math import cos, dist, hypot, radians, sin
 
 import moderngl
 import numpy as np
@@ -20,7 +20,7 @@ from ..light.daylight import Daylight, daylight
 from ..light.materials import bloom, grain, leaves_of, let_through, pigment
 from ..light.sun import sun_at
 
-SHADES = 4
+SHADES = 8
 """How many bodies cast shadows at most."""
 
 FRAME = np.dtype(
@@ -35,6 +35,7 @@ FRAME = np.dtype(
         ("horizon", "(3,4)f4"),
         ("drift", "4f4"),
         ("shades", f"({SHADES},4)f4"),
+        ("shaped", f"({SHADES},4)f4"),
         ("soil", "4f4"),
         ("terrain", "4f4"),
         ("field", "4f4"),
@@ -112,8 +113,10 @@ def cast(record: NDArray[np.void], shades: Sequence[Shade], drift: tuple[float, 
     """Write what casts shadows, at most `SHADES`, and how far the clouds have drifted, in sides."""
     row = record[0]
     row["shades"] = 0.0
-    for into, shade in zip(row["shades"], shades, strict=False):
+    for into, shaped, shade in zip(row["shades"], row["shaped"], shades, strict=False):
         into[:] = (*shade.place, shade.radius)
+        length, high = hypot(*shade.up), 2.0 * shade.radius if shade.height is None else shade.height
+        shaped[:3], shaped[3] = np.divide(shade.up, length), 2.0 * shade.radius / high - 1.0
     row["drift"][:2] = drift
 
 

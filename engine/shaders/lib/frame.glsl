@@ -9,7 +9,8 @@ layout(std140) uniform Frame {
     vec4 zenith;      // radiance overhead; height that no blade comes to [m]
     vec4 horizon[3];  // radiance of horizon and haze, by powers of the cosine of the azimuth from the sun
     vec4 drift;       // where the clouds have drifted to, in their own sides; the sun's azimuth as a direction (x, z)
-    vec4 shades[4];   // of bodies that cast shadows: middle, radius [m]; radius 0 where there is none
+    vec4 shades[8];   // of bodies that cast shadows: middle, radius [m]; radius 0 where there is none
+    vec4 shaped[8];   // of the same: axis; how much longer it would have to be along it to be a ball
     vec4 soil;        // pigment of bare ground; patch side [m]
     vec4 terrain;     // origin x, z [m]; metres per cell; posture links
     vec4 field;       // size x, z [m]; posture rows; variants per kind

@@ -7,6 +7,7 @@ uniform sampler2D density;  // over the terrain: how densely each kind grows
 uniform sampler2D repeating;// squares that repeat: how dense clouds are; how bright what lies on the ground is
 
 const float PENUMBRA = 0.02;    // half the width of a shadow's edge, of the distance from what casts it; the sun's alone is 0.005
+const int SHADES = 8;           // bodies that cast shadows
 const float CLOUDS_AT = 450.0;  // height of the clouds [m]
 const float CLOUDS_SIDE = 900.0;// side of the square that repeats [m]
 const float CLOUD_TAKES = 0.75; // what a dense cloud takes of the sun's light
@@ -84,14 +85,19 @@ float past_clouds(vec3 place) {
     return 1.0 - CLOUD_TAKES * smoothstep(1.0 - sunlight.w, 1.25 - sunlight.w, dense);
 }
 
-// How much of the sun is seen past bodies, from a place: each is a ball with a soft edge.
+// How much of the sun is seen past bodies, from a place. Each is a ball that is stretched or pressed flat along an axis:
+// drawn out until it is one, the sun's ray past it too, it is seen how near the ray comes to its middle.
 float past_bodies(vec3 place) {
     float seen = 1.0;
-    for (int i = 0; i < 4 && shades[i].w > 0.0; i++) {
-        vec3 apart = shades[i].xyz - place;
-        float along = dot(apart, sun.xyz), off = length(apart - sun.xyz * along);
-        float soft = 0.12 * shades[i].w + 0.01 * abs(along);
-        seen *= along > 0.0 ? smoothstep(shades[i].w - soft, shades[i].w + soft, off) : 1.0;
+    for (int i = 0; i < SHADES && shades[i].w > 0.0; i++) {
+        vec3 apart = shades[i].xyz - place, axis = shaped[i].xyz;
+        vec3 way = apart + axis * (shaped[i].w * dot(axis, apart)), ray = sun.xyz + axis * (shaped[i].w * dot(axis, sun.xyz));
+        float before = dot(way, ray) / dot(ray, ray), along = dot(apart, sun.xyz);
+        float near = length(way - ray * before) / shades[i].w;
+        // Its outline is as far from the middle as `near` is from 1; the farther its shadow falls, the softer is its edge.
+        float soft = 0.12 + 0.01 * abs(along) * max(near, 1e-3) / max(length(apart - sun.xyz * along), 1e-3 * shades[i].w);
+        float hidden = (1.0 - smoothstep(1.0 - soft, 1.0 + soft, near)) / max(soft * soft, 1.0);
+        seen *= before > 0.0 ? 1.0 - hidden : 1.0;
     }
     return seen;
 }
