@@ -172,7 +172,10 @@ class Painter:
         self.textures[name] = texture
 
     def _grow(self, site: Site) -> None:
-        """Bring the grass into GL."""
+        """Bring the grass into GL; shaders are told of folds where there are some."""
+        self.block.defines.pop("FOLDS", None)
+        if any(kind.profile == "fold" for kind in site.scene.grass.values()):
+            self.block.defines["FOLDS"] = 1
         self._put("postures", posture_texture(self.ctx, site.growths))
         self.air = CardWinds(self.ctx, UNITS, site.growths)
         canvas = Canvas(

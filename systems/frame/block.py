@@ -16,8 +16,9 @@ from ...engine.gl.shaders import program
 from ...engine.terrain.record import Terrain
 from ..around.canopy import canopy_height
 from ..grow.record import GIVES, Growth
+from ..grow.section import SECTIONS
 from ..light.daylight import Daylight, daylight
-from ..light.materials import bloom, grain, leaves_of, let_through, pigment
+from ..light.materials import apart, bloom, grain, leaves_of, let_through, pigment
 from ..light.sun import sun_at
 
 SHADES = 8
@@ -90,6 +91,7 @@ def shine(record: NDArray[np.void], declared: Light, light: Daylight, kinds: Seq
     row["soil"][:3] = pigment(declared.ground)
     for index, kind in enumerate(kinds):
         row["grain_c"][index, :3], row["grain_s"][index, :3] = grain(kind, light)
+        row["grain_c"][index, 3] = apart(kind, light)
 
 
 def toward_sun(light: Light, /) -> tuple[float, float]:
@@ -102,6 +104,8 @@ def _write_kind(row: np.void, index: int, kind: GrassKind) -> None:
     row["root"][index] = (*pigment(kind.root), kind.gloss)
     row["tip"][index] = (*pigment(kind.tip), kind.taper)
     row["through"][index, :3] = let_through(kind)
+    section = SECTIONS[kind.profile]
+    row["grain_s"][index, 3] = -1.0 if section.is_round else 1.0 - section.waist
 
 
 def nearest(shades: Sequence[Shade], eye: tuple[float, float, float], /) -> list[Shade]:

@@ -21,7 +21,7 @@ layout(std140) uniform Frame {
     vec4 root[4];     // by kind: pigment at the root; gloss
     vec4 tip[4];      // by kind: pigment at the tip; taper
     vec4 through[4];  // by kind: light that a leaf lets through, of what it sends back; how much has the tip's pigment
-    vec4 grain_c[4];  // by kind: relative change of pigment with the cosine of twice the face normal's azimuth
-    vec4 grain_s[4];  // by kind: the same with the sine
+    vec4 grain_c[4];  // by kind: relative change of pigment with the cosine of twice the face normal's azimuth; how far a face's sides are lit apart
+    vec4 grain_s[4];  // by kind: the same with the sine; how much narrower it is at its root, below 0 where it is round
     vec4 give[17];    // by length of a message, evenly from 0 to 1: posture index that it bends the kinds to
 };
