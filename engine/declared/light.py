@@ -1,8 +1,8 @@
 """Sun, sky and haze: what a scene declares of the light."""
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ...components.declaration import Color, Declaration, DeclarationError
+from ...components.declaration import Color, Declaration
 
 
 class Light(Declaration):
@@ -18,7 +18,7 @@ class Light(Declaration):
     """Solar time of day [h], 12 is noon: it gives azimuth and elevation, with the day and the latitude; -z is north."""
 
     hours_per_minute: float = Field(default=0.0, ge=0.0, le=1440.0)
-    """How fast the day goes by, from `hour` on [h/min]: 0 stands still, 2 is a day in twelve minutes."""
+    """How fast the day goes by, from its `hour` on [h/min]: 0 stands still, 2 is a day in twelve minutes."""
 
     day: int = Field(default=172, ge=1, le=366)
     """Day of the year, for `hour`; 172 is midsummer in the north."""
@@ -52,9 +52,3 @@ class Light(Declaration):
 
     haze: float = Field(default=1800.0, ge=10.0, le=1e6)
     """Distance at which the haze hides 63 % of what is behind it [m]."""
-
-    @model_validator(mode="after")
-    def _begins_at_an_hour(self) -> "Light":
-        if self.hours_per_minute and self.hour is None:
-            raise DeclarationError("hours_per_minute needs the hour that the day begins at", "hours_per_minute")
-        return self

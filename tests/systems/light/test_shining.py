@@ -98,6 +98,6 @@ def test_f5_hours_pass_from_when_they_were_asked_for() -> None:
     assert shining.at(46.0).hour == pytest.approx(7.0)
 
 
-def test_hours_pass_from_an_hour_alone() -> None:
-    with pytest.raises(ValueError, match="hours_per_minute needs the hour that the day begins at"):
-        Light(hours_per_minute=1.0)
+def test_without_an_hour_none_passes() -> None:
+    light = Light(elevation=20.0, hours_per_minute=2.0)
+    assert Shining(light).at(30.0) is light
