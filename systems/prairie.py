@@ -329,7 +329,7 @@ class Prairie:
         """Change the light from the next frame on, by keys of `light:` in a scene: `shine(hour=17.5, clouds=0.4)`.
 
         The rest of it stays. No frame waits for it, so it may be called in every frame. The sun stands there at once;
-        the sky's colours and the terrain's shadows follow within some fifty frames, or at once before the first. Raises
+        the sky's colours and the terrain's shadows follow within some sixty frames, or at once before the first. Raises
         ValueError for an unknown key and a bad value, RuntimeError after `release`.
         """
         self._must_be_there("change its light")

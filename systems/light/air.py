@@ -67,10 +67,18 @@ def sunlight(radius: Doubles, cosine: Doubles, turbidity: float, /) -> Doubles:
     """
     way, toward = _way_out(radius, cosine).reshape(-1), (2.0 * radius * cosine).reshape(-1)
     along = _MIDDLES[:, None] * way
-    height = np.sqrt((radius * radius).reshape(-1) + along * (along + toward))
-    height = np.maximum(height - GROUND, 0.0, out=height)
-    ozone = np.maximum(1.0 - np.abs(height - 25.0) / 15.0, 0.0)
-    met = np.stack([_LENGTHS @ np.exp(height / -8.0), _LENGTHS @ np.exp(height / -1.2), _LENGTHS @ ozone], axis=-1)
+    height = along + toward
+    height *= along
+    height += (radius * radius).reshape(-1)
+    height = np.maximum(np.sqrt(height, out=height) - GROUND, 0.0, out=height)
+    met = np.empty((len(way), 3))
+    for column, scale in enumerate((8.0, 1.2)):
+        met[:, column] = _LENGTHS @ np.exp(np.divide(height, -scale, out=along), out=along)
+    height -= 25.0
+    ozone = np.abs(height, out=height)
+    ozone /= -15.0
+    ozone += 1.0
+    met[:, 2] = _LENGTHS @ np.maximum(ozone, 0.0, out=ozone)
     takes = np.stack([MOLECULES, np.full(3, (HAZE + HAZE_TAKES) * _thick(turbidity)), OZONE])
     grazing = np.sqrt(np.maximum(1.0 - (GROUND / radius) ** 2, 0.0))
     lit = np.clip((cosine + grazing) / 0.0093 + 0.5, 0.0, 1.0)  # the sun's disc sets

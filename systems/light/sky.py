@@ -26,7 +26,7 @@ BRIGHTER = 2.0
 MEETS = 0.05
 """Sine of the elevation up to which the sky passes into the haze of the horizon."""
 
-AROUND_PIECES, MAP_PIECES = 10, 16
+AROUND_PIECES, MAP_PIECES = 10, 22
 """Pieces of the work on what comes from all sides, and on the map."""
 
 PIECES = AROUND_PIECES + MAP_PIECES
