@@ -1,9 +1,12 @@
-"""Numbers that a game hands in, made into arrays."""
+"""What a game hands in: numbers made into arrays, and what is refused."""
 
+from pathlib import Path
 from reprlib import repr as shortened
 
 import numpy as np
 from numpy.typing import NDArray
+
+from .scene import LoadedScene
 
 
 def as_floats(thing: object, due: str, /) -> NDArray[np.float32]:
@@ -18,3 +21,25 @@ def as_floats(thing: object, due: str, /) -> NDArray[np.float32]:
     if thing is None or not np.isfinite(array).all():
         raise ValueError(f"{due}, not {'None' if thing is None else 'NaN or infinity'}")
     return array
+
+
+def must_be_read(thing: object, /) -> None:
+    """Raise TypeError for what is no scene that has been read."""
+    if isinstance(thing, str | Path):
+        raise TypeError(f"Prairie takes a scene that has been read; load one by Prairie.load({str(thing)!r})")
+    if not isinstance(thing, LoadedScene):
+        raise TypeError(f"Prairie takes a scene that has been read, not {shortened(thing)}; use Prairie.load")
+
+
+def must_be_viewer(thing: object, /) -> None:
+    """Raise TypeError for what is no viewer's name."""
+    if not isinstance(thing, str):
+        raise TypeError(f"a viewer is called by a text such as 'main', not by {shortened(thing)}")
+
+
+def must_be_step(thing: object, /) -> None:
+    """Raise TypeError for what is no number, ValueError for one that time cannot move on by."""
+    if not isinstance(thing, float | int | np.floating | np.integer):
+        raise TypeError(f"a prairie advances by a number of seconds, not by {shortened(thing)}")
+    if not (np.isfinite(thing) and thing >= 0.0):
+        raise ValueError(f"a prairie advances by 0 s or more, not by {thing}")

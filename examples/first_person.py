@@ -15,7 +15,7 @@ from pyglet.graphics.shader import Shader, ShaderProgram
 from pyglet.math import Mat4, Vec3
 from pyglet.window import key
 
-from tallgrass import Pose, Prairie, Presser
+from tallgrass import Pose, Prairie, Presser, Shade
 
 SIZE = (960, 540)
 BOULDERS = ((-1.2, 60.5, 0.8), (3.5, 57.5, 1.2), (-6.5, 55.0, 1.5), (-1.0, 47.0, 1.8), (9.0, 50.0, 2.4))
@@ -61,8 +61,9 @@ class Game:
         self.window.push_handlers(self.keys, self.on_draw, self.on_mouse_motion)
 
     def boulder(self, x: float, z: float, size: float) -> pyglet.model.Model:
-        """Return a boulder on the ground, in the batch."""
+        """Return a boulder on the ground, in the batch, that casts its shadow on the grass."""
         y = float(self.prairie.height_at([(x, z)])[0]) + 0.3 * size
+        esper.create_entity(Shade((x, y, z), size, 1.4 * size))
         sphere: Any = pyglet.model.Sphere  # pyglet declares no types of its arguments
         made: pyglet.model.Model = sphere(2.0, 24, 32, batch=self.batch, program=self.program)
         made.matrix = Mat4.from_translation(Vec3(x, y, z)) @ Mat4.from_scale(Vec3(size, 0.7 * size, size))

@@ -16,11 +16,13 @@ from .around.outlook import Outlook
 from .around.representation import Canvas, RepresentationPainter
 from .blow import receivers_shown
 from .bodies.draw import BodyPainter, shade_of
-from .frame.block import FrameBlock, aim, cast, frame_record, nearest
+from .frame.block import FrameBlock, aim, cast, frame_record, nearest, shine, toward_sun
 from .frame.maps import density_texture, height_texture, posture_texture
+from .light.daylight import Daylight
 from .light.draw import SAMPLERS as LIGHTS
 from .light.draw import LightPainter
 from .light.repeating import drifted
+from .light.shining import Shining
 from .mow.card import SAMPLERS as MOWING
 from .mow.card import CardMown
 from .mow.mown import Mown
@@ -68,7 +70,14 @@ class Painter:
     """Everything that one GL context holds of a site, and the drawing of it."""
 
     def __init__(
-        self, ctx: moderngl.Context, site: Site, quarantine: Quarantine, mown: Mown, *, linear: bool = False
+        self,
+        ctx: moderngl.Context,
+        site: Site,
+        quarantine: Quarantine,
+        mown: Mown,
+        shining: Shining,
+        *,
+        linear: bool = False,
     ) -> None:
         self.ctx, self.quarantine, self.linear = ctx, quarantine, linear
         self.block = FrameBlock(ctx)
@@ -81,7 +90,9 @@ class Painter:
         self.smaller, self.stopwatch = Smaller(ctx, floats=linear), Stopwatch(ctx)
         self.painters: dict[str, RepresentationPainter] = {}
         self.draw_calls = 0
-        self.site, self._mown = site, mown
+        self.site, self._mown, self._shining = site, mown, shining
+        self._lit: Daylight | None = None
+        self._leaps = 0
         self._outlook: Outlook | None = None
         self._first: dict[str, list[int]] = {}
         self._lay(site)
@@ -110,6 +121,16 @@ class Painter:
         self.carpet.stand_on(site.ground)
         self._read(site)
 
+    def shine(self) -> None:
+        """Take over the light as it is by now."""
+        now, light = self._shining, self._shining.light
+        if now.leaps != self._leaps:
+            self.light.lie.leap()
+        if now.daylight is not self._lit:
+            shine(self.record, light, now.daylight, list(self.site.scene.grass.values()))
+            self.light.shine(now.daylight, toward=toward_sun(light), clouds=light.clouds)
+        self._leaps, self._lit = now.leaps, now.daylight
+
     def mow(self) -> None:
         """Take over what has been cut and grown; programs know of it from the first cut on."""
         if self._learn_of_mowing():
@@ -131,7 +152,7 @@ class Painter:
         """Take over what a scene says of its light and its winds."""
         self.record = frame_record(site.scene, site.growths, site.ground.terrain, site.quality.patch, raw=self.linear)
         self.record["zenith"][:, 3] = site.tallest
-        self.light.shine(site.scene.light, site.ground.terrain)
+        self._lit = None
         self.air.meet(site.scene.wind)
         self.press.stand(site.growths, recoveries(site.scene))
 
@@ -151,8 +172,11 @@ class Painter:
         self.textures[name] = texture
 
     def _grow(self, site: Site) -> None:
-        """Bring the grass into GL."""
+        """Bring the grass into GL; shaders are told how many kinds there are, and of folds where there are some."""
         self.block.defines["KINDS"] = len(site.growths)
+        self.block.defines.pop("FOLDS", None)
+        if any(kind.profile == "fold" for kind in site.scene.grass.values()):
+            self.block.defines["FOLDS"] = 1
         self._put("postures", posture_texture(self.ctx, site.growths))
         self.air = CardWinds(self.ctx, UNITS, site.growths)
         canvas = Canvas(

@@ -4,7 +4,6 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from reprlib import repr as shortened
 from time import perf_counter
 from typing import TYPE_CHECKING, get_args
 
@@ -16,8 +15,10 @@ from ..components.footprint import Footprint
 from ..components.pose import HERE, Pose
 from ..components.wind import WindPrimitive
 from ..engine.camera import View, view_of
+from ..engine.declared.light import Light
 from ..engine.declared.quality import PRESETS
 from ..engine.declared.scene import LodName, Scene
+from ..engine.handed import must_be_read, must_be_step, must_be_viewer
 from ..engine.plugged import bring_systems
 from ..engine.scene import LoadedScene, read_scene
 from ..engine.schedule import Phase, Schedule
@@ -29,6 +30,7 @@ from .around.transitions import SEAMLESS, Transitions
 from .around.window import as_places, cell_of
 from .assembly import Assembly, settle_in
 from .govern import Governor
+from .light.shining import Shining
 from .mow.mown import Mown
 from .painter import Painter
 from .pressers import Pressers
@@ -81,7 +83,7 @@ class Prairie:
         hold: float | None = None,
         linear: bool = False,
     ) -> None:
-        _must_be_read(loaded)
+        must_be_read(loaded)
         self.site: Site = found_site(loaded, preset=preset, lod=lod, transitions=transitions)
         self.lod: LodName = lod
         self.statistics = Statistics(blades_field=self.site.blades)
@@ -92,7 +94,8 @@ class Prairie:
         self.systems = Schedule()
         self.loaded, self.preset, self._clock, self._released = loaded, preset, 0.0, False
         self._mown = Mown(self.site.ground.terrain)
-        screen = Screen(ctx, self.winds.quarantine, self._mown, linear=linear)
+        self._shining = Shining(loaded.scene.light, live=live)
+        screen = Screen(ctx, self.winds.quarantine, self._mown, self._shining, linear=linear)
         self._assembly = Assembly(self.world, self.viewers, self.clearings, self.winds, self.pressers, screen)
         self._built = self._assembly.on(self.site)
         for phase, name, system in self._built:
@@ -172,7 +175,7 @@ class Prairie:
 
     def advance(self, dt: float) -> None:
         """Move time on by `dt` [s]; negative or non-finite steps raise ValueError, what is no number TypeError."""
-        _must_be_step(dt)
+        must_be_step(dt)
         self._clock += dt
         self.winds.quarantine.let_back(self.time)
 
@@ -187,8 +190,9 @@ class Prairie:
         RuntimeError after `release` or without a window. Where the viewport has no pixels, nothing happens at all.
         """
         self._must_be_there("draw it")
-        _must_be_viewer(viewer)
+        must_be_viewer(viewer)
         seen = view_of(view, projection)
+        self._shining.step(viewer, time=self.time)
         with self._assembly.screen.opened(self.site) as painter:
             if painter is None:
                 return
@@ -210,7 +214,7 @@ class Prairie:
         The matrices are those of `draw`, and it raises the same errors.
         """
         self._must_be_there("follow a viewer")
-        _must_be_viewer(viewer)
+        must_be_viewer(viewer)
         self._look(view_of(view, projection), viewer)
         self.systems.run(last=Phase.SEE)
 
@@ -264,7 +268,7 @@ class Prairie:
         for all before it has looked once. Raises ValueError for places that are no pairs, TypeError for a viewer that
         is no name.
         """
-        _must_be_viewer(viewer)
+        must_be_viewer(viewer)
         cells = cell_of(as_places(xz), patch=self.site.ground.patch)
         if viewer not in self.viewers:
             return np.zeros(len(cells), np.int64)
@@ -316,6 +320,21 @@ class Prairie:
         self._must_be_there("grow its grass")
         self._mown.grow(footprint, height, pose)
 
+    @property
+    def light(self) -> Light:
+        """The light that shines now: what the scene declares, until `shine` changes it; hours pass in it."""
+        return self._shining.at(self.time)
+
+    def shine(self, **changes: object) -> None:
+        """Change the light from the next frame on, by keys of `light:` in a scene: `shine(hour=17.5, clouds=0.4)`.
+
+        The rest of it stays. No frame waits for it, so it may be called in every frame. The sun stands there at once;
+        the sky's colours and the terrain's shadows follow within some sixty frames, or at once before the first. Raises
+        ValueError for an unknown key and a bad value, RuntimeError after `release`.
+        """
+        self._must_be_there("change its light")
+        self._shining.ask(Light.model_validate(self.light.model_dump() | changes), time=self.time)
+
     def reload(self, scene: str | Path | LoadedScene | None = None, *, site: Site | None = None) -> None:
         """Read the scene again, or another one, and go on with it at the same time: what did not change stays.
 
@@ -335,6 +354,8 @@ class Prairie:
         settle_in(self.systems, self._built, built)
         self.winds.change(loaded.scene, self.site.ground, self.site.growths)
         self.pressers.change(loaded.scene, self.site.growths)
+        if loaded.scene.light != self.loaded.scene.light:
+            self._shining.declare(loaded.scene.light, time=self.time)
         self._mown.change(self.site.ground.terrain)
         self.loaded, self.statistics.blades_field = loaded, self.site.blades
 
@@ -376,22 +397,3 @@ class Prairie:
         outlook.mown = self._mown
         outlook.look(seen, time=self.time, leap=LEAP * self.site.ground.patch)
         return outlook
-
-
-def _must_be_read(thing: object) -> None:
-    if isinstance(thing, str | Path):
-        raise TypeError(f"Prairie takes a scene that has been read; load one by Prairie.load({str(thing)!r})")
-    if not isinstance(thing, LoadedScene):
-        raise TypeError(f"Prairie takes a scene that has been read, not {shortened(thing)}; use Prairie.load")
-
-
-def _must_be_viewer(thing: object) -> None:
-    if not isinstance(thing, str):
-        raise TypeError(f"a viewer is called by a text such as 'main', not by {shortened(thing)}")
-
-
-def _must_be_step(thing: object) -> None:
-    if not isinstance(thing, float | int | np.floating | np.integer):
-        raise TypeError(f"a prairie advances by a number of seconds, not by {shortened(thing)}")
-    if not (np.isfinite(thing) and thing >= 0.0):
-        raise ValueError(f"a prairie advances by 0 s or more, not by {thing}")

@@ -9,6 +9,7 @@ import moderngl
 
 from ..engine.gl.guest import arrive, host_context, kept
 from ..engine.gl.homes import Homes
+from .light.shining import Shining
 from .mow.mown import Mown
 from .painter import Painter
 from .site import Site
@@ -24,10 +25,16 @@ class Screen:
     """The host's framebuffers, in the context that is given or else in whichever is current."""
 
     def __init__(
-        self, ctx: moderngl.Context | None, quarantine: Quarantine, mown: Mown, *, linear: bool = False
+        self,
+        ctx: moderngl.Context | None,
+        quarantine: Quarantine,
+        mown: Mown,
+        shining: Shining,
+        *,
+        linear: bool = False,
     ) -> None:
         self.ctx, self.linear = ctx, linear
-        self._quarantine, self._mown = quarantine, mown
+        self._quarantine, self._mown, self._shining = quarantine, mown, shining
         self.painter: Painter | None = None
         """The painter of the context that was drawn in last; None before the first time."""
         self._painters: Homes[Painter] = Homes()
@@ -47,11 +54,16 @@ class Screen:
                 return
             arrive(ctx)
             self.painter = self._painters.here(
-                ctx, partial(Painter, site=site, quarantine=self._quarantine, mown=self._mown, linear=self.linear)
-            )
+                ctx,
+                partial(
+                    Painter, site=site, quarantine=self._quarantine, mown=self._mown, shining=self._shining,
+                    linear=self.linear,
+                ),
+            )  # fmt: skip
             if self.painter.site is not site:
                 self.painter.change(site)
             self.painter.mow()
+            self.painter.shine()
             yield self.painter
 
     def current(self) -> Painter:

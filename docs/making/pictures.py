@@ -51,6 +51,7 @@ PICTURES = (
     Picture("walk.png", ("shot", "meadow", "--size", "960x540", "--time", "9")),
     Picture("gust.webp", ("film", "gust", "--size", "480x270", "--seconds", "5", "--fps", "12")),
     Picture("flight.webp", ("film", "saucer", "--size", "480x270", "--seconds", "5", "--fps", "12")),
+    Picture("day.webp", ("film", "day.yaml", "--size", "480x270", "--seconds", "5", "--fps", "12"), "gallery.md"),
     Picture("lawn.png", ("python", "lawn.py"), "recipes.md"),
     Picture("music.webp", ("python", "music.py"), "recipes.md"),
     Picture("storm.png", ("shot", "storm", "--size", "960x540", "--time", "12", "--overlay", "masks,arrows")),

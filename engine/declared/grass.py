@@ -14,6 +14,12 @@ What bounds them are the numbers that every OpenGL 3.3 takes from the corners of
 which each kind needs one, or two where some bear heads, and the light on what is seen all that are left.
 """
 
+Profile = Literal["blade", "rush", "fold"]
+"""What a blade is like across."""
+
+RUSH_TAPERS = 0.35
+"""How the width of a rush falls where a scene does not say."""
+
 
 class Place(Declaration):
     """Where a kind grows: one channel of a density map laid over the whole terrain."""
@@ -60,6 +66,10 @@ class GrassKind(Declaration):
 
     taper: float = Field(default=0.6, ge=0.2, le=4.0)
     """How the width falls from root to tip: 1 is a triangle, below 1 keeps it broad for longer."""
+
+    profile: Profile = "blade"
+    """What a blade of grass is like across: flat; a `rush`, a round stem that is as wide from all sides and hardly
+    tapers; or a `fold`, two faces with a keel between them, which catch the light apart."""
 
     root: Color = "#4b6128"
     """Colour at the root."""
@@ -110,12 +120,16 @@ class GrassKind(Declaration):
     @classmethod
     def _as_its_plant(cls, data: Any) -> Any:
         """Fill in what goes without saying of a plant."""
-        plant = data.get("plant") if isinstance(data, dict) else None
-        return {**USUAL[plant], **data} if isinstance(plant, str) and plant in USUAL else data
+        if not isinstance(data, dict):
+            return data
+        plant, rush = data.get("plant"), {"taper": RUSH_TAPERS} if data.get("profile") == "rush" else {}
+        return {**(USUAL.get(plant, {}) if isinstance(plant, str) else {}), **rush, **data}
 
     @model_validator(mode="after")
     def _fits_its_plant(self) -> "GrassKind":
         grass = self.plant == "grass"
+        if not grass and self.profile != "blade":
+            raise DeclarationError("grass alone has a profile: other plants have organs", "profile")
         for key in ("plants", "leaves", "leaf") if grass else ("blades",):
             if getattr(self, key) is not None:
                 raise DeclarationError(

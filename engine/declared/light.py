@@ -17,6 +17,9 @@ class Light(Declaration):
     hour: float | None = Field(default=None, ge=0.0, le=24.0)
     """Solar time of day [h], 12 is noon: it gives azimuth and elevation, with the day and the latitude; -z is north."""
 
+    hours_per_minute: float = Field(default=0.0, ge=0.0, le=1440.0)
+    """How fast the day goes by, from its `hour` on [h/min]: 0 stands still, 2 is a day in twelve minutes."""
+
     day: int = Field(default=172, ge=1, le=366)
     """Day of the year, for `hour`; 172 is midsummer in the north."""
 

@@ -12,7 +12,7 @@ from ...components.shade import Shade
 from ...engine.gl.stream import Stream, attributes, release_all
 from ..frame.block import FrameBlock, joined
 from ..light.color import linear
-from .saucer import RADIUS, borders, saucer
+from .saucer import RADIUS, THICK, borders, saucer
 
 PLACED = np.dtype([("middle", "3f4"), ("right", "3f4"), ("up", "3f4"), ("back", "3f4")])
 """Where a body is [m], and its own axes in the world."""
@@ -32,7 +32,8 @@ def placed(bodies: Sequence[Body], /) -> NDArray[np.void]:
 
 def shade_of(body: Body, /) -> Shade:
     """Return what a body is to the sun."""
-    return Shade(body.place, 0.9 * RADIUS)
+    _, up, _ = axes(body)
+    return Shade(body.place, RADIUS, THICK, (float(up[0]), float(up[1]), float(up[2])))
 
 
 def axes(body: Body, /) -> NDArray[np.float64]:

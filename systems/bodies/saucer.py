@@ -13,6 +13,9 @@ SEGMENTS = 40
 RADIUS = 1.5
 """From the middle to the rim [m]."""
 
+THICK = 0.6
+"""How thick it is to the sun, as a ball that is pressed flat [m]."""
+
 HULL, GLASS, JET, FIN = 0.0, 1.0, 2.0, 3.0
 """What a part is made of."""
 

@@ -1,7 +1,7 @@
 """What every program knows of a frame, in one uniform block."""
 
 from collections.abc import Mapping, Sequence
-from math import cos, dist, radians, sin
+from math import cos, dist, hypot, radians, sin
 
 import moderngl
 import numpy as np
@@ -16,11 +16,12 @@ from ...engine.gl.shaders import program
 from ...engine.terrain.record import Terrain
 from ..around.canopy import canopy_height
 from ..grow.record import GIVES, Growth
+from ..grow.section import SECTIONS
 from ..light.daylight import Daylight, daylight
-from ..light.materials import bloom, grain, leaves_of, let_through, pigment
+from ..light.materials import apart, bloom, grain, leaves_of, let_through, pigment
 from ..light.sun import sun_at
 
-SHADES = 4
+SHADES = 8
 """How many bodies cast shadows at most."""
 
 GROUPS = -(-MOST_KINDS // 4)
@@ -38,6 +39,7 @@ FRAME = np.dtype(
         ("horizon", "(3,4)f4"),
         ("drift", "4f4"),
         ("shades", f"({SHADES},4)f4"),
+        ("shaped", f"({SHADES},4)f4"),
         ("soil", "4f4"),
         ("terrain", "4f4"),
         ("field", "4f4"),
@@ -65,16 +67,15 @@ def frame_record(
     """
     record = np.zeros(1, FRAME)
     row = record[0]
-    light = daylight(scene.light)
-    _write_light(row, light, scene.light, raw=raw)
-    row["soil"] = (*pigment(scene.light.ground), patch)
+    row["sun"][3], row["soil"][3] = raw, patch
+    shine(record, scene.light, daylight(scene.light), list(scene.grass.values()))
     postures = growths[0].postures.shape
     row["terrain"] = (*terrain.origin, terrain.cell, postures.shape[2] - 1)
     row["field"] = (*terrain.size, postures.shape[1], postures.shape[0])
     crown, leaf, lying = (row[name].reshape(-1) for name in ("crown", "leaf", "lying"))
     give = row["give"].reshape(GROUPS, GIVES, 4)
     for index, (kind, growth) in enumerate(zip(scene.grass.values(), growths, strict=True)):
-        _write_kind(row, index, kind, light)
+        _write_kind(row, index, kind)
         leaves = leaves_of(kind, growth, patch)
         crown[index], leaf[index] = canopy_height(growth), leaves.side
         lying[index] = leaves.above / leaves.side
@@ -83,21 +84,33 @@ def frame_record(
     return record
 
 
-def _write_light(row: np.void, light: Daylight, declared: Light, *, raw: bool) -> None:
-    row["sun"] = (*light.direction, float(raw))
+def shine(record: NDArray[np.void], declared: Light, light: Daylight, kinds: Sequence[GrassKind], /) -> None:
+    """Write the light that is `declared`, and what it does to the kinds of grass."""
+    row = record[0]
+    row["sun"][:3] = light.direction
     row["sunlight"] = (*light.sun, declared.clouds)
     row["skylight"] = (*light.down, 1.0 / declared.haze)
     row["zenith"][:3] = light.sky.map[-1].mean(axis=0)
     row["horizon"][:, :3] = light.sky.horizon
-    azimuth = radians(sun_at(declared)[0])
-    row["drift"][2:] = sin(azimuth), -cos(azimuth)
+    row["drift"][2:] = toward_sun(declared)
+    row["soil"][:3] = pigment(declared.ground)
+    for index, kind in enumerate(kinds):
+        row["grain_c"][index, :3], row["grain_s"][index, :3] = grain(kind, light)
+        row["grain_c"][index, 3] = apart(kind, light)
 
 
-def _write_kind(row: np.void, index: int, kind: GrassKind, light: Daylight) -> None:
+def toward_sun(light: Light, /) -> tuple[float, float]:
+    """Return the direction over the ground that the sun stands in (x, z)."""
+    azimuth = radians(sun_at(light)[0])
+    return sin(azimuth), -cos(azimuth)
+
+
+def _write_kind(row: np.void, index: int, kind: GrassKind) -> None:
     row["root"][index] = (*pigment(kind.root), kind.gloss)
     row["tip"][index] = (*pigment(kind.tip), kind.taper)
     row["through"][index, :3] = let_through(kind)
-    row["grain_c"][index, :3], row["grain_s"][index, :3] = grain(kind, light)
+    section = SECTIONS[kind.profile]
+    row["grain_s"][index, 3] = -1.0 if section.is_round else 1.0 - section.waist
 
 
 def nearest(shades: Sequence[Shade], eye: tuple[float, float, float], /) -> list[Shade]:
@@ -109,8 +122,10 @@ def cast(record: NDArray[np.void], shades: Sequence[Shade], drift: tuple[float, 
     """Write what casts shadows, at most `SHADES`, and how far the clouds have drifted, in sides."""
     row = record[0]
     row["shades"] = 0.0
-    for into, shade in zip(row["shades"], shades, strict=False):
+    for into, shaped, shade in zip(row["shades"], row["shaped"], shades, strict=False):
         into[:] = (*shade.place, shade.radius)
+        length, high = hypot(*shade.up), 2.0 * shade.radius if shade.height is None else shade.height
+        shaped[:3], shaped[3] = np.divide(shade.up, length), 2.0 * shade.radius / high - 1.0
     row["drift"][:2] = drift
 
 

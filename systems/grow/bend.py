@@ -5,6 +5,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .organs import BLADE, GIVES, TONES, width_along
 from .record import Blades, Floats, Postures
+from .section import FLAT, Section
 
 Doubles = NDArray[np.float64]
 
@@ -61,34 +62,49 @@ def posture_of(rest: ArrayLike, bending: ArrayLike, /) -> tuple[Doubles, Doubles
     return np.minimum(index, 1.0), direction
 
 
-WAIST, WIDENS = 0.45, 0.16
-"""Width of a blade where it leaves the ground, as a part of that above, and the part of its length until there."""
+WIDENS = 0.16
+"""The part of a blade's length over which it widens from its waist at the ground."""
 
 
-def profile(along: Doubles, taper: float, /) -> Doubles:
+def profile(along: Doubles, taper: float, section: Section = FLAT, /) -> Doubles:
     """Return the width at places along a blade, 0 to 1, as a part of its own: it widens from the root, then tapers."""
-    waist = 1.0 - (1.0 - WAIST) * np.maximum(1.0 - along / WIDENS, 0.0)
+    waist = 1.0 - (1.0 - section.waist) * np.maximum(1.0 - along / WIDENS, 0.0)
     return np.asarray((1.0 - along) ** taper * waist)
 
 
-def widths(blades: Blades, along: Doubles, taper: float, /) -> Doubles:
+def widths(blades: Blades, along: Doubles, taper: float, section: Section = FLAT, /) -> Doubles:
     """Return how wide blades are at places (points,) along them [m], shape (n, points)."""
     organ = np.broadcast_to(blades.organ, blades.height.shape)
-    part = np.where((organ == BLADE)[:, None], profile(along, taper)[None], width_along(organ, along))
+    part = np.where((organ == BLADE)[:, None], profile(along, taper, section)[None], width_along(organ, along))
     return np.asarray(blades.width[:, None] * part)
 
 
 def ribbon(
-    blades: Blades, postures: Postures, message: ArrayLike, /, *, points: int, taper: float
+    blades: Blades,
+    postures: Postures,
+    message: ArrayLike,
+    /,
+    *,
+    points: int,
+    taper: float,
+    section: Section = FLAT,
+    side: tuple[float, float, float] | None = None,
 ) -> tuple[Floats, Floats]:
     """Return the left and right edge of bent blades [m], each of shape (n, points, 3).
 
-    The half width follows `widths`, along the fixed horizontal axis across the face.
+    The half width follows `widths`, along the fixed horizontal axis across the face; of blades with a round section,
+    along `side`, the unit vector to the right of whoever looks at them.
     """
     centre = spine(blades, postures, message, points=points)
-    half = 0.5 * widths(blades, np.linspace(0.0, 1.0, points), taper)
-    side = half[:, :, None] * across(blades)[:, None, :]
-    return (centre - side).astype(np.float32), (centre + side).astype(np.float32)
+    half = 0.5 * widths(blades, np.linspace(0.0, 1.0, points), taper, section)
+    axis = across(blades)
+    if section.is_round:
+        own = np.broadcast_to(blades.organ, blades.height.shape) == BLADE
+        # As blunt as makes up for what the last piece cuts off: a round stem is broad up to near its tip.
+        half[own, -1] = half[own, -2] * max((1.0 - taper) / (1.0 + taper), 0.0)
+        axis = axis if side is None else np.where(own[:, None], side, axis)
+    out = half[:, :, None] * axis[:, None, :]
+    return (centre - out).astype(np.float32), (centre + out).astype(np.float32)
 
 
 def across(blades: Blades, /) -> Doubles:

@@ -1,7 +1,6 @@
 """Daylight: what a scene's sun and sky send to the grass, in radiance as the picture is exposed."""
 
 from dataclasses import dataclass
-from functools import lru_cache
 from math import pi
 
 import numpy as np
@@ -9,7 +8,7 @@ from numpy.typing import NDArray
 
 from ...engine.declared.light import Light
 from .color import linear, luminance
-from .sky import SUN, Sky, sky_of
+from .sky import SUN, Sky, clear_air, sky_of
 from .sun import sun_at, to_sun, transmitted
 
 Doubles = NDArray[np.float64]
@@ -47,12 +46,15 @@ class Daylight:
     """The colours of the sky."""
 
 
-@lru_cache(maxsize=16)
 def daylight(light: Light, /) -> Daylight:
-    """Return the light that a scene declares, as bright as the picture is exposed; nobody may write to it."""
-    _, elevation = sun_at(light)
-    sky = sky_of(light)
-    sun = SUN / pi * LEAF * light.strength * transmitted(elevation, light.turbidity) * linear(light.sun)
+    """Return the light that a scene declares, as bright as the picture is exposed."""
+    return daylight_under(light, clear_air(sun_at(light)[1], light.turbidity))
+
+
+def daylight_under(light: Light, clear: Doubles, /) -> Daylight:
+    """Return the light that a scene declares under the clear air that `clear_air` returns, exposed for it."""
+    sky = sky_of(light, clear)
+    sun = SUN / pi * LEAF * light.strength * transmitted(sun_at(light)[1], light.turbidity) * linear(light.sun)
     exposure = exposure_of(light, sun, sky.down)
     shown = Sky(sky.map * exposure, sky.horizon * exposure, sky.down * exposure)
     down = shown.down + PALER * (luminance(shown.down) - shown.down)

@@ -1,6 +1,7 @@
 """What a kind of grass does to light: its pigments, what its leaves let through, and how many there are."""
 
 from dataclasses import dataclass
+from math import cos, hypot, sin
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,6 +9,7 @@ from numpy.typing import NDArray
 from ...engine.declared.grass import GrassKind
 from ..grow.bend import across, spine, tone, widths
 from ..grow.record import Growth
+from ..grow.section import SECTIONS
 from .color import linear, luminance
 from .daylight import Daylight
 
@@ -18,6 +20,12 @@ LEAVES_THROUGH = np.array([1.05, 1.18, 0.55])
 
 PETALS_THROUGH = np.array([1.05, 1.05, 0.9])
 """The same of a plant in flower: petals let through the colour that they have."""
+
+FACES = 0.22
+"""How much more the sun lights blades that face it than those edge on."""
+
+SIDES = 0.45
+"""How much more it lights the side of a round stem or the face of a fold that is turned to it than both."""
 
 _POINTS = 9
 
@@ -49,7 +57,7 @@ def bloom(kind: GrassKind, growth: Growth, /) -> float:
     if not blades.organ.any():
         return 1.0
     along = (np.arange(_POINTS - 1) + 0.5) / (_POINTS - 1)
-    area = widths(blades, along, kind.taper) * blades.height[:, None]
+    area = widths(blades, along, kind.taper, SECTIONS[kind.profile]) * blades.height[:, None]
     return min(2.0 * float(np.average(tone(blades, along), weights=area)), 1.0)
 
 
@@ -58,10 +66,31 @@ def leaves_of(kind: GrassKind, growth: Growth, patch: float, /) -> Leaves:
     blades = growth.models[0].blades
     centre = spine(blades, growth.postures, (0.0, 0.0), points=_POINTS).astype(np.float64)
     along = (np.arange(_POINTS - 1) + 0.5) / (_POINTS - 1)
-    width = widths(blades, along, kind.taper).astype(np.float64)
+    width, ground = widths(blades, along, kind.taper, SECTIONS[kind.profile]).astype(np.float64), patch * patch
+    if SECTIONS[kind.profile].is_round:
+        x, y, z = np.moveaxis(np.diff(centre, axis=1), -1, 0)
+        side = np.sqrt(y * y + 0.5 * (x * x + z * z))
+        return Leaves(float((side * width).sum()) / ground, float((np.hypot(x, z) * width).sum()) / ground)
     normal = np.cross(np.diff(centre, axis=1), across(blades)[:, None]) * width[..., None]
-    level, ground = np.hypot(normal[..., 0], normal[..., 2]), patch * patch
+    level = np.hypot(normal[..., 0], normal[..., 2])
     return Leaves(float(level.sum() * 2.0 / np.pi) / ground, float(np.abs(normal[..., 1]).sum()) / ground)
+
+
+def sunny(light: Daylight, /) -> float:
+    """Return how much of the light is the sun's, 0 to 1."""
+    sun, down = float(luminance(light.sun)), float(luminance(light.down))
+    return sun / max(sun + down, 1e-9)
+
+
+def apart(kind: GrassKind, light: Daylight, /) -> float:
+    """Return how far the two sides of a blade's face are lit apart where they are so most, of the light on both.
+
+    Of a fold, the sides are its two faces; of a round one, those to the sun and away from it; of a flat one it is 0.
+    """
+    section = SECTIONS[kind.profile]
+    if section.is_round:
+        return SIDES * sunny(light) * hypot(light.direction[0], light.direction[2])
+    return SIDES * sunny(light) * sin(2.0 * section.folded)
 
 
 def grain(kind: GrassKind, light: Daylight, /) -> tuple[Doubles, Doubles]:
@@ -72,8 +101,8 @@ def grain(kind: GrassKind, light: Daylight, /) -> tuple[Doubles, Doubles]:
     blade, so that the mean of many has exactly the light of their mean.
     """
     x, _, z = light.direction
-    sun, down = float(luminance(light.sun)), float(luminance(light.down))
-    shine = 0.22 * sun / max(sun + down, 1e-9)
+    section = SECTIONS[kind.profile]
+    shine = 0.0 if section.is_round else FACES * sunny(light) * cos(2.0 * section.folded)
     warm, pale = np.array([1.0, 0.2, -0.6]), np.array([0.9, 1.0, 0.8])
     variety = 0.6 * kind.variety
     return shine * (x * x - z * z) + variety * pale, shine * 2.0 * x * z + variety * warm

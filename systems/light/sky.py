@@ -1,15 +1,16 @@
 """The sky: its colours on a small map, what it sends down, and the colour of the haze before what is far away."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from math import cos, pi, radians, sin
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.declared.light import Light
-from .air import from_all_sides, seen
+from .air import HEIGHTS, from_all_sides, seen_in_rows
 from .color import luminance, shown_as, srgb
-from .sun import sun_at
 
 Doubles = NDArray[np.float64]
 
@@ -25,8 +26,31 @@ BRIGHTER = 2.0
 MEETS = 0.05
 """Sine of the elevation up to which the sky passes into the haze of the horizon."""
 
+AROUND_PIECES, MAP_PIECES = 10, 22
+"""Pieces of the work on what comes from all sides, and on the map."""
+
+PIECES = AROUND_PIECES + MAP_PIECES
+"""Pieces of the work on a sky."""
+
 NIGHT = np.array([0.0030, 0.0052, 0.0120])
 """Radiance of the sky at night, by stars and by a moon that is not seen."""
+
+_HEIGHT = (np.arange(ROWS) / (ROWS - 1.0)) ** 2
+_AZIMUTH = np.linspace(0.0, pi, COLUMNS)
+_POWERS = np.cos(_AZIMUTH)[:, None] ** np.arange(3)
+_FIT = np.linalg.pinv(_POWERS)
+_LOW = np.clip(1.0 - _HEIGHT / MEETS, 0.0, 1.0)[:, None, None]
+
+
+def _weight() -> Doubles:
+    """Return how much of the hemisphere's light comes from where on the map, shape (ROWS, COLUMNS, 1)."""
+    across = np.ones(COLUMNS)
+    across[[0, -1]] = 0.5
+    weight = np.gradient(_HEIGHT**2)[:, None] * across
+    return np.asarray((weight / weight.sum())[:, :, None])
+
+
+_WEIGHT = _weight()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,37 +68,47 @@ class Sky:
     """What it sends to level ground, as the radiance of an even sky that sends as much, shape (3,)."""
 
 
-def sky_of(light: Light, /) -> Sky:
-    """Return the sky of a scene's light: that of clear air, or one between the colours that the scene gives."""
-    height = (np.arange(ROWS) / (ROWS - 1.0)) ** 2
-    azimuth = np.linspace(0.0, pi, COLUMNS)
-    map_ = _clouded(_given(clear_sky(light, height, azimuth), light, height), light.clouds)
-    c = np.cos(azimuth)
-    powers = np.stack([np.ones_like(c), c, c * c], axis=1)
-    horizon = np.linalg.lstsq(powers, map_[0], rcond=None)[0]
-    low = np.clip(1.0 - height / MEETS, 0.0, 1.0)[:, None, None]
-    return Sky(map_ * (1.0 - low) + np.maximum(powers @ horizon, 0.0) * low, horizon, _sent_down(map_, height))
+def sky_of(light: Light, clear: Doubles, /) -> Sky:
+    """Return the sky of a scene's light under clear air of `clear_air`, or one between the colours that it gives."""
+    map_ = clear * (SUN * BRIGHTER * min(light.strength, 1.0)) + NIGHT
+    map_ = _clouded(_given(map_, light), light.clouds)
+    horizon = _FIT @ map_[0]
+    return Sky(map_ * (1.0 - _LOW) + np.maximum(_POWERS @ horizon, 0.0) * _LOW, horizon, _sent_down(map_))
 
 
-def clear_sky(light: Light, height: Doubles, azimuth: Doubles, /) -> Doubles:
-    """Return the radiance of clear air by sine of elevation (r,) and azimuth from the sun (c,), shape (r, c, 3)."""
-    up = radians(sun_at(light)[1])
-    sun = np.array([0.0, sin(up), -cos(up)])
-    level = np.sqrt(1.0 - height**2)[:, None]
-    direction = np.stack(
-        [level * np.sin(azimuth), height[:, None] + 0.0 * azimuth, -level * np.cos(azimuth)], axis=-1
-    ).reshape(-1, 3)
-    once = seen(direction, sun, light.turbidity, around=from_all_sides(sun, light.turbidity))
-    return np.asarray(once.reshape(len(height), len(azimuth), 3) * (SUN * BRIGHTER * min(light.strength, 1.0)) + NIGHT)
+@lru_cache(maxsize=16)
+def clear_air(elevation: float, turbidity: float, /) -> Doubles:
+    """Return the radiance of clear air by elevation and azimuth from the sun, as `Sky.map`, for sunlight of 1.
+
+    `elevation` is the sun's [degrees]; nobody may write to it.
+    """
+    for done in clear_air_in_pieces(elevation, turbidity):
+        if done is not None:
+            return done
+    raise AssertionError("a sky has a last piece")
 
 
-def _given(clear: Doubles, light: Light, height: Doubles, /) -> Doubles:
+def clear_air_in_pieces(elevation: float, turbidity: float, /) -> Iterator[Doubles | None]:
+    """Yield once for each of `PIECES` pieces of work of about the same length; the last is what `clear_air` returns."""
+    up = radians(elevation)
+    sun, around, rows = np.array([0.0, sin(up), -cos(up)]), [], []
+    for some in np.array_split(HEIGHTS, AROUND_PIECES):
+        around.append(from_all_sides(sun, turbidity, heights=some))
+        yield None
+    table = np.concatenate(around)
+    for height in np.array_split(_HEIGHT, MAP_PIECES):
+        apart = height[:, None] * sin(up) + np.sqrt(1.0 - height**2)[:, None] * (np.cos(_AZIMUTH) * cos(up))
+        rows.append(seen_in_rows(height, apart, sin(up), turbidity, around=table))
+        yield np.concatenate(rows) if len(rows) == MAP_PIECES else None
+
+
+def _given(clear: Doubles, light: Light, /) -> Doubles:
     """Return the sky between the colours that a scene gives for zenith and horizon; without them it is clear air's."""
     if light.zenith is None and light.horizon is None:
         return clear
     zenith = clear[-1].mean(axis=0) if light.zenith is None else shown_as(srgb(light.zenith))
     horizon = clear[0].mean(axis=0) if light.horizon is None else shown_as(srgb(light.horizon))
-    low = ((1.0 - height) ** 4)[:, None]
+    low = ((1.0 - _HEIGHT) ** 4)[:, None]
     return np.broadcast_to((zenith * (1.0 - low) + horizon * low)[:, None], clear.shape)
 
 
@@ -84,9 +118,6 @@ def _clouded(sky: Doubles, clouds: float, /) -> Doubles:
     return np.asarray(sky * (1.0 - part) + 1.3 * luminance(sky).mean() * part)
 
 
-def _sent_down(sky: Doubles, height: Doubles, /) -> Doubles:
+def _sent_down(sky: Doubles, /) -> Doubles:
     """Return the mean over the hemisphere, weighted by the sine of the elevation: the ground is level."""
-    across = np.ones(sky.shape[1])
-    across[[0, -1]] = 0.5
-    weight = np.gradient(height**2)[:, None] * across
-    return np.asarray((sky * (weight / weight.sum())[:, :, None]).sum(axis=(0, 1)))
+    return np.asarray((sky * _WEIGHT).sum(axis=(0, 1)))

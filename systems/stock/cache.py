@@ -76,6 +76,7 @@ def growth_key(kind: GrassKind, quality: Quality, /, *, seed: int) -> str:
                 "damping",
                 "lean",
                 "taper",
+                "profile",
                 "clumping",
                 "leaf",
                 "head",

@@ -59,6 +59,39 @@ def test_a_shade_that_is_nowhere_is_refused(wrong: tuple[float, ...]) -> None:
         Shade(wrong, 1.0)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="a shade's radius is above 0 m"):
         Shade((0.0, 0.0, 0.0), 0.0)
+    with pytest.raises(ValueError, match="a shade's height is above 0 m"):
+        Shade((0.0, 0.0, 0.0), 1.0, -1.0)
+    with pytest.raises(ValueError, match="a shade's up is a direction"):
+        Shade((0.0, 0.0, 0.0), 1.0, 1.0, (0.0, 0.0, 0.0))
+
+
+FLAT, ROUND, TALL = 0.3, 3.0, 6.0
+"""Heights of shades, each of radius 1.5 [m]."""
+
+
+def test_f10_the_flatter_a_shade_the_shorter_is_its_shadow_under_a_low_sun(room: Stage, load: Load) -> None:
+    prairie = load(SCENE + "light: { azimuth: 90, elevation: 25 }\n")
+    before, above = bright(room.shot(prairie, CAMERA)), 4.0 * np.tan(np.radians(25.0))
+    ground = room.ground(CAMERA, level=0.2)
+    along, aside = ground[np.abs(ground[..., 1]) < 0.5][:, 0], ground[np.abs(ground[..., 0]) < 0.5][:, 1]
+    lengths, widths = [], []
+    for height in (FLAT, ROUND, TALL):
+        handle = prairie.world.create(Shade((4.0, above, 0.0), 1.5, height))
+        dark = before - bright(room.shot(prairie, CAMERA)) > 0.1 * before
+        prairie.world.delete(handle)
+        lengths.append(np.ptp(along[dark[np.abs(ground[..., 1]) < 0.5]]))
+        widths.append(np.ptp(aside[dark[np.abs(ground[..., 0]) < 0.5]]))
+    assert lengths[0] < 0.7 * lengths[1] < 0.7 * 0.8 * lengths[2]
+    assert max(widths) < 1.35 * min(widths)
+
+
+def test_a_shade_as_high_as_it_is_wide_is_a_ball_whichever_way_it_stands(room: Stage, load: Load) -> None:
+    prairie, pictures = load(SCENE + NOON), []
+    for shape in ((), (3.0,), (3.0, (1.0, -2.0, 0.5))):
+        handle = prairie.world.create(Shade((2.3, 4.0, 0.0), 1.5, *shape))
+        pictures.append(room.shot(prairie, CAMERA))
+        prairie.world.delete(handle)
+    np.testing.assert_allclose(pictures[1:], pictures[:1] * 2, atol=1.0)
 
 
 def test_of_many_shades_the_nearest_count(room: Stage, load: Load) -> None:

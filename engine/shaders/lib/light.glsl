@@ -2,10 +2,12 @@
 // pigments are square roots of albedos, so that what lies between two pigments looks as if it did.
 #include "lib/frame.glsl"
 
-uniform sampler2D lie;      // over the terrain: sine of the sun's elevation over the slope; how much of it is seen; two slow noises
+uniform sampler2D lie;      // over the terrain, side by side: its normal (x, z) and two slow noises; how high what stands before the sun
 uniform sampler2DArray density;  // over the terrain, four kinds in each layer: how densely each grows
 uniform sampler2D repeating;// squares that repeat: how dense clouds are; how bright what lies on the ground is
 
+const float PENUMBRA = 0.02;    // half the width of a shadow's edge, of the distance from what casts it; the sun's alone is 0.005
+const int SHADES = 8;           // bodies that cast shadows
 const float CLOUDS_AT = 450.0;  // height of the clouds [m]
 const float CLOUDS_SIDE = 900.0;// side of the square that repeats [m]
 const float CLOUD_TAKES = 0.75; // what a dense cloud takes of the sun's light
@@ -30,9 +32,15 @@ vec2 on_map(vec2 place) {
     return 1.0 - abs(1.0 - mod((place - terrain.xy) / field.xy, 2.0));
 }
 
+// Sine of the sun's elevation over the slope; how much of its disc is seen past the terrain; two slow noises.
 vec4 lie_at(vec2 place) {
-    vec4 here = textureLod(lie, on_map(place), 0.0);
-    return vec4(here.xy, 2.0 * here.zw - 1.0);
+    vec2 at = on_map(place), half_texel = 0.5 / vec2(textureSize(lie, 0));
+    at.x = clamp(0.5 * at.x, half_texel.x, 0.5 - half_texel.x);
+    vec4 still = textureLod(lie, at, 0.0);
+    float before = textureLod(lie, vec2(at.x + 0.5, at.y), 0.0).r;
+    float high = dot(sun.xz, still.xy) + sun.y * sqrt(max(1.0 - dot(still.xy, still.xy), 0.0));
+    float rise = max(sun.y, 0.01) / max(length(sun.xz), 1e-4), past = clamp(0.5 + 0.5 * (rise - before) / PENUMBRA, 0.0, 1.0);
+    return vec4(max(high, 0.0), past * past * (3.0 - 2.0 * past), still.zw);
 }
 
 // How densely each kind grows at a place.
@@ -106,14 +114,19 @@ float past_clouds(vec3 place) {
     return 1.0 - CLOUD_TAKES * smoothstep(1.0 - sunlight.w, 1.25 - sunlight.w, dense);
 }
 
-// How much of the sun is seen past bodies, from a place: each is a ball with a soft edge.
+// How much of the sun is seen past bodies, from a place. Each is a ball that is stretched or pressed flat along an axis:
+// drawn out until it is one, the sun's ray past it too, it is seen how near the ray comes to its middle.
 float past_bodies(vec3 place) {
     float seen = 1.0;
-    for (int i = 0; i < 4 && shades[i].w > 0.0; i++) {
-        vec3 apart = shades[i].xyz - place;
-        float along = dot(apart, sun.xyz), off = length(apart - sun.xyz * along);
-        float soft = 0.12 * shades[i].w + 0.01 * abs(along);
-        seen *= along > 0.0 ? smoothstep(shades[i].w - soft, shades[i].w + soft, off) : 1.0;
+    for (int i = 0; i < SHADES && shades[i].w > 0.0; i++) {
+        vec3 apart = shades[i].xyz - place, axis = shaped[i].xyz;
+        vec3 way = apart + axis * (shaped[i].w * dot(axis, apart)), ray = sun.xyz + axis * (shaped[i].w * dot(axis, sun.xyz));
+        float before = dot(way, ray) / dot(ray, ray), along = dot(apart, sun.xyz);
+        float near = length(way - ray * before) / shades[i].w;
+        // Its outline is as far from the middle as `near` is from 1; the farther its shadow falls, the softer is its edge.
+        float soft = 0.12 + 0.01 * abs(along) * max(near, 1e-3) / max(length(apart - sun.xyz * along), 1e-3 * shades[i].w);
+        float hidden = (1.0 - smoothstep(1.0 - soft, 1.0 + soft, near)) / max(soft * soft, 1.0);
+        seen *= before > 0.0 ? 1.0 - hidden : 1.0;
     }
     return seen;
 }

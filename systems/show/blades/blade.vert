@@ -107,6 +107,15 @@ void main() {
     vec2 bend = blown + rest * (1.0 - min(length(blown), 1.0));
     foot = vec4(root_at, height);
 #endif
+    bool has_section = grain_c[k].w > 0.0, is_round = grain_s[k].w < 0.0;
+#ifdef ORGANS
+    has_section = has_section && int(organ) == BLADE_ITSELF;
+    is_round = is_round && int(organ) == BLADE_ITSELF;
+#endif
+    if (is_round) {
+        vec2 toward = normalize(root_at.xz - eye.xz + 1e-6);
+        across = vec2(-toward.y, toward.x);
+    }
     lie_of = vec4(bend, 0.5 * width * across);
     float hidden = haze_at(root_at), seen = 1.0 - hidden;
     vec2 twice = vec2(facing.x * facing.x - facing.y * facing.y, 2.0 * facing.x * facing.y);
@@ -126,6 +135,11 @@ void main() {
     lit = mown_to(top, lit, k, areas(grows));
 #endif
     tilt = vec4(2.0 * ROUND * (grain_s[k].rgb * twice.x - grain_c[k].rgb * twice.y) / grain, lit.leaves.x);
+    if (has_section) {
+        vec2 toward = drift.zw;
+        float fold = twice.x * 2.0 * toward.x * toward.y - twice.y * (toward.x * toward.x - toward.y * toward.y);
+        tilt.rgb = vec3(grain_c[k].w * (is_round ? dot(across, toward) : fold));
+    }
     direct = vec4(lit.sun * seen, lit.leaves.y);
     open_to = vec4(lit.sky * seen, lit.way.x);
     veil = vec4(haze_light(root_at) * hidden, lit.gloss * seen);

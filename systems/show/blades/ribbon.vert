@@ -23,6 +23,9 @@ in vec4 painted;
 
 out vec3 color;
 flat out float shown;
+#ifdef FOLDS
+out vec3 keel;  // how much brighter the face to the right of a fold is than both
+#endif
 #ifdef SOFT
 noperspective out float aside;  // from the middle line [pixel]
 noperspective out float half_width;  // of the ribbon [pixel]
@@ -80,7 +83,10 @@ float profile(float t, float taper, float segments) {
         return mix(widths[row], widths[row + 1], at - float(low));
     }
 #endif
-    float waist = 0.55 * min(0.16 * segments, 1.0);
+    float narrower = grain_s[int(joints.z)].w;
+    if (narrower < 0.0 && t > 0.9999)  // as blunt as makes up for what the last segment cuts off of a round stem
+        return pow(segments, -taper) * max((1.0 - taper) / (1.0 + taper), 0.0);
+    float waist = max(narrower, 0.0) * min(0.16 * segments, 1.0);
     return pow(max(1.0 - t, 0.0), taper) * (1.0 - waist * max(1.0 - t / 0.16, 0.0));
 }
 
@@ -108,16 +114,29 @@ void main() {
     vec3 place = foot.xyz + spine.place * foot.w, tangent = spine.tangent * foot.w;
     float segments = mix(float(SEGMENTS), float(COARSER), joints.x);
     vec2 across = lie_of.zw * (side * profile(t, high.w, segments));
+    float high_up = stands.x + spine.place.y * stands.y;
     Lit lit = Lit(direct.rgb, open_to.rgb, veil.w, vec2(open_to.w, OPEN_SKY), vec2(tilt.w, direct.w));
-    vec3 light = radiance(mix(low.rgb, high.rgb, t) * (1.0 + side * tilt.rgb), stands.x + spine.place.y * stands.y, lit);
-    light += veil.rgb;
+    vec3 pigment = mix(low.rgb, high.rgb, t), light = radiance(pigment * (1.0 + side * tilt.rgb), high_up, lit) + veil.rgb;
+#ifdef FOLDS
+    bool is_folded = grain_c[int(joints.z)].w > 0.0 && grain_s[int(joints.z)].w > 0.0;
+#ifdef ORGANS
+    is_folded = is_folded && int(stands.z) == BLADE_ITSELF;
+#endif
+    keel = is_folded ? side * (shown_of(light) - shown_of(radiance(pigment, high_up, lit) + veil.rgb)) : vec3(0.0);
+#endif
 #ifdef MORPH
     int k = int(joints.z);
     Painted target = painted_at(base, int(painted.x), int(painted.y), painted.z, t, k, int(joints.w));
     vec2 run = normalize(target.run.xz);
     place = mix(place, target.place, painted.w);
     tangent = mix(tangent, target.tangent, painted.w);
-    across = mix(across, run * dot(run, across) * boosted(run, target.middle), painted.w);
+    float wide = dot(run, across);
+    bool is_round = grain_s[k].w < 0.0;
+#ifdef ORGANS
+    is_round = is_round && int(stands.z) == BLADE_ITSELF;
+#endif
+    wide = is_round ? sign(wide) * length(across) : wide;
+    across = mix(across, run * wide * boosted(run, target.middle), painted.w);
     vec2 face = normalize(vec2(lie_of.w, -lie_of.z));
     float tone = t;
 #ifdef ORGANS
@@ -125,6 +144,9 @@ void main() {
 #endif
     vec3 painted_as = painted_light(k, tone, face.x * face.x - face.y * face.y, target);
     light = mix(light, painted_as, painted.w);
+#ifdef FOLDS
+    keel *= 1.0 - painted.w;
+#endif
 #endif
     // Between its joints a blade's colour goes straight, where light rises in a bow: so much darker would few joints make it.
     color = shown_of(light) * (1.0 + BOW * pow(segments, -1.5));

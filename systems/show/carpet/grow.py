@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from ...grow.bend import Doubles, highest_tip, ribbon, segment_normals, spine, tone
 from ...grow.raster import Fragments, interpolate, rasterise, ribbon_triangles
 from ...grow.record import Blades, Bytes, Floats, PatchModel, Postures
+from ...grow.section import FLAT, Section
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -57,6 +58,7 @@ def grow_carpet(
     taper: float,
     slopes: tuple[float, ...] = SLOPES,
     height: float | None = None,
+    section: Section = FLAT,
 ) -> Carpet:
     """Return images of the endless field of a patch model's blades at rest, `texels` wide and high.
 
@@ -65,15 +67,19 @@ def grow_carpet(
     highest first. Blades reach over the patch's edge into the next one, which is the same patch again. `height` is the
     canopy's [m]; without it, the highest tip's.
     """
-    left, right = (
-        edge.astype(np.float64) for edge in ribbon(blades, postures, (0.0, 0.0), points=_SEGMENTS + 1, taper=taper)
-    )
+    seen_along = [
+        ribbon_triangles(*(edge.astype(np.float64) for edge in edges))
+        for side in (((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)) if section.is_round else (None,))
+        for edges in [
+            ribbon(blades, postures, (0.0, 0.0), points=_SEGMENTS + 1, taper=taper, section=section, side=side)
+        ]
+    ]
     centre = spine(blades, postures, (0.0, 0.0), points=_SEGMENTS + 1)
     height = highest_tip(centre, 0.01) if height is None else height
     width = float(blades.width.mean())
     tones = tone(blades, np.linspace(0.0, 1.0, _SEGMENTS + 1))
     normals = segment_normals(blades, centre)
-    field = _Field(ribbon_triangles(left, right), normals, tones, width, patch, height, texels)
+    field = _Field(seen_along, normals, tones, width, patch, height, texels)
     images = [[field.draw(heading, slope) for heading in _HEADINGS] for slope in slopes]
     return Carpet(
         slope=np.asarray(slopes, np.float32),
@@ -88,7 +94,7 @@ class _Field:
 
     def __init__(
         self,
-        ribbons: Doubles,
+        seen_along: list[Doubles],
         normals: Doubles,
         tones: Doubles,
         width: float,
@@ -98,7 +104,7 @@ class _Field:
         /,
     ) -> None:
         self._fine = int(np.clip(np.ceil(_SAMPLES_PER_WIDTH * patch / texels / width), 6, 64))
-        self._ribbons, self._patch, self._height, self._texels = ribbons, patch, height, texels
+        self._seen_along, self._patch, self._height, self._texels = seen_along, patch, height, texels
         self._normals = np.repeat(normals.reshape(-1, 3), 2, axis=0)
         ends = tones[:, :, None]
         self._place = ribbon_triangles(ends, ends)[:, :, 0]
@@ -106,14 +112,15 @@ class _Field:
     def draw(self, heading: NDArray[np.float64], slope: float, /) -> Bytes:
         """Return one image, shape (texels, texels, 4): rows along z, columns along x."""
         rows, columns = self._texels * self._fine, self._columns(slope)
-        ground = self._ribbons[:, :, ::2] + heading * ((self._ribbons[:, :, 1:2] - 0.5 * self._height) / slope)
         turned = heading[0] == 0.0
+        ribbons = self._seen_along[0 if turned else -1]
+        ground = ribbons[:, :, ::2] + heading * ((ribbons[:, :, 1:2] - 0.5 * self._height) / slope)
         along, across = (1, 0) if turned else (0, 1)
         corners = np.stack([ground[:, :, along] * columns, ground[:, :, across] * rows], axis=2) / self._patch
-        seen = rasterise(corners, self._ribbons[:, :, 1], shape=(rows, columns), wrap=True)
+        seen = rasterise(corners, ribbons[:, :, 1], shape=(rows, columns), wrap=True)
         where = seen.sample // (columns * self._fine) * columns + seen.sample % columns
         count = self._texels * columns
-        sums = [np.bincount(where, values, count) for values in self._meaning(corners, seen, heading)]
+        sums = [np.bincount(where, values, count) for values in self._meaning(corners, ribbons, seen, heading)]
         means = np.stack(sums).reshape(4, self._texels, columns) / self._fine
         image = _spread(means, self._texels)
         image = image.transpose(2, 1, 0) if turned else image.transpose(1, 2, 0)
@@ -126,13 +133,13 @@ class _Field:
         return max(int(self._texels * 2.0**octaves), 1)
 
     def _meaning(
-        self, corners: Doubles, seen: Fragments, heading: NDArray[np.float64], /
+        self, corners: Doubles, ribbons: Doubles, seen: Fragments, heading: NDArray[np.float64], /
     ) -> tuple[Doubles | None, ...]:
         """Return place along the blade, height and doubled azimuth from the view, each (f,), and none for 1."""
         level = np.maximum(np.hypot(self._normals[:, 0], self._normals[:, 2]), 1e-6)
         twice = 2.0 * (self._normals[:, ::2] @ heading / level) ** 2 - 1.0
         place = interpolate(corners, self._place, seen)
-        height = interpolate(corners, self._ribbons[:, :, 1], seen) / self._height
+        height = interpolate(corners, ribbons[:, :, 1], seen) / self._height
         return place, np.clip(height, 0.0, 1.0), (0.5 + 0.5 * twice).take(seen.triangle), None
 
 

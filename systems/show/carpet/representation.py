@@ -14,6 +14,7 @@ from ...around.outlook import Outlook
 from ...around.patches import PatchTable
 from ...around.representation import Canvas, Color, Representation, Seedling
 from ...grow.record import Growth
+from ...grow.section import SECTIONS
 from .grow import SLOPES, Carpet, grow_carpet
 from .painter import CarpetPainter
 from .pool import CarpetKept, CarpetPool
@@ -50,7 +51,7 @@ class CarpetRepresentation(Representation):
         quality = seedling.quality
         images = grow_carpet(
             seedling.blades, seedling.postures, patch=quality.patch, texels=quality.carpet, taper=seedling.kind.taper,
-            height=seedling.height,
+            height=seedling.height, section=SECTIONS[seedling.kind.profile],
         )  # fmt: skip
         return (images,)
 

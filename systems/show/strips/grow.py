@@ -9,6 +9,7 @@ from ...grow.bend import Doubles, highest_tip, ribbon, spine, tone
 from ...grow.organs import HEADS
 from ...grow.raster import Fragments, interpolate, rasterise, ribbon_triangles
 from ...grow.record import Blades, Bytes, Floats, PatchModel, Postures
+from ...grow.section import FLAT, Section
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -61,6 +62,7 @@ def grow_strips(
     taper: float,
     margin: float,
     height: float | None = None,
+    section: Section = FLAT,
 ) -> Strips:
     """Return the strips of a patch model, drawn from its blades at rest.
 
@@ -74,7 +76,10 @@ def grow_strips(
     centre = spine(blades, postures, (0.0, 0.0), points=postures.shape.shape[2])
     height = highest_tip(centre, texel) if height is None else height
     size = _count(height, texel), _count(patch + 2.0 * margin, texel)
-    shared = _Sheet(blades, postures, strips=strips, patch=patch, margin=margin, height=height, size=size, taper=taper)
+    shared = _Sheet(
+        blades, postures, strips=strips, patch=patch, margin=margin, height=height, size=size, taper=taper,
+        section=section,
+    )  # fmt: skip
     images = [shared.draw(orientation) for orientation in (0, 1)]
     return Strips(
         plane=((np.arange(strips) + 0.5) * (patch / strips)).astype(np.float32),
@@ -97,6 +102,15 @@ def _count(length: float, texel: float, /) -> int:
     return max(int(np.ceil(length / texel - 1e-6)), 1)
 
 
+def _triangles(
+    blades: Blades, postures: Postures, taper: float, section: Section, side: tuple[float, float, float] | None, /
+) -> Doubles:
+    """Return the triangles of blades at rest, shape (triangles, 3, 3); round ones are as wide as they are to `side`."""
+    edges = ribbon(blades, postures, (0.0, 0.0), points=_SEGMENTS + 1, taper=taper, section=section, side=side)
+    left, right = (edge.astype(np.float64) for edge in edges)
+    return ribbon_triangles(left, right)
+
+
 class _Sheet:
     """One orientation's strips as one image, strip above strip, and the blades to draw on it."""
 
@@ -112,11 +126,14 @@ class _Sheet:
         height: float,
         size: tuple[int, int],
         taper: float,
+        section: Section,
     ) -> None:
         self._blades, self._strips, self._size = blades, strips, size
         self._patch, self._margin, self._height = patch, margin, height
-        left, right = ribbon(blades, postures, (0.0, 0.0), points=_SEGMENTS + 1, taper=taper)
-        self._ribbons = ribbon_triangles(left.astype(np.float64), right.astype(np.float64))
+        self._seen_along = [
+            _triangles(blades, postures, taper, section, side)
+            for side in (((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)) if section.is_round else (None,))
+        ]
         self._fine = int(np.clip(np.ceil(4.0 * height / size[0] / float(blades.width.mean())), 4, 10))
 
     def slice(self, orientation: int, /) -> NDArray[np.int32]:
@@ -130,9 +147,10 @@ class _Sheet:
         fine = self._fine
         span = 2 * _SEGMENTS
         along = 2 * orientation
-        corners = np.empty((*self._ribbons.shape[:2], 2))
-        corners[:, :, 0] = (self._ribbons[:, :, along] + self._margin) * (w * fine / (self._patch + 2.0 * self._margin))
-        up = self._ribbons[:, :, 1] + self._lifted(1 - orientation)
+        ribbons = self._seen_along[min(orientation, len(self._seen_along) - 1)]
+        corners = np.empty((*ribbons.shape[:2], 2))
+        corners[:, :, 0] = (ribbons[:, :, along] + self._margin) * (w * fine / (self._patch + 2.0 * self._margin))
+        up = ribbons[:, :, 1] + self._lifted(ribbons, 1 - orientation)
         corners[:, :, 1] = np.minimum(up / self._height, 1.0) * (h * fine)
         corners[:, :, 1] += np.repeat(self.slice(orientation), span)[:, None] * float(h * fine)
         shape = self._strips * h * fine, w * fine
@@ -144,12 +162,12 @@ class _Sheet:
         texels: Bytes = np.rint(np.stack(sums, axis=1) * (255.0 / fine**2)).astype(np.uint8)
         return texels.reshape(-1, h, w, 4)
 
-    def _lifted(self, depth: int, /) -> Doubles | float:
+    def _lifted(self, ribbons: Doubles, depth: int, /) -> Doubles | float:
         """Return how much higher corners of heads are painted, as they are seen from a little above, (triangles, 3)."""
         heads = np.repeat(np.isin(np.broadcast_to(self._blades.organ, self._blades.rank.shape), HEADS), 2 * _SEGMENTS)
         if not heads.any():
             return 0.0
-        away = self._ribbons[:, :, 2 * depth]
+        away = ribbons[:, :, 2 * depth]
         foot = away.reshape(-1, 2 * _SEGMENTS * 3)[:, :1].repeat(2 * _SEGMENTS, axis=0)
         return np.asarray(np.where(heads[:, None], SLANT * (away - foot), 0.0))
 

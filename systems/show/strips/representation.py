@@ -14,6 +14,7 @@ from ...around.outlook import Outlook
 from ...around.patches import PatchTable
 from ...around.representation import Canvas, Color, Representation, Seedling
 from ...grow.record import Growth
+from ...grow.section import SECTIONS
 from ...grow.simulate import LINKS
 from .grow import Strips, grow_strips
 from .painter import StripsPainter
@@ -72,6 +73,7 @@ class StripRepresentation(Representation):
             grow_strips(
                 seedling.blades, seedling.postures, patch=quality.patch, strips=ring.strips, texel=ring.texel * coarser,
                 taper=seedling.kind.taper, margin=seedling.margin, height=seedling.height,
+                section=SECTIONS[seedling.kind.profile],
             )
             for ring in quality.strip_rings
         )  # fmt: skip

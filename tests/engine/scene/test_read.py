@@ -87,7 +87,8 @@ def test_a_file_named_with_impossible_characters_is_missing(tmp_path: Path) -> N
 def test_keys_that_are_not_known_are_told_with_those_that_are() -> None:
     (told,) = refusal(GOOD + "light: { glow: 3 }")
     known = (
-        "azimuth, clouds, day, elevation, exposure, ground, haze, horizon, hour, latitude, strength, sun, turbidity, "
+        "azimuth, clouds, day, elevation, exposure, ground, haze, horizon, hour, hours_per_minute, latitude, strength, "
+        "sun, turbidity, "
     )
     assert told == f"3:10 unknown key 'glow'; known: {known}zenith"
 

@@ -77,6 +77,7 @@ def test_what_was_grown_once_is_read_the_next_time(tmp_path: Path, grows: list[A
         {"damping": 1.1},
         {"lean": 0.31},
         {"taper": 1.1},
+        {"profile": "fold"},
         {"blades": 13},
     ],
 )

@@ -12,8 +12,13 @@ from tallgrass.engine.declared.light import Light
 from tallgrass.systems.light.air import EYE, GROUND, from_all_sides, seen, sunlight
 from tallgrass.systems.light.color import display, luminance
 from tallgrass.systems.light.daylight import daylight
-from tallgrass.systems.light.sky import COLUMNS, ROWS, sky_of
+from tallgrass.systems.light.sky import COLUMNS, ROWS, Sky, clear_air, sky_of
 from tallgrass.systems.light.sun import sun_at, to_sun, transmitted
+
+
+def the_sky(light: Light) -> Sky:
+    return sky_of(light, clear_air(sun_at(light)[1], light.turbidity))
+
 
 lights = st.builds(
     Light,
@@ -74,7 +79,7 @@ def test_light_that_is_scattered_again_makes_the_sky_brighter_and_never_endless(
 @settings(max_examples=12)
 @given(lights)
 def test_every_sky_is_a_map_of_finite_colours_with_a_horizon(light: Light) -> None:
-    sky = sky_of(light)
+    sky = the_sky(light)
     assert sky.map.shape == (ROWS, COLUMNS, 3)
     assert np.isfinite(sky.map).all()
     assert (sky.map >= 0.0).all()
@@ -84,7 +89,7 @@ def test_every_sky_is_a_map_of_finite_colours_with_a_horizon(light: Light) -> No
 
 
 def test_a_clear_sky_is_blue_above_and_paler_below_and_brightest_about_the_sun() -> None:
-    sky = sky_of(Light(elevation=35.0))
+    sky = the_sky(Light(elevation=35.0))
     zenith, horizon = sky.map[-1, 0], sky.map[0, -1]
     assert zenith[2] > 2.0 * zenith[0]
     assert horizon[0] / horizon[2] > zenith[0] / zenith[2]
@@ -93,12 +98,12 @@ def test_a_clear_sky_is_blue_above_and_paler_below_and_brightest_about_the_sun()
 
 
 def test_a_setting_sun_colours_the_horizon_about_it() -> None:
-    sky = sky_of(Light(elevation=1.0))
+    sky = the_sky(Light(elevation=1.0))
     assert sky.map[2, 0, 0] > 1.5 * sky.map[2, 0, 2]
 
 
 def test_a_scene_may_give_the_colours_of_its_sky() -> None:
-    sky = sky_of(Light(zenith="#203040", horizon="#c0a080"))
+    sky = the_sky(Light(zenith="#203040", horizon="#c0a080"))
     np.testing.assert_allclose(display(sky.map[-1, 0]) * 255.0, (0x20, 0x30, 0x40), atol=2.0)
     np.testing.assert_allclose(display(sky.map[0, 5]) * 255.0, (0xC0, 0xA0, 0x80), atol=2.0)
 

@@ -1,0 +1,92 @@
+"""Rushes and folded blades in whole frames: what their profiles are for, and that all representations show as much."""
+
+from collections.abc import Callable
+
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass.engine.camera import Camera, view_of
+from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.show.blades.pool import BLADE
+from tallgrass.testing import Stage
+
+Load = Callable[..., Prairie]
+
+SCENE = """\
+tallgrass: 2
+terrain: {{ size: [60, 60], noise: flat }}
+grass: {{ sward: {{ profile: {profile}, height: [0.4, 0.6], width: 0.03, blades: 260, variety: 0 }} }}
+light: {{ azimuth: 90, elevation: 25 }}
+quality:
+  models: 1
+  blade_rings: [{{ to: 1, segments: 4 }}]
+  strip_rings: [{{ to: 5, strips: 4, texel: 0.01 }}]
+  carpet_to: 16
+  carpet: 64
+"""
+CAMERA = Camera((0.0, 0.12, 8.0), 0.0, 0.0, np.radians(11.0))
+FACES = np.radians([0.0, 30.0, 60.0, 80.0])
+
+
+@pytest.fixture(scope="module")
+def room(ctx: moderngl.Context) -> Stage:
+    return Stage(ctx, (400, 120))
+
+
+def standing(room: Stage, prairie: Prairie) -> NDArray[np.float64]:
+    """Return a picture of four wide blades of 0.5 m side by side, which face `FACES`, before ground and sky alone."""
+    room.shot(prairie, CAMERA)
+    assert prairie.painter is not None
+    painter = prairie.painter.blade_painter(8)
+    blades = np.zeros(len(FACES), BLADE)
+    blades["root"][:, 0] = np.linspace(-1.2, 1.2, len(FACES))
+    blades["height"], blades["width"] = 0.5, 0.2
+    blades["facing"] = np.stack([np.cos(FACES), np.sin(FACES)], axis=1)
+    pictures = []
+    for some in (blades[:0], blades):
+        painter.write(some, np.zeros((len(some), 2), np.float32))
+        room.begin()
+        prairie.painter.draw(view_of(*room.matrices(CAMERA)), blades=[painter])
+        pictures.append(room.read())
+    painter.release()
+    bare, grown = pictures
+    return np.where((np.abs(grown - bare).max(axis=2) > 2.0)[..., None], grown, np.nan)
+
+
+def columns(picture: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+    """Return the brightness of each blade across a row of pixels half-way up, before the sky."""
+    row = picture[48].mean(axis=1)
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], ~np.isnan(row), [0]]).astype(int)))
+    return [row[low:high] for low, high in edges.reshape(-1, 2)]
+
+
+def test_a_rush_is_as_wide_whichever_way_it_faces_and_brighter_to_the_sun(room: Stage, load: Load) -> None:
+    stems = columns(standing(room, load(SCENE.format(profile="rush"))))
+    widths = [len(stem) for stem in stems]
+    assert len(stems) == len(FACES)
+    assert max(widths) - min(widths) <= 2
+    for stem in stems:
+        assert stem[-3] > 1.1 * stem[2]  # the sun stands to the right
+
+
+def test_a_blade_is_narrow_seen_edge_on(room: Stage, load: Load) -> None:
+    widths = [len(blade) for blade in columns(standing(room, load(SCENE.format(profile="blade"))))]
+    assert widths[0] < 0.5 * widths[-1]
+
+
+@pytest.mark.parametrize("profile", ["rush", "fold"])
+def test_n12_all_representations_show_as_much_of_it(room: Stage, load: Load, profile: str) -> None:
+    seen = Camera((0.0, 1.7, 10.0), 0.0, -0.12, np.radians(40.0))
+    means = [room.shot(load(SCENE.format(profile=profile), lod=lod), seen)[60:].mean() for lod in ("blades", "strips")]
+    assert means[1] / means[0] == pytest.approx(1.0, abs=0.05)
+
+
+def test_the_two_faces_of_a_fold_are_lit_apart_with_an_edge_between_them(room: Stage, load: Load) -> None:
+    seen = Camera((0.0, 0.45, 8.0), 0.0, -0.2, np.radians(12.0))
+    steps = []
+    for profile in ("blade", "fold"):
+        picture = room.shot(load(SCENE.format(profile=profile)), seen).mean(axis=2)[60:]
+        steps.append(np.abs(np.diff(picture, axis=1)).mean())
+    assert steps[1] > 1.1 * steps[0]

@@ -1,0 +1,103 @@
+"""A sun that moves while the prairie is drawn (F5, F10): by a call, and by hours that pass."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import moderngl
+import numpy as np
+import pytest
+
+from tallgrass.engine.camera import Camera
+from tallgrass.systems.light.lie import AT_ONCE
+from tallgrass.systems.light.sky import PIECES
+from tallgrass.systems.prairie import Prairie
+from tallgrass.testing import Stage
+
+Load = Callable[..., Prairie]
+
+SCENE = """\
+tallgrass: 2
+terrain: {{ heights: {heights}, scale: 1 }}
+grass: {{ turf: {{ height: [0.3, 0.5], blades: 100 }} }}
+light: {{ {light} }}
+quality:
+  models: 1
+  blade_rings: [{{ to: 1, segments: 2 }}]
+  strip_rings: [{{ to: 5, strips: 2, texel: 0.05 }}]
+  carpet_to: 16
+  carpet: 64
+"""
+CAMERA = Camera((6.0, 14.0, 16.0), 0.0, -0.4, np.radians(50.0))
+
+
+@pytest.fixture(scope="module")
+def room(ctx: moderngl.Context) -> Stage:
+    return Stage(ctx, (64, 40))
+
+
+@pytest.fixture(scope="module")
+def ridge(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a map of a ridge across the terrain, on which a low sun casts a long shadow."""
+    x = np.arange(201, dtype=np.float32) - 100.0
+    heights = np.tile(6.0 * np.exp(-((x + 8.0) ** 2) / 6.0), (201, 1)).astype(np.float32)
+    path = tmp_path_factory.mktemp("ridge") / "ridge.npy"
+    np.save(path, heights)
+    return path
+
+
+def test_f5_a_sun_that_was_moved_shines_as_if_the_scene_had_said_so(room: Stage, load: Load, ridge: Path) -> None:
+    moved = load(SCENE.format(heights=ridge, light="azimuth: 60, elevation: 50"))
+    due = load(SCENE.format(heights=ridge, light="azimuth: -80, elevation: 18, clouds: 0.2, exposure: 0.5"))
+    before = room.shot(moved, CAMERA)
+    moved.shine(azimuth=-80.0, elevation=18.0, clouds=0.2, exposure=0.5)
+    for _ in range(2 * PIECES + 1):
+        after = room.shot(moved, CAMERA)
+    picture = room.shot(due, CAMERA)
+    assert np.abs(picture - before).mean() > 10.0
+    assert np.abs(picture - after).max() <= 1.0
+
+
+def test_f10_shadows_of_the_terrain_come_row_by_row_and_none_is_forgotten(room: Stage, load: Load, ridge: Path) -> None:
+    prairie = load(SCENE.format(heights=ridge, light="azimuth: 90, elevation: 20"))
+    calls = []
+    for azimuth in (90.0, 90.0, 80.0, 70.0, 70.0, 70.0, 70.0):
+        prairie.shine(azimuth=azimuth)
+        room.shot(prairie, CAMERA)
+        assert prairie.painter is not None
+        calls.append(prairie.painter.draw_calls)
+    assert AT_ONCE < 201 * 201 < 2 * AT_ONCE
+    assert [call > calls[1] for call in calls] == [True, False, True, True, True, False, False]
+
+
+def test_f5_hours_pass_in_a_scene_and_a_picture_follows_from_its_time_alone(
+    ctx: moderngl.Context, room: Stage, ridge: Path, tmp_path: Path
+) -> None:
+    text = SCENE.format(heights=ridge, light="hour: 5, hours_per_minute: 60")
+    (tmp_path / "day.yaml").write_text(text, "utf-8")
+    whole, part = (Prairie.load(tmp_path / "day.yaml", ctx=ctx, live=False) for _ in range(2))
+    for _ in range(6):
+        frame = room.shot(whole, CAMERA)
+        whole.advance(0.5)
+    part.advance(2.5)
+    np.testing.assert_array_equal(room.shot(part, CAMERA), frame)
+    assert part.light.hour == pytest.approx(7.5)
+    for prairie in (whole, part):
+        prairie.release()
+
+
+def test_f5_a_scene_that_is_read_again_keeps_the_light_of_a_game_until_its_own_changes(load: Load, ridge: Path) -> None:
+    prairie = load(SCENE.format(heights=ridge, light="elevation: 40"))
+    prairie.shine(elevation=10.0)
+    prairie.reload()
+    assert prairie.light.elevation == 10.0
+    prairie.path.write_text(prairie.path.read_text("utf-8").replace("elevation: 40", "elevation: 60"), "utf-8")
+    prairie.reload()
+    assert prairie.light.elevation == 60.0
+
+
+@pytest.mark.parametrize("wrong", [{"brightness": 2.0}, {"elevation": 120.0}, {"hour": "noon"}])
+def test_a_light_that_is_none_is_refused(load: Load, ridge: Path, wrong: dict[str, object]) -> None:
+    prairie = load(SCENE.format(heights=ridge, light="elevation: 40"))
+    with pytest.raises(ValueError, match=next(iter(wrong))):
+        prairie.shine(**wrong)
+    assert prairie.light.elevation == 40.0
