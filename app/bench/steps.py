@@ -27,11 +27,8 @@ Watch = Callable[[Iterator[Step], int], Iterator[Step]]
 TOLD = 6
 """Frames that are told of."""
 
-BORDER = 2.0
-"""How much of a leg is walked where patches switch at once: they do it at its border, after `stroll.LEAD` [of that]."""
-
-STILLS = 8
-"""Frames kept besides, spread over the walk."""
+AT_ONCE = 0.25
+"""How much of a leg is walked where patches switch at once: they do it at its border [s]."""
 
 SETTLING = 90
 """Frames before each leg in which a frame time comes to be held."""
@@ -57,7 +54,7 @@ class Record:
     """Patches in transition, by frame."""
 
     stills: list[tuple[Picture, Picture]] = field(default_factory=list)
-    """Frames spread over the walk, and their references, where nothing is left out of the transitions."""
+    """The frame in the middle of each leg, and its reference, where nothing is left out of the transitions."""
 
     changes: list[Change] = field(default_factory=list)
     """What patches looked like on their way from one representation or sub-level to another, where nothing is."""
@@ -87,15 +84,13 @@ def walked(
     raise_gusts(prairie, walk)
     last = round(seconds_of(transitions) * stroll.RATE)
     frames = [list(moments(prairie, leg))[: last + 1] for leg in walk]
-    apart = max(1, last * len(walk) // STILLS)
-    first = 0 if only is None else last * only
     drawn = frames if only is None else frames[only : only + 1]
     try:
         with Truth(studio, walk) as truth:
             _follow(studio, prairie, frames[: only or 0])
             seen = {leg.name: _Seen(studio, prairie, truth, told) for leg in walk}
-            for number, step in enumerate(watch(_steps(studio, prairie, drawn), last * len(drawn)), first):
-                still = transitions == SEAMLESS and number % apart == apart // 2
+            for step in watch(_steps(studio, prairie, drawn), last * len(drawn)):
+                still = transitions == SEAMLESS and step.moment.number == last // 2
                 seen[step.moment.leg.name].see(step, still=still)
     finally:
         prairie.release()
@@ -118,7 +113,7 @@ def merged(records: Iterable[Record], /, *, told: int = TOLD) -> Record:
 
 def seconds_of(transitions: Transitions, /) -> float:
     """Return how much of each leg is walked with these transitions [s]."""
-    return stroll.SECONDS if transitions.gradual else BORDER * stroll.LEAD
+    return stroll.SECONDS if transitions.gradual else AT_ONCE
 
 
 class _Seen:

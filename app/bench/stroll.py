@@ -26,11 +26,11 @@ TURN = math.radians(20.0)
 PITCH = math.radians(-5.0)
 """Where it looks."""
 
-LEAD = 0.25
+LEAD = 0.1
 """When each leg comes to the first border between patches [s]."""
 
-SECONDS = 1.7
-"""How long a leg lasts: its patches change, and have been done for a while [s]."""
+SECONDS = 1.45
+"""How long a leg lasts: its patches change, and are done [s]."""
 
 REST = 4.0
 """Time between two legs, in which everything settles [s]."""
