@@ -62,7 +62,8 @@ def cells_in_picture(prairie: Prairie, cells: Ints, seen: View, /) -> Ints:
     heights = height_at(terrain, corners.reshape(-1, 2).astype(np.float32)).reshape(-1, 4)
     x, z = ((cells.T + 0.5) * patch).astype(np.float64)
     beyond = beyond_sides(x, z, heights.mean(axis=1), picture_sides(seen))
-    return cells[beyond <= HALF_DIAGONAL * patch + ROOM * site.tallest + np.ptp(heights, axis=1)]
+    inside: Ints = cells[beyond <= HALF_DIAGONAL * patch + ROOM * site.tallest + np.ptp(heights, axis=1)]
+    return inside
 
 
 def stand_all(prairie: Prairie, cells: Ints, painter: BladePainter, /, *, seen: View | None = None) -> int:

@@ -29,7 +29,7 @@ PITCH = math.radians(-5.0)
 LEAD = 0.1
 """When each leg comes to the first border between patches [s]."""
 
-SECONDS = 1.45
+SECONDS = 1.4
 """How long a leg lasts: its patches change, and are done [s]."""
 
 REST = 4.0
