@@ -26,8 +26,8 @@ TURN = math.radians(20.0)
 PITCH = math.radians(-5.0)
 """Where it looks."""
 
-LEAD = 0.1
-"""When each leg comes to the first border between patches [s]."""
+LEAD = 0.12
+"""When each leg comes to the first border between patches [s]: between two frames, never on one."""
 
 SECONDS = 1.4
 """How long a leg lasts: its patches change, and are done [s]."""
