@@ -54,12 +54,15 @@ def pop(
     parts: Annotated[bool, typer.Option("--parts", help="Also leave out each part of the transitions alone.")] = False,
     output: Annotated[str | None, typer.Option("-o", "--output", help="A folder for pictures of what shows.")] = None,
     hold: Hold = None,
+    climb: Annotated[
+        bool, typer.Option("--climb", help="Climb up to 60 m instead of walking, and then look straight down.")
+    ] = False,
 ) -> int:
     """Measure whether a change of representation can be seen on a walk; this takes minutes."""
     pixels = size_of(size)
     from .pop import bench_pop
 
-    return bench_pop(scene, preset=preset, size=pixels, json=json, parts=parts, output=output, hold=hold)
+    return bench_pop(scene, preset=preset, size=pixels, json=json, parts=parts, output=output, hold=hold, rising=climb)
 
 
 @bench.command("walk")

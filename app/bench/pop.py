@@ -14,7 +14,7 @@ from ..studio.errors import InputError
 from ..studio.progress import counted, course
 from ..studio.studio import Studio, about
 from ..studio.take import Take
-from . import stroll
+from .climb import climb
 from .crew import by_many, cores, ticked
 from .drift import Change
 from .evidence import save
@@ -22,7 +22,7 @@ from .flicker import MARGIN, TILE
 from .frame import own_preset
 from .machine import machine, tell
 from .picture import evaluator, flip
-from .steps import TOLD, Record, merged, seconds_of, walked
+from .steps import TOLD, Record, frames_of, merged, walked
 from .stroll import Leg, legs
 from .verdict import Step, Verdict
 
@@ -54,37 +54,48 @@ def bench_pop(
     parts: bool = False,
     output: str | None = None,
     hold: float | None = None,
+    rising: bool = False,
 ) -> int:
     """Walk through a scene, compare its changes with the reference's, print the figures, and return the exit status.
 
-    With `parts` the walk is repeated with each part of the transitions left out. Pictures of the frames that show the
-    most go into the folder `output`. With `hold`, so many frames a second are held. Before anything is drawn it raises
-    MachineError where pictures cannot be compared, and InputError where they would be too small or cannot be written.
+    When `rising`, climb up over it instead, and look down. With `parts` the walk is repeated with each part of the
+    transitions left out. Pictures of the frames that show the most go into the folder `output`. With `hold`, so many
+    frames a second are held. Before anything is drawn it raises MachineError where pictures cannot be compared, and
+    InputError where they would be too small or cannot be written.
     """
     evaluator()
     if min(size) < SMALLEST:
         raise InputError(f"--size: {size[0]}x{size[1]}: here each side must be at least {SMALLEST} pixels")
     if output is not None:
         make_folder(Path(output))
-    tell(pop_measured(Take(scene, size, preset=preset), parts=parts, output=output, hold=hold), as_json=json)
+    take = Take(scene, size, preset=preset)
+    tell(pop_measured(take, parts=parts, output=output, hold=hold, rising=rising), as_json=json)
     return 0
 
 
 def pop_measured(
-    take: Take, /, *, parts: bool = False, output: str | None = None, hold: float | None = None
+    take: Take,
+    /,
+    *,
+    parts: bool = False,
+    output: str | None = None,
+    hold: float | None = None,
+    rising: bool = False,
 ) -> dict[str, object]:
-    """Return what the benchmark tells of a walk through a scene."""
+    """Return what the benchmark tells of a walk through a scene, or of the climb over it."""
     with Studio(take) as studio:
         head = {
             "machine": machine(studio.ctx),
             "scene": take.scene,
             "preset": take.preset or own_preset(studio.prairie),
         }
-        return {**head, "size": list(take.size), **_measure(studio, parts=parts, output=output, hold=hold)}
+        walk = climb(studio.prairie) if rising else legs(studio.prairie)
+        return {**head, "size": list(take.size), **_measure(studio, walk, parts=parts, output=output, hold=hold)}
 
 
-def _measure(studio: Studio, *, parts: bool, output: str | None, hold: float | None) -> dict[str, object]:
-    walk = legs(studio.prairie)
+def _measure(
+    studio: Studio, walk: list[Leg], *, parts: bool, output: str | None, hold: float | None
+) -> dict[str, object]:
     left_out = {WHOLE: SEAMLESS, "morph, fade, growth": HARD}
     for part in PARTS if parts else ():
         left_out[part] = replace(SEAMLESS, **{part: False})
@@ -105,7 +116,7 @@ def _walks(
     studio: Studio, walk: list[Leg], left_out: Mapping[str, Transitions], *, hold: float | None
 ) -> dict[str, Record]:
     """Return the record of each walk; where frame times are to be held, nothing else goes on meanwhile."""
-    steps = {name: round(seconds_of(less) * stroll.RATE) * len(walk) for name, less in left_out.items()}
+    steps = {name: sum(frames_of(leg, less) for leg in walk) for name, less in left_out.items()}
     jobs = [(name, number) for name in left_out for number in reversed(range(len(walk)))]
     workers = 1 if hold else min(cores(), MOST, len(jobs))
     if workers > 1:
