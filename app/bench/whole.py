@@ -64,7 +64,7 @@ def all_measured(scene: str, *, preset: str | None, size: Size | None) -> Told:
     work: dict[str, Callable[[], Mapping[str, object] | None]] = {
         "frame": lambda: frame_measured(Take(scene, large, preset=preset)),
         "walk": lambda: walk_measured(scene, preset=preset, size=large),
-        "scale": lambda: scale_measured(scene, preset=preset, size=large) if noise else None,
+        "scale": lambda: scale_measured(Take(scene, large, preset=preset)) if noise else None,
         "picture": lambda: measured(Take(scene, large, preset=preset)),
         "pop": lambda: pop_measured(Take(scene, small, preset=preset)),
     }
