@@ -27,7 +27,7 @@ Size = tuple[int, int]
 LARGE, SMALL = (1280, 720), (640, 360)
 """Size of pictures in the benchmarks [pixels]; the small one is that of `bench pop`."""
 
-SHARES = {"frame": 60.0, "walk": 120.0, "scale": 60.0, "picture": 20.0, "pop": 100.0}
+SHARES = {"frame": 60.0, "walk": 120.0, "scale": 60.0, "picture": 20.0, "pop": 70.0}
 """The benchmarks, and how long they take in terms of one another, about."""
 
 
