@@ -163,6 +163,20 @@ def check(
 
 
 @app.command()
+def grow(
+    scenes: Annotated[
+        list[str], typer.Argument(metavar="SCENE...", help="Files or bundled names.", autocompletion=bundled)
+    ],
+    preset: Preset = None,
+    on: On = None,
+) -> None:
+    """Grow the grass of scenes beforehand, so that they open at once."""
+    from .grow import grow
+
+    grow(scenes, preset=preset, on=on)
+
+
+@app.command()
 def figures(
     output: Output,
     only: Annotated[str | None, typer.Option(metavar="N,...", help="Numbers of some figures, as 6,8.")] = None,

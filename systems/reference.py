@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from ..components.viewer import Viewer
 from ..engine.camera import View, view_of
-from .around.cone import HALF_DIAGONAL, discrete_distance, inside_cone, view_cone
+from ..engine.terrain.sample import height_at
+from .around.cone import HALF_DIAGONAL, beyond_sides, discrete_distance, inside_cone, picture_sides, view_cone
 from .around.ground import Ground
 from .around.outlook import Outlook
 from .around.window import cell_of
@@ -51,6 +52,18 @@ def cells_within(ground: Ground, eye: Place, cone: tuple[float, float], /, *, sw
     middles = (cells + np.float32(0.5)) * np.float32(ground.patch)
     radius = ground.patch * HALF_DIAGONAL + sway
     return cells[inside_cone(middles, apex=(eye[0], eye[2]), cone=cone, radius=radius)]
+
+
+def cells_in_picture(prairie: Prairie, cells: Ints, seen: View, /) -> Ints:
+    """Return those of `cells` (n, 2) whose blades might reach into the picture however they are bent, shape (m, 2)."""
+    site = prairie.site
+    patch, terrain = site.ground.patch, site.ground.terrain
+    corners = (cells[:, None] + np.array([(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)])) * patch
+    heights = height_at(terrain, corners.reshape(-1, 2).astype(np.float32)).reshape(-1, 4)
+    x, z = ((cells.T + 0.5) * patch).astype(np.float64)
+    beyond = beyond_sides(x, z, heights.mean(axis=1), picture_sides(seen))
+    inside: Ints = cells[beyond <= HALF_DIAGONAL * patch + ROOM * site.tallest + np.ptp(heights, axis=1)]
+    return inside
 
 
 def stand_all(prairie: Prairie, cells: Ints, painter: BladePainter, /, *, seen: View | None = None) -> int:
@@ -195,7 +208,7 @@ def draw_reference(
         target.clear(depth=1.0)
         site = prairie.site
         cells = cells_within(site.ground, every.outlook.viewer.eye, view_cone(seen), sway=site.sway)
-        every.draw(seen, cells, reach=reach)
+        every.draw(seen, cells_in_picture(prairie, cells, seen), reach=reach)
         return box_filtered(target, size, samples)
     finally:
         quarantine.live = live
@@ -209,8 +222,10 @@ def box_filtered(target: moderngl.Framebuffer, size: tuple[int, int], samples: i
     width, height = size
     fine = np.frombuffer(target.read(components=3, alignment=1), np.uint8)
     fine = fine.reshape(height, samples, width, samples, 3)
-    mean = fine.astype(np.uint16).sum(axis=(1, 3)) if samples <= 16 else fine.mean(axis=(1, 3))
-    return np.ascontiguousarray(np.round(mean / (samples * samples)).astype(np.uint8)[::-1])
+    total = np.zeros((height, width, 3), np.uint32)
+    for down, across in np.ndindex(samples, samples):  # many times as fast as one sum over two axes
+        total += fine[:, down, :, across]
+    return np.ascontiguousarray(np.round(total / (samples * samples)).astype(np.uint8)[::-1])
 
 
 def cropped(

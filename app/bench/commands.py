@@ -4,7 +4,11 @@ from typing import Annotated
 
 import typer
 
-from ..options import Hold, Json, On, Output, Preset, Scene, Size, size_of
+from ..options import Hold, Json, On, Output, Preset, Scene, Size, bundled, size_of
+
+Scenes = Annotated[
+    str, typer.Argument(metavar="SCENE", help="A scene file, a bundled scene, or a folder.", autocompletion=bundled)
+]
 
 bench = typer.Typer(help="Measure: what frames take, how true they are, and whether they pop.", no_args_is_help=True)
 
@@ -27,9 +31,7 @@ def frame(
 
 @bench.command("picture")
 def picture(
-    scene: Annotated[
-        str, typer.Argument(metavar="SCENE", help="A scene file, a bundled scene, or a folder.")
-    ] = "meadow",
+    scene: Scenes = "meadow",
     preset: Preset = None,
     size: Size = "1280x720",
     *,
@@ -46,7 +48,7 @@ def picture(
 
 @bench.command("pop")
 def pop(
-    scene: Scene = "meadow",
+    scene: Scenes = "meadow",
     preset: Preset = None,
     size: Size = "640x360",
     *,
@@ -54,12 +56,18 @@ def pop(
     parts: Annotated[bool, typer.Option("--parts", help="Also leave out each part of the transitions alone.")] = False,
     output: Annotated[str | None, typer.Option("-o", "--output", help="A folder for pictures of what shows.")] = None,
     hold: Hold = None,
+    climb: Annotated[
+        bool, typer.Option("--climb", help="Climb up to 60 m instead of walking, and then look straight down.")
+    ] = False,
+    on: On = None,
 ) -> int:
-    """Measure whether a change of representation can be seen on a walk; this takes minutes."""
+    """Measure whether a change of representation can be seen on a walk; of a folder, in all its scenes."""
     pixels = size_of(size)
     from .pop import bench_pop
 
-    return bench_pop(scene, preset=preset, size=pixels, json=json, parts=parts, output=output, hold=hold)
+    return bench_pop(
+        scene, preset=preset, size=pixels, json=json, parts=parts, output=output, hold=hold, rising=climb, on=on
+    )
 
 
 @bench.command("walk")
@@ -72,12 +80,14 @@ def bench_walk(scene: Scene = "meadow", preset: Preset = None, size: Size = "128
 
 
 @bench.command("scale")
-def scale(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720", *, json: Json = False) -> int:
-    """Measure what a larger terrain costs, up to 10 km."""
+def scale(
+    scene: Scenes = "meadow", preset: Preset = None, size: Size = "1280x720", *, json: Json = False, on: On = None
+) -> int:
+    """Measure what a larger terrain costs, up to 10 km; by workers, on one scene at a time on each machine."""
     pixels = size_of(size)
     from .scale import bench_scale
 
-    return bench_scale(scene, preset=preset, size=pixels, json=json)
+    return bench_scale(scene, preset=preset, size=pixels, json=json, on=on)
 
 
 @bench.command("all")

@@ -26,16 +26,16 @@ def low_passed(picture: NDArray[np.generic], /) -> Floats:
 
     That is about what an eye averages that sees 67 pixels to a degree, FLIP's own distance from the screen.
     """
-    whole = picture.astype(np.float32)
+    whole = picture.astype(np.uint16)  # nine bytes and their sum fit
     rows = whole[:-2] + whole[1:-1] + whole[2:]
-    return np.asarray((rows[:, :-2] + rows[:, 1:-1] + rows[:, 2:]) / 9.0, np.float32)
+    return np.asarray((rows[:, :-2] + rows[:, 1:-1] + rows[:, 2:]) * np.float32(1.0 / 9.0))
 
 
 def tiles(difference: Floats, /) -> Floats:
     """Return the mean size of a low-passed difference (height, width, 3) in each tile, shape (rows, columns)."""
-    size = np.abs(difference).mean(axis=2)[MARGIN:-MARGIN, MARGIN:-MARGIN]
-    rows, columns = (side // TILE for side in size.shape)
-    blocks = size[: rows * TILE, : columns * TILE].reshape(rows, TILE, columns, TILE)
+    size = np.abs(difference[MARGIN:-MARGIN, MARGIN:-MARGIN])
+    rows, columns = size.shape[0] // TILE, size.shape[1] // TILE
+    blocks = size[: rows * TILE, : columns * TILE].reshape(rows, TILE, columns, 3 * TILE)
     return np.asarray(blocks.mean(axis=(1, 3)), np.float32)
 
 

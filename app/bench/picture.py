@@ -21,7 +21,8 @@ from ..studio.studio import Studio, about
 from ..studio.take import SAMPLES, Take
 from .contrast import contrast
 from .frame import own_preset
-from .machine import machine, tell
+from .machine import machine
+from .many import Survey, bench_many
 from .multisampled import Multisampled
 
 MOMENT = 2.0
@@ -71,13 +72,7 @@ def bench_picture(
     evaluator()
     if output is not None:
         make_folder(Path(output))
-    from .cameras import bench_cameras, measured_by
-
-    if Path(scene).is_dir():
-        return bench_cameras(scene, preset=preset, size=size, json=json, output=output, on=on)
-    (told,) = measured_by(on, [Take(scene, size, preset=preset)], output)
-    tell(told, as_json=json)
-    return 0
+    return bench_many(scene, SURVEY, preset=preset, size=size, json=json, output=output, on=on)
 
 
 def measured(take: Take, output: str | None = None, /) -> dict[str, Any]:
@@ -219,3 +214,21 @@ def hue_between(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
     """Return the angle between the hues of two linear colours (3,), in [0, 180] degrees."""
     angles = [np.degrees(np.arctan2(np.sqrt(3.0) * (g - bl), 2.0 * r - g - bl)) for r, g, bl in (a, b)]
     return float(abs((angles[0] - angles[1] + 180.0) % 360.0 - 180.0))
+
+
+def _cells(told: dict[str, Any]) -> dict[str, object]:
+    """Return what a table tells of a scene: of its bands the luminance ratio and hue that are farthest off."""
+    ratios = [band["luminance_ratio"] for band in told["bands"]]
+    return {
+        "luminance": max(ratios, key=lambda ratio: abs(ratio - 1.0), default=None),
+        "hue": max((band["hue_degrees"] for band in told["bands"]), default=None),
+        "contrast": told["contrast"],
+        "flip": told["flip"]["lod"],
+        "flip_msaa": told["flip"]["msaa"],
+        "score": told["score"],
+        "score_msaa": told["score_msaa"],
+    }
+
+
+SURVEY = Survey(measured, "drawing every blade", _cells, kept=("bands",))
+"""Pictures of many scenes."""

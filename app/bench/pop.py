@@ -14,15 +14,16 @@ from ..studio.errors import InputError
 from ..studio.progress import counted, course
 from ..studio.studio import Studio, about
 from ..studio.take import Take
-from . import stroll
+from .climb import climb
 from .crew import by_many, cores, ticked
 from .drift import Change
 from .evidence import save
 from .flicker import MARGIN, TILE
 from .frame import own_preset
-from .machine import machine, tell
+from .machine import machine
+from .many import Asked, Survey, bench_many
 from .picture import evaluator, flip
-from .steps import TOLD, Record, merged, seconds_of, walked
+from .steps import TOLD, Record, frames_of, merged, walked
 from .stroll import Leg, legs
 from .verdict import Step, Verdict
 
@@ -41,6 +42,9 @@ SMALLEST = TILE + 2 * MARGIN + 2
 MOST = 8
 """Most processes that walk at a time, each with a prairie of its own: one for each core, up to so many."""
 
+KEPT = ("judged", "error", "drift", "ghosting", "over", "changing", "changes", "worst")
+"""What JSON tells of each scene in a folder, besides what a table does."""
+
 LIMITS = {"flicker": 1.15, "drift": 0.03, "ghosting": 0.5}
 """What is not to be seen at all stays below: the flicker's ratio, the drift of patches together, and ghosting."""
 
@@ -54,41 +58,63 @@ def bench_pop(
     parts: bool = False,
     output: str | None = None,
     hold: float | None = None,
+    rising: bool = False,
+    on: str | None = None,
 ) -> int:
     """Walk through a scene, compare its changes with the reference's, print the figures, and return the exit status.
 
-    With `parts` the walk is repeated with each part of the transitions left out. Pictures of the frames that show the
-    most go into the folder `output`. With `hold`, so many frames a second are held. Before anything is drawn it raises
-    MachineError where pictures cannot be compared, and InputError where they would be too small or cannot be written.
+    Where `scene` is a folder, walk through all scenes in it, and print a table. When `rising`, climb up instead, and
+    look down. With `parts` the walk is repeated with each part of the transitions left out. Pictures of the frames that
+    show the most go into the folder `output`, of scenes in a folder each into one of its own. With `hold`, so many
+    frames a second are held. With `on`, workers do it. Before anything is drawn it raises MachineError where pictures
+    cannot be compared, and InputError where they would be too small or cannot be written.
     """
     evaluator()
     if min(size) < SMALLEST:
         raise InputError(f"--size: {size[0]}x{size[1]}: here each side must be at least {SMALLEST} pixels")
     if output is not None:
         make_folder(Path(output))
-    tell(pop_measured(Take(scene, size, preset=preset), parts=parts, output=output, hold=hold), as_json=json)
-    return 0
+    measure = partial(pop_measured, parts=parts, hold=hold, rising=rising)
+    kept = KEPT + ("contributions",) * parts
+    survey = Survey(measure, "walking", _cells, kept, Asked(partial(measure, crew=False)), folders=True)
+    return bench_many(scene, survey, preset=preset, size=size, json=json, output=output, on=on)
 
 
 def pop_measured(
-    take: Take, /, *, parts: bool = False, output: str | None = None, hold: float | None = None
-) -> dict[str, object]:
-    """Return what the benchmark tells of a walk through a scene."""
+    take: Take,
+    output: str | None = None,
+    /,
+    *,
+    parts: bool = False,
+    hold: float | None = None,
+    rising: bool = False,
+    crew: bool = True,
+) -> dict[str, Any]:
+    """Return what the benchmark tells of a walk through a scene, or when `rising` of the climb over it.
+
+    Without a `crew` this process walks alone, to the same figures.
+    """
     with Studio(take) as studio:
         head = {
             "machine": machine(studio.ctx),
             "scene": take.scene,
             "preset": take.preset or own_preset(studio.prairie),
         }
-        return {**head, "size": list(take.size), **_measure(studio, parts=parts, output=output, hold=hold)}
+        walk = climb(studio.prairie) if rising else legs(studio.prairie)
+        return {
+            **head,
+            "size": list(take.size),
+            **_measure(studio, walk, parts=parts, output=output, hold=hold, crew=crew),
+        }
 
 
-def _measure(studio: Studio, *, parts: bool, output: str | None, hold: float | None) -> dict[str, object]:
-    walk = legs(studio.prairie)
+def _measure(
+    studio: Studio, walk: list[Leg], *, parts: bool, output: str | None, hold: float | None, crew: bool
+) -> dict[str, object]:
     left_out = {WHOLE: SEAMLESS, "morph, fade, growth": HARD}
     for part in PARTS if parts else ():
         left_out[part] = replace(SEAMLESS, **{part: False})
-    records = _walks(studio, walk, left_out, hold=hold)
+    records = _walks(studio, walk, left_out, hold=hold, crew=crew)
     whole = records[WHOLE]
     if output is not None:
         save(whole.worst, output, about(studio.prairie.scene, studio.take, time=studio.prairie.time))
@@ -102,12 +128,12 @@ def _measure(studio: Studio, *, parts: bool, output: str | None, hold: float | N
 
 
 def _walks(
-    studio: Studio, walk: list[Leg], left_out: Mapping[str, Transitions], *, hold: float | None
+    studio: Studio, walk: list[Leg], left_out: Mapping[str, Transitions], *, hold: float | None, crew: bool
 ) -> dict[str, Record]:
     """Return the record of each walk; where frame times are to be held, nothing else goes on meanwhile."""
-    steps = {name: round(seconds_of(less) * stroll.RATE) * len(walk) for name, less in left_out.items()}
+    steps = {name: sum(frames_of(leg, less) for leg in walk) for name, less in left_out.items()}
     jobs = [(name, number) for name in left_out for number in reversed(range(len(walk)))]
-    workers = 1 if hold else min(cores(), MOST, len(jobs))
+    workers = min(cores(), MOST, len(jobs)) if crew and not hold else 1
     if workers > 1:
         asked = [(studio.take, walk, left_out[name], number, _kept(name)) for name, number in jobs]
         found = by_many(leg_walked, asked, workers=workers, steps=sum(steps.values()), doing="walking")
@@ -207,6 +233,17 @@ def _figures(verdict: Verdict) -> dict[str, float]:
 
 def _changing(record: Record) -> dict[str, float]:
     return {"mean": round(float(np.mean(record.changing)), 2), "max": max(record.changing)}
+
+
+def _cells(told: dict[str, Any]) -> dict[str, object]:
+    """Return what a table tells of a walk through a scene."""
+    return {
+        "flicker": told["flicker"]["ratio"],
+        "hard": told["hard_switch_ratio"],
+        "drift": told["drift"]["mean"],
+        "ghosting": told["ghosting"]["max"],
+        "over": " ".join(told["over"]) or None,
+    }
 
 
 def _row(verdict: Verdict) -> dict[str, object]:

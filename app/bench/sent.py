@@ -1,60 +1,73 @@
-"""Pictures of many scenes, compared by workers on this machine or on others."""
+"""Benchmarks of many scenes, done by workers on this machine or on others."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
+from platform import node
 from tempfile import TemporaryDirectory
 from typing import Any
 
 from ...engine.scene import read_scene
+from ..farm.dask import need_distributed
 from ..farm.hire import hired
 from ..farm.parcel import Parcel, packed, unpack
 from ..farm.worker import in_drawing_thread, told_in_lines
+from ..studio.encode import make_folder
 from ..studio.progress import unseen
 from ..studio.take import Take
-from .picture import measured
+from .many import Asked, Measure
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Compared:
-    """What a worker found out about a scene's picture."""
+class Found:
+    """What a worker found out about a scene."""
 
     told: dict[str, Any]
     """The benchmark's figures."""
 
-    beside: bytes | None
-    """The picture beside its reference as a PNG file, where it was asked for."""
+    pictures: Mapping[str, bytes]
+    """Its pictures as files, by their names, where they were asked for."""
 
 
-def measured_on(on: str, takes: Sequence[Take], /, *, output: str | None = None) -> Iterator[dict[str, Any]]:
-    """Yield what the benchmark tells of each scene, in their order, as the workers of a place find it out.
+def measured_on(
+    on: str, asked: Asked, takes: Sequence[Take], outputs: Sequence[str | None], /
+) -> Iterator[dict[str, Any]]:
+    """Yield what a benchmark tells of each scene, in their order, as the workers of a place find it out.
 
-    `on` is a place as `hired` takes it. Into the folder `output`, which is there, goes each picture beside its
-    reference. Raises what `hired` raises, and InputError where a scene names a file outside its folder.
+    `on` is a place as `hired` takes it. Into the folders `outputs`, one for each scene, go its pictures; None is
+    nowhere. Raises what `hired` raises, and InputError where a scene names a file outside its folder.
     """
     parcels = [packed(take, read_scene(take.scene)) for take in takes]
-    with hired(on, most=len(takes)) as hands:
-        done = hands.in_order(compared, ((parcel, output is not None) for parcel in parcels))
-        for take, each in zip(takes, done, strict=True):
-            if output is not None and each.beside is not None:
-                (Path(output) / _picture_of(take)).write_bytes(each.beside)
+    with hired(on, most=1 if asked.timed else len(takes)) as hands:
+        pieces = ((parcel, asked, output is not None) for parcel, output in zip(parcels, outputs, strict=True))
+        for take, output, each in zip(takes, outputs, hands.in_order(found, pieces), strict=True):
+            if output is not None:
+                make_folder(Path(output))
+                for name, data in each.pictures.items():
+                    (Path(output) / name).write_bytes(data)
             yield {**each.told, "scene": take.scene}
 
 
-def compared(parcel: Parcel, beside: bool, /) -> Compared:  # noqa: FBT001 - Dask hands on what it is given in order
-    """Compare the picture of a parcel's scene with its reference, in a worker of Dask's."""
-    scratch = str(import_module("distributed").get_worker().local_directory)
-    return in_drawing_thread(lambda: _compared(parcel, scratch, beside=beside))
+def found(parcel: Parcel, asked: Asked, pictures: bool, /) -> Found:  # noqa: FBT001 - Dask hands on what it is given in order
+    """Do a benchmark for the scene of a parcel, in a worker of Dask's."""
+    scratch = str(need_distributed().get_worker().local_directory)
+    with _alone() if asked.timed else nullcontext():
+        return in_drawing_thread(lambda: _found(parcel, asked.measure, scratch, pictures=pictures))
 
 
-def _compared(parcel: Parcel, scratch: str, *, beside: bool) -> Compared:
+def _alone() -> AbstractContextManager[Any]:
+    """Return what no two workers of a machine are in at a time; of one that is lost, it is taken away."""
+    turn: AbstractContextManager[Any] = need_distributed().Semaphore(max_leases=1, name=f"tallgrass on {node()}")
+    return turn
+
+
+def _found(parcel: Parcel, measure: Measure, scratch: str, *, pictures: bool) -> Found:
     with TemporaryDirectory(prefix="scene-", dir=scratch) as folder, told_in_lines(), unseen():
         take = unpack(parcel, Path(folder))
-        told: dict[str, Any] = measured(take, folder if beside else None)
-        return Compared(told, (Path(folder) / _picture_of(take)).read_bytes() if beside else None)
-
-
-def _picture_of(take: Take) -> str:
-    """Return the file that `measured` writes into a folder."""
-    return f"{Path(take.scene).stem}.png"
+        drawn = Path(folder) / "pictures"
+        if not pictures:
+            return Found(measure(take, None), {})
+        drawn.mkdir()
+        told = measure(take, str(drawn))
+        return Found(told, {path.name: path.read_bytes() for path in sorted(drawn.iterdir())})

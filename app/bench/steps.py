@@ -27,11 +27,8 @@ Watch = Callable[[Iterator[Step], int], Iterator[Step]]
 TOLD = 6
 """Frames that are told of."""
 
-BORDER = 2.0
-"""How much of a leg is walked where patches switch at once: they do it at its border, after `stroll.LEAD` [of that]."""
-
-STILLS = 8
-"""Frames kept besides, spread over the walk."""
+AT_ONCE = 0.25
+"""How much of a leg is walked where patches switch at once: they do it at its border [s]."""
 
 SETTLING = 90
 """Frames before each leg in which a frame time comes to be held."""
@@ -57,7 +54,7 @@ class Record:
     """Patches in transition, by frame."""
 
     stills: list[tuple[Picture, Picture]] = field(default_factory=list)
-    """Frames spread over the walk, and their references, where nothing is left out of the transitions."""
+    """The frame in the middle of each leg, and its reference, where nothing is left out of the transitions."""
 
     changes: list[Change] = field(default_factory=list)
     """What patches looked like on their way from one representation or sub-level to another, where nothing is."""
@@ -85,18 +82,14 @@ def walked(
         take.scene, ctx=studio.ctx, preset=take.preset, transitions=transitions, live=False, hold=hold
     )
     raise_gusts(prairie, walk)
-    last = round(seconds_of(transitions) * stroll.RATE)
-    frames = [list(moments(prairie, leg))[: last + 1] for leg in walk]
-    apart = max(1, last * len(walk) // STILLS)
-    first = 0 if only is None else last * only
+    frames = [list(moments(prairie, leg))[: frames_of(leg, transitions) + 1] for leg in walk]
     drawn = frames if only is None else frames[only : only + 1]
     try:
         with Truth(studio, walk) as truth:
             _follow(studio, prairie, frames[: only or 0])
             seen = {leg.name: _Seen(studio, prairie, truth, told) for leg in walk}
-            for number, step in enumerate(watch(_steps(studio, prairie, drawn), last * len(drawn)), first):
-                still = transitions == SEAMLESS and number % apart == apart // 2
-                seen[step.moment.leg.name].see(step, still=still)
+            for step in watch(_steps(studio, prairie, drawn), sum(len(leg) - 1 for leg in drawn)):
+                seen[step.moment.leg.name].see(step)
     finally:
         prairie.release()
     return merged((each.record for each in seen.values()), told=told)
@@ -116,9 +109,10 @@ def merged(records: Iterable[Record], /, *, told: int = TOLD) -> Record:
     return whole
 
 
-def seconds_of(transitions: Transitions, /) -> float:
-    """Return how much of each leg is walked with these transitions [s]."""
-    return stroll.SECONDS if transitions.gradual else BORDER * stroll.LEAD
+def frames_of(leg: Leg, transitions: Transitions, /) -> int:
+    """Return how many frames of a leg are judged with these transitions."""
+    seconds = AT_ONCE if leg.by_border and not transitions.gradual else stroll.SECONDS
+    return round(seconds * stroll.RATE)
 
 
 class _Seen:
@@ -128,9 +122,11 @@ class _Seen:
         self._studio, self._prairie, self._truth, self._told = studio, prairie, truth, told
         self.record = Record()
         self._samples: list[Sample] = []
-        self._due = sampled_frames() if prairie.site.transitions == SEAMLESS else []
+        whole = prairie.site.transitions == SEAMLESS
+        self._due = sampled_frames() if whole else []
+        self._still = round(stroll.SECONDS * stroll.RATE) // 2 if whole else 0
 
-    def see(self, step: Step, *, still: bool) -> None:
+    def see(self, step: Step) -> None:
         """Judge a frame, and keep what is to be told of it."""
         record, truth = self.record, self._truth
         record.changing.append(step.changing)
@@ -143,7 +139,7 @@ class _Seen:
             del record.worst[self._told :]
         if step.moment.number in self._due:
             self._sample(step)
-        if still:
+        if step.moment.number == self._still:
             record.stills.append((step.now, truth.whole(step.moment)))
 
     def _sample(self, step: Step) -> None:

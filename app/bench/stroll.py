@@ -26,11 +26,11 @@ TURN = math.radians(20.0)
 PITCH = math.radians(-5.0)
 """Where it looks."""
 
-LEAD = 0.25
-"""When each leg comes to the first border between patches [s]."""
+LEAD = 0.12
+"""When each leg comes to the first border between patches [s]: between two frames, never on one."""
 
-SECONDS = 1.7
-"""How long a leg lasts: its patches change, and have been done for a while [s]."""
+SECONDS = 1.4
+"""How long a leg lasts: its patches change, and are done [s]."""
 
 REST = 4.0
 """Time between two legs, in which everything settles [s]."""
@@ -69,12 +69,32 @@ class Leg:
     back: bool = False
     """Whether it goes back again at half time."""
 
+    pace: float = PACE
+    """How fast it goes [m/s]."""
+
+    height: float = EYE
+    """How high above the ground its eyes are at first [m]."""
+
+    rise: float = 0.0
+    """How fast they rise [m/s]."""
+
+    pitch: float = PITCH
+    """Where it looks at first, as a camera's pitch [rad]."""
+
+    tilt: float = 0.0
+    """How fast it comes to look down [rad/s]."""
+
+    @property
+    def by_border(self) -> bool:
+        """Whether patches change where it comes to its border, and not all along it."""
+        return not (self.rise or self.tilt)
+
     def camera(self, time: float, view: float, height_at: Heights) -> Camera:
         """Return the camera `time` [s] after the beginning, with a vertical angle of view [rad]."""
         way = min(time, SECONDS - time) if self.back else time
-        x, z = np.array(self.place) + PACE * way * ahead(self.heading)
-        ground = float(height_at(np.array([[x, z]], np.float32))[0])
-        return Camera((float(x), ground + EYE, float(z)), self.yaw + self.turn * time, PITCH, view)
+        x, z = np.array(self.place) + self.pace * way * ahead(self.heading)
+        y = float(height_at(np.array([[x, z]], np.float32))[0]) + self.height + self.rise * time
+        return Camera((float(x), y, float(z)), self.yaw + self.turn * time, self.pitch - self.tilt * time, view)
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,7 +149,7 @@ def _leg(prairie: Prairie, number: int, name: str, place: Doubles, heading: floa
     inside = np.clip(place, -half, half)
     start = inside + (first_border(inside, heading, patch=patch) - PACE * LEAD) * ahead(heading)
     begin = REST + number * (SECONDS + REST)
-    return Leg(name, begin, (float(start[0]), float(start[1])), heading, yaw, turn, back=name == "aside")
+    return Leg(name, begin, (float(start[0]), float(start[1])), heading, yaw, turn, name == "aside", pitch=PITCH)
 
 
 def find_crest(prairie: Prairie, place: Doubles, /) -> tuple[Doubles, float] | None:

@@ -25,7 +25,8 @@ class Truth:
 
     def __init__(self, studio: Studio, walk: list[Leg]) -> None:
         self._studio, ctx, take = studio, studio.ctx, studio.take
-        self._prairie = Prairie.load(take.scene, ctx=ctx, preset=take.preset, live=False)
+        # Nothing but carpet is drawn to come to an instant: a reference stands its own blades on it.
+        self._prairie = Prairie.load(take.scene, ctx=ctx, preset=take.preset, lod="carpet", live=False)
         raise_gusts(self._prairie, walk)
         self._color, self._depth = ctx.texture(TINY, 4), ctx.depth_renderbuffer(TINY)
         self._target = ctx.framebuffer([self._color], self._depth)
@@ -60,7 +61,7 @@ class Truth:
         return self._near(view, cropped(projection, first, part, self._studio.take.size), part)
 
     def _near(self, view: Matrix, projection: Matrix, size: tuple[int, int]) -> Picture:
-        reach = farthest(self._prairie.site.reach)[-1]
+        reach = farthest(self._studio.prairie.site.reach)[-1]
         return draw_reference(self._prairie, view, projection, size, samples=SAMPLES, reach=reach)
 
     def _go(self, moment: Moment) -> tuple[Matrix, Matrix]:

@@ -25,8 +25,9 @@ _ADDRESS = re.compile(r"(?:[a-z]+://)?(?:[^\s:/]+|\[[0-9a-fA-F:]+\]):[0-9]{1,5}"
 def hired(on: str, /, *, most: int) -> Iterator[Hands]:
     """Yield the workers of a place, and let them go at the end.
 
-    `on` is `local`, a worker for each core of this machine but `most` at most; `local:4`, so many; or the address of a
-    Dask scheduler. Raises InputError where it is none of these, MachineError without Dask, and where nobody answers.
+    `on` is `local`, a worker for each core of this machine; `local:4`, so many; but no more than `most`; or the address
+    of a Dask scheduler. Raises InputError where it is none of these, MachineError without Dask, and where nobody
+    answers.
     """
     here = _LOCAL.fullmatch(on)
     if not here and (on.startswith("local:") or not _ADDRESS.fullmatch(on)):
@@ -34,7 +35,7 @@ def hired(on: str, /, *, most: int) -> Iterator[Hands]:
     distributed = need_distributed()
     with quiet(), ExitStack() as stack:
         if here:
-            count = int(here[1] or min(cores(), most))
+            count = min(int(here[1] or cores()), most)
             with busy(f"waking {count} workers"):
                 client = stack.enter_context(_here(distributed, count))
         else:

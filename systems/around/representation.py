@@ -227,8 +227,11 @@ class Representation(ABC):
         """
         return np.zeros(len(rows), np.bool_)
 
-    def left(self, outlook: Outlook, rows: Rows, /) -> NDArray[np.float32]:  # noqa: ARG002 - the same
-        """Return how much of it is left to be seen on patches (n,) where it comes near to being unfit, from 1 to 0."""
+    def left(self, outlook: Outlook, rows: Rows, away: NDArray[np.float32], /) -> NDArray[np.float32]:  # noqa: ARG002 - the same
+        """Return how much of it is left to be seen on patches (n,) where it comes near to being unfit, from 1 to 0.
+
+        `away` is how far from the eye their middles are [patch sides]: what is left must not jump at a patch's border.
+        """
         return np.ones(len(rows), np.float32)
 
     @abstractmethod

@@ -23,7 +23,7 @@ from .archive import pack, unpack
 from .models import blade_count, grow
 
 _SUFFIX = ".growth"
-_KEPT = 48
+_MOST = 48
 
 
 def cached_growth(kind: GrassKind, quality: Quality, /, *, seed: int, folder: Path | None = None) -> Growth:
@@ -36,17 +36,38 @@ def cached_growth(kind: GrassKind, quality: Quality, /, *, seed: int, folder: Pa
     if folder is None:
         return grow(kind, quality, seed=seed)
     key = growth_key(kind, quality, seed=seed)
+    growth = _kept(kind, quality, key, folder)
+    if growth is None:
+        growth = grow(kind, quality, seed=seed)
+        with suppress(OSError):
+            keep(pack(growth, key=key), key, folder)
+    return growth
+
+
+def is_kept(kind: GrassKind, quality: Quality, /, *, seed: int, folder: Path) -> bool:
+    """Return whether `cached_growth` would find a growth in a folder; it counts as used then."""
+    return _kept(kind, quality, growth_key(kind, quality, seed=seed), folder) is not None
+
+
+def packed_growth(kind: GrassKind, quality: Quality, /, *, seed: int) -> bytes:
+    """Return what `grow` returns as the bytes that the cache keeps of it: the same wherever it is grown."""
+    return pack(grow(kind, quality, seed=seed), key=growth_key(kind, quality, seed=seed))
+
+
+def keep(data: bytes, key: str, folder: Path, /) -> None:
+    """Keep a packed growth in a folder for `cached_growth`; raises OSError where that cannot be written."""
+    _write(folder / (key + _SUFFIX), data)
+    _forget_oldest(folder)
+
+
+def _kept(kind: GrassKind, quality: Quality, key: str, folder: Path) -> Growth | None:
     path = folder / (key + _SUFFIX)
     with suppress(OSError):
         growth = unpack(path.read_bytes(), key=key, quality=quality, blades=blade_count(kind, quality))
         if growth is not None:
             _mark_used(path)
             return growth
-    growth = grow(kind, quality, seed=seed)
-    with suppress(OSError):
-        _write(path, pack(growth, key=key))
-        _forget_oldest(folder)
-    return growth
+    return None
 
 
 def cache_folder() -> Path | None:
@@ -130,5 +151,5 @@ def _write(path: Path, data: bytes, /) -> None:
 def _forget_oldest(folder: Path, /) -> None:
     """Remove what has not been used for longest, so that the folder does not grow for ever."""
     found = sorted(folder.glob("*" + _SUFFIX), key=lambda path: path.stat().st_mtime)
-    for path in found[:-_KEPT]:
+    for path in found[:-_MOST]:
         path.unlink(missing_ok=True)

@@ -7,22 +7,31 @@ import sys
 from collections.abc import Callable, Iterator
 from itertools import pairwise
 from pathlib import Path
+from time import perf_counter, sleep
+from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tallgrass.app.bench import pop, stroll
+from tallgrass.app.bench.many import Asked
+from tallgrass.app.bench.sent import found
+from tallgrass.app.cli import run
 from tallgrass.app.farm.dask import need_distributed
 from tallgrass.app.farm.film import LONGEST, MOST_BYTES, ranges, shot_on
+from tallgrass.app.farm.growth import grown
+from tallgrass.app.farm.hands import Hands
 from tallgrass.app.farm.hire import hired
 from tallgrass.app.farm.parcel import Parcel, packed, unpack
 from tallgrass.app.farm.worker import Order, codec, footage
 from tallgrass.app.manifest import Span
-from tallgrass.app.studio.errors import InputError
+from tallgrass.app.studio.errors import InputError, MachineError
 from tallgrass.app.studio.shooting import Shooting, Shot
 from tallgrass.app.studio.take import Take
 from tallgrass.engine.scene import read_scene
+from tallgrass.systems.stock.cache import growth_key
 
 Tallgrass = Callable[..., subprocess.CompletedProcess[str]]
 
@@ -74,6 +83,73 @@ def test_pictures_that_workers_compare_have_the_figures_of_one_process(tallgrass
         told.append((done.stdout, pictures))
     assert told[0] == told[1]
     assert set(told[0][1]) == {"one.png", "other.png"}
+
+
+@pytest.fixture(scope="module")
+def two() -> Iterator[Hands]:
+    """Two workers."""
+    with hired("local:2", most=2) as hands:
+        yield hands
+
+
+@pytest.mark.gl
+@pytest.mark.usefixtures("ctx")
+def test_a_walk_by_a_worker_has_the_figures_of_one_process(
+    two: Hands, scene: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("flip_evaluator")
+
+    def on_one_leg(take: Take, output: str | None) -> dict[str, Any]:
+        every = stroll.legs
+        for module, name, value in (
+            (stroll, "RATE", 10), (stroll, "SECONDS", 0.5), (pop, "legs", lambda prairie: every(prairie)[:1])
+        ):  # fmt: skip
+            monkeypatch.setattr(module, name, value)
+        told = pop.pop_measured(take, output, crew=False)
+        monkeypatch.undo()
+        return told
+
+    folder = scene.parent / "pictures"
+    folder.mkdir()
+    take = Take(str(scene), (64, 64))
+    alone = on_one_leg(take, str(folder))
+    ((there),) = two.in_order(found, [(packed(take, read_scene(take.scene)), Asked(on_one_leg), True)])
+    assert {**there.told, "scene": take.scene} == alone
+    assert there.pictures == {path.name: path.read_bytes() for path in folder.iterdir()}
+    assert there.pictures
+
+
+def test_what_is_timed_is_alone_on_its_machine(two: Hands, scene: Path) -> None:
+    def timed(*_: object) -> dict[str, Any]:
+        begun = perf_counter()
+        sleep(0.3)
+        return {"from": begun, "to": perf_counter()}
+
+    parcel = packed(take_of(scene), read_scene(scene))
+    one, other = sorted(
+        (each.told["from"], each.told["to"])
+        for each in two.in_order(found, [(parcel, Asked(timed, timed=True), False)] * 2)
+    )
+    assert one[1] <= other[0]
+
+
+def test_what_workers_grow_is_kept_byte_for_byte_as_one_process_grows_it(
+    two: Hands, scene: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene.write_text(scene.read_text().replace("grass:\n", "grass:\n  soft: { stiffness: 0.5 }\n"))
+    folder = scene.parent / "cache"
+    monkeypatch.setenv("TALLGRASS_CACHE", str(folder))
+    assert run(["grow", str(scene)]) == 0
+    assert capsys.readouterr().out == f"{scene}: kinds 2, grown now 2\n"
+    read = read_scene(scene).scene
+    seeds = [(kind, read.numbers(None), read.seed + number) for number, kind in enumerate(read.grass.values())]
+    keys = [growth_key(kind, quality, seed=seed) for kind, quality, seed in seeds]
+    there = two.in_order(grown, [(*seed, key) for seed, key in zip(seeds, keys, strict=True)])
+    assert dict(zip(keys, there, strict=True)) == {path.stem: path.read_bytes() for path in folder.iterdir()}
+    assert run(["grow", str(scene)]) == 0
+    assert capsys.readouterr().out == f"{scene}: kinds 2, grown now 0\n"
+    with pytest.raises(MachineError, match="other code"):
+        list(two.in_order(grown, [(*seeds[0], "of other code")]))
 
 
 @pytest.mark.gl

@@ -74,7 +74,7 @@ def sound(measure: Callable[[], Told]) -> Told:
 
 
 def test_n3_whole_changes_are_judged_in_every_frame(sound: Told) -> None:
-    assert sound["judged"] == sound["frames"] == 34
+    assert sound["judged"] == sound["frames"] == 28
     assert {row["change"] for row in sound["changes"]} >= {"carpet to strips", "strips to blades"}
     assert not {"flicker", "ghosting"} & set(sound["over"])
     assert sound["drift"]["mean"] < 0.08

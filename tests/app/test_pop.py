@@ -49,7 +49,7 @@ quality:
 def scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A small scene, walked through on one leg, in few frames."""
     monkeypatch.setattr(stroll, "RATE", 30)
-    monkeypatch.setattr(stroll, "SECONDS", 0.5)
+    monkeypatch.setattr(stroll, "SECONDS", 0.3)
     monkeypatch.setattr(pop, "MOST", 1)
     monkeypatch.setattr(pop, "legs", lambda prairie: legs(prairie)[:1])
     path = tmp_path / "scene.yaml"
@@ -70,7 +70,7 @@ def test_n3_the_pop_benchmark_tells_every_key_and_sees_a_pop(scene: Path, capsys
     assert run(["bench", "pop", str(scene), "--size", "192x108", "--parts", "--json", "-o", str(folder)]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told.keys() == POP | {"contributions"}
-    assert told["frames"] == 15
+    assert told["frames"] == 9
     assert told["error"].keys() == {"p50", "max"}
     assert 0.0 < told["error"]["p50"] <= told["error"]["max"] < 1.0
     flicker = told["flicker"]
@@ -93,13 +93,12 @@ def test_n3_the_pop_benchmark_tells_every_key_and_sees_a_pop(scene: Path, capsys
     assert rows["hysteresis"]["changing"] >= rows["nothing"]["changing"] == told["changing"]["mean"]
 
 
-def test_n3_the_walk_shows_the_same_again_and_hard_switches_show_where_they_happen(scene: Path) -> None:
+def test_n3_hard_switches_show_where_they_happen(scene: Path) -> None:
     with Studio(Take(str(scene), (192, 108))) as studio:
         walk = legs(studio.prairie)[:1]
-        once, again = (walked(studio, walk, SEAMLESS, watch=unwatched) for _ in range(2))
+        once = walked(studio, walk, SEAMLESS, watch=unwatched)
         hard = walked(studio, walk, HARD, watch=unwatched)
-    assert told(once) == told(again)
-    assert len(once.changing) == 15
+    assert len(once.changing) == 9
     worst = hard.worst[0]
     border = round(stroll.LEAD * stroll.RATE)
     assert abs(worst.step.moment.number - border) <= 1
@@ -117,7 +116,7 @@ def test_n3_legs_that_are_walked_alone_are_those_of_the_whole_walk(scene: Path, 
     parts = merged(alone)
     assert told(parts) == told(whole)
     assert (parts.changing, parts.judged) == (whole.changing, whole.judged)
-    assert [each.changing for each in alone] != [alone[0].changing] * 2
+    assert len({each.worst[0].ratio for each in alone}) == 2
     assert len(parts.stills) == len(whole.stills)
     for ours, theirs in zip(parts.stills, whole.stills, strict=True):
         np.testing.assert_array_equal(ours, theirs)
@@ -129,7 +128,7 @@ def test_n3_legs_that_are_walked_alone_are_those_of_the_whole_walk(scene: Path, 
 
 def test_n3_frames_that_are_not_held_against_the_reference_show_less_than_those_that_are_told_of(scene: Path) -> None:
     with Studio(Take(str(scene), (192, 108))) as studio:
-        hard = walked(studio, legs(studio.prairie)[:1], HARD, watch=unwatched)
+        hard = walked(studio, legs(studio.prairie)[:1], HARD, watch=unwatched, told=1)
     assert len(hard.worst) <= hard.judged < len(hard.changing)
 
 

@@ -15,6 +15,7 @@ from tallgrass.engine.declared.quality import BladeRing, Quality, StripRing
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.lod import SLACK
+from tallgrass.systems.see import strips_kept
 from tallgrass.systems.show.blades.sublevel import blade_ring
 from tallgrass.systems.show.strips.sublevel import (
     APART,
@@ -78,13 +79,28 @@ def test_g3_strips_have_sunk_before_they_show_as_rows(slope: float, distance: in
     def at(distance: int) -> tuple[bool, float]:
         where = np.array([slope], np.float32), np.array([distance], np.int32)
         rows = shows_rows(*where, np.array([False]), height=height, spacing=0.3, slack=0)
-        return bool(rows[0]), float(left_of(*where, height=height, spacing=0.3)[0])
+        return bool(rows[0]), float(left_of(where[0], where[1].astype(np.float32), height=height, spacing=0.3)[0])
 
     shows, left = at(distance)
     assert left == 0.0 if shows else left > -1e-6
     assert at(distance + 5)[0] >= shows
     assert at(distance + 5)[1] <= left
     assert left == 1.0 or slope * 0.3 * CROSSED * max(distance / APART, 1.0) > 0.99 * SINKING * height
+
+
+def test_n2_what_is_left_of_strips_does_not_jump_where_the_eye_crosses_a_border(laid: Laid, look: Look) -> None:
+    bowl = 0.006 * (40.0 - np.arange(81.0)[:, None]) ** 2
+    site = laid(terrain=Terrain(np.tile(bowl, 81).astype(np.float32), 1.0))
+    patch, kept, centres = site.ground.patch, [], []
+    for before in (0.5, -0.5):
+        look(site, 0.6, before)
+        outlook = look(site, 0.6, -1e-4)
+        centres.append(outlook.viewer.centre.tolist())
+        rows = np.array([np.flatnonzero((outlook.patches.cell == (0, -d)).all(axis=1))[0] for d in range(5, 9)])
+        kept.append(strips_kept(outlook, rows, reach=(2, 40, 50), patch=patch, choosy=site.choosy))
+    assert centres[0] != centres[1]
+    assert 0.1 < kept[0].mean() < 0.9
+    np.testing.assert_array_equal(kept[0], kept[1])
 
 
 def test_the_viewing_slope_is_the_grounds_own_slope_and_the_eyes_height(laid: Laid, look: Look) -> None:

@@ -157,10 +157,10 @@ class StripRepresentation(Representation):
         slope, height, spacing = self._seen(outlook, rows)
         return shows_rows(slope, outlook.patches.away[rows], has, height=height, spacing=spacing, slack=slack)
 
-    def left(self, outlook: Outlook, rows: Rows, /) -> NDArray[np.float32]:
+    def left(self, outlook: Outlook, rows: Rows, away: Floats, /) -> Floats:
         """Return how much of strips is left on patches (n,): they sink where they come near to being unfit."""
         slope, height, spacing = self._seen(outlook, rows)
-        return left_of(slope, outlook.patches.away[rows], height=height, spacing=spacing)
+        return left_of(slope, away, height=height, spacing=spacing)
 
     def _seen(self, outlook: Outlook, rows: Rows) -> tuple[Floats, Floats, float]:
         """Return at which slopes patches (n,) are seen, how high strips stand there, and how far apart the finest do.

@@ -70,14 +70,14 @@ def shows_rows(
     return np.asarray(slope > np.where(has, steepest * TIGHTER, steepest) if slack else slope > steepest)
 
 
-def left_of(slope: Floats, distance: Ints, /, *, height: Floats | float, spacing: float) -> Floats:
+def left_of(slope: Floats, distance: Floats, /, *, height: Floats | float, spacing: float) -> Floats:
     """Return how much is left of strips on patches (n,) where they come near to showing as rows, from 1 to 0."""
     steepest = _steepest(distance, height, spacing)
     span = np.maximum((1.0 - SINKING) * steepest, 1e-6)
     return np.asarray(np.clip((steepest - slope) / span, 0.0, 1.0), np.float32)
 
 
-def _steepest(distance: Ints, height: Floats | float, spacing: float) -> Floats:
+def _steepest(distance: Ints | Floats, height: Floats | float, spacing: float) -> Floats:
     farther = np.maximum(distance.astype(np.float32), np.float32(APART))
     return np.asarray(height * np.float32(APART / (spacing * CROSSED)) / farther, np.float32)
 

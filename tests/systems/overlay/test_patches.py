@@ -51,7 +51,7 @@ def test_n8_each_visible_patch_has_one_square_in_its_representations_colour(outl
     colors = marks.shapes["color"].reshape(-1, 6, 4)[:, 0, :3]
     pure = [ring_shades(each.color, count) for each, count in zip(site.representations, (2, 2, 1), strict=True)]
     for level in (BLADES, STRIPS):
-        of_it = (patches.representation[seen] == level) & (patches.distance[seen] <= 5)
+        of_it = (patches.representation[seen] == level) & (patches.distance[seen] <= 4)
         assert of_it.any()
         assert all(any(np.allclose(color, shade) for shade in pure[level]) for color in colors[of_it])
     far = patches.distance[seen] > site.reach[1] + 1

@@ -1,0 +1,114 @@
+"""Benchmarks of a scene, or of all scenes in a folder in one table; by this process, or by workers."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..studio.encode import make_folder
+from ..studio.errors import InputError
+from ..studio.progress import counted
+from ..studio.take import Take
+from .machine import tell
+
+Told = dict[str, Any]
+
+Measure = Callable[[Take, str | None], Told]
+"""Returns what a benchmark tells of a take; where a folder is given, its pictures go there."""
+
+COMMON = ("machine", "size", "frames")
+"""What is told once of all scenes in a folder."""
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What workers are asked for each scene."""
+
+    measure: Measure
+    """It is a function of a module, or a part of one: by its name workers find it."""
+
+    timed: bool = False
+    """Whether it tells of time: then no machine does it for two scenes at once."""
+
+
+@dataclass(frozen=True, slots=True)
+class Survey:
+    """A benchmark that many scenes can be put to."""
+
+    measure: Measure
+
+    doing: str
+    """What is being done, as a bar says it."""
+
+    cells: Callable[[Told], dict[str, object]]
+    """Returns a scene's line of the table by its columns, but for the scene and the preset."""
+
+    kept: Sequence[str]
+    """What of the figures goes into JSON besides."""
+
+    asked: Asked | None = None
+    """What workers are asked instead, where that is something else."""
+
+    folders: bool = False
+    """Whether the pictures of each scene in a folder have a folder of their own."""
+
+
+def bench_many(
+    scene: str,
+    survey: Survey,
+    /,
+    *,
+    preset: str | None,
+    size: tuple[int, int],
+    json: bool,
+    output: str | None = None,
+    on: str | None = None,
+) -> int:
+    """Put a scene to a benchmark and print the figures, or all scenes in a folder and print a table; return 0.
+
+    Into the folder `output` go its pictures. With `on`, workers do it. Raises InputError where the folder has no
+    scenes.
+    """
+    if not Path(scene).is_dir():
+        (told,) = _measured(survey, [Take(scene, size, preset=preset)], [output], on)
+        tell(told, as_json=json)
+        return 0
+    paths = sorted(Path(scene).glob("*.yaml"))
+    if not paths:
+        raise InputError(f"{scene}: there is no scene in this folder")
+    takes = [Take(str(path), size, preset=preset) for path in paths]
+    outputs = [output and str(Path(output) / path.stem if survey.folders else Path(output)) for path in paths]
+    rows: list[Told] = []
+    for told in counted(_measured(survey, takes, outputs, on), total=len(takes), doing=survey.doing):
+        rows.append(told)
+        if not json:
+            _print_row(row(survey, told), head=len(rows) == 1)
+    if json:
+        common = {name: rows[0][name] for name in COMMON}
+        kept = [{**row(survey, told), **{name: told[name] for name in survey.kept}} for told in rows]
+        tell({**common, "rows": kept}, as_json=True)
+    return 0
+
+
+def _measured(survey: Survey, takes: list[Take], outputs: list[str | None], on: str | None) -> Iterator[Told]:
+    """Yield what the benchmark tells of each scene: as this process finds it out, or the workers of a place."""
+    if on is None:
+        for take, output in zip(takes, outputs, strict=True):
+            if output is not None:
+                make_folder(Path(output))
+            yield survey.measure(take, output)
+        return
+    from .sent import measured_on
+
+    yield from measured_on(on, survey.asked or Asked(survey.measure), takes, outputs)
+
+
+def row(survey: Survey, told: Told, /) -> dict[str, object]:
+    """Return a scene's line of the table by its columns."""
+    return {"camera": Path(told["scene"]).stem, "preset": told["preset"], **survey.cells(told)}
+
+
+def _print_row(cells: dict[str, object], *, head: bool) -> None:
+    if head:
+        print("  ".join(f"{name:>12}" for name in cells))
+    print("  ".join(f"{'-' if cell is None else str(cell):>12}" for cell in cells.values()), flush=True)
