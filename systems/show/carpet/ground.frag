@@ -253,8 +253,9 @@ void main() {
         discard;
     float brighter = sun.w > 0.5 ? litter : sqrt(litter);  // very nearly what is shown of as many times the radiance
     color *= brighter;
+    // Among strips less of it is seen than its share: they hide it, and would be too bright with all of it between them.
     if (share > 0.0)
-        color = mix(color, carpet_seen(slope, color), share);
+        color = mix(color, carpet_seen(slope, color), share * share);
     pixel = vec4(color, 1.0) * covered;
 #else
     pixel = vec4(shown_of(mix(color, veil.rgb, veil.w)), 1.0);
