@@ -17,7 +17,8 @@ def grow_give(kind: GrassKind, /) -> Floats:
     of stiffness 1 has the index of the message, a stiffer one a smaller, and a softer one a larger, up to 1, where it
     lies flat already. Shape (GIVES,), rising from 0.
     """
-    common, own = _rest_by_pressure(kind.model_copy(update={"stiffness": 1.0})), _rest_by_pressure(kind)
+    common = _rest_by_pressure(kind.model_copy(update={"stiffness": 1.0}))
+    own = _rest_by_pressure(kind) if kind.stiffness != 1.0 else common
     pressure = np.interp(np.linspace(0.0, 1.0, GIVES), common[1], common[0])
     return np.interp(pressure, *own).astype(np.float32)
 

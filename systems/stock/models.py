@@ -1,7 +1,8 @@
 """Everything that is grown for one kind of grass, from the finest to the coarsest (paper, sections 2.2, 3.2)."""
 
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from ..grow.give import grow_give
 from ..grow.layout import layout_of
 from ..grow.plants import grow_patch
 from ..grow.postures import grow_postures
-from ..grow.record import Blades, Growth, PatchModel, Postures
+from ..grow.record import Blades, Floats, Growth, PatchModel, Postures, Response
 from ..grow.response import grow_response
 from ..show.registry import REPRESENTATIONS
 
@@ -21,6 +22,9 @@ VARIANTS = 4
 ROWS = 129
 
 _MIPMAPS = 4.0 / 3.0
+
+_REMEMBERED = 64
+"""Simulations of grass that are remembered: where its quality, density or form alone changes, it bends as it did."""
 
 _HANDS = 2
 """Threads that draw patch models: more of them would wait for Python, not for a processor."""
@@ -32,7 +36,9 @@ def grow(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
     The textures of all patch models have the same size, height and margin, so that they can be layers of one. They
     are drawn on several threads: each is a function of its own patch model alone.
     """
-    postures = replace(grow_postures(kind, variants=VARIANTS, rows=ROWS, seed=seed), give=grow_give(kind))
+    bends = _Bends.of(kind)
+    give, response = _answers(bends)
+    postures = replace(_postures(bends, seed), give=give)
     layout = layout_of(kind, quality)
     patches = [
         grow_patch(kind, layout, patch=quality.patch, variants=VARIANTS, seed=_mixed(seed, number))
@@ -40,7 +46,7 @@ def grow(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
     ]
     height, margin = _extent(patches, postures, quality.patch)
     models = _models([Seedling(blades, postures, kind, quality, height, margin) for blades in patches])
-    return Growth(postures=postures, response=grow_response(kind), models=models)
+    return Growth(postures=postures, response=response, models=models)
 
 
 def blade_count(kind: GrassKind, quality: Quality, /) -> int:
@@ -53,6 +59,40 @@ def precompute_bytes(growth: Growth, /) -> int:
     seen: dict[int, int] = {}
     _gather(growth, seen)
     return sum(seen.values())
+
+
+@dataclass(frozen=True, slots=True)
+class _Bends:
+    """All of a kind that its simulation depends on."""
+
+    height: tuple[float, ...]
+    width: float
+    taper: float
+    stiffness: float
+    damping: float
+
+    @classmethod
+    def of(cls, kind: GrassKind, /) -> "_Bends":
+        return cls(tuple(kind.height), kind.width, kind.taper, kind.stiffness, kind.damping)
+
+    @property
+    def kind(self) -> GrassKind:
+        """A kind that bends so."""
+        return GrassKind(
+            height=[*self.height], width=self.width, taper=self.taper, stiffness=self.stiffness, damping=self.damping
+        )
+
+
+@lru_cache(maxsize=_REMEMBERED)
+def _answers(bends: _Bends, /) -> tuple[Floats, Response]:
+    """Return how far grass that bends so gives way, and how it answers over time."""
+    return grow_give(bends.kind), grow_response(bends.kind)
+
+
+@lru_cache(maxsize=_REMEMBERED)
+def _postures(bends: _Bends, seed: int, /) -> Postures:
+    """Return the shapes of grass that bends so."""
+    return grow_postures(bends.kind, variants=VARIANTS, rows=ROWS, seed=seed)
 
 
 def _models(seedlings: list[Seedling], /) -> tuple[PatchModel, ...]:

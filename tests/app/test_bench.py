@@ -4,8 +4,6 @@ import json
 import os
 import subprocess
 import sys
-from contextlib import redirect_stdout
-from io import StringIO
 from pathlib import Path
 from typing import Any
 from unittest.mock import Mock
@@ -38,22 +36,19 @@ FRAME = COMMON | {
     "ratio_to_all_3d", "floor_ms", "precompute_mb", "first_frame_ms", "rivals", "cpu_ms", "cpu_by_system_ms", "gpu_ms",
     "seen_3d_ms", "ratio_to_seen_3d", "yardstick_ms", "cpu_over_yardstick",
 }  # fmt: skip
+NARROW = (160, 216)
+"""A picture that reaches as far as a wide one, with less than half of its blades [pixels]."""
+
 PICTURE = COMMON | {"flip", "score", "score_msaa", "contrast", "bands"}
 pytestmark = pytest.mark.gl
 
 
-def draw_few(patch: pytest.MonkeyPatch) -> None:
-    """Let the frame benchmark draw a few frames, and the walk fewer."""
-    patch.setattr("tallgrass.app.bench.frame.FRAMES", 6)
-    patch.setattr("tallgrass.app.bench.frame.EVERY", 3)
-    patch.setattr("tallgrass.app.bench.frame.TURN", 3)
-    patch.setattr(stroll, "RATE", 10)
-
-
 @pytest.fixture
 def few_frames(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Draw a few frames in this test."""
-    draw_few(monkeypatch)
+    """Let the frame benchmark draw a few frames, and the walk fewer."""
+    for name, value in (("FRAMES", 6), ("EVERY", 3), ("TURN", 3)):
+        monkeypatch.setattr(f"tallgrass.app.bench.frame.{name}", value)
+    monkeypatch.setattr(stroll, "RATE", 10)
 
 
 def _draws_nothing() -> bool:
@@ -64,18 +59,29 @@ def _draws_nothing() -> bool:
     return child.stdout.strip() == "True"
 
 
-@pytest.fixture(scope="module")
-def of_plain(ctx: moderngl.Context) -> dict[str, Any]:
-    """What the frame benchmark tells of the plain, in a few frames."""
-    assert ctx.error == "GL_NO_ERROR"
-    with pytest.MonkeyPatch.context() as patch, redirect_stdout(StringIO()) as out:
-        draw_few(patch)
-        assert run(["bench", "frame", "plain", "--preset", "low", "--size", "160x90", "--json"]) == 0
-    return dict(json.loads(out.getvalue()))
+def _tells_of_the_cpu_alone(told: dict[str, Any]) -> None:
+    assert told["cpu_ms"].keys() == {"p50", "p95"}
+    assert 0.0 < told["cpu_ms"]["p50"] <= told["cpu_ms"]["p95"]
+    assert told["cpu_by_system_ms"].keys() == told["systems_ms"].keys()
+    assert max(told["cpu_by_system_ms"].values()) < told["cpu_ms"]["p50"]
+    assert told["cpu_over_yardstick"] > 0.0
 
 
-def test_n6_the_frame_benchmark_tells_every_key_of_the_contract(of_plain: dict[str, Any]) -> None:
-    told = of_plain
+def _compares_rivals(told: dict[str, Any]) -> None:
+    """Rivals are drawn from the same place, and compared at the same instant."""
+    assert told["rivals"][0]["name"] == "by hand"
+    for row in told["rivals"]:
+        assert row.keys() == {"name", "frame_ms", "ratio", "flip"}
+        assert row["ratio"] == pytest.approx(row["frame_ms"] / told["frame_ms"]["p50"], rel=0.01)
+        assert 0.0 < row["flip"] < 0.3
+
+
+@pytest.mark.usefixtures("ctx", "few_frames")
+def test_n6_the_frame_benchmark_tells_every_key_of_the_contract_and_what_the_cpu_and_rivals_take(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert run(["bench", "frame", "plain", "--preset", "low", "--size", "160x90", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
     assert told.keys() >= FRAME
     assert told["machine"].keys() == {"renderer", "gl", "cpu", "cores", "python", "version"}
     assert told["frame_ms"].keys() == {"p50", "p95", "p99"}
@@ -88,6 +94,9 @@ def test_n6_the_frame_benchmark_tells_every_key_of_the_contract(of_plain: dict[s
     assert told["seen_3d_ms"] > told["floor_ms"]
     assert told["ratio_to_seen_3d"] == pytest.approx(told["seen_3d_ms"] / told["frame_ms"]["p50"], rel=0.01)
     assert told["yardstick_ms"] > 0.0
+    if _draws_nothing():
+        _tells_of_the_cpu_alone(told)
+    _compares_rivals(told)
 
 
 @pytest.mark.usefixtures("ctx", "few_frames")
@@ -143,27 +152,6 @@ def test_a_graphics_card_is_timed_by_its_own_clock(
     assert all(card > 0.0 for card in samples.card)
 
 
-def test_the_frame_benchmark_tells_what_a_frame_costs_on_the_cpu_alone(of_plain: dict[str, Any]) -> None:
-    told = of_plain
-    if not _draws_nothing():
-        pytest.skip("this driver cannot do without drawing")
-    assert told["cpu_ms"].keys() == {"p50", "p95"}
-    assert 0.0 < told["cpu_ms"]["p50"] <= told["cpu_ms"]["p95"]
-    assert told["cpu_by_system_ms"].keys() == told["systems_ms"].keys()
-    assert max(told["cpu_by_system_ms"].values()) < told["cpu_ms"]["p50"]
-    assert told["cpu_over_yardstick"] > 0.0
-
-
-def test_rivals_are_drawn_from_the_same_place_and_compared_at_the_same_instant(of_plain: dict[str, Any]) -> None:
-    pytest.importorskip("flip_evaluator")
-    told = of_plain
-    assert told["rivals"][0]["name"] == "by hand"
-    for row in told["rivals"]:
-        assert row.keys() == {"name", "frame_ms", "ratio", "flip"}
-        assert row["ratio"] == pytest.approx(row["frame_ms"] / told["frame_ms"]["p50"], rel=0.01)
-        assert 0.0 < row["flip"] < 0.3
-
-
 @pytest.mark.usefixtures("few_frames")
 def test_a_rival_is_drawn_with_grass_that_sways(ctx: moderngl.Context, scene: Path) -> None:
     with Studio(Take(str(scene), (192, 108))) as studio:
@@ -216,7 +204,7 @@ def test_only_a_patch_that_keeps_its_representation_changes_its_sub_level() -> N
 def test_g1_the_plain_is_truer_than_every_blade_alone_and_its_representations_as_bright(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    assert run(["bench", "picture", "plain", "--preset", "high", "--size", "384x216", "--json"]) == 0
+    assert run(["bench", "picture", "plain", "--preset", "high", "--size", f"{NARROW[0]}x{NARROW[1]}", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told.keys() >= PICTURE
     assert told["flip"]["lod"] < min(told["flip"]["all_3d"], told["flip"]["other_seed"])
@@ -229,9 +217,8 @@ def test_g1_the_plain_is_truer_than_every_blade_alone_and_its_representations_as
 
 
 @pytest.mark.usefixtures("ctx")
-@pytest.mark.parametrize("scene", ["meadow", "hills"])
-def test_g1_every_representation_is_as_bright_as_its_blades(scene: str) -> None:
-    size = (384, 216)
+@pytest.mark.parametrize(("scene", "size"), [("meadow", NARROW), ("hills", (384, 216))])
+def test_g1_every_representation_is_as_bright_as_its_blades(scene: str, size: tuple[int, int]) -> None:
     with Studio(Take(scene, size, "high")) as studio:
         prairie = studio.prairie
         prairie.advance(picture.MOMENT)

@@ -18,6 +18,7 @@ import pyglet
 import pytest
 
 from tallgrass.app.cli import run as tallgrass
+from tallgrass.engine.declared.quality import PRESETS
 from tallgrass.engine.scene import parse_scene
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -36,6 +37,9 @@ BLOCK = re.compile(
     r"^```(?P<language>\w*)\n(?P<text>.*?)^```$",
     re.MULTILINE | re.DOTALL,
 )
+LITTLE = PRESETS["low"].model_copy(update={"blades": 40, "models": 1, "carpet": 16})
+"""What takes the place of the preset low: to grow it takes no longer than to draw a picture."""
+
 GAME = """import pyglet
 import runpy
 pyglet.clock.schedule_once(lambda dt: pyglet.app.exit(), 1.0)
@@ -74,9 +78,10 @@ def run(command: list[str], folder: Path, display: str = "") -> str:
 
 
 def run_here(text: str, folder: Path) -> str:
-    """Run `PICTURES` as a reader would, but in this process, and return what they print."""
+    """Run `PICTURES` as a reader would, but in this process and with little grass, and return what they print."""
     printed = io.StringIO()
-    with contextlib.chdir(folder), contextlib.redirect_stdout(printed):
+    with pytest.MonkeyPatch.context() as patch, contextlib.chdir(folder), contextlib.redirect_stdout(printed):
+        patch.setitem(PRESETS, "low", LITTLE)
         for line in text.splitlines():
             assert tallgrass(shlex.split(line)[1:]) == 0, line
     return printed.getvalue()

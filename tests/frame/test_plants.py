@@ -40,6 +40,7 @@ terrain: { noise: flat, size: [120, 120] }
 grass:
   barley: { height: [0.4, 0.6], width: 0.018 }
   poppy: { plant: flower, plants: 50, height: [0.45, 0.65], tip: "#dd2a12", head: { petals: 5, size: [0.07, 0.1] } }
+quality: low
 """
 
 

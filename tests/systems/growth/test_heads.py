@@ -13,7 +13,7 @@ from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.show.carpet.heads import NO_HEADS, any_heads, heads_of
 from tallgrass.systems.stock.models import grow
 
-SMALL = PRESETS["low"].model_copy(update={"models": 1, "carpet": 16})
+SMALL = PRESETS["low"].model_copy(update={"models": 1, "carpet": 16, "strip_rings": PRESETS["low"].strip_rings[-1:]})
 
 
 def grown(**values: object) -> Growth:

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.engine.declared.quality import PRESETS, BladeRing, Quality, StripRing
 from tallgrass.systems.grow.bend import spine
-from tallgrass.systems.grow.record import Growth
+from tallgrass.systems.grow.record import Growth, Response
+from tallgrass.systems.grow.simulate import LINKS, build_chain
 from tallgrass.systems.show.carpet.grow import carpet_of
 from tallgrass.systems.show.strips.grow import strips_of
 from tallgrass.systems.stock import models
@@ -30,6 +31,7 @@ SMALL = Quality(
     carpet=24,
 )
 KIND = GrassKind(width=0.02)
+EVEN = np.ones((1, LINKS))
 
 
 def arrays(record: Any) -> list[NDArray[Any]]:
@@ -120,6 +122,32 @@ def test_growing_is_the_same_on_any_number_of_threads(
 ) -> None:
     monkeypatch.setattr(models, "_HANDS", hands)
     assert digest(grow(KIND, SMALL, seed=11)) == digest(growth)
+
+
+def test_grass_is_simulated_again_only_where_what_bends_it_changed(
+    growth: Growth, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    simulated: list[GrassKind] = []
+
+    def response(kind: GrassKind) -> Response:
+        simulated.append(kind)
+        return growth.response
+
+    monkeypatch.setattr("tallgrass.systems.stock.models.grow_response", response)
+    monkeypatch.setattr("tallgrass.systems.stock.models.grow_give", lambda _: growth.postures.give)
+    models._answers.cache_clear()  # noqa: SLF001
+    few = SMALL.model_copy(update={"blades": 9, "models": 1})
+    grow(KIND, SMALL, seed=11)
+    for same in ({"lean": 0.9}, {"tip": "#ffffff"}, {"clumping": 0.1}):
+        grow(KIND.model_copy(update=same), few, seed=11)
+    assert len(simulated) == 1
+    for other in ({"stiffness": 2.0}, {"damping": 0.5}, {"width": 0.03}, {"taper": 0.9}, {"height": [0.2, 0.3]}):
+        kind = KIND.model_copy(update=other)
+        grow(kind, few, seed=11)
+        assert build_chain(simulated[-1], EVEN).stiffness == pytest.approx(build_chain(kind, EVEN).stiffness, rel=1e-12)
+        assert simulated[-1].damping == kind.damping
+    assert len(simulated) == 6
+    models._answers.cache_clear()  # noqa: SLF001
 
 
 def test_another_seed_is_another_field(growth: Growth) -> None:
