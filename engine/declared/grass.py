@@ -71,6 +71,9 @@ class GrassKind(Declaration):
     """What a blade of grass is like across: flat; a `rush`, a round stem that is as wide from all sides and hardly
     tapers; or a `fold`, two faces with a keel between them, which catch the light apart."""
 
+    withered: float = Field(default=0.0, ge=0.0, le=0.6)
+    """How many blades of grass are dead: of the colour of tips down to the root, thinner, and bent."""
+
     root: Color = "#4b6128"
     """Colour at the root."""
 
@@ -130,6 +133,8 @@ class GrassKind(Declaration):
         grass = self.plant == "grass"
         if not grass and self.profile != "blade":
             raise DeclarationError("grass alone has a profile: other plants have organs", "profile")
+        if not grass and self.withered:
+            raise DeclarationError("grass alone withers: other plants have organs", "withered")
         for key in ("plants", "leaves", "leaf") if grass else ("blades",):
             if getattr(self, key) is not None:
                 raise DeclarationError(

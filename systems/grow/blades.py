@@ -1,11 +1,12 @@
 """The blades of a patch: a few hundred, at random but evenly spread (paper, section 2.2)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.declared.grass import GrassKind
+from .organs import BLADE, WITHERED
 from .record import Blades
 
 Doubles = NDArray[np.float64]
@@ -22,6 +23,9 @@ _TUSSOCK = 0.55
 
 _ALIKE = 0.8
 """How much alike blades of a tussock are at most."""
+
+_DROOP, _MOST_DROOP, _SHRUNK = 0.3, 0.9, 0.85
+"""How much farther dead blades lean as a posture index, how far at most; how long they are."""
 
 
 def grow_blades(kind: GrassKind, /, *, count: int, patch: float, variants: int, seed: int) -> Blades:
@@ -53,6 +57,20 @@ def grow_blades(kind: GrassKind, /, *, count: int, patch: float, variants: int, 
         rest=rest.astype(np.float32),
         variant=random.integers(0, variants, count, dtype=np.int32),
         rank=(np.arange(count) / count).astype(np.float32),
+    )
+
+
+def wither(blades: Blades, part: float, /, *, seed: int) -> Blades:
+    """Return blades of which this part, 0 to 1, has died: shorter, more bent at rest, and `WITHERED`."""
+    random = np.random.default_rng([seed, 0x77697468])
+    dead = random.random(len(blades.height)) < part
+    length = np.maximum(np.linalg.norm(blades.rest, axis=1), 1e-6)
+    bent = np.minimum(_DROOP + length, _MOST_DROOP) / length
+    return replace(
+        blades,
+        organ=np.where(dead, WITHERED, BLADE).astype(np.int32),
+        height=np.where(dead, _SHRUNK * blades.height, blades.height).astype(np.float32),
+        rest=np.where(dead[:, None], bent[:, None] * blades.rest, blades.rest).astype(np.float32),
     )
 
 

@@ -26,7 +26,7 @@ class Organ:
     """How far the wind bends it by itself, of how far it bends a blade; what it stands on carries it besides."""
 
 
-BLADE, STEM, LEAF, FROND, PETAL, EYE, BUD, RAY, TUFT = range(9)
+BLADE, STEM, LEAF, FROND, PETAL, EYE, BUD, RAY, TUFT, WITHERED = range(10)
 
 ORGANS: Final = (
     Organ((), (0.0, 1.0)),
@@ -38,9 +38,11 @@ ORGANS: Final = (
     Organ((0.6, 1.0, 0.95, 0.7, 0.15), (0.0, 0.3), 0.35),
     Organ((0.06, 0.06, 0.07, 0.9, 0.6), (0.1, 1.0), 0.35),
     Organ((0.7, 1.0, 0.9, 0.6, 0.1), (0.8, 1.0), 0.8),
+    Organ((0.5, 0.75, 0.65, 0.4, 0.05), (0.75, 1.0), 0.7),
 )
 """By number. `LEAF` belongs to a plant with a head, whose colour is the tip's, and `FROND` to one without. `EYE` is the
-middle of an open head, `RAY` one of an umbel's, whose florets are its end; florets and plumes are made of `TUFT`."""
+middle of an open head, `RAY` one of an umbel's, whose florets are its end; florets and plumes are made of `TUFT`.
+A `WITHERED` blade of grass is as pale as tips are, thinner, and stiffer."""
 
 HEADS: Final = (PETAL, EYE, BUD, RAY, TUFT)
 """Those that heads are made of."""

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.plant import Plant
-from .blades import grow_blades
+from .blades import grow_blades, wither
 from .heads import grow_heads
 from .layout import HABITS, Layout
 from .organs import FROND, LEAF, STEM
@@ -28,6 +28,8 @@ def grow_patch(kind: GrassKind, layout: Layout, /, *, patch: float, variants: in
     the lean. All rows of a plant have its root and its rank, and follow one another: the stem first, the head last.
     """
     stand = grow_blades(kind, count=layout.plants, patch=patch, variants=variants, seed=seed)
+    if kind.withered:
+        stand = wither(stand, kind.withered, seed=seed)
     if kind.plant == "grass" and kind.head is None:
         return stand
     random = np.random.default_rng([seed, 0x706C616E])
@@ -93,7 +95,8 @@ def _blades(stand: Blades, plant: NDArray[np.intp], /) -> Rows:
     """Return the plants that stay blades, as they are."""
     return Rows(
         plant=plant, height=stand.height[plant], width=stand.width[plant], facing=stand.facing[plant],
-        rest=stand.rest[plant], variant=stand.variant[plant], organ=np.zeros(len(plant), np.int32),
+        rest=stand.rest[plant], variant=stand.variant[plant],
+        organ=np.broadcast_to(stand.organ, stand.height.shape)[plant],
         stem=np.zeros(len(plant)), part=np.ones(len(plant)), stem_rest=np.zeros((len(plant), 2)),
     )  # fmt: skip
 

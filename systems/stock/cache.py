@@ -99,6 +99,7 @@ def growth_key(kind: GrassKind, quality: Quality, /, *, seed: int) -> str:
                 "taper",
                 "profile",
                 "clumping",
+                "withered",
                 "leaf",
                 "head",
             },

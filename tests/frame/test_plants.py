@@ -42,6 +42,12 @@ grass:
   poppy: { plant: flower, plants: 50, height: [0.45, 0.65], tip: "#dd2a12", head: { petals: 5, size: [0.07, 0.1] } }
 quality: low
 """
+MEADOW = LITTLE.replace(
+    LITTLE[LITTLE.index("\ngrass:") + 1 : LITTLE.index("camera:")],
+    """\
+grass: { meadow: { root: "#2b5a20", tip: "#d8b868", withered: 0 } }
+""",
+).replace("noise: rolling", "noise: flat").replace("blades: 60", "blades: 400")
 
 
 @pytest.fixture(scope="module")
@@ -108,6 +114,17 @@ def test_f3_in_every_representation_a_field_of_poppies_has_one_colour(stage: Sta
     for lod in ("blades", "strips"):
         mean = stage.shot(load(FIELD, lod=lod), aim).astype(float)[rows].mean(axis=(0, 1))
         np.testing.assert_allclose(mean, whole[rows].mean(axis=(0, 1)), rtol=0.06)
+
+
+@pytest.mark.parametrize("lod", ["blades", "strips", "carpet"])
+def test_dead_blades_make_a_field_as_much_yellower_in_every_representation(
+    stage: Stage, load: Load, camera: Aim, lod: str
+) -> None:
+    aim, ratio = camera(0.0, 1.6, 20.0, pitch=-12), []
+    for part in (0.0, 0.6):
+        red, green, _ = stage.shot(load(MEADOW.replace("withered: 0", f"withered: {part}"), lod=lod), aim)[60:].mean(axis=(0, 1))
+        ratio.append(red / green)
+    assert ratio[1] / ratio[0] == pytest.approx(1.062, abs=0.015)
 
 
 def test_f3_the_reference_has_the_flowers_of_the_picture(stage: Stage, load: Load, camera: Aim) -> None:

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.engine.declared.grass import GrassKind
-from tallgrass.systems.grow.blades import grow_blades
+from tallgrass.systems.grow.blades import grow_blades, wither
+from tallgrass.systems.grow.organs import BLADE, WITHERED
 from tallgrass.systems.grow.record import Blades
 
 PATCH = 2.5
@@ -117,3 +118,24 @@ def alikeness(clumping: float, seed: int) -> tuple[float, float]:
     near, lean = (distance < 0.15) & (distance > 0.0), np.arctan2(blades.rest[:, 1], blades.rest[:, 0])
     face, lies = (np.cos(way[:, None] - way[None])[near].mean() for way in (2.0 * blades.facing, lean))
     return face, lies
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.floats(0.05, 0.6), st.integers(0, 2**32))
+def test_as_many_blades_are_dead_as_asked_and_they_alone_are_shorter_and_more_bent(part: float, seed: int) -> None:
+    alive = meadow(seed=seed, count=900)
+    some = wither(alive, part, seed=seed)
+    dead = some.organ == WITHERED
+    assert dead.mean() == pytest.approx(part, abs=0.06)
+    assert (some.organ[~dead] == BLADE).all()
+    for before, after in zip(fields(alive), fields(some), strict=True):
+        np.testing.assert_array_equal(after[~dead], before[~dead])
+    lean = np.linalg.norm(some.rest, axis=1)
+    assert (some.height[dead] < alive.height[dead]).all()
+    assert (lean[dead] > np.linalg.norm(alive.rest[dead], axis=1)).all()
+    assert lean.max() <= 0.9 + 1e-6
+
+
+def test_grass_alone_withers() -> None:
+    with pytest.raises(ValueError, match="grass alone withers"):
+        GrassKind(plant="flower", withered=0.1)

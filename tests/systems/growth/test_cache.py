@@ -78,6 +78,7 @@ def test_what_was_grown_once_is_read_the_next_time(tmp_path: Path, grows: list[A
         {"lean": 0.31},
         {"taper": 1.1},
         {"profile": "fold"},
+        {"withered": 0.1},
         {"blades": 13},
     ],
 )
