@@ -42,12 +42,16 @@ grass:
   poppy: { plant: flower, plants: 50, height: [0.45, 0.65], tip: "#dd2a12", head: { petals: 5, size: [0.07, 0.1] } }
 quality: low
 """
-MEADOW = LITTLE.replace(
-    LITTLE[LITTLE.index("\ngrass:") + 1 : LITTLE.index("camera:")],
-    """\
+MEADOW = (
+    LITTLE.replace(
+        LITTLE[LITTLE.index("\ngrass:") + 1 : LITTLE.index("camera:")],
+        """\
 grass: { meadow: { root: "#2b5a20", tip: "#d8b868", withered: 0 } }
 """,
-).replace("noise: rolling", "noise: flat").replace("blades: 60", "blades: 400")
+    )
+    .replace("noise: rolling", "noise: flat")
+    .replace("blades: 60", "blades: 400")
+)
 
 
 @pytest.fixture(scope="module")
@@ -122,7 +126,8 @@ def test_dead_blades_make_a_field_as_much_yellower_in_every_representation(
 ) -> None:
     aim, ratio = camera(0.0, 1.6, 20.0, pitch=-12), []
     for part in (0.0, 0.6):
-        red, green, _ = stage.shot(load(MEADOW.replace("withered: 0", f"withered: {part}"), lod=lod), aim)[60:].mean(axis=(0, 1))
+        prairie = load(MEADOW.replace("withered: 0", f"withered: {part}"), lod=lod)
+        red, green, _ = stage.shot(prairie, aim)[60:].mean(axis=(0, 1))
         ratio.append(red / green)
     assert ratio[1] / ratio[0] == pytest.approx(1.062, abs=0.015)
 
