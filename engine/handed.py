@@ -1,12 +1,9 @@
 """What a game hands in: numbers made into arrays, and what is refused."""
 
-from pathlib import Path
 from reprlib import repr as shortened
 
 import numpy as np
 from numpy.typing import NDArray
-
-from .scene import LoadedScene
 
 
 def as_floats(thing: object, due: str, /) -> NDArray[np.float32]:
@@ -21,14 +18,6 @@ def as_floats(thing: object, due: str, /) -> NDArray[np.float32]:
     if thing is None or not np.isfinite(array).all():
         raise ValueError(f"{due}, not {'None' if thing is None else 'NaN or infinity'}")
     return array
-
-
-def must_be_read(thing: object, /) -> None:
-    """Raise TypeError for what is no scene that has been read."""
-    if isinstance(thing, str | Path):
-        raise TypeError(f"Prairie takes a scene that has been read; load one by Prairie.load({str(thing)!r})")
-    if not isinstance(thing, LoadedScene):
-        raise TypeError(f"Prairie takes a scene that has been read, not {shortened(thing)}; use Prairie.load")
 
 
 def must_be_viewer(thing: object, /) -> None:

@@ -18,9 +18,9 @@ from ..engine.camera import View, view_of
 from ..engine.declared.light import Light
 from ..engine.declared.quality import PRESETS
 from ..engine.declared.scene import LodName, Scene
-from ..engine.handed import must_be_read, must_be_step, must_be_viewer
+from ..engine.handed import must_be_step, must_be_viewer
 from ..engine.plugged import bring_systems
-from ..engine.scene import LoadedScene, read_scene
+from ..engine.scene import LoadedScene, must_be_read, read_scene
 from ..engine.schedule import Phase, Schedule
 from ..engine.terrain.sample import height_at
 from ..engine.world import World

@@ -2,7 +2,7 @@
 
 from .maps import load_maps
 from .problem import Problem, SceneError, printable
-from .read import LoadedScene, bundled_scenes, parse_scene, read_scene, stamp_of
+from .read import LoadedScene, bundled_scenes, must_be_read, parse_scene, read_scene, stamp_of
 
 __all__ = [
     "LoadedScene",
@@ -10,6 +10,7 @@ __all__ = [
     "SceneError",
     "bundled_scenes",
     "load_maps",
+    "must_be_read",
     "parse_scene",
     "printable",
     "read_scene",

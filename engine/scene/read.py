@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 from importlib.resources import files
 from pathlib import Path
+from reprlib import repr as shortened
 from stat import S_ISDIR, S_ISREG
 
 import numpy as np
@@ -180,3 +181,11 @@ def _guess(path: Path) -> str:
         names = []
     near = get_close_matches(path.name, names, n=1, cutoff=0.8)
     return f", did you mean '{near[0]}'?" if near else ""
+
+
+def must_be_read(thing: object, /) -> None:
+    """Raise TypeError for what is no scene that has been read."""
+    if isinstance(thing, str | Path):
+        raise TypeError(f"Prairie takes a scene that has been read; load one by Prairie.load({str(thing)!r})")
+    if not isinstance(thing, LoadedScene):
+        raise TypeError(f"Prairie takes a scene that has been read, not {shortened(thing)}; use Prairie.load")

@@ -370,12 +370,12 @@ def test_an_entity_lives_as_long_as_its_patch_is_shown(world: World, looking: Lo
 
     looking(1.0, 1.0)
     first = there()
-    looking(1.1, 1.1)
+    looking(1.01, 1.01)
     assert there() == first
-    looking(1.1, 1.1, yaw=0.0)
+    looking(1.01, 1.01, yaw=0.0)
     ahead = there()
     assert ahead < first
-    looking(1.1, 1.1)
+    looking(1.01, 1.01)
     again = there()
     assert ahead < again
     assert len(again) == len(first)
