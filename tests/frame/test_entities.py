@@ -23,9 +23,9 @@ FLAT = (
     .replace("carpet_to: 12", "carpet_to: 20")
 )
 BREEZE = FLAT + "wind: [{ kind: breeze, strength: 0.3 }]\n"
-ABOVE = looking(0.6, 5.0, 22.0, pitch=-30.0, view=55.0)
+ABOVE = looking(0.6, 4.2, 22.0, pitch=-30.0, view=55.0)
 PATCH = 2.5
-PLACES = {"blades": (0.6, 17.8), "strips": (0.6, 6.2), "carpet": (0.6, -1.5)}
+PLACES = {"blades": (0.6, 17.8), "strips": (0.6, 11.0), "carpet": (0.6, -1.5)}
 """A place that ABOVE sees in each representation."""
 
 FEWEST = {"blades": 300, "strips": 100, "carpet": 30}
@@ -268,7 +268,7 @@ def test_what_is_printed_of_an_entity_is_what_it_holds(prairie: Prairie, easel: 
     entity = patch_of(prairie, PLACES["strips"])
     lod = esper.component_for_entity(entity, Lod)
     lod.hold = "carpet"
-    assert repr(lod).startswith("Lod(viewer='main', distance=6, visible=True, representation='strips', ")
+    assert repr(lod).startswith("Lod(viewer='main', distance=4, visible=True, representation='strips', ")
     assert repr(lod).endswith(" hold='carpet')")
     patch = esper.component_for_entity(entity, Patch)
     assert repr(patch).startswith(f"Patch(cell={patch.cell}, model=")
