@@ -29,15 +29,15 @@ PETALS: Mapping[HeadForm, int] = {"disc": 12, "bell": 6, "spike": 18, "umbel": 1
 
 FLOWER: Mapping[str, Any] = {
     "height": [0.22, 0.42], "width": 0.02, "lean": 0.2, "stiffness": 1.2, "clumping": 0.3, "root": "#50692d",
-    "tip": "#f4ce23", "variety": 0.2, "gloss": 0.02, "head": {},
+    "tip": "#f4ce23", "variety": 0.2, "gloss": 0.02, "understorey": 0.0, "head": {},
 }  # fmt: skip
 FORB: Mapping[str, Any] = {
     "height": [0.25, 0.5], "width": 0.05, "lean": 0.2, "stiffness": 1.2, "root": "#3b5826", "tip": "#86a64b",
-    "gloss": 0.04,
+    "gloss": 0.04, "understorey": 0.0,
 }  # fmt: skip
 SHRUB: Mapping[str, Any] = {
     "height": [0.3, 0.5], "width": 0.014, "lean": 0.55, "stiffness": 2.0, "root": "#46522c", "tip": "#87984f",
-    "gloss": 0.02,
+    "gloss": 0.02, "understorey": 0.0,
 }  # fmt: skip
 USUAL: Mapping[str, Mapping[str, Any]] = {"flower": FLOWER, "forb": FORB, "shrub": SHRUB}
 """By plant: what it is where a scene does not say; of grass the fields say it themselves."""

@@ -18,7 +18,7 @@ from ..around.canopy import canopy_height
 from ..grow.record import GIVES, Growth
 from ..grow.section import SECTIONS
 from ..light.daylight import Daylight, daylight
-from ..light.materials import apart, bloom, grain, leaves_of, let_through, pigment
+from ..light.materials import apart, bloom, grain, leaves_of, let_through, pigment, understorey
 from ..light.sun import sun_at
 
 SHADES = 8
@@ -47,6 +47,7 @@ FRAME = np.dtype(
         ("crown", f"({GROUPS},4)f4"),
         ("leaf", f"({GROUPS},4)f4"),
         ("lying", f"({GROUPS},4)f4"),
+        ("understorey", f"({GROUPS},4)f4"),
         ("root", f"({MOST_KINDS},4)f4"),
         ("tip", f"({MOST_KINDS},4)f4"),
         ("through", f"({MOST_KINDS},4)f4"),
@@ -72,13 +73,14 @@ def frame_record(
     postures = growths[0].postures.shape
     row["terrain"] = (*terrain.origin, terrain.cell, postures.shape[2] - 1)
     row["field"] = (*terrain.size, postures.shape[1], postures.shape[0])
-    crown, leaf, lying = (row[name].reshape(-1) for name in ("crown", "leaf", "lying"))
+    crown, leaf, lying, low = (row[name].reshape(-1) for name in ("crown", "leaf", "lying", "understorey"))
     give = row["give"].reshape(GROUPS, GIVES, 4)
     for index, (kind, growth) in enumerate(zip(scene.grass.values(), growths, strict=True)):
         _write_kind(row, index, kind)
         leaves = leaves_of(kind, growth, patch)
         crown[index], leaf[index] = canopy_height(growth), leaves.side
         lying[index] = leaves.above / leaves.side
+        low[index] = understorey(kind, crown[index])
         row["through"][index, 3] = bloom(kind, growth)
         give[index // 4, :, index % 4] = growth.postures.give
     return record

@@ -27,6 +27,9 @@ FACES = 0.22
 SIDES = 0.45
 """How much more it lights the side of a round stem or the face of a fold that is turned to it than both."""
 
+ROOM = 0.25
+"""Height of a canopy that all its understorey has room under [m]."""
+
 _POINTS = 9
 
 
@@ -74,6 +77,14 @@ def leaves_of(kind: GrassKind, growth: Growth, patch: float, /) -> Leaves:
     normal = np.cross(np.diff(centre, axis=1), across(blades)[:, None]) * width[..., None]
     level = np.hypot(normal[..., 0], normal[..., 2])
     return Leaves(float(level.sum() * 2.0 / np.pi) / ground, float(np.abs(normal[..., 1]).sum()) / ground)
+
+
+def understorey(kind: GrassKind, canopy: float, /) -> float:
+    """Return how much of the ground the low leaves under a canopy of some height [m] cover, of what they cover at most.
+
+    Under low grass there are as much fewer: they would stand above it.
+    """
+    return kind.understorey * min(canopy / ROOM, 1.0)
 
 
 def sunny(light: Daylight, /) -> float:

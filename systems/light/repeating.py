@@ -8,16 +8,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.wind import WindPrimitive
-from ..grow.raster import rasterise
+from ..grow.raster import rasterise, ribbon_triangles
 from ..wind.mean import MeanWind
+
+Doubles = NDArray[np.float64]
 
 SIDE = 512
 """Texels along a side."""
 
-STRAWS = 2600
-"""How many straws lie on a square of ground, 1.8 m wide."""
+LITTER_SIDE = 1.8
+"""Side of the square of ground that repeats [m], as `lib/light.glsl` has it."""
 
-LITTER_ONE = 64
+STRAWS = 2600
+"""How many straws lie on it."""
+
+TUFTS, LEAVES = 16, 16
+"""Low tufts that stand on it, in rows of so many, each somewhere in its own small square; and leaves of each tuft."""
+
+SEEN_FAR = 0.12
+"""What is evened out of the ground's brightness [m]: seen from afar, larger spots would show that squares repeat."""
+
+LITTER_ONE = 128
 """The texel of ground that is as bright as the mean."""
 
 
@@ -52,32 +63,71 @@ def cloud_map(*, seed: int) -> NDArray[np.uint8]:
     return np.asarray(np.floor(rank * 256.0), np.uint8).reshape(SIDE, SIDE)
 
 
-def litter_map(*, seed: int) -> NDArray[np.uint8]:
-    """Return what lies on the ground over a square that repeats: straws across one another, shape (SIDE, SIDE).
-
-    A texel is the radiance there, of the mean, in units of 1 / `LITTER_ONE`.
-    """
+def litter_map(*, seed: int) -> Doubles:
+    """Return how bright the ground is over a square that repeats: straws lie across one another, shape (SIDE, SIDE)."""
     random = np.random.default_rng([seed, 0x6C697474])
     middle, turn = random.random((STRAWS, 2)) * SIDE, random.uniform(0.0, 2.0 * np.pi, STRAWS)
     along = np.stack([np.cos(turn), np.sin(turn)], axis=1) * random.uniform(10.0, 38.0, (STRAWS, 1))
     aside = np.stack([-np.sin(turn), np.cos(turn)], axis=1) * random.uniform(0.9, 2.2, (STRAWS, 1))
     bright = random.uniform(0.35, 1.0, STRAWS) ** 2
-    ends = [middle - along - aside, middle - along + aside, middle + along - aside, middle + along + aside]
-    corners = np.stack([ends[number] for number in (0, 1, 2, 1, 3, 2)], axis=1).reshape(-1, 3, 2)
+    left, right = (np.stack([middle - along + side, middle + along + side], axis=1) for side in (-aside, aside))
     front = np.repeat(random.random(STRAWS), 2)[:, None].repeat(3, axis=1)
-    seen = rasterise(corners, front, shape=(SIDE, SIDE), wrap=True)
+    seen = rasterise(ribbon_triangles(left, right), front, shape=(SIDE, SIDE), wrap=True)
     lit = np.full(SIDE * SIDE, 0.12)
     lit[seen.sample] = (bright * (0.35 + 0.65 * random.random(STRAWS)))[seen.triangle // 2]
-    return np.asarray(np.clip(np.rint(lit / lit.mean() * LITTER_ONE), 0, 255), np.uint8).reshape(SIDE, SIDE)
+    return lit.reshape(SIDE, SIDE)
+
+
+def understorey_map(*, seed: int) -> tuple[Doubles, NDArray[np.bool_]]:
+    """Return how bright low leaves are over the same square, and where there are any, each of shape (SIDE, SIDE).
+
+    They stand in tufts and arch over to all sides, seen from above; the deeper they are, the less light they have.
+    """
+    random = np.random.default_rng([seed, 0x756E6472])
+    count, along = TUFTS * TUFTS * LEAVES, np.linspace(0.0, 1.0, 4)
+    texels = SIDE / LITTER_SIDE
+    middle = (np.indices((TUFTS, TUFTS)).reshape(2, -1).T + random.random((TUFTS * TUFTS, 2))) * (SIDE / TUFTS)
+    root = np.repeat(middle, LEAVES, axis=0) + random.normal(0.0, 0.006 * texels, (count, 2))
+    size = np.repeat(random.uniform(0.6, 1.25, TUFTS * TUFTS), LEAVES) * texels
+    length, width = size * random.uniform(0.07, 0.19, count), size * random.uniform(0.005, 0.0085, count)
+    heading = random.uniform(0.0, 2.0 * np.pi, (count, 1)) + random.normal(0.0, 0.7, (count, 1)) * along
+    ahead = np.stack([np.cos(heading), np.sin(heading)], axis=-1)
+    steps = ahead[:, 1:] * (length / (len(along) - 1))[:, None, None]
+    spine = root[:, None] + np.pad(np.cumsum(steps, axis=1), ((0, 0), (1, 0), (0, 0)))
+    half = width[:, None] * np.maximum(np.sin(np.pi * (0.18 + 0.82 * along)), 0.0) ** 0.8
+    aside = np.stack([-ahead[..., 1], ahead[..., 0]], axis=-1) * half[..., None]
+    arch = (along * (1.0 - 0.35 * along))[:-1]
+    high = np.repeat(0.5 * random.random((count, 1)) + 0.6 * arch, 2, axis=1).reshape(-1)
+    seen = rasterise(
+        ribbon_triangles(spine - aside, spine + aside), high[:, None].repeat(3, axis=1), shape=(SIDE, SIDE), wrap=True
+    )
+    lit = np.zeros(SIDE * SIDE)
+    own = np.repeat(random.uniform(0.75, 1.15, count), 2 * (len(along) - 1))
+    lit[seen.sample] = ((0.06 + 1.1 * high * high) * own)[seen.triangle]
+    return lit.reshape(SIDE, SIDE), lit.reshape(SIDE, SIDE) > 0.0
+
+
+def ground_maps(*, seed: int) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
+    """Return what is seen of the ground over a square that repeats, each of shape (SIDE, SIDE).
+
+    First the root of the radiance there, in units of 1 / `LITTER_ONE` of that of the mean: that of leaves where there
+    are low ones, and that of the ground between. Then where there are leaves, 255 or 0.
+    """
+    lit, (low, covered) = litter_map(seed=seed), understorey_map(seed=seed)
+    bright = np.where(covered, low / low[covered].mean(), lit / lit[~covered].mean())
+    wave = np.fft.fftfreq(SIDE, LITTER_SIDE / SIDE)
+    blur = np.exp(-2.0 * (np.pi * SEEN_FAR * np.hypot(wave[:, None], wave[None])) ** 2)
+    bright /= np.fft.ifft2(np.fft.fft2(bright) * blur).real
+    return np.asarray(np.clip(np.rint(np.sqrt(bright) * LITTER_ONE), 0, 255), np.uint8), np.asarray(covered * np.uint8(255))
 
 
 def repeating_texture(ctx: moderngl.Context, *, seed: int) -> moderngl.Texture:
-    """Return `cloud_map` and `litter_map` as the two channels of a texture that repeats.
+    """Return `cloud_map` and `ground_maps` as the three channels of a texture that repeats.
 
     Its coarser levels are means of the finest: drivers that round up at each would make ground brighter far off.
     """
-    texels = np.stack([cloud_map(seed=seed), litter_map(seed=seed)], axis=-1)
-    texture = ctx.texture((SIDE, SIDE), 2, texels.tobytes(), alignment=1)
+    texels = np.stack([cloud_map(seed=seed), *ground_maps(seed=seed)], axis=-1)
+    texture = ctx.texture((SIDE, SIDE), 3, texels.tobytes(), alignment=1)
     texture.build_mipmaps()
     mean, level = texels.astype(np.float64), 0
     while len(mean) > 1:

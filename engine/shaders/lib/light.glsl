@@ -4,7 +4,7 @@
 
 uniform sampler2D lie;      // over the terrain, side by side: its normal (x, z) and two slow noises; how high what stands before the sun
 uniform sampler2DArray density;  // over the terrain, four kinds in each layer: how densely each grows
-uniform sampler2D repeating;// squares that repeat: how dense clouds are; how bright what lies on the ground is
+uniform sampler2D repeating;// squares that repeat: how dense clouds are; root of how bright the ground is, and where low leaves cover it
 
 const float PENUMBRA = 0.02;    // half the width of a shadow's edge, of the distance from what casts it; the sun's alone is 0.005
 const int SHADES = 8;           // bodies that cast shadows
@@ -12,10 +12,12 @@ const float CLOUDS_AT = 450.0;  // height of the clouds [m]
 const float CLOUDS_SIDE = 900.0;// side of the square that repeats [m]
 const float CLOUD_TAKES = 0.75; // what a dense cloud takes of the sun's light
 const float OPEN_SKY = 1.6;     // leaves that the sky's light meets, of those seen from the side
-const float LITTER_SIDE = 1.8; // side of the square of litter that repeats [m]
-const float LITTER_ONE = 255.0 / 64.0;  // what stands for ground as bright as its mean
+const float LITTER_SIDE = 1.8; // side of the square of ground that repeats [m]
+const float LITTER_ONE = 255.0 / 128.0;  // what stands for ground as bright as its mean
+const float COARSEST = 16.0;   // level at which a texture is its mean, or its last
 const float LITTER_SHARP = -1.0;  // levels finer at most than the long side of a pixel on the ground asks for
 const float AGAIN = 0.7;        // what leaves send to one another of the sun's light, of one with this albedo
+const float LOW_TIPPED = 0.6;   // how much of the colour of tips the leaves of the understorey have
 const float LITTER = 0.75;      // how much of the ground under dense grass is covered by what has fallen
 
 // Light that a leaf of a kind gets at a place, as radiance towards the eye of a white one, and what is mirrored.
@@ -235,14 +237,32 @@ float haze_at(vec3 place) {
     return 1.0 - exp(-distance(place, eye.xyz) * skylight.w);
 }
 
+// A mean of what kinds look like near the ground.
+vec3 low_pigment(ByKind weights, float tipped) {
+    vec3 low = vec3(0.0);
+    for (int kind = 0; kind < KINDS; kind++)
+        low += OF(weights, kind) * mix(root[kind].rgb, tip[kind].rgb, tipped * through[kind].w * through[kind].w);
+    return low / max(total(weights), 1e-3);
+}
+
 // What lies on the ground where grass stands, and the ground: `here` of lie_at, `grows` of density.
 vec3 soil_pigment(vec4 here, ByKind grows) {
-    float all = total(grows);
-    vec3 under = vec3(0.0);
-    for (int kind = 0; kind < KINDS; kind++)
-        under += OF(grows, kind) * mix(root[kind].rgb, tip[kind].rgb, 0.3 * through[kind].w * through[kind].w);
-    under /= max(all, 1e-3);
-    return mix(soil.rgb, mix(soil.rgb, under, LITTER), min(all, 1.0)) * stretch(here);
+    vec3 fallen = low_pigment(grows, 0.3);
+    return mix(soil.rgb, mix(soil.rgb, fallen, LITTER), min(total(grows), 1.0)) * stretch(here);
+}
+
+// The pigment of the understorey's leaves, of that of the ground between; 1 where there are none.
+vec3 understorey_of(vec4 here, ByKind grows) {
+    vec3 between = soil_pigment(here, grows);
+    for (int group = 0; group < GROUPS; group++)
+        grows[group] *= understorey[group];
+    vec3 leaves = low_pigment(grows, LOW_TIPPED) * stretch(here);
+    return mix(vec3(1.0), leaves / max(between, 0.02), min(total(grows), 1.0));
+}
+
+// The pigment of what lies there, of that of the ground between low leaves: `lying` from `repeating`.
+vec3 lying_pigment(vec2 lying, vec3 lush) {
+    return lying.x * LITTER_ONE * mix(vec3(1.0), lush, lying.y);
 }
 
 // That in its light, under a leaf area [of the ground's].

@@ -6,8 +6,10 @@ in vec3 soil_seen;
 #endif
 #if KINDS > 4
 vec4 veil;
+vec3 lush;
 ByKind leaf_area;
 #else
+in vec3 lush;
 in vec4 veil;
 #ifdef MOWN
 in ByKind leaf_area;
@@ -93,7 +95,6 @@ vec2 elevation_seen(float slope) {
 }
 
 const float GRAIN = 1.5;  // how far images are from their mean, for what filtering takes away
-const float COARSEST = 16.0; // or the last level that there is
 const float SHARP = 0.4;  // size of what is taken from the images for a pixel, of the pixel's own
 const float SHARP_ABOVE = 0.5;  // the same from above, where grass hides less of other grass
 const float LEAST_MET = 0.004;  // of a kind, as a part of all that is: of less, nothing is seen
@@ -211,6 +212,7 @@ vec3 carpet_seen(float slope, vec3 below) {
 // What is worked out at the corners of the mesh where kinds are few.
 void work_out() {
     veil = vec4(haze_light(place), haze_at(place));
+    lush = understorey_of(lie_at(place.xz), grows_at(place.xz));
 #ifdef MOWN
     leaf_area = areas(grows_at(place.xz));
 #endif
@@ -225,23 +227,19 @@ void main() {
     work_out();
 #endif
 #if !defined(MOWN) || defined(UNDER)
-    vec3 below = soil_seen;
+    vec3 color = soil_seen;
 #else
     left = left_seen();
     vec2 seen = exp(-to_light * weighed(leaf_area, leaves_left(left)));
-    vec3 below = sunlit * seen.x + skylit * seen.y;  // the mesh is too coarse for the edges of what is mown
-#ifdef CARPET
-    below = shown_of(mix(below, veil.rgb, veil.w));
+    vec3 color = sunlit * seen.x + skylit * seen.y;  // the mesh is too coarse for the edges of what is mown
 #endif
-#endif
-    vec3 color = below;
 #ifndef UNDER
     float narrow = log2(sharper(dFdx(place.xz), dFdy(place.xz)));
-    float litter = texture(repeating, place.xz / LITTER_SIDE, max(0.5 * narrow, LITTER_SHARP)).g * LITTER_ONE;
+    vec2 lying = texture(repeating, place.xz / LITTER_SIDE, max(0.5 * narrow, LITTER_SHARP)).gb;
+    vec3 pigment = lying_pigment(lying, lush);
+    color *= pigment * pigment;
 #endif
-#ifndef CARPET
-    color *= litter;
-#endif
+    color = shown_of(mix(color, veil.rgb, veil.w));
 #if defined(CARPET) && !defined(UNDER)
     float slope = viewing_slope(rise, place);
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / soil.w))) : 0.0;
@@ -251,13 +249,11 @@ void main() {
     float covered = mix(1.0, outline_cover(slope), share * within);
     if (covered < 0.004)
         discard;
-    float brighter = sun.w > 0.5 ? litter : sqrt(litter);  // very nearly what is shown of as many times the radiance
-    color *= brighter;
     // Among strips less of it is seen than its share: they hide it, and would be too bright with all of it between them.
     if (share > 0.0)
         color = mix(color, carpet_seen(slope, color), share * share);
     pixel = vec4(color, 1.0) * covered;
 #else
-    pixel = vec4(shown_of(mix(color, veil.rgb, veil.w)), 1.0);
+    pixel = vec4(color, 1.0);
 #endif
 }

@@ -143,7 +143,7 @@ float lowest_share(vec2 place) {
 #endif
 
 #if !defined(MOWN) || defined(UNDER)
-out vec3 soil_seen;  // its radiance; with a carpet, what is shown of it
+out vec3 soil_seen;  // its radiance
 #else
 vec3 soil_seen;
 #endif
@@ -156,11 +156,13 @@ out vec2 to_light;  // how many leaves their light meets
 #if KINDS > 4
 ByKind leaf_area;
 vec4 veil;
+vec3 lush;
 #else
 #ifdef MOWN
 out ByKind leaf_area; // by kind, of the ground's
 #endif
 out vec4 veil;  // haze before it, and how much
+out vec3 lush;  // pigment of the understorey, of that of the ground between
 #endif
 
 void main() {
@@ -214,7 +216,10 @@ void main() {
 #else
     soil_seen = soil_light(ground, lies, stand, total(areas(stand)));
 #endif
+    lush = understorey_of(lies, stand);
 #ifdef UNDER
+    vec3 usual = lying_pigment(textureLod(repeating, vec2(0.5), COARSEST).gb, lush);
+    soil_seen *= usual * usual;
     vec3 under = vec3(0.0);
     vec4 here = lie_at(flat_at);
     for (int kind = 0; kind < KINDS; kind++) {
@@ -232,9 +237,6 @@ void main() {
     soil_seen = mix(soil_seen, soil_seen * (1.0 - total(met)) + under, carpet);
 #endif
     veil = vec4(haze_light(place), haze_at(place));
-#if defined(CARPET) && !defined(UNDER)
-    soil_seen = shown_of(mix(soil_seen, veil.rgb, veil.w));
-#endif
     gl_Position = clip * vec4(place, 1.0);
 #ifdef UNDER
     gl_Position.z += 1e-6 * gl_Position.w;  // kilometres away depths are too coarse to part the two layers

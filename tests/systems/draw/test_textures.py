@@ -10,7 +10,7 @@ from tallgrass.engine.gl.stream import release_all
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.systems.frame.maps import density_texture, height_texture, posture_texture, slow_map
 from tallgrass.systems.grow.record import Growth
-from tallgrass.systems.light.repeating import LITTER_ONE, repeating_texture
+from tallgrass.systems.light.repeating import LITTER_ONE, SIDE, ground_maps, repeating_texture
 from tallgrass.systems.show.carpet.grow import carpet_of
 from tallgrass.systems.show.carpet.textures import carpet_texture
 from tallgrass.systems.show.strips.stock import stock_strips
@@ -140,8 +140,20 @@ def test_what_is_slow_over_the_terrain_are_two_noises_of_the_seed(hills: Terrain
 def test_litter_is_as_bright_from_afar_as_from_near_by(ctx: moderngl.Context) -> None:
     """At every level, in its mean: a driver that rounds up at each would make ground brighter far off."""
     texture = repeating_texture(ctx, seed=4)
-    for level in range(10):
-        texels = np.frombuffer(texture.read(level=level, alignment=1), np.uint8).reshape(-1, 2)
-        assert texels[:, 1].mean() == pytest.approx(LITTER_ONE, abs=0.6)
-    assert len(texels) == 1
+    means = [
+        np.frombuffer(texture.read(level=level, alignment=1), np.uint8).reshape(-1, 3).mean(axis=0)
+        for level in range(10)
+    ]
+    np.testing.assert_allclose(means, means[:1] * 10, atol=0.6)
+    bright, _ = ground_maps(seed=4)
+    assert np.mean((bright / LITTER_ONE) ** 2) == pytest.approx(1.0, abs=0.02)
     release_all(texture)
+
+
+def test_squares_of_ground_do_not_show_from_afar_where_they_repeat() -> None:
+    """Of large spots there is next to nothing in them: of brighter ones, and of greener ones."""
+    bright, leaves = ground_maps(seed=4)
+    assert 0.6 < (leaves > 0).mean() < 0.8
+    for seen, most in ((bright / LITTER_ONE, 0.02), (leaves / 255.0, 0.08)):
+        large = seen.reshape(4, SIDE // 4, 4, SIDE // 4).mean(axis=(1, 3))
+        assert large.std() < most * seen.mean()

@@ -15,7 +15,7 @@ from tallgrass.systems.grow.bend import profile, ribbon
 from tallgrass.systems.grow.raster import rasterise, ribbon_triangles
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.light.daylight import daylight
-from tallgrass.systems.light.materials import bloom, grain, leaves_of, pigment
+from tallgrass.systems.light.materials import bloom, grain, leaves_of, pigment, understorey
 from tallgrass.systems.stock.models import grow
 
 PATCH = 2.5
@@ -34,6 +34,12 @@ KINDS = {
 def grown(request: pytest.FixtureRequest) -> tuple[GrassKind, Growth]:
     kind = KINDS[request.param]
     return kind, grow(kind, FEW.model_copy(update={"blades": 400}), seed=3)
+
+
+@given(st.floats(0.01, 5.0), st.floats(0.0, 1.0))
+def test_there_is_no_more_of_an_understorey_than_the_canopy_has_room_for(canopy: float, part: float) -> None:
+    covered = understorey(GrassKind(understorey=part), canopy)
+    assert covered == part if canopy >= 0.25 else covered <= part * canopy / 0.249
 
 
 def met(kind: GrassKind, growth: Growth, elevation: float, height: float, density: float) -> float:
