@@ -1,6 +1,7 @@
 """The truth to compare with: every blade in 3D at the finest level, supersampled."""
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import moderngl
 import numpy as np
@@ -29,6 +30,18 @@ ROOM = 1.5
 
 CHUNK = 400
 """Patches drawn at a time in a reference, so that a large terrain needs no large buffers."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Truth:
+    """A supersampled picture, and how far it may be from one with any number of samples."""
+
+    picture: NDArray[np.uint8]
+    """sRGB bytes, top row first, shape (height, width, 3)."""
+
+    doubt: NDArray[np.float32]
+    """Half of what two halves of a pixel's samples are apart, those like a chessboard's white and its black fields,
+    shape (height, width, 3): its square is on the mean that of the picture's own noise."""
 
 
 def terrain_cells(ground: Ground, /) -> Ints:
@@ -188,7 +201,20 @@ def draw_reference(
     samples: int = 4,
     reach: int | None = None,
 ) -> NDArray[np.uint8]:
-    """Return the reference picture of a prairie that has been drawn, top row first, shape (height, width, 3).
+    """Return the reference picture of a prairie that has been drawn, as `draw_truth` does, shape (height, width, 3)."""
+    return draw_truth(prairie, view, projection, size, samples=samples, reach=reach).picture
+
+
+def draw_truth(
+    prairie: Prairie,
+    view: object,
+    projection: object,
+    size: tuple[int, int],
+    *,
+    samples: int = 4,
+    reach: int | None = None,
+) -> Truth:
+    """Return the reference picture of a prairie that has been drawn, and how sure it is.
 
     Each pixel is the mean of `samples` by `samples` of a larger picture, in display space as blending is. With
     `reach`, blades stand only up to this discrete distance, and beyond it lies the carpet that the prairie draws. The
@@ -217,15 +243,19 @@ def draw_reference(
             thing.release()
 
 
-def box_filtered(target: moderngl.Framebuffer, size: tuple[int, int], samples: int) -> NDArray[np.uint8]:
+def box_filtered(target: moderngl.Framebuffer, size: tuple[int, int], samples: int) -> Truth:
     """Return a framebuffer's picture with `samples` by `samples` pixels averaged into each, top row first."""
     width, height = size
     fine = np.frombuffer(target.read(components=3, alignment=1), np.uint8)
     fine = fine.reshape(height, samples, width, samples, 3)
-    total = np.zeros((height, width, 3), np.uint32)
+    halves = np.zeros((2, height, width, 3), np.uint32)
     for down, across in np.ndindex(samples, samples):  # many times as fast as one sum over two axes
-        total += fine[:, down, :, across]
-    return np.ascontiguousarray(np.round(total / (samples * samples)).astype(np.uint8)[::-1])
+        halves[(down + across) % 2] += fine[:, down, :, across]
+    count = samples * samples
+    one, other = halves[0] / max(count - count // 2, 1), halves[1] / max(count // 2, 1)
+    doubt = 0.5 * (one - other) if count > 1 else np.zeros_like(one)
+    picture = np.round(halves.sum(axis=0) / count).astype(np.uint8)
+    return Truth(np.ascontiguousarray(picture[::-1]), np.ascontiguousarray(doubt[::-1], np.float32))
 
 
 def cropped(

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ...engine.camera import View, view_of
 from ...engine.declared.quality import Quality
 from ...systems.light.color import decoded
-from ...systems.reference import EveryBlade, draw_reference, patch_distances, seen_cells
+from ...systems.reference import EveryBlade, Truth, draw_reference, draw_truth, patch_distances, seen_cells
 from ...systems.show.registry import NAMES
 from ..studio.encode import Picture, make_folder, picture_writer
 from ..studio.errors import MachineError
@@ -48,7 +48,7 @@ class Pictures:
     msaa: Picture | None
     """Every blade, several samples a pixel; None where the driver has not so many."""
 
-    reference: Picture
+    truth: Truth
     other_seed: Picture
     distance: NDArray[np.int32]
     """Discrete distance, -1 for the sky, shape (height, width)."""
@@ -83,7 +83,7 @@ def measured(take: Take, output: str | None = None, /) -> dict[str, Any]:
             "machine": machine(studio.ctx), "scene": take.scene, "preset": take.preset or own_preset(studio.prairie),
         }  # fmt: skip
         if output is not None:
-            beside = np.concatenate([pictures.lod, pictures.reference], axis=1)
+            beside = np.concatenate([pictures.lod, pictures.truth.picture], axis=1)
             name = str(Path(output) / f"{Path(take.scene).stem}.png")
             picture_writer(name)(beside, about(studio.prairie.scene, take, time=studio.prairie.time))
         return {**head, "size": list(take.size), "frames": 1, **compare(pictures, studio.prairie.site.quality)}
@@ -99,7 +99,7 @@ def _draw(studio: Studio, way: Course) -> Pictures:
         lod = studio.read()
         all_3d, msaa = _every_blade(studio, view_of(view, projection))
     with way.part("the reference"):
-        reference = draw_reference(prairie, view, projection, size, samples=SAMPLES)
+        truth = draw_truth(prairie, view, projection, size, samples=SAMPLES)
         distance = patch_distances(prairie, view, projection, size)
     with way.part("unrelated grass"):
         other = prairie.reseeded(prairie.scene.seed + OTHER_SEED)
@@ -108,7 +108,7 @@ def _draw(studio: Studio, way: Course) -> Pictures:
         other.draw(view, projection)
         unrelated = draw_reference(other, view, projection, size, samples=SAMPLES)
         other.release()
-    return Pictures(lod, all_3d, msaa, reference, unrelated, distance)
+    return Pictures(lod, all_3d, msaa, truth, unrelated, distance)
 
 
 def _every_blade(studio: Studio, view: View) -> tuple[Picture, Picture | None]:
@@ -132,17 +132,17 @@ def _every_blade(studio: Studio, view: View) -> tuple[Picture, Picture | None]:
 def compare(pictures: Pictures, quality: Quality) -> dict[str, object]:
     """Return the benchmark's figures: FLIP of each picture, the scores, the contrast, and the bands."""
     flips = {
-        name: flip(picture, pictures.reference)
+        name: flip(picture, pictures.truth.picture)
         for name in ("lod", "all_3d", "msaa", "other_seed")
         if (picture := getattr(pictures, name)) is not None
     }
-    kept = contrast(pictures.lod, pictures.reference, pictures.distance >= 0)
+    kept = contrast(pictures.lod, pictures.truth, pictures.distance >= 0)
     return {
         "flip": {"msaa": None} | {name: round(value, 5) for name, value in flips.items()},
         "score": score(flips, "all_3d"),
         "score_msaa": score(flips, "msaa"),
         "contrast": None if kept is None else round(kept, 4),
-        "bands": bands(pictures.lod, pictures.reference, pictures.distance, quality),
+        "bands": bands(pictures.lod, pictures.truth.picture, pictures.distance, quality),
     }
 
 

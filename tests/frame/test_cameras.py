@@ -19,7 +19,7 @@ from tallgrass.app.bench.contrast import contrast
 from tallgrass.app.bench.picture import MOMENT, bands, flip
 from tallgrass.engine.camera import camera_at
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.reference import draw_reference, patch_distances
+from tallgrass.systems.reference import draw_truth, patch_distances
 from tallgrass.testing import Stage
 
 pytest.importorskip("flip_evaluator")
@@ -64,15 +64,15 @@ def measured(stage: Stage, prairie: Prairie) -> Figures:
     stage.begin()
     prairie.draw(view, projection)
     seen = stage.read().astype("uint8")
-    true = draw_reference(prairie, view, projection, SIZE, samples=SAMPLES)
+    truth = draw_truth(prairie, view, projection, SIZE, samples=SAMPLES)
     distance = patch_distances(prairie, view, projection, SIZE)
-    rows = bands(seen, true, distance, prairie.site.quality)
-    kept = contrast(seen, true, distance >= 0)
+    rows = bands(seen, truth.picture, distance, prairie.site.quality)
+    kept = contrast(seen, truth, distance >= 0)
     return {
         "luminance": round(max(abs(float(str(row["luminance_ratio"])) - 1.0) for row in rows), 4),
         "hue": max(float(str(row["hue_degrees"])) for row in rows),
         "contrast": 1.0 if kept is None else round(kept, 4),
-        "flip": round(flip(seen, true), 5),
+        "flip": round(flip(seen, truth.picture), 5),
     }
 
 

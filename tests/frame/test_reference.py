@@ -163,9 +163,12 @@ def test_supersampling_is_the_mean_of_each_pixels_samples(ctx: moderngl.Context)
     fine = np.random.default_rng(0).integers(0, 256, (12, 20, 3), dtype=np.uint8)
     texture = ctx.texture((20, 12), 3, fine.tobytes(), alignment=1)
     target = ctx.framebuffer([texture])
-    coarse = box_filtered(target, (5, 3), 4)
+    told = box_filtered(target, (5, 3), 4)
     expected = fine.reshape(3, 4, 5, 4, 3).mean(axis=(1, 3))[::-1]
-    np.testing.assert_allclose(coarse, expected, atol=0.51)
+    np.testing.assert_allclose(told.picture, expected, atol=0.51)
+    white = np.indices((4, 4)).sum(axis=0)[None, :, None, :, None] % 2 == 0
+    halves = [np.where(half, fine.reshape(3, 4, 5, 4, 3), 0).sum(axis=(1, 3))[::-1] / 8.0 for half in (white, ~white)]
+    np.testing.assert_allclose(told.doubt, 0.5 * (halves[0] - halves[1]), atol=1e-4)
     target.release()
     texture.release()
 

@@ -96,7 +96,7 @@ vec2 elevation_seen(float slope) {
 
 const float GRAIN = 1.5;  // how far images are from their mean, for what filtering takes away
 const float SHARP = 0.4;  // size of what is taken from the images for a pixel, of the pixel's own
-const float SHARP_ABOVE = 0.5;  // the same from above, where grass hides less of other grass
+const float SHARP_ABOVE = 0.34;  // the same from above, where grass hides less of other grass
 const float LEAST_MET = 0.004;  // of a kind, as a part of all that is: of less, nothing is seen
 const float EDGE = 15.0;  // how far within the terrain's edge outlines become those that something lies beneath [m]
 const float LEAST = 0.01; // height of the carpet where nothing grows, so that nothing is divided by 0 [m]
