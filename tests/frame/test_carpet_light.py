@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from tallgrass.components.pose import Pose
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.reference import draw_reference
 from tallgrass.systems.wind.blast import Blast, Shape
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.testing import Stage
@@ -67,3 +68,16 @@ def test_f6_only_where_a_wind_bends_it_the_carpet_is_lit_otherwise(room: Stage, 
     under, beyond = (from_middle > 1.5) & (from_middle < RADIUS - 1.5), from_middle > RADIUS + 2.0 * PATCH
     assert change[under].mean() > 0.04
     assert change[beyond].max() < 0.015
+
+
+def test_f2_from_above_the_carpet_hides_as_much_more_of_the_ground_as_bent_blades_do(room: Stage, load: Load) -> None:
+    """Pale grass on dark ground: how bright it is tells how much of the ground is hidden."""
+    pale = CALM.replace("width: 0.02", 'width: 0.02, understorey: 0, root: "#c8c890", tip: "#c8c890"')
+    prairie = load(pale + 'light: { ground: "#201810" }\n', lod="carpet")
+    above, ratios = Camera((0.0, 20.0, 0.0), 0.3, -np.pi / 2.0, np.radians(30.0)), []
+    for strength in (0.0, 0.3, 0.6, 0.9):
+        wind = prairie.add(Breeze(direction=40.0, strength=strength, gustiness=0.0, swing=0.0), pose=Pose())
+        seen = room.shot(prairie, above).mean()
+        ratios.append(seen / draw_reference(prairie, *room.matrices(above), room.size, samples=2).mean())
+        prairie.remove(wind)
+    np.testing.assert_allclose(ratios[1:], ratios[0], rtol=0.035)

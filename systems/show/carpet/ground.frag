@@ -67,6 +67,7 @@ uniform vec4 heads[KINDS];
 in vec3 direct;
 in vec3 open_to;
 in vec4 shade;
+in float lies;
 #if KINDS > 4
 vec3 dry;
 #else
@@ -96,7 +97,7 @@ vec2 elevation_seen(float slope) {
 
 const float GRAIN = 1.5;  // how far images are from their mean, for what filtering takes away
 const float SHARP = 0.4;  // size of what is taken from the images for a pixel, of the pixel's own
-const float SHARP_ABOVE = 0.34;  // the same from above, where grass hides less of other grass
+const float SHARP_ABOVE = 0.38;  // the same from above, where grass hides less of other grass
 const float LEAST_MET = 0.004;  // of a kind, as a part of all that is: of less, nothing is seen
 const float EDGE = 15.0;  // how far within the terrain's edge outlines become those that something lies beneath [m]
 const float LEAST = 0.01; // height of the carpet where nothing grows, so that nothing is divided by 0 [m]
@@ -120,18 +121,18 @@ Sum trodden_light(float slope) {
     vec2 message = message_at(place.xz), messages[KINDS], blown[KINDS];
     float most = 0.0;
     for (int kind = 0; kind < KINDS; kind++) {
-        vec2 lies = pressing(place.xz, kind);
-        most = max(most, length(lies));
+        vec2 pressed = pressing(place.xz, kind);
+        most = max(most, length(pressed));
         blown[kind] = message;
-        messages[kind] = laid_over(message, lies);
+        messages[kind] = laid_over(message, pressed);
     }
-    Sum sum = Sum(direct, open_to, shade);
+    Sum sum = Sum(direct, open_to, shade, lies);
     if (most < 1e-3)
         return sum;
     vec4 here = lie_at(there.xz);
-    Sum with = summed(met, there, here, messages), without = summed(met, there, here, blown);
+    Sum with = summed(met, there, here, messages, slope), without = summed(met, there, here, blown, slope);
     return Sum(max(sum.direct + with.direct - without.direct, 0.0),
-               max(sum.open_to + with.open_to - without.open_to, 0.0), sum.shade + with.shade - without.shade);
+               max(sum.open_to + with.open_to - without.open_to, 0.0), sum.shade + with.shade - without.shade, max(lies + with.lies - without.lies, 0.0));
 }
 #endif
 
@@ -152,10 +153,12 @@ vec3 carpet_seen(float slope, vec3 below) {
     dx *= fine;
     dy *= fine;
     Lit lit = Lit(direct, open_to, shade.x, vec2(shade.y, OPEN_SKY), shade.zw);
+    float between = exp(-lies);  // what is seen between blades, of that between blades at rest
 #ifdef TRODDEN
     if (trodden_at(place.xz)) {
         Sum light = trodden_light(slope);
         lit = Lit(light.direct, light.open_to, light.shade.x, vec2(light.shade.y, OPEN_SKY), light.shade.zw);
+        between = exp(-light.lies);
     }
 #endif
     // A blade's doubled azimuth against the line of sight; what it is against the world's axes is as far turned.
@@ -179,12 +182,12 @@ vec3 carpet_seen(float slope, vec3 below) {
         image.rgb = clamp(image.rgb, 0.0, image.a);
         vec3 mean_of = image.rgb / max(image.a, 1e-3);
         Lit met_by = lit;
-        float covers = image.a;
+        float covers = 1.0 - (1.0 - image.a) * between;
 #ifdef HEADS
         float more = OF(riper, kind);
         mean_of.r += more * (more > 0.0 ? 1.0 - mean_of.r : mean_of.r);
         // What stands scattered among others has what is met of it where it stands, and nothing between.
-        covers = heads[kind].y > 0.0 ? image.a / max(mean.a, 0.02) : image.a;
+        covers = heads[kind].y > 0.0 ? image.a / max(mean.a, 0.02) : covers;
 #endif
 #ifdef MOWN
         // What is left is taken for the same grass pressed together.

@@ -31,6 +31,7 @@ out float dense; // leaf area seen from the side, of the ground's area
 out vec3 direct;  // light on leaves of the kinds that are met: the sun's
 out vec3 open_to; // the sky's
 out vec4 shade;   // what they mirror; leaves that the sun's light meets; leaf area above them, and from there to the ground
+out float lies;   // how many more leaves are met, for how grass is bent
 #if KINDS > 4
 vec3 dry;
 #else
@@ -44,10 +45,11 @@ void light_up(float slope) {
     vec2 message = message_at(place.xz), messages[KINDS];
     for (int kind = 0; kind < KINDS; kind++)
         messages[kind] = message;
-    Sum sum = summed(met, there, here, messages);
+    Sum sum = summed(met, there, here, messages, slope);
     direct = sum.direct;
     open_to = sum.open_to;
     shade = sum.shade;
+    lies = sum.lies;
     dry = stretch(here);
 }
 #endif

@@ -10,7 +10,18 @@ struct Sum {
     vec3 direct;   // light on leaves of the kinds that are met: the sun's
     vec3 open_to;  // the sky's
     vec4 shade;    // what they mirror; leaves that the sun's light meets; leaf area above them, and from there to the ground
+    float lies;    // how many more leaves a line of sight meets where grass stands densely, for how it is bent
 };
+
+const float LAID = 0.8, SLANTED = 0.85;  // sines of how far a blade lies over, of its posture index: from above and from the side
+
+// How many more leaves a line of sight of some slope meets of a kind that is bent so, where it stands densely: more of its
+// leaf area is seen from above, and less from the side.
+float laid(int kind, vec2 bend, float slope) {
+    float lies = OF(lying, kind), bent = min(dot(bend, bend), 1.0);
+    float above = sqrt(lies * lies + LAID * LAID * bent) - lies, aside = 1.0 - sqrt(1.0 - SLANTED * SLANTED * bent);
+    return max(above - aside / max(slope, 0.1), 0.0) * OF(leaf, kind);
+}
 
 // The wind's message; far off, where nobody asks for it, the mean of those nearer by.
 vec2 message_at(vec2 at) {
@@ -21,15 +32,17 @@ vec2 message_at(vec2 at) {
 }
 
 // The light there on each kind as its message has bent it, in the mean of all that are met.
-Sum summed(ByKind met, vec3 there, vec4 here, vec2 messages[KINDS]) {
+Sum summed(ByKind met, vec3 there, vec4 here, vec2 messages[KINDS], float slope) {
     ByKind grows = grows_at(there.xz);
-    Sum sum = Sum(vec3(0.0), vec3(0.0), vec4(0.0));
+    Sum sum = Sum(vec3(0.0), vec3(0.0), vec4(0.0), 0.0);
     for (int kind = 0; kind < KINDS; kind++) {
-        Lit lit = lit_at(kind, bending(kind, messages[kind]), there, here, grows);
+        vec2 bend = bending(kind, messages[kind]);
+        Lit lit = lit_at(kind, bend, there, here, grows);
         sum.direct += OF(met, kind) * lit.sun;
         sum.open_to += OF(met, kind) * lit.sky;
         sum.shade += OF(met, kind) * vec4(lit.gloss, lit.way.x, lit.leaves);
+        sum.lies += OF(met, kind) * laid(kind, bend, slope);
     }
     float all = 1.0 / max(total(met), 1e-4);
-    return Sum(sum.direct * all, sum.open_to * all, sum.shade * all);
+    return Sum(sum.direct * all, sum.open_to * all, sum.shade * all, sum.lies * all);
 }
