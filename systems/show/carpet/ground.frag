@@ -45,8 +45,10 @@ float left_seen() {
 #include "lib/random.glsl"
 #include "lib/shares.glsl"
 #include "lib/carpet.glsl"
-#ifdef TRODDEN
+#if defined(TRODDEN) || KINDS > 4
 #include "systems/show/carpet/lit.glsl"
+#endif
+#ifdef TRODDEN
 #include "systems/press/press.glsl"
 #endif
 uniform sampler2DArray images;  // place along the blade, height, twice the azimuth, coverage; premultiplied
@@ -70,8 +72,10 @@ in vec4 shade;
 in float lies;
 #if KINDS > 4
 vec3 dry;
+vec2 sways;
 #else
 in vec3 dry;
+in vec2 sways;
 #endif
 
 // The rotation that turns the line of sight into the heading of the images that are taken: of four headings, one on each
@@ -126,13 +130,13 @@ Sum trodden_light(float slope) {
         blown[kind] = message;
         messages[kind] = laid_over(message, pressed);
     }
-    Sum sum = Sum(direct, open_to, shade, lies);
+    Sum sum = Sum(direct, open_to, shade, lies, sways);
     if (most < 1e-3)
         return sum;
     vec4 here = lie_at(there.xz);
     Sum with = summed(met, there, here, messages, slope), without = summed(met, there, here, blown, slope);
     return Sum(max(sum.direct + with.direct - without.direct, 0.0),
-               max(sum.open_to + with.open_to - without.open_to, 0.0), sum.shade + with.shade - without.shade, max(lies + with.lies - without.lies, 0.0));
+               max(sum.open_to + with.open_to - without.open_to, 0.0), sum.shade + with.shade - without.shade, max(lies + with.lies - without.lies, 0.0), sways + with.sways - without.sways);
 }
 #endif
 
@@ -143,7 +147,6 @@ vec3 carpet_seen(float slope, vec3 below) {
     int model = int(drawn % uint(stock.x)), side = int(drawn >> 16u) & 3;
     vec3 ray = place - eye.xyz;
     vec2 heading = ray.xz / max(length(ray.xz), 1e-4), turn = turned(heading, side);
-    vec2 at = rotated(place.xz / soil.w - vec2(cell) - 0.5, turn) + 0.5;
     vec2 dx = dFdx(place.xz) / soil.w, dy = dFdy(place.xz) / soil.w;
     float fine = sharper(dx, dy);
     float texels = fine * max(length(dx), length(dy)) * float(textureSize(images, 0).x);
@@ -154,13 +157,16 @@ vec3 carpet_seen(float slope, vec3 below) {
     dy *= fine;
     Lit lit = Lit(direct, open_to, shade.x, vec2(shade.y, OPEN_SKY), shade.zw);
     float between = exp(-lies);  // what is seen between blades, of that between blades at rest
+    vec2 moved = sways;
 #ifdef TRODDEN
     if (trodden_at(place.xz)) {
         Sum light = trodden_light(slope);
         lit = Lit(light.direct, light.open_to, light.shade.x, vec2(light.shade.y, OPEN_SKY), light.shade.zw);
         between = exp(-light.lies);
+        moved = light.sways;
     }
 #endif
+    vec2 at = rotated((place.xz - moved) / soil.w - vec2(cell) - 0.5, turn) + 0.5;
     // A blade's doubled azimuth against the line of sight; what it is against the world's axes is as far turned.
     float sight = heading.x * heading.x - heading.y * heading.y, aside = 2.0 * heading.x * heading.y;
     vec2 seen = elevation_seen(slope);
@@ -221,6 +227,7 @@ void work_out() {
 #endif
 #if defined(CARPET) && !defined(UNDER)
     dry = stretch(lie_at(seen_at(place, viewing_slope(rise, place), tall, dense).xz));
+    sways = SWAYS * tall * message_at(place.xz);
 #endif
 }
 #endif

@@ -11,7 +11,10 @@ struct Sum {
     vec3 open_to;  // the sky's
     vec4 shade;    // what they mirror; leaves that the sun's light meets; leaf area above them, and from there to the ground
     float lies;    // how many more leaves a line of sight meets where grass stands densely, for how it is bent
+    vec2 sways;    // how far they are moved by that [m]
 };
+
+const float SWAYS = 0.35;  // how far leaves are moved that are seen, of the canopy's height and the posture index
 
 const float LAID = 0.8, SLANTED = 0.85;  // sines of how far a blade lies over, of its posture index: from above and from the side
 
@@ -34,7 +37,7 @@ vec2 message_at(vec2 at) {
 // The light there on each kind as its message has bent it, in the mean of all that are met.
 Sum summed(ByKind met, vec3 there, vec4 here, vec2 messages[KINDS], float slope) {
     ByKind grows = grows_at(there.xz);
-    Sum sum = Sum(vec3(0.0), vec3(0.0), vec4(0.0), 0.0);
+    Sum sum = Sum(vec3(0.0), vec3(0.0), vec4(0.0), 0.0, vec2(0.0));
     for (int kind = 0; kind < KINDS; kind++) {
         vec2 bend = bending(kind, messages[kind]);
         Lit lit = lit_at(kind, bend, there, here, grows);
@@ -42,7 +45,8 @@ Sum summed(ByKind met, vec3 there, vec4 here, vec2 messages[KINDS], float slope)
         sum.open_to += OF(met, kind) * lit.sky;
         sum.shade += OF(met, kind) * vec4(lit.gloss, lit.way.x, lit.leaves);
         sum.lies += OF(met, kind) * laid(kind, bend, slope);
+        sum.sways += OF(met, kind) * SWAYS * OF(crown, kind) * bend;
     }
     float all = 1.0 / max(total(met), 1e-4);
-    return Sum(sum.direct * all, sum.open_to * all, sum.shade * all, sum.lies * all);
+    return Sum(sum.direct * all, sum.open_to * all, sum.shade * all, sum.lies * all, sum.sways * all);
 }
