@@ -119,13 +119,17 @@ const float LEAST_MET = 0.004;  // of a kind, as a part of all that is: of less,
 const float EDGE = 15.0;  // how far within the terrain's edge outlines become those that something lies beneath [m]
 const float LEAST = 0.01; // height of the carpet where nothing grows, so that nothing is divided by 0 [m]
 
+// How far below the top of the grass a line of sight comes at most, of its height: over a crest of this curvature it would
+// have to be higher by so much.
+float deepest(float slope) {
+    return slope * slope / (2.0 * max(crest, 1e-5)) / max(tall, LEAST);
+}
+
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,
 // whose leaf area falls off linearly with height, meets leaves of (deep / tall)^2 times the whole.
 float outline_cover(float slope) {
     slope = max(slope, 1e-4);
-    float height = max(tall, LEAST);
-    // Over a crest of this curvature the line of sight would have to be higher by so much.
-    float before_crest = slope * slope / (2.0 * max(crest, 1e-5)) / height;
+    float before_crest = deepest(slope);
     float leaves = dense / slope;
     float hidden = 1.0 - exp(-CREST * leaves * before_crest * before_crest);
     return mix(1.0, hidden, smoothstep(0.0, 2.0 * LEAST, tall));  // bare ground is its own outline
@@ -237,7 +241,9 @@ vec3 carpet_seen(float slope, vec3 below, vec2 among) {
 #ifdef HEADS
     sum /= max(sum.a, 1.0);
 #endif
-    sum *= among.x;
+    // Who sees past grass over a crest sees no ground there, but the grass behind.
+    float ends = smoothstep(0.5, 1.5, deepest(slope));
+    sum *= among.x * mix(1.0 / max(sum.a, 0.05), 1.0, ends);
     return sum.rgb + below * (1.0 - min(sum.a, 1.0));
 }
 
