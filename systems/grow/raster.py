@@ -37,19 +37,27 @@ class Fragments:
 
 
 def rasterise(
-    corners: Doubles, nearness: Doubles, /, *, shape: tuple[int, int], wrap: bool = False, chunk: int = _CHUNK
+    corners: Doubles,
+    nearness: Doubles,
+    /,
+    *,
+    shape: tuple[int, int],
+    wrap: bool = False,
+    shift: int = 0,
+    chunk: int = _CHUNK,
 ) -> Fragments:
     """Return what each sample of an image shows of triangles: the nearest one.
 
     `corners` are (x, y) in samples, shape (n, 3, 2): sample (row, column) lies at y = row + 0.5 and somewhere
     between x = column and column + 1, staggered from row to row over every four rows. `nearness` is larger
-    nearer to the eye, shape (n, 3). With `wrap` the image is a torus; without it, what lies outside is cut
-    off. `chunk` bounds the fragments that are held at a time.
+    nearer to the eye, shape (n, 3). With `wrap` the image is a torus, which is twisted by `shift` rows: who goes over its
+    last column comes back so many rows lower, at a smaller number. Without it, what lies outside is cut off. `chunk`
+    bounds the fragments that are held at a time.
     """
     planes = plane_of(corners, nearness)
     low, high = (float(nearness.min()), float(nearness.max())) if nearness.size else (0.0, 0.0)
     scale = (2.0**32 - 1.0) / max(high - low, 1e-12)
-    seen = _Seen(shape, wrap=wrap)
+    seen = _Seen(shape, wrap=wrap, shift=shift)
     for triangle, row, column in _samples_inside(corners, shape, wrap=wrap, chunk=chunk):
         x, y = _across(row, column), _centre(row)
         steps = np.clip((_value(planes, triangle, x, y) - low) * scale, 0.0, 2.0**32 - 1.0).astype(np.uint64)
@@ -86,8 +94,8 @@ def ribbon_triangles(left: Doubles, right: Doubles, /) -> Doubles:
 class _Seen:
     """The nearest triangle at each sample so far."""
 
-    def __init__(self, shape: tuple[int, int], *, wrap: bool) -> None:
-        self._shape = shape
+    def __init__(self, shape: tuple[int, int], *, wrap: bool, shift: int) -> None:
+        self._shape, self._shift = shape, shift
         self._best = np.zeros(shape[0] * shape[1], np.uint64)
         self._met = [np.empty(len(self._best), np.int32) for _ in shape] if wrap else None
 
@@ -97,7 +105,9 @@ class _Seen:
         if self._met is None:
             np.maximum.at(self._best, row * columns + column, key)
             return
-        sample = (row - row // rows * rows) * columns + (column - column // columns * columns)
+        round_it = column // columns
+        wrapped = row - self._shift * round_it
+        sample = (wrapped - wrapped // rows * rows) * columns + (column - round_it * columns)
         np.maximum.at(self._best, sample, key)
         wins = np.flatnonzero(self._best.take(sample) == key)
         where = sample.take(wins)

@@ -52,8 +52,9 @@ float left_seen() {
 #include "systems/press/press.glsl"
 #endif
 uniform sampler2DArray images;  // place along the blade, height, twice the azimuth, coverage; premultiplied
-uniform float slopes[SLOPES];   // logarithms of their viewing slopes
+uniform float slopes[SLOPES];   // their viewing slopes
 uniform ByKind first;           // by kind: first layer of the images
+uniform ByKind tops;            // by kind: how high the images reach, of the canopy's height
 uniform ivec2 stock;            // patch models; seed
 
 in float carpet;
@@ -89,14 +90,32 @@ vec2 rotated(vec2 v, vec2 by) {
     return vec2(by.x * v.x - by.y * v.y, by.y * v.x + by.x * v.y);
 }
 
+const int LEVEL = 2;  // so many of the lowest images show grass that hides most of itself
+
+// How deep in the grass what lines of sight of some slopes meet is, of its height: the mean of what is met of leaf area
+// that falls off linearly with height, to 4 %.
+vec3 mean_depth(vec3 slope) {
+    vec3 leaves = 1.273 * max(dense, 0.02) / slope;
+    return inversesqrt(sqrt(5.06 + leaves * leaves));
+}
+
 // Which of the viewing elevations' images a ray sees: the first of two by number, and how far it is on the way to the next.
-// A ray meets leaves as the reciprocal of its slope, so the way is told by the slope's logarithm.
+// At a low angle the way is told by how deep in the grass what it meets is in the mean, so that the mean of two images is as
+// deep; from above, where it meets leaves as the reciprocal of its slope, by the slope's logarithm.
 vec2 elevation_seen(float slope) {
-    float row = 0.0, at = log(max(slope, 1e-4));
-    for (int i = 0; i < SLOPES - 1; i++)
-        row += clamp((at - slopes[i]) / (slopes[i + 1] - slopes[i]), 0.0, 1.0);
-    float low = min(floor(row), float(SLOPES - 2));
-    return vec2(low, row - low);
+    slope = max(slope, slopes[0]);
+    int low = 0;
+    while (low < SLOPES - 2 && slope > slopes[low + 1])
+        low++;
+    vec3 of = vec3(slope, slopes[low], slopes[low + 1]), at = low < LEVEL ? mean_depth(of) : log(of);
+    return vec2(float(low), clamp((at.x - at.y) / (at.z - at.y), 0.0, 1.0));
+}
+
+// How much more grass hides, seen at a slope between those of two images, than the mean of both: by the leaves that
+// the steeper one shows it to have, of which a line of sight meets the more the lower it is.
+float filled(float steeper, vec2 seen, float slope, float mean) {
+    float meets = slopes[int(seen.x) + 1] / max(slope, slopes[0]);
+    return (1.0 - pow(max(1.0 - steeper, 1e-3), meets)) / max(mean, 0.01);
 }
 
 const float GRAIN = 1.5;  // how far images are from their mean, for what filtering takes away
@@ -106,13 +125,17 @@ const float LEAST_MET = 0.004;  // of a kind, as a part of all that is: of less,
 const float EDGE = 15.0;  // how far within the terrain's edge outlines become those that something lies beneath [m]
 const float LEAST = 0.01; // height of the carpet where nothing grows, so that nothing is divided by 0 [m]
 
+// How far below the top of the grass a line of sight comes at most, of its height: over a crest of this curvature it would
+// have to be higher by so much.
+float deepest(float slope) {
+    return slope * slope / (2.0 * max(crest, 1e-5)) / max(tall, LEAST);
+}
+
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,
 // whose leaf area falls off linearly with height, meets leaves of (deep / tall)^2 times the whole.
 float outline_cover(float slope) {
     slope = max(slope, 1e-4);
-    float height = max(tall, LEAST);
-    // Over a crest of this curvature the line of sight would have to be higher by so much.
-    float before_crest = slope * slope / (2.0 * max(crest, 1e-5)) / height;
+    float before_crest = deepest(slope);
     float leaves = dense / slope;
     float hidden = 1.0 - exp(-CREST * leaves * before_crest * before_crest);
     return mix(1.0, hidden, smoothstep(0.0, 2.0 * LEAST, tall));  // bare ground is its own outline
@@ -140,8 +163,20 @@ Sum trodden_light(float slope) {
 }
 #endif
 
+// Among strips, how much of the carpet's grass is seen, and how high in the grass it stands, of what it is without them.
+// It lies at RAISED of its share of their height, and hides what they have below: what stands out has met the line of
+// sight before, high up, and leaves to the carpet what both together would not hide or have met deeper down.
+vec2 among_strips(float share, float slope) {
+    float leaves = dense / max(slope, slopes[0]), out_of_it = 1.0 - RAISED * share;
+    float before = out_of_it * out_of_it - (1.0 - RAISED) * (1.0 - RAISED) * share * share * share * share;
+    vec2 depth = mean_depth(vec3(1.0, 1.0 / max(before, 1e-3), 1.0) * max(slope, slopes[0])).xy;
+    float all = 1.0 - exp(-leaves), strips = 1.0 - exp(-leaves * before), left = max(all - strips, 1e-4);
+    float own = (all * depth.x - strips * out_of_it * depth.y) / left;
+    return vec2((1.0 - exp(-leaves * (1.0 - before))) / max(all, 1e-4), clamp((1.0 - own) / (1.0 - depth.x), 0.0, 1.0));
+}
+
 // What the carpet shows: of grass and of the ground between, as much as there is of each, as of blades in front of it.
-vec3 carpet_seen(float slope, vec3 below) {
+vec3 carpet_seen(float slope, vec3 below, vec2 among) {
     ivec2 cell = ivec2(floor(place.xz / soil.w));
     uint drawn = hash3(stock.y, cell.x, cell.y);
     int model = int(drawn % uint(stock.x)), side = int(drawn >> 16u) & 3;
@@ -181,12 +216,16 @@ vec3 carpet_seen(float slope, vec3 below) {
     for (int kind = next_kind(met, LEAST_MET, 0); kind < KINDS; kind = next_kind(met, LEAST_MET, kind + 1)) {
         float layer = OF(first, kind) + float((model * SLOPES + int(seen.x)) * 4 + side);
         vec3 low = vec3(at, layer), high = vec3(at, layer + 4.0);
-        vec4 mean = mix(textureLod(images, low, COARSEST), textureLod(images, high, COARSEST), seen.y);
+        vec4 mean_low = textureLod(images, low, COARSEST), mean_high = textureLod(images, high, COARSEST);
+        vec4 mean = mix(mean_low, mean_high, seen.y);
         vec4 image = mix(textureGrad(images, low, dx, dy), textureGrad(images, high, dx, dy), seen.y);
         image = mean + (image - mean) * grain;
+        image *= filled(mean_high.a, seen, slope, mean.a);
         image.a = clamp(image.a, 0.0, 1.0);
         image.rgb = clamp(image.rgb, 0.0, image.a);
         vec3 mean_of = image.rgb / max(image.a, 1e-3);
+        mean_of.rg *= among.y;
+        mean_of.g *= OF(tops, kind);
         Lit met_by = lit;
         float covers = 1.0 - (1.0 - image.a) * between;
 #ifdef HEADS
@@ -199,7 +238,7 @@ vec3 carpet_seen(float slope, vec3 below) {
         // What is left is taken for the same grass pressed together.
         if (cut) {
             float part = min(left / max(OF(crown, kind), 0.01), 1.0);
-            float uneven = 1.0 + STUBBLE * (mean_of.g / max(mean.g / max(mean.a, 1e-3), 1e-3) - 1.0);
+            float uneven = 1.0 + STUBBLE * (mean_of.g / max(OF(tops, kind) * mean.g / max(mean.a, 1e-3), 1e-3) - 1.0);
             covers = mix(min(stubble * uneven, 1.0), covers, part);
             mean_of.rg *= part;
             met_by = mown_to(left, lit, kind, leaf_area);
@@ -212,6 +251,9 @@ vec3 carpet_seen(float slope, vec3 below) {
 #ifdef HEADS
     sum /= max(sum.a, 1.0);
 #endif
+    // Who sees past grass over a crest sees no ground there, but the grass behind.
+    float ends = smoothstep(0.5, 1.5, deepest(slope));
+    sum *= among.x * mix(1.0 / max(sum.a, 0.05), 1.0, ends);
     return sum.rgb + below * (1.0 - min(sum.a, 1.0));
 }
 
@@ -259,9 +301,8 @@ void main() {
     float covered = mix(1.0, outline_cover(slope), share * within);
     if (covered < 0.004)
         discard;
-    // Among strips less of it is seen than its share: they hide it, and would be too bright with all of it between them.
     if (share > 0.0)
-        color = mix(color, carpet_seen(slope, color), share * share);
+        color = carpet_seen(slope, color, share < 1.0 ? among_strips(share, slope) : vec2(1.0));
     pixel = vec4(color, 1.0) * covered;
 #else
     pixel = vec4(color, 1.0);

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ....engine.gl.stream import Stream, release_all
 from ....engine.terrain.record import Terrain
+from ...around.canopy import canopy_height
 from ...around.cone import beyond_cone
 from ...frame.block import FrameBlock, by_kind, joined
 from ...grow.record import Growth
@@ -174,7 +175,7 @@ class GroundPainter:
         self.grid = ctx.buffer(corners), ctx.buffer(indices)
         self.streams = Stream(ctx, TILE), Stream(ctx, TILE), Stream(ctx, TILE)
         slopes = carpet_of(growths[0].models[0]).slope
-        laid: dict[str, str | int] = {"CARPET": 1, "STRETCH": STRETCH, "SLOPES": len(slopes)}
+        laid: dict[str, str | int] = {"CARPET": 1, "STRETCH": STRETCH, "RAISED": str(RAISED), "SLOPES": len(slopes)}
         laid |= {"HEADS": 1} if any_heads(growths) else {}
 
         def layer(defines: dict[str, str | int], stream: Stream) -> _Layer:
@@ -195,7 +196,8 @@ class GroundPainter:
         self._make_trodden = partial(layer, {**laid, "TRODDEN": 1}, self.streams[2])
         images = [len(growth.models) * len(slopes) * 4 for growth in growths]
         self._told: dict[str, object] = {
-            "slopes": np.log(slopes).tolist(),
+            "slopes": slopes.tolist(),
+            "tops": by_kind([carpet_of(growth.models[0]).height / canopy_height(growth) for growth in growths]),
             "first": by_kind([sum(images[:index]) for index in range(len(images))]),
             "stock": (len(growths[0].models), seed),
         }

@@ -61,12 +61,26 @@ void light_up(float slope) {
 #endif
 
 // What is met of each kind, as parts of all the grass that there is.
-ByKind shared_out(ByKind met, ByKind grows) {
+#ifdef UNDER
+ByKind shared_out(ByKind met, ByKind grows, float slope) {
     float all = max(total(met), 1e-6), least = min(total(grows), 1.0);
     for (int group = 0; group < GROUPS; group++)
         met[group] = met[group] / all * least;
     return met;
 }
+#else
+// Images show how much a kind hides where it grows densely and alone. A line of sight that meets half of its leaves is
+// stopped by more than half as many, and leaves of two kinds stop more than either.
+ByKind shared_out(ByKind met, ByKind grows, float slope) {
+    float all = max(total(met), 1e-6), alone = 0.0, area = total(areas(grows));
+    for (int kind = 0; kind < KINDS; kind++)
+        alone += OF(met, kind) / all * (1.0 - exp(-OF(leaf, kind) / slope));
+    float hides = (1.0 - exp(-area / slope)) / max(alone, 1e-4);
+    for (int group = 0; group < GROUPS; group++)
+        met[group] = met[group] / all * hides;
+    return met;
+}
+#endif
 
 // How much of what a line of sight meets is of each kind: taller kinds hide the others at a low angle. The grass is
 // taken in four layers from the top; its leaf area falls off linearly with height.
@@ -117,7 +131,7 @@ ByKind kinds_met(ByKind grows, float slope, float left) {
         vec4 more = seen - usual;
         riper[group] = mix(more / max(usual, 1e-3), more / max(1.0 - usual, 1e-3), greaterThan(seen, usual));
     }
-    return shared_out(met, grows);
+    return shared_out(met, grows, slope);
 }
 #else
 ByKind kinds_met(ByKind grows, float slope, float left) {
@@ -140,7 +154,7 @@ ByKind kinds_met(ByKind grows, float slope, float left) {
             met[group] += stopped * stop[group] / max(sum, 1e-6);
         through -= stopped;
     }
-    return shared_out(met, grows);
+    return shared_out(met, grows, slope);
 }
 #endif
 

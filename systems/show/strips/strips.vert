@@ -58,7 +58,9 @@ void thin(float dense, float below, float texels) {
 #ifdef MOWN
 const float CROSSED = 1.25;  // strips that a line of sight crosses at least where they do not show as rows
 #endif
-const float FACING = 0.3333;  // mean cosine of twice the azimuth from the eye of blades that face all ways, as they are seen
+// Mean cosine of twice the azimuth from the eye of blades that face all ways, as they are seen: a third by their breadth
+// alone, and more, as broad ones hide narrow ones. Measured on slopes and level ground, with and without wind.
+const float FACING = 0.43;
 const float SHARPER = 0.25;  // how much finer texels are than pixels, in levels: blades would be washed out
 
 // Pixels that a metre is long on the screen, across the line of sight.
