@@ -122,7 +122,6 @@ const float GRAIN = 1.5;  // how far images are from their mean, for what filter
 const float SHARP = 0.4;  // size of what is taken from the images for a pixel, of the pixel's own
 const float SHARP_ABOVE = 0.38;  // the same from above, where grass hides less of other grass
 const float LEAST_MET = 0.004;  // of a kind, as a part of all that is: of less, nothing is seen
-const float EDGE = 15.0;  // how far within the terrain's edge outlines become those that something lies beneath [m]
 const float LEAST = 0.01; // height of the carpet where nothing grows, so that nothing is divided by 0 [m]
 
 // How far below the top of the grass a line of sight comes at most, of its height: over a crest of this curvature it would
@@ -295,10 +294,7 @@ void main() {
 #if defined(CARPET) && !defined(UNDER)
     float slope = viewing_slope(rise, place);
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / soil.w))) : 0.0;
-    // Beyond the terrain nothing lies beneath the carpet that could be seen past its outlines, or past those at the edge.
-    vec2 beside = abs(place.xz - terrain.xy - 0.5 * field.xy) - 0.5 * field.xy;
-    float within = smoothstep(0.0, EDGE, -max(beside.x, beside.y));
-    float covered = mix(1.0, outline_cover(slope), share * within);
+    float covered = mix(1.0, outline_cover(slope), share);
     if (covered < 0.004)
         discard;
     if (share > 0.0)

@@ -109,14 +109,6 @@ def on_terrain(tiles: NDArray[np.void], terrain: Terrain, /) -> NDArray[np.bool_
     return inside
 
 
-def reaches_terrain(tiles: NDArray[np.void], terrain: Terrain, /) -> NDArray[np.bool_]:
-    """Return which tiles (n,) lie on the terrain in part at least, shape (n,)."""
-    low = np.asarray(terrain.origin)
-    corner, side = tiles["tile"][:, :2], tiles["tile"][:, 2:3] * GRID
-    reaching: NDArray[np.bool_] = ((corner < low + terrain.size) & (corner + side > low)).all(axis=1)
-    return reaching
-
-
 def _nearest(corners: Tiles, side: float, place: tuple[float, float]) -> Tiles:
     here = np.array(place)
     away: Tiles = np.linalg.norm(here - np.clip(here, corners, corners + side), axis=1)
@@ -215,9 +207,9 @@ class GroundPainter:
     def _when_trodden(self) -> list[_Layer]:
         return [] if self._trodden is None else [self._trodden]
 
-    def write(self, tiles: NDArray[np.void], laid: NDArray[np.bool_], terrain: Terrain) -> None:
-        """Send the tiles (n,), and on which of them carpet may lie; under it something lies where there is terrain."""
-        for stream, chosen in zip(self.streams, (~laid, laid & reaches_terrain(tiles, terrain), laid), strict=True):
+    def write(self, tiles: NDArray[np.void], laid: NDArray[np.bool_]) -> None:
+        """Send the tiles (n,), and on which of them carpet may lie."""
+        for stream, chosen in zip(self.streams, (~laid, laid, laid), strict=True):
             stream.write(tiles[chosen])
 
     def raise_carpet(self, part: float) -> None:

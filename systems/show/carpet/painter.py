@@ -95,7 +95,7 @@ class CarpetPainter:
             bare = on_terrain(tiles, self._ground.terrain)
             if cover is not None:
                 bare &= within(tiles, viewer.centre, patch=self._ground.patch, reach=bare_to)
-            self.ground.write(tiles, ~bare, self._ground.terrain)
+            self.ground.write(tiles, ~bare)
         whole = np.where(patches.alive, np.float32(0.0) if cover is None else cover, np.float32(1.0))
         self.ground.write_shares(
             np.where(patches.grows, whole, np.float32(0.0)), viewer.centre, beyond=float(cover is not None)
@@ -120,7 +120,7 @@ class CarpetPainter:
     def lay_everywhere(self, outlook: Outlook, /, *, height: float) -> None:
         """Send a carpet that lies everywhere, at this part of the height of the grass."""
         tiles = ground_tiles(self._ground.terrain, outlook.viewer.eye, outlook.viewer.cone, spacing=self._spacing)
-        self.ground.write(tiles, np.ones(len(tiles), np.bool_), self._ground.terrain)
+        self.ground.write(tiles, np.ones(len(tiles), np.bool_))
         self._unchanged.since()
         self.ground.write_shares(np.ones(len(outlook.patches.progress), np.float32), outlook.viewer.centre, beyond=1.0)
         self.ground.raise_carpet(height)
