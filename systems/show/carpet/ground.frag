@@ -125,6 +125,14 @@ float deepest(float slope) {
     return slope * slope / (2.0 * max(crest, 1e-5)) / max(tall, LEAST);
 }
 
+// The slope on level ground of a line of sight that goes as far through the grass as one of this slope does over ground
+// that bulges, or is hollow: from the top of the grass to the ground, or to where it comes nearest to it.
+float level_slope(float slope, float share) {
+    vec2 way = 2.0 * crest * tall * vec2(1.0 / RAISED - share, -share);
+    way = sqrt(max(slope * abs(slope) + way, 0.0));
+    return 0.5 * (way.x + way.y);
+}
+
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,
 // whose leaf area falls off linearly with height, meets leaves of (deep / tall)^2 times the whole.
 float outline_cover(float slope) {
@@ -170,7 +178,7 @@ vec2 among_strips(float share, float slope) {
 }
 
 // What the carpet shows: of grass and of the ground between, as much as there is of each, as of blades in front of it.
-vec3 carpet_seen(float slope, vec3 below, vec2 among) {
+vec3 carpet_seen(float slope, float on_level, vec3 below, vec2 among) {
     ivec2 cell = ivec2(floor(place.xz / soil.w));
     uint drawn = hash3(stock.y, cell.x, cell.y);
     int model = int(drawn % uint(stock.x)), side = int(drawn >> 16u) & 3;
@@ -194,7 +202,7 @@ vec3 carpet_seen(float slope, vec3 below, vec2 among) {
 #endif
     // A blade's doubled azimuth against the line of sight; what it is against the world's axes is as far turned.
     float sight = heading.x * heading.x - heading.y * heading.y, aside = 2.0 * heading.x * heading.y;
-    vec2 seen = elevation_seen(slope);
+    vec2 seen = elevation_seen(on_level);
     // Two images that have nothing to do with one another are flatter once they are mixed: as much is put back (Heitz and
     // Neyret, High-Performance By-Example Noise, 2018).
     float grain = mix(1.0, mix(GRAIN, 1.0, steep), shrunk) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
@@ -210,7 +218,7 @@ vec3 carpet_seen(float slope, vec3 below, vec2 among) {
         vec4 mean = mix(mean_low, mean_high, seen.y);
         vec4 image = mix(textureGrad(images, low, dx, dy), textureGrad(images, high, dx, dy), seen.y);
         image = mean + (image - mean) * grain;
-        image *= filled(mean_high.a, seen, slope, mean.a);
+        image *= filled(mean_high.a, seen, on_level, mean.a);
         image.a = clamp(image.a, 0.0, 1.0);
         image.rgb = clamp(image.rgb, 0.0, image.a);
         vec3 mean_of = image.rgb / max(image.a, 1e-3);
@@ -295,8 +303,10 @@ void main() {
         discard;
     float brighter = sun.w > 0.5 ? litter : sqrt(litter);  // very nearly what is shown of as many times the radiance
     color *= brighter;
-    if (share > 0.0)
-        color = carpet_seen(slope, color, share < 1.0 ? among_strips(share, slope) : vec2(1.0));
+    if (share > 0.0) {
+        float on_level = level_slope(slope, share);
+        color = carpet_seen(slope, on_level, color, share < 1.0 ? among_strips(share, on_level) : vec2(1.0));
+    }
     pixel = vec4(color, 1.0) * covered;
 #else
     pixel = vec4(shown_of(mix(color, veil.rgb, veil.w)), 1.0);
