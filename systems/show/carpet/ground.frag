@@ -178,7 +178,7 @@ vec2 among_strips(float share, float slope) {
 }
 
 // What the carpet shows: of grass and of the ground between, as much as there is of each, as of blades in front of it.
-vec3 carpet_seen(float slope, float on_level, vec3 below, vec2 among) {
+vec3 carpet_seen(float slope, float on_level, vec3 below, float share) {
     ivec2 cell = ivec2(floor(place.xz / soil.w));
     uint drawn = hash3(stock.y, cell.x, cell.y);
     int model = int(drawn % uint(stock.x)), side = int(drawn >> 16u) & 3;
@@ -202,7 +202,7 @@ vec3 carpet_seen(float slope, float on_level, vec3 below, vec2 among) {
 #endif
     // A blade's doubled azimuth against the line of sight; what it is against the world's axes is as far turned.
     float sight = heading.x * heading.x - heading.y * heading.y, aside = 2.0 * heading.x * heading.y;
-    vec2 seen = elevation_seen(on_level);
+    vec2 seen = elevation_seen(on_level), among = share < 1.0 ? among_strips(share, on_level) : vec2(1.0);
     // Two images that have nothing to do with one another are flatter once they are mixed: as much is put back (Heitz and
     // Neyret, High-Performance By-Example Noise, 2018).
     float grain = mix(1.0, mix(GRAIN, 1.0, steep), shrunk) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
@@ -250,7 +250,7 @@ vec3 carpet_seen(float slope, float on_level, vec3 below, vec2 among) {
     sum /= max(sum.a, 1.0);
 #endif
     // Who sees past grass over a crest sees no ground there, but the grass behind.
-    float ends = smoothstep(0.5, 1.5, deepest(slope));
+    float ends = smoothstep(0.5 * share, 1.5 * share, deepest(slope));
     sum *= among.x * mix(1.0 / max(sum.a, 0.05), 1.0, ends);
     return sum.rgb + below * (1.0 - min(sum.a, 1.0));
 }
@@ -303,10 +303,8 @@ void main() {
         discard;
     float brighter = sun.w > 0.5 ? litter : sqrt(litter);  // very nearly what is shown of as many times the radiance
     color *= brighter;
-    if (share > 0.0) {
-        float on_level = level_slope(slope, share);
-        color = carpet_seen(slope, on_level, color, share < 1.0 ? among_strips(share, on_level) : vec2(1.0));
-    }
+    if (share > 0.0)
+        color = carpet_seen(slope, level_slope(slope, share), color, share);
     pixel = vec4(color, 1.0) * covered;
 #else
     pixel = vec4(shown_of(mix(color, veil.rgb, veil.w)), 1.0);
