@@ -218,7 +218,8 @@ vec3 carpet_seen(float slope, float on_level, vec3 below, float share) {
         vec4 mean = mix(mean_low, mean_high, seen.y);
         vec4 image = mix(textureGrad(images, low, dx, dy), textureGrad(images, high, dx, dy), seen.y);
         image = mean + (image - mean) * grain;
-        image *= filled(mean_high.a, seen, on_level, mean.a);
+        float fill = filled(mean_high.a, seen, on_level, mean.a);
+        image *= fill;
         image.a = clamp(image.a, 0.0, 1.0);
         image.rgb = clamp(image.rgb, 0.0, image.a);
         vec3 mean_of = image.rgb / max(image.a, 1e-3);
@@ -230,7 +231,7 @@ vec3 carpet_seen(float slope, float on_level, vec3 below, float share) {
         float more = OF(riper, kind);
         mean_of.r += more * (more > 0.0 ? 1.0 - mean_of.r : mean_of.r);
         // What stands scattered among others has what is met of it where it stands, and nothing between.
-        covers = heads[kind].y > 0.0 ? image.a / max(mean.a, 0.02) : image.a;
+        covers = heads[kind].y > 0.0 ? image.a / max(mean.a * fill, 0.02) : image.a;
 #endif
 #ifdef MOWN
         // What is left is taken for the same grass pressed together.

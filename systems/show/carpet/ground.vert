@@ -52,6 +52,10 @@ void light_up(float slope) {
 }
 #endif
 
+#ifdef HEADS
+uniform vec4 heads[KINDS]; // by kind: leaf area without them, theirs; from where to where they are in its canopy
+#endif
+
 // What is met of each kind, as parts of all the grass that there is.
 #ifdef UNDER
 ByKind shared_out(ByKind met, ByKind grows, float slope) {
@@ -65,8 +69,13 @@ ByKind shared_out(ByKind met, ByKind grows, float slope) {
 // stopped by more than half as many, and leaves of two kinds stop more than either.
 ByKind shared_out(ByKind met, ByKind grows, float slope) {
     float all = max(total(met), 1e-6), alone = 0.0, area = total(areas(grows));
-    for (int kind = 0; kind < KINDS; kind++)
-        alone += OF(met, kind) / all * (1.0 - exp(-OF(leaf, kind) / slope));
+    for (int kind = 0; kind < KINDS; kind++) {
+        float shows = 1.0 - exp(-OF(leaf, kind) / slope);
+#ifdef HEADS
+        shows = heads[kind].y > 0.0 ? 1.0 : shows;  // its image is taken in parts of its mean
+#endif
+        alone += OF(met, kind) / all * shows;
+    }
     float hides = (1.0 - exp(-area / slope)) / max(alone, 1e-4);
     for (int group = 0; group < GROUPS; group++)
         met[group] = met[group] / all * hides;
@@ -78,7 +87,6 @@ ByKind shared_out(ByKind met, ByKind grows, float slope) {
 // taken in four layers from the top; its leaf area falls off linearly with height.
 #ifdef HEADS
 const int LAYERS = 12;
-uniform vec4 heads[KINDS]; // by kind: leaf area without them, theirs; from where to where they are in its canopy
 
 // Of the leaf area of a kind, how much is at a part of its canopy's height: in all, and of heads.
 vec2 leaves_at(int kind, float at) {
