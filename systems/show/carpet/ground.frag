@@ -66,6 +66,7 @@ uniform vec4 heads[KINDS];
 in vec3 direct;
 in vec3 open_to;
 in vec4 shade;
+in float stands;
 #if KINDS > 4
 vec3 dry;
 #else
@@ -130,7 +131,7 @@ float deepest(float slope) {
 float level_slope(float slope, float share) {
     vec2 way = 2.0 * crest * tall * vec2(1.0 / RAISED - share, -share);
     way = sqrt(max(slope * abs(slope) + way, 0.0));
-    return 0.5 * (way.x + way.y);
+    return 0.5 * (way.x + way.y) / stands;  // bent grass has less of its leaf area across the way
 }
 
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,

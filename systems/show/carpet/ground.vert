@@ -30,6 +30,7 @@ out float dense; // leaf area seen from the side, of the ground's area
 
 out vec3 direct;  // light on leaves of the kinds that are met: the sun's
 out vec3 open_to; // the sky's
+out float stands; // how high it stands as it is bent, of its height at rest
 out vec4 shade;   // what they mirror; leaves that the sun's light meets; leaf area above them, and from there to the ground
 #if KINDS > 4
 vec3 dry;
@@ -42,8 +43,12 @@ void light_up(float slope) {
     vec3 there = seen_at(place, slope, tall, dense);
     vec4 here = lie_at(there.xz);
     vec2 message = message_at(place.xz), messages[KINDS];
-    for (int kind = 0; kind < KINDS; kind++)
+    stands = 0.0;
+    for (int kind = 0; kind < KINDS; kind++) {
         messages[kind] = message;
+        stands += OF(met, kind) * lodged(bending(kind, message));
+    }
+    stands = total(met) > 1e-4 ? stands / total(met) : 1.0;
     Sum sum = summed(met, there, here, messages);
     direct = sum.direct;
     open_to = sum.open_to;
