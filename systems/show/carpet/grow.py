@@ -39,7 +39,7 @@ SLOPES = (0.02, 0.07, 0.25, 0.9, 3.2)
 _SEGMENTS = 8
 _SAMPLES_PER_WIDTH = 5.0
 ASIDE = 0.618
-"""How far each next patch of the endless field stands aside from the one before, in patches, to a whole texel: so no few
+"""How far each next patch of the endless field stands aside from the one before, in patches, to a whole texel: so few
 of them stand in line."""
 
 _HEADINGS = np.array([[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]])
