@@ -108,7 +108,7 @@ vec2 elevation_seen(float slope) {
 // How much more grass hides, seen at a slope between those of two images, than the mean of both: by the leaves that
 // the steeper one shows it to have, of which a line of sight meets the more the lower it is.
 float filled(float steeper, vec2 seen, float slope, float mean) {
-    float meets = slopes[int(seen.x) + 1] / max(slope, slopes[0]);
+    float meets = slopes[int(seen.x) + 1] / clamp(slope, slopes[0], slopes[SLOPES - 1]);
     return (1.0 - pow(max(1.0 - steeper, 1e-3), meets)) / max(mean, 0.01);
 }
 
