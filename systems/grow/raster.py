@@ -50,7 +50,7 @@ def rasterise(
 
     `corners` are (x, y) in samples, shape (n, 3, 2): sample (row, column) lies at y = row + 0.5 and somewhere
     between x = column and column + 1, staggered from row to row over every four rows. `nearness` is larger
-    nearer to the eye, shape (n, 3). With `wrap` the image is a torus, which is twisted by `shift` rows: who goes over its
+    nearer to the eye, shape (n, 3). With `wrap` the image is a torus, twisted by `shift` rows: what goes over its
     last column comes back so many rows lower, at a smaller number. Without it, what lies outside is cut off. `chunk`
     bounds the fragments that are held at a time.
     """

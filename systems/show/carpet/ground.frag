@@ -74,9 +74,11 @@ in float lies;
 #if KINDS > 4
 vec3 dry;
 vec2 sways;
+float stands;
 #else
 in vec3 dry;
 in vec2 sways;
+in float stands;
 #endif
 
 // The rotation that turns the line of sight into the heading of the images that are taken: of four headings, one on each
@@ -111,8 +113,9 @@ vec2 elevation_seen(float slope) {
     return vec2(float(low), clamp((at.x - at.y) / (at.z - at.y), 0.0, 1.0));
 }
 
-// How much more grass hides, seen at a slope between those of two images, than the mean of both: by the leaves that
-// the steeper one shows it to have, of which a line of sight meets the more the lower it is. What is seen straight from above is taken for the steepest image.
+// How much more grass hides, seen at a slope between those of two images, than the mean of both: by the leaves that the
+// steeper one shows it to have, of which a line of sight meets the more the lower it is. What is seen straight from above is
+// taken for the steepest image.
 float filled(float steeper, vec2 seen, float slope, float mean) {
     float meets = slopes[int(seen.x) + 1] / clamp(slope, slopes[0], slopes[SLOPES - 1]);
     return (1.0 - pow(max(1.0 - steeper, 1e-3), meets)) / max(mean, 0.01);
@@ -128,6 +131,14 @@ const float LEAST = 0.01; // height of the carpet where nothing grows, so that n
 // have to be higher by so much.
 float deepest(float slope) {
     return slope * slope / (2.0 * max(crest, 1e-5)) / max(tall, LEAST);
+}
+
+// The slope on level ground of a line of sight that goes as far through the grass as one of this slope does over ground
+// that bulges, or is hollow: from the top of the grass to the ground, or to where it comes nearest to it.
+float level_slope(float slope, float share) {
+    vec2 way = 2.0 * crest * tall * vec2(1.0 / RAISED - share, -share);
+    way = sqrt(max(slope * abs(slope) + way, 0.0));
+    return 0.5 * (way.x + way.y) / stands;  // bent grass has less of its leaf area across the way
 }
 
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,
@@ -158,7 +169,8 @@ Sum trodden_light(float slope) {
     vec4 here = lie_at(there.xz);
     Sum with = summed(met, there, here, messages, slope), without = summed(met, there, here, blown, slope);
     return Sum(max(sum.direct + with.direct - without.direct, 0.0),
-               max(sum.open_to + with.open_to - without.open_to, 0.0), sum.shade + with.shade - without.shade, max(lies + with.lies - without.lies, 0.0), sways + with.sways - without.sways);
+               max(sum.open_to + with.open_to - without.open_to, 0.0), sum.shade + with.shade - without.shade,
+               max(lies + with.lies - without.lies, 0.0), sways + with.sways - without.sways);
 }
 #endif
 
@@ -175,7 +187,7 @@ vec2 among_strips(float share, float slope) {
 }
 
 // What the carpet shows: of grass and of the ground between, as much as there is of each, as of blades in front of it.
-vec3 carpet_seen(float slope, vec3 below, vec2 among) {
+vec3 carpet_seen(float slope, float on_level, vec3 below, float share) {
     ivec2 cell = ivec2(floor(place.xz / soil.w));
     uint drawn = hash3(stock.y, cell.x, cell.y);
     int model = int(drawn % uint(stock.x)), side = int(drawn >> 16u) & 3;
@@ -203,7 +215,7 @@ vec3 carpet_seen(float slope, vec3 below, vec2 among) {
     vec2 at = rotated((place.xz - moved) / soil.w - vec2(cell) - 0.5, turn) + 0.5;
     // A blade's doubled azimuth against the line of sight; what it is against the world's axes is as far turned.
     float sight = heading.x * heading.x - heading.y * heading.y, aside = 2.0 * heading.x * heading.y;
-    vec2 seen = elevation_seen(slope);
+    vec2 seen = elevation_seen(on_level), among = share < 1.0 ? among_strips(share, on_level) : vec2(1.0);
     // Two images that have nothing to do with one another are flatter once they are mixed: as much is put back (Heitz and
     // Neyret, High-Performance By-Example Noise, 2018).
     float grain = mix(1.0, mix(GRAIN, 1.0, steep), shrunk) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
@@ -219,7 +231,8 @@ vec3 carpet_seen(float slope, vec3 below, vec2 among) {
         vec4 mean = mix(mean_low, mean_high, seen.y);
         vec4 image = mix(textureGrad(images, low, dx, dy), textureGrad(images, high, dx, dy), seen.y);
         image = mean + (image - mean) * grain;
-        image *= filled(mean_high.a, seen, slope, mean.a);
+        float fill = filled(mean_high.a, seen, on_level, mean.a);
+        image *= fill;
         image.a = clamp(image.a, 0.0, 1.0);
         image.rgb = clamp(image.rgb, 0.0, image.a);
         vec3 mean_of = image.rgb / max(image.a, 1e-3);
@@ -231,7 +244,7 @@ vec3 carpet_seen(float slope, vec3 below, vec2 among) {
         float more = OF(riper, kind);
         mean_of.r += more * (more > 0.0 ? 1.0 - mean_of.r : mean_of.r);
         // What stands scattered among others has what is met of it where it stands, and nothing between.
-        covers = heads[kind].y > 0.0 ? image.a / max(mean.a, 0.02) : covers;
+        covers = heads[kind].y > 0.0 ? image.a / max(mean.a * fill, 0.02) : covers;
 #endif
 #ifdef MOWN
         // What is left is taken for the same grass pressed together.
@@ -251,7 +264,7 @@ vec3 carpet_seen(float slope, vec3 below, vec2 among) {
     sum /= max(sum.a, 1.0);
 #endif
     // Who sees past grass over a crest sees no ground there, but the grass behind.
-    float ends = smoothstep(0.5, 1.5, deepest(slope));
+    float ends = smoothstep(0.5 * share, 1.5 * share, deepest(slope));
     sum *= among.x * mix(1.0 / max(sum.a, 0.05), 1.0, ends);
     return sum.rgb + below * (1.0 - min(sum.a, 1.0));
 }
@@ -268,7 +281,9 @@ void work_out() {
 #endif
 #if defined(CARPET) && !defined(UNDER)
     dry = stretch(lie_at(seen_at(place, viewing_slope(rise, place), tall, dense).xz));
-    sways = SWAYS * tall * message_at(place.xz);
+    vec2 message = message_at(place.xz);
+    sways = SWAYS * tall * message;
+    stands = lodged(message);
 #endif
 }
 #endif
@@ -298,7 +313,7 @@ void main() {
     if (covered < 0.004)
         discard;
     if (share > 0.0)
-        color = carpet_seen(slope, color, share < 1.0 ? among_strips(share, slope) : vec2(1.0));
+        color = carpet_seen(slope, level_slope(slope, share), color, share);
     pixel = vec4(color, 1.0) * covered;
 #else
     pixel = vec4(color, 1.0);

@@ -34,8 +34,10 @@ out vec4 shade;   // what they mirror; leaves that the sun's light meets; leaf a
 out float lies;   // how many more leaves are met, for how grass is bent
 #if KINDS > 4
 vec2 sways;
+float stands;
 #else
 out vec2 sways;   // how far leaves are moved by that [m]
+out float stands; // how high they stand, of their height at rest
 #endif
 #if KINDS > 4
 vec3 dry;
@@ -48,8 +50,12 @@ void light_up(float slope) {
     vec3 there = seen_at(place, slope, tall, dense);
     vec4 here = lie_at(there.xz);
     vec2 message = message_at(place.xz), messages[KINDS];
-    for (int kind = 0; kind < KINDS; kind++)
+    stands = 0.0;
+    for (int kind = 0; kind < KINDS; kind++) {
         messages[kind] = message;
+        stands += OF(met, kind) * lodged(bending(kind, message));
+    }
+    stands = total(met) > 1e-4 ? stands / total(met) : 1.0;
     Sum sum = summed(met, there, here, messages, slope);
     direct = sum.direct;
     open_to = sum.open_to;
@@ -58,6 +64,10 @@ void light_up(float slope) {
     sways = sum.sways;
     dry = stretch(here);
 }
+#endif
+
+#ifdef HEADS
+uniform vec4 heads[KINDS]; // by kind: leaf area without them, theirs; from where to where they are in its canopy
 #endif
 
 // What is met of each kind, as parts of all the grass that there is.
@@ -73,8 +83,13 @@ ByKind shared_out(ByKind met, ByKind grows, float slope) {
 // stopped by more than half as many, and leaves of two kinds stop more than either.
 ByKind shared_out(ByKind met, ByKind grows, float slope) {
     float all = max(total(met), 1e-6), alone = 0.0, area = total(areas(grows));
-    for (int kind = 0; kind < KINDS; kind++)
-        alone += OF(met, kind) / all * (1.0 - exp(-OF(leaf, kind) / slope));
+    for (int kind = 0; kind < KINDS; kind++) {
+        float shows = 1.0 - exp(-OF(leaf, kind) / slope);
+#ifdef HEADS
+        shows = heads[kind].y > 0.0 ? 1.0 : shows;  // its image is taken in parts of its mean
+#endif
+        alone += OF(met, kind) / all * shows;
+    }
     float hides = (1.0 - exp(-area / slope)) / max(alone, 1e-4);
     for (int group = 0; group < GROUPS; group++)
         met[group] = met[group] / all * hides;
@@ -86,7 +101,6 @@ ByKind shared_out(ByKind met, ByKind grows, float slope) {
 // taken in four layers from the top; its leaf area falls off linearly with height.
 #ifdef HEADS
 const int LAYERS = 12;
-uniform vec4 heads[KINDS]; // by kind: leaf area without them, theirs; from where to where they are in its canopy
 
 // Of the leaf area of a kind, how much is at a part of its canopy's height: in all, and of heads.
 vec2 leaves_at(int kind, float at) {

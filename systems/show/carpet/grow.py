@@ -38,8 +38,9 @@ SLOPES = (0.02, 0.07, 0.25, 0.9, 3.2)
 
 _SEGMENTS = 8
 _SAMPLES_PER_WIDTH = 5.0
-_ASIDE = 0.618
-"""How far each next patch of the endless field stands aside from the one before, in patches: no few stand in line."""
+ASIDE = 0.618
+"""How far each next patch of the endless field stands aside from the one before, in patches, to a whole texel: so few
+of them stand in line."""
 
 _HEADINGS = np.array([[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]])
 
@@ -68,7 +69,7 @@ def grow_carpet(
     A ray that travels along a heading h and falls by `slope` meets a point at (x, z) and height y where it
     goes through the plane at mid-height o at (x, z) + h (y - o) / slope; of all such points it meets the
     highest first. Blades reach over the patch's edge into the next one, which is the same patch again: beside it in
-    line, along the view by `_ASIDE` aside. `height` is the canopy's [m]; without it, the highest tip's.
+    line, along the view by `ASIDE` aside. `height` is the canopy's [m]; without it, the highest tip's.
     """
     seen_along = [
         ribbon_triangles(*(edge.astype(np.float64) for edge in edges))
@@ -121,7 +122,7 @@ class _Field:
         along, across = (1, 0) if turned else (0, 1)
         corners = np.stack([ground[:, :, along] * columns, ground[:, :, across] * rows], axis=2) / self._patch
         # Were all patches along a line of sight in line, it would meet the same blades in each, and the same gaps.
-        shift = 4 * round(_ASIDE * rows / 4.0)
+        shift = round(ASIDE * self._texels) * self._fine
         seen = rasterise(corners, ribbons[:, :, 1], shape=(rows, columns), wrap=True, shift=shift)
         where = seen.sample // (columns * self._fine) * columns + seen.sample % columns
         count = self._texels * columns

@@ -48,14 +48,14 @@ def brute(
 
 
 @settings(max_examples=40, deadline=None)
-@given(seed=st.integers(0, 2**32 - 1), wrap=st.booleans(), count=st.integers(1, 40))
-def test_every_sample_shows_the_nearest_triangle_over_it(*, seed: int, wrap: bool, count: int) -> None:
+@given(seed=st.integers(0, 2**32 - 1), wrap=st.booleans(), shift=st.sampled_from([0, 4, 8]), count=st.integers(1, 40))
+def test_every_sample_shows_the_nearest_triangle_over_it(*, seed: int, wrap: bool, shift: int, count: int) -> None:
     random = np.random.default_rng(seed)
     rows, columns = 12, 17
     corners = random.uniform(-0.4, 1.4, (count, 3, 2)) * [columns, rows]
     nearness = random.uniform(0.0, 1.0, (count, 3))
-    turns = [(x * columns, y * rows) for x in (-2, -1, 0, 1, 2) for y in (-2, -1, 0, 1, 2)] if wrap else [(0, 0)]
-    seen = rasterise(corners, nearness, shape=(rows, columns), wrap=wrap, chunk=50)
+    turns = [(x * columns, y * rows + x * shift) for x in range(-2, 3) for y in range(-4, 5)] if wrap else [(0, 0)]
+    seen = rasterise(corners, nearness, shape=(rows, columns), wrap=wrap, shift=shift, chunk=50)
     shown = np.full(rows * columns, -1)
     shown[seen.sample] = seen.triangle
     np.testing.assert_array_equal(shown, brute(corners, nearness, rows, columns, np.array(turns, np.float64)))
