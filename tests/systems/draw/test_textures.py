@@ -10,7 +10,7 @@ from tallgrass.engine.gl.stream import release_all
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.systems.frame.maps import density_texture, height_texture, posture_texture, slow_map
 from tallgrass.systems.grow.record import Growth
-from tallgrass.systems.light.repeating import LITTER_ONE, repeating_texture
+from tallgrass.systems.light.repeating import LITTER_ONE, repeating_levels
 from tallgrass.systems.show.carpet.grow import carpet_of
 from tallgrass.systems.show.carpet.textures import carpet_texture
 from tallgrass.systems.show.strips.stock import stock_strips
@@ -137,11 +137,9 @@ def test_what_is_slow_over_the_terrain_are_two_noises_of_the_seed(hills: Terrain
         assert noise.std() > 0.1
 
 
-def test_litter_is_as_bright_from_afar_as_from_near_by(ctx: moderngl.Context) -> None:
+def test_litter_is_as_bright_from_afar_as_from_near_by() -> None:
     """At every level, in its mean: a driver that rounds up at each would make ground brighter far off."""
-    texture = repeating_texture(ctx, seed=4)
-    for level in range(10):
-        texels = np.frombuffer(texture.read(level=level, alignment=1), np.uint8).reshape(-1, 2)
-        assert texels[:, 1].mean() == pytest.approx(LITTER_ONE, abs=0.6)
-    assert len(texels) == 1
-    release_all(texture)
+    levels = repeating_levels(seed=4)
+    for texels in levels:
+        assert texels[..., 1].mean() == pytest.approx(LITTER_ONE, abs=0.6)
+    assert [len(texels) for texels in levels] == [512 >> level for level in range(10)]
