@@ -5,8 +5,10 @@ import os
 import shutil
 import subprocess
 import sys
+from collections import OrderedDict
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
+from pathlib import Path
 from typing import NoReturn
 
 import moderngl
@@ -15,9 +17,14 @@ import pytest
 from hypothesis import settings
 from numpy.typing import NDArray
 
+from tallgrass.engine.declared.grass import GrassKind
+from tallgrass.engine.declared.quality import Quality
 from tallgrass.engine.world import World
+from tallgrass.systems import site
 from tallgrass.systems.around.receivers import Receiving
+from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.stock.cache import cache_folder, cached_growth, growth_key
 from tallgrass.testing import NoContextError, headless_context, private_world
 
 # The floor of what is supported, so that nothing newer is used by accident; only Mesa reads these.
@@ -30,14 +37,22 @@ settings.load_profile("tallgrass")
 
 OnCard = list[tuple[Receiving, NDArray[np.float32]]]
 
+REMEMBERED = 24
+"""Growths that are held in memory, of a few megabytes each."""
+
 _HOME = pytest.StashKey[moderngl.Framebuffer]()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what draws, and run what opens windows last: a window takes the current GL context away."""
+    """Mark what draws, and run what opens windows last: a window takes the current GL context away.
+
+    A file's tests stay on one worker, where `--dist loadgroup` asks for it: what they share is made once.
+    """
     for item in items:
         if "ctx" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.gl)
+        opens = item.get_closest_marker("window") is not None
+        item.add_marker(pytest.mark.xdist_group(f"{item.path}{' with windows' * opens}"))
     items.sort(key=lambda item: item.get_closest_marker("window") is not None)
 
 
@@ -79,6 +94,25 @@ def _own_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
         if sys.dont_write_bytecode and "PYTHONPYCACHEPREFIX" not in os.environ:
             patch.delenv("PYTHONDONTWRITEBYTECODE", raising=False)
             patch.setenv("PYTHONPYCACHEPREFIX", str(folder / "bytecode"))
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _grown_once() -> Iterator[None]:
+    """Let prairies share what was grown last: to read it from the cache again takes longer than many tests."""
+    grown: OrderedDict[tuple[Path | None, str], Growth] = OrderedDict()
+
+    def remembered(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
+        key = cache_folder(), growth_key(kind, quality, seed=seed)
+        if key not in grown:
+            grown[key] = cached_growth(kind, quality, seed=seed)
+        grown.move_to_end(key)
+        if len(grown) > REMEMBERED:
+            grown.popitem(last=False)
+        return grown[key]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(site, "cached_growth", remembered)
         yield
 
 
