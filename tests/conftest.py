@@ -1,6 +1,7 @@
 """What all tests share: numbers that fail loudly, one headless GL context, a private world, a display."""
 
 import ctypes
+import json
 import os
 import shutil
 import subprocess
@@ -35,10 +36,36 @@ os.environ.setdefault("MESA_GLSL_VERSION_OVERRIDE", "330")
 settings.register_profile("tallgrass", deadline=None, derandomize=True)
 settings.load_profile("tallgrass")
 
+Python = Callable[..., str]
 OnCard = list[tuple[Receiving, NDArray[np.float32]]]
 
 REMEMBERED = 24
 """Growths that are held in memory, of a few megabytes each."""
+
+PARENT = """
+import json, os, runpy, sys
+
+import tallgrass.systems.prairie, tallgrass.testing
+
+for line in sys.stdin:
+    told = json.loads(line)
+    child = os.fork()
+    if not child:
+        break
+    print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), flush=True)
+else:
+    sys.exit()
+os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+os.dup2(os.open(told["output"], os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600), 1)
+os.dup2(1, 2)
+os.chdir(told["folder"])
+os.environ.update(told["place"])
+sys.argv, sys.path[0] = [told["program"], *told["arguments"]], os.path.dirname(os.path.abspath(told["program"]))
+if told["before"]:
+    exec(told["before"])
+runpy.run_path(told["program"], run_name="__main__")
+"""
+"""Has imported all that programs import, and becomes one each time that it is told of one."""
 
 _HOME = pytest.StashKey[moderngl.Framebuffer]()
 
@@ -166,6 +193,33 @@ def world() -> Iterator[World]:
     """A prairie's world inside an esper world that no other test sees."""
     with private_world() as made:
         yield made
+
+
+@pytest.fixture(scope="session")
+def python(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Python]:
+    """Run a program in a folder and a process of its own, and return what it says: `python(folder, name, *arguments)`.
+
+    `place` is set in its environment; `before` is run first. Nothing is imported anew that every program imports.
+    """
+    output = tmp_path_factory.mktemp("python") / "output"
+    command = [sys.executable, "-W", "error", "-W", "ignore:This process:DeprecationWarning", "-c", PARENT]
+    ours = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
+    with subprocess.Popen(command, env=ours, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as parent:
+        assert parent.stdin is not None
+        assert parent.stdout is not None
+
+        def run(folder: Path, program: str, *arguments: str, place: dict[str, str], before: str = "") -> str:
+            told = {
+                "folder": str(folder), "program": program, "arguments": arguments, "place": place, "before": before,
+                "output": str(output),
+            }  # fmt: skip
+            print(json.dumps(told), file=parent.stdin, flush=True)
+            status, said = parent.stdout.readline(), output.read_text("utf-8")  # type: ignore[union-attr]
+            assert status == "0\n", f"{program}\n{said}"
+            return said
+
+        yield run
+        parent.stdin.close()
 
 
 @pytest.fixture(scope="session")

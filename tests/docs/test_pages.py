@@ -130,7 +130,8 @@ def follow(page: str, folder: Path, python: Python, display: str = "") -> None:
         if block["reason"] or (language == "python" and block["file"] and "pyglet.app.run()" not in text):
             continue
         if language == "python":
-            python(folder, name.name, display=display, before=GAME if "pyglet.app.run()" in text else "")
+            before = GAME if "pyglet.app.run()" in text else ""
+            python(folder, name.name, place={"DISPLAY": display} if display else {}, before=before)
         elif language == "yaml":
             parse_scene(text if "tallgrass:" in text else f"tallgrass: 2\ngrass: {{ lawn: {{}} }}\n{text}")
         elif language == "text":
@@ -138,7 +139,7 @@ def follow(page: str, folder: Path, python: Python, display: str = "") -> None:
         told = ""
         if language == "sh":
             if program := PROGRAM.fullmatch(text):
-                told = python(folder, program[1])
+                told = python(folder, program[1], place={})
             else:
                 told = (run_here if HERE.fullmatch(text) else run)(coarser(text), folder)
 
