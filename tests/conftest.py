@@ -71,15 +71,10 @@ _HOME = pytest.StashKey[moderngl.Framebuffer]()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what draws, and run what opens windows last: a window takes the current GL context away.
-
-    A file's tests stay on one worker, where `--dist loadgroup` asks for it: what they share is made once.
-    """
+    """Mark what draws, and run what opens windows last: a window takes the current GL context away."""
     for item in items:
         if "ctx" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.gl)
-        opens = item.get_closest_marker("window") is not None
-        item.add_marker(pytest.mark.xdist_group(f"{item.path}{' with windows' * opens}"))
     items.sort(key=lambda item: item.get_closest_marker("window") is not None)
 
 
