@@ -3,6 +3,7 @@
 import re
 import sys
 from collections.abc import Callable, Iterator
+from functools import partial
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -108,8 +109,14 @@ def drawn(figure: Figure) -> np.ndarray[tuple[int, ...], np.dtype[np.uint8]]:
     return np.asarray(figure.canvas.buffer_rgba())  # type: ignore[attr-defined]
 
 
+@pytest.fixture
+def _narrow(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the command draw plots as small as `SMALL` has them."""
+    monkeypatch.setattr("tallgrass.app.figures.figure.Detail", partial(Detail, dots=SMALL.dots))
+
+
 @pytest.mark.gl
-@pytest.mark.usefixtures("ctx", "_coarse")
+@pytest.mark.usefixtures("ctx", "_coarse", "_narrow")
 def test_every_figure_is_drawn_and_the_page_shows_all_of_them(tmp_path: Path) -> None:
     folder = tmp_path / "deep" / "figures"
     assert run(["figures", "-o", str(folder), *FEW]) == 0
@@ -134,6 +141,7 @@ def test_the_paper_figures_are_told_of_in_order_and_once() -> None:
         assert each.made.endswith(".")
 
 
+@pytest.mark.usefixtures("_narrow")
 def test_some_figures_are_drawn_alone_and_join_what_is_there(tmp_path: Path) -> None:
     assert run(["figures", "-o", str(tmp_path), "--only", " 10, 6"]) == 0
     assert {path.name for path in tmp_path.iterdir()} == {"index.html", "figure-06.png", "figure-10.png"}
