@@ -93,7 +93,7 @@ def _pictures(arrays: Arrays, name: str, /) -> dict[str, tuple[Any, ...]]:
 def _record(kind: type[Record], arrays: Arrays, name: str, /) -> Record:
     """Return a record from its arrays; raises KeyError or ValueError unless all are there, of their types."""
     values: dict[str, Any] = {}
-    for field, wanted, is_array in _fields(kind):
+    for field, wanted, is_array in _fields(kind):  # type: ignore[arg-type]  # a class can be hashed
         value = arrays[f"{name}.{field}"]
         if value.dtype != wanted or (value.dtype.kind == "f" and not np.isfinite(value).all()):
             raise ValueError(f"{name}.{field} is not finite {wanted}")
