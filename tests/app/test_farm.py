@@ -2,7 +2,6 @@
 
 import os
 import signal
-import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from itertools import pairwise
@@ -33,8 +32,6 @@ from tallgrass.app.studio.take import Take
 from tallgrass.engine.scene import read_scene
 from tallgrass.systems.stock.cache import growth_key
 
-Tallgrass = Callable[..., subprocess.CompletedProcess[str]]
-
 Both = Callable[..., tuple[str, str]]
 
 COUNT, FPS = 12, 8
@@ -57,19 +54,18 @@ def told(shots: list[Shot]) -> list[str]:
 
 
 @pytest.fixture
-def both(
-    tallgrass: Tallgrass, scene: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> Both:
-    """Run a command in this process, which writes into a folder, and by two workers, into another: what they print."""
+def both(scene: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Both:
+    """Run a command that writes into a folder alone, and by two workers into another; return what both print."""
     monkeypatch.chdir(scene.parent)
 
     def told(*words: object) -> tuple[str, str]:
-        alone = [str(word).replace("FOLDER", "alone") for word in words]
-        assert run(alone) == 0
-        here = capsys.readouterr()
-        done = tallgrass(*[str(word).replace("FOLDER", "together") for word in words], "--on", "local:2")
-        assert (done.returncode, done.stderr, here.err) == (0, "", "")
-        return here.out, done.stdout
+        printed = []
+        for folder, place in (("alone", []), ("together", ["--on", "local:2"])):
+            assert run([*(str(word).replace("FOLDER", folder) for word in words), *place]) == 0
+            out, err = capsys.readouterr()
+            assert err == ""
+            printed.append(out)
+        return printed[0], printed[1]
 
     return told
 
