@@ -1,12 +1,15 @@
 """What all tests share: numbers that fail loudly, one headless GL context, a private world, a display."""
 
 import ctypes
+import json
 import os
 import shutil
 import subprocess
 import sys
+from collections import OrderedDict
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
+from pathlib import Path
 from typing import NoReturn
 
 import moderngl
@@ -15,9 +18,14 @@ import pytest
 from hypothesis import settings
 from numpy.typing import NDArray
 
+from tallgrass.engine.declared.grass import GrassKind
+from tallgrass.engine.declared.quality import Quality
 from tallgrass.engine.world import World
+from tallgrass.systems import site
 from tallgrass.systems.around.receivers import Receiving
+from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.stock.cache import cache_folder, cached_growth, growth_key
 from tallgrass.testing import NoContextError, headless_context, private_world
 
 # The floor of what is supported, so that nothing newer is used by accident; only Mesa reads these.
@@ -28,7 +36,36 @@ os.environ.setdefault("MESA_GLSL_VERSION_OVERRIDE", "330")
 settings.register_profile("tallgrass", deadline=None, derandomize=True)
 settings.load_profile("tallgrass")
 
+Python = Callable[..., str]
 OnCard = list[tuple[Receiving, NDArray[np.float32]]]
+
+REMEMBERED = 24
+"""Growths that are held in memory, of a few megabytes each."""
+
+PARENT = """
+import json, os, runpy, sys
+
+import tallgrass.systems.prairie, tallgrass.testing
+
+for line in sys.stdin:
+    told = json.loads(line)
+    child = os.fork()
+    if not child:
+        break
+    print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), flush=True)
+else:
+    sys.exit()
+os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+os.dup2(os.open(told["output"], os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600), 1)
+os.dup2(1, 2)
+os.chdir(told["folder"])
+os.environ.update(told["place"])
+sys.argv, sys.path[0] = [told["program"], *told["arguments"]], os.path.dirname(os.path.abspath(told["program"]))
+if told["before"]:
+    exec(told["before"])
+runpy.run_path(told["program"], run_name="__main__")
+"""
+"""Has imported all that programs import, and becomes one each time that it is told of one."""
 
 _HOME = pytest.StashKey[moderngl.Framebuffer]()
 
@@ -82,6 +119,25 @@ def _own_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
         yield
 
 
+@pytest.fixture(scope="session", autouse=True)
+def _grown_once() -> Iterator[None]:
+    """Let prairies share what was grown last: to read it from the cache again takes longer than many tests."""
+    grown: OrderedDict[tuple[Path | None, str], Growth] = OrderedDict()
+
+    def remembered(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
+        key = cache_folder(), growth_key(kind, quality, seed=seed)
+        if key not in grown:
+            grown[key] = cached_growth(kind, quality, seed=seed)
+        grown.move_to_end(key)
+        if len(grown) > REMEMBERED:
+            grown.popitem(last=False)
+        return grown[key]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(site, "cached_growth", remembered)
+        yield
+
+
 @pytest.fixture(scope="session")
 def ctx(pytestconfig: pytest.Config) -> Iterator[moderngl.Context]:
     """A headless GL context that all tests draw in."""
@@ -132,6 +188,33 @@ def world() -> Iterator[World]:
     """A prairie's world inside an esper world that no other test sees."""
     with private_world() as made:
         yield made
+
+
+@pytest.fixture(scope="session")
+def python(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Python]:
+    """Run a program in a folder and a process of its own, and return what it says: `python(folder, name, *arguments)`.
+
+    `place` is set in its environment; `before` is run first. Nothing is imported anew that every program imports.
+    """
+    output = tmp_path_factory.mktemp("python") / "output"
+    command = [sys.executable, "-W", "error", "-W", "ignore:This process:DeprecationWarning", "-c", PARENT]
+    ours = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
+    with subprocess.Popen(command, env=ours, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as parent:
+        assert parent.stdin is not None
+        assert parent.stdout is not None
+
+        def run(folder: Path, program: str, *arguments: str, place: dict[str, str], before: str = "") -> str:
+            told = {
+                "folder": str(folder), "program": program, "arguments": arguments, "place": place, "before": before,
+                "output": str(output),
+            }  # fmt: skip
+            print(json.dumps(told), file=parent.stdin, flush=True)
+            status, said = parent.stdout.readline(), output.read_text("utf-8")  # type: ignore[union-attr]
+            assert status == "0\n", f"{program}\n{said}"
+            return said
+
+        yield run
+        parent.stdin.close()
 
 
 @pytest.fixture(scope="session")

@@ -1,8 +1,10 @@
-"""Texture arrays whose mip-maps are made here.
+"""Textures whose mip-maps are made here.
 
 So they are the same with every driver; and a software one would have to compile a program for each shape of texture
 first, which takes longer than the averages do.
 """
+
+from collections.abc import Sequence
 
 import moderngl
 import numpy as np
@@ -12,7 +14,7 @@ from .functions import NUMBERS, functions_of
 
 Bytes = NDArray[np.uint8]
 
-_FORMATS = {1: ("R8", "RED"), 4: ("RGBA8", "RGBA")}
+_FORMATS = {1: ("R8", "RED"), 2: ("RG8", "RG"), 3: ("RGB8", "RGB"), 4: ("RGBA8", "RGBA")}
 
 
 def levels(texels: Bytes, /) -> list[Bytes]:
@@ -36,6 +38,21 @@ def mipmapped(ctx: moderngl.Context, made: list[Bytes], /) -> moderngl.TextureAr
         size = columns, rows, layers
         gl.glTexImage3D(target, level, stored, *size, 0, given, NUMBERS["UNSIGNED_BYTE"], texels.ctypes.data)
     texture.filter = (moderngl.NEAREST_MIPMAP_NEAREST, moderngl.LINEAR)
+    return texture
+
+
+def mipmapped_image(ctx: moderngl.Context, made: Sequence[Bytes], /) -> moderngl.Texture:
+    """Return a texture of one image at all its levels, each (rows, columns, channels), down to one texel."""
+    rows, columns, channels = made[0].shape
+    texture = ctx.texture((columns, rows), channels, made[0], alignment=1)
+    stored, given = (NUMBERS[name] for name in _FORMATS[channels])
+    gl, target = functions_of(ctx), NUMBERS["TEXTURE_2D"]
+    gl.glBindTexture(target, texture.glo)
+    gl.glPixelStorei(NUMBERS["UNPACK_ALIGNMENT"], 1)
+    for level, texels in enumerate(made[1:], 1):
+        rows, columns = texels.shape[:2]
+        gl.glTexImage2D(target, level, stored, columns, rows, 0, given, NUMBERS["UNSIGNED_BYTE"], texels.ctypes.data)
+    texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
     return texture
 
 

@@ -1,7 +1,7 @@
 """Programs composed from the package's shader files."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 from importlib.resources import files
 
@@ -28,17 +28,35 @@ def _read(name: str) -> tuple[str, ...]:
     return tuple(source.read_text("utf-8").splitlines())
 
 
-def _gather(name: str, lines: list[Line], seen: set[str], made: Mapping[str, Sequence[Line]]) -> None:
-    seen.add(name)
-    if name in made:
-        lines += made[name]
-        return
-    for number, text in enumerate(_read(name), 1):
-        included = _INCLUDE.match(text)
-        if included is None:
-            lines.append((name, number, text))
-        elif included[1] not in seen:
-            _gather(included[1], lines, seen, made)
+@lru_cache(maxsize=256)
+def _parts(name: str, made: frozenset[str]) -> tuple[tuple[str, str, tuple[Line, ...]], ...]:
+    """Return what a shader consists of: stretches of files, as text and lines, each after a file of `made` or none.
+
+    It is the same for every context and all defines, and a scene needs many programs.
+    """
+    places = [""]
+    stretches: list[list[Line]] = [[]]
+    seen: set[str] = set()
+
+    def gather(file: str) -> None:
+        seen.add(file)
+        if file in made:
+            places.append(file)
+            stretches.append([])
+            return
+        for number, text in enumerate(_read(file), 1):
+            included = _INCLUDE.match(text)
+            if included is None:
+                stretches[-1].append((file, number, text))
+            elif included[1] not in seen:
+                gather(included[1])
+
+    gather(name)
+    return tuple((place, _text(lines), tuple(lines)) for place, lines in zip(places, stretches, strict=True))
+
+
+def _text(lines: Iterable[Line]) -> str:
+    return "".join(text + "\n" for _, _, text in lines)
 
 
 def compose(
@@ -52,8 +70,12 @@ def compose(
     """
     head = [_VERSION, *(f"#define {key} {value}" for key, value in (defines or {}).items())]
     lines: list[Line] = [(name, 0, text) for text in head]
-    _gather(name, lines, set(), made or {})
-    return "\n".join(text for _, _, text in lines) + "\n", lines
+    source, given = _text(lines), made or {}
+    for place, text, stretch in _parts(name, frozenset(given)):
+        stands = given.get(place, ())
+        source += _text(stands) + text
+        lines += [*stands, *stretch]
+    return source, lines
 
 
 def locate(message: str, lines: list[Line]) -> str:

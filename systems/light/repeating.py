@@ -1,6 +1,7 @@
 """What repeats over the terrain: a thin layer of clouds that drifts with the wind, and what lies on the ground."""
 
 from collections.abc import Sequence
+from functools import lru_cache
 from math import cos, radians, sin
 
 import moderngl
@@ -8,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.wind import WindPrimitive
+from ...engine.gl.mipmaps import mipmapped_image
 from ..grow.raster import rasterise, ribbon_triangles
 from ..wind.mean import MeanWind
 
@@ -31,6 +33,9 @@ SEEN_FAR = 0.12
 LITTER_ONE = 128
 """The texel of ground that is as bright as the mean."""
 
+
+_REMEMBERED = 4
+"""Seeds whose maps are remembered, less than a megabyte each: a scene read again has the seed that it had."""
 
 CLOUDS_SIDE = 900.0
 """Side of the square that repeats [m], as `lib/light.glsl` has it."""
@@ -122,16 +127,19 @@ def ground_maps(*, seed: int) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
 
 
 def repeating_texture(ctx: moderngl.Context, *, seed: int) -> moderngl.Texture:
-    """Return `cloud_map` and `ground_maps` as the three channels of a texture that repeats.
+    """Return `repeating_levels` as a texture that repeats."""
+    return mipmapped_image(ctx, repeating_levels(seed=seed))
 
-    Its coarser levels are means of the finest: drivers that round up at each would make ground brighter far off.
+
+@lru_cache(maxsize=_REMEMBERED)
+def repeating_levels(*, seed: int) -> tuple[NDArray[np.uint8], ...]:
+    """Return `cloud_map` and `ground_maps` as three channels, shapes (SIDE, SIDE, 3) and its halves down to one texel.
+
+    The coarser are means of the finest: drivers that round up at each level would make ground brighter far off.
     """
     texels = np.stack([cloud_map(seed=seed), *ground_maps(seed=seed)], axis=-1)
-    texture = ctx.texture((SIDE, SIDE), 3, texels.tobytes(), alignment=1)
-    texture.build_mipmaps()
-    mean, level = texels.astype(np.float64), 0
+    made, mean = [texels], texels.astype(np.float64)
     while len(mean) > 1:
-        mean, level = 0.25 * (mean[::2, ::2] + mean[1::2, ::2] + mean[::2, 1::2] + mean[1::2, 1::2]), level + 1
-        texture.write(np.rint(mean).astype(np.uint8).tobytes(), level=level, alignment=1)
-    texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
-    return texture
+        mean = 0.25 * (mean[::2, ::2] + mean[1::2, ::2] + mean[::2, 1::2] + mean[1::2, 1::2])
+        made.append(np.rint(mean).astype(np.uint8))
+    return tuple(made)

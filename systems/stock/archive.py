@@ -4,6 +4,7 @@ import io
 import zipfile
 from collections.abc import Mapping
 from dataclasses import fields
+from functools import cache
 from hashlib import blake2b
 from typing import Any, TypeVar, get_args, get_type_hints
 
@@ -92,14 +93,23 @@ def _pictures(arrays: Arrays, name: str, /) -> dict[str, tuple[Any, ...]]:
 def _record(kind: type[Record], arrays: Arrays, name: str, /) -> Record:
     """Return a record from its arrays; raises KeyError or ValueError unless all are there, of their types."""
     values: dict[str, Any] = {}
-    for field, hint in get_type_hints(kind).items():
+    for field, wanted, is_array in _fields(kind):  # type: ignore[arg-type]  # a class can be hashed
         value = arrays[f"{name}.{field}"]
+        if value.dtype != wanted or (value.dtype.kind == "f" and not np.isfinite(value).all()):
+            raise ValueError(f"{name}.{field} is not finite {wanted}")
+        values[field] = value if is_array else float(value)
+    return kind(**values)
+
+
+@cache
+def _fields(kind: type, /) -> tuple[tuple[str, np.dtype[Any], bool], ...]:
+    """Return the name of each of a record's fields, what it is made of, and whether it is an array or one number."""
+    found = []
+    for field, hint in get_type_hints(kind).items():
         last = get_args(hint)[-1:] or (np.float64,)  # from numpy 2.5 on, NDArray[T] is an alias
         (wanted,) = get_args(*last) or last
-        if value.dtype != wanted or (value.dtype.kind == "f" and not np.isfinite(value).all()):
-            raise ValueError(f"{name}.{field} is not finite {np.dtype(wanted)}")
-        values[field] = float(value) if hint is float else value
-    return kind(**values)
+        found.append((field, np.dtype(wanted), hint is not float))
+    return tuple(found)
 
 
 def _fits(growth: Growth, quality: Quality, blades: int, /) -> bool:

@@ -2,7 +2,6 @@
 
 import os
 import signal
-import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from itertools import pairwise
@@ -33,7 +32,7 @@ from tallgrass.app.studio.take import Take
 from tallgrass.engine.scene import read_scene
 from tallgrass.systems.stock.cache import growth_key
 
-Tallgrass = Callable[..., subprocess.CompletedProcess[str]]
+Both = Callable[..., tuple[str, str]]
 
 COUNT, FPS = 12, 8
 ABOUT = {"scene": "little"}
@@ -54,15 +53,30 @@ def told(shots: list[Shot]) -> list[str]:
     return [shot.sha256 for shot in shots]
 
 
+@pytest.fixture
+def both(scene: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Both:
+    """Run a command that writes into a folder alone, and by two workers into another; return what both print."""
+    monkeypatch.chdir(scene.parent)
+
+    def told(*words: object) -> tuple[str, str]:
+        printed = []
+        for folder, place in (("alone", []), ("together", ["--on", "local:2"])):
+            assert run([*(str(word).replace("FOLDER", folder) for word in words), *place]) == 0
+            out, err = capsys.readouterr()
+            assert err == ""
+            printed.append(out)
+        return printed[0], printed[1]
+
+    return told
+
+
 @pytest.mark.gl
+@pytest.mark.usefixtures("ctx")
 @pytest.mark.parametrize("output", ["film/", "film.webp"])
-def test_a_film_by_two_workers_is_that_of_one_process_byte_for_byte(
-    tallgrass: Tallgrass, scene: Path, output: str
-) -> None:
+def test_a_film_by_two_workers_is_that_of_one_process_byte_for_byte(both: Both, scene: Path, output: str) -> None:
     films = []
-    for folder, place in (("alone", []), ("together", ["--on", "local:2"])):
-        done = tallgrass("film", scene, "-o", f"{folder}/{output}", "--fps", FPS, "--size", "64x36", *place)
-        assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert both("film", scene, "-o", f"FOLDER/{output}", "--fps", FPS, "--size", "64x36") == ("", "")
+    for folder in ("alone", "together"):
         files = (path for path in (scene.parent / folder).rglob("*") if path.is_file())
         films.append({path.relative_to(scene.parent / folder): path.read_bytes() for path in files})
     assert films[0] == films[1]
@@ -70,19 +84,19 @@ def test_a_film_by_two_workers_is_that_of_one_process_byte_for_byte(
 
 
 @pytest.mark.gl
-def test_pictures_that_workers_compare_have_the_figures_of_one_process(tallgrass: Tallgrass, scene: Path) -> None:
+@pytest.mark.usefixtures("ctx")
+def test_pictures_that_workers_compare_have_the_figures_of_one_process(both: Both, scene: Path) -> None:
     pytest.importorskip("flip_evaluator")
     (scene.parent / "scenes").mkdir()
     for name in ("one", "other"):
         (scene.parent / "scenes" / f"{name}.yaml").write_bytes(scene.read_bytes())
-    told = []
-    for folder, place in (("alone", []), ("together", ["--on", "local:2"])):
-        done = tallgrass("bench", "picture", "scenes", "-o", folder, "--size", "64x36", "--json", *place)
-        assert (done.returncode, done.stderr) == (0, "")
-        pictures = {path.name: path.read_bytes() for path in (scene.parent / folder).iterdir()}
-        told.append((done.stdout, pictures))
-    assert told[0] == told[1]
-    assert set(told[0][1]) == {"one.png", "other.png"}
+    alone, together = both("bench", "picture", "scenes", "-o", "FOLDER", "--size", "64x36", "--json")
+    assert alone == together
+    pictures = [
+        {path.name: path.read_bytes() for path in (scene.parent / folder).iterdir()} for folder in ("alone", "together")
+    ]
+    assert pictures[0] == pictures[1]
+    assert set(pictures[0]) == {"one.png", "other.png"}
 
 
 @pytest.fixture(scope="module")

@@ -2,8 +2,11 @@
 
 import re
 import sys
+from collections.abc import Callable, Iterator
+from functools import partial
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -17,6 +20,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from PIL import Image
 
 from tallgrass.app.cli import run
+from tallgrass.app.figures import bending
 from tallgrass.app.figures.bending import STIFFNESS, draw_postures, draw_responses, extreme, gust_profile, kinds
 from tallgrass.app.figures.figure import Detail
 from tallgrass.app.figures.morph import (
@@ -39,6 +43,7 @@ from tallgrass.app.figures.register import FIGURES
 from tallgrass.app.figures.tiling import CULLED, draw_tiling
 from tallgrass.app.figures.walk import draw_walk, walk_frames
 from tallgrass.app.figures.wind import draw_fields, draw_masks, grid, patch_weights, windless
+from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.engine.declared.quality import PRESETS, BladeRing, Quality, StripRing
 from tallgrass.systems.grow.response import grow_response
 from tallgrass.systems.wind.gust import Gust
@@ -57,6 +62,27 @@ def _coarse(monkeypatch: pytest.MonkeyPatch) -> None:
         count = 60 if "high" in name else 30
         coarse = Quality(blades=count, models=1, blade_rings=blades, strip_rings=rings, carpet_to=12, carpet=8)
         monkeypatch.setitem(PRESETS, name, coarse)
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _simulated_once() -> Iterator[None]:
+    """Let figures and tests share simulations: most kinds are in several of them."""
+    with pytest.MonkeyPatch.context() as patch:
+        for name in ("grow_response", "grow_postures", "grow_give"):
+            patch.setattr(bending, name, _remembered(getattr(bending, name)))
+        yield
+
+
+def _remembered(grow: Callable[..., Any]) -> Callable[..., Any]:
+    told: dict[str, Any] = {}
+
+    def grown(kind: GrassKind, **options: Any) -> Any:
+        key = f"{kind!r} {options}"
+        if key not in told:
+            told[key] = grow(kind, **options)
+        return told[key]
+
+    return grown
 
 
 class Page(HTMLParser):
@@ -83,8 +109,14 @@ def drawn(figure: Figure) -> np.ndarray[tuple[int, ...], np.dtype[np.uint8]]:
     return np.asarray(figure.canvas.buffer_rgba())  # type: ignore[attr-defined]
 
 
+@pytest.fixture
+def _narrow(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the command draw plots as small as `SMALL` has them."""
+    monkeypatch.setattr("tallgrass.app.figures.figure.Detail", partial(Detail, dots=SMALL.dots))
+
+
 @pytest.mark.gl
-@pytest.mark.usefixtures("ctx", "_coarse")
+@pytest.mark.usefixtures("ctx", "_coarse", "_narrow")
 def test_every_figure_is_drawn_and_the_page_shows_all_of_them(tmp_path: Path) -> None:
     folder = tmp_path / "deep" / "figures"
     assert run(["figures", "-o", str(folder), *FEW]) == 0
@@ -109,6 +141,7 @@ def test_the_paper_figures_are_told_of_in_order_and_once() -> None:
         assert each.made.endswith(".")
 
 
+@pytest.mark.usefixtures("_narrow")
 def test_some_figures_are_drawn_alone_and_join_what_is_there(tmp_path: Path) -> None:
     assert run(["figures", "-o", str(tmp_path), "--only", " 10, 6"]) == 0
     assert {path.name for path in tmp_path.iterdir()} == {"index.html", "figure-06.png", "figure-10.png"}

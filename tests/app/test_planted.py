@@ -12,8 +12,10 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass.app.bench import pop, stroll
+from tallgrass.app.bench.steps import Record
 from tallgrass.app.bench.stroll import legs
 from tallgrass.app.cli import run
+from tallgrass.app.studio.studio import Studio
 from tallgrass.engine.gl import shaders
 from tallgrass.systems.around.appearance import Appearance, appearance
 from tallgrass.systems.show.blades import painter as blades
@@ -47,7 +49,14 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def measure(folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Callable[[], Told]:
-    """Measure a walk of one leg, in few frames, with what has been planted."""
+    """Measure a walk of one leg, in few frames, with what has been planted; no second one with hard switches."""
+    walks = pop._walks  # noqa: SLF001
+
+    def once(studio: Studio, walk: list[stroll.Leg], left_out: dict[str, Any], **how: Any) -> dict[str, Record]:
+        (record,) = walks(studio, walk, {pop.WHOLE: left_out[pop.WHOLE]}, **how).values()
+        return dict.fromkeys(left_out, record)
+
+    monkeypatch.setattr(pop, "_walks", once)
     monkeypatch.setattr(stroll, "RATE", 20)
     monkeypatch.setattr(stroll, "PITCH", math.radians(-20.0))
     monkeypatch.setattr(pop, "MOST", 1)

@@ -18,8 +18,10 @@ import pyglet
 import pytest
 
 from tallgrass.app.cli import run as tallgrass
+from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.engine.declared.quality import PRESETS
 from tallgrass.engine.scene import parse_scene
+from tallgrass.systems.stock import models
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = sorted(page.name for page in DOCS.glob("*.md"))
@@ -37,18 +39,36 @@ BLOCK = re.compile(
     r"^```(?P<language>\w*)\n(?P<text>.*?)^```$",
     re.MULTILINE | re.DOTALL,
 )
+Python = Callable[..., str]
+
 LITTLE = PRESETS["low"].model_copy(update={"blades": 40, "models": 1, "carpet": 16})
 """What takes the place of the preset low: to grow it takes no longer than to draw a picture."""
 
-GAME = """import pyglet
-import runpy
-pyglet.clock.schedule_once(lambda dt: pyglet.app.exit(), 1.0)
-runpy.run_path({file!r}, run_name="__main__")
-"""
-"""Runs a program that would run until its window is closed."""
+ALIKE = models._Bends.of(GrassKind())  # noqa: SLF001
+"""How grass of every kind bends on these pages: to simulate each takes longer than to draw its picture."""
 
-PICTURES = re.compile(r"(tallgrass (shot|film) (?!.*--on)[^|>&]*\n)+")
-"""Commands that make pictures; most of the time that others take would go into starting one process for each."""
+GAME = """
+import pyglet
+
+flip, left = pyglet.window.Window.flip, [4]
+
+
+def shown(window):
+    flip(window)
+    left[0] -= 1
+    if not left[0]:
+        pyglet.app.exit()
+
+
+pyglet.window.Window.flip = shown
+"""
+"""Ends a program that would run until its window is closed, after some pictures."""
+
+HERE = re.compile(r"(tallgrass (shot|film|check) (?!.*--on)[^|>&]*\n)+")
+"""Commands that are run in this process; most of the time that others take goes into starting one for each."""
+
+PROGRAM = re.compile(r"python (\w+\.py)\n")
+"""A command that runs a page's own program."""
 
 COARSE = {
     r"^tallgrass (shot|film)": r"\g<0> --preset low",
@@ -56,6 +76,7 @@ COARSE = {
     r"--size \d+x\d+": "--size 160x90",
     r"--seconds \d+": "--seconds 1",
     r"--fps \d+": "--fps 4",
+    r"--on local:\d+": "--on local:1",
 }
 """What is drawn coarsely here: growing fine grass takes longer than everything else on these pages."""
 
@@ -68,20 +89,23 @@ def opens_a_window(page: str) -> bool:
     return any("pyglet.app.run()" in block["text"] and not block["reason"] for block in blocks(page))
 
 
-def run(command: list[str], folder: Path, display: str = "") -> str:
-    """Run a command as a reader would, and return what it prints."""
+def run(lines: str, folder: Path) -> str:
+    """Run lines of a shell as a reader would, and return what they print."""
     place = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
-    place |= {"PATH": f"{Path(sys.executable).parent}:{place['PATH']}"} | ({"DISPLAY": display} if display else {})
+    place |= {"PATH": f"{Path(sys.executable).parent}:{place['PATH']}"}
+    command = ["/bin/sh", "-e", "-c", lines]
     done = subprocess.run(command, cwd=folder, env=place, capture_output=True, text=True, timeout=300, check=False)
-    assert done.returncode == 0, f"{command[-1]}\n{done.stdout}{done.stderr}"
+    assert done.returncode == 0, f"{lines}\n{done.stdout}{done.stderr}"
     return done.stdout
 
 
 def run_here(text: str, folder: Path) -> str:
-    """Run `PICTURES` as a reader would, but in this process and with little grass, and return what they print."""
+    """Run `HERE` as a reader would, but in this process and with little grass that bends alike; return what is said."""
     printed = io.StringIO()
     with pytest.MonkeyPatch.context() as patch, contextlib.chdir(folder), contextlib.redirect_stdout(printed):
+        patch.setenv("TALLGRASS_CACHE", str(folder / "cache"))
         patch.setitem(PRESETS, "low", LITTLE)
+        patch.setattr(models._Bends, "of", lambda _: ALIKE)  # noqa: SLF001
         for line in text.splitlines():
             assert tallgrass(shlex.split(line)[1:]) == 0, line
     return printed.getvalue()
@@ -94,7 +118,7 @@ def coarser(text: str) -> str:
     return text
 
 
-def follow(page: str, folder: Path, display: str = "") -> None:
+def follow(page: str, folder: Path, python: Python, display: str = "") -> None:
     """Do what a page tells to do, in a folder."""
     told = ""
     for block in blocks(page):
@@ -106,29 +130,31 @@ def follow(page: str, folder: Path, display: str = "") -> None:
         if block["reason"] or (language == "python" and block["file"] and "pyglet.app.run()" not in text):
             continue
         if language == "python":
-            game = ["-c", GAME.format(file=name.name)] if "pyglet.app.run()" in text else [name.name]
-            run([sys.executable, "-W", "error", *game], folder, display)
+            before = GAME if "pyglet.app.run()" in text else ""
+            python(folder, name.name, place={"DISPLAY": display} if display else {}, before=before)
         elif language == "yaml":
             parse_scene(text if "tallgrass:" in text else f"tallgrass: 2\ngrass: {{ lawn: {{}} }}\n{text}")
         elif language == "text":
             assert text.strip() in told or not told, f"{page}: {text}"
         told = ""
         if language == "sh":
-            alone = PICTURES.fullmatch(text)
-            told = run_here(coarser(text), folder) if alone else run(["/bin/sh", "-e", "-c", coarser(text)], folder)
+            if program := PROGRAM.fullmatch(text):
+                told = python(folder, program[1], place={})
+            else:
+                told = (run_here if HERE.fullmatch(text) else run)(coarser(text), folder)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="the pages are written for a POSIX shell")
 @pytest.mark.usefixtures("ctx")
 @pytest.mark.parametrize("page", [name for name in FOLLOWED if not opens_a_window(name)])
-def test_what_a_page_tells_to_do_works(page: str, tmp_path: Path) -> None:
-    follow(page, tmp_path)
+def test_what_a_page_tells_to_do_works(page: str, tmp_path: Path, python: Python) -> None:
+    follow(page, tmp_path, python)
 
 
 @pytest.mark.window
 @pytest.mark.parametrize("page", [name for name in FOLLOWED if opens_a_window(name)])
-def test_what_a_page_with_windows_tells_to_do_works(page: str, tmp_path: Path, display: str) -> None:
-    follow(page, tmp_path, display)
+def test_what_a_page_with_windows_tells_to_do_works(page: str, tmp_path: Path, python: Python, display: str) -> None:
+    follow(page, tmp_path, python, display)
 
 
 @pytest.mark.parametrize("page", FOLLOWED)

@@ -48,8 +48,8 @@ def prairie(ctx: moderngl.Context) -> Iterator[Prairie]:
 
 def settled(prairie: Prairie, easel: Stage, camera: Camera = ABOVE, seconds: float = 2.0) -> Picture:
     """The picture once nothing changes any more and every patch has its entity; time goes on meanwhile."""
-    for _ in range(8):
-        prairie.advance(seconds / 8)
+    for _ in range(4):
+        prairie.advance(seconds / 4)
         easel.shot(prairie, camera)
     return easel.shot(prairie, camera)
 
@@ -113,9 +113,9 @@ def test_d2_a_patch_held_as_strips_beside_blades_goes_there_and_back_without_a_p
     around = on_patch(easel, PLACES["blades"], beyond=0.8)
     lod.hold = "strips"
     pictures = [before]
-    for _ in range(90):
+    for _ in range(45):
         # Time stands still for the wind: what changes is the representation alone.
-        prairie.viewers["main"].drawn_at = prairie.time - 1 / 60
+        prairie.viewers["main"].drawn_at = prairie.time - 1 / 30
         pictures.append(easel.shot(prairie, ABOVE))
     assert (lod.representation, lod.progress) == ("strips", 1.0)
     whole = apart(pictures[0], pictures[-1])
@@ -124,8 +124,8 @@ def test_d2_a_patch_held_as_strips_beside_blades_goes_there_and_back_without_a_p
     steps = [apart(one, other)[around].mean() for one, other in pairwise(pictures)]
     assert max(steps) < 0.3 * whole[around].mean()
     lod.hold = None
-    for _ in range(30):
-        prairie.viewers["main"].drawn_at = prairie.time - 1 / 20
+    for _ in range(15):
+        prairie.viewers["main"].drawn_at = prairie.time - 1 / 10
         after = easel.shot(prairie, ABOVE)
     assert lod.representation == "blades"
     np.testing.assert_array_equal(after, before)

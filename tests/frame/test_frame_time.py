@@ -190,7 +190,7 @@ def test_n11_a_game_and_a_prairie_with_fewer_pixels_leave_each_other_alone(tmp_p
     program = Path(__file__).with_name("host_program.py")
     (tmp_path / "scene.yaml").write_text(LITTLE + "wind: [{ kind: breeze, strength: 0.4 }]\n", "utf-8")
     done = subprocess.run(
-        [sys.executable, "-W", "error", "-c", RUN, program, tmp_path / "scene.yaml", "6"],
+        [sys.executable, "-W", "error", "-c", RUN, program, tmp_path / "scene.yaml", "1"],
         env={**os.environ, "PYGLET_HEADLESS": ""}, capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr

@@ -18,7 +18,7 @@ from tallgrass.testing import LITTLE
 SCENE = LITTLE + "wind: [{ kind: breeze, strength: 0.4 }]\n"
 PROGRAM = Path(__file__).with_name("host_program.py")
 CHECKS = re.findall(r"^def check_(\w+)", PROGRAM.read_text("utf-8"), re.MULTILINE)
-ROUNDS = os.environ.get("TALLGRASS_ROUNDS", "15")
+ROUNDS = os.environ.get("TALLGRASS_ROUNDS", "9")
 pytestmark = [pytest.mark.window, pytest.mark.gl]
 
 

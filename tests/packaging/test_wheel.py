@@ -17,7 +17,7 @@ pytestmark = pytest.mark.packaging
 ROOT = Path(__file__).parents[2]
 SOURCES = ("app", "components", "engine", "scenes", "systems", "testing")
 # What takes long, or reads the checkout, is tested in the checkout.
-QUICK = "not gl and not window and not golden and not packaging"
+QUICK = "not gl and not window and not golden and not packaging and not hypothesis"
 ELSEWHERE = ("packaging", "golden", "docs", "examples", "frame", "app", "systems", "test_editor.py", "test_fuzz.py")
 PLACE = """
 from importlib.util import find_spec

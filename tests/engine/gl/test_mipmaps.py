@@ -3,12 +3,14 @@
 import moderngl
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
-from tallgrass.engine.gl.mipmaps import halved, levels, mipmapped
+from tallgrass.engine.gl.mipmaps import halved, levels, mipmapped, mipmapped_image
 
 SHOW = """#version 330 core
 uniform sampler2DArray images;
-uniform float level, layer;
+uniform float level;
+uniform float layer;
 out vec4 pixel;
 void main() {
     vec2 size = vec2(textureSize(images, int(level)).xy);
@@ -35,18 +37,37 @@ def test_every_level_of_a_texture_is_the_half_of_the_one_before(
     ctx: moderngl.Context, channels: tuple[int, ...]
 ) -> None:
     texels = np.random.default_rng(0).integers(0, 256, (3, 12, 37, *channels), np.uint8)
-    texture = mipmapped(ctx, levels(texels))
-    program = ctx.program(vertex_shader=COVER, fragment_shader=SHOW)
-    array = ctx.vertex_array(program, [])
-    texture.use(0)
-    for level in range(6):
-        rows, columns = texels.shape[1:3]
-        target = ctx.framebuffer([ctx.texture((columns, rows), 4)])
-        target.use()
-        program["level"], program["layer"] = float(level), 2.0
-        array.render(vertices=3)
-        seen = np.frombuffer(target.read(components=4), np.uint8).reshape(rows, columns, 4)
+    made = levels(texels)
+    texture = mipmapped(ctx, made)
+    for level, now in enumerate(made):
+        seen = shown(texture, SHOW, now.shape[1:3], level=float(level), layer=2.0)
         np.testing.assert_array_equal(seen if channels else seen[..., 0], texels[2])
         texels = halved(texels)
-    assert texels.shape[1:3] == (1, 1)
+    assert len(made) == 6
     texture.release()
+
+
+def test_every_level_of_an_image_is_what_was_given(ctx: moderngl.Context) -> None:
+    random = np.random.default_rng(0)
+    made = [random.integers(0, 256, (side, side, 2), np.uint8) for side in (4, 2, 1)]
+    texture = mipmapped_image(ctx, made)
+    show = SHOW.replace("2DArray", "2D").replace("vec3(gl_FragCoord.xy / size, layer)", "gl_FragCoord.xy / size")
+    for level, texels in enumerate(made):
+        seen = shown(texture, show, texels.shape[:2], level=float(level))
+        np.testing.assert_array_equal(seen[..., :2], texels)
+    texture.release()
+
+
+def shown(
+    texture: moderngl.Texture | moderngl.TextureArray, show: str, shape: tuple[int, ...], **values: float
+) -> NDArray[np.uint8]:
+    """What a shader sees of a level of a texture, shape (rows, columns, 4)."""
+    ctx, (rows, columns) = texture.ctx, shape
+    program = ctx.program(vertex_shader=COVER, fragment_shader=show)
+    target = ctx.framebuffer([ctx.texture((columns, rows), 4)])
+    texture.use(0)
+    target.use()
+    for name, value in values.items():
+        program[name] = value
+    ctx.vertex_array(program, []).render(vertices=3)
+    return np.frombuffer(target.read(components=4), np.uint8).reshape(rows, columns, 4)

@@ -1,5 +1,6 @@
 """Programs composed from shader files, and messages that lead back to them."""
 
+from collections.abc import Iterator
 from importlib.resources import files
 from pathlib import Path
 
@@ -24,11 +25,13 @@ PLAIN = {
 
 
 @pytest.fixture
-def library(monkeypatch: pytest.MonkeyPatch) -> dict[str, list[str]]:
+def library(monkeypatch: pytest.MonkeyPatch) -> Iterator[dict[str, list[str]]]:
     """Shader files that are not on any disk."""
     sources = {name: list(lines) for name, lines in PLAIN.items()}
     monkeypatch.setattr(shaders, "_read", lambda name: tuple(sources[name]))
-    return sources
+    shaders._parts.cache_clear()  # noqa: SLF001
+    yield sources
+    shaders._parts.cache_clear()  # noqa: SLF001
 
 
 def test_there_are_shaders_to_try() -> None:

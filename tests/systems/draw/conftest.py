@@ -31,9 +31,10 @@ def probe(ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch) -> Iterator[Pr
         textures: dict[str, moderngl.Texture | moderngl.TextureArray],
         width: int,
     ) -> NDArray[np.float32]:
-        told = {"probe.vert": tuple(lines.splitlines())}
+        name = f"probe {hash(lines)}.vert"  # what a file of one name consists of is remembered
+        told = {name: tuple(lines.splitlines())}
         monkeypatch.setattr(shaders, "_read", lambda name: told.get(name) or read(name))
-        made = program(ctx, "probe.vert", None, varyings=("told",))
+        made = program(ctx, name, None, varyings=("told",))
         block.join(made)
         block.write(record)
         for unit, (name, texture) in enumerate(textures.items()):

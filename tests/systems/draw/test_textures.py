@@ -10,7 +10,7 @@ from tallgrass.engine.gl.stream import release_all
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.systems.frame.maps import density_texture, height_texture, posture_texture, slow_map
 from tallgrass.systems.grow.record import Growth
-from tallgrass.systems.light.repeating import LITTER_ONE, SIDE, ground_maps, repeating_texture
+from tallgrass.systems.light.repeating import LITTER_ONE, SIDE, ground_maps, repeating_levels
 from tallgrass.systems.show.carpet.grow import carpet_of
 from tallgrass.systems.show.carpet.textures import carpet_texture
 from tallgrass.systems.show.strips.stock import stock_strips
@@ -137,17 +137,14 @@ def test_what_is_slow_over_the_terrain_are_two_noises_of_the_seed(hills: Terrain
         assert noise.std() > 0.1
 
 
-def test_litter_is_as_bright_from_afar_as_from_near_by(ctx: moderngl.Context) -> None:
+def test_litter_is_as_bright_from_afar_as_from_near_by() -> None:
     """At every level, in its mean: a driver that rounds up at each would make ground brighter far off."""
-    texture = repeating_texture(ctx, seed=4)
-    means = [
-        np.frombuffer(texture.read(level=level, alignment=1), np.uint8).reshape(-1, 3).mean(axis=0)
-        for level in range(10)
-    ]
+    levels = repeating_levels(seed=4)
+    assert [len(texels) for texels in levels] == [512 >> level for level in range(10)]
+    means = [texels.mean(axis=(0, 1)) for texels in levels]
     np.testing.assert_allclose(means, means[:1] * 10, atol=0.6)
     bright, _ = ground_maps(seed=4)
     assert np.mean((bright / LITTER_ONE) ** 2) == pytest.approx(1.0, abs=0.02)
-    release_all(texture)
 
 
 def test_squares_of_ground_do_not_show_from_afar_where_they_repeat() -> None:
