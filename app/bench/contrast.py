@@ -17,9 +17,9 @@ LEAST = 1.5
 APART = 2.0**1.5 - 1.0
 """Half of what two halves of a pixel's samples are apart, squared, of the noise in the mean of all of them.
 
-By halves, shapes with edges are measured with 2^1.5 times the variance (samples on a lattice, errors fall as their number
-to the power of 3/4), and what the halves share is the mean. Where blades are much thinner than samples are apart the noise
-is more than that, so that no more of it is taken off than there is: with 16 samples a pixel, 0.55 to 0.9 of it.
+By halves, shapes with edges are measured with 2^1.5 times the variance (samples on a lattice, errors fall as their
+number to the power of 3/4), and what the halves share is the mean. Where blades are much thinner than samples are apart
+the noise is more than that, so that no more of it is taken off than there is: with 16 samples a pixel, 0.55 to 0.9.
 """
 
 WORST = 5.0

@@ -123,7 +123,8 @@ def ground_maps(*, seed: int) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
     wave = np.fft.fftfreq(SIDE, LITTER_SIDE / SIDE)
     blur = np.exp(-2.0 * (np.pi * SEEN_FAR * np.hypot(wave[:, None], wave[None])) ** 2)
     bright /= np.fft.ifft2(np.fft.fft2(bright) * blur).real
-    return np.asarray(np.clip(np.rint(np.sqrt(bright) * LITTER_ONE), 0, 255), np.uint8), np.asarray(covered * np.uint8(255))
+    root = np.clip(np.rint(np.sqrt(bright) * LITTER_ONE), 0, 255)
+    return np.asarray(root, np.uint8), np.asarray(covered * np.uint8(255))
 
 
 def repeating_texture(ctx: moderngl.Context, *, seed: int) -> moderngl.Texture:

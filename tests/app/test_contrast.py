@@ -74,8 +74,7 @@ def test_what_a_truth_deviates_by_for_having_few_samples_is_taken_off_in_part_an
     apart = np.where(white, samples, -samples).sum(axis=(1, 3)) / 16.0
     seen, few = (np.repeat(each[..., None], 3, axis=2) for each in (exact, samples.mean(axis=(1, 3))))
     raw = relative_contrast(seen.astype(np.uint8), sure(few.astype(np.uint8)), ALL).mean()
-    told = relative_contrast(
-        seen.astype(np.uint8), Truth(few.astype(np.uint8), np.repeat(apart[..., None], 3, axis=2).astype(np.float32)), ALL
-    ).mean()
+    truth = Truth(few.astype(np.uint8), np.repeat(apart[..., None], 3, axis=2).astype(np.float32))
+    told = relative_contrast(seen.astype(np.uint8), truth, ALL).mean()
     assert raw < 0.9
     assert raw + 0.05 < told <= 1.0

@@ -167,7 +167,7 @@ Sum trodden_light(float slope) {
     if (most < 1e-3)
         return sum;
     vec4 here = lie_at(there.xz);
-    Sum with = summed(met, there, here, messages, slope), without = summed(met, there, here, blown, slope);
+    Sum with = summed(met, there, here, messages), without = summed(met, there, here, blown);
     return Sum(max(sum.direct + with.direct - without.direct, 0.0),
                max(sum.open_to + with.open_to - without.open_to, 0.0), sum.shade + with.shade - without.shade,
                max(lies + with.lies - without.lies, 0.0), sways + with.sways - without.sways);

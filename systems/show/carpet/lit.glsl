@@ -16,14 +16,12 @@ struct Sum {
 
 const float SWAYS = 0.35;  // how far leaves are moved that are seen, of the canopy's height and the posture index
 
-const float LAID = 0.8, SLANTED = 0.85;  // sines of how far a blade lies over, of its posture index: from above and from the side
+const float LAID = 0.8;  // sine of how far blades lie over, of their posture index
 
-// How many more leaves a line of sight of some slope meets of a kind that is bent so, where it stands densely: more of its
-// leaf area is seen from above, and less from the side.
-float laid(int kind, vec2 bend, float slope) {
+// How many more leaves a line of sight meets of a kind that is bent so, where it stands densely: those that lie.
+float laid(int kind, vec2 bend) {
     float lies = OF(lying, kind), bent = min(dot(bend, bend), 1.0);
-    float above = sqrt(lies * lies + LAID * LAID * bent) - lies, aside = 1.0 - sqrt(1.0 - SLANTED * SLANTED * bent);
-    return max(above - aside / max(slope, 0.1), 0.0) * OF(leaf, kind);
+    return (sqrt(lies * lies + LAID * LAID * bent) - lies) * OF(leaf, kind);
 }
 
 // The wind's message; far off, where nobody asks for it, the mean of those nearer by.
@@ -35,7 +33,7 @@ vec2 message_at(vec2 at) {
 }
 
 // The light there on each kind as its message has bent it, in the mean of all that are met.
-Sum summed(ByKind met, vec3 there, vec4 here, vec2 messages[KINDS], float slope) {
+Sum summed(ByKind met, vec3 there, vec4 here, vec2 messages[KINDS]) {
     ByKind grows = grows_at(there.xz);
     Sum sum = Sum(vec3(0.0), vec3(0.0), vec4(0.0), 0.0, vec2(0.0));
     for (int kind = 0; kind < KINDS; kind++) {
@@ -44,7 +42,7 @@ Sum summed(ByKind met, vec3 there, vec4 here, vec2 messages[KINDS], float slope)
         sum.direct += OF(met, kind) * lit.sun;
         sum.open_to += OF(met, kind) * lit.sky;
         sum.shade += OF(met, kind) * vec4(lit.gloss, lit.way.x, lit.leaves);
-        sum.lies += OF(met, kind) * laid(kind, bend, slope);
+        sum.lies += OF(met, kind) * laid(kind, bend);
         sum.sways += OF(met, kind) * SWAYS * OF(crown, kind) * bend;
     }
     float all = 1.0 / max(total(met), 1e-4);
