@@ -41,7 +41,7 @@ class Truth:
 
     doubt: NDArray[np.float32]
     """Half of what two halves of a pixel's samples are apart, those like a chessboard's white and its black fields,
-    shape (height, width, 3): its square is on the mean that of the picture's own noise."""
+    shape (height, width, 3): on the mean, its square is no less than that of the picture's own noise."""
 
 
 def terrain_cells(ground: Ground, /) -> Ints:

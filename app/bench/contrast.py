@@ -15,11 +15,11 @@ LEAST = 1.5
 """Deviation in the reference below which a tile has no grain to compare with [steps of 255]."""
 
 APART = 2.0**1.5 - 1.0
-"""Half of what two halves of a pixel's samples are apart, squared, of the noise in the mean of all of them.
+"""What a truth's `doubt` is, squared, of the noise in its picture, where shapes with edges are sampled on a lattice.
 
-By halves, shapes with edges are measured with 2^1.5 times the variance (samples on a lattice, errors fall as their
-number to the power of 3/4), and what the halves share is the mean. Where blades are much thinner than samples are apart
-the noise is more than that, so that no more of it is taken off than there is: with 16 samples a pixel, 0.55 to 0.9.
+Errors of a lattice fall as the number of its samples to the power of 3/4, so that by halves the variance is 2^1.5 times
+as large; what the halves share is the mean. Where blades are much thinner than samples are apart the noise is more than
+that: never more of it is taken off than there is. With 16 samples a pixel, beside 144, it is 0.6 to 0.9 of it.
 """
 
 WORST = 5.0
@@ -32,7 +32,7 @@ def tile_side(lines: int, /) -> int:
 
 
 def luma(picture: NDArray[np.generic], /) -> Doubles:
-    """Return the luma of sRGB bytes (..., 3), in display space from 0 to 255, shape (...)."""
+    """Return the luma of sRGB colours (..., 3), in display space and steps of 255, shape (...)."""
     return np.asarray(picture.astype(np.float64) @ np.array([0.2126, 0.7152, 0.0722]))
 
 
@@ -47,8 +47,8 @@ def relative_contrast(picture: Picture, truth: Truth, grass: NDArray[np.bool_], 
     """Return the standard deviation of luma over the truth's, for each tile that is all grass, shape (tiles,).
 
     The picture is sRGB bytes (height, width, 3); `grass` (height, width) says where it shows any. The truth's is that
-    of endlessly many samples: what its picture deviates by for having few is taken off. Where blades are much smaller
-    than pixels, that is more than half of it. Tiles where the truth is flat are left out.
+    of endlessly many samples: what its picture deviates by for having few is taken off. Where blades are a tenth of a
+    pixel, that is two fifths of the variance. Tiles where the truth is flat are left out.
     """
     side = tile_side(len(picture))
     drawn, seen = (tiled(luma(each), side).std(axis=-1) for each in (picture, truth.picture))
