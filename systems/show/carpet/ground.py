@@ -146,6 +146,18 @@ def _tell(layer: _Layer, told: Mapping[str, object]) -> None:
         layer.program[name] = value
 
 
+def _of_images(growths: Sequence[Growth], seed: int) -> dict[str, object]:
+    """Return what the carpet's program is told of the kinds' images, by the names of its uniforms."""
+    slopes = carpet_of(growths[0].models[0]).slope
+    images = [len(growth.models) * len(slopes) * 4 for growth in growths]
+    return {
+        "slopes": slopes.tolist(),
+        "tops": by_kind([carpet_of(growth.models[0]).height / canopy_height(growth) for growth in growths]),
+        "first": by_kind([sum(images[:index]) for index in range(len(images))]),
+        "stock": (len(growths[0].models), seed),
+    }
+
+
 class GroundPainter:
     """Draws ground and carpet."""
 
@@ -186,13 +198,7 @@ class GroundPainter:
         """Whether anybody treads the grass, or has: then pixels of the carpet ask for that, which costs."""
         self._trodden: _Layer | None = None
         self._make_trodden = partial(layer, {**laid, "TRODDEN": 1}, self.streams[2])
-        images = [len(growth.models) * len(slopes) * 4 for growth in growths]
-        self._told: dict[str, object] = {
-            "slopes": slopes.tolist(),
-            "tops": by_kind([carpet_of(growth.models[0]).height / canopy_height(growth) for growth in growths]),
-            "first": by_kind([sum(images[:index]) for index in range(len(images))]),
-            "stock": (len(growths[0].models), seed),
-        }
+        self._told = _of_images(growths, seed)
         _tell(self.carpet, self._told)
         if "HEADS" in laid:
             heads = [heads_of(growth) for growth in growths]
