@@ -283,10 +283,3 @@ vec3 shown_of(vec3 light) {
     vec3 root_of = min(sqrt(light), WHITE);
     return root_of * (CURVE.x + root_of * (CURVE.y + root_of * CURVE.z));
 }
-
-// How much more a strip that runs along `run` covers for being seen at an angle: a line of sight then crosses fewer
-// strips on the same way through the grass.
-float boosted(vec2 run, vec3 middle) {
-    vec2 sight = normalize(middle.xz - eye.xz);
-    return mix(1.0, 1.0 / max(abs(run.x * sight.y - run.y * sight.x), 0.6), 0.7);
-}

@@ -12,6 +12,7 @@ uniform ByKind tall;          // by kind: height of the strips [m]
 struct Edge {
     vec3 foot;
     vec2 bend;
+    vec3 top;      // where its posture has its top, from the foot
     vec2 back;     // how far its top lies back
 };
 
@@ -22,13 +23,15 @@ struct Painted {
     vec3 run;      // from the column's first edge to its second, along the ground
     vec3 middle;   // between their feet
     vec2 bend;     // mean of the two
+    vec3 top;      // where their postures have their tops, from the feet
+    vec2 back;     // how far those lie back beyond that
 };
 
 Edge edge_at(vec4 base, int receiver, int edge, int kind, int count, float height) {
     vec4 told = received_by(receiver + edge);
     vec2 at = base.xy + base.zw * float(edge), bend = bending(kind, told.xy);
     vec3 foot = vec3(at.x, told.z, at.y), top = posture(float(kind) * field.w, bend, 1.0).place * height;
-    return Edge(foot, bend, laid_back(base.zw, foot, top, height, count));
+    return Edge(foot, bend, top, laid_back(base.zw, foot, top, height, count));
 }
 
 // The point at `part` of an edge's length, on a strip of this height [m], and its height in the canopy.
@@ -67,5 +70,5 @@ Painted painted_at(vec4 base, int receiver, int blade, float height, float t, in
     vec4 at = corner + across * from.x + up * from.y;
     vec3 run = vec3(b.foot.x - a.foot.x, 0.0, b.foot.z - a.foot.z);
     return Painted(at.xyz, across.xyz * way.x + up.xyz * way.y, at.w, run, 0.5 * (a.foot + b.foot),
-                   0.5 * (a.bend + b.bend));
+                   0.5 * (a.bend + b.bend), 0.5 * (a.top + b.top), 0.5 * (a.back + b.back));
 }

@@ -35,3 +35,13 @@ vec2 laid_back(vec2 run, vec3 foot, vec3 top, float height, int strips) {
     float least = min(SPREAD * soil.w / float(strips), height * behind), reach = dot(top.xz, off) + top.y * behind;
     return off * clamp(least - reach, 0.0, 2.0 * least);
 }
+
+// How much more the blades on a strip cover than what is painted of them: those that face all ways as they lean to `top`,
+// seen from the eye, and one way as the strip does, that runs along `run` and lies `back` beyond that. As leaves hide leaves,
+// not all of it shows.
+float boosted(int kind, vec2 run, vec3 middle, vec3 top, vec2 back) {
+    vec3 ray = normalize(middle - eye.xyz), own = cross(top + vec3(back.x, 0.0, back.y), ray);
+    vec2 all = cross(top, ray).xz;
+    float lies = OF(lying, kind) * top.y * ray.y, whole = sqrt(dot(all, all) + lies * lies);
+    return mix(1.0, whole / max(abs(dot(run, own.xz)), 0.4 * whole), 0.85);
+}

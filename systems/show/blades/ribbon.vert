@@ -136,7 +136,7 @@ void main() {
     is_round = is_round && int(stands.z) == BLADE_ITSELF;
 #endif
     wide = is_round ? sign(wide) * length(across) : wide;
-    across = mix(across, run * wide * boosted(run, target.middle), painted.w);
+    across = mix(across, run * wide * boosted(k, run, target.middle, target.top, target.back), painted.w);
     vec2 face = normalize(vec2(lie_of.w, -lie_of.z));
     float tone = t;
 #ifdef ORGANS

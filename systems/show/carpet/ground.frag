@@ -167,10 +167,10 @@ Sum trodden_light(float slope) {
     if (most < 1e-3)
         return sum;
     vec4 here = lie_at(there.xz);
-    Sum with = summed(met, there, here, messages), without = summed(met, there, here, blown);
+    Sum with = summed(met, slope, there, here, messages), without = summed(met, slope, there, here, blown);
     return Sum(max(sum.direct + with.direct - without.direct, 0.0),
                max(sum.open_to + with.open_to - without.open_to, 0.0), sum.shade + with.shade - without.shade,
-               max(lies + with.lies - without.lies, 0.0), sways + with.sways - without.sways);
+               lies + with.lies - without.lies, sways + with.sways - without.sways);
 }
 #endif
 
@@ -239,7 +239,7 @@ vec3 carpet_seen(float slope, float on_level, vec3 below, float share) {
         mean_of.rg *= among.y;
         mean_of.g *= OF(tops, kind);
         Lit met_by = lit;
-        float covers = 1.0 - (1.0 - image.a) * between;
+        float covers = max(1.0 - (1.0 - image.a) * between, 0.0);
 #ifdef HEADS
         float more = OF(riper, kind);
         mean_of.r += more * (more > 0.0 ? 1.0 - mean_of.r : mean_of.r);

@@ -56,7 +56,7 @@ void light_up(float slope) {
         stands += OF(met, kind) * lodged(bending(kind, message));
     }
     stands = total(met) > 1e-4 ? stands / total(met) : 1.0;
-    Sum sum = summed(met, there, here, messages);
+    Sum sum = summed(met, slope, there, here, messages);
     direct = sum.direct;
     open_to = sum.open_to;
     shade = sum.shade;

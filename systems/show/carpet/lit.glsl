@@ -18,10 +18,14 @@ const float SWAYS = 0.35;  // how far leaves are moved that are seen, of the can
 
 const float LAID = 0.8;  // sine of how far blades lie over, of their posture index
 
-// How many more leaves a line of sight meets of a kind that is bent so, where it stands densely: those that lie.
-float laid(int kind, vec2 bend) {
-    float lies = OF(lying, kind), bent = min(dot(bend, bend), 1.0);
-    return (sqrt(lies * lies + LAID * LAID * bent) - lies) * OF(leaf, kind);
+// How many more leaves a line of sight meets of a kind for how it is bent, where it stands densely. `sight` is the way that
+// it goes while it falls by the height of the canopy, as that stands [of its height at rest]: grass that leans away from the
+// eye turns its breadth to it, and grass that leans towards it its edge.
+float laid(int kind, vec2 bend, vec2 sight) {
+    float lies = OF(lying, kind);
+    vec2 leans = LAID * bend * min(inversesqrt(dot(bend, bend) + 1e-6), 1.0);
+    vec3 still = vec3(sight, lies), bent = vec3(sight + leans, lies);
+    return (length(bent) - length(still)) * OF(leaf, kind);
 }
 
 // The wind's message; far off, where nobody asks for it, the mean of those nearer by.
@@ -33,16 +37,17 @@ vec2 message_at(vec2 at) {
 }
 
 // The light there on each kind as its message has bent it, in the mean of all that are met.
-Sum summed(ByKind met, vec3 there, vec4 here, vec2 messages[KINDS]) {
+Sum summed(ByKind met, float slope, vec3 there, vec4 here, vec2 messages[KINDS]) {
     ByKind grows = grows_at(there.xz);
     Sum sum = Sum(vec3(0.0), vec3(0.0), vec4(0.0), 0.0, vec2(0.0));
+    vec2 sight = normalize(there.xz - eye.xz + 1e-6) / max(slope, 0.02);
     for (int kind = 0; kind < KINDS; kind++) {
         vec2 bend = bending(kind, messages[kind]);
         Lit lit = lit_at(kind, bend, there, here, grows);
         sum.direct += OF(met, kind) * lit.sun;
         sum.open_to += OF(met, kind) * lit.sky;
         sum.shade += OF(met, kind) * vec4(lit.gloss, lit.way.x, lit.leaves);
-        sum.lies += OF(met, kind) * laid(kind, bend);
+        sum.lies += OF(met, kind) * laid(kind, bend, sight * lodged(bend));
         sum.sways += OF(met, kind) * SWAYS * OF(crown, kind) * bend;
     }
     float all = 1.0 / max(total(met), 1e-4);

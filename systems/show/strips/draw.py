@@ -14,7 +14,7 @@ from ...frame.block import by_kind, joined
 from ...receive.hearing import Hearing
 from .gather import STOOD
 from .grow import Strips
-from .textures import extent_texture, strip_texture
+from .textures import Atlas, extent_texture, strip_texture
 
 STOOD_ROW, STRIPS_ROW = 64, 1024
 """Records in a row of the textures that hold patches, and the numbers of polygon strips."""
@@ -25,7 +25,7 @@ NUMBER = np.dtype([("number", "u4")])
 class StripPainter:
     """Draws the strips of all rings; it owns their textures.
 
-    `stock` gives the strips by ring, kind and model, and `atlas` is what `atlas_levels` makes of them.
+    `stock` gives the strips by ring, kind and model, and `atlas` is what `strip_atlas` makes of them.
     """
 
     def __init__(
@@ -33,13 +33,13 @@ class StripPainter:
         canvas: Canvas,
         rings: Sequence[StripRing],
         stock: Sequence[list[list[Strips]]],
-        atlas: list[NDArray[np.uint8]],
+        atlas: Atlas,
     ) -> None:
         self.units, self.rings, self.kinds = canvas.units, rings, len(stock[0])
         self.received = canvas.received
         self.sections = max(ring.sections for ring in rings)
         self.most = self.kinds * max(ring.strips * ring.columns for ring in rings)
-        self.atlas = strip_texture(canvas.ctx, atlas)
+        self.atlas, self.ranks = (strip_texture(canvas.ctx, made) for made in (atlas.texels, atlas.ranks))
         self.extents = extent_texture(canvas.ctx, stock, [ring.columns for ring in rings])
         self._stock = stock
         self.stood = Records(canvas.ctx, STOOD, STOOD_ROW)
@@ -102,6 +102,7 @@ class StripPainter:
         if not count:
             return 0
         self.atlas.use(self.units["atlas"])
+        self.ranks.use(self.units["ranks"])
         self.stood.texture.use(self.units["stood"])
         self.extents.use(self.units["extents"])
         self.strips.texture.use(self.units["strips"])
@@ -111,7 +112,8 @@ class StripPainter:
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(*self.arrays, *self.programs, self.hearing, self.stood, self.strips, self.atlas, self.extents)
+        textures = self.atlas, self.ranks, self.extents
+        release_all(*self.arrays, *self.programs, self.hearing, self.stood, self.strips, *textures)
 
 
 def tell_stacks(made: moderngl.Program, rings: Sequence[StripRing], /) -> None:

@@ -24,7 +24,10 @@ class Strips:
 
     texels: Bytes
     """Coverage-premultiplied meaning of each texel, bottom row first, shape (2, strips, h, w, 4): place along
-    the blade, cosine c of twice the face normal's azimuth (0.5 + 0.5 c), rank of the blade, coverage."""
+    the blade, cosine c and sine s of twice the face normal's azimuth (0.5 + 0.5 c, 0.5 + 0.5 s), coverage."""
+
+    ranks: Bytes
+    """Coverage-premultiplied rank of what each texel shows, shape (2, strips, h, w)."""
 
     height: float
     """Height of the texture [m]."""
@@ -69,7 +72,7 @@ def grow_strips(
     A strip shows the blades whose roots lie in its slice, along the slice's normal. Where they cross, those of lower
     rank lie in front: the strip is flat anyway, and a blade that stays where its kind grows thinly must not have been
     hidden by one that goes. Of face normals the doubled azimuth is kept: both sides of a blade are lit alike, and light
-    is linear in its cosine, so that the mean of many is right. The texture reaches from -`margin` to `patch` +
+    is linear in its cosine and sine, so that the mean of many is right. The texture reaches from -`margin` to `patch` +
     `margin`, and from the ground to `height` [m] (without it, over the highest tip); its texels are square but for
     rounding, `texel` metres wide at most.
     """
@@ -80,10 +83,11 @@ def grow_strips(
         blades, postures, strips=strips, patch=patch, margin=margin, height=height, size=size, taper=taper,
         section=section,
     )  # fmt: skip
-    images = [shared.draw(orientation) for orientation in (0, 1)]
+    images = np.stack([shared.draw(orientation) for orientation in (0, 1)])
     return Strips(
         plane=((np.arange(strips) + 0.5) * (patch / strips)).astype(np.float32),
-        texels=np.stack(images),
+        texels=images[..., :4],
+        ranks=images[..., 4],
         height=height,
         margin=margin,
         slice=np.stack([shared.slice(orientation) for orientation in (0, 1)]),
@@ -142,7 +146,7 @@ class _Sheet:
         return np.clip(depth / self._patch * self._strips, 0, self._strips - 1).astype(np.int32)
 
     def draw(self, orientation: int, /) -> Bytes:
-        """Return the texels of one orientation, shape (strips, h, w, 4)."""
+        """Return the texels of one orientation and their ranks, shape (strips, h, w, 5)."""
         h, w = self._size
         fine = self._fine
         span = 2 * _SEGMENTS
@@ -160,7 +164,7 @@ class _Sheet:
         texel = (seen.sample // shape[1] // fine) * w + seen.sample % shape[1] // fine
         sums = [np.bincount(texel, weights=value, minlength=self._strips * h * w) for value in values]
         texels: Bytes = np.rint(np.stack(sums, axis=1) * (255.0 / fine**2)).astype(np.uint8)
-        return texels.reshape(-1, h, w, 4)
+        return texels.reshape(-1, h, w, 5)
 
     def _lifted(self, ribbons: Doubles, depth: int, /) -> Doubles | float:
         """Return how much higher corners of heads are painted, as they are seen from a little above, (triangles, 3)."""
@@ -172,9 +176,10 @@ class _Sheet:
         return np.asarray(np.where(heads[:, None], SLANT * (away - foot), 0.0))
 
     def _meaning(self, corners: Doubles, seen: Fragments, /) -> list[Doubles]:
-        """Return at each sample: place along the blade, twice the normal's azimuth, rank, and 1."""
+        """Return at each sample: place along the blade, twice the normal's azimuth in two parts, 1, and the rank."""
         ends = tone(self._blades, np.linspace(0.0, 1.0, _SEGMENTS + 1))[:, :, None]
         along = interpolate(corners, ribbon_triangles(ends, ends)[:, :, 0], seen)
         facing, rank = self._blades.facing.astype(np.float64), self._blades.rank.astype(np.float64)
-        blade, across = seen.triangle // (2 * _SEGMENTS), np.cos(2.0 * facing)
-        return [along, (0.5 + 0.5 * across).take(blade), rank.take(blade), np.ones_like(along)]
+        blade = seen.triangle // (2 * _SEGMENTS)
+        twice = [(0.5 + 0.5 * part(2.0 * facing)).take(blade) for part in (np.cos, np.sin)]
+        return [along, *twice, np.ones_like(along), rank.take(blade)]

@@ -17,7 +17,7 @@ from .draw import StripPainter
 from .gather import gather_strips, polygon_strips, runs
 from .pool import StripPool, StripsKept
 from .shown import StripsOfRing, StripsShown
-from .textures import atlas_levels, strip_stocks
+from .textures import Atlas, strip_atlas, strip_stocks
 
 WHOLE = 0.995
 """Density from which on no blade of a kind is missing."""
@@ -27,12 +27,12 @@ class StripsPainter:
     """Draws the strips of all rings from far to near."""
 
     def __init__(
-        self, canvas: Canvas, growths: Sequence[Growth], quality: Quality, ready: list[NDArray[np.uint8]] | None = None
+        self, canvas: Canvas, growths: Sequence[Growth], quality: Quality, ready: Atlas | None = None
     ) -> None:
         self._fade = canvas.transitions.fade
         self._fineness = [(ring.strips, ring.columns) for ring in quality.strip_rings]
         stock = strip_stocks(growths)
-        self.strips = StripPainter(canvas, quality.strip_rings, stock, ready or atlas_levels(stock))
+        self.strips = StripPainter(canvas, quality.strip_rings, stock, ready or strip_atlas(stock))
         self.runs: list[tuple[int, int, bool]] = []
         self._asked: list[tuple[int, int, int]] = []
         self._amount = np.zeros(0, np.int64)

@@ -23,7 +23,7 @@ from .pool import StripPool, StripsKept
 from .shown import StripsOfRing, StripsShown, show_strips
 from .stock import StripStock, stock_strips
 from .sublevel import axis_of, left_of, packed, ring_of, shows_rows, strip_ring, strips_along, viewing_slope
-from .textures import atlas_levels, strip_stocks
+from .textures import Atlas, strip_atlas, strip_stocks
 
 Floats = NDArray[np.float32]
 Levels = NDArray[np.int8]
@@ -41,7 +41,7 @@ class StripRepresentation(Representation):
     name: ClassVar[str] = "strips"
     label: ClassVar[str] = "2.5D strips"
     color: ClassVar[Color] = (0.12, 0.50, 0.98)
-    samplers: ClassVar[tuple[str, ...]] = ("atlas", "extents", "strips", "stood")
+    samplers: ClassVar[tuple[str, ...]] = ("atlas", "ranks", "extents", "strips", "stood")
     asked: ClassVar[tuple[str, ...]] = ("stood",)
     record: ClassVar[type | None] = Strips
 
@@ -50,8 +50,8 @@ class StripRepresentation(Representation):
     ground: Ground
     growths: Sequence[Growth]
 
-    ready: list[NDArray[np.uint8]] = field(default_factory=list)
-    """What the next painter takes of what was made beforehand, the atlas; empty where nothing was."""
+    ready: list[Atlas] = field(default_factory=list)
+    """What the next painter takes of what was made beforehand; empty where nothing was."""
 
     @staticmethod
     def reach(quality: Quality, /) -> int:
@@ -86,7 +86,7 @@ class StripRepresentation(Representation):
             strips.plane.shape == (ring.strips,)
             and strips.texels.ndim == 5
             and strips.texels.shape[:2] == (2, ring.strips)
-            and strips.texels.shape[4] == 4
+            and strips.texels.shape == (*strips.ranks.shape, 4)
             and strips.slice.shape == (2, blades)
             and strips.targets.shape == (2, blades, LINKS + 1, 2)
             for strips, ring in zip(pictures, rings, strict=True)
@@ -108,7 +108,7 @@ class StripRepresentation(Representation):
 
     def prepare(self) -> None:
         """Make the atlas for the next painter."""
-        self.ready[:] = atlas_levels(strip_stocks(self.growths))
+        self.ready[:] = [strip_atlas(strip_stocks(self.growths))]
 
     def rings(self) -> int:
         """Return how many rings it has."""
@@ -219,6 +219,5 @@ class StripRepresentation(Representation):
 
     def painter(self, canvas: Canvas, /) -> StripsPainter:
         """Return a painter of all rings."""
-        ready = self.ready[:]
-        self.ready.clear()
+        ready = self.ready.pop() if self.ready else None
         return StripsPainter(canvas, self.growths, self.quality, ready)

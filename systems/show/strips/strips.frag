@@ -1,11 +1,15 @@
 #include "lib/light.glsl"
 
-uniform sampler2DArray atlas;  // place along the blade, twice the normal's azimuth, rank, coverage; premultiplied
+uniform sampler2DArray atlas;  // place along the blade, cosine and sine of twice the normal's azimuth, coverage; premultiplied
+#ifdef THIN
+uniform sampler2DArray ranks;  // rank; premultiplied
+#endif
 
 in vec2 at;
 flat in vec3 foot_color;  // pigment
 flat in vec3 rise_color;
-flat in vec3 grain;   // change of pigment with twice the normal's azimuth
+flat in vec3 grain_cos;   // change of pigment with the cosine of twice the normal's azimuth
+flat in vec3 grain_sin;
 in float h;            // height in the canopy
 flat in vec3 direct;  // light on leaves, past the haze: the sun's
 flat in vec3 open_to; // the sky's
@@ -36,7 +40,7 @@ const float FAINT = 0.006; // coverage that is left out: in bytes, layer upon la
 void main() {
     vec4 texel = textureLod(atlas, vec3(at, sheet), level);
     vec3 mean = texel.rgb / max(texel.a, 0.002);
-    vec3 pigment = (foot_color + rise_color * mean.r) * (1.0 + grain * (2.0 * mean.g - 1.0));
+    vec3 pigment = (foot_color + rise_color * mean.r) * (1.0 + grain_cos * (2.0 * mean.g - 1.0) + grain_sin * (2.0 * mean.b - 1.0));
     Lit lit = Lit(direct, open_to, veil.w, vec2(shade.z, OPEN_SKY), shade.xy);
     float covered = shown * min(texel.a * boost, 1.0);
 #ifdef MOWN
@@ -50,7 +54,8 @@ void main() {
 #endif
     vec3 grass = shown_of(radiance(pigment, h, lit) + veil.rgb);
 #ifdef THIN
-    covered *= clamp(grows - mean.b * sharp, 0.0, 1.0) * clamp(stays.x * mean.b + stays.y, 0.0, 1.0);
+    float rank = textureLod(ranks, vec3(at, sheet), level).r / max(texel.a, 0.002);
+    covered *= clamp(grows - rank * sharp, 0.0, 1.0) * clamp(stays.x * rank + stays.y, 0.0, 1.0);
 #endif
     pixel = vec4(grass, 1.0) * (covered < FAINT ? 0.0 : covered);
 }

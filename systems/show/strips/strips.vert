@@ -18,7 +18,8 @@ uniform ivec4 stacks[RINGS];             // by ring: columns of a strip, section
 out vec2 at;
 flat out vec3 foot_color;  // pigment
 flat out vec3 rise_color;
-flat out vec3 grain;   // change of pigment with twice the normal's azimuth
+flat out vec3 grain_cos;   // change of pigment with the cosine of twice the normal's azimuth
+flat out vec3 grain_sin;
 out float h;            // height in the canopy
 flat out vec3 direct;  // light on leaves, past the haze: the sun's
 flat out vec3 open_to; // the sky's
@@ -70,13 +71,11 @@ float pixels_at(vec3 place) {
 }
 
 // Where a point of an edge is, `t` of the way up its section's quads, and its height in the canopy.
-vec4 on_edge(vec3 foot, vec2 bend, vec2 run, int count, float t, int k, float sections, float growth) {
+vec4 on_edge(vec3 foot, vec2 bend, vec2 back, float t, int k, float sections, float growth) {
     float low = min(floor(t * sections), sections - 1.0), variant = float(k) * field.w;
     vec3 from = posture(variant, bend, low / sections).place, to = posture(variant, bend, (low + 1.0) / sections).place;
     vec3 spine = mix(from, to, t * sections - low) * OF(tall, k);
-    float height = OF(tall, k) * growth;
-    vec2 back = laid_back(run, foot, posture(variant, bend, 1.0).place * height, height, count) * t;
-    return vec4(foot + spine * growth + vec3(back.x, 0.0, back.y), spine.y / (OF(crown, k) * lodged(bend)));
+    return vec4(foot + spine * growth + t * vec3(back.x, 0.0, back.y), spine.y / (OF(crown, k) * lodged(bend)));
 }
 
 void main() {
@@ -108,8 +107,10 @@ void main() {
     float t = min(float(gl_VertexID / 2) / float(fine.y), min(extent.z + 1.0 / (pixels * OF(tall, k)), 1.0));
     vec2 bend_a = bending(k, told_a.xy), bend_b = bending(k, told_b.xy);
     vec2 way = b.xz - a.xz;
-    float sections = float(fine.y);
-    vec4 point = mix(on_edge(a, bend_a, way, count, t, k, sections, how.y), on_edge(b, bend_b, way, count, t, k, sections, how.y), across);
+    float sections = float(fine.y), variant = float(k) * field.w, height = OF(tall, k) * how.y;
+    vec3 top_a = posture(variant, bend_a, 1.0).place * height, top_b = posture(variant, bend_b, 1.0).place * height;
+    vec2 back_a = laid_back(way, a, top_a, height, count), back_b = laid_back(way, b, top_b, height, count);
+    vec4 point = mix(on_edge(a, bend_a, back_a, t, k, sections, how.y), on_edge(b, bend_b, back_b, t, k, sections, how.y), across);
     gl_Position = clip * vec4(point.xyz, 1.0);
     at = vec2((float(column) + across) / float(fine.x), t) * picture.xy;
     vec4 here = lie_at(middle.xz);
@@ -136,9 +137,11 @@ void main() {
     vec3 dry = stretch(here) * (1.0 + facing);
     foot_color = root[k].rgb * dry;
     rise_color = (tip[k].rgb - root[k].rgb) * dry;
-    grain = (turn % 2 == 0 ? 1.0 : -1.0) * grain_c[k].rgb;
+    float turned = turn % 2 == 0 ? 1.0 : -1.0;
+    grain_cos = turned * grain_c[k].rgb;
+    grain_sin = turned * grain_s[k].rgb;
     shown = how.x;
-    boost = boosted(run, middle);
+    boost = boosted(k, run, middle, 0.5 * (top_a + top_b), 0.5 * (back_a + back_b));
     float texels = picture.y * ATLAS / (OF(tall, k) * pixels);
     level = log2(texels) - SHARPER;
 #ifdef THIN

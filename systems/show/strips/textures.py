@@ -1,6 +1,7 @@
 """The strips of all rings as textures."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import moderngl
 import numpy as np
@@ -14,6 +15,18 @@ _WHOLE = 16
 """Layers are so many texels wide and high, or twice, three times as many: the finest mip-maps are whole then."""
 
 Mask = NDArray[np.bool_]
+Bytes = NDArray[np.uint8]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Atlas:
+    """The pictures of all strips, finest level first: rings, kinds, models, orientations and strips are layers."""
+
+    texels: list[Bytes]
+    """What texels mean, each (layers, rows, columns, 4)."""
+
+    ranks: list[Bytes]
+    """Their ranks, each (layers, rows, columns): asked for only where some blades do not show."""
 
 
 def strip_stock(growths: Sequence[Growth], ring: int) -> list[list[Strips]]:
@@ -26,20 +39,20 @@ def strip_stocks(growths: Sequence[Growth]) -> list[list[list[Strips]]]:
     return [strip_stock(growths, ring) for ring in range(len(strips_of(growths[0].models[0])))]
 
 
-def atlas_levels(stock: Sequence[list[list[Strips]]]) -> list[NDArray[np.uint8]]:
-    """Return the atlas of all strips: rings, kinds, models, orientations and strips are layers, in this order.
-
-    Pictures stand in the lower left corner of layers that are large enough for all of them. The atlas comes first, then
-    its mip-maps.
-    """
+def strip_atlas(stock: Sequence[list[list[Strips]]]) -> Atlas:
+    """Return the atlas of all strips: each in the lower left corner of a layer that is large enough for all of them."""
     every = _each(stock)
     largest = np.max([strips.texels.shape[2:4] for strips in every], axis=0)
-    return levels(np.concatenate([_padded(strips.texels, -(-largest // _WHOLE) * _WHOLE) for strips in every]))
+    size = -(-largest // _WHOLE) * _WHOLE
+    return Atlas(
+        texels=levels(np.concatenate([_padded(strips.texels, size) for strips in every])),
+        ranks=levels(np.concatenate([_padded(strips.ranks, size) for strips in every])),
+    )
 
 
-def strip_texture(ctx: moderngl.Context, atlas: list[NDArray[np.uint8]]) -> moderngl.TextureArray:
-    """Return the atlas of all strips as a texture, made of what `atlas_levels` says."""
-    texture = mipmapped(ctx, atlas)
+def strip_texture(ctx: moderngl.Context, made: list[Bytes]) -> moderngl.TextureArray:
+    """Return the texels or the ranks of an atlas as a texture."""
+    texture = mipmapped(ctx, made)
     texture.repeat_x = texture.repeat_y = False
     return texture
 
@@ -95,9 +108,8 @@ def _layers(strips: Strips) -> int:
     return 2 * len(strips.plane)
 
 
-def _padded(texels: NDArray[np.uint8], size: NDArray[np.int64]) -> NDArray[np.uint8]:
+def _padded(texels: Bytes, size: NDArray[np.int64]) -> Bytes:
     flat = texels.reshape(-1, *texels.shape[2:])
-    padded: NDArray[np.uint8] = np.pad(
-        flat, [(0, 0), (0, size[0] - flat.shape[1]), (0, size[1] - flat.shape[2]), (0, 0)]
-    )
+    beside = [(0, 0), (0, size[0] - flat.shape[1]), (0, size[1] - flat.shape[2]), (0, 0)]
+    padded: Bytes = np.pad(flat, beside[: flat.ndim])
     return padded
