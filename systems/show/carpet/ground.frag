@@ -122,8 +122,9 @@ float filled(float steeper, vec2 seen, float slope, float mean) {
 }
 
 const float GRAIN = 1.5;  // how far images are from their mean, for what filtering takes away
+const float GRAIN_ABOVE = 1.06;  // the same from above
 const float SHARP = 0.4;  // size of what is taken from the images for a pixel, of the pixel's own
-const float SHARP_ABOVE = 0.38;  // the same from above, where grass hides less of other grass
+const float SHARP_ABOVE = 0.36;  // the same from above, where grass hides less of other grass
 const float LEAST_MET = 0.004;  // of a kind, as a part of all that is: of less, nothing is seen
 const float LEAST = 0.01; // height of the carpet where nothing grows, so that nothing is divided by 0 [m]
 
@@ -218,7 +219,7 @@ vec3 carpet_seen(float slope, float on_level, vec3 below, float share) {
     vec2 seen = elevation_seen(on_level), among = share < 1.0 ? among_strips(share, on_level) : vec2(1.0);
     // Two images that have nothing to do with one another are flatter once they are mixed: as much is put back (Heitz and
     // Neyret, High-Performance By-Example Noise, 2018).
-    float grain = mix(1.0, mix(GRAIN, 1.0, steep), shrunk) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
+    float grain = mix(1.0, mix(GRAIN, GRAIN_ABOVE, steep), shrunk) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
 #ifdef MOWN
     bool cut = is_mown(left);
     float stubble = 1.0 - exp(-weighed(leaf_area, leaves_left(left)) / max(slope, 0.02));  // by the leaves that are left

@@ -16,7 +16,7 @@ struct Sum {
 
 const float SWAYS = 0.35;  // how far leaves are moved that are seen, of the canopy's height and the posture index
 
-const float LAID = 0.8;  // sine of how far blades lie over, of their posture index
+const float LAID = 0.95;  // sine of how far blades lie over, of their posture index
 
 // How many more leaves a line of sight meets of a kind for how it is bent, where it stands densely. `sight` is the way that
 // it goes while it falls by the height of the canopy, as that stands [of its height at rest]: grass that leans away from the
