@@ -198,7 +198,7 @@ vec3 carpet_seen(float slope, float on_level, vec3 below, float share) {
     float fine = sharper(dx, dy);
     float texels = fine * max(length(dx), length(dy)) * float(textureSize(images, 0).x);
     float shrunk = clamp(log2(texels) - 0.8, 0.0, 1.0);
-    float steep = smoothstep(0.1, 0.6, slope);
+    float steep = smoothstep(0.05, 0.3, slope);
     fine *= mix(SHARP, SHARP_ABOVE, steep);
     dx *= fine;
     dy *= fine;
