@@ -53,10 +53,11 @@ vec4 widened(vec3 place, vec3 tangent, vec2 across) {
 #endif
 
 #ifdef MORPH
-// The radiance at part `t` of a blade of kind `k` with this face normal's doubled azimuth, where it is painted.
-vec3 painted_light(int k, float t, float twice, Painted target) {
+// The radiance at part `t` of a blade of kind `k` with this face normal, where it is painted.
+vec3 painted_light(int k, float t, vec2 face, Painted target) {
     vec4 here = lie_at(target.middle.xz);
-    vec3 pigment = mix(root[k].rgb, tip[k].rgb, t) * stretch(here) * (1.0 + grain_c[k].rgb * twice);
+    vec3 grain = 1.0 + grain_c[k].rgb * (face.x * face.x - face.y * face.y) + grain_s[k].rgb * (2.0 * face.x * face.y);
+    vec3 pigment = mix(root[k].rgb, tip[k].rgb, t) * stretch(here) * grain * faced(k, normalize(target.run.xz), target.middle);
     ByKind grows = grows_at(target.middle.xz);
     Lit lit = lit_at(k, target.bend, target.middle, here, grows);
 #ifdef MOWN
@@ -142,7 +143,7 @@ void main() {
 #ifdef ORGANS
     tone = mix(tones[int(stands.z)].x, tones[int(stands.z)].y, t);
 #endif
-    vec3 painted_as = painted_light(k, tone, face.x * face.x - face.y * face.y, target);
+    vec3 painted_as = painted_light(k, tone, face, target);
     light = mix(light, painted_as, painted.w);
 #ifdef FOLDS
     keel *= 1.0 - painted.w;

@@ -16,14 +16,15 @@ struct Sum {
 
 const float SWAYS = 0.35;  // how far leaves are moved that are seen, of the canopy's height and the posture index
 
-const float LAID = 0.95;  // sine of how far blades lie over, of their posture index
+// Sine of how far blades lie over, of their posture index, and how much less that is by the index's square.
+const vec2 LAID = vec2(0.96, 0.22);
 
 // How many more leaves a line of sight meets of a kind for how it is bent, where it stands densely. `sight` is the way that
 // it goes while it falls by the height of the canopy, as that stands [of its height at rest]: grass that leans away from the
 // eye turns its breadth to it, and grass that leans towards it its edge.
 float laid(int kind, vec2 bend, vec2 sight) {
     float lies = OF(lying, kind);
-    vec2 leans = LAID * bend * min(inversesqrt(dot(bend, bend) + 1e-6), 1.0);
+    vec2 leans = bend * (LAID.x - LAID.y * dot(bend, bend));
     vec3 still = vec3(sight, lies), bent = vec3(sight + leans, lies);
     return (length(bent) - length(still)) * OF(leaf, kind);
 }

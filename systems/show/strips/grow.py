@@ -86,8 +86,8 @@ def grow_strips(
     images = np.stack([shared.draw(orientation) for orientation in (0, 1)])
     return Strips(
         plane=((np.arange(strips) + 0.5) * (patch / strips)).astype(np.float32),
-        texels=images[..., :4],
-        ranks=images[..., 4],
+        texels=np.ascontiguousarray(images[..., :4]),
+        ranks=np.ascontiguousarray(images[..., 4]),
         height=height,
         margin=margin,
         slice=np.stack([shared.slice(orientation) for orientation in (0, 1)]),

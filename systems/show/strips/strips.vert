@@ -59,9 +59,6 @@ void thin(float dense, float below, float texels) {
 #ifdef MOWN
 const float CROSSED = 1.25;  // strips that a line of sight crosses at least where they do not show as rows
 #endif
-// Mean cosine of twice the azimuth from the eye of blades that face all ways, as they are seen: a third by their breadth
-// alone, and more, as broad ones hide narrow ones. Measured on slopes and level ground, with and without wind.
-const float FACING = 0.43;
 const float SHARPER = 0.25;  // how much finer texels are than pixels, in levels: blades would be washed out
 
 // Pixels that a metre is long on the screen, across the line of sight.
@@ -130,11 +127,8 @@ void main() {
     open_to = lit.sky * seen;
     veil = vec4(haze_light(middle) * hidden, lit.gloss * seen);
     shade = vec3(lit.leaves, lit.way.x);
-    // Of blades, those are seen most that face the eye; on a strip, those that face as it does.
     vec2 run = normalize(b.xz - a.xz), sight = normalize(middle.xz - eye.xz);
-    float faces = run.y * run.y - run.x * run.x;
-    vec3 facing = FACING * (grain_c[k].rgb * (sight.x * sight.x - sight.y * sight.y - faces) + grain_s[k].rgb * (2.0 * sight.x * sight.y));
-    vec3 dry = stretch(here) * (1.0 + facing);
+    vec3 dry = stretch(here) * faced(k, run, middle);
     foot_color = root[k].rgb * dry;
     rise_color = (tip[k].rgb - root[k].rgb) * dry;
     float turned = turn % 2 == 0 ? 1.0 : -1.0;

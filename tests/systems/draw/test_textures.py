@@ -15,9 +15,9 @@ from tallgrass.systems.show.carpet.grow import carpet_of
 from tallgrass.systems.show.carpet.textures import carpet_texture
 from tallgrass.systems.show.strips.stock import stock_strips
 from tallgrass.systems.show.strips.textures import (
-    atlas_levels,
     extent_texture,
     painted_extents,
+    strip_atlas,
     strip_stock,
     strip_texture,
 )
@@ -28,10 +28,12 @@ def test_g1_each_layer_is_the_strip_that_planting_reckons_with(
     ctx: moderngl.Context, growths: list[Growth], ring: int
 ) -> None:
     every = [strip_stock(growths, number) for number in (0, 1)]
-    atlas = strip_texture(ctx, atlas_levels(every))
+    made = strip_atlas(every)
+    atlas, ranks = (strip_texture(ctx, levels) for levels in (made.texels, made.ranks))
     before = sum(2 * len(strips.plane) for kinds in every[:ring] for models in kinds for strips in models)
     width, height, layers = atlas.size
     texels = np.frombuffer(atlas.read(), np.uint8).reshape(layers, height, width, 4)
+    ranked = np.frombuffer(ranks.read(alignment=1), np.uint8).reshape(layers, height, width)
     first = stock_strips(growths).first_layer[ring]
     for kind, models in enumerate(every[ring]):
         for model, strips in enumerate(models):
@@ -40,10 +42,11 @@ def test_g1_each_layer_is_the_strip_that_planting_reckons_with(
                 start = before + first[kind] + (model * 2 + orientation) * count
                 mine = slice(start, start + count)
                 np.testing.assert_array_equal(texels[mine, :h, :w], strips.texels[orientation])
+                np.testing.assert_array_equal(ranked[mine, :h, :w], strips.ranks[orientation])
                 assert (texels[mine, h:] == 0).all()
                 assert (texels[mine, :, w:] == 0).all()
     assert (start + count == layers) == (ring == 1)
-    release_all(atlas)
+    release_all(atlas, ranks)
 
 
 @pytest.mark.parametrize("columns", [1, 2, 3])

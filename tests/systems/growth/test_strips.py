@@ -102,6 +102,7 @@ def test_g1_a_strip_covers_what_the_blades_of_its_slice_cover(orientation: int) 
 def test_what_is_painted_is_premultiplied_by_coverage() -> None:
     texels = SHEET.texels.astype(int)
     assert (texels[..., :3] <= texels[..., 3:] + 1).all()
+    assert (SHEET.ranks <= texels[..., 3] + 1).all()
     assert not texels[texels[..., 3] == 0].any()
 
 
@@ -122,7 +123,8 @@ def test_a_lone_blades_texels_have_twice_its_own_azimuth_on_either_strip(orienta
         blades, sheet = grown(GrassKind(width=0.04, lean=0.1), count=1, seed=seed)
         texels = sheet.texels[orientation, sheet.slice[orientation, 0]].astype(float)
         full = texels[texels[..., 3] == 255]
-        np.testing.assert_allclose(2.0 * full[:, 1] / 255.0 - 1.0, np.cos(2.0 * blades.facing[0]), atol=0.01)
+        twice = np.array([np.cos(2.0 * blades.facing[0]), np.sin(2.0 * blades.facing[0])])
+        np.testing.assert_allclose(full[:, 1:3] / 127.5 - 1.0, np.broadcast_to(twice, (len(full), 2)), atol=0.01)
         shown += full.shape[0]
     assert shown > 100
 
@@ -136,11 +138,12 @@ def test_g3_of_two_blades_the_one_that_stays_longer_is_painted() -> None:
     sheet = grow_strips(blades, POSTURES, patch=PATCH, strips=2, texel=TEXEL, taper=1.0, margin=MARGIN)
     row, column = texel_of(sheet, np.array([1.3 / 2.6]), np.array([0.1, 0.6]) / sheet.height)
     texels = sheet.texels[0, 0, row, column].astype(float)
-    np.testing.assert_allclose(texels[:, 2] / texels[:, 3], [0.0, 0.5], atol=0.01)
+    ranks = sheet.ranks[0, 0, row, column].astype(float)
+    np.testing.assert_allclose(ranks / texels[:, 3], [0.0, 0.5], atol=0.01)
 
 
 def test_ranks_thin_a_strip_out_blade_by_blade() -> None:
-    coverage, rank = SHEET.texels[0, ..., 3].astype(float), SHEET.texels[0, ..., 2]
+    coverage, rank = SHEET.texels[0, ..., 3].astype(float), SHEET.ranks[0]
     painted = coverage > 32
     assert np.quantile(rank[painted] / coverage[painted], 0.5) == pytest.approx(0.5, abs=0.12)
     assert np.unique(rank[coverage == 255]).size > 60
@@ -172,5 +175,5 @@ def test_g5_strips_go_from_fine_to_coarse_and_lose_only_what_hides_behind(
 
 def test_the_same_blades_make_the_same_strips() -> None:
     _, again = grown()
-    for name in ("texels", "targets", "slice", "plane"):
+    for name in ("texels", "ranks", "targets", "slice", "plane"):
         np.testing.assert_array_equal(getattr(SHEET, name), getattr(again, name))

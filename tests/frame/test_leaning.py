@@ -1,0 +1,62 @@
+"""Grass that leans away from the eye turns its breadth to it, and grass that leans towards it its edge (G3, G4, F2)."""
+
+from collections.abc import Callable
+
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass.components.pose import Pose
+from tallgrass.engine.camera import Camera
+from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.reference import draw_reference
+from tallgrass.systems.wind.breeze import Breeze
+from tallgrass.testing import Stage
+
+Load = Callable[..., Prairie]
+Pixels = NDArray[np.float64]
+
+PALE = """\
+tallgrass: 2
+terrain: { size: [80, 80] }
+light: { ground: "#201810" }
+grass: { turf: { height: [0.4, 0.7], width: 0.02, understorey: 0, root: "#c8c890", tip: "#c8c890", variety: 0.5 } }
+quality: high
+"""
+YAW = 15.0
+"""Heading of the camera: strips along the world's axes are not quite across the view [degrees]."""
+
+CAMERA = Camera((0.0, 12.0, 20.0), np.radians(YAW), np.radians(-33.0), np.radians(18.0))
+
+
+@pytest.fixture(scope="module")
+def room(ctx: moderngl.Context) -> Stage:
+    return Stage(ctx, (200, 120))
+
+
+def seen_and_true(room: Stage, prairie: Prairie, heading: float) -> tuple[Pixels, Pixels]:
+    """The grass in a wind that blows along a heading from the camera's [degrees], and all its blades."""
+    wind = prairie.add(Breeze(direction=YAW + heading, strength=0.55, gustiness=0.0, swing=0.0), pose=Pose())
+    seen = room.shot(prairie, CAMERA).astype(np.float64)
+    true = draw_reference(prairie, *room.matrices(CAMERA), room.size, samples=3).astype(np.float64)
+    prairie.remove(wind)
+    return seen, true
+
+
+@pytest.mark.parametrize("held", ["strips", "carpet"])
+def test_grass_hides_as_much_of_the_ground_as_its_blades_do_whichever_way_it_leans(
+    room: Stage, load: Load, held: str
+) -> None:
+    """Pale grass on dark ground: how bright it is tells how much of the ground is hidden."""
+    prairie, ratios = load(PALE, lod=held), []
+    for heading in (0.0, 90.0, 180.0, 270.0):
+        seen, true = seen_and_true(room, prairie, heading)
+        ratios.append(seen.mean() / true.mean())
+    assert np.ptp(ratios) < 0.04
+
+
+def test_each_blade_keeps_its_own_hue_on_strips(room: Stage, load: Load) -> None:
+    seen, true = seen_and_true(room, load(PALE, lod="strips"), 0.0)
+    redder, true_redder = ((each[..., 0] - each[..., 1]).std() for each in (seen, true))
+    assert redder > 0.7 * true_redder
