@@ -26,9 +26,7 @@ WHOLE = 0.995
 class StripsPainter:
     """Draws the strips of all rings from far to near."""
 
-    def __init__(
-        self, canvas: Canvas, growths: Sequence[Growth], quality: Quality, ready: Atlas | None = None
-    ) -> None:
+    def __init__(self, canvas: Canvas, growths: Sequence[Growth], quality: Quality, ready: Atlas | None = None) -> None:
         self._fade = canvas.transitions.fade
         self._fineness = [(ring.strips, ring.columns) for ring in quality.strip_rings]
         stock = strip_stocks(growths)
