@@ -99,6 +99,10 @@ ByKind shared_out(ByKind met, ByKind grows, float slope) {
 
 // How much of what a line of sight meets is of each kind: taller kinds hide the others at a low angle. The grass is
 // taken in four layers from the top; its leaf area falls off linearly with height.
+// `below` is up to which part of it there is any.
+const float LOWEST = 0.02;  // slope of the lowest images
+const float LEAST_SLOPE = 0.005;
+
 #ifdef HEADS
 const int LAYERS = 12;
 
@@ -109,17 +113,18 @@ vec2 leaves_at(int kind, float at) {
     return vec2(own.x * 2.0 * max(1.0 - at, 0.0) + of_heads, of_heads);
 }
 
-// The same with the heads that some kinds have. How much more of them is met than where such a kind grows alone, -1 to 1,
-// is written to `riper`.
-ByKind kinds_met(ByKind grows, float slope, float left) {
+// The same with the heads that some kinds have. How much more of them is met than an image shows, where such a kind grows
+// alone, -1 to 1, is written to `riper`.
+ByKind kinds_met(ByKind grows, float slope, float left, float below) {
     float top = 0.0;
     for (int kind = 0; kind < KINDS; kind++)
         top = max(top, OF(grows, kind) > 0.004 ? OF(crown, kind) * max(heads[kind].w, 1.0) : 0.0);
     top = min(top, left);
     ByKind met = all_kinds(0.0), of_heads = met, alone = met, heads_alone = met, through_alone = all_kinds(1.0);
-    float through = 1.0;
+    float through = 1.0, step = 1.0 / (float(LAYERS) * slope), image_step = 1.0 / (float(LAYERS) * max(slope, LOWEST));
     for (int layer = 0; layer < LAYERS; layer++) {
-        float height = top * (1.0 - (float(layer) + 0.5) / float(LAYERS));
+        float at = 1.0 - (float(layer) + 0.5) / float(LAYERS), height = top * at;
+        float inside = clamp((below - at) * float(LAYERS) + 0.5, 0.0, 1.0);
         ByKind stop = all_kinds(0.0), some = stop;
         for (int kind = 0; kind < KINDS; kind++) {
             float canopy_height = OF(crown, kind), area = OF(grows, kind) * OF(leaf, kind);
@@ -127,11 +132,10 @@ ByKind kinds_met(ByKind grows, float slope, float left) {
             OF(stop, kind) = here.x;
             OF(some, kind) = here.x > 0.0 ? here.y / here.x : 0.0;
         }
-        float sum = total(stop), step = 1.0 / (float(LAYERS) * slope);
-        float stopped = through * (1.0 - exp(-sum * step));
+        float sum = total(stop), stopped = through * (1.0 - exp(-inside * sum * step));
         for (int group = 0; group < GROUPS; group++) {
             vec4 share = stopped * stop[group] / max(sum, 1e-6);
-            vec4 stopped_alone = through_alone[group] * (1.0 - exp(-stop[group] / max(grows[group], 0.004) * step));
+            vec4 stopped_alone = through_alone[group] * (1.0 - exp(-stop[group] / max(grows[group], 0.004) * image_step));
             met[group] += share;
             of_heads[group] += share * some[group];
             alone[group] += stopped_alone;
@@ -148,11 +152,11 @@ ByKind kinds_met(ByKind grows, float slope, float left) {
     return shared_out(met, grows, slope);
 }
 #else
-ByKind kinds_met(ByKind grows, float slope, float left) {
+ByKind kinds_met(ByKind grows, float slope, float left, float below) {
     float top = 0.0;
     for (int kind = 0; kind < KINDS; kind++)
         top = max(top, OF(grows, kind) > 0.004 ? OF(crown, kind) : 0.0);
-    top = min(top, left);
+    top = min(top, left) * below;
     ByKind met = all_kinds(0.0);
     float through = 1.0;
     for (int layer = 0; layer < 4; layer++) {
@@ -171,6 +175,16 @@ ByKind kinds_met(ByKind grows, float slope, float left) {
     return shared_out(met, grows, slope);
 }
 #endif
+
+// Up to which height a line of sight has met no strips, of the grass's height: above the carpet it has come through what
+// stands there, and where those are strips it has met the tops of grass on them.
+float left_by_strips(vec2 place, float slope) {
+    vec2 way = normalize(eye.xz - place + 1e-4) * ((1.0 - RAISED) * tall / max(RAISED * slope, 1e-3));
+    float met_carpet = 0.0;
+    for (int part = 0; part < 3; part++)
+        met_carpet += share_at(ivec2(floor((place + way * (0.2 + 0.3 * float(part))) / soil.w))) / 3.0;
+    return mix(RAISED * carpet, 1.0, min(met_carpet, carpet));
+}
 
 float lowest_share(vec2 place) {
     ivec2 low = ivec2(floor((place - 0.01) / soil.w)), high = ivec2(floor((place + 0.01) / soil.w));
@@ -234,7 +248,8 @@ void main() {
     sunk = clamp(max(sunk, over_crest), 0.05, 1.0);
     place.y -= carpet * tall * sunk;
 #endif
-    met = kinds_met(grows, max(viewing_slope(rise, place), 0.02), left);
+    float slope = max(viewing_slope(rise, place), LEAST_SLOPE);
+    met = kinds_met(grows, slope, left, left_by_strips(flat_at, slope));
 #ifndef UNDER
     light_up(viewing_slope(rise, place));
 #endif

@@ -20,6 +20,10 @@ _TAPER = 0.6
 _SAMPLE = 0.003
 """Side of a sample of outlines [m]."""
 
+_BEHIND = 0.75
+"""How many of the heads that a line of sight would meet, did they stand evenly, it meets in a meadow: heads stand in
+clumps, one behind another. Measured on poppies in barley, at slopes of 0.02 and less."""
+
 _STEMS = 40
 """Heads at most whose outlines are measured."""
 
@@ -42,7 +46,7 @@ def heads_of(growth: Growth, /) -> tuple[float, float, float, float]:
     mean = np.average(height, weights=area[own])
     half = np.sqrt(3.0 * np.average((height - mean) ** 2, weights=area[own]))
     share = float(area[own].sum() / area.sum())
-    return 1.0 - share, share * _outlined(blades, triangles, bears), float(mean - half), float(mean + half)
+    return 1.0 - share, _BEHIND * share * _outlined(blades, triangles, bears), float(mean - half), float(mean + half)
 
 
 def any_heads(growths: Sequence[Growth], /) -> bool:
