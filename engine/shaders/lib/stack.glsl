@@ -1,5 +1,5 @@
 // Where the strips of a patch stand: planes of its model, turned with it, and stacked along an axis of the world.
-#include "lib/frame.glsl"
+#include "lib/light.glsl"
 
 vec2 turned_by(vec2 place, int turn) {
     return turn == 0 ? place : turn == 1 ? vec2(-place.y, place.x) : turn == 2 ? -place : vec2(place.y, -place.x);
@@ -46,14 +46,9 @@ float boosted(int kind, vec2 run, vec3 middle, vec3 top, vec2 back) {
     return mix(1.0, whole / max(abs(dot(run, own.xz)), 0.4 * whole), 0.85);
 }
 
-// Mean cosine of twice the azimuth from the eye of blades that face all ways, as they are seen: a third by their breadth
-// alone, and more, as broad ones hide narrow ones. Measured on slopes and level ground, with and without wind.
-const float FACING = 0.43;
-
-// The pigment of what is seen on a strip, of that of what is painted there: of blades, those are seen most that face the
-// eye; on a strip that runs along `run`, those that face as it does.
-vec3 faced(int kind, vec2 run, vec3 middle) {
-    vec2 sight = normalize(middle.xz - eye.xz);
-    float faces = run.y * run.y - run.x * run.x;
-    return 1.0 + FACING * (grain_c[kind].rgb * (sight.x * sight.x - sight.y * sight.y - faces) + grain_s[kind].rgb * (2.0 * sight.x * sight.y));
+// The pigment of what is seen on a strip, of that of what is painted there: of blades that lean to `top`, those are seen most
+// that face the eye; on a strip that runs along `run`, those that face as it does.
+vec3 faced(int kind, vec2 run, vec3 middle, vec3 top) {
+    vec2 seen = faces_seen(kind, top, middle - eye.xyz) - FACING * vec2(run.y * run.y - run.x * run.x, -2.0 * run.x * run.y);
+    return 1.0 + grain_c[kind].rgb * seen.x + grain_s[kind].rgb * seen.y;
 }

@@ -57,7 +57,7 @@ vec4 widened(vec3 place, vec3 tangent, vec2 across) {
 vec3 painted_light(int k, float t, vec2 face, Painted target) {
     vec4 here = lie_at(target.middle.xz);
     vec3 grain = 1.0 + grain_c[k].rgb * (face.x * face.x - face.y * face.y) + grain_s[k].rgb * (2.0 * face.x * face.y);
-    vec3 pigment = mix(root[k].rgb, tip[k].rgb, t) * stretch(here) * grain * faced(k, normalize(target.run.xz), target.middle);
+    vec3 pigment = mix(root[k].rgb, tip[k].rgb, t) * stretch(here) * grain * faced(k, normalize(target.run.xz), target.middle, target.top);
     ByKind grows = grows_at(target.middle.xz);
     Lit lit = lit_at(k, target.bend, target.middle, here, grows);
 #ifdef MOWN

@@ -183,7 +183,8 @@ float left_by_strips(vec2 place, float slope) {
     float met_carpet = 0.0;
     for (int part = 0; part < 3; part++)
         met_carpet += share_at(ivec2(floor((place + way * (0.2 + 0.3 * float(part))) / soil.w))) / 3.0;
-    return mix(RAISED * carpet, 1.0, min(met_carpet, carpet));
+    // Where the carpet itself gives way to strips, these leave more to it than their heights tell.
+    return mix(1.0, mix(RAISED, 1.0, met_carpet), carpet * carpet * carpet * carpet);
 }
 
 float lowest_share(vec2 place) {

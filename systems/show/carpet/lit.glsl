@@ -19,14 +19,25 @@ const float SWAYS = 0.35;  // how far leaves are moved that are seen, of the can
 // Sine of how far blades lie over, of their posture index, and how much less that is by the index's square.
 const vec2 LAID = vec2(0.96, 0.22);
 
-// How many more leaves a line of sight meets of a kind for how it is bent, where it stands densely. `sight` is the way that
-// it goes while it falls by the height of the canopy, as that stands [of its height at rest]: grass that leans away from the
-// eye turns its breadth to it, and grass that leans towards it its edge.
-float laid(int kind, vec2 bend, vec2 sight) {
-    float lies = OF(lying, kind);
+// How leaves of a kind lean that is bent so, for their height at rest.
+vec3 leaning(vec2 bend) {
     vec2 leans = bend * (LAID.x - LAID.y * dot(bend, bend));
-    vec3 still = vec3(sight, lies), bent = vec3(sight + leans, lies);
+    return vec3(leans, lodged(bend)).xzy;
+}
+
+// How many more leaves a line of sight meets of a kind for how it leans, where it stands densely, that goes `sight` while
+// it falls by the height of the canopy at rest: grass that leans away from the eye turns its breadth to it, and grass that
+// leans towards it its edge.
+float laid(int kind, vec3 lean, vec2 sight) {
+    float lies = OF(lying, kind);
+    vec3 still = vec3(sight * lean.y, lies), bent = vec3(sight * lean.y + lean.xz, lies);
     return (length(bent) - length(still)) * OF(leaf, kind);
+}
+
+// The pigment of what is met of a kind that leans so, of that where it stands upright.
+vec3 turned_to(int kind, vec3 lean, vec3 ray) {
+    vec2 seen = faces_seen(kind, lean, ray) - faces_seen(kind, vec3(0.0, 1.0, 0.0), ray);
+    return 1.0 + grain_c[kind].rgb * seen.x + grain_s[kind].rgb * seen.y;
 }
 
 // The wind's message; far off, where nobody asks for it, the mean of those nearer by.
@@ -45,10 +56,12 @@ Sum summed(ByKind met, float slope, vec3 there, vec4 here, vec2 messages[KINDS])
     for (int kind = 0; kind < KINDS; kind++) {
         vec2 bend = bending(kind, messages[kind]);
         Lit lit = lit_at(kind, bend, there, here, grows);
-        sum.direct += OF(met, kind) * lit.sun;
-        sum.open_to += OF(met, kind) * lit.sky;
+        vec3 lean = leaning(bend), turned = turned_to(kind, lean, there - eye.xyz);
+        turned *= turned;
+        sum.direct += OF(met, kind) * lit.sun * turned;
+        sum.open_to += OF(met, kind) * lit.sky * turned;
         sum.shade += OF(met, kind) * vec4(lit.gloss, lit.way.x, lit.leaves);
-        sum.lies += OF(met, kind) * laid(kind, bend, sight * lodged(bend));
+        sum.lies += OF(met, kind) * laid(kind, lean, sight);
         sum.sways += OF(met, kind) * SWAYS * OF(crown, kind) * bend;
     }
     float all = 1.0 / max(total(met), 1e-4);

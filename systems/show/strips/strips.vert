@@ -128,7 +128,7 @@ void main() {
     veil = vec4(haze_light(middle) * hidden, lit.gloss * seen);
     shade = vec3(lit.leaves, lit.way.x);
     vec2 run = normalize(b.xz - a.xz), sight = normalize(middle.xz - eye.xz);
-    vec3 dry = stretch(here) * faced(k, run, middle);
+    vec3 dry = stretch(here) * faced(k, run, middle, 0.5 * (top_a + top_b));
     foot_color = root[k].rgb * dry;
     rise_color = (tip[k].rgb - root[k].rgb) * dry;
     float turned = turn % 2 == 0 ? 1.0 : -1.0;
