@@ -68,11 +68,11 @@ class StripRepresentation(Representation):
     def grow(seedling: Seedling, /) -> tuple[Strips, ...]:
         """Return a patch model's strips, a record for each ring."""
         quality = seedling.quality
-        coarser = max(seedling.height / _TEXELS_UP / min(ring.texel for ring in quality.strip_rings), 1.0)
+        least = seedling.height / _TEXELS_UP
         return tuple(
             grow_strips(
-                seedling.blades, seedling.postures, patch=quality.patch, strips=ring.strips, texel=ring.texel * coarser,
-                taper=seedling.kind.taper, margin=seedling.margin, height=seedling.height,
+                seedling.blades, seedling.postures, patch=quality.patch, strips=ring.strips,
+                texel=max(ring.texel, least), taper=seedling.kind.taper, margin=seedling.margin, height=seedling.height,
                 section=SECTIONS[seedling.kind.profile],
             )
             for ring in quality.strip_rings
@@ -176,9 +176,12 @@ class StripRepresentation(Representation):
 
     def _reach(self, outlook: Outlook, ring: StripRing) -> float:
         """Return up to where a ring is due: nowhere beyond the blades, where it is for patches seen from above."""
-        near = self.quality.blade_rings[-1].to
-        (limit,) = outlook.rings_in((ring.to,)) if ring.to > near else outlook.drawn_in((ring.to,))
-        return limit
+        quality = self.quality
+        near = quality.blade_rings[-1].to
+        if ring.to > near:
+            return outlook.rings_in((ring.to,))[0]
+        blades, *_ = outlook.reach_in((near, self.reach(quality), quality.carpet_to))
+        return ring.to * blades / max(near, 1)
 
     def _spacing(self) -> NDArray[np.float32]:
         """Return the distance between each ring's strips [m]."""
