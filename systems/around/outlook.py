@@ -25,8 +25,8 @@ LEAP = 5.0
 USUAL = 1.0 / tan(radians(22.5))
 """What a projection stretches heights by where the picture is 45 degrees high: rings are made for it."""
 
-LONG = 1.3
-"""The zoom from which on a lens is long, at 35 degrees: it brings representations near, and not their rings alone."""
+LONG = 1.28
+"""The zoom from which on a lens is long, below 36 degrees: it brings representations near, and not just their rings."""
 
 
 def brought_near(reach: tuple[int, ...], lens: float, /) -> tuple[float, ...]:

@@ -46,6 +46,20 @@ SLANT = 0.16
 """Tangent of the angle from which heads are painted: the same to both sides, as they are about round."""
 
 
+_TEXELS_UP = 96, 200
+"""From how many texels on from the ground to the highest tip they get coarser, and how many there are at most: tall
+kinds have broad blades and do with coarser ones."""
+
+_COARSE = 0.011
+"""Width of a texel [m] that broad blades do with; where even so there would be too many, it is coarser yet."""
+
+
+def texel_of(texel: float, height: float, /) -> float:
+    """Return how wide texels of a kind's strips are [m]: a ring's, or as fine as its height [m] leaves room for."""
+    least, most = _TEXELS_UP
+    return max(texel, min(height / least, _COARSE), height / most)
+
+
 def strips_of(model: PatchModel, /) -> tuple[Strips, ...]:
     """Return the strips of a patch model, from the nearest ring to the farthest: fewer strips, coarser texels."""
     return model.pictures["strips"]

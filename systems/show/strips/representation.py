@@ -16,7 +16,7 @@ from ...around.representation import Canvas, Color, Representation, Seedling
 from ...grow.record import Growth
 from ...grow.section import SECTIONS
 from ...grow.simulate import LINKS
-from .grow import Strips, grow_strips
+from .grow import Strips, grow_strips, texel_of
 from .painter import StripsPainter
 from .plant import plant_strips
 from .pool import StripPool, StripsKept
@@ -29,9 +29,6 @@ Floats = NDArray[np.float32]
 Levels = NDArray[np.int8]
 Mask = NDArray[np.bool_]
 Rows = NDArray[np.int64]
-
-_TEXELS_UP = 96
-"""Most texels from the ground to the highest tip: tall kinds have broad blades and do with coarser ones."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,12 +65,11 @@ class StripRepresentation(Representation):
     def grow(seedling: Seedling, /) -> tuple[Strips, ...]:
         """Return a patch model's strips, a record for each ring."""
         quality = seedling.quality
-        least = seedling.height / _TEXELS_UP
         return tuple(
             grow_strips(
                 seedling.blades, seedling.postures, patch=quality.patch, strips=ring.strips,
-                texel=max(ring.texel, least), taper=seedling.kind.taper, margin=seedling.margin, height=seedling.height,
-                section=SECTIONS[seedling.kind.profile],
+                texel=texel_of(ring.texel, seedling.height), taper=seedling.kind.taper, margin=seedling.margin,
+                height=seedling.height, section=SECTIONS[seedling.kind.profile],
             )
             for ring in quality.strip_rings
         )  # fmt: skip
