@@ -25,8 +25,11 @@ LEAP = 5.0
 USUAL = 1.0 / tan(radians(22.5))
 """What a projection stretches heights by where the picture is 45 degrees high: rings are made for it."""
 
-LONG = 1.28
-"""The zoom from which on a lens is long, below 36 degrees: it brings representations near, and not just their rings."""
+LONG = 1.55
+"""The zoom from which on a lens is long, below 30 degrees: it brings representations near, and not just their rings."""
+
+LONGER = 2.0
+"""How much faster than the zoom their reach grows from there on, until it has grown as much."""
 
 
 def brought_near(reach: tuple[int, ...], lens: float, /) -> tuple[float, ...]:
@@ -106,8 +109,8 @@ class Outlook:
 
     @property
     def lens(self) -> float:
-        """How many times larger things are seen than where a lens becomes long, 1 at least."""
-        return max(self.zoom / LONG, 1.0)
+        """How many times as far representations are due as without it, 1 at least; with a long one it is `zoom`."""
+        return max(min(self.zoom, 1.0 + LONGER * (self.zoom - LONG)), 1.0)
 
     def reach_in(self, reach: tuple[int, ...], /) -> tuple[float, ...]:
         """Return up to where representations are due, as near as they are now and as far as a long lens brings them."""

@@ -54,11 +54,11 @@ def farthest_of(outlook: Outlook, level: int) -> int:
     return int(patches.distance.max(where=has, initial=-1))
 
 
-@pytest.mark.parametrize("zoom", [1.0, LONG, 1.5, 2.5, 9.0])
+@pytest.mark.parametrize("zoom", [1.0, LONG, 2.5, 9.0])
 def test_g3_blades_and_strips_reach_as_far_as_a_long_lens_brings_them(laid: Laid, look: Look, zoom: float) -> None:
     site = laid()
     outlook = far_look(look, site, zoom)
-    near = brought_near(site.reach, max(zoom / LONG, 1.0))
+    near = brought_near(site.reach, 1.0 if zoom <= LONG else zoom)
     assert outlook.reach_in(site.reach) == pytest.approx(near)
     for level in (0, 1):
         unfit = outlook.patches.away > near[level]
@@ -79,7 +79,7 @@ def test_a_lens_that_is_not_long_asks_for_no_room(laid: Laid, look: Look) -> Non
 def test_room_that_a_long_lens_made_stays_and_is_made_for_twice_as_much_each_time(laid: Laid, look: Look) -> None:
     site = laid()
     rooms, pools = [], []
-    for zoom in (1.0, 1.5, 2.5, 1.0, 2.0):
+    for zoom in (1.0, 1.8, 1.9, 1.0, 2.0):
         outlook = far_look(look, site, zoom)
         rooms.append(outlook.room[0])
         pools.append(outlook.kept["blades"])

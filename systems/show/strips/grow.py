@@ -51,13 +51,19 @@ _TEXELS_UP = 96, 200
 kinds have broad blades and do with coarser ones."""
 
 _COARSE = 0.011
-"""Width of a texel [m] that broad blades do with; where even so there would be too many, it is coarser yet."""
+"""Width of a texel [m] that broad blades do with in all rings."""
 
 
-def texel_of(texel: float, height: float, /) -> float:
-    """Return how wide texels of a kind's strips are [m]: a ring's, or as fine as its height [m] leaves room for."""
+def texel_of(texel: float, finest: float, height: float, /) -> float:
+    """Return how wide a kind's texels are [m] in a ring of `texel`, where the finest ring's are of `finest` [m].
+
+    With the height of the kind all rings get coarser alike, until broad blades would blur: then none is coarser than
+    they need, or than there is room for.
+    """
     least, most = _TEXELS_UP
-    return max(texel, min(height / least, _COARSE), height / most)
+    if height <= least * _COARSE:
+        return texel * max(height / least / finest, 1.0)
+    return max(texel, _COARSE, height / most)
 
 
 def strips_of(model: PatchModel, /) -> tuple[Strips, ...]:

@@ -65,10 +65,11 @@ class StripRepresentation(Representation):
     def grow(seedling: Seedling, /) -> tuple[Strips, ...]:
         """Return a patch model's strips, a record for each ring."""
         quality = seedling.quality
+        finest = min(ring.texel for ring in quality.strip_rings)
         return tuple(
             grow_strips(
                 seedling.blades, seedling.postures, patch=quality.patch, strips=ring.strips,
-                texel=texel_of(ring.texel, seedling.height), taper=seedling.kind.taper, margin=seedling.margin,
+                texel=texel_of(ring.texel, finest, seedling.height), taper=seedling.kind.taper, margin=seedling.margin,
                 height=seedling.height, section=SECTIONS[seedling.kind.profile],
             )
             for ring in quality.strip_rings
