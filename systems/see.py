@@ -31,13 +31,13 @@ def strips_kept(
     They leave all of them where something else than the carpet comes after them.
     """
     number = outlook.patches.names.index("strips")
-    limit = reach[number]
-    if limit < reach[-2]:
+    drawn = outlook.reach_in(reach)
+    if drawn[number] < drawn[-2]:
         return np.ones(len(rows), np.float32)
     (x, z), eye = outlook.patches.middle.T, outlook.viewer.eye
     along = np.maximum(np.abs(x[rows] - np.float32(eye[0])), np.abs(z[rows] - np.float32(eye[2]))) / np.float32(patch)
     away = seen_from(along, outlook.patches.height[rows], eye[1], patch=patch)
-    kept = kept_near(away, reach=limit * outlook.range)
+    kept = kept_near(away, reach=drawn[number])
     if not choosy:
         return kept
     free = outlook.patches.hold[rows] < 0  # what a game holds is not asked whether it would do

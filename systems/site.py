@@ -21,7 +21,8 @@ from .around.representation import Representation
 from .around.transitions import SEAMLESS, Transitions
 from .entities import components
 from .grow.record import Growth
-from .lod import farthest, reach_of
+from .lod import reach_of
+from .room import keep_room
 from .show.registry import NAMES, REPRESENTATIONS
 from .stock.cache import cached_growth, growth_key
 
@@ -192,15 +193,8 @@ def tallest_tip(growth: Growth) -> float:
 def outlook_on(site: Site, viewer: Viewer, entity: int, /) -> Outlook:
     """Return the empty outlook of a viewer on a site; `entity` is the viewer's."""
     outlook = Outlook(viewer, entity, PatchTable.allocate(2 * site.reach[-1] + 1, NAMES, viewer=viewer.name))
-    keep_room(outlook, site)
+    keep_room(outlook, site.representations, site.reach)
     return outlook
-
-
-def keep_room(outlook: Outlook, site: Site, /) -> None:
-    """Give an outlook empty stores for what every representation of a site keeps."""
-    sides = [max(2 * limit + 1, 1) for limit in farthest(site.reach)]
-    for each, side in zip(site.representations, [*sides, outlook.patches.side], strict=True):
-        outlook.kept[each.name] = each.keep(outlook.patches, side)
 
 
 def settle_on(outlook: Outlook, site: Site, before: Site, world: World, /) -> None:
@@ -216,7 +210,7 @@ def settle_on(outlook: Outlook, site: Site, before: Site, world: World, /) -> No
             world.delete(entity)
         outlook.patches = PatchTable.allocate(2 * site.reach[-1] + 1, NAMES, viewer=outlook.viewer.name)
     outlook.shown.clear()
-    keep_room(outlook, site)
+    keep_room(outlook, site.representations, site.reach)
     for row in np.flatnonzero(outlook.patches.entity).tolist():
         for part in components(outlook, site.representations, row):
             world.add(int(outlook.patches.entity[row]), part)

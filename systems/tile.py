@@ -14,6 +14,7 @@ from .around.outlook import Outlook
 from .around.patches import PatchTable
 from .around.window import window_cells
 from .entities import PatchEntities
+from .room import make_room
 
 Ints = NDArray[np.int32]
 
@@ -99,6 +100,7 @@ class Tile:
         """Tile around every viewer that looks."""
         self.entities.hear(self.outlooks)
         for outlook in self.outlooks:
+            make_room(outlook, self.entities.representations, self.entities.world)
             patches, viewer = outlook.patches, outlook.viewer
             viewer.centre = cell_stood_in(viewer.eye, viewer.centre, patch=self.patch)
             fresh = tile(patches, viewer.centre, self.terrain, patch=self.patch, seed=self.seed, models=self.models)

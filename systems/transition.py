@@ -190,8 +190,9 @@ class Transition:
         settled = patches.was_visible & patches.visible & (not viewer.jumped)
         step = step_of_change(viewer.dt, way=viewer.way, patch=self.patch)
         before = patches.representation.copy()
-        wanted = held(patches, reach=self.reach)
-        change(patches, wanted, settled & self.transitions.gradual, reach=self.reach, step=step)
+        reach = outlook.room or self.reach
+        wanted = held(patches, reach=reach)
+        change(patches, wanted, settled & self.transitions.gradual, reach=reach, step=step)
         refine(outlook, self.representations, step=step, transitions=self.transitions)
         changing = (patches.progress < 1.0) | ((before != patches.representation) & settled)
         outlook.changing = int(np.count_nonzero(patches.shown & changing))

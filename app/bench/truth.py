@@ -61,7 +61,7 @@ class Truth:
         return self._near(view, cropped(projection, first, part, self._studio.take.size), part)
 
     def _near(self, view: Matrix, projection: Matrix, size: tuple[int, int]) -> Picture:
-        reach = farthest(self._studio.prairie.site.reach)[-1]
+        reach = farthest(self._prairie.viewers["main"].room)[-1]
         return draw_reference(self._prairie, view, projection, size, samples=SAMPLES, reach=reach)
 
     def _go(self, moment: Moment) -> tuple[Matrix, Matrix]:

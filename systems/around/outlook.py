@@ -25,6 +25,25 @@ LEAP = 5.0
 USUAL = 1.0 / tan(radians(22.5))
 """What a projection stretches heights by where the picture is 45 degrees high: rings are made for it."""
 
+LONG = 1.55
+"""The zoom from which on a lens is long, below 30 degrees: it brings representations near, and not just their rings."""
+
+LONGER = 2.0
+"""How much faster than the zoom their reach grows from there on, until it has grown as much."""
+
+
+def brought_near(reach: tuple[int, ...], lens: float, /) -> tuple[float, ...]:
+    """Return up to where representations are due, from the finest, that a lens shows so many times larger.
+
+    None comes to be due farther than the next coarser one is without it: so it is the room for patches that ends it.
+    What has no range of its own ends where the finer one does.
+    """
+    near: list[float] = []
+    for number, limit in enumerate(reach[:-1]):
+        own = limit >= 0 and (number == 0 or limit > reach[number - 1])
+        near.append(min(limit * lens, max(limit, reach[number + 1])) if own else near[-1] if number else limit)
+    return (*near, reach[-1])
+
 
 @dataclass(slots=True, eq=False)
 class Outlook:
@@ -51,6 +70,12 @@ class Outlook:
 
     zoom: float = 1.0
     """How many times larger things are seen than where the picture is 45 degrees high, 1 at least."""
+
+    reach: tuple[int, ...] = ()
+    """Largest discrete distance at which each representation is due without a lens."""
+
+    room: tuple[int, ...] = ()
+    """Largest discrete distance at which there is room for each to be due."""
 
     winds: Sequence["Blowing"] = ()
     """The winds that act in this frame, the strongest claim first."""
@@ -81,6 +106,18 @@ class Outlook:
 
     generation: int = 0
     """Generation of the world that the patches' entities are of."""
+
+    @property
+    def lens(self) -> float:
+        """How many times as far representations are due as without it, 1 at least; with a long one it is `zoom`."""
+        return max(min(self.zoom, 1.0 + LONGER * (self.zoom - LONG)), 1.0)
+
+    def reach_in(self, reach: tuple[int, ...], /) -> tuple[float, ...]:
+        """Return up to where representations are due, as near as they are now and as far as a long lens brings them."""
+        if self.lens == 1.0 or not self.room:
+            return self.drawn_in(reach)
+        far = zip(brought_near(reach, self.lens), self.room, strict=True)
+        return tuple(min(limit, room) * self.range if limit > 0 else limit for limit, room in far)
 
     def drawn_in(self, limits: tuple[int, ...], /) -> tuple[float, ...]:
         """Return distances up to which something is due, as near as they are now."""

@@ -49,6 +49,26 @@ SLANT = 0.16
 """Tangent of the angle from which heads are painted: the same to both sides, as they are about round."""
 
 
+_TEXELS_UP = 96, 200
+"""From how many texels on from the ground to the highest tip they get coarser, and how many there are at most: tall
+kinds have broad blades and do with coarser ones."""
+
+_COARSE = 0.011
+"""Width of a texel [m] that broad blades do with in all rings."""
+
+
+def texel_of(texel: float, finest: float, height: float, /) -> float:
+    """Return how wide a kind's texels are [m] in a ring of `texel`, where the finest ring's are of `finest` [m].
+
+    With the height of the kind all rings get coarser alike, until broad blades would blur: then none is coarser than
+    they need, or than there is room for.
+    """
+    least, most = _TEXELS_UP
+    if height <= least * _COARSE:
+        return texel * max(height / least / finest, 1.0)
+    return max(texel, _COARSE, height / most)
+
+
 def strips_of(model: PatchModel, /) -> tuple[Strips, ...]:
     """Return the strips of a patch model, from the nearest ring to the farthest: fewer strips, coarser texels."""
     return model.pictures["strips"]

@@ -16,7 +16,7 @@ from ...around.representation import Canvas, Color, Representation, Seedling
 from ...grow.record import Growth
 from ...grow.section import SECTIONS
 from ...grow.simulate import LINKS
-from .grow import Strips, grow_strips
+from .grow import Strips, grow_strips, texel_of
 from .painter import StripsPainter
 from .plant import plant_strips
 from .pool import StripPool, StripsKept
@@ -29,9 +29,6 @@ Floats = NDArray[np.float32]
 Levels = NDArray[np.int8]
 Mask = NDArray[np.bool_]
 Rows = NDArray[np.int64]
-
-_TEXELS_UP = 96
-"""Most texels from the ground to the highest tip: tall kinds have broad blades and do with coarser ones."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,12 +65,12 @@ class StripRepresentation(Representation):
     def grow(seedling: Seedling, /) -> tuple[Strips, ...]:
         """Return a patch model's strips, a record for each ring."""
         quality = seedling.quality
-        coarser = max(seedling.height / _TEXELS_UP / min(ring.texel for ring in quality.strip_rings), 1.0)
+        finest = min(ring.texel for ring in quality.strip_rings)
         return tuple(
             grow_strips(
-                seedling.blades, seedling.postures, patch=quality.patch, strips=ring.strips, texel=ring.texel * coarser,
-                taper=seedling.kind.taper, margin=seedling.margin, height=seedling.height,
-                section=SECTIONS[seedling.kind.profile],
+                seedling.blades, seedling.postures, patch=quality.patch, strips=ring.strips,
+                texel=texel_of(ring.texel, finest, seedling.height), taper=seedling.kind.taper, margin=seedling.margin,
+                height=seedling.height, section=SECTIONS[seedling.kind.profile],
             )
             for ring in quality.strip_rings
         )  # fmt: skip
@@ -176,9 +173,12 @@ class StripRepresentation(Representation):
 
     def _reach(self, outlook: Outlook, ring: StripRing) -> float:
         """Return up to where a ring is due: nowhere beyond the blades, where it is for patches seen from above."""
-        near = self.quality.blade_rings[-1].to
-        (limit,) = outlook.rings_in((ring.to,)) if ring.to > near else outlook.drawn_in((ring.to,))
-        return limit
+        quality = self.quality
+        near = quality.blade_rings[-1].to
+        if ring.to > near:
+            return outlook.rings_in((ring.to,))[0]
+        blades, *_ = outlook.reach_in((near, self.reach(quality), quality.carpet_to))
+        return ring.to * blades / max(near, 1)
 
     def _spacing(self) -> NDArray[np.float32]:
         """Return the distance between each ring's strips [m]."""

@@ -1,0 +1,40 @@
+"""Room: up to how far from a viewer patches can have each representation."""
+
+from collections.abc import Sequence
+from math import ceil, log2
+
+from ..engine.world import World
+from .around.outlook import Outlook, brought_near
+from .around.representation import Representation
+from .lod import farthest
+
+
+def keep_room(outlook: Outlook, representations: Sequence[Representation], reach: tuple[int, ...], /) -> None:
+    """Give an outlook empty stores for what every representation keeps, where `reach` says how far each is due."""
+    outlook.reach = outlook.room = reach
+    for each, side in zip(representations, _sides(outlook), strict=True):
+        outlook.kept[each.name] = each.keep(outlook.patches, side)
+
+
+def make_room(outlook: Outlook, representations: Sequence[Representation], world: World, /) -> None:
+    """Make room for what a long lens brings near, where there is too little: for twice as much of it each time.
+
+    What stood in the smaller stores is planted anew, and its receivers are other entities.
+    """
+    if outlook.lens == 1.0 or not outlook.reach:
+        return
+    far = brought_near(outlook.reach, 2.0 ** ceil(log2(outlook.lens)))
+    due = tuple(int(max(limits)) for limits in zip(far, outlook.room, strict=True))
+    if due == outlook.room:
+        return
+    before, outlook.room = _sides(outlook), due
+    for each, old, side in zip(representations, before, _sides(outlook), strict=True):
+        if side != old:
+            outlook.kept[each.name].release(world)
+            outlook.kept[each.name] = each.keep(outlook.patches, side)
+
+
+def _sides(outlook: Outlook) -> list[int]:
+    """Return how many patches there is room for along a side of each representation's stores."""
+    most = outlook.patches.side
+    return [*(min(max(2 * limit + 1, 1), most) for limit in farthest(outlook.room)), most]
