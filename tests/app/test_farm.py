@@ -53,14 +53,28 @@ def told(shots: list[Shot]) -> list[str]:
     return [shot.sha256 for shot in shots]
 
 
+@pytest.fixture(scope="module")
+def two() -> Iterator[Hands]:
+    """Two workers."""
+    with hired("local:2", most=2) as hands:
+        yield hands
+
+
+@pytest.fixture
+def address(two: Hands) -> str:
+    """Where their scheduler is."""
+    assert two.count == 2
+    return str(need_distributed().default_client().scheduler.address)
+
+
 @pytest.fixture
 def both(scene: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Both:
-    """Run a command that writes into a folder alone, and by two workers into another; return what both print."""
+    """Run a command that writes into a folder alone, and by workers into another; return what both print."""
     monkeypatch.chdir(scene.parent)
 
-    def told(*words: object) -> tuple[str, str]:
+    def told(on: str, *words: object) -> tuple[str, str]:
         printed = []
-        for folder, place in (("alone", []), ("together", ["--on", "local:2"])):
+        for folder, place in (("alone", []), ("together", ["--on", on])):
             assert run([*(str(word).replace("FOLDER", folder) for word in words), *place]) == 0
             out, err = capsys.readouterr()
             assert err == ""
@@ -72,10 +86,17 @@ def both(scene: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFix
 
 @pytest.mark.gl
 @pytest.mark.usefixtures("ctx")
-@pytest.mark.parametrize("output", ["film/", "film.webp"])
-def test_a_film_by_two_workers_is_that_of_one_process_byte_for_byte(both: Both, scene: Path, output: str) -> None:
+@pytest.mark.parametrize(("output", "hiring"), [("film/", True), ("film.webp", False)])
+def test_a_film_by_two_workers_is_that_of_one_process_byte_for_byte(
+    both: Both,
+    address: str,
+    scene: Path,
+    output: str,
+    hiring: bool,  # noqa: FBT001
+) -> None:
     films = []
-    assert both("film", scene, "-o", f"FOLDER/{output}", "--fps", FPS, "--size", "64x36") == ("", "")
+    on = "local:2" if hiring else address
+    assert both(on, "film", scene, "-o", f"FOLDER/{output}", "--fps", FPS, "--size", "64x36") == ("", "")
     for folder in ("alone", "together"):
         files = (path for path in (scene.parent / folder).rglob("*") if path.is_file())
         films.append({path.relative_to(scene.parent / folder): path.read_bytes() for path in files})
@@ -85,25 +106,18 @@ def test_a_film_by_two_workers_is_that_of_one_process_byte_for_byte(both: Both, 
 
 @pytest.mark.gl
 @pytest.mark.usefixtures("ctx")
-def test_pictures_that_workers_compare_have_the_figures_of_one_process(both: Both, scene: Path) -> None:
+def test_pictures_that_workers_compare_have_the_figures_of_one_process(both: Both, address: str, scene: Path) -> None:
     pytest.importorskip("flip_evaluator")
     (scene.parent / "scenes").mkdir()
     for name in ("one", "other"):
         (scene.parent / "scenes" / f"{name}.yaml").write_bytes(scene.read_bytes())
-    alone, together = both("bench", "picture", "scenes", "-o", "FOLDER", "--size", "64x36", "--json")
+    alone, together = both(address, "bench", "picture", "scenes", "-o", "FOLDER", "--size", "64x36", "--json")
     assert alone == together
     pictures = [
         {path.name: path.read_bytes() for path in (scene.parent / folder).iterdir()} for folder in ("alone", "together")
     ]
     assert pictures[0] == pictures[1]
     assert set(pictures[0]) == {"one.png", "other.png"}
-
-
-@pytest.fixture(scope="module")
-def two() -> Iterator[Hands]:
-    """Two workers."""
-    with hired("local:2", most=2) as hands:
-        yield hands
 
 
 @pytest.mark.gl
@@ -169,9 +183,9 @@ def test_what_workers_grow_is_kept_byte_for_byte_as_one_process_grows_it(
 @pytest.mark.gl
 @pytest.mark.usefixtures("ctx")
 @pytest.mark.skipif(sys.platform == "win32", reason="a process is ended there in another way")
-def test_what_a_lost_worker_had_is_drawn_by_another(alone: Shooting, scene: Path) -> None:
+def test_what_a_lost_worker_had_is_drawn_by_another(address: str, alone: Shooting, scene: Path) -> None:
     span = Span(0, COUNT, COUNT, FPS)
-    with shot_on("local:2", take_of(scene), read_scene(scene), span, ABOUT) as shots:
+    with shot_on(address, take_of(scene), read_scene(scene), span, ABOUT) as shots:
         drawn = [next(shots) for _ in range(3)]
         processes = need_distributed().default_client().run(os.getpid)
         assert len(set(processes.values())) == 2
