@@ -68,13 +68,13 @@ def address(two: Hands) -> str:
 
 
 @pytest.fixture
-def both(scene: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Both:
-    """Run a command that writes into a folder alone, and by workers into another; return what both print."""
+def both(address: str, scene: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Both:
+    """Run a command that writes into a folder alone, and by two workers into another; return what both print."""
     monkeypatch.chdir(scene.parent)
 
-    def told(on: str, *words: object) -> tuple[str, str]:
+    def told(*words: object) -> tuple[str, str]:
         printed = []
-        for folder, place in (("alone", []), ("together", ["--on", on])):
+        for folder, place in (("alone", []), ("together", ["--on", address])):
             assert run([*(str(word).replace("FOLDER", folder) for word in words), *place]) == 0
             out, err = capsys.readouterr()
             assert err == ""
@@ -86,17 +86,10 @@ def both(scene: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFix
 
 @pytest.mark.gl
 @pytest.mark.usefixtures("ctx")
-@pytest.mark.parametrize(("output", "hiring"), [("film/", True), ("film.webp", False)])
-def test_a_film_by_two_workers_is_that_of_one_process_byte_for_byte(
-    both: Both,
-    address: str,
-    scene: Path,
-    output: str,
-    hiring: bool,  # noqa: FBT001
-) -> None:
+@pytest.mark.parametrize("output", ["film/", "film.webp"])
+def test_a_film_by_two_workers_is_that_of_one_process_byte_for_byte(both: Both, scene: Path, output: str) -> None:
     films = []
-    on = "local:2" if hiring else address
-    assert both(on, "film", scene, "-o", f"FOLDER/{output}", "--fps", FPS, "--size", "64x36") == ("", "")
+    assert both("film", scene, "-o", f"FOLDER/{output}", "--fps", FPS, "--size", "64x36") == ("", "")
     for folder in ("alone", "together"):
         files = (path for path in (scene.parent / folder).rglob("*") if path.is_file())
         films.append({path.relative_to(scene.parent / folder): path.read_bytes() for path in files})
@@ -106,12 +99,12 @@ def test_a_film_by_two_workers_is_that_of_one_process_byte_for_byte(
 
 @pytest.mark.gl
 @pytest.mark.usefixtures("ctx")
-def test_pictures_that_workers_compare_have_the_figures_of_one_process(both: Both, address: str, scene: Path) -> None:
+def test_pictures_that_workers_compare_have_the_figures_of_one_process(both: Both, scene: Path) -> None:
     pytest.importorskip("flip_evaluator")
     (scene.parent / "scenes").mkdir()
     for name in ("one", "other"):
         (scene.parent / "scenes" / f"{name}.yaml").write_bytes(scene.read_bytes())
-    alone, together = both(address, "bench", "picture", "scenes", "-o", "FOLDER", "--size", "64x36", "--json")
+    alone, together = both("bench", "picture", "scenes", "-o", "FOLDER", "--size", "64x36", "--json")
     assert alone == together
     pictures = [
         {path.name: path.read_bytes() for path in (scene.parent / folder).iterdir()} for folder in ("alone", "together")
