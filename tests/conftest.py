@@ -9,6 +9,7 @@ import sys
 from collections import OrderedDict
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
+from functools import lru_cache
 from pathlib import Path
 from typing import NoReturn
 
@@ -24,7 +25,9 @@ from tallgrass.engine.world import World
 from tallgrass.systems import site
 from tallgrass.systems.around.receivers import Receiving
 from tallgrass.systems.grow.record import Growth
+from tallgrass.systems.light import repeating
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.stock import cache
 from tallgrass.systems.stock.cache import cache_folder, cached_growth, growth_key
 from tallgrass.testing import NoContextError, headless_context, private_world
 
@@ -32,15 +35,18 @@ from tallgrass.testing import NoContextError, headless_context, private_world
 os.environ.setdefault("MESA_GL_VERSION_OVERRIDE", "3.3FC")
 os.environ.setdefault("MESA_GLSL_VERSION_OVERRIDE", "330")
 
-# The same examples on every machine, however slow it is.
-settings.register_profile("tallgrass", deadline=None, derandomize=True)
+# The same examples on every machine, however slow it is: as many more would find nothing else.
+settings.register_profile("tallgrass", deadline=None, derandomize=True, max_examples=50)
 settings.load_profile("tallgrass")
 
 Python = Callable[..., str]
 OnCard = list[tuple[Receiving, NDArray[np.float32]]]
 
-REMEMBERED = 24
-"""Growths that are held in memory, of a few megabytes each."""
+REMEMBERED, KEPT = 24, 120
+"""Growths that are held in memory, of a few megabytes each, and in the cache."""
+
+SEEDS = 64
+"""Seeds whose ground and clouds are remembered, less than a megabyte each."""
 
 PARENT = """
 import json, os, runpy, sys
@@ -133,8 +139,11 @@ def _grown_once() -> Iterator[None]:
             grown.popitem(last=False)
         return grown[key]
 
+    levels = lru_cache(SEEDS)(repeating.repeating_levels.__wrapped__)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(site, "cached_growth", remembered)
+        patch.setattr(cache, "_MOST", KEPT)
+        patch.setattr(repeating, "repeating_levels", levels)
         yield
 
 

@@ -3,11 +3,9 @@
 import numpy as np
 
 from ...engine.declared.grass import GrassKind
-from .postures import CALM, STORM, chord_angle, flat_step
+from .postures import chord_angle, flat_step, rest_in_winds
 from .record import GIVES, Floats
-from .simulate import LINKS, Doubles, build_chain, settle
-
-_WINDS = 200
+from .simulate import LINKS, Doubles, build_chain
 
 
 def grow_give(kind: GrassKind, /) -> Floats:
@@ -25,10 +23,7 @@ def grow_give(kind: GrassKind, /) -> Floats:
 
 def _rest_by_pressure(kind: GrassKind, /) -> tuple[Doubles, Doubles]:
     """Return squared speeds of constant winds, and the posture indices that they hold an even blade at, up to 1."""
-    chain = build_chain(kind, np.ones((1, LINKS)))
-    scale = chain.stiffness[0, 0] / (LINKS * chain.area.sum())
-    pressure = np.geomspace(CALM, STORM, _WINDS) * scale
-    angle = settle(chain, np.sqrt(pressure))[:, 0]
+    angle, wind = rest_in_winds(build_chain(kind, np.ones((1, LINKS))))
     end = flat_step(angle) + 1
     chord = np.maximum.accumulate(chord_angle(angle[:end]))
-    return np.append(0.0, pressure[:end]), np.append(0.0, chord / chord[-1])
+    return np.append(0.0, wind[:end] ** 2), np.append(0.0, chord / chord[-1])

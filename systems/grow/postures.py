@@ -4,15 +4,16 @@ import numpy as np
 
 from ...engine.declared.grass import GrassKind
 from .record import Postures
-from .simulate import LINKS, Chain, Doubles, build_chain, damp, lowest_swing, place_links, simulate
+from .simulate import LINKS, Chain, Doubles, build_chain, damp, lowest_swing, place_links, settle, simulate
 
 NEAR_FLAT = np.radians(83.0)
 """Angle of the tip from the vertical at posture index 1 [rad]."""
 
-CALM, STORM = 0.02, 400.0
+_CALM, _STORM = 0.02, 400.0
 """Squared speeds of winds that bend blades, from the least to the most, in what their stiffness withstands."""
 
 _GOLDEN = 0.618
+_RESTS = 200
 _STEPS, _LONGEST_STEP, _ANGLE_STEP = 1200, 0.1, 0.15
 _HEAVY = 0.7
 
@@ -28,7 +29,7 @@ def grow_postures(kind: GrassKind, /, *, variants: int = 4, rows: int = 129, see
     if rows < 3 or rows % 2 == 0:
         raise ValueError(f"postures need an odd number of rows, at least 3, not {rows}")
     chain = build_chain(kind, _random_factors(variants, seed))
-    angle, _ = bend_slowly(chain)
+    angle = _bend_slowly(chain)
     half = rows // 2
     level = np.linspace(0.0, 1.0, half + 1)
     rising = np.stack([_resample(angle[:, number], level) for number in range(variants)])
@@ -37,24 +38,37 @@ def grow_postures(kind: GrassKind, /, *, variants: int = 4, rows: int = 129, see
     return Postures(index=index.astype(np.float32), shape=place_links(both).astype(np.float32))
 
 
-def bend_slowly(chain: Chain, /) -> tuple[Doubles, Doubles]:
-    """Return the angles of blades under a slowly growing wind, and that wind's speed.
+def rest_in_winds(chain: Chain, /) -> tuple[Doubles, Doubles]:
+    """Return the angles of one blade at rest in constant winds, from calm to storm, and the winds' speeds.
 
-    Shapes (steps, batch, links) and (steps, batch). It ends when every tip has been near flat. Joints are
-    damped heavily, so that no blade swings on its way.
+    Shapes (winds, links) and (winds,).
+    """
+    wind = _winds(chain, _RESTS)[:, 0]
+    return settle(chain, wind)[:, 0], wind
+
+
+def _bend_slowly(chain: Chain, /) -> Doubles:
+    """Return the angles of blades under a slowly growing wind, shape (steps, batch, links).
+
+    It ends when every tip has been near flat. Joints are damped heavily, so that no blade swings on its way.
     """
     batch, links = chain.stiffness.shape
     heavy = damp(chain, ratio=_HEAVY)
     step = min(_ANGLE_STEP / float(lowest_swing(chain)[0]), _LONGEST_STEP)
-    scale = np.sqrt(chain.stiffness[:, 0] / (links * chain.area.sum()))
-    wind = np.sqrt(np.geomspace(CALM, STORM, _STEPS))[:, None] * scale
+    wind = _winds(chain, _STEPS)
     angle, rate = np.zeros((1, batch, links)), np.zeros((batch, links))
     for start in range(0, _STEPS, 100):
         more, rate = simulate(heavy, angle[-1], rate, wind[start : start + 100], step=step)
         angle = np.concatenate([angle, more[1:]])
         if (angle[:, :, -1].max(axis=0) >= NEAR_FLAT).all():
             break
-    return angle, np.concatenate([np.zeros((1, batch)), wind])[: angle.shape[0]]
+    return angle
+
+
+def _winds(chain: Chain, count: int, /) -> Doubles:
+    """Return so many speeds of winds from calm to storm for each blade, shape (count, batch)."""
+    scale = chain.stiffness[:, 0] / (chain.stiffness.shape[1] * chain.area.sum())
+    return np.asarray(np.sqrt(np.geomspace(_CALM, _STORM, count)[:, None] * scale))
 
 
 def chord_angle(angle: Doubles, /) -> Doubles:

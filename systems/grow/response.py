@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 
 from ...engine.declared.grass import GrassKind
-from .postures import bend_slowly, chord_angle, flat_step
+from .postures import chord_angle, flat_step, rest_in_winds
 from .record import Response
-from .simulate import LINKS, Chain, Doubles, build_chain, damp, lowest_swing, simulate
+from .simulate import LINKS, Chain, Doubles, build_chain, lowest_swing, settle, simulate
 
 SAMPLES = 256
 
@@ -16,8 +16,7 @@ _FINAL = 0.55
 
 _REST = 0.01
 _CYCLES, _LONGEST, _STILL = 4.0, 16.0, 3.0
-_STEPS_PER_SWING = 240
-_HEAVY = 0.7
+_STEPS_PER_SWING = 120
 
 
 def grow_response(kind: GrassKind, /, *, samples: int = SAMPLES) -> Response:
@@ -29,8 +28,7 @@ def grow_response(kind: GrassKind, /, *, samples: int = SAMPLES) -> Response:
     """
     chain = build_chain(kind, np.ones((1, LINKS)))
     step = 2.0 * np.pi / float(lowest_swing(chain)[0]) / _STEPS_PER_SWING
-    angle, wind = bend_slowly(chain)
-    bent, speed = _bent(chain, angle[:, 0], wind[:, 0], step)
+    bent, speed = _bent(chain)
     index = _swung(chain, bent, speed, step)
     length = _length(index)
     time = np.linspace(0.0, length, samples)
@@ -40,13 +38,14 @@ def grow_response(kind: GrassKind, /, *, samples: int = SAMPLES) -> Response:
     )
 
 
-def _bent(chain: Chain, angle: Doubles, wind: Doubles, step: float, /) -> tuple[Doubles, float]:
-    """Return the blade at rest in a constant wind, shape (links,), and the wind's speed."""
+def _bent(chain: Chain, /) -> tuple[Doubles, float]:
+    """Return the blade at rest in the constant wind that bends it to `_FINAL`, shape (links,), and the wind's speed."""
+    angle, wind = rest_in_winds(chain)
     chord = np.maximum.accumulate(chord_angle(angle))
-    number = int(np.argmax(chord >= _FINAL * chord[flat_step(angle)]))
-    steady = np.full((int(_STEPS_PER_SWING * _CYCLES), 1), wind[number])
-    settled, _ = simulate(damp(chain, ratio=_HEAVY), angle[None, number], np.zeros((1, LINKS)), steady, step=step)
-    return settled[-1, 0], float(wind[number])
+    final = _FINAL * chord[flat_step(angle)]
+    number = int(np.argmax(chord >= final))
+    speed = float(np.interp(final, chord[number - 1 : number + 1], wind[number - 1 : number + 1]))
+    return settle(chain, np.append(wind[:number], speed))[-1, 0], speed
 
 
 def _swung(chain: Chain, bent: Doubles, speed: float, step: float, /) -> Doubles:

@@ -217,7 +217,7 @@ def test_g1_the_plain_is_truer_than_every_blade_alone_and_its_representations_as
 
 
 @pytest.mark.usefixtures("ctx")
-@pytest.mark.parametrize(("scene", "size"), [("meadow", NARROW), ("hills", (384, 216))])
+@pytest.mark.parametrize(("scene", "size"), [("meadow", NARROW), ("hills", (256, 216))])
 def test_g1_every_representation_is_as_bright_as_its_blades(scene: str, size: tuple[int, int]) -> None:
     with Studio(Take(scene, size, "high")) as studio:
         prairie = studio.prairie

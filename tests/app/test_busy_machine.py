@@ -3,13 +3,15 @@
 import os
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 
 pytestmark = pytest.mark.gl
+
+Film = Callable[..., tuple[list[bytes], list[str]]]
 
 PROGRAM = """
 import sys
@@ -62,30 +64,32 @@ def every_core_busy() -> Iterator[None]:
             one.wait()
 
 
-def film(scene: Path, folder: str, *, seconds: float) -> tuple[list[bytes], list[str]]:
-    """Return the pictures of a film that is made in a process of its own, and what it says of its winds."""
-    options = ["--frames", "1:4", "--fps", "4", "--size", "160x90", "--preset", "low"]
-    arguments = [str(seconds), "film", str(scene), "-o", f"{folder}/", *options]
-    words = [sys.executable, "-W", "error", "-c", PROGRAM, *arguments]
-    done = subprocess.run(words, cwd=scene.parent, capture_output=True, text=True, timeout=120, check=False)
-    assert (done.returncode, done.stdout) == (0, ""), done.stderr
-    return [path.read_bytes() for path in sorted((scene.parent / folder).iterdir())], done.stderr.splitlines()
-
-
 @pytest.fixture
-def windy(scene: Path) -> Path:
-    """A scene with winds that come along and the ponderous one."""
+def film(scene: Path, python: Callable[..., str]) -> Film:
+    """Make a film, in a process of its own, of winds that come along and the ponderous one.
+
+    `film(folder, seconds=)` returns its pictures, and what is said of its winds.
+    """
     scene.write_text(scene.read_text().replace("\ncamera:", f"\n{WINDS}camera:"))
-    return scene
+    scene.with_name("program.py").write_text(PROGRAM)
+
+    def made(folder: str, *, seconds: float) -> tuple[list[bytes], list[str]]:
+        options = ["--frames", "1:4", "--fps", "4", "--size", "160x90"]
+        said = python(
+            scene.parent, "program.py", str(seconds), "film", scene.name, "-o", f"{folder}/", *options, place={}
+        )
+        return [path.read_bytes() for path in sorted((scene.parent / folder).iterdir())], said.splitlines()
+
+    return made
 
 
-def test_n5_a_film_on_a_busy_machine_and_with_a_slow_wind_is_the_film_and_a_line_tells_of_the_wind(windy: Path) -> None:
-    alone, nothing = film(windy, "alone", seconds=0.0)
+def test_n5_a_film_on_a_busy_machine_and_with_a_slow_wind_is_the_film_and_a_line_tells_of_the_wind(film: Film) -> None:
+    alone, nothing = film("alone", seconds=0.0)
     assert len(set(alone)) == 3
     assert nothing == []
     with every_core_busy():
-        assert film(windy, "busy", seconds=0.06)[0] == alone
-    slow, (told,) = film(windy, "slow", seconds=0.12)
+        assert film("busy", seconds=0.06)[0] == alone
+    slow, (told,) = film("slow", seconds=0.12)
     assert slow == alone
     assert told.startswith("wind[2] ponderous of __main__.Ponderous: action takes too long: 1")
     assert told.endswith(" ms of processor time")

@@ -53,14 +53,28 @@ def told(shots: list[Shot]) -> list[str]:
     return [shot.sha256 for shot in shots]
 
 
+@pytest.fixture(scope="module")
+def two() -> Iterator[Hands]:
+    """Two workers."""
+    with hired("local:2", most=2) as hands:
+        yield hands
+
+
 @pytest.fixture
-def both(scene: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Both:
+def address(two: Hands) -> str:
+    """Where their scheduler is."""
+    assert two.count == 2
+    return str(need_distributed().default_client().scheduler.address)
+
+
+@pytest.fixture
+def both(address: str, scene: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Both:
     """Run a command that writes into a folder alone, and by two workers into another; return what both print."""
     monkeypatch.chdir(scene.parent)
 
     def told(*words: object) -> tuple[str, str]:
         printed = []
-        for folder, place in (("alone", []), ("together", ["--on", "local:2"])):
+        for folder, place in (("alone", []), ("together", ["--on", address])):
             assert run([*(str(word).replace("FOLDER", folder) for word in words), *place]) == 0
             out, err = capsys.readouterr()
             assert err == ""
@@ -97,13 +111,6 @@ def test_pictures_that_workers_compare_have_the_figures_of_one_process(both: Bot
     ]
     assert pictures[0] == pictures[1]
     assert set(pictures[0]) == {"one.png", "other.png"}
-
-
-@pytest.fixture(scope="module")
-def two() -> Iterator[Hands]:
-    """Two workers."""
-    with hired("local:2", most=2) as hands:
-        yield hands
 
 
 @pytest.mark.gl
@@ -169,9 +176,9 @@ def test_what_workers_grow_is_kept_byte_for_byte_as_one_process_grows_it(
 @pytest.mark.gl
 @pytest.mark.usefixtures("ctx")
 @pytest.mark.skipif(sys.platform == "win32", reason="a process is ended there in another way")
-def test_what_a_lost_worker_had_is_drawn_by_another(alone: Shooting, scene: Path) -> None:
+def test_what_a_lost_worker_had_is_drawn_by_another(address: str, alone: Shooting, scene: Path) -> None:
     span = Span(0, COUNT, COUNT, FPS)
-    with shot_on("local:2", take_of(scene), read_scene(scene), span, ABOUT) as shots:
+    with shot_on(address, take_of(scene), read_scene(scene), span, ABOUT) as shots:
         drawn = [next(shots) for _ in range(3)]
         processes = need_distributed().default_client().run(os.getpid)
         assert len(set(processes.values())) == 2

@@ -69,14 +69,16 @@ def hills(load: Load) -> Prairie:
 
 
 @pytest.mark.parametrize(("up", "pitch"), [(12.0, -90.0), (30.0, -60.0), (60.0, -30.0), (60.0, -90.0)])
-def test_f2_from_above_it_is_the_same_grass_without_rows(hills: Prairie, wide: Stage, up: float, pitch: float) -> None:
+def test_f2_from_above_it_is_the_same_grass_without_rows(
+    hills: Prairie, narrow: Stage, up: float, pitch: float
+) -> None:
     ground = float(hills.height_at(np.array([[0.0, 10.0]], np.float32))[0])
-    drawn, true = both(wide, hills, Camera((0.0, ground + up, 10.0), 0.0, math.radians(pitch), math.radians(45.0)))
+    drawn, true = both(narrow, hills, Camera((0.0, ground + up, 10.0), 0.0, math.radians(pitch), math.radians(45.0)))
     assert rows(drawn) < 1.5 * rows(true)
     bands = [band.mean() / other.mean() for band, other in zip(np.split(drawn, 5), np.split(true, 5), strict=True)]
     assert bands == pytest.approx([1.0] * 5, abs=0.05)
-    step = wide.size[1] // 5
-    for start in range(0, wide.size[0] - step, step):
+    step = narrow.size[1] // 5
+    for start in range(0, narrow.size[0] - step, step):
         grain = drawn[step : 2 * step, start : start + step].std() / true[step : 2 * step, start : start + step].std()
         assert 0.5 < grain < 1.6
 

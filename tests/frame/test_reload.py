@@ -280,7 +280,7 @@ def lasting(prairie: Prairie) -> list[object]:
     return [*grown, *drawn, outlook, outlook.patches, *outlook.kept.values()]
 
 
-def test_n7_sixty_edits_make_nothing_anew_that_takes_a_frame_and_cost_no_memory(
+def test_n7_thirty_edits_make_nothing_anew_that_takes_a_frame_and_cost_no_memory(
     edited: Edited, untouched: Prairie, stage: Stage, camera: Aim
 ) -> None:
     prairie, refused = edited.prairie, 0
@@ -297,9 +297,9 @@ def test_n7_sixty_edits_make_nothing_anew_that_takes_a_frame_and_cost_no_memory(
     stage.shot(prairie, walked(camera, 0))
     things, memory = len(in_gl()), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     spent: list[tuple[float, float]] = []
-    for number in range(60):
-        if number % 6 == 5:  # what these need to be made anew is theirs
-            edited.edit(*[*EDITS.values()][number // 6])
+    for number in range(30):
+        if number % 3 == 2:  # what these need to be made anew is theirs
+            edited.edit(*[*EDITS.values()][number // 3])
             stage.shot(prairie, walked(camera, number % 40))
             edited.edit()
         stage.shot(prairie, walked(camera, number % 40))
@@ -317,7 +317,7 @@ def test_n7_sixty_edits_make_nothing_anew_that_takes_a_frame_and_cost_no_memory(
     stage.shot(prairie, walked(camera, 0))
     without, with_edit = np.median(spent, axis=0)
     assert with_edit < 2.5 * without, "reading the scene again takes as long as drawing it"
-    assert refused == 7 * len(wrong)
+    assert refused == 4 * len(wrong)
     assert len(in_gl()) == things
-    assert (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - memory) / 1024 < 30
+    assert (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - memory) / 1024 < 15
     np.testing.assert_array_equal(prairie.wind_at([[0, 0], [6, 2]], 3.0), untouched.wind_at([[0, 0], [6, 2]], 3.0))

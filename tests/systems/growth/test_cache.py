@@ -215,7 +215,8 @@ def test_a_full_disk_leaves_nothing_behind(tmp_path: Path, monkeypatch: pytest.M
 
 
 @pytest.mark.usefixtures("grows")
-def test_what_was_not_used_for_longest_is_forgotten(tmp_path: Path) -> None:
+def test_what_was_not_used_for_longest_is_forgotten(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("tallgrass.systems.stock.cache._MOST", 48)
     for number in range(60):
         (tmp_path / f"{number}.growth").write_bytes(b"")
         os.utime(tmp_path / f"{number}.growth", (number, number))
