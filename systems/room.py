@@ -23,8 +23,7 @@ def make_room(outlook: Outlook, representations: Sequence[Representation], world
     """
     if outlook.lens == 1.0 or not outlook.reach:
         return
-    far = brought_near(outlook.reach, 2.0 ** ceil(log2(outlook.lens)))
-    due = tuple(int(max(limits)) for limits in zip(far, outlook.room, strict=True))
+    due = tuple(max(limits) for limits in zip(room_for(outlook.reach, outlook.lens), outlook.room, strict=True))
     if due == outlook.room:
         return
     before, outlook.room = _sides(outlook), due
@@ -32,6 +31,11 @@ def make_room(outlook: Outlook, representations: Sequence[Representation], world
         if side != old:
             outlook.kept[each.name].release(world)
             outlook.kept[each.name] = each.keep(outlook.patches, side)
+
+
+def room_for(reach: tuple[int, ...], lens: float, /) -> tuple[int, ...]:
+    """Return up to how far there has to be room for representations of such a reach with a lens, in doublings of it."""
+    return tuple(int(limit) for limit in brought_near(reach, 2.0 ** ceil(log2(lens))))
 
 
 def _sides(outlook: Outlook) -> list[int]:

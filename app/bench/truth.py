@@ -7,6 +7,7 @@ from ...engine.gl.stream import release_all
 from ...systems.lod import farthest
 from ...systems.prairie import Prairie
 from ...systems.reference import cropped, draw_reference
+from ...systems.room import room_for
 from ..studio.encode import Picture
 from ..studio.studio import Matrix, Studio
 from ..studio.take import SAMPLES
@@ -61,7 +62,8 @@ class Truth:
         return self._near(view, cropped(projection, first, part, self._studio.take.size), part)
 
     def _near(self, view: Matrix, projection: Matrix, size: tuple[int, int]) -> Picture:
-        reach = farthest(self._prairie.viewers["main"].room)[-1]
+        room = room_for(self._studio.prairie.site.reach, self._prairie.viewers["main"].lens)
+        reach = farthest(room)[-1]
         return draw_reference(self._prairie, view, projection, size, samples=SAMPLES, reach=reach)
 
     def _go(self, moment: Moment) -> tuple[Matrix, Matrix]:

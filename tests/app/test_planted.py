@@ -57,7 +57,7 @@ def measure(folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Captur
         return dict.fromkeys(left_out, record)
 
     monkeypatch.setattr(pop, "_walks", once)
-    monkeypatch.setattr(stroll, "RATE", 15)
+    monkeypatch.setattr(stroll, "RATE", 20)
     monkeypatch.setattr(stroll, "PITCH", math.radians(-20.0))
     monkeypatch.setattr(pop, "MOST", 1)
     monkeypatch.setattr(pop, "legs", lambda prairie: legs(prairie)[:1])
@@ -65,7 +65,7 @@ def measure(folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Captur
     path.write_text(SCENE)
 
     def told() -> Told:
-        assert run(["bench", "pop", str(path), "--size", "192x108", "--json"]) == 0
+        assert run(["bench", "pop", str(path), "--size", "320x180", "--json"]) == 0
         return dict(json.loads(capsys.readouterr().out))
 
     return told
@@ -83,7 +83,7 @@ def sound(measure: Callable[[], Told]) -> Told:
 
 
 def test_n3_whole_changes_are_judged_in_every_frame(sound: Told) -> None:
-    assert sound["judged"] == sound["frames"] == 21
+    assert sound["judged"] == sound["frames"] == 28
     assert {row["change"] for row in sound["changes"]} >= {"carpet to strips", "strips to blades"}
     assert not {"flicker", "ghosting"} & set(sound["over"])
     assert sound["drift"]["mean"] < 0.08

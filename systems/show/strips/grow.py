@@ -49,7 +49,7 @@ SLANT = 0.16
 """Tangent of the angle from which heads are painted: the same to both sides, as they are about round."""
 
 
-_TEXELS_UP = 96, 200
+_TEXELS_UP = 96, 140
 """From how many texels on from the ground to the highest tip they get coarser, and how many there are at most: tall
 kinds have broad blades and do with coarser ones."""
 
@@ -57,16 +57,15 @@ _COARSE = 0.011
 """Width of a texel [m] that broad blades do with in all rings."""
 
 
-def texel_of(texel: float, finest: float, height: float, /) -> float:
+def texel_of(texel: float, finest: float, height: float, /, *, far: bool) -> float:
     """Return how wide a kind's texels are [m] in a ring of `texel`, where the finest ring's are of `finest` [m].
 
-    With the height of the kind all rings get coarser alike, until broad blades would blur: then none is coarser than
-    they need, or than there is room for.
+    With the height of the kind all rings get coarser alike, until broad blades would blur: then none that is seen from
+    `far` is coarser than they need, or than there is room for.
     """
     least, most = _TEXELS_UP
-    if height <= least * _COARSE:
-        return texel * max(height / least / finest, 1.0)
-    return max(texel, _COARSE, height / most)
+    coarser = texel * max(height / least / finest, 1.0)
+    return max(texel, _COARSE, height / most) if far and height > least * _COARSE else coarser
 
 
 def strips_of(model: PatchModel, /) -> tuple[Strips, ...]:

@@ -57,9 +57,9 @@ class StripRepresentation(Representation):
 
     @staticmethod
     def depends(kind: GrassKind, quality: Quality, /) -> object:
-        """Return how fine its rings are."""
+        """Return how fine its rings are, and whether they are seen from far."""
         del kind
-        return [(ring.strips, ring.texel) for ring in quality.strip_rings]
+        return [(ring.strips, ring.texel, _from_far(ring, quality)) for ring in quality.strip_rings]
 
     @staticmethod
     def grow(seedling: Seedling, /) -> tuple[Strips, ...]:
@@ -69,8 +69,9 @@ class StripRepresentation(Representation):
         return tuple(
             grow_strips(
                 seedling.blades, seedling.postures, patch=quality.patch, strips=ring.strips,
-                texel=texel_of(ring.texel, finest, seedling.height), taper=seedling.kind.taper, margin=seedling.margin,
-                height=seedling.height, section=SECTIONS[seedling.kind.profile],
+                texel=texel_of(ring.texel, finest, seedling.height, far=_from_far(ring, quality)),
+                taper=seedling.kind.taper, margin=seedling.margin, height=seedling.height,
+                section=SECTIONS[seedling.kind.profile],
             )
             for ring in quality.strip_rings
         )  # fmt: skip
@@ -221,3 +222,8 @@ class StripRepresentation(Representation):
         """Return a painter of all rings."""
         ready = self.ready.pop() if self.ready else None
         return StripsPainter(canvas, self.growths, self.quality, ready)
+
+
+def _from_far(ring: StripRing, quality: Quality, /) -> bool:
+    """Return whether a ring is seen beyond the last blades: nearer strips stand only where they are seen from above."""
+    return ring.to > quality.blade_rings[-1].to

@@ -162,7 +162,7 @@ def test_r3_the_high_preset_takes_less_than_thirty_megabytes_a_kind(high: Growth
 
 def test_tall_kinds_have_coarser_texels_so_that_they_take_no_more() -> None:
     kind = GrassKind(height=[1.5, 2.5], width=0.03, blades=60)
-    assert precompute_bytes(grow(kind, PRESETS["high"], seed=1)) < 20e6
+    assert precompute_bytes(grow(kind, PRESETS["high"], seed=1)) < 25e6
 
 
 def test_g1_blades_and_strips_cover_the_same_in_every_ring(high: Growth) -> None:
