@@ -130,7 +130,7 @@ def test_n3_a_jump_at_the_end_of_a_change_is_named_as_flicker(
     monkeypatch.setattr("tallgrass.systems.see.weights", waited)
     told = measure()
     assert "flicker" in told["over"]
-    assert told["flicker"]["ratio"] > 1.2 * sound["flicker"]["ratio"]
+    assert told["flicker"]["ratio"] > 1.1 * sound["flicker"]["ratio"]
     end = (stroll.LEAD + 0.98 * 1.2) * stroll.RATE
     assert abs(told["worst"][0]["frame"] - end) <= 2
 
