@@ -35,7 +35,7 @@ from tallgrass.testing import NoContextError, headless_context, private_world
 os.environ.setdefault("MESA_GL_VERSION_OVERRIDE", "3.3FC")
 os.environ.setdefault("MESA_GLSL_VERSION_OVERRIDE", "330")
 
-# The same examples on every machine, however slow it is: as many more would find nothing else.
+# The same examples on every machine, however slow it is.
 settings.register_profile("tallgrass", deadline=None, derandomize=True, max_examples=50)
 settings.load_profile("tallgrass")
 

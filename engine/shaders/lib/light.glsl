@@ -119,7 +119,7 @@ const float FACING = 0.43;
 vec2 faces_seen(int kind, vec3 lean, vec3 ray) {
     vec2 across = cross(lean, ray).xz;
     float lies = OF(lying, kind) * lean.y * ray.y, all = dot(across, across);
-    return FACING / (all + lies * lies) * vec2(across.y * across.y - across.x * across.x, -2.0 * across.x * across.y);
+    return FACING / max(all + lies * lies, 1e-9) * vec2(across.y * across.y - across.x * across.x, -2.0 * across.x * across.y);
 }
 
 // How much of the sun is seen past the clouds, from a place.

@@ -179,7 +179,13 @@ class GroundPainter:
         self.grid = ctx.buffer(corners), ctx.buffer(indices)
         self.streams = Stream(ctx, TILE), Stream(ctx, TILE), Stream(ctx, TILE)
         slopes = carpet_of(growths[0].models[0]).slope
-        laid: dict[str, str | int] = {"CARPET": 1, "STRETCH": STRETCH, "RAISED": str(RAISED), "SLOPES": len(slopes)}
+        laid: dict[str, str | int] = {
+            "CARPET": 1,
+            "STRETCH": STRETCH,
+            "RAISED": str(RAISED),
+            "SLOPES": len(slopes),
+            "LOWEST": str(slopes[0]),
+        }
         laid |= {"HEADS": 1} if any_heads(growths) else {}
 
         def layer(defines: dict[str, str | int], stream: Stream) -> _Layer:

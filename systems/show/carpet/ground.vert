@@ -97,11 +97,10 @@ ByKind shared_out(ByKind met, ByKind grows, float slope) {
 }
 #endif
 
+const float GRAZING = 0.005;  // a line of sight counts as at least so steep, for the kinds that it meets
+
 // How much of what a line of sight meets is of each kind: taller kinds hide the others at a low angle. The grass is
-// taken in four layers from the top; its leaf area falls off linearly with height.
-// `below` is up to which part of it there is any.
-const float LOWEST = 0.02;  // slope of the lowest images
-const float LEAST_SLOPE = 0.005;
+// taken in layers from the top, up to `below` of its height; its leaf area falls off linearly with height.
 
 #ifdef HEADS
 const int LAYERS = 12;
@@ -249,7 +248,7 @@ void main() {
     sunk = clamp(max(sunk, over_crest), 0.05, 1.0);
     place.y -= carpet * tall * sunk;
 #endif
-    float slope = max(viewing_slope(rise, place), LEAST_SLOPE);
+    float slope = max(viewing_slope(rise, place), GRAZING);
     met = kinds_met(grows, slope, left, left_by_strips(flat_at, slope));
 #ifndef UNDER
     light_up(viewing_slope(rise, place));

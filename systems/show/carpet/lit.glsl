@@ -52,7 +52,7 @@ vec2 message_at(vec2 at) {
 Sum summed(ByKind met, float slope, vec3 there, vec4 here, vec2 messages[KINDS]) {
     ByKind grows = grows_at(there.xz);
     Sum sum = Sum(vec3(0.0), vec3(0.0), vec4(0.0), 0.0, vec2(0.0));
-    vec2 sight = normalize(there.xz - eye.xz + 1e-6) / max(slope, 0.02);
+    vec2 sight = normalize(there.xz - eye.xz + 1e-6) / max(slope, LOWEST);
     for (int kind = 0; kind < KINDS; kind++) {
         vec2 bend = bending(kind, messages[kind]);
         Lit lit = lit_at(kind, bend, there, here, grows);

@@ -103,10 +103,11 @@ void main() {
     float across = (gl_VertexID & 1) == 1 ? min(extent.y + beside, 1.0) : max(extent.x - beside, 0.0);
     float t = min(float(gl_VertexID / 2) / float(fine.y), min(extent.z + 1.0 / (pixels * OF(tall, k)), 1.0));
     vec2 bend_a = bending(k, told_a.xy), bend_b = bending(k, told_b.xy);
-    vec2 way = b.xz - a.xz;
+    vec2 way = b.xz - a.xz, run = normalize(way);
     float sections = float(fine.y), variant = float(k) * field.w, height = OF(tall, k) * how.y;
     vec3 top_a = posture(variant, bend_a, 1.0).place * height, top_b = posture(variant, bend_b, 1.0).place * height;
     vec2 back_a = laid_back(way, a, top_a, height, count), back_b = laid_back(way, b, top_b, height, count);
+    vec3 top = 0.5 * (top_a + top_b);
     vec4 point = mix(on_edge(a, bend_a, back_a, t, k, sections, how.y), on_edge(b, bend_b, back_b, t, k, sections, how.y), across);
     gl_Position = clip * vec4(point.xyz, 1.0);
     at = vec2((float(column) + across) / float(fine.x), t) * picture.xy;
@@ -127,18 +128,18 @@ void main() {
     open_to = lit.sky * seen;
     veil = vec4(haze_light(middle) * hidden, lit.gloss * seen);
     shade = vec3(lit.leaves, lit.way.x);
-    vec2 run = normalize(b.xz - a.xz), sight = normalize(middle.xz - eye.xz);
-    vec3 dry = stretch(here) * faced(k, run, middle, 0.5 * (top_a + top_b));
+    vec3 dry = stretch(here) * faced(k, run, middle, top);
     foot_color = root[k].rgb * dry;
     rise_color = (tip[k].rgb - root[k].rgb) * dry;
     float turned = turn % 2 == 0 ? 1.0 : -1.0;
     grain_cos = turned * grain_c[k].rgb;
     grain_sin = turned * grain_s[k].rgb;
     shown = how.x;
-    boost = boosted(k, run, middle, 0.5 * (top_a + top_b), 0.5 * (back_a + back_b));
+    boost = boosted(k, run, middle, top, 0.5 * (back_a + back_b));
     float texels = picture.y * ATLAS / (OF(tall, k) * pixels);
     level = log2(texels) - SHARPER;
 #ifdef THIN
+    vec2 sight = normalize(middle.xz - eye.xz);
     thin(mix(told_a.w, told_b.w, across), how.z, 0.5 * texels / abs(run.x * sight.y - run.y * sight.x));
 #endif
 }
