@@ -62,6 +62,7 @@ in vec2 rise;
 in float crest;
 in float tall;
 in float dense;
+in float on_strips;
 in ByKind met;
 #ifdef HEADS
 in ByKind riper;
@@ -178,13 +179,12 @@ Sum trodden_light(float slope) {
 // Among strips, how much of the carpet's grass is seen, and how high in the grass it stands, of what it is without them.
 // It lies at RAISED of its share of their height, and hides what they have below: what stands out has met the line of
 // sight before, high up, and leaves to the carpet what both together would not hide or have met deeper down.
-vec2 among_strips(float share, float slope) {
-    float leaves = dense / max(slope, slopes[0]), out_of_it = 1.0 - RAISED * share;
-    float before = out_of_it * out_of_it - (1.0 - RAISED) * (1.0 - RAISED) * share * share * share * share;
-    vec2 depth = mean_depth(vec3(1.0, 1.0 / max(before, 1e-3), 1.0) * max(slope, slopes[0])).xy;
-    float all = 1.0 - exp(-leaves), strips = 1.0 - exp(-leaves * before), left = max(all - strips, 1e-4);
+vec2 among_strips(float slope) {
+    float leaves = dense / max(slope, slopes[0]), out_of_it = 1.0 - RAISED * carpet;
+    vec2 depth = mean_depth(vec3(1.0, 1.0 / max(on_strips, 1e-3), 1.0) * max(slope, slopes[0])).xy;
+    float all = 1.0 - exp(-leaves), strips = 1.0 - exp(-leaves * on_strips), left = max(all - strips, 1e-4);
     float own = (all * depth.x - strips * out_of_it * depth.y) / left;
-    return vec2((1.0 - exp(-leaves * (1.0 - before))) / max(all, 1e-4), clamp((1.0 - own) / (1.0 - depth.x), 0.0, 1.0));
+    return vec2((1.0 - exp(-leaves * (1.0 - on_strips))) / max(all, 1e-4), clamp((1.0 - own) / (1.0 - depth.x), 0.0, 1.0));
 }
 
 // What the carpet shows: of grass and of the ground between, as much as there is of each, as of blades in front of it.
@@ -216,7 +216,8 @@ vec3 carpet_seen(float slope, float on_level, vec3 below, float share) {
     vec2 at = rotated((place.xz - moved) / soil.w - vec2(cell) - 0.5, turn) + 0.5;
     // A blade's doubled azimuth against the line of sight; what it is against the world's axes is as far turned.
     float sight = heading.x * heading.x - heading.y * heading.y, aside = 2.0 * heading.x * heading.y;
-    vec2 seen = elevation_seen(on_level), among = share < 1.0 ? among_strips(share, on_level) : vec2(1.0);
+    vec2 seen = elevation_seen(on_level);
+    vec2 among = on_strips > 0.0 ? among_strips(on_level) : vec2(1.0);
     // Two images that have nothing to do with one another are flatter once they are mixed: as much is put back (Heitz and
     // Neyret, High-Performance By-Example Noise, 2018).
     float grain = mix(1.0, mix(GRAIN, GRAIN_ABOVE, steep), shrunk) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
@@ -237,7 +238,12 @@ vec3 carpet_seen(float slope, float on_level, vec3 below, float share) {
         image.a = clamp(image.a, 0.0, 1.0);
         image.rgb = clamp(image.rgb, 0.0, image.a);
         vec3 mean_of = image.rgb / max(image.a, 1e-3);
+#ifdef HEADS
+        mean_of.r *= heads[kind].y > 0.0 ? 0.5 + 0.5 * among.y : among.y;  // leaves are darker deep down, heads are not
+        mean_of.g *= among.y;
+#else
         mean_of.rg *= among.y;
+#endif
         mean_of.g *= OF(tops, kind);
         Lit met_by = lit;
         float covers = max(1.0 - (1.0 - image.a) * between, 0.0);

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ....engine.gl.stream import Stream, release_all
 from ....engine.terrain.record import Terrain
+from ...around.appearance import GROWN, SINKS
 from ...around.canopy import canopy_height
 from ...around.cone import beyond_cone
 from ...frame.block import FrameBlock, by_kind, joined
@@ -185,6 +186,8 @@ class GroundPainter:
             "RAISED": str(RAISED),
             "SLOPES": len(slopes),
             "LOWEST": str(slopes[0]),
+            "GROWN": str(GROWN),
+            "SINKS": str(SINKS),
         }
         laid |= {"HEADS": 1} if any_heads(growths) else {}
 

@@ -26,6 +26,7 @@ out float crest; // how fast the rise falls off along the line of sight [1/m]
 out float tall;  // height of the grass [m]
 out float dense; // leaf area seen from the side, of the ground's area
 #ifndef UNDER
+out float on_strips;  // leaf area that lines of sight have come through on strips, of the grass's
 #include "systems/show/carpet/lit.glsl"
 
 out vec3 direct;  // light on leaves of the kinds that are met: the sun's
@@ -175,13 +176,34 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below) {
 }
 #endif
 
-// Up to which height a line of sight has met no strips, of the grass's height: above the carpet it has come through what
-// stands there, and where those are strips it has met the tops of grass on them.
-float left_by_strips(vec2 place, float slope) {
-    vec2 way = normalize(eye.xz - place + 1e-4) * ((1.0 - RAISED) * tall / max(RAISED * slope, 1e-3));
-    float met_carpet = 0.0;
-    for (int part = 0; part < 3; part++)
-        met_carpet += share_at(ivec2(floor((place + way * (0.2 + 0.3 * float(part))) / soil.w))) / 3.0;
+// How high strips stand where the carpet has this share, of their full height: they rise first, and then it sinks.
+float grown_by(float share) {
+    float sunk = 0.5 - sin(asin(2.0 * share - 1.0) / 3.0), rise = min((SINKS + (1.0 - SINKS) * sunk) / GROWN, 1.0);
+    return rise * rise * (3.0 - 2.0 * rise);
+}
+
+const float TOPS = 0.85;  // height up to which the leaf area falls off linearly, of the tallest tip's: as strips show it
+
+// What a line of sight has come through above the carpet: how much the carpet shows there, in the mean, and the leaf area
+// that stands on strips, of the grass's.
+vec2 come_through(vec2 place, float slope) {
+    const int PARTS = 3;
+    float least = RAISED * carpet, shows = 0.0, leaves = 0.0, step = (1.0 - least) / float(PARTS);
+    vec2 way = normalize(eye.xz - place + 1e-4) * (tall / max(RAISED * slope, 1e-3));
+    for (int part = 0; part < PARTS; part++) {
+        float above = step * (float(part) + 0.5);
+        float share = share_at(ivec2(floor((place + way * above) / soil.w))), grown = grown_by(share);
+        shows += share / float(PARTS);
+        vec2 under = max(1.0 - (least + vec2(above) + vec2(-0.5, 0.5) * step) / (TOPS * grown), 0.0);
+        under *= under;
+        leaves += share < 1.0 ? under.x - under.y : 0.0;
+    }
+    return vec2(shows, leaves);
+}
+
+// Up to which height a line of sight has met no strips, of the grass's height: where strips stand out of the carpet, it has
+// met the tops of grass on them.
+float left_by_strips(float met_carpet) {
     // Where the carpet itself gives way to strips, these leave more to it than their heights tell.
     return mix(1.0, mix(RAISED, 1.0, met_carpet), carpet * carpet * carpet * carpet);
 }
@@ -249,8 +271,10 @@ void main() {
     place.y -= carpet * tall * sunk;
 #endif
     float slope = max(viewing_slope(rise, place), GRAZING);
-    met = kinds_met(grows, slope, left, left_by_strips(flat_at, slope));
+    vec2 came = come_through(flat_at, slope);
+    met = kinds_met(grows, slope, left, left_by_strips(came.x));
 #ifndef UNDER
+    on_strips = came.y;
     light_up(viewing_slope(rise, place));
 #endif
 #endif
