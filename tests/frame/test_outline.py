@@ -1,6 +1,7 @@
-"""A crest against the sky while strips and carpet give way to one another (X5, G4)."""
+"""Crests against the sky, where strips and carpet give way to one another, and as the reference has them (X5, G4)."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -9,9 +10,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.engine.camera import Camera, view_of
+from tallgrass import testing
+from tallgrass.app.bench.picture import MOMENT
+from tallgrass.engine.camera import Camera, camera_at, view_of
 from tallgrass.systems.around.appearance import Appearance, appearance
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.reference import draw_reference
 from tallgrass.testing import Stage as Room
 
 Doubles = NDArray[np.float64]
@@ -23,6 +27,8 @@ tallgrass: 2
 terrain: { heights: ridge.npy, cell: 1.0, scale: 1.0 }
 grass:
   bunch: { height: [0.45, 0.85], width: 0.018, lean: 0.35, blades: 400, root: "#4a5f2b", tip: "#bcc26c" }
+"""
+QUALITY = """\
 quality:
   models: 2
   blade_rings: [{ to: 2, segments: 3 }]
@@ -51,7 +57,7 @@ def story(room: Room, ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFa
     z = np.arange(161.0) - 80.0
     line = np.where(np.abs(z) < 30.0, 3.0 * np.cos(z * np.pi / 60.0) ** 2, 0.0)
     np.save(folder / "ridge.npy", np.repeat(line[:, None], 161, 1).astype(np.float32))
-    (folder / "ridge.yaml").write_text(RIDGE, "utf-8")
+    (folder / "ridge.yaml").write_text(RIDGE + QUALITY, "utf-8")
     prairie = Prairie.load(folder / "ridge.yaml", ctx=ctx)
     eye = float(prairie.height_at([[0.6, AWAY]])[0]) + 1.7
     view = float(np.degrees(2 * np.arctan(np.tan(np.radians(21.0)) / 4)))
@@ -104,3 +110,52 @@ def test_x5_what_stands_before_the_sky_grows_and_never_fades(story: list[Doubles
     for rows in covered(story):
         solid = rows[-4:]
         assert solid.min() > 0.85
+
+
+SCENES = Path(__file__).parents[2] / "scenes"
+BESIDE = 25.6
+"""How far to the right of where the bundled hills are looked at their far hillside falls off [degrees]."""
+
+
+@pytest.fixture(scope="module")
+def hillside(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Doubles, Doubles]]:
+    """A hillside against the sky, on which strips give way to the carpet: as it is drawn, and every blade of it."""
+    scene: Path = tmp_path_factory.mktemp("hills") / "hills.yaml"
+    scene.write_text((SCENES / "hills.yaml").read_text("utf-8").replace("quality: high", QUALITY), "utf-8")
+    with testing.stage(ctx, (160, 450)) as stage:
+        prairie = Prairie.load(scene, ctx=ctx, live=False)
+        prairie.advance(MOMENT)
+        camera = camera_at(prairie.scene.camera, None, prairie.height_at)
+        view, projection = stage.matrices(replace(camera, yaw=camera.yaw + np.radians(BESIDE)))
+        stage.begin()
+        prairie.draw(view, projection)
+        seen = stage.read()
+        yield seen, draw_reference(prairie, view, projection, (160, 450), samples=4).astype(np.float64)
+        prairie.release()
+
+
+def hidden(picture: Doubles) -> Doubles:
+    """How much of the sky grass hides in each column, in pixels, shape (columns,)."""
+    green, blue = picture[..., 1], picture[..., 2]
+    return np.asarray(np.clip((green - blue + 30.0) / 60.0, 0.0, 1.0).sum(axis=0))
+
+
+def roughness(line: Doubles) -> float:
+    """How far a line is from its own mean over 15 columns, in the root of the mean square."""
+    smooth = np.convolve(np.pad(line, 7, mode="edge"), np.ones(15) / 15, "valid")
+    return float((line - smooth).std())
+
+
+def test_x5_an_outline_is_as_high_as_that_of_every_blade(hillside: tuple[Doubles, Doubles]) -> None:
+    seen, truth = (hidden(picture) for picture in hillside)
+    assert abs((seen - truth).mean()) < 0.4
+
+
+def test_x5_an_outline_is_as_rough_as_that_of_every_blade(hillside: tuple[Doubles, Doubles]) -> None:
+    seen, truth = (roughness(hidden(picture)) for picture in hillside)
+    assert 0.75 < seen / truth < 1.25
+
+
+def test_g5_no_line_shows_where_strips_give_way_to_the_carpet_on_a_hillside(hillside: tuple[Doubles, Doubles]) -> None:
+    below = [picture[190:260, 40:80].mean(axis=(1, 2)).reshape(-1, 5).mean(axis=1) for picture in hillside]
+    assert np.abs(below[0] / below[1] - 1.0).max() < 0.06

@@ -1,8 +1,22 @@
 // What a line of sight meets where it enters the grass of the carpet.
 #include "lib/frame.glsl"
 
-const float CREST = 2.5;  // leaves met over a crest, of those that a level line of sight as deep would meet: as the reference shows it
+const float CREST = 3.4;  // leaves met over a crest, of those that a level line of sight as deep would meet: as the reference shows it
 const float STEEP = 0.02;  // a line of sight counts as at least so steep, for how deep it goes
+
+uniform float outline;  // how high the carpet lies along an outline, of how high it lies elsewhere; 0 where that is the same
+
+// How far below the top of the grass, of its height `tall`, a line of sight comes at most that enters it at this slope: over
+// a crest of this curvature it would have to be higher by so much.
+float deepest(float slope, float crest, float tall) {
+    return slope * slope / (2.0 * max(crest, 1e-6) * max(tall, 0.01));
+}
+
+// How high the carpet lies where a line of sight comes so deep, of how high it lies on level ground: where lines of sight pass
+// through, it is where leaves begin, of grass that stands so high, of its height at rest.
+float lifted(float deep, float stands) {
+    return outline > 0.0 ? mix(outline * sqrt(stands), 1.0, smoothstep(0.5, 2.0, deep)) : 1.0;
+}
 
 // Tangent of the angle between the line of sight and ground that rises by `rise` along x and z.
 float viewing_slope(vec2 rise, vec3 place) {

@@ -43,8 +43,7 @@ float left_seen() {
 
 #if defined(CARPET) && !defined(UNDER)
 #include "lib/random.glsl"
-#include "lib/shares.glsl"
-#include "lib/carpet.glsl"
+#include "systems/show/carpet/border.glsl"
 #if defined(TRODDEN) || KINDS > 4
 #include "systems/show/carpet/lit.glsl"
 #endif
@@ -62,7 +61,7 @@ in vec2 rise;
 in float crest;
 in float tall;
 in float dense;
-in float on_strips;
+in float strips_before;
 in ByKind met;
 #ifdef HEADS
 in ByKind riper;
@@ -127,28 +126,28 @@ const float GRAIN_ABOVE = 1.06;  // the same from above
 const float SHARP = 0.4;  // size of what is taken from the images for a pixel, of the pixel's own
 const float SHARP_ABOVE = 0.36;  // the same from above, where grass hides less of other grass
 const float LEAST_MET = 0.004;  // of a kind, as a part of all that is: of less, nothing is seen
-const float LEAST = 0.01; // height of the carpet where nothing grows, so that nothing is divided by 0 [m]
+const float LEAST = 0.01; // height of the carpet where nothing grows [m]
+const float ARCHED = 0.6;  // how much less of their tips blades show for how low they are bent: as arches, they show their middles
+const float MET = 0.7;  // how deep leaves are that are met over a crest, of how deep the line of sight comes
+const float SPIKES = 18.0;  // how much more leaves are met along an outline where taller plants stand
+const float TALLER = 0.05;  // how much taller plants count at most, of the mean
 
-// How far below the top of the grass a line of sight comes at most, of its height: over a crest of this curvature it would
-// have to be higher by so much.
-float deepest(float slope) {
-    return slope * slope / (2.0 * max(crest, 1e-5)) / max(tall, LEAST);
-}
 
 // The slope on level ground of a line of sight that goes as far through the grass as one of this slope does over ground
 // that bulges, or is hollow: from the top of the grass to the ground, or to where it comes nearest to it.
 float level_slope(float slope, float share) {
-    vec2 way = 2.0 * crest * tall * vec2(1.0 / RAISED - share, -share);
+    share *= lifted(deepest(slope, crest, tall * stands), stands);
+    vec2 way = 2.0 * crest * tall * vec2(max(stands / RAISED - share, 0.0), -share);
     way = sqrt(max(slope * abs(slope) + way, 0.0));
     return 0.5 * (way.x + way.y) / stands;  // bent grass has less of its leaf area across the way
 }
 
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,
 // whose leaf area falls off linearly with height, meets leaves of (deep / tall)^2 times the whole.
-float outline_cover(float slope) {
+float outline_cover(float slope, float stands_out) {
     slope = max(slope, 1e-4);
-    float before_crest = deepest(slope);
-    float leaves = dense / slope;
+    float before_crest = deepest(slope, crest, tall * stands);
+    float leaves = dense / slope * stands_out;
     float hidden = 1.0 - exp(-CREST * leaves * before_crest * before_crest);
     return mix(1.0, hidden, smoothstep(0.0, 2.0 * LEAST, tall));  // bare ground is its own outline
 }
@@ -179,8 +178,8 @@ Sum trodden_light(float slope) {
 // Among strips, how much of the carpet's grass is seen, and how high in the grass it stands, of what it is without them.
 // It lies at RAISED of its share of their height, and hides what they have below: what stands out has met the line of
 // sight before, high up, and leaves to the carpet what both together would not hide or have met deeper down.
-vec2 among_strips(float slope) {
-    float leaves = dense / max(slope, slopes[0]), out_of_it = 1.0 - RAISED * carpet;
+vec2 among_strips(float on_strips, float slope) {
+    float leaves = dense / max(slope, slopes[0]), out_of_it = max(1.0 - RAISED * carpet / stands, 0.0);
     vec2 depth = mean_depth(vec3(1.0, 1.0 / max(on_strips, 1e-3), 1.0) * max(slope, slopes[0])).xy;
     float all = 1.0 - exp(-leaves), strips = 1.0 - exp(-leaves * on_strips), left = max(all - strips, 1e-4);
     float own = (all * depth.x - strips * out_of_it * depth.y) / left;
@@ -188,7 +187,7 @@ vec2 among_strips(float slope) {
 }
 
 // What the carpet shows: of grass and of the ground between, as much as there is of each, as of blades in front of it.
-vec3 carpet_seen(float slope, float on_level, vec3 below, float share) {
+vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
     ivec2 cell = ivec2(floor(place.xz / soil.w));
     uint drawn = hash3(stock.y, cell.x, cell.y);
     int model = int(drawn % uint(stock.x)), side = int(drawn >> 16u) & 3;
@@ -217,7 +216,9 @@ vec3 carpet_seen(float slope, float on_level, vec3 below, float share) {
     // A blade's doubled azimuth against the line of sight; what it is against the world's axes is as far turned.
     float sight = heading.x * heading.x - heading.y * heading.y, aside = 2.0 * heading.x * heading.y;
     vec2 seen = elevation_seen(on_level);
-    vec2 among = on_strips > 0.0 ? among_strips(on_level) : vec2(1.0);
+    vec2 among = vec2(1.0);
+    if (min(share, 1.0 - strips_before) < 1.0)
+        among = among_strips(come_through(place.xz, max(slope, 1e-4), carpet, tall, stands).y, on_level);
     // Two images that have nothing to do with one another are flatter once they are mixed: as much is put back (Heitz and
     // Neyret, High-Performance By-Example Noise, 2018).
     float grain = mix(1.0, mix(GRAIN, GRAIN_ABOVE, steep), shrunk) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
@@ -225,7 +226,12 @@ vec3 carpet_seen(float slope, float on_level, vec3 below, float share) {
     bool cut = is_mown(left);
     float stubble = 1.0 - exp(-weighed(leaf_area, leaves_left(left)) / max(slope, 0.02));  // by the leaves that are left
 #endif
+    // Over a crest nothing is met that lies deeper than the line of sight comes.
+    float deep = deepest(slope, crest, tall * stands);
+    float deepest_of_all = 1.0 - RAISED * (share * lifted(deep, stands) / stands - deep);
+    float shallow = min(MET * deepest_of_all / mean_depth(vec3(max(on_level, slopes[0]))).x, 1.0);
     vec4 sum = vec4(0.0);
+    float higher = 0.0;
     for (int kind = next_kind(met, LEAST_MET, 0); kind < KINDS; kind = next_kind(met, LEAST_MET, kind + 1)) {
         float layer = OF(first, kind) + float((model * SLOPES + int(seen.x)) * 4 + side);
         vec3 low = vec3(at, layer), high = vec3(at, layer + 4.0);
@@ -238,12 +244,15 @@ vec3 carpet_seen(float slope, float on_level, vec3 below, float share) {
         image.a = clamp(image.a, 0.0, 1.0);
         image.rgb = clamp(image.rgb, 0.0, image.a);
         vec3 mean_of = image.rgb / max(image.a, 1e-3);
+        higher += OF(met, kind) * (mean_of.g * mean.a / max(mean.g, 1e-3) - 1.0);
 #ifdef HEADS
         mean_of.r *= heads[kind].y > 0.0 ? 0.5 + 0.5 * among.y : among.y;  // leaves are darker deep down, heads are not
         mean_of.g *= among.y;
 #else
         mean_of.rg *= among.y;
 #endif
+        mean_of.rg = 1.0 - (1.0 - mean_of.rg) * shallow;
+        mean_of.r *= 1.0 - ARCHED * (1.0 - stands) * (1.0 - stands);
         mean_of.g *= OF(tops, kind);
         Lit met_by = lit;
         float covers = max(1.0 - (1.0 - image.a) * between, 0.0);
@@ -271,9 +280,9 @@ vec3 carpet_seen(float slope, float on_level, vec3 below, float share) {
     sum /= max(sum.a, 1.0);
 #endif
     // Who sees past grass over a crest sees no ground there, but the grass behind.
-    float ends = smoothstep(0.5 * share, 1.5 * share, deepest(slope));
+    float ends = smoothstep(0.5 * share, 1.5 * share, deep);
     sum *= among.x * mix(1.0 / max(sum.a, 0.05), 1.0, ends);
-    return sum.rgb + below * (1.0 - min(sum.a, 1.0));
+    return vec4(sum.rgb + below * (1.0 - min(sum.a, 1.0)), exp(SPIKES * clamp(higher / max(total(met), 1e-3), -TALLER, TALLER)));
 }
 
 #endif
@@ -316,11 +325,14 @@ void main() {
 #if defined(CARPET) && !defined(UNDER)
     float slope = viewing_slope(rise, place);
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / soil.w))) : 0.0;
-    float covered = mix(1.0, outline_cover(slope), share);
+    float covered = mix(1.0, outline_cover(slope, exp(SPIKES * TALLER)), share);
     if (covered < 0.004)
         discard;
-    if (share > 0.0)
-        color = carpet_seen(slope, level_slope(slope, share), color, share);
+    if (share > 0.0) {
+        vec4 seen = carpet_seen(slope, level_slope(slope, share), color, share);
+        color = seen.rgb;
+        covered = mix(1.0, outline_cover(slope, seen.a), share);
+    }
     pixel = vec4(color, 1.0) * covered;
 #else
     pixel = vec4(color, 1.0);

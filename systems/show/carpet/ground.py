@@ -24,7 +24,10 @@ GRID = 8
 """Quads along a side of a tile."""
 
 RAISED = 0.66
-"""Height of the carpet, as a part of the grass's: where outlines against the sky stay in their place."""
+"""Height of the carpet, as a part of the grass's: where what is seen of it stays in its place."""
+
+OUTLINE = 0.85
+"""Height of the carpet along outlines, as a part of the grass's: where leaves begin, above which are a few thin tips."""
 
 STRETCH = "5.0"
 """How many times longer than wide a pixel's footprint on the carpet may be before it is blurred across."""
@@ -212,7 +215,7 @@ class GroundPainter:
         if "HEADS" in laid:
             heads = [heads_of(growth) for growth in growths]
             self._tell("heads", heads if len(heads) > 1 else heads[0])
-        self.raise_carpet(RAISED)
+        self.raise_carpet(RAISED, outline=OUTLINE)
 
     def _tell(self, name: str, value: object) -> None:
         self._told[name] = value
@@ -227,8 +230,9 @@ class GroundPainter:
         for stream, chosen in zip(self.streams, (~laid, laid, laid), strict=True):
             stream.write(tiles[chosen])
 
-    def raise_carpet(self, part: float) -> None:
-        """Lay the carpet at this part of the height of the grass."""
+    def raise_carpet(self, part: float, *, outline: float = 0.0) -> None:
+        """Lay the carpet at this part of the height of the grass, and along outlines at that of `outline`, if any."""
+        self._tell("outline", outline / part)
         self._tell("raised", by_kind([part * carpet_of(growth.models[0]).height for growth in self.growths]))
 
     def write_shares(self, shares: NDArray[np.float32], centre: NDArray[np.int32], *, beyond: float) -> None:

@@ -9,11 +9,10 @@ in vec4 tile;    // x, z [m]; spacing [m]; distance at which the next coarser sp
 out vec3 place;
 
 #ifdef CARPET  // with UNDER, an opaque layer beneath the carpet, which the tips of outlines stand out from
-#include "lib/shares.glsl"
-#include "lib/carpet.glsl"
+#include "systems/show/carpet/border.glsl"
 const float SUNK = 2.5;  // leaves that a line of sight has met where nothing is seen through them
 const float SHADED = 0.6;  // how far down what is seen stands, of how deep is seen into the grass
-const float THROUGH_CREST = 0.6;  // the same over a crest, as the reference shows it
+const float THROUGH_CREST = 1.2;  // the same over a crest, as the reference shows it
 uniform ByKind raised; // by kind: height of the carpet above the ground [m]
 
 out float carpet;
@@ -25,9 +24,14 @@ out ByKind riper;// by kind: how much more of its heads than an image shows; all
 out float crest; // how fast the rise falls off along the line of sight [1/m]
 out float tall;  // height of the grass [m]
 out float dense; // leaf area seen from the side, of the ground's area
-#ifndef UNDER
-out float on_strips;  // leaf area that lines of sight have come through on strips, of the grass's
 #include "systems/show/carpet/lit.glsl"
+#if KINDS > 4 || defined(UNDER)
+float stands;
+#else
+out float stands; // how high it stands, of its height at rest
+#endif
+#ifndef UNDER
+out float strips_before;  // how much strips show of what lines of sight come through above the carpet
 
 out vec3 direct;  // light on leaves of the kinds that are met: the sun's
 out vec3 open_to; // the sky's
@@ -35,10 +39,8 @@ out vec4 shade;   // what they mirror; leaves that the sun's light meets; leaf a
 out float lies;   // how many more leaves are met, for how grass is bent
 #if KINDS > 4
 vec2 sways;
-float stands;
 #else
 out vec2 sways;   // how far leaves are moved by that [m]
-out float stands; // how high they stand, of their height at rest
 #endif
 #if KINDS > 4
 vec3 dry;
@@ -47,16 +49,12 @@ out vec3 dry;     // factor of their pigment
 #endif
 
 // Write the light on what is met.
-void light_up(float slope) {
+void light_up(float slope, vec2 message) {
     vec3 there = seen_at(place, slope, tall, dense);
     vec4 here = lie_at(there.xz);
-    vec2 message = message_at(place.xz), messages[KINDS];
-    stands = 0.0;
-    for (int kind = 0; kind < KINDS; kind++) {
+    vec2 messages[KINDS];
+    for (int kind = 0; kind < KINDS; kind++)
         messages[kind] = message;
-        stands += OF(met, kind) * lodged(bending(kind, message));
-    }
-    stands = total(met) > 1e-4 ? stands / total(met) : 1.0;
     Sum sum = summed(met, slope, there, here, messages);
     direct = sum.direct;
     open_to = sum.open_to;
@@ -176,29 +174,13 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below) {
 }
 #endif
 
-// How high strips stand where the carpet has this share, of their full height: they rise first, and then it sinks.
-float grown_by(float share) {
-    float sunk = 0.5 - sin(asin(2.0 * share - 1.0) / 3.0), rise = min((SINKS + (1.0 - SINKS) * sunk) / GROWN, 1.0);
-    return rise * rise * (3.0 - 2.0 * rise);
-}
-
-const float TOPS = 0.85;  // height up to which the leaf area falls off linearly, of the tallest tip's: as strips show it
-
-// What a line of sight has come through above the carpet: how much the carpet shows there, in the mean, and the leaf area
-// that stands on strips, of the grass's.
-vec2 come_through(vec2 place, float slope) {
-    const int PARTS = 3;
-    float least = RAISED * carpet, shows = 0.0, leaves = 0.0, step = (1.0 - least) / float(PARTS);
-    vec2 way = normalize(eye.xz - place + 1e-4) * (tall / max(RAISED * slope, 1e-3));
-    for (int part = 0; part < PARTS; part++) {
-        float above = step * (float(part) + 0.5);
-        float share = share_at(ivec2(floor((place + way * above) / soil.w))), grown = grown_by(share);
-        shows += share / float(PARTS);
-        vec2 under = max(1.0 - (least + vec2(above) + vec2(-0.5, 0.5) * step) / (TOPS * grown), 0.0);
-        under *= under;
-        leaves += share < 1.0 ? under.x - under.y : 0.0;
-    }
-    return vec2(shows, leaves);
+// How high grass stands that a message bends, of its height at rest.
+float standing(ByKind grows, vec2 message) {
+    ByKind area = areas(grows);
+    float high = 0.0;
+    for (int kind = 0; kind < KINDS; kind++)
+        high += OF(area, kind) * lodged(bending(kind, message));
+    return total(area) > 1e-4 ? high / total(area) : 1.0;
 }
 
 // Up to which height a line of sight has met no strips, of the grass's height: where strips stand out of the carpet, it has
@@ -263,19 +245,23 @@ void main() {
     vec2 ahead = normalize(flat_at - eye.xz + 1e-4) * max(4.0 * terrain.z, 2.0 * tile.z);
     float bulge = 2.0 * height_at(flat_at) - height_at(flat_at + ahead) - height_at(flat_at - ahead);
     crest = bulge / dot(ahead, ahead);
+    vec2 message = message_at(flat_at);
+    stands = standing(grows, message);
+    float deep = deepest(max(viewing_slope(rise, place), 0.0), crest, tall * stands);
+    place.y += carpet * tall * (lifted(deep, stands) - 1.0);
 #ifdef UNDER
     // It lies as deep in the grass as is seen into it: from above, and through a crest of this curvature.
     float sunk = sqrt(SUNK * max(viewing_slope(rise, place), 0.0) / max(dense, 1e-3));
-    float over_crest = pow(THROUGH_CREST * sqrt(2.0 * max(crest, 0.0) * tall) / (CREST * max(dense, 1e-3)), 0.667);
+    float over_crest = stands * pow(THROUGH_CREST * sqrt(2.0 * max(crest, 0.0) * tall * stands) / (CREST * max(dense, 1e-3)), 0.667);
     sunk = clamp(max(sunk, over_crest), 0.05, 1.0);
     place.y -= carpet * tall * sunk;
 #endif
     float slope = max(viewing_slope(rise, place), GRAZING);
-    vec2 came = come_through(flat_at, slope);
-    met = kinds_met(grows, slope, left, left_by_strips(came.x));
+    vec2 came = come_through(flat_at, slope, carpet, tall, stands);
+    met = kinds_met(grows, slope, left, left_by_strips(1.0 - came.x));
 #ifndef UNDER
-    on_strips = came.y;
-    light_up(viewing_slope(rise, place));
+    strips_before = came.x;
+    light_up(viewing_slope(rise, place), message);
 #endif
 #endif
     vec3 ground = vec3(flat_at, height_at(flat_at)).xzy;

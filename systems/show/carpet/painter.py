@@ -18,6 +18,7 @@ from ...grow.record import Growth
 from .air import Air
 from .ground import (
     GRID,
+    OUTLINE,
     RAISED,
     GroundPainter,
     Tiles,
@@ -127,7 +128,7 @@ class CarpetPainter:
 
     def lay_as_always(self) -> None:
         """Lay the carpet at its own height again."""
-        self.ground.raise_carpet(RAISED)
+        self.ground.raise_carpet(RAISED, outline=OUTLINE)
 
     def draw_solid(self) -> int:
         """Draw the bare ground, and what lies under the carpet; return the number of draw calls."""

@@ -1,0 +1,29 @@
+// What stands on strips before the carpet, where the one gives way to the other.
+#include "lib/carpet.glsl"
+#include "lib/shares.glsl"
+
+const float TOPS = 0.85;  // height up to which the leaf area falls off linearly, of the tallest tip's: as strips show it
+
+// How high strips stand where the carpet has this share, of their full height: they rise first, and then it sinks.
+float grown_by(float share) {
+    float sunk = 0.5 - sin(asin(2.0 * share - 1.0) / 3.0), rise = min((SINKS + (1.0 - SINKS) * sunk) / GROWN, 1.0);
+    return rise * rise * (3.0 - 2.0 * rise);
+}
+
+// What a line of sight of this slope has come through above the carpet, which has this share: how much strips show there, in
+// the mean, and the leaf area that stands on them, of the grass's. The carpet is so `tall` [m], and grass stands so high, of
+// its height at rest.
+vec2 come_through(vec2 place, float slope, float share, float tall, float stands) {
+    const int PARTS = 3;
+    float least = RAISED * share, shows = 0.0, leaves = 0.0, step = max(stands - least, 0.0) / float(PARTS);
+    vec2 way = normalize(eye.xz - place + 1e-4) * (tall / max(RAISED * slope, 1e-3));
+    for (int part = 0; part < PARTS; part++) {
+        float above = step * (float(part) + 0.5);
+        float there = share_at(ivec2(floor((place + way * above) / soil.w)));
+        shows += (1.0 - there) / float(PARTS);
+        vec2 under = max(1.0 - (least + vec2(above) + vec2(-0.5, 0.5) * step) / (TOPS * stands * grown_by(there)), 0.0);
+        under *= under;
+        leaves += there < 1.0 ? under.x - under.y : 0.0;
+    }
+    return vec2(shows, leaves);
+}
