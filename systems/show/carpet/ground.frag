@@ -133,15 +133,6 @@ const float SPIKES = 18.0;  // how much more leaves are met along an outline whe
 const float TALLER = 0.05;  // how much taller plants count at most, of the mean
 
 
-// The slope on level ground of a line of sight that goes as far through the grass as one of this slope does over ground
-// that bulges, or is hollow: from the top of the grass to the ground, or to where it comes nearest to it.
-float level_slope(float slope, float share) {
-    share *= lifted(deepest(slope, crest, tall * stands), stands);
-    vec2 way = 2.0 * crest * tall * vec2(max(stands / RAISED - share, 0.0), -share);
-    way = sqrt(max(slope * abs(slope) + way, 0.0));
-    return 0.5 * (way.x + way.y) / stands;  // bent grass has less of its leaf area across the way
-}
-
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,
 // whose leaf area falls off linearly with height, meets leaves of (deep / tall)^2 times the whole.
 float outline_cover(float slope, float stands_out) {
@@ -196,6 +187,7 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
     vec2 dx = dFdx(place.xz) / soil.w, dy = dFdy(place.xz) / soil.w;
     float fine = sharper(dx, dy);
     float texels = fine * max(length(dx), length(dy)) * float(textureSize(images, 0).x);
+    fine *= clamp(slope / on_level, 0.25, 1.0);  // over a crest a line of sight meets plants one by one, as on level ground
     float shrunk = clamp(log2(texels) - 0.8, 0.0, 1.0);
     float steep = smoothstep(0.05, 0.3, slope);
     fine *= mix(SHARP, SHARP_ABOVE, steep);
@@ -279,10 +271,11 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
 #ifdef HEADS
     sum /= max(sum.a, 1.0);
 #endif
+    float spikes = SPIKES * clamp(5.0 * share - 4.0, 0.0, 1.0);  // where the carpet sinks, they would swim
     // Who sees past grass over a crest sees no ground there, but the grass behind.
     float ends = smoothstep(0.5 * share, 1.5 * share, deep);
     sum *= among.x * mix(1.0 / max(sum.a, 0.05), 1.0, ends);
-    return vec4(sum.rgb + below * (1.0 - min(sum.a, 1.0)), exp(SPIKES * clamp(higher / max(total(met), 1e-3), -TALLER, TALLER)));
+    return vec4(sum.rgb + below * (1.0 - min(sum.a, 1.0)), exp(spikes * clamp(higher / max(total(met), 1e-3), -TALLER, TALLER)));
 }
 
 #endif
@@ -325,13 +318,13 @@ void main() {
 #if defined(CARPET) && !defined(UNDER)
     float slope = viewing_slope(rise, place);
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / soil.w))) : 0.0;
-    float covered = mix(1.0, outline_cover(slope, exp(SPIKES * TALLER)), share);
+    float covered = mix(1.0, outline_cover(slope, exp(SPIKES * TALLER)), min(3.0 * share, 1.0));
     if (covered < 0.004)
         discard;
     if (share > 0.0) {
-        vec4 seen = carpet_seen(slope, level_slope(slope, share), color, share);
+        vec4 seen = carpet_seen(slope, level_slope(slope, crest, share, tall, stands), color, share);
         color = seen.rgb;
-        covered = mix(1.0, outline_cover(slope, seen.a), share);
+        covered = mix(1.0, outline_cover(slope, seen.a), min(3.0 * share, 1.0));
     }
     pixel = vec4(color, 1.0) * covered;
 #else

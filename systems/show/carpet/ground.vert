@@ -12,7 +12,7 @@ out vec3 place;
 #include "systems/show/carpet/border.glsl"
 const float SUNK = 2.5;  // leaves that a line of sight has met where nothing is seen through them
 const float SHADED = 0.6;  // how far down what is seen stands, of how deep is seen into the grass
-const float THROUGH_CREST = 1.2;  // the same over a crest, as the reference shows it
+const float THROUGH_CREST = 2.2;  // the same over a crest, as the reference shows it
 uniform ByKind raised; // by kind: height of the carpet above the ground [m]
 
 out float carpet;
@@ -258,7 +258,8 @@ void main() {
 #endif
     float slope = max(viewing_slope(rise, place), GRAZING);
     vec2 came = come_through(flat_at, slope, carpet, tall, stands);
-    met = kinds_met(grows, slope, left, left_by_strips(1.0 - came.x));
+    float on_level = max(level_slope(max(viewing_slope(rise, place), 0.0), crest, carpet, tall, stands), GRAZING);
+    met = kinds_met(grows, on_level, left, left_by_strips(1.0 - came.x));
 #ifndef UNDER
     strips_before = came.x;
     light_up(viewing_slope(rise, place), message);
