@@ -9,7 +9,7 @@ uniform float outline;  // how high the carpet lies along an outline, of how hig
 // How far below the top of the grass, of its height `tall`, a line of sight comes at most that enters it at this slope: over
 // a crest of this curvature it would have to be higher by so much.
 float deepest(float slope, float crest, float tall) {
-    return slope * slope / (2.0 * max(crest, 1e-6) * max(tall, 0.01));
+    return slope * slope / (2.0 * max(crest, 1e-7) * max(tall, 0.01));
 }
 
 // How high the carpet lies where a line of sight comes so deep, of how high it lies on level ground: where lines of sight pass
