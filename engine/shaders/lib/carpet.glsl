@@ -1,7 +1,7 @@
 // What a line of sight meets where it enters the grass of the carpet.
 #include "lib/frame.glsl"
 
-const float CREST = 4.0;  // leaves met over a crest, of those that a level line of sight as deep would meet: as the reference shows it
+const float CREST = 3.6;  // leaves met over a crest, of those that a level line of sight as deep would meet: as the reference shows it
 const float STEEP = 0.02;  // a line of sight counts as at least so steep, for how deep it goes
 
 uniform float outline;  // how high the carpet lies along an outline, of how high it lies elsewhere; 0 where that is the same
@@ -9,19 +9,22 @@ uniform float outline;  // how high the carpet lies along an outline, of how hig
 // How far below the top of the grass, of its height `tall`, a line of sight comes at most that enters it at this slope: over
 // a crest of this curvature it would have to be higher by so much.
 float deepest(float slope, float crest, float tall) {
-    return slope * slope / (2.0 * max(crest, 1e-7) * max(tall, 0.01));
+    return slope * slope / (2.0 * max(crest, 1e-5) * max(tall, 0.01));
 }
 
+const float BULGES = 5e-4;  // curvature from which on ground counts as a crest [1/m]
+
 // How high the carpet lies where a line of sight comes so deep, of how high it lies on level ground: where lines of sight pass
-// through, it is where leaves begin, of grass that stands so high, of its height at rest.
-float lifted(float deep, float stands) {
-    return outline > 0.0 ? mix(outline * sqrt(stands), 1.0, smoothstep(0.5, 2.0, deep)) : 1.0;
+// through, over a crest, it is where leaves begin, of grass that stands so high, of its height at rest.
+float lifted(float deep, float crest, float stands) {
+    float along = clamp(crest / BULGES, 0.0, 1.0) * (1.0 - smoothstep(0.5, 2.0, deep));
+    return outline > 0.0 ? mix(1.0, outline * sqrt(stands), along) : 1.0;
 }
 
 // The slope on level ground of a line of sight that goes as far through the grass as one of this slope does over ground
 // that bulges, or is hollow: from the top of the grass to the ground, or to where it comes nearest to it.
 float level_slope(float slope, float crest, float share, float tall, float stands) {
-    share *= lifted(deepest(slope, crest, tall * stands), stands);
+    share *= lifted(deepest(slope, crest, tall * stands), crest, stands);
     vec2 way = 2.0 * crest * tall * vec2(max(stands / RAISED - share, 0.0), -share);
     way = sqrt(max(slope * abs(slope) + way, 0.0));
     return 0.5 * (way.x + way.y) / stands;  // bent grass has less of its leaf area across the way

@@ -220,7 +220,7 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
 #endif
     // Over a crest nothing is met that lies deeper than the line of sight comes.
     float deep = deepest(slope, crest, tall * stands);
-    float deepest_of_all = 1.0 - RAISED * (share * lifted(deep, stands) / stands - deep);
+    float deepest_of_all = 1.0 - RAISED * (share * lifted(deep, crest, stands) / stands - deep);
     float shallow = min(MET * deepest_of_all / mean_depth(vec3(max(on_level, slopes[0]))).x, 1.0);
     vec4 sum = vec4(0.0);
     float higher = 0.0;

@@ -12,7 +12,7 @@ out vec3 place;
 #include "systems/show/carpet/border.glsl"
 const float SUNK = 2.5;  // leaves that a line of sight has met where nothing is seen through them
 const float SHADED = 0.6;  // how far down what is seen stands, of how deep is seen into the grass
-const float THROUGH_CREST = 2.2;  // the same over a crest, as the reference shows it
+const float THROUGH_CREST = 1.6;  // the same over a crest, as the reference shows it
 uniform ByKind raised; // by kind: height of the carpet above the ground [m]
 
 out float carpet;
@@ -248,7 +248,7 @@ void main() {
     vec2 message = message_at(flat_at);
     stands = standing(grows, message);
     float deep = deepest(max(viewing_slope(rise, place), 0.0), crest, tall * stands);
-    place.y += carpet * tall * (lifted(deep, stands) - 1.0);
+    place.y += carpet * tall * (lifted(deep, crest, stands) - 1.0);
 #ifdef UNDER
     // It lies as deep in the grass as is seen into it: from above, and through a crest of this curvature.
     float sunk = sqrt(SUNK * max(viewing_slope(rise, place), 0.0) / max(dense, 1e-3));
