@@ -21,9 +21,11 @@ vec2 come_through(vec2 place, float slope, float share, float tall, float stands
         float above = step * (float(part) + 0.5);
         float there = share_at(ivec2(floor((place + way * above) / soil.w)));
         shows += (1.0 - there) / float(PARTS);
-        vec2 under = max(1.0 - (least + vec2(above) + vec2(-0.5, 0.5) * step) / (TOPS * stands * grown_by(there)), 0.0);
-        under *= under;
-        leaves += there < 1.0 ? under.x - under.y : 0.0;
+        if (there < 1.0) {
+            vec2 heights = least + vec2(above) + vec2(-0.5, 0.5) * step;
+            vec2 under = max(1.0 - heights / (TOPS * stands * grown_by(there)), 0.0);
+            leaves += under.x * under.x - under.y * under.y;
+        }
     }
     return vec2(shows, leaves);
 }

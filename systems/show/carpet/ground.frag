@@ -221,7 +221,9 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
     // Over a crest nothing is met that lies deeper than the line of sight comes.
     float deep = deepest(slope, crest, tall * stands);
     float deepest_of_all = 1.0 - RAISED * (share * lifted(deep, crest, stands) / stands - deep);
-    float shallow = min(MET * deepest_of_all / mean_depth(vec3(max(on_level, slopes[0]))).x, 1.0);
+    float shallow = 1.0;
+    if (deepest_of_all < 1.0 / MET)
+        shallow = min(MET * deepest_of_all / mean_depth(vec3(max(on_level, slopes[0]))).x, 1.0);
     vec4 sum = vec4(0.0);
     float higher = 0.0;
     for (int kind = next_kind(met, LEAST_MET, 0); kind < KINDS; kind = next_kind(met, LEAST_MET, kind + 1)) {
@@ -324,7 +326,8 @@ void main() {
     if (share > 0.0) {
         vec4 seen = carpet_seen(slope, level_slope(slope, crest, share, tall, stands), color, share);
         color = seen.rgb;
-        covered = mix(1.0, outline_cover(slope, seen.a), min(3.0 * share, 1.0));
+        if (covered < 0.999)
+            covered = mix(1.0, outline_cover(slope, seen.a), min(3.0 * share, 1.0));
     }
     pixel = vec4(color, 1.0) * covered;
 #else
