@@ -27,7 +27,7 @@ RAISED = 0.66
 """Height of the carpet, as a part of the grass's: where what is seen of it stays in its place."""
 
 OUTLINE = 0.85
-"""Height of the carpet along outlines, as a part of the grass's: where leaves begin, above which are a few thin tips."""
+"""Height of the carpet along outlines, as a part of the grass's: where leaves begin, with a few thin tips above."""
 
 STRETCH = "5.0"
 """How many times longer than wide a pixel's footprint on the carpet may be before it is blurred across."""
