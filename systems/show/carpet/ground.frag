@@ -61,7 +61,6 @@ in vec2 rise;
 in float crest;
 in float tall;
 in float dense;
-in float strips_before;
 in ByKind met;
 #ifdef HEADS
 in ByKind riper;
@@ -75,7 +74,9 @@ in float lies;
 vec3 dry;
 vec2 sways;
 float stands;
+const float strips_before = 1.0;  // pixels find out themselves
 #else
+in float strips_before;
 in vec3 dry;
 in vec2 sways;
 in float stands;

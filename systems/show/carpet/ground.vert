@@ -31,7 +31,11 @@ float stands;
 out float stands; // how high it stands, of its height at rest
 #endif
 #ifndef UNDER
+#if KINDS > 4
+float strips_before;
+#else
 out float strips_before;  // how much strips show of what lines of sight come through above the carpet
+#endif
 
 out vec3 direct;  // light on leaves of the kinds that are met: the sun's
 out vec3 open_to; // the sky's
