@@ -133,7 +133,6 @@ const float MET = 0.7;  // how deep leaves are that are met over a crest, of how
 const float SPIKES = 18.0;  // how much more leaves are met along an outline where taller plants stand
 const float TALLER = 0.05;  // how much taller plants count at most, of the mean
 
-
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,
 // whose leaf area falls off linearly with height, meets leaves of (deep / tall)^2 times the whole.
 float outline_cover(float slope, float stands_out) {
@@ -221,7 +220,7 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
 #endif
     // Over a crest nothing is met that lies deeper than the line of sight comes.
     float deep = deepest(slope, crest, tall * stands);
-    float deepest_of_all = 1.0 - RAISED * (share * lifted(deep, crest, stands) / stands - deep);
+    float deepest_of_all = max(1.0 - RAISED * (share * lifted(deep, crest, stands) / stands - deep), 0.1);
     float shallow = 1.0;
     if (deepest_of_all < 1.0 / MET)
         shallow = min(MET * deepest_of_all / mean_depth(vec3(max(on_level, slopes[0]))).x, 1.0);
