@@ -96,10 +96,14 @@ vec2 rotated(vec2 v, vec2 by) {
 const int LEVEL = 2;  // so many of the lowest images show grass that hides most of itself
 
 // How deep in the grass what lines of sight of some slopes meet is, of its height: the mean of what is met of leaf area
-// that falls off linearly with height, to 4 %.
-vec3 mean_depth(vec3 slope) {
-    vec3 leaves = 1.273 * max(dense, 0.02) / slope;
+// that falls off linearly with height, to 4 %. For how it is bent they meet so many leaves more.
+vec3 mean_depth(vec3 slope, vec3 more) {
+    vec3 leaves = 1.273 * max(max(dense, 0.02) / slope + more, 0.0);
     return inversesqrt(sqrt(5.06 + leaves * leaves));
+}
+
+vec3 mean_depth(vec3 slope) {
+    return mean_depth(slope, vec3(0.0));
 }
 
 // Which of the viewing elevations' images a ray sees: the first of two by number, and how far it is on the way to the next.
@@ -194,16 +198,19 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
     dx *= fine;
     dy *= fine;
     Lit lit = Lit(direct, open_to, shade.x, vec2(shade.y, OPEN_SKY), shade.zw);
-    float between = exp(-lies);  // what is seen between blades, of that between blades at rest
+    float more = lies;
     vec2 moved = sways;
 #ifdef TRODDEN
     if (trodden_at(place.xz)) {
         Sum light = trodden_light(slope);
         lit = Lit(light.direct, light.open_to, light.shade.x, vec2(light.shade.y, OPEN_SKY), light.shade.zw);
-        between = exp(-light.lies);
+        more = light.lies;
         moved = light.sways;
     }
 #endif
+    float between = exp(-more);  // what is seen between blades, of that between blades at rest
+    vec2 depths = mean_depth(vec3(max(on_level, slopes[0])), vec3(0.0, more, 0.0)).xy;
+    float higher_up = (1.0 - depths.y) / (1.0 - depths.x);  // where blades are met, of where they are met at rest
     vec2 at = rotated((place.xz - moved) / soil.w - vec2(cell) - 0.5, turn) + 0.5;
     // A blade's doubled azimuth against the line of sight; what it is against the world's axes is as far turned.
     float sight = heading.x * heading.x - heading.y * heading.y, aside = 2.0 * heading.x * heading.y;
@@ -223,7 +230,7 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
     float deepest_of_all = max(1.0 - RAISED * (share * lifted(deep, crest, stands) / stands - deep), 0.1);
     float shallow = 1.0;
     if (deepest_of_all < 1.0 / MET)
-        shallow = min(MET * deepest_of_all / mean_depth(vec3(max(on_level, slopes[0]))).x, 1.0);
+        shallow = min(MET * deepest_of_all / depths.x, 1.0);
     vec4 sum = vec4(0.0);
     float higher = 0.0;
     for (int kind = next_kind(met, LEAST_MET, 0); kind < KINDS; kind = next_kind(met, LEAST_MET, kind + 1)) {
@@ -246,13 +253,14 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
         mean_of.rg *= among.y;
 #endif
         mean_of.rg = 1.0 - (1.0 - mean_of.rg) * shallow;
+        mean_of.rg *= higher_up;
         mean_of.r *= 1.0 - ARCHED * (1.0 - stands) * (1.0 - stands);
         mean_of.g *= OF(tops, kind);
         Lit met_by = lit;
         float covers = max(1.0 - (1.0 - image.a) * between, 0.0);
 #ifdef HEADS
-        float more = OF(riper, kind);
-        mean_of.r += more * (more > 0.0 ? 1.0 - mean_of.r : mean_of.r);
+        float ripe = OF(riper, kind);
+        mean_of.r += ripe * (ripe > 0.0 ? 1.0 - mean_of.r : mean_of.r);
         // What stands scattered among others has what is met of it where it stands, and nothing between.
         covers = heads[kind].y > 0.0 ? image.a / max(mean.a * fill, 0.02) : covers;
 #endif

@@ -25,12 +25,12 @@ vec3 leaning(vec2 bend) {
     return vec3(leans, lodged(bend)).xzy;
 }
 
-// How many more leaves a line of sight meets of a kind for how it leans, where it stands densely, that goes `sight` while
-// it falls by the height of the canopy at rest: grass that leans away from the eye turns its breadth to it, and grass that
-// leans towards it its edge.
-float laid(int kind, vec3 lean, vec2 sight) {
+// How many more leaves a line of sight meets of a kind for how it leans, where it stands densely, than it would meet on level
+// ground at rest, that goes `sight` and `falls` while it comes through the canopy at rest, of its height: grass that leans away
+// from the eye turns its breadth to it, and grass that leans towards it its edge.
+float laid(int kind, vec3 lean, vec2 sight, float falls) {
     float lies = OF(lying, kind);
-    vec3 still = vec3(sight * lean.y, lies), bent = vec3(sight * lean.y + lean.xz, lies);
+    vec3 still = vec3(sight * lean.y, lies), bent = vec3(sight * lean.y + falls * lean.xz, falls * lies);
     return (length(bent) - length(still)) * OF(leaf, kind);
 }
 
@@ -52,16 +52,17 @@ vec2 message_at(vec2 at) {
 Sum summed(ByKind met, float slope, vec3 there, vec4 here, vec2 messages[KINDS]) {
     ByKind grows = grows_at(there.xz);
     Sum sum = Sum(vec3(0.0), vec3(0.0), vec4(0.0), 0.0, vec2(0.0));
-    vec2 sight = normalize(there.xz - eye.xz + 1e-6) / max(slope, LOWEST);
+    vec3 ray = there - eye.xyz;
+    ray /= max(length(ray.xz), 1e-4) * max(slope, LOWEST);
     for (int kind = 0; kind < KINDS; kind++) {
         vec2 bend = bending(kind, messages[kind]);
         Lit lit = lit_at(kind, bend, there, here, grows);
-        vec3 lean = leaning(bend), turned = turned_to(kind, lean, there - eye.xyz);
+        vec3 lean = leaning(bend), turned = turned_to(kind, lean, ray);
         turned *= turned;
         sum.direct += OF(met, kind) * lit.sun * turned;
         sum.open_to += OF(met, kind) * lit.sky * turned;
         sum.shade += OF(met, kind) * vec4(lit.gloss, lit.way.x, lit.leaves);
-        sum.lies += OF(met, kind) * laid(kind, lean, sight);
+        sum.lies += OF(met, kind) * laid(kind, lean, ray.xz, -ray.y);
         sum.sways += OF(met, kind) * SWAYS * OF(crown, kind) * bend;
     }
     float all = 1.0 / max(total(met), 1e-4);
