@@ -60,6 +60,7 @@ void thin(float dense, float below, float texels) {
 const float CROSSED = 1.25;  // strips that a line of sight crosses at least where they do not show as rows
 #endif
 const float SHARPER = 0.25;  // how much finer texels are than pixels, in levels: blades would be washed out
+const float SHARPER_ABOVE = 0.45;  // how much finer still, seen from straight above: strips lie across the line of sight
 
 // Pixels that a metre is long on the screen, across the line of sight.
 float pixels_at(vec3 place) {
@@ -137,7 +138,7 @@ void main() {
     shown = how.x;
     boost = boosted(k, run, middle, top, 0.5 * (back_a + back_b));
     float texels = picture.y * ATLAS / (OF(tall, k) * pixels);
-    level = log2(texels) - SHARPER;
+    level = log2(texels) - SHARPER - SHARPER_ABOVE * abs(eye.y - middle.y) / distance(middle, eye.xyz);
 #ifdef THIN
     vec2 sight = normalize(middle.xz - eye.xz);
     thin(mix(told_a.w, told_b.w, across), how.z, 0.5 * texels / abs(run.x * sight.y - run.y * sight.x));
