@@ -15,7 +15,6 @@ const float OPEN_SKY = 1.6;     // leaves that the sky's light meets, of those s
 const float LITTER_SIDE = 1.8; // side of the square of ground that repeats [m]
 const float LITTER_ONE = 255.0 / 128.0;  // what stands for ground as bright as its mean
 const float COARSEST = 16.0;   // level at which a texture is its mean, or its last
-const float LITTER_SHARP = -1.0;  // levels finer at most than the long side of a pixel on the ground asks for
 const float AGAIN = 0.7;        // what leaves send to one another of the sun's light, of one with this albedo
 const float LOW_TIPPED = 0.6;   // how much of the colour of tips the leaves of the understorey have
 const float LITTER = 0.75;      // how much of the ground under dense grass is covered by what has fallen

@@ -29,6 +29,23 @@ float sharper(vec2 dx, vec2 dy) {
     return sqrt(max(min(one, other) / longer, 1.0 / (STRETCH * STRETCH)));
 }
 
+#ifndef UNDER
+const float LITTER_PARTS = 4.0;  // a long stripe is taken in so many parts at most, one behind the other
+
+// What lies on the ground, litter and low leaves, in the mean over the pixel. The parts are taken from whole levels, each
+// from the one that is due to it, so that all of them together go gradually from a level to the next. Where little of the
+// ground is `bare`, seen between the grass, fewer do.
+vec2 lying_seen(float bare) {
+    vec2 dx = dFdx(place.xz), dy = dFdy(place.xz), along = dot(dx, dx) > dot(dy, dy) ? dx : dy, sum = vec2(0.0);
+    float parts = min(1.0 / sharper(dx, dy), mix(1.0, LITTER_PARTS, min(5.0 * bare, 1.0))), count = ceil(parts - 0.1);
+    float level = log2(length(along) * float(textureSize(repeating, 0).x) / (LITTER_SIDE * parts));
+    vec2 step = along * (1.0 - 1.0 / parts) / max(count - 1.0, 1.0), first = place.xz - 0.5 * (count - 1.0) * step;
+    for (float part = 0.0; part < count; part++)
+        sum += textureLod(repeating, (first + part * step) / LITTER_SIDE, level).gb;
+    return sum / count;
+}
+#endif
+
 #ifdef MOWN
 const float STUBBLE = 1.5;  // how unevenly stubble stands, for how unevenly the grass did
 float left;  // up to which height grass is left to stand, in the mean over the pixel [m]
@@ -319,14 +336,16 @@ void main() {
     vec3 color = sunlit * seen.x + skylit * seen.y;  // the mesh is too coarse for the edges of what is mown
 #endif
 #ifndef UNDER
-    float narrow = log2(sharper(dFdx(place.xz), dFdy(place.xz)));
-    vec2 lying = texture(repeating, place.xz / LITTER_SIDE, max(0.5 * narrow, LITTER_SHARP)).gb;
-    vec3 pigment = lying_pigment(lying, lush);
+#ifdef CARPET
+    float slope = viewing_slope(rise, place), bare = exp(-dense / max(slope, 0.02));
+#else
+    const float bare = 1.0;
+#endif
+    vec3 pigment = lying_pigment(lying_seen(bare), lush);
     color *= pigment * pigment;
 #endif
     color = shown_of(mix(color, veil.rgb, veil.w));
 #if defined(CARPET) && !defined(UNDER)
-    float slope = viewing_slope(rise, place);
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / soil.w))) : 0.0;
     float covered = mix(1.0, outline_cover(slope, exp(SPIKES * TALLER)), min(3.0 * share, 1.0));
     if (covered < 0.004)
