@@ -164,6 +164,14 @@ float outline_cover(float slope, float stands_out) {
     return mix(1.0, hidden, smoothstep(0.0, 2.0 * LEAST, tall));  // bare ground is its own outline
 }
 
+// How steeply the carpet rises along the line of sight where taller grass begins: there it is seen, though the ground falls
+// away behind a crest.
+float rises_ahead() {
+    vec2 dx = dFdx(place.xz), dy = dFdy(place.xz), to = normalize(place.xz - eye.xz + 1e-4);
+    vec2 way = dot(dx, dx) > dot(dy, dy) ? vec2(dot(dx, to), dFdx(tall)) : vec2(dot(dy, to), dFdy(tall));
+    return carpet * max(way.y * sign(way.x) / max(abs(way.x), 1e-4), 0.0);
+}
+
 #ifdef TRODDEN
 // The light where somebody walks or has walked: a way is narrower than the mesh that light is made out on.
 Sum trodden_light(float slope) {
@@ -347,14 +355,14 @@ void main() {
     color = shown_of(mix(color, veil.rgb, veil.w));
 #if defined(CARPET) && !defined(UNDER)
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / soil.w))) : 0.0;
-    float covered = mix(1.0, outline_cover(slope, exp(SPIKES * TALLER)), min(3.0 * share, 1.0));
+    float top = slope + rises_ahead(), covered = mix(1.0, outline_cover(top, exp(SPIKES * TALLER)), min(3.0 * share, 1.0));
     if (covered < 0.004)
         discard;
     if (share > 0.0) {
         vec4 seen = carpet_seen(slope, level_slope(slope, crest, share, tall, stands), color, share);
         color = seen.rgb;
         if (covered < 0.999)
-            covered = mix(1.0, outline_cover(slope, seen.a), min(3.0 * share, 1.0));
+            covered = mix(1.0, outline_cover(top, seen.a), min(3.0 * share, 1.0));
     }
     pixel = vec4(color, 1.0) * covered;
 #else
