@@ -17,7 +17,8 @@ from ..declared.scene import Scene
 from ..plugins import wind_kinds
 from .compose import MOST_BYTES, decode, read_document
 from .document import Document, Where
-from .problem import Problem, SceneError
+from .problem import MOST_PROBLEMS, Problem, SceneError
+from .unusable import unusable
 from .validate import validate
 
 Stamp = tuple[int, int]
@@ -64,10 +65,19 @@ def bundled_scenes() -> dict[str, Path]:
 def read_scene(scene: str | Path, /) -> LoadedScene:
     """Return the scene in a file, or the bundled scene of that name.
 
-    The files that the scene names must exist; `load_maps` reads them. Raises SceneError with all problems.
+    The files that the scene names must exist; `load_maps` reads them. Raises SceneError with all problems, and then
+    with those of its maps too, as far as they can be known.
     """
     path = _path(scene)
-    return load_document(read_document(decode(_bytes(path), file=str(path)), file=str(path)), path)
+    document = read_document(decode(_bytes(path), file=str(path)), file=str(path))
+    try:
+        return load_document(document, path)
+    except SceneError as error:
+        told = {(problem.line, problem.column) for problem in error.problems}
+        more = [problem for problem in unusable(document, path.parent) if (problem.line, problem.column) not in told]
+        if not more or len(error.problems) > MOST_PROBLEMS:  # the last counts the rest
+            raise
+        raise SceneError([*error.problems, *more]) from error
 
 
 def load_document(
