@@ -199,6 +199,8 @@ class Prairie:
             outlook = self._look(seen, viewer)
             fineness, begun = self.governor.fineness(outlook), perf_counter()
             self.systems.run()
+            if self._released:  # by one of them: there is nothing left to draw
+                return
             start = perf_counter()
             with self.governor.watching(painter, viewer, spent=start - begun):
                 painter.draw(seen, scale=fineness.scale)
@@ -374,7 +376,8 @@ class Prairie:
     def release(self) -> None:
         """Give back everything: GL objects in every window, places in batches, entities, and what `install` added.
 
-        The processor of `install` goes with its world's last prairie. This prairie cannot be drawn afterwards.
+        The processor of `install` goes with its world's last prairie. This prairie cannot be drawn afterwards; where a
+        system of its own calls this, the frame ends with that system, and nothing of it is drawn.
         """
         self._released = True
         self._assembly.screen.release()
