@@ -83,6 +83,12 @@ def _hidden() -> Any | None:
     return None if window is None else window.context
 
 
+def has_windows() -> bool:
+    """Return whether a window of pyglet's is open, current or not."""
+    app = sys.modules.get("pyglet.app")
+    return app is not None and len(app.windows) > 0
+
+
 def is_lost(context: Any | None) -> bool:
     """Return whether a pyglet context has gone with its window."""
     return context is not None and context.canvas is None

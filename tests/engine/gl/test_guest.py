@@ -318,11 +318,15 @@ def test_a_context_that_is_given_is_taken(ctx: moderngl.Context) -> None:
     assert host_context(ctx) is ctx
 
 
-def test_drawing_before_there_is_a_window_is_refused_in_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_drawing_without_a_window_that_is_current_is_refused_in_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
     hidden = SimpleNamespace(canvas=object())
     loaded = SimpleNamespace(current_context=hidden, _shadow_window=SimpleNamespace(context=hidden))
     monkeypatch.setitem(sys.modules, "pyglet.gl", loaded)
+    monkeypatch.setitem(sys.modules, "pyglet.app", SimpleNamespace(windows=set()))
     with pytest.raises(RuntimeError, match="create the window before the prairie is first drawn"):
+        host_context(None)
+    monkeypatch.setitem(sys.modules, "pyglet.app", SimpleNamespace(windows={"open"}))
+    with pytest.raises(RuntimeError, match="^no window is current: call the switch_to of one before the prairie"):
         host_context(None)
 
 
