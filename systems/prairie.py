@@ -176,7 +176,7 @@ class Prairie:
     def advance(self, dt: float) -> None:
         """Move time on by `dt` [s]; negative or non-finite steps raise ValueError, what is no number TypeError."""
         must_be_step(dt)
-        self._clock += dt
+        self._clock += float(dt)  # in single precision, time would soon stand still
         self.winds.quarantine.let_back(self.time)
 
     def draw(self, view: object, projection: object, *, viewer: str = "main") -> None:
