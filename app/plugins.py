@@ -12,7 +12,7 @@ from .scaffold import scaffold
 
 
 def list_plugins(*, json: bool = False) -> None:
-    """Print every kind of wind, then every installed system, who brings it, and whether another claims it or it is left out.
+    """Print every kind of wind, then every installed system, who brings it, and whether it is used or left out.
 
     Nothing is imported for it: whether a wind that is `ready` can be loaded, `check_plugin` and the doctor say.
     """

@@ -1,6 +1,6 @@
 """What the receivers of a prairie have heard, as arrays to assert on."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,8 +63,8 @@ class Heard:
         return self._of(chosen)
 
     def _of(self, chosen: NDArray[np.bool_]) -> "Heard":
-        rows = (each[chosen] for each in (self.place, self.message, self.kind, self.representation))
-        return Heard(*rows, self.kinds, self.representations)
+        rows = {name: getattr(self, name)[chosen] for name in ("place", "message", "kind", "representation")}
+        return replace(self, **rows)
 
 
 def receivers_of(prairie: Prairie, /, *, viewer: str = "main") -> Heard:

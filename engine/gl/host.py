@@ -24,10 +24,10 @@ SWITCHED_OFF = (
     "COLOR_LOGIC_OP", "DEPTH_CLAMP", "POLYGON_OFFSET_FILL", "SAMPLE_ALPHA_TO_COVERAGE", "SAMPLE_COVERAGE",
     "CLIP_DISTANCE0", "CLIP_DISTANCE1", "PRIMITIVE_RESTART",
 )  # fmt: skip
-"""Those that moderngl does not know or leaves as they are, and that would change a guest's picture: off while it draws."""
+"""Those that moderngl leaves as they are, and that would change a guest's picture: they are off while it draws."""
 
 SWITCHES = (*MODERNGLS, *SWITCHED_OFF, "TEXTURE_CUBE_MAP_SEAMLESS", "SCISSOR_TEST")
-"""All that are brought back: moderngl sets seamless cube maps in a new context, and the host's scissor cuts a guest off.
+"""All that are brought back: moderngl sets seamless cube maps in a new context, and a guest keeps within the scissor box.
 
 Stencil test and FRAMEBUFFER_SRGB are the host's own affair: a guest is drawn under them and never sets them.
 """
@@ -168,7 +168,7 @@ class State:
         return sum(getattr(moderngl, name) for name in MODERNGLS if name in self._on)
 
     def clear(self) -> None:
-        """Set back what would change a guest's picture, or the texels that it loads and reads, and what moderngl leaves."""
+        """Set back what moderngl leaves and what would change a guest's picture, or the texels it loads and reads."""
         gl = self._gl
         for name, switch in WORDS.off:
             if name in self._on:

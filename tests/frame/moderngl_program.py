@@ -35,8 +35,8 @@ NUMBERS = {
     "alpha equation": 0x883D, "depth func": 0x0B74, "depth mask": 0x0B72, "front face": 0x0B46, "culled": 0x0B45,
     "polygons": 0x0B40, "viewport": 0x0BA2, "scissor box": 0x0C10, "program": 0x8B8D, "array": 0x85B5,
     "buffer": 0x8894, "uniform buffer": 0x8A28, "unpack buffer": 0x88EF, "pack buffer": 0x88ED, "drawn": 0x8CA6,
-    "read": 0x8CAA, "renderbuffer": 0x8CA7, "unit": 0x84E0, "unpack alignment": 0x0CF5, "unpack rows": 0x0CF2,
-    "unpack skip": 0x0CF4, "unpack swap": 0x0CF0, "captured": 0x8C8F, "pack alignment": 0x0D05, "pack rows": 0x0D02, "restart index": 0x8F9E, "logic": 0x0BF0,
+    "read": 0x8CAA, "renderbuffer": 0x8CA7, "unit": 0x84E0, "captured": 0x8C8F,
+    "restart index": 0x8F9E, "logic": 0x0BF0,
     "read buffer": 0x0C02, "stencil func": 0x0B92, "stencil mask": 0x0B98, "clear depth": 0x0B73,
 }  # fmt: skip
 STORES = {
@@ -71,6 +71,7 @@ class Gl:
         """Return all of the state that a prairie could spoil."""
         told: Values = {name: (self.glIsEnabled(number),) for name, number in SWITCHES.items()}
         told |= {name: self.number(number) for name, number in NUMBERS.items()}
+        told |= {f"texels {number:#x}": self.number(number) for number in STORES}
         for output in range(8):
             told[f"attachment of {output}"] = self.number(0x8825 + output)
             told[f"mask of {output}"] = self.number(0x0C23, output)

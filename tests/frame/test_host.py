@@ -182,9 +182,15 @@ def test_d6_released_a_prairie_leaves_nothing_behind_in_gl(ctx: moderngl.Context
 
 
 def test_a_frame_ends_where_a_system_releases_the_prairie(stage: Stage, load: Load, caplog: Any) -> None:
-    prairie, ran = load(), []
+    prairie = load()
+    ran: list[str] = []
+
+    def end() -> None:
+        ran.append("end")
+        prairie.release()
+
     stage.shot(prairie)
-    prairie.systems.add("see", "end", lambda: (ran.append("end"), prairie.release()))
+    prairie.systems.add("see", "end", end)
     prairie.systems.add("draw", "later", lambda: ran.append("later"), before="gather")
     empty = np.unique(stage.shot(prairie).reshape(-1, 3), axis=0)
     assert (len(empty), ran) == (1, ["end"])

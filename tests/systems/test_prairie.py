@@ -192,14 +192,14 @@ def test_an_unknown_option_is_refused_in_a_sentence(load: Load, option: dict[str
 
 def test_time_stays_exact_whatever_numbers_it_moves_on_by(prairie: Prairie) -> None:
     for _ in range(4):
-        prairie.advance(np.float32(0.5))
+        prairie.advance(np.float32(0.5))  # type: ignore[arg-type]
     for _ in range(1000):
         prairie.advance(0.001)
     assert prairie.time == 3.0
 
 
 def test_what_is_no_scene_is_refused_in_a_sentence() -> None:
-    with pytest.raises(TypeError, match="^a scene is the path of a file or the name of a bundled one, unlike 5$"):
+    with pytest.raises(TypeError, match=r"^a scene is the path of a file or the name of a bundled one, unlike 5$"):
         Prairie.load(5)  # type: ignore[arg-type]
 
 

@@ -254,8 +254,8 @@ def test_d6_however_the_host_lays_texels_out_a_guest_loads_and_reads_its_own_as_
             assert target.glo == host.glo
             image = ctx.texture((5, 12), 1, texels.tobytes(), dtype="u2", alignment=1)
             layers = ctx.texture_array((5, 4, 3), 1, texels.tobytes(), dtype="u2", alignment=1)
-            for thing, into in zip((image, layers), read, strict=True):
-                thing.read_into(into, alignment=1)
+            image.read_into(read[0], alignment=1)
+            layers.read_into(read[1], alignment=1)
         gl.glGetIntegerv(number, addressof(found))
     finally:
         gl.glPixelStorei(number, 0)
@@ -290,7 +290,7 @@ def test_d6_where_the_host_captures_outputs_to_is_bound_again_after_a_guest_has_
     ctx: moderngl.Context, host: moderngl.Framebuffer, span: tuple[int, int]
 ) -> None:
     source = "#version 330\nout float seen; void main() { seen = float(gl_VertexID); }"
-    program, gl = ctx.program(vertex_shader=source, varyings=["seen"]), functions_of(ctx)
+    program, gl = ctx.program(vertex_shader=source, varyings=("seen",)), functions_of(ctx)
     array, goal, bound, other = (ctx.vertex_array(program, []), *(ctx.buffer(reserve=256) for _ in range(3)))
     target, place = NUMBERS["TRANSFORM_FEEDBACK_BUFFER"], NUMBERS["TRANSFORM_FEEDBACK_BUFFER_BINDING"]
     if span[1]:
@@ -326,7 +326,7 @@ def test_drawing_without_a_window_that_is_current_is_refused_in_a_sentence(monke
     with pytest.raises(RuntimeError, match="create the window before the prairie is first drawn"):
         host_context(None)
     monkeypatch.setitem(sys.modules, "pyglet.app", SimpleNamespace(windows={"open"}))
-    with pytest.raises(RuntimeError, match="^no window is current: call the switch_to of one before the prairie"):
+    with pytest.raises(RuntimeError, match=r"^no window is current: call the switch_to of one before the prairie"):
         host_context(None)
 
 
