@@ -27,7 +27,7 @@ SWITCHED_OFF = (
 """Those that moderngl leaves as they are, and that would change a guest's picture: they are off while it draws."""
 
 SWITCHES = (*MODERNGLS, *SWITCHED_OFF, "TEXTURE_CUBE_MAP_SEAMLESS", "SCISSOR_TEST")
-"""All that are brought back: moderngl sets seamless cube maps in a new context, and a guest keeps within the scissor box.
+"""All that are brought back: moderngl sets seamless cube maps in new contexts, and a guest keeps to the scissor box.
 
 Stencil test and FRAMEBUFFER_SRGB are the host's own affair: a guest is drawn under them and never sets them.
 """
