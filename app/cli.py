@@ -211,7 +211,7 @@ def doctor() -> int:
 
 @plugins.command("list")
 def list_(*, json: Json = False) -> None:
-    """Tell every kind of wind and every installed system, who brings it, and whether it can be used."""
+    """Tell every kind of wind and every installed system, who brings it, and whether another claims it."""
     from .plugins import list_plugins
 
     list_plugins(json=json)

@@ -148,7 +148,10 @@ def winds(kinds: WindKinds, entries: Sequence[EntryPoint], /) -> list[Finding]:
         try:
             kinds.find(kind)
         except PluginError as error:
-            findings.append(Finding(f"wind {kind}", "note", str(error), _pip(name) if kind in owner else None))
+            # A newer package may mend its own faults; of a module that it lacks, the text says all there is to say.
+            lacks = isinstance(error.__cause__, ModuleNotFoundError)
+            mended = _pip(name) if kind in owner and not lacks else None
+            findings.append(Finding(f"wind {kind}", "note", str(error), mended))
         else:
             findings.append(Finding(f"wind {kind}", "ok", f"from {name}"))
     return findings

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from ..engine.declared.scene import Scene
 from ..engine.scene import read_scene
 from .manifest import Manifest, Span
-from .studio.encode import Reel, film_writer, is_folder
+from .studio.encode import Reel, film_writer, is_folder, make_room
 from .studio.errors import InputError
 from .studio.progress import busy, counted
 from .studio.shooting import Shooting, Shot
@@ -42,6 +42,7 @@ def film(
     told = about(loaded.scene, take, time=span.first / fps)
     files = told if is_folder(output) else None
     manifest, count = Manifest(span), span.end - span.first
+    make_room(manifest.place(output))
     if on is None:
         shooting = _shot_here(take, span, files)
     else:

@@ -56,12 +56,16 @@ class Manifest:
             self.renderer = shot.renderer
             yield shot.frame
 
-    def write(self, output: str, loaded: LoadedScene, take: Take) -> None:
-        """Write it beside a film, as JSON: `walk.webp.json`, or of frames 100 to 129 `walk.webp.100-130.json`."""
+    def place(self, output: str, /) -> Path:
+        """Return its file beside a film: `walk.webp.json`, or of frames 100 to 129 `walk.webp.100-130.json`."""
         path = Path(output.rstrip("/" + os.sep))
         part = "" if self.span.whole else f".{self.span.first}-{self.span.end}"
+        return path.with_name(f"{path.name}{part}.json")
+
+    def write(self, output: str, loaded: LoadedScene, take: Take) -> None:
+        """Write it beside a film, as JSON."""
         told = {**_made_from(loaded, take), "renderer": self.renderer, **self._pictures()}
-        write_whole(json.dumps(told, indent=1) + "\n", path.with_name(f"{path.name}{part}.json"))
+        write_whole(json.dumps(told, indent=1) + "\n", self.place(output))
 
     def _pictures(self) -> dict[str, object]:
         span = self.span

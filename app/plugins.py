@@ -12,9 +12,9 @@ from .scaffold import scaffold
 
 
 def list_plugins(*, json: bool = False) -> None:
-    """Print every kind of wind, then every installed system, who brings it, and whether it can be used.
+    """Print every kind of wind, then every installed system, who brings it, and whether it is used or left out.
 
-    Nothing is imported for it.
+    Nothing is imported for it: whether a wind that is `ready` can be loaded, `check_plugin` and the doctor say.
     """
     winds, systems = wind_kinds().provided(), system_plugins().provided()
     if json:

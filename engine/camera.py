@@ -25,6 +25,9 @@ FAR = 5000.0
 FARTHEST = 1e6
 """Largest coordinate that a camera may be placed at [m]."""
 
+OUTERMOST = 1e9
+"""Largest coordinate of an eye that a game hands in [m]: cells are counted in 32 bits."""
+
 
 @dataclass(frozen=True, slots=True)
 class Camera:
@@ -192,9 +195,16 @@ def view_of(view: object, projection: object) -> View:
     """Return the two matrices as numpy arrays for column vectors.
 
     Each is a 4x4 array, or pyglet's `Mat4`, whose 16 numbers run column by column. Raises ValueError for anything
-    that has not 16 finite numbers or has no inverse.
+    that has not 16 finite numbers or has no inverse, for an eye beyond a million kilometres, and for two matrices that
+    come to more together than single precision holds.
     """
-    return View(_matrix(view, "view"), _matrix(projection, "projection"))
+    seen = View(_matrix(view, "view"), _matrix(projection, "projection"))
+    if max(map(abs, eye_of(seen))) > OUTERMOST:
+        raise ValueError(f"the view matrix has its eye beyond {OUTERMOST:.0e} m")
+    clip = seen.projection.astype(np.float64) @ seen.view.astype(np.float64)
+    if max(np.abs(clip).max(), np.abs(np.linalg.inv(clip)).max()) > np.finfo(np.float32).max:
+        raise ValueError("the view and the projection matrix come to more together than single precision holds")
+    return seen
 
 
 def _matrix(matrix: object, name: str) -> NDArray[np.float32]:

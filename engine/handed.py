@@ -5,6 +5,9 @@ from reprlib import repr as shortened
 import numpy as np
 from numpy.typing import NDArray
 
+NUMBERS = (float, int, np.floating, np.integer)
+"""What is taken for a number where one is handed in."""
+
 
 def as_floats(thing: object, due: str, /) -> NDArray[np.float32]:
     """Return what is handed in as numbers, of any shape.
@@ -28,7 +31,7 @@ def must_be_viewer(thing: object, /) -> None:
 
 def must_be_step(thing: object, /) -> None:
     """Raise TypeError for what is no number, ValueError for one that time cannot move on by."""
-    if not isinstance(thing, float | int | np.floating | np.integer):
+    if not isinstance(thing, NUMBERS):
         raise TypeError(f"a prairie advances by a number of seconds, not by {shortened(thing)}")
     if not (np.isfinite(thing) and thing >= 0.0):
         raise ValueError(f"a prairie advances by 0 s or more, not by {thing}")

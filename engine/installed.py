@@ -45,7 +45,7 @@ class Installed:
         return [entry for kept in every for entries in kept.values() for entry in entries]
 
     def status(self, entry: EntryPoint) -> Status:
-        """Return whether an entry can be used."""
+        """Return whether an entry is used, once it is asked for; it is not imported for that."""
         used = self.used.get(entry.name, [])
         if _has(used, entry):
             return "ready" if len(used) == 1 else "claimed twice"

@@ -32,7 +32,7 @@ class ProvidedSystem:
     """Version of the distribution."""
 
     status: Status
-    """`ready`, `claimed twice`, `name taken` by a built-in one, or `left out` by the environment."""
+    """`ready` to be imported, `claimed twice`, `name taken` by a built-in one, or `left out` by the environment."""
 
 
 class SystemPlugins:

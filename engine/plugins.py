@@ -42,7 +42,7 @@ class Provided:
     """Version of the distribution; of a game's own class, nothing."""
 
     status: Status
-    """`ready`, `claimed twice`, `name taken` by a built-in one, or `left out` by the environment."""
+    """`ready` to be imported, `claimed twice`, `name taken` by a built-in one, or `left out` by the environment."""
 
 
 class WindKinds:

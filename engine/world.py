@@ -11,6 +11,7 @@ from weakref import WeakSet, ref
 import esper
 
 from ..components.resident import Resident
+from .handed import NUMBERS
 
 Component = TypeVar("Component")
 Other = TypeVar("Other")
@@ -162,18 +163,18 @@ def _note_lost(entities: dict[int, "ref[Resident]"], lost: list[int], entity: in
 class Advance(esper.Processor):
     """Moves the time of every prairie in its world on; `install` adds it."""
 
-    def process(self, dt: float | None = None, *args: object, **options: object) -> None:
+    def process(self, dt: object = None, *args: object, **options: object) -> None:
         """Advance by `dt` [s]; without it, time stands still. What else a game hands its processors is left alone."""
         del args, options
         if dt is None:
             return
-        if not isinstance(dt, (int, float)):
+        if not isinstance(dt, NUMBERS):
             raise TypeError(
                 f"esper.process hands its arguments to every processor, and tallgrass needs dt [s] first, not {dt!r}"
             )
         for world in _residents(esper.current_world):
             if world.advance is not None:
-                world.advance(dt)
+                world.advance(float(dt))
 
 
 def install() -> None:

@@ -20,7 +20,6 @@ class Plant:
         """Plant for every viewer that looks."""
         for outlook in self.outlooks:
             for representation in self.representations:
-                if representation.name in outlook.shown:
-                    representation.plant(outlook)
+                representation.plant(outlook)
             for kept in outlook.kept.values():
                 kept.enlist(self.world, outlook.patches)

@@ -176,7 +176,7 @@ class Prairie:
     def advance(self, dt: float) -> None:
         """Move time on by `dt` [s]; negative or non-finite steps raise ValueError, what is no number TypeError."""
         must_be_step(dt)
-        self._clock += dt
+        self._clock += float(dt)  # in single precision, time would soon stand still
         self.winds.quarantine.let_back(self.time)
 
     def draw(self, view: object, projection: object, *, viewer: str = "main") -> None:
@@ -199,6 +199,8 @@ class Prairie:
             outlook = self._look(seen, viewer)
             fineness, begun = self.governor.fineness(outlook), perf_counter()
             self.systems.run()
+            if self._released:  # by one of them: there is nothing left to draw
+                return
             start = perf_counter()
             with self.governor.watching(painter, viewer, spent=start - begun):
                 painter.draw(seen, scale=fineness.scale)
@@ -374,7 +376,8 @@ class Prairie:
     def release(self) -> None:
         """Give back everything: GL objects in every window, places in batches, entities, and what `install` added.
 
-        The processor of `install` goes with its world's last prairie. This prairie cannot be drawn afterwards.
+        The processor of `install` goes with its world's last prairie. This prairie cannot be drawn afterwards; where a
+        system of its own calls this, the frame ends with that system, and nothing of it is drawn.
         """
         self._released = True
         self._assembly.screen.release()

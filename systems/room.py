@@ -4,16 +4,23 @@ from collections.abc import Sequence
 from math import ceil, log2
 
 from ..engine.world import World
+from .around.appearance import Appearance
 from .around.outlook import Outlook, brought_near
 from .around.representation import Representation
 from .lod import farthest
 
 
 def keep_room(outlook: Outlook, representations: Sequence[Representation], reach: tuple[int, ...], /) -> None:
-    """Give an outlook empty stores for what every representation keeps, where `reach` says how far each is due."""
+    """Give an outlook empty stores for what every representation keeps, where `reach` says how far each is due.
+
+    The carpet alone is shown until the system `see` has run, which a game may have left out.
+    """
     outlook.reach = outlook.room = reach
     for each, side in zip(representations, _sides(outlook), strict=True):
         outlook.kept[each.name] = each.keep(outlook.patches, side)
+    outlook.appearance = Appearance.of_carpet(len(representations), len(outlook.patches.progress))
+    for each, cover in zip(representations, outlook.appearance.cover, strict=True):
+        outlook.shown[each.name] = each.show(outlook, cover)
 
 
 def make_room(outlook: Outlook, representations: Sequence[Representation], world: World, /) -> None:

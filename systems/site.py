@@ -209,7 +209,6 @@ def settle_on(outlook: Outlook, site: Site, before: Site, world: World, /) -> No
         for entity in patches.entity[patches.entity != 0].tolist():
             world.delete(entity)
         outlook.patches = PatchTable.allocate(2 * site.reach[-1] + 1, NAMES, viewer=outlook.viewer.name)
-    outlook.shown.clear()
     keep_room(outlook, site.representations, site.reach)
     for row in np.flatnonzero(outlook.patches.entity).tolist():
         for part in components(outlook, site.representations, row):

@@ -1,6 +1,6 @@
 """What the receivers of a prairie have heard, as arrays to assert on."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,12 @@ class Heard:
     representation: Words
     """`blades` or `strips`, shape (n,)."""
 
+    kinds: tuple[str, ...]
+    """The names of the scene's kinds of grass, also of those that none of these is of."""
+
+    representations: tuple[str, ...]
+    """The names of the representations that have such receivers, likewise."""
+
     def __len__(self) -> int:
         return len(self.place)
 
@@ -38,18 +44,27 @@ class Heard:
         return np.asarray(np.hypot(*self.message.T))
 
     def only(self, *, kind: str | None = None, representation: str | None = None) -> "Heard":
-        """Return those of one kind, of one representation, or of both."""
+        """Return those of one kind, of one representation, or of both. Raises ValueError for a name that is unknown."""
         chosen = np.ones(len(self), np.bool_)
-        if kind is not None:
-            chosen &= self.kind == kind
-        if representation is not None:
-            chosen &= self.representation == representation
-        return Heard(*(getattr(self, each.name)[chosen] for each in fields(self)))
+        for what, name, known, have in (
+            ("grass", kind, self.kinds, self.kind),
+            ("representation", representation, self.representations, self.representation),
+        ):
+            if name is None:
+                continue
+            if name not in known:
+                raise ValueError(f"unknown {what} '{name}'; there are {', '.join(known)}")
+            chosen &= have == name
+        return self._of(chosen)
 
     def near(self, x: float, z: float, *, within: float) -> "Heard":
         """Return those at most `within` metres from a ground position (x, z) [m]."""
         chosen = np.hypot(self.place[:, 0] - x, self.place[:, 1] - z) <= within
-        return Heard(*(getattr(self, each.name)[chosen] for each in fields(self)))
+        return self._of(chosen)
+
+    def _of(self, chosen: NDArray[np.bool_]) -> "Heard":
+        rows = {name: getattr(self, name)[chosen] for name in ("place", "message", "kind", "representation")}
+        return replace(self, **rows)
 
 
 def receivers_of(prairie: Prairie, /, *, viewer: str = "main") -> Heard:
@@ -58,14 +73,12 @@ def receivers_of(prairie: Prairie, /, *, viewer: str = "main") -> Heard:
     They have heard something once the prairie has been drawn, or `watch` and `step(prairie, Phase.BLOW)` were called;
     patches that nothing has been planted on yet have none.
     """
-    parts = [
-        _heard(prairie, receiving, prairie.viewers[viewer].patches)
-        for kept in prairie.viewers[viewer].kept.values()
-        for receiving in kept.receiving
-        if not receiving.still
-    ]
+    outlook = prairie.viewers[viewer]
+    asked = [receiving for kept in outlook.kept.values() for receiving in kept.receiving if not receiving.still]
+    parts = [_heard(prairie, receiving, outlook.patches) for receiving in asked]
     place, message, kind, representation = (np.concatenate(rows) for rows in zip(*parts, strict=True))
-    return Heard(place, message, kind, representation)
+    names = tuple(dict.fromkeys(receiving.representation for receiving in asked))
+    return Heard(place, message, kind, representation, tuple(prairie.scene.grass), names)
 
 
 def _heard(prairie: Prairie, receiving: Receiving, patches: PatchTable) -> tuple[Floats, Floats, Words, Words]:

@@ -1,6 +1,7 @@
 """Somebody who looks at a prairie."""
 
 from math import radians
+from reprlib import repr as shortened
 
 from ..engine.camera import Camera
 
@@ -12,3 +13,9 @@ def looking(x: float, y: float, z: float, *, yaw: float = 0.0, pitch: float = 0.
     a positive pitch looks up.
     """
     return Camera((x, y, z), radians(yaw), radians(pitch), radians(view))
+
+
+def must_be_camera(thing: object, /) -> None:
+    """Raise TypeError for what is no camera."""
+    if not isinstance(thing, Camera):
+        raise TypeError(f"a camera is made by looking(x, y, z), unlike {shortened(thing)}")

@@ -25,6 +25,7 @@ from ..systems.painter import Painter
 from ..systems.site import Site, found_site, outlook_on
 from ..systems.wind.blow import ReceiverArrays
 from .little import LITTLE
+from .looking import must_be_camera
 
 ASPECT = 16 / 9
 """Width over height of the picture that a viewer is taken to have."""
@@ -57,6 +58,8 @@ def viewer_on(site: Site, world: World, camera: Camera | None = None, /, *, name
 
 def look(outlook: Outlook, site: Site, camera: Camera | None = None, /, *, time: float = 0.0) -> None:
     """Let a viewer look from where a camera stands, the scene's own if none is given, at an instant [s]."""
+    if camera is not None:
+        must_be_camera(camera)
     seen = camera or camera_at(site.scene.camera, None, lambda xz: height_at(site.ground.terrain, xz))
     view = View(view_matrix(seen), projection_matrix(seen.view, ASPECT))
     outlook.look(view, time=time, leap=2.0 * site.ground.patch)

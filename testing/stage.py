@@ -10,21 +10,28 @@ from numpy.typing import NDArray
 from ..engine.camera import Camera, camera_at, projection_matrix, view_matrix
 from ..engine.gl.stream import release_all
 from ..systems.prairie import Prairie
+from .looking import must_be_camera
 
 Picture = NDArray[np.float64]
 Matrix = NDArray[np.float32]
 
 
 class Stage:
-    """A framebuffer of 8-bit RGB colour and depth to draw into, as a host would; `size` is (width, height) [pixels]."""
+    """A framebuffer of 8-bit RGB colour and depth to draw into, as a host would; `size` is (width, height) [pixels].
+
+    Raises ValueError for a size without pixels.
+    """
 
     def __init__(self, ctx: moderngl.Context, size: tuple[int, int] = (160, 90)) -> None:
+        if min(size) < 1:
+            raise ValueError(f"a stage has 1 by 1 pixels at least, not {size[0]} by {size[1]}")
         self.ctx, self.size = ctx, size
         self.color, self.depth_map = ctx.texture(size, 3, alignment=1), ctx.depth_texture(size)
         self.target = ctx.framebuffer([self.color], self.depth_map)
 
     def matrices(self, camera: Camera, /) -> tuple[Matrix, Matrix]:
         """Return a camera's view and projection for this stage's size, shape (4, 4) each."""
+        must_be_camera(camera)
         width, height = self.size
         return view_matrix(camera), projection_matrix(camera.view, width / height)
 
@@ -81,7 +88,10 @@ class Stage:
 
 @contextmanager
 def stage(ctx: moderngl.Context, size: tuple[int, int] = (160, 90)) -> Iterator[Stage]:
-    """Make a `Stage` of a size [pixels] in a context, and give it back in the end."""
+    """Make a `Stage` of a size [pixels] in a context, and give it back in the end.
+
+    Raises ValueError for a size without pixels.
+    """
     made = Stage(ctx, size)
     try:
         yield made

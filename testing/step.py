@@ -3,6 +3,7 @@
 from ..engine.camera import Camera, camera_at, projection_matrix, view_matrix
 from ..engine.schedule import Phase
 from ..systems.prairie import Prairie
+from .looking import must_be_camera
 from .site import ASPECT
 
 
@@ -10,8 +11,10 @@ def watch(prairie: Prairie, camera: Camera | None = None, /) -> None:
     """Let a viewer stand in a prairie for a frame, without drawing it and without any GL.
 
     `camera` is where, as `looking` makes one; without it the scene's own. Afterwards patches are where they are due,
-    in the representation that they are due in. RuntimeError after `release`.
+    in the representation that they are due in. TypeError for what is no camera, RuntimeError after `release`.
     """
+    if camera is not None:
+        must_be_camera(camera)
     seen = camera_at(prairie.scene.camera, None, prairie.height_at) if camera is None else camera
     prairie.follow(view_matrix(seen), projection_matrix(seen.view, ASPECT))
 

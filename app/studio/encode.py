@@ -55,14 +55,18 @@ def picture_writer(output: str, /) -> Callable[[Picture, Mapping[str, str]], Non
     path = Path(output)
     if path.suffix.lower() != ".png":
         raise InputError(f"-o: {output}: a picture ends in .png")
-    _make_room(path)
+    make_room(path)
     return lambda picture, about: _write_bytes(png(picture, about), path)
+
+
+ENDINGS = (".webp", ".gif", ".mp4")
+"""What a film's name ends with that is one file."""
 
 
 def film_writer(output: str, size: tuple[int, int], fps: int, /) -> Callable[[Reel], None]:
     """Return what writes a film of this size to `output`, by its ending; a folder takes numbered PNG files.
 
-    What is no folder yet becomes one if it ends in /.
+    What is no folder yet becomes one if it ends in /, and what ends as a file does is one only then.
     Raises InputError where `output` cannot be written or hold such a film, MachineError where its encoder is missing.
     """
     path = Path(output)
@@ -85,13 +89,13 @@ def film_writer(output: str, size: tuple[int, int], fps: int, /) -> Callable[[Re
         write = partial(_write_mp4, path=path, size=size, ffmpeg=_ffmpeg())
     else:
         raise InputError(f"-o: {output}: a film ends in .webp, .gif or .mp4, or is a folder, which ends in /")
-    _make_room(path)
+    make_room(path)
     return write
 
 
 def is_folder(output: str, /) -> bool:
     """Return whether a film goes into a folder, as numbered pictures."""
-    return output.endswith(("/", os.sep)) or Path(output).is_dir()
+    return output.endswith(("/", os.sep)) or (Path(output).is_dir() and Path(output).suffix.lower() not in ENDINGS)
 
 
 class _Animation(Image.Image):
@@ -132,7 +136,8 @@ def make_folder(folder: Path, /) -> None:
         raise InputError(f"-o: {folder}: this folder cannot be written to") from None
 
 
-def _make_room(path: Path) -> None:
+def make_room(path: Path, /) -> None:
+    """Make the folder that a file is to be in; raises InputError, as of `-o`, where the file cannot be written."""
     make_folder(path.parent)
     if path.is_dir():
         raise InputError(f"-o: {path}: is a folder, not a file")

@@ -2,7 +2,7 @@
 
 from typing import Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from ...components.declaration import Color, Declaration, DeclarationError, Pair
 from .plant import ON_GRASS, SIZES, USUAL, Head, Plant
@@ -113,14 +113,19 @@ class GrassKind(Declaration):
     place: Place | None = None
     """Where it grows; without it, everywhere. Kinds share the ground, but flowers stand among the others."""
 
-    @model_validator(mode="after")
-    def _ordered_heights(self) -> "GrassKind":
-        low, high = self.height
-        if not 0.02 <= low <= high <= 5.0:
-            raise DeclarationError("height must be [shortest, tallest], rising, between 0.02 and 5 m", "height")
-        if self.leaf is not None and not 0.005 <= self.leaf[0] <= self.leaf[1] <= 5.0:
-            raise DeclarationError("leaf must be [shortest, longest], rising, between 0.005 and 5 m", "leaf")
-        return self
+    @field_validator("height")
+    @classmethod
+    def _ordered_heights(cls, height: list[float]) -> list[float]:
+        if not 0.02 <= height[0] <= height[1] <= 5.0:
+            raise DeclarationError("height must be [shortest, tallest], rising, between 0.02 and 5 m")
+        return height
+
+    @field_validator("leaf")
+    @classmethod
+    def _ordered_leaves(cls, leaf: list[float] | None) -> list[float] | None:
+        if leaf is not None and not 0.005 <= leaf[0] <= leaf[1] <= 5.0:
+            raise DeclarationError("leaf must be [shortest, longest], rising, between 0.005 and 5 m")
+        return leaf
 
     @model_validator(mode="before")
     @classmethod

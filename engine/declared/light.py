@@ -9,13 +9,15 @@ class Light(Declaration):
     """The one light that all three representations, the ground and the sky are drawn in."""
 
     azimuth: float = Field(default=140.0, ge=-360.0, le=360.0)
-    """Direction the sun stands in, as a camera's yaw: 0 is -z, 90 is +x [degrees]."""
+    """Direction the sun stands in without an `hour`, as a camera's yaw: 0 is -z, 90 is +x [degrees]."""
 
     elevation: float = Field(default=35.0, ge=0.0, le=90.0)
-    """Height of the sun above the horizon [degrees]."""
+    """Height of the sun above the horizon without an `hour` [degrees]."""
 
     hour: float | None = Field(default=None, ge=0.0, le=24.0)
-    """Solar time of day [h], 12 is noon: it gives azimuth and elevation, with the day and the latitude; -z is north."""
+    """Solar time of day [h], 12 is noon: it gives azimuth and elevation, with the day and the latitude; -z is north.
+
+    Where there is an hour, an own azimuth or elevation has no effect."""
 
     hours_per_minute: float = Field(default=0.0, ge=0.0, le=1440.0)
     """How fast the day goes by, from its `hour` on [h/min]: 0 stands still, 2 is a day in twelve minutes."""

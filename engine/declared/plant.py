@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator
 
 from ...components.declaration import Declaration, DeclarationError, Pair
 
@@ -64,8 +64,9 @@ class Head(Declaration):
     share: float = Field(default=1.0, gt=0.0, le=1.0)
     """Share of the plants that bear a head."""
 
-    @model_validator(mode="after")
-    def _ordered_sizes(self) -> "Head":
-        if self.size is not None and not 0.005 <= self.size[0] <= self.size[1] <= 2.0:
-            raise DeclarationError("size must be [smallest, largest], rising, between 0.005 and 2 m", "size")
-        return self
+    @field_validator("size")
+    @classmethod
+    def _ordered_sizes(cls, size: list[float] | None) -> list[float] | None:
+        if size is not None and not 0.005 <= size[0] <= size[1] <= 2.0:
+            raise DeclarationError("size must be [smallest, largest], rising, between 0.005 and 2 m")
+        return size

@@ -2,7 +2,7 @@
 
 from typing import Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from ...components.declaration import Declaration, DeclarationError, Pair
 
@@ -53,12 +53,17 @@ class TerrainSource(Declaration):
     flip: bool = False
     """Whether the file's first row is the near edge (+z) instead of the far one."""
 
+    @field_validator("size")
+    @classmethod
+    def _sides(cls, size: list[float] | None) -> list[float] | None:
+        if size is not None and not all(5.0 <= side <= 10240.0 for side in size):
+            raise DeclarationError("size must be [width, depth] in metres, between 5 and 10240")
+        return size
+
     @model_validator(mode="after")
     def _one_source(self) -> "TerrainSource":
         if self.heights is not None and self.noise is not None:
             raise DeclarationError("give either heights (a file) or noise, not both", "noise")
-        if self.size is not None and not all(5.0 <= side <= 10240.0 for side in self.size):
-            raise DeclarationError("size must be [width, depth] in metres, between 5 and 10240", "size")
         finest = max(self.size or [200.0]) / 1024
         if self.feature is not None and self.heights is None and self.feature < finest:
             raise DeclarationError(f"feature must be at least {finest:.3g} m on ground this wide", "feature")

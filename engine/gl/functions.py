@@ -1,7 +1,7 @@
 """GL's functions by their addresses, and its numbers: what moderngl does not do, without any other library."""
 
 import sys
-from ctypes import CFUNCTYPE, c_int, c_ubyte, c_void_p
+from ctypes import CFUNCTYPE, c_int, c_ssize_t, c_ubyte, c_void_p
 from functools import lru_cache
 from typing import Any
 
@@ -26,6 +26,12 @@ NUMBERS = {
     "R8": 0x8229, "RG": 0x8227, "RG8": 0x822B, "RGB": 0x1907, "RGB8": 0x8051, "RGBA": 0x1908, "RGBA8": 0x8058,
     "SAMPLES": 0x80A9, "DEPTH": 0x1801, "DEPTH_ATTACHMENT": 0x8D00,
     "TEXTURE_2D": 0x0DE1, "TEXTURE0": 0x84C0,
+    "UNPACK_SWAP_BYTES": 0x0CF0, "UNPACK_LSB_FIRST": 0x0CF1, "UNPACK_SKIP_ROWS": 0x0CF3, "UNPACK_SKIP_PIXELS": 0x0CF4,
+    "UNPACK_SKIP_IMAGES": 0x806D, "UNPACK_IMAGE_HEIGHT": 0x806E, "PACK_SWAP_BYTES": 0x0D00, "PACK_LSB_FIRST": 0x0D01,
+    "PACK_ROW_LENGTH": 0x0D02, "PACK_SKIP_ROWS": 0x0D03, "PACK_SKIP_PIXELS": 0x0D04, "PACK_SKIP_IMAGES": 0x806B,
+    "PACK_IMAGE_HEIGHT": 0x806C, "PIXEL_PACK_BUFFER": 0x88EB, "PIXEL_PACK_BUFFER_BINDING": 0x88ED,
+    "TRANSFORM_FEEDBACK_BUFFER": 0x8C8E, "TRANSFORM_FEEDBACK_BUFFER_BINDING": 0x8C8F,
+    "TRANSFORM_FEEDBACK_BUFFER_START": 0x8C84, "TRANSFORM_FEEDBACK_BUFFER_SIZE": 0x8C85,
     "TIMESTAMP": 0x8E28, "QUERY_RESULT": 0x8866, "QUERY_RESULT_AVAILABLE": 0x8867,
 }  # fmt: skip
 """What OpenGL calls its constants, without GL_."""
@@ -37,6 +43,8 @@ ASKS = {
 
 DOES = {
     "glGetIntegerv": (c_int, c_void_p), "glGetBooleani_v": (c_int, c_int, c_void_p),
+    "glGetIntegeri_v": (c_int, c_int, c_void_p), "glGetInteger64i_v": (c_int, c_int, c_void_p),
+    "glBindBufferBase": (c_int,) * 3, "glBindBufferRange": (c_int, c_int, c_int, c_ssize_t, c_ssize_t),
     "glGetFramebufferAttachmentParameteriv": (c_int, c_int, c_int, c_void_p), "glDrawBuffers": (c_int, c_void_p),
     "glEnable": (c_int,), "glDisable": (c_int,), "glEnablei": (c_int,) * 2, "glDisablei": (c_int,) * 2,
     "glPixelStorei": (c_int,) * 2, "glBindBuffer": (c_int,) * 2, "glBindFramebuffer": (c_int,) * 2,

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 import moderngl
 
 from .functions import Functions, current_functions, functions_of
-from .host import State, is_hidden, loaded_gl, pyglet_context
+from .host import State, has_windows, is_hidden, loaded_gl, pyglet_context
 
 FIRST_UNIT = 32
 """The first texture unit that is used: OpenGL 3.3 has 48, and hosts use the first few, with textures and samplers."""
@@ -15,7 +15,7 @@ _kept: list[State] = []
 
 
 def host_context(ctx: moderngl.Context | None) -> moderngl.Context:
-    """Return `ctx`, or the context that is current now; RuntimeError if the host has no window yet.
+    """Return `ctx`, or the context that is current now; RuntimeError if the host has none, or none is current.
 
     moderngl's own choice is taken, whichever of a host's windows is current: it stands for the functions of GL, and
     what it remembers is set anew for every frame.
@@ -23,6 +23,8 @@ def host_context(ctx: moderngl.Context | None) -> moderngl.Context:
     if ctx is not None:
         return ctx
     place = pyglet_context()
+    if is_hidden(place) and has_windows():
+        raise RuntimeError("no window is current: call the switch_to of one before the prairie is drawn, or pass ctx")
     if is_hidden(place):
         raise RuntimeError("there is no window yet: create the window before the prairie is first drawn, or pass ctx")
     try:

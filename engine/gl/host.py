@@ -7,7 +7,7 @@ and brought back with GL's own functions.
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from ctypes import addressof, c_int
+from ctypes import addressof, c_int, c_int64
 from typing import Any
 
 import moderngl
@@ -17,25 +17,41 @@ from .outputs import Outputs
 
 Box = tuple[int, int, int, int]
 
-SWITCHES = (
-    "BLEND", "CULL_FACE", "DEPTH_TEST", "PROGRAM_POINT_SIZE", "RASTERIZER_DISCARD", "COLOR_LOGIC_OP", "DEPTH_CLAMP",
-    "POLYGON_OFFSET_FILL", "SAMPLE_ALPHA_TO_COVERAGE", "SAMPLE_COVERAGE", "CLIP_DISTANCE0", "CLIP_DISTANCE1",
-    "TEXTURE_CUBE_MAP_SEAMLESS", "PRIMITIVE_RESTART", "SCISSOR_TEST",
+MODERNGLS = ("BLEND", "CULL_FACE", "DEPTH_TEST", "PROGRAM_POINT_SIZE", "RASTERIZER_DISCARD")
+"""The switches that moderngl knows, by the same names: a guest sets them itself."""
+
+SWITCHED_OFF = (
+    "COLOR_LOGIC_OP", "DEPTH_CLAMP", "POLYGON_OFFSET_FILL", "SAMPLE_ALPHA_TO_COVERAGE", "SAMPLE_COVERAGE",
+    "CLIP_DISTANCE0", "CLIP_DISTANCE1", "PRIMITIVE_RESTART",
 )  # fmt: skip
-"""What may be enabled and would change a picture; stencil test and sRGB are the host's own affair."""
+"""Those that moderngl leaves as they are, and that would change a guest's picture: they are off while it draws."""
 
-MODERNGLS = SWITCHES[:5]
-"""Those that moderngl knows, by the same names."""
+SWITCHES = (*MODERNGLS, *SWITCHED_OFF, "TEXTURE_CUBE_MAP_SEAMLESS", "SCISSOR_TEST")
+"""All that are brought back: moderngl sets seamless cube maps in new contexts, and a guest keeps to the scissor box.
 
-SWITCHED_OFF = SWITCHES[5:-3]
-"""Those that are off while a guest draws, and that moderngl does not know."""
+Stencil test and FRAMEBUFFER_SRGB are the host's own affair: a guest is drawn under them and never sets them.
+"""
 
 BLEND = ("BLEND_SRC_RGB", "BLEND_DST_RGB", "BLEND_SRC_ALPHA", "BLEND_DST_ALPHA")
-STORES = ("UNPACK_ALIGNMENT", "UNPACK_ROW_LENGTH", "PACK_ALIGNMENT")
-TARGETS = ("ARRAY_BUFFER", "UNIFORM_BUFFER", "PIXEL_UNPACK_BUFFER")
+
+ALIGNMENTS = ("UNPACK_ALIGNMENT", "PACK_ALIGNMENT")
+"""How rows of texels are aligned: moderngl sets it whenever it loads or reads some."""
+
+LAYOUTS = tuple(
+    f"{way}_{name}"
+    for way in ("UNPACK", "PACK")
+    for name in ("SWAP_BYTES", "LSB_FIRST", "ROW_LENGTH", "IMAGE_HEIGHT", "SKIP_ROWS", "SKIP_PIXELS", "SKIP_IMAGES")
+)
+"""How else texels lie in memory; moderngl takes for granted that each of these is 0."""
+
+FEEDBACK = "TRANSFORM_FEEDBACK_BUFFER"
+TEXELS = ("PIXEL_UNPACK_BUFFER", "PIXEL_PACK_BUFFER")
+"""Buffers that texels would be loaded from, or read into, in place of memory."""
+
+TARGETS = ("ARRAY_BUFFER", "UNIFORM_BUFFER", *TEXELS, FEEDBACK)
 
 REMEMBERED = (
-    *((name, 1) for name in (*BLEND, *STORES, *(f"{target}_BINDING" for target in TARGETS))),
+    *((name, 1) for name in (*BLEND, *ALIGNMENTS, *LAYOUTS, *(f"{target}_BINDING" for target in TARGETS))),
     ("CURRENT_PROGRAM", 1), ("VERTEX_ARRAY_BINDING", 1), ("DRAW_FRAMEBUFFER_BINDING", 1),
     ("READ_FRAMEBUFFER_BINDING", 1), ("RENDERBUFFER_BINDING", 1), ("ACTIVE_TEXTURE", 1), ("POLYGON_MODE", 2),
     ("FRONT_FACE", 1), ("CULL_FACE_MODE", 1), ("DEPTH_FUNC", 1), ("DEPTH_WRITEMASK", 1), ("COLOR_WRITEMASK", 4),
@@ -65,6 +81,12 @@ def is_hidden(context: Any | None) -> bool:
 def _hidden() -> Any | None:
     window = getattr(sys.modules.get("pyglet.gl"), "_shadow_window", None)
     return None if window is None else window.context
+
+
+def has_windows() -> bool:
+    """Return whether a window of pyglet's is open, current or not."""
+    app = sys.modules.get("pyglet.app")
+    return app is not None and len(app.windows) > 0
 
 
 def is_lost(context: Any | None) -> bool:
@@ -102,7 +124,9 @@ class Words:
         # Addresses are handed over as numbers: ctypes takes them faster than arrays.
         self.values = [(name, NUMBERS[name], addressof(values), values) for name, values in found]
         self.off = [(name, NUMBERS[name]) for name in SWITCHED_OFF]
-        self.stores = [(name, NUMBERS[name]) for name in STORES]
+        self.stores = [(name, NUMBERS[name]) for name in (*ALIGNMENTS, *LAYOUTS)]
+        self.layouts = [NUMBERS[name] for name in LAYOUTS]
+        self.texels = [NUMBERS[name] for name in TEXELS]
         self.targets = [(f"{name}_BINDING", NUMBERS[name]) for name in TARGETS]
 
 
@@ -118,6 +142,7 @@ class State:
         for _, number, address, _ in WORDS.values:
             gl.glGetIntegerv(number, address)
         self._value: dict[str, list[int]] = {name: found[:] for name, _, _, found in WORDS.values}
+        self._feedback = _feedback(gl)
         self._outputs = Outputs(gl, self.framebuffer, blends="BLEND" in self._on)
 
     @property
@@ -143,13 +168,15 @@ class State:
         return sum(getattr(moderngl, name) for name in MODERNGLS if name in self._on)
 
     def clear(self) -> None:
-        """Switch off what would change a guest's picture or uploads and what moderngl has no word for."""
+        """Set back what moderngl leaves and what would change a guest's picture, or the texels it loads and reads."""
         gl = self._gl
         for name, switch in WORDS.off:
             if name in self._on:
                 gl.glDisable(switch)
-        gl.glPixelStorei(NUMBERS["UNPACK_ROW_LENGTH"], 0)
-        gl.glBindBuffer(NUMBERS["PIXEL_UNPACK_BUFFER"], 0)
+        for store in WORDS.layouts:
+            gl.glPixelStorei(store, 0)
+        for target in WORDS.texels:
+            gl.glBindBuffer(target, 0)
 
     def narrow(self) -> None:
         """Let colour through where the host lets it: to its first output, in the colours that its mask has."""
@@ -185,7 +212,22 @@ class State:
         # One that the host deleted while it was in use is gone by now.
         gl.glUseProgram(program if program and gl.glIsProgram(program) else 0)
         gl.glBindVertexArray(*value["VERTEX_ARRAY_BINDING"])
+        buffer, start, size = self._feedback
+        # What was bound as a whole has no size. Either call binds the target itself too, so it comes before the others.
+        if size:
+            gl.glBindBufferRange(NUMBERS[FEEDBACK], 0, buffer, start, size)
+        else:
+            gl.glBindBufferBase(NUMBERS[FEEDBACK], 0, buffer)
         for name, target in WORDS.targets:
             gl.glBindBuffer(target, *value[name])
         gl.glBindRenderbuffer(NUMBERS["RENDERBUFFER"], *value["RENDERBUFFER_BINDING"])
         gl.glActiveTexture(*value["ACTIVE_TEXTURE"])
+
+
+def _feedback(gl: Functions) -> tuple[int, int, int]:
+    """Return the buffer that the first of the captured outputs goes to, and from where how far [bytes]."""
+    buffer, span = c_int(), (c_int64(), c_int64())
+    gl.glGetIntegeri_v(NUMBERS[f"{FEEDBACK}_BINDING"], 0, addressof(buffer))
+    for name, found in zip(("START", "SIZE"), span, strict=True):
+        gl.glGetInteger64i_v(NUMBERS[f"{FEEDBACK}_{name}"], 0, addressof(found))
+    return buffer.value, span[0].value, span[1].value

@@ -1,19 +1,12 @@
 """Loading the maps that a scene names, with problems at the keys that name them."""
 
-from collections.abc import Iterator
-
-import numpy as np
-
 from ..terrain.density import load_density
 from ..terrain.errors import MapError
 from ..terrain.load import load_terrain
 from ..terrain.record import Density, Terrain
-from .document import Where
-from .problem import Problem, SceneError
+from .problem import SceneError
 from .read import LoadedScene
-
-_NOWHERE = Terrain(np.zeros((2, 2), np.float32), 100.0)
-
+from .unusable import NOWHERE, bad_densities, bad_terrain, off_terrain
 
 Maps = tuple[Terrain, Density]
 """A scene's elevation and density maps."""
@@ -24,18 +17,18 @@ def load_maps(loaded: LoadedScene, /, *, before: tuple[LoadedScene, Maps] | None
 
     Raises SceneError with every map that cannot be used and every place of the camera that is off the terrain.
     """
-    scene, folder = loaded.scene, loaded.folder
+    scene, folder, document, pictures = loaded.scene, loaded.folder, loaded.document, loaded.pictures
     try:
         terrain = _kept_terrain(loaded, before) or load_terrain(scene.terrain, folder)
     except MapError as error:
-        where = ("terrain", "noise" if scene.terrain.heights is None else "heights")
-        problem = loaded.document.problem(where, str(error))
-        raise SceneError([problem, *_bad_densities(loaded, _NOWHERE)]) from error
-    outside = list(_outside(loaded, terrain))
+        problem = bad_terrain(document, scene.terrain, error)
+        raise SceneError([problem, *bad_densities(document, scene.grass, NOWHERE, folder, pictures)]) from error
+    outside = list(off_terrain(document, scene.camera, terrain))
     try:
-        density = _kept_density(loaded, terrain, before) or load_density(scene.grass, terrain, folder, loaded.pictures)
+        density = _kept_density(loaded, terrain, before) or load_density(scene.grass, terrain, folder, pictures)
     except MapError as error:
-        raise SceneError([*outside, *_bad_densities(loaded, terrain)]) from error
+        problems = bad_densities(document, scene.grass, terrain, folder, pictures)
+        raise SceneError([*outside, *problems]) from error
     if outside:
         raise SceneError(outside)
     return terrain, density
@@ -68,22 +61,3 @@ def _same_files(loaded: LoadedScene, old: LoadedScene, names: list[str | None]) 
 def _same_file(loaded: LoadedScene, old: LoadedScene, name: str) -> bool:
     same_picture = loaded.pictures.get(name) is old.pictures.get(name)
     return same_picture and (name in loaded.pictures or loaded.files.get(name) == old.files.get(name))
-
-
-def _bad_densities(loaded: LoadedScene, terrain: Terrain) -> Iterator[Problem]:
-    for name, kind in loaded.scene.grass.items():
-        try:
-            load_density({name: kind}, terrain, loaded.folder, loaded.pictures)
-        except MapError as error:
-            yield loaded.document.problem(("grass", name, "place", "map"), str(error))
-
-
-def _outside(loaded: LoadedScene, terrain: Terrain) -> Iterator[Problem]:
-    camera = loaded.scene.camera
-    places: list[tuple[Where, list[float]]] = [(("camera", "position"), camera.position)]
-    places += [(("camera", "path", i, "position"), stop.position) for i, stop in enumerate(camera.path)]
-    width, depth = terrain.size
-    for where, (x, z) in places:
-        if abs(x) > width / 2 or abs(z) > depth / 2:
-            extent = f"x from {-width / 2:g} to {width / 2:g} and z from {-depth / 2:g} to {depth / 2:g} m"
-            yield loaded.document.problem(where, f"position is off the terrain, which spans {extent}")

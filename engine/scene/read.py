@@ -17,7 +17,8 @@ from ..declared.scene import Scene
 from ..plugins import wind_kinds
 from .compose import MOST_BYTES, decode, read_document
 from .document import Document, Where
-from .problem import Problem, SceneError
+from .problem import MOST_PROBLEMS, Problem, SceneError
+from .unusable import unusable
 from .validate import validate
 
 Stamp = tuple[int, int]
@@ -64,10 +65,21 @@ def bundled_scenes() -> dict[str, Path]:
 def read_scene(scene: str | Path, /) -> LoadedScene:
     """Return the scene in a file, or the bundled scene of that name.
 
-    The files that the scene names must exist; `load_maps` reads them. Raises SceneError with all problems.
+    The files that the scene names must exist; `load_maps` reads them. Raises SceneError with all problems, and then
+    with those of its maps too, as far as they can be known; TypeError for what is no path and no name.
     """
+    if not isinstance(scene, str | os.PathLike):
+        raise TypeError(f"a scene is the path of a file or the name of a bundled one, unlike {shortened(scene)}")
     path = _path(scene)
-    return load_document(read_document(decode(_bytes(path), file=str(path)), file=str(path)), path)
+    document = read_document(decode(_bytes(path), file=str(path)), file=str(path))
+    try:
+        return load_document(document, path)
+    except SceneError as error:
+        told = {(problem.line, problem.column) for problem in error.problems}
+        more = [problem for problem in unusable(document, path.parent) if (problem.line, problem.column) not in told]
+        if not more or len(error.problems) > MOST_PROBLEMS:  # the last counts the rest
+            raise
+        raise SceneError([*error.problems, *more]) from error
 
 
 def load_document(
@@ -104,11 +116,14 @@ def _path(scene: str | Path) -> Path:
     bundled = bundled_scenes()
     if is_name and text in bundled:
         return bundled[text]
+    if not text:
+        raise _no_file("<scene>", "this is an empty text, and no scene file's name")
     path = Path(scene)
-    if S_ISREG(_mode(path)):
+    mode = _mode(path)
+    if S_ISREG(mode):
         return path
-    if S_ISDIR(_mode(path)):
-        raise _no_file(text, "this is a folder, not a scene file")
+    if mode:
+        raise _no_file(text, f"this is {_irregular(mode)}, not a scene file")
     if is_name:
         near = get_close_matches(text, bundled, n=1)
         guess = f"; did you mean '{near[0]}'?" if near else ";"
@@ -133,9 +148,9 @@ def _missing_files(document: Document, folder: Path, given: Container[str]) -> I
         if name in given:
             continue
         mode = _mode(folder / name)
-        if S_ISDIR(mode):
-            yield document.problem(where, f"'{name}' is a folder, not a map file")
-        elif not S_ISREG(mode):
+        if mode and not S_ISREG(mode):
+            yield document.problem(where, f"'{name}' is {_irregular(mode)}, not a map file")
+        elif not mode:
             yield document.problem(where, f"no file '{name}' relative to the scene{_guess(folder / name)}")
 
 
@@ -171,6 +186,11 @@ def _mode(path: Path) -> int:
         return path.stat().st_mode
     except (OSError, ValueError):
         return 0
+
+
+def _irregular(mode: int) -> str:
+    """Return what a sentence calls something of this mode that is no regular file."""
+    return "a folder" if S_ISDIR(mode) else "a device, a pipe or a socket"
 
 
 def _guess(path: Path) -> str:

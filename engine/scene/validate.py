@@ -27,7 +27,7 @@ def validate(
         message = f"{FIRST}, then its keys; this is {found(document.root.data)}"
         raise SceneError([*document.problems, document.problem((), message)])
     problems = [*document.problems, *also, *_of_version(document)]
-    values = _upgraded(document)
+    values = upgraded(document)
     reading = Reading(wind=find) if folder is None else Reading(wind=find, folder=folder)
     try:
         scene = Scene.model_validate(values | {"tallgrass": FORMAT}, context=reading)
@@ -48,7 +48,8 @@ def _of_version(document: Document) -> Iterator[Problem]:
         yield document.problem(("tallgrass",), FIRST, at_key=True)
 
 
-def _upgraded(document: Document) -> dict[str, Any]:
+def upgraded(document: Document, /) -> dict[str, Any]:
+    """Return the values of a file as the newest format has them. Raises SceneError for a format that there is not."""
     values: dict[str, Any] = document.root.data
     version = values.get("tallgrass")
     try:

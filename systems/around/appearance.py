@@ -52,14 +52,19 @@ class Appearance:
     growth: Floats
     """Height of the strips, as a part of their full height, shape (rows,)."""
 
+    @classmethod
+    def of_carpet(cls, representations: int, count: int, /) -> "Appearance":
+        """Return the appearance of `count` rows that have the last of so many representations alone, the carpet."""
+        cover = np.zeros((representations, count), np.float32)
+        cover[-1] = 1.0
+        return cls(cover, *np.zeros((3, count), np.float32))
+
     def among(self, rows: NDArray[np.int64], count: int, /) -> "Appearance":
         """Return this as the appearance of some rows among `count` of them; the others have carpet alone."""
-        last, parts = len(self.cover) - 1, (*self.cover, self.morph, self.handed, self.growth)
-        spread = np.zeros((len(parts), count), np.float32)
-        spread[last] = 1.0
-        for row, values in zip(spread, parts, strict=True):
-            row[rows] = values
-        return Appearance(spread[: last + 1], *spread[last + 1 :])
+        spread = Appearance.of_carpet(len(self.cover), count)
+        spread.cover[:, rows] = self.cover
+        spread.morph[rows], spread.handed[rows], spread.growth[rows] = self.morph, self.handed, self.growth
+        return spread
 
 
 def smooth(progress: Floats, /) -> Floats:

@@ -47,11 +47,15 @@ class Mown:
         return int(self.changed.max())
 
     def cut(self, footprint: Footprint, height: float, pose: Pose) -> None:
-        """Let nothing stand higher than `height` [m] under a footprint; raises what `stroke` raises."""
+        """Let nothing stand higher than `height` [m] under a footprint.
+
+        Raises TypeError for what is no footprint, height or pose, ValueError for a negative height and for a pose that
+        is not finite.
+        """
         self._stroke("cut", footprint, height, pose)
 
     def grow(self, footprint: Footprint, height: float, pose: Pose) -> None:
-        """Let what was cut under a footprint stand up to `height` [m] again; raises what `stroke` raises."""
+        """Let what was cut under a footprint stand up to `height` [m] again; raises the errors of `cut`."""
         self._stroke("grown", footprint, height, pose)
 
     def tops(self, cells: NDArray[np.int32], *, patch: float) -> Floats:

@@ -3,6 +3,7 @@
 from functools import lru_cache
 from pathlib import Path
 from typing import ClassVar, Literal, Self
+from warnings import catch_warnings
 
 import numpy as np
 from numpy.typing import NDArray
@@ -155,7 +156,8 @@ def _pictured(name: str, folder: Path, width: float) -> Outline:
 @lru_cache(maxsize=64)
 def _picture(path: str, changed: int, width: float) -> Outline:
     del changed
-    with Image.open(path) as opened:
+    # Of a damaged file Pillow warns before it raises, and what it raises becomes a problem of the scene.
+    with catch_warnings(action="ignore", category=UserWarning), Image.open(path) as opened:
         opened.thumbnail((FINE, FINE))
         bands = opened.convert("LA")
     grey, alpha = np.asarray(bands, np.float32).transpose(2, 0, 1)

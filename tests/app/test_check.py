@@ -47,6 +47,7 @@ def test_a_name_that_cannot_be_printed_stops_nothing(tmp_path: Path, capsys: pyt
         ("{folder}/medow.yaml", "no scene file '{folder}/medow.yaml', did you mean 'meadow.yaml'?"),
         ("{folder}", "this is a folder, not a scene file"),
         ("hollow", "this is a folder, not a scene file"),
+        ("/dev/null", "this is a device, a pipe or a socket, not a scene file"),
         ("{folder}/latin.yaml", "byte 0xe9 is not UTF-8; save the file as UTF-8"),
         ("{folder}/" + "a" * 300 + ".yaml", "no scene file"),
     ],
@@ -63,3 +64,8 @@ def test_what_is_no_scene_file_is_one_line(
     (line,) = capsys.readouterr().out.splitlines()
     told = told.format(folder=tmp_path, bundled=", ".join(bundled_scenes()))
     assert line.startswith(f"{scene}:1:1: {told}")
+
+
+def test_an_empty_name_is_told_as_such(capsys: pytest.CaptureFixture[str]) -> None:
+    assert check([""]) == 2
+    assert capsys.readouterr().out == "<scene>:1:1: this is an empty text, and no scene file's name\n"

@@ -108,6 +108,23 @@ def test_a_broken_plugin_is_noted_and_the_others_are_found() -> None:
     assert "ModuleNotFoundError" in found["wind dust"].text
 
 
+def test_no_newer_package_is_named_for_a_plugin_that_lacks_another_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    info = tmp_path / "tallgrass_dry-0.1.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: tallgrass-dry\nVersion: 0.1\n")
+    (info / "entry_points.txt").write_text(f"[{GROUP}]\nlacking = tallgrass_lacking:A\nold = tallgrass_old:B\n")
+    (tmp_path / "tallgrass_lacking.py").write_text("import no_such_module_anywhere\n")
+    (tmp_path / "tallgrass_old.py").write_text("")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    entries = [entry for entry in entry_points(group=GROUP) if entry.dist and entry.dist.name == "tallgrass-dry"]
+    lacking, old = winds(WindKinds(entries), entries)
+    assert lacking.text.endswith("ModuleNotFoundError: No module named 'no_such_module_anywhere'")
+    assert lacking.cure is None
+    assert (old.cure or "").endswith("--upgrade tallgrass-dry")
+
+
 def test_a_kind_whose_module_ends_python_is_one_note(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "tallgrass_leaving.py").write_text("import sys; sys.exit(7)")
     monkeypatch.syspath_prepend(str(tmp_path))

@@ -123,12 +123,14 @@ def test_a_film_that_breaks_off_leaves_the_older_one(tmp_path: Path) -> None:
         ("a.webp", (16384, 2), 24, r"--size: 16384x2: a \.webp has at most 16383"),
         ("file/a.gif", SIZE, 24, r"-o: .*file: is a file, not a folder"),
         ("file/", SIZE, 24, r"-o: .*file: is a file, not a folder"),
+        ("folder.webp", SIZE, 24, r"-o: .*folder\.webp: is a folder, not a file"),
     ],
 )
 def test_what_a_film_cannot_be_is_told_before_it_is_drawn(
     tmp_path: Path, name: str, size: tuple[int, int], fps: int, says: str
 ) -> None:
     (tmp_path / "file").write_text("in the way")
+    (tmp_path / "folder.webp").mkdir()
     with pytest.raises(InputError, match=says):
         film_writer(f"{tmp_path}/{name}", size, fps)
 

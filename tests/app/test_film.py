@@ -41,6 +41,14 @@ def pixels(path: Path) -> NDArray[np.uint8]:
         return np.asarray(image)
 
 
+def test_a_folder_where_the_manifest_goes_is_told_before_anything_is_drawn(tallgrass: Tallgrass, scene: Path) -> None:
+    (scene.parent / "film.webp.json").mkdir()
+    done = tallgrass("film", scene, "-o", scene.parent / "film.webp")
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert "film.webp.json: is a folder, not a file" in done.stderr
+    assert not (scene.parent / "film.webp").exists()
+
+
 def test_n5_a_film_lasts_as_long_as_the_path_and_replays_bit_for_bit(tallgrass: Tallgrass, scene: Path) -> None:
     for folder in ("first", "second"):
         done = tallgrass("film", scene, "-o", f"{folder}/", "--fps", 4, "--size", "96x54")

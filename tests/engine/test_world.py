@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import esper
+import numpy as np
 import pytest
 
 from tallgrass.components.resident import Resident
@@ -403,6 +404,13 @@ def test_d6_a_step_that_is_no_time_is_refused_in_a_sentence(world: World) -> Non
     assert world.advance is None
     with pytest.raises(TypeError, match=r"tallgrass needs dt \[s\] first, not 'a game'"):
         esper.process("a game")
+
+
+@pytest.mark.parametrize("dt", [1, 0.5, np.float32(0.5), np.int64(1)])
+def test_d6_a_step_may_be_any_number_and_comes_to_prairies_as_a_float(steps: list[float], dt: float) -> None:
+    install()
+    esper.process(dt)
+    assert [(type(step), step) for step in steps] == [(float, dt)]
 
 
 def test_d6_the_processor_leaves_with_the_worlds_last_prairie(world: World, steps: list[float]) -> None:

@@ -35,10 +35,16 @@ NUMBERS = {
     "alpha equation": 0x883D, "depth func": 0x0B74, "depth mask": 0x0B72, "front face": 0x0B46, "culled": 0x0B45,
     "polygons": 0x0B40, "viewport": 0x0BA2, "scissor box": 0x0C10, "program": 0x8B8D, "array": 0x85B5,
     "buffer": 0x8894, "uniform buffer": 0x8A28, "unpack buffer": 0x88EF, "pack buffer": 0x88ED, "drawn": 0x8CA6,
-    "read": 0x8CAA, "renderbuffer": 0x8CA7, "unit": 0x84E0, "unpack alignment": 0x0CF5, "unpack rows": 0x0CF2,
-    "unpack skip": 0x0CF3, "pack alignment": 0x0D05, "pack rows": 0x0D02, "restart index": 0x8F9E, "logic": 0x0BF0,
+    "read": 0x8CAA, "renderbuffer": 0x8CA7, "unit": 0x84E0, "captured": 0x8C8F,
+    "restart index": 0x8F9E, "logic": 0x0BF0,
     "read buffer": 0x0C02, "stencil func": 0x0B92, "stencil mask": 0x0B98, "clear depth": 0x0B73,
 }  # fmt: skip
+STORES = {
+    0x0CF5: 2, 0x0CF2: 999, 0x0CF0: 1, 0x0CF1: 1, 0x0CF3: 2, 0x0CF4: 3, 0x806D: 1, 0x806E: 7, 0x0D05: 8, 0x0D02: 999,
+    0x0D00: 1, 0x0D04: 3,
+}  # fmt: skip
+"""How texels lie in memory, as nobody else lays them."""
+
 ON_UNIT = {"texture": 0x8069, "texture array": 0x8C1D, "sampler": 0x8919}
 
 
@@ -65,9 +71,11 @@ class Gl:
         """Return all of the state that a prairie could spoil."""
         told: Values = {name: (self.glIsEnabled(number),) for name, number in SWITCHES.items()}
         told |= {name: self.number(number) for name, number in NUMBERS.items()}
+        told |= {f"texels {number:#x}": self.number(number) for number in STORES}
         for output in range(8):
             told[f"attachment of {output}"] = self.number(0x8825 + output)
             told[f"mask of {output}"] = self.number(0x0C23, output)
+            told[f"captured of {output}"] = self.number(0x8C8F, output) if output < 4 else ()
             told[f"blend of {output}"] = (self.glIsEnabledi(0x0BE2, output),)
         for unit in range(16):
             self.glActiveTexture(0x84C0 + unit)
@@ -91,8 +99,11 @@ class Gl:
         self.glScissor(5, 4, 60, 40)
         self.glPrimitiveRestartIndex(77)
         self.glActiveTexture(0x84C0 + 5)
-        for store, value in ((0x0CF5, 2), (0x0CF2, 999), (0x0D05, 8)):
+        for store, value in STORES.items():
             self.glPixelStorei(store, value)
+        name = (c_int * 1)()
+        self.glGenBuffers(1, name)
+        self.glBindBufferBase(0x8C8E, 0, name[0])
         self.glColorMask(1, 0, 1, 1)
 
     def outputs(self) -> None:
@@ -176,7 +187,8 @@ class Game:
         self.ctx.enable_only(moderngl.NOTHING)
         for number in (0x8037, 0x809E, 0x3000, 0x864F, 0x0C11, 0x0BF2):
             self.gl.glDisable(number)
-        self.gl.glPixelStorei(0x0CF2, 0)
+        for store in STORES:
+            self.gl.glPixelStorei(store, 4 if store in (0x0CF5, 0x0D05) else 0)
         self.ctx.front_face = "ccw"
         self.gl.glColorMask(1, 1, 1, 1)
         target.viewport = (0, 0, *SIZE)

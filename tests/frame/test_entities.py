@@ -3,6 +3,7 @@
 import logging
 from collections.abc import Callable, Iterator
 from itertools import pairwise
+from pathlib import Path
 
 import esper
 import moderngl
@@ -173,6 +174,23 @@ def test_d3_the_system_lod_may_be_a_games_own(prairie: Prairie, easel: Stage) ->
     kinds = {(patch.cell[0] % 2, lod.representation) for _, (patch, lod) in esper.get_components(Patch, Lod)}
     assert kinds >= {(0, "strips"), (0, "carpet"), (1, "carpet")}
     assert (1, "strips") not in kinds
+
+
+@pytest.mark.parametrize("name", ["tile", "lod", "see", "plant"])
+def test_d3_any_system_may_be_left_out_before_the_first_frame_and_after_another_reading(
+    ctx: moderngl.Context, easel: Stage, tmp_path: Path, name: str
+) -> None:
+    path = tmp_path / "scene.yaml"
+    path.write_text(BREEZE, "utf-8")
+    with private_world():
+        prairie = Prairie.load(path, ctx=ctx)
+        prairie.systems.replace(name, lambda: None)
+        assert np.ptp(easel.shot(prairie, ABOVE)) > 50.0, "there is no land"
+        path.write_text(BREEZE.replace("blades: 300", "blades: 200"), "utf-8")
+        prairie.reload()
+        easel.shot(prairie, ABOVE)
+        assert prairie.systems.failures == {}
+        prairie.release()
 
 
 def test_d6_a_system_between_wind_and_drawing_is_seen(prairie: Prairie, easel: Stage) -> None:

@@ -181,6 +181,24 @@ def test_d6_released_a_prairie_leaves_nothing_behind_in_gl(ctx: moderngl.Context
     assert memory[-1] - memory[3] < 25.0, "one prairie of these takes more than 4 MB"
 
 
+def test_a_frame_ends_where_a_system_releases_the_prairie(stage: Stage, load: Load, caplog: Any) -> None:
+    prairie = load()
+    ran: list[str] = []
+
+    def end() -> None:
+        ran.append("end")
+        prairie.release()
+
+    stage.shot(prairie)
+    prairie.systems.add("see", "end", end)
+    prairie.systems.add("draw", "later", lambda: ran.append("later"), before="gather")
+    empty = np.unique(stage.shot(prairie).reshape(-1, 3), axis=0)
+    assert (len(empty), ran) == (1, ["end"])
+    assert caplog.records == []
+    with pytest.raises(RuntimeError, match=r"^this prairie has been released: load it again to draw it$"):
+        stage.shot(prairie)
+
+
 def test_d2_released_a_prairie_leaves_no_entity_behind(stage: Stage, load: Load) -> None:
     kept = load()
     theirs = esper.create_entity("a game's own")

@@ -190,6 +190,19 @@ def test_an_unknown_option_is_refused_in_a_sentence(load: Load, option: dict[str
         load(**option)
 
 
+def test_time_stays_exact_whatever_numbers_it_moves_on_by(prairie: Prairie) -> None:
+    for _ in range(4):
+        prairie.advance(np.float32(0.5))  # type: ignore[arg-type]
+    for _ in range(1000):
+        prairie.advance(0.001)
+    assert prairie.time == 3.0
+
+
+def test_what_is_no_scene_is_refused_in_a_sentence() -> None:
+    with pytest.raises(TypeError, match=r"^a scene is the path of a file or the name of a bundled one, unlike 5$"):
+        Prairie.load(5)  # type: ignore[arg-type]
+
+
 def test_an_unknown_scene_is_refused_in_a_sentence(load: Load) -> None:
     with pytest.raises(SceneError, match="no scene file 'meadwo'; did you mean 'meadow'"):
         load("meadwo")
@@ -205,6 +218,21 @@ BAD: list[tuple[object, str]] = [
     (list(range(15)), r"must have 4 x 4 finite numbers, not \(15,\)$"),
     (np.zeros((4, 4)), "has no inverse$"),
 ]
+
+
+@pytest.mark.parametrize(
+    ("view", "projection", "sentence"),
+    [
+        (GOOD * 1e30, GOOD * 1e30, "^the view and the projection matrix come to more together than single precision"),
+        (GOOD * 1e-25, GOOD * 1e-25, "^the view and the projection matrix come to more together than single precision"),
+        (GOOD + np.eye(4, k=3) * 1e30, GOOD, r"^the view matrix has its eye beyond 1e\+09 m$"),
+    ],
+)
+def test_matrices_that_lead_out_of_the_world_are_refused_in_a_sentence(
+    prairie: Prairie, view: NDArray[np.float64], projection: NDArray[np.float64], sentence: str
+) -> None:
+    with pytest.raises(ValueError, match=sentence):
+        prairie.draw(view, projection)
 
 
 @pytest.mark.parametrize(("matrix", "sentence"), BAD)

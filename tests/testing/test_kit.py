@@ -160,9 +160,27 @@ def test_receivers_can_be_asked_for_near_a_place() -> None:
         np.zeros((3, 2), np.float32),
         np.array(["a", "b", "a"]),
         np.array(["blades"] * 3),
+        ("a", "b"),
+        ("blades", "strips"),
     )
     assert heard.near(0.0, 0.0, within=5.0).place.tolist() == [[0, 0], [3, 4]]
     assert heard.near(0.0, -6.0, within=0.5).only(kind="b").place.tolist() == []
+
+
+def test_receivers_of_an_unknown_name_are_refused_in_a_sentence(prairie: Prairie) -> None:
+    watch(prairie)
+    heard = receivers_of(prairie)
+    with pytest.raises(ValueError, match=r"^unknown grass 'zzz'; there are tall, short$"):
+        heard.only(kind="zzz")
+    with pytest.raises(ValueError, match=r"^unknown representation 'carpet'; there are blades, strips$"):
+        heard.only(kind="tall", representation="carpet")
+
+
+def test_what_is_no_camera_and_no_size_is_refused_in_a_sentence(prairie: Prairie) -> None:
+    with pytest.raises(TypeError, match=r"^a camera is made by looking\(x, y, z\), unlike 5$"):
+        watch(prairie, 5)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match=r"^a stage has 1 by 1 pixels at least, not 0 by 90$"):
+        Stage(None, (0, 90))  # type: ignore[arg-type]
 
 
 def test_one_system_runs_and_no_other(prairie: Prairie) -> None:

@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Callable, Iterator
+from ctypes import addressof, c_int, c_int64
 from types import SimpleNamespace
 
 import moderngl
@@ -9,7 +10,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from tallgrass.engine.gl.functions import NUMBERS, functions_of
 from tallgrass.engine.gl.guest import FIRST_UNIT, guest, host_context
+from tallgrass.engine.gl.host import LAYOUTS
 
 SIZE = (40, 30)
 VERTEX = """#version 330
@@ -237,15 +240,93 @@ def test_d6_textures_and_samplers_of_the_host_stay_where_they_are_and_off_a_gues
         thing.release()
 
 
+@pytest.mark.parametrize("store", LAYOUTS)
+def test_d6_however_the_host_lays_texels_out_a_guest_loads_and_reads_its_own_as_they_are(
+    ctx: moderngl.Context, host: moderngl.Framebuffer, store: str
+) -> None:
+    texels = np.random.default_rng(1).integers(0, 2**16, (3, 4, 5), np.uint16)
+    number, gl, found = NUMBERS[store], functions_of(ctx), c_int()
+    value = 1 if store.endswith(("SWAP_BYTES", "LSB_FIRST")) else 2
+    read = [bytearray(4 * texels.nbytes) for _ in range(2)]
+    gl.glPixelStorei(number, value)
+    try:
+        with guest(ctx) as target:
+            assert target.glo == host.glo
+            image = ctx.texture((5, 12), 1, texels.tobytes(), dtype="u2", alignment=1)
+            layers = ctx.texture_array((5, 4, 3), 1, texels.tobytes(), dtype="u2", alignment=1)
+            image.read_into(read[0], alignment=1)
+            layers.read_into(read[1], alignment=1)
+        gl.glGetIntegerv(number, addressof(found))
+    finally:
+        gl.glPixelStorei(number, 0)
+    assert read == [texels.tobytes() + bytes(3 * texels.nbytes)] * 2
+    assert found.value == value
+    for thing in (image, layers):
+        thing.release()
+
+
+def test_d6_the_hosts_primitive_restart_takes_no_vertex_from_a_guest(
+    ctx: moderngl.Context, host: moderngl.Framebuffer
+) -> None:
+    program = ctx.program(vertex_shader=VERTEX, fragment_shader=FRAGMENT)
+    indices = ctx.buffer(np.arange(3, dtype=np.uint32))
+    array, gl = ctx.vertex_array(program, [], index_buffer=indices), functions_of(ctx)
+    program["color"] = (1.0, 1.0, 1.0, 1.0)
+    gl.glEnable(NUMBERS["PRIMITIVE_RESTART"])
+    gl.glPrimitiveRestartIndex(2)
+    try:
+        with guest(ctx):
+            array.render(moderngl.TRIANGLES)
+        assert gl.glIsEnabled(NUMBERS["PRIMITIVE_RESTART"])
+    finally:
+        gl.glPrimitiveRestartIndex(-1)
+    assert (picture(host) == 255).all()
+    for thing in (array, indices, program):
+        thing.release()
+
+
+@pytest.mark.parametrize("span", [(0, 0), (32, 64)], ids=["whole", "part"])
+def test_d6_where_the_host_captures_outputs_to_is_bound_again_after_a_guest_has_captured_its_own(
+    ctx: moderngl.Context, host: moderngl.Framebuffer, span: tuple[int, int]
+) -> None:
+    source = "#version 330\nout float seen; void main() { seen = float(gl_VertexID); }"
+    program, gl = ctx.program(vertex_shader=source, varyings=("seen",)), functions_of(ctx)
+    array, goal, bound, other = (ctx.vertex_array(program, []), *(ctx.buffer(reserve=256) for _ in range(3)))
+    target, place = NUMBERS["TRANSFORM_FEEDBACK_BUFFER"], NUMBERS["TRANSFORM_FEEDBACK_BUFFER_BINDING"]
+    if span[1]:
+        gl.glBindBufferRange(target, 0, bound.glo, *span)
+    else:
+        gl.glBindBufferBase(target, 0, bound.glo)
+    gl.glBindBuffer(target, other.glo)
+    with guest(ctx) as drawn:
+        assert drawn.glo == host.glo
+        array.transform(goal, moderngl.POINTS, vertices=3)
+    found, wide = (c_int * 2)(), (c_int64 * 2)()
+    gl.glGetIntegeri_v(place, 0, addressof(found))
+    gl.glGetIntegerv(place, addressof(found) + 4)
+    gl.glGetInteger64i_v(NUMBERS["TRANSFORM_FEEDBACK_BUFFER_START"], 0, addressof(wide))
+    gl.glGetInteger64i_v(NUMBERS["TRANSFORM_FEEDBACK_BUFFER_SIZE"], 0, addressof(wide) + 8)
+    assert found[:] == [bound.glo, other.glo]
+    assert tuple(wide) == span
+    assert goal.read(12) == np.arange(3, dtype=np.float32).tobytes()
+    gl.glBindBufferBase(target, 0, 0)
+    for thing in (array, program, goal, bound, other):
+        thing.release()
+
+
 def test_a_context_that_is_given_is_taken(ctx: moderngl.Context) -> None:
     assert host_context(ctx) is ctx
 
 
-def test_drawing_before_there_is_a_window_is_refused_in_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_drawing_without_a_window_that_is_current_is_refused_in_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
     hidden = SimpleNamespace(canvas=object())
     loaded = SimpleNamespace(current_context=hidden, _shadow_window=SimpleNamespace(context=hidden))
     monkeypatch.setitem(sys.modules, "pyglet.gl", loaded)
+    monkeypatch.setitem(sys.modules, "pyglet.app", SimpleNamespace(windows=set()))
     with pytest.raises(RuntimeError, match="create the window before the prairie is first drawn"):
+        host_context(None)
+    monkeypatch.setitem(sys.modules, "pyglet.app", SimpleNamespace(windows={"open"}))
+    with pytest.raises(RuntimeError, match=r"^no window is current: call the switch_to of one before the prairie"):
         host_context(None)
 
 

@@ -77,6 +77,33 @@ def test_files_that_are_missing_are_told_together_with_all_else(tmp_path: Path) 
     assert [(problem.line, problem.column) for problem in error.value.problems] == [(2, 1), (4, 25), (5, 21)]
 
 
+def test_maps_and_places_that_cannot_be_used_are_told_together_with_all_else(tmp_path: Path) -> None:
+    for name in ("a.png", "b.png"):
+        (tmp_path / name).write_text("no picture")
+    path = tmp_path / "a.yaml"
+    path.write_text(
+        "tallgrass: 2\ngrass:\n  lawn: { place: { map: a.png } }\n  reeds: { place: { map: a.png }, lean: 7 }\n"
+        "wind: [{ kind: gust, start: 5, stop: 3 }]\n"
+        "camera: { position: [5000, 0], path: [{ at: 0, position: [0, 101] }] }\n"
+    )
+    with pytest.raises(SceneError) as error:
+        read_scene(path)
+    places = [(problem.line, problem.column) for problem in error.value.problems]
+    assert places == [(3, 25), (4, 41), (5, 38), (6, 21), (6, 58)]
+    path.write_text("tallgrass: 2\nsed: 1\ngrass: { lawn: {} }\nterrain: { heights: b.png }\n")
+    with pytest.raises(SceneError) as error:
+        read_scene(path)
+    assert [(problem.line, problem.column) for problem in error.value.problems] == [(2, 1), (4, 21)]
+
+
+def test_numbers_out_of_order_are_told_together_with_all_else() -> None:
+    told = refusal(
+        "tallgrass: 2\nterrain: { size: [-5, 0], sed: 1 }\n"
+        "grass: { a: { height: [2, 1], leaf: [2, 1], lean: 7, head: { size: [2, 1], open: 3 } } }\n"
+    )
+    assert [each.split()[0] for each in told] == ["2:18", "2:27", "3:23", "3:37", "3:51", "3:68", "3:82"]
+
+
 def test_a_file_named_with_impossible_characters_is_missing(tmp_path: Path) -> None:
     path = tmp_path / "a.yaml"
     path.write_text('tallgrass: 2\ngrass: { lawn: { place: { map: "a\\0\\n\\e" } } }\n')

@@ -52,6 +52,10 @@ def test_the_sun_rises_in_the_east_and_a_midsummer_noon_is_as_high_as_it_should_
     assert sun_at(Light(hour=12.0, day=172, latitude=48.0))[1] == pytest.approx(90.0 - 48.0 + 23.44, abs=0.1)
 
 
+def test_an_hour_comes_before_an_own_azimuth_and_elevation() -> None:
+    assert sun_at(Light(hour=9.0, azimuth=3.0, elevation=80.0)) == sun_at(Light(hour=9.0))
+
+
 def test_the_lower_the_sun_the_less_of_it_comes_through_and_the_redder() -> None:
     through = np.array([transmitted(elevation, 2.6) for elevation in (60.0, 30.0, 10.0, 3.0, 0.5)])
     assert (np.diff(through, axis=0) < 0.0).all()

@@ -205,6 +205,15 @@ def test_w9_what_is_no_picture_is_a_problem_at_its_place(tmp_path: Path) -> None
     assert refusal(GOOD + "    outline: { image: shape.png }\n", tmp_path) == "5:23 'shape.png' is no picture"
 
 
+def test_w9_of_a_damaged_picture_nothing_is_said_but_its_problem(
+    tmp_path: Path, recwarn: pytest.WarningsRecorder
+) -> None:
+    Image.fromarray(np.zeros((64, 64), np.uint8)).save(tmp_path / "whole.tif")
+    (tmp_path / "shape.tif").write_bytes((tmp_path / "whole.tif").read_bytes()[:60])
+    assert refusal(GOOD + "    outline: { image: shape.tif }\n", tmp_path) == "5:23 'shape.tif' is no picture"
+    assert recwarn.list == []
+
+
 @pytest.mark.parametrize("grey", [0, 100, 255])
 def test_w9_a_picture_without_an_outline_is_a_problem_at_its_place(tmp_path: Path, grey: int) -> None:
     Image.fromarray(np.full((20, 20), grey, np.uint8)).save(tmp_path / "shape.png")

@@ -1,0 +1,87 @@
+"""What of the maps that a scene names, and of its camera's places, cannot be used."""
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import ValidationError
+
+from ...components.declaration import Declaration
+from ..declared.camera import CameraSource
+from ..declared.grass import GrassKind
+from ..declared.terrain import TerrainSource
+from ..terrain.density import load_density
+from ..terrain.errors import MapError
+from ..terrain.load import load_terrain
+from ..terrain.record import Terrain
+from .document import Document, Where
+from .problem import Problem, SceneError
+from .validate import upgraded
+
+Pictures = Mapping[str, NDArray[np.uint8]]
+Part = TypeVar("Part", bound=Declaration)
+
+NOWHERE = Terrain(np.zeros((2, 2), np.float32), 100.0)
+"""What density maps are tried on where there is no terrain."""
+
+
+def bad_terrain(document: Document, source: TerrainSource, error: MapError, /) -> Problem:
+    """Return the problem of an elevation map, or of a noise, that cannot be used."""
+    return document.problem(("terrain", "noise" if source.heights is None else "heights"), str(error))
+
+
+def bad_densities(
+    document: Document, kinds: Mapping[str, GrassKind], terrain: Terrain, folder: Path, pictures: Pictures, /
+) -> Iterator[Problem]:
+    """Give the problem of every density map that cannot be used."""
+    for name, kind in kinds.items():
+        try:
+            load_density({name: kind}, terrain, folder, pictures)
+        except MapError as error:
+            yield document.problem(("grass", name, "place", "map"), str(error))
+
+
+def off_terrain(document: Document, camera: CameraSource, terrain: Terrain, /) -> Iterator[Problem]:
+    """Give the problem of every place of the camera that is off the terrain."""
+    places: list[tuple[Where, list[float]]] = [(("camera", "position"), camera.position)]
+    places += [(("camera", "path", i, "position"), stop.position) for i, stop in enumerate(camera.path)]
+    width, depth = terrain.size
+    for where, (x, z) in places:
+        if abs(x) > width / 2 or abs(z) > depth / 2:
+            extent = f"x from {-width / 2:g} to {width / 2:g} and z from {-depth / 2:g} to {depth / 2:g} m"
+            yield document.problem(where, f"position is off the terrain, which spans {extent}")
+
+
+def unusable(document: Document, folder: Path, /) -> Iterator[Problem]:
+    """Give these problems of a scene that is refused already, as far as its parts are right by themselves.
+
+    So all that is wrong is told in one go, whatever else is wrong with the file.
+    """
+    if not isinstance(document.root.data, dict):
+        return
+    try:
+        values = upgraded(document)
+    except SceneError:
+        return
+    source, camera = _part(TerrainSource, values.get("terrain", {})), _part(CameraSource, values.get("camera", {}))
+    declared = values.get("grass")
+    parts = {name: _part(GrassKind, kind) for name, kind in declared.items()} if isinstance(declared, dict) else {}
+    terrain = NOWHERE
+    if source is not None:
+        try:
+            terrain = load_terrain(source, folder)
+            if camera is not None:
+                yield from off_terrain(document, camera, terrain)
+        except MapError as error:
+            yield bad_terrain(document, source, error)
+    yield from bad_densities(document, {name: kind for name, kind in parts.items() if kind}, terrain, folder, {})
+
+
+def _part(model: type[Part], values: Any) -> Part | None:
+    """Return what a part of the scene declares, or None where that is wrong itself."""
+    try:
+        return model.model_validate(values)
+    except ValidationError:
+        return None
