@@ -28,7 +28,16 @@ def must_be_viewer(thing: object, /) -> None:
 
 def must_be_step(thing: object, /) -> None:
     """Raise TypeError for what is no number, ValueError for one that time cannot move on by."""
+    _must_be_seconds(thing, "a prairie advances", "by")
+
+
+def must_be_time(thing: object, /) -> None:
+    """Raise TypeError for what is no number, ValueError for one that is no instant of a scene's."""
+    _must_be_seconds(thing, "a wind is asked for", "at")
+
+
+def _must_be_seconds(thing: object, what: str, at: str) -> None:
     if not isinstance(thing, float | int | np.floating | np.integer):
-        raise TypeError(f"a prairie advances by a number of seconds, not by {shortened(thing)}")
+        raise TypeError(f"{what} {at} a number of seconds, not {at} {shortened(thing)}")
     if not (np.isfinite(thing) and thing >= 0.0):
-        raise ValueError(f"a prairie advances by 0 s or more, not by {thing}")
+        raise ValueError(f"{what} {at} 0 s or more, not {at} {thing}")
