@@ -12,7 +12,8 @@ def as_floats(thing: object, due: str, /) -> NDArray[np.float32]:
     Raises ValueError where it is nothing of the kind, or not finite. `due` begins the sentence: what it has to be.
     """
     try:
-        array = np.asarray(thing, np.float32)
+        with np.errstate(over="ignore"):  # what is too large for single precision is refused as infinity
+            array = np.asarray(thing, np.float32)
     except (TypeError, ValueError):
         raise ValueError(f"{due}, not {shortened(thing)}") from None
     if thing is None or not np.isfinite(array).all():

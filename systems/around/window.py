@@ -9,13 +9,20 @@ Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
 
 
+FARTHEST = 1e6
+"""How far out a place may be told from others [m]: beyond, the numbers of cells and squares would overflow."""
+
+
 def as_places(xz: ArrayLike, /) -> Floats:
-    """Return ground positions (x, z) [m] as an array of shape (n, 2); raises ValueError for anything else."""
+    """Return ground positions (x, z) [m] as an array of shape (n, 2); raises ValueError for anything else.
+
+    An empty list is no places. What is farther out than `FARTHEST` counts as being there.
+    """
     due = "ground positions are finite (x, z) pairs, one in each row"
     places = as_floats(xz, due)
-    if places.shape[-1:] != (2,):
+    if places.shape[-1:] != (2,) and places.shape != (0,):
         raise ValueError(f"{due}, not an array of shape {places.shape}")
-    return np.ascontiguousarray(places.reshape(-1, 2))
+    return np.ascontiguousarray(places.reshape(-1, 2).clip(-FARTHEST, FARTHEST))
 
 
 def cell_of(place: NDArray[np.float32], /, *, patch: float) -> Ints:

@@ -245,6 +245,20 @@ def test_places_that_are_no_pairs_are_refused_in_a_sentence(prairie: Prairie, pl
             ask(places)  # type: ignore[arg-type]
 
 
+def test_no_places_have_no_heights_no_winds_and_no_patches(prairie: Prairie) -> None:
+    asked = (prairie.height_at, prairie.wind_at, prairie.bent_at, prairie.patch_at)
+    assert [ask([]).shape for ask in asked] == [ask(np.zeros((0, 2))).shape for ask in asked]
+    assert [ask([]).shape for ask in asked] == [(0,), (0, 2), (0, 2), (0,)]
+
+
+@pytest.mark.parametrize("far", [1e9, 1e30, -3e38])
+def test_a_place_far_beyond_any_prairie_is_answered_without_a_warning(prairie: Prairie, far: float) -> None:
+    for ask in (prairie.height_at, prairie.wind_at, prairie.bent_at, prairie.patch_at):
+        assert np.isfinite(ask([(far, 0.0), (0.0, far)])).all()
+    with pytest.raises(ValueError, match="not NaN or infinity"):
+        prairie.height_at([(1e39, 0.0)])
+
+
 @pytest.mark.parametrize(
     ("wind", "said"),
     [
