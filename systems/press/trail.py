@@ -20,7 +20,10 @@ REACH, STRENGTH, HEADING = 7, 8, slice(9, 11)
 """How far from its middle grass bends aside [m]; the message there; where it went, or looked if it only stood."""
 
 SERIAL = 11
-"""The number of the way that it is a part of, as they began."""
+"""The number of the way that it is a part of, as they began; those of a scene's own pressers are below 0."""
+
+SCENES = -(2**40)
+"""The number of the first way of a scene's own pressers: so many never begin that it comes to 0."""
 
 NUMBERS = 12
 """What a stretch is made of."""
@@ -69,7 +72,7 @@ class Trail:
     """Stretches that are over, in the order in which they ended."""
 
     begun: int = 0
-    """How many ways have begun."""
+    """The number of the way that begins next."""
 
     _way: Doubles = field(default_factory=lambda: np.zeros(0))
     """How far each has come on its stretch [m]."""
