@@ -189,7 +189,7 @@ class WindPrimitive(Declaration):
         return TwinValues()
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
 class WindSource:
     """The component of a wind entity; the primitive is a field, so that any plugin's type is found."""
 

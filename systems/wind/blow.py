@@ -109,8 +109,8 @@ def hear(
     `to` [rad], whichever winds act.
     """
     left_out = -1
-    while left_out < len(quarantine.reasons):  # what a wind sent before it failed is no message
-        left_out = len(quarantine.reasons)
+    while left_out < quarantine.count:  # what a wind sent before it failed is no message
+        left_out = quarantine.count
         sums = _heard(winds, heard, quarantine, time, mixing)
     return _bounded(_fluttered(sums, heard, time, seed, to))
 

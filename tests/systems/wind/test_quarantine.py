@@ -196,15 +196,16 @@ def test_what_a_wind_is_given_is_no_ones_to_change(mixing: Mixing) -> None:
 @pytest.mark.parametrize("mixing", ["priority", "weight"])
 def test_what_a_wind_sent_before_it_failed_is_taken_back(mixing: Mixing) -> None:
     alone = told([BREEZE], Quarantine(), mixing=mixing)
-    quarantine = Quarantine()
-    message = told([BREEZE, WindSource(Uneven(), "wind[1] uneven")], quarantine, mixing=mixing)
+    uneven, quarantine = WindSource(Uneven(), "wind[1] uneven"), Quarantine()
+    message = told([BREEZE, uneven], quarantine, mixing=mixing)
     assert list(quarantine.reasons.values()) == ["wind[1] uneven: action returned numbers that are not finite"]
     np.testing.assert_array_equal(message, alone)
 
 
 def test_a_kind_is_told_of_once_however_many_of_it_fail(caplog: pytest.LogCaptureFixture) -> None:
     quarantine = Quarantine()
-    told([WindSource(Failing(part="nan"), f"wind[{number}] failing") for number in range(5)], quarantine)
+    failing = [WindSource(Failing(part="nan"), f"wind[{number}] failing") for number in range(5)]
+    told(failing, quarantine)
     assert len(quarantine.reasons) == 5
     assert len(caplog.messages) == 1
 
