@@ -5,6 +5,11 @@ from reprlib import repr as shortened
 import numpy as np
 from numpy.typing import NDArray
 
+from ..components.pose import Pose
+
+FARTHEST = 1e6
+"""How far out a place may be told from others [m]: beyond, the numbers of cells and squares would overflow."""
+
 
 def as_floats(thing: object, due: str, /) -> NDArray[np.float32]:
     """Return what is handed in as numbers, of any shape.
@@ -19,6 +24,12 @@ def as_floats(thing: object, due: str, /) -> NDArray[np.float32]:
     if thing is None or not np.isfinite(array).all():
         raise ValueError(f"{due}, not {'None' if thing is None else 'NaN or infinity'}")
     return array
+
+
+def is_somewhere(pose: Pose, /) -> bool:
+    """Return whether a pose that a game has made is a place on the ground and a heading."""
+    numbers = (pose.x, pose.z, pose.yaw)
+    return all(isinstance(n, float | int | np.floating | np.integer) and -FARTHEST <= n <= FARTHEST for n in numbers)
 
 
 def must_be_viewer(thing: object, /) -> None:

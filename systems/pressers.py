@@ -69,7 +69,8 @@ class Pressers:
     def note(self, time: float) -> Trodden:
         """Take note of where all pressers are at `time` [s], and return what has been trodden."""
         self._go(time)
-        found = self._world.both(Presser, Pose)
+        every = self._world.both(Presser, Pose)
+        found = [(who, presser, pose) for who, presser, pose in every if self._world.stands(who, pose, "the presser")]
         if not found and not self._scenes.who and not self._games.who and not self.trodden:
             return self.trodden
         scenes = [row for row in found if row[0] in self._declared]

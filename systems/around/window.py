@@ -3,14 +3,10 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...engine.handed import as_floats
+from ...engine.handed import FARTHEST, as_floats
 
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
-
-
-FARTHEST = 1e6
-"""How far out a place may be told from others [m]: beyond, the numbers of cells and squares would overflow."""
 
 
 def as_places(xz: ArrayLike, /) -> Floats:
