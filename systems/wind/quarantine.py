@@ -143,6 +143,8 @@ class Quarantine:
         }
         for what, numbers in told.items():
             self._must_count(source, what, numbers)
+        if extent is not None and (extent.left > extent.right or extent.ahead > extent.behind):
+            raise self.leave_out(source, f"extent returned {extent}, which ends before it begins")
 
     def leave_out(self, source: WindSource, why: str, /) -> QuarantinedError:
         """Leave a wind out from now on, say so once for its kind, and return what to raise."""

@@ -70,6 +70,7 @@ class Failing(WindPrimitive):
 
 
 Answer = Callable[[Any, Any], Any]
+REVERSED = Extent(2.5, -2.5, 0.0, 1.0)
 
 ANSWERS: dict[str, Answer] = {
     "fine": lambda right, _: right,
@@ -93,6 +94,7 @@ ANSWERS: dict[str, Answer] = {
     "lost": lambda *_: Pose(float("nan"), 0.0, 0.0),
     "vague": lambda *_: Pose(None, 0.0, 0.0),  # type: ignore[arg-type]
     "everywhere": lambda *_: Extent(-np.inf, np.inf, -np.inf, np.inf),
+    "reversed": lambda *_: REVERSED,
     "worded": lambda *_: Extent("left", 1.0, 1.0, 1.0),  # type: ignore[arg-type]
     "writes": lambda right, place: [right, place.fill(0.0)][0],
 }
@@ -127,6 +129,7 @@ FAILURES = [
     ("pose", "vague", "pose returned NoneType, not float"),
     ("extent", "numbers", "extent returned list, not Extent"),
     ("extent", "worded", "extent returned str, not float"),
+    ("extent", "reversed", f"extent returned {REVERSED}, which ends before it begins"),
     ("mask", "writes", "mask raised ValueError: assignment destination is read-only"),
 ]
 
