@@ -164,6 +164,8 @@ class World:
 
     def _must_be_current(self) -> None:
         if esper.current_world != self.name:
+            if self.name not in esper.list_worlds():
+                raise RuntimeError(f"esper world '{self.name}', where this prairie lived, was deleted: load it again")
             raise RuntimeError(
                 f"this prairie lives in esper world '{self.name}', but '{esper.current_world}' is current"
             )

@@ -111,11 +111,12 @@ class Pressers:
 
     def _go(self, time: float) -> None:
         """Put those that the scene declares where they are at `time` [s]; what a game has deleted stays away."""
-        if not self._declared:
+        if not self._scene.pressers:
             return
         if self._generation != self._world.check():
-            self._generation, self._declared = self._world.generation, {}  # their numbers may be others' by now
+            self._declared = {}  # their numbers may be others' by now
             self._declare(self._scene.pressers)
+            self._generation = self._world.generation
         for entity, declared in self._declared.items():
             if self._world.find(entity, Presser) is not None:
                 self._world.add(entity, _on_way(declared, time))

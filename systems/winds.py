@@ -157,9 +157,10 @@ class Winds:
         """Let the winds of the scene be entities again after the game has cleared its world; say so once."""
         if self._generation == self._world.check():
             return
-        self._generation, self._declared = self._world.generation, []  # their numbers may be others' by now
+        self._declared = []  # their numbers may be others' by now
+        self.change(self._scene, self._ground, self._growths)  # raises where the world is gone, or another is current
+        self._generation = self._world.generation
         log.warning("the esper world was cleared: the scene's winds are entities again, those that were added are gone")
-        self.change(self._scene, self._ground, self._growths)
 
 
 def matched(

@@ -1,4 +1,4 @@
-"""What a game gives its entities: one wind for many, poses that are nowhere, and what is no wind at all (D2)."""
+"""What a game gives its entities: one wind for many, poses that are nowhere, what is no wind; and their world (D2)."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -11,7 +11,7 @@ from tallgrass import Gust, Pose, Presser, WindSource
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.wind.blast import Blast
-from tallgrass.testing import little_prairie, watch
+from tallgrass.testing import LITTLE, little_prairie, watch
 
 NOWHERE: list[tuple[Any, ...]] = [("a", 0), (None, 0.0), (np.nan, 0.0), (0.0, np.inf), (0.0, 0.0, np.nan)]
 
@@ -64,3 +64,24 @@ def test_d2_a_pose_that_is_nowhere_leaves_out_its_entity_until_it_has_another_an
 def test_d2_a_source_of_no_wind_is_refused_where_it_is_made(what: tuple[Any, Any], said: str) -> None:
     with pytest.raises(TypeError, match=f"^{said}$"):
         WindSource(*what)
+
+
+def test_d2_a_prairie_says_that_its_world_was_deleted_and_nothing_else(caplog: pytest.LogCaptureFixture) -> None:
+    host, scene = esper.current_world, f"{LITTLE}wind: [{{ kind: breeze }}]\npressers: [{{}}]\n"
+    esper.switch_world("short-lived")
+    try:
+        with little_prairie(scene=scene) as prairie:
+            watch(prairie)
+            esper.switch_world(host)
+            esper.delete_world("short-lived")
+            for ask in (prairie.wind_at, prairie.bent_at, lambda _: watch(prairie)):
+                with pytest.raises(RuntimeError, match="^esper world 'short-lived', .* was deleted: load it again$"):
+                    ask([(0.0, 0.0)])
+            assert not caplog.messages
+            esper.switch_world("short-lived")
+            assert prairie.bent_at([(0.0, 0.1)]).any(), "a world of the same name is one that was cleared"
+    finally:
+        esper.switch_world(host)
+        if "short-lived" in esper.list_worlds():
+            esper.delete_world("short-lived")
+    assert len(caplog.messages) == 1
