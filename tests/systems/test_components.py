@@ -75,7 +75,7 @@ def test_d2_a_prairie_says_that_its_world_was_deleted_and_nothing_else(caplog: p
             esper.switch_world(host)
             esper.delete_world("short-lived")
             for ask in (prairie.wind_at, prairie.bent_at, lambda _: watch(prairie)):
-                with pytest.raises(RuntimeError, match="^esper world 'short-lived', .* was deleted: load it again$"):
+                with pytest.raises(RuntimeError, match=r"^esper world 'short-lived', .* was deleted: load it again$"):
                     ask([(0.0, 0.0)])
             assert not caplog.messages
             esper.switch_world("short-lived")

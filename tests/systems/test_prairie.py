@@ -181,7 +181,9 @@ def test_time_goes_on_by_numbers_alone(prairie: Prairie, dt: Any) -> None:
 @pytest.mark.parametrize("time", ["1", [0.0, 1.0], np.zeros(2), 1j, -1.0, float("nan"), float("inf")])
 def test_a_bad_time_is_refused_in_a_sentence_and_no_wind_is_blamed_for_it(prairie: Prairie, time: Any) -> None:
     felt = prairie.wind_at(PLACES, 2.0)
-    with pytest.raises((TypeError, ValueError), match=r"^a wind is asked for at (a number of seconds|0 s or more), not"):
+    with pytest.raises(
+        (TypeError, ValueError), match=r"^a wind is asked for at (a number of seconds|0 s or more), not"
+    ):
         prairie.wind_at(PLACES, time)
     assert not prairie.winds.quarantine.reasons
     np.testing.assert_array_equal(prairie.wind_at(PLACES, 2.0), felt)
