@@ -32,6 +32,10 @@ RATE = 30
 """How often in a second those that a scene declares are asked where they are; between that they go straight."""
 
 
+EVERY = 60.0
+"""How often the ways of those that a scene declares begin new stretches [s]: what is forgotten is not gone again."""
+
+
 class Pressers:
     """The entities of one world that have a `Presser` and a `Pose`, and what they have trodden.
 
@@ -43,7 +47,7 @@ class Pressers:
         self._world = world
         self._generation = world.generation
         self._declared: dict[int, PresserOnPath] = {}
-        self._scenes, self._games = Walk(Trail(begun=SCENES)), Walk(Trail())
+        self._scenes, self._games = Walk(Trail(begun=SCENES, every=EVERY)), Walk(Trail())
         """Those that the scene declares, and all others."""
         self._memory = Memory([self._scenes.trail, self._games.trail])
         self._is_anew = True
@@ -106,7 +110,7 @@ class Pressers:
         for entity in left:
             if self._world.has(entity):
                 self._world.delete(entity)
-        self._scenes, self._is_anew = Walk(Trail(begun=SCENES)), True
+        self._scenes, self._is_anew = Walk(Trail(begun=SCENES, every=EVERY)), True
         self._memory.replace(self._scenes.trail)
 
     def _go(self, time: float) -> None:
@@ -129,7 +133,8 @@ class Pressers:
         """
         walk, is_anew = self._scenes, self._is_anew
         if is_anew:
-            walk.come(who, self._where(who, 0.0), 0.0)
+            start = _start([self._declared[entity] for entity, _ in who], floor(time) - self._memory.lasts)
+            walk.come(who, self._where(who, start), start)
             self._is_anew = False
         stay = staying(walk.who, who)
         for number in _instants([self._declared[entity].path for entity, _ in stay], walk.time, time):
@@ -147,6 +152,22 @@ def _who(found: Sequence[tuple[int, Presser, Pose]]) -> list[Who]:
 
 def _rows(poses: Sequence[Pose]) -> Doubles:
     return np.array([(pose.x, pose.z, pose.yaw) for pose in poses], np.float64).reshape(-1, 3)
+
+
+def _start(pressers: Sequence[PresserOnPath], latest: float) -> float:
+    """Return when pressers begin their walk [s] for all to be the same that they tread after `latest` [s].
+
+    That is a multiple of `EVERY` at which each of them is on its way, or has not set out yet.
+    """
+
+    def is_same(presser: PresserOnPath, then: float) -> bool:
+        if not presser.path or then <= presser.path[0].at:
+            return True
+        here, there = presser.pose(time=then), presser.pose(time=then + 1.0 / RATE)
+        return (here.x, here.z) != (there.x, there.z)
+
+    starts = (EVERY * number for number in range(floor(latest / EVERY), 0, -1))
+    return next((then for then in starts if all(is_same(presser, then) for presser in pressers)), 0.0)
 
 
 def _instants(paths: Sequence[Sequence[Waypoint]], since: float, until: float) -> range:

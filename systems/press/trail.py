@@ -1,6 +1,7 @@
 """Trails: the way of every disc that presses, cut into stretches of the same length whatever the steps in time."""
 
 from dataclasses import dataclass, field
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,6 +75,9 @@ class Trail:
     begun: int = 0
     """The number of the way that begins next."""
 
+    every: float = inf
+    """At multiples of this each way begins a new stretch [s]: from there on nothing depends on what was before."""
+
     _way: Doubles = field(default_factory=lambda: np.zeros(0))
     """How far each has come on its stretch [m]."""
 
@@ -100,6 +104,7 @@ class Trail:
         far, took = np.hypot(gone[:, 0], gone[:, 1]), time - on[:, LEFT]
         jumped, moved = far > LEAP + FASTEST * took, far > 0.0
         stood = moved & ~jumped & (on[:, LEFT] - on[:, CAME] > STAYS)
+        stood |= moved & ~jumped & (on[:, LEFT] % self.every == 0.0) & (on[:, BEGUN] < on[:, LEFT])
         self._close(jumped | stood)
         on[stood, FIRST], on[stood, BEGUN], self._way[stood] = on[stood, LAST], on[stood, LEFT], 0.0
         for number in np.flatnonzero(moved & ~jumped & (self._way + far >= _length(on[:, REACH]))):

@@ -303,3 +303,34 @@ def test_n5_instants_at_which_nobody_of_a_scene_moves_are_left_out_and_change_no
             np.testing.assert_array_equal(ours.marks, theirs.marks)
             np.testing.assert_array_equal(ours.listed, theirs.listed)
     assert len(found[3].settled.marks) > 10
+
+
+@pytest.mark.parametrize("still", ["", "  - { position: [5, 5] }\n  - { path: [{ at: 190, position: [9, 9] }] }\n"])
+def test_n5_what_a_scene_has_forgotten_is_not_gone_again_and_changes_nothing(
+    world: World, monkeypatch: pytest.MonkeyPatch, still: str
+) -> None:
+    del world
+    stops = ((0, -9, 0), (60, 9, 4), (160, -3, -9), (200, 9, 0))
+    ways = ", ".join(f"{{ at: {at}, position: [{east}, {south}] }}" for at, east, south in stops)
+    scene = f"{LITTLE}pressers:\n  - {{ radius: 0.4, path: [{ways}] }}\n  - {{ length: 1, path: [{ways}] }}\n{still}"
+    start, begun, found, bent = pressers_module._start, list[float](), [], []  # noqa: SLF001 - as above
+    x, z = np.random.default_rng(5).uniform(-10.0, 10.0, (2, 4000))
+
+    def late(*given: object) -> float:
+        begun.append(start(*given))  # type: ignore[arg-type]
+        return begun[-1]
+
+    for way in (late, lambda *_: 0.0):
+        monkeypatch.setattr(pressers_module, "_start", way)
+        with little_prairie(scene=scene) as prairie:
+            prairie.advance(181.4)
+            bent.append(prairie.bent_at(np.stack([x, z], axis=1)))
+            found.append(prairie.pressers.trodden)
+    assert begun == [120.0]
+    assert np.linalg.norm(bent[0], axis=1).max() > 0.9
+    np.testing.assert_array_equal(bent[0], bent[1])
+    for ours, theirs in ((found[0].settled, found[1].settled), (found[0].fresh, found[1].fresh)):
+        np.testing.assert_array_equal(ours.listed, theirs.listed)
+        if not still:  # who stands has begun to before
+            np.testing.assert_array_equal(ours.marks, theirs.marks)
+    assert len(found[0].settled.marks) > 50
