@@ -3,6 +3,7 @@
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
+from reprlib import repr as shortened
 from typing import ClassVar, Literal, Self
 
 import numpy as np
@@ -189,7 +190,7 @@ class WindPrimitive(Declaration):
         return TwinValues()
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
 class WindSource:
     """The component of a wind entity; the primitive is a field, so that any plugin's type is found."""
 
@@ -198,3 +199,22 @@ class WindSource:
 
     name: str
     """How messages call it: its kind and its place in the scene."""
+
+    def __post_init__(self) -> None:
+        """Raise TypeError for what is no wind and what is no name."""
+        must_be_wind(self.primitive, "a WindSource carries")
+        must_be_name(self.name)
+
+
+def must_be_wind(thing: object, due: str, /) -> None:
+    """Raise TypeError for what is no wind; `due` begins the sentence: who takes one."""
+    if not isinstance(thing, WindPrimitive):
+        said = "its name " if isinstance(thing, str) else "the class " if isinstance(thing, type) else ""
+        what = thing.__name__ if isinstance(thing, type) else shortened(thing)
+        raise TypeError(f"{due} a wind such as Gust(), not {said}{what}")
+
+
+def must_be_name(thing: object, /) -> None:
+    """Raise TypeError for what is no name of a wind."""
+    if not isinstance(thing, str):
+        raise TypeError(f"a wind is called by a text such as 'north', not by {shortened(thing)}")

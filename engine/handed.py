@@ -5,8 +5,13 @@ from reprlib import repr as shortened
 import numpy as np
 from numpy.typing import NDArray
 
+from ..components.pose import Pose
+
 NUMBERS = (float, int, np.floating, np.integer)
 """What is taken for a number where one is handed in."""
+
+FARTHEST = 1e6
+"""How far out a place may be told from others [m]: beyond, the numbers of cells and squares would overflow."""
 
 
 def as_floats(thing: object, due: str, /) -> NDArray[np.float32]:
@@ -15,12 +20,19 @@ def as_floats(thing: object, due: str, /) -> NDArray[np.float32]:
     Raises ValueError where it is nothing of the kind, or not finite. `due` begins the sentence: what it has to be.
     """
     try:
-        array = np.asarray(thing, np.float32)
+        with np.errstate(over="ignore"):  # what is too large for single precision is refused as infinity
+            array = np.asarray(thing, np.float32)
     except (TypeError, ValueError):
         raise ValueError(f"{due}, not {shortened(thing)}") from None
     if thing is None or not np.isfinite(array).all():
         raise ValueError(f"{due}, not {'None' if thing is None else 'NaN or infinity'}")
     return array
+
+
+def is_somewhere(pose: Pose, /) -> bool:
+    """Return whether a pose that a game has made is a place on the ground and a heading."""
+    numbers = (pose.x, pose.z, pose.yaw)
+    return all(isinstance(n, float | int | np.floating | np.integer) and -FARTHEST <= n <= FARTHEST for n in numbers)
 
 
 def must_be_viewer(thing: object, /) -> None:
@@ -31,7 +43,16 @@ def must_be_viewer(thing: object, /) -> None:
 
 def must_be_step(thing: object, /) -> None:
     """Raise TypeError for what is no number, ValueError for one that time cannot move on by."""
+    _must_be_seconds(thing, "a prairie advances", "by")
+
+
+def must_be_time(thing: object, /) -> None:
+    """Raise TypeError for what is no number, ValueError for one that is no instant of a scene's."""
+    _must_be_seconds(thing, "a wind is asked for", "at")
+
+
+def _must_be_seconds(thing: object, what: str, at: str) -> None:
     if not isinstance(thing, NUMBERS):
-        raise TypeError(f"a prairie advances by a number of seconds, not by {shortened(thing)}")
+        raise TypeError(f"{what} {at} a number of seconds, not {at} {shortened(thing)}")
     if not (np.isfinite(thing) and thing >= 0.0):
-        raise ValueError(f"a prairie advances by 0 s or more, not by {thing}")
+        raise ValueError(f"{what} {at} 0 s or more, not {at} {thing}")

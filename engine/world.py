@@ -1,6 +1,7 @@
 """The entities of one prairie, inside whatever esper world is current: the only module that imports esper."""
 
 import gc
+import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
@@ -10,14 +11,17 @@ from weakref import WeakSet, ref
 
 import esper
 
+from ..components.pose import Pose
 from ..components.resident import Resident
-from .handed import NUMBERS
+from .handed import NUMBERS, is_somewhere
 
 Component = TypeVar("Component")
 Other = TypeVar("Other")
 
 PRIORITY = 100
 """Priority of the processor that `install` adds. A game's own of lower numbers, 0 without more, run after it."""
+
+log = logging.getLogger("tallgrass")
 
 _worlds: WeakSet["World"] = WeakSet()
 _private = count()
@@ -40,6 +44,8 @@ class World:
         self._lost: list[int] = []
         self._home: ref[Resident] | None = None
         self._mark = object()
+        self._told: set[int] = set()
+        """Entities of which it was said that their pose is nowhere."""
         _worlds.add(self)
 
     def create(self, *components: object) -> int:
@@ -117,6 +123,16 @@ class World:
         found = [(row[0], *row[1]) for row in esper.get_components(kind, other) if self._owner(row[0]) in mine]
         return sorted(found, key=lambda row: row[0])
 
+    def stands(self, entity: int, pose: Pose, what: str) -> bool:
+        """Return whether an entity's pose is somewhere; where it is not, say once `what` is left out meanwhile."""
+        if is_somewhere(pose):
+            return True
+        if entity not in self._told:
+            self._told.add(entity)
+            due = "x, z [m] and yaw [rad] are finite numbers"
+            log.warning("%s of entity %d is left out while it has %s: %s", what, entity, pose, due)
+        return False
+
     def _owner(self, entity: int) -> object | None:
         mark = esper.try_component(entity, Resident)
         return None if mark is None else mark.owner
@@ -148,6 +164,8 @@ class World:
 
     def _must_be_current(self) -> None:
         if esper.current_world != self.name:
+            if self.name not in esper.list_worlds():
+                raise RuntimeError(f"esper world '{self.name}', where this prairie lived, was deleted: load it again")
             raise RuntimeError(
                 f"this prairie lives in esper world '{self.name}', but '{esper.current_world}' is current"
             )

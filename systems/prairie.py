@@ -18,7 +18,7 @@ from ..engine.camera import View, view_of
 from ..engine.declared.light import Light
 from ..engine.declared.quality import PRESETS
 from ..engine.declared.scene import LodName, Scene
-from ..engine.handed import must_be_step, must_be_viewer
+from ..engine.handed import must_be_step, must_be_time, must_be_viewer
 from ..engine.plugged import bring_systems
 from ..engine.scene import LoadedScene, must_be_read, read_scene
 from ..engine.schedule import Phase, Schedule
@@ -245,12 +245,12 @@ class Prairie:
         """Return what grass at ground positions (x, z) [m], shape (n, 2), feels at `time` [s], or now.
 
         Messages of shape (n, 2): vectors along the bending direction whose norm is the posture index, in [0, 1], of
-        grass of stiffness 1.
-        They are those of grass of a `kind`, or else of the kind that grows most densely at each place. Raises
-        ValueError for an unknown kind.
+        grass of stiffness 1. They are those of grass of a `kind`, or else of the kind that grows most densely at each
+        place. Raises ValueError for an unknown kind and a time that is negative or not finite, TypeError for no time.
         """
-        number = self._number_of(kind)
-        return self.winds.at(as_places(xz), time=self.time if time is None else time, kind=number)
+        number, then = self._number_of(kind), self.time if time is None else time
+        must_be_time(then)
+        return self.winds.at(as_places(xz), time=float(then), kind=number)
 
     def bent_at(self, xz: ArrayLike, *, kind: str | None = None) -> Floats:
         """Return what grass at ground positions (x, z) [m], shape (n, 2), feels now of winds and of pressers.

@@ -11,13 +11,14 @@ from ..components.pose import Pose
 from ..components.presser import Presser
 from ..engine.declared.presser import PresserOnPath
 from ..engine.declared.scene import Scene
+from ..engine.declared.way import Waypoint
 from ..engine.world import World
 from .around.outlook import Outlook
 from .grow.record import Growth
-from .press.footprint import discs_of
 from .press.lie import laid_over, pressed, recoveries, touches
 from .press.marks import UNTRODDEN, Memory, Trodden
-from .press.trail import FASTEST, LEAP, Discs, Trail
+from .press.trail import SCENES, Trail
+from .press.walk import Walk, Who, staying
 from .wind.blow import ReceiverArrays
 
 Floats = NDArray[np.float32]
@@ -31,54 +32,56 @@ RATE = 30
 """How often in a second those that a scene declares are asked where they are; between that they go straight."""
 
 
+EVERY = 60.0
+"""How often the ways of those that a scene declares begin new stretches [s]: what is forgotten is not gone again."""
+
+
 class Pressers:
     """The entities of one world that have a `Presser` and a `Pose`, and what they have trodden.
 
     Those that a scene declares are entities too, and go their ways from the beginning of time: what they have trodden
-    does not depend on when pictures are drawn.
+    does not depend on when pictures are drawn, nor on when the scene was read.
     """
 
     def __init__(self, world: World, scene: Scene, growths: Sequence[Growth]) -> None:
         self._world = world
-        self._who: list[tuple[int, Presser]] = []
-        self._discs, self._owner = np.zeros((0, 3)), np.zeros(0, np.intp)
-        self._strength: Doubles = np.zeros(0)
-        self._pose: Doubles = np.zeros((0, 3))
+        self._generation = world.generation
         self._declared: dict[int, PresserOnPath] = {}
-        self._generation, self._noted = world.generation, 0.0
-        self._trail = Trail()
-        self._memory = Memory(self._trail, 0.0)
+        self._scenes, self._games = Walk(Trail(begun=SCENES, every=EVERY)), Walk(Trail())
+        """Those that the scene declares, and all others."""
+        self._memory = Memory([self._scenes.trail, self._games.trail])
+        self._is_anew = True
+        """Whether those that the scene declares have their whole way still to go."""
+        self._scene = scene
         self.trodden = UNTRODDEN
         """What has been trodden so far."""
         self.change(scene, growths)
-        if self._declared:
-            self.note(0.0)
 
     def change(self, scene: Scene, growths: Sequence[Growth]) -> None:
-        """Take over the kinds of grass of a scene, at first or when it was read again, and those who walk in it."""
+        """Take over the kinds of grass of a scene, at first or when it was read again, and those who walk in it.
+
+        If others walk in it or grass remembers for longer, all that it declares have trodden is trodden anew.
+        """
         self.recovery: Floats = recoveries(scene)
         swings = [growth.response.step * len(growth.response.fall) for growth in growths]
-        self._memory.lasts = REMEMBERED * max(float(self.recovery.max()), *swings)
+        lasts, before = REMEMBERED * max(float(self.recovery.max()), *swings), self._scene
         self._scene = scene
-        self._declare(scene.pressers)
+        if before.pressers != scene.pressers or lasts != self._memory.lasts:
+            self._memory.lasts = lasts
+            self._declare(scene.pressers)
 
     def note(self, time: float) -> Trodden:
         """Take note of where all pressers are at `time` [s], and return what has been trodden."""
         self._go(time)
-        found = self._world.both(Presser, Pose)
-        if not found and not self._who and not self.trodden:
+        every = self._world.both(Presser, Pose)
+        found = [(who, presser, pose) for who, presser, pose in every if self._world.stands(who, pose, "the presser")]
+        if not found and not self._scenes.who and not self._games.who and not self.trodden:
             return self.trodden
-        who = [(entity, presser) for entity, presser, _ in found]
-        pose = np.array([(pose.x, pose.z, pose.yaw) for _, _, pose in found], np.float64).reshape(-1, 3)
-        if who != self._who:
-            self._take(who, pose, time)
-        elif time == self.trodden.time and np.array_equal(pose, self._pose):
-            return self.trodden  # asked again in the same frame
-        elif self._declared:
-            self._tread_between(pose, time)
-        self._pose, self._noted = pose, time
-        self._trail.tread(self._stood(pose), time)
-        self.trodden = self._memory.at(time)
+        scenes = [row for row in found if row[0] in self._declared]
+        games = [row for row in found if row[0] not in self._declared]
+        is_new = self._games.come(_who(games), _rows([pose for _, _, pose in games]), time)
+        if self._come(_who(scenes), _rows([pose for _, _, pose in scenes]), time) or is_new:
+            self.trodden = self._memory.at(time)
         return self.trodden
 
     def over(self, message: Floats, receivers: ReceiverArrays, /) -> Floats:
@@ -95,71 +98,86 @@ class Pressers:
         return message
 
     def _declare(self, pressers: Sequence[PresserOnPath]) -> None:
-        """Let those be entities that a scene declares; one that has not changed goes on."""
+        """Let those be entities that a scene declares, and begin their walk anew; one that has not changed stays."""
         left = dict(self._declared)
         self._declared = {}
         for declared in pressers:
             entity = next((entity for entity, other in left.items() if other == declared), None)
             if entity is None:
-                entity = self._world.create(declared.footprint(), _on_way(declared, self._noted))
+                entity = self._world.create(declared.footprint(), declared.pose(time=0.0))
             left.pop(entity, None)
             self._declared[entity] = declared
         for entity in left:
             if self._world.has(entity):
                 self._world.delete(entity)
+        self._scenes, self._is_anew = Walk(Trail(begun=SCENES, every=EVERY)), True
+        self._memory.replace(self._scenes.trail)
 
     def _go(self, time: float) -> None:
         """Put those that the scene declares where they are at `time` [s]; what a game has deleted stays away."""
-        if not self._declared:
+        if not self._scene.pressers:
             return
         if self._generation != self._world.check():
-            self._generation, self._declared = self._world.generation, {}  # their numbers may be others' by now
+            self._declared = {}  # their numbers may be others' by now
             self._declare(self._scene.pressers)
+            self._generation = self._world.generation
         for entity, declared in self._declared.items():
             if self._world.find(entity, Presser) is not None:
                 self._world.add(entity, _on_way(declared, time))
 
-    def _tread_between(self, pose: Doubles, time: float) -> None:
-        """Tread at all instants since the last one at which those that a scene declares are asked where they are.
+    def _come(self, who: list[Who], pose: Doubles, time: float) -> bool:
+        """Let those that the scene declares go their ways to their poses (n, 3) of `time` [s].
 
-        All others go straight from where they were to their `pose` (n, 3) of now, unless they have jumped.
+        They are asked where they are at all instants since the last one. Nobody moves before all paths begin and after
+        all have ended: these instants are left out. Returns whether anything is new.
         """
-        way = pose - self._pose
-        way[:, 2] = (way[:, 2] + pi) % (2.0 * pi) - pi
-        way[np.hypot(way[:, 0], way[:, 1]) > LEAP + FASTEST * (time - self._noted)] = 0.0
-        rows = [row for row, (entity, _) in enumerate(self._who) if entity in self._declared]
-        paths = [self._declared[self._who[row][0]] for row in rows]
-        for number in range(floor(self._noted * RATE) + 1, ceil(time * RATE)):
-            then = number / RATE
-            between = self._pose + way * ((then - self._noted) / (time - self._noted))
-            for row, path in zip(rows, paths, strict=True):
-                at = path.pose(time=then)
-                between[row] = at.x, at.z, at.yaw
-            self._trail.tread(self._stood(between), then)
+        walk, is_anew = self._scenes, self._is_anew
+        if is_anew:
+            start = _start([self._declared[entity] for entity, _ in who], floor(time) - self._memory.lasts)
+            walk.come(who, self._where(who, start), start)
+            self._is_anew = False
+        stay = staying(walk.who, who)
+        for number in _instants([self._declared[entity].path for entity, _ in stay], walk.time, time):
+            walk.come(stay, self._where(stay, number / RATE), number / RATE)
+        return walk.come(who, pose, time) or is_anew
 
-    def _take(self, who: list[tuple[int, Presser]], pose: Doubles, time: float) -> None:
-        """Take over other pressers; those that stay go on where they are."""
-        each = [discs_of(presser) for _, presser in who]
-        first = {key: number for number, key in enumerate(self._who)}
-        counts = np.array([len(discs) for discs in each], np.intp)
-        starts, before_starts = np.cumsum(counts) - counts, np.flatnonzero(np.diff(self._owner, prepend=-1))
-        before, after = [np.zeros(0, np.intp)], [np.zeros(0, np.intp)]
-        for number, key in enumerate(who):
-            if key in first:
-                before.append(before_starts[first[key]] + np.arange(counts[number]))
-                after.append(starts[number] + np.arange(counts[number]))
-        self._who, self._owner = who, np.repeat(np.arange(len(who)), counts)
-        self._discs = np.concatenate([np.zeros((0, 3)), *each])
-        self._strength = np.array([presser.strength for _, presser in who])[self._owner]
-        self._trail.keep(np.concatenate(before), np.concatenate(after), self._stood(pose), time)
+    def _where(self, who: list[Who], time: float) -> Doubles:
+        """Return where the paths of some of those that the scene declares lead at `time` [s], shape (n, 3)."""
+        return _rows([self._declared[entity].pose(time=time) for entity, _ in who])
 
-    def _stood(self, pose: Doubles) -> Discs:
-        """Return where the discs of pressers with these poses (n, 3) are."""
-        yaw, own = pose[self._owner, 2], self._discs
-        sine, cosine = np.sin(yaw), np.cos(yaw)
-        x = pose[self._owner, 0] + cosine * own[:, 0] - sine * own[:, 1]
-        z = pose[self._owner, 1] + sine * own[:, 0] + cosine * own[:, 1]
-        return Discs(np.stack([x, z], axis=1), np.stack([sine, -cosine], axis=1), own[:, 2], self._strength)
+
+def _who(found: Sequence[tuple[int, Presser, Pose]]) -> list[Who]:
+    return [(entity, presser) for entity, presser, _ in found]
+
+
+def _rows(poses: Sequence[Pose]) -> Doubles:
+    return np.array([(pose.x, pose.z, pose.yaw) for pose in poses], np.float64).reshape(-1, 3)
+
+
+def _start(pressers: Sequence[PresserOnPath], latest: float) -> float:
+    """Return when pressers begin their walk [s] for all to be the same that they tread after `latest` [s].
+
+    That is a multiple of `EVERY` at which each of them is on its way, or has not set out yet.
+    """
+
+    def is_same(presser: PresserOnPath, then: float) -> bool:
+        if not presser.path or then <= presser.path[0].at:
+            return True
+        here, there = presser.pose(time=then), presser.pose(time=then + 1.0 / RATE)
+        return (here.x, here.z) != (there.x, there.z)
+
+    starts = (EVERY * number for number in range(floor(latest / EVERY), 0, -1))
+    return next((then for then in starts if all(is_same(presser, then) for presser in pressers)), 0.0)
+
+
+def _instants(paths: Sequence[Sequence[Waypoint]], since: float, until: float) -> range:
+    """Return the numbers of the instants after `since` and before `until` [s] at which somebody may move."""
+    moving = [path for path in paths if path]
+    if not moving:
+        return range(0)
+    first = floor(min(path[0].at for path in moving) * RATE)
+    last = ceil(max(path[-1].at for path in moving) * RATE)
+    return range(max(floor(since * RATE) + 1, first), min(ceil(until * RATE), last + 1))
 
 
 def _on_way(declared: PresserOnPath, time: float) -> Pose:

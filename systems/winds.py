@@ -3,18 +3,18 @@
 import logging
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import astuple
 from functools import partial
 from itertools import count
-from math import inf, isfinite
+from math import inf
 from reprlib import repr as shortened
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..components.pose import Pose
-from ..components.wind import WindPrimitive, WindSource
+from ..components.wind import WindPrimitive, WindSource, must_be_name, must_be_wind
 from ..engine.declared.scene import Scene
+from ..engine.handed import is_somewhere
 from ..engine.terrain.sample import height_at
 from ..engine.world import World
 from .around.canopy import canopy_height, top_at
@@ -73,8 +73,9 @@ class Winds:
 
         Raises TypeError for what is no wind, no pose or no name, ValueError for a pose that is nowhere.
         """
-        _must_be_wind(primitive)
-        _must_be_name(name)
+        must_be_wind(primitive, "add takes")
+        if name is not None:
+            must_be_name(name)
         if pose is not None:
             _must_be_pose(pose)
         entity = self._world.create(WindSource(primitive, name or primitive.kind), *([pose] if pose else []))
@@ -124,14 +125,18 @@ class Winds:
         """
         self._revive()
         found = self._world.all(WindSource)
-        poses = {source: pose for entity, source in found if (pose := self._world.find(entity, Pose)) is not None}
-        for _, source in found:
+        sources, poses = list[WindSource](), list[Pose | None]()
+        for entity, source in found:
+            pose = self._world.find(entity, Pose)
+            if pose is not None and not self._world.stands(entity, pose, "the wind"):
+                continue
             with suppress(QuarantinedError):
-                if source in poses:
+                if pose is not None:
                     hover_of(source, self.quarantine)  # one that fails is left out of this very frame
                 elif (body := hovering(source, self._top_at, self.quarantine, time=time)) is not None:
-                    poses[source] = foot(body, self._height_at)
-        sources = [source for _, source in found]
+                    pose = foot(body, self._height_at)
+            sources.append(source)
+            poses.append(pose)
         return blowing(sources, self.quarantine, time=time, seed=self._scene.seed, poses=poses)
 
     def heard(self, receivers: ReceiverArrays, /, *, time: float) -> Floats:
@@ -152,9 +157,10 @@ class Winds:
         """Let the winds of the scene be entities again after the game has cleared its world; say so once."""
         if self._generation == self._world.check():
             return
-        self._generation, self._declared = self._world.generation, []  # their numbers may be others' by now
+        self._declared = []  # their numbers may be others' by now
+        self.change(self._scene, self._ground, self._growths)  # raises where the world is gone, or another is current
+        self._generation = self._world.generation
         log.warning("the esper world was cleared: the scene's winds are entities again, those that were added are gone")
-        self.change(self._scene, self._ground, self._growths)
 
 
 def matched(
@@ -184,24 +190,10 @@ def matched(
     return rows
 
 
-def _must_be_wind(thing: object) -> None:
-    if not isinstance(thing, WindPrimitive):
-        said = "its name " if isinstance(thing, str) else "the class " if isinstance(thing, type) else ""
-        what = thing.__name__ if isinstance(thing, type) else shortened(thing)
-        raise TypeError(f"add takes a wind such as Gust(), not {said}{what}")
-
-
-def _must_be_name(thing: object) -> None:
-    if not isinstance(thing, str | None):
-        raise TypeError(f"a wind is called by a text such as 'north', not by {shortened(thing)}")
-
-
 def _must_be_pose(thing: object) -> None:
     if not isinstance(thing, Pose):
         raise TypeError(f"a wind is put at a Pose such as Pose(x=3.0, z=-5.0), not at {shortened(thing)}")
-    if not all(
-        isinstance(number, float | int | np.floating | np.integer) and isfinite(number) for number in astuple(thing)
-    ):
+    if not is_somewhere(thing):
         raise ValueError(f"a wind is put where x, z [m] and yaw [rad] are finite numbers, not at {thing}")
 
 

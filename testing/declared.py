@@ -70,3 +70,5 @@ def _of_default(primitive: type[WindPrimitive], name: str, declared: FieldInfo) 
         for one in error.errors():
             if one["loc"][:1] == (name,):
                 yield f"refuses its own default {default!r}: {one['msg']}"
+    except Exception:  # noqa: BLE001 - what its validators raise else is told of the class, not of each field
+        return

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..components.pose import Pose
 from ..components.wind import Extent, Grass, WindPrimitive
+from ..engine.complaint import said
 from ..systems.bodies.fly import GLANCE
 from .receivers import grass_at, places_to_try
 
@@ -56,8 +57,7 @@ class Report:
             if took > self.most:  # the first time it may have imported or compiled something
                 answer, took = timed(ask)
         except Exception as error:
-            text = " ".join(str(error).split())
-            raise self.fail(f"{what} raises", f"{what} raised {type(error).__name__}: {text} ({when})") from error
+            raise self.fail(f"{what} raises", f"{what} raised {said(error)} ({when})") from error
         if took > self.most:
             told = f"{what} takes {1000.0 * took:.0f} ms of processor time ({when}), over {1000.0 * self.most:.0f} ms"
             raise self.fail("cost", told)
@@ -175,8 +175,9 @@ class _Method:
         answer = self.report.ask(self.name, f"{self.when}, {len(place)} receivers", lambda: self.ask(given, grass))
         if given.tobytes() != place.tobytes():
             self.report.add(f"{self.name} writes", f"{self.name} changes the places it is given ({self.when})")
-        if not isinstance(answer, np.ndarray) or answer.shape != shape:
-            found = f"an array of shape {answer.shape}" if isinstance(answer, np.ndarray) else type(answer).__name__
+        is_plain = isinstance(answer, np.ndarray) and not isinstance(answer, np.ma.MaskedArray)
+        if not is_plain or answer.shape != shape:
+            found = f"an array of shape {answer.shape}" if is_plain else type(answer).__name__
             raise self._fails("shape", f"returned {found} where an array of shape {shape} is due ({self.when})")
         if answer.dtype.kind not in "fiub":
             raise self._fails("type", f"returned {answer.dtype}, which is no number ({self.when})")

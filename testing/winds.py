@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..components.body import Hover
 from ..components.wind import INTERFACE, Grass, WindPrimitive
+from ..engine.complaint import words_of
 from ..systems.overlay.paint import is_color
 from ..systems.wind.quarantine import SLOW
 from .declared import declaration_problems
@@ -74,7 +75,7 @@ def wind_problems(primitive: WindPrimitive | type[WindPrimitive], /, *, seed: in
         try:
             wind = kind()
         except Exception as error:  # noqa: BLE001 - its validators may raise anything
-            text = " ".join(str(error).split())
+            text = words_of(error) or type(error).__name__
             return [*problems, f"{kind.__name__} cannot be made from its defaults alone: {text}"]
     with np.errstate(divide="raise", over="raise", invalid="raise", under="ignore"):
         return [*problems, *_behaviour(wind, seed)]

@@ -3,19 +3,22 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...engine.handed import as_floats
+from ...engine.handed import FARTHEST, as_floats
 
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
 
 
 def as_places(xz: ArrayLike, /) -> Floats:
-    """Return ground positions (x, z) [m] as an array of shape (n, 2); raises ValueError for anything else."""
+    """Return ground positions (x, z) [m] as an array of shape (n, 2); raises ValueError for anything else.
+
+    An empty list is no places. What is farther out than `FARTHEST` counts as being there.
+    """
     due = "ground positions are finite (x, z) pairs, one in each row"
     places = as_floats(xz, due)
-    if places.shape[-1:] != (2,):
+    if places.shape[-1:] != (2,) and places.shape != (0,):
         raise ValueError(f"{due}, not an array of shape {places.shape}")
-    return np.ascontiguousarray(places.reshape(-1, 2))
+    return np.ascontiguousarray(places.reshape(-1, 2).clip(-FARTHEST, FARTHEST))
 
 
 def cell_of(place: NDArray[np.float32], /, *, patch: float) -> Ints:

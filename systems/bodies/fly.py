@@ -137,8 +137,11 @@ def flying(world: World, top_at: Heights, quarantine: Quarantine, /, *, time: fl
     bodies = list(own.values())
     for entity, source in world.all(WindSource):
         if entity not in own:
+            pose = world.find(entity, Pose)
+            if pose is not None and not world.stands(entity, pose, "the wind"):
+                continue
             with suppress(QuarantinedError):
-                body = hovering(source, top_at, quarantine, time=time, pose=world.find(entity, Pose))
+                body = hovering(source, top_at, quarantine, time=time, pose=pose)
                 if body is not None:
                     bodies.append(body)
     return bodies

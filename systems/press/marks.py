@@ -145,24 +145,34 @@ class Memory:
     Marks settle at each full second of the scene's time, so that when they do depends on no frame.
     """
 
-    def __init__(self, trail: Trail, lasts: float) -> None:
-        self.trail, self.lasts = trail, lasts
-        """How long a mark is remembered [s]."""
+    def __init__(self, trails: list[Trail], lasts: float = 0.0) -> None:
+        self.trails, self.lasts = trails, lasts
+        """The trail of a scene's own pressers and that of a game's, and how long a mark is remembered [s]."""
         self._kept = Listed.of(np.zeros((0, NUMBERS)))
         self._settled, self._since = NOTHING, 0.0
+
+    def replace(self, trail: Trail) -> None:
+        """Take another trail for that of the scene's own: what the old one has left is as if it had never been."""
+        self.trails[0] = trail
+        kept = self._kept.stretches
+        self.trails[1].closed.append(kept[kept[:, SERIAL] >= 0.0])  # they settle again, among those of the other trail
+        self._kept, self._since = Listed.of(kept[:0]), -1.0
 
     def at(self, time: float) -> Trodden:
         """Return what has been trodden by `time` [s], to which the trail has come."""
         if floor(time) != self._since:
             self._settle(float(floor(time)))
-        found = np.concatenate([self.trail.over(), self.trail.open])
+        found = np.concatenate([part for trail in self.trails for part in (trail.over(), trail.open)])
         fresh = Listed.of(found).marks(since=self._since) if len(found) else NOTHING
         return Trodden(self._settled, fresh, self._since, time)
 
     def _settle(self, since: float) -> None:
         self._since = since
-        over = self.trail.over()
-        then = over[:, LEFT] <= since - APART
-        self._kept = self._kept.and_then(Listed.of(over[then])).after(since - self.lasts)
-        self.trail.closed = [over[~then]]
+        found = []
+        for trail in self.trails:
+            over = trail.over()
+            then = over[:, LEFT] <= since - APART
+            trail.closed = [over[~then]]
+            found.append(over[then])
+        self._kept = self._kept.and_then(Listed.of(np.concatenate(found))).after(since - self.lasts)
         self._settled = self._kept.marks(since=since) if len(self._kept.stretches) else NOTHING

@@ -1,6 +1,7 @@
 """Trails: the way of every disc that presses, cut into stretches of the same length whatever the steps in time."""
 
 from dataclasses import dataclass, field
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +21,10 @@ REACH, STRENGTH, HEADING = 7, 8, slice(9, 11)
 """How far from its middle grass bends aside [m]; the message there; where it went, or looked if it only stood."""
 
 SERIAL = 11
-"""The number of the way that it is a part of, as they began."""
+"""The number of the way that it is a part of, as they began; those of a scene's own pressers are below 0."""
+
+SCENES = -(2**40)
+"""The number of the first way of a scene's own pressers: so many never begin that it comes to 0."""
 
 NUMBERS = 12
 """What a stretch is made of."""
@@ -69,7 +73,10 @@ class Trail:
     """Stretches that are over, in the order in which they ended."""
 
     begun: int = 0
-    """How many ways have begun."""
+    """The number of the way that begins next."""
+
+    every: float = inf
+    """At multiples of this each way begins a new stretch [s]: from there on nothing depends on what was before."""
 
     _way: Doubles = field(default_factory=lambda: np.zeros(0))
     """How far each has come on its stretch [m]."""
@@ -97,6 +104,7 @@ class Trail:
         far, took = np.hypot(gone[:, 0], gone[:, 1]), time - on[:, LEFT]
         jumped, moved = far > LEAP + FASTEST * took, far > 0.0
         stood = moved & ~jumped & (on[:, LEFT] - on[:, CAME] > STAYS)
+        stood |= moved & ~jumped & (on[:, LEFT] % self.every == 0.0) & (on[:, BEGUN] < on[:, LEFT])
         self._close(jumped | stood)
         on[stood, FIRST], on[stood, BEGUN], self._way[stood] = on[stood, LAST], on[stood, LEFT], 0.0
         for number in np.flatnonzero(moved & ~jumped & (self._way + far >= _length(on[:, REACH]))):

@@ -1,10 +1,10 @@
 """Blowing: primitives send their messages to the receivers (paper, sections 3.2 and 3.3)."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache, partial
-from itertools import groupby
+from itertools import chain, groupby, repeat
 from math import radians
 from operator import itemgetter
 from types import NoneType
@@ -77,15 +77,16 @@ def blowing(
     *,
     time: float,
     seed: int,
-    poses: Mapping[WindSource, Pose] | None = None,
+    poses: Iterable[Pose | None] = (),
 ) -> list[Blowing]:
     """Return the winds that act at `time` [s], the strongest claim first.
 
     Higher priority goes first; of equal ones that which began later; then by kind, by what they declare, by name and by
-    pose. So the order in which winds were made never counts. `poses` overrides where winds are.
+    pose. So the order in which winds were made never counts. `poses` says where each source is; None, or none for it,
+    leaves that to the wind. A source may be there more than once, at other poses.
     """
-    placed = poses or {}
-    found = [wind for source in sources for wind in _parts(source, quarantine, time, seed, placed.get(source))]
+    placed = zip(sources, chain(poses, repeat(None)), strict=False)
+    found = [wind for source, pose in placed for wind in _parts(source, quarantine, time, seed, pose)]
     tied = (list(winds) for _, winds in groupby(sorted(found, key=_claim, reverse=True), key=_claim))
     return [wind for winds in tied for wind in (winds if len(winds) == 1 else _untied(winds, quarantine))]
 
@@ -109,8 +110,8 @@ def hear(
     `to` [rad], whichever winds act.
     """
     left_out = -1
-    while left_out < len(quarantine.reasons):  # what a wind sent before it failed is no message
-        left_out = len(quarantine.reasons)
+    while left_out < quarantine.count:  # what a wind sent before it failed is no message
+        left_out = quarantine.count
         sums = _heard(winds, heard, quarantine, time, mixing)
     return _bounded(_fluttered(sums, heard, time, seed, to))
 

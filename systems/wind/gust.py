@@ -117,8 +117,8 @@ class Gust(WindPrimitive):
         """Return the rectangle it holds: from the front back to where grass is at rest again."""
         way = self._way(time)
         depth = self.speed * (self.hold + self.tail) + self.ragged
-        half = self.width / 2
-        return Extent(-half, half, max(0.0, way - self.reach), max(min(depth, way), 0.0))
+        half, ahead = self.width / 2, max(0.0, way - self.reach)
+        return Extent(-half, half, ahead, max(min(depth, way), ahead))  # at the very end rounding may turn it round
 
     def mask(self, place: Floats, /, *, time: float) -> Floats:
         """Return 1 in the middle of the strip, falling to 0 at its edges over `soft` [m]."""

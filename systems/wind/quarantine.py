@@ -5,12 +5,13 @@ the machine is.
 """
 
 import logging
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, MutableMapping
 from dataclasses import dataclass, field
 from functools import partial
 from math import inf, isnan
 from time import thread_time
 from typing import TypeVar
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,8 @@ from ...engine.plugins import wind_kinds
 
 Floats = NDArray[np.float32]
 Answer = TypeVar("Answer")
+Called = tuple[str, type[WindPrimitive]]
+"""A wind's name and class, by which it is known as slow: a game may give it other values in every frame."""
 
 SLOW, SLOW_EACH = 0.1, 2e-6
 """How long a call may take, in processor time [s], and how much longer for each receiver."""
@@ -58,8 +61,11 @@ class QuarantinedError(Exception):
 class Quarantine:
     """The winds that are left out, and why. Those that come along with tallgrass are never too slow."""
 
-    reasons: dict[WindSource, str] = field(default_factory=dict)
-    """One sentence for each wind that is left out."""
+    reasons: MutableMapping[WindSource, str] = field(default_factory=WeakKeyDictionary)
+    """One sentence for each wind that is left out, for as long as there is the wind."""
+
+    count: int = 0
+    """How often a wind has been left out."""
 
     live: bool = True
     """Whether a wind that takes too long is left out for a while; otherwise it stays, and is told of."""
@@ -67,14 +73,14 @@ class Quarantine:
     _now: float = 0.0
     """The prairie's clock [s]."""
 
-    _back: dict[WindSource, float] = field(default_factory=dict)
-    """When a slow wind is tried again, on the prairie's clock [s]."""
+    _back: dict[Called, tuple[float, str]] = field(default_factory=dict)
+    """When a slow wind is tried again, on the prairie's clock [s], and why it is left out."""
 
-    _wait: dict[WindSource, float] = field(default_factory=dict)
+    _wait: dict[Called, float] = field(default_factory=dict)
     """How long a wind will be left out when it is slow the next time [s]."""
 
-    _slow: dict[tuple[WindSource, str, str], int] = field(default_factory=dict)
-    """Which of a method's latest calls took long, one bit for each, by what that means for the wind."""
+    _slow: dict[tuple[Called, str, str], int] = field(default_factory=dict)
+    """Which of a method's latest calls took long, one bit for each, by what that means for the wind; none is 0."""
 
     _told: set[tuple[str, str]] = field(default_factory=set)
     """What has been said: a name, and what about it."""
@@ -82,6 +88,9 @@ class Quarantine:
     def ask(self, source: WindSource, what: str, ask: Callable[[], Answer], /, *, receivers: int = 0) -> Answer:
         """Return what a wind answers; raises QuarantinedError where it fails to, or has failed before."""
         if source in self.reasons:
+            raise QuarantinedError
+        if self._back and (called := _called(source)) in self._back:
+            self.reasons[source] = self._back[called][1]  # the same wind with other values
             raise QuarantinedError
         is_timed = not wind_kinds().is_ours(type(source.primitive))
         start = thread_time() if is_timed else 0.0
@@ -134,10 +143,13 @@ class Quarantine:
         }
         for what, numbers in told.items():
             self._must_count(source, what, numbers)
+        if extent is not None and (extent.left > extent.right or extent.ahead > extent.behind):
+            raise self.leave_out(source, f"extent returned {extent}, which ends before it begins")
 
     def leave_out(self, source: WindSource, why: str, /) -> QuarantinedError:
         """Leave a wind out from now on, say so once for its kind, and return what to raise."""
         self.reasons[source] = f"{source.name}: {why}"
+        self.count += 1
         self._say_once((source.primitive.kind, "fails"), source, f"{why}; this wind is left out from now on")
         return QuarantinedError(why)
 
@@ -152,10 +164,12 @@ class Quarantine:
     def let_back(self, now: float, /) -> None:
         """Let slow winds back in whose wait is over `now`, on the prairie's clock [s]."""
         self._now = now
-        for source in [source for source, back in self._back.items() if back <= now]:
-            del self._back[source]
-            self.reasons.pop(source, None)
-            self._slow = {key: latest for key, latest in self._slow.items() if key[0] is not source}
+        for called in [called for called, (back, _) in self._back.items() if back <= now]:
+            _, why = self._back.pop(called)
+            for source in [source for source, reason in self.reasons.items() if reason == why]:
+                if _called(source) == called:
+                    del self.reasons[source]
+            self._slow = {key: latest for key, latest in self._slow.items() if key[0] != called}
 
     def _judge(self, source: WindSource, what: str, took: float, receivers: int) -> None:
         """Tell of a wind that often takes long; raises QuarantinedError where that is too long for a game."""
@@ -172,15 +186,19 @@ class Quarantine:
 
     def _is_often(self, source: WindSource, what: str, meaning: str, *, is_long: bool) -> bool:
         """Return whether this call takes long, and so did enough of the method's latest ones."""
-        latest = (self._slow.get((source, what, meaning), 0) << 1 | is_long) & ((1 << WINDOW) - 1)
-        self._slow[source, what, meaning] = latest
+        call = _called(source), what, meaning
+        latest = (self._slow.pop(call, 0) << 1 | is_long) & ((1 << WINDOW) - 1)
+        if latest:
+            self._slow[call] = latest
         return is_long and latest.bit_count() >= PATIENCE
 
     def _leave_out_for_now(self, source: WindSource, why: str) -> QuarantinedError:
-        wait = self._wait.get(source, WAIT)
-        self._wait[source] = min(2.0 * wait, LONGEST_WAIT)
-        self._back[source] = self._now + wait
-        self.reasons[source] = f"{source.name}: {why}"
+        called, reason = _called(source), f"{source.name}: {why}"
+        wait = self._wait.get(called, WAIT)
+        self._wait[called] = min(2.0 * wait, LONGEST_WAIT)
+        self._back[called] = self._now + wait, reason
+        self.reasons[source] = reason
+        self.count += 1
         self._say_once((source.name, "too slow"), source, f"{why}; this wind is left out for a while")
         return QuarantinedError(why)
 
@@ -188,3 +206,7 @@ class Quarantine:
         if about not in self._told:
             self._told.add(about)
             log.warning("%s of %s: %s", source.name, wind_kinds().origin(source.primitive), sentence)
+
+
+def _called(source: WindSource) -> Called:
+    return source.name, type(source.primitive)

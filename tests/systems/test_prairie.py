@@ -178,6 +178,17 @@ def test_time_goes_on_by_numbers_alone(prairie: Prairie, dt: Any) -> None:
     assert prairie.time == 0.0
 
 
+@pytest.mark.parametrize("time", ["1", [0.0, 1.0], np.zeros(2), 1j, -1.0, float("nan"), float("inf")])
+def test_a_bad_time_is_refused_in_a_sentence_and_no_wind_is_blamed_for_it(prairie: Prairie, time: Any) -> None:
+    felt = prairie.wind_at(PLACES, 2.0)
+    with pytest.raises(
+        (TypeError, ValueError), match=r"^a wind is asked for at (a number of seconds|0 s or more), not"
+    ):
+        prairie.wind_at(PLACES, time)
+    assert not prairie.winds.quarantine.reasons
+    np.testing.assert_array_equal(prairie.wind_at(PLACES, 2.0), felt)
+
+
 @pytest.mark.parametrize(
     ("option", "sentence"),
     [
@@ -262,6 +273,20 @@ def test_places_that_are_no_pairs_are_refused_in_a_sentence(prairie: Prairie, pl
             ValueError, match=rf"^ground positions are finite \(x, z\) pairs, one in each row, not {found}$"
         ):
             ask(places)  # type: ignore[arg-type]
+
+
+def test_no_places_have_no_heights_no_winds_and_no_patches(prairie: Prairie) -> None:
+    asked = (prairie.height_at, prairie.wind_at, prairie.bent_at, prairie.patch_at)
+    assert [ask([]).shape for ask in asked] == [ask(np.zeros((0, 2))).shape for ask in asked]
+    assert [ask([]).shape for ask in asked] == [(0,), (0, 2), (0, 2), (0,)]
+
+
+@pytest.mark.parametrize("far", [1e9, 1e30, -3e38])
+def test_a_place_far_beyond_any_prairie_is_answered_without_a_warning(prairie: Prairie, far: float) -> None:
+    for ask in (prairie.height_at, prairie.wind_at, prairie.bent_at, prairie.patch_at):
+        assert np.isfinite(ask([(far, 0.0), (0.0, far)])).all()
+    with pytest.raises(ValueError, match="not NaN or infinity"):
+        prairie.height_at([(1e39, 0.0)])
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from collections.abc import Iterator
+from math import ceil, floor
 from time import process_time
 
 import esper
@@ -13,7 +14,9 @@ from numpy.typing import NDArray
 from tallgrass import Pose, Presser, Receivers
 from tallgrass.engine.schedule import Phase
 from tallgrass.engine.world import World
+from tallgrass.systems import pressers as pressers_module
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.pressers import RATE
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.testing import LITTLE, little_prairie, step, watch
 
@@ -223,3 +226,111 @@ def test_n7_a_scene_read_again_keeps_who_stays_and_lets_go_who_is_gone(
     finally:
         prairie.release()
     assert not esper.get_component(Presser)
+
+
+@pytest.mark.parametrize("change", ["comes", "goes", "grows"])
+def test_n5_what_a_scene_declares_treads_does_not_depend_on_who_else_comes_or_goes(world: World, change: str) -> None:
+    del world
+    found = []
+    for is_changed in (False, True):
+        with little_prairie(scene=LITTLE + WALKED) as prairie:
+            other = esper.create_entity(Presser(), Pose(30.0, 30.0))
+            prairie.bent_at(AROUND[:1])
+            prairie.advance(2.3)
+            if is_changed and change == "comes":
+                esper.create_entity(Presser(), Pose(-30.0, 30.0))
+            elif is_changed and change == "goes":
+                esper.delete_entity(other, immediate=True)
+            elif is_changed:
+                esper.add_component(other, Presser(radius=0.6))
+            found.append(prairie.bent_at(AROUND))
+            esper.clear_database()
+    assert np.linalg.norm(found[0], axis=1).max() > 0.9
+    np.testing.assert_array_equal(found[0], found[1])
+
+
+@pytest.mark.parametrize("text", [WALKED, "", WALKED.replace("[0, 0.6]", "[0, -0.6]")], ids=["come", "gone", "moved"])
+@pytest.mark.parametrize("before", ["", WALKED], ids=["nobody", "walked"])
+def test_n7_those_of_a_scene_read_again_have_trodden_what_they_have_in_one_that_is_loaded(
+    world: World, tmp_path_factory: pytest.TempPathFactory, before: str, text: str
+) -> None:
+    del world
+    path = tmp_path_factory.mktemp("walked") / "scene.yaml"
+    found = []
+    for first in (text, before):
+        path.write_text(LITTLE + first, "utf-8")
+        prairie = Prairie.load(path)
+        try:
+            walker = esper.create_entity(Presser(radius=0.4), Pose(-3.0, -8.0))
+            for _ in range(23):
+                prairie.advance(0.1)
+                esper.add_component(walker, Pose(-3.0 + 1.5 * prairie.time, -8.0))
+                prairie.bent_at(AROUND)
+            path.write_text(LITTLE + text, "utf-8")
+            prairie.reload()
+            found.append(prairie.bent_at(np.concatenate([AROUND, AROUND + np.array([0.0, -8.0])])))
+            assert np.linalg.norm(found[-1][len(AROUND) :], axis=1).max() > 0.9, "what a game's own trod stays"
+            esper.delete_entity(walker, immediate=True)
+        finally:
+            prairie.release()
+    np.testing.assert_allclose(found[0], found[1], atol=1e-6)
+
+
+def test_n5_instants_at_which_nobody_of_a_scene_moves_are_left_out_and_change_nothing(
+    world: World, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    del world
+    late = WALKED.replace("at: 0", "at: 2.51").replace("at: 1", "at: 3.7").replace("at: 3,", "at: 6.02,")
+    asked, found = list[int](), []
+    instants = pressers_module._instants  # noqa: SLF001 - the short way is held against the long one
+
+    def short(*given: object) -> range:
+        asked.append(len(instants(*given)))  # type: ignore[arg-type]
+        return instants(*given)  # type: ignore[arg-type]
+
+    def long(_: object, since: float, until: float) -> range:
+        return range(floor(since * RATE) + 1, ceil(until * RATE))
+
+    for way in (short, long):
+        monkeypatch.setattr(pressers_module, "_instants", way)
+        with little_prairie(scene=LITTLE + late) as prairie:
+            for step_on in (1.23, 1.5, 2.0, 5.0, 0.51):
+                prairie.advance(step_on)
+                found.append(prairie.pressers.note(prairie.time))
+    assert sum(asked) < 0.4 * prairie.time * RATE
+    for one, other in zip(found[:5], found[5:], strict=True):
+        for ours, theirs in ((one.settled, other.settled), (one.fresh, other.fresh)):
+            np.testing.assert_array_equal(ours.marks, theirs.marks)
+            np.testing.assert_array_equal(ours.listed, theirs.listed)
+    assert len(found[3].settled.marks) > 10
+
+
+@pytest.mark.parametrize("still", ["", "  - { position: [5, 5] }\n  - { path: [{ at: 190, position: [9, 9] }] }\n"])
+def test_n5_what_a_scene_has_forgotten_is_not_gone_again_and_changes_nothing(
+    world: World, monkeypatch: pytest.MonkeyPatch, still: str
+) -> None:
+    del world
+    stops = ((0, -9, 0), (60, 9, 4), (160, -3, -9), (200, 9, 0))
+    ways = ", ".join(f"{{ at: {at}, position: [{east}, {south}] }}" for at, east, south in stops)
+    scene = f"{LITTLE}pressers:\n  - {{ radius: 0.4, path: [{ways}] }}\n  - {{ length: 1, path: [{ways}] }}\n{still}"
+    start, begun, found, bent = pressers_module._start, list[float](), [], []  # noqa: SLF001 - as above
+    x, z = np.random.default_rng(5).uniform(-10.0, 10.0, (2, 4000))
+
+    def late(*given: object) -> float:
+        begun.append(start(*given))  # type: ignore[arg-type]
+        return begun[-1]
+
+    for way in (late, lambda *_: 0.0):
+        monkeypatch.setattr(pressers_module, "_start", way)
+        with little_prairie(scene=scene) as prairie:
+            prairie.advance(181.4)
+            bent.append(prairie.bent_at(np.stack([x, z], axis=1)))
+            found.append(prairie.pressers.trodden)
+    assert begun == [120.0]
+    assert np.linalg.norm(bent[0], axis=1).max() > 0.9
+    np.testing.assert_array_equal(bent[0], bent[1])
+    for ours, theirs in ((found[0].settled, found[1].settled), (found[0].fresh, found[1].fresh)):
+        np.testing.assert_array_equal(ours.listed, theirs.listed)
+        if not still:  # who stands has begun to before
+            np.testing.assert_array_equal(ours.marks, theirs.marks)
+    assert len(found[0].settled.marks) > 50

@@ -3,18 +3,19 @@
 from collections.abc import Callable, Iterator
 from itertools import count
 from pathlib import Path
+from weakref import ref
 
 import esper
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.components.wind import Grass, WindPrimitive
+from tallgrass.components.wind import Grass, WindPrimitive, WindSource
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.wind import quarantine
 from tallgrass.systems.wind.quarantine import PATIENCE, WAIT
-from tallgrass.testing import LITTLE
+from tallgrass.testing import LITTLE, little_prairie
 
 Floats = NDArray[np.float32]
 Load = Callable[..., Prairie]
@@ -81,6 +82,38 @@ def test_in_a_film_a_slow_wind_stays_and_is_told_of_once(load: Load, caplog: pyt
         assert not one.winds.quarantine.reasons
     other.release()
     assert len(caplog.messages) == 2
+
+
+def test_a_slow_wind_that_is_given_other_values_in_every_frame_is_left_out_as_well(load: Load) -> None:
+    prairie = load()
+    entity = esper.create_entity(WindSource(Draught(), "music"))
+    prairie.remove(next(handle for handle, source in esper.get_component(WindSource) if source.name == "draught"))
+
+    def felt_with(weight: float) -> bool:
+        esper.add_component(entity, WindSource(Draught(weight=weight), "music"))
+        return is_felt(prairie)
+
+    assert [felt_with(0.1 * number) for number in range(1, PATIENCE + 3)] == [True] * (PATIENCE - 1) + [False] * 3
+    prairie.advance(WAIT + 0.1)
+    assert felt_with(1.0)
+
+
+def test_winds_that_a_game_replaces_in_every_frame_are_not_kept(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not by what they took, nor by why they were left out."""
+    del world
+    readings = count()
+    monkeypatch.setattr(quarantine, "thread_time", lambda: 0.03 * next(readings))
+    gone: list[ref[WindSource]] = []
+    with little_prairie() as prairie:
+        entities = esper.create_entity(), esper.create_entity()
+        for number in range(1, 20):
+            for entity, values in zip(entities, ({}, {"swing": float("nan")}), strict=True):
+                weak = Draught(weight=0.05 * number).model_copy(update=values)
+                esper.add_component(entity, WindSource(weak, f"wind {entity}"))
+                gone.append(ref(esper.component_for_entity(entity, WindSource)))
+            prairie.wind_at(HERE)
+            prairie.advance(0.1)
+        assert sum(source() is not None for source in gone) <= len(entities) + 1
 
 
 def test_a_slow_wind_that_is_taken_away_while_it_is_left_out_is_no_harm(load: Load) -> None:

@@ -35,7 +35,7 @@ def discs_at(*place: tuple[float, float], radius: float = RADIUS, strength: floa
 def walked(*ways: Way, until: float, steps: int, lasts: float = 60.0) -> Trodden:
     """Return what discs have trodden that go their ways, noted in so many steps."""
     trail = Trail()
-    memory, none, found = Memory(trail, lasts), np.zeros(0, np.intp), UNTRODDEN
+    memory, none, found = Memory([trail], lasts), np.zeros(0, np.intp), UNTRODDEN
     for number in range(steps + 1):
         time = until * number / steps
         discs = discs_at(*(way(time) for way in ways))

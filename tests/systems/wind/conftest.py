@@ -56,9 +56,8 @@ def feel(answer: Answer) -> Feel:
     ) -> Floats:
         called = names or [f"wind[{number}] {wind.kind}" for number, wind in enumerate(winds)]
         sources = [WindSource(wind, name) for wind, name in zip(winds, called, strict=True)]
-        placed = {source: pose for source, pose in zip(sources, poses or [], strict=False) if pose is not None}
         quarantine = Quarantine()
-        now = blowing(sources, quarantine, time=time, seed=seed, poses=placed)
+        now = blowing(sources, quarantine, time=time, seed=seed, poses=poses or [])
         receivers = places_alone(place, answer(len(place), kind=kind))
         message = hear(now, receivers, quarantine, time=time, seed=seed, mixing=mixing)
         assert not quarantine.reasons

@@ -180,6 +180,16 @@ def test_w6_once_is_once_without_every() -> None:
     assert gust.parts(time=3.0, seed=1) == (gust,)
 
 
+@given(speed=st.floats(1.0, 40.0), reach=st.floats(5.0, 300.0), start=st.floats(0.0, 20000.0))
+def test_w6_where_rounding_ends_a_gust_a_moment_late_its_extent_is_not_turned_round(
+    speed: float, reach: float, start: float
+) -> None:
+    gust = Gust(speed=speed, reach=reach, start=start)
+    held = gust.extent(time=start + gust.life + 1e-9)
+    assert held.left <= held.right
+    assert held.ahead <= held.behind
+
+
 def test_w6_each_repetition_blows_as_the_first_one_did(feel: Feel) -> None:
     gust = STILL.model_copy(update={"every": [30.0, 40.0]})
     second = gust.parts(time=45.0, seed=7)[-1].start

@@ -70,6 +70,7 @@ class Failing(WindPrimitive):
 
 
 Answer = Callable[[Any, Any], Any]
+REVERSED = Extent(2.5, -2.5, 0.0, 1.0)
 
 ANSWERS: dict[str, Answer] = {
     "fine": lambda right, _: right,
@@ -93,6 +94,7 @@ ANSWERS: dict[str, Answer] = {
     "lost": lambda *_: Pose(float("nan"), 0.0, 0.0),
     "vague": lambda *_: Pose(None, 0.0, 0.0),  # type: ignore[arg-type]
     "everywhere": lambda *_: Extent(-np.inf, np.inf, -np.inf, np.inf),
+    "reversed": lambda *_: REVERSED,
     "worded": lambda *_: Extent("left", 1.0, 1.0, 1.0),  # type: ignore[arg-type]
     "writes": lambda right, place: [right, place.fill(0.0)][0],
 }
@@ -127,6 +129,7 @@ FAILURES = [
     ("pose", "vague", "pose returned NoneType, not float"),
     ("extent", "numbers", "extent returned list, not Extent"),
     ("extent", "worded", "extent returned str, not float"),
+    ("extent", "reversed", f"extent returned {REVERSED}, which ends before it begins"),
     ("mask", "writes", "mask raised ValueError: assignment destination is read-only"),
 ]
 
@@ -196,15 +199,16 @@ def test_what_a_wind_is_given_is_no_ones_to_change(mixing: Mixing) -> None:
 @pytest.mark.parametrize("mixing", ["priority", "weight"])
 def test_what_a_wind_sent_before_it_failed_is_taken_back(mixing: Mixing) -> None:
     alone = told([BREEZE], Quarantine(), mixing=mixing)
-    quarantine = Quarantine()
-    message = told([BREEZE, WindSource(Uneven(), "wind[1] uneven")], quarantine, mixing=mixing)
+    uneven, quarantine = WindSource(Uneven(), "wind[1] uneven"), Quarantine()
+    message = told([BREEZE, uneven], quarantine, mixing=mixing)
     assert list(quarantine.reasons.values()) == ["wind[1] uneven: action returned numbers that are not finite"]
     np.testing.assert_array_equal(message, alone)
 
 
 def test_a_kind_is_told_of_once_however_many_of_it_fail(caplog: pytest.LogCaptureFixture) -> None:
     quarantine = Quarantine()
-    told([WindSource(Failing(part="nan"), f"wind[{number}] failing") for number in range(5)], quarantine)
+    failing = [WindSource(Failing(part="nan"), f"wind[{number}] failing") for number in range(5)]
+    told(failing, quarantine)
     assert len(quarantine.reasons) == 5
     assert len(caplog.messages) == 1
 

@@ -1,0 +1,87 @@
+"""What a game gives its entities: one wind for many, poses that are nowhere, what is no wind; and their world (D2)."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import esper
+import numpy as np
+import pytest
+
+from tallgrass import Gust, Pose, Presser, WindSource
+from tallgrass.engine.world import World
+from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.wind.blast import Blast
+from tallgrass.testing import LITTLE, little_prairie, watch
+
+NOWHERE: list[tuple[Any, ...]] = [("a", 0), (None, 0.0), (np.nan, 0.0), (0.0, np.inf), (0.0, 0.0, np.nan)]
+
+
+@pytest.fixture
+def prairie(world: World) -> Iterator[Prairie]:
+    del world  # it is made the current one
+    with little_prairie() as made:
+        yield made
+
+
+def test_d2_one_source_on_two_entities_blows_at_both_places(prairie: Prairie) -> None:
+    source, places = WindSource(Blast(), "twice"), [(-8.0, 3.0), (8.0, 3.0)]
+    for x, z in places:
+        esper.create_entity(source, Pose(x, z - 1.0))
+    assert np.linalg.norm(prairie.wind_at(places), axis=1).min() > 0.1
+
+
+@pytest.mark.parametrize("pose", [Pose(*place) for place in NOWHERE], ids=str)
+def test_d2_a_pose_that_is_nowhere_leaves_out_its_entity_until_it_has_another_and_is_told_once(
+    prairie: Prairie, caplog: pytest.LogCaptureFixture, pose: Pose
+) -> None:
+    where, calm = [(0.0, 0.5)], prairie.wind_at([(0.0, 0.5)])
+    wind = esper.create_entity(WindSource(Blast(), "lost"), pose)
+    presser = esper.create_entity(Presser(radius=0.8), pose)
+    for _ in range(3):
+        prairie.advance(0.1)
+        watch(prairie)
+        np.testing.assert_array_equal(prairie.wind_at(where), calm)
+        np.testing.assert_array_equal(prairie.bent_at(where), calm)
+    due = f"is left out while it has {pose}: x, z [m] and yaw [rad] are finite numbers"
+    both = (f"presser of entity {presser}", f"wind of entity {wind}")
+    assert sorted(caplog.messages) == [f"the {what} {due}" for what in both]
+    esper.add_component(wind, Pose())
+    assert prairie.wind_at(where).any()
+    esper.add_component(wind, Pose(50.0, 0.0))
+    esper.add_component(presser, Pose())
+    assert prairie.bent_at(where).any()
+
+
+@pytest.mark.parametrize(
+    ("what", "said"),
+    [
+        (("gust", "n"), r"a WindSource carries a wind such as Gust\(\), not its name 'gust'"),
+        ((Gust, "n"), r"a WindSource carries a wind such as Gust\(\), not the class Gust"),
+        ((None, "n"), r"a WindSource carries a wind such as Gust\(\), not None"),
+        ((Gust(), 5), "a wind is called by a text such as 'north', not by 5"),
+    ],
+)
+def test_d2_a_source_of_no_wind_is_refused_where_it_is_made(what: tuple[Any, Any], said: str) -> None:
+    with pytest.raises(TypeError, match=f"^{said}$"):
+        WindSource(*what)
+
+
+def test_d2_a_prairie_says_that_its_world_was_deleted_and_nothing_else(caplog: pytest.LogCaptureFixture) -> None:
+    host, scene = esper.current_world, f"{LITTLE}wind: [{{ kind: breeze }}]\npressers: [{{}}]\n"
+    esper.switch_world("short-lived")
+    try:
+        with little_prairie(scene=scene) as prairie:
+            watch(prairie)
+            esper.switch_world(host)
+            esper.delete_world("short-lived")
+            for ask in (prairie.wind_at, prairie.bent_at, lambda _: watch(prairie)):
+                with pytest.raises(RuntimeError, match=r"^esper world 'short-lived', .* was deleted: load it again$"):
+                    ask([(0.0, 0.0)])
+            assert not caplog.messages
+            esper.switch_world("short-lived")
+            assert prairie.bent_at([(0.0, 0.1)]).any(), "a world of the same name is one that was cleared"
+    finally:
+        esper.switch_world(host)
+        if "short-lived" in esper.list_worlds():
+            esper.delete_world("short-lived")
+    assert len(caplog.messages) == 1
