@@ -11,12 +11,15 @@ from ...engine.declared.plant import Plant
 from .blades import grow_blades, wither
 from .heads import grow_heads
 from .layout import HABITS, Layout
-from .organs import FROND, LEAF, STEM
+from .organs import FROND, LEAF, SPRIG, STEM
 from .record import Blades
 from .rows import GOLDEN, Rows, Stems, stood, together
 
 _STEM_WIDTH = 0.006
 """Of its length."""
+
+_WOODY = 2.0
+"""How much wider those of shrubs are."""
 
 _LEAST_STEM_WIDTH = 0.003
 
@@ -40,10 +43,10 @@ def _parts(kind: GrassKind, layout: Layout, stand: Blades, variants: int, random
     bears = _bearing(layout)
     if kind.plant == "grass":
         culms = _culms(kind, stand, np.flatnonzero(bears))
-        parts = [_blades(stand, np.flatnonzero(~bears)), _stems(culms)]
+        parts = [_blades(stand, np.flatnonzero(~bears)), _stems(kind, culms)]
     else:
         every = _BRANCHED[kind.plant](kind, layout, stand, random)
-        parts = [_stems(every), _leaves(kind, layout, every, variants, random)]
+        parts = [_stems(kind, every), _leaves(kind, layout, every, variants, random)]
         culms = every.of(np.flatnonzero(bears[every.plant]))
     if kind.head is not None:
         parts.append(grow_heads(kind.head, layout, culms, random))
@@ -101,10 +104,10 @@ def _blades(stand: Blades, plant: NDArray[np.intp], /) -> Rows:
     )  # fmt: skip
 
 
-def _stems(stems: Stems, /) -> Rows:
+def _stems(kind: GrassKind, stems: Stems, /) -> Rows:
     """Return the stems themselves."""
     count = len(stems.plant)
-    width = np.maximum(_STEM_WIDTH * stems.height, _LEAST_STEM_WIDTH)
+    width = np.maximum(_STEM_WIDTH * stems.height, _LEAST_STEM_WIDTH) * (_WOODY if kind.plant == "shrub" else 1.0)
     return Rows(
         plant=stems.plant, height=stems.height, width=width, facing=GOLDEN * np.arange(count), rest=stems.rest,
         variant=np.zeros(count, np.int32), organ=np.full(count, STEM, np.int32), stem=np.zeros(count),
@@ -129,7 +132,7 @@ class _Foliage:
 _FOLIAGE: Mapping[Plant, _Foliage] = {
     "flower": _Foliage(0.3, 0.3, (0.5, 0.95)),
     "forb": _Foliage(0.95, 0.55, (0.5, 0.85)),
-    "shrub": _Foliage(0.9, 0.4, (0.25, 0.6)),
+    "shrub": _Foliage(0.65, 0.2, (0.15, 0.7)),
 }
 
 
@@ -143,8 +146,9 @@ def _leaves(kind: GrassKind, layout: Layout, stems: Stems, variants: int, random
         short, long = kind.leaf
         length = random.uniform(short, long, count)
     toward = random.uniform(-np.pi, np.pi, (count[0], 1)) + GOLDEN * np.arange(layout.leaves)
+    organ = FROND if kind.head is None else SPRIG if kind.plant == "shrub" else LEAF
     return stood(
-        stems, FROND if kind.head is None else LEAF, part=form.up_to * place,
+        stems, organ, part=form.up_to * place,
         height=length * (1.0 - form.shrinks * place), width=kind.width * random.uniform(0.75, 1.15, count),
         toward=toward, spread=random.uniform(*form.spread, count),
         variant=random.integers(0, variants, count, dtype=np.int32),
