@@ -28,7 +28,7 @@ def grow_patch(kind: GrassKind, layout: Layout, /, *, patch: float, variants: in
     """Return the rows of one patch model of a kind, `patch` metres wide, from a seed.
 
     Plants stand where the blades of grass would, of which they have the root, the rank, and for a stem the height and
-    the lean. All rows of a plant have its root and its rank, and follow one another: the stem first, the head last.
+    the lean. All rows of a plant have its root and its rank, and follow one another: of each branch the stem first, the head last.
     """
     stand = grow_blades(kind, count=layout.plants, patch=patch, variants=variants, seed=seed)
     if kind.withered:
@@ -61,13 +61,14 @@ def _bearing(layout: Layout, /) -> NDArray[np.bool_]:
 
 def _upright(stand: Blades, plant: NDArray[np.intp], /) -> Stems:
     """Return a stem for each of some plants (m,), as high and as leaning as its blade."""
-    return Stems(plant, stand.height[plant].astype(np.float64), stand.rest[plant].astype(np.float64))
+    first = np.zeros(len(plant), np.intp)
+    return Stems(plant, first, stand.height[plant].astype(np.float64), stand.rest[plant].astype(np.float64))
 
 
 def _culms(kind: GrassKind, stand: Blades, plant: NDArray[np.intp], /) -> Stems:
     """Return the stems of grasses that bear heads (m,): they overtop the leaves, and lean less."""
     stems = _upright(stand, plant)
-    return Stems(plant, 0.5 * (stems.height + kind.height[1]), 0.6 * stems.rest)
+    return Stems(plant, stems.branch, 0.5 * (stems.height + kind.height[1]), 0.6 * stems.rest)
 
 
 def _alone(kind: GrassKind, layout: Layout, stand: Blades, random: np.random.Generator, /) -> Stems:
@@ -83,7 +84,8 @@ def _branched(kind: GrassKind, layout: Layout, stand: Blades, random: np.random.
     lean = kind.lean * np.sqrt(out)
     height = stand.height[:, None] * (1.0 - 0.3 * out) * random.uniform(0.85, 1.0, count)
     rest = lean[..., None] * np.stack([np.cos(toward), np.sin(toward)], axis=-1)
-    return Stems(np.repeat(np.arange(layout.plants), layout.branches), height.reshape(-1), rest.reshape(-1, 2))
+    plant, branch = np.indices(count).reshape(2, -1)
+    return Stems(plant, branch, height.reshape(-1), rest.reshape(-1, 2))
 
 
 _BRANCHED: Mapping[Plant, Callable[[GrassKind, Layout, Blades, np.random.Generator], Stems]] = {
@@ -97,7 +99,7 @@ _BRANCHED: Mapping[Plant, Callable[[GrassKind, Layout, Blades, np.random.Generat
 def _blades(stand: Blades, plant: NDArray[np.intp], /) -> Rows:
     """Return the plants that stay blades, as they are."""
     return Rows(
-        plant=plant, height=stand.height[plant], width=stand.width[plant], facing=stand.facing[plant],
+        plant=plant, branch=np.zeros(len(plant), np.intp), height=stand.height[plant], width=stand.width[plant], facing=stand.facing[plant],
         rest=stand.rest[plant], variant=stand.variant[plant],
         organ=np.broadcast_to(stand.organ, stand.height.shape)[plant],
         stem=np.zeros(len(plant)), part=np.ones(len(plant)), stem_rest=np.zeros((len(plant), 2)),
@@ -109,7 +111,7 @@ def _stems(kind: GrassKind, stems: Stems, /) -> Rows:
     count = len(stems.plant)
     width = np.maximum(_STEM_WIDTH * stems.height, _LEAST_STEM_WIDTH) * (_WOODY if kind.plant == "shrub" else 1.0)
     return Rows(
-        plant=stems.plant, height=stems.height, width=width, facing=GOLDEN * np.arange(count), rest=stems.rest,
+        plant=stems.plant, branch=stems.branch, height=stems.height, width=width, facing=GOLDEN * np.arange(count), rest=stems.rest,
         variant=np.zeros(count, np.int32), organ=np.full(count, STEM, np.int32), stem=np.zeros(count),
         part=np.ones(count), stem_rest=np.zeros((count, 2)),
     )  # fmt: skip

@@ -10,9 +10,9 @@ in vec3 tooth;  // which of them, from its root on; from the left edge, -1, to t
 
 // How wide a ribbon with teeth is here, of how wide it is drawn; how bright, of its colour. Those of its sides take turns.
 vec2 toothed(float to_side) {
-    float up = fract(tooth.x + (to_side > 0.0 ? 0.5 : 0.0)), seen = tooth.z * smoothstep(1.5, 4.0, 1.0 / max(fwidth(tooth.x), 1e-6));
-    float end = min(up / ENDS_AT, (1.0 - up) / (1.0 - ENDS_AT));
-    return vec2(mix(1.0 / TOOTHED_WIDER, mix(BETWEEN, 1.0, end), seen), 1.0 + seen * OUTER * (end - MEAN_END));
+    float up = fract(tooth.x + (to_side > 0.0 ? 0.5 : 0.0)), end = min(up / ENDS_AT, (1.0 - up) / (1.0 - ENDS_AT));
+    float wide = mix(1.0, TOOTHED_WIDER * mix(BETWEEN, 1.0, end), tooth.z);
+    return vec2(wide / mix(1.0, TOOTHED_WIDER, tooth.z), 1.0 + tooth.z * OUTER * (end - MEAN_END));
 }
 #endif
 #ifdef SOFT
@@ -29,8 +29,8 @@ void main() {
     float wide = half_width;
     vec3 seen = color;
 #ifdef TOOTHED
-    vec2 of_tooth = toothed(aside);
     if (tooth.z > 0.0) {
+        vec2 of_tooth = toothed(aside);
         wide *= of_tooth.x;
         seen *= of_tooth.y;
     }
@@ -47,8 +47,8 @@ void main() {
 #else
     vec3 seen = color;
 #ifdef TOOTHED
-    vec2 of_tooth = toothed(tooth.y);
     if (tooth.z > 0.0) {
+        vec2 of_tooth = toothed(tooth.y);
         if (abs(tooth.y) > of_tooth.x)
             discard;
         seen *= of_tooth.y;

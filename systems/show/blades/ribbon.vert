@@ -31,6 +31,13 @@ out vec3 keel;  // how much brighter the face to the right of a fold is than bot
 
 const float teeth_of[ORGANS] = TEETH;
 out vec3 tooth;  // which of them, from its root on; from the left edge, -1, to the right, 1; how much of them is seen
+
+// How much is seen of so many teeth along a ribbon that passes a place: none where they are a pixel long.
+float teeth_seen(vec3 place, vec3 tangent, float teeth) {
+    vec4 at = clip * vec4(place, 1.0), ahead = clip * vec4(tangent, 0.0);
+    float pixels = length((ahead.xy * at.w - at.xy * ahead.w) * screen.xy) / max(at.w * at.w, 1e-4);
+    return teeth > 0.0 ? smoothstep(TEETH_FROM, TEETH_ALL, pixels / teeth) : 0.0;
+}
 #endif
 #ifdef SOFT
 noperspective out float aside;  // from the middle line [pixel]
@@ -126,8 +133,11 @@ void main() {
     vec2 across = lie_of.zw * (side * profile(t, high.w, segments));
 #ifdef TOOTHED
     float teeth = teeth_of[int(stands.z)];
-    across *= teeth > 0.0 ? TOOTHED_WIDER : 1.0;
-    tooth = vec3(t * teeth, side, teeth > 0.0 ? 1.0 : 0.0);
+    tooth = vec3(t * teeth, side, teeth_seen(place, tangent, teeth));
+#ifdef MORPH
+    tooth.z *= 1.0 - painted.w;
+#endif
+    across *= mix(1.0, TOOTHED_WIDER, tooth.z);
 #endif
     float high_up = stands.x + spine.place.y * stands.y;
     Lit lit = Lit(direct.rgb, open_to.rgb, veil.w, vec2(open_to.w, OPEN_SKY), vec2(tilt.w, direct.w));
@@ -161,9 +171,6 @@ void main() {
     light = mix(light, painted_as, painted.w);
 #ifdef FOLDS
     keel *= 1.0 - painted.w;
-#endif
-#ifdef TOOTHED
-    tooth.z *= 1.0 - painted.w;
 #endif
 #endif
     // Between its joints a blade's colour goes straight, where light rises in a bow: so much darker would few joints make it.
