@@ -32,9 +32,9 @@ out vec3 keel;  // how much brighter the face to the right of a fold is than bot
 const float teeth_of[ORGANS] = TEETH;
 out vec3 tooth;  // which of them, from its root on; from the left edge, -1, to the right, 1; how much of them is seen
 
-// How much is seen of so many teeth along a ribbon that passes a place: none where they are a pixel long.
-float teeth_seen(vec3 place, vec3 tangent, float teeth) {
-    vec4 at = clip * vec4(place, 1.0), ahead = clip * vec4(tangent, 0.0);
+// How much is seen of so many teeth along a ribbon that passes a place, as long as `run`: none where they are a pixel long.
+float teeth_seen(vec3 place, vec3 run, float teeth) {
+    vec4 at = clip * vec4(place, 1.0), ahead = clip * vec4(run, 0.0);
     float pixels = length((ahead.xy * at.w - at.xy * ahead.w) * screen.xy) / max(at.w * at.w, 1e-4);
     return teeth > 0.0 ? smoothstep(TEETH_FROM, TEETH_ALL, pixels / teeth) : 0.0;
 }
@@ -133,7 +133,7 @@ void main() {
     vec2 across = lie_of.zw * (side * profile(t, high.w, segments));
 #ifdef TOOTHED
     float teeth = teeth_of[int(stands.z)];
-    tooth = vec3(t * teeth, side, teeth_seen(place, tangent, teeth));
+    tooth = vec3(t * teeth, side, teeth_seen(place, normalize(tangent) * foot.w, teeth));
 #ifdef MORPH
     tooth.z *= 1.0 - painted.w;
 #endif
