@@ -29,15 +29,7 @@ out vec3 keel;  // how much brighter the face to the right of a fold is than bot
 #ifdef TOOTHED
 #include "systems/show/blades/teeth.glsl"
 
-const float teeth_of[ORGANS] = TEETH;
 out vec3 tooth;  // which of them, from its root on; from the left edge, -1, to the right, 1; how much of them is seen
-
-// How much is seen of so many teeth along a ribbon that passes a place, as long as `run`: none where they are a pixel long.
-float teeth_seen(vec3 place, vec3 run, float teeth) {
-    vec4 at = clip * vec4(place, 1.0), ahead = clip * vec4(run, 0.0);
-    float pixels = length((ahead.xy * at.w - at.xy * ahead.w) * screen.xy) / max(at.w * at.w, 1e-4);
-    return teeth > 0.0 ? smoothstep(TEETH_FROM, TEETH_ALL, pixels / teeth) : 0.0;
-}
 #endif
 #ifdef SOFT
 noperspective out float aside;  // from the middle line [pixel]
@@ -132,12 +124,14 @@ void main() {
     float segments = mix(float(SEGMENTS), float(COARSER), joints.x);
     vec2 across = lie_of.zw * (side * profile(t, high.w, segments));
 #ifdef TOOTHED
-    float teeth = teeth_of[int(stands.z)];
-    tooth = vec3(t * teeth, side, teeth_seen(place, normalize(tangent) * foot.w, teeth));
+    float teeth = TEETH_OF[int(stands.z)];
 #ifdef MORPH
-    tooth.z *= 1.0 - painted.w;
+    float seen = teeth_seen(foot.w, teeth, foot.xyz) * (1.0 - painted.w);
+#else
+    float seen = joints.w;
 #endif
-    across *= mix(1.0, TOOTHED_WIDER, tooth.z);
+    tooth = vec3(t * teeth, side, seen);
+    across *= mix(1.0, TOOTHED_WIDER, seen);
 #endif
     float high_up = stands.x + spine.place.y * stands.y;
     Lit lit = Lit(direct.rgb, open_to.rgb, veil.w, vec2(open_to.w, OPEN_SKY), vec2(tilt.w, direct.w));
