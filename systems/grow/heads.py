@@ -29,7 +29,7 @@ _OVERLAP = 1.6
 _WIDEST = 1.15
 """Width of a petal at most, of its length."""
 
-_SPIKE = 0.15
+_SPIKE = 0.165
 """Area of a spike's florets, of the square of its length."""
 
 _TOP_LEANS = 1.25

@@ -43,8 +43,8 @@ ORGANS: Final = (
     Organ((0.06, 0.06, 0.07, 0.9, 0.6), (0.1, 1.0), 0.35),
     Organ((0.7, 1.0, 0.9, 0.6, 0.1), (0.8, 1.0), 0.8),
     Organ((0.5, 0.75, 0.65, 0.4, 0.05), (0.75, 1.0), 0.7),
-    Organ((0.5, 0.9, 1.0, 0.8, 0.2), (0.7, 1.0), teeth=9),
-    Organ((0.35, 0.8, 1.0, 0.85, 0.3), (0.0, 0.1), teeth=7),
+    Organ((0.5, 0.9, 1.0, 0.8, 0.2), (0.7, 1.0), teeth=6),
+    Organ((0.35, 0.8, 1.0, 0.85, 0.3), (0.0, 0.1), teeth=6),
 )
 """By number. `LEAF` belongs to a plant with a head, whose colour is the tip's, and `FROND` to one without. `EYE` is the
 middle of an open head, `RAY` one of an umbel's, whose florets are its end; plumes are made of `TUFT`. A `WITHERED` blade
