@@ -173,7 +173,7 @@ class Painter:
         self.textures[name] = texture
 
     def _grow(self, site: Site) -> None:
-        """Bring the grass into GL; shaders are told how many kinds there are, and of folds and teeth where there are some."""
+        """Bring the grass into GL; shaders are told how many kinds there are, and of folds and teeth if any."""
         self.block.defines["KINDS"] = len(site.growths)
         self.block.defines.pop("FOLDS", None)
         if any(kind.profile == "fold" for kind in site.scene.grass.values()):

@@ -26,8 +26,8 @@ class Organ:
     """How far the wind bends it by itself, of how far it bends a blade; what it stands on carries it besides."""
 
     teeth: int = 0
-    """How many small things stand along either side of it, as florets do, or the leaves of a twig: teeth of its outline,
-    which are drawn where they are seen. Far off and wherever it is painted it is as wide as they are in the mean."""
+    """How many small things stand along either side of it, as florets do, or the leaves of a twig: teeth of its
+    outline, which are drawn where they are seen. Far off and wherever it is painted it has their mean width."""
 
 
 BLADE, STEM, LEAF, FROND, PETAL, EYE, BUD, RAY, TUFT, WITHERED, FLORETS, SPRIG = range(12)
@@ -48,8 +48,8 @@ ORGANS: Final = (
 )
 """By number. `LEAF` belongs to a plant with a head, whose colour is the tip's, and `FROND` to one without. `EYE` is the
 middle of an open head, `RAY` one of an umbel's, whose florets are its end; plumes are made of `TUFT`. A `WITHERED` blade
-of grass is as pale as tips are, thinner, and stiffer. `FLORETS` are some of a spike's, one above another, and a `SPRIG` a
-shrub's short twig with its leaves. Both give way as what they stand on does, and so stay close to it."""
+of grass is as pale as tips are, thinner, and stiffer. `FLORETS` are some of a spike's, one above another, and a `SPRIG`
+a shrub's short twig with its leaves. Both give way as what they stand on does, and so stay close to it."""
 
 HEADS: Final = (PETAL, EYE, BUD, RAY, TUFT, FLORETS)
 """Those that heads are made of."""

@@ -28,7 +28,8 @@ def grow_patch(kind: GrassKind, layout: Layout, /, *, patch: float, variants: in
     """Return the rows of one patch model of a kind, `patch` metres wide, from a seed.
 
     Plants stand where the blades of grass would, of which they have the root, the rank, and for a stem the height and
-    the lean. All rows of a plant have its root and its rank, and follow one another: of each branch the stem first, the head last.
+    the lean. All rows of a plant have its root and its rank, and follow one another: of each branch the stem first, the
+    head last.
     """
     stand = grow_blades(kind, count=layout.plants, patch=patch, variants=variants, seed=seed)
     if kind.withered:
@@ -99,8 +100,8 @@ _BRANCHED: Mapping[Plant, Callable[[GrassKind, Layout, Blades, np.random.Generat
 def _blades(stand: Blades, plant: NDArray[np.intp], /) -> Rows:
     """Return the plants that stay blades, as they are."""
     return Rows(
-        plant=plant, branch=np.zeros(len(plant), np.intp), height=stand.height[plant], width=stand.width[plant], facing=stand.facing[plant],
-        rest=stand.rest[plant], variant=stand.variant[plant],
+        plant=plant, branch=np.zeros(len(plant), np.intp),
+        height=stand.height[plant], width=stand.width[plant], facing=stand.facing[plant], rest=stand.rest[plant], variant=stand.variant[plant],
         organ=np.broadcast_to(stand.organ, stand.height.shape)[plant],
         stem=np.zeros(len(plant)), part=np.ones(len(plant)), stem_rest=np.zeros((len(plant), 2)),
     )  # fmt: skip
@@ -111,7 +112,8 @@ def _stems(kind: GrassKind, stems: Stems, /) -> Rows:
     count = len(stems.plant)
     width = np.maximum(_STEM_WIDTH * stems.height, _LEAST_STEM_WIDTH) * (_WOODY if kind.plant == "shrub" else 1.0)
     return Rows(
-        plant=stems.plant, branch=stems.branch, height=stems.height, width=width, facing=GOLDEN * np.arange(count), rest=stems.rest,
+        plant=stems.plant, branch=stems.branch, height=stems.height, width=width, facing=GOLDEN * np.arange(count),
+        rest=stems.rest,
         variant=np.zeros(count, np.int32), organ=np.full(count, STEM, np.int32), stem=np.zeros(count),
         part=np.ones(count), stem_rest=np.zeros((count, 2)),
     )  # fmt: skip
