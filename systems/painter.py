@@ -32,6 +32,7 @@ from .press.lie import recoveries
 from .receive.ask import numbers_of, write_messages
 from .receive.received import Received
 from .show.blades.draw import BladePainter
+from .show.blades.organs import any_teeth
 from .show.blades.plant import record_of
 from .show.carpet.painter import CarpetPainter
 from .show.registry import REPRESENTATIONS
@@ -172,11 +173,14 @@ class Painter:
         self.textures[name] = texture
 
     def _grow(self, site: Site) -> None:
-        """Bring the grass into GL; shaders are told how many kinds there are, and of folds where there are some."""
+        """Bring the grass into GL; shaders are told how many kinds there are, and of folds and teeth if any."""
         self.block.defines["KINDS"] = len(site.growths)
         self.block.defines.pop("FOLDS", None)
         if any(kind.profile == "fold" for kind in site.scene.grass.values()):
             self.block.defines["FOLDS"] = 1
+        self.block.defines.pop("TOOTHED", None)
+        if any_teeth(site.growths):
+            self.block.defines["TOOTHED"] = 1
         self._put("postures", posture_texture(self.ctx, site.growths))
         self.air = CardWinds(self.ctx, UNITS, site.growths)
         canvas = Canvas(

@@ -24,7 +24,7 @@ SIZES: Mapping[HeadForm, tuple[float, float]] = {
 }
 """Sizes of heads that do not say [m]."""
 
-PETALS: Mapping[HeadForm, int] = {"disc": 12, "bell": 6, "spike": 18, "umbel": 18, "plume": 16}
+PETALS: Mapping[HeadForm, int] = {"disc": 12, "bell": 6, "spike": 9, "umbel": 18, "plume": 16}
 """Petals of heads that do not say."""
 
 FLOWER: Mapping[str, Any] = {
@@ -37,7 +37,7 @@ FORB: Mapping[str, Any] = {
 }  # fmt: skip
 SHRUB: Mapping[str, Any] = {
     "height": [0.3, 0.5], "width": 0.014, "lean": 0.55, "stiffness": 2.0, "root": "#46522c", "tip": "#87984f",
-    "gloss": 0.02, "understorey": 0.0,
+    "gloss": 0.02, "understorey": 0.9,
 }  # fmt: skip
 USUAL: Mapping[str, Mapping[str, Any]] = {"flower": FLOWER, "forb": FORB, "shrub": SHRUB}
 """By plant: what it is where a scene does not say; of grass the fields say it themselves."""
@@ -55,8 +55,8 @@ class Head(Declaration):
     what suits the form."""
 
     petals: int | None = Field(default=None, ge=3, le=48)
-    """Petals, or florets, rays or tufts, where the quality has 500 blades a patch; coarser ones have fewer and broader
-    ones. Without it, what suits the form."""
+    """Petals, rays or tufts, or the rows of florets of a spike, where the quality has 500 blades a patch; coarser ones
+    have fewer and broader ones. Without it, what suits the form."""
 
     open: float = Field(default=0.85, ge=0.0, le=1.0)
     """Share of the heads that are open; the others are in bud. Spikes open from below."""

@@ -18,7 +18,7 @@ from ..around.canopy import canopy_height
 from ..grow.record import GIVES, Growth
 from ..grow.section import SECTIONS
 from ..light.daylight import Daylight, daylight
-from ..light.materials import apart, bloom, grain, leaves_of, let_through, pigment, understorey
+from ..light.materials import apart, bloom, grain, leaves_of, let_through, pigment, understorey, undertone
 from ..light.sun import sun_at
 
 SHADES = 8
@@ -48,6 +48,7 @@ FRAME = np.dtype(
         ("leaf", f"({GROUPS},4)f4"),
         ("lying", f"({GROUPS},4)f4"),
         ("understorey", f"({GROUPS},4)f4"),
+        ("undertone", f"({GROUPS},4)f4"),
         ("root", f"({MOST_KINDS},4)f4"),
         ("tip", f"({MOST_KINDS},4)f4"),
         ("through", f"({MOST_KINDS},4)f4"),
@@ -73,7 +74,8 @@ def frame_record(
     postures = growths[0].postures.shape
     row["terrain"] = (*terrain.origin, terrain.cell, postures.shape[2] - 1)
     row["field"] = (*terrain.size, postures.shape[1], postures.shape[0])
-    crown, leaf, lying, low = (row[name].reshape(-1) for name in ("crown", "leaf", "lying", "understorey"))
+    crown, leaf, lying = (row[name].reshape(-1) for name in ("crown", "leaf", "lying"))
+    low, tipped = (row[name].reshape(-1) for name in ("understorey", "undertone"))
     give = row["give"].reshape(GROUPS, GIVES, 4)
     for index, (kind, growth) in enumerate(zip(scene.grass.values(), growths, strict=True)):
         _write_kind(row, index, kind)
@@ -82,6 +84,7 @@ def frame_record(
         lying[index] = leaves.above / leaves.side
         low[index] = understorey(kind, crown[index])
         row["through"][index, 3] = bloom(kind, growth)
+        tipped[index] = undertone(kind, row["through"][index, 3])
         give[index // 4, :, index % 4] = growth.postures.give
     return record
 

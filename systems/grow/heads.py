@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ...engine.declared.plant import SIZES, Head, HeadForm
 from .layout import Layout
-from .organs import BUD, EYE, PETAL, RAY, TUFT
+from .organs import BUD, EYE, FLORETS, PETAL, RAY, TUFT
 from .rows import GOLDEN, Rows, Stems, stood
 
 Doubles = NDArray[np.float64]
@@ -28,6 +28,12 @@ _REACH = 0.8
 _OVERLAP = 1.6
 _WIDEST = 1.15
 """Width of a petal at most, of its length."""
+
+_SPIKE = 0.165
+"""Area of a spike's florets, of the square of its length."""
+
+_TOP_LEANS = 1.25
+"""How much more the top of a stem leans than all of it: it bends towards its tip."""
 
 
 def grow_heads(head: Head, layout: Layout, stems: Stems, random: np.random.Generator, /) -> Rows:
@@ -64,13 +70,19 @@ def _cup(head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.ran
 
 
 def _spike(head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.random.Generator, /) -> Rows:
-    """Return florets along the tops of stems, smaller to the tip, where they are still in bud."""
+    """Return florets along the tops of stems, smaller to the tip, where they are still in bud.
+
+    They lean as the top of their stem does, and cover it all round, however few they are: the fewer, the longer.
+    """
     up, toward = _along(layout, stems, random)
-    length = 0.22 * size[:, None] * (1.0 - 0.55 * up) * random.uniform(0.85, 1.15, up.shape)
+    longest = 0.1 + 1.4 / layout.petals
+    length = longest * size[:, None] * (1.0 - 0.45 * up) * random.uniform(0.85, 1.15, up.shape)
+    wide = _SPIKE / (longest * layout.petals) * size[:, None] * (1.0 - 0.4 * up) * random.uniform(0.8, 1.2, up.shape)
     shut = up > head.open + random.uniform(-0.15, 0.15, (len(size), 1))
     return stood(
-        stems, np.where(shut, BUD, TUFT), part=_part(stems, size, up), height=np.where(shut, 0.7 * length, length),
-        width=np.where(shut, 0.35, 0.7) * length, toward=toward, spread=np.where(shut, 0.25, 0.6 - 0.25 * up),
+        stems, np.where(shut, BUD, FLORETS), part=_part(stems, size, up), height=np.where(shut, 0.7 * length, length),
+        width=np.where(shut, 0.6, 1.0) * wide, toward=toward, tilt=_TOP_LEANS * stems.rest,
+        spread=np.where(shut, 0.12, 0.28 - 0.12 * up) * random.uniform(0.6, 1.3, up.shape),
     )  # fmt: skip
 
 

@@ -39,7 +39,7 @@ HABITS: Mapping[Plant, Habit] = {
     "grass": Habit(0.0, 1, 0, 0.0),
     "flower": Habit(8.0, 1, 3, 0.45),
     "forb": Habit(8.0, 1, 8, 0.4),
-    "shrub": Habit(5.0, 6, 3, 0.16, 2),
+    "shrub": Habit(5.0, 6, 3, 0.3, 2),
 }
 """By plant."""
 

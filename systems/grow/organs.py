@@ -25,8 +25,12 @@ class Organ:
     gives: float = 1.0
     """How far the wind bends it by itself, of how far it bends a blade; what it stands on carries it besides."""
 
+    teeth: int = 0
+    """How many small things stand along either side of it, as florets do, or the leaves of a twig: teeth of its
+    outline, which are drawn where they are seen. Far off and wherever it is painted it has their mean width."""
 
-BLADE, STEM, LEAF, FROND, PETAL, EYE, BUD, RAY, TUFT, WITHERED = range(10)
+
+BLADE, STEM, LEAF, FROND, PETAL, EYE, BUD, RAY, TUFT, WITHERED, FLORETS, SPRIG = range(12)
 
 ORGANS: Final = (
     Organ((), (0.0, 1.0)),
@@ -39,16 +43,22 @@ ORGANS: Final = (
     Organ((0.06, 0.06, 0.07, 0.9, 0.6), (0.1, 1.0), 0.35),
     Organ((0.7, 1.0, 0.9, 0.6, 0.1), (0.8, 1.0), 0.8),
     Organ((0.5, 0.75, 0.65, 0.4, 0.05), (0.75, 1.0), 0.7),
+    Organ((0.5, 0.9, 1.0, 0.8, 0.2), (0.7, 1.0), teeth=6),
+    Organ((0.35, 0.8, 1.0, 0.85, 0.3), (0.0, 0.1), teeth=6),
 )
 """By number. `LEAF` belongs to a plant with a head, whose colour is the tip's, and `FROND` to one without. `EYE` is the
-middle of an open head, `RAY` one of an umbel's, whose florets are its end; florets and plumes are made of `TUFT`.
-A `WITHERED` blade of grass is as pale as tips are, thinner, and stiffer."""
+middle of an open head, `RAY` one of an umbel's, whose florets are its end; plumes are made of `TUFT`. A `WITHERED` blade
+of grass is as pale as tips are, thinner, and stiffer. `FLORETS` are some of a spike's, one above another, and a `SPRIG`
+a shrub's short twig with its leaves. Both give way as what they stand on does, and so stay close to it."""
 
-HEADS: Final = (PETAL, EYE, BUD, RAY, TUFT)
+HEADS: Final = (PETAL, EYE, BUD, RAY, TUFT, FLORETS)
 """Those that heads are made of."""
 
 TONES: Final = np.array([organ.tones for organ in ORGANS])
 """By organ: tone at its root and at its tip, shape (organs, 2)."""
+
+TEETH: Final = np.array([organ.teeth for organ in ORGANS])
+"""By organ: how many teeth either side of it has, shape (organs,)."""
 
 GIVES: Final = np.array([organ.gives for organ in ORGANS])
 """By organ: how far the wind bends it by itself, shape (organs,)."""

@@ -11,12 +11,15 @@ from ...engine.declared.plant import Plant
 from .blades import grow_blades, wither
 from .heads import grow_heads
 from .layout import HABITS, Layout
-from .organs import FROND, LEAF, STEM
+from .organs import FROND, LEAF, SPRIG, STEM
 from .record import Blades
 from .rows import GOLDEN, Rows, Stems, stood, together
 
 _STEM_WIDTH = 0.006
 """Of its length."""
+
+_WOODY = 2.0
+"""How much wider those of shrubs are."""
 
 _LEAST_STEM_WIDTH = 0.003
 
@@ -25,7 +28,8 @@ def grow_patch(kind: GrassKind, layout: Layout, /, *, patch: float, variants: in
     """Return the rows of one patch model of a kind, `patch` metres wide, from a seed.
 
     Plants stand where the blades of grass would, of which they have the root, the rank, and for a stem the height and
-    the lean. All rows of a plant have its root and its rank, and follow one another: the stem first, the head last.
+    the lean. All rows of a plant have its root and its rank, and follow one another: of each branch the stem first, the
+    head last.
     """
     stand = grow_blades(kind, count=layout.plants, patch=patch, variants=variants, seed=seed)
     if kind.withered:
@@ -40,10 +44,10 @@ def _parts(kind: GrassKind, layout: Layout, stand: Blades, variants: int, random
     bears = _bearing(layout)
     if kind.plant == "grass":
         culms = _culms(kind, stand, np.flatnonzero(bears))
-        parts = [_blades(stand, np.flatnonzero(~bears)), _stems(culms)]
+        parts = [_blades(stand, np.flatnonzero(~bears)), _stems(kind, culms)]
     else:
         every = _BRANCHED[kind.plant](kind, layout, stand, random)
-        parts = [_stems(every), _leaves(kind, layout, every, variants, random)]
+        parts = [_stems(kind, every), _leaves(kind, layout, every, variants, random)]
         culms = every.of(np.flatnonzero(bears[every.plant]))
     if kind.head is not None:
         parts.append(grow_heads(kind.head, layout, culms, random))
@@ -58,13 +62,14 @@ def _bearing(layout: Layout, /) -> NDArray[np.bool_]:
 
 def _upright(stand: Blades, plant: NDArray[np.intp], /) -> Stems:
     """Return a stem for each of some plants (m,), as high and as leaning as its blade."""
-    return Stems(plant, stand.height[plant].astype(np.float64), stand.rest[plant].astype(np.float64))
+    first = np.zeros(len(plant), np.intp)
+    return Stems(plant, first, stand.height[plant].astype(np.float64), stand.rest[plant].astype(np.float64))
 
 
 def _culms(kind: GrassKind, stand: Blades, plant: NDArray[np.intp], /) -> Stems:
     """Return the stems of grasses that bear heads (m,): they overtop the leaves, and lean less."""
     stems = _upright(stand, plant)
-    return Stems(plant, 0.5 * (stems.height + kind.height[1]), 0.6 * stems.rest)
+    return Stems(plant, stems.branch, 0.5 * (stems.height + kind.height[1]), 0.6 * stems.rest)
 
 
 def _alone(kind: GrassKind, layout: Layout, stand: Blades, random: np.random.Generator, /) -> Stems:
@@ -80,7 +85,8 @@ def _branched(kind: GrassKind, layout: Layout, stand: Blades, random: np.random.
     lean = kind.lean * np.sqrt(out)
     height = stand.height[:, None] * (1.0 - 0.3 * out) * random.uniform(0.85, 1.0, count)
     rest = lean[..., None] * np.stack([np.cos(toward), np.sin(toward)], axis=-1)
-    return Stems(np.repeat(np.arange(layout.plants), layout.branches), height.reshape(-1), rest.reshape(-1, 2))
+    plant, branch = np.indices(count).reshape(2, -1)
+    return Stems(plant, branch, height.reshape(-1), rest.reshape(-1, 2))
 
 
 _BRANCHED: Mapping[Plant, Callable[[GrassKind, Layout, Blades, np.random.Generator], Stems]] = {
@@ -94,19 +100,20 @@ _BRANCHED: Mapping[Plant, Callable[[GrassKind, Layout, Blades, np.random.Generat
 def _blades(stand: Blades, plant: NDArray[np.intp], /) -> Rows:
     """Return the plants that stay blades, as they are."""
     return Rows(
-        plant=plant, height=stand.height[plant], width=stand.width[plant], facing=stand.facing[plant],
-        rest=stand.rest[plant], variant=stand.variant[plant],
+        plant=plant, branch=np.zeros(len(plant), np.intp),
+        height=stand.height[plant], width=stand.width[plant], facing=stand.facing[plant], rest=stand.rest[plant], variant=stand.variant[plant],
         organ=np.broadcast_to(stand.organ, stand.height.shape)[plant],
         stem=np.zeros(len(plant)), part=np.ones(len(plant)), stem_rest=np.zeros((len(plant), 2)),
     )  # fmt: skip
 
 
-def _stems(stems: Stems, /) -> Rows:
+def _stems(kind: GrassKind, stems: Stems, /) -> Rows:
     """Return the stems themselves."""
     count = len(stems.plant)
-    width = np.maximum(_STEM_WIDTH * stems.height, _LEAST_STEM_WIDTH)
+    width = np.maximum(_STEM_WIDTH * stems.height, _LEAST_STEM_WIDTH) * (_WOODY if kind.plant == "shrub" else 1.0)
     return Rows(
-        plant=stems.plant, height=stems.height, width=width, facing=GOLDEN * np.arange(count), rest=stems.rest,
+        plant=stems.plant, branch=stems.branch, height=stems.height, width=width, facing=GOLDEN * np.arange(count),
+        rest=stems.rest,
         variant=np.zeros(count, np.int32), organ=np.full(count, STEM, np.int32), stem=np.zeros(count),
         part=np.ones(count), stem_rest=np.zeros((count, 2)),
     )  # fmt: skip
@@ -129,7 +136,7 @@ class _Foliage:
 _FOLIAGE: Mapping[Plant, _Foliage] = {
     "flower": _Foliage(0.3, 0.3, (0.5, 0.95)),
     "forb": _Foliage(0.95, 0.55, (0.5, 0.85)),
-    "shrub": _Foliage(0.9, 0.4, (0.25, 0.6)),
+    "shrub": _Foliage(0.65, 0.2, (0.15, 0.7)),
 }
 
 
@@ -143,8 +150,9 @@ def _leaves(kind: GrassKind, layout: Layout, stems: Stems, variants: int, random
         short, long = kind.leaf
         length = random.uniform(short, long, count)
     toward = random.uniform(-np.pi, np.pi, (count[0], 1)) + GOLDEN * np.arange(layout.leaves)
+    organ = FROND if kind.head is None else SPRIG if kind.plant == "shrub" else LEAF
     return stood(
-        stems, FROND if kind.head is None else LEAF, part=form.up_to * place,
+        stems, organ, part=form.up_to * place,
         height=length * (1.0 - form.shrinks * place), width=kind.width * random.uniform(0.75, 1.15, count),
         toward=toward, spread=random.uniform(*form.spread, count),
         variant=random.integers(0, variants, count, dtype=np.int32),

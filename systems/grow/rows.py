@@ -23,6 +23,9 @@ class Stems:
     plant: Numbers
     """The plant of each, shape (m,)."""
 
+    branch: Numbers
+    """Its number on its plant, shape (m,)."""
+
     height: Doubles
     """Length [m], shape (m,)."""
 
@@ -31,7 +34,7 @@ class Stems:
 
     def of(self, rows: Numbers, /) -> "Stems":
         """Return some of them, (k,)."""
-        return Stems(self.plant[rows], self.height[rows], self.rest[rows])
+        return Stems(self.plant[rows], self.branch[rows], self.height[rows], self.rest[rows])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -39,6 +42,7 @@ class Rows:
     """Rows of `Blades`, with the plant that each belongs to in place of root and rank, (k,) or (k, 2) each."""
 
     plant: Numbers
+    branch: Numbers
     height: NDArray[np.floating]
     width: NDArray[np.floating]
     facing: NDArray[np.floating]
@@ -78,6 +82,7 @@ def stood(
     each = shape[1]
     return Rows(
         plant=np.repeat(stems.plant, each),
+        branch=np.repeat(stems.branch, each),
         height=height.reshape(-1),
         width=np.broadcast_to(width, shape).reshape(-1),
         facing=toward.reshape(-1),
@@ -91,9 +96,13 @@ def stood(
 
 
 def together(stand: Blades, /, *parts: Rows) -> Blades:
-    """Return rows as blades, plant after plant: each has the root and the rank of its plant's blade in `stand`."""
-    plant = np.concatenate([rows.plant for rows in parts])
-    order = np.argsort(plant, kind="stable")
+    """Return rows as blades, plant after plant: each has the root and the rank of its plant's blade in `stand`.
+
+    In this order they are drawn, as all rows of a plant are as far away as its root. So they come branch after branch:
+    were all heads the last, they would cover the leaves of branches that stand before them.
+    """
+    plant, branch = (np.concatenate([getattr(rows, name) for rows in parts]) for name in ("plant", "branch"))
+    order = np.lexsort((branch, plant))
     plant = plant[order]
 
     def joined(name: str) -> NDArray[np.float32]:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ...engine.declared.grass import GrassKind
 from ..grow.bend import across, spine, tone, widths
+from ..grow.organs import LEAF, TONES
 from ..grow.record import Growth
 from ..grow.section import SECTIONS
 from .color import linear, luminance
@@ -29,6 +30,9 @@ SIDES = 0.45
 
 ROOM = 0.25
 """Height of a canopy that all its understorey has room under [m]."""
+
+LOW_TIPPED = 0.6
+"""How much of the colour of tips low leaves of grass have."""
 
 _POINTS = 9
 
@@ -85,6 +89,16 @@ def understorey(kind: GrassKind, canopy: float, /) -> float:
     Under low grass there are as much fewer: they would stand above it.
     """
     return kind.understorey * min(canopy / ROOM, 1.0)
+
+
+def undertone(kind: GrassKind, bloom: float, /) -> float:
+    """Return how much of a kind's colour `tip` its low leaves have, 0 to 1; `bloom` says how much of it the kind shows.
+
+    What is low beneath a plant in flower is of the colour of its leaves: the tip's is that of the petals.
+    """
+    if kind.plant != "grass" and kind.head is not None:
+        return float(TONES[LEAF].mean())
+    return LOW_TIPPED * bloom * bloom
 
 
 def sunny(light: Daylight, /) -> float:

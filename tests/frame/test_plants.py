@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from tallgrass.engine.camera import Camera
+from tallgrass.systems import painter
 from tallgrass.systems.grow import organs
 from tallgrass.systems.grow.bend import spine
 from tallgrass.systems.grow.record import Blades, Growth
@@ -53,7 +54,16 @@ grass: { meadow: { root: "#2b5a20", tip: "#d8b868", withered: 0 } }
     .replace("blades: 60", "blades: 400")
 )
 
+TOOTHED = (organs.FLORETS, organs.SPRIG)
+
 LEAFY = MEADOW.replace("withered: 0", "understorey: 0").replace("#d8b868", "#5fb03a")
+
+HEATH = MEADOW.replace(
+    'tip: "#d8b868", withered: 0',
+    'tip: "#b040a0", understorey: 0, '
+    """\
+plant: shrub, plants: 30, head: { form: spike }""",
+)
 
 
 @pytest.fixture(scope="module")
@@ -99,7 +109,7 @@ def test_f3_each_organ_is_drawn_where_numpy_has_it_and_with_its_own_pigment(stag
                 ratio = made["low"][some, :3] / ends[0] * ends[1] / made["high"][some, :3]
                 np.testing.assert_allclose(ratio, 1.0, atol=1e-3)
         first += count
-    assert met >= {organs.BLADE, organs.STEM, organs.LEAF, organs.PETAL, organs.EYE, organs.BUD, organs.TUFT}
+    assert met >= {organs.BLADE, organs.STEM, organs.LEAF, organs.PETAL, organs.EYE, organs.BUD, *TOOTHED}
 
 
 def foot_of(records: Any, growth: Growth, message: Any) -> Any:
@@ -125,7 +135,11 @@ def test_f3_in_every_representation_a_field_of_poppies_has_one_colour(stage: Sta
 @pytest.mark.parametrize("lod", ["blades", "strips", "carpet"])
 @pytest.mark.parametrize(
     ("scene", "key", "part", "pitch", "redder"),
-    [(MEADOW, "withered", 0.6, -12, 1.062), (LEAFY, "understorey", 1.0, -30, 0.914)],
+    [
+        (MEADOW, "withered", 0.6, -12, 1.062),
+        (LEAFY, "understorey", 1.0, -30, 0.914),
+        (HEATH, "understorey", 1.0, -30, 0.881),
+    ],
 )
 def test_dead_blades_and_an_understorey_colour_a_field_alike_in_every_representation(
     stage: Stage, load: Load, camera: Aim, lod: str, scene: str, key: str, part: float, pitch: float, redder: float
@@ -148,3 +162,24 @@ def test_f3_the_reference_has_the_flowers_of_the_picture(stage: Stage, load: Loa
     assert red_of_truth.sum() > 100
     assert (red & red_of_truth).sum() > 0.75 * red_of_truth.sum()
     assert red.sum() == pytest.approx(red_of_truth.sum(), rel=0.2)
+
+
+def test_f3_florets_and_leaves_of_twigs_stand_out_near_by_and_leave_the_colour_of_all_as_it_is(
+    stage: Stage, load: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    aim, pictures = camera(0.0, 0.5, 3.0, pitch=-15, view=15), []
+    for _ in range(2):
+        pictures.append(stage.shot(load(HEATH, lod="blades"), aim).astype(float))
+        monkeypatch.setattr(painter, "any_teeth", lambda _: False)
+    toothed, plain = pictures
+    assert np.abs(toothed - plain).mean() > 1.0
+    np.testing.assert_allclose(toothed.mean(axis=(0, 1)), plain.mean(axis=(0, 1)), rtol=0.02)
+
+
+def test_f3_florets_far_off_are_drawn_without_their_teeth(
+    stage: Stage, load: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    aim = camera(0.0, 30.0, 3.0, pitch=-80, view=40)
+    toothed = stage.shot(load(HEATH, lod="blades"), aim)
+    monkeypatch.setattr(painter, "any_teeth", lambda _: False)
+    np.testing.assert_array_equal(stage.shot(load(HEATH, lod="blades"), aim), toothed)

@@ -22,6 +22,7 @@ layout(std140) uniform Frame {
     vec4 leaf[4];     // by kind, four in each: leaf area seen from the side, of the ground's area
     vec4 lying[4];    // by kind, four in each: leaf area seen from above, of that from the side
     vec4 understorey[4]; // by kind, four in each: how much of the ground low leaves cover, of what they cover at most
+    vec4 undertone[4]; // by kind, four in each: how much of the colour of tips low leaves have
     vec4 root[16];    // by kind: pigment at the root; gloss
     vec4 tip[16];     // by kind: pigment at the tip; taper
     vec4 through[16]; // by kind: light that a leaf lets through, of what it sends back; how much has the tip's pigment

@@ -16,7 +16,7 @@ const float LITTER_SIDE = 1.8; // side of the square of ground that repeats [m]
 const float LITTER_ONE = 255.0 / 128.0;  // what stands for ground as bright as its mean
 const float COARSEST = 16.0;   // level at which a texture is its mean, or its last
 const float AGAIN = 0.7;        // what leaves send to one another of the sun's light, of one with this albedo
-const float LOW_TIPPED = 0.6;   // how much of the colour of tips the leaves of the understorey have
+const float FALLEN_TIPPED = 0.3;// how much of the colour of tips what has fallen has, of a kind that shows it as grass does
 const float LITTER = 0.75;      // how much of the ground under dense grass is covered by what has fallen
 
 // Light that a leaf of a kind gets at a place, as radiance towards the eye of a white one, and what is mirrored.
@@ -249,26 +249,32 @@ float haze_at(vec3 place) {
     return 1.0 - exp(-distance(place, eye.xyz) * skylight.w);
 }
 
-// A mean of what kinds look like near the ground.
-vec3 low_pigment(ByKind weights, float tipped) {
+// A mean of what kinds look like near the ground, where each has so much of its tip's colour.
+vec3 low_pigment(ByKind weights, ByKind tipped) {
     vec3 low = vec3(0.0);
     for (int kind = 0; kind < KINDS; kind++)
-        low += OF(weights, kind) * mix(root[kind].rgb, tip[kind].rgb, tipped * through[kind].w * through[kind].w);
+        low += OF(weights, kind) * mix(root[kind].rgb, tip[kind].rgb, OF(tipped, kind));
     return low / max(total(weights), 1e-3);
 }
 
 // What lies on the ground where grass stands, and the ground: `here` of lie_at, `grows` of density.
 vec3 soil_pigment(vec4 here, ByKind grows) {
-    vec3 fallen = low_pigment(grows, 0.3);
+    ByKind tipped;
+    for (int kind = 0; kind < KINDS; kind++)
+        OF(tipped, kind) = FALLEN_TIPPED * through[kind].w * through[kind].w;
+    vec3 fallen = low_pigment(grows, tipped);
     return mix(soil.rgb, mix(soil.rgb, fallen, LITTER), min(total(grows), 1.0)) * stretch(here);
 }
 
 // The pigment of the understorey's leaves, of that of the ground between; 1 where there are none.
 vec3 understorey_of(vec4 here, ByKind grows) {
     vec3 between = soil_pigment(here, grows);
-    for (int group = 0; group < GROUPS; group++)
+    ByKind tipped;
+    for (int group = 0; group < GROUPS; group++) {
         grows[group] *= understorey[group];
-    vec3 leaves = low_pigment(grows, LOW_TIPPED) * stretch(here);
+        tipped[group] = undertone[group];
+    }
+    vec3 leaves = low_pigment(grows, tipped) * stretch(here);
     return mix(vec3(1.0), leaves / max(between, 0.02), min(total(grows), 1.0));
 }
 

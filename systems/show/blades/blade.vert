@@ -38,6 +38,9 @@ in vec2 sways;  // and its lean
 #endif
 in vec2 message;
 #endif
+#ifdef TOOTHED
+#include "systems/show/blades/teeth.glsl"
+#endif
 #ifdef ORGANS
 const vec2 tones[ORGANS] = TONES;
 const float gives[ORGANS] = GIVES;
@@ -52,7 +55,7 @@ out vec4 direct; // the sun's light on it, past the haze; leaf area from there t
 out vec4 open_to;// the sky's light; how many leaves the sun's light meets
 out vec4 veil;   // haze before it, and what it mirrors of the sun's light
 out vec4 stands; // where its foot is in the canopy, and how much of it is its length; organ, plus the part that is cut off; cover
-out vec4 joints; // slide to those of a coarser blade; coverage from which on it hides what is behind; kind; ring of strips
+out vec4 joints; // slide to those of a coarser blade; coverage from which on it hides what is behind; kind; ring of strips, or how much of its teeth is seen
 
 #ifdef MOWN
 // The part of a blade up to where it first stands as high as `top` in calm air, of its length.
@@ -146,6 +149,9 @@ void main() {
     float canopy_height = OF(crown, k) * lodged(blown);
 #ifdef ORGANS
     stands.xyz = vec3(up.y / canopy_height, height / canopy_height, organ);
+#ifdef TOOTHED
+    joints.w = teeth_seen(height, TEETH_OF[int(organ)], foot.xyz);
+#endif
 #else
     stands.xyz = vec3(0.0, height / canopy_height, 0.0);
 #endif

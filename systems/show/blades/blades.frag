@@ -3,6 +3,18 @@ flat in float shown;
 #ifdef FOLDS
 in vec3 keel;  // how much brighter the face to the right of a fold is than both
 #endif
+#ifdef TOOTHED
+#include "systems/show/blades/teeth.glsl"
+
+in vec3 tooth;  // which of them, from its root on; from the left edge, -1, to the right, 1; how much of them is seen
+
+// How wide a ribbon with teeth is here, of how wide it is drawn; how bright, of its colour. Those of its sides take turns.
+vec2 toothed(float to_side) {
+    float up = fract(tooth.x + (to_side > 0.0 ? 0.5 : 0.0)), end = min(up / ENDS_AT, (1.0 - up) / (1.0 - ENDS_AT));
+    float wide = mix(1.0, TOOTHED_WIDER * mix(BETWEEN, 1.0, end), tooth.z);
+    return vec2(wide / mix(1.0, TOOTHED_WIDER, tooth.z), 1.0 + tooth.z * OUTER * (end - MEAN_END));
+}
+#endif
 #ifdef SOFT
 uniform int part;     // 0: all of it; 1: where it hides what is behind it; 2: the rest
 flat in float hides;  // coverage from which on it does
@@ -14,16 +26,34 @@ out vec4 pixel;
 
 void main() {
 #ifdef SOFT
-    float covered = shown * clamp(half_width + 0.5 - abs(aside), 0.0, min(1.0, 2.0 * half_width));
+    float wide = half_width;
+    vec3 seen = color;
+#ifdef TOOTHED
+    if (tooth.z > 0.0) {
+        vec2 of_tooth = toothed(aside);
+        wide *= of_tooth.x;
+        seen *= of_tooth.y;
+    }
+#endif
+    float covered = shown * clamp(wide + 0.5 - abs(aside), 0.0, min(1.0, 2.0 * wide));
     if (covered < 0.004 || (part == 1 && covered < hides) || (part == 2 && covered >= hides))
         discard;
 #ifdef FOLDS
     // Each face of a fold is evenly lit: the ramp from side to side, as corners have it, becomes a step.
-    pixel = vec4((color + keel * (clamp(2.0 * aside, -1.0, 1.0) - aside / (half_width + 0.5))) * covered, covered);
+    pixel = vec4((seen + keel * (clamp(2.0 * aside, -1.0, 1.0) - aside / (half_width + 0.5))) * covered, covered);
 #else
-    pixel = vec4(color * covered, covered);
+    pixel = vec4(seen * covered, covered);
 #endif
 #else
-    pixel = vec4(color * shown, shown);
+    vec3 seen = color;
+#ifdef TOOTHED
+    if (tooth.z > 0.0) {
+        vec2 of_tooth = toothed(tooth.y);
+        if (abs(tooth.y) > of_tooth.x)
+            discard;
+        seen *= of_tooth.y;
+    }
+#endif
+    pixel = vec4(seen * shown, shown);
 #endif
 }

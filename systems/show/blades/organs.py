@@ -1,11 +1,12 @@
 """What shaders are told of organs, where a scene has plants other than grass."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...grow.organs import BLADE, GIVES, KNOTS, ORGANS, TONES, WIDTHS
+from ...grow.organs import BLADE, GIVES, KNOTS, ORGANS, TEETH, TONES, WIDTHS
+from ...grow.record import Growth
 from .pool import ORGAN
 
 
@@ -20,7 +21,13 @@ def organ_defines(record: np.dtype[np.void], /) -> Mapping[str, str | int]:
         "TONES": _literal("vec2", [f"vec2({_listed(row)})" for row in TONES]),
         "GIVES": _literal("float", [_listed(GIVES)]),
         "WIDTHS": _literal("float", [_listed(WIDTHS.reshape(-1))]),
+        "TEETH": _literal("float", [_listed(TEETH)]),
     }
+
+
+def any_teeth(growths: Sequence[Growth], /) -> bool:
+    """Return whether any kind has organs with teeth along their sides."""
+    return any(TEETH[model.blades.organ].any() for growth in growths for model in growth.models)
 
 
 def _literal(kind: str, values: list[str]) -> str:

@@ -26,6 +26,11 @@ flat out float shown;
 #ifdef FOLDS
 out vec3 keel;  // how much brighter the face to the right of a fold is than both
 #endif
+#ifdef TOOTHED
+#include "systems/show/blades/teeth.glsl"
+
+out vec3 tooth;  // which of them, from its root on; from the left edge, -1, to the right, 1; how much of them is seen
+#endif
 #ifdef SOFT
 noperspective out float aside;  // from the middle line [pixel]
 noperspective out float half_width;  // of the ribbon [pixel]
@@ -100,6 +105,9 @@ void main() {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
         color = vec3(0.0);
         aside = half_width = shown = 0.0;
+#ifdef TOOTHED
+        tooth = vec3(0.0);
+#endif
         return;
     }
 #endif
@@ -115,6 +123,16 @@ void main() {
     vec3 place = foot.xyz + spine.place * foot.w, tangent = spine.tangent * foot.w;
     float segments = mix(float(SEGMENTS), float(COARSER), joints.x);
     vec2 across = lie_of.zw * (side * profile(t, high.w, segments));
+#ifdef TOOTHED
+    float teeth = TEETH_OF[int(stands.z)];
+#ifdef MORPH
+    float seen = teeth_seen(foot.w, teeth, foot.xyz) * (1.0 - painted.w);
+#else
+    float seen = joints.w;
+#endif
+    tooth = vec3(t * teeth, side, seen);
+    across *= mix(1.0, TOOTHED_WIDER, seen);
+#endif
     float high_up = stands.x + spine.place.y * stands.y;
     Lit lit = Lit(direct.rgb, open_to.rgb, veil.w, vec2(open_to.w, OPEN_SKY), vec2(tilt.w, direct.w));
     vec3 pigment = mix(low.rgb, high.rgb, t), light = radiance(pigment * (1.0 + side * tilt.rgb), high_up, lit) + veil.rgb;

@@ -185,3 +185,38 @@ def test_f3_a_flower_is_the_same_flower_in_every_representation(seed: int) -> No
     seen = head[::2] + np.array([0.0, -1.0]) * (head[1] - carpet.offset) / 2.0
     apart = (place - seen + PATCH / 2) % PATCH - PATCH / 2
     assert np.abs(apart).max() < size / 2
+
+
+@pytest.mark.parametrize("petals", [3, 6, 18])
+def test_f3_florets_cover_a_spike_from_end_to_end_and_stay_close_to_its_stem(petals: int) -> None:
+    size = 0.2
+    kind = GrassKind(plant="flower", leaves=0, lean=0.5, head=Head(form="spike", petals=petals, size=[size, size]))
+    blades = grown(kind)
+    line = spine(blades, POSTURES, (0.0, 0.0), points=POSTURES.shape.shape[2]).astype(np.float64)
+    for rows in plants(blades):
+        stem = line[rows[blades.organ[rows] == organs.STEM][0]]
+        florets = line[rows[np.isin(blades.organ[rows], organs.HEADS)]]
+        away = np.linalg.norm(florets[:, :, None] - stem[None, None], axis=-1)
+        assert away.min(axis=2).max() < 0.45 * size
+        first, last = florets[:, 0, 1], florets[:, -1, 1]
+        order = np.argsort(first)
+        assert (first[order][1:] - last[order][:-1]).max() < 0.15 * size
+
+
+def test_f3_a_shrub_comes_branch_after_branch_so_that_its_heads_do_not_cover_all_its_leaves() -> None:
+    blades = grown(HEATHER)
+    for rows in plants(blades):
+        stems = np.flatnonzero(blades.organ[rows] == organs.STEM)
+        assert len(stems) > 1
+        own = np.searchsorted(stems, np.arange(len(rows)), side="right") - 1
+        on = blades.stem[rows] > 0.0
+        np.testing.assert_array_equal(blades.stem[rows][on], blades.height[rows][stems[own]][on])
+        assert (np.isin(blades.organ[rows][:-1], organs.HEADS) & (blades.organ[rows][1:] == organs.STEM)).any()
+
+
+def test_a_stem_of_a_shrub_is_of_wood() -> None:
+    flower, shrub = (
+        GrassKind(plant=plant, height=[0.4, 0.4], head=Head(form="spike")) for plant in ("flower", "shrub")
+    )
+    widest = [grown(kind).width[grown(kind).organ == organs.STEM].max() for kind in (flower, shrub)]
+    assert widest[1] > 1.5 * widest[0]

@@ -15,7 +15,7 @@ from tallgrass.systems.grow.bend import profile, ribbon
 from tallgrass.systems.grow.raster import rasterise, ribbon_triangles
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.light.daylight import daylight
-from tallgrass.systems.light.materials import bloom, grain, leaves_of, pigment, understorey
+from tallgrass.systems.light.materials import bloom, grain, leaves_of, pigment, understorey, undertone
 from tallgrass.systems.stock.models import grow
 
 PATCH = 2.5
@@ -40,6 +40,13 @@ def grown(request: pytest.FixtureRequest) -> tuple[GrassKind, Growth]:
 def test_there_is_no_more_of_an_understorey_than_the_canopy_has_room_for(canopy: float, part: float) -> None:
     covered = understorey(GrassKind(understorey=part), canopy)
     assert covered == part if canopy >= 0.25 else covered <= part * canopy / 0.249
+
+
+def test_f3_low_leaves_have_the_colour_of_leaves_where_that_of_tips_is_that_of_petals() -> None:
+    kinds = GrassKind(), GrassKind(plant="forb"), GrassKind(plant="shrub", head=Head(form="spike"))
+    grass, forb, heather = (undertone(kind, 1.0) for kind in kinds)
+    assert grass == forb > 0.5
+    assert 0.0 < heather < 0.1
 
 
 def met(kind: GrassKind, growth: Growth, elevation: float, height: float, density: float) -> float:
