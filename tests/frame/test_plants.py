@@ -60,9 +60,7 @@ LEAFY = MEADOW.replace("withered: 0", "understorey: 0").replace("#d8b868", "#5fb
 
 HEATH = MEADOW.replace(
     'tip: "#d8b868", withered: 0',
-    'tip: "#b040a0", understorey: 0, '
-    """\
-plant: shrub, plants: 30, head: { form: spike }""",
+    'tip: "#b040a0", understorey: 0, plant: shrub, plants: 30, head: { form: spike }',
 )
 
 
