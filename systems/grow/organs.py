@@ -47,9 +47,9 @@ ORGANS: Final = (
     Organ((0.35, 0.8, 1.0, 0.85, 0.3), (0.0, 0.1), teeth=6),
 )
 """By number. `LEAF` belongs to a plant with a head, whose colour is the tip's, and `FROND` to one without. `EYE` is the
-middle of an open head, `RAY` one of an umbel's, whose florets are its end; plumes are made of `TUFT`. A `WITHERED` blade
-of grass is as pale as tips are, thinner, and stiffer. `FLORETS` are some of a spike's, one above another, and a `SPRIG`
-a shrub's short twig with its leaves. Both give way as what they stand on does, and so stay close to it."""
+middle of an open head, `RAY` one of an umbel's, whose florets are its end; plumes are made of `TUFT`. A `WITHERED`
+blade of grass is as pale as tips are, thinner, and stiffer. `FLORETS` are some of a spike's, one above another, and a
+`SPRIG` a shrub's short twig with its leaves. Both give way as what they stand on does, and so stay close to it."""
 
 HEADS: Final = (PETAL, EYE, BUD, RAY, TUFT, FLORETS)
 """Those that heads are made of."""

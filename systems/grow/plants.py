@@ -100,8 +100,8 @@ _BRANCHED: Mapping[Plant, Callable[[GrassKind, Layout, Blades, np.random.Generat
 def _blades(stand: Blades, plant: NDArray[np.intp], /) -> Rows:
     """Return the plants that stay blades, as they are."""
     return Rows(
-        plant=plant, branch=np.zeros(len(plant), np.intp),
-        height=stand.height[plant], width=stand.width[plant], facing=stand.facing[plant], rest=stand.rest[plant], variant=stand.variant[plant],
+        plant=plant, branch=np.zeros(len(plant), np.intp), height=stand.height[plant], width=stand.width[plant],
+        facing=stand.facing[plant], rest=stand.rest[plant], variant=stand.variant[plant],
         organ=np.broadcast_to(stand.organ, stand.height.shape)[plant],
         stem=np.zeros(len(plant)), part=np.ones(len(plant)), stem_rest=np.zeros((len(plant), 2)),
     )  # fmt: skip
@@ -113,8 +113,7 @@ def _stems(kind: GrassKind, stems: Stems, /) -> Rows:
     width = np.maximum(_STEM_WIDTH * stems.height, _LEAST_STEM_WIDTH) * (_WOODY if kind.plant == "shrub" else 1.0)
     return Rows(
         plant=stems.plant, branch=stems.branch, height=stems.height, width=width, facing=GOLDEN * np.arange(count),
-        rest=stems.rest,
-        variant=np.zeros(count, np.int32), organ=np.full(count, STEM, np.int32), stem=np.zeros(count),
+        rest=stems.rest, variant=np.zeros(count, np.int32), organ=np.full(count, STEM, np.int32), stem=np.zeros(count),
         part=np.ones(count), stem_rest=np.zeros((count, 2)),
     )  # fmt: skip
 

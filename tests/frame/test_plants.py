@@ -59,10 +59,7 @@ TOOTHED = (organs.FLORETS, organs.SPRIG)
 LEAFY = MEADOW.replace("withered: 0", "understorey: 0").replace("#d8b868", "#5fb03a")
 
 HEATH = MEADOW.replace(
-    'tip: "#d8b868", withered: 0',
-    'tip: "#b040a0", understorey: 0, '
-    """\
-plant: shrub, plants: 30, head: { form: spike }""",
+    '"#d8b868", withered: 0', '"#b040a0", understorey: 0, plant: shrub, plants: 30, head: { form: spike }'
 )
 
 
