@@ -6,7 +6,7 @@ in vec3 keel;  // how much brighter the face to the right of a fold is than both
 #ifdef TOOTHED
 #include "systems/show/blades/teeth.glsl"
 
-in vec3 tooth;  // which of them, from its root on; from the left edge, -1, to the right, 1; how much of them is seen
+in vec3 tooth;  // which of them, from the root on; from left, -1, to right, 1; how much is seen
 
 // How wide a ribbon with teeth is here, of how wide it is drawn; how bright, of its colour. Those of its sides take turns.
 vec2 toothed(float to_side) {

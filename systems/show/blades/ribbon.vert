@@ -29,7 +29,7 @@ out vec3 keel;  // how much brighter the face to the right of a fold is than bot
 #ifdef TOOTHED
 #include "systems/show/blades/teeth.glsl"
 
-out vec3 tooth;  // which of them, from its root on; from the left edge, -1, to the right, 1; how much of them is seen
+out vec3 tooth;  // which of them, from the root on; from left, -1, to right, 1; how much is seen
 #endif
 #ifdef SOFT
 noperspective out float aside;  // from the middle line [pixel]
