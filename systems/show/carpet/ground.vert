@@ -259,6 +259,7 @@ void main() {
     float sunk = sqrt(SUNK * max(viewing_slope(rise, place), 0.0) / max(dense, 1e-3));
     float over_crest = stands * pow(THROUGH_CREST * sqrt(2.0 * max(crest, 0.0) * tall * stands) / (CREST * max(dense, 1e-3)), 0.667);
     float behind = clamp((-viewing_slope(rise, place) - BEHIND.x) / (BEHIND.y - BEHIND.x), 0.0, 1.0);  // nobody sees it
+    behind *= clamp(4.0 * (eye.y - place.y), 0.0, 1.0);  // from within the grass, what stands around is seen
     sunk = max(clamp(max(sunk, over_crest), 0.05, 1.0), behind);
     place.y -= carpet * tall * sunk;
 #endif
