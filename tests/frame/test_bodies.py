@@ -15,6 +15,7 @@ from tallgrass.components.wind import Grass, WindPrimitive
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.bodies.fly import carried
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.reference import draw_reference
 
 Stage = Any
 Load = Callable[..., Prairie]
@@ -97,6 +98,28 @@ def test_a_saucers_shadow_lies_where_the_sun_casts_it(load: Load, stage: Stage, 
     assert darker.sum() > 60
     assert low[0] - 2.0 <= columns.mean() <= high[0]
     assert high[1] - 2.0 <= rows.mean() <= low[1] + 2.0
+
+
+def test_a_shadow_on_strips_ends_where_it_ends_on_every_blade(load: Load, stage: Stage, camera: Aim) -> None:
+    far = FLAT.replace("to: 4", "to: 30").replace("carpet_to: 10", "carpet_to: 40").replace("blades: 60", "blades: 400")
+    sunny = load(far.replace("strength: 0", "azimuth: 90, elevation: 45"))
+    aim = camera(0.0, 3.0, 16.0, pitch=-13)
+    stage.shot(sunny, aim)
+
+    def true(prairie: Prairie, aim: Camera) -> Picture:
+        stage.shot(prairie, aim)  # the reference shows what the last frame did
+        return draw_reference(prairie, *stage.matrices(aim), stage.size, samples=3).astype(float)
+
+    def shadow(draw: Callable[[Prairie, Camera], Picture]) -> Picture:
+        lit = draw(sunny, aim)
+        saucer = sunny.world.create(Body((7.2, 6.0, 2.5)))
+        darker = lit - draw(sunny, aim)
+        sunny.world.delete(saucer)
+        return np.asarray(darker.reshape(30, 3, 40, 4, 3).mean(axis=(1, 3, 4)))
+
+    drawn, due = shadow(stage.shot), shadow(true)
+    assert due.max() > 8.0
+    assert np.abs(drawn - due).mean() < 0.18 * due.mean()
 
 
 def test_r4_a_hill_hides_a_saucer_behind_it(load: Load, stage: Stage, camera: Aim) -> None:

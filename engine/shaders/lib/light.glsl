@@ -128,29 +128,43 @@ float past_clouds(vec3 place) {
     return 1.0 - CLOUD_TAKES * smoothstep(1.0 - sunlight.w, 1.25 - sunlight.w, dense);
 }
 
-// How much of the sun is seen past bodies, from a place. Each is a ball that is stretched or pressed flat along an axis:
-// drawn out until it is one, the sun's ray past it too, it is seen how near the ray comes to its middle.
-float past_bodies(vec3 place) {
+// How the sun's ray past a place comes by a body: from its middle, in radii, and how soft the shadow's edge is; far off where
+// the body stands behind. A body is a ball that is stretched or pressed flat along an axis: it is drawn out until it is one,
+// and the ray with it.
+vec4 ray_by(int body, vec3 place) {
+    vec3 apart = shades[body].xyz - place, axis = shaped[body].xyz;
+    float pressed = shaped[body].w, radius = shades[body].w;
+    vec3 way = apart + axis * (pressed * dot(axis, apart)), ray = sun.xyz + axis * (pressed * dot(axis, sun.xyz));
+    float before = dot(way, ray) / dot(ray, ray), along = dot(apart, sun.xyz);
+    vec3 by = (way - ray * before) / radius;
+    // The farther a shadow falls, the softer is its edge.
+    float soft = 0.12 + 0.01 * abs(along) * max(length(by), 1e-3) / max(length(apart - sun.xyz * along), 1e-3 * radius);
+    return vec4(before > 0.0 ? by : vec3(1e3), soft);
+}
+
+// How much of the sun is seen past a body, where its ray comes so near to the middle, in radii.
+float past_body(float near, float soft) {
+    return 1.0 - (1.0 - smoothstep(1.0 - soft, 1.0 + soft, near)) / max(soft * soft, 1.0);
+}
+
+// How much of it is seen from a place past all bodies but one.
+float past_bodies(vec3 place, int but) {
     float seen = 1.0;
-    for (int i = 0; i < SHADES && shades[i].w > 0.0; i++) {
-        vec3 apart = shades[i].xyz - place, axis = shaped[i].xyz;
-        vec3 way = apart + axis * (shaped[i].w * dot(axis, apart)), ray = sun.xyz + axis * (shaped[i].w * dot(axis, sun.xyz));
-        float before = dot(way, ray) / dot(ray, ray), along = dot(apart, sun.xyz);
-        float near = length(way - ray * before) / shades[i].w;
-        // Its outline is as far from the middle as `near` is from 1; the farther its shadow falls, the softer is its edge.
-        float soft = 0.12 + 0.01 * abs(along) * max(near, 1e-3) / max(length(apart - sun.xyz * along), 1e-3 * shades[i].w);
-        float hidden = (1.0 - smoothstep(1.0 - soft, 1.0 + soft, near)) / max(soft * soft, 1.0);
-        seen *= before > 0.0 ? 1.0 - hidden : 1.0;
+    for (int body = 0; body < SHADES && shades[body].w > 0.0; body++) {
+        vec4 by = ray_by(body, place);
+        seen *= body == but ? 1.0 : past_body(length(by.xyz), by.w);
     }
     return seen;
 }
 
-// How much of the sun is seen from a place, `past` of it past the terrain.
+// How much of the sun is seen from a place past all but bodies, `past` of it past the terrain.
+float sun_past(vec3 place, float past) {
+    return sunlight.w > 0.0 ? past * past_clouds(place) : past;
+}
+
+// How much of it is seen past these too.
 float sun_seen(vec3 place, float past) {
-    float seen = past;
-    if (sunlight.w > 0.0)
-        seen *= past_clouds(place);
-    return shades[0].w > 0.0 ? seen * past_bodies(place) : seen;
+    return sun_past(place, past) * (shades[0].w > 0.0 ? past_bodies(place, -1) : 1.0);
 }
 
 // How high the canopy stands where `bend` bends it, of its height at rest: where all grass lies, its tips are the top.
@@ -181,10 +195,11 @@ vec2 ways(int k, float high) {
     return vec2(sqrt(1.0 - min(high * high, 1.0)) / high + OF(lying, k), OPEN_SKY);
 }
 
-// The light on leaves of kind `k` at a place: `here` of lie_at, `grows` of density, the wind bending them by `bend`.
-Lit lit_at(int k, vec2 bend, vec3 place, vec4 here, ByKind grows) {
+// The light on leaves of kind `k` at a place: `here` of lie_at, `grows` of density, the wind bending them by `bend`, and how
+// much of the sun is `seen` there.
+Lit lit_at(int k, vec2 bend, vec3 place, vec4 here, ByKind grows, float seen) {
     vec3 ray = normalize(place - eye.xyz);
-    float seen = sun_seen(place, here.y), facing = dot(ray, sun.xyz);
+    float facing = dot(ray, sun.xyz);
     // Leaves that face all ways send back what the eye sees lit, and let through what it sees against the light.
     float back = 0.5 - 0.5 * facing, against = 1.0 - back;
     vec3 phase = back * sqrt(back) + against * sqrt(against) * through[k].rgb;
@@ -198,6 +213,10 @@ Lit lit_at(int k, vec2 bend, vec3 place, vec4 here, ByKind grows) {
     thread *= thread;
     return Lit(direct * phase * face * mix(0.75, 1.0, here.x), skylight.rgb * face, seen * root[k].w * thread * thread,
                ways(k, here.x), leaves_over(grows, k));
+}
+
+Lit lit_at(int k, vec2 bend, vec3 place, vec4 here, ByKind grows) {
+    return lit_at(k, bend, place, here, grows, sun_seen(place, here.y));
 }
 
 // What reaches leaves at some height, and is sent from there to the eye: of a white leaf; what leaves send to one another,

@@ -32,9 +32,8 @@ float sharper(vec2 dx, vec2 dy) {
 #ifndef UNDER
 const float LITTER_PARTS = 4.0;  // a long stripe is taken in so many parts at most, one behind the other
 
-// What lies on the ground, litter and low leaves, in the mean over the pixel. The parts are taken from whole levels, each
-// from the one that is due to it, so that all of them together go gradually from a level to the next. Where little of the
-// ground is `bare`, seen between the grass, fewer do.
+// What lies on the ground, litter and low leaves, in the mean over the pixel: over parts of it that lie one behind another
+// along the line of sight. Where little of the ground is `bare`, seen between the grass, fewer do.
 vec2 lying_seen(float bare) {
     vec2 dx = dFdx(place.xz), dy = dFdy(place.xz), along = dot(dx, dx) > dot(dy, dy) ? dx : dy, sum = vec2(0.0);
     float parts = min(1.0 / sharper(dx, dy), mix(1.0, LITTER_PARTS, min(5.0 * bare, 1.0))), count = ceil(parts - 0.1);

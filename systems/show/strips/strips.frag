@@ -19,9 +19,13 @@ flat in float sheet;
 flat in float shown;
 flat in float level;  // of the mip-maps
 flat in float boost;  // of coverage
+flat in vec4 shadow; // of a body: the square of how near the sun's ray comes to it, by powers of `on_column`; how soft its edge is
+in float on_column;  // from an edge of the column to the other
 #ifdef MOWN
 in vec3 roots;         // place on the ground (x, z), and how high over it in calm air [m]
+#if KINDS <= 4
 flat in ByKind leaf_area;// by kind, of the ground's
+#endif
 flat in int stood_of;  // kind
 flat in float fine_at; // pixels that a metre is long
 flat in int is_cut;    // whether anything is, about its column
@@ -41,11 +45,15 @@ void main() {
     vec4 texel = textureLod(atlas, vec3(at, sheet), level);
     vec3 mean = texel.rgb / max(texel.a, 0.002);
     vec3 pigment = (foot_color + rise_color * mean.r) * (1.0 + grain_cos * (2.0 * mean.g - 1.0) + grain_sin * (2.0 * mean.b - 1.0));
-    Lit lit = Lit(direct, open_to, veil.w, vec2(shade.z, OPEN_SKY), shade.xy);
+    float seen = past_body(sqrt(shadow.x + on_column * (shadow.y + on_column * shadow.z)), shadow.w);
+    Lit lit = Lit(direct * seen, open_to, veil.w * seen, vec2(shade.z, OPEN_SKY), shade.xy);
     float covered = shown * min(texel.a * boost, 1.0);
 #ifdef MOWN
     if (is_cut > 0) {
         float top = left_at(roots.xy);
+#if KINDS > 4
+        ByKind leaf_area = areas(grows_at(roots.xy));
+#endif
         lit = mown_to(top, lit, stood_of, leaf_area);
         covered *= clamp((top - roots.z) * fine_at + 0.5, 0.0, 1.0);
         if (is_mown(top))

@@ -28,10 +28,16 @@ flat out vec3 shade;   // leaf area above its kind's top, and from there to the 
 flat out float sheet;
 flat out float shown;
 flat out float boost;
+flat out vec4 shadow; // of a body: the square of how near the sun's ray comes to it, by powers of `on_column`; how soft its edge is
+out float on_column;  // from an edge of the column to the other
 flat out float level;
 #ifdef MOWN
 out vec3 roots;        // place on the ground (x, z), and how high over it in calm air [m]
+#if KINDS > 4
+ByKind leaf_area;      // pixels find out themselves
+#else
 flat out ByKind leaf_area;// by kind, of the ground's
+#endif
 flat out int stood_of; // kind
 flat out float fine_at;// pixels that a metre is long
 flat out int is_cut;   // whether anything is, about its column
@@ -76,6 +82,24 @@ vec4 on_edge(vec3 foot, vec2 bend, vec2 back, float t, int k, float sections, fl
     return vec4(foot + spine * growth + t * vec3(back.x, 0.0, back.y), spine.y / (OF(crown, k) * lodged(bend)));
 }
 
+// The body whose shadow comes nearest to a column between two places; none is -1. Where it ends, pixels find out.
+int shading(vec3 a, vec3 b) {
+    int nearest = -1;
+    float least = 9.0;  // from three radii on, nothing is shaded
+    shadow = vec4(least, 0.0, 0.0, 1.0);
+    for (int body = 0; body < SHADES && shades[body].w > 0.0; body++) {
+        vec4 from = ray_by(body, a), to = ray_by(body, b);
+        vec3 way = to.xyz - from.xyz, near = vec3(dot(from.xyz, from.xyz), 2.0 * dot(from.xyz, way), dot(way, way));
+        float at = clamp(-0.5 * near.y / max(near.z, 1e-6), 0.0, 1.0), nearness = near.x + at * (near.y + at * near.z);
+        if (nearness < least) {
+            least = nearness;
+            nearest = body;
+            shadow = vec4(near, 0.5 * (from.w + to.w));
+        }
+    }
+    return nearest;
+}
+
 void main() {
     int queued = first + gl_InstanceID;
     int number = int(texelFetch(strips, ivec2(queued % STRIPS_ROW, queued / STRIPS_ROW), 0).r);
@@ -114,7 +138,10 @@ void main() {
     at = vec2((float(column) + across) / float(fine.x), t) * picture.xy;
     vec4 here = lie_at(middle.xz);
     ByKind grows = grows_at(middle.xz);
-    Lit lit = lit_at(k, 0.5 * (bend_a + bend_b), middle, here, grows);
+    on_column = across;
+    int body = shading(a, b);
+    float seen = sun_past(middle, here.y) * past_bodies(middle, body);
+    Lit lit = lit_at(k, 0.5 * (bend_a + bend_b), middle, here, grows, seen);
 #ifdef MOWN
     roots = vec3(mix(a.xz, b.xz, across), t * OF(tall, k));
     leaf_area = areas(grows);
@@ -123,11 +150,11 @@ void main() {
     rows_at = CROSSED * soil.w / float(count) * abs(eye.y - middle.y) / max(distance(middle.xz, eye.xz), 0.5 * soil.w);
     is_cut = left_about(middle.xz, 2.0 * distance(a.xz, b.xz)) < 0.999 * zenith.w ? 1 : 0;
 #endif
-    float hidden = haze_at(middle), seen = 1.0 - hidden;
+    float hidden = haze_at(middle), clear = 1.0 - hidden;
     h = point.w;
-    direct = lit.sun * seen;
-    open_to = lit.sky * seen;
-    veil = vec4(haze_light(middle) * hidden, lit.gloss * seen);
+    direct = lit.sun * clear;
+    open_to = lit.sky * clear;
+    veil = vec4(haze_light(middle) * hidden, lit.gloss * clear);
     shade = vec3(lit.leaves, lit.way.x);
     vec3 dry = stretch(here) * faced(k, run, middle, top);
     foot_color = root[k].rgb * dry;
