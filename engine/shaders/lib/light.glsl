@@ -167,9 +167,11 @@ float sun_seen(vec3 place, float past) {
     return sun_past(place, past) * (shades[0].w > 0.0 ? past_bodies(place, -1) : 1.0);
 }
 
+const float LODGED = 0.55;  // how much lower the canopy is where all grass lies
+
 // How high the canopy stands where `bend` bends it, of its height at rest: where all grass lies, its tips are the top.
 float lodged(vec2 bend) {
-    return 1.0 - 0.55 * min(dot(bend, bend), 1.0);
+    return 1.0 - LODGED * min(dot(bend, bend), 1.0);
 }
 
 // Leaf area above a height [m], where each kind has so much. It thins out towards the top of each.

@@ -148,7 +148,7 @@ const float SHARP = 0.4;  // size of what is taken from the images for a pixel, 
 const float SHARP_ABOVE = 0.36;  // the same from above, where grass hides less of other grass
 const float LEAST_MET = 0.004;  // of a kind, as a part of all that is: of less, nothing is seen
 const float LEAST = 0.01; // height of the carpet where nothing grows [m]
-const float ARCHED = 0.6;  // how much less of their tips blades show for how low they are bent: as arches, they show their middles
+const float ARCHED = 0.6;  // how much less of their tips blades show from the side for how low they are bent
 const float MET = 0.7;  // how deep leaves are that are met over a crest, of how deep the line of sight comes
 const float SPIKES = 18.0;  // how much more leaves are met along an outline where taller plants stand
 const float TALLER = 0.05;  // how much taller plants count at most, of the mean
@@ -205,6 +205,23 @@ vec2 among_strips(float on_strips, float slope) {
     return vec2((1.0 - exp(-leaves * (1.0 - on_strips))) / max(all, 1e-4), clamp((1.0 - own) / (1.0 - depth.x), 0.0, 1.0));
 }
 
+const float TIPS = 1.7;      // how far bent grass moves its tips, of how far it moves the leaves that are seen
+const float SHORTEST = 0.35; // blades that lean towards the eye are so long at least, of how long they are seen at rest
+
+// How images of grass at rest are sheared along the line of sight for blades in them to lean as grass does that is `moved` [m].
+vec2 sheared(vec2 heading, vec2 moved, float slope) {
+    return TIPS * moved * clamp(slope, slopes[0], slopes[SLOPES - 1]) / max(tall, LEAST) - heading * (1.0 - stands);
+}
+
+const float EVENER = 0.15;           // from above, how much less uneven grass is that lies
+const vec2 MIDDLES = vec2(0.25, 0.9);// how much nearer to the tips, and to the canopy's top, the middles of arches are
+const float ENDS = 0.1;              // how much farther from the top their ends are
+
+// What leaves show from above as arches, whose middles lie at the top, of what they show upright: place along the blade, height.
+vec2 arched(vec2 met, float lying) {
+    return met * (1.0 + lying * (MIDDLES * (1.0 - met) - vec2(0.0, ENDS) * met));
+}
+
 // What the carpet shows: of grass and of the ground between, as much as there is of each, as of blades in front of it.
 vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
     ivec2 cell = ivec2(floor(place.xz / soil.w));
@@ -218,6 +235,7 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
     fine *= clamp(slope / on_level, 0.25, 1.0);  // over a crest a line of sight meets plants one by one, as on level ground
     float shrunk = clamp(log2(texels) - 0.8, 0.0, 1.0);
     float steep = smoothstep(0.05, 0.3, slope);
+    float above = smoothstep(0.0, 2.0, slope), lying = above * (1.0 - stands) / LODGED;
     fine *= mix(SHARP, SHARP_ABOVE, steep);
     dx *= fine;
     dy *= fine;
@@ -235,7 +253,11 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
     float between = exp(-more);  // what is seen between blades, of that between blades at rest
     vec2 depths = mean_depth(vec3(max(on_level, slopes[0])), vec3(0.0, more, 0.0)).xy;
     float higher_up = (1.0 - depths.y) / (1.0 - depths.x);  // where blades are met, of where they are met at rest
-    vec2 at = rotated((place.xz - moved) / soil.w - vec2(cell) - 0.5, turn) + 0.5;
+    vec2 leans = sheared(heading, moved, on_level), apart = (place.xz - moved) / soil.w - vec2(cell) - 0.5;
+    float longer = max(1.0 + dot(leans, heading), SHORTEST);
+    dx *= inversesqrt(longer);
+    dy *= inversesqrt(longer);
+    vec2 at = rotated(apart - leans * dot(apart, heading) / longer, turn) + 0.5;
     // A blade's doubled azimuth against the line of sight; what it is against the world's axes is as far turned.
     float sight = heading.x * heading.x - heading.y * heading.y, aside = 2.0 * heading.x * heading.y;
     vec2 seen = elevation_seen(on_level);
@@ -244,7 +266,7 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
         among = among_strips(come_through(place.xz, max(slope, 1e-4), carpet, tall, stands).y, on_level);
     // Two images that have nothing to do with one another are flatter once they are mixed: as much is put back (Heitz and
     // Neyret, High-Performance By-Example Noise, 2018).
-    float grain = mix(1.0, mix(GRAIN, GRAIN_ABOVE, steep), shrunk) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
+    float grain = (1.0 - EVENER * lying) * mix(1.0, mix(GRAIN, GRAIN_ABOVE, steep), shrunk) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
 #ifdef MOWN
     bool cut = is_mown(left);
     float stubble = 1.0 - exp(-weighed(leaf_area, leaves_left(left)) / max(slope, 0.02));  // by the leaves that are left
@@ -278,7 +300,8 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
 #endif
         mean_of.rg = 1.0 - (1.0 - mean_of.rg) * shallow;
         mean_of.rg *= higher_up;
-        mean_of.r *= 1.0 - ARCHED * (1.0 - stands) * (1.0 - stands);
+        mean_of.r *= 1.0 - ARCHED * (1.0 - above) * (1.0 - stands) * (1.0 - stands);
+        mean_of.rg = arched(mean_of.rg, lying);
         mean_of.g *= OF(tops, kind);
         Lit met_by = lit;
         float covers = max(1.0 - (1.0 - image.a) * between, 0.0);
