@@ -1,11 +1,13 @@
 """The carpet's light follows the wind that bends the grass (F6)."""
 
 from collections.abc import Callable
+from pathlib import Path
 
 import moderngl
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from PIL import Image
 
 from tallgrass.app.bench.contrast import luma
 from tallgrass.components.pose import Pose
@@ -99,3 +101,17 @@ def test_f6_leaves_of_the_carpet_go_where_the_wind_bends_them(room: Stage, prair
     best = max(range(3, 31), key=alike)
     assert 0.08 * metre < best < 0.14 * metre
     assert alike(best) > alike(-best) + 0.1
+
+
+def test_grass_that_grows_half_as_densely_is_as_bright_on_the_carpet_as_its_blades_are(
+    room: Stage, load: Load, tmp_path: Path
+) -> None:
+    """It is seen farther down, where blades have the colour of their roots."""
+    half = tmp_path / "half.png"
+    Image.fromarray(np.full((8, 8), 128, np.uint8)).save(half)
+    colours = f'understorey: 0, root: "#202020", tip: "#a0a0a0", place: {{ map: {half} }}'
+    prairie = load(
+        CALM.replace("blades: 800", f"blades: 800, {colours}") + 'light: { ground: "#101010" }\n', lod="carpet"
+    )
+    seen, true = room.shot(prairie, CAMERA), draw_reference(prairie, *room.matrices(CAMERA), room.size, samples=3)
+    assert seen.mean() == pytest.approx(true.mean(), rel=0.06)

@@ -60,3 +60,19 @@ def test_each_blade_keeps_its_own_hue_on_strips(room: Stage, load: Load) -> None
     seen, true = seen_and_true(room, load(PALE, lod="strips"), 0.0)
     redder, true_redder = ((each[..., 0] - each[..., 1]).std() for each in (seen, true))
     assert redder > 0.7 * true_redder
+
+
+def slanted(pixels: Pixels) -> float:
+    """How much more alike pixels are up to the right than up to the left, as a correlation."""
+    luma = pixels.mean(axis=2)
+    grain = luma - luma.mean()
+    up = (grain[1:, :-1] * grain[:-1, 1:]).mean() - (grain[1:, 1:] * grain[:-1, :-1]).mean()
+    return float(up / grain.var())
+
+
+def test_f2_from_above_the_carpets_grain_leans_as_the_blades_do(room: Stage, load: Load) -> None:
+    prairie = load(PALE, lod="carpet")
+    for heading, side in ((90.0, 1.0), (270.0, -1.0)):
+        seen, true = (side * slanted(each) for each in seen_and_true(room, prairie, heading))
+        assert true > 0.1
+        assert 0.7 * true < seen < 1.4 * true

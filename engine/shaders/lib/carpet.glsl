@@ -21,6 +21,17 @@ float lifted(float deep, float crest, float stands) {
     return outline > 0.0 ? mix(1.0, outline * sqrt(stands), along) : 1.0;
 }
 
+// How deep in the grass what a line of sight meets is, of its height, that meets so many leaves: the mean of what is met of
+// leaf area that falls off linearly with height, to 4 %.
+vec3 depth_met(vec3 leaves) {
+    leaves *= 1.273;
+    return inversesqrt(sqrt(5.06 + leaves * leaves));
+}
+
+float depth_met(float leaves) {
+    return depth_met(vec3(leaves)).x;
+}
+
 // The slope on level ground of a line of sight that goes as far through the grass as one of this slope does over ground
 // that bulges, or is hollow: from the top of the grass to the ground, or to where it comes nearest to it.
 float level_slope(float slope, float crest, float share, float tall, float stands) {

@@ -90,9 +90,11 @@ in float lies;
 vec3 dry;
 vec2 sways;
 float stands;
+ByKind tipped;
 const float strips_before = 1.0;  // pixels find out themselves
 #else
 in float strips_before;
+in ByKind tipped;
 in vec3 dry;
 in vec2 sways;
 in float stands;
@@ -111,11 +113,10 @@ vec2 rotated(vec2 v, vec2 by) {
 
 const int LEVEL = 2;  // so many of the lowest images show grass that hides most of itself
 
-// How deep in the grass what lines of sight of some slopes meet is, of its height: the mean of what is met of leaf area
-// that falls off linearly with height, to 4 %. For how it is bent they meet so many leaves more.
+// How deep in the grass what lines of sight of some slopes meet is, of its height. For how it is bent they meet so many leaves
+// more.
 vec3 mean_depth(vec3 slope, vec3 more) {
-    vec3 leaves = 1.273 * max(max(dense, 0.02) / slope + more, 0.0);
-    return inversesqrt(sqrt(5.06 + leaves * leaves));
+    return depth_met(max(max(dense, 0.02) / slope + more, 0.0));
 }
 
 vec3 mean_depth(vec3 slope) {
@@ -206,11 +207,14 @@ vec2 among_strips(float on_strips, float slope) {
 }
 
 const float TIPS = 1.7;      // how far bent grass moves its tips, of how far it moves the leaves that are seen
+const float TOO_STEEP = 1.7; // viewing slope from which on hardly any of it is seen
 const float SHORTEST = 0.35; // blades that lean towards the eye are so long at least, of how long they are seen at rest
 
 // How images of grass at rest are sheared along the line of sight for blades in them to lean as grass does that is `moved` [m].
+// From straight above, where blades have no length in them, they are not: what is far from a patch's middle would swim.
 vec2 sheared(vec2 heading, vec2 moved, float slope) {
-    return TIPS * moved * clamp(slope, slopes[0], slopes[SLOPES - 1]) / max(tall, LEAST) - heading * (1.0 - stands);
+    float steeper = slope * slope / (TOO_STEEP * TOO_STEEP), leant = 1.0 / (1.0 + steeper * steeper);
+    return leant * (TIPS * moved * max(slope, slopes[0]) / max(tall, LEAST) - heading * (1.0 - stands));
 }
 
 const float EVENER = 0.15;           // from above, how much less uneven grass is that lies
@@ -300,6 +304,7 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
 #endif
         mean_of.rg = 1.0 - (1.0 - mean_of.rg) * shallow;
         mean_of.rg *= higher_up;
+        mean_of.r *= OF(tipped, kind);
         mean_of.r *= 1.0 - ARCHED * (1.0 - above) * (1.0 - stands) * (1.0 - stands);
         mean_of.rg = arched(mean_of.rg, lying);
         mean_of.g *= OF(tops, kind);
@@ -350,6 +355,7 @@ void work_out() {
     vec2 message = message_at(place.xz);
     sways = SWAYS * tall * message;
     stands = lodged(message);
+    tipped = tips_met(grows_at(place.xz), level_slope(max(viewing_slope(rise, place), 0.0), crest, carpet, tall, stands));
 #endif
 }
 #endif

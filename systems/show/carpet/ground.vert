@@ -19,6 +19,11 @@ uniform ByKind raised; // by kind: height of the carpet above the ground [m]
 out float carpet;
 out vec2 rise;   // of the ground, along x and z
 out ByKind met;  // by kind: how much of what a line of sight meets
+#if KINDS > 4
+ByKind tipped;
+#else
+out ByKind tipped;// by kind: how much of its tips is met, of what its images show
+#endif
 #ifdef HEADS
 out ByKind riper;// by kind: how much more of its heads than an image shows; all the others at 1, none at -1
 #endif
@@ -267,6 +272,7 @@ void main() {
     vec2 came = come_through(flat_at, slope, carpet, tall, stands);
     float on_level = max(level_slope(max(viewing_slope(rise, place), 0.0), crest, carpet, tall, stands), GRAZING);
     met = kinds_met(grows, on_level, left, left_by_strips(1.0 - came.x));
+    tipped = tips_met(grows, on_level);
 #ifndef UNDER
     strips_before = came.x;
     light_up(viewing_slope(rise, place), message);

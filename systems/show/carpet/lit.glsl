@@ -40,6 +40,19 @@ vec3 turned_to(int kind, vec3 lean, vec3 ray) {
     return 1.0 + grain_c[kind].rgb * seen.x + grain_s[kind].rgb * seen.y;
 }
 
+// How much of each kind's tips is met, of what its images show, which have it grow densely and alone. What grows thinly, or
+// stands out of a lower kind, is met farther down; as blades differ in length, that is less far down each of them.
+ByKind tips_met(ByKind grows, float slope) {
+    ByKind area = areas(grows), tips;
+    slope = max(slope, LOWEST);
+    for (int kind = 0; kind < KINDS; kind++) {
+        float usual = depth_met(OF(leaf, kind) / slope), canopy_height = OF(crown, kind);
+        float leaves = leaves_above(canopy_height * (1.0 - usual), area) - leaves_above(canopy_height, area);
+        OF(tips, kind) = sqrt((1.0 - depth_met(leaves / (usual * usual * slope))) / (1.0 - usual));
+    }
+    return tips;
+}
+
 // The wind's message; far off, where nobody asks for it, the mean of those nearer by.
 vec2 message_at(vec2 at) {
     float side = float(textureSize(air, 0).x) * soil.w;
