@@ -8,6 +8,7 @@ uniform sampler2DArray ranks;  // rank; premultiplied
 in vec2 at;
 flat in vec3 foot_color;  // pigment
 flat in vec3 rise_color;
+flat in vec3 mean_face;   // its pigment, of that where it faces all ways alike
 flat in vec3 grain_cos;   // change of pigment with the cosine of twice the normal's azimuth
 flat in vec3 grain_sin;
 in float h;            // height in the canopy
@@ -44,7 +45,7 @@ const float FAINT = 0.006; // coverage that is left out: in bytes, layer upon la
 void main() {
     vec4 texel = textureLod(atlas, vec3(at, sheet), level);
     vec3 mean = texel.rgb / max(texel.a, 0.002);
-    vec3 pigment = (foot_color + rise_color * mean.r) * (1.0 + grain_cos * (2.0 * mean.g - 1.0) + grain_sin * (2.0 * mean.b - 1.0));
+    vec3 pigment = (foot_color + rise_color * mean.r) * (mean_face + grain_cos * (2.0 * mean.g - 1.0) + grain_sin * (2.0 * mean.b - 1.0));
     float seen = past_body(sqrt(shadow.x + on_column * (shadow.y + on_column * shadow.z)), shadow.w);
     Lit lit = Lit(direct * seen, open_to, veil.w * seen, vec2(shade.z, OPEN_SKY), shade.xy);
     float covered = shown * min(texel.a * boost, 1.0);

@@ -18,6 +18,7 @@ uniform ivec4 stacks[RINGS];             // by ring: columns of a strip, section
 out vec2 at;
 flat out vec3 foot_color;  // pigment
 flat out vec3 rise_color;
+flat out vec3 mean_face;   // its pigment, of that where it faces all ways alike
 flat out vec3 grain_cos;   // change of pigment with the cosine of twice the normal's azimuth
 flat out vec3 grain_sin;
 out float h;            // height in the canopy
@@ -156,7 +157,8 @@ void main() {
     open_to = lit.sky * clear;
     veil = vec4(haze_light(middle) * hidden, lit.gloss * clear);
     shade = vec3(lit.leaves, lit.way.x);
-    vec3 dry = stretch(here) * faced(k, run, middle, top);
+    vec3 dry = stretch(here);
+    mean_face = faced(k, run, middle, top);
     foot_color = root[k].rgb * dry;
     rise_color = (tip[k].rgb - root[k].rgb) * dry;
     float turned = turn % 2 == 0 ? 1.0 : -1.0;
