@@ -110,6 +110,30 @@ def test_the_first_key_of_an_item_goes_and_its_dash_stays() -> None:
     assert "# the first" in text
 
 
+@pytest.mark.parametrize(
+    ("after", "gone", "new"),
+    [
+        (
+            [{"kind": "breeze", "strength": 0.7}, {"kind": "gust", "position": [0, 10]}, {"kind": "blast"}],
+            ["    strength: 0.5 # gentle"],
+            ["    strength: 0.7 # gentle", "  - { kind: blast }"],
+        ),
+        (
+            [{"kind": "breeze", "strength": 0.7}],
+            ["    strength: 0.5 # gentle", "  - { kind: gust, position: [0, 10] }"],
+            ["    strength: 0.7 # gentle"],
+        ),
+        (
+            [{"kind": "gust", "position": [0, 10]}, {"kind": "blast"}],
+            ["  - kind: breeze", "    strength: 0.5 # gentle"],
+            ["  - { kind: blast }"],
+        ),
+    ],
+)
+def test_an_item_may_change_while_others_come_and_go(after: list[Any], gone: list[str], new: list[str]) -> None:
+    assert changed(("wind",), after)[1:] == (gone, new)
+
+
 def test_numbers_on_lines_become_a_word_beside_their_key_and_its_comment() -> None:
     _, gone, new = changed(("quality",), "high")
     assert (gone, new) == (["quality: # in numbers", "  patch: 2.5", "  blades: 40"], ["quality: high # in numbers"])
