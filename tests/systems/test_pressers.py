@@ -305,7 +305,15 @@ def test_n5_instants_at_which_nobody_of_a_scene_moves_are_left_out_and_change_no
     assert len(found[3].settled.marks) > 10
 
 
-@pytest.mark.parametrize("still", ["", "  - { position: [5, 5] }\n  - { path: [{ at: 190, position: [9, 9] }] }\n"])
+@pytest.mark.parametrize(
+    "still",
+    [
+        "",
+        "  - { position: [5, 5] }\n  - { path: [{ at: 190, position: [9, 9] }] }\n",
+        "  - { path: [{ at: 3, position: [-5, 5] }, { at: 9, position: [5, 5] }] }\n",
+    ],
+    ids=["all walk", "some have not set out", "one has arrived"],
+)
 def test_n5_what_a_scene_has_forgotten_is_not_gone_again_and_changes_nothing(
     world: World, monkeypatch: pytest.MonkeyPatch, still: str
 ) -> None:
