@@ -13,6 +13,7 @@ from pydantic import Field, model_validator
 from .body import Hover
 from .declaration import Declaration, DeclarationError
 from .pose import HERE, Pose
+from .presser import Presser
 
 Floats = NDArray[np.float32]
 
@@ -208,6 +209,8 @@ class WindSource:
 
 def must_be_wind(thing: object, due: str, /) -> None:
     """Raise TypeError for what is no wind; `due` begins the sentence: who takes one."""
+    if isinstance(thing, Presser):
+        raise TypeError(f"{due} a wind, and a Presser goes with a Pose: esper.create_entity(presser, Pose(x, z))")
     if not isinstance(thing, WindPrimitive):
         said = "its name " if isinstance(thing, str) else "the class " if isinstance(thing, type) else ""
         what = thing.__name__ if isinstance(thing, type) else shortened(thing)

@@ -342,3 +342,8 @@ def test_n5_what_a_scene_has_forgotten_is_not_gone_again_and_changes_nothing(
         if not still:  # who stands has begun to before
             np.testing.assert_array_equal(ours.marks, theirs.marks)
     assert len(found[0].settled.marks) > 50
+
+
+def test_f4_who_adds_a_presser_as_a_wind_is_told_how_it_is_done(prairie: Prairie) -> None:
+    with pytest.raises(TypeError, match=r"a Presser goes with a Pose: esper\.create_entity\(presser, Pose\(x, z\)\)$"):
+        prairie.add(Presser(), pose=Pose(0.0, 0.0))  # type: ignore[arg-type]
