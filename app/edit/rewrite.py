@@ -23,9 +23,9 @@ def rewritten(text: str, values: dict[str, Any], /) -> str:
 
     The text has to be one that `read_document` reads. Raises RewriteError where the change cannot be written.
     """
-    splices = sorted(_changed(text, spans(text), values), reverse=True)
+    splices = sorted(_changed(text, spans(text), values), key=lambda splice: splice[:2])
     result = text
-    for start, end, new in splices:
+    for start, end, new in reversed(splices):  # at one place, what comes first stands first
         result = result[:start] + new + result[end:]
     try:
         read = read_document(result, file="").root.data
@@ -69,7 +69,8 @@ def _replaced(text: str, span: Span, value: Any, key: Span | None) -> Iterator[S
         yield colon, colon, " " + new
         yield _line_start(text, span.start), _line_end(text, span.end), ""
     else:
-        yield span.start, span.end, " " + new if text[span.start - 1 : span.start] in (":", "-") else new
+        end = span.start + len(text[span.start : span.end].rstrip())  # of a text on lines of its own, the last one's
+        yield span.start, end, " " + new if text[span.start - 1 : span.start] in (":", "-") else new
 
 
 def _mapping(text: str, span: Span, value: dict[str, Any]) -> Iterator[Splice]:
