@@ -44,7 +44,7 @@ class Footprint:
 
 def is_between(least: float, thing: object, most: float) -> bool:
     """Return whether something is a number from `least` to `most`."""
-    return isinstance(thing, Real) and least <= thing <= most
+    return isinstance(thing, Real) and least <= float(thing) <= most
 
 
 def _pairs(corners: Iterable[Iterable[float]]) -> tuple[tuple[float, float], ...]:
