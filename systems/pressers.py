@@ -110,6 +110,9 @@ class Pressers:
         for entity in left:
             if self._world.has(entity):
                 self._world.delete(entity)
+        self._begin_anew()
+
+    def _begin_anew(self) -> None:
         self._scenes, self._is_anew = Walk(Trail(begun=SCENES, every=EVERY)), True
         self._memory.replace(self._scenes.trail)
 
@@ -131,6 +134,8 @@ class Pressers:
         They are asked where they are at all instants since the last one. Nobody moves before all paths begin and after
         all have ended: these instants are left out. Returns whether anything is new.
         """
+        if time - self._scenes.time > self._memory.lasts + EVERY:
+            self._begin_anew()  # what they trod before is forgotten
         walk, is_anew = self._scenes, self._is_anew
         if is_anew:
             declared = [self._declared[entity] for entity, _ in who]

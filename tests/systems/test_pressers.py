@@ -344,6 +344,27 @@ def test_n5_what_a_scene_has_forgotten_is_not_gone_again_and_changes_nothing(
     assert len(found[0].settled.marks) > 50
 
 
+def test_n5_when_time_is_skipped_what_is_forgotten_is_not_gone(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
+    del world
+    stops = ", ".join(f"{{ at: {60 * k}, position: [{9 if k % 2 else -9}, {k % 7 - 3}] }}" for k in range(16))
+    asked, found, instants = [0], [], pressers_module._instants  # noqa: SLF001 - counted, as above
+
+    def counted(*given: object) -> range:
+        asked[0] += len(instants(*given))  # type: ignore[arg-type]
+        return instants(*given)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(pressers_module, "_instants", counted)
+    for steps in ((2.3, 850.0), (852.3,)):
+        with little_prairie(scene=f"{LITTLE}pressers:\n  - {{ path: [{stops}] }}\n") as prairie:
+            runner = esper.create_entity(Presser(radius=0.4), Pose(0.0, 0.5))
+            for seconds in steps:
+                prairie.advance(seconds)
+                found.append(prairie.bent_at(AROUND))
+            esper.delete_entity(runner, immediate=True)
+    np.testing.assert_array_equal(found[1], found[2])
+    assert asked[0] < 250 * RATE
+
+
 def test_f4_who_adds_a_presser_as_a_wind_is_told_how_it_is_done(prairie: Prairie) -> None:
     with pytest.raises(TypeError, match=r"a Presser goes with a Pose: esper\.create_entity\(presser, Pose\(x, z\)\)$"):
         prairie.add(Presser(), pose=Pose(0.0, 0.0))  # type: ignore[arg-type]
