@@ -1,8 +1,9 @@
 """The base of everything a scene file can declare."""
 
-from typing import Annotated
+from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field
+import numpy as np
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
 
 class Declaration(BaseModel):
@@ -28,10 +29,16 @@ class DeclarationError(ValueError):
 Number = Annotated[float, Field(ge=-1e6, le=1e6)]
 """One number of several; a million metres leave single precision room to compute with."""
 
-Pair = Annotated[list[Number], Field(min_length=2, max_length=2)]
+
+def _listed(value: Any) -> Any:
+    """Return what a program has in a tuple or an array as the list that a scene file has."""
+    return value.tolist() if isinstance(value, np.ndarray) else list(value) if isinstance(value, tuple) else value
+
+
+Pair = Annotated[list[Number], BeforeValidator(_listed), Field(min_length=2, max_length=2)]
 """Two numbers; a list rather than a tuple, because schema readers of draft 7 know its length limits."""
 
-Triple = Annotated[list[Number], Field(min_length=3, max_length=3)]
+Triple = Annotated[list[Number], BeforeValidator(_listed), Field(min_length=3, max_length=3)]
 """Three numbers."""
 
 Color = Annotated[str, Field(pattern=r"^#[0-9a-fA-F]{6}$")]

@@ -1,7 +1,10 @@
 """Footprints: the outlines on the ground under which grass is pressed down or cut."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from math import isfinite
+from numbers import Real
+from reprlib import repr as shortened
 from typing import ClassVar
 
 
@@ -24,11 +27,12 @@ class Footprint:
     """Corners (x, z) of a polygon in its own frame, x to the right and -z ahead [m]; in place of the other two."""
 
     def __post_init__(self) -> None:
-        """Raise ValueError for what is no footprint."""
+        """Make pairs of the corners, whatever they stand in; raise ValueError for what is no footprint."""
+        object.__setattr__(self, "corners", _pairs(self.corners))
         most = self._largest
-        if not 0.02 <= self.radius <= most:
+        if not is_between(0.02, self.radius, most):
             raise ValueError(f"a footprint's radius is from 0.02 to {most:g} m, not {self.radius!r}")
-        if not 0.0 <= self.length <= most:
+        if not is_between(0.0, self.length, most):
             raise ValueError(f"a footprint's length is from 0 to {most:g} m, not {self.length!r}")
         if self.corners and not (
             len(self.corners) >= 3
@@ -36,6 +40,18 @@ class Footprint:
             and _area(self.corners) > 1e-3
         ):
             raise ValueError(f"a footprint's corners are 3 or more places (x, z) within {most:g} m, not in a line")
+
+
+def is_between(least: float, thing: object, most: float) -> bool:
+    """Return whether something is a number from `least` to `most`."""
+    return isinstance(thing, Real) and least <= float(thing) <= most
+
+
+def _pairs(corners: Iterable[Iterable[float]]) -> tuple[tuple[float, float], ...]:
+    try:
+        return tuple((float(x), float(z)) for x, z in corners)
+    except (TypeError, ValueError):
+        raise ValueError(f"a footprint's corners are places (x, z), not {shortened(corners)}") from None
 
 
 def _area(corners: tuple[tuple[float, float], ...]) -> float:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from .footprint import Footprint
+from .footprint import Footprint, is_between
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,5 +22,5 @@ class Presser(Footprint):
     def __post_init__(self) -> None:
         """Raise ValueError for what is no footprint."""
         Footprint.__post_init__(self)  # a class with slots is made twice, and `super()` means the first one
-        if not 0.0 <= self.strength <= 1.0:
+        if not is_between(0.0, self.strength, 1.0):
             raise ValueError(f"a presser's strength is from 0 to 1, not {self.strength!r}")

@@ -13,11 +13,15 @@ from pydantic import Field, model_validator
 from .body import Hover
 from .declaration import Declaration, DeclarationError
 from .pose import HERE, Pose
+from .presser import Presser
 
 Floats = NDArray[np.float32]
 
 INTERFACE = 1
 """Version of what winds and tallgrass ask of each other; it changes when winds written for it would break."""
+
+LATEST = 1e8
+"""Latest that a wind may begin or end [s]: three years on, as a game that runs on may set one off at any time."""
 
 Mixing = Literal["priority", "weight"]
 """How winds meet at a place: the highest priority cancels the others, or they are mixed by weight."""
@@ -122,10 +126,10 @@ class WindPrimitive(Declaration):
     weight: float = Field(default=1.0, ge=0.0, le=1.0)
     """How much it counts where the scene mixes winds by weight; 1 covers winds of lower priority."""
 
-    start: float = Field(default=0.0, ge=0.0, le=36000.0)
+    start: float = Field(default=0.0, ge=0.0, le=LATEST)
     """When it begins [s]."""
 
-    stop: float | None = Field(default=None, ge=0.0, le=36000.0)
+    stop: float | None = Field(default=None, ge=0.0, le=LATEST)
     """When it ends [s]; without it, never."""
 
     ease: float = Field(default=0.0, ge=0.0, le=60.0)
@@ -208,6 +212,8 @@ class WindSource:
 
 def must_be_wind(thing: object, due: str, /) -> None:
     """Raise TypeError for what is no wind; `due` begins the sentence: who takes one."""
+    if isinstance(thing, Presser):
+        raise TypeError(f"{due} a wind, and a Presser goes with a Pose: esper.create_entity(presser, Pose(x, z))")
     if not isinstance(thing, WindPrimitive):
         said = "its name " if isinstance(thing, str) else "the class " if isinstance(thing, type) else ""
         what = thing.__name__ if isinstance(thing, type) else shortened(thing)

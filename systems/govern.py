@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from math import ceil, floor, inf, log
 from statistics import median
 
+from ..engine.handed import NUMBERS
 from .around.outlook import Outlook
 from .painter import Painter
 from .transition import FADE
@@ -165,8 +166,8 @@ class Governor:
 
     @hold.setter
     def hold(self, seconds: float | None) -> None:
-        if seconds is not None and not 0.0 < seconds < inf:
-            raise ValueError(f"a frame is held to a time above 0 s, or by None to none, not to {seconds}")
+        if seconds is not None and not (isinstance(seconds, NUMBERS) and 0.0 < seconds < inf):
+            raise ValueError(f"a frame is held to a time above 0 s, or by None to none, not to {seconds!r}")
         self._hold = seconds
 
     def fineness(self, outlook: Outlook, /) -> Fineness:

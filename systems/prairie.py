@@ -21,6 +21,7 @@ from ..engine.declared.scene import LodName, Scene
 from ..engine.handed import must_be_step, must_be_time, must_be_viewer
 from ..engine.plugged import bring_systems
 from ..engine.scene import LoadedScene, must_be_read, read_scene
+from ..engine.scene.change import changed
 from ..engine.schedule import Phase, Schedule
 from ..engine.terrain.sample import height_at
 from ..engine.world import World
@@ -335,7 +336,7 @@ class Prairie:
         ValueError for an unknown key and a bad value, RuntimeError after `release`.
         """
         self._must_be_there("change its light")
-        self._shining.ask(Light.model_validate(self.light.model_dump() | changes), time=self.time)
+        self._shining.ask(changed(self.light, changes, name="light"), time=self.time)
 
     def reload(self, scene: str | Path | LoadedScene | None = None, *, site: Site | None = None) -> None:
         """Read the scene again, or another one, and go on with it at the same time: what did not change stays.

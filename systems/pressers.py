@@ -110,6 +110,9 @@ class Pressers:
         for entity in left:
             if self._world.has(entity):
                 self._world.delete(entity)
+        self._begin_anew()
+
+    def _begin_anew(self) -> None:
         self._scenes, self._is_anew = Walk(Trail(begun=SCENES, every=EVERY)), True
         self._memory.replace(self._scenes.trail)
 
@@ -131,10 +134,13 @@ class Pressers:
         They are asked where they are at all instants since the last one. Nobody moves before all paths begin and after
         all have ended: these instants are left out. Returns whether anything is new.
         """
+        if time - self._scenes.time > self._memory.lasts + EVERY:
+            self._begin_anew()  # what they trod before is forgotten
         walk, is_anew = self._scenes, self._is_anew
         if is_anew:
-            start = _start([self._declared[entity] for entity, _ in who], floor(time) - self._memory.lasts)
-            walk.come(who, self._where(who, start), start)
+            declared = [self._declared[entity] for entity, _ in who]
+            for number in _lead(declared, _start(declared, floor(time) - self._memory.lasts)):
+                walk.come(who, self._where(who, number / RATE), number / RATE)
             self._is_anew = False
         stay = staying(walk.who, who)
         for number in _instants([self._declared[entity].path for entity, _ in stay], walk.time, time):
@@ -155,19 +161,38 @@ def _rows(poses: Sequence[Pose]) -> Doubles:
 
 
 def _start(pressers: Sequence[PresserOnPath], latest: float) -> float:
-    """Return when pressers begin their walk [s] for all to be the same that they tread after `latest` [s].
+    """Return from when on [s] all pressers have to be asked for all to be the same that they tread after `latest` [s].
 
-    That is a multiple of `EVERY` at which each of them is on its way, or has not set out yet.
+    That is a multiple of `EVERY` at which each of them is on its way, has not set out yet, or has arrived.
     """
 
-    def is_same(presser: PresserOnPath, then: float) -> bool:
-        if not presser.path or then <= presser.path[0].at:
-            return True
-        here, there = presser.pose(time=then), presser.pose(time=then + 1.0 / RATE)
-        return (here.x, here.z) != (there.x, there.z)
+    def may(presser: PresserOnPath, then: float) -> bool:
+        return _is_due(presser, then) or presser.path[-1].at <= then
 
     starts = (EVERY * number for number in range(floor(latest / EVERY), 0, -1))
-    return next((then for then in starts if all(is_same(presser, then) for presser in pressers)), 0.0)
+    return next((then for then in starts if all(may(presser, then) for presser in pressers)), 0.0)
+
+
+def _lead(pressers: Sequence[PresserOnPath], start: float) -> list[int]:
+    """Return the numbers of the instants up to `start` [s] at which pressers are asked, rising.
+
+    Those that have arrived by then go the way that led them there, from where they were on it at a multiple of `EVERY`.
+    """
+    numbers = {round(start * RATE)}
+    for presser in pressers:
+        if not _is_due(presser, start):
+            arrived = presser.path[-1].at
+            since = next(then for then in range(floor(arrived / EVERY), -1, -1) if _is_due(presser, EVERY * then))
+            numbers |= {*range(round(EVERY * since * RATE), ceil(arrived * RATE) + 1)}
+    return sorted(numbers)
+
+
+def _is_due(presser: PresserOnPath, then: float) -> bool:
+    """Return whether a presser treads the same after `then` [s] if it begins there: on its way, or before it."""
+    if not presser.path or then <= presser.path[0].at:
+        return True
+    here, there = presser.pose(time=then), presser.pose(time=then + 1.0 / RATE)
+    return (here.x, here.z) != (there.x, there.z)
 
 
 def _instants(paths: Sequence[Sequence[Waypoint]], since: float, until: float) -> range:

@@ -1,12 +1,13 @@
 """Writing changed values back into a YAML text: only what changed is touched, to the character."""
 
-from collections.abc import Iterator, Sequence
-from difflib import SequenceMatcher
+from collections.abc import Iterator
+from itertools import compress
 from typing import Any
 
 from ...engine.scene import SceneError
 from ...engine.scene.compose import read_document
 from .spans import Span, spans
+from .staying import staying
 from .yaml_text import yaml_text
 
 Splice = tuple[int, int, str]
@@ -22,9 +23,9 @@ def rewritten(text: str, values: dict[str, Any], /) -> str:
 
     The text has to be one that `read_document` reads. Raises RewriteError where the change cannot be written.
     """
-    splices = sorted(_changed(text, spans(text), values), reverse=True)
+    splices = sorted(_changed(text, spans(text), values), key=lambda splice: splice[:2])
     result = text
-    for start, end, new in splices:
+    for start, end, new in reversed(splices):  # at one place, what comes first stands first
         result = result[:start] + new + result[end:]
     try:
         read = read_document(result, file="").root.data
@@ -53,7 +54,7 @@ def _changed(text: str, span: Span, value: Any, key: Span | None = None) -> Iter
         return
     if isinstance(span.data, dict) and isinstance(value, dict) and span.keys.keys() & value.keys():
         yield from _mapping(text, span, value)
-    elif isinstance(span.data, list) and isinstance(value, list) and span.items and value and _grows(span, value):
+    elif isinstance(span.data, list) and isinstance(value, list) and span.items and value:
         yield from _list(text, span, value)
     else:
         yield from _replaced(text, span, value, key)
@@ -68,7 +69,8 @@ def _replaced(text: str, span: Span, value: Any, key: Span | None) -> Iterator[S
         yield colon, colon, " " + new
         yield _line_start(text, span.start), _line_end(text, span.end), ""
     else:
-        yield span.start, span.end, " " + new if text[span.start - 1 : span.start] in (":", "-") else new
+        end = span.start + len(text[span.start : span.end].rstrip())  # of a text on lines of its own, the last one's
+        yield span.start, end, " " + new if text[span.start - 1 : span.start] in (":", "-") else new
 
 
 def _mapping(text: str, span: Span, value: dict[str, Any]) -> Iterator[Splice]:
@@ -85,31 +87,14 @@ def _mapping(text: str, span: Span, value: dict[str, Any]) -> Iterator[Splice]:
 
 def _list(text: str, span: Span, value: list[Any]) -> Iterator[Splice]:
     starts = [item.start if span.flow else _dash(text, item) for item in span.items]
-    for kind, first, last, start, end in _steps(span, value):
-        if kind == "replace":
-            for item, new in zip(span.items[first:last], value[start:end], strict=True):
-                yield from _changed(text, item, new)
-        elif kind == "delete":
-            yield _without(text, span, starts, first, last)
-        elif kind == "insert":
-            added = [yaml_text(item) for item in value[start:end]]
-            yield _with(text, span, added if span.flow else [f"- {each}" for each in added])
-
-
-def _steps(span: Span, value: list[Any]) -> Sequence[tuple[str, int, int, int, int]]:
-    """Return how the items of a list become others, as `difflib` tells it."""
-    before, after = [yaml_text(item.data) for item in span.items], [yaml_text(item) for item in value]
-    if len(before) == len(after):
-        return [("replace", 0, len(before), 0, len(after))]
-    return SequenceMatcher(a=before, b=after, autojunk=False).get_opcodes()
-
-
-def _grows(span: Span, value: list[Any]) -> bool:
-    """Return whether a list becomes another one by items that change, go, or come after the last one."""
-    return all(
-        (kind != "replace" or last - first == end - start) and (kind != "insert" or first == len(span.items))
-        for kind, first, last, start, end in _steps(span, value)
-    )
+    stays = staying([item.data for item in span.items], value)
+    for first, last in _runs([not each for each in stays]):
+        yield _without(text, span, starts, first, last)
+    for item, new in zip(compress(span.items, stays), value, strict=False):
+        yield from _changed(text, item, new)
+    added = [yaml_text(item) for item in value[sum(stays) :]]
+    if added:
+        yield _with(text, span, added if span.flow else [f"- {each}" for each in added])
 
 
 def _runs(gone: list[bool]) -> Iterator[tuple[int, int]]:

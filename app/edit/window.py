@@ -17,6 +17,7 @@ from .editor import Editor
 from .gizmo import show_gizmo
 from .grips import Grip, grip_at, grips_of, pulled
 from .gui import Gui
+from .history import Draft
 from .panel import Panel
 from .pick import Place, Sight, nearest
 
@@ -46,7 +47,9 @@ class EditWalk(Walk):
         self._pulled = False
         self._stroke: tuple[Place, Brush] | None = None
         self._pointer: tuple[float, float] = (-1.0, -1.0)
-        self._dt, self._warned = 0.0, False
+        self._dt = 0.0
+        self._warned: Draft | None = None
+        """The draft of which was said that it is not saved."""
 
     def step(self, dt: float) -> None:
         """Move on by `dt` [s], with what has grown since the last frame."""
@@ -67,7 +70,6 @@ class EditWalk(Walk):
         self.panel.save()
         if self.editor.history.is_saved:
             self._watch = Watch(self.editor.loaded.paths.values())
-            self._warned = False
 
     def escape(self) -> None:
         """Put the brush away, or leave; with something unsaved only when asked twice."""
@@ -190,8 +192,9 @@ class EditWalk(Walk):
         return super().on_close() if self._may_leave() else pyglet.event.EVENT_HANDLED
 
     def _may_leave(self) -> bool:
-        may = self.editor.history.is_saved or self._warned
-        self._warned = True
+        history = self.editor.history
+        may = history.is_saved or self._warned is history.now
+        self._warned = history.now
         if not may:
             self.tell([UNSAVED])
         return may

@@ -2,7 +2,7 @@
 
 from typing import Any, Literal
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from ...components.declaration import Color, Declaration, DeclarationError, Pair
 from .plant import ON_GRASS, SIZES, USUAL, Head, Plant
@@ -19,6 +19,16 @@ Profile = Literal["blade", "rush", "fold"]
 
 RUSH_TAPERS = 0.35
 """How the width of a rush falls where a scene does not say."""
+
+_OF_GRASS = {
+    "profile": "grass alone has a profile: other plants have organs",
+    "withered": "grass alone withers: other plants have organs",
+    "blades": "a {plant} has plants in place of blades",
+}
+"""Keys that other plants do not have, and why."""
+
+_NONE = {"profile": "blade", "withered": 0.0}
+"""Values of such keys that any plant may have; those of the others are None."""
 
 
 class Place(Declaration):
@@ -136,20 +146,18 @@ class GrassKind(Declaration):
         plant, rush = data.get("plant"), {"taper": RUSH_TAPERS} if data.get("profile") == "rush" else {}
         return {**(USUAL.get(plant, {}) if isinstance(plant, str) else {}), **rush, **data}
 
-    @model_validator(mode="after")
-    def _fits_its_plant(self) -> "GrassKind":
-        grass = self.plant == "grass"
-        if not grass and self.profile != "blade":
-            raise DeclarationError("grass alone has a profile: other plants have organs", "profile")
-        if not grass and self.withered:
-            raise DeclarationError("grass alone withers: other plants have organs", "withered")
-        for key in ("plants", "leaves", "leaf") if grass else ("blades",):
-            if getattr(self, key) is not None:
-                raise DeclarationError(
-                    "plants, leaves and leaf are not for grass, which has blades" if grass
-                    else f"a {self.plant} has plants in place of blades", key,
-                )  # fmt: skip
-        return self
+    @field_validator("profile", "withered", "blades", "plants", "leaves", "leaf")
+    @classmethod
+    def _suits_its_plant(cls, value: Any, info: ValidationInfo) -> Any:
+        """Refuse what is another plant's, each key by itself: all of them are told."""
+        plant, key = info.data.get("plant"), str(info.field_name)
+        if plant is None or value == _NONE.get(key):
+            return value
+        if plant == "grass" and key in ("plants", "leaves", "leaf"):
+            raise DeclarationError("plants, leaves and leaf are not for grass, which has blades")
+        if plant != "grass" and key in _OF_GRASS:
+            raise DeclarationError(_OF_GRASS[key].format(plant=plant))
+        return value
 
     @model_validator(mode="after")
     def _bears_its_head(self) -> "GrassKind":

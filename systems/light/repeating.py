@@ -30,6 +30,9 @@ TUFTS, LEAVES = 16, 16
 SEEN_FAR = 0.12
 """What is evened out of the ground's brightness [m]: seen from afar, larger spots would show that squares repeat."""
 
+LEAST_SEEN = 600.0
+"""What is evened out stays more than the exponential of minus this: less would be no number, and numpy might raise."""
+
 LITTER_ONE = 128
 """The texel of ground that is as bright as the mean."""
 
@@ -121,7 +124,8 @@ def ground_maps(*, seed: int) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
     lit, (low, covered) = litter_map(seed=seed), understorey_map(seed=seed)
     bright = np.where(covered, low / low[covered].mean(), lit / lit[~covered].mean())
     wave = np.fft.fftfreq(SIDE, LITTER_SIDE / SIDE)
-    blur = np.exp(-2.0 * (np.pi * SEEN_FAR * np.hypot(wave[:, None], wave[None])) ** 2)
+    falls = 2.0 * (np.pi * SEEN_FAR * np.hypot(wave[:, None], wave[None])) ** 2
+    blur = np.exp(-np.minimum(falls, LEAST_SEEN))
     bright /= np.fft.ifft2(np.fft.fft2(bright) * blur).real
     root = np.clip(np.rint(np.sqrt(bright) * LITTER_ONE), 0, 255)
     return np.asarray(root, np.uint8), np.asarray(covered * np.uint8(255))

@@ -98,16 +98,19 @@ def _postures(bends: _Bends, seed: int, /) -> Postures:
 def _models(seedlings: list[Seedling], /) -> tuple[PatchModel, ...]:
     """Return patch models; large arrays leave Python to other threads while they are worked on."""
     drawn = [each for each in REPRESENTATIONS if each.record is not None]
-    with ThreadPoolExecutor(_HANDS) as hands:
+    hands = ThreadPoolExecutor(_HANDS)
+    try:
         pieces = {
             (number, each.name): hands.submit(each.grow, seedling)
             for number, seedling in enumerate(seedlings)
             for each in drawn
         }
-    return tuple(
-        PatchModel(seedling.blades, {each.name: pieces[number, each.name].result() for each in drawn})
-        for number, seedling in enumerate(seedlings)
-    )
+        return tuple(
+            PatchModel(seedling.blades, {each.name: pieces[number, each.name].result() for each in drawn})
+            for number, seedling in enumerate(seedlings)
+        )
+    finally:
+        hands.shutdown(cancel_futures=True)  # who is interrupted waits for what is being drawn, and not for all
 
 
 def _extent(patches: list[Blades], postures: Postures, patch: float, /) -> tuple[float, float]:

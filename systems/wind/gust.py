@@ -18,7 +18,7 @@ from .shape import rim, rim_width
 Floats = NDArray[np.float32]
 
 LATEST = 36000.0
-"""End of every timeline [s]."""
+"""Repetitions come again after so long, and somewhat more [s]."""
 
 MOST_KEPT = 64
 """How many of a gust's repetitions are kept."""
@@ -94,12 +94,16 @@ class Gust(WindPrimitive):
         if self.every is None:
             return (self,) if self.start <= time < self.start + self.life else ()
         waits, sides = _repetitions(seed, *self.every)
-        first, last = np.searchsorted(waits, [time - self.start - self.life, time - self.start], side="right").tolist()
+        once, period = len(waits) - 1, float(waits[-1])
+        first, last = (_set_out(waits, time - self.start - past) for past in (self.life, 0.0))
         known = _again(self)
         if len(known) > MOST_KEPT:
             known.clear()
         return [
-            known.get((seed, k)) or known.setdefault((seed, k), self._repeated(float(waits[k]), float(sides[k])))
+            known.get((seed, k))
+            or known.setdefault(
+                (seed, k), self._repeated(k // once * period + float(waits[k % once]), float(sides[k % once]))
+            )
             for k in range(first, last)
         ]
 
@@ -164,6 +168,14 @@ def _phases(seed: int) -> tuple[float, float]:
     """Return where the two waves of a front begin [rad]."""
     first, second = np.random.default_rng(seed).uniform(0.0, 2.0 * np.pi, 2).tolist()
     return first, second
+
+
+def _set_out(waits: NDArray[np.float64], elapsed: float) -> int:
+    """Return how many gusts have set out `elapsed` [s] after the first: after the last wait they begin anew."""
+    if elapsed < 0.0:
+        return 0
+    again, rest = divmod(elapsed, float(waits[-1]))
+    return int(again) * (len(waits) - 1) + int(np.searchsorted(waits[:-1], rest, side="right"))
 
 
 @lru_cache(maxsize=256)

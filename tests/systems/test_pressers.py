@@ -305,7 +305,15 @@ def test_n5_instants_at_which_nobody_of_a_scene_moves_are_left_out_and_change_no
     assert len(found[3].settled.marks) > 10
 
 
-@pytest.mark.parametrize("still", ["", "  - { position: [5, 5] }\n  - { path: [{ at: 190, position: [9, 9] }] }\n"])
+@pytest.mark.parametrize(
+    "still",
+    [
+        "",
+        "  - { position: [5, 5] }\n  - { path: [{ at: 190, position: [9, 9] }] }\n",
+        "  - { path: [{ at: 3, position: [-5, 5] }, { at: 9, position: [5, 5] }] }\n",
+    ],
+    ids=["all walk", "some have not set out", "one has arrived"],
+)
 def test_n5_what_a_scene_has_forgotten_is_not_gone_again_and_changes_nothing(
     world: World, monkeypatch: pytest.MonkeyPatch, still: str
 ) -> None:
@@ -334,3 +342,29 @@ def test_n5_what_a_scene_has_forgotten_is_not_gone_again_and_changes_nothing(
         if not still:  # who stands has begun to before
             np.testing.assert_array_equal(ours.marks, theirs.marks)
     assert len(found[0].settled.marks) > 50
+
+
+def test_n5_when_time_is_skipped_what_is_forgotten_is_not_gone(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
+    del world
+    stops = ", ".join(f"{{ at: {60 * k}, position: [{9 if k % 2 else -9}, {k % 7 - 3}] }}" for k in range(16))
+    asked, found, instants = [0], [], pressers_module._instants  # noqa: SLF001 - counted, as above
+
+    def counted(*given: object) -> range:
+        asked[0] += len(instants(*given))  # type: ignore[arg-type]
+        return instants(*given)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(pressers_module, "_instants", counted)
+    for steps in ((2.3, 850.0), (852.3,)):
+        with little_prairie(scene=f"{LITTLE}pressers:\n  - {{ path: [{stops}] }}\n") as prairie:
+            runner = esper.create_entity(Presser(radius=0.4), Pose(0.0, 0.5))
+            for seconds in steps:
+                prairie.advance(seconds)
+                found.append(prairie.bent_at(AROUND))
+            esper.delete_entity(runner, immediate=True)
+    np.testing.assert_array_equal(found[1], found[2])
+    assert asked[0] < 250 * RATE
+
+
+def test_f4_who_adds_a_presser_as_a_wind_is_told_how_it_is_done(prairie: Prairie) -> None:
+    with pytest.raises(TypeError, match=r"a Presser goes with a Pose: esper\.create_entity\(presser, Pose\(x, z\)\)$"):
+        prairie.add(Presser(), pose=Pose(0.0, 0.0))  # type: ignore[arg-type]

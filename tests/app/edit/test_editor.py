@@ -252,6 +252,35 @@ def test_a_file_that_somebody_else_has_changed_is_not_written_over(editor: Edito
     assert editor.history.is_saved
 
 
+def test_a_map_that_somebody_else_has_changed_or_made_is_not_written_over(editor: Editor, path: Path) -> None:
+    for kind, name in (("high", "high.png"), ("low", "little-low.png")):
+        editor.brush = Brush(kind, radius=8.0)
+        editor.paint([(-10.0, 0.0)])
+        editor.remaking.wait()
+        theirs = Image.new("RGB", (8, 8), "#102030")
+        theirs.save(path.with_name(name))
+        assert editor.save() == ""
+        assert editor.refusal is not None
+        assert f"{name} has been changed by somebody else" in editor.refusal.reasons[0]
+        assert Image.open(path.with_name(name)).getpixel((0, 0)) == (16, 32, 48)
+        editor.read_again()
+        path.with_name("little-low.png").unlink(missing_ok=True)
+
+
+def test_a_file_behind_a_link_is_written_there_and_may_be_read_by_the_same(path: Path) -> None:
+    real = path.with_name("real.yaml")
+    path.rename(real).chmod(0o640)
+    path.symlink_to(real)
+    editor = Editor(Prairie.load(path))
+    editor.set(("light", "elevation"), 45.0)
+    assert editor.save() == "little.yaml is written"
+    assert path.is_symlink()
+    assert "elevation: 45" in real.read_text()
+    assert real.stat().st_mode & 0o777 == 0o640
+    editor.close()
+    editor.prairie.release()
+
+
 def test_a_bundled_scene_stays_and_a_copy_with_its_maps_is_written_here(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -266,7 +295,11 @@ def test_a_bundled_scene_stays_and_a_copy_with_its_maps_is_written_here(
     assert read_scene(pen.path).scene.light.elevation == 45.0
     assert loaded.path.read_text() == bundled
     assert pen.write(values, {}) == ["meadow.yaml"]
-    with pytest.raises(ValueError, match="in this folder already"):
+    with pytest.raises(ValueError, match=r"meadow\.yaml is in this folder already"):
+        Pen(loaded).write(changed, {})
+    pen.path.unlink()
+    (tmp_path / next(name for name in loaded.files if name.endswith(".png"))).write_bytes(b"another picture")
+    with pytest.raises(ValueError, match=r"another .* is in this folder already"):
         Pen(loaded).write(changed, {})
 
 

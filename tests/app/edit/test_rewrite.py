@@ -110,9 +110,44 @@ def test_the_first_key_of_an_item_goes_and_its_dash_stays() -> None:
     assert "# the first" in text
 
 
+@pytest.mark.parametrize(
+    ("after", "gone", "new"),
+    [
+        (
+            [{"kind": "breeze", "strength": 0.7}, {"kind": "gust", "position": [0, 10]}, {"kind": "blast"}],
+            ["    strength: 0.5 # gentle"],
+            ["    strength: 0.7 # gentle", "  - { kind: blast }"],
+        ),
+        (
+            [{"kind": "breeze", "strength": 0.7}],
+            ["    strength: 0.5 # gentle", "  - { kind: gust, position: [0, 10] }"],
+            ["    strength: 0.7 # gentle"],
+        ),
+        (
+            [{"kind": "gust", "position": [0, 10]}, {"kind": "blast"}],
+            ["  - kind: breeze", "    strength: 0.5 # gentle"],
+            ["  - { kind: blast }"],
+        ),
+    ],
+)
+def test_an_item_may_change_while_others_come_and_go(after: list[Any], gone: list[str], new: list[str]) -> None:
+    assert changed(("wind",), after)[1:] == (gone, new)
+
+
 def test_numbers_on_lines_become_a_word_beside_their_key_and_its_comment() -> None:
     _, gone, new = changed(("quality",), "high")
     assert (gone, new) == (["quality: # in numbers", "  patch: 2.5", "  blades: 40"], ["quality: high # in numbers"])
+
+
+def test_a_text_on_lines_of_its_own_becomes_another_one_beside_its_key() -> None:
+    text = "a:\n  map: >-\n    grass\n    of mine.png\n\n  # and\n  b: 1\n"
+    after = rewritten(text, {"a": {"map": "other.png", "b": 1}})
+    assert after == "a:\n  map: other.png\n\n  # and\n  b: 1\n"
+
+
+def test_what_was_empty_at_the_end_of_a_file_is_filled_and_followed() -> None:
+    assert rewritten("a: 1\nb:", {"a": 1, "b": 2, "c": 3}) == "a: 1\nb: 2\nc: 3"
+    assert rewritten("a:\n  b:", {"a": {"b": 2, "d": 4}, "c": 3}) == "a:\n  b: 2\n  d: 4\nc: 3"
 
 
 def test_what_reads_the_same_is_not_touched() -> None:

@@ -300,6 +300,18 @@ def test_a_scene_with_something_unsaved_is_left_only_when_asked_twice(walk: "Edi
     assert walk.closed
 
 
+def test_what_was_changed_after_the_warning_is_warned_of_again(walk: "EditWalk") -> None:
+    walk.editor.set(("light", "elevation"), 50.0)
+    strike(walk, "ESCAPE")
+    walk.editor.set(("light", "elevation"), 60.0)
+    strike(walk, "ESCAPE")
+    assert not walk.closed
+    walk.panel.save()  # as its button does
+    walk.editor.set(("light", "elevation"), 70.0)
+    strike(walk, "ESCAPE")
+    assert not walk.closed
+
+
 def test_a_file_that_changes_meanwhile_is_read_again_unless_something_is_unsaved(
     walk: "EditWalk", tmp_path: Path
 ) -> None:

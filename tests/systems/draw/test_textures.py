@@ -157,3 +157,8 @@ def test_squares_of_ground_do_not_show_from_afar_where_they_repeat() -> None:
     for seen, most in ((bright / LITTER_ONE, 0.02), (leaves / 255.0, 0.08)):
         large = seen.reshape(4, SIDE // 4, 4, SIDE // 4).mean(axis=(1, 3))
         assert large.std() < most * seen.mean()
+
+
+def test_ground_is_made_where_a_host_lets_numpy_raise_whatever_happens() -> None:
+    with np.errstate(all="raise"):
+        ground_maps(seed=4)

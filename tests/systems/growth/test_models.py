@@ -5,6 +5,7 @@ import subprocess
 import sys
 from dataclasses import fields, is_dataclass
 from hashlib import blake2b
+from threading import Event
 from typing import Any
 
 import numpy as np
@@ -13,11 +14,13 @@ from numpy.typing import NDArray
 
 from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.engine.declared.quality import PRESETS, BladeRing, Quality, StripRing
+from tallgrass.systems.around.representation import Seedling
 from tallgrass.systems.grow.bend import spine
 from tallgrass.systems.grow.record import Growth, Response
 from tallgrass.systems.grow.simulate import LINKS, build_chain
 from tallgrass.systems.show.carpet.grow import carpet_of
 from tallgrass.systems.show.strips.grow import strips_of
+from tallgrass.systems.show.strips.representation import StripRepresentation
 from tallgrass.systems.stock import models
 from tallgrass.systems.stock.models import grow, precompute_bytes
 
@@ -122,6 +125,26 @@ def test_growing_is_the_same_on_any_number_of_threads(
 ) -> None:
     monkeypatch.setattr(models, "_HANDS", hands)
     assert digest(grow(KIND, SMALL, seed=11)) == digest(growth)
+
+
+def test_who_is_interrupted_while_grass_grows_waits_for_none_that_has_not_begun(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    begun, told = [], Event()
+
+    class Slow(StripRepresentation):
+        @staticmethod
+        def grow(seedling: Seedling, /) -> Any:
+            begun.append(seedling)
+            if len(begun) == 1:
+                raise KeyboardInterrupt
+            return told.wait(0.1)
+
+    monkeypatch.setattr(models, "REPRESENTATIONS", (Slow,))
+    monkeypatch.setattr(models, "_HANDS", 1)
+    with pytest.raises(KeyboardInterrupt):
+        grow(KIND, SMALL.model_copy(update={"models": 6}), seed=11)
+    assert len(begun) <= 3
 
 
 def test_grass_is_simulated_again_only_where_what_bends_it_changed(

@@ -189,8 +189,19 @@ def test_f4_a_footprint_is_made_of_discs_that_fill_it(
 
 @pytest.mark.parametrize(
     "values",
-    [{"radius": 0.0}, {"length": -1.0}, {"strength": 1.5}, {"corners": ((0.0, 0.0), (1.0, 1.0), (2.0, 2.0))}],
-)
+    [
+        {"radius": 0.0}, {"radius": "0.3"}, {"length": -1.0}, {"length": None}, {"strength": 1.5}, {"strength": "all"},
+        {"corners": ((0.0, 0.0), (1.0, 1.0), (2.0, 2.0))}, {"corners": np.zeros((3, 3))}, {"corners": None},
+    ],
+)  # fmt: skip
 def test_f4_what_is_no_footprint_is_refused(values: dict[str, object]) -> None:
     with pytest.raises(ValueError, match=r"footprint|strength"):
         Presser(**values)  # type: ignore[arg-type]
+
+
+def test_f4_corners_may_stand_in_lists_and_in_arrays() -> None:
+    square = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
+    for corners in ([*map(list, square)], np.array(square), np.array(square, np.float32)):
+        presser = Presser(corners=corners)  # type: ignore[arg-type]
+        assert hash(presser) == hash(Presser(corners=square))
+        np.testing.assert_array_equal(discs_of(presser), discs_of(Presser(corners=square)))

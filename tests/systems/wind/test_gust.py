@@ -174,6 +174,24 @@ def test_w6_repetitions_differ_in_wait_and_place_and_between_seeds() -> None:
     assert np.ptp(aside) > 5.0
 
 
+@pytest.mark.parametrize("time", [35999.0, 60000.0, 5e6])
+def test_w6_it_comes_again_however_long_a_game_has_run(time: float) -> None:
+    gust = Gust(every=[4.0, 9.0], reach=1000.0, speed=5.0)
+    began = np.array([part.start for part in gust.parts(time=time, seed=1)])
+    assert time - 9.0 <= began[-1] <= time
+    assert began[0] <= time - gust.life + 9.0
+    assert (np.diff(began) >= 4.0 - 1e-6).all()
+    assert (np.diff(began) <= 9.0 + 1e-6).all()
+
+
+def test_w6_a_game_that_has_run_for_a_day_sets_off_a_gust_as_at_its_first_instant(feel: Feel) -> None:
+    late = 86400.0
+    place = np.array([[4.0, 0.0], [9.0, 3.0]], np.float32)
+    then = feel(Gust(start=late, stop=late + 60.0, swing=0.0), place=place, time=late + 2.0)
+    np.testing.assert_allclose(then, feel(Gust(stop=60.0, swing=0.0), place=place, time=2.0), atol=1e-4)
+    assert np.abs(then).max() > 0.3
+
+
 def test_w6_once_is_once_without_every() -> None:
     gust = Gust(start=3.0)
     assert gust.parts(time=2.999, seed=1) == ()

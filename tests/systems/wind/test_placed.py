@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+from pydantic import ValidationError
 
 from tallgrass.components.pose import Pose
 from tallgrass.engine.declared.way import Waypoint
@@ -128,3 +129,10 @@ def test_w9_ahead_is_minus_z_of_its_own_frame() -> None:
     ahead = np.array([[0.0, -1.0]], np.float32)
     np.testing.assert_allclose(Pose(0, 0, pi / 2).outside(ahead), [[1.0, 0.0]], atol=1e-6)
     np.testing.assert_allclose(Pose(5, 0, pi / 2).inside(np.array([[8.0, 0.0]], np.float32)), [[0.0, -3.0]], atol=1e-6)
+
+
+def test_places_may_be_handed_in_as_tuples_and_arrays() -> None:
+    for place in ((3, 4), np.array([3, 4]), np.array([3.0, 4.0], np.float32)):
+        assert Whirlwind(position=place) == Whirlwind(position=[3.0, 4.0])  # type: ignore[arg-type]
+    with pytest.raises(ValidationError, match="position"):
+        Whirlwind(position=(3, 4, 5))  # type: ignore[arg-type]
