@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from .curve import Curve
 from .declared.camera import CameraSource, Stop
-from .handed import as_floats
+from .handed import FARTHEST, as_floats
 
 Floats = NDArray[np.float32]
 Doubles = NDArray[np.float64]
@@ -21,9 +21,6 @@ NEAR = 0.1
 
 FAR = 5000.0
 """Distance of the far plane [m]; with `NEAR`, 24 bits of depth still part 6 mm at 100 m."""
-
-FARTHEST = 1e6
-"""Largest coordinate that a camera may be placed at [m]."""
 
 OUTERMOST = 1e9
 """Largest coordinate of an eye that a game hands in [m]: cells are counted in 32 bits."""

@@ -11,7 +11,7 @@ NUMBERS = (float, int, np.floating, np.integer)
 """What is taken for a number where one is handed in."""
 
 FARTHEST = 1e6
-"""How far out a place may be told from others [m]: beyond, the numbers of cells and squares would overflow."""
+"""Largest coordinate that is taken for a place [m]: beyond, the numbers of cells and squares would overflow."""
 
 
 def as_floats(thing: object, due: str, /) -> NDArray[np.float32]:
@@ -32,7 +32,7 @@ def as_floats(thing: object, due: str, /) -> NDArray[np.float32]:
 def is_somewhere(pose: Pose, /) -> bool:
     """Return whether a pose that a game has made is a place on the ground and a heading."""
     numbers = (pose.x, pose.z, pose.yaw)
-    return all(isinstance(n, float | int | np.floating | np.integer) and -FARTHEST <= n <= FARTHEST for n in numbers)
+    return all(isinstance(n, NUMBERS) and -FARTHEST <= n <= FARTHEST for n in numbers)
 
 
 def must_be_viewer(thing: object, /) -> None:
