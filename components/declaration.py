@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 
 class Declaration(BaseModel):
@@ -36,3 +36,14 @@ Triple = Annotated[list[Number], Field(min_length=3, max_length=3)]
 
 Color = Annotated[str, Field(pattern=r"^#[0-9a-fA-F]{6}$")]
 """An sRGB colour written `#rrggbb`."""
+
+
+def rising(what: str, least: float, most: float, /) -> AfterValidator:
+    """Return the validator of a pair of lengths that rises within limits [m]; `what` begins what it says of others."""
+
+    def must_rise(pair: list[float]) -> list[float]:
+        if not least <= pair[0] <= pair[1] <= most:
+            raise DeclarationError(f"{what}, rising, between {least:g} and {most:g} m")
+        return pair
+
+    return AfterValidator(must_rise)
