@@ -1,5 +1,6 @@
 """What a game hands in: numbers made into arrays, and what is refused."""
 
+from collections.abc import Iterable
 from reprlib import repr as shortened
 
 import numpy as np
@@ -39,6 +40,13 @@ def must_be_viewer(thing: object, /) -> None:
     """Raise TypeError for what is no viewer's name."""
     if not isinstance(thing, str):
         raise TypeError(f"a viewer is called by a text such as 'main', not by {shortened(thing)}")
+
+
+def must_be_known(what: str, name: str | None, known: Iterable[str], /) -> None:
+    """Raise ValueError for the name of a `what` that there is not; without a name there is nothing to know."""
+    there = tuple(known)
+    if name is not None and name not in there:
+        raise ValueError(f"unknown {what} '{name}'; there are {', '.join(there)}")
 
 
 def must_be_step(thing: object, /) -> None:
