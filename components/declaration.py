@@ -3,7 +3,7 @@
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field
 
 
 class Declaration(BaseModel):
@@ -43,3 +43,14 @@ Triple = Annotated[list[Number], BeforeValidator(_listed), Field(min_length=3, m
 
 Color = Annotated[str, Field(pattern=r"^#[0-9a-fA-F]{6}$")]
 """An sRGB colour written `#rrggbb`."""
+
+
+def rising(what: str, least: float, most: float, /) -> AfterValidator:
+    """Return the validator of a pair of lengths that rises within limits [m]; `what` begins what it says of others."""
+
+    def must_rise(pair: list[float]) -> list[float]:
+        if not least <= pair[0] <= pair[1] <= most:
+            raise DeclarationError(f"{what}, rising, between {least:g} and {most:g} m")
+        return pair
+
+    return AfterValidator(must_rise)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from .curve import Curve
 from .declared.camera import CameraSource, Stop
-from .handed import as_floats
+from .handed import FARTHEST, as_floats
 
 Floats = NDArray[np.float32]
 Doubles = NDArray[np.float64]
@@ -22,11 +22,11 @@ NEAR = 0.1
 FAR = 5000.0
 """Distance of the far plane [m]; with `NEAR`, 24 bits of depth still part 6 mm at 100 m."""
 
-FARTHEST = 1e6
-"""Largest coordinate that a camera may be placed at [m]."""
-
 OUTERMOST = 1e9
 """Largest coordinate of an eye that a game hands in [m]: cells are counted in 32 bits."""
+
+LARGEST = float(np.finfo(np.float32).max)
+"""Largest number that single precision holds, which shaders are told the matrices in."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,12 +199,33 @@ def view_of(view: object, projection: object) -> View:
     come to more together than single precision holds.
     """
     seen = View(_matrix(view, "view"), _matrix(projection, "projection"))
+    if not _is_usable(seen):
+        _must_be_usable(seen)
+    return seen
+
+
+def _is_usable(seen: View) -> bool:
+    """Return whether a picture can be drawn with both matrices of a view."""
+    numbers = np.empty((2, 3, 4, 4))
+    each, inverse = numbers
+    each[0], each[1] = seen.view, seen.projection
+    np.matmul(each[1], each[0], out=each[2])
+    try:
+        inverse[:] = np.linalg.inv(each)  # all three at once: every frame asks, and a call costs more than its numbers
+    except np.linalg.LinAlgError:
+        return False
+    eye = inverse[0, :3, 3].tolist()
+    return bool(max(map(abs, eye)) <= OUTERMOST and np.abs(numbers[:, 2]).max() <= LARGEST)
+
+
+def _must_be_usable(seen: View) -> None:
+    """Raise ValueError for the first of all that is wrong with the matrices of a view."""
+    for name, matrix in (("view", seen.view), ("projection", seen.projection)):
+        if np.linalg.det(matrix.astype(np.float64)) == 0.0:
+            raise ValueError(f"the {name} matrix has no inverse")
     if max(map(abs, eye_of(seen))) > OUTERMOST:
         raise ValueError(f"the view matrix has its eye beyond {OUTERMOST:.0e} m")
-    clip = seen.projection.astype(np.float64) @ seen.view.astype(np.float64)
-    if max(np.abs(clip).max(), np.abs(np.linalg.inv(clip)).max()) > np.finfo(np.float32).max:
-        raise ValueError("the view and the projection matrix come to more together than single precision holds")
-    return seen
+    raise ValueError("the view and the projection matrix come to more together than single precision holds")
 
 
 def _matrix(matrix: object, name: str) -> NDArray[np.float32]:
@@ -214,6 +235,4 @@ def _matrix(matrix: object, name: str) -> NDArray[np.float32]:
         array = array.reshape(4, 4).T
     if array.shape != (4, 4):
         raise ValueError(f"{due}, not {array.shape}")
-    if np.linalg.det(array.astype(np.float64)) == 0.0:
-        raise ValueError(f"the {name} matrix has no inverse")
     return array

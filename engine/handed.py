@@ -1,5 +1,6 @@
 """What a game hands in: numbers made into arrays, and what is refused."""
 
+from collections.abc import Iterable
 from reprlib import repr as shortened
 
 import numpy as np
@@ -11,7 +12,7 @@ NUMBERS = (float, int, np.floating, np.integer)
 """What is taken for a number where one is handed in."""
 
 FARTHEST = 1e6
-"""How far out a place may be told from others [m]: beyond, the numbers of cells and squares would overflow."""
+"""Largest coordinate that is taken for a place [m]: beyond, the numbers of cells and squares would overflow."""
 
 
 def as_floats(thing: object, due: str, /) -> NDArray[np.float32]:
@@ -32,13 +33,20 @@ def as_floats(thing: object, due: str, /) -> NDArray[np.float32]:
 def is_somewhere(pose: Pose, /) -> bool:
     """Return whether a pose that a game has made is a place on the ground and a heading."""
     numbers = (pose.x, pose.z, pose.yaw)
-    return all(isinstance(n, float | int | np.floating | np.integer) and -FARTHEST <= n <= FARTHEST for n in numbers)
+    return all(isinstance(n, NUMBERS) and -FARTHEST <= n <= FARTHEST for n in numbers)
 
 
 def must_be_viewer(thing: object, /) -> None:
     """Raise TypeError for what is no viewer's name."""
     if not isinstance(thing, str):
         raise TypeError(f"a viewer is called by a text such as 'main', not by {shortened(thing)}")
+
+
+def must_be_known(what: str, name: str | None, known: Iterable[str], /) -> None:
+    """Raise ValueError for the name of a `what` that there is not; without a name there is nothing to know."""
+    there = tuple(known)
+    if name is not None and name not in there:
+        raise ValueError(f"unknown {what} '{name}'; there are {', '.join(there)}")
 
 
 def must_be_step(thing: object, /) -> None:

@@ -18,7 +18,7 @@ from ..engine.camera import View, view_of
 from ..engine.declared.light import Light
 from ..engine.declared.quality import PRESETS
 from ..engine.declared.scene import LodName, Scene
-from ..engine.handed import must_be_step, must_be_time, must_be_viewer
+from ..engine.handed import must_be_known, must_be_step, must_be_time, must_be_viewer
 from ..engine.plugged import bring_systems
 from ..engine.scene import LoadedScene, must_be_read, read_scene
 from ..engine.scene.change import changed
@@ -126,9 +126,8 @@ class Prairie:
         framebuffer of floats and a tone curve of its own. Raises `SceneError` with every problem of the file and its
         maps, ValueError for an unknown preset or representation, and for a `hold` that is no time.
         """
-        for what, name, known in (("preset", preset, tuple(PRESETS)), ("representation", lod, get_args(LodName))):
-            if name is not None and name not in known:
-                raise ValueError(f"unknown {what} '{name}'; there are {', '.join(known)}")
+        must_be_known("preset", preset, PRESETS)
+        must_be_known("representation", lod, get_args(LodName))
         return cls(
             read_scene(scene),
             ctx=ctx,
@@ -249,7 +248,7 @@ class Prairie:
         grass of stiffness 1. They are those of grass of a `kind`, or else of the kind that grows most densely at each
         place. Raises ValueError for an unknown kind and a time that is negative or not finite, TypeError for no time.
         """
-        number, then = self._number_of(kind), self.time if time is None else time
+        number, then = self.scene.number_of(kind), self.time if time is None else time
         must_be_time(then)
         return self.winds.at(as_places(xz), time=float(then), kind=number)
 
@@ -260,7 +259,7 @@ class Prairie:
         has walked, they are the same. Every presser has come to where its `Pose` is now. Raises ValueError for an
         unknown kind.
         """
-        receivers = self.winds.standing(as_places(xz), kind=self._number_of(kind))
+        receivers = self.winds.standing(as_places(xz), kind=self.scene.number_of(kind))
         self.pressers.note(self.time)
         return self._assembly.felt(receivers, time=self.time)
 
@@ -385,12 +384,6 @@ class Prairie:
         self.world.release()
         self.systems.clear()
         self._built.clear()
-
-    def _number_of(self, kind: str | None) -> int | None:
-        """Return the number of a kind of grass; raises ValueError where there is none of that name."""
-        if kind is not None and kind not in self.scene.grass:
-            raise ValueError(f"unknown grass '{kind}'; there are {', '.join(self.scene.grass)}")
-        return None if kind is None else list(self.scene.grass).index(kind)
 
     def _must_be_there(self, purpose: str) -> None:
         if self._released:

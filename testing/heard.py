@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..engine.handed import must_be_known
 from ..systems.around.patches import PatchTable
 from ..systems.around.receivers import Receiving
 from ..systems.prairie import Prairie
@@ -50,11 +51,9 @@ class Heard:
             ("grass", kind, self.kinds, self.kind),
             ("representation", representation, self.representations, self.representation),
         ):
-            if name is None:
-                continue
-            if name not in known:
-                raise ValueError(f"unknown {what} '{name}'; there are {', '.join(known)}")
-            chosen &= have == name
+            must_be_known(what, name, known)
+            if name is not None:
+                chosen &= have == name
         return self._of(chosen)
 
     def near(self, x: float, z: float, *, within: float) -> "Heard":

@@ -1,10 +1,10 @@
 """Grass kinds: what a scene declares of them."""
 
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
-from ...components.declaration import Color, Declaration, DeclarationError, Pair
+from ...components.declaration import Color, Declaration, DeclarationError, Pair, rising
 from .plant import ON_GRASS, SIZES, USUAL, Head, Plant
 
 MOST_KINDS = 16
@@ -50,7 +50,7 @@ class GrassKind(Declaration):
     plant: Plant = "grass"
     """What kind of plant it is: blades of grass; flowers on stems; forbs with broad leaves along theirs; low shrubs."""
 
-    height: Pair = Field(default=[0.4, 0.7])
+    height: Annotated[Pair, rising("height must be [shortest, tallest]", 0.02, 5.0)] = Field(default=[0.4, 0.7])
     """Shortest and tallest blade, stem or branch, measured along it [m]."""
 
     width: float = Field(default=0.02, gt=0.0005, le=0.2)
@@ -111,7 +111,7 @@ class GrassKind(Declaration):
     leaves: int | None = Field(default=None, ge=0, le=24)
     """Leaves of a flower or forb, or of each branch of a shrub; without it, what suits the plant."""
 
-    leaf: Pair | None = None
+    leaf: Annotated[Pair, rising("leaf must be [shortest, longest]", 0.005, 5.0)] | None = None
     """Shortest and longest leaf of those [m]; without it, what suits the plant's height."""
 
     head: Head | None = None
@@ -122,20 +122,6 @@ class GrassKind(Declaration):
 
     place: Place | None = None
     """Where it grows; without it, everywhere. Kinds share the ground, but flowers stand among the others."""
-
-    @field_validator("height")
-    @classmethod
-    def _ordered_heights(cls, height: list[float]) -> list[float]:
-        if not 0.02 <= height[0] <= height[1] <= 5.0:
-            raise DeclarationError("height must be [shortest, tallest], rising, between 0.02 and 5 m")
-        return height
-
-    @field_validator("leaf")
-    @classmethod
-    def _ordered_leaves(cls, leaf: list[float] | None) -> list[float] | None:
-        if leaf is not None and not 0.005 <= leaf[0] <= leaf[1] <= 5.0:
-            raise DeclarationError("leaf must be [shortest, longest], rising, between 0.005 and 5 m")
-        return leaf
 
     @model_validator(mode="before")
     @classmethod

@@ -1,11 +1,11 @@
 """Plants: what a kind may be, what its heads are like, and what goes without saying of each."""
 
 from collections.abc import Mapping
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field, field_validator
+from pydantic import Field
 
-from ...components.declaration import Declaration, DeclarationError, Pair
+from ...components.declaration import Declaration, Pair, rising
 
 Plant = Literal["grass", "flower", "forb", "shrub"]
 """The kinds of plant that there are."""
@@ -50,7 +50,7 @@ class Head(Declaration):
     """Petals spread out, or standing as a bell; florets along the top of the stem, or on rays from one point; or the
     tufts of a plume. Grass bears spikes and plumes alone."""
 
-    size: Pair | None = None
+    size: Annotated[Pair, rising("size must be [smallest, largest]", 0.005, 2.0)] | None = None
     """Smallest and largest: the width of an open disc, bell or umbel, the length of a spike or plume [m]; without it,
     what suits the form."""
 
@@ -63,10 +63,3 @@ class Head(Declaration):
 
     share: float = Field(default=1.0, gt=0.0, le=1.0)
     """Share of the plants that bear a head."""
-
-    @field_validator("size")
-    @classmethod
-    def _ordered_sizes(cls, size: list[float] | None) -> list[float] | None:
-        if size is not None and not 0.005 <= size[0] <= size[1] <= 2.0:
-            raise DeclarationError("size must be [smallest, largest], rising, between 0.005 and 2 m")
-        return size

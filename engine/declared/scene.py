@@ -9,6 +9,7 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from ...components.declaration import Declaration
 from ...components.wind import Mixing, WindPrimitive
+from ..handed import must_be_known
 from .camera import CameraSource
 from .grass import MOST_KINDS, GrassKind
 from .light import Light
@@ -118,3 +119,8 @@ class Scene(Declaration):
         """Return the numbers of `preset`, or else of the scene's own quality."""
         chosen = preset or self.quality
         return PRESETS[chosen] if isinstance(chosen, str) else chosen
+
+    def number_of(self, kind: str | None) -> int | None:
+        """Return which of the grass kinds has a name, counted from 0. Raises ValueError for a name that none has."""
+        must_be_known("grass", kind, self.grass)
+        return None if kind is None else list(self.grass).index(kind)

@@ -20,6 +20,7 @@ from tallgrass.engine.camera import (
     parse_camera,
     projection_matrix,
     view_matrix,
+    view_of,
 )
 from tallgrass.engine.declared.camera import CameraSource, Stop
 
@@ -54,6 +55,13 @@ def test_view_matrix_is_a_rotation_that_brings_the_eye_to_the_origin(
     np.testing.assert_allclose(matrix[:3, :3] @ matrix[:3, :3].T, np.eye(3), atol=1e-6)
     assert np.linalg.det(matrix[:3, :3]) == pytest.approx(1.0, abs=1e-6)
     np.testing.assert_allclose(matrix @ [*place, 1.0], [0, 0, 0, 1], atol=1e-3)
+
+
+def test_two_matrices_that_have_no_inverse_together_are_refused_in_a_sentence() -> None:
+    view, projection = np.eye(4), np.eye(4)
+    view[1, 0], projection[0, 1] = 1.0, 1e20
+    with pytest.raises(ValueError, match=r"^the view and the projection matrix come to more together than single"):
+        view_of(view, projection)
 
 
 @given(angles, pitches)

@@ -108,7 +108,8 @@ def test_a_shadow_on_strips_ends_where_it_ends_on_every_blade(load: Load, stage:
 
     def true(prairie: Prairie, aim: Camera) -> Picture:
         stage.shot(prairie, aim)  # the reference shows what the last frame did
-        return draw_reference(prairie, *stage.matrices(aim), stage.size, samples=3).astype(float)
+        view, projection = stage.matrices(aim)
+        return draw_reference(prairie, view, projection, stage.size, samples=3).astype(float)
 
     def shadow(draw: Callable[[Prairie, Camera], Picture]) -> Picture:
         lit = draw(sunny, aim)

@@ -1,19 +1,26 @@
 """The paper's three presets have the paper's numbers (R1)."""
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
+from typing import Any
 
 import moderngl
+import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from tallgrass.engine.declared.quality import PRESETS
+from tallgrass.systems.grow.raster import Fragments, rasterise
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.show.carpet import grow as carpet_grow
+from tallgrass.systems.show.strips import grow as strips_grow
 from tallgrass.systems.stock.models import precompute_bytes
 from tallgrass.testing import Stage
 
+Doubles = NDArray[np.float64]
 Seen = Callable[[str, str], dict[str, int]]
 
 PAPER = {
@@ -44,7 +51,21 @@ def rows(told: str) -> dict[str, dict[str, str]]:
 
 
 @pytest.fixture(scope="module")
-def seen(ctx: moderngl.Context, stage: Stage, tmp_path_factory: pytest.TempPathFactory) -> Seen:
+def _hardly_painted(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Let pictures of grass show a few blades each: they are as large then, and counts ask for no more of them."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("TALLGRASS_CACHE", str(tmp_path_factory.mktemp("grown")))  # nobody else is to be given these
+        for module in (carpet_grow, strips_grow):
+            patch.setattr(module, "rasterise", few_painted)
+        yield
+
+
+def few_painted(corners: Doubles, nearness: Doubles, /, **options: Any) -> Fragments:
+    return rasterise(corners[:20], nearness[:20], **options)
+
+
+@pytest.fixture(scope="module")
+def seen(_hardly_painted: None, ctx: moderngl.Context, stage: Stage, tmp_path_factory: pytest.TempPathFactory) -> Seen:
     """The picture of a scene in a preset, drawn once: `seen(scene, preset)` is how many are in it, by their names."""
     folder = tmp_path_factory.mktemp("scenes")
 

@@ -1,0 +1,240 @@
+"""A moment in which blades are on their way to their painted places, as the graphics card has it."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass.engine.camera import Camera
+from tallgrass.engine.gl.shaders import program
+from tallgrass.engine.gl.stream import Stream, release_all
+from tallgrass.systems.around.appearance import Appearance
+from tallgrass.systems.around.outlook import Outlook
+from tallgrass.systems.painter import UNITS, Painter
+from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.show.blades import draw as blades_draw
+from tallgrass.systems.show.blades.painter import BladesPainter
+from tallgrass.systems.show.blades.plant import standing_blades
+from tallgrass.systems.show.blades.representation import BladeRepresentation
+from tallgrass.systems.show.blades.shown import Standing
+from tallgrass.systems.show.strips import draw as strips_draw
+from tallgrass.systems.show.strips.gather import gather_strips, polygon_strips
+from tallgrass.systems.show.strips.painter import StripsPainter
+from tallgrass.systems.show.strips.representation import StripRepresentation
+from tallgrass.systems.transition import FADE
+from tallgrass.testing import Stage as Room
+
+Doubles = NDArray[np.float64]
+Load = Callable[..., Prairie]
+Aim = Callable[..., Camera]
+OnCard = Callable[[Prairie], list[tuple[Any, NDArray[np.float32]]]]
+Defines = dict[str, str | int]
+
+WINDY = """\
+tallgrass: 2
+seed: 5
+terrain: { noise: ridges, seed: 2, size: [120, 120], feature: 30, scale: 12 }
+grass:
+  tall: { height: [0.5, 0.9], width: 0.02, lean: 0.4, root: "#5a5a2c", tip: "#dcc98f" }
+  short: { height: [0.2, 0.4], width: 0.02, root: "#27401a", tip: "#8fae4a", stiffness: 2 }
+wind:
+  - { kind: breeze, strength: 0.8, gustiness: 0.9 }
+quality:
+  blades: 40
+  models: 2
+  blade_rings: [{ to: 2, segments: 4 }]
+  strip_rings:
+    - { to: 4, strips: 4, columns: 2, sections: 3, texel: 0.02 }
+    - { to: 7, strips: 3, columns: 3, sections: 2, texel: 0.03 }
+  carpet_to: 12
+  carpet: 32
+"""
+SIZE = (1280, 720)
+RIBBON, STRIP = "systems/show/blades/ribbon.vert", "systems/show/strips/strips.vert"
+
+
+@pytest.fixture(scope="module")
+def room(ctx: moderngl.Context) -> Any:
+    """A stage of the size at which half a pixel is meant."""
+    made = Room(ctx, SIZE)
+    yield made
+    made.release()
+
+
+@pytest.fixture(scope="module")
+def told() -> Iterator[list[tuple[str, Defines]]]:
+    """What each vertex shader of blades and strips was told at the top, in the order in which they were made."""
+    found: list[tuple[str, Defines]] = []
+
+    def noting(joined: Callable[..., moderngl.Program]) -> Callable[..., moderngl.Program]:
+        def join(*args: Any, **options: Any) -> moderngl.Program:
+            found.append((args[3], dict(args[5])))
+            return joined(*args, **options)
+
+        return join
+
+    with pytest.MonkeyPatch.context() as patch:
+        for module in (blades_draw, strips_draw):
+            patch.setattr(module, "joined", noting(module.joined))
+        yield found
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """The polygon strips of all rings, as they are drawn."""
+
+    row: NDArray[np.int64]
+    """The patch that each is on, shape (n,)."""
+
+    ring: NDArray[np.int64]
+    column: NDArray[np.int64]
+    layer: NDArray[np.int64]
+    """Which picture is on it, shape (n,)."""
+
+    clip: Doubles
+    """Clip coordinates of their vertices, shape (n, 2 * sections + 2, 4)."""
+
+
+@dataclass(slots=True)
+class Scene:
+    """A moment in which some patches are on their way."""
+
+    prairie: Prairie
+    outlook: Outlook
+    appears: Appearance
+    painter: Painter
+    blades: BladesPainter
+    strips: StripsPainter
+    representation: StripRepresentation
+    morphing: Standing
+    records: NDArray[np.void]
+    """The blades on their way, where they stand, as `BLADE` has it, shape (n,)."""
+    message: NDArray[np.float32]
+    """What each is told, shape (n, 2)."""
+    row: NDArray[np.int64]
+    """Row of each one's patch, shape (n,)."""
+    own: NDArray[np.int64]
+    """Its number on the patch, shape (n,)."""
+    along: int
+    defines: dict[str, Defines]
+    """What the shaders of ribbons on their way, and of strips, are told at the top."""
+
+    def caught(
+        self,
+        like: moderngl.Program,
+        name: str,
+        stream: Stream | None,
+        size: tuple[int, int],
+        *,
+        defines: Defines | None = None,
+    ) -> Doubles:
+        """What a vertex shader makes of each of some vertices of each of some instances: clip coordinates and one more.
+
+        `like` is the program that it is drawn with otherwise, which has been told everything. Without `defines` it is
+        told at the top what it was told then.
+        """
+        (vertices, count), painter = size, self.painter
+        told = self.defines[name] if defines is None else defines
+        made = program(
+            painter.ctx, name, None, defines={**painter.block.defines, **told},
+            varyings=("gl_Position", "sheet" if stream is None else "half_width"),
+        )  # fmt: skip
+        for uniform in made:
+            if isinstance(made[uniform], moderngl.Uniform) and uniform in like:
+                made[uniform].write(like[uniform].read())  # type: ignore[union-attr]
+        painter.block.join(made)
+        painter.block.write(painter.record)
+        for texture in painter.textures:
+            painter.textures[texture].use(UNITS[texture])
+        painter.received.texture.use(UNITS["received"])
+        array = painter.ctx.vertex_array(made, [] if stream is None else [stream.binding(made)])
+        buffer = painter.ctx.buffer(reserve=5 * 4 * vertices * count)
+        array.transform(buffer, moderngl.POINTS, vertices=vertices, instances=count)
+        data = np.frombuffer(buffer.read(), np.float32).reshape(count, vertices, 5).astype(np.float64)
+        release_all(array, buffer, made)
+        return data
+
+    def strips_drawn(self, *, whole: bool = True) -> Drawn:
+        """All strips, also those that do not show yet: whole, or up to where they are painted."""
+        outlook, strips = self.outlook, self.strips.strips
+        pools, rings = outlook.kept["strips"].pools, outlook.shown["strips"].rings
+        appears = replace(self.appears, handed=np.ones_like(self.appears.handed))
+        counts = {name: each.receivers(outlook) for name, each in self.painter.painters.items()}
+        first = self.painter.received.lay([count for each in counts.values() for count in each])[1:]
+        numbered = [(start, int(np.prod(pool.shape))) for start, pool in zip(first, pools, strict=False)]
+        stood = gather_strips(rings, numbered, appears, outlook.patches, outlook.viewer.centre)
+        fineness, present = [(ring.strips, ring.columns) for ring in strips.rings], np.ones((len(stood), 2), np.bool_)
+        numbers, amount = polygon_strips(stood, np.arange(len(stood)), present, fineness, most=strips.most)
+        strips.write(stood)
+        strips.write_strips(numbers)
+        strips.stood.texture.use(UNITS["stood"])
+        strips.strips.texture.use(UNITS["strips"])
+        everywhere = np.tile(np.array([0, 1, 1, 0], np.float32), (*strips.extents.size[::-1], 1))
+        extents = self.painter.ctx.texture(strips.extents.size, 4, everywhere.tobytes(), dtype="f4")
+        (extents if whole else strips.extents).use(UNITS["extents"])
+        strips.programs[0]["first"] = 0
+        size = 2 * strips.sections + 2, len(numbers)
+        data = self.caught(strips.programs[0], STRIP, None, size)
+        extents.release()
+        ring = np.repeat(np.arange(len(rings)), [len(each.rows) for each in rings])
+        return Drawn(
+            row=np.repeat(np.concatenate([each.rows for each in rings]), amount),
+            ring=np.repeat(ring, amount),
+            column=numbers % strips.most % np.repeat(np.array(fineness)[ring, 1], amount),
+            layer=data[:, 0, 4].astype(np.int64),
+            clip=data[..., :4],
+        )
+
+    @property
+    def first_layers(self) -> NDArray[np.int64]:
+        """Where each kind's pictures begin in the atlas, by ring and kind."""
+        pictures = np.array(self.strips.strips.programs[0]["pictures"].value)  # type: ignore[union-attr]
+        return np.asarray(pictures[:, 2], np.int64)
+
+
+@pytest.fixture(scope="module", params=[0, 90], ids=["strips along x", "strips along z"])
+def scene(
+    request: pytest.FixtureRequest, room: Room, load: Load, camera: Aim, on_card: OnCard, told: list[Any]
+) -> Scene:
+    """Patches on their way, on a hillside and in the wind, for either orientation of the strips."""
+    prairie, yaw = load(WINDY), float(request.param)
+
+    def look(step: float) -> None:
+        x, z = (0.9, 7.5 + step) if yaw == 0.0 else (7.5 - step, 0.9)
+        ground = float(prairie.height_at([[x, z]])[0])
+        room.shot(prairie, camera(x, ground + 1.7, z, yaw=yaw, pitch=-8))
+
+    look(0.05)
+    prairie.advance(4.0)
+    look(0.05)
+    look(-0.05)
+    prairie.advance(0.7 * FADE)
+    look(-0.05)
+    outlook, painter = prairie.viewers["main"], prairie.painter
+    assert painter is not None
+    assert outlook.appearance is not None
+    blades, strips = painter.painters["blades"], painter.painters["strips"]
+    near, representation = prairie.site.representations[:2]
+    assert isinstance(blades, BladesPainter)
+    assert isinstance(strips, StripsPainter)
+    assert isinstance(near, BladeRepresentation)
+    assert isinstance(representation, StripRepresentation)
+    numbers = np.frombuffer(blades.numbers.buffer.read(), np.uint32)[: blades.morph.stream.count].astype(np.int64)
+    (_, texels), patches, rows = on_card(prairie)[0], outlook.patches, outlook.shown["blades"].standing.rows
+    patch, own = np.divmod(numbers, texels.shape[1])
+    standing, _ = standing_blades(
+        near.stock, patches.cell[rows], patches.model[rows], patches.turn[rows], prairie.site.ground
+    )
+    return Scene(
+        prairie=prairie, outlook=outlook, appears=outlook.appearance, painter=painter, blades=blades, strips=strips,
+        representation=representation, morphing=outlook.shown["blades"].morphing, records=standing[patch, own],
+        message=texels[patch, own, :2], row=rows[patch], own=own, along=int(yaw == 90.0),
+        defines={
+            RIBBON: next(defines for name, defines in told if name == RIBBON and "MORPH" in defines),
+            STRIP: next(defines for name, defines in told if name == STRIP and "THIN" not in defines),
+        },
+    )  # fmt: skip

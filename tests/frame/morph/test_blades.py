@@ -1,0 +1,124 @@
+"""Blades on their way to their painted places, as the graphics card puts them (X3, X4)."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tallgrass.engine.gl.stream import Stream, release_all
+from tallgrass.systems.painter import UNITS
+from tallgrass.systems.show.blades.draw import PAINTED, Ribbons
+
+Doubles = NDArray[np.float64]
+Defines = dict[str, str | int]
+
+SIZE = (1280, 720)
+"""Of the picture that the blades are on their way in [pixels]."""
+RIBBON = "systems/show/blades/ribbon.vert"
+
+
+def on_screen(clip: Doubles) -> Doubles:
+    return np.asarray(clip[..., :2] / clip[..., 3:4] * np.array(SIZE) / 2)
+
+
+def middles(data: Doubles) -> Doubles:
+    """Middle lines of ribbons, from root to tip [pixels], shape (n, points, 2)."""
+    return on_screen(data[:, ::2, :4]) / 2 + on_screen(data[:, 1::2, :4]) / 2
+
+
+def drawn(scene: Any, weight: float) -> Doubles:
+    """Middle lines of the blades on their way, when they have come so far."""
+    ribbons = scene.blades.morph
+    moving = np.frombuffer(ribbons.stream.buffer.read(), PAINTED)[: ribbons.stream.count].copy()
+    moving["painted"][:, 3] = weight
+    stream = Stream(scene.painter.ctx, PAINTED)
+    stream.write(moving)
+    scene.blades.store.targets.use(UNITS["targets"])
+    size = 2 * ribbons.segments + 2, len(moving)
+    data = scene.caught(ribbons.program, RIBBON, stream, size)
+    stream.release()
+    return middles(data)
+
+
+def in_their_own_places(scene: Any) -> Doubles:
+    """Middle lines of the same blades as 3D blades, sent one by one."""
+    painter, segments, count = scene.painter, scene.blades.morph.segments, len(scene.records)
+    blades = painter.blade_painter(segments)
+    ribbons = Ribbons(painter.ctx, painter.block, segments, UNITS, soft=True)
+    blades.write(scene.records, scene.message)
+    painter.block.write(painter.record)
+    for name, texture in painter.textures.items():
+        texture.use(UNITS[name])
+    ribbons.fill(blades.array, count)
+    defines: Defines = {"SEGMENTS": segments, "COARSER": segments, "SOFT": 1}
+    data = scene.caught(ribbons.program, RIBBON, ribbons.stream, (2 * segments + 2, count), defines=defines)
+    release_all(ribbons, blades)
+    return middles(data)
+
+
+def painted_places(scene: Any) -> Doubles:
+    """Where the strips as they are drawn show each blade's points, from the root to the tip [pixels]."""
+    patches, drawn = scene.outlook.patches, scene.strips_drawn()
+    stock, rings = scene.representation.stock, scene.representation.quality.strip_rings
+    first, kinds = scene.first_layers, len(stock.strips[0])
+    segments, points = scene.blades.morph.segments, stock.targets.shape[3]
+    expected = np.zeros((len(scene.records), segments + 1, 2))
+    for index, (blade, row, which) in enumerate(zip(scene.records, scene.row, scene.own, strict=True)):
+        model, own = int(patches.model[row]), (scene.along + int(patches.turn[row])) % 2
+        number = int(patches.sublevel[1, row]) >> 1
+        plane = int(stock.slices[number][model, own, which])
+        layer = first[kinds * number + int(blade["kind"])] + (model * 2 + own) * rings[number].strips + plane
+        here = np.flatnonzero((drawn.layer == layer) & (drawn.row == row))
+        assert len(here) == rings[number].columns
+        clip, target = drawn.clip[here, : 2 * rings[number].sections + 2], stock.targets[model, own, which]
+        for step in range(segments + 1):
+            at = step / segments * (points - 1)
+            low = min(int(at), points - 2)
+            u, v = target[low] + (target[low + 1] - target[low]) * (at - low)
+            expected[index, step] = _on_strip(clip, float(u) * len(clip), float(v) * rings[number].sections)
+    return expected
+
+
+def _on_strip(clip: Doubles, across: float, up: float) -> Doubles:
+    """The pixel of a point of a strip's texture, in the triangles of its triangle strips (columns, vertices, 4)."""
+    column = min(int(across), len(clip) - 1)
+    section = min(int(up), clip.shape[1] // 2 - 2)
+    u, v = across - column, up - section
+    corners = clip[column, 2 * section : 2 * section + 4]
+    if u + v <= 1.0:
+        place = corners[0] + u * (corners[1] - corners[0]) + v * (corners[2] - corners[0])
+    else:
+        place = corners[3] + (1 - u) * (corners[2] - corners[3]) + (1 - v) * (corners[1] - corners[3])
+    return on_screen(place)
+
+
+def test_x3_the_blades_on_their_way_are_of_all_kinds_turns_and_slices(scene: Any) -> None:
+    rows, patches = scene.morphing.rows, scene.outlook.patches
+    assert len(rows) >= 4
+    assert len(set(patches.turn[rows].tolist())) >= 3
+    assert set(scene.records["kind"].tolist()) == {0.0, 1.0}
+    assert (patches.sublevel[1, rows] & 1 == scene.along).all()
+    assert np.abs(patches.slope[rows]).max() > 0.15
+    assert np.linalg.norm(scene.message, axis=1).mean() > 0.15
+
+
+def test_x3_before_it_sets_off_a_blade_is_in_its_own_place(scene: Any) -> None:
+    apart = np.linalg.norm(drawn(scene, 0.0) - in_their_own_places(scene), axis=2)
+    assert apart.max() < 0.05
+
+
+def test_x3_when_it_has_arrived_a_blade_lies_on_its_painted_place(scene: Any) -> None:
+    arrived, painted = drawn(scene, 1.0), painted_places(scene)
+    assert np.linalg.norm(arrived - painted, axis=2).max() < 0.5
+    assert np.linalg.norm(arrived - in_their_own_places(scene), axis=2).mean() > 1.0
+
+
+def test_x3_in_between_it_is_on_the_straight_way(scene: Any) -> None:
+    start, middle, end = (drawn(scene, weight) for weight in (0.0, 0.5, 1.0))
+    apart = np.linalg.norm(middle - (start + end) / 2, axis=2)
+    assert np.quantile(apart, 0.95) < 1.0
+
+
+def test_x3_blades_come_to_their_places_before_their_strips_show(scene: Any) -> None:
+    appears, rows = scene.appears, scene.morphing.rows
+    assert (appears.handed[rows] <= appears.morph[rows]).all()

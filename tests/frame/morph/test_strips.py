@@ -1,0 +1,85 @@
+"""Strips as the graphics card puts them: their edges bend, and they end where their paint does (W1, G3)."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tallgrass.systems.grow.bend import bending
+from tallgrass.systems.show.strips.stand import falls
+
+Doubles = NDArray[np.float64]
+
+
+def bent(scene: Any, kind: NDArray[np.int64], message: NDArray[np.float32]) -> Doubles:
+    """Where the tip of an edge of length 1 is that is bent by a message, for kinds (n,) and messages (n, 2)."""
+    postures = [growth.postures for growth in scene.prairie.site.growths]
+    table = np.stack([each.shape[0, :, -1] for each in postures]).astype(float)
+    bend = np.where(kind[:, None] == 0, *(bending(each, message) for each in postures))
+    index = np.linalg.norm(bend, axis=1)
+    row = (0.5 + 0.5 * np.minimum(index, 1.0)) * (table.shape[1] - 1)
+    low = np.minimum(row.astype(int), table.shape[1] - 2)
+    part = (row - low)[:, None]
+    ahead, up = (table[kind, low] * (1.0 - part) + table[kind, low + 1] * part).T
+    heading = bend / np.maximum(index, 1e-6)[:, None]
+    return np.stack([heading[:, 0] * ahead, up, heading[:, 1] * ahead], axis=1)
+
+
+def laid_back(run: Doubles, foot: Doubles, top: Doubles, height: Doubles, spacing: float) -> Doubles:
+    """How far the tops of strips lie back, so that none is seen on edge: `foot` (n, 3) is told from the eye."""
+    off = np.column_stack([-run[:, 1], np.zeros(len(run)), run[:, 0]]) / np.linalg.norm(run, axis=1)[:, None]
+    off *= np.sign((off * foot).sum(axis=1, keepdims=True))
+    behind = (off * foot).sum(axis=1) / np.maximum(-foot[:, 1], 0.01)
+    least = np.minimum(2.0 * spacing, height * behind)
+    back = np.clip(least - (off * top).sum(axis=1) - top[:, 1] * behind, 0.0, 2.0 * least)
+    return np.asarray(off * back[:, None])
+
+
+def test_w1_a_strip_stands_between_two_edges_on_the_ground_each_bent_as_numpy_says(scene: Any) -> None:
+    everything, stock, quality = scene.strips_drawn(), scene.representation.stock, scene.representation.quality
+    clip = scene.painter.record[0]["clip"].reshape(4, 4).astype(float)
+    layers, kinds = scene.first_layers, len(stock.strips[0])
+    patches, kept = scene.outlook.patches, scene.outlook.kept["strips"].receiving
+    for number, (receiving, ring) in enumerate(zip(kept, scene.outlook.shown["strips"].rings, strict=True)):
+        here, count = everything.ring == number, quality.strip_rings[number].strips
+        first = layers[kinds * number :][:2]
+        layer, column = everything.layer[here], everything.column[here].astype(int)
+        kind = (layer >= first[1]).astype(int)
+        patch = np.repeat(np.arange(len(ring.rows)), len(layer) // len(ring.rows))
+        picture, plane = np.divmod(layer - first[kind], count)
+        turn, along = patches.turn[ring.rows], ring.along
+        own = (along + turn) % 2
+        np.testing.assert_array_equal(picture, (patches.model[ring.rows] * 2 + own)[patch])
+        stack = np.where(falls(own, along, turn)[patch], count - 1 - plane, plane)
+        places = receiving.pool.places(ring.slots)
+        heard = receiving.letters.heard(ring.slots).reshape(places.shape)
+        height = np.array([strips.height for strips in stock.strips[0]])[kind] * scene.appears.growth[ring.rows][patch]
+        for side in (0, 1):
+            at, message = (each[patch, kind, stack, column + side] for each in (places, heard))
+            foot = np.column_stack([at[:, 0], scene.prairie.height_at(at), at[:, 1]])
+            top = height[:, None] * bent(scene, kind, message)
+            run = np.diff([places[patch, kind, stack, column + end] for end in (0, 1)], axis=0)[0]
+            tip = foot + top + laid_back(run, foot - scene.outlook.viewer.eye, top, height, quality.patch / count)
+            for place, vertex in ((foot, side), (tip, 2 * quality.strip_rings[number].sections + side)):
+                expected = np.column_stack([place, np.ones(len(place))]) @ clip
+                np.testing.assert_allclose(everything.clip[here, vertex], expected, atol=5e-3)
+        assert np.linalg.norm(heard, axis=-1).mean() > 0.15
+        assert len(set(turn.tolist())) == 4
+
+
+def test_g3_a_strip_that_ends_where_its_paint_ends_is_a_part_of_the_whole_one(scene: Any) -> None:
+    texture = scene.strips.strips.extents
+    extents = np.frombuffer(texture.read(), np.float32).reshape(*texture.size[::-1], 4)
+    everything, ends = scene.strips_drawn(), scene.strips_drawn(whole=False)
+    for number, ring in enumerate(scene.representation.quality.strip_rings):
+        here, vertices = everything.ring == number, slice(2 * ring.sections + 2)
+        whole, part = everything.clip[here, vertices], ends.clip[here, vertices]
+        top = extents[everything.layer[here], everything.column[here], 2]
+        below = np.arange(ring.sections) <= ring.sections * top[:, None]
+        foot, run = whole[:, :-2:2, None], (whole[:, 1:-2:2] - whole[:, :-2:2])[:, :, None]
+        edges = np.stack([part[:, :-2:2], part[:, 1:-2:2]], axis=2)
+        across = ((edges - foot) * run).sum(axis=3) / (run * run).sum(axis=3)
+        np.testing.assert_allclose(edges[below], (foot + across[..., None] * run)[below], atol=1e-3)
+        assert below.mean() > 0.5
+        assert (np.abs(across[below] - 0.5) < 0.5 + 1e-4).all()
+        assert (across[..., 1] - across[..., 0])[below].min() < 0.95
