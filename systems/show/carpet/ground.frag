@@ -304,7 +304,9 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
 #endif
         mean_of.rg = 1.0 - (1.0 - mean_of.rg) * shallow;
         mean_of.rg *= higher_up;
+#ifndef HEADS  // among plants in flower, grass is as bright as its images show it
         mean_of.r *= OF(tipped, kind);
+#endif
         mean_of.r *= 1.0 - ARCHED * (1.0 - above) * (1.0 - stands) * (1.0 - stands);
         mean_of.rg = arched(mean_of.rg, lying);
         mean_of.g *= OF(tops, kind);
