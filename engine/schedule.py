@@ -7,6 +7,7 @@ from dataclasses import replace as changed
 from difflib import get_close_matches
 from enum import IntEnum
 from functools import partial
+from inspect import isasyncgenfunction, iscoroutinefunction, isgeneratorfunction
 from itertools import count
 from time import perf_counter
 from typing import Any, Protocol
@@ -262,17 +263,20 @@ def _phase(phase: Phase | str) -> Phase:
 
 
 def _ready(name: str, run: Run) -> Callable[[], object]:
-    """Return what is to be called; a class is refused, because calling it would only make one more object."""
+    """Return what is to be called.
+
+    A class is refused, because calling it would only make one more object; and so is what a call would only begin.
+    """
     if isinstance(run, type):
         raise TypeError(f"system '{name}' was handed the class {run.__name__}; hand it an object made from that")
-    if callable(run):
-        return run
-    method: Callable[[], object] | None = getattr(run, "run", None)
-    if callable(method):
-        return method
-    raise TypeError(
-        f"system '{name}' needs a function without arguments or an object with run(), unlike {type(run).__name__}"
-    )
+    ready: Callable[[], object] | None = run if callable(run) else getattr(run, "run", None)
+    if not callable(ready):
+        raise TypeError(
+            f"system '{name}' needs a function without arguments or an object with run(), unlike {type(run).__name__}"
+        )
+    if iscoroutinefunction(ready) or isgeneratorfunction(ready) or isasyncgenfunction(ready):
+        raise TypeError(f"system '{name}' would never run: it is async or yields, and a frame does not wait for it")
+    return ready
 
 
 def _origin(run: Any) -> str:

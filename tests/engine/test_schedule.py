@@ -1,7 +1,7 @@
 """The schedule of a frame: order, turns, and what becomes of a system that fails."""
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any
 
@@ -123,6 +123,25 @@ def test_an_order_that_cannot_be_is_refused_in_one_sentence_and_adds_nothing() -
     assert order(plan) == ["cull", "lod"]
 
 
+LATE = "system 'x' would never run: it is async or yields, and a frame does not wait for it"
+
+
+async def awaited() -> None:
+    """Begins when it is called, and does nothing before it is awaited."""
+
+
+def yielding() -> Iterator[None]:
+    """Begins when it is called, and does nothing before it is walked through."""
+    yield
+
+
+class Later:
+    """A system whose turn is awaited."""
+
+    async def run(self) -> None:
+        """Begin."""
+
+
 @pytest.mark.parametrize(
     ("phase", "name", "run", "error", "why"),
     [
@@ -132,6 +151,7 @@ def test_an_order_that_cannot_be_is_refused_in_one_sentence_and_adds_nothing() -
         ("sea", "x", nothing, ValueError, "no phase 'sea'; there are INPUT, TILE, SEE, BLOW, DRAW"),
         ("see", "x", 3, TypeError, "system 'x' needs a function without arguments or an object with run(), unlike int"),
         ("see", "x", Ball, TypeError, "system 'x' was handed the class Ball; hand it an object made from that"),
+        *(("see", "x", late, TypeError, LATE) for late in (awaited, partial(awaited), yielding, Later())),
     ],
 )
 def test_what_cannot_be_a_system_is_refused_in_one_sentence(
