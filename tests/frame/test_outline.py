@@ -159,3 +159,20 @@ def test_x5_an_outline_is_as_rough_as_that_of_every_blade(hillside: tuple[Double
 def test_g5_no_line_shows_where_strips_give_way_to_the_carpet_on_a_hillside(hillside: tuple[Doubles, Doubles]) -> None:
     below = [picture[190:260, 40:80].mean(axis=(1, 2)).reshape(-1, 5).mean(axis=1) for picture in hillside]
     assert np.abs(below[0] / below[1] - 1.0).max() < 0.06
+
+
+def test_x5_no_light_line_parts_strips_from_the_crest_they_stand_behind(ctx: moderngl.Context) -> None:
+    """At preset low, strips that give way to the carpet stand out against the dusk."""
+    size = (200, 540)
+    with testing.stage(ctx, size) as stage:
+        prairie = Prairie.load(SCENES.parent / "tests" / "cameras" / "dusk.yaml", ctx=ctx, preset="low", live=False)
+        prairie.advance(MOMENT)
+        camera = camera_at(prairie.scene.camera, None, prairie.height_at)
+        aside = np.arctan(300.0 / 270.0 * np.tan(camera.view / 2.0))
+        view, projection = stage.matrices(replace(camera, yaw=camera.yaw + aside))
+        stage.begin()
+        prairie.draw(view, projection)
+        lighter = stage.read() - draw_reference(prairie, view, projection, size, samples=3)
+        prairie.release()
+    lightest = lighter[60:200].reshape(140, 20, 10, 3).mean(axis=(2, 3)).max(axis=0)
+    assert lightest.mean() < 30.0

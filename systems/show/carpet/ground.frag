@@ -154,6 +154,8 @@ const float MET = 0.7;  // how deep leaves are that are met over a crest, of how
 const float SPIKES = 18.0;  // how much more leaves are met along an outline where taller plants stand
 const float TALLER = 0.05;  // how much taller plants count at most, of the mean
 
+const float STANDING = 0.9;  // how much it covers at least of what is behind an outline, where strips have just begun to give way
+
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,
 // whose leaf area falls off linearly with height, meets leaves of (deep / tall)^2 times the whole.
 float outline_cover(float slope, float stands_out) {
@@ -386,7 +388,8 @@ void main() {
 #if defined(CARPET) && !defined(UNDER)
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / soil.w))) : 0.0;
     float top = slope + rises_ahead(), covered = mix(1.0, outline_cover(top, exp(SPIKES * TALLER)), min(3.0 * share, 1.0));
-    if (covered < 0.004)
+    // It writes its depth: where strips still stand on the patch, the thin edge of an outline would hide them.
+    if (covered < max(0.004, STANDING * (1.0 - share)))
         discard;
     if (share > 0.0) {
         vec4 seen = carpet_seen(slope, level_slope(slope, crest, share, tall, stands), color, share);
