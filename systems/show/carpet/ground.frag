@@ -80,7 +80,7 @@ in float dense;
 in ByKind met;
 #ifdef HEADS
 in ByKind riper;
-uniform vec4 heads[KINDS];
+uniform ByKind bears;
 #endif
 in vec3 direct;
 in vec3 open_to;
@@ -299,7 +299,7 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
         vec3 mean_of = image.rgb / max(image.a, 1e-3);
         higher += OF(met, kind) * (mean_of.g * mean.a / max(mean.g, 1e-3) - 1.0);
 #ifdef HEADS
-        mean_of.r *= heads[kind].y > 0.0 ? 0.5 + 0.5 * among.y : among.y;  // leaves are darker deep down, heads are not
+        mean_of.r *= OF(bears, kind) > 0.0 ? 0.5 + 0.5 * among.y : among.y;  // leaves are darker deep down, heads are not
         mean_of.g *= among.y;
 #else
         mean_of.rg *= among.y;
@@ -318,7 +318,7 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
         float ripe = OF(riper, kind);
         mean_of.r += ripe * (ripe > 0.0 ? 1.0 - mean_of.r : mean_of.r);
         // What stands scattered among others has what is met of it where it stands, and nothing between.
-        covers = heads[kind].y > 0.0 ? image.a / max(mean.a * fill, 0.02) : covers;
+        covers = OF(bears, kind) > 0.0 ? image.a / max(mean.a * fill, 0.02) : covers;
 #endif
 #ifdef MOWN
         // What is left is taken for the same grass pressed together.

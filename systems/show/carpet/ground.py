@@ -15,7 +15,7 @@ from ...around.cone import beyond_cone
 from ...frame.block import FrameBlock, by_kind, joined
 from ...grow.record import Growth
 from .grow import carpet_of
-from .heads import any_heads, heads_of
+from .heads import HIGHEST, LAYERS, any_heads, bears_heads, profile_of
 
 Tiles = NDArray[np.float64]
 
@@ -154,7 +154,9 @@ def _of_images(growths: Sequence[Growth], seed: int) -> dict[str, object]:
     """Return what the carpet's program is told of the kinds' images, by the names of its uniforms."""
     slopes = carpet_of(growths[0].models[0]).slope
     images = [len(growth.models) * len(slopes) * 4 for growth in growths]
+    bears = {"bears": by_kind([float(bears_heads(growth)) for growth in growths])} if any_heads(growths) else {}
     return {
+        **bears,
         "slopes": slopes.tolist(),
         "tops": by_kind([carpet_of(growth.models[0]).height / canopy_height(growth) for growth in growths]),
         "first": by_kind([sum(images[:index]) for index in range(len(images))]),
@@ -192,7 +194,7 @@ class GroundPainter:
             "GROWN": str(GROWN),
             "SINKS": str(SINKS),
         }
-        laid |= {"HEADS": 1} if any_heads(growths) else {}
+        laid |= {"HEADS": 1, "LAYERS": LAYERS, "HIGHEST": str(HIGHEST)} if any_heads(growths) else {}
 
         def layer(defines: dict[str, str | int], stream: Stream) -> _Layer:
             return _Layer(
@@ -213,8 +215,7 @@ class GroundPainter:
         self._told = _of_images(growths, seed)
         _tell(self.carpet, self._told)
         if "HEADS" in laid:
-            heads = [heads_of(growth) for growth in growths]
-            self._tell("heads", heads if len(heads) > 1 else heads[0])
+            self._tell("profile", np.concatenate([profile_of(growth) for growth in growths]).tolist())
         self.raise_carpet(RAISED, outline=OUTLINE)
 
     def _tell(self, name: str, value: object) -> None:

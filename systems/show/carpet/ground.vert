@@ -76,7 +76,8 @@ void light_up(float slope, vec2 message) {
 #endif
 
 #ifdef HEADS
-uniform vec4 heads[KINDS]; // by kind: leaf area without them, theirs; from where to where they are in its canopy
+uniform ByKind bears; // by kind: whether it has any
+uniform vec2 profile[KINDS * LAYERS];  // by kind and height: leaf area of all without heads, and of heads, of its whole
 #endif
 
 // What is met of each kind, as parts of all the grass that there is.
@@ -95,7 +96,7 @@ ByKind shared_out(ByKind met, ByKind grows, float slope) {
     for (int kind = 0; kind < KINDS; kind++) {
         float shows = 1.0 - exp(-OF(leaf, kind) / slope);
 #ifdef HEADS
-        shows = heads[kind].y > 0.0 ? 1.0 : shows;  // its image is taken in parts of its mean
+        shows = OF(bears, kind) > 0.0 ? 1.0 : shows;  // its image is taken in parts of its mean
 #endif
         alone += OF(met, kind) / all * shows;
     }
@@ -112,13 +113,12 @@ const float GRAZING = 0.005;  // a line of sight counts as at least so steep, fo
 // taken in layers from the top, up to `below` of its height; its leaf area falls off linearly with height.
 
 #ifdef HEADS
-const int LAYERS = 12;
-
 // Of the leaf area of a kind, how much is at a part of its canopy's height: in all, and of heads.
 vec2 leaves_at(int kind, float at) {
-    vec4 own = heads[kind];
-    float of_heads = at > own.z && at < own.w ? own.y / (own.w - own.z) : 0.0;
-    return vec2(own.x * 2.0 * max(1.0 - at, 0.0) + of_heads, of_heads);
+    float layer = at * float(LAYERS) / HIGHEST - 0.5;
+    int low = clamp(int(floor(layer)), 0, LAYERS - 2);
+    vec2 here = mix(profile[kind * LAYERS + low], profile[kind * LAYERS + low + 1], clamp(layer - float(low), 0.0, 1.0));
+    return at < HIGHEST ? vec2(here.x + here.y, here.y) : vec2(0.0);
 }
 
 // The same with the heads that some kinds have. How much more of them is met than an image shows, where such a kind grows
@@ -126,7 +126,7 @@ vec2 leaves_at(int kind, float at) {
 ByKind kinds_met(ByKind grows, float slope, float left, float below) {
     float top = 0.0;
     for (int kind = 0; kind < KINDS; kind++)
-        top = max(top, OF(grows, kind) > 0.004 ? OF(crown, kind) * max(heads[kind].w, 1.0) : 0.0);
+        top = max(top, OF(grows, kind) > 0.004 ? OF(crown, kind) * HIGHEST : 0.0);
     top = min(top, left);
     ByKind met = all_kinds(0.0), of_heads = met, alone = met, heads_alone = met, through_alone = all_kinds(1.0);
     float through = 1.0, step = 1.0 / (float(LAYERS) * slope), image_step = 1.0 / (float(LAYERS) * max(slope, LOWEST));

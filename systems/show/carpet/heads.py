@@ -11,7 +11,11 @@ from ...grow.organs import HEADS
 from ...grow.raster import rasterise, ribbon_triangles
 from ...grow.record import Blades, Growth
 
-NO_HEADS = (1.0, 0.0, 0.0, 1.0)
+LAYERS = 12
+"""Layers that a canopy is taken in."""
+
+HIGHEST = 1.2
+"""How high the topmost reaches, of the canopy's height: the tallest plants stand out of it."""
 
 _POINTS = 9
 _TAPER = 0.6
@@ -20,38 +24,37 @@ _TAPER = 0.6
 _SAMPLE = 0.003
 """Side of a sample of outlines [m]."""
 
-_BEHIND = 0.75
-"""How many of the heads that a line of sight would meet, did they stand evenly, it meets in a meadow: heads stand in
-clumps, one behind another. Measured on poppies in barley, at slopes of 0.02 and less."""
-
 _STEMS = 40
 """Heads at most whose outlines are measured."""
 
 
-def heads_of(growth: Growth, /) -> tuple[float, float, float, float]:
-    """Return a kind's leaf area without heads and that of heads' outlines, and from where to where they are.
+def profile_of(growth: Growth, /) -> Doubles:
+    """Return a kind's leaf area by height, of all without heads and of heads' outlines, shape (`LAYERS`, 2).
 
-    Areas are seen from the side, as parts of the whole leaf area: petals behind petals do not count again. Heights are
-    parts of the canopy's; heads are taken to lie evenly between them, with their own mean and variance.
+    Areas are seen from the side, as parts of the whole leaf area, for a height as great as the canopy's: petals behind
+    petals do not count again.
     """
     blades = growth.models[0].blades
-    bears = np.isin(np.broadcast_to(blades.organ, blades.height.shape), HEADS)
-    if not bears.any():
-        return NO_HEADS
     left, right = ribbon(blades, growth.postures, (0.0, 0.0), points=_POINTS, taper=_TAPER)
     triangles = ribbon_triangles(left.astype(np.float64), right.astype(np.float64))
     area = _from_the_side(triangles)
+    bears = np.isin(np.broadcast_to(blades.organ, blades.height.shape), HEADS)
     own = np.repeat(bears, len(triangles) // len(bears))
-    height = triangles[own, :, 1].mean(axis=1) / canopy_height(growth)
-    mean = np.average(height, weights=area[own])
-    half = np.sqrt(3.0 * np.average((height - mean) ** 2, weights=area[own]))
-    share = float(area[own].sum() / area.sum())
-    return 1.0 - share, _BEHIND * share * _outlined(blades, triangles, bears), float(mean - half), float(mean + half)
+    layer = triangles[:, :, 1].mean(axis=1) * (LAYERS / (HIGHEST * canopy_height(growth)))
+    layer = np.clip(layer, 0.0, LAYERS - 1).astype(int)
+    shown = _outlined(blades, triangles, bears) if bears.any() else 1.0
+    parts = [np.bincount(layer[of], area[of], minlength=LAYERS) for of in (~own, own)]
+    return np.column_stack([parts[0], shown * parts[1]]) * (LAYERS / (HIGHEST * area.sum()))
+
+
+def bears_heads(growth: Growth, /) -> bool:
+    """Return whether a kind bears heads."""
+    return any(np.isin(model.blades.organ, HEADS).any() for model in growth.models)
 
 
 def any_heads(growths: Sequence[Growth], /) -> bool:
     """Return whether any kind bears heads."""
-    return any(np.isin(model.blades.organ, HEADS).any() for growth in growths for model in growth.models)
+    return any(map(bears_heads, growths))
 
 
 def _from_the_side(triangles: Doubles, /) -> Doubles:
