@@ -15,7 +15,7 @@ from ...around.cone import beyond_cone
 from ...frame.block import FrameBlock, by_kind, joined
 from ...grow.record import Growth
 from .grow import carpet_of
-from .heads import HIGHEST, LAYERS, any_heads, bears_heads, profile_of
+from .heads import HEIGHTS, HIGHEST, any_heads, bears_heads, profile_of
 
 Tiles = NDArray[np.float64]
 
@@ -194,7 +194,7 @@ class GroundPainter:
             "GROWN": str(GROWN),
             "SINKS": str(SINKS),
         }
-        laid |= {"HEADS": 1, "LAYERS": LAYERS, "HIGHEST": str(HIGHEST)} if any_heads(growths) else {}
+        laid |= {"HEADS": 1, "HEIGHTS": HEIGHTS, "HIGHEST": str(HIGHEST)} if any_heads(growths) else {}
 
         def layer(defines: dict[str, str | int], stream: Stream) -> _Layer:
             return _Layer(

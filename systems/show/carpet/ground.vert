@@ -77,7 +77,7 @@ void light_up(float slope, vec2 message) {
 
 #ifdef HEADS
 uniform ByKind bears; // by kind: whether it has any
-uniform vec2 profile[KINDS * LAYERS];  // by kind and height: leaf area of all without heads, and of heads, of its whole
+uniform vec2 profile[KINDS * (HEIGHTS + 1)];  // by kind and height: how much of its leaf area is above that; of heads
 #endif
 
 // What is met of each kind, as parts of all the grass that there is.
@@ -113,12 +113,13 @@ const float GRAZING = 0.005;  // a line of sight counts as at least so steep, fo
 // taken in layers from the top, up to `below` of its height; its leaf area falls off linearly with height.
 
 #ifdef HEADS
-// Of the leaf area of a kind, how much is at a part of its canopy's height: in all, and of heads.
-vec2 leaves_at(int kind, float at) {
-    float layer = at * float(LAYERS) / HIGHEST - 0.5;
-    int low = clamp(int(floor(layer)), 0, LAYERS - 2);
-    vec2 here = mix(profile[kind * LAYERS + low], profile[kind * LAYERS + low + 1], clamp(layer - float(low), 0.0, 1.0));
-    return at < HIGHEST ? vec2(here.x + here.y, here.y) : vec2(0.0);
+const int LAYERS = 12;
+
+// How much of a kind's leaf area is above a height, of its canopy's: in all, and of heads.
+vec2 leaves_over_of(int kind, float height) {
+    float at = min(height / HIGHEST, 1.0) * float(HEIGHTS);
+    int low = min(int(at), HEIGHTS - 1), own = kind * (HEIGHTS + 1) + low;
+    return mix(profile[own], profile[own + 1], at - float(low));
 }
 
 // The same with the heads that some kinds have. How much more of them is met than an image shows, where such a kind grows
@@ -129,21 +130,23 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below) {
         top = max(top, OF(grows, kind) > 0.004 ? OF(crown, kind) * HIGHEST : 0.0);
     top = min(top, left);
     ByKind met = all_kinds(0.0), of_heads = met, alone = met, heads_alone = met, through_alone = all_kinds(1.0);
-    float through = 1.0, step = 1.0 / (float(LAYERS) * slope), image_step = 1.0 / (float(LAYERS) * max(slope, LOWEST));
-    for (int layer = 0; layer < LAYERS; layer++) {
-        float at = 1.0 - (float(layer) + 0.5) / float(LAYERS), height = top * at;
-        float inside = clamp((below - at) * float(LAYERS) + 0.5, 0.0, 1.0);
+    float through = 1.0, image_slope = max(slope, LOWEST), from = 1.0;
+    for (int layer = 1; layer <= LAYERS; layer++) {
+        // The lower a line of sight, the more it meets in the topmost.
+        float part = float(layer) / float(LAYERS), to = 1.0 - part * part;
+        float inside = clamp((below - to) / (from - to), 0.0, 1.0);
         ByKind stop = all_kinds(0.0), some = stop;
         for (int kind = 0; kind < KINDS; kind++) {
-            float canopy_height = OF(crown, kind), area = OF(grows, kind) * OF(leaf, kind);
-            vec2 here = leaves_at(kind, height / canopy_height) * (area * top / canopy_height);
-            OF(stop, kind) = here.x;
-            OF(some, kind) = here.x > 0.0 ? here.y / here.x : 0.0;
+            float of_canopy = top / OF(crown, kind);
+            vec2 here = leaves_over_of(kind, to * of_canopy) - leaves_over_of(kind, from * of_canopy);
+            OF(stop, kind) = here.x * OF(leaf, kind);
+            OF(some, kind) = here.y / max(here.x, 1e-6);
         }
-        float sum = total(stop), stopped = through * (1.0 - exp(-inside * sum * step));
+        from = to;
+        float sum = weighed(stop, grows), stopped = through * (1.0 - exp(-inside * sum / slope));
         for (int group = 0; group < GROUPS; group++) {
-            vec4 share = stopped * stop[group] / max(sum, 1e-6);
-            vec4 stopped_alone = through_alone[group] * (1.0 - exp(-stop[group] / max(grows[group], 0.004) * image_step));
+            vec4 share = stopped * stop[group] * grows[group] / max(sum, 1e-6);
+            vec4 stopped_alone = through_alone[group] * (1.0 - exp(-stop[group] / image_slope));
             met[group] += share;
             of_heads[group] += share * some[group];
             alone[group] += stopped_alone;

@@ -11,8 +11,8 @@ from ...grow.organs import HEADS
 from ...grow.raster import rasterise, ribbon_triangles
 from ...grow.record import Blades, Growth
 
-LAYERS = 12
-"""Layers that a canopy is taken in."""
+HEIGHTS = 24
+"""Heights that are told apart in a canopy."""
 
 HIGHEST = 1.2
 """How high the topmost reaches, of the canopy's height: the tallest plants stand out of it."""
@@ -22,29 +22,31 @@ _TAPER = 0.6
 """Of blades among the rows: near enough to share out the leaf area."""
 
 _SAMPLE = 0.003
-"""Side of a sample of outlines [m]."""
+"""Side of a sample of plants' outlines [m]."""
 
-_STEMS = 40
-"""Heads at most whose outlines are measured."""
+_PLANTS = 40
+"""Plants at most whose outlines are measured."""
 
 
 def profile_of(growth: Growth, /) -> Doubles:
-    """Return a kind's leaf area by height, of all without heads and of heads' outlines, shape (`LAYERS`, 2).
+    """Return how much of a kind's leaf area is above each height, of all and of heads, shape (`HEIGHTS` + 1, 2).
 
-    Areas are seen from the side, as parts of the whole leaf area, for a height as great as the canopy's: petals behind
-    petals do not count again.
+    Heights rise evenly from the ground to `HIGHEST` of the canopy's. Areas are seen from the side, as parts of the whole
+    leaf area; of plants with heads, outlines are: what one of them has behind its own petals and leaves does not count.
     """
     blades = growth.models[0].blades
     left, right = ribbon(blades, growth.postures, (0.0, 0.0), points=_POINTS, taper=_TAPER)
     triangles = ribbon_triangles(left.astype(np.float64), right.astype(np.float64))
     area = _from_the_side(triangles)
-    bears = np.isin(np.broadcast_to(blades.organ, blades.height.shape), HEADS)
-    own = np.repeat(bears, len(triangles) // len(bears))
-    layer = triangles[:, :, 1].mean(axis=1) * (LAYERS / (HIGHEST * canopy_height(growth)))
-    layer = np.clip(layer, 0.0, LAYERS - 1).astype(int)
-    shown = _outlined(blades, triangles, bears) if bears.any() else 1.0
-    parts = [np.bincount(layer[of], area[of], minlength=LAYERS) for of in (~own, own)]
-    return np.column_stack([parts[0], shown * parts[1]]) * (LAYERS / (HIGHEST * area.sum()))
+    if bears_heads(growth):
+        height, seen, heads = _outlines(blades, triangles, area)
+    else:
+        height, seen, heads = triangles[:, :, 1].mean(axis=1), area, np.zeros(len(area), np.bool_)
+    at = np.clip(height * (HEIGHTS / (HIGHEST * canopy_height(growth))), 0.0, HEIGHTS - 1).astype(int)
+    parts = [np.bincount(at, seen * of, minlength=HEIGHTS) for of in (np.ones(len(at)), heads)]
+    above = np.zeros((HEIGHTS + 1, 2))
+    above[:-1] = np.cumsum(np.column_stack(parts)[::-1], axis=0)[::-1] / area.sum()
+    return above
 
 
 def bears_heads(growth: Growth, /) -> bool:
@@ -64,21 +66,21 @@ def _from_the_side(triangles: Doubles, /) -> Doubles:
     return np.asarray(0.25 * (np.abs(normal[:, 0]) + np.abs(normal[:, 2])))
 
 
-def _outlined(blades: Blades, triangles: Doubles, bears: NDArray[np.bool_], /) -> float:
-    """Return the area of heads' outlines, of that of all their triangles: heads stand side by side for that."""
-    rows = np.flatnonzero(bears)
-    _, stem = np.unique(
-        np.column_stack([blades.rank, blades.stem, blades.stem_rest])[rows], axis=0, return_inverse=True
-    )
-    some = stem.reshape(-1) < _STEMS
-    each = len(triangles) // len(bears)
-    own = triangles.reshape(len(bears), each, 3, 3)[rows[some]]
-    at = np.stack([own[..., 0] - blades.root[rows[some], None, None, 0], own[..., 1]], axis=-1) / _SAMPLE
-    at -= at.min(axis=(0, 1, 2)) - 1.0
+def _outlines(blades: Blades, triangles: Doubles, area: Doubles, /) -> tuple[Doubles, Doubles, NDArray[np.bool_]]:
+    """Return what is seen of single plants from the side, of each of n samples: height [m], area [m2], whether a head's.
+
+    Some plants stand for all: areas are those of as many as there are.
+    """
+    _, plant = np.unique(blades.rank, return_inverse=True)
+    rows = np.flatnonzero(plant.reshape(-1) < _PLANTS)
+    each = len(triangles) // len(blades.rank)
+    own = triangles.reshape(-1, each, 3, 3)[rows]
+    at = np.stack([own[..., 0] - blades.root[rows, None, None, 0], own[..., 1]], axis=-1) / _SAMPLE
+    at -= at.min(axis=(0, 1, 2)) * [1.0, 0.0] - 1.0
     wide, high = np.ceil(at.max(axis=(0, 1, 2)) + 1.0).astype(int).tolist()
-    at[..., 0] += (stem.reshape(-1)[some] * wide)[:, None, None]
-    corners = at.reshape(-1, 3, 2)
-    seen = rasterise(corners, np.zeros(corners.shape[:2]), shape=(high, wide * (int(stem[some].max()) + 1)))
-    edges = np.diff(corners, axis=1)
-    every = 0.5 * np.abs(edges[:, 0, 0] * edges[:, 1, 1] - edges[:, 0, 1] * edges[:, 1, 0]).sum()
-    return min(len(seen.sample) / float(every), 1.0)
+    at[..., 0] += (plant.reshape(-1)[rows] * wide)[:, None, None]
+    shape = high, wide * (int(plant[rows].max()) + 1)
+    seen = rasterise(at.reshape(-1, 3, 2), own[..., 2].reshape(-1, 3), shape=shape)
+    heads = np.isin(np.broadcast_to(blades.organ, blades.rank.shape)[rows], HEADS)[seen.triangle // each]
+    one = _SAMPLE**2 * float(area.sum() / area.reshape(-1, each)[rows].sum())
+    return (seen.sample // shape[1] - 1.0) * _SAMPLE, np.full(len(seen.sample), one), heads
