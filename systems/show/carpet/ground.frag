@@ -154,7 +154,7 @@ const float MET = 0.7;  // how deep leaves are that are met over a crest, of how
 const float SPIKES = 18.0;  // how much more leaves are met along an outline where taller plants stand
 const float TALLER = 0.05;  // how much taller plants count at most, of the mean
 
-const float GRAZING = 0.01;  // a line of sight counts as at least so steep, for how high up it meets blades
+const float SHALLOWEST = 0.01;  // a line of sight counts as at least so steep, for how high up it meets blades
 const float STANDING = 0.9;  // how much it covers at least of what is behind an outline, where strips have just begun to give way
 
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,
@@ -258,7 +258,7 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
     }
 #endif
     float between = exp(-more);  // what is seen between blades, of that between blades at rest
-    vec2 depths = mean_depth(max(vec3(slopes[0], GRAZING, 1.0), on_level), vec3(0.0, more, 0.0)).xy;
+    vec2 depths = mean_depth(max(vec3(slopes[0], SHALLOWEST, 1.0), on_level), vec3(0.0, more, 0.0)).xy;
     float higher_up = (1.0 - depths.y) / (1.0 - depths.x);  // where blades are met, of where they are met at rest
     vec2 leans = sheared(heading, moved, on_level), apart = (place.xz - moved) / soil.w - vec2(cell) - 0.5;
     float longer = max(1.0 + dot(leans, heading), SHORTEST);
@@ -307,7 +307,7 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
 #endif
         mean_of.rg = 1.0 - (1.0 - mean_of.rg) * shallow;
 #ifdef HEADS
-        mean_of.rg *= OF(bears, kind) > 0.0 ? vec2(1.0, higher_up) : vec2(higher_up);
+        mean_of.rg *= OF(bears, kind) > 0.0 ? 1.0 : higher_up;
 #else
         mean_of.rg *= higher_up;
 #endif

@@ -24,6 +24,10 @@ _TAPER = 0.6
 _SAMPLE = 0.003
 """Side of a sample of plants' outlines [m]."""
 
+_BEHIND = 0.92
+"""How many of the plants that a line of sight would meet, did they stand evenly, it meets in a meadow: they stand in
+clumps, one behind another. Measured on poppies in barley and heather in moor grass, at slopes from 0.01 to 0.1."""
+
 _PLANTS = 40
 """Plants at most whose outlines are measured."""
 
@@ -31,8 +35,8 @@ _PLANTS = 40
 def profile_of(growth: Growth, /) -> Doubles:
     """Return how much of a kind's leaf area is above each height, of all and of heads, shape (`HEIGHTS` + 1, 2).
 
-    Heights rise evenly from the ground to `HIGHEST` of the canopy's. Areas are seen from the side, as parts of the whole
-    leaf area; of plants with heads, outlines are: what one of them has behind its own petals and leaves does not count.
+    Heights rise evenly from the ground to `HIGHEST` of the canopy's. Areas are seen from the side, as parts of the
+    whole leaf area; of plants with heads, outlines are: what one has behind its own petals and leaves does not count.
     """
     blades = growth.models[0].blades
     left, right = ribbon(blades, growth.postures, (0.0, 0.0), points=_POINTS, taper=_TAPER)
@@ -67,7 +71,7 @@ def _from_the_side(triangles: Doubles, /) -> Doubles:
 
 
 def _outlines(blades: Blades, triangles: Doubles, area: Doubles, /) -> tuple[Doubles, Doubles, NDArray[np.bool_]]:
-    """Return what is seen of single plants from the side, of each of n samples: height [m], area [m2], whether a head's.
+    """Return what is seen of single plants from the side, by sample (n,): height [m], area [m2], whether a head's.
 
     Some plants stand for all: areas are those of as many as there are.
     """
@@ -82,5 +86,5 @@ def _outlines(blades: Blades, triangles: Doubles, area: Doubles, /) -> tuple[Dou
     shape = high, wide * (int(plant[rows].max()) + 1)
     seen = rasterise(at.reshape(-1, 3, 2), own[..., 2].reshape(-1, 3), shape=shape)
     heads = np.isin(np.broadcast_to(blades.organ, blades.rank.shape)[rows], HEADS)[seen.triangle // each]
-    one = _SAMPLE**2 * float(area.sum() / area.reshape(-1, each)[rows].sum())
+    one = _BEHIND * _SAMPLE**2 * float(area.sum() / area.reshape(-1, each)[rows].sum())
     return (seen.sample // shape[1] - 1.0) * _SAMPLE, np.full(len(seen.sample), one), heads
