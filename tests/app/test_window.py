@@ -109,8 +109,9 @@ def test_the_window_shows_what_is_drawn_headless(walk: "Walk", tallgrass: Tallgr
     walk.tell([])
     # Windows and framebuffers may round a few pixels differently, each time that something is blended over them.
     apart = np.abs(seen(walk) - picture.astype(float))
-    assert apart.max() <= 2.0
-    assert (apart > 0.0).mean() < 0.001
+    assert apart.max() <= 6.0
+    assert (apart > 2.0).mean() < 0.0001
+    assert (apart > 0.0).mean() < 0.002
     options = ("--time", story["time"], "--camera", story["camera"], "--size", "160x90")
     assert tallgrass("shot", scene, "-o", "a.png", *options).returncode == 0
     with Image.open(scene.parent / "a.png") as image:

@@ -25,13 +25,15 @@ vec3 leaning(vec2 bend) {
     return vec3(leans, lodged(bend)).xzy;
 }
 
+const float TURNED = 0.12;  // how much more it matters than their lean alone tells, whether blades lean away from the eye or towards it
+
 // How many more leaves a line of sight meets of a kind for how it leans, where it stands densely, than it would meet on level
 // ground at rest, that goes `sight` and `falls` while it comes through the canopy at rest, of its height: grass that leans away
 // from the eye turns its breadth to it, and grass that leans towards it its edge.
 float laid(int kind, vec3 lean, vec2 sight, float falls) {
     float lies = OF(lying, kind);
-    vec3 still = vec3(sight * lean.y, lies), bent = vec3(sight * lean.y + falls * lean.xz, falls * lies);
-    return (length(bent) - length(still)) * OF(leaf, kind);
+    vec3 still = vec3(sight * lean.y, lies), away = vec3(falls * lean.xz, 0.0), bent = vec3(still.xy, falls * lies) + away;
+    return (length(bent) - length(still) + TURNED * (length(bent) - length(bent - 2.0 * away))) * OF(leaf, kind);
 }
 
 // The pigment of what is met of a kind that leans so, of that where it stands upright.
