@@ -86,6 +86,18 @@ def test_f2_from_above_the_carpet_hides_as_much_more_of_the_ground_as_bent_blade
     np.testing.assert_allclose(ratios[1:], ratios[0], rtol=0.035)
 
 
+def test_f2_from_a_slant_the_carpet_is_as_bright_as_blades_whichever_way_they_lean(room: Stage, load: Load) -> None:
+    broad = CALM.replace("width: 0.02", 'width: 0.026, root: "#4a5f2b", tip: "#bcc26c"')
+    prairie = load(broad, lod="carpet")
+    slant, ratios = Camera((0.0, 20.0, 20.0), 0.0, -0.25 * np.pi, np.radians(30.0)), []
+    for yaw in (0.0, 180.0):
+        wind = prairie.add(Breeze(direction=yaw, strength=0.4, gustiness=0.0, swing=0.0), pose=Pose())
+        seen = room.shot(prairie, slant).mean()
+        ratios.append(seen / draw_reference(prairie, *room.matrices(slant), room.size, samples=2).mean())
+        prairie.remove(wind)
+    np.testing.assert_allclose(ratios[1], ratios[0], rtol=0.015)
+
+
 def test_f6_leaves_of_the_carpet_go_where_the_wind_bends_them(room: Stage, prairie: Prairie) -> None:
     """From above, where north is up and the wind goes east; what lies on the ground stays."""
     above = Camera((0.3, 20.0, 0.2), 0.0, -np.pi / 2.0, np.radians(8.0))
