@@ -14,7 +14,7 @@ from . import worker
 from .dask import SILENT, cores, need_distributed, quiet, versions
 from .hands import Hands
 
-ANSWER = 6.0
+ANSWER = 4.0
 """How long a scheduler may take to answer [s]."""
 
 _LOCAL = re.compile(r"local(?::([1-9][0-9]{0,2}))?")
