@@ -86,7 +86,7 @@ def test_f2_from_above_the_carpet_hides_as_much_more_of_the_ground_as_bent_blade
     np.testing.assert_allclose(ratios[1:], ratios[0], rtol=0.035)
 
 
-def test_f2_from_a_slant_the_carpet_is_as_bright_as_blades_whichever_way_they_lean(room: Stage, load: Load) -> None:
+def test_f2_from_a_slant_the_carpet_tells_which_way_grass_leans_as_blades_do(room: Stage, load: Load) -> None:
     broad = CALM.replace("width: 0.02", 'width: 0.026, root: "#4a5f2b", tip: "#bcc26c"')
     prairie = load(broad, lod="carpet")
     slant, ratios = Camera((0.0, 20.0, 20.0), 0.0, -0.25 * np.pi, np.radians(30.0)), []

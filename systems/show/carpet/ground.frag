@@ -81,7 +81,7 @@ in float dense;
 in ByKind met;
 #ifdef HEADS
 in ByKind riper;
-uniform ByKind bears;
+uniform ByKind bears;  // by kind: whether it has any heads
 #endif
 in vec3 direct;
 in vec3 open_to;

@@ -164,6 +164,22 @@ def _of_images(growths: Sequence[Growth], seed: int) -> dict[str, object]:
     }
 
 
+def _defines_of(growths: Sequence[Growth]) -> dict[str, str | int]:
+    """Return what the shaders of the carpet of these kinds are told at the top."""
+    slopes = carpet_of(growths[0].models[0]).slope
+    heads: dict[str, str | int] = {"HEADS": 1, "HEIGHTS": HEIGHTS, "HIGHEST": str(HIGHEST)}
+    return {
+        "CARPET": 1,
+        "STRETCH": STRETCH,
+        "RAISED": str(RAISED),
+        "SLOPES": len(slopes),
+        "LOWEST": str(slopes[0]),
+        "GROWN": str(GROWN),
+        "SINKS": str(SINKS),
+        **(heads if any_heads(growths) else {}),
+    }
+
+
 class GroundPainter:
     """Draws ground and carpet."""
 
@@ -184,17 +200,7 @@ class GroundPainter:
         corners, indices = _grid()
         self.grid = ctx.buffer(corners), ctx.buffer(indices)
         self.streams = Stream(ctx, TILE), Stream(ctx, TILE), Stream(ctx, TILE)
-        slopes = carpet_of(growths[0].models[0]).slope
-        laid: dict[str, str | int] = {
-            "CARPET": 1,
-            "STRETCH": STRETCH,
-            "RAISED": str(RAISED),
-            "SLOPES": len(slopes),
-            "LOWEST": str(slopes[0]),
-            "GROWN": str(GROWN),
-            "SINKS": str(SINKS),
-        }
-        laid |= {"HEADS": 1, "HEIGHTS": HEIGHTS, "HIGHEST": str(HIGHEST)} if any_heads(growths) else {}
+        laid = _defines_of(growths)
 
         def layer(defines: dict[str, str | int], stream: Stream) -> _Layer:
             return _Layer(

@@ -76,7 +76,7 @@ void light_up(float slope, vec2 message) {
 #endif
 
 #ifdef HEADS
-uniform ByKind bears; // by kind: whether it has any
+uniform ByKind bears;  // by kind: whether it has any heads
 uniform vec2 profile[KINDS * (HEIGHTS + 1)];  // by kind and height: how much of its leaf area is above that; of heads
 #endif
 
@@ -110,13 +110,14 @@ ByKind shared_out(ByKind met, ByKind grows, float slope) {
 const float GRAZING = 0.005;  // a line of sight counts as at least so steep, for the kinds that it meets
 
 // How much of what a line of sight meets is of each kind: taller kinds hide the others at a low angle. The grass is
-// taken in layers from the top, up to `below` of its height; its leaf area falls off linearly with height.
+// taken in layers from the top, up to `below` of its height; its leaf area falls off linearly with height, except among
+// kinds of which some bear heads: those bring the profiles of theirs.
 
 #ifdef HEADS
 const int LAYERS = 12;
 
 // How much of a kind's leaf area is above a height, of its canopy's: in all, and of heads.
-vec2 leaves_over_of(int kind, float height) {
+vec2 profile_above(int kind, float height) {
     float at = min(height / HIGHEST, 1.0) * float(HEIGHTS);
     int low = min(int(at), HEIGHTS - 1), own = kind * (HEIGHTS + 1) + low;
     return mix(profile[own], profile[own + 1], at - float(low));
@@ -131,14 +132,17 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below) {
     top = min(top, left);
     ByKind met = all_kinds(0.0), of_heads = met, alone = met, heads_alone = met, through_alone = all_kinds(1.0);
     float through = 1.0, image_slope = max(slope, LOWEST), from = 1.0;
+    vec2 above[KINDS];
+    for (int kind = 0; kind < KINDS; kind++)
+        above[kind] = profile_above(kind, top / OF(crown, kind));
     for (int layer = 1; layer <= LAYERS; layer++) {
         // The lower a line of sight, the more it meets in the topmost.
         float part = float(layer) / float(LAYERS), to = 1.0 - part * part;
         float inside = clamp((below - to) / (from - to), 0.0, 1.0);
         ByKind stop = all_kinds(0.0), some = stop;
         for (int kind = 0; kind < KINDS; kind++) {
-            float of_canopy = top / OF(crown, kind);
-            vec2 here = leaves_over_of(kind, to * of_canopy) - leaves_over_of(kind, from * of_canopy);
+            vec2 above_here = profile_above(kind, to * top / OF(crown, kind)), here = above_here - above[kind];
+            above[kind] = above_here;
             OF(stop, kind) = here.x * OF(leaf, kind);
             OF(some, kind) = here.y / max(here.x, 1e-6);
         }
