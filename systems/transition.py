@@ -98,6 +98,21 @@ def held(patches: PatchTable, /, *, reach: tuple[int, ...]) -> Levels:
     return np.maximum(chosen, finest)
 
 
+def unfinished(patches: PatchTable, wanted: Levels, /, *, reach: tuple[int, ...]) -> Mask:
+    """Return which patches wait with a change between blades and strips, shape (rows,): for that of a sub-level to end.
+
+    Blades then go between places that one sub-level paints. Nobody waits who is left behind farther than there is room.
+    """
+    now, last = patches.representation, len(patches.names) - 1
+    rows = ((now != wanted) & (patches.progress >= 1.0)).nonzero()[0]
+    from_, to = now[rows], wanted[rows]
+    rows = rows[(from_ >= 0) & (from_ < last) & (to >= 0) & (to < last)]
+    rows = rows[patches.sublevel_progress[now[rows], rows] < 1.0]
+    waits = np.zeros(len(now), np.bool_)
+    waits[rows[~_left_behind(patches, rows, reach)]] = True
+    return waits
+
+
 def _left_behind(patches: PatchTable, rows: Rows, reach: tuple[int, ...]) -> Mask:
     """Return which patches (n,) are too far away for a representation that they have or come from, shape (n,)."""
     limit = np.array([*farthest(reach), np.iinfo(np.int32).max], np.int32)
@@ -116,13 +131,20 @@ def weights(patches: PatchTable, rows: Rows | slice = slice(None), /) -> Floats:
 
 
 def refine(
-    outlook: Outlook, representations: tuple[Representation, ...], /, *, step: float, transitions: Transitions
+    outlook: Outlook,
+    representations: tuple[Representation, ...],
+    waits: Mask,
+    /,
+    *,
+    step: float,
+    transitions: Transitions,
 ) -> None:
     """Advance changes of sub-levels by `step` and start those that are due.
 
     Where a representation does not show, its sub-level is due at once; while a patch goes between two representations
-    that stand on the ground, none changes, so that each blade keeps its painted place. Patches that are not visible,
-    and those without the representation, end their changes and begin no others: their sub-levels will be due anew.
+    that stand on the ground, none changes, so that each blade keeps its painted place. Patches that wait (rows,) for
+    their change to end go on to the end that is nearer. Patches that are not visible, and those without the
+    representation, end their changes and begin no others: their sub-levels will be due anew.
     """
     patches, last = outlook.patches, len(representations) - 1
     seen = patches.alive & patches.visible
@@ -130,11 +152,18 @@ def refine(
         has = (patches.representation == level) | (patches.previous == level)
         rows = ((seen & has) | (patches.sublevel_progress[level] < 1.0)).nonzero()[0]
         if rows.size:
-            _refine(outlook, representation, level, rows, step=step, transitions=transitions)
+            _refine(outlook, representation, level, rows, waits[rows], step=step, transitions=transitions)
 
 
 def _refine(
-    outlook: Outlook, representation: Representation, level: int, rows: Rows, *, step: float, transitions: Transitions
+    outlook: Outlook,
+    representation: Representation,
+    level: int,
+    rows: Rows,
+    waits: Mask,
+    *,
+    step: float,
+    transitions: Transitions,
 ) -> None:
     """Advance and start changes of the sub-levels of one representation on some rows of the patch table."""
     patches = outlook.patches
@@ -147,6 +176,8 @@ def _refine(
     due = representation.sublevels(outlook, rows, np.where(shows, has, np.int8(-1)), slack=slack)
     shows &= transitions.gradual
     wanted = np.where(both & shows, has, due)
+    nearer = np.where(progress[rows] < 0.5, before[rows], has)
+    wanted = np.where(waits & shows, nearer, wanted)
     here = unsettled(has, before[rows], progress[rows], wanted)
     if here.size:
         progress[rows[both]] = 1.0
@@ -192,7 +223,9 @@ class Transition:
         before = patches.representation.copy()
         reach = outlook.room or self.reach
         wanted = held(patches, reach=reach)
+        waits = unfinished(patches, wanted, reach=reach)
+        wanted[waits] = patches.representation[waits]
         change(patches, wanted, settled & self.transitions.gradual, reach=reach, step=step)
-        refine(outlook, self.representations, step=step, transitions=self.transitions)
+        refine(outlook, self.representations, waits, step=step, transitions=self.transitions)
         changing = (patches.progress < 1.0) | ((before != patches.representation) & settled)
         outlook.changing = int(np.count_nonzero(patches.shown & changing))

@@ -272,3 +272,27 @@ def test_a_ring_of_strips_may_serve_no_distance_but_only_what_is_seen_from_above
         Quality(blade_rings=blades, strip_rings=[StripRing(to=1, strips=8), *strips], carpet_to=9)
     with pytest.raises(ValueError, match="to must exceed 2"):
         Quality(blade_rings=[*blades, *blades], strip_rings=strips, carpet_to=9)
+
+
+@pytest.mark.parametrize("begun", [0.3, 0.7])
+def test_x3_a_patch_ends_the_change_of_its_sublevel_before_it_goes_to_blades(
+    laid: Laid, look: Look, begun: float
+) -> None:
+    """It goes to the end that is nearer, and jumps to neither."""
+    site = laid(terrain=FLAT)
+    look(site, 1.25, 1.2)
+    look(site, 1.25, 1.25, dt=0.0)
+    patches = look(site, 1.25, 5.1, dt=0.0).patches
+    standing = patches.shown & (patches.representation == 1) & (patches.progress >= 1.0)
+    row = int(np.flatnonzero(standing & (patches.sublevel_progress[1] < 1.0))[0])
+    look(site, 1.25, 5.1, dt=begun * FADE)
+    before = patches.sublevel_progress[1, row]
+    patches.hold[row] = 0
+    ways = []
+    while patches.representation[row] == 1:
+        look(site, 1.25, 5.1, dt=0.05 * FADE)
+        ways.append(float(patches.sublevel_progress[1, row]))
+    assert before == pytest.approx(begun)
+    assert len(ways) <= 11  # half of the change, and a step to begin with
+    np.testing.assert_allclose(np.diff(ways[1:-1]), 0.05, atol=1e-5)
+    assert (ways[-1], patches.progress[row]) == (1.0, 0.0)
