@@ -17,6 +17,7 @@ from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.lod import SLACK
 from tallgrass.systems.see import strips_kept
 from tallgrass.systems.show.blades.sublevel import blade_ring
+from tallgrass.systems.show.strips.shown import show_strips
 from tallgrass.systems.show.strips.sublevel import (
     APART,
     CROSSED,
@@ -231,10 +232,38 @@ def test_f1_a_patch_whose_strips_change_shows_every_blade_once(laid: Laid, look:
     for row in twice.tolist():
         ends = sorted(zip(least[rows == row].tolist(), most[rows == row].tolist(), strict=True))
         assert ends[0][0] == 0.0
-        assert ends[0][1] == ends[1][0] == pytest.approx(0.3, abs=1e-5)
+        assert ends[0][1] == ends[1][0]
+        assert min(ends[0][1], 1.0 - ends[0][1]) == pytest.approx(0.3, abs=1e-5)
         assert ends[1][1] == 1.0
     once = np.flatnonzero(np.bincount(rows) == 1)
     assert all((least[rows == row] == 0.0).all() and (most[rows == row] == 1.0).all() for row in once)
+
+
+def painted(outlook: Outlook, row: int) -> set[tuple[int, int, float, float]]:
+    """On which rings' strips, along which axis, blades of which ranks of a patch are painted."""
+    rings = outlook.shown["strips"].rings
+    return {
+        (number, int(ring.along[at]), round(float(ring.least[at]), 3), round(float(ring.most[at]), 3))
+        for number, ring in enumerate(rings)
+        for at in np.flatnonzero(ring.rows == row)
+    }
+
+
+def test_f1_where_strips_turn_back_half_way_no_blade_jumps(laid: Laid, look: Look) -> None:
+    site = laid(terrain=FLAT)
+    look(site, 1.25, 1.2)
+    look(site, 1.25, 8.8, dt=0.0)
+    outlook = look(site, 1.25, 8.8, dt=0.3 * FADE)
+    patches, cover = outlook.patches, outlook.appearance.cover[1]
+    rows = [row for row in patches.shown.nonzero()[0].tolist() if len(painted(outlook, row)) == 2]
+    there = [painted(outlook, row) for row in rows]
+    now, before, progress = (
+        column[1] for column in (patches.sublevel, patches.sublevel_before, patches.sublevel_progress)
+    )
+    now[rows], before[rows], progress[rows] = before[rows], now[rows], 1.0 - progress[rows]
+    outlook.shown["strips"] = show_strips(outlook, cover, level=1, side=patches.side, rings=3)
+    assert len(rows) > 5
+    assert [painted(outlook, row) for row in rows] == there
 
 
 def test_f1_blades_slide_from_one_ring_to_the_next_in_the_finer_one(laid: Laid, look: Look) -> None:

@@ -94,13 +94,16 @@ def _entries(patches: PatchTable, rows: Rows, level: int) -> _Entries:
     old = np.arange(len(index)) >= len(rows)
     queue = np.argsort(2 * alike[index] + ~old, kind="stable")
     index, old = index[queue], old[queue]
-    twice, progress, sublevel = changing[index], progress[index], np.where(old, before[index], now[index])
+    sublevel, other = (np.where(old, a[index], b[index]) for a, b in ((before, now), (now, before)))
+    # The lower number shows the lower ranks: so a change that is reversed half-way goes back the way it came.
+    progress, lower, higher = progress[index], sublevel < other, sublevel > other
+    parted = np.where(lower == old, np.float32(1.0) - progress, progress)
     return _Entries(
         rows=rows[index],
         ring=ring_of(sublevel),
         along=axis_of(sublevel),
-        least=np.where(old, progress, np.float32(0.0)),
-        most=np.where(twice & ~old, progress, np.float32(1.0)),
+        least=np.where(higher & changing[index], parted, np.float32(0.0)),
+        most=np.where(lower & changing[index], parted, np.float32(1.0)),
     )
 
 

@@ -66,13 +66,28 @@ void thin(float dense, float below, float texels) {
 #ifdef MOWN
 const float CROSSED = 1.25;  // strips that a line of sight crosses at least where they do not show as rows
 #endif
-const float SHARPER = 0.25;  // how much finer texels are than pixels, in levels: blades would be washed out
-const float SHARPER_ABOVE = 0.45;  // how much finer still, seen from straight above: strips lie across the line of sight
+const float SHARPER_ABOVE = 0.2;  // how much finer texels are than pixels, in levels, from straight above: grain would be lost
+const float NARROWEST = 0.25;  // blades count as no closer together than this part of how far apart they are painted
 
 // Pixels that a metre is long on the screen, across the line of sight.
 float pixels_at(vec3 place) {
     vec4 up = vec4(clip[0][1], clip[1][1], clip[2][1], 0.0);
     return screen.y * length(up) / max(dot(vec4(clip[0][3], clip[1][3], clip[2][3], clip[3][3]), vec4(place, 1.0)), 0.1);
+}
+
+// Where a way that begins at a point leads on the screen [pixel].
+vec2 on_screen(vec4 from, vec3 way) {
+    vec4 to = clip * vec4(way, 0.0);
+    return (to.xy * from.w - from.xy * to.w) * screen.xy / max(from.w * from.w, 0.01);
+}
+
+// Pixels that two blades of a strip are apart on the screen that are painted a metre apart, as the wind has bent them: the
+// more they lie, the closer they are.
+float apart_at(vec3 middle, vec2 run, vec3 stem) {
+    vec4 from = clip * vec4(middle, 1.0);
+    vec2 beside = on_screen(from, vec3(run.x, 0.0, run.y)), along = on_screen(from, stem);
+    float between = abs(beside.x * along.y - beside.y * along.x) / max(length(along), 1e-6);
+    return max(max(between, NARROWEST * length(beside)), 1e-3);
 }
 
 // Where a point of an edge is, `t` of the way up its section's quads, and its height in the canopy.
@@ -165,11 +180,11 @@ void main() {
     grain_cos = turned * grain_c[k].rgb;
     grain_sin = turned * grain_s[k].rgb;
     shown = how.x;
-    boost = boosted(k, run, middle, top, 0.5 * (back_a + back_b));
-    float texels = picture.y * ATLAS / (OF(tall, k) * pixels);
-    level = log2(texels) - SHARPER - SHARPER_ABOVE * abs(eye.y - middle.y) / distance(middle, eye.xyz);
+    vec2 back = 0.5 * (back_a + back_b);
+    float texels = picture.y * ATLAS / (OF(tall, k) * apart_at(middle, run, top + vec3(back.x, 0.0, back.y)));
+    level = log2(texels) - SHARPER_ABOVE * abs(eye.y - middle.y) / distance(middle, eye.xyz);
+    boost = boosted(k, run, middle, top, back);
 #ifdef THIN
-    vec2 sight = normalize(middle.xz - eye.xz);
-    thin(mix(told_a.w, told_b.w, across), how.z, 0.5 * texels / abs(run.x * sight.y - run.y * sight.x));
+    thin(mix(told_a.w, told_b.w, across), how.z, 0.5 * texels);
 #endif
 }
