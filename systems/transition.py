@@ -98,16 +98,17 @@ def held(patches: PatchTable, /, *, reach: tuple[int, ...]) -> Levels:
     return np.maximum(chosen, finest)
 
 
-def unfinished(patches: PatchTable, wanted: Levels, /, *, reach: tuple[int, ...]) -> Mask:
+def unfinished(patches: PatchTable, wanted: Levels, /, *, reach: tuple[int, ...], step: float) -> Mask:
     """Return which patches wait with a change between blades and strips, shape (rows,): for that of a sub-level to end.
 
-    Blades then go between places that one sub-level paints. Nobody waits who is left behind farther than there is room.
+    Blades then go between places that one sub-level paints. Nobody waits for what ends in this `step`, nor who is left
+    behind farther than there is room.
     """
     now, last = patches.representation, len(patches.names) - 1
     rows = ((now != wanted) & (patches.progress >= 1.0)).nonzero()[0]
     from_, to = now[rows], wanted[rows]
     rows = rows[(from_ >= 0) & (from_ < last) & (to >= 0) & (to < last)]
-    rows = rows[patches.sublevel_progress[now[rows], rows] < 1.0]
+    rows = rows[patches.sublevel_progress[now[rows], rows] + step < 1.0]
     waits = np.zeros(len(now), np.bool_)
     waits[rows[~_left_behind(patches, rows, reach)]] = True
     return waits
@@ -223,7 +224,7 @@ class Transition:
         before = patches.representation.copy()
         reach = outlook.room or self.reach
         wanted = held(patches, reach=reach)
-        waits = unfinished(patches, wanted, reach=reach)
+        waits = unfinished(patches, wanted, reach=reach, step=step)
         wanted[waits] = patches.representation[waits]
         change(patches, wanted, settled & self.transitions.gradual, reach=reach, step=step)
         refine(outlook, self.representations, waits, step=step, transitions=self.transitions)

@@ -43,8 +43,9 @@ def prairie(load: Load) -> Prairie:
 def settled(stage: Stage, prairie: Prairie, aim: Camera) -> NDArray[np.float64]:
     """The picture once nothing is in transition any more."""
     stage.shot(prairie, aim)
-    prairie.advance(2 * FADE)
-    picture = stage.shot(prairie, aim)
+    for _ in range(2):  # a sub-level's change may have to end before that of the representation begins
+        prairie.advance(FADE)
+        picture = stage.shot(prairie, aim)
     assert (prairie.viewers["main"].patches.progress == 1.0).all()
     return np.asarray(picture)
 

@@ -61,9 +61,7 @@ float left_seen() {
 #if defined(CARPET) && !defined(UNDER)
 #include "lib/random.glsl"
 #include "systems/show/carpet/border.glsl"
-#if defined(TRODDEN) || KINDS > 4
 #include "systems/show/carpet/lit.glsl"
-#endif
 #ifdef TRODDEN
 #include "systems/press/press.glsl"
 #endif
@@ -89,7 +87,6 @@ in vec4 shade;
 in float lies;
 #if KINDS > 4
 vec3 dry;
-vec2 sways;
 float stands;
 ByKind tipped;
 const float strips_before = 1.0;  // pixels find out themselves
@@ -97,7 +94,6 @@ const float strips_before = 1.0;  // pixels find out themselves
 in float strips_before;
 in ByKind tipped;
 in vec3 dry;
-in vec2 sways;
 in float stands;
 #endif
 
@@ -145,12 +141,14 @@ float filled(float steeper, vec2 seen, float slope, float mean) {
 }
 
 const float GRAIN = 1.5;  // how far images are from their mean, for what filtering takes away
-const float GRAIN_ABOVE = 1.06;  // the same from above
-const float SHARP = 0.4;  // size of what is taken from the images for a pixel, of the pixel's own
-const float SHARP_ABOVE = 0.36;  // the same from above, where grass hides less of other grass
+const float GRAIN_ABOVE = 1.0;  // the same from above
+const float SHARP = 0.6;  // size of what is taken from the images for a pixel, of the pixel's own: filtering takes more than it
+const float FEATURE = 0.3;  // height of what can be told apart in the grass from the side, of the grass's
 const float LEAST_MET = 0.004;  // of a kind, as a part of all that is: of less, nothing is seen
 const float LEAST = 0.01; // height of the carpet where nothing grows [m]
 const float ARCHED = 0.6;  // how much less of their tips blades show from the side for how low they are bent
+const float FLATTEST = 0.005;  // a line of sight counts as at least so steep, for how far blades are drawn out along it
+const vec2 ROOTS_SEEN = vec2(0.25, 0.9);  // viewing slopes from which on it is seen how far apart blades stand, and that alone
 const float MET = 0.7;  // how deep leaves are that are met over a crest, of how deep the line of sight comes
 const float SPIKES = 18.0;  // how much more leaves are met along an outline where taller plants stand
 const float TALLER = 0.05;  // how much taller plants count at most, of the mean
@@ -177,7 +175,8 @@ float rises_ahead() {
 }
 
 #ifdef TRODDEN
-// The light where somebody walks or has walked: a way is narrower than the mesh that light is made out on.
+// The light where somebody walks or has walked, and how far leaves are moved by that: a way is narrower than the mesh that
+// light is made out on.
 Sum trodden_light(float slope) {
     vec3 there = seen_at(place, slope, tall, dense);
     vec2 message = message_at(place.xz), messages[KINDS], blown[KINDS];
@@ -188,14 +187,14 @@ Sum trodden_light(float slope) {
         blown[kind] = message;
         messages[kind] = laid_over(message, pressed);
     }
-    Sum sum = Sum(direct, open_to, shade, lies, sways);
+    Sum sum = Sum(direct, open_to, shade, lies, vec2(0.0));
     if (most < 1e-3)
         return sum;
     vec4 here = lie_at(there.xz);
     Sum with = summed(met, slope, there, here, messages), without = summed(met, slope, there, here, blown);
     return Sum(max(sum.direct + with.direct - without.direct, 0.0),
                max(sum.open_to + with.open_to - without.open_to, 0.0), sum.shade + with.shade - without.shade,
-               lies + with.lies - without.lies, sways + with.sways - without.sways);
+               lies + with.lies - without.lies, with.sways - without.sways);
 }
 #endif
 
@@ -210,18 +209,37 @@ vec2 among_strips(float on_strips, float slope) {
     return vec2((1.0 - exp(-leaves * (1.0 - on_strips))) / max(all, 1e-4), clamp((1.0 - own) / (1.0 - depth.x), 0.0, 1.0));
 }
 
+// How far the leaves of a patch are moved that the wind bends [m], and how high they stand, of their height at rest. It is one
+// wind for all of a patch: images that are sheared here and there otherwise would curl.
+vec3 blown_on(ivec2 cell) {
+    vec2 message = message_at((vec2(cell) + 0.5) * soil.w);
+    vec3 sum = vec3(0.0);
+    for (int kind = 0; kind < KINDS; kind++) {
+        vec2 bend = bending(kind, message);
+        sum += OF(met, kind) * vec3(SWAYS * OF(crown, kind) * bend, lodged(bend));
+    }
+    return total(met) > 1e-3 ? sum / total(met) : vec3(0.0, 0.0, 1.0);
+}
+
 const float TIPS = 1.7;      // how far bent grass moves its tips, of how far it moves the leaves that are seen
 const float TOO_STEEP = 1.7; // viewing slope from which on hardly any of it is seen
 const float SHORTEST = 0.35; // blades that lean towards the eye are so long at least, of how long they are seen at rest
 
-// How images of grass at rest are sheared along the line of sight for blades in them to lean as grass does that is `moved` [m].
-// From straight above, where blades have no length in them, they are not: what is far from a patch's middle would swim.
-vec2 sheared(vec2 heading, vec2 moved, float slope) {
+// How images of grass at rest are sheared along the line of sight for blades in them to lean as grass does that the wind has
+// `blown` so. From straight above, where blades have no length in them, they are not: what is far from a patch's middle would swim.
+vec2 sheared(vec3 blown, float slope) {
     float steeper = slope * slope / (TOO_STEEP * TOO_STEEP), leant = 1.0 / (1.0 + steeper * steeper);
-    return leant * (TIPS * moved * max(slope, slopes[0]) / max(tall, LEAST) - heading * (1.0 - stands));
+    return leant * TIPS * blown.xy * max(slope, slopes[0]) / (max(tall, LEAST) * blown.z);
+}
+
+// What of the pixel's place and of the steps to the next ones, in patches, leads along the line of sight and across blades that
+// lean so: `along` becomes longer for what leans away from the eye.
+vec2 leant_back(vec2 way, vec2 heading, vec2 leans) {
+    return way - leans * dot(way, heading) / max(1.0 + dot(leans, heading), SHORTEST);
 }
 
 const float EVENER = 0.15;           // from above, how much less uneven grass is that lies
+const float EVENER_ASIDE = 0.6;      // the same from the side
 const vec2 MIDDLES = vec2(0.25, 0.9);// how much nearer to the tips, and to the canopy's top, the middles of arches are
 const float ENDS = 0.1;              // how much farther from the top their ends are
 
@@ -237,44 +255,50 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
     int model = int(drawn % uint(stock.x)), side = int(drawn >> 16u) & 3;
     vec3 ray = place - eye.xyz;
     vec2 heading = ray.xz / max(length(ray.xz), 1e-4), turn = turned(heading, side);
-    vec2 dx = dFdx(place.xz) / soil.w, dy = dFdy(place.xz) / soil.w;
-    float fine = sharper(dx, dy);
-    float texels = fine * max(length(dx), length(dy)) * float(textureSize(images, 0).x);
-    fine *= clamp(slope / on_level, 0.25, 1.0);  // over a crest a line of sight meets plants one by one, as on level ground
-    float shrunk = clamp(log2(texels) - 0.8, 0.0, 1.0);
-    float steep = smoothstep(0.05, 0.3, slope);
-    float above = smoothstep(0.0, 2.0, slope), lying = above * (1.0 - stands) / LODGED;
-    fine *= mix(SHARP, SHARP_ABOVE, steep);
-    dx *= fine;
-    dy *= fine;
+    float steep = smoothstep(0.05, 0.3, slope), above = smoothstep(0.0, 2.0, slope), lying = above * (1.0 - stands) / LODGED;
     Lit lit = Lit(direct, open_to, shade.x, vec2(shade.y, OPEN_SKY), shade.zw);
     float more = lies;
-    vec2 moved = sways;
+    vec3 blown = blown_on(cell);
 #ifdef TRODDEN
     if (trodden_at(place.xz)) {
         Sum light = trodden_light(slope);
         lit = Lit(light.direct, light.open_to, light.shade.x, vec2(light.shade.y, OPEN_SKY), light.shade.zw);
         more = light.lies;
-        moved = light.sways;
+        blown.xy += light.sways;
     }
 #endif
     float between = exp(-more);  // what is seen between blades, of that between blades at rest
     vec2 depths = mean_depth(max(vec3(slopes[0], SHALLOWEST, 1.0), on_level), vec3(0.0, more, 0.0)).xy;
     float higher_up = (1.0 - depths.y) / (1.0 - depths.x);  // where blades are met, of where they are met at rest
-    vec2 leans = sheared(heading, moved, on_level), apart = (place.xz - moved) / soil.w - vec2(cell) - 0.5;
-    float longer = max(1.0 + dot(leans, heading), SHORTEST);
-    dx *= inversesqrt(longer);
-    dy *= inversesqrt(longer);
-    vec2 at = rotated(apart - leans * dot(apart, heading) / longer, turn) + 0.5;
+    vec2 leans = sheared(blown, on_level);
+    vec2 at = leant_back((place.xz - blown.xy) / soil.w - vec2(cell) - 0.5, heading, leans);
+    // From a low angle a pixel is a long stripe of ground, but blades are drawn out as far: what counts is its breadth across
+    // them. They may lean across it.
+    vec2 dx = dFdx(place.xz) / soil.w, dy = dFdy(place.xz) / soil.w, to_x = leant_back(dx, heading, leans), to_y = leant_back(dy, heading, leans);
+    vec2 beside = vec2(-heading.y, heading.x);
+    float across = max(abs(dot(to_x, beside)), abs(dot(to_y, beside))), longest = max(length(dx), length(dy));
+    float shrunk = clamp(log2(across * float(textureSize(images, 0).x)) + 0.4, 0.0, 1.0);
+    // Over a crest a line of sight meets plants one by one, as on level ground.
+    float fine = SHARP * min(across / longest, 1.0) * clamp(slope / on_level, 0.25, 1.0) * inversesqrt(max(1.0 + dot(leans, heading), SHORTEST));
+    dx *= fine;
+    dy *= fine;
     // A blade's doubled azimuth against the line of sight; what it is against the world's axes is as far turned.
     float sight = heading.x * heading.x - heading.y * heading.y, aside = 2.0 * heading.x * heading.y;
     vec2 seen = elevation_seen(on_level);
+    // From the side blades are drawn out along the line of sight as they are seen, and not as at the slopes of the images.
+    vec2 longer = max(on_level, FLATTEST) / vec2(slopes[int(seen.x)], slopes[int(seen.x) + 1]) - 1.0;
+    longer *= 1.0 - smoothstep(ROOTS_SEEN.x, ROOTS_SEEN.y, on_level);
+    vec2 at_low = rotated(at + heading * dot(at, heading) * longer.x, turn) + 0.5;
+    vec2 at_high = rotated(at + heading * dot(at, heading) * longer.y, turn) + 0.5;
     vec2 among = vec2(1.0);
     if (min(share, 1.0 - strips_before) < 1.0)
         among = among_strips(come_through(place.xz, max(slope, 1e-4), carpet, tall, stands).y, on_level);
     // Two images that have nothing to do with one another are flatter once they are mixed: as much is put back (Heitz and
     // Neyret, High-Performance By-Example Noise, 2018).
-    float grain = (1.0 - EVENER * lying) * mix(1.0, mix(GRAIN, GRAIN_ABOVE, steep), shrunk) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
+    float grain = mix(1.0, mix(GRAIN, GRAIN_ABOVE, steep), shrunk) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
+    grain *= 1.0 - max(EVENER * lying, EVENER_ASIDE * (1.0 - above) * (1.0 - blown.z));
+    // Far away a pixel is higher than what can be told apart in the grass: it is the mean of several.
+    grain *= mix(inversesqrt(1.0 + across * soil.w / (FEATURE * max(tall, LEAST))), 1.0, steep);
 #ifdef MOWN
     bool cut = is_mown(left);
     float stubble = 1.0 - exp(-weighed(leaf_area, leaves_left(left)) / max(slope, 0.02));  // by the leaves that are left
@@ -289,7 +313,7 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
     float higher = 0.0;
     for (int kind = next_kind(met, LEAST_MET, 0); kind < KINDS; kind = next_kind(met, LEAST_MET, kind + 1)) {
         float layer = OF(first, kind) + float((model * SLOPES + int(seen.x)) * 4 + side);
-        vec3 low = vec3(at, layer), high = vec3(at, layer + 4.0);
+        vec3 low = vec3(at_low, layer), high = vec3(at_high, layer + 4.0);
         vec4 mean_low = textureLod(images, low, COARSEST), mean_high = textureLod(images, high, COARSEST);
         vec4 mean = mix(mean_low, mean_high, seen.y);
         vec4 image = mix(textureGrad(images, low, dx, dy), textureGrad(images, high, dx, dy), seen.y);
@@ -362,9 +386,7 @@ void work_out() {
 #endif
 #if defined(CARPET) && !defined(UNDER)
     dry = stretch(lie_at(seen_at(place, viewing_slope(rise, place), tall, dense).xz));
-    vec2 message = message_at(place.xz);
-    sways = SWAYS * tall * message;
-    stands = lodged(message);
+    stands = lodged(message_at(place.xz));
     tipped = tips_met(grows_at(place.xz), level_slope(max(viewing_slope(rise, place), 0.0), crest, carpet, tall, stands));
 #endif
 }

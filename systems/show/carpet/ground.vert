@@ -48,11 +48,6 @@ out vec3 open_to; // the sky's
 out vec4 shade;   // what they mirror; leaves that the sun's light meets; leaf area above them, and from there to the ground
 out float lies;   // how many more leaves are met, for how grass is bent
 #if KINDS > 4
-vec2 sways;
-#else
-out vec2 sways;   // how far leaves are moved by that [m]
-#endif
-#if KINDS > 4
 vec3 dry;
 #else
 out vec3 dry;     // factor of their pigment
@@ -70,7 +65,6 @@ void light_up(float slope, vec2 message) {
     open_to = sum.open_to;
     shade = sum.shade;
     lies = sum.lies;
-    sways = sum.sways;
     dry = stretch(here);
 }
 #endif
