@@ -43,7 +43,7 @@ float boosted(int kind, vec2 run, vec3 middle, vec3 top, vec2 back) {
     vec3 ray = normalize(middle - eye.xyz), own = cross(top + vec3(back.x, 0.0, back.y), ray);
     vec2 all = cross(top, ray).xz;
     float lies = OF(lying, kind) * top.y * ray.y, whole = sqrt(dot(all, all) + lies * lies);
-    return mix(1.0, whole / max(max(abs(dot(run, own.xz)), 0.4 * whole), 1e-9), 0.85);
+    return mix(1.0, whole / max(max(abs(dot(run, own.xz)), 0.4 * whole), 1e-9), 0.95);
 }
 
 // The pigment of what is seen on a strip, of that of what is painted there: of blades that lean to `top`, those are seen most

@@ -331,13 +331,8 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
         mean_of.rg *= among.y;
 #endif
         mean_of.rg = 1.0 - (1.0 - mean_of.rg) * shallow;
-#ifdef HEADS
-        mean_of.rg *= OF(bears, kind) > 0.0 ? 1.0 : higher_up;
-#else
-        mean_of.rg *= higher_up;
-#endif
 #ifndef HEADS  // among plants in flower, grass is as bright as its images show it
-        mean_of.r *= OF(tipped, kind);
+        mean_of.rg *= higher_up * vec2(OF(tipped, kind), 1.0);
 #endif
         mean_of.r *= 1.0 - ARCHED * (1.0 - above) * (1.0 - stands) * (1.0 - stands);
         mean_of.rg = arched(mean_of.rg, lying);

@@ -126,6 +126,7 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below) {
     top = min(top, left);
     ByKind met = all_kinds(0.0), of_heads = met, alone = met, heads_alone = met, through_alone = all_kinds(1.0);
     float through = 1.0, image_slope = max(slope, LOWEST), from = 1.0;
+    below /= mix(HIGHEST, 1.0, smoothstep(0.9, 1.0, below));  // strips take away from the canopy, not from lone heads above it
     vec2 above[KINDS];
     for (int kind = 0; kind < KINDS; kind++)
         above[kind] = profile_above(kind, top / OF(crown, kind));
