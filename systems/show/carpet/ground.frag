@@ -150,6 +150,7 @@ const float ARCHED = 0.6;  // how much less of their tips blades show from the s
 const float FLATTEST = 0.005;  // a line of sight counts as at least so steep, for how far blades are drawn out along it
 const vec2 ROOTS_SEEN = vec2(0.25, 0.9);  // viewing slopes from which on it is seen how far apart blades stand, and that alone
 const float MET = 0.7;  // how deep leaves are that are met over a crest, of how deep the line of sight comes
+const float UNEVEN = 0.75;  // how deep they are at least, of how deep they are on level ground: tips differ in height
 const float SPIKES = 18.0;  // how much more leaves are met along an outline where taller plants stand
 const float TALLER = 0.05;  // how much taller plants count at most, of the mean
 
@@ -308,7 +309,7 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
     float deepest_of_all = max(1.0 - RAISED * (share * lifted(deep, crest, stands) / stands - deep), 0.1);
     float shallow = 1.0;
     if (deepest_of_all < 1.0 / MET)
-        shallow = min(MET * deepest_of_all / depths.x, 1.0);
+        shallow = clamp(MET * deepest_of_all / depths.x, UNEVEN, 1.0);
     vec4 sum = vec4(0.0);
     float higher = 0.0;
     for (int kind = next_kind(met, LEAST_MET, 0); kind < KINDS; kind = next_kind(met, LEAST_MET, kind + 1)) {
