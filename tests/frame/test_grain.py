@@ -1,0 +1,54 @@
+"""Grain: pictures of grass are neither smoother nor rougher than all its blades, still or in the wind (G3, G4)."""
+
+from collections.abc import Callable
+
+import moderngl
+import numpy as np
+import pytest
+
+from tallgrass.app.bench.contrast import relative_contrast
+from tallgrass.components.pose import Pose
+from tallgrass.engine.camera import Camera
+from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.reference import draw_truth, patch_distances
+from tallgrass.systems.wind.breeze import Breeze
+from tallgrass.testing import Stage
+
+Load = Callable[..., Prairie]
+
+MEADOW = """\
+tallgrass: 2
+seed: 3
+terrain: { size: [300, 300] }
+grass: { prairie: { height: [0.4, 0.7], width: 0.018 } }
+quality: high
+"""
+NEAR = Camera((0.3, 1.7, 0.0), 0.0, np.radians(-8.0), np.radians(20.0))
+ABOVE = Camera((0.3, 9.0, 0.0), 0.0, np.radians(-24.0), np.radians(16.0))
+FAR = Camera((0.3, 6.0, 100.0), 0.0, np.radians(-3.75), np.radians(4.5))
+LOW = Camera((0.3, 4.0, 100.0), 0.0, np.radians(-9.0), np.radians(9.0))
+
+
+@pytest.fixture(scope="module")
+def room(ctx: moderngl.Context) -> Stage:
+    return Stage(ctx, (320, 240))
+
+
+@pytest.mark.parametrize(
+    ("held", "camera", "strength"),
+    [("strips", NEAR, 0.0), ("strips", NEAR, 0.9), ("carpet", ABOVE, 0.0), ("carpet", LOW, 0.8), ("carpet", FAR, 0.0)],
+    ids=["strips", "strips in a gale", "carpet", "carpet in a gale", "carpet far away"],
+)
+def test_g4_grass_has_about_as_much_contrast_as_all_its_blades(
+    room: Stage, load: Load, held: str, camera: Camera, strength: float
+) -> None:
+    prairie = load(MEADOW, lod=held)
+    prairie.add(Breeze(direction=80.0, strength=strength, gustiness=0.3, swing=0.0), pose=Pose())
+    prairie.advance(2.0)
+    seen = room.shot(prairie, camera)
+    truth = draw_truth(prairie, *room.matrices(camera), room.size, samples=6)
+    grass = patch_distances(prairie, *room.matrices(camera), room.size) >= 0
+    flat, usual, rough = np.percentile(relative_contrast(seen, truth, grass), [10, 50, 90])
+    assert 0.65 < flat
+    assert 0.85 < usual < 1.2
+    assert rough < 1.6
