@@ -45,7 +45,7 @@ def test_g4_grass_has_about_as_much_contrast_as_all_its_blades(
     prairie = load(MEADOW, lod=held)
     prairie.add(Breeze(direction=80.0, strength=strength, gustiness=0.3, swing=0.0), pose=Pose())
     prairie.advance(2.0)
-    seen = room.shot(prairie, camera)
+    seen = room.shot(prairie, camera).astype(np.uint8)
     truth = draw_truth(prairie, *room.matrices(camera), room.size, samples=6)
     grass = patch_distances(prairie, *room.matrices(camera), room.size) >= 0
     flat, usual, rough = np.percentile(relative_contrast(seen, truth, grass), [10, 50, 90])

@@ -97,17 +97,6 @@ in vec3 dry;
 in float stands;
 #endif
 
-// The rotation that turns the line of sight into the heading of the images that are taken: of four headings, one on each
-// patch. So blades are drawn out along the line of sight, from wherever they are seen.
-vec2 turned(vec2 heading, int side) {
-    vec2 image = side == 0 ? vec2(0.0, -1.0) : side == 1 ? vec2(1.0, 0.0) : side == 2 ? vec2(0.0, 1.0) : vec2(-1.0, 0.0);
-    return vec2(dot(image, heading), image.y * heading.x - image.x * heading.y);
-}
-
-vec2 rotated(vec2 v, vec2 by) {
-    return vec2(by.x * v.x - by.y * v.y, by.y * v.x + by.x * v.y);
-}
-
 const int LEVEL = 2;  // so many of the lowest images show grass that hides most of itself
 
 // How deep in the grass what lines of sight of some slopes meet is, of its height. For how it is bent they meet so many leaves
@@ -140,15 +129,9 @@ float filled(float steeper, vec2 seen, float slope, float mean) {
     return (1.0 - pow(max(1.0 - steeper, 1e-3), meets)) / max(mean, 0.01);
 }
 
-const float GRAIN = 1.5;  // how far images are from their mean, for what filtering takes away
-const float GRAIN_ABOVE = 1.0;  // the same from above
-const float SHARP = 0.6;  // size of what is taken from the images for a pixel, of the pixel's own: filtering takes more than it
-const float FEATURE = 0.3;  // height of what can be told apart in the grass from the side, of the grass's
 const float LEAST_MET = 0.004;  // of a kind, as a part of all that is: of less, nothing is seen
 const float LEAST = 0.01; // height of the carpet where nothing grows [m]
 const float ARCHED = 0.6;  // how much less of their tips blades show from the side for how low they are bent
-const float FLATTEST = 0.005;  // a line of sight counts as at least so steep, for how far blades are drawn out along it
-const vec2 ROOTS_SEEN = vec2(0.25, 0.9);  // viewing slopes from which on it is seen how far apart blades stand, and that alone
 const float MET = 0.7;  // how deep leaves are that are met over a crest, of how deep the line of sight comes
 const float UNEVEN = 0.75;  // how deep they are at least, of how deep they are on level ground: tips differ in height
 const float SPIKES = 18.0;  // how much more leaves are met along an outline where taller plants stand
@@ -210,37 +193,8 @@ vec2 among_strips(float on_strips, float slope) {
     return vec2((1.0 - exp(-leaves * (1.0 - on_strips))) / max(all, 1e-4), clamp((1.0 - own) / (1.0 - depth.x), 0.0, 1.0));
 }
 
-// How far the leaves of a patch are moved that the wind bends [m], and how high they stand, of their height at rest. It is one
-// wind for all of a patch: images that are sheared here and there otherwise would curl.
-vec3 blown_on(ivec2 cell) {
-    vec2 message = message_at((vec2(cell) + 0.5) * soil.w);
-    vec3 sum = vec3(0.0);
-    for (int kind = 0; kind < KINDS; kind++) {
-        vec2 bend = bending(kind, message);
-        sum += OF(met, kind) * vec3(SWAYS * OF(crown, kind) * bend, lodged(bend));
-    }
-    return total(met) > 1e-3 ? sum / total(met) : vec3(0.0, 0.0, 1.0);
-}
+#include "systems/show/carpet/reading.glsl"
 
-const float TIPS = 1.7;      // how far bent grass moves its tips, of how far it moves the leaves that are seen
-const float TOO_STEEP = 1.7; // viewing slope from which on hardly any of it is seen
-const float SHORTEST = 0.35; // blades that lean towards the eye are so long at least, of how long they are seen at rest
-
-// How images of grass at rest are sheared along the line of sight for blades in them to lean as grass does that the wind has
-// `blown` so. From straight above, where blades have no length in them, they are not: what is far from a patch's middle would swim.
-vec2 sheared(vec3 blown, float slope) {
-    float steeper = slope * slope / (TOO_STEEP * TOO_STEEP), leant = 1.0 / (1.0 + steeper * steeper);
-    return leant * TIPS * blown.xy * max(slope, slopes[0]) / (max(tall, LEAST) * blown.z);
-}
-
-// What of the pixel's place and of the steps to the next ones, in patches, leads along the line of sight and across blades that
-// lean so: `along` becomes longer for what leans away from the eye.
-vec2 leant_back(vec2 way, vec2 heading, vec2 leans) {
-    return way - leans * dot(way, heading) / max(1.0 + dot(leans, heading), SHORTEST);
-}
-
-const float EVENER = 0.15;           // from above, how much less uneven grass is that lies
-const float EVENER_ASIDE = 0.6;      // the same from the side
 const vec2 MIDDLES = vec2(0.25, 0.9);// how much nearer to the tips, and to the canopy's top, the middles of arches are
 const float ENDS = 0.1;              // how much farther from the top their ends are
 
@@ -256,7 +210,7 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
     int model = int(drawn % uint(stock.x)), side = int(drawn >> 16u) & 3;
     vec3 ray = place - eye.xyz;
     vec2 heading = ray.xz / max(length(ray.xz), 1e-4), turn = turned(heading, side);
-    float steep = smoothstep(0.05, 0.3, slope), above = smoothstep(0.0, 2.0, slope), lying = above * (1.0 - stands) / LODGED;
+    float above = smoothstep(0.0, 2.0, slope), lying = above * (1.0 - stands) / LODGED;
     Lit lit = Lit(direct, open_to, shade.x, vec2(shade.y, OPEN_SKY), shade.zw);
     float more = lies;
     vec3 blown = blown_on(cell);
@@ -271,35 +225,14 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
     float between = exp(-more);  // what is seen between blades, of that between blades at rest
     vec2 depths = mean_depth(max(vec3(slopes[0], SHALLOWEST, 1.0), on_level), vec3(0.0, more, 0.0)).xy;
     float higher_up = (1.0 - depths.y) / (1.0 - depths.x);  // where blades are met, of where they are met at rest
-    vec2 leans = sheared(blown, on_level);
-    vec2 at = leant_back((place.xz - blown.xy) / soil.w - vec2(cell) - 0.5, heading, leans);
-    // From a low angle a pixel is a long stripe of ground, but blades are drawn out as far: what counts is its breadth across
-    // them. They may lean across it.
-    vec2 dx = dFdx(place.xz) / soil.w, dy = dFdy(place.xz) / soil.w, to_x = leant_back(dx, heading, leans), to_y = leant_back(dy, heading, leans);
-    vec2 beside = vec2(-heading.y, heading.x);
-    float across = max(abs(dot(to_x, beside)), abs(dot(to_y, beside))), longest = max(length(dx), length(dy));
-    float shrunk = clamp(log2(across * float(textureSize(images, 0).x)) + 0.4, 0.0, 1.0);
-    // Over a crest a line of sight meets plants one by one, as on level ground.
-    float fine = SHARP * min(across / longest, 1.0) * clamp(slope / on_level, 0.25, 1.0) * inversesqrt(max(1.0 + dot(leans, heading), SHORTEST));
-    dx *= fine;
-    dy *= fine;
     // A blade's doubled azimuth against the line of sight; what it is against the world's axes is as far turned.
     float sight = heading.x * heading.x - heading.y * heading.y, aside = 2.0 * heading.x * heading.y;
     vec2 seen = elevation_seen(on_level);
-    // From the side blades are drawn out along the line of sight as they are seen, and not as at the slopes of the images.
-    vec2 longer = max(on_level, FLATTEST) / vec2(slopes[int(seen.x)], slopes[int(seen.x) + 1]) - 1.0;
-    longer *= 1.0 - smoothstep(ROOTS_SEEN.x, ROOTS_SEEN.y, on_level);
-    vec2 at_low = rotated(at + heading * dot(at, heading) * longer.x, turn) + 0.5;
-    vec2 at_high = rotated(at + heading * dot(at, heading) * longer.y, turn) + 0.5;
+    Reading read = reading(cell, heading, turn, blown, seen, slope, on_level);
+    float grain = grain_of(read, seen, slope, blown.z);
     vec2 among = vec2(1.0);
     if (min(share, 1.0 - strips_before) < 1.0)
         among = among_strips(come_through(place.xz, max(slope, 1e-4), carpet, tall, stands).y, on_level);
-    // Two images that have nothing to do with one another are flatter once they are mixed: as much is put back (Heitz and
-    // Neyret, High-Performance By-Example Noise, 2018).
-    float grain = mix(1.0, mix(GRAIN, GRAIN_ABOVE, steep), shrunk) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
-    grain *= 1.0 - max(EVENER * lying, EVENER_ASIDE * (1.0 - above) * (1.0 - blown.z));
-    // Far away a pixel is higher than what can be told apart in the grass: it is the mean of several.
-    grain *= mix(inversesqrt(1.0 + across * soil.w / (FEATURE * max(tall, LEAST))), 1.0, steep);
 #ifdef MOWN
     bool cut = is_mown(left);
     float stubble = 1.0 - exp(-weighed(leaf_area, leaves_left(left)) / max(slope, 0.02));  // by the leaves that are left
@@ -314,10 +247,10 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
     float higher = 0.0;
     for (int kind = next_kind(met, LEAST_MET, 0); kind < KINDS; kind = next_kind(met, LEAST_MET, kind + 1)) {
         float layer = OF(first, kind) + float((model * SLOPES + int(seen.x)) * 4 + side);
-        vec3 low = vec3(at_low, layer), high = vec3(at_high, layer + 4.0);
+        vec3 low = vec3(read.low, layer), high = vec3(read.high, layer + 4.0);
         vec4 mean_low = textureLod(images, low, COARSEST), mean_high = textureLod(images, high, COARSEST);
         vec4 mean = mix(mean_low, mean_high, seen.y);
-        vec4 image = mix(textureGrad(images, low, dx, dy), textureGrad(images, high, dx, dy), seen.y);
+        vec4 image = mix(textureLod(images, low, read.level), textureLod(images, high, read.level), seen.y);
         image = mean + (image - mean) * grain;
         float fill = filled(mean_high.a, seen, on_level, mean.a);
         image *= fill;
