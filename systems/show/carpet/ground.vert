@@ -12,7 +12,7 @@ out vec3 place;
 #include "systems/show/carpet/border.glsl"
 const float SUNK = 2.5;  // leaves that a line of sight has met where nothing is seen through them
 const float THROUGH_CREST = 1.6;  // the same over a crest, as the reference shows it
-const float LAIN = 0.7;  // how much deeper that is where grass lies: its tips stand out from that, too
+const float LAIN = 0.7;  // how much deeper that is along an outline of grass that lies: its tips stand out from it, too
 const vec2 BEHIND = vec2(0.01, 0.05);  // slopes at which ground falls away from the eye: hardly, and wholly
 const float SHADED = 0.6;  // how far down what is seen stands, of how deep is seen into the grass
 uniform ByKind raised; // by kind: height of the carpet above the ground [m]
@@ -266,7 +266,7 @@ void main() {
     // It lies as deep in the grass as is seen into it: from above, and through a crest of this curvature.
     float sunk = sqrt(SUNK * max(viewing_slope(rise, place), 0.0) / max(dense, 1e-3));
     float over_crest = stands * pow(THROUGH_CREST * sqrt(2.0 * max(crest, 0.0) * tall * stands) / (CREST * max(dense, 1e-3)), 0.667);
-    over_crest += LAIN * (1.0 - stands) * clamp(crest / BULGES, 0.0, 1.0);
+    over_crest += LAIN * (1.0 - stands) * clamp(crest / BULGES, 0.0, 1.0) * clamp(1.0 - viewing_slope(rise, place) / BEHIND.y, 0.0, 1.0);
     float behind = clamp((-viewing_slope(rise, place) - BEHIND.x) / (BEHIND.y - BEHIND.x), 0.0, 1.0);  // nobody sees it
     behind *= clamp(4.0 * (eye.y - place.y), 0.0, 1.0);  // from within the grass, what stands around is seen
     sunk = max(clamp(max(sunk, over_crest), 0.05, 1.0), behind);

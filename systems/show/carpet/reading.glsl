@@ -78,7 +78,7 @@ Reading reading(ivec2 cell, vec2 heading, vec2 turn, vec3 blown, vec2 seen, floa
 // How far what is read is from its mean, of how far it is in images, of grass that stands so high, of its height at rest.
 float grain_of(Reading read, vec2 seen, float slope, float upright) {
     float steep = smoothstep(0.05, 0.3, slope), above = smoothstep(0.0, 2.0, slope);
-    float filtered = clamp(read.level + 1.0, 0.0, 1.0);
+    float filtered = clamp(log2(read.across * float(textureSize(images, 0).x)) + 0.4, 0.0, 1.0);
     // Two images that have nothing to do with one another are flatter once they are mixed: as much is put back (Heitz and
     // Neyret, High-Performance By-Example Noise, 2018).
     float grain = mix(1.0, mix(GRAIN, GRAIN_ABOVE, steep), filtered) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
