@@ -30,7 +30,7 @@ OUTLINE = 0.85
 """Height of the carpet along outlines, as a part of the grass's: where leaves begin, with a few thin tips above."""
 
 STRETCH = "5.0"
-"""How many times longer than wide a pixel's footprint on the carpet may be before it is blurred across."""
+"""How many times longer than wide a pixel's footprint on the ground counts as at most, where litter is read."""
 
 FINE, COARSENESS = 1.25, 0.3
 """Largest distance between grid points near the viewer: on cells of 1 m and more, and on the smallest cells [m]."""
