@@ -90,7 +90,7 @@ def test_g3_strips_have_sunk_before_they_show_as_rows(slope: float, distance: in
 
 
 def test_n2_what_is_left_of_strips_does_not_jump_where_the_eye_crosses_a_border(laid: Laid, look: Look) -> None:
-    bowl = 0.006 * (40.0 - np.arange(81.0)[:, None]) ** 2
+    bowl = 0.008 * (40.0 - np.arange(81.0)[:, None]) ** 2
     site = laid(terrain=Terrain(np.tile(bowl, 81).astype(np.float32), 1.0))
     patch, kept, centres = site.ground.patch, [], []
     for before in (0.5, -0.5):

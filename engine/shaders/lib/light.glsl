@@ -44,6 +44,14 @@ vec4 lie_at(vec2 place) {
     return vec4(max(high, 0.0), past * past * (3.0 - 2.0 * past), still.zw);
 }
 
+// How steep a line of sight is to the ground: the sine of the angle between them.
+float steep_at(vec3 place) {
+    vec2 at = on_map(place.xz), half_texel = 0.5 / vec2(textureSize(lie, 0));
+    at.x = clamp(0.5 * at.x, half_texel.x, 0.5 - half_texel.x);
+    vec2 still = textureLod(lie, at, 0.0).xy;
+    return dot(normalize(eye.xyz - place), vec3(still, sqrt(max(1.0 - dot(still, still), 0.0))).xzy);
+}
+
 // How densely each kind grows at a place.
 ByKind grows_at(vec2 place) {
     vec2 at = on_map(place);

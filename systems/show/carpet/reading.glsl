@@ -16,7 +16,8 @@ const float SHARP = 0.6;        // size of what is taken from the images for a p
 const float FLATTEST = 0.005;   // a line of sight counts as at least so steep, for how far blades are drawn out along it
 const vec2 ROOTS_SEEN = vec2(0.25, 0.9);  // viewing slopes from which on it is seen how far apart blades stand, and that alone
 const float GRAIN = 1.5;        // how far images are from their mean, for what filtering takes away
-const vec2 GRAIN_ABOVE = vec2(1.08, 1.8);  // the same from above, and from so far that a pixel takes in whole tufts
+const vec2 GRAIN_ABOVE = vec2(1.15, 2.25);  // the same from above, and from so far that a pixel takes in whole tufts
+const float ALIKE = 0.6;        // how the two steepest images correlate
 const vec2 TUFTS = vec2(0.12, 0.4);  // breadths of a pixel from which on it takes in tufts, and whole ones [m]
 const float EVENER = 0.15;      // from above, how much less uneven grass is that lies
 const float EVENER_ASIDE = 0.6; // the same from the side
@@ -81,9 +82,11 @@ float grain_of(Reading read, vec2 seen, float slope, float upright) {
     float steep = smoothstep(0.05, 0.3, slope), above = smoothstep(0.0, 2.0, slope);
     float tufts = smoothstep(TUFTS.x, TUFTS.y, read.across * soil.w);
     float filtered = clamp(log2(read.across * float(textureSize(images, 0).x)) + 0.4, 0.0, 1.0);
-    // Two images that have nothing to do with one another are flatter once they are mixed: as much is put back (Heitz and
-    // Neyret, High-Performance By-Example Noise, 2018).
-    float grain = mix(1.0, mix(GRAIN, mix(GRAIN_ABOVE.x, GRAIN_ABOVE.y, tufts), steep), filtered) * inversesqrt(seen.y * seen.y + (1.0 - seen.y) * (1.0 - seen.y));
+    // Two images are flatter once they are mixed: as much is put back (Heitz and Neyret, High-Performance By-Example Noise,
+    // 2018). From the side they have nothing to do with one another; from above they show the same tufts.
+    float alike = seen.x < float(SLOPES - 2) ? 0.0 : ALIKE, other = 1.0 - seen.y;
+    float mixed = seen.y * seen.y + other * other + 2.0 * alike * seen.y * other;
+    float grain = mix(1.0, mix(GRAIN, mix(GRAIN_ABOVE.x, GRAIN_ABOVE.y, tufts), steep), filtered) * inversesqrt(mixed);
     grain *= 1.0 - max(EVENER * above * (1.0 - stands) / LODGED, EVENER_ASIDE * (1.0 - above) * (1.0 - upright));
     // Far away a pixel is higher than what can be told apart in the grass: it is the mean of several.
     return grain * mix(inversesqrt(1.0 + read.across * soil.w / (FEATURE * max(tall, LEAST))), 1.0, steep);

@@ -15,13 +15,13 @@ Rows = NDArray[np.int64]
 TIGHTER = 1.15
 """How much steeper than needed a patch must be seen for a finer ring to be kept: the slack of slopes."""
 
-ENOUGH = 3.2
+ENOUGH = 5.0
 """How many strips a line of sight crosses, at least, where finer ones are to be had."""
 
-CROSSED = 1.25
+CROSSED = 1.0
 """How many strips a line of sight must cross for them not to show as rows, where no finer ones are to be had."""
 
-SINKING = 0.7
+SINKING = 0.55
 """From which part on of the slope where they would, strips sink into the carpet: so no patch of it has an edge."""
 
 APART = 4.0
