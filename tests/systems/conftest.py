@@ -99,7 +99,7 @@ def look(world: World) -> Look:
         outlook, systems = outlooks[site]
         viewer = outlook.viewer
         ground = float(height_at(site.ground.terrain, np.array([[x, z]], np.float32))[0])
-        viewer.eye, viewer.cone = (x, ground + 1.0, z), (0.0, pi) if yaw is None else (yaw, 0.6)
+        viewer.eye, viewer.cone = (x, ground + 0.8, z), (0.0, pi) if yaw is None else (yaw, 0.6)
         viewer.dt, viewer.way, viewer.jumped = dt, 0.0, jumped
         systems.run(last=Phase.SEE)
         systems.step("plant")

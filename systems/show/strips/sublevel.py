@@ -15,8 +15,11 @@ Rows = NDArray[np.int64]
 TIGHTER = 1.15
 """How much steeper than needed a patch must be seen for a finer ring to be kept: the slack of slopes."""
 
-ENOUGH = 5.0
-"""How many strips a line of sight crosses, at least, where finer ones are to be had."""
+ENOUGH = 3.6
+"""How many strips a line of sight crosses, at least, where finer ones are to be had; and more the steeper it is."""
+
+STEEPER = 1.3
+"""How many times more of them that is for each unit of its slope: from above, blades hide less of the rows behind."""
 
 CROSSED = 1.0
 """How many strips a line of sight must cross for them not to show as rows, where no finer ones are to be had."""
@@ -42,14 +45,14 @@ def strip_ring(
 ) -> Levels:
     """Return the ring of each 2.5D patch (n,): by discrete distance, but finer where it is seen from above.
 
-    A line of sight shall cross `ENOUGH` strips on its way through grass of this `height` [m], or they show as
+    A line of sight shall cross `ENOUGH` strips and more on its way through grass of this `height` [m], or they show as
     rows on hillsides that face the viewer. `spacing` is the distance between each ring's strips [m]. A finer ring is
     kept for `slack` patches longer.
     """
     # Two lines: what is due on the way out, and what is due on the way back.
     away = np.stack([distance, distance - slack])
     steep = np.stack([slope, slope * np.float32(TIGHTER if slack else 1.0)])
-    widest = height / (ENOUGH * np.maximum(steep, 1e-3))
+    widest = height / (ENOUGH * np.maximum(steep, 1e-3) * (1.0 + STEEPER * np.maximum(steep, 0.0)))
     by_slope = spacing.searchsorted(widest, side="right") - 1
     ring: Levels = np.maximum(np.minimum(limits.searchsorted(away), by_slope), 0).astype(np.int8)
     coarse, fine = ring
