@@ -203,6 +203,20 @@ float left_by_strips(float met_carpet) {
     return mix(1.0, mix(RAISED, 1.0, met_carpet), carpet * carpet * carpet * carpet);
 }
 
+const float STOPPED = 0.6;  // how deep a line of sight comes in the grass before it is stopped, of its height: about
+const float FARTHEST = 5.0; // how much farther ahead ground is looked at, at most, than close by
+
+// How fast the rise of the ground falls off along a line of sight of some slope [1/m]: where it is, or where it goes on through
+// the grass, if ground falls away from it there.
+float curved_at(vec2 place, vec2 rise, float slope) {
+    float near_by = max(4.0 * terrain.z, 2.0 * tile.z), here = height_at(place);
+    float far = clamp(STOPPED * tall / max(slope, 0.005), near_by, FARTHEST * near_by);
+    vec2 way = normalize(place - eye.xz + 1e-4);
+    float bulges = (2.0 * here - height_at(place + way * near_by) - height_at(place - way * near_by)) / (near_by * near_by);
+    float falls = 2.0 * (here + dot(rise, way) * far - height_at(place + way * far)) / (far * far);
+    return max(bulges, falls);
+}
+
 float lowest_share(vec2 place) {
     ivec2 low = ivec2(floor((place - 0.01) / soil.w)), high = ivec2(floor((place + 0.01) / soil.w));
     return min(min(share_at(low), share_at(high)), min(share_at(ivec2(low.x, high.y)), share_at(ivec2(high.x, low.y))));
@@ -255,9 +269,7 @@ void main() {
     rise = vec2(height_at(flat_at + step.xy) - height_at(flat_at - step.xy),
                 height_at(flat_at + step.yx) - height_at(flat_at - step.yx)) / (2.0 * step.x);
     place.y += carpet * tall;
-    vec2 ahead = normalize(flat_at - eye.xz + 1e-4) * max(4.0 * terrain.z, 2.0 * tile.z);
-    float bulge = 2.0 * height_at(flat_at) - height_at(flat_at + ahead) - height_at(flat_at - ahead);
-    crest = bulge / dot(ahead, ahead);
+    crest = curved_at(flat_at, rise, viewing_slope(rise, place));
     vec2 message = message_at(flat_at);
     stands = standing(grows, message);
     float deep = deepest(max(viewing_slope(rise, place), 0.0), crest, tall * stands);
