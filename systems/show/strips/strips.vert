@@ -70,7 +70,7 @@ const float SHARPER = 0.15;  // how much finer texels are than pixels, in levels
 const float SHARPER_ABOVE = 0.2;  // how much finer still, seen from straight above: strips lie across the line of sight
 const float NARROWEST = 0.25;  // blades count as no closer together than this part of how far apart they are painted
 
-const float ARCHED = 0.42; // how much less of their tips blades show from the side where all lie, of which the middles of arches are on
+const float ARCHED = 0.36; // how much less of their tips blades show from the side where all lie, of which the middles of arches are on
                            // top, than strips do of one straight section
 const float ASIDE = 0.35;   // sine of the angle to the ground from which on that is not seen
 
@@ -181,7 +181,7 @@ void main() {
     mean_face = faced(k, run, middle, top);
     foot_color = root[k].rgb * dry;
     float lying = 1.0 - lodged(0.5 * (bend_a + bend_b)), aside = 1.0 - smoothstep(0.0, ASIDE, steep_at(middle));
-    rise_color = (tip[k].rgb - root[k].rgb) * dry * (1.0 - ARCHED / sections * lying * aside);
+    rise_color = (tip[k].rgb - root[k].rgb) * dry * (1.0 - ARCHED * inversesqrt(sections) * lying * aside);
     float turned = turn % 2 == 0 ? 1.0 : -1.0;
     grain_cos = turned * grain_c[k].rgb;
     grain_sin = turned * grain_s[k].rgb;
