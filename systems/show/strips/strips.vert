@@ -64,10 +64,9 @@ void thin(float dense, float below, float texels) {
 #endif
 
 #ifdef MOWN
-const float CROSSED = 1.0;  // strips that a line of sight crosses at least where they do not show as rows
+const float CROSSED = 0.85;  // strips that a line of sight crosses at least where they do not show as rows
 #endif
 const float SHARPER = 0.15;  // how much finer texels are than pixels, in levels: blades would be washed out
-const float SHARPER_ABOVE = 0.2;  // how much finer still, seen from straight above: strips lie across the line of sight
 const float NARROWEST = 0.25;  // blades count as no closer together than this part of how far apart they are painted
 
 const float ARCHED = 0.36; // how much less of their tips blades show from the side where all lie, of which the middles of arches are on
@@ -188,7 +187,7 @@ void main() {
     shown = how.x;
     vec2 back = 0.5 * (back_a + back_b);
     float texels = picture.y * ATLAS / (OF(tall, k) * apart_at(middle, run, top + vec3(back.x, 0.0, back.y)));
-    level = log2(texels) - SHARPER - SHARPER_ABOVE * abs(eye.y - middle.y) / distance(middle, eye.xyz);
+    level = log2(texels) - SHARPER;
     boost = boosted(k, run, middle, top, back);
 #ifdef THIN
     thin(mix(told_a.w, told_b.w, across), how.z, 0.5 * texels);

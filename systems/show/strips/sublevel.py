@@ -21,10 +21,10 @@ ENOUGH = 3.6
 STEEPER = 1.3
 """How many times more of them that is for each unit of its slope: from above, blades hide less of the rows behind."""
 
-CROSSED = 1.0
+CROSSED = 0.85
 """How many strips a line of sight must cross for them not to show as rows, where no finer ones are to be had."""
 
-SINKING = 0.55
+SINKING = 0.5
 """From which part on of the slope where they would, strips sink into the carpet: so no patch of it has an edge."""
 
 APART = 4.0
