@@ -69,7 +69,7 @@ const float CROSSED = 0.85;  // strips that a line of sight crosses at least whe
 const float SHARPER = 0.15;  // how much finer texels are than pixels, in levels: blades would be washed out
 const float NARROWEST = 0.25;  // blades count as no closer together than this part of how far apart they are painted
 
-const float ARCHED = 0.36; // how much less of their tips blades show from the side where all lie, of which the middles of arches are on
+const float ARCHED = 0.42; // how much less of their tips blades show from the side where all lie, of which the middles of arches are on
                            // top, than strips do of one straight section
 const float ASIDE = 0.35;   // sine of the angle to the ground from which on that is not seen
 
