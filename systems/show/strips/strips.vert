@@ -69,9 +69,10 @@ const float CROSSED = 0.85;  // strips that a line of sight crosses at least whe
 const float SHARPER = 0.15;  // how much finer texels are than pixels, in levels: blades would be washed out
 const float NARROWEST = 0.25;  // blades count as no closer together than this part of how far apart they are painted
 
-const float ARCHED = 0.42; // how much less of their tips blades show from the side where all lie, of which the middles of arches are on
-                           // top, than strips do of one straight section
-const float ASIDE = 0.35;   // sine of the angle to the ground from which on that is not seen
+// From the side, blades that lie show the middles of their arches on top, where strips show their tips: how much less of their
+// tips that is where all lie, on strips of one section. Those of more sections are bent to arches themselves.
+const float ARCHED = 0.42;
+const float ASIDE = 0.35;  // sine of the angle to the ground from which on that is not seen
 
 // Pixels that a metre is long on the screen, across the line of sight.
 float pixels_at(vec3 place) {
