@@ -318,7 +318,7 @@ def test_x3_a_patch_ends_the_change_of_its_sublevel_before_it_goes_to_blades(
     look(site, 1.25, 5.1, dt=begun * FADE)
     before = patches.sublevel_progress[1, row]
     patches.hold[row] = 0
-    ways = []
+    ways: list[float] = []
     while patches.representation[row] == 1 and len(ways) < 30:
         look(site, 1.25, 5.1, dt=0.05 * FADE)
         ways.append(float(patches.sublevel_progress[1, row]))

@@ -268,7 +268,7 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
 #ifndef HEADS  // among plants in flower, grass is as bright as its images show it
         mean_of.rg *= higher_up * vec2(OF(tipped, kind), 1.0);
 #endif
-        mean_of.r *= 1.0 - ARCHED * (1.0 - above) * (1.0 - stands) * sqrt(1.0 - stands);
+        mean_of.r *= 1.0 - ARCHED * (1.0 - above) * pow(max(1.0 - stands, 0.0), 1.5);
         mean_of.rg = arched(mean_of.rg, lying);
         mean_of.g *= OF(tops, kind);
         Lit met_by = lit;
