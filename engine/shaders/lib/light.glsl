@@ -33,10 +33,15 @@ vec2 on_map(vec2 place) {
     return 1.0 - abs(1.0 - mod((place - terrain.xy) / field.xy, 2.0));
 }
 
+// Where the left half of `lie` has a place.
+vec2 on_left(vec2 place) {
+    vec2 at = on_map(place), half_texel = 0.5 / vec2(textureSize(lie, 0));
+    return vec2(clamp(0.5 * at.x, half_texel.x, 0.5 - half_texel.x), at.y);
+}
+
 // Sine of the sun's elevation over the slope; how much of its disc is seen past the terrain; two slow noises.
 vec4 lie_at(vec2 place) {
-    vec2 at = on_map(place), half_texel = 0.5 / vec2(textureSize(lie, 0));
-    at.x = clamp(0.5 * at.x, half_texel.x, 0.5 - half_texel.x);
+    vec2 at = on_left(place);
     vec4 still = textureLod(lie, at, 0.0);
     float before = textureLod(lie, vec2(at.x + 0.5, at.y), 0.0).r;
     float high = dot(sun.xz, still.xy) + sun.y * sqrt(max(1.0 - dot(still.xy, still.xy), 0.0));
@@ -46,9 +51,7 @@ vec4 lie_at(vec2 place) {
 
 // How steep a line of sight is to the ground: the sine of the angle between them.
 float steep_at(vec3 place) {
-    vec2 at = on_map(place.xz), half_texel = 0.5 / vec2(textureSize(lie, 0));
-    at.x = clamp(0.5 * at.x, half_texel.x, 0.5 - half_texel.x);
-    vec2 still = textureLod(lie, at, 0.0).xy;
+    vec2 still = textureLod(lie, on_left(place.xz), 0.0).xy;
     return dot(normalize(eye.xyz - place), vec3(still, sqrt(max(1.0 - dot(still, still), 0.0))).xzy);
 }
 
