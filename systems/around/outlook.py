@@ -25,8 +25,8 @@ LEAP = 5.0
 USUAL = 1.0 / tan(radians(22.5))
 """What a projection stretches heights by where the picture is 45 degrees high: rings are made for it."""
 
-LONG = 1.55
-"""The zoom from which on a lens is long, below 30 degrees: it brings representations near, and not just their rings."""
+LONG = 1.275
+"""The zoom from which on a lens is long, below 36 degrees: it brings representations near, and not just their rings."""
 
 LONGER = 2.0
 """How much faster than the zoom their reach grows from there on, until it has grown as much."""

@@ -3,6 +3,7 @@
 #include "lib/posture.glsl"
 #include "lib/received.glsl"
 #include "lib/stack.glsl"
+#include "lib/random.glsl"
 
 uniform usampler2D strips;  // by place in the queue: the polygon strip that is drawn
 uniform sampler2D stood;    // by patch: STOOD
@@ -74,10 +75,22 @@ const float NARROWEST = 0.25;  // blades count as no closer together than this p
 const float ARCHED = 0.42;
 const float ASIDE = 0.35;  // sine of the angle to the ground from which on that is not seen
 
+const vec2 FROM_ABOVE = vec2(0.1, 0.2);  // slopes of lines of sight from which on strips are seen from above
+
 // Pixels that a metre is long on the screen, across the line of sight.
 float pixels_at(vec3 place) {
     vec4 up = vec4(clip[0][1], clip[1][1], clip[2][1], 0.0);
     return screen.y * length(up) / max(dot(vec4(clip[0][3], clip[1][3], clip[2][3], clip[3][3]), vec4(place, 1.0)), 0.1);
+}
+
+// How far a strip that runs along `run` is moved out of its plane [m]. From above, where planes are about a pixel of ground
+// apart, pixels would take in now more of them and now fewer, the same along a whole line of the picture: so each plane of
+// each patch is moved by up to half a pixel.
+vec2 out_of_line(ivec2 cell, int plane, vec3 middle, vec2 run, float spacing) {
+    vec3 ray = middle - eye.xyz;
+    float slope = abs(ray.y) / max(length(ray.xz), 0.1), of_pixel = 1.0 / (pixels_at(middle) * max(slope, 1e-3));
+    float part = smoothstep(0.5, 1.0, of_pixel / spacing) * smoothstep(FROM_ABOVE.x, FROM_ABOVE.y, slope);
+    return vec2(-run.y, run.x) * part * (unit(hash3(plane, cell.x, cell.y)) - 0.5) * min(of_pixel, spacing);
 }
 
 // Where a way that begins at a point leads on the screen [pixel].
@@ -142,6 +155,9 @@ void main() {
     vec3 picture = pictures[ring * KINDS + k];
     int layer = int(picture.z) + (int(where.z) * 2 + own) * count + plane;
     sheet = float(layer);
+    vec2 run = normalize(b.xz - a.xz), off = out_of_line(ivec2(where.xy), plane, 0.5 * (a + b), run, soil.w / float(count));
+    a.xz += off;
+    b.xz += off;
     vec3 middle = 0.5 * (a + b);
     // Nothing is drawn where nothing is painted: a strip ends a pixel beyond its paint.
     vec4 extent = texelFetch(extents, ivec2(column, layer), 0);
@@ -149,7 +165,7 @@ void main() {
     float across = (gl_VertexID & 1) == 1 ? min(extent.y + beside, 1.0) : max(extent.x - beside, 0.0);
     float t = min(float(gl_VertexID / 2) / float(fine.y), min(extent.z + 1.0 / (pixels * OF(tall, k)), 1.0));
     vec2 bend_a = bending(k, told_a.xy), bend_b = bending(k, told_b.xy);
-    vec2 way = b.xz - a.xz, run = normalize(way);
+    vec2 way = b.xz - a.xz;
     float sections = float(fine.y), variant = float(k) * field.w, height = OF(tall, k) * how.y;
     vec3 top_a = posture(variant, bend_a, 1.0).place * height, top_b = posture(variant, bend_b, 1.0).place * height;
     vec2 back_a = laid_back(way, a, top_a, height, count), back_b = laid_back(way, b, top_b, height, count);
