@@ -1,14 +1,16 @@
 """Grass that leans away from the eye turns its breadth to it, and grass that leans towards it its edge (G3, G4, F2)."""
 
 from collections.abc import Callable
+from pathlib import Path
 
 import moderngl
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from tallgrass import testing
 from tallgrass.components.pose import Pose
-from tallgrass.engine.camera import Camera
+from tallgrass.engine.camera import Camera, camera_at
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import draw_reference
 from tallgrass.systems.wind.breeze import Breeze
@@ -16,6 +18,8 @@ from tallgrass.testing import Stage
 
 Load = Callable[..., Prairie]
 Pixels = NDArray[np.float64]
+
+CAMERAS = Path(__file__).parents[1] / "cameras"
 
 PALE = """\
 tallgrass: 2
@@ -99,3 +103,17 @@ def test_from_the_side_strips_that_a_gale_lays_are_as_bright_as_their_blades(
     seen = room.shot(prairie, camera).astype(np.float64)
     true = draw_reference(prairie, *room.matrices(camera), room.size, samples=4).astype(np.float64)
     assert seen.mean() == pytest.approx(true.mean(), rel=0.02)
+
+
+def test_where_strips_begin_on_a_slope_that_falls_away_no_dark_band_shows(ctx: moderngl.Context) -> None:
+    """A hidden metre of height hides far more of such ground than of level ground: strips need not lie back for it."""
+    prairie = Prairie.load(CAMERAS / "slope-down.yaml", ctx=ctx, live=False)
+    prairie.advance(2.0)
+    with testing.stage(ctx, (160, 720)) as tall:
+        view, projection = tall.matrices(camera_at(prairie.scene.camera, None, prairie.height_at))
+        tall.begin()
+        prairie.draw(view, projection)
+        seen = tall.read()[350:362].astype(np.float64)
+        true = draw_reference(prairie, view, projection, tall.size, samples=4)[350:362].astype(np.float64)
+    prairie.release()
+    assert seen.mean() == pytest.approx(true.mean(), rel=0.03)

@@ -27,13 +27,16 @@ const float SPREAD = 2.0;  // ways between strips that one must reach over, as i
 
 // How far the top of a strip of some height lies back from its foot (x, z) [m], beyond where its posture `top` has it [m].
 // Seen along its bent blades, a strip would be a line with bare ground on both sides; but those blades have their roots side
-// by side in a slice of the ground, and hide that. `run` is a way along the strip; so many strips stand on a patch.
+// by side in a slice of the ground, and hide that: the more, the more the ground falls away from the eye. `run` is a way
+// along the strip; so many strips stand on a patch.
 vec2 laid_back(vec2 run, vec3 foot, vec3 top, float height, int strips) {
-    vec2 off = normalize(vec2(-run.y, run.x)), ray = foot.xz - eye.xz;
+    vec2 off = normalize(vec2(-run.y, run.x)), ray = foot.xz - eye.xz, still = textureLod(lie, on_left(foot.xz), 0.0).xy;
     off *= sign(dot(off, ray));
-    float behind = dot(ray, off) / max(eye.y - foot.y, 0.01);  // what a metre of height hides of the ground [m]
-    float least = min(SPREAD * soil.w / float(strips), height * behind), reach = dot(top.xz, off) + top.y * behind;
-    return off * clamp(least - reach, 0.0, 2.0 * least);
+    float falls = dot(still, ray) * inversesqrt(max(1.0 - dot(still, still), 0.01));  // the ground's slope, up to there [m]
+    float above = eye.y - foot.y, along = dot(ray, off), behind = along / max(above - falls, 0.01);  // hidden by a metre of height [m]
+    float least = min(SPREAD * soil.w / float(strips), height * behind), drop = max(above, 0.01) / max(along, 0.01);
+    float reach = (top.y + dot(top.xz, off) * drop) * behind;
+    return off * clamp((least - reach) / max(drop * behind, 1.0), 0.0, 2.0 * least);
 }
 
 // How much more the blades on a strip cover than what is painted of them: those that face all ways as they lean to `top`,

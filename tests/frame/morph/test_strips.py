@@ -25,14 +25,36 @@ def bent(scene: Any, kind: NDArray[np.int64], message: NDArray[np.float32]) -> D
     return np.stack([heading[:, 0] * ahead, up, heading[:, 1] * ahead], axis=1)
 
 
-def laid_back(run: Doubles, foot: Doubles, top: Doubles, height: Doubles, spacing: float) -> Doubles:
-    """How far the tops of strips lie back, so that none is seen on edge: `foot` (n, 3) is told from the eye."""
+def laid_back(run: Doubles, foot: Doubles, top: Doubles, height: Doubles, spacing: float, rise: Doubles) -> Doubles:
+    """How far the tops of strips lie back, so that none is seen on edge: `foot` (n, 3) is told from the eye.
+
+    The ground rises by `rise` (n, 2) along x and z.
+    """
     off = np.column_stack([-run[:, 1], np.zeros(len(run)), run[:, 0]]) / np.linalg.norm(run, axis=1)[:, None]
     off *= np.sign((off * foot).sum(axis=1, keepdims=True))
-    behind = (off * foot).sum(axis=1) / np.maximum(-foot[:, 1], 0.01)
+    along, above = (off * foot).sum(axis=1), -foot[:, 1]
+    behind = along / np.maximum(above + (rise * foot[:, ::2]).sum(axis=1), 0.01)
+    drop = np.maximum(above, 0.01) / np.maximum(along, 0.01)
     least = np.minimum(2.0 * spacing, height * behind)
-    back = np.clip(least - (off * top).sum(axis=1) - top[:, 1] * behind, 0.0, 2.0 * least)
+    reach = (top[:, 1] + (off * top).sum(axis=1) * drop) * behind
+    back = np.clip((least - reach) / np.maximum(drop * behind, 1.0), 0.0, 2.0 * least)
     return np.asarray(off * back[:, None])
+
+
+def rise_of(scene: Any, place: Doubles) -> Doubles:
+    """How the ground rises along x and z at places (n, 2), as the map of light has it, shape (n, 2)."""
+    texture, terrain = scene.painter.light.lie._textures[0], scene.prairie.site.ground.terrain  # noqa: SLF001
+    normals = np.frombuffer(texture.read(), np.float16).reshape(*texture.size[::-1], 4).astype(float)
+    still = normals[:, : texture.width // 2, :2]
+    at = (place - np.array(terrain.origin)) / terrain.size * still.shape[1::-1] - 0.5
+    low = np.clip(np.floor(at).astype(int), 0, np.array(still.shape[1::-1]) - 2)
+    part = np.clip(at - low, 0.0, 1.0)
+    lines = [
+        still[low[:, 1] + line, low[:, 0]] * (1 - part[:, :1]) + still[low[:, 1] + line, low[:, 0] + 1] * part[:, :1]
+        for line in (0, 1)
+    ]
+    normal = lines[0] * (1 - part[:, 1:]) + lines[1] * part[:, 1:]
+    return np.asarray(-normal / np.sqrt(1.0 - (normal**2).sum(axis=1, keepdims=True)))
 
 
 def test_w1_a_strip_stands_between_two_edges_on_the_ground_each_bent_as_numpy_says(scene: Any) -> None:
@@ -59,7 +81,8 @@ def test_w1_a_strip_stands_between_two_edges_on_the_ground_each_bent_as_numpy_sa
             foot = np.column_stack([at[:, 0], scene.prairie.height_at(at), at[:, 1]])
             top = height[:, None] * bent(scene, kind, message)
             run = np.diff([places[patch, kind, stack, column + end] for end in (0, 1)], axis=0)[0]
-            tip = foot + top + laid_back(run, foot - scene.outlook.viewer.eye, top, height, quality.patch / count)
+            rise = rise_of(scene, at)
+            tip = foot + top + laid_back(run, foot - scene.outlook.viewer.eye, top, height, quality.patch / count, rise)
             for place, vertex in ((foot, side), (tip, 2 * quality.strip_rings[number].sections + side)):
                 expected = np.column_stack([place, np.ones(len(place))]) @ clip
                 np.testing.assert_allclose(everything.clip[here, vertex], expected, atol=5e-3)
