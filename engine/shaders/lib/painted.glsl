@@ -30,7 +30,7 @@ struct Painted {
 Edge edge_at(vec4 base, int receiver, int edge, int kind, int count, float height) {
     vec4 told = received_by(receiver + edge);
     vec2 at = base.xy + base.zw * float(edge), bend = bending(kind, told.xy);
-    vec3 foot = vec3(at.x, told.z, at.y), top = posture(float(kind) * field.w, bend, 1.0).place * height;
+    vec3 foot = put_nearer(vec3(at.x, told.z, at.y), base.zw, count), top = posture(float(kind) * field.w, bend, 1.0).place * height;
     return Edge(foot, bend, top, laid_back(base.zw, foot, top, height, count));
 }
 
@@ -68,7 +68,7 @@ Painted painted_at(vec4 base, int receiver, int blade, float height, float t, in
     vec4 across = lower ? near - corner : corner - far, up = lower ? far - corner : corner - near;
     vec2 from = lower ? part : part - 1.0;
     vec4 at = corner + across * from.x + up * from.y;
-    vec3 run = vec3(b.foot.x - a.foot.x, 0.0, b.foot.z - a.foot.z);
+    vec3 run = vec3(base.z, 0.0, base.w);
     return Painted(at.xyz, across.xyz * way.x + up.xyz * way.y, at.w, run, 0.5 * (a.foot + b.foot),
                    0.5 * (a.bend + b.bend), 0.5 * (a.top + b.top), 0.5 * (a.back + b.back));
 }

@@ -150,14 +150,16 @@ void main() {
     vec4 told_a = received_by(receiver), told_b = received_by(receiver + 1);
     vec2 foot_a = edge_foot(where.xy, turn, own, plane, count, column, fine.x, OF(margin, k));
     vec2 foot_b = edge_foot(where.xy, turn, own, plane, count, column + 1, fine.x, OF(margin, k));
-    vec3 a = vec3(foot_a.x, told_a.z, foot_a.y), b = vec3(foot_b.x, told_b.z, foot_b.y);
+    vec2 way = foot_b - foot_a, run = normalize(way);
+    vec3 a = put_nearer(vec3(foot_a.x, told_a.z, foot_a.y), run, count);
+    vec3 b = put_nearer(vec3(foot_b.x, told_b.z, foot_b.y), run, count);
+    vec2 off = out_of_line(ivec2(where.xy), plane, 0.5 * (a + b), run, soil.w / float(count));
+    a.xz += off;
+    b.xz += off;
 
     vec3 picture = pictures[ring * KINDS + k];
     int layer = int(picture.z) + (int(where.z) * 2 + own) * count + plane;
     sheet = float(layer);
-    vec2 run = normalize(b.xz - a.xz), off = out_of_line(ivec2(where.xy), plane, 0.5 * (a + b), run, soil.w / float(count));
-    a.xz += off;
-    b.xz += off;
     vec3 middle = 0.5 * (a + b);
     // Nothing is drawn where nothing is painted: a strip ends a pixel beyond its paint.
     vec4 extent = texelFetch(extents, ivec2(column, layer), 0);
@@ -165,7 +167,6 @@ void main() {
     float across = (gl_VertexID & 1) == 1 ? min(extent.y + beside, 1.0) : max(extent.x - beside, 0.0);
     float t = min(float(gl_VertexID / 2) / float(fine.y), min(extent.z + 1.0 / (pixels * OF(tall, k)), 1.0));
     vec2 bend_a = bending(k, told_a.xy), bend_b = bending(k, told_b.xy);
-    vec2 way = b.xz - a.xz;
     float sections = float(fine.y), variant = float(k) * field.w, height = OF(tall, k) * how.y;
     vec3 top_a = posture(variant, bend_a, 1.0).place * height, top_b = posture(variant, bend_b, 1.0).place * height;
     vec2 back_a = laid_back(way, a, top_a, height, count), back_b = laid_back(way, b, top_b, height, count);

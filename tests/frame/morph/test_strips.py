@@ -41,6 +41,14 @@ def laid_back(run: Doubles, foot: Doubles, top: Doubles, height: Doubles, spacin
     return np.asarray(off * back[:, None])
 
 
+def put_nearer(foot: Doubles, run: Doubles, spacing: float, rise: Doubles) -> Doubles:
+    """Where the foot (n, 3) of a strip is put, told from the eye, on ground that rises by `rise` (n, 2)."""
+    off = np.column_stack([-run[:, 1], run[:, 0]]) / np.linalg.norm(run, axis=1)[:, None]
+    facing = (off * foot[:, ::2]).sum(axis=1) / np.linalg.norm(foot, axis=1)
+    way = off * (-0.33 * spacing * facing)[:, None]
+    return np.asarray(foot + np.column_stack([way[:, 0], (rise * way).sum(axis=1), way[:, 1]]))
+
+
 def rise_of(scene: Any, place: Doubles) -> Doubles:
     """How the ground rises along x and z at places (n, 2), as the map of light has it, shape (n, 2)."""
     texture, terrain = scene.painter.light.lie._textures[0], scene.prairie.site.ground.terrain  # noqa: SLF001
@@ -81,8 +89,9 @@ def test_w1_a_strip_stands_between_two_edges_on_the_ground_each_bent_as_numpy_sa
             foot = np.column_stack([at[:, 0], scene.prairie.height_at(at), at[:, 1]])
             top = height[:, None] * bent(scene, kind, message)
             run = np.diff([places[patch, kind, stack, column + end] for end in (0, 1)], axis=0)[0]
-            rise = rise_of(scene, at)
-            tip = foot + top + laid_back(run, foot - scene.outlook.viewer.eye, top, height, quality.patch / count, rise)
+            spacing, eye, rise = quality.patch / count, np.array(scene.outlook.viewer.eye), rise_of(scene, at)
+            foot = put_nearer(foot - eye, run, spacing, rise) + eye
+            tip = foot + top + laid_back(run, foot - eye, top, height, spacing, rise_of(scene, foot[:, ::2]))
             for place, vertex in ((foot, side), (tip, 2 * quality.strip_rings[number].sections + side)):
                 expected = np.column_stack([place, np.ones(len(place))]) @ clip
                 np.testing.assert_allclose(everything.clip[here, vertex], expected, atol=5e-3)
