@@ -86,7 +86,7 @@ def test_f3_each_organ_is_drawn_where_numpy_has_it_and_with_its_own_pigment(stag
     numbers, first = np.frombuffer(painter.numbers.buffer.read(), np.uint32), painter.morph.stream.count
     kinds = list(garden.scene.grass.values())
     met = set()
-    for ribbons in painter.rings:
+    for ribbons in painter.groups:
         count = ribbons.stream.count
         made = np.frombuffer(ribbons.stream.buffer.read(), RIBBON)[:count]
         at = np.divmod(numbers[first : first + count].astype(np.int64), standing.shape[1])

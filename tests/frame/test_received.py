@@ -243,7 +243,7 @@ def test_w1_each_blade_is_drawn_where_it_stands_with_its_own_message(
     standing, _ = standing_blades(near.stock, *rows, mapped.site.ground)
     heard = on_card(mapped)[0][0].letters.heard(shown.slots).reshape(*standing.shape, 2)
     numbers, first = np.frombuffer(painter.numbers.buffer.read(), np.uint32), painter.morph.stream.count
-    for ribbons in painter.rings:
+    for ribbons in painter.groups:
         count = ribbons.stream.count
         made = np.frombuffer(ribbons.stream.buffer.read(), RIBBON)[:count]
         at = np.divmod(numbers[first : first + count].astype(np.int64), standing.shape[1])

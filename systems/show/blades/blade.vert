@@ -55,7 +55,7 @@ out vec4 direct; // the sun's light on it, past the haze; leaf area from there t
 out vec4 open_to;// the sky's light; how many leaves the sun's light meets
 out vec4 veil;   // haze before it, and what it mirrors of the sun's light
 out vec4 stands; // where its foot is in the canopy, and how much of it is its length; organ, plus the part that is cut off; cover
-out vec4 joints; // slide to those of a coarser blade; coverage from which on it hides what is behind; kind; ring of strips, or teeth seen
+out vec4 joints; // sub-level, and slide to those of the next; coverage from which on it hides what is behind; kind; ring of strips, or teeth seen
 
 #ifdef MOWN
 // The part of a blade up to where it first stands as high as `top` in calm air, of its length.

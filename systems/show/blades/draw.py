@@ -1,6 +1,6 @@
 """Drawing 3D blades: a pass over the blades, then a ribbon for each."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import moderngl
 import numpy as np
@@ -48,8 +48,13 @@ def shader_record(record: np.dtype[np.void], /) -> np.dtype[np.void]:
     return np.dtype([(name if name != "root" else "root_at", record[name]) for name in record.names or ()])
 
 
+def segment_defines(counts: Sequence[int], /) -> dict[str, str | int]:
+    """Return what ribbons are told of their numbers of segments."""
+    return {"SEGMENTS": max(counts), "COUNTS": len(counts), "SEGMENTS_OF": f"int[]({', '.join(map(str, counts))})"}
+
+
 class Ribbons:
-    """Ribbons with a given number of segments, whose joints can slide together to be those of `coarser` blades.
+    """Ribbons of one number of segments or of several: joints slide from where one has them to where the next does.
 
     Soft ones have smooth edges and must come from far to near; the others are opaque and may come in any order.
     """
@@ -58,18 +63,16 @@ class Ribbons:
         self,
         ctx: moderngl.Context,
         block: FrameBlock,
-        segments: int,
+        counts: Sequence[int],
         units: Mapping[str, int],
         *,
         soft: bool,
-        coarser: int | None = None,
         record: np.dtype[np.void] = RIBBON,
         defines: Defines | None = None,
     ) -> None:
-        self.segments = segments
+        self.segments = max(counts)
         self.soft = soft
-        whole: dict[str, str | int] = {"SEGMENTS": segments, "COARSER": min(coarser or segments, segments)}
-        whole |= {**({"SOFT": 1} if soft else {}), **(defines or {})}
+        whole = {**segment_defines(counts), **({"SOFT": 1} if soft else {}), **(defines or {})}
         self.program = joined(
             ctx, block, units, "systems/show/blades/ribbon.vert", "systems/show/blades/blades.frag", whole
         )
@@ -109,7 +112,7 @@ class BladePainter:
         record: np.dtype[np.void] = BLADE,
     ) -> None:
         organs = organ_defines(record)
-        self.ribbons = Ribbons(ctx, block, segments, units, soft=False, defines=organs)
+        self.ribbons = Ribbons(ctx, block, [segments], units, soft=False, defines=organs)
         self.program = blade_program(ctx, block, units, RIBBON, organs)
         self.blades, self.messages = Stream(ctx, shader_record(record)), Stream(ctx, MESSAGE)
         streams = [stream.binding(self.program, each="/v") for stream in (self.blades, self.messages)]

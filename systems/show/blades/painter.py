@@ -23,7 +23,7 @@ from .gather import gather_blades
 from .morph import gather_morph
 from .plant import BladeStock
 from .pool import BladesKept
-from .shown import BladesShown, Standing
+from .shown import BladesShown, Standing, together
 from .store import STANDING, STANDING_ROW, BladeStore
 
 Floats = NDArray[np.float32]
@@ -53,15 +53,15 @@ class BladesPainter:
         for made in self.passes:
             self._tell(made)
         self.arrays = [ctx.vertex_array(made, [self.numbers.binding(made, each="/v")]) for made in self.passes]
-        self.rings = [
-            Ribbons(ctx, block, fine.segments, units, soft=True, coarser=coarse.segments, defines=self.store.organs)
-            for fine, coarse in zip(rings, rings[1:] + rings[-1:], strict=True)
-        ]
-        self.morph = Ribbons(
-            ctx, block, rings[-1].segments, units, soft=True, record=PAINTED, defines={**laid, "MORPH": 1}
-        )
-        self._tell(self.morph.program)
+        segments = [ring.segments for ring in rings]
         self._parted = 1 + sum(ring.to < PARTED for ring in rings[:-1])
+        self.groups = [
+            Ribbons(ctx, block, counts, units, soft=True, defines=self.store.organs)
+            for counts in (segments[: self._parted + 1], segments[self._parted :])
+            if counts
+        ]
+        self.morph = Ribbons(ctx, block, segments[-1:], units, soft=True, record=PAINTED, defines={**laid, "MORPH": 1})
+        self._tell(self.morph.program)
         self._counts: list[int] = []
         self._unchanged = Unchanged()
         self._first = self._asked = 0
@@ -96,12 +96,32 @@ class BladesPainter:
         same = self._unchanged.since(eye, kept.pool, slots, kept.pool.stamp.take(slots, axis=0), *places)
         if not same or len(shown.morphing.rows):
             numbers = [gather_morph(outlook, kept.pool, self._strips, shown.morphing, left=left)]
-            numbers += [gather_blades(kept.pool, ring, eye=eye) for ring in shown.rings]
+            numbers += [gather_blades(kept.pool, together(rings), eye=eye) for rings in self._grouped(shown.rings)]
             self.numbers.write(np.concatenate(numbers).view(NUMBER))
             self._counts = [len(each) for each in numbers]
-        self.standing.write(_standing(outlook, shown, self._strips, left, first["strips"]))
+        self.standing.write(self._standing(outlook, shown, left, first["strips"]))
         (self._asked,), (self._first,) = self.receivers(outlook), first["blades"]
         return sum(self._counts)
+
+    def _grouped(self, rings: list[Standing]) -> list[list[Standing]]:
+        """Return the rings whose blades depth parts, and the others: in each group, blades come from far to near."""
+        return [rings[: self._parted], rings[self._parted :]][: len(self.groups)]
+
+    def _standing(self, outlook: Outlook, shown: BladesShown, left: Floats, first: list[int]) -> NDArray[np.void]:
+        """Return the patches with blades as records of `STANDING`.
+
+        `left` is how much those on their way still show, `first` the number of each strip ring's first receiver.
+        """
+        patches, rows = outlook.patches, shown.standing.rows
+        standing = np.zeros(len(rows), STANDING)
+        standing["cell"], standing["row"] = patches.cell[rows], patches.model[rows] * 4 + patches.turn[rows]
+        for rings in self._grouped(shown.rings):
+            for number, ring in enumerate(rings):
+                standing["fade"][ring.places], standing["slide"][ring.places] = ring.fade, number + ring.slide
+        if len(shown.morphing.rows):
+            _send_away(standing, outlook, shown.morphing, self._strips, first)
+            standing["fade"][shown.morphing.places] = left
+        return standing
 
     def hear(self) -> int:
         """Let all blades hear the wind; return the number of draw calls."""
@@ -117,7 +137,7 @@ class BladesPainter:
         for made in self.passes:
             made["blades_from"] = self._first
         calls = first = 0
-        for ribbons, count in zip((self.morph, *self.rings), self._counts, strict=True):
+        for ribbons, count in zip((self.morph, *self.groups), self._counts, strict=True):
             calls += ribbons.fill(self.arrays[ribbons is self.morph], count, first=first)
             first += count
         return calls
@@ -130,36 +150,18 @@ class BladesPainter:
         """Draw all blades; return the number of draw calls."""
         self.store.targets.use(self._units["targets"])
         calls = self.morph.draw()
-        near, far = self.rings[: self._parted], self.rings[self._parted :]
-        calls += sum(ribbons.draw() for ribbons in reversed(far))
+        near, *far = self.groups
+        calls += sum(ribbons.draw() for ribbons in far)
         # Around the viewer no order is right for every direction: there blades are parted by depth, and then edged.
         target.depth_mask = True
-        calls += sum(ribbons.draw(CORES) for ribbons in near)
+        calls += near.draw(CORES)
         target.depth_mask = False
-        return calls + sum(ribbons.draw(EDGES) for ribbons in reversed(near))
+        return calls + near.draw(EDGES)
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(*self.rings, self.morph, *self.arrays, *self.passes, self.hearing)
+        release_all(*self.groups, self.morph, *self.arrays, *self.passes, self.hearing)
         release_all(self.store, self.standing, self.numbers)
-
-
-def _standing(
-    outlook: Outlook, shown: BladesShown, strips: StripRepresentation, left: Floats, first: list[int]
-) -> NDArray[np.void]:
-    """Return the patches with blades as records of `STANDING`.
-
-    `left` is how much those on their way still show, `first` the number of the first receiver of each ring of strips.
-    """
-    patches, rows = outlook.patches, shown.standing.rows
-    standing = np.zeros(len(rows), STANDING)
-    standing["cell"], standing["row"] = patches.cell[rows], patches.model[rows] * 4 + patches.turn[rows]
-    for ring in shown.rings:
-        standing["fade"][ring.places], standing["slide"][ring.places] = ring.fade, ring.slide
-    if len(shown.morphing.rows):
-        _send_away(standing, outlook, shown.morphing, strips, first)
-        standing["fade"][shown.morphing.places] = left
-    return standing
 
 
 def _send_away(

@@ -96,6 +96,13 @@ float profile(float t, float taper, float segments) {
     return pow(max(1.0 - t, 0.0), taper) * (1.0 - waist * max(1.0 - t / 0.16, 0.0));
 }
 
+const int segments_of[COUNTS] = SEGMENTS_OF;  // of a blade, sub-level by sub-level
+
+// The part of a blade where its joint is that is nearest to part `t`, of so many segments.
+float joint_at(float t, int segments) {
+    return floor(t * float(segments) + 0.5) / float(segments);
+}
+
 const float BOW = 0.115;  // how much darker one straight segment would be than the blade; measured at 2 to 8 of them
 
 void main() {
@@ -111,9 +118,10 @@ void main() {
         return;
     }
 #endif
+    int level = int(joints.x), fine = segments_of[level], coarse = segments_of[min(level + 1, COUNTS - 1)];
     float t = float(gl_VertexID / 2) / float(SEGMENTS);
 #ifndef MORPH
-    t = mix(t, floor(t * float(COARSER) + 0.5) / float(COARSER), joints.x);
+    t = mix(joint_at(t, fine), joint_at(t, coarse), fract(joints.x));
 #endif
 #ifdef MOWN
     t *= 1.0 - fract(stands.z);
@@ -121,7 +129,7 @@ void main() {
     float side = float(gl_VertexID % 2) * 2.0 - 1.0;
     Spine spine = posture(low.w, lie_of.xy, t);
     vec3 place = foot.xyz + spine.place * foot.w, tangent = spine.tangent * foot.w;
-    float segments = mix(float(SEGMENTS), float(COARSER), joints.x);
+    float segments = mix(float(fine), float(coarse), fract(joints.x));
     vec2 across = lie_of.zw * (side * profile(t, high.w, segments));
 #ifdef TOOTHED
     float teeth = TEETH_OF[int(stands.z)];
@@ -167,8 +175,10 @@ void main() {
     keel *= 1.0 - painted.w;
 #endif
 #endif
-    // Between its joints a blade's colour goes straight, where light rises in a bow: so much darker would few joints make it.
-    color = shown_of(light) * (1.0 + BOW * pow(segments, -1.5));
+    // Between its joints a blade's colour goes straight, where light rises in a bow: so much darker would few joints make it,
+    // and half as much where it lies.
+    float bow = BOW * (1.0 - 0.5 * min(dot(lie_of.xy, lie_of.xy), 1.0));
+    color = shown_of(light) * (1.0 + bow * pow(segments, -1.5));
 #ifdef SOFT
     gl_Position = widened(place, tangent, across);
 #else

@@ -53,6 +53,12 @@ class BladesShown:
     """Those whose blades are on their way to their painted places, or back."""
 
 
+def together(rings: list[Standing], /) -> Standing:
+    """Return the patches of several rings as one."""
+    fields = ("rows", "slots", "places", "fade", "slide")
+    return Standing(*(np.concatenate([getattr(ring, name) for ring in rings]) for name in fields))
+
+
 def show_blades(outlook: Outlook, cover: Floats, /, *, level: int, side: int, rings: int) -> BladesShown:
     """Return the patches with blades that a viewer is shown, where `cover` (rows,) says how much they cover.
 

@@ -24,10 +24,10 @@ STANDING = np.dtype(
         ("unused", "2f4"),
     ]
 )
-"""A patch with blades: its cell; four times its model plus its quarter turns; how much shows; how far joints have slid
-together to those of the next coarser ring. For one on its way to its strips besides: how far its blades have moved, the
-height of the strips, of their full one; the axis that these run along; their ring, and their first receiver. The shader
-reads three texels."""
+"""A patch with blades: its cell; four times its model plus its quarter turns; how much shows; the ring, of those that
+are drawn together, plus how far joints have slid to those of the next. For one on its way to its strips besides: how
+far its blades have moved, the height of the strips, of their full one; the axis that these run along; their ring, and
+their first receiver. The shader reads three texels."""
 
 STANDING_ROW, BLADES_ROW, SLICES_ROW, TARGETS_ROW = 64, 256, 1024, 64
 """Records in a row of the textures that hold patches, blades, the strips and the painted places of blades."""

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from tallgrass.engine.gl.stream import Stream, release_all
 from tallgrass.systems.painter import UNITS
-from tallgrass.systems.show.blades.draw import PAINTED, Ribbons
+from tallgrass.systems.show.blades.draw import PAINTED, Ribbons, segment_defines
 
 Doubles = NDArray[np.float64]
 Defines = dict[str, str | int]
@@ -44,13 +44,13 @@ def in_their_own_places(scene: Any) -> Doubles:
     """Middle lines of the same blades as 3D blades, sent one by one."""
     painter, segments, count = scene.painter, scene.blades.morph.segments, len(scene.records)
     blades = painter.blade_painter(segments)
-    ribbons = Ribbons(painter.ctx, painter.block, segments, UNITS, soft=True)
+    ribbons = Ribbons(painter.ctx, painter.block, [segments], UNITS, soft=True)
     blades.write(scene.records, scene.message)
     painter.block.write(painter.record)
     for name, texture in painter.textures.items():
         texture.use(UNITS[name])
     ribbons.fill(blades.array, count)
-    defines: Defines = {"SEGMENTS": segments, "COARSER": segments, "SOFT": 1}
+    defines: Defines = {**segment_defines([segments]), "SOFT": 1}
     data = scene.caught(ribbons.program, RIBBON, ribbons.stream, (2 * segments + 2, count), defines=defines)
     release_all(ribbons, blades)
     return middles(data)
