@@ -119,18 +119,27 @@ void main() {
     }
 #endif
     int level = int(joints.x), fine = segments_of[level], coarse = segments_of[min(level + 1, COUNTS - 1)];
-    float t = float(gl_VertexID / 2) / float(SEGMENTS);
-#ifndef MORPH
-    t = mix(joint_at(t, fine), joint_at(t, coarse), fract(joints.x));
+    float t = float(gl_VertexID / 2) / float(SEGMENTS), slide = fract(joints.x), of_coarse = joint_at(t, coarse);
+#ifdef MORPH
+    slide = 0.0;
+#else
+    t = joint_at(t, fine);
 #endif
 #ifdef MOWN
-    t *= 1.0 - fract(stands.z);
+    float left = 1.0 - fract(stands.z);
+    t *= left;
+    of_coarse *= left;
 #endif
+    // A blade's width slides along with its joints: as it is where they are meanwhile, a tip would be far broader.
+    float broad = profile(t, high.w, float(fine));
+    if (slide > 0.0) {
+        broad = mix(broad, profile(of_coarse, high.w, float(coarse)), slide);
+        t = mix(t, of_coarse, slide);
+    }
     float side = float(gl_VertexID % 2) * 2.0 - 1.0;
     Spine spine = posture(low.w, lie_of.xy, t);
     vec3 place = foot.xyz + spine.place * foot.w, tangent = spine.tangent * foot.w;
-    float segments = mix(float(fine), float(coarse), fract(joints.x));
-    vec2 across = lie_of.zw * (side * profile(t, high.w, segments));
+    vec2 across = lie_of.zw * (side * broad);
 #ifdef TOOTHED
     float teeth = TEETH_OF[int(stands.z)];
 #ifdef MORPH
@@ -178,7 +187,7 @@ void main() {
     // Between its joints a blade's colour goes straight, where light rises in a bow: so much darker would few joints make it,
     // and half as much where it lies.
     float bow = BOW * (1.0 - 0.5 * min(dot(lie_of.xy, lie_of.xy), 1.0));
-    color = shown_of(light) * (1.0 + bow * pow(segments, -1.5));
+    color = shown_of(light) * (1.0 + bow * pow(mix(float(fine), float(coarse), slide), -1.5));
 #ifdef SOFT
     gl_Position = widened(place, tangent, across);
 #else
