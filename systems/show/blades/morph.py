@@ -7,11 +7,17 @@ from ...around.outlook import Outlook
 from ..strips.gather import lies_ahead
 from ..strips.representation import StripRepresentation
 from ..strips.stand import falls
-from .gather import Numbers, distances, nearness
+from .gather import Numbers, distances, far_first
 from .pool import BladePool
 from .shown import Standing
 
 Floats = NDArray[np.float32]
+
+AMONG = 0.02
+"""How much their own distances count among blades that lie on one strip, of the distances between strips."""
+
+DIAGONAL = 1.6
+"""How much farther away than the next patch one counts where blades lie on strips, in sides: farther than any on it."""
 
 
 def gather_morph(
@@ -19,7 +25,8 @@ def gather_morph(
 ) -> Numbers:
     """Return the numbers of the blades of patches that are on their way in this frame, in the order of drawing, (n,).
 
-    Patch after patch, and in a patch strip after strip, as `gather_blades` counts them. `left` says how much each
+    They are counted as `gather_blades` does. Those that lie on strips come patch after patch and strip after strip,
+    those in their own places from far to near; in between, they change places one by one. `left` says how much each
     patch's blades still show, shape (m,).
     """
     if not len(shown.rows):
@@ -33,12 +40,13 @@ def gather_morph(
     # Strips are walked from the far side, planes in the order of the model.
     backwards = falls(own, along, turn) != lies_ahead(patches.cell[rows], outlook.viewer.centre, along)
     slices = np.where(backwards[:, None], counts[:, None] - 1 - plane, plane)
-    away = nearness(distances(pool, shown.slots, (outlook.viewer.eye[0], outlook.viewer.eye[2])))
-    # Patch after patch, in a patch slice after slice, far to near in a slice: one number says all of it.
+    assert outlook.appearance is not None
+    side, moved = strips.quality.patch, outlook.appearance.morph[rows][:, None]
+    away = distances(pool, shown.slots, (outlook.viewer.eye[0], outlook.viewer.eye[2]))
+    behind = np.arange(len(rows), 0, -1)[:, None] * (DIAGONAL * side)
+    on_strips = behind + (counts[:, None] - slices) * (side / counts[:, None]) + AMONG * away
+    queue = far_first(((1.0 - moved) * away + moved * on_strips).astype(np.float32).reshape(-1))
     each = pool.present.shape[1]
-    key = (np.arange(len(rows), dtype=np.uint64)[:, None] << 48) | (slices.astype(np.uint64) << 40)
-    key |= (away.astype(np.uint64) << 24) | np.arange(each, dtype=np.uint64)
-    queue = np.sort(key[pool.present.take(shown.slots, axis=0) & (left > 0.0)[:, None]])
-    blade = (queue & np.uint64(0xFFFFFF)).astype(np.uint32)
-    first = (shown.places * each).astype(np.uint32).take((queue >> np.uint64(48)).astype(np.intp))
-    return np.asarray(first + blade, np.uint32)
+    numbers = ((shown.places * each).astype(np.uint32)[:, None] + np.arange(each, dtype=np.uint32)).reshape(-1)
+    shows = (pool.present.take(shown.slots, axis=0) & (left > 0.0)[:, None]).reshape(-1)
+    return numbers.take(queue[shows.take(queue)])

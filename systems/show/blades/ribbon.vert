@@ -103,7 +103,7 @@ float joint_at(float t, int segments) {
     return floor(t * float(segments) + 0.5) / float(segments);
 }
 
-const float BOW = 0.115;  // how much darker one straight segment would be than the blade; measured at 2 to 8 of them
+const float BOW = 0.135;  // how much darker one straight segment would be than the blade; measured at 2 to 8 of them
 
 void main() {
 #ifdef SOFT

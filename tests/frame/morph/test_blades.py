@@ -1,5 +1,6 @@
 """Blades on their way to their painted places, as the graphics card puts them (X3, X4)."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -8,6 +9,8 @@ from numpy.typing import NDArray
 from tallgrass.engine.gl.stream import Stream, release_all
 from tallgrass.systems.painter import UNITS
 from tallgrass.systems.show.blades.draw import PAINTED, Ribbons, segment_defines
+from tallgrass.systems.show.blades.gather import gather_blades
+from tallgrass.systems.show.blades.morph import gather_morph
 
 Doubles = NDArray[np.float64]
 Defines = dict[str, str | int]
@@ -117,6 +120,16 @@ def test_x3_in_between_it_is_on_the_straight_way(scene: Any) -> None:
     start, middle, end = (drawn(scene, weight) for weight in (0.0, 0.5, 1.0))
     apart = np.linalg.norm(middle - (start + end) / 2, axis=2)
     assert np.quantile(apart, 0.95) < 1.0
+
+
+def test_x3_blades_that_arrive_in_their_own_places_are_in_the_order_of_those_that_stand(scene: Any) -> None:
+    outlook, shown = scene.outlook, scene.morphing
+    pool, left = outlook.kept["blades"].pool, np.ones(len(shown.rows), np.float32)
+    arrived = replace(outlook.appearance, morph=np.zeros_like(outlook.appearance.morph))
+    numbers = gather_morph(replace(outlook, appearance=arrived), pool, scene.representation, shown, left=left)
+    eye = outlook.viewer.eye[0], outlook.viewer.eye[2]
+    np.testing.assert_array_equal(numbers, gather_blades(pool, shown, eye=eye))
+    assert len(numbers) >= 200
 
 
 def test_x3_blades_come_to_their_places_before_their_strips_show(scene: Any) -> None:
