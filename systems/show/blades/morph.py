@@ -49,4 +49,4 @@ def gather_morph(
     each = pool.present.shape[1]
     numbers = ((shown.places * each).astype(np.uint32)[:, None] + np.arange(each, dtype=np.uint32)).reshape(-1)
     shows = (pool.present.take(shown.slots, axis=0) & (left > 0.0)[:, None]).reshape(-1)
-    return numbers.take(queue[shows.take(queue)])
+    return np.asarray(numbers.take(queue[shows.take(queue)]), np.uint32)
