@@ -24,14 +24,14 @@ vec2 edge_foot(vec2 cell, int turn, int own, int plane, int count, int edge, int
 }
 
 const float NEARER = 0.33;  // how far strips stand before the middles of their slices, of the way from one to the next
-const float AT_MOST = 0.0125;  // the same of their distance: blades that go to their painted places must not leap
+const vec2 AT_MOST = vec2(0.2, 0.0125);  // the same [m], and of their distance: blades must not leap to their painted places
 
 // Where a strip along `run` is put whose slice of the ground has its middle at a foot: nearer to the eye. In the middle, half
 // a slice would be open to lines of sight behind the last blades, and show as a dark line. So many strips stand on a patch.
 vec3 put_nearer(vec3 foot, vec2 run, int strips) {
     vec3 ray = foot - eye.xyz;
     vec2 off = normalize(vec2(-run.y, run.x)), still = textureLod(lie, on_left(foot.xz), 0.0).xy;
-    vec2 way = off * -dot(off, ray.xz) * min(NEARER * soil.w / float(strips) / max(length(ray), 0.01), AT_MOST);
+    vec2 way = off * -dot(off, ray.xz) * min(min(NEARER * soil.w / float(strips), AT_MOST.x) / max(length(ray), 0.01), AT_MOST.y);
     return foot + vec3(way.x, -dot(still, way) * inversesqrt(max(1.0 - dot(still, still), 0.01)), way.y);
 }
 

@@ -44,7 +44,7 @@ def laid_back(run: Doubles, foot: Doubles, top: Doubles, height: Doubles, spacin
 def put_nearer(foot: Doubles, run: Doubles, spacing: float, rise: Doubles) -> Doubles:
     """Where the foot (n, 3) of a strip is put, told from the eye, on ground that rises by `rise` (n, 2)."""
     off = np.column_stack([-run[:, 1], run[:, 0]]) / np.linalg.norm(run, axis=1)[:, None]
-    nearer = np.minimum(0.33 * spacing / np.linalg.norm(foot, axis=1), 0.0125)
+    nearer = np.minimum(min(0.33 * spacing, 0.2) / np.linalg.norm(foot, axis=1), 0.0125)
     way = off * (-nearer * (off * foot[:, ::2]).sum(axis=1))[:, None]
     return np.asarray(foot + np.column_stack([way[:, 0], (rise * way).sum(axis=1), way[:, 1]]))
 
