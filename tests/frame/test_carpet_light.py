@@ -127,3 +127,25 @@ def test_grass_that_grows_half_as_densely_is_as_bright_on_the_carpet_as_its_blad
     )
     seen, true = room.shot(prairie, CAMERA), draw_reference(prairie, *room.matrices(CAMERA), room.size, samples=3)
     assert seen.mean() == pytest.approx(true.mean(), rel=0.06)
+
+
+BARE = """\
+tallgrass: 2
+seed: 1
+terrain: { size: [100, 100] }
+grass: { turf: { height: [0.4, 0.7], width: 0.02, blades: 2 } }
+"""
+
+
+def test_behind_grass_that_hides_hardly_anything_the_ground_is_seen_where_it_lies(room: Stage, load: Load) -> None:
+    """It is drier here and greener there: told by each line of the picture."""
+    prairie, camera = load(BARE, lod="carpet"), Camera((0.0, 1.7, 48.0), 0.0, -0.03, np.radians(4.0))
+    lines = [
+        picture[60:150].mean(axis=(1, 2))
+        for picture in (
+            room.shot(prairie, camera),
+            draw_reference(prairie, *room.matrices(camera), room.size, samples=4),
+        )
+    ]
+    assert np.abs(lines[0] - lines[1]).mean() < 2.0
+    assert np.ptp(lines[1]) > 10.0

@@ -2,6 +2,7 @@
 #include "lib/frame.glsl"
 
 const float CREST = 3.6;  // leaves met over a crest, of those that a level line of sight as deep would meet: as the reference shows it
+const float FARTHEST_SEEN = 15.0;  // how far behind where it enters the grass what it meets lies at most [m]
 const float STEEP = 0.02;  // a line of sight counts as at least so steep, for how deep it goes
 
 uniform float outline;  // how high the carpet lies along an outline, of how high it lies elsewhere; 0 where that is the same
@@ -49,7 +50,7 @@ float viewing_slope(vec2 rise, vec3 place) {
 
 // Where leaves are that are seen: deeper in the grass, where the line of sight has met enough.
 vec3 seen_at(vec3 place, float slope, float tall, float dense) {
-    float deeper = min(tall * inversesqrt(max(slope, STEEP) * max(dense, 0.01)), 15.0);
+    float deeper = min(tall * inversesqrt(max(slope, STEEP) * max(dense, 0.01)), FARTHEST_SEEN);
     vec2 on = normalize(place.xz - eye.xz + 1e-4) * deeper;
     return vec3(place.x + on.x, place.y, place.z + on.y);
 }

@@ -294,11 +294,21 @@ void main() {
     light_up(viewing_slope(rise, place), message);
 #endif
 #endif
-    vec3 ground = vec3(flat_at, height_at(flat_at)).xzy;
-    vec4 lies = lie_at(flat_at);
-    ByKind stand = grows_at(flat_at);
+    vec2 ground_at = flat_at;
+#ifdef CARPET
+    // Between blades ground is seen that lies behind, where lines of sight come out of the grass.
+    float over = max(place.y - height_at(flat_at), 0.0);
+    ground_at += normalize(flat_at - eye.xz + 1e-4) * min(over / max(slope, STEEP), FARTHEST_SEEN);
+#endif
+    vec3 ground = vec3(ground_at, height_at(ground_at)).xzy;
+    vec4 lies = lie_at(ground_at);
+    ByKind stand = grows_at(ground_at);
 #ifdef MOWN
+#ifdef CARPET
+    leaf_area = areas(grows);
+#else
     leaf_area = areas(stand);
+#endif
     soil_seen = soil_light(ground, lies, stand, weighed(leaf_area, leaves_left(left_about(flat_at, tile.z))));
     vec3 pigment = soil_pigment(lies, stand);
     sunlit = pigment * pigment * sunlight.rgb * (1.3 * lies.x * sun_seen(ground, lies.y));
