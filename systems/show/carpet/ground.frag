@@ -137,7 +137,7 @@ const float UNEVEN = 0.75;  // how deep they are at least, of how deep they are 
 const float SPIKES = 18.0;  // how much more leaves are met along an outline where taller plants stand
 const float TALLER = 0.05;  // how much taller plants count at most, of the mean
 
-const float SHALLOWEST = 0.01;  // a line of sight counts as at least so steep, for how high up it meets blades
+const float SHALLOWEST = 0.005;  // a line of sight counts as at least so steep, for how high up it meets blades
 const float STANDING = 0.9;  // how much it covers at least of what is behind an outline, where strips have just begun to give way
 
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,

@@ -15,7 +15,7 @@ Rows = NDArray[np.int64]
 TIGHTER = 1.15
 """How much steeper than needed a patch must be seen for a finer ring to be kept: the slack of slopes."""
 
-ENOUGH = 5.0
+ENOUGH = 3.6
 """How many strips a line of sight crosses, at least, where finer ones are to be had; and more the steeper it is."""
 
 STEEPER = 1.3
