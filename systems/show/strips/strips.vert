@@ -75,6 +75,7 @@ const float NARROWEST = 0.25;  // blades count as no closer together than this p
 const float ARCHED = 0.42;
 const float ASIDE = 0.35;  // sine of the angle to the ground from which on that is not seen
 
+const vec2 CLOSE = vec2(0.1, 0.4);  // pixels, of the way from plane to plane, from which on planes are moved, and wholly
 const vec2 FROM_ABOVE = vec2(0.1, 0.2);  // slopes of lines of sight from which on strips are seen from above
 
 // Pixels that a metre is long on the screen, across the line of sight.
@@ -83,14 +84,14 @@ float pixels_at(vec3 place) {
     return screen.y * length(up) / max(dot(vec4(clip[0][3], clip[1][3], clip[2][3], clip[3][3]), vec4(place, 1.0)), 0.1);
 }
 
-// How far a strip that runs along `run` is moved out of its plane [m]. From above, where planes are about a pixel of ground
-// apart, pixels would take in now more of them and now fewer, the same along a whole line of the picture: so each plane of
-// each patch is moved by up to half a pixel.
+// How far a strip that runs along `run` is moved out of its plane [m]. From above planes would show as rows where they are
+// a few pixels apart; and where they are less than one, a line of the picture takes in now more of them and now fewer, all
+// along. So each plane of each patch is moved by up to a pixel of ground, and by up to half of the way to the next.
 vec2 out_of_line(ivec2 cell, int plane, vec3 middle, vec2 run, float spacing) {
     vec3 ray = middle - eye.xyz;
     float slope = abs(ray.y) / max(length(ray.xz), 0.1), of_pixel = 1.0 / (pixels_at(middle) * max(slope, 1e-3));
-    float part = smoothstep(0.5, 1.0, of_pixel / spacing) * smoothstep(FROM_ABOVE.x, FROM_ABOVE.y, slope);
-    return vec2(-run.y, run.x) * part * (unit(hash3(plane, cell.x, cell.y)) - 0.5) * min(of_pixel, spacing);
+    float part = smoothstep(CLOSE.x, CLOSE.y, of_pixel / spacing) * smoothstep(FROM_ABOVE.x, FROM_ABOVE.y, slope);
+    return vec2(-run.y, run.x) * part * (unit(hash3(plane, cell.x, cell.y)) - 0.5) * min(2.0 * of_pixel, spacing);
 }
 
 // Where a way that begins at a point leads on the screen [pixel].
