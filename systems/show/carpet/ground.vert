@@ -102,6 +102,7 @@ ByKind shared_out(ByKind met, ByKind grows, float slope) {
 }
 #endif
 
+const vec2 LOW = vec2(0.1, 0.4);  // slopes of lines of sight up to which it counts where they meet the ground, and no more
 const float GRAZING = 0.005;  // a line of sight counts as at least so steep, for the kinds that it meets
 
 // How much of what a line of sight meets is of each kind: taller kinds hide the others at a low angle. The grass is
@@ -296,8 +297,8 @@ void main() {
 #endif
     vec2 ground_at = flat_at;
 #ifdef CARPET
-    // Between blades ground is seen that lies behind, where lines of sight come out of the grass.
-    float over = max(place.y - height_at(flat_at), 0.0);
+    // Between blades ground is seen that lies behind, where lines of sight come out of the grass: from a low angle, metres.
+    float over = max(place.y - height_at(flat_at), 0.0) * (1.0 - smoothstep(LOW.x, LOW.y, slope));
     ground_at += normalize(flat_at - eye.xz + 1e-4) * min(over / max(slope, STEEP), FARTHEST_SEEN);
 #endif
     vec3 ground = vec3(ground_at, height_at(ground_at)).xzy;
