@@ -152,8 +152,9 @@ void main() {
     vec2 foot_a = edge_foot(where.xy, turn, own, plane, count, column, fine.x, OF(margin, k));
     vec2 foot_b = edge_foot(where.xy, turn, own, plane, count, column + 1, fine.x, OF(margin, k));
     vec2 way = foot_b - foot_a, run = normalize(way);
-    vec3 a = put_nearer(vec3(foot_a.x, told_a.z, foot_a.y), run, count);
-    vec3 b = put_nearer(vec3(foot_b.x, told_b.z, foot_b.y), run, count);
+    // Light is asked for where its blades are rooted, in the mean.
+    vec3 rooted_a = vec3(foot_a.x, told_a.z, foot_a.y), rooted_b = vec3(foot_b.x, told_b.z, foot_b.y);
+    vec3 rooted = 0.5 * (rooted_a + rooted_b), a = put_nearer(rooted_a, run, count), b = put_nearer(rooted_b, run, count);
     vec2 off = out_of_line(ivec2(where.xy), plane, 0.5 * (a + b), run, soil.w / float(count));
     a.xz += off;
     b.xz += off;
@@ -175,19 +176,19 @@ void main() {
     vec4 point = mix(on_edge(a, bend_a, back_a, t, k, sections, how.y), on_edge(b, bend_b, back_b, t, k, sections, how.y), across);
     gl_Position = clip * vec4(point.xyz, 1.0);
     at = vec2((float(column) + across) / float(fine.x), t) * picture.xy;
-    vec4 here = lie_at(middle.xz);
-    ByKind grows = grows_at(middle.xz);
+    vec4 here = lie_at(rooted.xz);
+    ByKind grows = grows_at(rooted.xz);
     on_column = across;
-    int body = shading(a, b);
-    float seen = sun_past(middle, here.y) * past_bodies(middle, body);
-    Lit lit = lit_at(k, 0.5 * (bend_a + bend_b), middle, here, grows, seen);
+    int body = shading(rooted_a, rooted_b);
+    float seen = sun_past(rooted, here.y) * past_bodies(rooted, body);
+    Lit lit = lit_at(k, 0.5 * (bend_a + bend_b), rooted, here, grows, seen);
 #ifdef MOWN
-    roots = vec3(mix(a.xz, b.xz, across), t * OF(tall, k));
+    roots = vec3(mix(rooted_a.xz, rooted_b.xz, across), t * OF(tall, k));
     leaf_area = areas(grows);
     stood_of = k;
     fine_at = pixels;
     rows_at = CROSSED * soil.w / float(count) * abs(eye.y - middle.y) / max(distance(middle.xz, eye.xz), 0.5 * soil.w);
-    is_cut = left_about(middle.xz, 2.0 * distance(a.xz, b.xz)) < 0.999 * zenith.w ? 1 : 0;
+    is_cut = left_about(rooted.xz, 2.0 * distance(a.xz, b.xz)) < 0.999 * zenith.w ? 1 : 0;
 #endif
     float hidden = haze_at(middle), clear = 1.0 - hidden;
     h = point.w;
