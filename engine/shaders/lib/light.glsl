@@ -49,6 +49,12 @@ vec4 lie_at(vec2 place) {
     return vec4(max(high, 0.0), past * past * (3.0 - 2.0 * past), still.zw);
 }
 
+// How the ground rises along x and z.
+vec2 rise_at(vec2 place) {
+    vec2 still = textureLod(lie, on_left(place), 0.0).xy;
+    return -still * inversesqrt(max(1.0 - dot(still, still), 0.01));
+}
+
 // How steep a line of sight is to the ground: the sine of the angle between them.
 float steep_at(vec3 place) {
     vec2 still = textureLod(lie, on_left(place.xz), 0.0).xy;

@@ -30,9 +30,9 @@ const vec2 AT_MOST = vec2(0.2, 0.0125);  // the same [m], and of their distance:
 // a slice would be open to lines of sight behind the last blades, and show as a dark line. So many strips stand on a patch.
 vec3 put_nearer(vec3 foot, vec2 run, int strips) {
     vec3 ray = foot - eye.xyz;
-    vec2 off = normalize(vec2(-run.y, run.x)), still = textureLod(lie, on_left(foot.xz), 0.0).xy;
+    vec2 off = normalize(vec2(-run.y, run.x));
     vec2 way = off * -dot(off, ray.xz) * min(min(NEARER * soil.w / float(strips), AT_MOST.x) / max(length(ray), 0.01), AT_MOST.y);
-    return foot + vec3(way.x, -dot(still, way) * inversesqrt(max(1.0 - dot(still, still), 0.01)), way.y);
+    return foot + vec3(way.x, dot(rise_at(foot.xz), way), way.y);
 }
 
 const float SPREAD = 2.0;  // ways between strips that one must reach over, as it is seen from the eye
@@ -42,10 +42,10 @@ const float SPREAD = 2.0;  // ways between strips that one must reach over, as i
 // by side in a slice of the ground, and hide that: the more, the more the ground falls away from the eye. `run` is a way
 // along the strip; so many strips stand on a patch.
 vec2 laid_back(vec2 run, vec3 foot, vec3 top, float height, int strips) {
-    vec2 off = normalize(vec2(-run.y, run.x)), ray = foot.xz - eye.xz, still = textureLod(lie, on_left(foot.xz), 0.0).xy;
+    vec2 off = normalize(vec2(-run.y, run.x)), ray = foot.xz - eye.xz;
     off *= sign(dot(off, ray));
-    float falls = dot(still, ray) * inversesqrt(max(1.0 - dot(still, still), 0.01));  // the ground's slope, up to there [m]
-    float above = eye.y - foot.y, along = dot(ray, off), behind = along / max(above - falls, 0.01);  // hidden by a metre of height [m]
+    float above = eye.y - foot.y, along = dot(ray, off);
+    float behind = along / max(above + dot(rise_at(foot.xz), ray), 0.01);  // what a metre of height hides of the ground [m]
     float least = min(SPREAD * soil.w / float(strips), height * behind), drop = max(above, 0.01) / max(along, 0.01);
     float reach = (top.y + dot(top.xz, off) * drop) * behind;
     return off * clamp((least - reach) / max(drop * behind, 1.0), 0.0, 2.0 * least);

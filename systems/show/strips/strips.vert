@@ -3,7 +3,6 @@
 #include "lib/posture.glsl"
 #include "lib/received.glsl"
 #include "lib/stack.glsl"
-#include "lib/random.glsl"
 
 uniform usampler2D strips;  // by place in the queue: the polygon strip that is drawn
 uniform sampler2D stood;    // by patch: STOOD
@@ -75,23 +74,10 @@ const float NARROWEST = 0.25;  // blades count as no closer together than this p
 const float ARCHED = 0.42;
 const float ASIDE = 0.35;  // sine of the angle to the ground from which on that is not seen
 
-const vec2 CLOSE = vec2(0.1, 0.4);  // pixels, of the way from plane to plane, from which on planes are moved, and wholly
-const vec2 FROM_ABOVE = vec2(0.1, 0.2);  // slopes of lines of sight from which on strips are seen from above
-
 // Pixels that a metre is long on the screen, across the line of sight.
 float pixels_at(vec3 place) {
     vec4 up = vec4(clip[0][1], clip[1][1], clip[2][1], 0.0);
     return screen.y * length(up) / max(dot(vec4(clip[0][3], clip[1][3], clip[2][3], clip[3][3]), vec4(place, 1.0)), 0.1);
-}
-
-// How far a strip that runs along `run` is moved out of its plane [m]. From above planes would show as rows where they are
-// a few pixels apart; and where they are less than one, a line of the picture takes in now more of them and now fewer, all
-// along. So each plane of each patch is moved by up to a pixel of ground, and by up to half of the way to the next.
-vec2 out_of_line(ivec2 cell, int plane, vec3 middle, vec2 run, float spacing) {
-    vec3 ray = middle - eye.xyz;
-    float slope = abs(ray.y) / max(length(ray.xz), 0.1), of_pixel = 1.0 / (pixels_at(middle) * max(slope, 1e-3));
-    float part = smoothstep(CLOSE.x, CLOSE.y, of_pixel / spacing) * smoothstep(FROM_ABOVE.x, FROM_ABOVE.y, slope);
-    return vec2(-run.y, run.x) * part * (unit(hash3(plane, cell.x, cell.y)) - 0.5) * min(2.0 * of_pixel, spacing);
 }
 
 // Where a way that begins at a point leads on the screen [pixel].
@@ -155,9 +141,6 @@ void main() {
     // Light is asked for where its blades are rooted, in the mean.
     vec3 rooted_a = vec3(foot_a.x, told_a.z, foot_a.y), rooted_b = vec3(foot_b.x, told_b.z, foot_b.y);
     vec3 rooted = 0.5 * (rooted_a + rooted_b), a = put_nearer(rooted_a, run, count), b = put_nearer(rooted_b, run, count);
-    vec2 off = out_of_line(ivec2(where.xy), plane, 0.5 * (a + b), run, soil.w / float(count));
-    a.xz += off;
-    b.xz += off;
 
     vec3 picture = pictures[ring * KINDS + k];
     int layer = int(picture.z) + (int(where.z) * 2 + own) * count + plane;

@@ -5,8 +5,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tallgrass.engine.random import hash3, unit
-from tallgrass.systems.around.appearance import smooth
 from tallgrass.systems.grow.bend import bending
 from tallgrass.systems.show.strips.stand import falls
 
@@ -51,21 +49,6 @@ def put_nearer(foot: Doubles, run: Doubles, spacing: float, rise: Doubles) -> Do
     return np.asarray(foot + np.column_stack([way[:, 0], (rise * way).sum(axis=1), way[:, 1]]))
 
 
-def out_of_line(
-    scene: Any, cell: NDArray[np.int32], plane: NDArray[np.int64], middle: Doubles, run: Doubles, spacing: float
-) -> Doubles:
-    """How far strips are moved out of their planes where they are seen from above, shape (n, 3)."""
-    record, ray = scene.painter.record[0], middle - np.array(scene.outlook.viewer.eye)
-    clip = record["clip"].reshape(4, 4).astype(float)
-    pixels = record["screen"][1] * np.linalg.norm(clip[:3, 1]) / np.maximum(middle @ clip[:3, 3] + clip[3, 3], 0.1)
-    slope = np.abs(ray[:, 1]) / np.maximum(np.hypot(ray[:, 0], ray[:, 2]), 0.1)
-    of_pixel = 1.0 / (pixels * np.maximum(slope, 1e-3))
-    part = smooth((of_pixel / spacing - 0.1) / 0.3) * smooth((slope - 0.1) / 0.1)
-    drawn = np.array([unit(hash3(int(own), *at)) for own, at in zip(plane, cell, strict=True)]) - 0.5
-    way = np.column_stack([-run[:, 1], np.zeros(len(run)), run[:, 0]]) / np.linalg.norm(run, axis=1)[:, None]
-    return np.asarray(way * (part * drawn * np.minimum(2.0 * of_pixel, spacing))[:, None])
-
-
 def rise_of(scene: Any, place: Doubles) -> Doubles:
     """How the ground rises along x and z at places (n, 2), as the map of light has it, shape (n, 2)."""
     texture, terrain = scene.painter.light.lie._textures[0], scene.prairie.site.ground.terrain  # noqa: SLF001
@@ -107,10 +90,8 @@ def test_w1_a_strip_stands_between_two_edges_on_the_ground_each_bent_as_numpy_sa
         for at in ends:
             ground = np.column_stack([at[:, 0], scene.prairie.height_at(at), at[:, 1]])
             feet.append(put_nearer(ground - eye, run, spacing, rise_of(scene, at)) + eye)
-        off = out_of_line(scene, patches.cell[ring.rows][patch], plane, sum(feet) / 2, run, spacing)
-        assert np.abs(off).max() > 0.001
         for side in (0, 1):
-            foot, message = feet[side] + off, heard[patch, kind, stack, column + side]
+            foot, message = feet[side], heard[patch, kind, stack, column + side]
             top = height[:, None] * bent(scene, kind, message)
             tip = foot + top + laid_back(run, foot - eye, top, height, spacing, rise_of(scene, foot[:, ::2]))
             for place, vertex in ((foot, side), (tip, 2 * quality.strip_rings[number].sections + side)):
