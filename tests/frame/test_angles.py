@@ -49,9 +49,13 @@ def both(stage: Stage, prairie: Prairie, camera: Camera) -> tuple[Doubles, Doubl
 
 def rows(picture: Doubles) -> float:
     """How much the means of a picture's lines differ from those of the lines around them, in blocks of 120 columns."""
-    level = np.ones(9) / 9
     blocks = [picture[120:, start : start + 120].mean(axis=1) for start in range(0, picture.shape[1], 120)]
-    return float(np.mean([(block - np.convolve(block, level, "same"))[6:-6].std() for block in blocks]))
+    return float(np.mean([unevenness(block) for block in blocks]))
+
+
+def unevenness(lines: Doubles) -> float:
+    """How much values differ from those around them."""
+    return float((lines - np.convolve(lines, np.ones(9) / 9, "same"))[6:-6].std())
 
 
 @pytest.mark.parametrize("name", ["above-30", "above-60", "lawn"])
@@ -99,6 +103,36 @@ def test_g3_no_rows_show_where_a_whirlwind_lays_grass_towards_the_eye(ctx: moder
 @pytest.fixture(scope="module")
 def plain(load: Load) -> Prairie:
     return load("plain")
+
+
+def periodic(picture: Doubles, along: Doubles, spacing: float) -> float:
+    """Power with which means of a picture's lines repeat every `spacing`; `along` (lines,) says where they lie."""
+    power, window = 0.0, 40
+    for start in range(0, len(along) - window + 1, window // 2):
+        lines = picture[start : start + window].mean(axis=1)
+        level = np.poly1d(np.polyfit(np.arange(window), lines, 3))(np.arange(window))
+        spectrum = np.abs(np.fft.rfft((lines - level) * np.hanning(window))) ** 2
+        each = np.fft.rfftfreq(window) * spacing / abs(np.gradient(along)[start + window // 2])
+        power += float(spectrum[(each > 0.8) & (each < 1.2)].sum())
+    return power
+
+
+def test_f2_a_plain_from_twelve_metres_up_shows_neither_rows_of_strips_nor_where_they_end(
+    ctx: moderngl.Context, plain: Prairie
+) -> None:
+    pitch, view, (width, height) = math.radians(-30.0), math.radians(40.0), (480, 270)
+    up = pitch + np.arctan((1.0 - (2.0 * np.arange(height) + 1.0) / height) * math.tan(view / 2.0))
+    quality = plain.site.quality
+    away = 12.0 / np.tan(-up) / quality.patch
+    near, far = (away > 6.0) & (away < 10.0), (away > 14.0) & (away < 20.0)
+    rows, lines = np.zeros(2), np.zeros(2)
+    with testing.stage(ctx, (width, height)) as stage:
+        for x in (-20.0, 0.0, 20.0):
+            for number, picture in enumerate(both(stage, plain, Camera((x, 12.0, 30.0), 0.0, pitch, view))):
+                rows[number] += periodic(picture[near], away[near], 1.0 / quality.strip_rings[0].strips)
+                lines[number] += unevenness(picture[far].mean(axis=1)) ** 2
+    assert rows[0] < 1.5 * rows[1]
+    assert lines[0] < 1.5 * lines[1]
 
 
 @pytest.mark.parametrize("heading", [0, 20, 40, 60])

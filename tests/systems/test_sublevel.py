@@ -26,6 +26,7 @@ from tallgrass.systems.show.strips.sublevel import (
     TIGHTER,
     axis_of,
     left_of,
+    looked_down_on,
     packed,
     ring_of,
     shows_rows,
@@ -104,16 +105,34 @@ def test_n2_what_is_left_of_strips_does_not_jump_where_the_eye_crosses_a_border(
     np.testing.assert_array_equal(kept[0], kept[1])
 
 
-def test_the_viewing_slope_is_the_grounds_own_slope_and_the_eyes_height(laid: Laid, look: Look) -> None:
+def test_the_viewing_slope_is_the_grounds_own_slope_and_the_drop_to_it(laid: Laid, look: Look) -> None:
     z = np.arange(81.0)[:, None] - 40.0
     hillside = Terrain(np.tile(-0.5 * z, 81).astype(np.float32), 1.0)
     site = laid(terrain=hillside)
     outlook = look(site, 0.6, 0.6)
     row = np.flatnonzero((outlook.patches.cell == (0, -6)).all(axis=1))
     eye, away = outlook.viewer.eye, 0.6 + 5.5 * 2.5
-    expected = 0.5 + (eye[1] - 0.5 * 5.5 * 2.5) / away
-    slope = viewing_slope(outlook.patches, row, eye=eye, patch=site.ground.patch)
-    assert float(slope[0]) == pytest.approx(expected, rel=0.01)
+    expected = (eye[1] - 0.5 * 5.5 * 2.5) / away
+    slope, drop = viewing_slope(outlook.patches, row, eye=eye, patch=site.ground.patch)
+    assert float(slope[0]) == pytest.approx(0.5 + expected, rel=0.01)
+    assert float(drop[0]) == pytest.approx(expected, rel=0.01)
+
+
+@given(st.integers(-100, 500), st.integers(-100, 500), st.integers(0, 40))
+def test_f2_what_is_looked_down_on_counts_the_steeper_the_farther_it_is(
+    percent: int, below: int, distance: int
+) -> None:
+    slope, drop = percent / 100.0, below / 100.0
+
+    def at(distance: int) -> float:
+        one = np.array([slope], np.float32), np.array([drop], np.float32), np.array([distance], np.int32)
+        return float(looked_down_on(*one)[0])
+
+    assert at(distance + 5) >= at(distance) >= np.float32(slope)
+    if drop <= 0.0 or slope <= 0.0 or distance <= APART:
+        assert at(distance) == np.float32(slope), "a hillside before the eye, or one that falls away"
+    else:
+        assert at(distance + 5) > min(slope, drop)
 
 
 @given(st.lists(st.tuples(st.integers(0, 15), st.integers(0, 1)), max_size=20))

@@ -22,7 +22,17 @@ from .plant import plant_strips
 from .pool import StripPool, StripsKept
 from .shown import StripsOfRing, StripsShown, show_strips
 from .stock import StripStock, stock_strips
-from .sublevel import axis_of, left_of, packed, ring_of, shows_rows, strip_ring, strips_along, viewing_slope
+from .sublevel import (
+    axis_of,
+    left_of,
+    looked_down_on,
+    packed,
+    ring_of,
+    shows_rows,
+    strip_ring,
+    strips_along,
+    viewing_slope,
+)
 from .textures import Atlas, strip_atlas, strip_stocks
 
 Floats = NDArray[np.float32]
@@ -144,7 +154,7 @@ class StripRepresentation(Representation):
         patches, viewer, quality = outlook.patches, outlook.viewer, self.quality
         limits = np.array([self._reach(outlook, ring) for ring in quality.strip_rings[:-1]], np.float32)
         spacing, height = self._spacing(), self._height()
-        slope = viewing_slope(patches, rows, eye=viewer.eye, patch=quality.patch)
+        slope, _ = viewing_slope(patches, rows, eye=viewer.eye, patch=quality.patch)
         # Halved, -1 for none is -1 again.
         ring = strip_ring(patches.away[rows], slope, held >> 1, limits, spacing, height=height, slack=slack)
         keeps = np.where(held < 0, held, held & 1) if slack else np.full_like(held, -1)
@@ -152,16 +162,17 @@ class StripRepresentation(Representation):
 
     def unfit(self, outlook: Outlook, rows: Rows, has: Mask, /, *, slack: int) -> Mask:
         """Return which patches (n,) are seen from so high that strips would show as rows, however fine."""
-        slope, height, spacing = self._seen(outlook, rows)
-        return shows_rows(slope, outlook.patches.away[rows], has, height=height, spacing=spacing, slack=slack)
+        away = outlook.patches.away[rows]
+        slope, height, spacing = self._seen(outlook, rows, away)
+        return shows_rows(slope, away, has, height=height, spacing=spacing, slack=slack)
 
     def left(self, outlook: Outlook, rows: Rows, away: Floats, /) -> Floats:
         """Return how much of strips is left on patches (n,): they sink where they come near to being unfit."""
-        slope, height, spacing = self._seen(outlook, rows)
+        slope, height, spacing = self._seen(outlook, rows, away)
         return left_of(slope, away, height=height, spacing=spacing)
 
-    def _seen(self, outlook: Outlook, rows: Rows) -> tuple[Floats, Floats, float]:
-        """Return at which slopes patches (n,) are seen, how high strips stand there, and how far apart the finest do.
+    def _seen(self, outlook: Outlook, rows: Rows, away: Floats | NDArray[np.int32], /) -> tuple[Floats, Floats, float]:
+        """Return as how steep patches (n,) count, how high strips stand there, and how far apart the finest do.
 
         Where all of a patch is mown short, the strips are as short.
         """
@@ -169,8 +180,8 @@ class StripRepresentation(Representation):
         height = np.full(len(rows), self._height(), np.float32)
         if outlook.mown is not None and outlook.mown.strokes:
             height = np.minimum(height, outlook.mown.tops(patches.cell[rows], patch=side))
-        slope = viewing_slope(patches, rows, eye=outlook.viewer.eye, patch=side)
-        return slope, height, float(self._spacing().min())
+        slope, drop = viewing_slope(patches, rows, eye=outlook.viewer.eye, patch=side)
+        return looked_down_on(slope, drop, away), height, float(self._spacing().min())
 
     def _reach(self, outlook: Outlook, ring: StripRing) -> float:
         """Return up to where a ring is due: nowhere beyond the blades, where it is for patches seen from above."""

@@ -85,6 +85,17 @@ def _steepest(distance: Ints | Floats, height: Floats | float, spacing: float) -
     return np.asarray(height * np.float32(APART / (spacing * CROSSED)) / farther, np.float32)
 
 
+def looked_down_on(slope: Floats, drop: Floats, distance: Ints | Floats, /) -> Floats:
+    """Return as how steep patches (n,) count for the rows that strips show, seen at these slopes and distances.
+
+    From above, rows lie in line all over a plain, and the last ones would be a line across it: the farther away a patch
+    is that the eye looks down on, the steeper it counts, so that strips sink before they end. `drop` is the tangent of
+    how far below the horizon it is seen: a hillside that faces an eye as high as itself counts as steep as it is.
+    """
+    farther = np.sqrt(np.maximum(distance.astype(np.float32), np.float32(APART)) / np.float32(APART))
+    return np.maximum(slope, np.minimum(slope, drop) * farther)
+
+
 def strips_along(cell: Ints, centre: Ints, current: NDArray[np.integer], /) -> Levels:
     """Return the axis that each cell's strips run along, so that none is edge-on (paper, section 2.1): 0 is x.
 
@@ -97,14 +108,16 @@ def strips_along(cell: Ints, centre: Ints, current: NDArray[np.integer], /) -> L
     return along
 
 
-def viewing_slope(patches: PatchTable, rows: Rows, /, *, eye: tuple[float, float, float], patch: float) -> Floats:
-    """Return the tangent of the angle between the line of sight and the ground on each patch, shape (n,)."""
+def viewing_slope(
+    patches: PatchTable, rows: Rows, /, *, eye: tuple[float, float, float], patch: float
+) -> tuple[Floats, Floats]:
+    """Return the tangents of the angles of sight to the ground on each patch, and to the horizon, shape (n,) each."""
     (x, z), (along_x, along_z) = patches.middle.T, patches.slope.T
     x, z = x[rows] - np.float32(eye[0]), z[rows] - np.float32(eye[2])
     rise = along_x[rows] * x + along_z[rows] * z
     reach = np.maximum(np.hypot(x, z), np.float32(0.5 * patch))
-    slope: Floats = (np.float32(eye[1]) - patches.height[rows] + rise) / reach
-    return slope
+    above = np.float32(eye[1]) - patches.height[rows]
+    return (above + rise) / reach, above / reach
 
 
 def packed(ring: Levels, axis: Levels, /) -> Levels:
