@@ -15,6 +15,10 @@ FARTHEST = 1e6
 """Largest coordinate that is taken for a place [m]: beyond, the numbers of cells and squares would overflow."""
 
 
+LONGEST = 1e9
+"""Longest step, and latest instant, that is taken [s]: beyond, a second is lost in what winds compute."""
+
+
 def as_floats(thing: object, due: str, /) -> NDArray[np.float32]:
     """Return what is handed in as numbers, of any shape.
 
@@ -34,6 +38,12 @@ def is_somewhere(pose: Pose, /) -> bool:
     """Return whether a pose that a game has made is a place on the ground and a heading."""
     numbers = (pose.x, pose.z, pose.yaw)
     return all(isinstance(n, NUMBERS) and -FARTHEST <= n <= FARTHEST for n in numbers)
+
+
+def must_be_a(due: type, thing: object, what: str, /) -> None:
+    """Raise TypeError for what is not of a class; `what` begins the sentence."""
+    if not isinstance(thing, due):
+        raise TypeError(f"{what}, unlike {shortened(thing)}")
 
 
 def must_be_viewer(thing: object, /) -> None:
@@ -62,5 +72,5 @@ def must_be_time(thing: object, /) -> None:
 def _must_be_seconds(thing: object, what: str, at: str) -> None:
     if not isinstance(thing, NUMBERS):
         raise TypeError(f"{what} {at} a number of seconds, not {at} {shortened(thing)}")
-    if not (np.isfinite(thing) and thing >= 0.0):
-        raise ValueError(f"{what} {at} 0 s or more, not {at} {thing}")
+    if not 0.0 <= thing <= LONGEST:
+        raise ValueError(f"{what} {at} 0 s to {LONGEST:g} s, not {at} {thing}")

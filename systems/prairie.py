@@ -18,7 +18,7 @@ from ..engine.camera import View, view_of
 from ..engine.declared.light import Light
 from ..engine.declared.quality import PRESETS
 from ..engine.declared.scene import LodName, Scene
-from ..engine.handed import must_be_known, must_be_step, must_be_time, must_be_viewer
+from ..engine.handed import must_be_a, must_be_known, must_be_step, must_be_time, must_be_viewer
 from ..engine.plugged import bring_systems
 from ..engine.scene import LoadedScene, must_be_read, read_scene
 from ..engine.scene.change import changed
@@ -85,6 +85,9 @@ class Prairie:
         linear: bool = False,
     ) -> None:
         must_be_read(loaded)
+        must_be_a(Transitions, transitions, "transitions are made as Transitions()")
+        if ctx is not None:
+            must_be_a(moderngl.Context, ctx, "ctx is a moderngl context")
         self.site: Site = found_site(loaded, preset=preset, lod=lod, transitions=transitions)
         self.lod: LodName = lod
         self.statistics = Statistics(blades_field=self.site.blades)
@@ -174,7 +177,7 @@ class Prairie:
         return round(self._clock, 6)
 
     def advance(self, dt: float) -> None:
-        """Move time on by `dt` [s]; negative or non-finite steps raise ValueError, what is no number TypeError."""
+        """Move time on by `dt` [s]: ValueError below 0 and above 1e9 s, TypeError for what is no number."""
         must_be_step(dt)
         self._clock += float(dt)  # in single precision, time would soon stand still
         self.winds.quarantine.let_back(self.time)

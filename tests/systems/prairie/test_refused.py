@@ -1,172 +1,30 @@
-"""A prairie without any GL: what a game asks of it (N4, D2, D5, D6)."""
+"""What a prairie refuses in a sentence, and what it answers all the same (N4, D5)."""
 
-from collections.abc import Callable, Iterator
-from math import radians
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import esper
-import moderngl
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from tallgrass.components.pose import Pose
-from tallgrass.components.wind import Grass, WindPrimitive, WindSource
+from tallgrass.components.wind import WindSource
 from tallgrass.engine.scene import SceneError
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.wind.flutter import flutter
 from tallgrass.systems.wind.gust import Gust
 
 Floats = NDArray[np.float32]
 Load = Callable[..., Prairie]
 
-SCENE = """\
-tallgrass: 2
-seed: 5
-terrain: { noise: rolling, seed: 2, size: [60, 60], feature: 30, scale: 4 }
-grass: { green: { height: [0.3, 0.5] } }
-wind:
-  - { kind: breeze, strength: 0.4 }
-  - { kind: breeze, strength: 0.8, start: 5, stop: 6, priority: 1 }
-quality:
-  blades: 20
-  models: 1
-  blade_rings: [{ to: 1, segments: 2 }]
-  strip_rings: [{ to: 3, strips: 2, columns: 1, sections: 1, texel: 0.1 }]
-  carpet_to: 5
-  carpet: 8
-"""
 PLACES = np.random.default_rng(0).uniform(-25.0, 25.0, (50, 2)).astype(np.float32)
 
 
-class Blast(WindPrimitive):
-    """A wind that a game brings along: straight up the x axis where x is positive."""
-
-    kind: Literal["test-blast"] = "test-blast"
-    priority: int = 9
-    swing: float = 0.0
-
-    def mask(self, place: Floats, /, *, time: float) -> Floats:
-        return np.asarray(place[:, 0] > 0.0 * time, np.float32)
-
-    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
-        return np.tile(np.array([0.9, 0.0], np.float32) + np.float32(0.0 * time * seed), (len(grass.kind), 1))
-
-
-@pytest.fixture
-def load(world: World, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Load]:
-    """Load the scene in a world of its own, where GL must not be touched."""
-
-    def no_gl(*_: object, **__: object) -> None:
-        raise AssertionError("GL was touched")
-
-    monkeypatch.setattr(moderngl, "get_context", no_gl)
-    monkeypatch.setattr(moderngl, "create_context", no_gl)
-    path = tmp_path / "scene.yaml"
-    path.write_text(SCENE, "utf-8")
-    assert world.name == esper.current_world
-    loaded: list[Prairie] = []
-
-    def scene(file: str | Path = path, **options: str) -> Prairie:
-        loaded.append(Prairie.load(file, **options))  # type: ignore[arg-type]
-        return loaded[-1]
-
-    yield scene
-    for prairie in loaded:
-        prairie.release()
-
-
-@pytest.fixture
-def prairie(load: Load) -> Prairie:
-    return load()
-
-
-def test_n4_the_wind_and_the_ground_are_there_without_any_gl(prairie: Prairie) -> None:
-    wind, height = prairie.wind_at(PLACES), prairie.height_at(PLACES)
-    assert [wind.shape, height.shape] == [(50, 2), (50,)]
-    assert wind.dtype == height.dtype == np.float32
-    assert 0.1 < np.linalg.norm(wind, axis=1).mean() < 0.8
-    assert np.ptp(height) > 1.0
-
-
-def test_n4_a_single_place_and_plain_lists_may_be_asked_for(prairie: Prairie) -> None:
-    np.testing.assert_array_equal(prairie.wind_at(PLACES[3].tolist()), prairie.wind_at(PLACES[3:4]))
-    np.testing.assert_array_equal(prairie.height_at([PLACES[3].tolist()]), prairie.height_at(PLACES)[3:4])
-
-
-def test_n4_the_wind_of_now_is_that_of_the_prairies_time(prairie: Prairie) -> None:
-    prairie.advance(1.25)
-    prairie.advance(0.5)
-    assert prairie.time == 1.75
-    np.testing.assert_array_equal(prairie.wind_at(PLACES), prairie.wind_at(PLACES, 1.75))
-    assert (prairie.wind_at(PLACES) != prairie.wind_at(PLACES, 0.0)).any()
-
-
-def test_n5_the_wind_of_any_instant_is_known_in_advance(prairie: Prairie) -> None:
-    soon = prairie.wind_at(PLACES, 5.5)
-    prairie.advance(5.5)
-    np.testing.assert_array_equal(prairie.wind_at(PLACES), soon)
-    strength = [float(np.linalg.norm(prairie.wind_at(PLACES, time), axis=1).mean()) for time in (4.9, 5.5, 6.1)]
-    assert strength[1] > 1.3 * max(strength[0], strength[2])
-
-
-@pytest.mark.parametrize("direction", [0.0, 90.0, -35.0])
-def test_f8_the_scenes_mean_wind_carries_the_small_oscillations(load: Load, tmp_path: Path, direction: float) -> None:
-    swinging = f"{{ kind: breeze, strength: 0, swing: 0.25, direction: {direction} }}"
-    (tmp_path / "swinging.yaml").write_text(SCENE.replace("{ kind: breeze, strength: 0.4 }", swinging), "utf-8")
-    prairie = load(tmp_path / "swinging.yaml")
-    due = flutter(PLACES, time=40.0, seed=5, to=radians(direction))
-    np.testing.assert_allclose(prairie.wind_at(PLACES, 40.0), np.float32(0.25) * due, atol=1e-6)
-
-
-def test_d5_a_games_own_wind_may_come_and_go(prairie: Prairie) -> None:
-    before = prairie.wind_at(PLACES)
-    handle = prairie.add(Blast())
-    right = PLACES[:, 0] > 0.0
-    during = prairie.wind_at(PLACES)
-    assert (during[right] == np.array([0.9, 0.0], np.float32)).all()
-    np.testing.assert_array_equal(during[~right], before[~right])
-    assert esper.component_for_entity(handle, WindSource).primitive == Blast()
-    prairie.remove(handle)
-    np.testing.assert_array_equal(prairie.wind_at(PLACES), before)
-
-
-def test_d2_the_winds_of_a_scene_are_entities_of_the_current_world(prairie: Prairie) -> None:
-    found = [source for _, source in esper.get_component(WindSource)]
-    assert sorted(source.name for source in found) == ["wind[0] breeze", "wind[1] breeze"]
-    assert {source.primitive for source in found} == set(prairie.scene.wind)
-
-
-def test_d2_a_wind_that_a_game_makes_an_entity_of_is_felt(prairie: Prairie) -> None:
-    entity = esper.create_entity(WindSource(Blast(), "mine"))
-    assert (prairie.wind_at([[3.0, 1.0]]) == np.array([0.9, 0.0], np.float32)).all()
-    esper.delete_entity(entity, immediate=True)
-    assert (prairie.wind_at([[3.0, 1.0]]) != np.array([0.9, 0.0], np.float32)).any()
-
-
-def test_two_prairies_in_one_world_have_each_its_own_wind(load: Load) -> None:
-    one = load()
-    alone = one.wind_at(PLACES)
-    two = load()
-    two.add(Blast())
-    np.testing.assert_array_equal(one.wind_at(PLACES), alone)
-    assert (two.wind_at(PLACES) != alone).any()
-
-
-def test_a_reseeded_prairie_has_other_grass_and_the_same_ground(prairie: Prairie) -> None:
-    other = prairie.reseeded(77)
-    np.testing.assert_array_equal(other.height_at(PLACES), prairie.height_at(PLACES))
-    ours, theirs = (made.site.growths[0].models[0].blades.root for made in (prairie, other))
-    assert (ours != theirs).any()
-    assert (other.scene.seed, prairie.scene.seed) == (77, 5)
-    other.release()
-
-
-@pytest.mark.parametrize("dt", [-0.01, float("nan"), float("inf")])
+@pytest.mark.parametrize("dt", [-0.01, float("nan"), float("inf"), 1e308])
 def test_time_does_not_go_back_or_leap(prairie: Prairie, dt: float) -> None:
-    with pytest.raises(ValueError, match=r"^a prairie advances by 0 s or more, not by "):
+    with pytest.raises(ValueError, match=r"^a prairie advances by 0 s to 1e\+09 s, not by "):
         prairie.advance(dt)
     assert prairie.time == 0.0
 
@@ -182,7 +40,7 @@ def test_time_goes_on_by_numbers_alone(prairie: Prairie, dt: Any) -> None:
 def test_a_bad_time_is_refused_in_a_sentence_and_no_wind_is_blamed_for_it(prairie: Prairie, time: Any) -> None:
     felt = prairie.wind_at(PLACES, 2.0)
     with pytest.raises(
-        (TypeError, ValueError), match=r"^a wind is asked for at (a number of seconds|0 s or more), not"
+        (TypeError, ValueError), match=r"^a wind is asked for at (a number of seconds|0 s to 1e\+09 s), not"
     ):
         prairie.wind_at(PLACES, time)
     assert not prairie.winds.quarantine.reasons
@@ -201,12 +59,16 @@ def test_an_unknown_option_is_refused_in_a_sentence(load: Load, option: dict[str
         load(**option)
 
 
-def test_time_stays_exact_whatever_numbers_it_moves_on_by(prairie: Prairie) -> None:
-    for _ in range(4):
-        prairie.advance(np.float32(0.5))  # type: ignore[arg-type]
-    for _ in range(1000):
-        prairie.advance(0.001)
-    assert prairie.time == 3.0
+@pytest.mark.parametrize(
+    ("option", "sentence"),
+    [
+        ({"transitions": False}, r"^transitions are made as Transitions\(\), unlike False$"),
+        ({"ctx": 3}, "^ctx is a moderngl context, unlike 3$"),
+    ],
+)
+def test_an_option_of_another_type_is_refused_in_a_sentence(load: Load, option: dict[str, Any], sentence: str) -> None:
+    with pytest.raises(TypeError, match=sentence):
+        load(**option)
 
 
 def test_what_is_no_scene_is_refused_in_a_sentence() -> None:
@@ -326,18 +188,18 @@ NOWHERE: list[tuple[object, type[Exception], str]] = [
 def test_a_place_that_is_nowhere_is_refused_and_the_wind_stays(
     prairie: Prairie, pose: object, error: type[Exception], sentence: str
 ) -> None:
-    handle = prairie.add(Blast(), pose=Pose(2.0, 3.0))
+    handle = prairie.add(Gust(), pose=Pose(2.0, 3.0))
     with pytest.raises(error, match=f"^{sentence}$"):
         prairie.move(handle, pose)  # type: ignore[arg-type]
     assert esper.component_for_entity(handle, Pose) == Pose(2.0, 3.0)
     if pose is not None:
         with pytest.raises(error, match=f"^{sentence}$"):
-            prairie.add(Blast(), pose=pose)  # type: ignore[arg-type]
+            prairie.add(Gust(), pose=pose)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("change", ["move", "remove"])
 def test_a_handle_of_no_wind_is_refused_in_a_sentence(prairie: Prairie, change: str) -> None:
-    handle = prairie.add(Blast())
+    handle = prairie.add(Gust())
     prairie.remove(handle)
     theirs = esper.create_entity("a game's own")
     more = (Pose(),) if change == "move" else ()
@@ -353,7 +215,7 @@ def test_a_handle_of_no_wind_is_refused_in_a_sentence(prairie: Prairie, change: 
 
 @pytest.mark.parametrize("how", ["at once", "later", "its wind alone", "the whole world"])
 def test_a_wind_that_the_game_has_deleted_cannot_be_moved_and_may_be_removed(prairie: Prairie, how: str) -> None:
-    handle = prairie.add(Blast())
+    handle = prairie.add(Gust())
     if how == "its wind alone":
         esper.remove_component(handle, WindSource)
     elif how == "the whole world":
@@ -394,25 +256,13 @@ def test_a_viewer_is_called_by_a_text(prairie: Prairie) -> None:
     assert not prairie.viewers.values()
 
 
-def test_d2_released_a_prairie_leaves_the_world_as_it_was(world: World, load: Load) -> None:
-    theirs = [esper.create_entity("a game's own"), esper.create_entity(3)]
-    prairie = load()
-    prairie.add(Blast())
-    assert len(world) == 0
-    assert len(prairie.world) == 3
-    assert len(list(esper.get_entities())) == len(theirs) + len(prairie.world) + 1, "one that stands for all"
-    prairie.release()
-    assert sorted(esper.get_entities()) == theirs
-    assert len(world) == 0
-
-
 def test_a_released_prairie_says_so_when_it_is_asked_for_more(prairie: Prairie) -> None:
-    handle = prairie.add(Blast())
+    handle = prairie.add(Gust())
     prairie.release()
     asked: list[tuple[str, Callable[[], object]]] = [
         ("draw it", lambda: prairie.draw(GOOD, GOOD)),
         ("put it into a batch", lambda: prairie.group(object(), lambda: (GOOD, GOOD))),  # type: ignore[arg-type]
-        ("add a wind", lambda: prairie.add(Blast())),
+        ("add a wind", lambda: prairie.add(Gust())),
         ("move a wind", lambda: prairie.move(handle, Pose())),
     ]
     for purpose, ask in asked:
