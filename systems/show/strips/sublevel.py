@@ -93,7 +93,7 @@ def looked_down_on(slope: Floats, drop: Floats, distance: Ints | Floats, /) -> F
     how far below the horizon it is seen: a hillside that faces an eye as high as itself counts as steep as it is.
     """
     farther = np.sqrt(np.maximum(distance.astype(np.float32), np.float32(APART)) / np.float32(APART))
-    return np.maximum(slope, np.minimum(slope, drop) * farther)
+    return np.asarray(np.maximum(slope, np.minimum(slope, drop) * farther), np.float32)
 
 
 def strips_along(cell: Ints, centre: Ints, current: NDArray[np.integer], /) -> Levels:
