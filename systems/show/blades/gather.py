@@ -10,16 +10,20 @@ Floats = NDArray[np.float32]
 Numbers = NDArray[np.uint32]
 
 
-def gather_blades(pool: BladePool, shown: Standing, /, *, eye: tuple[float, float]) -> Numbers:
+def gather_blades(
+    pool: BladePool, shown: Standing, /, *, eye: tuple[float, float], stand: NDArray[np.bool_] | None = None
+) -> Numbers:
     """Return the numbers of the blades that grow on the patches shown, far to near from `eye` (x, z) [m], shape (n,).
 
     A blade's number is its patch's place among all patches with blades, times the blades on a patch, plus its own. An
-    order by patches would turn over along a whole border between two of them when the viewer crosses its line.
+    order by patches would turn over along a whole border between two of them when the viewer crosses its line. With
+    `stand`, shape (m, blades), only those stand there.
     """
     away = distances(pool, shown.slots, eye).reshape(-1)
     each = np.arange(pool.present.shape[1], dtype=np.uint32)
     numbers = ((shown.places * len(each)).astype(np.uint32)[:, None] + each).reshape(-1)
-    present = pool.present.take(shown.slots, axis=0).reshape(-1)
+    present = pool.present.take(shown.slots, axis=0)
+    present = (present if stand is None else present & stand).reshape(-1)
     if not present.all():
         grown = present.nonzero()[0]
         away, numbers = away.take(grown), numbers.take(grown)

@@ -19,15 +19,36 @@ AMONG = 0.02
 DIAGONAL = 1.6
 """How much farther away than the next patch one counts where blades lie on strips, in sides: farther than any on it."""
 
+HOME = 0.05
+"""Part of the way from its own place up to which a blade may count as standing there."""
+
+
+def at_home(outlook: Outlook, rank: Floats, shown: Standing, /) -> NDArray[np.bool_]:
+    """Return which blades of patches that are on their way are in their own places, as good as, shape (m, blades).
+
+    They take their turn among those that stand around them one by one, by their ranks, shape (models, blades): all in
+    one frame, what hides what would change along a whole border.
+    """
+    assert outlook.appearance is not None
+    moved = outlook.appearance.morph[shown.rows] / np.float32(HOME)
+    return np.asarray(rank[outlook.patches.model[shown.rows]] >= moved[:, None])
+
 
 def gather_morph(
-    outlook: Outlook, pool: BladePool, strips: StripRepresentation, shown: Standing, /, *, left: Floats
+    outlook: Outlook,
+    pool: BladePool,
+    strips: StripRepresentation,
+    shown: Standing,
+    /,
+    *,
+    left: Floats,
+    home: NDArray[np.bool_],
 ) -> Numbers:
     """Return the numbers of the blades of patches that are on their way in this frame, in the order of drawing, (n,).
 
     They are counted as `gather_blades` does. Those that lie on strips come patch after patch and strip after strip,
     those in their own places from far to near; in between, they change places one by one. `left` says how much each
-    patch's blades still show, shape (m,).
+    patch's blades still show, shape (m,). Those at `home` (m, blades) are left out.
     """
     if not len(shown.rows):
         return np.zeros(0, np.uint32)
@@ -48,5 +69,5 @@ def gather_morph(
     queue = far_first(((1.0 - moved) * away + moved * on_strips).astype(np.float32).reshape(-1))
     each = pool.present.shape[1]
     numbers = ((shown.places * each).astype(np.uint32)[:, None] + np.arange(each, dtype=np.uint32)).reshape(-1)
-    shows = (pool.present.take(shown.slots, axis=0) & (left > 0.0)[:, None]).reshape(-1)
+    shows = (pool.present.take(shown.slots, axis=0) & (left > 0.0)[:, None] & ~home).reshape(-1)
     return np.asarray(numbers.take(queue[shows.take(queue)]), np.uint32)

@@ -19,10 +19,10 @@ from ...receive.hearing import Hearing
 from ..strips.draw import tell_stacks
 from ..strips.representation import StripRepresentation
 from .draw import CORES, EDGES, PAINTED, RIBBON, Ribbons, blade_program
-from .gather import gather_blades
-from .morph import gather_morph
+from .gather import Numbers, gather_blades
+from .morph import at_home, gather_morph
 from .plant import BladeStock
-from .pool import BladesKept
+from .pool import BladePool, BladesKept
 from .shown import BladesShown, Standing, together
 from .store import STANDING, STANDING_ROW, BladeStore
 
@@ -40,7 +40,7 @@ class BladesPainter:
     def __init__(self, canvas: Canvas, stock: BladeStock, strips: StripRepresentation, quality: Quality) -> None:
         ctx, block, units, rings = canvas.ctx, canvas.block, canvas.units, quality.blade_rings
         self.store = BladeStore(ctx, stock, strips.stock)
-        self._strips, self._units, self._received, self._models = strips, units, canvas.received, len(stock.rank)
+        self._strips, self._units, self._received, self._rank = strips, units, canvas.received, stock.rank
         self._fade, self._near = canvas.transitions.fade, PARTED * quality.patch
         self.standing = Records(ctx, STANDING, STANDING_ROW)
         self.numbers = Stream(ctx, NUMBER)
@@ -71,7 +71,7 @@ class BladesPainter:
         kinds = self._strips.stock.strips[0]
         for name, value in (
             ("near", self._near),
-            ("models", self._models),
+            ("models", len(self._rank)),
             ("margin", by_kind([strips.margin for strips in kinds])),
             ("tall", by_kind([strips.height for strips in kinds])),
         ):
@@ -95,13 +95,24 @@ class BladesPainter:
         slots, places = shown.standing.slots, (ring.places.tobytes() for ring in shown.rings)
         same = self._unchanged.since(eye, kept.pool, slots, kept.pool.stamp.take(slots, axis=0), *places)
         if not same or len(shown.morphing.rows):
-            numbers = [gather_morph(outlook, kept.pool, self._strips, shown.morphing, left=left)]
-            numbers += [gather_blades(kept.pool, together(rings), eye=eye) for rings in self._grouped(shown.rings)]
+            numbers = self._gathered(outlook, kept.pool, shown, left)
             self.numbers.write(np.concatenate(numbers).view(NUMBER))
             self._counts = [len(each) for each in numbers]
         self.standing.write(self._standing(outlook, shown, left, first["strips"]))
         (self._asked,), (self._first,) = self.receivers(outlook), first["blades"]
         return sum(self._counts)
+
+    def _gathered(self, outlook: Outlook, pool: BladePool, shown: BladesShown, left: Floats) -> list[Numbers]:
+        """Return the numbers of the blades that are on their way, and of those that stand, group by group."""
+        eye, moving = (outlook.viewer.eye[0], outlook.viewer.eye[2]), shown.morphing
+        home = at_home(outlook, self._rank, moving)
+        *nearer, farthest = (together(rings) for rings in self._grouped(shown.rings))
+        stand = np.concatenate([np.ones((len(farthest.rows), home.shape[1]), np.bool_), home])
+        return [
+            gather_morph(outlook, pool, self._strips, moving, left=left, home=home),
+            *(gather_blades(pool, standing, eye=eye) for standing in nearer),
+            gather_blades(pool, together([farthest, moving]), eye=eye, stand=stand),
+        ]
 
     def _grouped(self, rings: list[Standing]) -> list[list[Standing]]:
         """Return the rings whose blades depth parts, and the others: in each group, blades come from far to near."""
@@ -121,6 +132,7 @@ class BladesPainter:
         if len(shown.morphing.rows):
             _send_away(standing, outlook, shown.morphing, self._strips, first)
             standing["fade"][shown.morphing.places] = left
+            standing["slide"][shown.morphing.places] = len(self._grouped(shown.rings)[-1]) - 1
         return standing
 
     def hear(self) -> int:

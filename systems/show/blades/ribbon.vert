@@ -118,7 +118,7 @@ void main() {
         return;
     }
 #endif
-    int level = int(joints.x), fine = segments_of[level], coarse = segments_of[min(level + 1, COUNTS - 1)];
+    int level = min(int(joints.x), COUNTS - 1), fine = segments_of[level], coarse = segments_of[min(level + 1, COUNTS - 1)];
     float t = float(gl_VertexID / 2) / float(SEGMENTS), slide = fract(joints.x), of_coarse = joint_at(t, coarse);
 #ifdef MORPH
     slide = 0.0;
