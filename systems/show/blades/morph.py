@@ -23,15 +23,17 @@ HOME = 0.05
 """Part of the way from its own place up to which a blade may count as standing there."""
 
 
-def at_home(outlook: Outlook, rank: Floats, shown: Standing, /) -> NDArray[np.bool_]:
+def at_home(outlook: Outlook, pool: BladePool, shown: Standing, /) -> NDArray[np.bool_]:
     """Return which blades of patches that are on their way are in their own places, as good as, shape (m, blades).
 
-    They take their turn among those that stand around them one by one, by their ranks, shape (models, blades): all in
-    one frame, what hides what would change along a whole border.
+    They take their turn among those that stand around them one by one: all in one frame, what hides what would change
+    along a whole border. The nearest come first, since what is still on its way is drawn behind what stands.
     """
     assert outlook.appearance is not None
-    moved = outlook.appearance.morph[shown.rows] / np.float32(HOME)
-    return np.asarray(rank[outlook.patches.model[shown.rows]] >= moved[:, None])
+    away = distances(pool, shown.slots, (outlook.viewer.eye[0], outlook.viewer.eye[2]))
+    nearest, farthest = float(away.min(initial=np.inf)), float(away.max(initial=0.0))
+    moved = outlook.appearance.morph[shown.rows][:, None] / np.float32(HOME)
+    return np.asarray((away - nearest) / np.float32(max(farthest - nearest, 1e-6)) + moved <= 1.0)
 
 
 def gather_morph(

@@ -40,7 +40,7 @@ class BladesPainter:
     def __init__(self, canvas: Canvas, stock: BladeStock, strips: StripRepresentation, quality: Quality) -> None:
         ctx, block, units, rings = canvas.ctx, canvas.block, canvas.units, quality.blade_rings
         self.store = BladeStore(ctx, stock, strips.stock)
-        self._strips, self._units, self._received, self._rank = strips, units, canvas.received, stock.rank
+        self._strips, self._units, self._received, self._models = strips, units, canvas.received, len(stock.rank)
         self._fade, self._near = canvas.transitions.fade, PARTED * quality.patch
         self.standing = Records(ctx, STANDING, STANDING_ROW)
         self.numbers = Stream(ctx, NUMBER)
@@ -71,7 +71,7 @@ class BladesPainter:
         kinds = self._strips.stock.strips[0]
         for name, value in (
             ("near", self._near),
-            ("models", len(self._rank)),
+            ("models", self._models),
             ("margin", by_kind([strips.margin for strips in kinds])),
             ("tall", by_kind([strips.height for strips in kinds])),
         ):
@@ -105,7 +105,7 @@ class BladesPainter:
     def _gathered(self, outlook: Outlook, pool: BladePool, shown: BladesShown, left: Floats) -> list[Numbers]:
         """Return the numbers of the blades that are on their way, and of those that stand, group by group."""
         eye, moving = (outlook.viewer.eye[0], outlook.viewer.eye[2]), shown.morphing
-        home = at_home(outlook, self._rank, moving)
+        home = at_home(outlook, pool, moving)
         *nearer, farthest = (together(rings) for rings in self._grouped(shown.rings))
         stand = np.concatenate([np.ones((len(farthest.rows), home.shape[1]), np.bool_), home])
         return [

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from tallgrass.engine.gl.stream import Stream, release_all
 from tallgrass.systems.painter import UNITS
 from tallgrass.systems.show.blades.draw import PAINTED, Ribbons, segment_defines
-from tallgrass.systems.show.blades.gather import gather_blades
+from tallgrass.systems.show.blades.gather import distances, gather_blades
 from tallgrass.systems.show.blades.morph import HOME, at_home, gather_morph
 
 Doubles = NDArray[np.float64]
@@ -135,24 +135,25 @@ def test_x3_blades_that_arrive_in_their_own_places_are_in_the_order_of_those_tha
     assert len(numbers) >= 200
 
 
-def test_x3_blades_that_come_home_take_their_turn_one_by_one_among_those_that_stand(scene: Any) -> None:
+def test_x3_blades_that_come_home_take_their_turn_one_by_one_from_the_nearest_on(scene: Any) -> None:
     outlook, shown = scene.outlook, scene.morphing
     pool, left = outlook.kept["blades"].pool, np.ones(len(shown.rows), np.float32)
-    each = pool.present.shape[1]
-    rank = np.random.default_rng(0).random((int(outlook.patches.model.max()) + 1, each), np.float32)
+    eye, each = (outlook.viewer.eye[0], outlook.viewer.eye[2]), pool.present.shape[1]
+    away = distances(pool, shown.slots, eye)
     stood = []
     for moved in np.linspace(1.2 * HOME, 0.0, 7, dtype=np.float32):
         coming = replace(
             outlook, appearance=replace(outlook.appearance, morph=np.full_like(outlook.appearance.morph, moved))
         )
-        home = at_home(coming, rank, shown)
+        home = at_home(coming, pool, shown)
         going = gather_morph(coming, pool, scene.representation, shown, left=left, home=home)
-        standing = gather_blades(pool, shown, eye=(coming.viewer.eye[0], coming.viewer.eye[2]), stand=home)
+        standing = gather_blades(pool, shown, eye=eye, stand=home)
         numbers = (shown.places[:, None] * each + np.arange(each))[pool.present[shown.slots]]
         np.testing.assert_array_equal(np.sort(np.concatenate([going, standing])), np.sort(numbers))
+        assert away[home].max(initial=0.0) <= away[~home].min(initial=np.inf)
         stood.append(home.mean())
     assert (stood[0], stood[-1]) == (0.0, 1.0)
-    assert 0.0 < np.diff(stood).max() < 0.3
+    assert np.diff(stood).max() < 0.5
 
 
 def test_x3_blades_come_to_their_places_before_their_strips_show(scene: Any) -> None:
