@@ -107,11 +107,11 @@ class BladesPainter:
         eye, moving = (outlook.viewer.eye[0], outlook.viewer.eye[2]), shown.morphing
         home = at_home(outlook, pool, moving)
         *nearer, farthest = (together(rings) for rings in self._grouped(shown.rings))
-        stand = np.concatenate([np.ones((len(farthest.rows), home.shape[1]), np.bool_), home])
+        stand = np.concatenate([np.ones((len(farthest.rows), home.shape[1]), np.bool_), home]) if home.any() else None
         return [
             gather_morph(outlook, pool, self._strips, moving, left=left, home=home),
             *(gather_blades(pool, standing, eye=eye) for standing in nearer),
-            gather_blades(pool, together([farthest, moving]), eye=eye, stand=stand),
+            gather_blades(pool, farthest if stand is None else together([farthest, moving]), eye=eye, stand=stand),
         ]
 
     def _grouped(self, rings: list[Standing]) -> list[list[Standing]]:
