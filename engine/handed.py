@@ -14,9 +14,8 @@ NUMBERS = (float, int, np.floating, np.integer)
 FARTHEST = 1e6
 """Largest coordinate that is taken for a place [m]: beyond, the numbers of cells and squares would overflow."""
 
-
 LONGEST = 1e9
-"""Longest step, and latest instant, that is taken [s]: beyond, a second is lost in what winds compute."""
+"""Longest step, and latest instant, that is taken [s]: beyond, time is not exact to the microsecond."""
 
 
 def as_floats(thing: object, due: str, /) -> NDArray[np.float32]:

@@ -14,6 +14,8 @@ from tallgrass.systems.around.cone import discrete_distance, far_to_near, inside
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.patches import PatchTable
 from tallgrass.systems.cull import Cull
+from tallgrass.systems.show.blades.gather import may_be_seen
+from tallgrass.systems.show.blades.pool import BladePool
 from tallgrass.systems.show.registry import NAMES
 
 PATCH = 2.5
@@ -68,6 +70,27 @@ def test_t2_nothing_that_shows_in_the_picture_is_culled(
     seen = seen_by(camera, aspect, bank, shift)
     shows = in_picture(seen, points_of(AROUND)).any(axis=1)
     assert kept(seen)[shows].all()
+
+
+@given(cameras, st.floats(-pi, pi), st.integers(0, 2**32 - 1))
+def test_t2_no_blade_is_left_out_any_part_of_which_shows(camera: Camera, bank: float, seed: int) -> None:
+    rng, reach = np.random.default_rng(seed), 0.8
+    pool, seen = BladePool.allocate(2, np.zeros(30, np.intp)), seen_by(camera, bank=bank)
+    pool.x[:], pool.z[:] = rng.uniform(-9.0, 9.0, (2, 4, 30))
+    ground = rng.uniform(-2.0, 2.0, (4, 30))
+    pool.ground[:] = np.stack([ground.min(axis=1), ground.max(axis=1)], 1)
+    off = rng.normal(size=(20, 4, 30, 3))
+    off *= reach * rng.uniform(0.9, 1.0, (20, 4, 30, 1)) / np.linalg.norm(off, axis=-1, keepdims=True)
+    shows = in_picture(seen, np.stack([pool.x, ground, pool.z], -1) + off).any(axis=0)
+    assert may_be_seen(pool, np.arange(4), picture_sides(seen), reach=reach)[shows].all()
+
+
+def test_t2_blades_beside_the_picture_and_behind_the_eye_are_left_out() -> None:
+    pool = BladePool.allocate(1, np.zeros(4, np.intp))
+    pool.x[0], pool.z[0] = [0.0, -9.0, 9.0, 0.0], [-10.0, -10.0, -10.0, 10.0]
+    seen = seen_by(Camera((0.0, 1.7, 0.0), 0.0, 0.0, radians(40)))
+    left = may_be_seen(pool, np.zeros(1, np.int64), picture_sides(seen), reach=0.8)
+    assert left.tolist() == [[True, False, False, False]]
 
 
 @given(cameras, st.floats(0.5, 2.0))

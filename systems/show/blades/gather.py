@@ -19,15 +19,31 @@ def gather_blades(
     order by patches would turn over along a whole border between two of them when the viewer crosses its line. With
     `stand`, shape (m, blades), only those stand there.
     """
-    away = distances(pool, shown.slots, eye).reshape(-1)
+    near = nearness(distances(pool, shown.slots, eye)).reshape(-1)
     each = np.arange(pool.present.shape[1], dtype=np.uint32)
     numbers = ((shown.places * len(each)).astype(np.uint32)[:, None] + each).reshape(-1)
     present = pool.present.take(shown.slots, axis=0)
     present = (present if stand is None else present & stand).reshape(-1)
     if not present.all():
         grown = present.nonzero()[0]
-        away, numbers = away.take(grown), numbers.take(grown)
-    return numbers.take(far_first(away))
+        near, numbers = near.take(grown), numbers.take(grown)
+    return numbers.take(np.argsort(near, kind="stable"))
+
+
+def may_be_seen(
+    pool: BladePool, slots: NDArray[np.int64], sides: NDArray[np.float64], /, *, reach: float
+) -> NDArray[np.bool_]:
+    """Return which blades of some slots may be seen in the picture, shape (m, n).
+
+    `sides` are the planes of the picture as `picture_sides` gives them. A blade may stand as low and as high as any of
+    its slot, and no part of it comes farther than `reach` [m] from its root.
+    """
+    x, z = pool.x.take(slots, axis=0), pool.z.take(slots, axis=0)
+    seen = np.ones(x.shape, np.bool_)
+    for across, up, along, far in sides:
+        highest = (pool.ground.take(slots, axis=0) * up).max(axis=1) + far + reach
+        seen &= x * np.float32(across) + z * np.float32(along) >= -highest.astype(np.float32)[:, None]
+    return seen
 
 
 def distances(pool: BladePool, slots: NDArray[np.int64], eye: tuple[float, float], /) -> Floats:

@@ -7,7 +7,7 @@ from ...around.outlook import Outlook
 from ..strips.gather import lies_ahead
 from ..strips.representation import StripRepresentation
 from ..strips.stand import falls
-from .gather import Numbers, distances, far_first
+from .gather import Numbers, far_first
 from .pool import BladePool
 from .shown import Standing
 
@@ -23,14 +23,14 @@ HOME = 0.05
 """Part of the way from its own place up to which a blade may count as standing there."""
 
 
-def at_home(outlook: Outlook, pool: BladePool, shown: Standing, /) -> NDArray[np.bool_]:
+def at_home(outlook: Outlook, shown: Standing, away: Floats, /) -> NDArray[np.bool_]:
     """Return which blades of patches that are on their way are in their own places, as good as, shape (m, blades).
 
     They take their turn among those that stand around them one by one: all in one frame, what hides what would change
     along a whole border. The nearest come first, since what is still on its way is drawn behind what stands.
+    `away` is how far their own places are from the eye, of the same shape.
     """
     assert outlook.appearance is not None
-    away = distances(pool, shown.slots, (outlook.viewer.eye[0], outlook.viewer.eye[2]))
     nearest, farthest = float(away.min(initial=np.inf)), float(away.max(initial=0.0))
     moved = outlook.appearance.morph[shown.rows][:, None] / np.float32(HOME)
     return np.asarray((away - nearest) / np.float32(max(farthest - nearest, 1e-6)) + moved <= 1.0)
@@ -43,14 +43,16 @@ def gather_morph(
     shown: Standing,
     /,
     *,
+    away: Floats,
     left: Floats,
     home: NDArray[np.bool_],
 ) -> Numbers:
     """Return the numbers of the blades of patches that are on their way in this frame, in the order of drawing, (n,).
 
     They are counted as `gather_blades` does. Those that lie on strips come patch after patch and strip after strip,
-    those in their own places from far to near; in between, they change places one by one. `left` says how much each
-    patch's blades still show, shape (m,). Those at `home` (m, blades) are left out.
+    those in their own places from far to near; in between, they change places one by one. `away` is how far their own
+    places are from the eye, shape (m, blades), and `left` how much each patch's blades still show, shape (m,). Those at
+    `home` (m, blades) are left out.
     """
     if not len(shown.rows):
         return np.zeros(0, np.uint32)
@@ -65,7 +67,6 @@ def gather_morph(
     slices = np.where(backwards[:, None], counts[:, None] - 1 - plane, plane)
     assert outlook.appearance is not None
     side, moved = strips.quality.patch, outlook.appearance.morph[rows][:, None]
-    away = distances(pool, shown.slots, (outlook.viewer.eye[0], outlook.viewer.eye[2]))
     behind = np.arange(len(rows), 0, -1)[:, None] * (DIAGONAL * side)
     on_strips = behind + (counts[:, None] - slices) * (side / counts[:, None]) + AMONG * away
     queue = far_first(((1.0 - moved) * away + moved * on_strips).astype(np.float32).reshape(-1))

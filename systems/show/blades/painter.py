@@ -19,7 +19,7 @@ from ...receive.hearing import Hearing
 from ..strips.draw import tell_stacks
 from ..strips.representation import StripRepresentation
 from .draw import CORES, EDGES, PAINTED, RIBBON, Ribbons, blade_program
-from .gather import Numbers, gather_blades
+from .gather import Numbers, distances, gather_blades, may_be_seen
 from .morph import at_home, gather_morph
 from .plant import BladeStock
 from .pool import BladePool, BladesKept
@@ -41,6 +41,7 @@ class BladesPainter:
         ctx, block, units, rings = canvas.ctx, canvas.block, canvas.units, quality.blade_rings
         self.store = BladeStore(ctx, stock, strips.stock)
         self._strips, self._units, self._received, self._models = strips, units, canvas.received, len(stock.rank)
+        self._reach = stock.reach
         self._fade, self._near = canvas.transitions.fade, PARTED * quality.patch
         self.standing = Records(ctx, STANDING, STANDING_ROW)
         self.numbers = Stream(ctx, NUMBER)
@@ -89,11 +90,12 @@ class BladesPainter:
         """Send the patches with blades, and the numbers of the blades that are shown; return how many."""
         kept: BladesKept = outlook.kept["blades"]
         shown: BladesShown = outlook.shown["blades"]
-        eye = outlook.viewer.eye[0], outlook.viewer.eye[2]
+        viewer = outlook.viewer
         assert outlook.appearance is not None
         left, _ = handed_over(outlook.appearance.handed[shown.morphing.rows], fade=self._fade)
         slots, places = shown.standing.slots, (ring.places.tobytes() for ring in shown.rings)
-        same = self._unchanged.since(eye, kept.pool, slots, kept.pool.stamp.take(slots, axis=0), *places)
+        stamp = kept.pool.stamp.take(slots, axis=0)
+        same = self._unchanged.since(viewer.eye, viewer.sides, kept.pool, slots, stamp, *places)
         if not same or len(shown.morphing.rows):
             numbers = self._gathered(outlook, kept.pool, shown, left)
             self.numbers.write(np.concatenate(numbers).view(NUMBER))
@@ -105,13 +107,15 @@ class BladesPainter:
     def _gathered(self, outlook: Outlook, pool: BladePool, shown: BladesShown, left: Floats) -> list[Numbers]:
         """Return the numbers of the blades that are on their way, and of those that stand, group by group."""
         eye, moving = (outlook.viewer.eye[0], outlook.viewer.eye[2]), shown.morphing
-        home = at_home(outlook, pool, moving)
-        *nearer, farthest = (together(rings) for rings in self._grouped(shown.rings))
-        stand = np.concatenate([np.ones((len(farthest.rows), home.shape[1]), np.bool_), home]) if home.any() else None
+        away = distances(pool, moving.slots, eye)
+        home = at_home(outlook, moving, away)
+        groups = [together(rings) for rings in self._grouped(shown.rings)]
+        stand = [may_be_seen(pool, each.slots, outlook.viewer.sides, reach=self._reach) for each in groups]
+        if home.any():
+            groups[-1], stand[-1] = together([groups[-1], moving]), np.concatenate([stand[-1], home])
         return [
-            gather_morph(outlook, pool, self._strips, moving, left=left, home=home),
-            *(gather_blades(pool, standing, eye=eye) for standing in nearer),
-            gather_blades(pool, farthest if stand is None else together([farthest, moving]), eye=eye, stand=stand),
+            gather_morph(outlook, pool, self._strips, moving, away=away, left=left, home=home),
+            *(gather_blades(pool, each, eye=eye, stand=those) for each, those in zip(groups, stand, strict=True)),
         ]
 
     def _grouped(self, rings: list[Standing]) -> list[list[Standing]]:

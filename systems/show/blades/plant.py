@@ -32,6 +32,13 @@ class BladeStock:
         return np.ascontiguousarray(self.records["root"][..., ::2])
 
     @cached_property
+    def reach(self) -> float:
+        """How far any part of any blade may come from its root [m]."""
+        records = self.records
+        stem = records["stem"] if "stem" in (records.dtype.names or ()) else np.float32(0.0)
+        return float((records["height"] + records["width"] + stem).max(initial=0.0))
+
+    @cached_property
     def kinds(self) -> NDArray[np.intp]:
         """The kind of each blade, the same in all models, shape (n,)."""
         return np.asarray(self.records["kind"][0], np.intp)
@@ -114,6 +121,8 @@ def plant_blades(
     corner = cell.astype(np.float32) * np.float32(ground.patch)
     place = stock.place[model * 4 + turn] + corner[:, None, :]
     pool.x[slots], pool.z[slots] = place[..., 0], place[..., 1]
+    height = height_at(ground.terrain, place.reshape(-1, 2)).reshape(place.shape[:-1])
+    pool.ground[slots] = np.stack([height.min(axis=1, initial=np.inf), height.max(axis=1, initial=-np.inf)], 1)
     pool.present[slots] = _grown(stock, place, model, ground)
 
 

@@ -54,6 +54,9 @@ class BladePool:
     z: Floats
     """The same along z."""
 
+    ground: Floats
+    """The lowest and the highest ground that a slot's blades grow on [m], shape (side * side, 2)."""
+
     stamp: NDArray[np.int32]
     """Cell (i, j) that each slot is planted for, shape (side * side, 2)."""
 
@@ -90,6 +93,7 @@ class BladePool:
             present=np.zeros(shape, np.bool_),
             x=np.zeros(shape, np.float32),
             z=np.zeros(shape, np.float32),
+            ground=np.zeros((side * side, 2), np.float32),
             stamp=np.full((side * side, 2), NOWHERE, np.int32),
         )
 

@@ -126,11 +126,10 @@ def test_x3_blades_that_arrive_in_their_own_places_are_in_the_order_of_those_tha
     outlook, shown = scene.outlook, scene.morphing
     pool, left = outlook.kept["blades"].pool, np.ones(len(shown.rows), np.float32)
     arrived = replace(outlook.appearance, morph=np.zeros_like(outlook.appearance.morph))
-    away = np.zeros((len(left), pool.present.shape[1]), np.bool_)
-    numbers = gather_morph(
-        replace(outlook, appearance=arrived), pool, scene.representation, shown, left=left, home=away
-    )
     eye = outlook.viewer.eye[0], outlook.viewer.eye[2]
+    away, nowhere = distances(pool, shown.slots, eye), np.zeros((len(left), pool.present.shape[1]), np.bool_)
+    seen = replace(outlook, appearance=arrived)
+    numbers = gather_morph(seen, pool, scene.representation, shown, away=away, left=left, home=nowhere)
     np.testing.assert_array_equal(numbers, gather_blades(pool, shown, eye=eye))
     assert len(numbers) >= 200
 
@@ -145,8 +144,8 @@ def test_x3_blades_that_come_home_take_their_turn_one_by_one_from_the_nearest_on
         coming = replace(
             outlook, appearance=replace(outlook.appearance, morph=np.full_like(outlook.appearance.morph, moved))
         )
-        home = at_home(coming, pool, shown)
-        going = gather_morph(coming, pool, scene.representation, shown, left=left, home=home)
+        home = at_home(coming, shown, away)
+        going = gather_morph(coming, pool, scene.representation, shown, away=away, left=left, home=home)
         standing = gather_blades(pool, shown, eye=eye, stand=home)
         numbers = (shown.places[:, None] * each + np.arange(each))[pool.present[shown.slots]]
         np.testing.assert_array_equal(np.sort(np.concatenate([going, standing])), np.sort(numbers))
