@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from tallgrass.app.bench.steps import DECIDING, held
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.transition import FADE
@@ -111,3 +112,28 @@ def test_x1_a_viewer_who_leaps_far_finds_everything_settled(stage: Stage, prairi
     leapt = stage.shot(prairie, camera(-20.0, 1.7, -9.0, pitch=-10, yaw=150))
     prairie.advance(2 * FADE)
     np.testing.assert_array_equal(stage.shot(prairie, camera(-20.0, 1.7, -9.0, pitch=-10, yaw=150)), leapt)
+
+
+def test_x5_between_sub_levels_of_strips_each_blade_goes_over_within_several_frames(
+    stage: Stage, load: Load, camera: Aim
+) -> None:
+    coarser = "{ to: 9, strips: 2, columns: 1, sections: 2, texel: 0.08 }]"
+    prairie = load(STILL.replace("texel: 0.02 }]", f"texel: 0.08 }}, {coarser}"))
+    here = camera(0.6, 1.7, 20.0, pitch=-8)
+    settled(stage, prairie, here)
+    patches, strips = prairie.viewers["main"].patches, 1
+    near = (patches.representation == strips) & patches.visible & (patches.sublevel[strips] < 2)
+    assert near.sum() > 5
+    patches.sublevel_before[strips, near] = patches.sublevel[strips, near] + 2
+
+    def along(progress: float) -> NDArray[np.float64]:
+        patches.sublevel_progress[strips, near] = progress
+        with held(prairie, systems=DECIDING):
+            return np.asarray(stage.shot(prairie, here))
+
+    whole = np.abs(along(1.0) - along(0.0))
+    frames = [along(0.4 + frame / (30.0 * FADE)) for frame in range(8)]
+    most = np.max([np.abs(after - before) for before, after in pairwise(frames)], axis=0)
+    going = (whole > 20.0) & (np.abs(frames[-1] - frames[0]) > 0.5 * whole)
+    assert going.sum() > 50
+    assert np.median(most[going] / whole[going]) < 0.27

@@ -49,6 +49,8 @@ out float grows;
 flat out vec2 stays;
 flat out float sharp;
 
+const float UNHURRIED = 0.15;  // part of all ranks that change their sub-level at a time: one by one, blades would flicker
+
 // How much of a texel stays where its kind grows thinly, and where only blades of some ranks show: the others go, over a
 // span of ranks that is narrow where a texel is one blade, and wide where a pixel is the mean of many.
 void thin(float dense, float below, float texels) {
@@ -56,8 +58,8 @@ void thin(float dense, float below, float texels) {
     sharp = 1.0 / soft;
     grows = (dense > 0.995 ? 1.0 : dense - 0.5 * soft) * sharp + 1.0;
     // The span must reach from below all ranks to above them, softness included.
-    float edge = mix(-0.5 * soft, 1.0 + 0.5 * soft, abs(below));
-    stays = vec2(-sharp, edge * sharp + 0.5);
+    float span = max(soft, UNHURRIED), edge = mix(-0.5 * span, 1.0 + 0.5 * span, abs(below));
+    stays = vec2(-1.0, edge) / span + vec2(0.0, 0.5);
     if (below < 0.0)
         stays = vec2(0.0, 1.0) - stays;
 }
