@@ -73,6 +73,7 @@ class Assembly:
             painter=self.screen.current,
             bodies=bodies,
             shades=shades,
+            bent=self.winds.bent,
         )
 
 
@@ -88,6 +89,7 @@ def built_in(
     bodies: Callable[[float], Sequence[Body]],
     shades: Callable[[], Sequence[Shade]] = tuple,
     note: Callable[[float], Trodden] = lambda _: UNTRODDEN,
+    bent: Callable[[float], float] = lambda _: 0.0,
 ) -> list[BuiltIn]:
     """Return the systems of a site in running order: phase, name, and the system itself."""
     ground, shown, reach = site.ground, site.representations, site.reach
@@ -104,7 +106,7 @@ def built_in(
             ),
         ),
         (Phase.SEE, "cull", Cull(outlooks, patch, site.sway)),
-        (Phase.SEE, "lod", ChooseLevels(outlooks, reach, site.choosy, SLACK if change.hysteresis else 0)),
+        (Phase.SEE, "lod", ChooseLevels(outlooks, reach, site.choosy, SLACK if change.hysteresis else 0, bent)),
         (Phase.SEE, "transition", Transition(outlooks, shown, reach, patch, change)),
         (Phase.SEE, "see", See(outlooks, shown, reach, patch, change, site.choosy)),
         (Phase.BLOW, "plant", Plant(outlooks, shown, entities.world)),

@@ -1,6 +1,6 @@
 """Levels of detail: which representation is due on each patch (paper, sections 2.2 and 4.1)."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -74,10 +74,14 @@ class ChooseLevels:
 
     slack: int = SLACK
 
+    bent: Callable[[float], float] = lambda _: 0.0
+    """Gives the posture index that the winds bring grass to everywhere at a time [s]."""
+
     def run(self) -> None:
         """Choose for every viewer that looks."""
         for outlook in self.outlooks:
             patches = outlook.patches
+            outlook.bent = self.bent(outlook.viewer.time)
             settled = patches.was_visible & patches.visible & (not outlook.viewer.jumped)
             none = settled.view(np.int8) - np.int8(1)  # 0 where settled, elsewhere -1, which has all bits
             held = patches.representation | none

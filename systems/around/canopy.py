@@ -12,6 +12,15 @@ from .ground import Ground
 Floats = NDArray[np.float32]
 
 
+LODGED = 0.55
+"""How much lower the canopy is where all grass lies, of its height at rest; `lib/light.glsl` has it too."""
+
+
+def lodged(index: float, /) -> float:
+    """Return how high the canopy stands where grass is bent by a posture index, of its height at rest."""
+    return 1.0 - LODGED * index * index
+
+
 def canopy_height(growth: Growth, /) -> float:
     """Return the height of a kind's canopy [m]: what nearly all its plants stay below."""
     return float(np.quantile(np.concatenate([_tall(model.blades) for model in growth.models]), 0.9))

@@ -80,6 +80,9 @@ class Outlook:
     winds: Sequence["Blowing"] = ()
     """The winds that act in this frame, the strongest claim first."""
 
+    bent: float = 0.0
+    """Posture index that the winds of this frame bring grass to everywhere, in the mean, in [0, 1]."""
+
     trodden: Trodden = UNTRODDEN
     """What presses or has pressed the grass in this frame."""
 

@@ -29,6 +29,12 @@ class Postures:
     """Posture index that messages of evenly spaced lengths from 0 to 1 bend a blade to, shape (GIVES,): a stiff kind
     gives way less than the message says, a soft one more, and one of stiffness 1 as far."""
 
+    def bent_by(self, length: float, /) -> float:
+        """Return the posture index that a message of this length, from 0 to 1, bends a blade to."""
+        at = length * (GIVES - 1)
+        low = min(int(at), GIVES - 2)
+        return float(self.give[low] + (at - low) * (self.give[low + 1] - self.give[low]))
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Response:

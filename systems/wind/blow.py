@@ -116,6 +116,12 @@ def hear(
     return _bounded(_fluttered(sums, heard, time, seed, to))
 
 
+def mean_index(winds: Iterable[Blowing], /) -> float:
+    """Return the posture index that winds bring grass to everywhere, in the mean: the largest of any, 0 in calm air."""
+    blown = (wind.primitive.strength * wind.strength for wind in winds if isinstance(wind.primitive, MeanWind))
+    return min(max(blown, default=0.0), 1.0)
+
+
 def mean_yaw(winds: Iterable[WindPrimitive], /) -> float:
     """Return where a scene's mean wind blows to [rad]: of those that blow everywhere, the one that claims least."""
     found = [(claim(wind), wind.direction) for wind in winds if isinstance(wind, MeanWind)]

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from importlib.resources import files
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from tallgrass.components.wind import WindSource
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.engine.world import World
+from tallgrass.systems.around.canopy import LODGED, lodged
 from tallgrass.systems.bodies.fly import flying
 from tallgrass.systems.grow.bend import spine
 from tallgrass.systems.site import Site
@@ -20,6 +22,13 @@ from tallgrass.systems.wind.quarantine import Quarantine
 Laid = Callable[..., Site]
 
 FLAT = Terrain(np.full((81, 81), 3.0, np.float32), 1.0)
+
+
+def test_the_shaders_let_the_wind_lower_the_canopy_as_far() -> None:
+    source = files("tallgrass.engine.shaders").joinpath("lib/light.glsl").read_text("utf-8")
+    assert f"const float LODGED = {LODGED};" in source
+    assert lodged(0.0) == 1.0
+    assert lodged(1.0) == pytest.approx(1.0 - LODGED)
 
 
 def grown(laid: Laid, tall: float, short: float, terrain: Terrain = FLAT) -> Site:

@@ -17,6 +17,7 @@ from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.lod import SLACK
 from tallgrass.systems.see import strips_kept
 from tallgrass.systems.show.blades.sublevel import blade_ring
+from tallgrass.systems.show.strips.representation import USUAL
 from tallgrass.systems.show.strips.shown import show_strips
 from tallgrass.systems.show.strips.sublevel import (
     APART,
@@ -103,6 +104,24 @@ def test_n2_what_is_left_of_strips_does_not_jump_where_the_eye_crosses_a_border(
     assert centres[0] != centres[1]
     assert 0.1 < kept[0].mean() < 0.9
     np.testing.assert_array_equal(kept[0], kept[1])
+
+
+def test_g3_on_a_hillside_strips_are_finer_where_a_strong_wind_bends_the_grass(laid: Laid, look: Look) -> None:
+    bowl = 0.004 * (40.0 - np.arange(81.0)[:, None]) ** 2
+    site = laid(terrain=Terrain(np.tile(bowl, 81).astype(np.float32), 1.0))
+    outlook = look(site, 0.6, 0.6)
+    strips = site.representations[1]
+    ahead = np.flatnonzero(outlook.patches.alive & (outlook.patches.distance > 3))
+
+    def rings(bent: float) -> NDArray[np.int64]:
+        outlook.bent = bent
+        none = np.full(len(ahead), -1, np.int8)
+        return ring_of(strips.sublevels(outlook, ahead, none, slack=0))
+
+    calm, usual, strong = rings(0.0), rings(USUAL), rings(0.95)
+    np.testing.assert_array_equal(calm, usual)
+    assert (strong <= calm).all()
+    assert (strong < calm).mean() > 0.2
 
 
 def test_the_viewing_slope_is_the_grounds_own_slope_and_the_drop_to_it(laid: Laid, look: Look) -> None:

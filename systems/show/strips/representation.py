@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ....engine.declared.grass import GrassKind
 from ....engine.declared.quality import Quality, StripRing
+from ...around.canopy import lodged
 from ...around.ground import Ground
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
@@ -39,6 +40,10 @@ Floats = NDArray[np.float32]
 Levels = NDArray[np.int8]
 Mask = NDArray[np.bool_]
 Rows = NDArray[np.int64]
+
+
+USUAL = 0.4
+"""Posture index of a usual breeze: how fine strips have to be is measured in it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -153,7 +158,7 @@ class StripRepresentation(Representation):
         """Return the ring and the axis that are due on patches (n,), as one number each."""
         patches, viewer, quality = outlook.patches, outlook.viewer, self.quality
         limits = np.array([self._reach(outlook, ring) for ring in quality.strip_rings[:-1]], np.float32)
-        spacing, height = self._spacing(), self._height()
+        spacing, height = self._spacing(), self._height(outlook)
         slope, _ = viewing_slope(patches, rows, eye=viewer.eye, patch=quality.patch)
         # Halved, -1 for none is -1 again.
         ring = strip_ring(patches.away[rows], slope, held >> 1, limits, spacing, height=height, slack=slack)
@@ -177,7 +182,7 @@ class StripRepresentation(Representation):
         Where all of a patch is mown short, the strips are as short.
         """
         patches, side = outlook.patches, self.quality.patch
-        height = np.full(len(rows), self._height(), np.float32)
+        height = np.full(len(rows), self._height(outlook), np.float32)
         if outlook.mown is not None and outlook.mown.strokes:
             height = np.minimum(height, outlook.mown.tops(patches.cell[rows], patch=side))
         slope, drop = viewing_slope(patches, rows, eye=outlook.viewer.eye, patch=side)
@@ -196,9 +201,10 @@ class StripRepresentation(Representation):
         """Return the distance between each ring's strips [m]."""
         return np.array([self.quality.patch / ring.strips for ring in self.quality.strip_rings], np.float32)
 
-    def _height(self) -> float:
-        """Return the height of the lowest kind's strips [m]."""
-        return min(strips.height for strips in self.stock.strips[0])
+    def _height(self, outlook: Outlook) -> float:
+        """Return the height of the lowest kind's strips [m]; a wind that is stronger than usual bends them."""
+        stand = (lodged(max(growth.postures.bent_by(outlook.bent), USUAL)) / lodged(USUAL) for growth in self.growths)
+        return min(strips.height * each for strips, each in zip(self.stock.strips[0], stand, strict=True))
 
     def ring_and_axis(self, outlook: Outlook, rows: Rows, /) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
         """Return the ring that patches (n,) are in, and the axis that their strips run along, shape (n,) each."""

@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.components.wind import Grass, WindSource
-from tallgrass.systems.wind.blow import blowing, hear, places_alone
+from tallgrass.systems.wind.blow import blowing, hear, mean_index, places_alone
 from tallgrass.systems.wind.breeze import Breeze
+from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.quarantine import Quarantine
 
 Floats = NDArray[np.float32]
@@ -66,6 +67,19 @@ def test_w7_over_the_field_its_mean_index_is_its_strength(strength: float, gusti
     breeze = Breeze(strength=strength, gustiness=gustiness)
     means = [float(index(felt(breeze, time=time)).mean()) for time in np.arange(0.0, 30.0, 1.7)]
     assert np.mean(means) == pytest.approx(strength, rel=0.06)
+
+
+def test_w7_the_strongest_wind_that_blows_everywhere_says_how_far_grass_bends_in_the_mean() -> None:
+    winds = [Breeze(strength=0.4), Breeze(strength=0.7, ease=2.0, start=1.0), Gust(strength=1.0)]
+    sources = [WindSource(wind, wind.kind) for wind in winds]
+
+    def bent(time: float, *of: int) -> float:
+        return mean_index(blowing([sources[each] for each in of], Quarantine(), time=time, seed=7))
+
+    assert bent(4.0, 2) == 0.0
+    assert bent(0.5, 0, 1, 2) == pytest.approx(0.4)
+    assert bent(9.0, 0, 1, 2) == pytest.approx(0.7)
+    assert 0.0 < bent(2.0, 1) < 0.7
 
 
 @pytest.mark.parametrize("direction", [0.0, 60.0, 90.0, -135.0])
