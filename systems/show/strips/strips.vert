@@ -72,9 +72,9 @@ const float SHARPER = 0.15;  // how much finer texels are than pixels, in levels
 const float NARROWEST = 0.25;  // blades count as no closer together than this part of how far apart they are painted
 
 // From the side, blades that lie show the middles of their arches on top, where strips show their tips: how much less of their
-// tips that is where all lie, on strips of one section. Those of more sections are bent to arches themselves.
+// tips that is where all lie, on strips of one section. Those of more sections are bent to arches themselves. The steeper the
+// line of sight, the less of it is seen.
 const float ARCHED = 0.42;
-const float ASIDE = 0.35;  // sine of the angle to the ground from which on that is not seen
 
 // Pixels that a metre is long on the screen, across the line of sight.
 float pixels_at(vec3 place) {
@@ -184,7 +184,7 @@ void main() {
     vec3 dry = stretch(here);
     mean_face = faced(k, run, middle, top);
     foot_color = root[k].rgb * dry;
-    float lying = 1.0 - lodged(0.5 * (bend_a + bend_b)), aside = 1.0 - smoothstep(0.0, ASIDE, steep_at(middle));
+    float lying = 1.0 - lodged(0.5 * (bend_a + bend_b)), aside = 1.0 - smoothstep(0.0, 1.0, steep_at(middle));
     rise_color = (tip[k].rgb - root[k].rgb) * dry * (1.0 - ARCHED * inversesqrt(sections) * lying * aside);
     float turned = turn % 2 == 0 ? 1.0 : -1.0;
     grain_cos = turned * grain_c[k].rgb;
