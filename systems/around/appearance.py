@@ -26,8 +26,11 @@ OVERLAP = 0.35
 """How much more than in a plain cross-fade blades and strips show half-way through the handing over. Both cover the
 same place: with less, the ground shows through; with more, edges look swollen."""
 
-BORDER = 4.0
-"""Over how many patches the strips give way to the carpet."""
+BORDER = 0.3
+"""Part of the strips' reach over which they give way to the carpet: over a crest, their feet come out of it row by row."""
+
+LEAST_BORDER = 4.0
+"""Over how many patches they do at least."""
 
 GROWN = 0.6
 """Part of a change from carpet to strips after which the strips stand at their full height."""
@@ -78,13 +81,18 @@ def _part(value: Floats, /) -> Floats:
     return np.minimum(np.maximum(value, np.float32(0.0)), np.float32(1.0))
 
 
+def border_of(reach: float, /) -> float:
+    """Return over how many patches strips that reach so far give way to the carpet."""
+    return max(BORDER * reach, LEAST_BORDER)
+
+
 def kept_near(away: Floats | Doubles, /, *, reach: float) -> Floats:
-    """Return how much of the strips the distance leaves, from 1 to 0 over their outermost `BORDER` patches.
+    """Return how much of the strips the distance leaves, from 1 to 0 over the outermost patches, as `border_of` has it.
 
     `away` is the patches' distance from the viewer [patch sides]. So no line shows where the strips end, and a patch
     that changes between strips and carpet far away has next to nothing to change.
     """
-    return _part(((reach + 0.5 - away) / BORDER).astype(np.float32))
+    return _part(((reach + 0.5 - away) / border_of(reach)).astype(np.float32))
 
 
 def appearance(

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ....engine.gl.stream import release_all
 from ....engine.gl.unchanged import Unchanged
-from ...around.appearance import BORDER
+from ...around.appearance import border_of
 from ...around.cone import HALF_DIAGONAL
 from ...around.ground import Ground
 from ...around.outlook import Outlook
@@ -43,7 +43,7 @@ class CarpetPainter:
 
     def __init__(self, canvas: Canvas, growths: Sequence[Growth], ground: Ground, side: int) -> None:
         self.stand_on(ground)
-        self._whole_to = canvas.reach[-2] - int(BORDER) - 1
+        self._whole_to = canvas.reach[-2] - int(border_of(canvas.reach[-2])) - 1
         self._units = canvas.units
         self._unchanged, self._stays = Unchanged(), Unchanged()
         self._tiles: Tiles = np.zeros((0, 4))
