@@ -27,7 +27,7 @@ OVERLAP = 0.35
 same place: with less, the ground shows through; with more, edges look swollen."""
 
 BORDER = 0.3
-"""Part of the strips' reach over which they give way to the carpet: over a crest, their feet come out of it row by row."""
+"""Part of the strips' reach over which they give way to the carpet: over a crest, their feet come out row by row."""
 
 LEAST_BORDER = 4.0
 """Over how many patches they do at least."""
