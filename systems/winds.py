@@ -23,7 +23,6 @@ from .bodies.fly import foot, hover_of, hovering
 from .grow.record import Growth
 from .wind.blow import Blowing, ReceiverArrays, blowing, hear, mean_index, mean_yaw, places_alone
 from .wind.grass import grass_of
-from .wind.mean import MeanWind
 from .wind.quarantine import Quarantine, QuarantinedError
 
 Floats = NDArray[np.float32]
@@ -142,8 +141,7 @@ class Winds:
 
     def bent(self, time: float) -> float:
         """Return the posture index that the winds bring grass to everywhere at `time` [s], in the mean."""
-        everywhere = [source for source in self.sources() if isinstance(source.primitive, MeanWind)]
-        return mean_index(blowing(everywhere, self.quarantine, time=time, seed=self._scene.seed))
+        return mean_index(self.sources(), self.quarantine, time=time)
 
     def heard(self, receivers: ReceiverArrays, /, *, time: float) -> Floats:
         """Return the message that each receiver ends up with at `time` [s], shape (n, 2)."""

@@ -47,8 +47,7 @@ def bending(postures: Postures, message: ArrayLike, /) -> Doubles:
     """Return how messages bend a kind: vectors along them as long as the posture index, same shape as `message`."""
     message = np.asarray(message, np.float64)
     length = np.linalg.norm(message, axis=-1, keepdims=True)
-    index = np.interp(length, np.linspace(0.0, 1.0, len(postures.give)), postures.give)
-    return np.asarray(message / np.maximum(length, 1e-9) * index)
+    return np.asarray(message / np.maximum(length, 1e-9) * postures.bent_by(length))
 
 
 def posture_of(rest: ArrayLike, bending: ArrayLike, /) -> tuple[Doubles, Doubles]:

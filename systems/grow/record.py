@@ -13,6 +13,9 @@ Bytes = NDArray[np.uint8]
 GIVES = 17
 """Lengths of messages, evenly spaced from 0 to 1, for which it is known how far a kind gives way."""
 
+LENGTHS = np.linspace(0.0, 1.0, GIVES)
+"""These lengths, shape (GIVES,)."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Postures:
@@ -29,11 +32,9 @@ class Postures:
     """Posture index that messages of evenly spaced lengths from 0 to 1 bend a blade to, shape (GIVES,): a stiff kind
     gives way less than the message says, a soft one more, and one of stiffness 1 as far."""
 
-    def bent_by(self, length: float, /) -> float:
-        """Return the posture index that a message of this length, from 0 to 1, bends a blade to."""
-        at = length * (GIVES - 1)
-        low = min(int(at), GIVES - 2)
-        return float(self.give[low] + (at - low) * (self.give[low + 1] - self.give[low]))
+    def bent_by(self, length: NDArray[np.float64] | float, /) -> NDArray[np.float64]:
+        """Return the posture indices that messages of these lengths bend a blade to, of the same shape."""
+        return np.asarray(np.interp(length, LENGTHS, self.give))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

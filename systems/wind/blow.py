@@ -116,10 +116,18 @@ def hear(
     return _bounded(_fluttered(sums, heard, time, seed, to))
 
 
-def mean_index(winds: Iterable[Blowing], /) -> float:
-    """Return the posture index that winds bring grass to everywhere, in the mean: the largest of any, 0 in calm air."""
-    blown = (wind.primitive.strength * wind.strength for wind in winds if isinstance(wind.primitive, MeanWind))
-    return min(max(blown, default=0.0), 1.0)
+def mean_index(sources: Iterable[WindSource], quarantine: Quarantine, /, *, time: float) -> float:
+    """Return the posture index that winds bring grass to everywhere at `time` [s], in the mean: the largest of any."""
+    blown = [0.0]
+    for source in sources:
+        if isinstance(source.primitive, MeanWind):
+            with suppress(QuarantinedError):
+                blown.append(quarantine.ask(source, "its strength", partial(_mean_strength, source.primitive, time)))
+    return min(max(blown), 1.0)
+
+
+def _mean_strength(wind: MeanWind, time: float) -> float:
+    return float(wind.strength) * _set_in(wind, wind.stop, time) if is_on(wind, time) else 0.0
 
 
 def mean_yaw(winds: Iterable[WindPrimitive], /) -> float:

@@ -39,10 +39,10 @@ def may_be_seen(
     its slot, and no part of it comes farther than `reach` [m] from its root.
     """
     x, z = pool.x.take(slots, axis=0), pool.z.take(slots, axis=0)
-    seen = np.ones(x.shape, np.bool_)
+    ground, seen = pool.ground.take(slots, axis=0), np.ones(x.shape, np.bool_)
     for across, up, along, far in sides:
-        highest = (pool.ground.take(slots, axis=0) * up).max(axis=1) + far + reach
-        seen &= x * np.float32(across) + z * np.float32(along) >= -highest.astype(np.float32)[:, None]
+        most = (ground * up).max(axis=1) + far + reach
+        seen &= x * np.float32(across) + z * np.float32(along) >= -most.astype(np.float32)[:, None]
     return seen
 
 

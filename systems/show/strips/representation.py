@@ -203,7 +203,8 @@ class StripRepresentation(Representation):
 
     def _height(self, outlook: Outlook) -> float:
         """Return the height of the lowest kind's strips [m]; a wind that is stronger than usual bends them."""
-        stand = (lodged(max(growth.postures.bent_by(outlook.bent), USUAL)) / lodged(USUAL) for growth in self.growths)
+        index = (max(float(growth.postures.bent_by(outlook.bent)), USUAL) for growth in self.growths)
+        stand = (lodged(each) / lodged(USUAL) for each in index)
         return min(strips.height * each for strips, each in zip(self.stock.strips[0], stand, strict=True))
 
     def ring_and_axis(self, outlook: Outlook, rows: Rows, /) -> tuple[NDArray[np.int64], NDArray[np.int32]]:

@@ -74,12 +74,21 @@ def test_w7_the_strongest_wind_that_blows_everywhere_says_how_far_grass_bends_in
     sources = [WindSource(wind, wind.kind) for wind in winds]
 
     def bent(time: float, *of: int) -> float:
-        return mean_index(blowing([sources[each] for each in of], Quarantine(), time=time, seed=7))
+        return mean_index([sources[each] for each in of], Quarantine(), time=time)
 
     assert bent(4.0, 2) == 0.0
     assert bent(0.5, 0, 1, 2) == pytest.approx(0.4)
     assert bent(9.0, 0, 1, 2) == pytest.approx(0.7)
     assert 0.0 < bent(2.0, 1) < 0.7
+
+
+def test_n8_a_wind_everywhere_whose_strength_is_no_number_is_quarantined_and_the_others_count() -> None:
+    class Wordy(Breeze):
+        strength: str = "gentle"  # type: ignore[assignment]
+
+    odd, quarantine = WindSource(Wordy(), "odd"), Quarantine()
+    assert mean_index([odd, WindSource(Breeze(strength=0.4), "breeze")], quarantine, time=1.0) == pytest.approx(0.4)
+    assert "its strength" in quarantine.reasons[odd]
 
 
 @pytest.mark.parametrize("direction", [0.0, 60.0, 90.0, -135.0])
