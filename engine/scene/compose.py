@@ -9,13 +9,10 @@ import yaml
 from .document import Document, Node, problem_at
 from .problem import Problem, SceneError
 from .scalars import scalar
-from .syntax import explain
+from .syntax import DEEPEST, TOO_DEEP, explain
 
 MOST_BYTES = 2**20
 """Size of the largest scene file [bytes]."""
-
-DEEPEST = 64
-"""Most levels of nesting; libyaml's own composer overflows the stack at some ten thousand."""
 
 MOST_VALUES = 100_000
 """Most values, each counted as often as aliases repeat it."""
@@ -144,7 +141,7 @@ class _Composer:
     def _limit(self, event: yaml.Event, depth: int, count: int) -> None:
         self.count += count
         if len(self.open) + depth > DEEPEST:
-            self._stop(event, f"nested more than {DEEPEST} levels deep")
+            self._stop(event, TOO_DEEP)
         if self.count > MOST_VALUES:
             self._stop(event, f"more than {MOST_VALUES} values, counting what aliases repeat")
 

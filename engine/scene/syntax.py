@@ -2,6 +2,11 @@
 
 import yaml
 
+DEEPEST = 64
+"""Most levels of nesting; libyaml's own composer overflows the stack at some ten thousand."""
+
+TOO_DEEP = f"nested more than {DEEPEST} levels deep"
+
 _UNCLOSED = "the quote that opens here is never closed"
 _WORDS: dict[str, str] = {
     "mapping values are not allowed in this context": (
@@ -16,6 +21,7 @@ _WORDS: dict[str, str] = {
     "found unknown escape character": "unknown escape after '\\' in double quotes; use single quotes or '\\\\'",
     "block sequence entries are not allowed in this context": "a '- ' cannot stand here; begin the list on a new line",
     "found incompatible YAML document": "only YAML 1.1 and 1.2 are read",
+    "exceeded maximum nesting depth": TOO_DEEP,
 }
 
 
