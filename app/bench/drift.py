@@ -38,6 +38,10 @@ WINDOW = 1.5
 """Time in which a change of brightness counts as drift [s]."""
 
 
+ENOUGH = 8
+"""Patches whose mean tells of a change: of one or two, the few blades in their tiles tell more."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Sample:
     """One instant of a leg: its picture, the reference's, and the patches."""
@@ -106,14 +110,30 @@ class Change:
         return _largest_change(self.bright, self.time)
 
     @property
-    def mean_drift(self) -> float:
-        """The same of the mean over all patches: what is left where the grain of single tiles cancels out."""
-        return float(_largest_change(self.bright.mean(axis=1), self.time))
-
-    @property
     def ghosting(self) -> float:
         """How much the patches are two pictures laid over one another, 0 to 1, in the mean over their way."""
         return float(self.ghosted[1:-1].mean())
+
+
+def taken_together(changes: Sequence[Change], /) -> list[list[Change]]:
+    """Return changes that are one and the same, each on another leg, in groups of at least `ENOUGH` patches.
+
+    Legs on which fewer make it are one group, however many those are.
+    """
+    few = [each for each in changes if len(each.distance) < ENOUGH]
+    groups = [[each] for each in changes if len(each.distance) >= ENOUGH]
+    return groups + ([few] if few else [])
+
+
+def mean_drift(group: Sequence[Change], /) -> float:
+    """Return the drift of the mean over all patches of changes, where the grain of single tiles cancels out."""
+    bright = np.concatenate([each.bright for each in group], axis=1)
+    return float(_largest_change(bright.mean(axis=1), group[0].time))
+
+
+def mean_ghosting(group: Sequence[Change], /) -> float:
+    """Return the ghosting of changes, 0 to 1, in the mean over their patches."""
+    return float(np.average([each.ghosting for each in group], weights=[len(each.distance) for each in group]))
 
 
 def _largest_change(values: Doubles, time: Doubles) -> Doubles:

@@ -16,7 +16,7 @@ from ..studio.studio import Studio, about
 from ..studio.take import Take
 from .climb import climb
 from .crew import by_many, cores, ticked
-from .drift import Change
+from .drift import Change, mean_drift, mean_ghosting, taken_together
 from .evidence import save
 from .flicker import MARGIN, TILE
 from .frame import own_preset
@@ -196,22 +196,33 @@ def _drift(changes: list[Change]) -> dict[str, Any]:
         "tile": worst.corner[patch].tolist(),
         "relative": [round(float(ratio), 3) for ratio in worst.bright[:, patch]],
     }
-    mean = max(change.mean_drift for change in changes)
+    mean = max(map(mean_drift, _groups(changes)))
     return {"max": round(float(worst.drift[patch]), 4), "mean": round(mean, 4), "where": where}
+
+
+def _by_name(changes: list[Change]) -> dict[str, list[Change]]:
+    found: dict[str, list[Change]] = {}
+    for change in changes:
+        found.setdefault(change.name, []).append(change)
+    return found
 
 
 def _ghosting(changes: list[Change]) -> dict[str, Any]:
     if not changes:
         return {"max": 0.0, "where": None}
-    worst = max(changes, key=lambda change: change.ghosting)
-    return {"max": round(worst.ghosting, 4), "where": {"leg": worst.leg, "change": worst.name}}
+    worst = max(_groups(changes), key=mean_ghosting)
+    leg = max(worst, key=lambda change: change.ghosting).leg
+    return {"max": round(mean_ghosting(worst), 4), "where": {"leg": leg, "change": worst[0].name}}
+
+
+def _groups(changes: list[Change]) -> list[list[Change]]:
+    return [group for those in _by_name(changes).values() for group in taken_together(those)]
 
 
 def _changes(changes: list[Change]) -> list[dict[str, object]]:
     """Return a row for each change that patches made: how many did, and what that did to them at most."""
     rows: list[dict[str, object]] = []
-    for name in sorted({change.name for change in changes}):
-        those = [change for change in changes if change.name == name]
+    for name, those in sorted(_by_name(changes).items()):
         drift = _drift(those)
         rows.append({
             "change": name,

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.app.bench import stroll
-from tallgrass.app.bench.drift import Change, sampled_frames
+from tallgrass.app.bench.drift import ENOUGH, Change, mean_drift, mean_ghosting, sampled_frames, taken_together
 from tallgrass.app.bench.ghost import ghosted
 
 Doubles = NDArray[np.float64]
@@ -36,7 +36,17 @@ def test_n3_the_samples_of_a_leg_hold_whole_changes() -> None:
 def test_n3_drift_is_the_largest_change_of_a_patch_and_its_mean_that_of_all_together() -> None:
     made = change([[1.0, 1.0], [1.1, 0.95], [0.99, 1.1]], [0.0, 0.5, 1.0])
     np.testing.assert_allclose(made.drift, [1 - 0.99 / 1.1, 1.1 / 0.95 - 1], atol=1e-9)
-    assert made.mean_drift == pytest.approx(0.0451, abs=1e-3)
+    assert mean_drift([made]) == pytest.approx(0.0451, abs=1e-3)
+
+
+def test_n3_legs_on_which_few_patches_change_are_taken_together() -> None:
+    time = [0.0, 0.5, 1.0]
+    brighter = change([[1.0], [1.06], [1.0]], time, [0.0, 0.6, 0.0])
+    darker = change([[1.0] * 2, [0.97] * 2, [1.0] * 2], time, [0.0, 0.3, 0.0])
+    many = change([[1.0] * ENOUGH, [1.02] * ENOUGH, [1.0] * ENOUGH], time)
+    groups = taken_together([brighter, many, darker])
+    assert list(map(mean_drift, groups)) == pytest.approx([0.02, 0.0], abs=1e-9)
+    assert list(map(mean_ghosting, groups)) == pytest.approx([0.0, 0.4])
 
 
 def test_n3_what_changes_in_more_than_a_second_and_a_half_is_no_drift() -> None:
