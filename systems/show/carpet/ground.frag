@@ -115,8 +115,8 @@ vec3 mean_depth(vec3 slope) {
 vec2 elevation_seen(float slope) {
     slope = max(slope, slopes[0]);
     int low = 0;
-    while (low < SLOPES - 2 && slope > slopes[low + 1])
-        low++;
+    for (int next = 1; next < SLOPES - 1; next++)
+        low += int(slope > slopes[next]);
     vec3 of = vec3(slope, slopes[low], slopes[low + 1]), at = low < LEVEL ? mean_depth(of) : log(of);
     return vec2(float(low), clamp((at.x - at.y) / (at.z - at.y), 0.0, 1.0));
 }
@@ -245,10 +245,12 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
         shallow = clamp(MET * deepest_of_all / depths.x, UNEVEN, 1.0);
     vec4 sum = vec4(0.0);
     float higher = 0.0;
-    for (int kind = next_kind(met, LEAST_MET, 0); kind < KINDS; kind = next_kind(met, LEAST_MET, kind + 1)) {
+    int coarsest = int(log2(float(textureSize(images, 0).x)) + 0.01), kind = next_kind(met, LEAST_MET, 0);
+    if (kind < KINDS) do {
         float layer = OF(first, kind) + float((model * SLOPES + int(seen.x)) * 4 + side);
         vec3 low = vec3(read.low, layer), high = vec3(read.high, layer + 4.0);
-        vec4 mean_low = textureLod(images, low, COARSEST), mean_high = textureLod(images, high, COARSEST);
+        vec4 mean_low = texelFetch(images, ivec3(0, 0, int(low.z)), coarsest);
+        vec4 mean_high = texelFetch(images, ivec3(0, 0, int(high.z)), coarsest);
         vec4 mean = mix(mean_low, mean_high, seen.y);
         vec4 image = mix(textureLod(images, low, read.level), textureLod(images, high, read.level), seen.y);
         image = mean + (image - mean) * grain;
@@ -292,7 +294,8 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
         vec3 tint = (grain_c[kind].rgb * sight + grain_s[kind].rgb * aside) * (2.0 * mean_of.b - 1.0);
         vec3 pigment = mix(root[kind].rgb, tip[kind].rgb, mean_of.r) * dry * (1.0 + tint);
         sum += OF(met, kind) * covers * vec4(shown_of(mix(radiance(pigment, mean_of.g, met_by), veil.rgb, veil.w)), 1.0);
-    }
+        kind = next_kind(met, LEAST_MET, kind + 1);
+    } while (kind < KINDS);
 #ifdef HEADS
     sum /= max(sum.a, 1.0);
 #endif
