@@ -48,9 +48,17 @@ float viewing_slope(vec2 rise, vec3 place) {
     return (dot(rise, ray.xz) - ray.y) / max(length(ray.xz), 1e-4);
 }
 
-// Where leaves are that are seen: deeper in the grass, where the line of sight has met enough.
+const float BEFORE = 0.27;  // how far before the carpet lines of sight meet the first leaves, in heights over their slope
+const float SPREAD = 0.17;  // how far before and behind the mean of what they meet it lies
+
+// How far along a line of sight what it meets spreads, for each height of the carpet, over the ground [m].
+float along_ground(float slope, float tall) {
+    return tall / max(slope, STEEP);
+}
+
+// Where leaves are that are seen: the less densely they grow, the farther behind where a line of sight comes to the carpet.
 vec3 seen_at(vec3 place, float slope, float tall, float dense) {
-    float deeper = min(tall * inversesqrt(max(slope, STEEP) * max(dense, 0.01)), FARTHEST_SEEN);
-    vec2 on = normalize(place.xz - eye.xz + 1e-4) * deeper;
+    float behind = (sqrt(max(slope, STEEP) / max(dense, 0.01)) - BEFORE) * along_ground(slope, tall);
+    vec2 on = normalize(place.xz - eye.xz + 1e-4) * clamp(behind, -FARTHEST_SEEN, FARTHEST_SEEN);
     return vec3(place.x + on.x, place.y, place.z + on.y);
 }

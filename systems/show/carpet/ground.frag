@@ -317,7 +317,8 @@ void work_out() {
     leaf_area = areas(grows_at(place.xz));
 #endif
 #if defined(CARPET) && !defined(UNDER)
-    dry = stretch(lie_at(seen_at(place, viewing_slope(rise, place), tall, dense).xz));
+    float slope = viewing_slope(rise, place);
+    dry = stretch_seen(seen_at(place, slope, tall, dense), slope, tall);
     stands = lodged(message_at(place.xz));
     tipped = tips_met(grows_at(place.xz), level_slope(max(viewing_slope(rise, place), 0.0), crest, carpet, tall, stands));
 #endif

@@ -38,7 +38,7 @@ FINE, COARSENESS = 1.25, 0.3
 BEYOND = 600.0
 """How far the ground goes on beyond the terrain's edge [m]: a walker's horizon lies two pixels higher."""
 
-SPREAD = 7.0
+SPREAD = 6.0
 """Distance at which a spacing gives way to the next, in tile sides: the farthest corner of a tile of twice the side
 that is split must lie inside it."""
 

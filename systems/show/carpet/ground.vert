@@ -66,7 +66,7 @@ void light_up(float slope, vec2 message) {
     open_to = sum.open_to;
     shade = sum.shade;
     lies = sum.lies;
-    dry = stretch(here);
+    dry = stretch_seen(there, slope, tall);
 }
 #endif
 

@@ -55,6 +55,13 @@ ByKind tips_met(ByKind grows, float slope) {
     return tips;
 }
 
+// How dry or lush the leaves are that are seen there: the mean of nearer and farther ones.
+vec3 stretch_seen(vec3 there, float slope, float tall) {
+    vec2 apart = normalize(there.xz - eye.xz + 1e-4) * min(SPREAD * along_ground(slope, tall), FARTHEST_SEEN);
+    vec4 nearer = textureLod(lie, on_left(there.xz - apart), 0.0), farther = textureLod(lie, on_left(there.xz + apart), 0.0);
+    return stretch(0.5 * (nearer + farther));
+}
+
 // The wind's message; far off, where nobody asks for it, the mean of those nearer by.
 vec2 message_at(vec2 at) {
     float side = float(textureSize(air, 0).x) * soil.w;
