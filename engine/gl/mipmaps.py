@@ -42,7 +42,10 @@ def mipmapped(ctx: moderngl.Context, made: list[Bytes], /) -> moderngl.TextureAr
 
 
 def mipmapped_image(ctx: moderngl.Context, made: Sequence[Bytes], /) -> moderngl.Texture:
-    """Return a texture of one image at all its levels, each (rows, columns, channels), down to one texel."""
+    """Return a texture of one image at all its levels, each (rows, columns, channels), down to one texel.
+
+    It is read from one level at a time: who reads two and mixes them pays for two.
+    """
     rows, columns, channels = made[0].shape
     texture = ctx.texture((columns, rows), channels, made[0], alignment=1)
     stored, given = (NUMBERS[name] for name in _FORMATS[channels])
@@ -52,7 +55,7 @@ def mipmapped_image(ctx: moderngl.Context, made: Sequence[Bytes], /) -> moderngl
     for level, texels in enumerate(made[1:], 1):
         rows, columns = texels.shape[:2]
         gl.glTexImage2D(target, level, stored, columns, rows, 0, given, NUMBERS["UNSIGNED_BYTE"], texels.ctypes.data)
-    texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
+    texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
     return texture
 
 

@@ -14,7 +14,8 @@ vec3 clouded(vec3 light, vec3 toward) {
     vec2 at = eye.xz + toward.xz * (CLOUDS_AT / max(toward.y, 0.02));
     vec2 square = at / CLOUDS_SIDE - drift.xy;
     // Far off the square repeats often and finely: its mean stands for it, and then haze.
-    float dense = textureLod(repeating, square, max(log2(0.35 / max(toward.y, 0.02)), 0.0)).r;
+    float level = max(log2(0.35 / max(toward.y, 0.02)), 0.0), finer = floor(level);
+    float dense = mix(textureLod(repeating, square, finer).r, textureLod(repeating, square, finer + 1.0).r, level - finer);
     dense = smoothstep(1.0 - sunlight.w, 1.5 - sunlight.w, dense) * smoothstep(0.02, 0.3, toward.y);
     float ahead = 0.5 + 0.5 * dot(toward, sun.xyz);
     vec3 lit = skylight.rgb * 0.9 + sunlight.rgb * (0.75 - 0.4 * dense + 0.5 * ahead * ahead * ahead * (1.0 - dense));
