@@ -218,6 +218,16 @@ float curved_at(vec2 place, vec2 rise, float slope) {
     return max(bulges, falls);
 }
 
+#ifndef UNDER
+const float UNEVENNESS = 0.4;
+
+// How much higher or lower the carpet lies where it gives way to strips, of the grass's height. A row of strips that lies as
+// the carpet does would come out of it all at once; so it does here and there.
+float uneven(vec2 place) {
+    return UNEVENNESS * sin(5.3 * place.x + 0.7) * sin(4.7 * place.y + 0.2 * place.x);
+}
+#endif
+
 float lowest_share(vec2 place) {
     ivec2 low = ivec2(floor((place - 0.01) / soil.w)), high = ivec2(floor((place + 0.01) / soil.w));
     return min(min(share_at(low), share_at(high)), min(share_at(ivec2(low.x, high.y)), share_at(ivec2(high.x, low.y))));
@@ -275,6 +285,9 @@ void main() {
     stands = standing(grows, message);
     float deep = deepest(max(viewing_slope(rise, place), 0.0), crest, tall * stands);
     place.y += carpet * tall * (lifted(deep, crest, stands) - 1.0);
+#ifndef UNDER
+    place.y += carpet * (1.0 - carpet) * tall * uneven(flat_at);
+#endif
 #ifdef UNDER
     // It lies as deep in the grass as is seen into it: from above, and through a crest of this curvature.
     float sunk = sqrt(SUNK * max(viewing_slope(rise, place), 0.0) / max(dense, 1e-3));
