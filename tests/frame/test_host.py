@@ -216,7 +216,7 @@ def test_d2_released_a_prairie_leaves_no_entity_behind(stage: Stage, load: Load)
 
 def test_d6_two_prairies_are_drawn_side_by_side(stage: Stage, load: Load, camera: Aim) -> None:
     one, two = load(), load("plain", preset="low")
-    aim = camera(0.3, 1.9, 12.0, pitch=-14)
+    aim = camera(0.3, 4.1, 12.0, pitch=-14)
     first, second = stage.shot(one, aim), stage.shot(two, aim)
     assert np.abs(first - second).mean() > 2.0
     np.testing.assert_array_equal(stage.shot(one, aim), first)

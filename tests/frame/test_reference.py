@@ -30,7 +30,7 @@ Pictures = dict[str, Any]
 
 @pytest.fixture(scope="module")
 def aim(camera: Aim) -> Camera:
-    return camera(0.3, 1.9, 12.0, pitch=-14)
+    return camera(0.3, 4.1, 12.0, pitch=-30)
 
 
 @pytest.fixture(scope="module")
