@@ -15,9 +15,12 @@ vec2 toothed(float to_side) {
     return vec2(wide / mix(1.0, TOOTHED_WIDER, tooth.z), 1.0 + tooth.z * OUTER * (end - MEAN_END));
 }
 #endif
-#ifdef SOFT
-uniform int part;     // 0: all of it; 1: where it hides what is behind it; 2: the rest
+#ifdef PARTED
+uniform int part;     // 1: where it hides what is behind it; 2: the rest
 flat in float hides;  // coverage from which on it does
+#endif
+#ifdef SOFT
+const float FAINT = 0.004;  // coverage that is left out: in bytes, it would but be rounded up
 noperspective in float aside;
 noperspective in float half_width;
 #endif
@@ -36,8 +39,11 @@ void main() {
     }
 #endif
     float covered = shown * clamp(wide + 0.5 - abs(aside), 0.0, min(1.0, 2.0 * wide));
-    if (covered < 0.004 || (part == 1 && covered < hides) || (part == 2 && covered >= hides))
+    covered = covered < FAINT ? 0.0 : covered;
+#ifdef PARTED
+    if (covered == 0.0 || (covered < hides) == (part == 1))
         discard;
+#endif
 #ifdef FOLDS
     // Each face of a fold is evenly lit: the ramp from side to side, as corners have it, becomes a step.
     pixel = vec4((seen + keel * (clamp(2.0 * aside, -1.0, 1.0) - aside / (half_width + 0.5))) * covered, covered);

@@ -24,8 +24,8 @@ PAINTED = np.dtype([*((name, "4f4") for name in RIBBON.names or ()), ("base", "4
 
 MESSAGE = np.dtype([("message", "2f4")])
 
-WHOLE, CORES, EDGES = range(3)
-"""What is drawn of soft blades: all; the pixels that count as hidden behind them; the others."""
+CORES, EDGES = 1, 2
+"""What is drawn of parted blades at a time: the pixels that hide what is behind them; the others."""
 
 ROUND = "0.35"
 """How far the face normal turns towards a blade's edges, as if it were rounded."""
@@ -56,7 +56,8 @@ def segment_defines(counts: Sequence[int], /) -> dict[str, str | int]:
 class Ribbons:
     """Ribbons of one number of segments or of several: joints slide from where one has them to where the next does.
 
-    Soft ones have smooth edges and must come from far to near; the others are opaque and may come in any order.
+    Soft ones have smooth edges and must come from far to near; the others are opaque and may come in any order. Those
+    that are parted besides are drawn in two goes.
     """
 
     def __init__(
@@ -67,12 +68,15 @@ class Ribbons:
         units: Mapping[str, int],
         *,
         soft: bool,
+        parted: bool = False,
         record: np.dtype[np.void] = RIBBON,
         defines: Defines | None = None,
     ) -> None:
         self.segments = max(counts)
-        self.soft = soft
-        whole = {**segment_defines(counts), **({"SOFT": 1} if soft else {}), **(defines or {})}
+        whole = {
+            **segment_defines(counts), **({"SOFT": 1} if soft else {}), **({"PARTED": 1} if parted else {}),
+            **(defines or {}),
+        }  # fmt: skip
         self.program = joined(
             ctx, block, units, "systems/show/blades/ribbon.vert", "systems/show/blades/blades.frag", whole
         )
@@ -86,11 +90,11 @@ class Ribbons:
             blades.transform(self.stream.buffer, moderngl.POINTS, vertices=count, first=first)
         return int(count > 0)
 
-    def draw(self, part: int = WHOLE) -> int:
-        """Draw what was filled in, of soft blades this part; return the number of draw calls."""
+    def draw(self, part: int | None = None) -> int:
+        """Draw what was filled in, of parted blades this part; return the number of draw calls."""
         if not self.stream.count:
             return 0
-        if self.soft:
+        if part is not None:
             self.program["part"] = part
         self.array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.segments + 2, instances=self.stream.count)
         return 1

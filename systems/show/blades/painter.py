@@ -57,8 +57,8 @@ class BladesPainter:
         segments = [ring.segments for ring in rings]
         self._parted = 1 + sum(ring.to < PARTED for ring in rings[:-1])
         self.groups = [
-            Ribbons(ctx, block, counts, units, soft=True, defines=self.store.organs)
-            for counts in (segments[: self._parted + 1], segments[self._parted :])
+            Ribbons(ctx, block, counts, units, soft=True, parted=parted, defines=self.store.organs)
+            for parted, counts in ((True, segments[: self._parted + 1]), (False, segments[self._parted :]))
             if counts
         ]
         self.morph = Ribbons(ctx, block, segments[-1:], units, soft=True, record=PAINTED, defines={**laid, "MORPH": 1})

@@ -34,8 +34,10 @@ out vec3 tooth;  // which of them, from the root on; from left, -1, to right, 1;
 #ifdef SOFT
 noperspective out float aside;  // from the middle line [pixel]
 noperspective out float half_width;  // of the ribbon [pixel]
+#ifdef PARTED
 flat out float hides;  // coverage from which on a pixel counts as hidden behind it
-uniform int part;      // 0: all of it; 1: where it hides what is behind it; 2: the rest
+uniform int part;      // 1: where it hides what is behind it; 2: the rest
+#endif
 
 // Move a point aside on the screen, so that the ribbon reaches half a pixel beyond its edge.
 vec4 widened(vec3 place, vec3 tangent, vec2 across) {
@@ -106,7 +108,7 @@ float joint_at(float t, int segments) {
 const float BOW = 0.135;  // how much darker one straight segment would be than the blade; measured at 2 to 8 of them
 
 void main() {
-#ifdef SOFT
+#ifdef PARTED
     hides = joints.y;
     if (part == 1 && hides > 1.0) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
