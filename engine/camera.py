@@ -68,6 +68,16 @@ def eye_of(view: View, /) -> tuple[float, float, float]:
     return x, y, z
 
 
+def is_mirrored(view: View, /) -> bool | None:
+    """Return whether a view shows the world as a mirror does, as pictures of what water reflects may be drawn.
+
+    It is None where that cannot be told, without perspective.
+    """
+    clip = view.projection.astype(np.float64) @ view.view.astype(np.float64)
+    turn = float(np.linalg.det(clip[[0, 1, 3], :3]))  # to the right, up and ahead
+    return turn > 0.0 if turn else None
+
+
 def view_matrix(camera: Camera, /) -> Floats:
     """Return the matrix from the world to the eye, shape (4, 4), for column vectors."""
     ahead = np.array(forward(camera.yaw, camera.pitch))

@@ -7,8 +7,9 @@ import moderngl
 
 from ..components.body import Body
 from ..components.shade import Shade
-from ..engine.camera import View
+from ..engine.camera import View, is_mirrored
 from ..engine.gl.guest import FIRST_UNIT, aside, guest
+from ..engine.gl.rasteriser import handing_over
 from ..engine.gl.smaller import Smaller
 from ..engine.gl.stopwatch import Stopwatch
 from ..engine.gl.stream import release_all
@@ -50,7 +51,7 @@ LAST_UNIT = FIRST_UNIT + 15
 
 
 def _units() -> dict[str, int]:
-    """Return the texture unit of each sampler: those read only before drawing share theirs with those read then."""
+    """Return the texture unit of each sampler: those read only before drawing, or only by blades, share with others."""
     asked = {name for each in REPRESENTATIONS for name in each.asked}
     drawn = [name for each in REPRESENTATIONS for name in each.samplers]
     throughout = [*SHARED, *(name for name in drawn if name in asked)]
@@ -90,6 +91,7 @@ class Painter:
         self.bodies: BodyPainter | None = None
         self.smaller, self.stopwatch = Smaller(ctx, floats=linear), Stopwatch(ctx)
         self.painters: dict[str, RepresentationPainter] = {}
+        self._hand_over = handing_over(ctx)
         self.draw_calls = 0
         self.site, self._mown, self._shining = site, mown, shining
         self._lit: Daylight | None = None
@@ -227,7 +229,7 @@ class Painter:
             calls = self.light.prepare() + sum(painter.hear() for painter in self.painters.values())
             write_messages(self.received, outlook, self._first, site.ground)
             self.received.texture.use(UNITS["received"])
-            return calls + sum(painter.prepare() for painter in self.painters.values())
+        return calls
 
     def draw_carpet_everywhere(self, view: View, outlook: Outlook) -> None:
         """Draw the carpet everywhere, at half the height of the grass, into the framebuffer that is bound."""
@@ -251,14 +253,15 @@ class Painter:
             self.mown.use(UNITS["mown"])
             self.press.texture.use(UNITS["pressed"])
             self.draw_calls = self._hear(target) if blades is None else 0
-            self._draw_land(target)
+            self._draw_land(target, view)
+            self._hand_over()
             if blades is None:
                 self._draw_grass(target)
             else:
                 ctx.enable_only(moderngl.DEPTH_TEST)
                 self.draw_calls += sum(painter.draw() for painter in blades)
 
-    def _draw_land(self, target: moderngl.Framebuffer) -> None:
+    def _draw_land(self, target: moderngl.Framebuffer, view: View) -> None:
         """Draw all that is opaque, the sky, and the carpet, on which bodies have their soft outlines."""
         self.ctx.enable_only(moderngl.DEPTH_TEST)
         self.draw_calls += sum(painter.draw_solid() for painter in self.painters.values())
@@ -267,7 +270,12 @@ class Painter:
         target.depth_mask = False
         self.draw_calls += self.light.draw()
         self._blend()
+        mirrored = is_mirrored(view)
+        if mirrored is not None:  # hillsides that face away are hidden by the hill
+            self.ctx.cull_face = "front" if mirrored else "back"
+            self.ctx.enable(moderngl.CULL_FACE)
         self.draw_calls += self.carpet.draw(target)
+        self.ctx.disable(moderngl.CULL_FACE)
         target.depth_mask = True
         if self.bodies is not None:
             self.draw_calls += self.bodies.draw_border()
@@ -279,6 +287,7 @@ class Painter:
         for name, painter in reversed(self.painters.items()):
             if name != "carpet":
                 self.draw_calls += painter.draw(target)
+                self._hand_over()
 
     def _blend(self) -> None:
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND)

@@ -57,7 +57,7 @@ DOES = {
     "glTexImage3D": (*(c_int,) * 9, c_void_p),
     "glCopyTexSubImage2D": (c_int,) * 8, "glGenQueries": (c_int, c_void_p), "glDeleteQueries": (c_int, c_void_p),
     "glQueryCounter": (c_int,) * 2, "glGetQueryObjectiv": (c_int, c_int, c_void_p),
-    "glGetQueryObjectui64v": (c_int, c_int, c_void_p),
+    "glGetQueryObjectui64v": (c_int, c_int, c_void_p), "glFlush": (),
 }  # fmt: skip
 """All others: what a state is read and brought back with, and what moderngl has no word for."""
 

@@ -110,7 +110,7 @@ def _remembered(ctx: moderngl.Context, target: moderngl.Framebuffer, state: Stat
     """Let moderngl remember in the end what it does now, so that a host that draws with it finds what it has set."""
     host = _host_framebuffer(ctx, target)
     box, cut, writes = target.viewport, target.scissor, target.depth_mask
-    before = ctx.front_face, ctx.wireframe
+    before = ctx.front_face, ctx.cull_face, ctx.wireframe
     try:
         yield
     finally:
@@ -118,7 +118,7 @@ def _remembered(ctx: moderngl.Context, target: moderngl.Framebuffer, state: Stat
         target.scissor = cut if cut != (0, 0, *target.size) else None  # type: ignore[assignment]
         host.use()
         ctx.enable_only(state.flags)
-        ctx.front_face, ctx.wireframe = before
+        ctx.front_face, ctx.cull_face, ctx.wireframe = before
 
 
 def _host_framebuffer(ctx: moderngl.Context, target: moderngl.Framebuffer) -> moderngl.Framebuffer:

@@ -1,6 +1,10 @@
 """What draws: a graphics card, or the processor itself."""
 
+from collections.abc import Callable
+
 import moderngl
+
+from .functions import functions_of
 
 SOFTWARE = ("llvmpipe", "softpipe", "swrast", "software", "swiftshader", "basic render", "gdi generic", "noop")
 """Parts of the names of renderers that are no graphics cards, in small letters."""
@@ -14,3 +18,16 @@ def is_software(renderer: str, /) -> bool:
 def draws_in_software(ctx: moderngl.Context, /) -> bool:
     """Return whether a context is drawn in without a graphics card."""
     return is_software(str(ctx.info["GL_RENDERER"]))
+
+
+def handing_over(ctx: moderngl.Context, /) -> Callable[[], None]:
+    """Return what lets a software rasteriser begin with all that has been drawn so far, while more is got ready.
+
+    Left to itself it begins when a frame is whole, and its threads wait until then. A card needs no such hint, and one
+    that draws by tiles would have to go over them again: there it does nothing.
+    """
+    return functions_of(ctx).glFlush if draws_in_software(ctx) else _nothing
+
+
+def _nothing() -> None:
+    pass

@@ -111,12 +111,6 @@ class RepresentationPainter(Protocol):
     def hear(self) -> int:
         """Let its receivers hear the wind; return the number of draw calls."""
 
-    def prepare(self) -> int:
-        """Make out what is the same all over each thing it draws, now that all receivers have heard the wind.
-
-        Returns the number of draw calls.
-        """
-
     def draw_solid(self) -> int:
         """Draw what is opaque and writes depth, before the sky; return the number of draw calls."""
 

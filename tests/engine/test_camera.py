@@ -14,9 +14,11 @@ from tallgrass.engine.camera import (
     FAR,
     NEAR,
     Camera,
+    View,
     camera_at,
     forward,
     glide,
+    is_mirrored,
     parse_camera,
     projection_matrix,
     view_matrix,
@@ -62,6 +64,21 @@ def test_two_matrices_that_have_no_inverse_together_are_refused_in_a_sentence() 
     view[1, 0], projection[0, 1] = 1.0, 1e20
     with pytest.raises(ValueError, match=r"^the view and the projection matrix come to more together than single"):
         view_of(view, projection)
+
+
+@given(places, angles, pitches, st.tuples(*[st.booleans()] * 3))
+def test_a_picture_in_a_mirror_is_known(
+    place: tuple[float, float, float], yaw: float, pitch: float, flips: tuple[bool, bool, bool]
+) -> None:
+    water, turned, reversed_depth = flips
+    view = view_matrix(Camera(place, yaw, pitch, 1.0)) @ np.diag([1.0, -1.0 if water else 1.0, 1.0, 1.0])
+    projection = projection_matrix(1.0, 1.5)
+    seen = np.diag([1.0, -1.0 if turned else 1.0, -1.0 if reversed_depth else 1.0, 1.0]) @ projection
+    assert is_mirrored(View(view.astype(np.float32), seen.astype(np.float32))) is (water != turned)
+
+
+def test_without_perspective_nobody_can_tell_whether_it_is_one() -> None:
+    assert is_mirrored(View(np.eye(4, dtype=np.float32), np.diag([0.1, 0.1, -0.01, 1.0]).astype(np.float32))) is None
 
 
 @given(angles, pitches)

@@ -105,8 +105,20 @@ def test_d6_a_prairie_is_drawn_the_same_whatever_state_the_host_left(
     np.testing.assert_array_equal(found, expected)
 
 
+def test_d6_what_a_mirror_shows_is_the_picture_turned_over(stage: Stage, load: Load, camera: Aim) -> None:
+    prairie = load()
+    view, projection = stage.matrices(camera(0.3, 4.1, 12.0, pitch=-14))
+    pictures = []
+    for over in (1.0, -1.0):
+        stage.begin()
+        prairie.draw(view, np.diag([over, 1.0, 1.0, 1.0]) @ projection)
+        pictures.append(stage.read().astype(float))
+    plain, mirrored = pictures
+    assert (np.abs(mirrored[:, ::-1] - plain).max(axis=2) > 12.0).mean() < 0.005
+
+
 def test_d6_a_prairie_fills_the_hosts_viewport_and_nothing_else(stage: Stage, load: Load, camera: Aim) -> None:
-    prairie, aim = load(), camera(0.3, 1.9, 12.0, pitch=-14)
+    prairie, aim = load(), camera(0.3, 4.1, 12.0, pitch=-14)
     stage.target.use()
     stage.target.clear(0.0, 0.0, 1.0, 1.0, depth=1.0)
     stage.target.viewport = (32, 20, 80, 45)

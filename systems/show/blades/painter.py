@@ -145,7 +145,11 @@ class BladesPainter:
         self.standing.texture.use(self._units["standing"])
         return self._received.ask(self.hearing.array(), first=self._first, count=self._asked)
 
-    def prepare(self) -> int:
+    def draw_solid(self) -> int:
+        """Draw nothing: blades come after all that is coarser."""
+        return 0
+
+    def _make_out(self) -> int:
         """Make out all about each blade that is the same along its ribbon; return the number of draw calls."""
         self.store.blades.texture.use(self._units["blades"])
         self.standing.texture.use(self._units["standing"])
@@ -158,14 +162,11 @@ class BladesPainter:
             first += count
         return calls
 
-    def draw_solid(self) -> int:
-        """Draw nothing: blades come after all that is coarser."""
-        return 0
-
     def draw(self, target: moderngl.Framebuffer, /) -> int:
         """Draw all blades; return the number of draw calls."""
+        calls = self._make_out()
         self.store.targets.use(self._units["targets"])
-        calls = self.morph.draw()
+        calls += self.morph.draw()
         near, *far = self.groups
         calls += sum(ribbons.draw() for ribbons in far)
         # Around the viewer no order is right for every direction: there blades are parted by depth, and then edged.

@@ -79,10 +79,6 @@ class CarpetPainter:
             self.air.write(row, message[0])
         return calls + self.air.sum_up()
 
-    def prepare(self) -> int:
-        """Prepare nothing: there is nothing but the ground."""
-        return 0
-
     def lay(self, outlook: Outlook, cover: Floats | None, /) -> None:
         """Send the tiles of the ground, and how much carpet lies on each patch.
 

@@ -66,10 +66,6 @@ class StripsPainter:
             for ring, (patch, first, count) in enumerate(self._asked)
         )
 
-    def prepare(self) -> int:
-        """Prepare nothing: strips are drawn as they are."""
-        return 0
-
     def draw_solid(self) -> int:
         """Draw nothing: strips are blended."""
         return 0

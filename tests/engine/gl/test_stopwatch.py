@@ -1,9 +1,12 @@
 """How long drawing takes, by the clock and by the graphics card (N11)."""
 
+from types import SimpleNamespace
+
 import moderngl
 import pytest
 
-from tallgrass.engine.gl.rasteriser import is_software
+from tallgrass.engine.gl import rasteriser
+from tallgrass.engine.gl.rasteriser import handing_over, is_software
 from tallgrass.engine.gl.stopwatch import MOST_UNDERWAY, Stopwatch
 
 
@@ -61,3 +64,16 @@ def test_a_drawing_that_fails_leaves_the_watch_in_order(ctx: moderngl.Context) -
 )
 def test_a_rasteriser_is_known_by_its_name(renderer: str, software: bool) -> None:  # noqa: FBT001
     assert is_software(renderer) is software
+
+
+@pytest.mark.parametrize("software", [True, False])
+def test_software_begins_before_a_frame_is_whole_and_a_card_is_left_alone(
+    ctx: moderngl.Context,
+    monkeypatch: pytest.MonkeyPatch,
+    software: bool,  # noqa: FBT001
+) -> None:
+    begun: list[bool] = []
+    monkeypatch.setattr(rasteriser, "draws_in_software", lambda _: software)
+    monkeypatch.setattr(rasteriser, "functions_of", lambda _: SimpleNamespace(glFlush=lambda: begun.append(True)))
+    handing_over(ctx)()
+    assert begun == [True] * software
