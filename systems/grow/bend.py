@@ -97,11 +97,11 @@ def ribbon(
     centre = spine(blades, postures, message, points=points)
     half = 0.5 * widths(blades, np.linspace(0.0, 1.0, points), taper, section)
     axis = across(blades)
-    if section.is_round:
-        own = np.broadcast_to(blades.organ, blades.height.shape) == BLADE
-        # As blunt as makes up for what the last piece cuts off: a round stem is broad up to near its tip.
-        half[own, -1] = half[own, -2] * max((1.0 - taper) / (1.0 + taper), 0.0)
-        axis = axis if side is None else np.where(own[:, None], side, axis)
+    own = np.broadcast_to(blades.organ, blades.height.shape) == BLADE
+    # As blunt as makes up for what the last piece cuts off.
+    half[own, -1] = half[own, -2] * max((1.0 - taper) / (1.0 + taper), 0.0)
+    if section.is_round and side is not None:
+        axis = np.where(own[:, None], side, axis)
     out = half[:, :, None] * axis[:, None, :]
     return (centre - out).astype(np.float32), (centre + out).astype(np.float32)
 

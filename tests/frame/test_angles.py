@@ -149,7 +149,7 @@ def test_g4_blades_of_the_carpet_stand_upright_whichever_way_they_are_seen(
         (np.diff(each[far], axis=1) ** 2).mean() / (np.diff(each[far], axis=0) ** 2).mean() for each in (drawn, true)
     ]
     assert far.sum() > 3
-    assert upright[0] == pytest.approx(upright[1], rel=0.7)
+    assert 0.4 < upright[0] / upright[1] < 2.0
 
 
 def test_x5_the_sky_does_not_shine_through_ground_behind_a_far_crest(ctx: moderngl.Context) -> None:

@@ -92,7 +92,7 @@ float profile(float t, float taper, float segments) {
     }
 #endif
     float narrower = grain_s[int(joints.z)].w;
-    if (narrower < 0.0 && t > 0.9999)  // as blunt as makes up for what the last segment cuts off of a round stem
+    if (t > 0.9999)  // as blunt as makes up for what the last segment cuts off
         return pow(segments, -taper) * max((1.0 - taper) / (1.0 + taper), 0.0);
     float waist = max(narrower, 0.0) * min(0.16 * segments, 1.0);
     return pow(max(1.0 - t, 0.0), taper) * (1.0 - waist * max(1.0 - t / 0.16, 0.0));
@@ -104,8 +104,6 @@ const int segments_of[COUNTS] = SEGMENTS_OF;  // of a blade, sub-level by sub-le
 float joint_at(float t, int segments) {
     return floor(t * float(segments) + 0.5) / float(segments);
 }
-
-const float BOW = 0.135;  // how much darker one straight segment would be than the blade; measured at 2 to 8 of them
 
 void main() {
 #ifdef PARTED
@@ -186,10 +184,7 @@ void main() {
     keel *= 1.0 - painted.w;
 #endif
 #endif
-    // Between its joints a blade's colour goes straight, where light rises in a bow: so much darker would few joints make it,
-    // and half as much where it lies.
-    float bow = BOW * (1.0 - 0.5 * min(dot(lie_of.xy, lie_of.xy), 1.0));
-    color = shown_of(light) * (1.0 + bow * pow(mix(float(fine), float(coarse), slide), -1.5));
+    color = shown_of(light);
 #ifdef SOFT
     gl_Position = widened(place, tangent, across);
 #else

@@ -125,11 +125,13 @@ vec2 elevation_seen(float slope) {
     return vec2(float(low), clamp((at.x - at.y) / (at.z - at.y), 0.0, 1.0));
 }
 
+const float SHALLOWEST = 0.005;  // a line of sight counts as at least so steep, for how high up it meets blades
+
 // How much more grass hides, seen at a slope between those of two images, than the mean of both: by the leaves that the
 // steeper one shows it to have, of which a line of sight meets the more the lower it is. What is seen straight from above is
 // taken for the steepest image.
 float filled(float steeper, vec2 seen, float slope, float mean) {
-    float meets = slopes[int(seen.x) + 1] / clamp(slope, slopes[0], slopes[SLOPES - 1]);
+    float meets = slopes[int(seen.x) + 1] / clamp(slope, SHALLOWEST, slopes[SLOPES - 1]);
     return (1.0 - pow(max(1.0 - steeper, 1e-3), meets)) / max(mean, 0.01);
 }
 
@@ -141,7 +143,6 @@ const float UNEVEN = 0.75;  // how deep they are at least, of how deep they are 
 const float SPIKES = 18.0;  // how much more leaves are met along an outline where taller plants stand
 const float TALLER = 0.05;  // how much taller plants count at most, of the mean
 
-const float SHALLOWEST = 0.005;  // a line of sight counts as at least so steep, for how high up it meets blades
 const float STANDING = 0.9;  // how much it covers at least of what is behind an outline, where strips have just begun to give way
 
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,

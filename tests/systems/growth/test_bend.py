@@ -9,6 +9,7 @@ from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.systems.grow.bend import posture_of, ribbon, segment_normals, spine
 from tallgrass.systems.grow.blades import grow_blades
 from tallgrass.systems.grow.postures import grow_postures
+from tallgrass.systems.grow.section import Section
 
 KIND = GrassKind()
 POSTURES = grow_postures(KIND, seed=2)
@@ -83,10 +84,18 @@ def test_a_ribbon_widens_from_its_waist_and_narrows_as_its_taper_says_across_its
     left, right = ribbon(BLADES, POSTURES, (0.3, 0.1), points=26, taper=taper)
     side, along = right.astype(np.float64) - left, np.linspace(0.0, 1.0, 26)
     width = BLADES.width[:, None] * (1.0 - along) ** taper * np.interp(along, [0.0, 0.16], [0.45, 1.0])
-    np.testing.assert_allclose(np.linalg.norm(side, axis=2), width, atol=1e-6)
+    np.testing.assert_allclose(np.linalg.norm(side, axis=2)[:, :-1], width[:, :-1], atol=1e-6)
     face = np.stack([np.cos(BLADES.facing), np.sin(BLADES.facing)], axis=1)
     np.testing.assert_allclose((side[:, :, ::2] * face[:, None]).sum(axis=2), 0.0, atol=1e-6)
     np.testing.assert_array_equal(side[:, :, 1], 0.0)
+
+
+@given(st.floats(0.0, 1.0), st.integers(2, 16))
+def test_the_last_piece_of_a_ribbon_is_as_broad_in_the_mean_as_the_blade_is_there(taper: float, pieces: int) -> None:
+    left, right = ribbon(BLADES, POSTURES, (0.0, 0.0), points=pieces + 1, taper=taper, section=Section(waist=1.0))
+    before, last = np.linalg.norm(right.astype(np.float64) - left, axis=2)[:, -2:].T
+    mean = BLADES.width * (1.0 / pieces) ** taper / (1.0 + taper)
+    np.testing.assert_allclose(0.5 * (before + last), mean, rtol=1e-3, atol=1e-6)
 
 
 def test_segment_normals_stand_on_the_ribbon_and_face_where_the_blade_does() -> None:
