@@ -80,8 +80,11 @@ const vec2 tones[ORGANS] = TONES;
 const float widths[ORGANS * KNOTS] = WIDTHS;
 #endif
 
-// Width of a blade at part `t` of it: as systems/grow/bend.py has it. Where segments are longer than the waist, it is less
-// drawn in, so that the blade is as broad in the mean.
+const float POINTED = 4e-4;  // half the breadth of an end that is seen as a point, of its distance
+
+// Width of a blade at part `t` of it: as systems/grow/bend.py has it. It ends as bluntly as makes up for what the last segment
+// cuts off, but in a point where it is seen from near by, unless it is round. Where segments are longer than the waist, it is
+// less drawn in, so that the blade is as broad in the mean.
 float profile(float t, float taper, float segments) {
 #ifdef ORGANS
     int organ = int(stands.z);
@@ -92,8 +95,10 @@ float profile(float t, float taper, float segments) {
     }
 #endif
     float narrower = grain_s[int(joints.z)].w;
-    if (t > 0.9999)  // as blunt as makes up for what the last segment cuts off
-        return pow(segments, -taper) * max((1.0 - taper) / (1.0 + taper), 0.0);
+    if (t > 0.9999) {
+        float blunt = pow(segments, -taper) * max((1.0 - taper) / (1.0 + taper), 0.0);
+        return narrower < 0.0 ? blunt : min(blunt, POINTED * distance(foot.xyz, eye.xyz) / max(length(lie_of.zw), 1e-5));
+    }
     float waist = max(narrower, 0.0) * min(0.16 * segments, 1.0);
     return pow(max(1.0 - t, 0.0), taper) * (1.0 - waist * max(1.0 - t / 0.16, 0.0));
 }
