@@ -176,22 +176,21 @@ def test_n11_where_representations_have_been_drawn_in_the_carpet_lies(
 
 
 RUN = """
-import runpy, sys
+import runpy
 from tallgrass.systems import govern
 govern.RUNGS = (govern.Fineness(0.5),)
-sys.argv = sys.argv[1:]
-runpy.run_path(sys.argv[0], run_name="__main__")
+runpy.run_module("host_program", run_name="__main__")
 """
 
 
 @pytest.mark.window
 @pytest.mark.gl
 def test_n11_a_game_and_a_prairie_with_fewer_pixels_leave_each_other_alone(tmp_path: Path) -> None:
-    program = Path(__file__).with_name("host_program.py")
     (tmp_path / "scene.yaml").write_text(LITTLE + "wind: [{ kind: breeze, strength: 0.4 }]\n", "utf-8")
     done = subprocess.run(
-        [sys.executable, "-W", "error", "-c", RUN, program, tmp_path / "scene.yaml", "1"],
-        env={**os.environ, "PYGLET_HEADLESS": ""}, capture_output=True, text=True, check=False,
+        [sys.executable, "-W", "error", "-c", RUN, tmp_path / "scene.yaml", "1"],
+        cwd=Path(__file__).parent, env={**os.environ, "PYGLET_HEADLESS": ""},
+        capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     said = json.loads(done.stdout)

@@ -1,6 +1,6 @@
 """A pyglet game with a prairie in it, on a display and without one, on the oldest OpenGL and a newer one (D6).
 
-Each run is a process of its own, `host_program.py`, and what its checks found wrong stands here by their names.
+Each run is a process of its own, `host_program`, and what its checks found wrong stands here by their names.
 `TALLGRASS_ROUNDS` says how many times it loads and releases a prairie.
 """
 
@@ -16,8 +16,12 @@ import pytest
 from tallgrass.testing import LITTLE
 
 SCENE = LITTLE + "wind: [{ kind: breeze, strength: 0.4 }]\n"
-PROGRAM = Path(__file__).with_name("host_program.py")
-CHECKS = re.findall(r"^def check_(\w+)", PROGRAM.read_text("utf-8"), re.MULTILINE)
+PROGRAM = Path(__file__).with_name("host_program")
+CHECKS = [
+    check
+    for file in PROGRAM.glob("*.py")
+    for check in re.findall(r"^def check_(\w+)", file.read_text("utf-8"), re.MULTILINE)
+]
 ROUNDS = os.environ.get("TALLGRASS_ROUNDS", "9")
 pytestmark = [pytest.mark.window, pytest.mark.gl]
 
@@ -31,8 +35,8 @@ def test_d6_a_game_and_its_prairie_leave_each_other_alone(headless: bool, versio
     if headless:
         del environment["DISPLAY"]
     done = subprocess.run(
-        [sys.executable, "-W", "error", PROGRAM, tmp_path / "scene.yaml", ROUNDS],
-        env=environment, capture_output=True, text=True, check=False,
+        [sys.executable, "-W", "error", "-m", PROGRAM.name, tmp_path / "scene.yaml", ROUNDS],
+        cwd=PROGRAM.parent, env=environment, capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     said = json.loads(done.stdout)

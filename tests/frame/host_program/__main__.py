@@ -1,0 +1,29 @@
+"""A pyglet game that has a prairie in it: what `test_pyglet.py` runs, with a display and without one.
+
+It prints one line of JSON: for each check what was found wrong, an empty text where nothing was. What a check draws
+is compared with the same drawing by the same program without its prairie.
+"""
+
+import json
+import sys
+
+from pyglet import gl
+
+from . import drawing, windows
+from .game import Game
+from .states import tidy
+
+
+def main() -> None:
+    """Run all checks and print what they say."""
+    found = {"no_window": windows.check_no_window()}
+    game = Game()
+    for name, run in [*vars(drawing).items(), *vars(windows).items()]:
+        if name.startswith("check_") and run is not windows.check_no_window:
+            tidy()
+            found[name.removeprefix("check_")] = run(game)
+    sys.stdout.write(json.dumps({"version": "{}.{}".format(*gl.gl_info.get_version()), **found}))
+
+
+if __name__ == "__main__":
+    main()
