@@ -33,13 +33,15 @@ float depth_met(float leaves) {
     return depth_met(vec3(leaves)).x;
 }
 
+const float UPPER = 0.58;  // how much the upper part of a way through the grass counts: there most of it is met
+
 // The slope on level ground of a line of sight that goes as far through the grass as one of this slope does over ground
 // that bulges, or is hollow: from the top of the grass to the ground, or to where it comes nearest to it.
 float level_slope(float slope, float crest, float share, float tall, float stands) {
     share *= lifted(deepest(slope, crest, tall * stands), crest, stands);
     vec2 way = 2.0 * crest * tall * vec2(max(stands / RAISED - share, 0.0), -share);
     way = sqrt(max(slope * abs(slope) + way, 0.0));
-    return 0.5 * (way.x + way.y) / stands;  // bent grass has less of its leaf area across the way
+    return mix(way.y, way.x, UPPER) / stands;  // bent grass has less of its leaf area across the way
 }
 
 // Tangent of the angle between the line of sight and ground that rises by `rise` along x and z.

@@ -80,7 +80,7 @@ const vec2 tones[ORGANS] = TONES;
 const float widths[ORGANS * KNOTS] = WIDTHS;
 #endif
 
-const float POINTED = 4e-4;  // half the breadth of an end that is seen as a point, of its distance
+const float POINTED = 1e-4;  // half the breadth of an end that is seen as a point, of its distance
 
 // Width of a blade at part `t` of it: as systems/grow/bend.py has it. It ends as bluntly as makes up for what the last segment
 // cuts off, but in a point where it is seen from near by, unless it is round. Where segments are longer than the waist, it is

@@ -138,7 +138,7 @@ float filled(float steeper, vec2 seen, float slope, float mean) {
 const float LEAST_MET = 0.004;  // of a kind, as a part of all that is: of less, nothing is seen
 const float LEAST = 0.01; // height of the carpet where nothing grows [m]
 const float ARCHED = 0.5;  // how much less of their tips blades show from the side for how low they are bent
-const float MET = 0.7;  // how deep leaves are that are met over a crest, of how deep the line of sight comes
+const float MET = 0.85;  // how deep leaves are that are met over a crest, of how deep the line of sight comes
 const float UNEVEN = 0.75;  // how deep they are at least, of how deep they are on level ground: tips differ in height
 const float SPIKES = 18.0;  // how much more leaves are met along an outline where taller plants stand
 const float TALLER = 0.05;  // how much taller plants count at most, of the mean

@@ -26,7 +26,7 @@ GRID = 8
 RAISED = 0.66
 """Height of the carpet, as a part of the grass's: where what is seen of it stays in its place."""
 
-OUTLINE = 0.9
+OUTLINE = 0.88
 """Height of the carpet along outlines, as a part of the grass's: where leaves begin, with a few thin tips above."""
 
 STRETCH = "5.0"
