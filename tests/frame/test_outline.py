@@ -148,7 +148,7 @@ def roughness(line: Doubles) -> float:
 
 def test_x5_an_outline_is_as_high_as_that_of_every_blade(hillside: tuple[Doubles, Doubles]) -> None:
     seen, truth = (hidden(picture) for picture in hillside)
-    assert abs((seen - truth).mean()) < 0.4
+    assert abs((seen - truth).mean()) < 0.5
 
 
 def test_x5_an_outline_is_as_rough_as_that_of_every_blade(hillside: tuple[Doubles, Doubles]) -> None:
