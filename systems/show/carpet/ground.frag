@@ -137,7 +137,7 @@ float filled(float steeper, vec2 seen, float slope, float mean) {
 
 const float LEAST_MET = 0.004;  // of a kind, as a part of all that is: of less, nothing is seen
 const float LEAST = 0.01; // height of the carpet where nothing grows [m]
-const float ARCHED = 0.5;  // how much less of their tips blades show from the side for how low they are bent
+const float ARCHED = 0.33;  // how much less of their tips blades show from the side for how low they are bent
 const float MET = 0.85;  // how deep leaves are that are met over a crest, of how deep the line of sight comes
 const float UNEVEN = 0.75;  // how deep they are at least, of how deep they are on level ground: tips differ in height
 const float SPIKES = 18.0;  // how much more leaves are met along an outline where taller plants stand
@@ -275,7 +275,7 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
 #ifndef HEADS  // among plants in flower, grass is as bright as its images show it
         mean_of.rg *= higher_up * vec2(OF(tipped, kind), 1.0);
 #endif
-        mean_of.r *= 1.0 - ARCHED * (1.0 - above) * pow(max(1.0 - stands, 0.0), 1.5);
+        mean_of.r *= 1.0 - ARCHED * (1.0 - above) * max(1.0 - stands, 0.0);
         mean_of.rg = arched(mean_of.rg, lying);
         mean_of.g *= OF(tops, kind);
         Lit met_by = lit;
