@@ -1,6 +1,7 @@
 """The map of how high grass is left to stand, and what is cut on it."""
 
 from math import isnan
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,7 @@ from ...engine.terrain.record import Terrain
 
 Floats = NDArray[np.float32]
 Bools = NDArray[np.bool_]
+Number = TypeVar("Number", np.float32, np.int64)
 
 CELL = 0.2
 """Side of a cell of the map, if the terrain is small enough [m]."""
@@ -127,8 +129,8 @@ class _Tops:
 
     def __init__(self, mown: Mown, patch: float) -> None:
         self.patch = patch
-        first_x, self._columns = _firsts(mown.origin[0], mown.cell[0], mown.shape[1], patch)
-        first_z, self._rows = _firsts(mown.origin[1], mown.cell[1], mown.shape[0], patch)
+        first_x, self._columns = _cells_of_patches(mown.origin[0], mown.cell[0], mown.shape[1], patch)
+        first_z, self._rows = _cells_of_patches(mown.origin[1], mown.cell[1], mown.shape[0], patch)
         self._first = first_x, first_z
         self._highest = np.full((len(self._rows), len(self._columns)), np.inf, np.float32)
         self._strokes = 0
@@ -136,11 +138,10 @@ class _Tops:
     def of(self, mown: Mown, cells: NDArray[np.int32]) -> Floats:
         """Return the highest of patches (n, 2), shape (n,)."""
         if mown.heights is not None and mown.strokes != self._strokes:
-            stale = np.maximum.reduceat(mown.changed, self._rows) > self._strokes
-            ends = np.append(self._rows[1:], mown.shape[0])
+            stale = _greatest(mown.changed, self._rows) > self._strokes
             for row in np.flatnonzero(stale).tolist():
-                highest = mown.heights[self._rows[row] : ends[row]].max(axis=0)
-                self._highest[row] = np.maximum.reduceat(highest, self._columns)
+                highest = mown.heights[slice(*self._rows[row])].max(axis=0)
+                self._highest[row] = _greatest(highest, self._columns)
             self._strokes = mown.strokes
         at = cells - self._first
         on = ((at >= 0) & (at < self._highest.shape[::-1])).all(axis=1)
@@ -149,11 +150,23 @@ class _Tops:
         return found
 
 
-def _firsts(origin: float, cell: float, count: int, patch: float) -> tuple[int, NDArray[np.intp]]:
-    """Return the number of the first patch along an axis, and the first cell of the map on each patch."""
-    on = np.floor((origin + (np.arange(count) + 0.5) * cell) / patch).astype(np.int64)
-    each, first = np.unique(on, return_index=True)
-    return int(each[0]), first
+def _cells_of_patches(origin: float, cell: float, count: int, patch: float) -> tuple[int, NDArray[np.intp]]:
+    """Return the number of the first patch along an axis, and from which cell to before which each has, (patches, 2).
+
+    Those are the cells whose middles are on the patch; where cells are larger than patches, the one that it is in.
+    """
+    first = int(np.floor(origin / patch))
+    border = (np.arange(first, int(np.ceil((origin + count * cell) / patch)) + 1) * patch - origin) / cell
+    within = np.floor(0.5 * (border[:-1] + border[1:]))
+    from_, to = np.minimum(np.ceil(border[:-1] - 0.5), within), np.maximum(np.ceil(border[1:] - 0.5), within + 1.0)
+    ends = np.stack([np.clip(from_, 0, count - 1), np.clip(to, 1, count)], axis=1)
+    return first, ends.astype(np.intp)
+
+
+def _greatest(values: NDArray[Number], ends: NDArray[np.intp]) -> NDArray[Number]:
+    """Return the greatest of the values (n,) from each first end to before the second, (m, 2), shape (m,)."""
+    padded = np.append(values, values[-1:])  # an end may be the end of all
+    return np.asarray(np.maximum.reduceat(padded, ends.ravel())[::2])
 
 
 def inside(footprint: Footprint, pose: Pose, place: Floats, /, *, least: float = 0.0) -> Bools:

@@ -170,6 +170,18 @@ def test_f4_the_top_of_a_patch_is_the_highest_grass_that_is_left_on_it(
                 assert top == (mown.heights[here].max() if here.any() else inf)
 
 
+@pytest.mark.parametrize("size", [4000.0, 8000.0], ids=["smaller cells", "larger cells"])
+def test_f4_the_patches_that_are_mown_are_where_it_was_cut_whether_cells_are_smaller_or_larger(size: float) -> None:
+    mown, patch = Mown(Terrain(np.zeros((3, 3), np.float32), size / 2.0)), 2.5
+    mown.cut(Footprint(radius=15.0), 0.1, Pose(500.0, -300.0))
+    i, j = np.arange(-int(size / 5.0), int(size / 5.0)), np.full(int(size / 2.5), -120)
+    low = mown.tops(np.stack([i, j], axis=-1).astype(np.int32), patch=patch) < 1.0
+    places = (i[low] + 0.5) * patch
+    assert 485.0 - mown.cell[0] < places.min() < 490.0
+    assert 510.0 < places.max() < 515.0 + mown.cell[0]
+    assert low.sum() >= 10
+
+
 def test_f4_where_grass_is_mown_so_short_that_strips_would_show_as_rows_lies_the_carpet(world: World) -> None:
     del world  # it is made the current one
     with little_prairie(scene=LITTLE.replace("scale: 4", "scale: 0")) as prairie:
