@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.presser import Presser
-from ..wind.outline import outline_of_polygon
+from ..wind.outline import Outline, outline_of_polygon
 
 Doubles = NDArray[np.float64]
 
@@ -15,6 +15,9 @@ MOST = 12
 
 _APART, _LEAST = 0.9, 0.3
 """How far apart discs stand, of the larger one's radius; the least depth of one, of the deepest."""
+
+_FARTHER = 1.3
+"""How many times farther apart they stand where there would be too many."""
 
 
 _ALONG = 1.4
@@ -36,15 +39,30 @@ def _in_capsule(radius: float, length: float) -> Doubles:
 
 
 def _in_polygon(corners: tuple[tuple[float, float], ...]) -> Doubles:
-    """Return discs that fill a polygon, the largest first; each stands outside the middles of those before it."""
+    """Return discs that fill a polygon; where it would take too many, they stand farther apart, all over it.
+
+    One that is thinner than the samples of its outline are apart counts as that much wider.
+    """
     outline = outline_of_polygon(corners)
-    rows, columns = np.indices(outline.depth.shape)
+    depth = outline.depth.astype(np.float64)
+    if outline.deepest < outline.step:
+        depth += outline.step
+    apart, discs = _APART, _apart(outline, depth, _APART)
+    while len(discs) > MOST:
+        apart *= _FARTHER
+        discs = _apart(outline, depth, apart)
+    return discs
+
+
+def _apart(outline: Outline, depth: Doubles, apart: float) -> Doubles:
+    """Return discs, the largest first, of which each stands outside the middles of those before it."""
+    rows, columns = np.indices(depth.shape)
     x, z = outline.corner[0] + columns * outline.step, outline.corner[1] + rows * outline.step
-    left = outline.depth.astype(np.float64)
+    left, least = depth.copy(), _LEAST * depth.max()
     discs: list[tuple[float, float, float]] = []
-    while len(discs) < MOST and left.max() > _LEAST * outline.deepest:
+    while len(discs) <= MOST and left.max() > least:
         at = int(left.argmax())
         disc = float(x.flat[at]), float(z.flat[at]), float(left.flat[at])
         discs.append(disc)
-        left[np.hypot(x - disc[0], z - disc[1]) < _APART * disc[2]] = 0.0
+        left[np.hypot(x - disc[0], z - disc[1]) < apart * disc[2]] = 0.0
     return np.array(discs)

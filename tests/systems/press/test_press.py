@@ -172,8 +172,14 @@ def test_f4_where_grass_is_pressed_the_wind_is_covered_as_much() -> None:
             [(0.0, 0.0), (0.7, 0.7), (-0.7, 0.6)],
             [(1.6, 0.0), (0.0, -1.6)],
         ),
+        (
+            Presser(corners=((-0.05, -0.9), (0.05, -0.9), (0.05, 0.9), (-0.05, 0.9))),
+            [(0.0, 0.75), (0.0, 0.05), (0.0, -0.84)],
+            [(0.2, 0.0), (0.0, 1.2)],
+        ),
+        (Presser(corners=((0.0, 0.0), (4.0, 4.0), (3.99, 4.01))), [(0.1, 0.1), (3.8, 3.8)], [(1.0, 0.5), (-0.2, -0.2)]),
     ],
-    ids=["disc", "capsule", "polygon"],
+    ids=["disc", "capsule", "polygon", "thin polygon", "sliver"],
 )
 def test_f4_a_footprint_is_made_of_discs_that_fill_it(
     presser: Presser, inside: list[tuple[float, float]], outside: list[tuple[float, float]]
