@@ -184,11 +184,11 @@ class Governor:
 
         With a graphics card it is the card that is timed, and what is known of it comes later.
         """
-        if self.hold is None:
+        if self.hold is None or viewer not in self._paces:  # a system may have set it since the frame began
             yield
             return
         watch = painter.stopwatch
-        with watch.timing((viewer, self._drawn[viewer])):
+        with watch.timing((viewer, self._drawn.get(viewer, 0))):
             yield
         for (name, rung), seconds in watch.read():
             pace = self._paces[name]

@@ -145,6 +145,18 @@ def test_n11_without_a_time_to_hold_nothing_is_timed_copied_or_waited_for(
     assert isinstance(painter.smaller._gl, Functions)  # noqa: SLF001
 
 
+def test_n11_a_system_may_set_the_time_to_hold_in_the_middle_of_a_frame(stage: Stage, load: Load) -> None:
+    prairie = load()
+
+    def settings() -> None:
+        prairie.governor.hold = 1.0
+
+    prairie.systems.add("input", "settings", settings)
+    shown(stage, prairie)
+    assert prairie.governor.hold == 1.0
+    shown(stage, prairie)
+
+
 def test_n11_representations_are_drawn_in_little_by_little_and_come_back(stage: Stage, load: Load, at: At) -> None:
     prairie = load()
 
