@@ -29,7 +29,12 @@ class Clearings:
 
     def spare(self, cells: NDArray[np.int32], /) -> NDArray[np.bool_]:
         """Return whether grass grows on each of some cells (n, 2), shape (n,)."""
-        grows = np.ones(len(cells), np.bool_)
-        for cell in self._cells:
-            grows &= (cells != cell).any(axis=1)
-        return grows
+        if not self._cells:
+            return np.ones(len(cells), np.bool_)
+        cleared = _keys(np.array(list(self._cells), np.int64))
+        return np.isin(_keys(cells.astype(np.int64)), cleared, invert=True)
+
+
+def _keys(cells: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return a number for each cell (n, 2) that no other has, shape (n,)."""
+    return cells[:, 0] << 32 ^ cells[:, 1] & 0xFFFFFFFF
