@@ -58,7 +58,7 @@ class _Ways:
     """When it sets out and arrives on each leg that leads somewhere [s]."""
 
 
-@by_identity(most=256)
+@by_identity(most=512)  # a scene has 200 winds and 200 pressers at most: with fewer, all would be made anew in turn
 def _ways(path: list[Waypoint]) -> _Ways:
     times = np.array([stop.at for stop in path], np.float64)
     declared = [(stop.at, stop.yaw) for stop in path if stop.yaw is not None]
