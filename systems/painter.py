@@ -32,7 +32,7 @@ from .press.card import CardPress
 from .press.lie import recoveries
 from .receive.ask import numbers_of, write_messages
 from .receive.received import Received
-from .show.blades.draw import BladePainter
+from .show.blades.draw import BladePainter, own_segment_defines
 from .show.blades.organs import any_teeth
 from .show.blades.plant import record_of
 from .show.carpet.painter import CarpetPainter
@@ -119,7 +119,7 @@ class Painter:
         elif site.ground.density is not before.ground.density:
             self._sow(site)
         same_grass = site.growths == before.growths and site.quality == before.quality and site.reach == before.reach
-        if not (same_grass and same_seed):
+        if not (same_grass and same_seed and site.own_segments == before.own_segments):
             self._grow_anew()
         self.carpet.stand_on(site.ground)
         self._read(site)
@@ -175,12 +175,13 @@ class Painter:
         self.textures[name] = texture
 
     def _grow(self, site: Site) -> None:
-        """Bring the grass into GL; shaders are told how many kinds there are, and of folds and teeth if any."""
+        """Bring the grass into GL; shaders are told how many kinds there are, and of what is special about any."""
         self.block.defines["KINDS"] = len(site.growths)
-        self.block.defines.pop("FOLDS", None)
+        for name in ("FOLDS", "TOOTHED", "OWN_SEGMENTS", "MOST_OWN_SEGMENTS"):
+            self.block.defines.pop(name, None)
+        self.block.defines.update(own_segment_defines(site.own_segments))
         if any(kind.profile == "fold" for kind in site.scene.grass.values()):
             self.block.defines["FOLDS"] = 1
-        self.block.defines.pop("TOOTHED", None)
         if any_teeth(site.growths):
             self.block.defines["TOOTHED"] = 1
         self._put("postures", posture_texture(self.ctx, site.growths))

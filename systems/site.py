@@ -59,8 +59,13 @@ class Site:
 
     @property
     def finest(self) -> int:
-        """Line segments per blade at the finest level."""
+        """Line segments per blade at the finest level, of kinds that do not say."""
         return max(ring.segments for ring in self.quality.blade_rings)
+
+    @property
+    def own_segments(self) -> tuple[int | None, ...]:
+        """Line segments per blade at the finest level that each kind asks for; None of those that do not say."""
+        return tuple(kind.segments for kind in self.scene.grass.values())
 
     @property
     def margin(self) -> float:

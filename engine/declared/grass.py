@@ -118,7 +118,7 @@ class GrassKind(Declaration):
     """What it bears; without it, flowers bear discs, and other plants nothing."""
 
     segments: int | None = Field(default=None, ge=1, le=16)
-    """Line segments per blade at the finest level; without it the quality's number."""
+    """Line segments per blade at the finest level, and the most at any other; without it the quality's numbers."""
 
     place: Place | None = None
     """Where it grows; without it, everywhere. Kinds share the ground, but flowers stand among the others."""

@@ -9,6 +9,9 @@ from numpy.typing import NDArray
 
 from tallgrass.engine.camera import Camera, view_of
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.reference import draw_reference
+from tallgrass.systems.show.blades.draw import own_segment_defines
+from tallgrass.systems.show.blades.painter import BladesPainter
 from tallgrass.systems.show.blades.pool import BLADE
 from tallgrass.testing import Stage
 
@@ -90,3 +93,39 @@ def test_the_two_faces_of_a_fold_are_lit_apart_with_an_edge_between_them(room: S
         picture = room.shot(load(SCENE.format(profile=profile)), seen).mean(axis=2)[60:]
         steps.append(np.abs(np.diff(picture, axis=1)).mean())
     assert steps[1] > 1.1 * steps[0]
+
+
+def test_g1_a_kind_may_have_segments_of_its_own_and_then_all_its_blades_are_drawn_with_them(
+    stage: Stage, load: Load
+) -> None:
+    def shown(how: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        text = SCENE.format(profile=f"blade, {how}lean: 0.4").replace("to: 1, segments: 4", "to: 4, segments: 4")
+        prairie = load(text + "wind: [{ kind: breeze, strength: 0.9 }]\n")
+        camera = Camera((0.0, 1.0, 8.0), 0.0, -0.2, np.radians(40.0))
+        picture = stage.shot(prairie, camera)
+        return picture, draw_reference(prairie, *stage.matrices(camera), stage.size).astype(np.float64)
+
+    usual, same, straight = (shown(how) for how in ("", "segments: 4, ", "segments: 1, "))
+    for before, again, other in zip(usual, same, straight, strict=True):
+        np.testing.assert_array_equal(again, before)
+        assert np.abs(other - before).mean() > 2.0
+
+
+def test_g1_segments_of_a_kind_are_told_to_shaders_only_where_one_has_any() -> None:
+    assert own_segment_defines([None, None]) == {}
+    assert own_segment_defines([None, 12]) == {"OWN_SEGMENTS": "int[](0, 12)", "MOST_OWN_SEGMENTS": 12}
+
+
+@pytest.mark.parametrize(("own", "most"), [(12, 12), (2, 4)])
+def test_g1_a_scene_that_is_read_again_with_other_segments_has_ribbons_of_as_many(
+    stage: Stage, load: Load, own: int, most: int
+) -> None:
+    prairie = load(SCENE.format(profile="blade"))
+    stage.shot(prairie, CAMERA)
+    prairie.path.write_text(SCENE.format(profile=f"blade, segments: {own}"), encoding="utf-8")
+    prairie.reload()
+    stage.shot(prairie, CAMERA)
+    assert prairie.painter is not None
+    blades = prairie.painter.painters["blades"]
+    assert isinstance(blades, BladesPainter)
+    assert blades.groups[0].segments == most

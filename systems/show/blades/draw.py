@@ -48,16 +48,29 @@ def shader_record(record: np.dtype[np.void], /) -> np.dtype[np.void]:
     return np.dtype([(name if name != "root" else "root_at", record[name]) for name in record.names or ()])
 
 
-def segment_defines(counts: Sequence[int], /) -> dict[str, str | int]:
-    """Return what ribbons are told of their numbers of segments."""
-    return {"SEGMENTS": max(counts), "COUNTS": len(counts), "SEGMENTS_OF": f"int[]({', '.join(map(str, counts))})"}
+def segment_defines(counts: Sequence[int], /, *, own: int = 0) -> dict[str, str | int]:
+    """Return what ribbons are told of their numbers of segments; some kinds have up to `own` of them."""
+    return {"SEGMENTS": max(*counts, own), "COUNTS": len(counts), "SEGMENTS_OF": _ints(counts)}
+
+
+def own_segment_defines(own: Sequence[int | None], /) -> dict[str, str | int]:
+    """Return what shaders are told of kinds that say how many segments their blades have at the finest level.
+
+    `own` has a number for each kind, None where it says nothing; where none does, there is nothing to tell.
+    """
+    counts = [count or 0 for count in own]
+    return {"OWN_SEGMENTS": _ints(counts), "MOST_OWN_SEGMENTS": max(counts)} if any(counts) else {}
+
+
+def _ints(values: Sequence[int]) -> str:
+    return f"int[]({', '.join(map(str, values))})"
 
 
 class Ribbons:
     """Ribbons of one number of segments or of several: joints slide from where one has them to where the next does.
 
     Soft ones have smooth edges and must come from far to near; the others are opaque and may come in any order. Those
-    that are parted besides are drawn in two goes.
+    that are parted besides are drawn in two goes. Of the finest level are the parted ones, and those that are opaque.
     """
 
     def __init__(
@@ -72,10 +85,12 @@ class Ribbons:
         record: np.dtype[np.void] = RIBBON,
         defines: Defines | None = None,
     ) -> None:
-        self.segments = max(counts)
+        finest = parted or not soft
+        own = int(block.defines.get("MOST_OWN_SEGMENTS", 0)) if finest else 0
+        self.segments = max(*counts, own)
         whole = {
-            **segment_defines(counts), **({"SOFT": 1} if soft else {}), **({"PARTED": 1} if parted else {}),
-            **(defines or {}),
+            **segment_defines(counts, own=own), **({"SOFT": 1} if soft else {}), **({"PARTED": 1} if parted else {}),
+            **({"FINEST": 1} if finest else {}), **(defines or {}),
         }  # fmt: skip
         self.program = joined(
             ctx, block, units, "systems/show/blades/ribbon.vert", "systems/show/blades/blades.frag", whole

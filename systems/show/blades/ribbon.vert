@@ -104,6 +104,23 @@ float profile(float t, float taper, float segments) {
 }
 
 const int segments_of[COUNTS] = SEGMENTS_OF;  // of a blade, sub-level by sub-level
+#ifdef OWN_SEGMENTS
+const int own_segments[KINDS] = OWN_SEGMENTS;  // of kinds that say how many at the finest level; 0 of the others
+#endif
+
+// How many segments a blade of a kind has on a sub-level.
+int segments_on(int level, int k) {
+#ifdef OWN_SEGMENTS
+    int own = own_segments[k];
+#ifdef FINEST
+    if (own > 0 && level == 0)
+        return own;
+#endif
+    return own > 0 ? min(own, segments_of[level]) : segments_of[level];
+#else
+    return segments_of[level];
+#endif
+}
 
 // The part of a blade where its joint is that is nearest to part `t`, of so many segments.
 float joint_at(float t, int segments) {
@@ -123,13 +140,13 @@ void main() {
         return;
     }
 #endif
-    int level = min(int(joints.x), COUNTS - 1), fine = segments_of[level], coarse = segments_of[min(level + 1, COUNTS - 1)];
+    int level = min(int(joints.x), COUNTS - 1), k = int(joints.z);
+    int fine = segments_on(level, k), coarse = segments_on(min(level + 1, COUNTS - 1), k);
     float t = float(gl_VertexID / 2) / float(SEGMENTS), slide = fract(joints.x), of_coarse = joint_at(t, coarse);
 #ifdef MORPH
     slide = 0.0;
-#else
-    t = joint_at(t, fine);
 #endif
+    t = joint_at(t, fine);
 #ifdef MOWN
     float left = 1.0 - fract(stands.z);
     t *= left;
@@ -166,7 +183,6 @@ void main() {
     keel = is_folded ? side * (shown_of(light) - shown_of(radiance(pigment, high_up, lit) + veil.rgb)) : vec3(0.0);
 #endif
 #ifdef MORPH
-    int k = int(joints.z);
     Painted target = painted_at(base, int(painted.x), int(painted.y), painted.z, t, k, int(joints.w));
     vec2 run = normalize(target.run.xz);
     place = mix(place, target.place, painted.w);
