@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,9 +47,9 @@ class Camera:
     """Vertical angle of view [rad]."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class View:
-    """The two matrices that a picture is drawn with."""
+    """The two matrices that a picture is drawn with, which nobody writes to."""
 
     view: NDArray[np.float32]
     """World to eye, shape (4, 4), column vectors: `view @ (x, y, z, 1)`."""
@@ -56,16 +57,44 @@ class View:
     projection: NDArray[np.float32]
     """Eye to clip space, shape (4, 4), column vectors."""
 
+    @property
+    def clip(self) -> Doubles:
+        """World to clip space, shape (4, 4), column vectors."""
+        return np.asarray(self._numbers[0, 2])
+
+    @property
+    def unclip(self) -> Doubles:
+        """Clip space to the world, shape (4, 4), column vectors; raises LinAlgError where there is no way back."""
+        return np.asarray(self._numbers[1, 2])
+
+    @property
+    def eye(self) -> tuple[float, float, float]:
+        """Where it is seen from, (x, y, z) [m]; raises LinAlgError where a matrix has no inverse."""
+        x, y, z = self._numbers[1, 0, :3, 3].tolist()
+        return x, y, z
+
+    @property
+    def is_usable(self) -> bool:
+        """Whether a picture can be drawn with it: `view_of` says what must hold."""
+        try:
+            return bool(max(map(abs, self.eye)) <= OUTERMOST and np.abs(self._numbers[:, 2]).max() <= LARGEST)
+        except np.linalg.LinAlgError:
+            return False
+
+    @cached_property
+    def _numbers(self) -> Doubles:
+        """View, projection, and both in turn; and the inverse of each, shape (2, 3, 4, 4)."""
+        numbers = np.empty((2, 3, 4, 4))
+        each, inverse = numbers
+        each[0], each[1] = self.view, self.projection
+        np.matmul(each[1], each[0], out=each[2])
+        inverse[:] = np.linalg.inv(each)  # all three at once: every frame asks, and a call costs more than its numbers
+        return numbers
+
 
 def forward(yaw: float, pitch: float, /) -> tuple[float, float, float]:
     """Return the unit vector that a camera of this yaw and pitch [rad] looks along: yaw 0 is -z, 90° is +x."""
     return math.sin(yaw) * math.cos(pitch), math.sin(pitch), -math.cos(yaw) * math.cos(pitch)
-
-
-def eye_of(view: View, /) -> tuple[float, float, float]:
-    """Return where a view is seen from, (x, y, z) [m]."""
-    x, y, z = np.linalg.inv(view.view.astype(np.float64))[:3, 3].tolist()
-    return x, y, z
 
 
 def is_mirrored(view: View, /) -> bool | None:
@@ -73,8 +102,8 @@ def is_mirrored(view: View, /) -> bool | None:
 
     It is None where that cannot be told, without perspective.
     """
-    clip = view.projection.astype(np.float64) @ view.view.astype(np.float64)
-    turn = float(np.linalg.det(clip[[0, 1, 3], :3]))  # to the right, up and ahead
+    (a, b, c, _), (d, e, f, _), _, (g, h, i, _) = view.clip.tolist()
+    turn = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)  # to the right, up and ahead
     return turn > 0.0 if turn else None
 
 
@@ -209,23 +238,9 @@ def view_of(view: object, projection: object) -> View:
     come to more together than single precision holds.
     """
     seen = View(_matrix(view, "view"), _matrix(projection, "projection"))
-    if not _is_usable(seen):
+    if not seen.is_usable:
         _must_be_usable(seen)
     return seen
-
-
-def _is_usable(seen: View) -> bool:
-    """Return whether a picture can be drawn with both matrices of a view."""
-    numbers = np.empty((2, 3, 4, 4))
-    each, inverse = numbers
-    each[0], each[1] = seen.view, seen.projection
-    np.matmul(each[1], each[0], out=each[2])
-    try:
-        inverse[:] = np.linalg.inv(each)  # all three at once: every frame asks, and a call costs more than its numbers
-    except np.linalg.LinAlgError:
-        return False
-    eye = inverse[0, :3, 3].tolist()
-    return bool(max(map(abs, eye)) <= OUTERMOST and np.abs(numbers[:, 2]).max() <= LARGEST)
 
 
 def _must_be_usable(seen: View) -> None:
@@ -233,7 +248,7 @@ def _must_be_usable(seen: View) -> None:
     for name, matrix in (("view", seen.view), ("projection", seen.projection)):
         if np.linalg.det(matrix.astype(np.float64)) == 0.0:
             raise ValueError(f"the {name} matrix has no inverse")
-    if max(map(abs, eye_of(seen))) > OUTERMOST:
+    if np.abs(np.linalg.inv(seen.view.astype(np.float64))[:3, 3]).max() > OUTERMOST:
         raise ValueError(f"the view matrix has its eye beyond {OUTERMOST:.0e} m")
     raise ValueError("the view and the projection matrix come to more together than single precision holds")
 

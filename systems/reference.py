@@ -105,7 +105,7 @@ def near_picture(blades: NDArray[np.void], seen: View, /) -> NDArray[np.bool_]:
     root = blades["root"].astype(np.float64)
     length = blades["height"] + (blades["stem"] if "stem" in (blades.dtype.names or ()) else 0.0)
     reach = ROOM * length.astype(np.float64) + blades["width"]
-    x, y, _, ahead = seen.projection.astype(np.float64) @ seen.view
+    x, y, _, ahead = seen.clip
     inside = np.ones(len(blades), np.bool_)
     for plane in (ahead + x, ahead - x, ahead + y, ahead - y):
         inside &= root @ plane[:3] + plane[3] >= -reach * np.linalg.norm(plane[:3])
@@ -185,7 +185,7 @@ def _distances(depth: NDArray[np.float64], seen: View, centre: Ints, ground: Gro
     up = 1.0 - (np.arange(height) + 0.5) / height * 2.0
     x, y = np.meshgrid(across, up)
     clip = np.stack([x, y, depth * 2.0 - 1.0, np.ones_like(x)], axis=-1)
-    world = clip @ np.linalg.inv(seen.projection.astype(np.float64) @ seen.view.astype(np.float64)).T
+    world = clip @ seen.unclip.T
     place = np.stack([world[..., 0] / world[..., 3], world[..., 2] / world[..., 3]], axis=-1)
     cell = cell_of(np.clip(place, -1e6, 1e6), patch=ground.patch)
     here = (depth < 1.0) & (np.abs(place) <= np.asarray(ground.terrain.size) / 2.0).all(axis=-1)

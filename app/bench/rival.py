@@ -87,7 +87,7 @@ class ByHand:
 
     def cull(self, view: View) -> None:
         """Choose the tiles that are seen, and how many blades of each, and send them."""
-        eye = np.linalg.inv(view.view.astype(np.float64))[:3, 3]
+        eye = np.array(view.eye)
         seen = np.flatnonzero(inside_frustum(self._middle, self._radius, view))
         away = np.linalg.norm(self._middle[seen] - eye.astype(np.float32), axis=1)
         order = np.argsort(away)
@@ -124,7 +124,7 @@ class ByHand:
 
 def inside_frustum(middle: Floats, radius: Floats, view: View) -> Mask:
     """Return whether spheres around `middle` (n, 3) of `radius` (n,) [m] touch what is seen, shape (n,)."""
-    clip = (view.projection.astype(np.float64) @ view.view.astype(np.float64)).astype(np.float32)
+    clip = view.clip.astype(np.float32)
     planes = np.concatenate([clip[3] + clip[:3], clip[3] - clip[:3]])
     planes /= np.linalg.norm(planes[:, :3], axis=1, keepdims=True)
     return np.asarray((middle @ planes[:, :3].T + planes[:, 3] >= -radius[:, None]).all(axis=1))

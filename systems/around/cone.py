@@ -97,7 +97,7 @@ def picture_sides(seen: View, /) -> Doubles:
 
     A row times (x, y, z, 1) is how far a point lies inside of one [m].
     """
-    clip = seen.projection.astype(np.float64) @ seen.view.astype(np.float64)
+    clip = seen.clip
     planes = clip[3] + np.stack([clip[0], -clip[0], clip[1], -clip[1]])
     return np.asarray(planes / np.maximum(np.linalg.norm(planes[:, :3], axis=1, keepdims=True), 1e-12))
 

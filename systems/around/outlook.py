@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...components.viewer import Viewer
-from ...engine.camera import View, eye_of
+from ...engine.camera import View
 from ...engine.world import World
 from ..mow.mown import Mown
 from ..press.marks import UNTRODDEN, Trodden
@@ -138,7 +138,7 @@ class Outlook:
 
     def look(self, view: View, /, *, time: float, leap: float = LEAP) -> None:
         """Look from where two matrices say, at an instant [s]; who comes farther than `leap` [m] has jumped."""
-        viewer, eye = self.viewer, eye_of(view)
+        viewer, eye = self.viewer, view.eye
         viewer.way = float(np.hypot(eye[0] - viewer.eye[0], eye[2] - viewer.eye[2]))
         viewer.jumped = viewer.way > leap
         viewer.eye, viewer.cone, viewer.time = eye, view_cone(view), time

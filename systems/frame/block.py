@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.shade import Shade
-from ...engine.camera import View, eye_of
+from ...engine.camera import View
 from ...engine.declared.grass import MOST_KINDS, GrassKind
 from ...engine.declared.light import Light
 from ...engine.declared.scene import Scene
@@ -136,12 +136,11 @@ def cast(record: NDArray[np.void], shades: Sequence[Shade], drift: tuple[float, 
 
 def aim(record: NDArray[np.void], view: View, size: tuple[int, int], /) -> None:
     """Write the frame's matrices, eye and picture size [pixels] into the block."""
-    clip = view.projection.astype(np.float64) @ view.view.astype(np.float64)
     row = record[0]
-    row["clip"] = clip.T.reshape(16)
-    row["unclip"] = np.linalg.inv(clip).T.reshape(16)
+    row["clip"] = view.clip.T.reshape(16)
+    row["unclip"] = view.unclip.T.reshape(16)
     row["screen"][:2] = size[0] / 2, size[1] / 2
-    row["eye"][:3] = eye_of(view)
+    row["eye"][:3] = view.eye
 
 
 def frame_binding(ctx: moderngl.Context) -> int:

@@ -100,4 +100,4 @@ class Overlay:
 
 
 def _clip(seen: View) -> np.ndarray[tuple[int, ...], np.dtype[np.float32]]:
-    return (seen.projection.astype(np.float64) @ seen.view.astype(np.float64)).astype(np.float32)
+    return seen.clip.astype(np.float32)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.components.viewer import Viewer
-from tallgrass.engine.camera import Camera, View, eye_of, projection_matrix, view_matrix
+from tallgrass.engine.camera import Camera, View, projection_matrix, view_matrix
 from tallgrass.systems.around.cone import discrete_distance, far_to_near, inside_cone, picture_sides, view_cone
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.patches import PatchTable
@@ -58,7 +58,7 @@ def points_of(cell: NDArray[np.int32]) -> NDArray[np.float64]:
 
 
 def kept(seen: View, cell: NDArray[np.int32] = AROUND) -> NDArray[np.bool_]:
-    x, _, z = eye_of(seen)
+    x, _, z = seen.eye
     middle = ((cell + 0.5) * PATCH).astype(np.float32)
     return inside_cone(middle, apex=(x, z), cone=view_cone(seen), radius=PATCH * 0.7072)
 
@@ -100,7 +100,7 @@ def test_t2_what_is_kept_is_inside_the_view_cone_or_touches_it(camera: Camera, a
     if half == pi:
         assert kept(seen).all()
         return
-    away = (AROUND + 0.5) * PATCH - np.array(eye_of(seen))[[0, 2]]
+    away = (AROUND + 0.5) * PATCH - np.array(seen.eye)[[0, 2]]
     off = np.abs(np.mod(np.arctan2(away[:, 0], -away[:, 1]) - middle + pi, 2 * pi) - pi)
     beyond = np.hypot(*away.T) * np.sin(np.clip(off - half, 0.0, pi / 2))
     assert (beyond[kept(seen)] <= PATCH + 1e-3).all()
@@ -149,7 +149,7 @@ def test_t2_without_perspective_nothing_is_culled() -> None:
 
 @given(cameras)
 def test_the_eye_is_found_in_the_matrix_of_a_view(camera: Camera) -> None:
-    np.testing.assert_allclose(eye_of(seen_by(camera, bank=0.4)), camera.position, atol=1e-5)
+    np.testing.assert_allclose(seen_by(camera, bank=0.4).eye, camera.position, atol=1e-5)
 
 
 @given(cells, cells)
@@ -243,7 +243,7 @@ high = st.builds(
 def test_f9_from_high_above_patches_are_kept_that_are_in_the_picture_and_no_others(camera: Camera, bank: float) -> None:
     seen, outlook = seen_by(camera, bank=bank), around(pi)
     viewer, points = outlook.viewer, points_of(AROUND)
-    viewer.eye, viewer.cone, viewer.sides = eye_of(seen), view_cone(seen), picture_sides(seen)
+    viewer.eye, viewer.cone, viewer.sides = seen.eye, view_cone(seen), picture_sides(seen)
     Cull([outlook], PATCH, 1.0).run()
     points = points[:, points[0, :, 1] <= 1.0]
     shown = in_picture(seen, points).any(axis=1)
