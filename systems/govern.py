@@ -36,7 +36,7 @@ EAGER = 2.0
 """How many times as far down as pixels alone would need: some of what a frame takes stays whatever is left out."""
 
 FEWEST = 3
-"""And how many there are at least."""
+"""How many frames are watched at least before anything is changed."""
 
 BEGINNING = 2
 """Frames at first, and after every change, that make things and do not count."""

@@ -33,9 +33,6 @@ class Span:
     keys: dict[str, "Span"] = field(default_factory=dict)
     """The keys of a mapping."""
 
-    alias: bool = False
-    """Whether it only names a value that stands elsewhere."""
-
     def value(self, key: str) -> "Span":
         """Return the value of a key of a mapping."""
         return self.items[list(self.keys).index(key)]
@@ -60,9 +57,7 @@ class _Spans:
     def read(self, data: Any) -> Span:
         event = self._next()
         found = Span(event.start_mark.index, event.end_mark.index, event.start_mark.column, data)
-        if isinstance(event, yaml.AliasEvent):
-            found.alias = True
-        elif isinstance(event, yaml.CollectionStartEvent):
+        if isinstance(event, yaml.CollectionStartEvent):
             found.flow = bool(event.flow_style)
             self._fill(found, event)
         return found

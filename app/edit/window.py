@@ -44,7 +44,6 @@ class EditWalk(Walk):
         self.panel = Panel(self.editor)
         self.keys = (*KEYS, *(line for line in HELP if not line.startswith("mouse")))
         self._grip: Grip | None = None
-        self._pulled = False
         self._stroke: tuple[Place, Brush] | None = None
         self._pointer: tuple[float, float] = (-1.0, -1.0)
         self._dt = 0.0

@@ -90,7 +90,7 @@ class Outlook:
     """What has been cut, if this is told."""
 
     blown_at: float = 0.0
-    """The instant at which they do [s]."""
+    """The instant that the winds of this frame were asked for [s]."""
 
     heard: int = 0
     """Receivers of blades and strips that heard the wind in this frame."""

@@ -58,10 +58,10 @@ class PatchTable:
     """Whether it is inside the view cone, shape (rows,)."""
 
     near: NDArray[np.bool_]
-    """Whether it is, or is one of the four patches nearest to a place that is, shape (rows,)."""
+    """Whether it is visible, or among the four patches nearest to a visible place, shape (rows,)."""
 
     was_visible: NDArray[np.bool_]
-    """Whether it was when the viewer looked before, shape (rows,)."""
+    """Whether it was visible when the viewer looked last, shape (rows,)."""
 
     wanted: NDArray[np.int8]
     """The representation that is due, shape (rows,)."""

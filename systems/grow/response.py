@@ -19,7 +19,7 @@ _CYCLES, _LONGEST, _STILL = 4.0, 16.0, 3.0
 _STEPS_PER_SWING = 120
 
 
-def grow_response(kind: GrassKind, /, *, samples: int = SAMPLES) -> Response:
+def grow_response(kind: GrassKind, /) -> Response:
     """Return the posture index over time of a kind's blade when a constant wind starts, and when it stops.
 
     Both are the simulation's own: index over the wind's final index. The time covered is what the blade needs
@@ -31,10 +31,10 @@ def grow_response(kind: GrassKind, /, *, samples: int = SAMPLES) -> Response:
     bent, speed = _bent(chain)
     index = _swung(chain, bent, speed, step)
     length = _length(index)
-    time = np.linspace(0.0, length, samples)
+    time = np.linspace(0.0, length, SAMPLES)
     rise, fall = (np.interp(time, np.arange(len(index)), index[:, k]) for k in range(2))
     return Response(
-        step=length * step / chain.second / (samples - 1), rise=_settled(rise, 1.0), fall=_settled(fall, 0.0)
+        step=length * step / chain.second / (SAMPLES - 1), rise=_settled(rise, 1.0), fall=_settled(fall, 0.0)
     )
 
 

@@ -25,7 +25,9 @@ ROUNDED = 1e-6
 """Instants so near to one another count as the same [s]."""
 
 APART = 0.0917
-"""Marks settle that ended so long before a full second [s]: hardly one ends then, and rounding decides about none."""
+"""At a full second those marks settle that ended at least so long before it [s].
+
+The number is odd so that hardly a mark ends just then, and rounding decides about none."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

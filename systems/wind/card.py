@@ -22,7 +22,6 @@ from .sheets import Sheets
 from .told import Told
 from .twin import ANY, LARGEST, MOST_NUMBERS, TOLD, Twin, TwinError, check_values, fitted_few, joined_twins, twin_of
 
-Floats = NDArray[np.float32]
 Rows = NDArray[np.intp]
 
 SAMPLERS = ("winds", "wind_sheets", "wind_curves", "wind_told")

@@ -19,7 +19,8 @@ BETWEEN, SMALLEST, SOFT = 6.5, 90.0, 0.8
 a ratio's logarithm they do."""
 
 CORNER = 1.285
-"""What the length scale is multiplied by in the spectrum: 1.339 where it has no end, and less here, as it has."""
+"""What the length scale is multiplied by in the spectrum: 1.339 in one without end, less in ours, which ends at
+`SMALLEST`."""
 
 
 @lru_cache(maxsize=16)

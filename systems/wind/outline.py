@@ -39,11 +39,6 @@ class Outline:
         return self.field[..., 0]
 
     @property
-    def outward(self) -> Floats:
-        """Direction out of the shape, at most a unit vector (x, z), shape (rows, columns, 2)."""
-        return self.field[..., 1:]
-
-    @property
     def bounds(self) -> tuple[float, float, float, float]:
         """Least and largest x, least and largest z that it is sampled at [m]."""
         rows, columns = self.field.shape[:2]

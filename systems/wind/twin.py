@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from ...components.wind import TwinValues, WindPrimitive
 from ...engine.gl.shaders import Line
 
-Floats = NDArray[np.float32]
 
 PLACE = "systems/wind/twins.glsl"
 """The file that the twins of a program stand in for."""

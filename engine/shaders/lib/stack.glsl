@@ -51,9 +51,9 @@ vec2 laid_back(vec2 run, vec3 foot, vec3 top, float height, int strips) {
     return off * clamp((least - reach) / max(drop * behind, 1.0), 0.0, 2.0 * least);
 }
 
-// How much more the blades on a strip cover than what is painted of them: those that face all ways as they lean to `top`,
-// seen from the eye, and one way as the strip does, that runs along `run` and lies `back` beyond that. As leaves hide leaves,
-// not all of it shows.
+// Factor on what blades on a strip cover. They are painted as if all faced the way the strip does, which runs along `run` and
+// leans to `top` and `back`; real ones face all ways and lean to `top`. It is the ratio of both breadths as the eye sees them,
+// a little less, as leaves hide leaves.
 float boosted(int kind, vec2 run, vec3 middle, vec3 top, vec2 back) {
     vec3 ray = normalize(middle - eye.xyz), own = cross(top + vec3(back.x, 0.0, back.y), ray);
     vec2 all = cross(top, ray).xz;

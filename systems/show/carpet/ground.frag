@@ -187,9 +187,9 @@ Sum trodden_light(float slope) {
 }
 #endif
 
-// Among strips, how much of the carpet's grass is seen, and how high in the grass it stands, of what it is without them.
-// It lies at RAISED of its share of their height, and hides what they have below: what stands out has met the line of
-// sight before, high up, and leaves to the carpet what both together would not hide or have met deeper down.
+// How much of the carpet's grass is seen among strips, and how high in the canopy, both relative to a carpet without strips.
+// Strips in front have stopped a part of the line of sight already, high up. The carpet lies at RAISED of its share of their
+// height and hides what they have below it: it shows what is left of what both together would stop.
 vec2 among_strips(float on_strips, float slope) {
     float leaves = dense / max(slope, slopes[0]), out_of_it = max(1.0 - RAISED * carpet / stands, 0.0);
     vec2 depth = mean_depth(vec3(1.0, 1.0 / max(on_strips, 1e-3), 1.0) * max(slope, slopes[0])).xy;

@@ -12,7 +12,7 @@ out vec3 place;
 #include "systems/show/carpet/border.glsl"
 const float SUNK = 2.5;  // leaves that a line of sight has met where nothing is seen through them
 const float THROUGH_CREST = 1.6;  // the same over a crest, as the reference shows it
-const float LAIN = 0.9;  // how much deeper that is along an outline of grass that lies: its tips stand out from it, too
+const float LAIN = 0.9;  // how much deeper the layer beneath is sunk along an outline where grass lies: tips stand out there, too
 const vec2 BEHIND = vec2(0.01, 0.05);  // slopes at which ground falls away from the eye: hardly, and wholly
 const float SHADED = 0.6;  // how far down what is seen stands, of how deep is seen into the grass
 uniform ByKind raised; // by kind: height of the carpet above the ground [m]

@@ -46,7 +46,7 @@ class StripPainter:
         self.strips = Records(canvas.ctx, NUMBER, STRIPS_ROW)
         laid: dict[str, str | int] = {"RINGS": len(rings), "STOOD_ROW": STOOD_ROW}
         self.hearing = Hearing(canvas, "systems/show/strips/receivers.frag", laid, self._tell)
-        whole = {**laid, "SECTIONS": self.sections, "STRIPS_ROW": STRIPS_ROW}
+        whole = {**laid, "STRIPS_ROW": STRIPS_ROW}
         whole["ATLAS"] = f"{self.atlas.height}.0"
         self.programs = [
             joined(

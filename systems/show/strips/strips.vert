@@ -1,4 +1,4 @@
-// One instance is one polygon strip between two vertical edges, as many quads high as its ring asks for, at most SECTIONS.
+// One instance is one polygon strip between two vertical edges, as many quads high as its ring asks for.
 #include "lib/light.glsl"
 #include "lib/posture.glsl"
 #include "lib/received.glsl"
