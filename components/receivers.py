@@ -3,7 +3,7 @@
 from typing import Protocol, final
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 Floats = NDArray[np.float32]
 
@@ -78,3 +78,9 @@ class Receivers:
         shortened to 1.
         """
         return self._messages.ask(self._slot)
+
+    @message.setter
+    def message(self, message: ArrayLike) -> None:
+        kept = self._messages.ask(self._slot)
+        if message is not kept:  # `message *= 2` has written to it already
+            kept[:] = message

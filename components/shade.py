@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from math import hypot, isfinite
+from numbers import Real
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,11 +29,23 @@ class Shade:
 
     def __post_init__(self) -> None:
         """Raise ValueError for what cannot cast a shadow."""
-        if len(self.place) != 3 or not all(map(isfinite, self.place)):
+        if not _is_place(self.place):
             raise ValueError(f"a shade's place is three finite numbers (x, y, z), not {self.place!r}")
-        if not (isfinite(self.radius) and self.radius > 0.0):
+        if not _is_length(self.radius):
             raise ValueError(f"a shade's radius is above 0 m, not {self.radius!r}")
-        if self.height is not None and not (isfinite(self.height) and self.height > 0.0):
+        if self.height is not None and not _is_length(self.height):
             raise ValueError(f"a shade's height is above 0 m, not {self.height!r}")
-        if len(self.up) != 3 or not all(map(isfinite, self.up)) or hypot(*self.up) < 1e-6:
+        if not _is_place(self.up) or hypot(*self.up) < 1e-6:
             raise ValueError(f"a shade's up is a direction (x, y, z), not {self.up!r}")
+
+
+def _is_place(thing: object) -> bool:
+    try:
+        numbers: tuple[object, ...] = tuple(thing)  # type: ignore[arg-type]
+    except TypeError:
+        return False
+    return len(numbers) == 3 and all(isinstance(number, Real) and isfinite(number) for number in numbers)
+
+
+def _is_length(thing: object) -> bool:
+    return isinstance(thing, Real) and isfinite(thing) and float(thing) > 0.0

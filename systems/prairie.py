@@ -130,7 +130,7 @@ class Prairie:
         maps, ValueError for an unknown preset or representation, and for a `hold` that is no time.
         """
         must_be_known("preset", preset, PRESETS)
-        must_be_known("representation", lod, get_args(LodName))
+        must_be_known("representation", str(lod), get_args(LodName))
         return cls(
             read_scene(scene),
             ctx=ctx,

@@ -1,6 +1,6 @@
 """Problems of scene files: where, what, and the line itself."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
 MOST_PROBLEMS = 200
@@ -47,8 +47,8 @@ def printable(text: str, /) -> str:
 class SceneError(ValueError):
     """A scene cannot be read; `problems` holds every problem found, in the order of the file.
 
-    Of very many problems it holds the first `MOST_PROBLEMS`, and one that counts the rest; `more` is how many
-    there are beside those given.
+    Of very many problems it holds the first `MOST_PROBLEMS`, and one that counts the rest. To make one, `more` says how
+    many there are beside those given.
     """
 
     def __init__(self, problems: Iterable[Problem], *, more: int = 0) -> None:
@@ -59,3 +59,15 @@ class SceneError(ValueError):
             last = replace(self.problems[-1], message=f"and {more} more problems", source_line="")
             self.problems.append(last)
         super().__init__("\n".join(map(str, self.problems)))
+
+    def __reduce__(self) -> tuple[Callable[[list[Problem]], "SceneError"], tuple[list[Problem]]]:
+        """Go from one process to another as the problems that it holds."""
+        return _again, (self.problems,)
+
+
+def _again(problems: list[Problem]) -> SceneError:
+    """Return an error with just these problems, of which the last may count others."""
+    error = SceneError(problems[:MOST_PROBLEMS])
+    error.problems = problems
+    error.args = ("\n".join(map(str, problems)),)
+    return error

@@ -26,7 +26,7 @@ FACES = 0.22
 """How much more the sun lights blades that face it than those edge on."""
 
 SIDES = 0.45
-"""How much brighter than the mean of both the sun makes the side of a round stem, or the face of a fold, turned to it."""
+"""How much brighter than the mean of both is that side of a round stem, or face of a fold, that is turned to the sun."""
 
 ROOM = 0.25
 """Height of a canopy that all its understorey has room under [m]."""

@@ -11,11 +11,9 @@ from itertools import accumulate, chain
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...components.wind import TwinValues, WindPrimitive
 from ...engine.gl.shaders import Line
-
 
 PLACE = "systems/wind/twins.glsl"
 """The file that the twins of a program stand in for."""

@@ -84,7 +84,7 @@ class Flatten(esper.Processor):
     def process(self) -> None:
         for entity, receivers in esper.get_component(Receivers):
             if self.patch in {entity, receivers.patch}:
-                receivers.message[:] = (0.2, -0.85)
+                receivers.message = (0.2, -0.85)
 
 
 @pytest.mark.parametrize("name", PLACES)
@@ -198,7 +198,8 @@ def test_d6_a_system_between_wind_and_drawing_is_seen(prairie: Prairie, easel: S
 
     def comb() -> None:
         for _, receivers in esper.get_component(Receivers):
-            receivers.message[:, 0] = 0.6
+            receivers.message[:, 0] = 0.3
+            receivers.message *= (2.0, 1.0)
 
     prairie.systems.add("blow", "comb", comb, after="wind")
     assert [system.name for system in prairie.systems][-2:] == ["comb", "gather"]

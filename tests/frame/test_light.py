@@ -53,12 +53,14 @@ def test_what_a_game_puts_between_sun_and_grass_casts_a_shadow_there_and_nowhere
     np.testing.assert_array_equal(bright(room.shot(prairie, CAMERA)), before)
 
 
-@pytest.mark.parametrize("wrong", [(0.0, 1.0), (0.0, float("nan"), 0.0)])
-def test_a_shade_that_is_nowhere_is_refused(wrong: tuple[float, ...]) -> None:
+@pytest.mark.parametrize("wrong", [(0.0, 1.0), (0.0, float("nan"), 0.0), None, "abc"])
+def test_a_shade_that_is_nowhere_is_refused(wrong: object) -> None:
     with pytest.raises(ValueError, match="a shade's place is three finite numbers"):
         Shade(wrong, 1.0)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="a shade's radius is above 0 m"):
         Shade((0.0, 0.0, 0.0), 0.0)
+    with pytest.raises(ValueError, match="a shade's radius is above 0 m"):
+        Shade((0.0, 0.0, 0.0), "a")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="a shade's height is above 0 m"):
         Shade((0.0, 0.0, 0.0), 1.0, -1.0)
     with pytest.raises(ValueError, match="a shade's up is a direction"):

@@ -1,6 +1,10 @@
 """How a problem looks when it is printed."""
 
-from tallgrass.engine.scene.problem import Problem, SceneError
+import pickle
+
+import pytest
+
+from tallgrass.engine.scene.problem import MOST_PROBLEMS, Problem, SceneError
 
 
 def test_a_problem_is_its_place_its_line_and_a_caret() -> None:
@@ -28,3 +32,10 @@ def test_a_problem_without_a_line_is_one_line() -> None:
 def test_an_error_tells_its_problems_in_the_order_of_the_file() -> None:
     error = SceneError([Problem("f", 3, 1, "c"), Problem("f", 1, 9, "b"), Problem("f", 1, 2, "a")])
     assert str(error).splitlines() == ["f:1:2: a", "f:1:9: b", "f:3:1: c"]
+
+
+@pytest.mark.parametrize("count", [1, MOST_PROBLEMS + 5])
+def test_an_error_goes_from_one_process_to_another_as_it_is(count: int) -> None:
+    error = SceneError([Problem("f", line, 1, "what is wrong") for line in range(count)])
+    again = pickle.loads(pickle.dumps(error))  # noqa: S301
+    assert (str(again), again.problems) == (str(error), error.problems)
