@@ -167,9 +167,12 @@ def test_d2_places_are_copies_and_nothing_but_messages_can_be_set(world: World, 
     before = receivers.place
     receivers.place[:] = 99.0
     np.testing.assert_array_equal(receivers.place, before)
-    for name in ("patch", "representation", "viewer", "place", "kind", "message"):
+    for name in ("patch", "representation", "viewer", "place", "kind"):
         with pytest.raises(AttributeError):
             setattr(receivers, name, getattr(receivers, name))
+    receivers.message = np.full_like(receivers.message, 0.25)
+    receivers.message *= 2.0
+    np.testing.assert_array_equal(receivers.message, 0.5)
 
 
 def test_d2_a_game_may_bend_single_receivers_itself(world: World, game: Game) -> None:
