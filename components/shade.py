@@ -1,8 +1,12 @@
 """What casts a shadow on the grass."""
 
 from dataclasses import dataclass
-from math import hypot, isfinite
-from numbers import Real
+from math import hypot
+from sys import float_info
+
+from .footprint import is_between
+
+_LARGEST = float_info.max
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,8 +48,8 @@ def _is_place(thing: object) -> bool:
         numbers: tuple[object, ...] = tuple(thing)  # type: ignore[arg-type]
     except TypeError:
         return False
-    return len(numbers) == 3 and all(isinstance(number, Real) and isfinite(number) for number in numbers)
+    return len(numbers) == 3 and all(is_between(-_LARGEST, number, _LARGEST) for number in numbers)
 
 
 def _is_length(thing: object) -> bool:
-    return isinstance(thing, Real) and isfinite(thing) and float(thing) > 0.0
+    return is_between(0.0, thing, _LARGEST) and thing != 0.0

@@ -26,7 +26,7 @@ FACES = 0.22
 """How much more the sun lights blades that face it than those edge on."""
 
 SIDES = 0.45
-"""How much brighter than the mean of both that side of a round stem or face of a fold is that the sun is on."""
+"""How much brighter the sunlit side of a round stem, or face of a fold, is than the mean of both sides."""
 
 ROOM = 0.25
 """Height of a canopy that all its understorey has room under [m]."""

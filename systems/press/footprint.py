@@ -47,14 +47,14 @@ def _in_polygon(corners: tuple[tuple[float, float], ...]) -> Doubles:
     depth = outline.depth.astype(np.float64)
     if outline.deepest < outline.step:
         depth += outline.step
-    apart, discs = _APART, _apart(outline, depth, _APART)
+    apart, discs = _APART, _discs_in(outline, depth, _APART)
     while len(discs) > MOST:
         apart *= _FARTHER
-        discs = _apart(outline, depth, apart)
+        discs = _discs_in(outline, depth, apart)
     return discs
 
 
-def _apart(outline: Outline, depth: Doubles, apart: float) -> Doubles:
+def _discs_in(outline: Outline, depth: Doubles, apart: float) -> Doubles:
     """Return discs, the largest first, of which each stands outside the middles of those before it."""
     rows, columns = np.indices(depth.shape)
     x, z = outline.corner[0] + columns * outline.step, outline.corner[1] + rows * outline.step

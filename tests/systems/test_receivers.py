@@ -170,8 +170,8 @@ def test_d2_places_are_copies_and_nothing_but_messages_can_be_set(world: World, 
     for name in ("patch", "representation", "viewer", "place", "kind"):
         with pytest.raises(AttributeError):
             setattr(receivers, name, getattr(receivers, name))
-    receivers.message = np.full_like(receivers.message, 0.25)
-    receivers.message *= 2.0
+    receivers.message = np.ones_like(receivers.message)
+    receivers.message *= 0.5
     np.testing.assert_array_equal(receivers.message, 0.5)
 
 
