@@ -10,7 +10,7 @@ from ..wind.outline import Outline, outline_of_polygon
 
 Doubles = NDArray[np.float64]
 
-MOST = 12
+MOST = 40
 """How many discs a footprint is made of at most."""
 
 _APART, _LEAST = 0.9, 0.3
