@@ -177,7 +177,11 @@ def test_f4_where_grass_is_pressed_the_wind_is_covered_as_much() -> None:
             [(0.0, 0.05 * step) for step in range(-16, 17)],
             [(0.2, 0.0), (0.0, 1.2)],
         ),
-        (Presser(corners=((0.0, 0.0), (4.0, 4.0), (3.99, 4.01))), [(0.04, 0.04), (3.87, 3.88)], [(1.0, 0.5), (-0.2, -0.2)]),
+        (
+            Presser(corners=((0.0, 0.0), (4.0, 4.0), (3.99, 4.01))),
+            [(0.04, 0.04), (3.87, 3.88)],
+            [(1.0, 0.5), (-0.2, -0.2)],
+        ),
     ],
     ids=["disc", "capsule", "polygon", "thin polygon", "sliver"],
 )
