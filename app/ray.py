@@ -1,11 +1,10 @@
 """Rays: where one meets the ground."""
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..components.arrays import Doubles
 from ..engine.camera import Heights
-
-Doubles = NDArray[np.float64]
 
 NEAREST, STEPS = 0.2, 500
 """From where on along a ray the ground is looked for [m], and at how many places."""

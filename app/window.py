@@ -8,11 +8,10 @@ from pathlib import Path
 from statistics import median
 
 import moderngl
-import numpy as np
 import pyglet
-from numpy.typing import NDArray
 from pyglet.window import key
 
+from ..components.arrays import Floats
 from ..engine.camera import Camera, camera_at, projection_matrix, view_matrix
 from ..engine.gl.rasteriser import draws_in_software
 from ..engine.scene import SceneError
@@ -30,8 +29,6 @@ from .studio.take import Take
 from .studio.walker import Ground, Move, moved, settled, start, toggled, turned
 from .watch import Watch
 from .weather import Weather
-
-Floats = NDArray[np.float32]
 
 MOVES: dict[int, Move] = {
     key.W: "ahead", key.UP: "ahead", key.S: "back", key.DOWN: "back",

@@ -5,7 +5,7 @@ from typing import Protocol, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Floats = NDArray[np.float32]
+from .arrays import Floats
 
 
 class Messages(Protocol):

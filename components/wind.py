@@ -10,12 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
+from .arrays import Floats
 from .body import Hover
 from .declaration import Declaration, DeclarationError
 from .pose import HERE, Pose
 from .presser import Presser
-
-Floats = NDArray[np.float32]
 
 INTERFACE = 1
 """Version of what winds and tallgrass ask of each other; it changes when winds written for it would break."""

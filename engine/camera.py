@@ -8,12 +8,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..components.arrays import Doubles, Floats
 from .curve import Curve
 from .declared.camera import CameraSource, Stop
 from .handed import FARTHEST, as_floats
 
-Floats = NDArray[np.float32]
-Doubles = NDArray[np.float64]
 Heights = Callable[[Floats], Floats]
 """Heights [m], shape (n,), of ground positions (x, z) [m], shape (n, 2)."""
 

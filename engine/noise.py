@@ -6,7 +6,8 @@ from math import atan, cos, sin, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float32]
+from ..components.arrays import Floats
+
 PERIOD = 128
 """Lattice points along a side of a table, after which the noise repeats; a power of two."""
 

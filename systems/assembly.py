@@ -3,9 +3,7 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ..components.arrays import Floats
 from ..components.body import Body
 from ..components.shade import Shade
 from ..engine.schedule import HasRun, Phase, Schedule
@@ -29,8 +27,6 @@ from .tile import Tile
 from .transition import Transition
 from .wind.blow import ReceiverArrays
 from .winds import Winds
-
-Floats = NDArray[np.float32]
 
 BuiltIn = tuple[Phase, str, HasRun]
 

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..components.arrays import Levels
 from .around.outlook import Outlook
 from .around.representation import Representation
-
-Levels = NDArray[np.int8]
 
 SLACK = 1
 """How many patches farther a patch must be to go to the coarser representation than to come back from it."""

@@ -11,6 +11,7 @@ import moderngl
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..components.arrays import Floats
 from ..components.footprint import Footprint
 from ..components.pose import HERE, Pose
 from ..components.wind import WindPrimitive
@@ -45,7 +46,6 @@ if TYPE_CHECKING:
 
     from ..engine.gl.batch import DrawingGroup
 
-Floats = NDArray[np.float32]
 
 LEAP = 2.0
 """A viewer who moves more than this in one frame has jumped [patch sides]."""

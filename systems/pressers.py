@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from math import ceil, floor, pi
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..components.arrays import Doubles, Floats
 from ..components.pose import Pose
 from ..components.presser import Presser
 from ..engine.declared.presser import PresserOnPath
@@ -20,9 +20,6 @@ from .press.marks import UNTRODDEN, Memory, Trodden
 from .press.trail import SCENES, Trail
 from .press.walk import Walk, Who, staying
 from .wind.blow import ReceiverArrays
-
-Floats = NDArray[np.float32]
-Doubles = NDArray[np.float64]
 
 REMEMBERED = 2.0
 """How long what was trodden is remembered, of how long grass takes to stand again: it counts for what comes next."""

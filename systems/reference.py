@@ -7,6 +7,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ..components.arrays import Ints
 from ..components.viewer import Viewer
 from ..engine.camera import View, view_of
 from ..engine.terrain.sample import height_at
@@ -23,7 +24,6 @@ from .tile import cells_on, patch_models
 from .wind.blow import places_alone
 from .wind.grass import grass_of
 
-Ints = NDArray[np.int32]
 Place = tuple[float, float, float]
 ROOM = 1.5
 """How far a blade is taken to reach from its root, of its length: more than it can be bent and leaned to."""

@@ -4,17 +4,14 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..components.arrays import Floats, Rows
 from .around.appearance import Appearance, appearance, kept_near
 from .around.cone import seen_from
 from .around.outlook import Outlook
 from .around.representation import Representation
 from .around.transitions import SEAMLESS, Transitions
 from .transition import weights
-
-Floats = NDArray[np.float32]
-Rows = NDArray[np.int64]
 
 
 def strips_kept(

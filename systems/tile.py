@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..components.arrays import Ints
 from ..engine.random import hash3
 from ..engine.terrain.record import Terrain
 from ..engine.terrain.sample import height_at, slope_at
@@ -15,9 +16,6 @@ from .around.patches import PatchTable
 from .around.window import window_cells
 from .entities import PatchEntities
 from .room import make_room
-
-Ints = NDArray[np.int32]
-
 
 EDGE = 1e-4
 """How far beyond its edge a cell is still the one that a viewer stands in [patch sides]."""

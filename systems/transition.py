@@ -4,18 +4,13 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..components.arrays import Floats, Levels, Mask, Rows
 from .around.outlook import Outlook
 from .around.patches import PatchTable
 from .around.representation import Representation
 from .around.transitions import SEAMLESS, Transitions
 from .lod import SLACK, farthest
-
-Floats = NDArray[np.float32]
-Levels = NDArray[np.int8]
-Mask = NDArray[np.bool_]
-Rows = NDArray[np.int64]
 
 FADE = 1.2
 """How long a change of representation takes at most [s]."""

@@ -9,8 +9,8 @@ from math import inf
 from reprlib import repr as shortened
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..components.arrays import Floats
 from ..components.pose import Pose
 from ..components.wind import WindPrimitive, WindSource, must_be_name, must_be_wind
 from ..engine.declared.scene import Scene
@@ -24,8 +24,6 @@ from .grow.record import Growth
 from .wind.blow import Blowing, ReceiverArrays, blowing, hear, mean_index, mean_yaw, places_alone
 from .wind.grass import grass_of
 from .wind.quarantine import Quarantine, QuarantinedError
-
-Floats = NDArray[np.float32]
 
 log = logging.getLogger("tallgrass")
 

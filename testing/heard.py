@@ -5,12 +5,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..components.arrays import Floats
 from ..engine.handed import must_be_known
 from ..systems.around.patches import PatchTable
 from ..systems.around.receivers import Receiving
 from ..systems.prairie import Prairie
 
-Floats = NDArray[np.float32]
 Words = NDArray[np.str_]
 
 

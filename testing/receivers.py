@@ -1,11 +1,9 @@
 """Receivers to try a wind on: everywhere in its extent, on its border, around it, and very far away."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..components.arrays import Floats
 from ..components.wind import Extent, Grass
-
-Floats = NDArray[np.float32]
 
 FAR = 10000.0
 """How far away the farthest receivers are [m]."""

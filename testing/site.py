@@ -5,8 +5,8 @@ from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..components.arrays import Floats
 from ..components.viewer import Viewer
 from ..engine.camera import Camera, View, camera_at, projection_matrix, view_matrix
 from ..engine.plugins import wind_kinds
@@ -29,8 +29,6 @@ from .looking import must_be_camera
 
 ASPECT = 16 / 9
 """Width over height of the picture that a viewer is taken to have."""
-
-Floats = NDArray[np.float32]
 
 
 @lru_cache(maxsize=8)

@@ -10,13 +10,13 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ..components.arrays import Floats
 from ..components.pose import Pose
 from ..components.wind import Extent, Grass, WindPrimitive
 from ..engine.complaint import said
 from ..systems.bodies.fly import GLANCE
 from .receivers import grass_at, places_to_try
 
-Floats = NDArray[np.float32]
 Ask = Callable[[Floats, Grass], Any]
 Answer = TypeVar("Answer")
 

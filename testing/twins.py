@@ -6,8 +6,8 @@ from typing import Any
 
 import moderngl
 import numpy as np
-from numpy.typing import NDArray
 
+from ..components.arrays import Floats
 from ..components.pose import HERE
 from ..components.wind import Grass, Mixing, WindPrimitive, WindSource
 from ..engine.gl.guest import FIRST_UNIT
@@ -19,8 +19,6 @@ from ..systems.wind.quarantine import Quarantine
 from ..systems.wind.twin import TwinError, twin_of
 from .receivers import crowd, grass_at
 from .winds import timeline
-
-Floats = NDArray[np.float32]
 
 CLOSE_TWIN = 1e-3
 """By how much a twin's message may differ from that of numpy."""

@@ -7,8 +7,8 @@ from math import inf
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..components.arrays import Floats
 from ..components.body import Hover
 from ..components.wind import INTERFACE, Grass, WindPrimitive
 from ..engine.complaint import words_of
@@ -17,8 +17,6 @@ from ..systems.wind.quarantine import SLOW
 from .declared import declaration_problems
 from .receivers import crowd, grass_at
 from .trial import FailedError, Report, flight, timed, try_part
-
-Floats = NDArray[np.float32]
 
 MOST_COST = 0.02
 """How long a wind may take for 10,000 receivers, in processor time [s].

@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Doubles
 from ...systems.reference import Truth
 
-Doubles = NDArray[np.float64]
 Picture = NDArray[np.uint8]
 
 TILE, LINES = 40, 720

@@ -12,6 +12,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Doubles, Levels, Mask
 from ...engine.camera import projection_matrix, view_matrix
 from ...systems.prairie import Prairie
 from ..studio.encode import Picture
@@ -20,10 +21,6 @@ from .contrast import luma, tile_side
 from .ghost import ghosted
 from .stroll import Moment
 from .verdict import Step
-
-Doubles = NDArray[np.float64]
-Levels = NDArray[np.int8]
-Mask = NDArray[np.bool_]
 
 INSTANTS = 5
 """Instants of a leg that are held against the reference."""

@@ -8,7 +8,8 @@ over tiles, not over the whole.
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float32]
+from ...components.arrays import Floats
+
 Picture = NDArray[np.uint8]
 
 TILE = 20

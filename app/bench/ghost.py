@@ -1,14 +1,12 @@
 """Ghosts: whether a patch on its way is the picture before and the picture after, laid over one another."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...components.arrays import Doubles
 from ...engine.camera import Camera
 from ...systems.prairie import Prairie
 from ..studio.studio import Studio
 from .contrast import luma
-
-Doubles = NDArray[np.float64]
 
 FAINT = 1.0
 """Difference between the two pictures that nobody sees, as a root of the mean square [steps of 255]."""

@@ -6,6 +6,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Floats, Mask
 from ...engine.camera import View
 from ...engine.gl.stream import release_all
 from ...engine.terrain.sample import height_at
@@ -17,9 +18,6 @@ from ...systems.show.blades.representation import BladeRepresentation
 from ...systems.site import Site
 from ...systems.tile import patch_models
 from ...systems.wind.breeze import Breeze
-
-Floats = NDArray[np.float32]
-Mask = NDArray[np.bool_]
 
 NEAR, MIDDLE = 10.0, 30.0
 """Distances at which a level ends [m]; the third level is the rest."""

@@ -5,14 +5,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...components.arrays import Doubles
 from ...engine.camera import Camera, Heights, camera_at
 from ...systems.prairie import Prairie
 from ...systems.wind.gust import Gust
 from ..studio.walker import EYE, MARGIN
-
-Doubles = NDArray[np.float64]
 
 RATE = 30
 """Frames per second: what pops, pops from one frame to the next, however short a frame is."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Levels
 from ...engine.camera import projection_matrix, view_matrix
 from ...systems.prairie import Prairie
 from ..studio.offscreen import Offscreen
@@ -16,8 +17,6 @@ from .processor import on_processor
 from .stroll import REST, Leg, Moment, legs, moments, raise_gusts
 from .timing import spread, timed
 from .yardstick import yardstick_ms
-
-Levels = NDArray[np.int8]
 
 PARTS = {"drawing": 10.0, "without drawing": 1.0}
 """What there is to do, and how long it takes in terms of one another, about."""

@@ -5,14 +5,13 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...components.arrays import Doubles, Floats
 from ...engine.terrain.record import Terrain
 from ...engine.terrain.sample import height_at
 from ..ray import NEAREST, met_by
 
-Floats = NDArray[np.float32]
-Doubles = NDArray[np.float64]
 Place = tuple[float, float]
 """Ground position (x, z) [m]."""
 

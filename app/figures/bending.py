@@ -8,8 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.ticker import MultipleLocator
-from numpy.typing import NDArray
 
+from ...components.arrays import Doubles, Floats
 from ...components.wind import Grass
 from ...engine.declared.grass import GrassKind
 from ...engine.scene import read_scene
@@ -21,9 +21,6 @@ from ...systems.grow.response import grow_response
 from ...systems.wind.gust import Gust
 from .figure import Detail, PaperFigure
 from .plot import FAINT, INDEX, INK, SERIES, sheet
-
-Floats = NDArray[np.float32]
-Doubles = NDArray[np.float64]
 
 SHOWN = (("meadow", "feather"), ("meadow", "fresh"), ("gust", "barley"))
 """Scenes and kinds of grass that are told apart."""

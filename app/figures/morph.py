@@ -11,6 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
+from ...components.arrays import Doubles, Floats
 from ...systems.around.appearance import appearance
 from ...systems.around.transitions import SEAMLESS
 from ...systems.grow.bend import spine
@@ -21,9 +22,6 @@ from .figure import Detail, PaperFigure
 from .patch import CLOSE, Sample, edges, oblique, on_strip, painted, ribbons, sample
 from .plot import FAINT, INK, PAPER, SERIES, sheet
 from .wind import windless
-
-Floats = NDArray[np.float32]
-Doubles = NDArray[np.float64]
 
 FOLLOWED = 3
 """How many blades are followed."""

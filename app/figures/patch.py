@@ -11,6 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
+from ...components.arrays import Doubles, Floats
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.light import Light
 from ...engine.declared.quality import Quality
@@ -28,9 +29,6 @@ from ..studio.take import Take
 from .figure import Detail, PaperFigure
 from .plot import INK, SERIES, sheet
 from .scenery import Viewpoint
-
-Floats = NDArray[np.float32]
-Doubles = NDArray[np.float64]
 
 SCENE = "plain"
 WALKER = Viewpoint((0.0, 14.0), 1.3, 0.0, -9.0)

@@ -8,8 +8,8 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from ...components.arrays import Floats
 from ...components.wind import WindPrimitive
 from ...engine.declared.way import Waypoint
 from ...engine.scene import read_scene
@@ -23,7 +23,6 @@ from ...systems.wind.whirlwind import Whirlwind
 from .figure import Detail, PaperFigure
 from .plot import FAINT, INDEX, INK, SERIES, seen_from_above, sheet
 
-Floats = NDArray[np.float32]
 Span = tuple[float, float]
 
 ACROSS = 8

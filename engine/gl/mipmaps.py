@@ -8,11 +8,9 @@ from collections.abc import Sequence
 
 import moderngl
 import numpy as np
-from numpy.typing import NDArray
 
+from ...components.arrays import Bytes
 from .functions import NUMBERS, functions_of
-
-Bytes = NDArray[np.uint8]
 
 _FORMATS = {1: ("R8", "RED"), 2: ("RG8", "RG"), 3: ("RGB8", "RGB"), 4: ("RGBA8", "RGBA")}
 

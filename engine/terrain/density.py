@@ -7,12 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from ...components.arrays import Floats
 from ..declared.grass import GrassKind, Place
 from .elevation import reading
 from .errors import MapError
 from .record import Density, Terrain
 
-Floats = NDArray[np.float32]
 Channels = Mapping[str, Floats]
 """Densities in [0, 1] by channel name, each of shape (rows, columns)."""
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Doubles, Floats
 from ..declared.terrain import TerrainSource
 from .elevation import Elevation
 from .errors import MapError
@@ -16,9 +17,6 @@ from .read import read_elevation
 from .record import Terrain
 from .resample import resample
 from .voids import fill_voids
-
-Floats = NDArray[np.float32]
-Doubles = NDArray[np.float64]
 
 WIDEST = 10240.0
 """Longest side of a terrain [m]; farther out, 32-bit places are too coarse for blades of grass."""

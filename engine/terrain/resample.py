@@ -6,8 +6,8 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float32]
-Doubles = NDArray[np.float64]
+from ...components.arrays import Doubles, Floats
+
 Kernel = Callable[[Doubles], Doubles]
 """Weights of samples by their distance, in samples; nothing from 2 on."""
 

@@ -6,9 +6,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Floats
 from .record import Density, Terrain
-
-Floats = NDArray[np.float32]
 
 _BLOCK = 12288
 """Places worked on at a time: few enough that allocators keep the memory at hand, which makes it twice as fast."""

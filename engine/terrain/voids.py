@@ -3,9 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Floats
 from .resample import resample
-
-Floats = NDArray[np.float32]
 
 
 def fill_voids(heights: Floats, void: NDArray[np.bool_], /) -> Floats:

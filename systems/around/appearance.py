@@ -5,10 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Doubles, Floats
 from .transitions import Transitions
-
-Floats = NDArray[np.float32]
-Doubles = NDArray[np.float64]
 
 THREE = ("blades", "strips", "carpet")
 """The representations whose changes into one another are more than a fade."""

@@ -3,14 +3,11 @@
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...components.arrays import Floats
 from ...engine.terrain.sample import density_at, height_at
 from ..grow.record import Blades, Growth
 from .ground import Ground
-
-Floats = NDArray[np.float32]
-
 
 LODGED = 0.55
 """How much lower the canopy is where all grass lies, of its height at rest; `lib/light.glsl` has it too."""

@@ -6,11 +6,8 @@ from operator import mul
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Doubles, Floats
 from ...engine.camera import View
-
-Floats = NDArray[np.float32]
-
-Doubles = NDArray[np.float64]
 
 Rows = list[list[float]]
 """The rows of a matrix."""

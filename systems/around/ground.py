@@ -5,11 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Floats, Ints
 from ...engine.terrain.record import Density, Terrain
 from ...engine.terrain.sample import density_at
-
-Floats = NDArray[np.float32]
-Ints = NDArray[np.int32]
 
 _COS = np.array([1, 0, -1, 0], np.float32)
 

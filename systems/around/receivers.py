@@ -9,12 +9,10 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Floats, Rows
 from ...components.receivers import Receivers
 from ...engine.world import World
 from .patches import PatchTable
-
-Floats = NDArray[np.float32]
-Rows = NDArray[np.int64]
 
 log = logging.getLogger("tallgrass")
 

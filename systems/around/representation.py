@@ -9,6 +9,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Levels, Mask, Rows
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
 from ...engine.world import World
@@ -22,9 +23,6 @@ from .patches import PatchTable
 from .receivers import Receiving
 from .transitions import Transitions
 
-Levels = NDArray[np.int8]
-Rows = NDArray[np.int64]
-Mask = NDArray[np.bool_]
 Color = tuple[float, float, float]
 
 

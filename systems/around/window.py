@@ -3,10 +3,8 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...components.arrays import Floats, Ints
 from ...engine.handed import FARTHEST, as_floats
-
-Floats = NDArray[np.float32]
-Ints = NDArray[np.int32]
 
 
 def as_places(xz: ArrayLike, /) -> Floats:

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float32]
-Doubles = NDArray[np.float64]
+from ...components.arrays import Doubles, Floats
+
 Triangles = NDArray[np.int32]
 
 SEGMENTS = 40

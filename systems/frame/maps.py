@@ -4,6 +4,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Floats
 from ...engine.noise import noise_grid, noise_table
 from ...engine.terrain.record import Density, Terrain
 from ..grow.record import Growth
@@ -13,8 +14,6 @@ FINEST_MAP = 1024
 
 _ROWS = 32
 """Rows of a map worked on at a time: few enough to stay in the processor's own memory."""
-
-Floats = NDArray[np.float32]
 
 
 def posture_texture(ctx: moderngl.Context, growths: list[Growth]) -> moderngl.TextureArray:

@@ -3,11 +3,10 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...components.arrays import Doubles, Floats
 from .organs import BLADE, GIVES, TONES, width_along
-from .record import Blades, Floats, Postures
+from .record import Blades, Postures
 from .section import FLAT, Section
-
-Doubles = NDArray[np.float64]
 
 
 def spine(blades: Blades, postures: Postures, message: ArrayLike, /, *, points: int) -> Floats:

@@ -5,11 +5,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Doubles
 from ...engine.declared.grass import GrassKind
 from .organs import BLADE, WITHERED
 from .record import Blades
-
-Doubles = NDArray[np.float64]
 
 _PLASTIC = 1.32471795724474602596
 """Its powers make the sequence of points that stays evenly spread on the torus at every length."""

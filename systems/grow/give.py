@@ -2,10 +2,11 @@
 
 import numpy as np
 
+from ...components.arrays import Doubles, Floats
 from ...engine.declared.grass import GrassKind
 from .postures import chord_angle, flat_step, rest_in_winds
-from .record import GIVES, Floats
-from .simulate import LINKS, Doubles, build_chain
+from .record import GIVES
+from .simulate import LINKS, build_chain
 
 
 def grow_give(kind: GrassKind, /) -> Floats:

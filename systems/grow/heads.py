@@ -4,14 +4,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import fields
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...components.arrays import Doubles
 from ...engine.declared.plant import SIZES, Head, HeadForm
 from .layout import Layout
 from .organs import BUD, EYE, FLORETS, PETAL, RAY, TUFT
 from .rows import GOLDEN, Rows, Stems, stood
 
-Doubles = NDArray[np.float64]
 Whorl = tuple[float, float]
 
 DISC_OF_FEW: tuple[Whorl, ...] = ((0.8, 1.0),)

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-Doubles = NDArray[np.float64]
+from ...components.arrays import Doubles
 
 KNOTS = 5
 """Places along an organ, evenly from root to tip, at which its width is known."""

@@ -2,9 +2,10 @@
 
 import numpy as np
 
+from ...components.arrays import Doubles
 from ...engine.declared.grass import GrassKind
 from .record import Postures
-from .simulate import LINKS, Chain, Doubles, build_chain, damp, lowest_swing, place_links, settle, simulate
+from .simulate import LINKS, Chain, build_chain, damp, lowest_swing, place_links, settle, simulate
 
 NEAR_FLAT = np.radians(83.0)
 """Angle of the tip from the vertical at posture index 1 [rad]."""

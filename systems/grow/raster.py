@@ -7,8 +7,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-Doubles = NDArray[np.float64]
-Integers = NDArray[np.int64]
+from ...components.arrays import Doubles, Rows
 
 _CHUNK = 1 << 15
 """Few enough that all that is worked on stays in the processor's own memory."""
@@ -23,10 +22,10 @@ _STAGGER = np.array([0.125, 0.625, 0.375, 0.875])
 class Fragments:
     """The samples of an image that show a triangle, at most one for each, in rising order of `sample`."""
 
-    sample: Integers
+    sample: Rows
     """Flat index of the sample, row * columns + column, shape (f,)."""
 
-    triangle: Integers
+    triangle: Rows
     """The nearest triangle there, shape (f,)."""
 
     x: Doubles
@@ -99,7 +98,7 @@ class _Seen:
         self._best = np.zeros(shape[0] * shape[1], np.uint64)
         self._met = [np.empty(len(self._best), np.int32) for _ in shape] if wrap else None
 
-    def show(self, key: NDArray[np.uint64], row: Integers, column: Integers) -> None:
+    def show(self, key: NDArray[np.uint64], row: Rows, column: Rows) -> None:
         """Show triangles, by nearness and number, at some samples, which with wrapping may lie beyond the image."""
         rows, columns = self._shape
         if self._met is None:
@@ -128,7 +127,7 @@ class _Seen:
 
 def _samples_inside(
     corners: Doubles, shape: tuple[int, int], /, *, wrap: bool, chunk: int
-) -> Iterator[tuple[Integers, Integers, Integers]]:
+) -> Iterator[tuple[Rows, Rows, Rows]]:
     """Yield the samples inside all triangles, some at a time: triangle, row and column, shape (m,) each."""
     halves = _halves(corners, shape, wrap=wrap)
     for start, stop in _chunks(halves.count, chunk):
@@ -158,7 +157,7 @@ class _Edges:
         columns = start[:, 0], start[:, 1], end[:, 0] - start[:, 0], np.where(rise > 0.0, rise, 1.0)
         return cls(*(np.ascontiguousarray(column) for column in columns))
 
-    def at(self, number: Integers, y: Doubles, /) -> Doubles:
+    def at(self, number: Rows, y: Doubles, /) -> Doubles:
         """Return where some of the lines cross constant y."""
         part = (y - self.y.take(number)) / self.rise.take(number)
         np.clip(part, 0.0, 1.0, out=part)
@@ -177,13 +176,13 @@ class _Halves:
     straight: _Edges
     """What bounds each triangle on the other side."""
 
-    low: Integers
+    low: Rows
     """First row of each half."""
 
-    count: Integers
+    count: Rows
     """Rows of each half."""
 
-    def row_spans(self, half: Integers, row: Integers, /) -> tuple[Integers, Integers, Integers]:
+    def row_spans(self, half: Rows, row: Rows, /) -> tuple[Rows, Rows, Rows]:
         """Return the triangles of halves, and their first columns on rows and those after their last."""
         triangle, y, shift = half >> 1, _centre(row), _STAGGER.take(row & 3)
         bent, straight = self.bent.at(half, y), self.straight.at(triangle, y)
@@ -204,14 +203,14 @@ def _halves(corners: Doubles, shape: tuple[int, int], /, *, wrap: bool) -> _Halv
     )
 
 
-def _expand(length: Integers, first: Integers, /) -> tuple[Integers, Integers]:
+def _expand(length: Rows, first: Rows, /) -> tuple[Rows, Rows]:
     """Return, for runs of integers from `first` on, one after another, each element's run and its number."""
     owner = np.repeat(np.arange(length.shape[0]), length)
     start = first - np.cumsum(length) + length
     return owner, np.arange(owner.shape[0]) + start.take(owner)
 
 
-def _chunks(length: Integers, chunk: int, /) -> list[tuple[int, int]]:
+def _chunks(length: Rows, chunk: int, /) -> list[tuple[int, int]]:
     """Return ranges of runs that hold about `chunk` elements each."""
     if not length.size:
         return []
@@ -220,16 +219,16 @@ def _chunks(length: Integers, chunk: int, /) -> list[tuple[int, int]]:
     return list(pairwise(edges))
 
 
-def _value(planes: Doubles, triangle: Integers, x: Doubles, y: Doubles, /) -> Doubles:
+def _value(planes: Doubles, triangle: Rows, x: Doubles, y: Doubles, /) -> Doubles:
     value: Doubles = planes[1].take(triangle) * x
     value += planes[0].take(triangle)
     value += planes[2].take(triangle) * y
     return value
 
 
-def _centre(row: Integers, /) -> Doubles:
+def _centre(row: Rows, /) -> Doubles:
     return np.asarray(row + 0.5, np.float64)
 
 
-def _across(row: Integers, column: Integers, /) -> Doubles:
+def _across(row: Rows, column: Rows, /) -> Doubles:
     return np.asarray(column + _STAGGER.take(row & 3))

@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float32]
-Bytes = NDArray[np.uint8]
+from ...components.arrays import Floats
 
 GIVES = 17
 """Lengths of messages, evenly spaced from 0 to 1, for which it is known how far a kind gives way."""

@@ -4,10 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...components.arrays import Doubles
 from ...engine.declared.grass import GrassKind
 from .postures import chord_angle, flat_step, rest_in_winds
 from .record import Response
-from .simulate import LINKS, Chain, Doubles, build_chain, lowest_swing, settle, simulate
+from .simulate import LINKS, Chain, build_chain, lowest_swing, settle, simulate
 
 SAMPLES = 256
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...components.arrays import Doubles
 from .record import Blades
 
-Doubles = NDArray[np.float64]
 Numbers = NDArray[np.intp]
 
 GOLDEN = np.pi * (3.0 - np.sqrt(5.0))

@@ -7,11 +7,9 @@ time runs in units of sqrt(length / gravity). Angles are absolute, from the vert
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...components.arrays import Doubles
 from ...engine.declared.grass import GrassKind
-
-Doubles = NDArray[np.float64]
 
 GRAVITY = 9.81
 LINKS = 16

@@ -9,9 +9,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-Doubles = NDArray[np.float64]
+from ...components.arrays import Doubles
 
 GROUND, TOP = 6360.0, 6460.0
 """Radii of the planet and of its air [km]."""

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-Doubles = NDArray[np.float64]
+from ...components.arrays import Doubles
 
 CURVE = 0.78, 0.349, -0.287
 """What is shown of radiance, by powers of its root: a toe in the shadows, middle tones, and a shoulder."""

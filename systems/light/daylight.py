@@ -3,15 +3,11 @@
 from dataclasses import dataclass
 from math import pi
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ...components.arrays import Doubles
 from ...engine.declared.light import Light
 from .color import linear, luminance
 from .sky import SUN, Sky, clear_air, sky_of
 from .sun import sun_at, to_sun, transmitted
-
-Doubles = NDArray[np.float64]
 
 USUAL = 1.5
 """Luminance of a white leaf in usual daylight, sun and sky together."""

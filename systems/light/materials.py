@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from math import cos, hypot, sin
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...components.arrays import Doubles
 from ...engine.declared.grass import GrassKind
 from ..grow.bend import across, spine, tone, widths
 from ..grow.organs import LEAF, TONES
@@ -13,8 +13,6 @@ from ..grow.record import Growth
 from ..grow.section import SECTIONS
 from .color import linear, luminance
 from .daylight import Daylight
-
-Doubles = NDArray[np.float64]
 
 LEAVES_THROUGH = np.array([1.05, 1.18, 0.55])
 """What a leaf lets through of the light that it does not take, of what it sends back: more yellow and green."""

@@ -8,12 +8,11 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Doubles
 from ...components.wind import WindPrimitive
 from ...engine.gl.mipmaps import mipmapped_image
 from ..grow.raster import rasterise, ribbon_triangles
 from ..wind.mean import MeanWind
-
-Doubles = NDArray[np.float64]
 
 SIDE = 512
 """Texels along a side."""

@@ -2,15 +2,11 @@
 
 from collections.abc import Iterator
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ...components.arrays import Doubles
 from ...engine.declared.light import Light
 from .daylight import Daylight, daylight_under
 from .sky import PIECES, clear_air, clear_air_in_pieces
 from .sun import sun_at
-
-Doubles = NDArray[np.float64]
 
 
 class Shining:

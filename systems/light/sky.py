@@ -6,13 +6,11 @@ from functools import lru_cache
 from math import cos, pi, radians, sin
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...components.arrays import Doubles
 from ...engine.declared.light import Light
 from .air import HEIGHTS, from_all_sides, seen_in_rows
 from .color import luminance, shown_as, srgb
-
-Doubles = NDArray[np.float64]
 
 COLUMNS, ROWS = 33, 32
 """Size of the map of the sky: from the sun's azimuth to the opposite one, and from the horizon to the zenith."""

@@ -3,12 +3,10 @@
 from math import asin, atan2, cos, degrees, radians, sin
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...components.arrays import Doubles
 from ...engine.declared.light import Light
 from .air import EYE, sunlight
-
-Doubles = NDArray[np.float64]
 
 
 def sun_at(light: Light, /) -> tuple[float, float]:

@@ -6,12 +6,11 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Floats, Mask
 from ...components.footprint import Footprint
 from ...components.pose import Pose
 from ...engine.terrain.record import Terrain
 
-Floats = NDArray[np.float32]
-Bools = NDArray[np.bool_]
 Number = TypeVar("Number", np.float32, np.int64)
 
 CELL = 0.2
@@ -169,7 +168,7 @@ def _greatest(values: NDArray[Number], ends: NDArray[np.intp]) -> NDArray[Number
     return np.asarray(np.maximum.reduceat(padded, ends.ravel())[::2])
 
 
-def inside(footprint: Footprint, pose: Pose, place: Floats, /, *, least: float = 0.0) -> Bools:
+def inside(footprint: Footprint, pose: Pose, place: Floats, /, *, least: float = 0.0) -> Mask:
     """Return which ground positions (n, 2) [m] lie under a footprint, shape (n,); a round one is `least` [m] wide."""
     own = pose.inside(place)
     if footprint.corners:
@@ -179,7 +178,7 @@ def inside(footprint: Footprint, pose: Pose, place: Floats, /, *, least: float =
     return np.asarray(off <= max(footprint.radius, least))
 
 
-def _in_polygon(corners: Floats, place: Floats) -> Bools:
+def _in_polygon(corners: Floats, place: Floats) -> Mask:
     """Return which places (n, 2) lie in a polygon: a ray from them to the right crosses its edges an odd time."""
     odd = np.zeros(len(place), np.bool_)
     for (x, z), (next_x, next_z) in zip(corners, np.roll(corners, -1, axis=0), strict=True):

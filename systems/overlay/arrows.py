@@ -3,13 +3,12 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Floats
 from ...engine.terrain.record import Terrain
 from ...engine.terrain.sample import height_at, slope_at
 from ..around.outlook import Outlook
 from .marks import Marks, on_ground, stroked, together
 from .paint import DARK, index_color
-
-Floats = NDArray[np.float32]
 
 SPACING = 0.042
 """Distance between arrows 1 m away, seen from straight above [m]; farther off it grows, so that they look as dense."""

@@ -7,14 +7,13 @@ from math import cos, pi, sin
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Floats
 from ..around.outlook import Outlook
 from ..site import Site
 from .marks import Marks, filled, split, stroked, together
 from .masks import Masked
 from .paint import BRIGHT, DARK, ring_shades
 from .patches import GAP, SETTLED, patch_colors, patch_weights, squares
-
-Floats = NDArray[np.float32]
 
 BEYOND = 6
 """How many patches beyond the last strips the chart shows."""

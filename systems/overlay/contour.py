@@ -7,9 +7,9 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Floats
 from ...components.wind import Extent
 
-Floats = NDArray[np.float32]
 Scalar = TypeVar("Scalar", bound=np.generic)
 Ask = Callable[[Floats], Floats]
 """Weights (n,) in [0, 1] at places (n, 2)."""

@@ -9,12 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
+from ...components.arrays import Bytes
 from ..around.representation import Representation
 from .layers import Layer
 from .masks import Masked
 from .paint import BRIGHT, DARK, Color, index_color, ring_shades
-
-Pixels = NDArray[np.uint8]
 
 SWATCH = 2.6
 """Width of a swatch, of the size of the letters."""
@@ -74,7 +73,7 @@ def _of_levels(representations: Sequence[Representation]) -> list[Entry]:
 
 
 @lru_cache(maxsize=8)
-def legend(lines: tuple[Entry, ...], size: int, /) -> Pixels:
+def legend(lines: tuple[Entry, ...], size: int, /) -> Bytes:
     """Return the legend in letters of a size [pixels], on dark paper: display colours and opacity, (h, w, 4).
 
     The top row is first.

@@ -5,10 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...components.arrays import Floats
 from ...engine.terrain.record import Terrain
 from ...engine.terrain.sample import height_at
-
-Floats = NDArray[np.float32]
 
 SHAPE = np.dtype([("place", "3f4"), ("color", "4f4")])
 """One corner of a triangle: place, and display colour with opacity."""

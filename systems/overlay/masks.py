@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...components.arrays import Floats
 from ...components.wind import Extent
 from ...engine.terrain.record import Terrain
 from ..wind.blow import Blowing
@@ -14,8 +14,6 @@ from ..wind.quarantine import Quarantine, QuarantinedError
 from .contour import contour, sampled
 from .marks import Marks, filled, on_ground, stroked, together
 from .paint import DARK, Color, wind_color
-
-Floats = NDArray[np.float32]
 
 BEGINS, WHOLE = 0.004, 0.98
 """Weights at which a mask is taken to begin, and to be there wholly."""

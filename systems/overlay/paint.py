@@ -5,11 +5,10 @@ from typing import TypeGuard
 from zlib import crc32
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...components.arrays import Floats
 from ...components.wind import WindPrimitive
 
-Floats = NDArray[np.float32]
 Color = tuple[float, float, float]
 
 PALEST = 0.4

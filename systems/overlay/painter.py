@@ -4,13 +4,13 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Bytes
 from ...engine.gl.guest import FIRST_UNIT
 from ...engine.gl.shaders import program
 from ...engine.gl.stream import Stream, attributes, release_all
 from .marks import LINE, SHAPE, Marks
 
 Matrix = NDArray[np.float32]
-Pixels = NDArray[np.uint8]
 
 OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
 ALONG = np.array([[0, -1], [1, -1], [0, 1], [1, 1]], np.float32)
@@ -36,7 +36,7 @@ class MarkPainter:
             ctx.vertex_array(paper, [(self.corners[1], "2f", "corner")]),
         ]
         self.sheet: moderngl.Texture | None = None
-        self.image: Pixels | None = None
+        self.image: Bytes | None = None
 
     def begin(self, size: tuple[int, int]) -> None:
         """Make ready to draw over a picture of this size [pixels]."""
@@ -58,7 +58,7 @@ class MarkPainter:
             self.programs[1]["onto"] = matrix
             self.arrays[1].render(moderngl.TRIANGLE_STRIP, vertices=4, instances=self.lines.count)
 
-    def draw_image(self, image: Pixels, left: int, bottom: int) -> None:
+    def draw_image(self, image: Bytes, left: int, bottom: int) -> None:
         """Draw an image (h, w, 4), its lower left corner at a pixel of the picture."""
         height, width = image.shape[:2]
         if image is not self.image or self.sheet is None:

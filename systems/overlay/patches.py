@@ -3,15 +3,13 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Floats, Rows
 from ..around.outlook import Outlook
 from ..see import strips_kept
 from ..site import Site
 from ..transition import weights
 from .marks import Marks, filled, on_ground, split, stroked, together
 from .paint import ring_shades
-
-Floats = NDArray[np.float32]
-Rows = NDArray[np.int64]
 
 FILL = 0.48
 """Opacity of a patch's square."""

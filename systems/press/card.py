@@ -4,13 +4,11 @@ from collections.abc import Sequence
 
 import moderngl
 import numpy as np
-from numpy.typing import NDArray
 
+from ...components.arrays import Floats
 from ..grow.record import Growth
 from .marks import NOTHING, SIDE, Marks, Trodden
 from .trail import NUMBERS
-
-Floats = NDArray[np.float32]
 
 ROW = 1024
 """Texels in a row of the texture, as `press.glsl` has it."""

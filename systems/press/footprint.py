@@ -3,12 +3,10 @@
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...components.arrays import Doubles
 from ...components.presser import Presser
 from ..wind.outline import Outline, outline_of_polygon
-
-Doubles = NDArray[np.float64]
 
 MOST = 40
 """How many discs a footprint is made of at most."""

@@ -5,12 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Floats
 from ...components.wind import Grass
 from ...engine.declared.scene import Scene
 from .marks import Marks, Trodden, square_of
 from .trail import BEGUN, CAME, FIRST, HEADING, LAST, LEFT, REACH, STRENGTH
-
-Floats = NDArray[np.float32]
 
 TREADS, FLAT = 0.75, 0.9
 """How much of the way to `FLAT` each who comes treads the grass right underfoot; flat for good is 1."""

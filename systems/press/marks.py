@@ -6,10 +6,8 @@ from math import floor
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Floats, Ints
 from .trail import BEGUN, FIRST, LAST, LEFT, NUMBERS, REACH, SERIAL, Stretches, Trail
-
-Floats = NDArray[np.float32]
-Ints = NDArray[np.int32]
 
 SQUARE = 2.0
 """Side of a square [m]."""

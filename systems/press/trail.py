@@ -6,7 +6,7 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-Doubles = NDArray[np.float64]
+from ...components.arrays import Doubles
 
 Stretches = NDArray[np.float64]
 """Stretches of the ways of discs, one a row, shape (n, NUMBERS)."""

@@ -3,13 +3,11 @@
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...components.arrays import Doubles
 from ...components.presser import Presser
 from .footprint import discs_of
 from .trail import Discs, Trail
-
-Doubles = NDArray[np.float64]
 
 Who = tuple[int, Presser]
 """An entity, and what it presses with: with another footprint it counts as somebody else."""

@@ -6,13 +6,12 @@ from math import prod
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Floats
 from ...engine.terrain.sample import height_at, own_density_at
 from ..around.ground import Ground
 from ..around.outlook import Outlook
 from ..around.receivers import Pool, Receiving
 from .received import Received
-
-Floats = NDArray[np.float32]
 
 
 def numbers_of(outlook: Outlook, first: Mapping[str, Sequence[int]], /) -> NDArray[np.intp]:

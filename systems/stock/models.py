@@ -6,6 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from ...components.arrays import Floats
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
 from ..around.representation import Seedling
@@ -14,7 +15,7 @@ from ..grow.give import grow_give
 from ..grow.layout import layout_of
 from ..grow.plants import grow_patch
 from ..grow.postures import grow_postures
-from ..grow.record import Blades, Floats, Growth, PatchModel, Postures, Response
+from ..grow.record import Blades, Growth, PatchModel, Postures, Response
 from ..grow.response import grow_response
 from ..show.registry import REPRESENTATIONS
 

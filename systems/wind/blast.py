@@ -6,18 +6,16 @@ from typing import ClassVar, Literal, Self
 from warnings import catch_warnings
 
 import numpy as np
-from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
 from pydantic import Field, PrivateAttr, ValidationInfo, model_validator
 
+from ...components.arrays import Floats
 from ...components.body import Hover, Model
 from ...components.declaration import Declaration, DeclarationError, Pair
 from ...components.wind import Extent, Grass, TwinValues
 from .outline import FINE, Outline, outline_of_picture, outline_of_polygon, polygon_of_ellipse
 from .placed import PlacedWind
 from .shape import smooth
-
-Floats = NDArray[np.float32]
 
 BEAT, PULSE = 2.2, 0.14
 """How often rings run outwards through a blast [1/s], and by how much they change its index."""

@@ -13,6 +13,7 @@ from zlib import crc32
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Floats
 from ...components.pose import HERE, Pose
 from ...components.wind import Extent, Grass, Mixing, WindPrimitive, WindSource
 from ...engine.random import hash3
@@ -24,7 +25,6 @@ from .shape import smooth
 BESIDE = 1e-3
 """How far outside an extent a mask is still asked for, so that rounding cuts nothing off [m]."""
 
-Floats = NDArray[np.float32]
 Rows = NDArray[np.intp]
 
 

@@ -4,14 +4,12 @@ from math import cos, radians, sin
 from typing import ClassVar, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
+from ...components.arrays import Floats
 from ...components.wind import Grass, TwinValues
 from ...engine.noise import PERIOD, noise_table, smooth_noise
 from .mean import MeanWind
-
-Floats = NDArray[np.float32]
 
 WAVE = 7.0
 """Distance between the waves that travel over the field [m]."""

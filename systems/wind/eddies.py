@@ -4,12 +4,9 @@ from functools import lru_cache
 from math import gamma, pi, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...components.arrays import Doubles, Floats
 from ...engine.noise import ASLANT, PERIOD, power_left
-
-Floats = NDArray[np.float32]
-Doubles = NDArray[np.float64]
 
 WIDE, FINER = 24.0, 8.0
 """After how many length scales the table of large eddies repeats, and how much sooner that of small ones does."""

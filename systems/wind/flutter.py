@@ -3,12 +3,10 @@
 from math import cos, pi, sin
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...components.arrays import Floats
 from ...components.wind import TwinValues
 from ...engine.noise import PERIOD, noise_table, smooth_noise, wander
-
-Floats = NDArray[np.float32]
 
 RIPPLE = 0.45
 """Distance over which neighbouring blades swing alike [m]."""

@@ -9,13 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
+from ...components.arrays import Floats
 from ...components.declaration import DeclarationError, Pair
 from ...components.pose import Pose
 from ...components.wind import Extent, Grass, TwinValues, WindPrimitive
 from ...engine.memo import by_identity
 from .shape import rim, rim_width
-
-Floats = NDArray[np.float32]
 
 LATEST = 36000.0
 """Repetitions come again after so long, and somewhat more [s]."""

@@ -1,13 +1,10 @@
 """Winds that blow everywhere, about a mean that has a direction."""
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
+from ...components.arrays import Floats
 from ...components.wind import WindPrimitive
-
-Floats = NDArray[np.float32]
-
 
 TOWARDS = 90.0
 """Where winds blow to unless they are told, as a camera's yaw [degrees]."""

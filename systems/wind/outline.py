@@ -6,9 +6,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float32]
-Doubles = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from ...components.arrays import Doubles, Floats, Mask
 
 FINE = 96
 """Samples along the longer side of an outline."""
@@ -85,7 +83,7 @@ def outline_of_polygon(corners: tuple[tuple[float, float], ...], /) -> Outline:
     return _outline(np.where(holds, away, -away), (float(corner[0]), float(corner[1])), step)
 
 
-def outline_of_picture(holds: Bools, /, *, width: float) -> Outline:
+def outline_of_picture(holds: Mask, /, *, width: float) -> Outline:
     """Return the outline of a picture's set pixels, shape (rows, columns), `width` [m] across.
 
     The picture's middle is the frame's origin, and its top lies ahead.
@@ -107,7 +105,7 @@ def _outline(depth: Doubles, corner: tuple[float, float], step: float) -> Outlin
     return Outline(corner, step, field, float(field[..., 0].max()))
 
 
-def _to_edges(place: Doubles, points: Doubles) -> tuple[Doubles, Bools]:
+def _to_edges(place: Doubles, points: Doubles) -> tuple[Doubles, Mask]:
     """Return the distances of places (..., 2) to a closed polygon's edges, and whether it holds them (even-odd)."""
     away = np.full(place.shape[:-1], np.inf)
     holds = np.zeros(place.shape[:-1], np.bool_)
@@ -121,7 +119,7 @@ def _to_edges(place: Doubles, points: Doubles) -> tuple[Doubles, Bools]:
     return away, holds
 
 
-def _signed(holds: Bools) -> Doubles:
+def _signed(holds: Mask) -> Doubles:
     """Return each pixel's distance to the nearest one of the other sort, negative where not set [pixels]."""
     inside, outside = np.argwhere(holds & _edged(~holds)), np.argwhere(~holds & _edged(holds))
     rows, columns = np.indices(holds.shape)
@@ -130,7 +128,7 @@ def _signed(holds: Bools) -> Doubles:
     return np.asarray((depth - 0.5 * np.sign(depth)).reshape(holds.shape))
 
 
-def _edged(other: Bools) -> Bools:
+def _edged(other: Mask) -> Mask:
     padded = np.pad(other, 1)
     return np.asarray(padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:])
 

@@ -14,14 +14,13 @@ from typing import TypeVar
 from weakref import WeakKeyDictionary
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...components.arrays import Floats
 from ...components.pose import Pose
 from ...components.wind import Extent, WindPrimitive, WindSource
 from ...engine.complaint import said
 from ...engine.plugins import wind_kinds
 
-Floats = NDArray[np.float32]
 Answer = TypeVar("Answer")
 Called = tuple[str, type[WindPrimitive]]
 """A wind's name and class, by which it is known as slow: a game may give it other values in every frame."""

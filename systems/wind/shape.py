@@ -1,9 +1,8 @@
 """Soft edges of masks."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float32]
+from ...components.arrays import Floats
 
 
 def smooth(value: Floats, /) -> Floats:

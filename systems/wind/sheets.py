@@ -4,9 +4,8 @@ from collections.abc import Sequence
 
 import moderngl
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float32]
+from ...components.arrays import Floats
 
 
 class Sheets:

@@ -4,7 +4,8 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float32]
+from ...components.arrays import Floats
+
 Rows = NDArray[np.intp]
 
 WIDE = 1024

@@ -4,15 +4,13 @@ from math import cos, pi, radians, sin
 from typing import ClassVar, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
+from ...components.arrays import Floats
 from ...components.wind import Grass, TwinValues
 from ...engine.noise import ASLANT, PERIOD, smooth_noise, wander
 from .eddies import FINER, WIDE, eddy_tables
 from .mean import MeanWind
-
-Floats = NDArray[np.float32]
 
 LIFE = 64.0
 """How many length scales the wind goes while large eddies become others; small ones do `FINER` times sooner."""

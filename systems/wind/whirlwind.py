@@ -4,14 +4,12 @@ from math import cos, pi, sin
 from typing import ClassVar, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
+from ...components.arrays import Floats
 from ...components.wind import Extent, Grass, TwinValues
 from .placed import PlacedWind
 from .shape import rim, rim_width, smooth
-
-Floats = NDArray[np.float32]
 
 EYE = 0.3
 """Radius of the calm in the middle, where no direction is along a circle [m]."""

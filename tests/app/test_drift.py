@@ -4,13 +4,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
 from tallgrass.app.bench import stroll
 from tallgrass.app.bench.drift import ENOUGH, Change, mean_drift, mean_ghosting, sampled_frames, taken_together
 from tallgrass.app.bench.ghost import ghosted
-
-Doubles = NDArray[np.float64]
+from tallgrass.components.arrays import Doubles
 
 
 def grass(seed: int) -> Doubles:

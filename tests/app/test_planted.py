@@ -16,6 +16,7 @@ from tallgrass.app.bench.steps import Record
 from tallgrass.app.bench.stroll import legs
 from tallgrass.app.cli import run
 from tallgrass.app.studio.studio import Studio
+from tallgrass.components.arrays import Floats
 from tallgrass.engine.gl import shaders
 from tallgrass.systems.around.appearance import Appearance, appearance
 from tallgrass.systems.show.blades import painter as blades
@@ -39,7 +40,6 @@ quality:
   carpet: 64
 """
 Told = dict[str, Any]
-Floats = NDArray[np.float32]
 
 
 @pytest.fixture(scope="module")

@@ -14,7 +14,8 @@ import pytest
 from tallgrass.app.plugins import check_plugin, list_plugins, new_plugin
 from tallgrass.app.scaffold import scaffold
 from tallgrass.app.studio.errors import InputError
-from tallgrass.components.wind import Floats, Grass, WindPrimitive
+from tallgrass.components.arrays import Floats
+from tallgrass.components.wind import Grass, WindPrimitive
 from tallgrass.engine.plugged import SYSTEMS, SystemPlugins
 from tallgrass.engine.plugins import GROUP, WindKinds, wind_kinds
 

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
 from tallgrass.app.saucer import (
     CLEAR,
@@ -29,10 +28,10 @@ from tallgrass.app.saucer import (
     put,
 )
 from tallgrass.app.studio.walker import MARGIN, Ground, Move
+from tallgrass.components.arrays import Floats
 from tallgrass.engine.camera import forward
 from tallgrass.systems.bodies.fly import HOVER, LOWEST, STEEPEST
 
-Floats = NDArray[np.float32]
 Set = frozenset[Move]
 moves: tuple[Move, ...] = get_args(Move)
 held_keys = st.frozensets(st.sampled_from(moves))

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
 from tallgrass.app.studio.walker import (
     EYE,
@@ -27,9 +26,9 @@ from tallgrass.app.studio.walker import (
     toggled,
     turned,
 )
+from tallgrass.components.arrays import Floats
 from tallgrass.engine.camera import Camera
 
-Floats = NDArray[np.float32]
 Set = frozenset[Move]
 moves: tuple[Move, ...] = get_args(Move)
 held_keys = st.frozensets(st.sampled_from(moves))

@@ -7,15 +7,13 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
 from tallgrass.app.studio.walker import MARGIN, Ground
 from tallgrass.app.weather import AHEAD, FARTHEST, Raised, looked_at, raised
+from tallgrass.components.arrays import Floats
 from tallgrass.engine.camera import Camera, forward
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.whirlwind import Whirlwind
-
-Floats = NDArray[np.float32]
 
 
 def hills(xz: Floats) -> Floats:

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Doubles, Floats
 from tallgrass.engine.camera import (
     FAR,
     NEAR,
@@ -26,8 +26,6 @@ from tallgrass.engine.camera import (
 )
 from tallgrass.engine.declared.camera import CameraSource, Stop
 
-Floats = NDArray[np.float32]
-Doubles = NDArray[np.float64]
 angles = st.floats(-3.0, 3.0)
 pitches = st.floats(-1.5, 1.5)
 places = st.tuples(*[st.floats(-500.0, 500.0)] * 3)

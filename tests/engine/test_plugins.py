@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tallgrass.components.wind import Floats, Grass, WindPrimitive
+from tallgrass.components.arrays import Floats
+from tallgrass.components.wind import Grass, WindPrimitive
 from tallgrass.engine.installed import OURS
 from tallgrass.engine.plugins import GROUP, PluginError, Provided, WindKinds, wind, wind_kinds
 from tallgrass.engine.scene import parse_scene

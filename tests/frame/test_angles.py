@@ -7,18 +7,17 @@ from pathlib import Path
 import moderngl
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from tallgrass import testing
 from tallgrass.app.bench.contrast import luma
 from tallgrass.app.bench.picture import MOMENT
+from tallgrass.components.arrays import Doubles
 from tallgrass.engine.camera import Camera, camera_at
 from tallgrass.engine.declared.scene import LodName
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import cropped, draw_reference, patch_distances
 from tallgrass.testing import Stage
 
-Doubles = NDArray[np.float64]
 Load = Callable[..., Prairie]
 
 CAMERAS = Path(__file__).parents[1] / "cameras"

@@ -9,10 +9,10 @@ import esper
 import moderngl
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from PIL import Image
 
 from tallgrass import Footprint, Pose, Presser
+from tallgrass.components.arrays import Doubles, Floats
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.terrain.sample import density_at
 from tallgrass.systems.around.receivers import Receiving
@@ -20,8 +20,6 @@ from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import draw_reference
 from tallgrass.testing import LITTLE
 
-Floats = NDArray[np.float32]
-Doubles = NDArray[np.float64]
 Stage = Any
 Aim = Callable[..., Camera]
 OnCard = Callable[[Prairie], list[tuple[Receiving, Floats]]]

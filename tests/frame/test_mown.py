@@ -8,15 +8,14 @@ import esper
 import moderngl
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from tallgrass import Footprint, Pose, Presser
+from tallgrass.components.arrays import Doubles
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import draw_reference
 from tallgrass.testing import LITTLE
 
-Doubles = NDArray[np.float64]
 Stage = Any
 Load = Callable[..., Prairie]
 Aim = Callable[..., Camera]

@@ -8,17 +8,16 @@ from typing import Any
 import moderngl
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from tallgrass import testing
 from tallgrass.app.bench.picture import MOMENT
+from tallgrass.components.arrays import Doubles
 from tallgrass.engine.camera import Camera, camera_at, view_of
 from tallgrass.systems.around.appearance import Appearance, appearance
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import draw_reference
 from tallgrass.testing import Stage as Room
 
-Doubles = NDArray[np.float64]
 Load = Callable[..., Prairie]
 Aim = Callable[..., Camera]
 

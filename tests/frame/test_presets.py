@@ -8,10 +8,9 @@ from pathlib import Path
 from typing import Any
 
 import moderngl
-import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Doubles
 from tallgrass.engine.declared.quality import PRESETS
 from tallgrass.systems.grow.raster import Fragments, rasterise
 from tallgrass.systems.prairie import Prairie
@@ -20,7 +19,6 @@ from tallgrass.systems.show.strips import grow as strips_grow
 from tallgrass.systems.stock.models import precompute_bytes
 from tallgrass.testing import Stage
 
-Doubles = NDArray[np.float64]
 Seen = Callable[[str, str], dict[str, int]]
 
 PAPER = {

@@ -7,9 +7,9 @@ import esper
 import moderngl
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from tallgrass import Pose, Presser
+from tallgrass.components.arrays import Floats
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.gl.stream import release_all
 from tallgrass.systems.around.receivers import Receiving
@@ -17,7 +17,6 @@ from tallgrass.systems.painter import UNITS
 from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import LITTLE
 
-Floats = NDArray[np.float32]
 Stage = Any
 Load = Callable[..., Prairie]
 Aim = Callable[..., Camera]

@@ -5,14 +5,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Grass, WindPrimitive
 from tallgrass.systems.reference import draw_reference
 from tallgrass.systems.wind import quarantine
 from tallgrass.testing import looking
 
-Floats = NDArray[np.float32]
 Load = Any
 Stage = Any
 

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 from PIL import Image
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.receivers import Receivers
 from tallgrass.components.wind import WindPrimitive
 from tallgrass.engine.camera import Camera, camera_at
@@ -31,7 +31,6 @@ from tallgrass.systems.wind.turbulence import Turbulence
 from tallgrass.systems.wind.whirlwind import Whirlwind
 from tallgrass.testing import LITTLE
 
-Floats = NDArray[np.float32]
 Stage = Any
 Load = Callable[..., Prairie]
 Aim = Callable[..., Camera]

@@ -24,8 +24,9 @@ import pytest
 from pydantic import Field, field_validator
 
 from tallgrass.app.schema import described
+from tallgrass.components.arrays import Floats
 from tallgrass.components.declaration import Declaration, Pair
-from tallgrass.components.wind import Floats, Grass, WindPrimitive, WindSource
+from tallgrass.components.wind import Grass, WindPrimitive, WindSource
 from tallgrass.engine.plugins import wind, wind_kinds
 from tallgrass.engine.scene import LoadedScene, SceneError, bundled_scenes, load_maps, printable, read_scene
 from tallgrass.engine.scene.compose import read_document

@@ -10,8 +10,9 @@ import pytest
 from pydantic import Field
 
 from tallgrass.app.schema import described
+from tallgrass.components.arrays import Floats
 from tallgrass.components.declaration import Declaration
-from tallgrass.components.wind import Floats, Grass, WindPrimitive
+from tallgrass.components.wind import Grass, WindPrimitive
 from tallgrass.engine.plugins import wind, wind_kinds
 from tallgrass.engine.scene import SceneError, bundled_scenes, parse_scene
 from tallgrass.engine.scene.compose import decode, read_document

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.body import Body
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import WindSource
@@ -18,7 +18,6 @@ from tallgrass.systems.bodies.fly import DRAG, GRAVITY, HOVER, LOWEST, STEEPEST,
 from tallgrass.systems.wind.blast import Blast
 from tallgrass.systems.wind.quarantine import Quarantine
 
-Floats = NDArray[np.float32]
 angles = st.floats(-math.pi, math.pi)
 tilts = st.floats(-0.5, 0.5)
 pushes = st.tuples(st.floats(-40.0, 40.0), st.floats(-40.0, 40.0))

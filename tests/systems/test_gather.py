@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Rows
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.show.blades.gather import gather_blades
@@ -20,7 +21,6 @@ from tallgrass.systems.show.strips.pool import StripPool
 from tallgrass.systems.show.strips.shown import StripsOfRing
 from tallgrass.systems.site import Site
 
-Integers = NDArray[np.int64]
 Laid = Callable[..., Site]
 Look = Callable[..., Outlook]
 
@@ -67,13 +67,13 @@ def gathered(outlook: Outlook, *, first: int = 0) -> tuple[NDArray[np.void], NDA
 class Polygons:
     """Polygon strips, taken apart as `strips.vert` takes their numbers apart; each array has shape (n,)."""
 
-    patch: Integers
-    kind: Integers
-    stack: Integers
+    patch: Rows
+    kind: Rows
+    stack: Rows
     """Place of its strip in the stack."""
 
-    column: Integers
-    edge: Integers
+    column: Rows
+    edge: Rows
     """Number of the receiver of its first edge; that of the second follows."""
 
 

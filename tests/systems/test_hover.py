@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.body import Body, Hover
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import Extent, Grass, WindPrimitive
@@ -17,8 +17,6 @@ from tallgrass.engine.world import World
 from tallgrass.systems.bodies.fly import carried, flying, foot
 from tallgrass.systems.site import Site
 from tallgrass.systems.winds import Winds
-
-Floats = NDArray[np.float32]
 
 
 class Rotor(WindPrimitive):

@@ -9,7 +9,6 @@ from time import process_time
 import esper
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from tallgrass import Pose, Presser, Receivers
 from tallgrass.engine.schedule import Phase
@@ -19,8 +18,6 @@ from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.pressers import RATE
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.testing import LITTLE, little_prairie, step, watch
-
-Floats = NDArray[np.float32]
 
 AROUND = np.stack(np.meshgrid(np.linspace(-3.0, 3.0, 25), np.linspace(-1.0, 1.0, 9)), -1).reshape(-1, 2)
 

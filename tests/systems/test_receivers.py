@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.patch import Patch
 from tallgrass.components.receivers import Receivers
 from tallgrass.engine.terrain.record import Terrain
@@ -22,7 +23,6 @@ from tallgrass.systems.wind.blow import ReceiverArrays, places_alone
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.grass import grass_of
 
-Floats = NDArray[np.float32]
 Looking = Callable[..., Outlook]
 Picture = dict[str, list[Floats]]
 System = Callable[[], object]

@@ -8,8 +8,8 @@ from weakref import ref
 import esper
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Grass, WindPrimitive, WindSource
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
@@ -17,7 +17,6 @@ from tallgrass.systems.wind import quarantine
 from tallgrass.systems.wind.quarantine import PATIENCE, WAIT
 from tallgrass.testing import LITTLE, little_prairie
 
-Floats = NDArray[np.float32]
 Load = Callable[..., Prairie]
 HERE = [(0.0, 0.0)]
 

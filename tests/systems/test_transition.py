@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
 from tallgrass.components.patch import Lod
 from tallgrass.components.viewer import Viewer
@@ -27,7 +26,6 @@ from tallgrass.testing import systems_on
 
 Laid = Callable[..., Site]
 Look = Callable[..., Outlook]
-Floats = NDArray[np.float32]
 
 parts = st.floats(0.0, 1.0, width=32)
 switches = st.builds(Transitions, *[st.booleans()] * 4)

@@ -4,13 +4,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Grass, WindPrimitive
 from tallgrass.testing import wind_problems
 from tallgrass.testing.receivers import places_to_try
-
-Floats = NDArray[np.float32]
 
 
 class UnspeakableError(Exception):

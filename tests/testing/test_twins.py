@@ -5,15 +5,14 @@ from collections.abc import Callable
 import moderngl
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Grass, TwinValues, WindPrimitive
 from tallgrass.engine.plugins import wind_kinds
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.twin import Twin, TwinError
 from tallgrass.testing import twin_problems
 
-Floats = NDArray[np.float32]
 Write = Callable[[str], None]
 
 

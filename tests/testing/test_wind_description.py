@@ -5,16 +5,14 @@ from typing import Annotated, Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from pydantic import Field
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.body import Hover
 from tallgrass.components.declaration import Pair
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import Extent, Grass, WindPrimitive
 from tallgrass.testing import check_wind, wind_problems
-
-Floats = NDArray[np.float32]
 
 
 class Even(WindPrimitive):

@@ -6,15 +6,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Extent, Grass, WindPrimitive
 from tallgrass.engine.installed import OURS
 from tallgrass.engine.plugins import wind_kinds
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.testing import check_wind, wind_problems
 
-Floats = NDArray[np.float32]
 HALF = 2.0
 
 

@@ -3,10 +3,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Floats
 from .pool import BladePool
 from .shown import Standing
 
-Floats = NDArray[np.float32]
 Numbers = NDArray[np.uint32]
 
 

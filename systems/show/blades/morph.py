@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Floats
 from ...around.outlook import Outlook
 from ..strips.gather import lies_ahead
 from ..strips.representation import StripRepresentation
@@ -10,8 +11,6 @@ from ..strips.stand import falls
 from .gather import Numbers, far_first
 from .pool import BladePool
 from .shown import Standing
-
-Floats = NDArray[np.float32]
 
 AMONG = 0.02
 """How much their own distances count among blades that lie on one strip, of the distances between strips."""

@@ -7,6 +7,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Floats
 from ....engine.declared.quality import Quality
 from ....engine.gl.records import Records
 from ....engine.gl.stream import Stream, release_all
@@ -25,8 +26,6 @@ from .plant import BladeStock
 from .pool import BladePool, BladesKept
 from .shown import BladesShown, Standing, together
 from .store import STANDING, STANDING_ROW, BladeStore
-
-Floats = NDArray[np.float32]
 
 PARTED = 1
 """Distance up to which blades hide one another by depth [patch sides]."""

@@ -7,13 +7,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Floats, Ints
 from ....engine.terrain.sample import height_at, own_density_at
 from ...around.ground import PRESENT, Ground, quarter_turn, turned
 from ...grow.record import Blades, Growth
 from .pool import BLADE, ORGAN, BladePool
-
-Floats = NDArray[np.float32]
-Ints = NDArray[np.int32]
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,11 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Floats
 from ...around.patches import NOWHERE
 from ...around.receivers import Receiving
 from ...around.representation import Kept
-
-Floats = NDArray[np.float32]
 
 BLADE = np.dtype(
     [

@@ -7,6 +7,7 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Levels, Rows
 from ....engine.declared.quality import Quality
 from ...around.ground import Ground
 from ...around.outlook import Outlook
@@ -19,9 +20,6 @@ from .plant import BladeStock, plant_blades, stock_blades
 from .pool import BladePool, BladesKept
 from .shown import BladesShown, show_blades
 from .sublevel import blade_ring
-
-Levels = NDArray[np.int8]
-Rows = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

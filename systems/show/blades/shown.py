@@ -5,12 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Floats, Rows
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
 from ...around.window import window_rows
-
-Floats = NDArray[np.float32]
-Rows = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,11 +1,8 @@
 """Sub-levels of blades: the ring that a patch is in."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float32]
-Ints = NDArray[np.int32]
-Levels = NDArray[np.int8]
+from ....components.arrays import Floats, Ints, Levels
 
 
 def blade_ring(distance: Ints, current: Levels, limits: Floats, /, *, slack: int) -> Levels:

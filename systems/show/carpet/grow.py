@@ -5,9 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...grow.bend import Doubles, highest_tip, ribbon, segment_normals, spine, tone
+from ....components.arrays import Bytes, Doubles, Floats
+from ...grow.bend import highest_tip, ribbon, segment_normals, spine, tone
 from ...grow.raster import Fragments, interpolate, rasterise, ribbon_triangles
-from ...grow.record import Blades, Bytes, Floats, PatchModel, Postures
+from ...grow.record import Blades, PatchModel, Postures
 from ...grow.section import FLAT, Section
 
 

@@ -5,8 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Doubles
 from ...around.canopy import canopy_height
-from ...grow.bend import Doubles, ribbon
+from ...grow.bend import ribbon
 from ...grow.organs import HEADS
 from ...grow.raster import rasterise, ribbon_triangles
 from ...grow.record import Blades, Growth

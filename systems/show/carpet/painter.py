@@ -6,6 +6,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Floats
 from ....engine.gl.stream import release_all
 from ....engine.gl.unchanged import Unchanged
 from ...around.appearance import border_of
@@ -31,8 +32,6 @@ from .ground import (
 )
 from .pool import CarpetKept
 from .textures import carpet_texture
-
-Floats = NDArray[np.float32]
 
 STEP = 0.4
 """How far the eye goes before tiles are chosen anew, in sides of the finest."""

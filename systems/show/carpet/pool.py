@@ -3,14 +3,12 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Floats, Rows
 from ....engine.world import World
 from ...around.ground import Ground, densest_kind
 from ...around.patches import PatchTable
 from ...around.receivers import Receiving
 from ...around.representation import Kept
-
-Floats = NDArray[np.float32]
-Rows = NDArray[np.int64]
 
 
 class CarpetPool:

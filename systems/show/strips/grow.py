@@ -5,10 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...grow.bend import Doubles, highest_tip, ribbon, spine, tone
+from ....components.arrays import Bytes, Doubles, Floats
+from ...grow.bend import highest_tip, ribbon, spine, tone
 from ...grow.organs import HEADS
 from ...grow.raster import Fragments, interpolate, rasterise, ribbon_triangles
-from ...grow.record import Blades, Bytes, Floats, PatchModel, Postures
+from ...grow.record import Blades, PatchModel, Postures
 from ...grow.section import FLAT, Section
 
 

@@ -3,11 +3,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Ints
 from ....engine.terrain.sample import own_density_at
 from ...around.ground import PRESENT, Ground
 from .pool import StripPool
-
-Ints = NDArray[np.int32]
 
 
 def plant_strips(

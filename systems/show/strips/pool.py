@@ -5,13 +5,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Floats
 from ...around.patches import NOWHERE
 from ...around.receivers import Receiving
 from ...around.representation import Kept
 from .grow import Strips
 from .stand import strip_edges
-
-Floats = NDArray[np.float32]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -7,6 +7,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Floats, Levels, Mask, Rows
 from ....engine.declared.grass import GrassKind
 from ....engine.declared.quality import Quality, StripRing
 from ...around.canopy import lodged
@@ -35,12 +36,6 @@ from .sublevel import (
     viewing_slope,
 )
 from .textures import Atlas, strip_atlas, strip_stocks
-
-Floats = NDArray[np.float32]
-Levels = NDArray[np.int8]
-Mask = NDArray[np.bool_]
-Rows = NDArray[np.int64]
-
 
 USUAL = 0.4
 """Posture index of a usual breeze: how fine strips have to be is measured in it."""

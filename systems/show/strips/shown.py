@@ -5,14 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Floats, Ints, Rows
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
 from ...around.window import window_rows
 from .sublevel import axis_of, ring_of
-
-Floats = NDArray[np.float32]
-Ints = NDArray[np.int32]
-Rows = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

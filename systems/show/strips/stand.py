@@ -6,10 +6,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Floats, Ints
 from .grow import Strips
-
-Floats = NDArray[np.float32]
-Ints = NDArray[np.int32]
 
 
 def strip_edges(strips: Strips, columns: int, along: Ints, turn: Ints, /, *, patch: float) -> tuple[Floats, Ints]:

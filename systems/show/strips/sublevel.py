@@ -3,14 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Floats, Ints, Levels, Mask, Rows
 from ...around.cone import cells_apart
 from ...around.patches import PatchTable
-
-Floats = NDArray[np.float32]
-Ints = NDArray[np.int32]
-Levels = NDArray[np.int8]
-Mask = NDArray[np.bool_]
-Rows = NDArray[np.int64]
 
 TIGHTER = 1.15
 """How much steeper than needed a patch must be seen for a finer ring to be kept: the slack of slopes."""

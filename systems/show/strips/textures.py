@@ -7,15 +7,13 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Bytes, Mask
 from ....engine.gl.mipmaps import levels, mipmapped
 from ...grow.record import Growth
 from .grow import Strips, strips_of
 
 _WHOLE = 16
 """Layers are so many texels wide and high, or twice, three times as many: the finest mip-maps are whole then."""
-
-Mask = NDArray[np.bool_]
-Bytes = NDArray[np.uint8]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

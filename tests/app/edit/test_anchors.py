@@ -7,8 +7,9 @@ import pytest
 from pydantic import Field
 
 from tallgrass.app.edit.anchors import ahead, declared_anchors, heading, turned_to
+from tallgrass.components.arrays import Floats
 from tallgrass.components.declaration import Pair
-from tallgrass.components.wind import Floats, Grass, WindPrimitive
+from tallgrass.components.wind import Grass, WindPrimitive
 from tallgrass.engine.declared.way import Waypoint
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust

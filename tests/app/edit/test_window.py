@@ -20,7 +20,8 @@ from tallgrass.app.edit.fields import keys_of
 from tallgrass.app.edit.pick import Sight
 from tallgrass.app.edit.values import Way
 from tallgrass.app.studio.take import Take
-from tallgrass.components.wind import Extent, Floats, Grass
+from tallgrass.components.arrays import Floats
+from tallgrass.components.wind import Extent, Grass
 from tallgrass.engine.plugins import WindKinds, wind_kinds
 from tallgrass.engine.scene import bundled_scenes, read_scene
 from tallgrass.systems.prairie import Prairie

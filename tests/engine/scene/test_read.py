@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tallgrass.components.wind import Floats, Grass, WindPrimitive
+from tallgrass.components.arrays import Floats
+from tallgrass.components.wind import Grass, WindPrimitive
 from tallgrass.engine.declared.scene import Scene
 from tallgrass.engine.declared.terrain import TerrainSource
 from tallgrass.engine.plugins import wind, wind_kinds

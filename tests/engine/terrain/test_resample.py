@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.engine.terrain.resample import Kernel, b_spline, catmull_rom, resample
 from tallgrass.engine.terrain.voids import fill_voids
 
-Floats = NDArray[np.float32]
 numbers = st.floats(-50.0, 50.0)
 
 

@@ -4,13 +4,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Doubles, Floats
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.terrain.sample import density_at, height_at, own_density_at, slope_at
 
-Floats = NDArray[np.float32]
-Doubles = NDArray[np.float64]
 coefficients = st.floats(-3.0, 3.0)
 sides = st.integers(2, 12)
 cells = st.sampled_from([0.5, 1.0, 2.5, 7.0])

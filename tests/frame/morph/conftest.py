@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Doubles
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.gl.shaders import program
 from tallgrass.engine.gl.stream import Stream, release_all
@@ -28,7 +29,6 @@ from tallgrass.systems.show.strips.representation import StripRepresentation
 from tallgrass.systems.transition import FADE
 from tallgrass.testing import Stage as Room
 
-Doubles = NDArray[np.float64]
 Load = Callable[..., Prairie]
 Aim = Callable[..., Camera]
 OnCard = Callable[[Prairie], list[tuple[Any, NDArray[np.float32]]]]

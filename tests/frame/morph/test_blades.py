@@ -4,15 +4,14 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Doubles
 from tallgrass.engine.gl.stream import Stream, release_all
 from tallgrass.systems.painter import UNITS
 from tallgrass.systems.show.blades.draw import PAINTED, Ribbons, segment_defines
 from tallgrass.systems.show.blades.gather import distances, gather_blades
 from tallgrass.systems.show.blades.morph import HOME, at_home, gather_morph
 
-Doubles = NDArray[np.float64]
 Defines = dict[str, str | int]
 
 SIZE = (1280, 720)

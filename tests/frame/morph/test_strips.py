@@ -5,10 +5,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Doubles
 from tallgrass.systems.grow.bend import bending
 from tallgrass.systems.show.strips.stand import falls
-
-Doubles = NDArray[np.float64]
 
 
 def bent(scene: Any, kind: NDArray[np.int64], message: NDArray[np.float32]) -> Doubles:

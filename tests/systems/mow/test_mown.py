@@ -6,16 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.footprint import Footprint
 from tallgrass.components.pose import HERE, Pose
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.world import World
 from tallgrass.systems.mow.mown import CELL, LEAST, MOST, Mown, inside
 from tallgrass.testing import LITTLE, little_prairie, watch
-
-Floats = NDArray[np.float32]
 
 LONG = Footprint(radius=1.0, length=6.0)
 ELL = Footprint(corners=((-3.0, -3.0), (3.0, -3.0), (3.0, 0.0), (0.0, 0.0), (0.0, 3.0), (-3.0, 3.0)))

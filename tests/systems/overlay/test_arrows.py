@@ -9,13 +9,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.overlay.arrows import arrow_marks, arrows, felt, thinned
 from tallgrass.systems.overlay.paint import index_color
 from tallgrass.systems.site import Site
 
-Floats = NDArray[np.float32]
 Laid = Callable[..., Site]
 Look = Callable[..., Outlook]
 FLAT = Terrain(np.zeros((3, 3), np.float32), 50.0)

@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Extent
 from tallgrass.systems.overlay.contour import Contour, contour, sampled
 
-Floats = NDArray[np.float32]
 WIDE = Extent(-1000.0, 1000.0, -1000.0, 1000.0)
 
 

@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import Extent, Grass, WindPrimitive, WindSource
 from tallgrass.engine.terrain.record import Terrain
@@ -19,8 +19,6 @@ from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.quarantine import Quarantine
 from tallgrass.systems.wind.whirlwind import Whirlwind
-
-Floats = NDArray[np.float32]
 
 
 def seen(*winds: WindPrimitive, time: float = 2.0, far: float = 100.0) -> list[Masked]:

@@ -5,14 +5,11 @@ from pathlib import Path
 
 import esper
 import moderngl
-import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
 
-Floats = NDArray[np.float32]
 Load = Callable[..., Prairie]
 
 SCENE = """\

@@ -8,14 +8,13 @@ from typing import Literal
 import esper
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Grass, WindPrimitive, WindSource
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.wind.flutter import flutter
 
-Floats = NDArray[np.float32]
 Load = Callable[..., Prairie]
 
 PLACES = np.random.default_rng(0).uniform(-25.0, 25.0, (50, 2)).astype(np.float32)

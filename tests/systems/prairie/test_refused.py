@@ -16,7 +16,6 @@ from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.wind.gust import Gust
 
-Floats = NDArray[np.float32]
 Load = Callable[..., Prairie]
 
 PLACES = np.random.default_rng(0).uniform(-25.0, 25.0, (50, 2)).astype(np.float32)

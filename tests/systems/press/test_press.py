@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.presser import Presser
 from tallgrass.systems.press.footprint import discs_of
 from tallgrass.systems.press.lie import laid_over, pressed, touches
@@ -16,8 +16,6 @@ from tallgrass.systems.press.marks import MOST, UNTRODDEN, Memory, Trodden
 from tallgrass.systems.press.trail import BESIDE, Discs, Trail
 from tallgrass.testing.receivers import grass_at
 
-Floats = NDArray[np.float32]
-Doubles = NDArray[np.float64]
 Way = Callable[[float], tuple[float, float]]
 
 RADIUS, RECOVERY = 0.4, np.full(4, 20.0, np.float32)

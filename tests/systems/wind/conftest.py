@@ -4,8 +4,8 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import Grass, Mixing, WindPrimitive, WindSource
 from tallgrass.engine.declared.grass import GrassKind
@@ -14,7 +14,6 @@ from tallgrass.systems.grow.response import grow_response
 from tallgrass.systems.wind.blow import blowing, hear, places_alone
 from tallgrass.systems.wind.quarantine import Quarantine
 
-Floats = NDArray[np.float32]
 Answer = Callable[..., Grass]
 Feel = Callable[..., Floats]
 

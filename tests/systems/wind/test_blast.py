@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from PIL import Image
 from pydantic import ValidationError
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.declaration import DeclarationError
 from tallgrass.engine.scene import SceneError, parse_scene, read_scene
 from tallgrass.systems.wind.blast import Blast, Shape
 from tallgrass.systems.wind.outline import outline_of_picture, outline_of_polygon
 
-Floats = NDArray[np.float32]
 Feel = Callable[..., Floats]
 
 SQUARE = Shape(polygon=[[-4.0, -4.0], [4.0, -4.0], [4.0, 4.0], [-4.0, 4.0]])

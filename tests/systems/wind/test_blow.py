@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from pydantic import Field
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.declaration import Pair
 from tallgrass.components.wind import Grass, Mixing, WindPrimitive, WindSource
 from tallgrass.systems.wind.blow import blowing, hear, places_alone
 from tallgrass.systems.wind.quarantine import Quarantine
 
-Floats = NDArray[np.float32]
 PLACES = np.stack(np.meshgrid(np.linspace(-5, 5, 41), np.linspace(-5, 5, 41)), -1).reshape(-1, 2).astype(np.float32)
 
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Mixing, WindPrimitive
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.world import World
@@ -22,7 +23,6 @@ from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.whirlwind import Whirlwind
 from tallgrass.systems.winds import Winds
 
-Floats = NDArray[np.float32]
 Laid = Callable[..., Site]
 Look = Callable[..., Outlook]
 

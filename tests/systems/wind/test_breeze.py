@@ -6,15 +6,13 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Grass, WindSource
 from tallgrass.systems.wind.blow import blowing, hear, mean_index, places_alone
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.quarantine import Quarantine
-
-Floats = NDArray[np.float32]
 
 breezes = st.builds(
     Breeze,

@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Extent, Grass, Mixing, TwinValues, WindPrimitive, WindSource
 from tallgrass.systems.wind.blast import Blast
 from tallgrass.systems.wind.blow import Blowing, ReceiverArrays, blowing, hear, places_alone
@@ -24,7 +25,6 @@ from tallgrass.systems.wind.whirlwind import Whirlwind
 from tallgrass.testing.receivers import grass_at
 from tallgrass.testing.twins import CLOSE_TWIN, CardEar
 
-Floats = NDArray[np.float32]
 TIME = 3.0
 PLACE = np.random.default_rng(5).uniform(-12.0, 12.0, (1500, 2)).astype(np.float32)
 

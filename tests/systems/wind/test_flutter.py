@@ -6,8 +6,8 @@ from math import cos, pi, radians, sin
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import WindPrimitive
 from tallgrass.systems.wind.blast import Blast, Shape
@@ -18,7 +18,6 @@ from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.turbulence import Turbulence
 from tallgrass.systems.wind.whirlwind import Whirlwind
 
-Floats = NDArray[np.float32]
 Feel = Callable[..., Floats]
 
 FIELD = np.random.default_rng(4).uniform(-6.0, 6.0, (3000, 2)).astype(np.float32)

@@ -7,13 +7,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Grass
 from tallgrass.systems.grow.record import Response
 from tallgrass.systems.wind.gust import Gust
 
-Floats = NDArray[np.float32]
 Feel = Callable[..., Floats]
 Answer = Callable[..., Grass]
 

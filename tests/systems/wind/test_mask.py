@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Extent, Grass, WindPrimitive, WindSource
 from tallgrass.engine.scene import SceneError, parse_scene
 from tallgrass.systems.wind.blast import Blast, Shape
@@ -19,7 +19,6 @@ from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.quarantine import Quarantine
 from tallgrass.systems.wind.whirlwind import Whirlwind
 
-Floats = NDArray[np.float32]
 Answer = Callable[..., Grass]
 Feel = Callable[..., Floats]
 

@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import Mixing, WindPrimitive
 from tallgrass.systems.wind.blast import Blast, Shape
@@ -16,7 +17,6 @@ from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.whirlwind import Whirlwind
 
-Floats = NDArray[np.float32]
 Feel = Callable[..., Floats]
 
 FIELD = np.random.default_rng(9).uniform(-14.0, 14.0, (4000, 2)).astype(np.float32)

@@ -7,15 +7,14 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 from pydantic import ValidationError
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.pose import Pose
 from tallgrass.engine.declared.way import Waypoint
 from tallgrass.systems.wind.blast import Blast, Shape
 from tallgrass.systems.wind.whirlwind import Whirlwind
 
-Floats = NDArray[np.float32]
 Feel = Callable[..., Floats]
 
 FIELD = np.random.default_rng(2).uniform(-12.0, 12.0, (600, 2)).astype(np.float32)

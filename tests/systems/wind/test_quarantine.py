@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import Extent, Grass, Mixing, WindPrimitive, WindSource
 from tallgrass.systems.wind import quarantine as quarantine_module
@@ -27,7 +27,6 @@ from tallgrass.systems.wind.quarantine import (
 from tallgrass.systems.wind.turbulence import Turbulence
 from tallgrass.systems.wind.whirlwind import Whirlwind
 
-Floats = NDArray[np.float32]
 PLACES = np.stack(np.meshgrid(np.linspace(-5, 5, 11), np.linspace(-5, 5, 11)), -1).reshape(-1, 2).astype(np.float32)
 GRASS = Grass(np.zeros(len(PLACES), np.intp), *np.ones((3, 1, 2), np.float32))
 

@@ -6,15 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Doubles, Floats
 from tallgrass.components.wind import Grass
 from tallgrass.engine.noise import PERIOD, noise_table, power_left, smooth_noise
 from tallgrass.systems.wind.eddies import CORNER, eddy_tables
 from tallgrass.systems.wind.turbulence import Turbulence
-
-Floats = NDArray[np.float32]
-Doubles = NDArray[np.float64]
 
 STILL = Grass(np.zeros(0, np.intp), *np.ones((3, 1, 2), np.float32))
 WIND = Turbulence(direction=33.0, strength=0.3, intensity=0.2, scale=20.0, speed=8.0)

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import Extent, Grass, Mixing, WindPrimitive, WindSource
 from tallgrass.engine.gl import shaders
@@ -23,8 +23,6 @@ from tallgrass.systems.wind.quarantine import Quarantine
 from tallgrass.systems.wind.turbulence import Turbulence
 from tallgrass.systems.wind.whirlwind import Whirlwind
 from tallgrass.testing.twins import CLOSE_TWIN, CardEar
-
-Floats = NDArray[np.float32]
 
 CALM = Breeze(strength=0.3, gustiness=0.0, swing=0.0, direction=0.0)
 LATE = st.floats(0.0, 36000.0)

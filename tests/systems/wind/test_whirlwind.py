@@ -9,10 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Floats
 from tallgrass.engine.declared.way import Waypoint
 from tallgrass.systems.wind.whirlwind import EYE, LOBES, Whirlwind
 
-Floats = NDArray[np.float32]
 Feel = Callable[..., Floats]
 
 WIND = Whirlwind(radius=5.0, swing=0.0, soft=0.0)
