@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..components.arrays import Floats
-from .around.cone import HALF_DIAGONAL
 from .around.outlook import Outlook
 from .around.receivers import Receiving
 from .grow.record import Growth
+from .space.cone import HALF_DIAGONAL
 from .wind.blow import Blowing, ReceiverArrays, places_alone
 from .wind.grass import grass_of
 

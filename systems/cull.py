@@ -6,8 +6,8 @@ from math import pi
 
 import numpy as np
 
-from .around.cone import HALF_DIAGONAL, beyond_cone, beyond_sides
 from .around.outlook import Outlook
+from .space.cone import HALF_DIAGONAL, beyond_cone, beyond_sides
 
 HIGH_UP = 10.0
 """Height over all ground around from which on the picture's upper and lower sides are worth asking for [m]."""

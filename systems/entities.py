@@ -11,8 +11,8 @@ from ..engine.world import World
 from .around.clearing import Clearings
 from .around.outlook import Outlook
 from .around.patches import PatchTable
-from .around.representation import Representation
-from .around.window import window_rows
+from .show.representation import Representation
+from .space.window import window_rows
 
 BATCH = 200
 """Most entities made in one frame: otherwise a frame takes long when a viewer leaps."""

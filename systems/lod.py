@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ..components.arrays import Levels
 from .around.outlook import Outlook
-from .around.representation import Representation
+from .show.representation import Representation
 
 SLACK = 1
 """How many patches farther a patch must be to go to the coarser representation than to come back from it."""

@@ -14,15 +14,17 @@ from ..engine.gl.smaller import Smaller
 from ..engine.gl.stopwatch import Stopwatch
 from ..engine.gl.stream import release_all
 from .around.outlook import Outlook
-from .around.representation import Canvas, RepresentationPainter
 from .blow import receivers_shown
+from .bodies.cast import cast, nearest
 from .bodies.draw import BodyPainter, shade_of
-from .frame.block import FrameBlock, aim, cast, frame_record, nearest, shine, toward_sun
-from .frame.maps import density_texture, height_texture, posture_texture
+from .frame.block import FrameBlock, aim
+from .land.maps import density_texture, height_texture, posture_texture
+from .land.record import frame_record
 from .light.daylight import Daylight
 from .light.draw import SAMPLERS as LIGHTS
 from .light.draw import LightPainter
 from .light.repeating import drifted
+from .light.shine import shine, toward_sun
 from .light.shining import Shining
 from .mow.card import SAMPLERS as MOWING
 from .mow.card import CardMown
@@ -37,6 +39,7 @@ from .show.blades.organs import any_teeth
 from .show.blades.plant import record_of
 from .show.carpet.painter import CarpetPainter
 from .show.registry import REPRESENTATIONS
+from .show.representation import Canvas, RepresentationPainter
 from .site import Site
 from .wind.blow import mean_yaw
 from .wind.card import SAMPLERS as WINDS

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from ..engine.world import World
 from .around.outlook import Outlook
-from .around.representation import Representation
+from .show.representation import Representation
 
 
 @dataclass(slots=True)

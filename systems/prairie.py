@@ -29,7 +29,6 @@ from ..engine.world import World
 from .around.clearing import Clearings
 from .around.outlook import Outlook, Outlooks
 from .around.transitions import SEAMLESS, Transitions
-from .around.window import as_places, cell_of
 from .assembly import Assembly, settle_in
 from .govern import Governor
 from .light.shining import Shining
@@ -38,6 +37,7 @@ from .painter import Painter
 from .pressers import Pressers
 from .screen import Screen
 from .site import Site, found_again, found_site, is_grown, outlook_on, settle_on
+from .space.window import as_places, cell_of
 from .statistics import Statistics
 from .winds import Winds
 

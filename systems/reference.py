@@ -11,15 +11,15 @@ from ..components.arrays import Ints
 from ..components.viewer import Viewer
 from ..engine.camera import View, view_of
 from ..engine.terrain.sample import height_at
-from .around.cone import HALF_DIAGONAL, beyond_sides, discrete_distance, inside_cone, picture_sides, view_cone
-from .around.ground import Ground
 from .around.outlook import Outlook
-from .around.window import cell_of
 from .painter import Painter
 from .prairie import Prairie
 from .show.blades.draw import BladePainter
 from .show.blades.plant import standing_blades
 from .show.blades.representation import BladeRepresentation
+from .space.cone import HALF_DIAGONAL, beyond_sides, discrete_distance, inside_cone, picture_sides, view_cone
+from .space.ground import Ground
+from .space.window import cell_of
 from .tile import cells_on, patch_models
 from .wind.blow import places_alone
 from .wind.grass import grass_of

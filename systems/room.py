@@ -6,8 +6,8 @@ from math import ceil, log2
 from ..engine.world import World
 from .around.appearance import Appearance
 from .around.outlook import Outlook, brought_near
-from .around.representation import Representation
 from .lod import farthest
+from .show.representation import Representation
 
 
 def keep_room(outlook: Outlook, representations: Sequence[Representation], reach: tuple[int, ...], /) -> None:

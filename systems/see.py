@@ -7,10 +7,10 @@ import numpy as np
 
 from ..components.arrays import Floats, Rows
 from .around.appearance import Appearance, appearance, kept_near
-from .around.cone import seen_from
 from .around.outlook import Outlook
-from .around.representation import Representation
 from .around.transitions import SEAMLESS, Transitions
+from .show.representation import Representation
+from .space.cone import seen_from
 from .transition import weights
 
 

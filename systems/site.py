@@ -13,17 +13,17 @@ from ..engine.declared.quality import Quality
 from ..engine.declared.scene import Scene
 from ..engine.scene import LoadedScene, load_maps
 from ..engine.world import World
-from .around.canopy import canopy_height, top_at
-from .around.ground import Ground
 from .around.outlook import Outlook
 from .around.patches import PatchTable
-from .around.representation import Representation
 from .around.transitions import SEAMLESS, Transitions
 from .entities import components
 from .grow.record import Growth
 from .lod import reach_of
 from .room import keep_room
 from .show.registry import NAMES, REPRESENTATIONS
+from .show.representation import Representation
+from .space.canopy import canopy_height, top_at
+from .space.ground import Ground
 from .stock.cache import cached_growth, growth_key
 
 LAYERS = 2048

@@ -10,12 +10,12 @@ from ..components.arrays import Ints
 from ..engine.random import hash3
 from ..engine.terrain.record import Terrain
 from ..engine.terrain.sample import height_at, slope_at
-from .around.cone import discrete_distance, nearness, seen_from
 from .around.outlook import Outlook
 from .around.patches import PatchTable
-from .around.window import window_cells
 from .entities import PatchEntities
 from .room import make_room
+from .space.cone import discrete_distance, nearness, seen_from
+from .space.window import window_cells
 
 EDGE = 1e-4
 """How far beyond its edge a cell is still the one that a viewer stands in [patch sides]."""

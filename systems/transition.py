@@ -8,9 +8,9 @@ import numpy as np
 from ..components.arrays import Floats, Levels, Mask, Rows
 from .around.outlook import Outlook
 from .around.patches import PatchTable
-from .around.representation import Representation
 from .around.transitions import SEAMLESS, Transitions
 from .lod import SLACK, farthest
+from .show.representation import Representation
 
 FADE = 1.2
 """How long a change of representation takes at most [s]."""

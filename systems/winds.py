@@ -17,10 +17,10 @@ from ..engine.declared.scene import Scene
 from ..engine.handed import is_somewhere
 from ..engine.terrain.sample import height_at
 from ..engine.world import World
-from .around.canopy import canopy_height, top_at
-from .around.ground import Ground, densest_kind
 from .bodies.fly import foot, hover_of, hovering
 from .grow.record import Growth
+from .space.canopy import canopy_height, top_at
+from .space.ground import Ground, densest_kind
 from .wind.blow import Blowing, ReceiverArrays, blowing, hear, mean_index, mean_yaw, places_alone
 from .wind.grass import grass_of
 from .wind.quarantine import Quarantine, QuarantinedError

@@ -17,11 +17,11 @@ from ...systems.stock.models import precompute_bytes
 from ..studio.progress import counted, course
 from ..studio.studio import Studio
 from ..studio.take import Take
+from ..studio.timing import card_timer, spread, timed
 from .machine import machine, tell
 from .processor import on_processor
 from .rivals import Rivals
 from .still import FRAMES, Still
-from .timing import card_timer, spread, timed
 from .viewers import side_by_side
 from .yardstick import yardstick_ms
 

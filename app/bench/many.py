@@ -3,32 +3,16 @@
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from ..studio.encode import make_folder
 from ..studio.errors import InputError
 from ..studio.progress import counted
 from ..studio.take import Take
+from .asked import Asked, Measure, Told
 from .machine import tell
-
-Told = dict[str, Any]
-
-Measure = Callable[[Take, str | None], Told]
-"""Returns what a benchmark tells of a take; where a folder is given, its pictures go there."""
 
 COMMON = ("machine", "size", "frames")
 """What is told once of all scenes in a folder."""
-
-
-@dataclass(frozen=True, slots=True)
-class Asked:
-    """What workers are asked for each scene."""
-
-    measure: Measure
-    """It is a function of a module, or a part of one: by its name workers find it."""
-
-    timed: bool = False
-    """Whether it tells of time: then no machine does it for two scenes at once."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,8 +11,8 @@ from ...systems.prairie import Prairie
 from ..studio.offscreen import Offscreen, standalone_context
 from ..studio.studio import Studio
 from ..studio.take import Take, parse_size
+from ..studio.timing import spread
 from .still import FRAMES, Still
-from .timing import spread
 from .walk import paces
 from .yardstick import yardstick_ms
 

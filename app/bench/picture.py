@@ -1,6 +1,5 @@
 """`tallgrass bench picture`: how true a picture is to every blade in 3D, supersampled."""
 
-import importlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,18 +14,15 @@ from ...systems.light.color import decoded
 from ...systems.reference import EveryBlade, Truth, draw_reference, draw_truth, patch_distances, seen_cells
 from ...systems.show.registry import NAMES
 from ..studio.encode import Picture, make_folder, picture_writer
-from ..studio.errors import MachineError
 from ..studio.progress import Course, course
 from ..studio.studio import Studio, about
 from ..studio.take import SAMPLES, Take
 from .contrast import contrast
+from .flip import MOMENT, evaluator, flip
 from .frame import own_preset
 from .machine import machine
 from .many import Survey, bench_many
 from .multisampled import Multisampled
-
-MOMENT = 2.0
-"""Instant of the picture [s]."""
 
 OTHER_SEED = 7919
 """Added to the scene's seed for unrelated grass of the same look."""
@@ -155,22 +151,6 @@ def score(flips: Mapping[str, float], rival: str, /) -> float | None:
     """
     span = abs(flips["other_seed"] - flips.get(rival, flips["other_seed"]))
     return round((flips["lod"] - flips[rival]) / span, 4) if span else None
-
-
-def flip(picture: Picture, reference: Picture) -> float:
-    """Return the mean FLIP of a picture against a reference, both (height, width, 3) sRGB bytes."""
-    _, mean, _ = evaluator().evaluate(
-        reference.astype(np.float32) / 255.0, picture.astype(np.float32) / 255.0, "LDR", applyMagma=False
-    )
-    return float(mean)
-
-
-def evaluator() -> Any:
-    """Return the module that computes FLIP; raises MachineError where it is not installed."""
-    try:
-        return importlib.import_module("flip_evaluator")
-    except ImportError:
-        raise MachineError("pictures are compared by flip-evaluator: pip install 'tallgrass[bench]'") from None
 
 
 def bands(

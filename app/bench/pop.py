@@ -14,15 +14,16 @@ from ..studio.errors import InputError
 from ..studio.progress import counted, course
 from ..studio.studio import Studio, about
 from ..studio.take import Take
+from .asked import Asked
 from .climb import climb
 from .crew import by_many, cores, ticked
 from .drift import Change, mean_drift, mean_ghosting, taken_together
 from .evidence import save
 from .flicker import MARGIN, TILE
+from .flip import evaluator, flip
 from .frame import own_preset
 from .machine import machine
-from .many import Asked, Survey, bench_many
-from .picture import evaluator, flip
+from .many import Survey, bench_many
 from .steps import TOLD, Record, frames_of, merged, walked
 from .stroll import Leg, legs
 from .verdict import Step, Verdict

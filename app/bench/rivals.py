@@ -7,10 +7,10 @@ import numpy as np
 from ...systems.reference import draw_reference
 from ..studio.errors import MachineError
 from ..studio.take import SAMPLES
+from ..studio.timing import timed
 from .multisampled import Multisampled
 from .rival import ByHand
 from .still import Still
-from .timing import timed
 
 HARD, SMOOTH = "by hand", "by hand, 4 samples a pixel"
 
@@ -73,7 +73,7 @@ class Rivals:
 
     def _flips(self) -> dict[str, float]:
         """Return how far each one's picture is from the reference; nothing where pictures cannot be compared."""
-        from .picture import MOMENT, evaluator, flip
+        from .flip import MOMENT, evaluator, flip
 
         try:
             evaluator()

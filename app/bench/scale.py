@@ -21,9 +21,10 @@ from ..studio.offscreen import Offscreen
 from ..studio.progress import counted
 from ..studio.take import Take
 from ..studio.walker import MARGIN
+from .asked import Asked
 from .frame import own_preset
 from .machine import machine, resident_mb
-from .many import Asked, Survey, bench_many
+from .many import Survey, bench_many
 from .stroll import RATE, SECONDS, legs
 from .walk import paced
 

@@ -16,7 +16,7 @@ from ..farm.worker import in_drawing_thread, told_in_lines
 from ..studio.encode import make_folder
 from ..studio.progress import unseen
 from ..studio.take import Take
-from .many import Asked, Measure
+from .asked import Asked, Measure
 
 
 @dataclass(frozen=True, slots=True, eq=False)

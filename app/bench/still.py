@@ -6,7 +6,7 @@ import moderngl
 
 from ...engine.camera import view_of
 from ..studio.studio import Studio
-from .timing import timed
+from ..studio.timing import timed
 
 FRAMES = 60
 """Frames measured."""

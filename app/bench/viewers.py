@@ -8,7 +8,7 @@ import numpy as np
 from ...engine.camera import Camera
 from ..studio.progress import counted
 from ..studio.studio import Studio
-from .timing import timed
+from ..studio.timing import timed
 
 FRAMES = 40
 """Frames measured."""

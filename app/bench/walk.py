@@ -11,11 +11,11 @@ from ...engine.camera import projection_matrix, view_matrix
 from ...systems.prairie import Prairie
 from ..studio.offscreen import Offscreen
 from ..studio.progress import counted, course
+from ..studio.timing import spread, timed
 from .frame import own_preset
 from .machine import machine, resident_mb, tell
 from .processor import on_processor
 from .stroll import REST, Leg, Moment, legs, moments, raise_gusts
-from .timing import spread, timed
 from .yardstick import yardstick_ms
 
 PARTS = {"drawing": 10.0, "without drawing": 1.0}

@@ -13,9 +13,10 @@ from ..studio.encode import make_folder, write_whole
 from ..studio.errors import InputError
 from ..studio.progress import course
 from ..studio.take import Take
+from .flip import evaluator
 from .frame import frame_measured
 from .machine import tell
-from .picture import evaluator, measured
+from .picture import measured
 from .pop import LIMITS, pop_measured
 from .scale import scale_measured
 from .walk import walk_measured

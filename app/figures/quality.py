@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from ...engine.camera import camera_at, projection_matrix, view_matrix
 from ...systems.prairie import Prairie
-from ..bench.timing import timed
 from ..studio.encode import Picture
 from ..studio.offscreen import Offscreen
+from ..studio.timing import timed
 from .figure import Detail, PaperFigure
 from .plot import Panel, plate
 

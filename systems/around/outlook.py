@@ -12,8 +12,8 @@ from ...engine.camera import View
 from ...engine.world import World
 from ..mow.mown import Mown
 from ..press.marks import UNTRODDEN, Trodden
+from ..space.cone import picture_sides, view_cone
 from .appearance import Appearance
-from .cone import picture_sides, view_cone
 from .patches import PatchTable
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ import moderngl
 from ...engine.gl.stream import release_all
 from ...engine.terrain.record import Terrain
 from ..frame.block import FrameBlock, joined
-from ..frame.maps import laid_over, map_shape, slow_map
+from .slow import laid_over, map_shape, slow_map
 
 AT_ONCE = 1 << 15
 """Samples drawn in a frame while the sun moves: a graphics card hardly feels them."""

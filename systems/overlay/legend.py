@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
 from ...components.arrays import Bytes
-from ..around.representation import Representation
+from ..show.representation import Representation
 from .layers import Layer
 from .masks import Masked
 from .paint import BRIGHT, DARK, Color, index_color, ring_shades

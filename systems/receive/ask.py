@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Floats
 from ...engine.terrain.sample import height_at, own_density_at
-from ..around.ground import Ground
 from ..around.outlook import Outlook
 from ..around.receivers import Pool, Receiving
+from ..space.ground import Ground
 from .received import Received
 
 

@@ -1,8 +1,8 @@
 """The representations that there are."""
 
-from ..around.representation import Representation
 from .blades.representation import BladeRepresentation
 from .carpet.representation import CarpetRepresentation
+from .representation import Representation
 from .strips.representation import StripRepresentation
 
 REPRESENTATIONS: tuple[type[Representation], ...] = (BladeRepresentation, StripRepresentation, CarpetRepresentation)

@@ -9,7 +9,6 @@ import numpy as np
 from ...components.arrays import Floats
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
-from ..around.representation import Seedling
 from ..grow.bend import spine
 from ..grow.give import grow_give
 from ..grow.layout import layout_of
@@ -18,6 +17,7 @@ from ..grow.postures import grow_postures
 from ..grow.record import Blades, Growth, PatchModel, Postures, Response
 from ..grow.response import grow_response
 from ..show.registry import REPRESENTATIONS
+from ..show.representation import Seedling
 
 VARIANTS = 4
 ROWS = 129

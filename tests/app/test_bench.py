@@ -15,16 +15,17 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from tallgrass.app.bench import picture, processor, stroll, yardstick
+from tallgrass.app.bench.flip import MOMENT
 from tallgrass.app.bench.frame import sample
 from tallgrass.app.bench.rival import inside_frustum
 from tallgrass.app.bench.rivals import Rivals
 from tallgrass.app.bench.scale import stretched
 from tallgrass.app.bench.still import Still
-from tallgrass.app.bench.timing import card_timer
 from tallgrass.app.bench.walk import another
 from tallgrass.app.cli import run
 from tallgrass.app.studio.studio import Studio
 from tallgrass.app.studio.take import Take
+from tallgrass.app.studio.timing import card_timer
 from tallgrass.engine.camera import Camera, projection_matrix, view_matrix, view_of
 from tallgrass.engine.gl import rasteriser
 from tallgrass.engine.scene import read_scene
@@ -221,7 +222,7 @@ def test_g1_the_plain_is_truer_than_every_blade_alone_and_its_representations_as
 def test_g1_every_representation_is_as_bright_as_its_blades(scene: str, size: tuple[int, int]) -> None:
     with Studio(Take(scene, size, "high")) as studio:
         prairie = studio.prairie
-        prairie.advance(picture.MOMENT)
+        prairie.advance(MOMENT)
         matrices = studio.matrices(studio.camera(None))
         studio.begin()
         prairie.draw(*matrices)

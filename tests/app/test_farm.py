@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tallgrass.app.bench import pop, stroll
-from tallgrass.app.bench.many import Asked
+from tallgrass.app.bench.asked import Asked
 from tallgrass.app.bench.sent import found
 from tallgrass.app.cli import run
 from tallgrass.app.farm.dask import need_distributed

@@ -10,7 +10,7 @@ import pytest
 
 from tallgrass import testing
 from tallgrass.app.bench.contrast import luma
-from tallgrass.app.bench.picture import MOMENT
+from tallgrass.app.bench.flip import MOMENT
 from tallgrass.components.arrays import Doubles
 from tallgrass.engine.camera import Camera, camera_at
 from tallgrass.engine.declared.scene import LodName

@@ -16,7 +16,8 @@ import pytest
 
 from tallgrass import testing
 from tallgrass.app.bench.contrast import contrast
-from tallgrass.app.bench.picture import MOMENT, bands, flip
+from tallgrass.app.bench.flip import MOMENT, flip
+from tallgrass.app.bench.picture import bands
 from tallgrass.engine.camera import camera_at
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import draw_truth, patch_distances

@@ -8,7 +8,7 @@ import pytest
 
 from tallgrass import testing
 from tallgrass.app.bench.contrast import contrast
-from tallgrass.app.bench.picture import MOMENT
+from tallgrass.app.bench.flip import MOMENT
 from tallgrass.engine.camera import camera_at
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import draw_truth, patch_distances

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tallgrass import testing
-from tallgrass.app.bench.picture import MOMENT
+from tallgrass.app.bench.flip import MOMENT
 from tallgrass.components.arrays import Doubles
 from tallgrass.engine.camera import Camera, camera_at, view_of
 from tallgrass.systems.around.appearance import Appearance, appearance

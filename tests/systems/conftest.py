@@ -16,11 +16,11 @@ from tallgrass.engine.schedule import Phase, Schedule
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.engine.world import World
-from tallgrass.systems.around.ground import Ground
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.blow import Hear
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.site import Site, lay_out, outlook_on
+from tallgrass.systems.space.ground import Ground
 from tallgrass.systems.stock.models import grow
 from tallgrass.systems.wind.blow import blowing, hear
 from tallgrass.systems.wind.quarantine import Quarantine

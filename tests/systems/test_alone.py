@@ -9,7 +9,6 @@ from tallgrass.components.wind import WindSource
 from tallgrass.engine.schedule import Phase
 from tallgrass.engine.world import World
 from tallgrass.systems.around.clearing import Clearings
-from tallgrass.systems.around.window import window_rows
 from tallgrass.systems.blow import Blow, hearing
 from tallgrass.systems.cull import Cull
 from tallgrass.systems.entities import PatchEntities
@@ -17,6 +16,7 @@ from tallgrass.systems.gather import Gather
 from tallgrass.systems.lod import ChooseLevels
 from tallgrass.systems.plant import Plant
 from tallgrass.systems.see import See
+from tallgrass.systems.space.window import window_rows
 from tallgrass.systems.tile import Tile
 from tallgrass.systems.transition import Transition
 from tallgrass.systems.wind.blow import ReceiverArrays, blowing

@@ -12,10 +12,10 @@ from tallgrass.components.wind import WindSource
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.engine.world import World
-from tallgrass.systems.around.canopy import LODGED, lodged
 from tallgrass.systems.bodies.fly import flying
 from tallgrass.systems.grow.bend import spine
 from tallgrass.systems.site import Site
+from tallgrass.systems.space.canopy import LODGED, lodged
 from tallgrass.systems.wind.blast import Blast
 from tallgrass.systems.wind.quarantine import Quarantine
 

@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from tallgrass.components.viewer import Viewer
 from tallgrass.engine.camera import Camera, View, projection_matrix, view_matrix
-from tallgrass.systems.around.cone import discrete_distance, far_to_near, inside_cone, picture_sides, view_cone
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.patches import PatchTable
 from tallgrass.systems.cull import Cull
 from tallgrass.systems.show.blades.gather import may_be_seen
 from tallgrass.systems.show.blades.pool import BladePool
 from tallgrass.systems.show.registry import NAMES
+from tallgrass.systems.space.cone import discrete_distance, far_to_near, inside_cone, picture_sides, view_cone
 
 PATCH = 2.5
 AROUND = np.stack(np.meshgrid(np.arange(-12, 13), np.arange(-12, 13)), -1).reshape(-1, 2).astype(np.int32)

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from tallgrass.engine.declared.quality import Quality
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at, slope_at
-from tallgrass.systems.around.cone import discrete_distance, far_to_near, nearness
 from tallgrass.systems.around.patches import PatchTable
-from tallgrass.systems.around.window import cell_of, window_cells, window_rows
 from tallgrass.systems.show.registry import NAMES
+from tallgrass.systems.space.cone import discrete_distance, far_to_near, nearness
+from tallgrass.systems.space.window import cell_of, window_cells, window_rows
 from tallgrass.systems.tile import cell_stood_in, cells_on, patch_models, tile
 
 SIDE, PATCH = 9, 2.5

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.terrain.sample import height_at
-from tallgrass.systems.around.ground import Ground, turned
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.show.blades.plant import (
     BladeStock,
@@ -25,6 +24,7 @@ from tallgrass.systems.show.strips.plant import plant_strips
 from tallgrass.systems.show.strips.pool import StripPool
 from tallgrass.systems.show.strips.stand import falls, strip_edges
 from tallgrass.systems.show.strips.stock import stock_strips
+from tallgrass.systems.space.ground import Ground, turned
 
 PATCH = 2.5
 CELLS = np.array([(-3, 2), (0, 0), (4, -5), (1, 7), (-8, -2), (2, 2), (5, 1), (-1, -1)], np.int32)

@@ -7,7 +7,6 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass.engine.terrain.record import Terrain
-from tallgrass.systems.around.cone import far_to_near
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.receivers import Receiving
 from tallgrass.systems.blow import Hear
@@ -16,6 +15,7 @@ from tallgrass.systems.show.blades.shown import Standing
 from tallgrass.systems.show.strips.pool import StripPool
 from tallgrass.systems.show.strips.shown import StripsOfRing
 from tallgrass.systems.site import Site
+from tallgrass.systems.space.cone import far_to_near
 from tallgrass.systems.wind.blow import ReceiverArrays, places_alone
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.grass import grass_of

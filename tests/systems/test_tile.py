@@ -15,9 +15,9 @@ from tallgrass.engine.world import World
 from tallgrass.systems.around.clearing import Clearings
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.patches import PatchTable
-from tallgrass.systems.around.window import window_rows
 from tallgrass.systems.entities import BATCH, PatchEntities
 from tallgrass.systems.show.registry import NAMES
+from tallgrass.systems.space.window import window_rows
 from tallgrass.systems.tile import Tile
 
 SIDE, PATCH = 9, 2.5

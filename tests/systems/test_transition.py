@@ -17,10 +17,10 @@ from tallgrass.engine.world import World
 from tallgrass.systems.around.appearance import Appearance, appearance, border_of, handed_over, kept_near
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.transitions import SEAMLESS, Transitions
-from tallgrass.systems.around.window import window_rows
 from tallgrass.systems.lod import SLACK
 from tallgrass.systems.show.registry import NAMES
 from tallgrass.systems.site import Site, outlook_on
+from tallgrass.systems.space.window import window_rows
 from tallgrass.systems.transition import FADE, move_on, move_rows, unsettled
 from tallgrass.testing import systems_on
 

@@ -14,9 +14,9 @@ from ....engine.gl.stream import Stream, release_all
 from ....engine.gl.unchanged import Unchanged
 from ...around.appearance import handed_over
 from ...around.outlook import Outlook
-from ...around.representation import Canvas
 from ...frame.block import by_kind
-from ...receive.hearing import Hearing
+from ..hearing import Hearing
+from ..representation import Canvas
 from ..strips.draw import tell_stacks
 from ..strips.representation import StripRepresentation
 from .draw import CORES, EDGES, PAINTED, RIBBON, Ribbons, blade_program

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from ....components.arrays import Floats, Ints
 from ....engine.terrain.sample import height_at, own_density_at
-from ...around.ground import PRESENT, Ground, quarter_turn, turned
 from ...grow.record import Blades, Growth
+from ...space.ground import PRESENT, Ground, quarter_turn, turned
 from .pool import BLADE, ORGAN, BladePool
 
 

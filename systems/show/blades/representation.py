@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from ....components.arrays import Levels, Rows
 from ....engine.declared.quality import Quality
-from ...around.ground import Ground
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
-from ...around.representation import Canvas, Color, Representation
 from ...grow.record import Growth
+from ...space.ground import Ground
+from ..representation import Canvas, Color, Representation
 from ..strips.representation import StripRepresentation
 from .painter import BladesPainter
 from .plant import BladeStock, plant_blades, stock_blades

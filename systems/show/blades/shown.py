@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ....components.arrays import Floats, Rows
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
-from ...around.window import window_rows
+from ...space.window import window_rows
 
 
 @dataclass(frozen=True, slots=True, eq=False)

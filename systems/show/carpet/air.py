@@ -6,8 +6,8 @@ from numpy.typing import NDArray
 
 from ....engine.gl.shaders import program
 from ....engine.gl.stream import release_all
-from ...around.representation import Canvas
-from ...receive.hearing import VERTEX, Hearing
+from ..hearing import VERTEX, Hearing
+from ..representation import Canvas
 
 
 class Air:

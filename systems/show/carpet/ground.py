@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from ....engine.gl.stream import Stream, release_all
 from ....engine.terrain.record import Terrain
 from ...around.appearance import GROWN, SINKS
-from ...around.canopy import canopy_height
-from ...around.cone import beyond_cone
 from ...frame.block import FrameBlock, by_kind, joined
 from ...grow.record import Growth
+from ...space.canopy import canopy_height
+from ...space.cone import beyond_cone
 from .grow import carpet_of
 from .heads import HEIGHTS, HIGHEST, any_heads, bears_heads, profile_of
 

@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....components.arrays import Doubles
-from ...around.canopy import canopy_height
 from ...grow.bend import ribbon
 from ...grow.organs import HEADS
 from ...grow.raster import rasterise, ribbon_triangles
 from ...grow.record import Blades, Growth
+from ...space.canopy import canopy_height
 
 HEIGHTS = 24
 """Heights that are told apart in a canopy."""

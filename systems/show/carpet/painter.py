@@ -10,12 +10,12 @@ from ....components.arrays import Floats
 from ....engine.gl.stream import release_all
 from ....engine.gl.unchanged import Unchanged
 from ...around.appearance import border_of
-from ...around.cone import HALF_DIAGONAL
-from ...around.ground import Ground
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
-from ...around.representation import Canvas
 from ...grow.record import Growth
+from ...space.cone import HALF_DIAGONAL
+from ...space.ground import Ground
+from ..representation import Canvas
 from .air import Air
 from .ground import (
     GRID,

@@ -5,10 +5,10 @@ from numpy.typing import NDArray
 
 from ....components.arrays import Floats, Rows
 from ....engine.world import World
-from ...around.ground import Ground, densest_kind
 from ...around.patches import PatchTable
 from ...around.receivers import Receiving
-from ...around.representation import Kept
+from ...space.ground import Ground, densest_kind
+from ..representation import Kept
 
 
 class CarpetPool:

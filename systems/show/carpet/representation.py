@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 from ....engine.declared.grass import GrassKind
 from ....engine.declared.quality import Quality
-from ...around.ground import Ground
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
-from ...around.representation import Canvas, Color, Representation, Seedling
 from ...grow.record import Growth
 from ...grow.section import SECTIONS
+from ...space.ground import Ground
+from ..representation import Canvas, Color, Representation, Seedling
 from .grow import SLOPES, Carpet, grow_carpet
 from .painter import CarpetPainter
 from .pool import CarpetKept, CarpetPool

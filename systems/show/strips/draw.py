@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from ....engine.declared.quality import StripRing
 from ....engine.gl.records import Records
 from ....engine.gl.stream import release_all
-from ...around.representation import Canvas
 from ...frame.block import by_kind, joined
-from ...receive.hearing import Hearing
+from ..hearing import Hearing
+from ..representation import Canvas
 from .gather import STOOD
 from .grow import Strips
 from .textures import Atlas, extent_texture, strip_texture

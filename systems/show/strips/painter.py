@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from ....engine.declared.quality import Quality
 from ....engine.gl.unchanged import Unchanged
 from ...around.outlook import Outlook
-from ...around.representation import Canvas
 from ...grow.record import Growth
+from ..representation import Canvas
 from .draw import StripPainter
 from .gather import gather_strips, polygon_strips, runs
 from .pool import StripPool, StripsKept

@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from ....components.arrays import Ints
 from ....engine.terrain.sample import own_density_at
-from ...around.ground import PRESENT, Ground
+from ...space.ground import PRESENT, Ground
 from .pool import StripPool
 
 

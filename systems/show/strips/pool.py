@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ....components.arrays import Floats
 from ...around.patches import NOWHERE
 from ...around.receivers import Receiving
-from ...around.representation import Kept
+from ..representation import Kept
 from .grow import Strips
 from .stand import strip_edges
 

@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 from ....components.arrays import Floats, Levels, Mask, Rows
 from ....engine.declared.grass import GrassKind
 from ....engine.declared.quality import Quality, StripRing
-from ...around.canopy import lodged
-from ...around.ground import Ground
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
-from ...around.representation import Canvas, Color, Representation, Seedling
 from ...grow.record import Growth
 from ...grow.section import SECTIONS
 from ...grow.simulate import LINKS
+from ...space.canopy import lodged
+from ...space.ground import Ground
+from ..representation import Canvas, Color, Representation, Seedling
 from .grow import Strips, grow_strips, texel_of
 from .painter import StripsPainter
 from .plant import plant_strips

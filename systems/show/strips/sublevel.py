@@ -4,8 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....components.arrays import Floats, Ints, Levels, Mask, Rows
-from ...around.cone import cells_apart
 from ...around.patches import PatchTable
+from ...space.cone import cells_apart
 
 TIGHTER = 1.15
 """How much steeper than needed a patch must be seen for a finer ring to be kept: the slack of slopes."""

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.engine.camera import Camera, View, projection_matrix, view_matrix, view_of
-from tallgrass.systems.frame.block import FRAME, FrameBlock, aim, by_kind, frame_record
+from tallgrass.systems.frame.block import FRAME, FrameBlock, aim, by_kind
+from tallgrass.systems.land.record import frame_record
 from tallgrass.systems.painter import UNITS
 from tallgrass.systems.show.blades.draw import MESSAGE, BladePainter
 from tallgrass.systems.show.blades.pool import BLADE, ORGAN

@@ -14,8 +14,10 @@ from tallgrass.engine.gl.shaders import program
 from tallgrass.engine.gl.stream import release_all
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at
-from tallgrass.systems.frame.block import FrameBlock, frame_record
-from tallgrass.systems.frame.maps import density_texture, height_texture, laid_over
+from tallgrass.systems.frame.block import FrameBlock
+from tallgrass.systems.land.maps import density_texture, height_texture
+from tallgrass.systems.land.record import frame_record
+from tallgrass.systems.light.slow import laid_over
 from tallgrass.systems.show.carpet.ground import (
     BEYOND,
     GRID,

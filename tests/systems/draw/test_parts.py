@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 from tallgrass.engine.declared.grass import MOST_KINDS, GrassKind
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at
-from tallgrass.systems.frame.block import frame_record
-from tallgrass.systems.frame.maps import height_texture, posture_texture
 from tallgrass.systems.grow.bend import bending, spine
 from tallgrass.systems.grow.give import grow_give
 from tallgrass.systems.grow.postures import grow_postures
 from tallgrass.systems.grow.record import GIVES, Blades, Growth
 from tallgrass.systems.grow.response import grow_response
+from tallgrass.systems.land.maps import height_texture, posture_texture
+from tallgrass.systems.land.record import frame_record
 from tallgrass.systems.site import Site
 
 Laid = Callable[..., Site]

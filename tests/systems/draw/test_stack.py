@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.systems.frame.block import frame_record
 from tallgrass.systems.grow.record import Growth
+from tallgrass.systems.land.record import frame_record
 from tallgrass.systems.show.strips.pool import StripPool
 from tallgrass.systems.show.strips.stand import falls
 from tallgrass.systems.show.strips.stock import stock_strips

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.engine.declared.quality import PRESETS, BladeRing, Quality, StripRing
-from tallgrass.systems.around.representation import Seedling
 from tallgrass.systems.grow.bend import spine
 from tallgrass.systems.grow.record import Growth, Response
 from tallgrass.systems.grow.simulate import LINKS, build_chain
 from tallgrass.systems.show.carpet.grow import carpet_of
+from tallgrass.systems.show.representation import Seedling
 from tallgrass.systems.show.strips.grow import strips_of
 from tallgrass.systems.show.strips.representation import StripRepresentation
 from tallgrass.systems.stock import models

@@ -10,12 +10,12 @@ from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.engine.declared.light import Light
 from tallgrass.engine.declared.plant import Head
 from tallgrass.engine.declared.quality import PRESETS
-from tallgrass.systems.around.canopy import canopy_height
 from tallgrass.systems.grow.bend import profile, ribbon
 from tallgrass.systems.grow.raster import rasterise, ribbon_triangles
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.light.daylight import daylight
 from tallgrass.systems.light.materials import bloom, grain, leaves_of, pigment, understorey, undertone
+from tallgrass.systems.space.canopy import canopy_height
 from tallgrass.systems.stock.models import grow
 
 PATCH = 2.5

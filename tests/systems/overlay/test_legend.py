@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from tallgrass.components.wind import WindPrimitive, WindSource
-from tallgrass.systems.around.representation import Representation
 from tallgrass.systems.overlay.layers import LAYERS, Layer
 from tallgrass.systems.overlay.legend import entries, legend
 from tallgrass.systems.overlay.masks import Masked, masked
 from tallgrass.systems.overlay.paint import wind_color
+from tallgrass.systems.show.representation import Representation
 from tallgrass.systems.wind.blow import blowing
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.quarantine import Quarantine

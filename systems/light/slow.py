@@ -1,4 +1,4 @@
-"""Textures made from what was grown and from the terrain."""
+"""Slow noises over the terrain: what light varies with from place to place."""
 
 import moderngl
 import numpy as np
@@ -6,36 +6,13 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Floats
 from ...engine.noise import noise_grid, noise_table
-from ...engine.terrain.record import Density, Terrain
-from ..grow.record import Growth
+from ...engine.terrain.record import Terrain
 
 FINEST_MAP = 1024
 """Samples along a side of the maps laid over the terrain."""
 
 _ROWS = 32
 """Rows of a map worked on at a time: few enough to stay in the processor's own memory."""
-
-
-def posture_texture(ctx: moderngl.Context, growths: list[Growth]) -> moderngl.TextureArray:
-    """Return all kinds' posture tables, one layer per kind and variant; columns are points, rows are indices.
-
-    A texel holds a point's place and the blade's direction there, each (along the bending direction, up).
-    """
-    place = np.concatenate([growth.postures.shape for growth in growths]).astype(np.float32)
-    table = np.concatenate([place, np.gradient(place, axis=2)], axis=-1).astype(np.float32)
-    layers, rows, points, _ = table.shape
-    texture = ctx.texture_array((points, rows, layers), 4, table.tobytes(), dtype="f4")
-    texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
-    texture.repeat_x = texture.repeat_y = False
-    return texture
-
-
-def height_texture(ctx: moderngl.Context, terrain: Terrain) -> moderngl.Texture:
-    """Return the elevation map, for exact fetches."""
-    rows, columns = terrain.heights.shape
-    texture = ctx.texture((columns, rows), 1, np.ascontiguousarray(terrain.heights).tobytes(), dtype="f4")
-    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
-    return texture
 
 
 def map_shape(size: tuple[float, float], /) -> tuple[int, int]:
@@ -63,18 +40,6 @@ def _slow_noise(x: Floats, z: Floats, seed: int) -> Floats:
         for stream, wave in ((16, 23.0), (17, 6.0))
     )
     return 0.6 * wide + 0.4 * close
-
-
-def density_texture(ctx: moderngl.Context, density: Density) -> moderngl.TextureArray:
-    """Return the kinds' densities as a texture over the terrain: each layer's channels are those of four kinds."""
-    kinds, rows, columns = density.maps.shape
-    packed = np.zeros((-(-kinds // 4), rows, columns, 4), np.uint8)
-    for kind, values in enumerate(density.maps):
-        packed[kind // 4, ..., kind % 4] = np.round(values * 255.0)
-    texture = ctx.texture_array((columns, rows, len(packed)), 4, packed.tobytes(), alignment=1)
-    texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
-    texture.repeat_x = texture.repeat_y = False
-    return texture
 
 
 def laid_over(ctx: moderngl.Context, texels: NDArray[np.uint8]) -> moderngl.Texture:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 
 import moderngl
 
-from ..around.representation import Canvas
+from .representation import Canvas
 
 VERTEX = "engine/gl/fill.vert"
 

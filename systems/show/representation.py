@@ -13,15 +13,15 @@ from ...components.arrays import Levels, Mask, Rows
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
 from ...engine.world import World
+from ..around.outlook import Outlook
+from ..around.patches import PatchTable
+from ..around.receivers import Receiving
+from ..around.transitions import Transitions
 from ..frame.block import FrameBlock
 from ..grow.record import Blades, Growth, Postures
 from ..receive.received import Received
+from ..space.ground import Ground
 from ..wind.card import CardWinds
-from .ground import Ground
-from .outlook import Outlook
-from .patches import PatchTable
-from .receivers import Receiving
-from .transitions import Transitions
 
 Color = tuple[float, float, float]
 

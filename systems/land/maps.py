@@ -1,0 +1,41 @@
+"""Textures made from what was grown and from the terrain."""
+
+import moderngl
+import numpy as np
+
+from ...engine.terrain.record import Density, Terrain
+from ..grow.record import Growth
+
+
+def posture_texture(ctx: moderngl.Context, growths: list[Growth]) -> moderngl.TextureArray:
+    """Return all kinds' posture tables, one layer per kind and variant; columns are points, rows are indices.
+
+    A texel holds a point's place and the blade's direction there, each (along the bending direction, up).
+    """
+    place = np.concatenate([growth.postures.shape for growth in growths]).astype(np.float32)
+    table = np.concatenate([place, np.gradient(place, axis=2)], axis=-1).astype(np.float32)
+    layers, rows, points, _ = table.shape
+    texture = ctx.texture_array((points, rows, layers), 4, table.tobytes(), dtype="f4")
+    texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
+    texture.repeat_x = texture.repeat_y = False
+    return texture
+
+
+def height_texture(ctx: moderngl.Context, terrain: Terrain) -> moderngl.Texture:
+    """Return the elevation map, for exact fetches."""
+    rows, columns = terrain.heights.shape
+    texture = ctx.texture((columns, rows), 1, np.ascontiguousarray(terrain.heights).tobytes(), dtype="f4")
+    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+    return texture
+
+
+def density_texture(ctx: moderngl.Context, density: Density) -> moderngl.TextureArray:
+    """Return the kinds' densities as a texture over the terrain: each layer's channels are those of four kinds."""
+    kinds, rows, columns = density.maps.shape
+    packed = np.zeros((-(-kinds // 4), rows, columns, 4), np.uint8)
+    for kind, values in enumerate(density.maps):
+        packed[kind // 4, ..., kind % 4] = np.round(values * 255.0)
+    texture = ctx.texture_array((columns, rows, len(packed)), 4, packed.tobytes(), alignment=1)
+    texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
+    texture.repeat_x = texture.repeat_y = False
+    return texture
