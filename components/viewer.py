@@ -34,6 +34,9 @@ class Viewer:
     dt: float = 0.0
     """Time since it looked before [s]."""
 
+    idles: bool = False
+    """Whether time stands still for it, or goes in slow motion: then changes go on by the frame."""
+
     way: float = 0.0
     """How far it has come since, along the ground [m]."""
 

@@ -11,6 +11,7 @@ from statistics import median
 
 from ..engine.handed import NUMBERS
 from .around.outlook import Outlook
+from .around.pace import counted
 from .painter import Painter
 from .transition import FADE
 
@@ -175,7 +176,7 @@ class Governor:
         name = outlook.viewer.name
         if not self.resting:
             self._drawn[name] = 0 if self.hold is None else self._paces.setdefault(name, Pace()).rung
-            outlook.range = eased(outlook.range, RUNGS[self._drawn[name]].range, dt=outlook.viewer.dt)
+            outlook.range = eased(outlook.range, RUNGS[self._drawn[name]].range, dt=counted(outlook.viewer))
         return RUNGS[self._drawn.get(name, 0)]
 
     @contextmanager

@@ -7,6 +7,7 @@ import numpy as np
 
 from ..components.arrays import Floats, Levels, Mask, Rows
 from .around.outlook import Outlook
+from .around.pace import counted
 from .around.patches import PatchTable
 from .around.transitions import SEAMLESS, Transitions
 from .lod import SLACK, farthest
@@ -215,7 +216,7 @@ class Transition:
     def _run(self, outlook: Outlook) -> None:
         patches, viewer = outlook.patches, outlook.viewer
         settled = patches.was_visible & patches.visible & (not viewer.jumped)
-        step = step_of_change(viewer.dt, way=viewer.way, patch=self.patch)
+        step = step_of_change(counted(viewer), way=viewer.way, patch=self.patch)
         before = patches.representation.copy()
         reach = outlook.room or self.reach
         wanted = held(patches, reach=reach)

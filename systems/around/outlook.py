@@ -14,6 +14,7 @@ from ..mow.mown import Mown
 from ..press.marks import UNTRODDEN, Trodden
 from ..space.cone import picture_sides, view_cone
 from .appearance import Appearance
+from .pace import Pace
 from .patches import PatchTable
 
 if TYPE_CHECKING:
@@ -104,6 +105,9 @@ class Outlook:
     drawn_at: float | None = None
     """The instant that the viewer saw last [s]; None before the first."""
 
+    pace: Pace = field(default_factory=Pace)
+    """How fast the viewer's time goes."""
+
     cleared: int = -1
     """Version of the clearings that the patches stand for."""
 
@@ -146,7 +150,7 @@ class Outlook:
         perspective, tall = view.projection[3, 3] == 0.0, abs(float(view.projection[1, 1]))
         self.zoom = max(tall / USUAL, 1.0) if perspective else 1.0
         viewer.dt = 1e9 if self.drawn_at is None else time - self.drawn_at
-        self.drawn_at = time
+        self.drawn_at, viewer.idles = time, self.pace.idles(viewer.dt)
 
 
 class Outlooks:

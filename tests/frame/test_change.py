@@ -137,3 +137,66 @@ def test_x5_between_sub_levels_of_strips_each_blade_goes_over_within_several_fra
     going = (whole > 20.0) & (np.abs(frames[-1] - frames[0]) > 0.5 * whole)
     assert going.sum() > 50
     assert np.median(most[going] / whole[going]) < 0.27
+
+
+IDLING = {"paused": 0.0, "in slow motion": 1.0 / 600.0}
+WAYS: dict[str, Callable[[Aim, float], Camera]] = {
+    "a lens zooms in": lambda camera, part: camera(0.6, 1.7, 20.0, pitch=-6, view=60.0 - 45.0 * part),
+    "a lens zooms out": lambda camera, part: camera(0.6, 1.7, 20.0, pitch=-6, view=15.0 + 45.0 * part),
+    "the eye rises": lambda camera, part: camera(0.6, 1.7 + 14.0 * part, 20.0, pitch=-10 - 20 * part),
+    "the eye goes over a border": lambda camera, part: camera(0.6, 1.7, BEHIND + 4.0 * (1.0 - part), pitch=-10),
+    "the eye leaps": lambda camera, part: camera(0.6, 1.7, BEHIND - 4.0 * (part == 1.0), pitch=-10),
+}
+
+
+@pytest.mark.parametrize("time", IDLING)
+@pytest.mark.parametrize("way", WAYS)
+def test_x2_where_time_idles_every_change_is_over_within_sixty_frames(
+    stage: Stage, prairie: Prairie, camera: Aim, way: str, time: str
+) -> None:
+    along, changed = WAYS[way], 0
+    prairie.viewers.forget("main")
+    settled(stage, prairie, along(camera, 0.0))
+    patches = prairie.viewers["main"].patches
+    for frame in range(30 + 60):
+        prairie.advance(IDLING[time])
+        seen = stage.matrices(along(camera, min(1.0, frame / 29)))
+        prairie.follow(*seen)
+        changed += int(((patches.progress < 1.0) | (patches.sublevel_progress < 1.0).any(axis=0)).sum())
+    assert changed > 20
+    assert (patches.progress[patches.visible] == 1.0).all()
+    assert (patches.sublevel_progress[:, patches.visible] == 1.0).all()
+    here = along(camera, 1.0)
+    seen = stage.shot(prairie, here)
+    np.testing.assert_array_equal(seen, settled(stage, prairie, here))
+
+
+def test_x4_in_a_pause_no_frame_changes_much_more_than_the_others(stage: Stage, prairie: Prairie, camera: Aim) -> None:
+    there, here = camera(0.6, 1.7, BEFORE, pitch=-10), camera(0.6, 1.7, BEHIND, pitch=-10)
+    prairie.viewers.forget("main")
+    settled(stage, prairie, there)
+    for _ in range(30):
+        prairie.follow(*stage.matrices(there))
+    story = [stage.shot(prairie, here) for _ in range(40)]
+    changes = [float(np.abs(after - before).mean()) for before, after in pairwise(story)]
+    going = [change for change in changes if change > 0.0]
+    assert len(going) > 15
+    assert max(going) < 1.6 * float(np.mean(going))
+    assert changes[-1] == 0.0
+
+
+def test_x2_of_two_viewers_one_whose_time_goes_on_is_not_hurried_by_one_who_is_drawn_again_and_again(
+    stage: Stage, prairie: Prairie, camera: Aim
+) -> None:
+    there, here = camera(0.6, 1.7, BEFORE, pitch=-10), camera(0.6, 1.7, BEHIND, pitch=-10)
+    prairie.viewers.forget("main")
+    settled(stage, prairie, there)
+    for frame in range(13):
+        prairie.advance(STEP)
+        prairie.follow(*stage.matrices(here))
+        for _ in range(20):
+            prairie.follow(*stage.matrices(there), viewer="another")
+        patches = prairie.viewers["main"].patches
+        assert np.unique(patches.progress).tolist() == pytest.approx([frame * STEP / FADE, 1.0])
+    assert prairie.viewers["another"].viewer.idles
+    assert not prairie.viewers["main"].viewer.idles
