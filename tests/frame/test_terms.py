@@ -1,0 +1,157 @@
+"""Each term of light and shadow alone, on blades, strips and carpet, against every blade (F5, F10, N12).
+
+A term is what changes between two scenes. The change is taken over squares of the picture, of the brightness before; what a
+representation misses of it is the mean difference from the reference's change, of the mean of that. The reference is drawn
+by the blades' own shader, so how large its change is at least is said as well.
+"""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass import Shade
+from tallgrass.engine.camera import Camera
+from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.reference import draw_reference
+from tallgrass.testing import Stage
+
+Picture = NDArray[np.float64]
+Shot = Callable[["Seen"], Picture]
+
+SCENE = """\
+tallgrass: 2
+terrain: {{ heights: {folder}/{ground}.npy, scale: 1 }}
+grass: {{ turf: {{ height: [0.4, 0.6], width: 0.02, blades: 500, variety: 0, {turf} }} }}
+light: {{ azimuth: {azimuth}, elevation: {elevation}, haze: {haze}, {light} }}
+quality:
+  models: 1
+  blade_rings: [{{ to: 1, segments: 3 }}]
+  strip_rings: [{{ to: 5, strips: 4, texel: 0.015 }}]
+  carpet_to: 16
+  carpet: 64
+"""
+CAMERA = Camera((0.0, 6.0, 16.0), 0.0, -0.35, np.radians(30.0))
+SIZE, SQUARE = (96, 64), 16
+"""Pixels of a picture, and of the squares that it is compared by."""
+
+BEFORE, BEHIND, LEFT = 0.0, 180.0, -90.0
+"""Azimuths of the sun as the camera has it [degrees]."""
+
+RIDGE_X, RIDGE_HEIGHT = -8.0, 5.0
+"""Where the ridge runs along z, to the left of all that is seen, and how high it is [m]."""
+
+
+@dataclass(frozen=True)
+class Seen:
+    """A scene, by what it says of light, grass and ground."""
+
+    azimuth: float = 90.0
+    elevation: float = 40.0
+    haze: float = 1e6
+    light: str = ""
+    turf: str = ""
+    ground: str = "flat"
+    shade: bool = False
+
+
+@dataclass(frozen=True)
+class Term:
+    """A term of the light: without it, with it, its least size in the reference, and what may be missed of it."""
+
+    without: Seen
+    having: Seen
+    least: float
+    missed: float = 0.1
+
+
+BLACK, BLUE = '"#000000"', '"#6080ff"'
+TERMS = {
+    "sun": Term(Seen(light="strength: 0"), Seen(), 1.5),
+    "sun behind or before the eye": Term(Seen(BEHIND, 25.0), Seen(BEFORE, 25.0), 0.08),
+    "sky": Term(Seen(light=f"zenith: {BLACK}, horizon: {BLACK}"), Seen(light=f"zenith: {BLUE}, horizon: {BLUE}"), 0.13),
+    "canopy's own shade": Term(Seen(elevation=60.0), Seen(elevation=10.0), 0.35),
+    "shadow of the terrain": Term(Seen(LEFT, 15.0), Seen(LEFT, 15.0, ground="ridge"), 0.35),
+    "shadow of clouds": Term(Seen(), Seen(light="clouds: 0.6"), 0.16),
+    "shadow of a body": Term(Seen(), Seen(shade=True), 0.075),
+    "haze": Term(Seen(), Seen(haze=30.0), 0.75),
+    "gloss": Term(Seen(BEHIND, 20.0, turf="gloss: 0"), Seen(BEHIND, 20.0, turf="gloss: 0.5"), 0.1),
+    "transmission": Term(Seen(BEFORE, 25.0, turf="translucency: 0"), Seen(BEFORE, 25.0, turf="translucency: 1.5"), 0.6),
+}
+
+
+@pytest.fixture(scope="module")
+def stage(ctx: moderngl.Context) -> Stage:
+    return Stage(ctx, SIZE)
+
+
+@pytest.fixture(scope="module")
+def prairies(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Prairie]]:
+    """One prairie a representation, which shows nothing else; all are read from one file."""
+    folder, x = tmp_path_factory.mktemp("terms"), np.arange(61) - 30.0
+    ridge = RIDGE_HEIGHT * np.exp(-((x - RIDGE_X) ** 2) / 6.0)
+    for name, row in (("flat", 0.0 * x), ("ridge", ridge)):
+        np.save(folder / f"{name}.npy", np.tile(row, (61, 1)).astype(np.float32))
+    (folder / "scene.yaml").write_text(text_of(Seen(), folder), "utf-8")
+    made = {
+        lod: Prairie.load(folder / "scene.yaml", ctx=ctx, lod=lod, live=False)  # type: ignore[arg-type]
+        for lod in ("blades", "strips", "carpet")
+    }
+    yield made
+    for prairie in made.values():
+        prairie.release()
+
+
+def text_of(seen: Seen, folder: Path) -> str:
+    return SCENE.format(folder=folder, **vars(seen))
+
+
+@contextmanager
+def showing(prairie: Prairie, seen: Seen) -> Iterator[None]:
+    """Let a prairie read a scene, with a ball between sun and grass where there is one."""
+    prairie.path.write_text(text_of(seen, prairie.path.parent), "utf-8")
+    prairie.reload()
+    shades = [prairie.world.create(Shade((4.8, 4.8, 2.0), 3.0))] if seen.shade else []
+    yield
+    for shade in shades:
+        prairie.world.delete(shade)
+
+
+def change(shot: Shot, term: Term) -> Picture:
+    """How much brighter each square is with a term than without it, of the picture's mean, shape (down, across, 3)."""
+    width, height = SIZE
+    squares = [
+        picture.reshape(height // SQUARE, SQUARE, width // SQUARE, SQUARE, 3).mean(axis=(1, 3))
+        for picture in (shot(term.without), shot(term.having))
+    ]
+    return np.asarray((squares[1] - squares[0]) / squares[0].mean())
+
+
+@pytest.mark.parametrize("name", TERMS)
+def test_n12_each_term_of_the_light_is_the_same_on_all_representations(
+    stage: Stage, prairies: dict[str, Prairie], name: str
+) -> None:
+    term = TERMS[name]
+
+    def truth(seen: Seen) -> Picture:
+        with showing(prairies["blades"], seen):
+            stage.shot(prairies["blades"], CAMERA)
+            return draw_reference(prairies["blades"], *stage.matrices(CAMERA), SIZE, samples=2).astype(np.float64)
+
+    def shot_of(lod: str) -> Shot:
+        def shot(seen: Seen) -> Picture:
+            with showing(prairies[lod], seen):
+                return stage.shot(prairies[lod], CAMERA)
+
+        return shot
+
+    due = change(truth, term)
+    size = np.abs(due).mean()
+    missed = {lod: float(np.abs(change(shot_of(lod), term) - due).mean() / size) for lod in prairies}
+    assert size > term.least
+    assert max(missed.values()) < term.missed, missed
