@@ -87,11 +87,17 @@ def test_x1_stepping_back_over_the_border_at_once_starts_nothing(stage: Stage, p
 
 
 def test_x1_what_comes_into_view_is_there_at_once(stage: Stage, prairie: Prairie, camera: Aim) -> None:
-    ahead, behind = camera(0.6, 1.7, 2.0, pitch=-10), camera(0.6, 1.7, 2.0, pitch=-10, yaw=180)
+    """Who turns round steps over a border in the same frame, so that another representation is due on some of it."""
+    ahead, behind = camera(0.6, 1.7, 2.4995, pitch=-10), camera(0.6, 1.7, 2.5005, pitch=-10, yaw=180)
     settled(stage, prairie, ahead)
+    patches = prairie.viewers["main"].patches
+    before, fine = patches.representation.copy(), patches.sublevel.copy()
     prairie.advance(STEP)
     turned = stage.shot(prairie, behind)
-    assert (prairie.viewers["main"].patches.progress == 1.0).all()
+    assert (patches.visible & (patches.representation != before)).sum() > 3
+    assert (patches.visible & (patches.sublevel != fine).any(axis=0)).sum() > 3
+    assert (patches.progress == 1.0).all()
+    assert (patches.sublevel_progress == 1.0).all()
     np.testing.assert_array_equal(settled(stage, prairie, behind), turned)
 
 

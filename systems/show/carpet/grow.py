@@ -30,9 +30,6 @@ class Carpet:
     height: float
     """Height of the canopy [m]."""
 
-    offset: float
-    """Height of the plane above the ground [m]."""
-
 
 SLOPES = (0.02, 0.07, 0.25, 0.9, 3.2)
 """Tangents of the viewing elevations: each is about as many times the one before."""
@@ -90,7 +87,6 @@ def grow_carpet(
         slope=np.asarray(slopes, np.float32),
         texels=np.stack([np.stack(row) for row in images]),
         height=height,
-        offset=0.5 * height,
     )
 
 

@@ -16,8 +16,9 @@ from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.engine.declared.quality import PRESETS, BladeRing, Quality, StripRing
 from tallgrass.systems.grow.bend import spine
 from tallgrass.systems.grow.record import Growth, Response
+from tallgrass.systems.grow.section import SECTIONS
 from tallgrass.systems.grow.simulate import LINKS, build_chain
-from tallgrass.systems.show.carpet.grow import carpet_of
+from tallgrass.systems.show.carpet.grow import carpet_of, grow_carpet
 from tallgrass.systems.show.representation import Seedling
 from tallgrass.systems.show.strips.grow import strips_of
 from tallgrass.systems.show.strips.representation import StripRepresentation
@@ -83,7 +84,13 @@ def test_g1_every_blade_is_in_all_three_representations(growth: Growth) -> None:
             assert strips.slice.shape == (2, 40)
             assert strips.targets.shape[:2] == (2, 40)
             np.testing.assert_allclose(strips.targets[:, :, :, 1] * strips.height, [tips[:, :, 1]] * 2, atol=1e-5)
-        assert carpet_of(model).height >= tips[:, :, 1].max()
+        carpet = carpet_of(model)
+        assert carpet.height >= tips[:, :, 1].max()
+        own = grow_carpet(
+            model.blades, growth.postures, patch=SMALL.patch, texels=SMALL.carpet, taper=KIND.taper,
+            height=carpet.height, section=SECTIONS[KIND.profile],
+        )  # fmt: skip
+        np.testing.assert_array_equal(carpet.texels, own.texels)
 
 
 def test_g1_nothing_leans_out_of_the_textures(growth: Growth) -> None:

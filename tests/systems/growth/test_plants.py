@@ -182,7 +182,7 @@ def test_f3_a_flower_is_the_same_flower_in_every_representation(seed: int) -> No
         for axis in np.indices(red.shape)
     ]
     place = np.array(turns[::-1]) % 1.0 * PATCH  # of an endless field
-    seen = head[::2] + np.array([0.0, -1.0]) * (head[1] - carpet.offset) / 2.0
+    seen = head[::2] + np.array([0.0, -1.0]) * (head[1] - carpet.height / 2.0) / 2.0
     apart = (place - seen + PATCH / 2) % PATCH - PATCH / 2
     assert np.abs(apart).max() < size / 2
 
