@@ -1,8 +1,8 @@
 """Each term of light and shadow alone, on blades, strips and carpet, against every blade (F5, F10, N12).
 
-A term is what changes between two scenes. The change is taken over squares of the picture, of the brightness before; what a
-representation misses of it is the mean difference from the reference's change, of the mean of that. The reference is drawn
-by the blades' own shader, so how large its change is at least is said as well.
+A term is what changes between two scenes. The change is taken over squares of the picture, of the brightness before;
+what a representation misses of it is the mean difference from the reference's change, of the mean of that. The
+reference is drawn by the blades' own shader, so how large its change is at least is said as well.
 """
 
 from collections.abc import Callable, Iterator
@@ -78,7 +78,7 @@ TERMS = {
     "canopy's own shade": Term(Seen(elevation=60.0), Seen(elevation=10.0), 0.35),
     "shadow of the terrain": Term(Seen(LEFT, 15.0), Seen(LEFT, 15.0, ground="ridge"), 0.35),
     "shadow of clouds": Term(Seen(), Seen(light="clouds: 0.6"), 0.16),
-    "shadow of a body": Term(Seen(), Seen(shade=True), 0.075),
+    "shadow of a body": Term(Seen(), Seen(shade=True), 0.075, missed=0.2),
     "haze": Term(Seen(), Seen(haze=30.0), 0.75),
     "gloss": Term(Seen(BEHIND, 20.0, turf="gloss: 0"), Seen(BEHIND, 20.0, turf="gloss: 0.5"), 0.1),
     "transmission": Term(Seen(BEFORE, 25.0, turf="translucency: 0"), Seen(BEFORE, 25.0, turf="translucency: 1.5"), 0.6),

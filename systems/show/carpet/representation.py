@@ -22,7 +22,7 @@ from .pool import CarpetKept, CarpetPool
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CarpetRepresentation(Representation):
-    """The carpet beyond the strips. A receiver in the middle of each patch moves its leaves, and lights them as they bend."""
+    """The carpet beyond the strips: a receiver in the middle of each patch moves its leaves and their light."""
 
     name: ClassVar[str] = "carpet"
     label: ClassVar[str] = "2D carpet"
