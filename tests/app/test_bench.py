@@ -40,9 +40,6 @@ FRAME = COMMON | {
 NARROW = (160, 216)
 """A picture that reaches as far as a wide one, with less than half of its blades [pixels]."""
 
-ROUNDED = {"rel": 0.001, "abs": 0.005}
-"""How far a ratio is from that of the times that are told: times are rounded to microseconds, ratios to hundredths."""
-
 PICTURE = COMMON | {"flip", "score", "score_msaa", "contrast", "bands"}
 pytestmark = pytest.mark.gl
 
@@ -53,6 +50,11 @@ def few_frames(monkeypatch: pytest.MonkeyPatch) -> None:
     for name, value in (("FRAMES", 6), ("EVERY", 3), ("TURN", 3)):
         monkeypatch.setattr(f"tallgrass.app.bench.frame.{name}", value)
     monkeypatch.setattr(stroll, "RATE", 10)
+
+
+def ratio(of_told: float) -> Any:
+    """About a ratio of two times that are told: they are rounded to microseconds, and it to hundredths."""
+    return pytest.approx(of_told, rel=0.001, abs=0.005)
 
 
 def _draws_nothing() -> bool:
@@ -76,7 +78,7 @@ def _compares_rivals(told: dict[str, Any]) -> None:
     assert told["rivals"][0]["name"] == "by hand"
     for row in told["rivals"]:
         assert row.keys() == {"name", "frame_ms", "ratio", "flip"}
-        assert row["ratio"] == pytest.approx(row["frame_ms"] / told["frame_ms"]["p50"], **ROUNDED)
+        assert row["ratio"] == ratio(row["frame_ms"] / told["frame_ms"]["p50"])
         assert 0.0 < row["flip"] < 0.3
 
 
@@ -93,10 +95,10 @@ def test_n6_the_frame_benchmark_tells_every_key_of_the_contract_and_what_the_cpu
     assert told["blades"]["field"] == 24 * 24 * 40
     assert told["blades"]["field"] > told["blades"]["considered"] > told["blades"]["submitted"] > 0
     assert told["systems_total_ms"] >= max(told["systems_ms"].values())
-    assert told["ratio_to_all_3d"] == pytest.approx(told["all_3d_ms"] / told["frame_ms"]["p50"], **ROUNDED)
+    assert told["ratio_to_all_3d"] == ratio(told["all_3d_ms"] / told["frame_ms"]["p50"])
     assert told["all_3d_ms"] > told["floor_ms"]
     assert told["seen_3d_ms"] > told["floor_ms"]
-    assert told["ratio_to_seen_3d"] == pytest.approx(told["seen_3d_ms"] / told["frame_ms"]["p50"], **ROUNDED)
+    assert told["ratio_to_seen_3d"] == ratio(told["seen_3d_ms"] / told["frame_ms"]["p50"])
     assert told["yardstick_ms"] > 0.0
     if _draws_nothing():
         _tells_of_the_cpu_alone(told)
@@ -286,7 +288,7 @@ def test_r2_the_walk_benchmark_tells_every_key_of_the_contract(
     assert told["frames"] % 14 == 0
     times = told["frame_ms"]
     assert 0.0 < times["p50"] <= times["p95"] <= times["p99"] <= times["max"]
-    assert told["p99_over_p50"] == pytest.approx(times["p99"] / times["p50"], **ROUNDED)
+    assert told["p99_over_p50"] == ratio(times["p99"] / times["p50"])
     assert told["transitions"] > 10
     assert told["sublevel_changes"] > 0
     if told["cpu_ms"] is not None:

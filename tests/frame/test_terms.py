@@ -99,8 +99,7 @@ def prairies(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) ->
         np.save(folder / f"{name}.npy", np.tile(row, (61, 1)).astype(np.float32))
     (folder / "scene.yaml").write_text(text_of(Seen(), folder), "utf-8")
     made = {
-        lod: Prairie.load(folder / "scene.yaml", ctx=ctx, lod=lod, live=False)  # type: ignore[arg-type]
-        for lod in ("blades", "strips", "carpet")
+        lod: Prairie.load(folder / "scene.yaml", ctx=ctx, lod=lod, live=False) for lod in ("blades", "strips", "carpet")
     }
     yield made
     for prairie in made.values():
