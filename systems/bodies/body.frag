@@ -18,7 +18,7 @@ out vec4 pixel;
 
 // Radiance of grass in this light, seen from above: the pigment at this part of its blades.
 vec3 meadow(float at) {
-    vec3 pigment = mix(root[0].rgb, tip[0].rgb, at);
+    vec3 pigment = pigment_at(0, at);
     return pigment * pigment * (0.6 * sunlight.rgb * max(sun.y, 0.2) + 0.8 * skylight.rgb);
 }
 

@@ -28,7 +28,7 @@ def srgb(color: str) -> Doubles:
 
 
 def display(radiance: NDArray[np.floating]) -> Doubles:
-    """Return linear radiance, 0 and more, as display colours in [0, 1), same shape, as `lib/light.glsl` shows it."""
+    """Return linear radiance, 0 and more, as display colours in [0, 1), same shape, as `lib/tone.glsl` shows it."""
     root = np.minimum(np.sqrt(np.maximum(radiance, 0.0)), WHITE)
     return np.asarray(root * (CURVE[0] + root * (CURVE[1] + root * CURVE[2])), np.float64)
 

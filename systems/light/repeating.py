@@ -18,7 +18,7 @@ SIDE = 512
 """Texels along a side."""
 
 LITTER_SIDE = 1.8
-"""Side of the square of ground that repeats [m], as `lib/light.glsl` has it."""
+"""Side of the square of ground that repeats [m], as `lib/repeating.glsl` has it."""
 
 STRAWS = 2600
 """How many straws lie on it."""
@@ -40,7 +40,7 @@ _REMEMBERED = 4
 """Seeds whose maps are remembered, less than a megabyte each: a scene read again has the seed that it had."""
 
 CLOUDS_SIDE = 900.0
-"""Side of the square that repeats [m], as `lib/light.glsl` has it."""
+"""Side of the square that repeats [m], as `lib/repeating.glsl` has it."""
 
 FASTER = 1.5
 """How much faster clouds go than the waves of the breeze."""

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from .mown import Mown
 
 SAMPLERS = ("mown",)
-"""What `lib/light.glsl` reads where anything is mown."""
+"""What `lib/mown.glsl` reads where anything is mown."""
 
 
 class CardMown:

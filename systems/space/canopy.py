@@ -10,7 +10,7 @@ from ..grow.record import Blades, Growth
 from .ground import Ground
 
 LODGED = 0.55
-"""How much lower the canopy is where all grass lies, of its height at rest; `lib/light.glsl` has it too."""
+"""How much lower the canopy is where all grass lies, of its height at rest; `lib/canopy.glsl` has it too."""
 
 
 def lodged(index: float, /) -> float:

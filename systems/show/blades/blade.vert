@@ -50,10 +50,7 @@ out vec4 foot;   // where its ribbon begins [m]; its length [m]
 out vec4 lie_of; // bending vector; half its way across at the root [m]
 out vec4 low;    // pigment at the root; row of the posture table
 out vec4 high;   // pigment at the tip; taper
-out vec4 tilt;   // relative change of pigment to its sides; leaf area above its kind's top
-out vec4 direct; // the sun's light on it, past the haze; leaf area from there to the ground
-out vec4 open_to;// the sky's light; how many leaves the sun's light meets
-out vec4 veil;   // haze before it, and what it mirrors of the sun's light
+out mat4 lit;    // light on it, bundled; relative change of pigment to its sides
 out vec4 stands; // where its foot is in the canopy, and how much of it is its length; organ, plus the part that is cut off; cover
 out vec4 joints; // sub-level, and slide to those of the next; coverage from which on it hides what is behind; kind; ring of strips, or teeth seen
 
@@ -120,32 +117,28 @@ void main() {
         across = vec2(-toward.y, toward.x);
     }
     lie_of = vec4(bend, 0.5 * width * across);
-    float hidden = haze_at(root_at), seen = 1.0 - hidden;
-    vec2 twice = vec2(facing.x * facing.x - facing.y * facing.y, 2.0 * facing.x * facing.y);
-    vec4 here = lie_at(root_at.xz);
-    vec3 grain = 1.0 + grain_c[k].rgb * twice.x + grain_s[k].rgb * twice.y, dry = stretch(here) * grain;
+    vec2 twice = doubled(facing);
+    Lie lies = lie_at(root_at.xz);
+    vec3 grain = grain_at(k, twice), dry = stretch(lies.slow) * grain;
 #ifdef ORGANS
-    low = vec4(mix(root[k].rgb, tip[k].rgb, grade.x) * dry, variant);
-    high = vec4(mix(root[k].rgb, tip[k].rgb, grade.y) * dry, tip[k].w);
+    low = vec4(pigment_at(k, grade.x) * dry, variant);
+    high = vec4(pigment_at(k, grade.y) * dry, tip[k].w);
 #else
     low = vec4(root[k].rgb * dry, variant);
     high = vec4(tip[k].rgb * dry, tip[k].w);
 #endif
     ByKind grows = grows_at(root_at.xz);
-    Lit lit = lit_at(k, blown, root_at, here, grows);
+    Light light = veiled(light_on(k, blown, root_at, lies, grows), root_at);
 #ifdef MOWN
     float top = left_at(root_at.xz);
-    lit = mown_to(top, lit, k, areas(grows));
+    light = mown_to(top, light, k, areas(grows));
 #endif
-    tilt = vec4(2.0 * ROUND * (grain_s[k].rgb * twice.x - grain_c[k].rgb * twice.y) / grain, lit.leaves.x);
+    vec3 tilt = 2.0 * ROUND * (grain_s[k].rgb * twice.x - grain_c[k].rgb * twice.y) / grain;
     if (has_section) {
-        vec2 toward = drift.zw;
-        float fold = twice.x * 2.0 * toward.x * toward.y - twice.y * (toward.x * toward.x - toward.y * toward.y);
-        tilt.rgb = vec3(grain_c[k].w * (is_round ? dot(across, toward) : fold));
+        vec2 toward = drift.zw, round_to = doubled(toward);
+        tilt = vec3(grain_c[k].w * (is_round ? dot(across, toward) : twice.x * round_to.y - twice.y * round_to.x));
     }
-    direct = vec4(lit.sun * seen, lit.leaves.y);
-    open_to = vec4(lit.sky * seen, lit.way.x);
-    veil = vec4(haze_light(root_at) * hidden, lit.gloss * seen);
+    lit = bundled(light, tilt);
     float canopy_height = OF(crown, k) * lodged(blown);
 #ifdef ORGANS
     stands.xyz = vec3(up.y / canopy_height, height / canopy_height, organ);

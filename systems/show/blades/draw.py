@@ -11,15 +11,10 @@ from ...frame.block import FrameBlock, joined
 from .organs import organ_defines
 from .pool import BLADE
 
-RIBBON = np.dtype(
-    [
-        (name, "4f4")
-        for name in ("foot", "lie_of", "low", "high", "tilt", "direct", "open_to", "veil", "stands", "joints")
-    ]
-)
+RIBBON = np.dtype([*((name, "4f4") for name in ("foot", "lie_of", "low", "high", "stands", "joints")), ("lit", "16f4")])
 """What the pass over the blades finds out about each, as `blade.vert` says."""
 
-PAINTED = np.dtype([*((name, "4f4") for name in RIBBON.names or ()), ("base", "4f4"), ("painted", "4f4")])
+PAINTED = np.dtype([*RIBBON.descr, ("base", "4f4"), ("painted", "4f4")])
 """The same for a blade that is on its way to its painted place."""
 
 MESSAGE = np.dtype([("message", "2f4")])

@@ -8,10 +8,7 @@ in vec4 foot;
 in vec4 lie_of;
 in vec4 low;
 in vec4 high;
-in vec4 tilt;
-in vec4 direct;
-in vec4 open_to;
-in vec4 veil;
+in mat4 lit;
 in vec4 stands;
 in vec4 joints;
 #ifdef MORPH
@@ -62,16 +59,15 @@ vec4 widened(vec3 place, vec3 tangent, vec2 across) {
 #ifdef MORPH
 // The radiance at part `t` of a blade of kind `k` with this face normal, where it is painted.
 vec3 painted_light(int k, float t, vec2 face, Painted target) {
-    vec4 here = lie_at(target.middle.xz);
-    vec3 grain = 1.0 + grain_c[k].rgb * (face.x * face.x - face.y * face.y) + grain_s[k].rgb * (2.0 * face.x * face.y);
-    vec3 pigment = mix(root[k].rgb, tip[k].rgb, t) * stretch(here) * grain * faced(k, normalize(target.run.xz), target.middle, target.top);
+    Lie lies = lie_at(target.middle.xz);
+    vec3 pigment = pigment_at(k, t) * stretch(lies.slow) * grain_at(k, doubled(face));
+    pigment *= faced(k, normalize(target.run.xz), target.middle, target.top);
     ByKind grows = grows_at(target.middle.xz);
-    Lit lit = lit_at(k, target.bend, target.middle, here, grows);
+    Light light = veiled(light_on(k, target.bend, target.middle, lies, grows), target.middle);
 #ifdef MOWN
-    lit = mown_to(left_at(target.place.xz), lit, k, areas(grows));
+    light = mown_to(left_at(target.place.xz), light, k, areas(grows));
 #endif
-    vec3 light = radiance(pigment, target.h, lit);
-    return mix(light, haze_light(target.middle), haze_at(target.middle));
+    return shade(leaf_at(pigment, target.h), light);
 }
 #endif
 
@@ -173,14 +169,14 @@ void main() {
     across *= mix(1.0, TOOTHED_WIDER, seen);
 #endif
     float high_up = stands.x + spine.place.y * stands.y;
-    Lit lit = Lit(direct.rgb, open_to.rgb, veil.w, vec2(open_to.w, OPEN_SKY), vec2(tilt.w, direct.w));
-    vec3 pigment = mix(low.rgb, high.rgb, t), light = radiance(pigment * (1.0 + side * tilt.rgb), high_up, lit) + veil.rgb;
+    Light reaches = unbundled(lit);
+    vec3 pigment = mix(low.rgb, high.rgb, t), light = shade(leaf_at(pigment * (1.0 + side * lit[3].xyz), high_up), reaches);
 #ifdef FOLDS
     bool is_folded = grain_c[int(joints.z)].w > 0.0 && grain_s[int(joints.z)].w > 0.0;
 #ifdef ORGANS
     is_folded = is_folded && int(stands.z) == BLADE_ITSELF;
 #endif
-    keel = is_folded ? side * (shown_of(light) - shown_of(radiance(pigment, high_up, lit) + veil.rgb)) : vec3(0.0);
+    keel = is_folded ? side * (shown_of(light) - shown_of(shade(leaf_at(pigment, high_up), reaches))) : vec3(0.0);
 #endif
 #ifdef MORPH
     Painted target = painted_at(base, int(painted.x), int(painted.y), painted.z, t, k, int(joints.w));

@@ -87,7 +87,7 @@ uniform ByKind bears;  // by kind: whether it has any heads
 #endif
 in vec3 direct;
 in vec3 open_to;
-in vec4 shade;
+in vec4 reach;
 in float lies;
 #if KINDS > 4
 vec3 dry;
@@ -176,10 +176,10 @@ Sum trodden_light(float slope) {
         blown[kind] = message;
         messages[kind] = laid_over(message, pressed);
     }
-    Sum sum = Sum(direct, open_to, shade, lies, vec2(0.0));
+    Sum sum = Sum(direct, open_to, reach, lies, vec2(0.0));
     if (most < 1e-3)
         return sum;
-    vec4 here = lie_at(there.xz);
+    Lie here = lie_at(there.xz);
     Sum with = summed(met, slope, there, here, messages), without = summed(met, slope, there, here, blown);
     return Sum(max(sum.direct + with.direct - without.direct, 0.0),
                max(sum.open_to + with.open_to - without.open_to, 0.0), sum.shade + with.shade - without.shade,
@@ -216,13 +216,13 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
     vec3 ray = place - eye.xyz;
     vec2 heading = ray.xz / max(length(ray.xz), 1e-4), turn = turned(heading, side);
     float above = smoothstep(0.0, 2.0, slope), lying = above * (1.0 - stands) / LODGED;
-    Lit lit = Lit(direct, open_to, shade.x, vec2(shade.y, OPEN_SKY), shade.zw);
+    Light lit = Light(direct, open_to, vec3(0.0), reach.x, reach.y, reach.zw);
     float more = lies;
     vec3 blown = blown_on(cell);
 #ifdef TRODDEN
     if (trodden_at(place.xz)) {
         Sum light = trodden_light(slope);
-        lit = Lit(light.direct, light.open_to, light.shade.x, vec2(light.shade.y, OPEN_SKY), light.shade.zw);
+        lit = Light(light.direct, light.open_to, vec3(0.0), light.shade.x, light.shade.y, light.shade.zw);
         more = light.lies;
         blown.xy += light.sways;
     }
@@ -278,7 +278,7 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
         mean_of.r *= 1.0 - ARCHED * (1.0 - above) * max(1.0 - stands, 0.0);
         mean_of.rg = arched(mean_of.rg, lying);
         mean_of.g *= OF(tops, kind);
-        Lit met_by = lit;
+        Light met_by = lit;
         float covers = max(1.0 - (1.0 - image.a) * between, 0.0);
 #ifdef HEADS
         float ripe = OF(riper, kind);
@@ -298,7 +298,7 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
 #endif
         vec3 tint = (grain_c[kind].rgb * sight + grain_s[kind].rgb * aside) * (2.0 * mean_of.b - 1.0);
         vec3 pigment = mix(root[kind].rgb, tip[kind].rgb, mean_of.r) * dry * (1.0 + tint);
-        sum += OF(met, kind) * covers * vec4(shown_of(mix(radiance(pigment, mean_of.g, met_by), veil.rgb, veil.w)), 1.0);
+        sum += OF(met, kind) * covers * vec4(shown_of(mix(shade(leaf_at(pigment, mean_of.g), met_by), veil.rgb, veil.w)), 1.0);
         kind = next_kind(met, LEAST_MET, kind + 1);
     } while (kind < KINDS);
 #ifdef HEADS

@@ -46,7 +46,7 @@ out float strips_before;  // how much strips show of what lines of sight come th
 
 out vec3 direct;  // light on leaves of the kinds that are met: the sun's
 out vec3 open_to; // the sky's
-out vec4 shade;   // what they mirror; leaves that the sun's light meets; leaf area above them, and from there to the ground
+out vec4 reach;   // what they mirror; leaves that the sun's light meets; leaf area above them, and from there to the ground
 out float lies;   // how many more leaves are met, for how grass is bent
 #if KINDS > 4
 vec3 dry;
@@ -57,14 +57,14 @@ out vec3 dry;     // factor of their pigment
 // Write the light on what is met.
 void light_up(float slope, vec2 message) {
     vec3 there = seen_at(place, slope, tall, dense);
-    vec4 here = lie_at(there.xz);
+    Lie here = lie_at(there.xz);
     vec2 messages[KINDS];
     for (int kind = 0; kind < KINDS; kind++)
         messages[kind] = message;
     Sum sum = summed(met, slope, there, here, messages);
     direct = sum.direct;
     open_to = sum.open_to;
-    shade = sum.shade;
+    reach = sum.shade;
     lies = sum.lies;
     dry = stretch_seen(there, slope, tall);
 }
@@ -315,7 +315,7 @@ void main() {
     ground_at += normalize(flat_at - eye.xz + 1e-4) * min(over / max(slope, STEEP), FARTHEST_SEEN);
 #endif
     vec3 ground = vec3(ground_at, height_at(ground_at)).xzy;
-    vec4 lies = lie_at(ground_at);
+    Lie lies = lie_at(ground_at);
     ByKind stand = grows_at(ground_at);
 #ifdef MOWN
 #ifdef CARPET
@@ -325,9 +325,9 @@ void main() {
 #endif
     soil_seen = soil_light(ground, lies, stand, weighed(leaf_area, leaves_left(left_about(flat_at, tile.z))));
     vec3 pigment = soil_pigment(lies, stand);
-    sunlit = pigment * pigment * sunlight.rgb * (1.3 * lies.x * sun_seen(ground, lies.y));
+    sunlit = pigment * pigment * sunlight.rgb * (SOIL_SENDS * lies.high * sun_seen(ground, lies.past));
     skylit = pigment * pigment * skylight.rgb;
-    to_light = ways(0, lies.x);
+    to_light = vec2(sun_way(0, lies.high), OPEN_SKY);
 #else
     soil_seen = soil_light(ground, lies, stand, total(areas(stand)));
 #endif
@@ -336,17 +336,17 @@ void main() {
     vec3 usual = lying_pigment(textureLod(repeating, vec2(0.5), COARSEST).gb, lush);
     soil_seen *= usual * usual;
     vec3 under = vec3(0.0);
-    vec4 here = lie_at(flat_at);
+    Lie here = lie_at(flat_at);
     for (int kind = 0; kind < KINDS; kind++) {
-        Lit lit = lit_at(kind, vec2(0.0), place, here, grows);
+        Light lit = light_on(kind, vec2(0.0), place, here, grows);
         float deep = 0.1 + SHADED * sunk, high = 0.9 - SHADED * sunk;
 #ifdef MOWN
         lit = mown_to(left, lit, kind, leaf_area);
         high *= min(left / max(OF(crown, kind), 0.01), 1.0);
         deep = 1.0 - high;
 #endif
-        vec3 pigment = mix(mix(root[kind].rgb, tip[kind].rgb, through[kind].w), root[kind].rgb, deep) * stretch(here);
-        under += OF(met, kind) * radiance(pigment, high, lit);
+        vec3 pigment = mix(mix(root[kind].rgb, tip[kind].rgb, through[kind].w), root[kind].rgb, deep) * stretch(here.slow);
+        under += OF(met, kind) * shade(leaf_at(pigment, high), lit);
     }
     // Where grass grows thinly or not at all, what lies beneath is the soil.
     soil_seen = mix(soil_seen, soil_seen * (1.0 - total(met)) + under, carpet);

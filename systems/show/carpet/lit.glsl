@@ -59,7 +59,7 @@ ByKind tips_met(ByKind grows, float slope) {
 vec3 stretch_seen(vec3 there, float slope, float tall) {
     vec2 apart = normalize(there.xz - eye.xz + 1e-4) * min(SPREAD * along_ground(slope, tall), FARTHEST_SEEN);
     vec4 nearer = textureLod(lie, on_left(there.xz - apart), 0.0), farther = textureLod(lie, on_left(there.xz + apart), 0.0);
-    return stretch(0.5 * (nearer + farther));
+    return stretch(0.5 * (nearer + farther).zw);
 }
 
 // The wind's message; far off, where nobody asks for it, the mean of those nearer by.
@@ -71,19 +71,19 @@ vec2 message_at(vec2 at) {
 }
 
 // The light there on each kind as its message has bent it, in the mean of all that are met.
-Sum summed(ByKind met, float slope, vec3 there, vec4 here, vec2 messages[KINDS]) {
+Sum summed(ByKind met, float slope, vec3 there, Lie here, vec2 messages[KINDS]) {
     ByKind grows = grows_at(there.xz);
     Sum sum = Sum(vec3(0.0), vec3(0.0), vec4(0.0), 0.0, vec2(0.0));
     vec3 ray = there - eye.xyz;
     ray /= max(length(ray.xz), 1e-4) * max(slope, LOWEST);
     for (int kind = 0; kind < KINDS; kind++) {
         vec2 bend = bending(kind, messages[kind]);
-        Lit lit = lit_at(kind, bend, there, here, grows);
+        Light lit = light_on(kind, bend, there, here, grows);
         vec3 lean = leaning(bend), turned = turned_to(kind, lean, ray);
         turned *= turned;
         sum.direct += OF(met, kind) * lit.sun * turned;
         sum.open_to += OF(met, kind) * lit.sky * turned;
-        sum.shade += OF(met, kind) * vec4(lit.gloss, lit.way.x, lit.leaves);
+        sum.shade += OF(met, kind) * vec4(lit.gloss, lit.way, lit.leaves);
         sum.lies += OF(met, kind) * laid(kind, lean, ray.xz, -ray.y);
         sum.sways += OF(met, kind) * SWAYS * OF(crown, kind) * bend;
     }

@@ -12,14 +12,8 @@ flat in vec3 mean_face;   // its pigment, of that where it faces all ways alike
 flat in vec3 grain_cos;   // change of pigment with the cosine of twice the normal's azimuth
 flat in vec3 grain_sin;
 in float h;            // height in the canopy
-flat in vec3 direct;  // light on leaves, past the haze: the sun's
-flat in vec3 open_to; // the sky's
-flat in vec4 veil;    // haze before it; what it mirrors of the sun's light
-flat in vec3 shade;   // leaf area above its kind's top, and from there to the ground; leaves that the sun's light meets
-flat in float sheet;
+flat in mat4 lit;      // light on it, bundled; layer of the texture, level of its mip-maps, factor on coverage
 flat in float shown;
-flat in float level;  // of the mip-maps
-flat in float boost;  // of coverage
 flat in vec4 shadow; // of a body: the square of how near the sun's ray comes to it, by powers of `on_column`; how soft its edge is
 in float on_column;  // from an edge of the column to the other
 #ifdef MOWN
@@ -43,11 +37,14 @@ out vec4 pixel;
 const float FAINT = 0.006; // coverage that is left out: in bytes, layer upon layer, it would but be rounded up
 
 void main() {
+    float sheet = lit[3].x, level = lit[3].y, boost = lit[3].z;
     vec4 texel = textureLod(atlas, vec3(at, sheet), level);
     vec3 mean = texel.rgb / max(texel.a, 0.002);
     vec3 pigment = (foot_color + rise_color * mean.r) * (mean_face + grain_cos * (2.0 * mean.g - 1.0) + grain_sin * (2.0 * mean.b - 1.0));
     float seen = past_body(sqrt(shadow.x + on_column * (shadow.y + on_column * shadow.z)), shadow.w);
-    Lit lit = Lit(direct * seen, open_to, veil.w * seen, vec2(shade.z, OPEN_SKY), shade.xy);
+    Light light = unbundled(lit);
+    light.sun *= seen;
+    light.gloss *= seen;
     float covered = shown * min(texel.a * boost, 1.0);
 #ifdef MOWN
     if (is_cut > 0) {
@@ -55,13 +52,13 @@ void main() {
 #if KINDS > 4
         ByKind leaf_area = areas(grows_at(roots.xy));
 #endif
-        lit = mown_to(top, lit, stood_of, leaf_area);
+        light = mown_to(top, light, stood_of, leaf_area);
         covered *= clamp((top - roots.z) * fine_at + 0.5, 0.0, 1.0);
         if (is_mown(top))
             covered *= smoothstep(0.3 * rows_at, rows_at, top);
     }
 #endif
-    vec3 grass = shown_of(radiance(pigment, h, lit) + veil.rgb);
+    vec3 grass = shown_of(shade(leaf_at(pigment, h), light));
 #ifdef THIN
     float rank = textureLod(ranks, vec3(at, sheet), level).r / max(texel.a, 0.002);
     covered *= clamp(grows - rank * sharp, 0.0, 1.0) * clamp(stays.x * rank + stays.y, 0.0, 1.0);

@@ -22,16 +22,10 @@ flat out vec3 mean_face;   // its pigment, of that where it faces all ways alike
 flat out vec3 grain_cos;   // change of pigment with the cosine of twice the normal's azimuth
 flat out vec3 grain_sin;
 out float h;            // height in the canopy
-flat out vec3 direct;  // light on leaves, past the haze: the sun's
-flat out vec3 open_to; // the sky's
-flat out vec4 veil;    // haze before it; what it mirrors of the sun's light
-flat out vec3 shade;   // leaf area above its kind's top, and from there to the ground; leaves that the sun's light meets
-flat out float sheet;
+flat out mat4 lit;     // light on it, bundled; layer of the texture, level of its mip-maps, factor on coverage
 flat out float shown;
-flat out float boost;
 flat out vec4 shadow; // of a body: the square of how near the sun's ray comes to it, by powers of `on_column`; how soft its edge is
 out float on_column;  // from an edge of the column to the other
-flat out float level;
 #ifdef MOWN
 out vec3 roots;        // place on the ground (x, z), and how high over it in calm air [m]
 #if KINDS > 4
@@ -146,7 +140,6 @@ void main() {
 
     vec3 picture = pictures[ring * KINDS + k];
     int layer = int(picture.z) + (int(where.z) * 2 + own) * count + plane;
-    sheet = float(layer);
     vec3 middle = 0.5 * (a + b);
     // Nothing is drawn where nothing is painted: a strip ends a pixel beyond its paint.
     vec4 extent = texelFetch(extents, ivec2(column, layer), 0);
@@ -161,12 +154,12 @@ void main() {
     vec4 point = mix(on_edge(a, bend_a, back_a, t, k, sections, how.y), on_edge(b, bend_b, back_b, t, k, sections, how.y), across);
     gl_Position = clip * vec4(point.xyz, 1.0);
     at = vec2((float(column) + across) / float(fine.x), t) * picture.xy;
-    vec4 here = lie_at(rooted.xz);
+    Lie lies = lie_at(rooted.xz);
     ByKind grows = grows_at(rooted.xz);
     on_column = across;
     int body = shading(rooted_a, rooted_b);
-    float seen = sun_past(rooted, here.y) * past_bodies(rooted, body);
-    Lit lit = lit_at(k, 0.5 * (bend_a + bend_b), rooted, here, grows, seen);
+    float seen = sun_past(rooted, lies.past) * past_bodies(rooted, body);
+    Light light = veiled(light_on(k, 0.5 * (bend_a + bend_b), rooted, lies, grows, seen), middle);
 #ifdef MOWN
     roots = vec3(mix(rooted_a.xz, rooted_b.xz, across), t * OF(tall, k));
     leaf_area = areas(grows);
@@ -175,13 +168,8 @@ void main() {
     rows_at = CROSSED * soil.w / float(count) * abs(eye.y - middle.y) / max(distance(middle.xz, eye.xz), 0.5 * soil.w);
     is_cut = left_about(rooted.xz, 2.0 * distance(a.xz, b.xz)) < 0.999 * zenith.w ? 1 : 0;
 #endif
-    float hidden = haze_at(middle), clear = 1.0 - hidden;
     h = point.w;
-    direct = lit.sun * clear;
-    open_to = lit.sky * clear;
-    veil = vec4(haze_light(middle) * hidden, lit.gloss * clear);
-    shade = vec3(lit.leaves, lit.way.x);
-    vec3 dry = stretch(here);
+    vec3 dry = stretch(lies.slow);
     mean_face = faced(k, run, middle, top);
     foot_color = root[k].rgb * dry;
     float lying = 1.0 - lodged(0.5 * (bend_a + bend_b)), aside = 1.0 - smoothstep(0.0, 1.0, steep_at(middle));
@@ -192,8 +180,7 @@ void main() {
     shown = how.x;
     vec2 back = 0.5 * (back_a + back_b);
     float texels = picture.y * ATLAS / (OF(tall, k) * apart_at(middle, run, top + vec3(back.x, 0.0, back.y)));
-    level = log2(texels) - SHARPER;
-    boost = boosted(k, run, middle, top, back);
+    lit = bundled(light, vec3(float(layer), log2(texels) - SHARPER, boosted(k, run, middle, top, back)));
 #ifdef THIN
     thin(mix(told_a.w, told_b.w, across), how.z, 0.5 * texels);
 #endif

@@ -132,7 +132,7 @@ class Scene:
         *,
         defines: Defines | None = None,
     ) -> Doubles:
-        """What a vertex shader makes of each of some vertices of each of some instances: clip coordinates and one more.
+        """What a vertex shader makes of each of some vertices of each of some instances: clip coordinates, and more.
 
         `like` is the program that it is drawn with otherwise, which has been told everything. Without `defines` it is
         told at the top what it was told then.
@@ -141,7 +141,7 @@ class Scene:
         told = self.defines[name] if defines is None else defines
         made = program(
             painter.ctx, name, None, defines={**painter.block.defines, **told},
-            varyings=("gl_Position", "sheet" if stream is None else "half_width"),
+            varyings=("gl_Position", "lit" if stream is None else "half_width"),
         )  # fmt: skip
         for uniform in made:
             if isinstance(made[uniform], moderngl.Uniform) and uniform in like:
@@ -152,9 +152,10 @@ class Scene:
             painter.textures[texture].use(UNITS[texture])
         painter.received.texture.use(UNITS["received"])
         array = painter.ctx.vertex_array(made, [] if stream is None else [stream.binding(made)])
-        buffer = painter.ctx.buffer(reserve=5 * 4 * vertices * count)
+        numbers = 4 + (16 if stream is None else 1)
+        buffer = painter.ctx.buffer(reserve=numbers * 4 * vertices * count)
         array.transform(buffer, moderngl.POINTS, vertices=vertices, instances=count)
-        data = np.frombuffer(buffer.read(), np.float32).reshape(count, vertices, 5).astype(np.float64)
+        data = np.frombuffer(buffer.read(), np.float32).reshape(count, vertices, numbers).astype(np.float64)
         release_all(array, buffer, made)
         return data
 
@@ -185,7 +186,7 @@ class Scene:
             row=np.repeat(np.concatenate([each.rows for each in rings]), amount),
             ring=np.repeat(ring, amount),
             column=numbers % strips.most % np.repeat(np.array(fineness)[ring, 1], amount),
-            layer=data[:, 0, 4].astype(np.int64),
+            layer=data[:, 0, 16].astype(np.int64),
             clip=data[..., :4],
         )
 

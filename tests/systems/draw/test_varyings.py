@@ -11,7 +11,7 @@ from tallgrass.engine.gl.shaders import compose
 SURE = 60
 """GL_MAX_VARYING_COMPONENTS at least, in OpenGL 3.3."""
 
-SIZES = {"float": 1, "int": 1, "vec2": 2, "vec3": 3, "vec4": 4}
+SIZES = {"float": 1, "int": 1, "vec2": 2, "vec3": 3, "vec4": 4, "mat4": 16}
 VARYING = re.compile(r"(?:flat |noperspective )*in (\w+) \w+;")
 
 Defines = dict[str, str | int]

@@ -65,7 +65,7 @@ def met(kind: GrassKind, growth: Growth, elevation: float, height: float, densit
 
 
 def closed_form(kind: GrassKind, growth: Growth, elevation: float, density: float) -> NDArray[np.float64]:
-    """What `lib/light.glsl` says of it, at HEIGHTS of the canopy."""
+    """What `lib/canopy.glsl` says of it, at HEIGHTS of the canopy."""
     leaves = leaves_of(kind, growth, PATCH)
     deep = 1.0 - HEIGHTS
     way = 1.0 / np.tan(np.radians(elevation)) + leaves.above / leaves.side

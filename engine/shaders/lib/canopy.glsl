@@ -1,0 +1,52 @@
+// The canopy as a medium: how high it stands, how much leaf area is above a height, and what light gets through it.
+#include "lib/sown.glsl"
+
+const float LODGED = 0.55;  // how much lower the canopy is where all grass lies
+
+// How high the canopy stands where `bend` bends it, of its height at rest: where all grass lies, its tips are the top.
+float lodged(vec2 bend) {
+    return 1.0 - LODGED * min(dot(bend, bend), 1.0);
+}
+
+// Leaf area above a height [m], where each kind has so much. It thins out towards the top of each.
+float leaves_above(float height, ByKind area) {
+    float over = 0.0;
+    for (int group = 0; group < GROUPS; group++) {
+        vec4 above = max(1.0 - height / max(crown[group], 0.01), 0.0);
+        over += dot(area[group], above * above);
+    }
+    return over;
+}
+
+// Leaf area above a kind's top and between that and the ground.
+vec2 leaves_over(ByKind grows, int k) {
+    ByKind area = areas(grows);
+    float over = leaves_above(OF(crown, k), area);
+    return vec2(over, total(area) - over);
+}
+
+const float FILLS = 0.75;  // leaf area between a kind's top and the ground goes by the depth squared so far, and then cubed
+
+// Leaf area above height `h` in a kind's canopy, of which 1 is the top; `leaves` are of leaves_over.
+float leaves_above(float h, vec2 leaves) {
+    float deep = clamp(1.0 - h, 0.0, 1.0);
+    return leaves.x + leaves.y * deep * deep * (FILLS + (1.0 - FILLS) * deep);
+}
+
+const float OPEN_SKY = 1.6;  // leaves that the sky's light meets, of those seen from the side
+const float FLATTEST_SUN = 0.08;  // sine of the sun's elevation over the slope that counts at least, for how many leaves it meets
+
+// How many leaves the sun's light meets on its way, of those seen from the side, where its elevation over the slope has this sine.
+float sun_way(int kind, float high) {
+    high = max(high, FLATTEST_SUN);
+    return sqrt(1.0 - min(high * high, 1.0)) / high + OF(lying, kind);
+}
+
+// What comes through so many leaves: they hide one another by chance (Beer, 1852; Monsi and Saeki, 1953).
+float through_leaves(float leaves) {
+    return exp(-leaves);
+}
+
+vec2 through_leaves(vec2 leaves) {
+    return exp(-leaves);
+}

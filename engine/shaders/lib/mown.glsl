@@ -1,0 +1,40 @@
+// Up to which height grass is left to stand where it has been cut.
+#include "lib/sown.glsl"
+
+#ifdef MOWN
+uniform sampler2D mown;  // over the terrain: up to which height grass is left to stand [m]
+
+// Beyond the terrain nobody mows.
+bool can_be_mown(vec2 place) {
+    vec2 beside = abs(place - terrain.xy - 0.5 * field.xy) - 0.5 * field.xy;
+    return max(beside.x, beside.y) < 0.0;
+}
+
+float left_at(vec2 place) {
+    return can_be_mown(place) ? textureLod(mown, (place - terrain.xy) / field.xy, 0.0).r : zenith.w;
+}
+
+// The mean over squares of `side` [m].
+float left_about(vec2 place, float side) {
+    float cell = field.x / float(textureSize(mown, 0).x), level = log2(max(side / cell, 1.0));
+    return can_be_mown(place) ? textureLod(mown, (place - terrain.xy) / field.xy, level).r : zenith.w;
+}
+
+// Whether that is lower than the canopy of the tallest kind.
+bool is_mown(float left) {
+    float tallest = 0.0;
+    for (int group = 0; group < GROUPS; group++)
+        tallest = max(tallest, max(max(crown[group].x, crown[group].y), max(crown[group].z, crown[group].w)));
+    return left < tallest;
+}
+
+// How much of each kind's leaf area is left below a height [m].
+ByKind leaves_left(float top) {
+    ByKind left;
+    for (int group = 0; group < GROUPS; group++) {
+        vec4 gone = max(1.0 - top / max(crown[group], 0.01), 0.0);
+        left[group] = 1.0 - gone * gone;
+    }
+    return left;
+}
+#endif

@@ -1,0 +1,53 @@
+// The ground between plants: its pigment, and what has fallen or grows low on it.
+#include "lib/surface.glsl"
+
+const float LITTER_ONE = 255.0 / 128.0;  // what stands for ground as bright as its mean
+const float FALLEN_TIPPED = 0.3;  // how much of the colour of tips what has fallen has, of a kind that shows it as grass does
+const float LITTER = 0.75;  // how much of the ground under dense grass is covered by what has fallen
+const float COARSEST = 16.0;  // level at which a texture is its mean, or its last
+
+// What lies on the ground where grass stands, and the ground.
+vec3 soil_pigment(Lie lies, ByKind grows) {
+    ByKind tipped;
+    for (int kind = 0; kind < KINDS; kind++)
+        OF(tipped, kind) = FALLEN_TIPPED * through[kind].w * through[kind].w;
+    vec3 fallen = low_pigment(grows, tipped);
+    return mix(soil.rgb, mix(soil.rgb, fallen, LITTER), min(total(grows), 1.0)) * stretch(lies.slow);
+}
+
+// The pigment of the understorey's leaves, of that of the ground between; 1 where there are none.
+vec3 understorey_of(Lie lies, ByKind grows) {
+    vec3 between = soil_pigment(lies, grows);
+    ByKind tipped;
+    for (int group = 0; group < GROUPS; group++) {
+        grows[group] *= understorey[group];
+        tipped[group] = undertone[group];
+    }
+    vec3 leaves = low_pigment(grows, tipped) * stretch(lies.slow);
+    return mix(vec3(1.0), leaves / max(between, 0.02), min(total(grows), 1.0));
+}
+
+// The pigment of what lies there, of that of the ground between low leaves: `lying` from `repeating`.
+vec3 lying_pigment(vec2 lying, vec3 lush) {
+    return lying.x * LITTER_ONE * mix(vec3(1.0), lush, lying.y);
+}
+
+const float SOIL_SENDS = 1.3;  // what bare ground sends of the sun's light from straight above, of what a leaf that faces all ways does
+
+// The light on it, under a leaf area [of the ground's].
+Light light_on_soil(vec3 place, Lie lies, float leaves) {
+    Light light = light_at(Response(vec3(SOIL_SENDS * lies.high), vec3(1.0), 0.0), sun_seen(place, lies.past));
+    light.way = sun_way(0, lies.high);
+    light.leaves = vec2(leaves, 0.0);
+    return light;
+}
+
+// The soil without what lies on it.
+Surface soil_at(Lie lies, ByKind grows) {
+    return Surface(soil_pigment(lies, grows), 0.0, 0.0);
+}
+
+// That in its light, under a leaf area [of the ground's].
+vec3 soil_light(vec3 place, Lie lies, ByKind grows, float leaves) {
+    return shade(soil_at(lies, grows), light_on_soil(place, lies, leaves));
+}

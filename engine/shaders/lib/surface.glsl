@@ -1,0 +1,132 @@
+// One surface and one light for all that is drawn: blades, strips, carpet, ground, bodies, in the frame and the reference.
+//
+// Light comes in two steps, as most of it is the same all along a blade, a strip's column or a square of ground.
+// 1. Once a vertex, receiver or column: what light reaches the place, past all but the canopy. Ask for a `Response`, how a
+//    sort of surface sends light to the eye (leaf_response, soil_response), and give it to `light_at`, the one list of all lights;
+//    `light_on` does both for leaves. Lights may be summed over kinds with `plus`. Last, `veiled` puts the haze before it.
+//    `bundled` and `unbundled` bring a light through stages, as a mat4 with three numbers of one's own beside it.
+// 2. Once a fragment: fill a `Surface` and ask `shade`, which gives radiance; `shown_of` of lib/tone.glsl is the last step.
+// A new light is a term of `light_at`, a new shadow one of `sun_seen` (lib/shadows.glsl), what lies on surfaces (snow, water)
+// a change of the `Surface` at the head of `shade`: all representations get it.
+#include "lib/canopy.glsl"
+#include "lib/haze.glsl"
+#include "lib/mown.glsl"
+#include "lib/pigment.glsl"
+#include "lib/shadows.glsl"
+
+// The light that reaches a surface through the canopy, as radiance towards the eye of a white one.
+struct Light {
+    vec3 sun;     // in full sun
+    vec3 sky;     // under the whole sky
+    vec3 haze;    // what is seen before it, as it is
+    float gloss;  // mirrored of the sun, where it is seen
+    float way;    // how many leaves the sun's light meets, of those that stand above, seen from the side
+    vec2 leaves;  // that stand above the kind's top, and between that and the ground, of the ground's area
+};
+
+// How a surface sends light to the eye, of what a white leaf that faces all ways does.
+struct Response {
+    vec3 sun;
+    vec3 sky;
+    float gloss;  // mirrored of the sun
+};
+
+// What a fragment is to light.
+struct Surface {
+    vec3 pigment;  // root of the albedo
+    float height;  // in its kind's canopy: 1 at the top, 0 on the ground
+    float among;   // what surfaces like it send to one another of the sun's light, of one with albedo 1
+};
+
+const float AMONG_LEAVES = 0.7;
+
+// A leaf of a kind, at a height of its canopy.
+Surface leaf_at(vec3 pigment, float height) {
+    return Surface(pigment, height, AMONG_LEAVES);
+}
+
+const float SIDELONG = 0.75;  // what leaves send of sunlight that grazes the slope, of what they send of it from straight above
+const float LIES_OPEN = 0.22;  // how much more light grass sends that lies, which shows its faces to the sky
+const float LEANS_AWAY = 0.18;  // and how much more to an eye that it leans away from
+const vec2 SPINE = vec2(1.3, 0.7);  // a spine's mean slope leans by so much, and rises by so much less, of the posture index
+
+// How leaves of a kind at a place send light to the eye that the wind bends by `bend`; the sun's elevation has the sine `high`.
+Response leaf_response(int kind, vec2 bend, vec3 place, float high) {
+    vec3 ray = normalize(place - eye.xyz);
+    float facing = dot(ray, sun.xyz);
+    // Leaves that face all ways send back what the eye sees lit, and let through what it sees against the light.
+    float back = 0.5 - 0.5 * facing, against = 1.0 - back;
+    vec3 phase = back * sqrt(back) + against * sqrt(against) * through[kind].rgb;
+    float lies = min(dot(bend, bend), 1.0), face = 1.0 + LIES_OPEN * lies + LEANS_AWAY * dot(bend, normalize(ray.xz + 1e-6));
+    // A blade mirrors the sun along itself like a thread (Kajiya and Kay, Rendering Fur, 1989).
+    vec3 spine = normalize(vec3(SPINE.x * bend, 1.0 - SPINE.y * length(bend)).xzy), half_way = normalize(sun.xyz - ray);
+    float along = dot(spine, half_way), thread = 1.0 - along * along;
+    thread *= thread;
+    thread *= thread;
+    return Response(phase * (face * mix(SIDELONG, 1.0, high)), vec3(face), root[kind].w * thread * thread);
+}
+
+// The light at a place that a surface sends to the eye, where it sees so much of the sun. This is the list of all lights.
+Light light_at(Response response, float seen) {
+    vec3 from_sun = sunlight.rgb * response.sun * seen;
+    vec3 from_sky = skylight.rgb * response.sky;
+    return Light(from_sun, from_sky, vec3(0.0), response.gloss * seen, 0.0, vec2(0.0));
+}
+
+// The light on leaves of a kind at a place: the wind bends them by `bend`, the terrain lies so, and so much of the sun is seen.
+Light light_on(int kind, vec2 bend, vec3 place, Lie lies, ByKind grows, float seen) {
+    Light light = light_at(leaf_response(kind, bend, place, lies.high), seen);
+    light.way = sun_way(kind, lies.high);
+    light.leaves = leaves_over(grows, kind);
+    return light;
+}
+
+Light light_on(int kind, vec2 bend, vec3 place, Lie lies, ByKind grows) {
+    return light_on(kind, bend, place, lies, grows, sun_seen(place, lies.past));
+}
+
+#ifdef MOWN
+// The light on a kind where nothing stands above `top` [m]: leaves over that shade nothing. `area` is that of leaves, by kind.
+Light mown_to(float top, Light light, int kind, ByKind area) {
+    float high = top / max(OF(crown, kind), 0.01);
+    light.leaves.x -= leaves_above(max(top, OF(crown, kind)), area) + leaves_above(high, vec2(0.0, light.leaves.y));
+    return light;
+}
+#endif
+
+// A light with the haze before a place.
+Light veiled(Light light, vec3 place) {
+    float hidden = haze_at(place), clear = 1.0 - hidden;
+    light.sun *= clear;
+    light.sky *= clear;
+    light.gloss *= clear;
+    light.haze = haze_light(place) * hidden;
+    return light;
+}
+
+// Of two lights the sum, of the second as much as `part`.
+Light plus(Light light, Light other, float part) {
+    return Light(light.sun + part * other.sun, light.sky + part * other.sky, light.haze + part * other.haze,
+                 light.gloss + part * other.gloss, light.way + part * other.way, light.leaves + part * other.leaves);
+}
+
+// A light as it goes from stage to stage, with three numbers beside it in `[3].xyz`.
+mat4 bundled(Light light, vec3 beside) {
+    return mat4(vec4(light.sun, light.leaves.x), vec4(light.sky, light.leaves.y), vec4(light.haze, light.gloss), vec4(beside, light.way));
+}
+
+Light unbundled(mat4 light) {
+    return Light(light[0].rgb, light[1].rgb, light[2].rgb, light[2].w, light[3].w, vec2(light[0].w, light[1].w));
+}
+
+// The radiance that a surface sends to the eye in some light.
+vec3 shade(Surface surface, Light light) {
+    vec3 albedo = surface.pigment * surface.pigment;
+    float over = leaves_above(surface.height, light.leaves);
+#ifdef MOWN
+    over = max(over, 0.0);  // grass that lies flat stands lower than its cut
+#endif
+    vec2 seen = through_leaves(vec2(light.way, OPEN_SKY) * over);
+    vec3 received = light.sun * seen.x + light.sky * seen.y + albedo * light.sun * (surface.among * seen.y);
+    return albedo * received + sunlight.rgb * (light.gloss * seen.x) + light.haze;
+}

@@ -1,0 +1,14 @@
+// What the door shows of radiance.
+#include "lib/frame.glsl"
+
+const vec3 CURVE = vec3(0.78, 0.349, -0.287);  // a toe, middle tones and a shoulder, by powers of the root of radiance
+const float WHITE = 1.44;  // root of the radiance that is as white as can be
+
+// What the door shows of radiance, with a toe in the shadows and a shoulder up to white; or the radiance itself.
+vec3 shown_of(vec3 light) {
+    light = max(light, 0.0);
+    if (sun.w > 0.5)
+        return light;
+    vec3 root_of = min(sqrt(light), WHITE);
+    return root_of * (CURVE.x + root_of * (CURVE.y + root_of * CURVE.z));
+}
