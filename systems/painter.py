@@ -8,11 +8,12 @@ import moderngl
 from ..components.body import Body
 from ..components.shade import Shade
 from ..engine.camera import View, is_mirrored
-from ..engine.gl.guest import FIRST_UNIT, aside, guest
+from ..engine.gl.guest import aside, guest
 from ..engine.gl.rasteriser import handing_over
 from ..engine.gl.smaller import Smaller
 from ..engine.gl.stopwatch import Stopwatch
 from ..engine.gl.stream import release_all
+from ..engine.gl.units import FIRST_UNIT
 from .around.outlook import Outlook
 from .blow import receivers_shown
 from .bodies.cast import cast, nearest

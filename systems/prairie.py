@@ -19,6 +19,7 @@ from ..engine.camera import View, view_of
 from ..engine.declared.light import Light
 from ..engine.declared.quality import PRESETS
 from ..engine.declared.scene import LodName, Scene
+from ..engine.gl.guest import unturned
 from ..engine.handed import must_be_a, must_be_known, must_be_step, must_be_time, must_be_viewer
 from ..engine.plugged import bring_systems
 from ..engine.scene import LoadedScene, must_be_read, read_scene
@@ -199,6 +200,7 @@ class Prairie:
         with self._assembly.screen.opened(self.site) as painter:
             if painter is None:
                 return
+            seen = unturned(seen)
             outlook = self._look(seen, viewer)
             fineness, begun = self.governor.fineness(outlook), perf_counter()
             self.systems.run()

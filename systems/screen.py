@@ -1,5 +1,6 @@
 """Where a prairie is drawn: a painter in each GL context, and places in pyglet's batches."""
 
+import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
@@ -9,6 +10,8 @@ import moderngl
 
 from ..engine.gl.guest import arrive, host_context, kept
 from ..engine.gl.homes import Homes
+from ..engine.gl.host import State
+from ..engine.gl.outputs import has_depth
 from .light.shining import Shining
 from .mow.mown import Mown
 from .painter import Painter
@@ -19,6 +22,8 @@ if TYPE_CHECKING:
     from pyglet.graphics import Batch, Group
 
     from ..engine.gl.batch import DrawingGroup
+
+log = logging.getLogger("tallgrass")
 
 
 class Screen:
@@ -38,33 +43,45 @@ class Screen:
         self.painter: Painter | None = None
         """The painter of the context that was drawn in last; None before the first time."""
         self._painters: Homes[Painter] = Homes()
+        self._told = False
         self._groups: list[DrawingGroup] = []
 
     @contextmanager
     def opened(self, site: Site) -> Iterator[Painter | None]:
         """Give the painter of a site in the host's context, and leave the host's GL state as it was in the end.
 
-        Where the viewport has no pixels there is none. Raises RuntimeError where the host has no window.
+        Where the viewport has no pixels there is none. Raises RuntimeError where the host has no window, and where its
+        OpenGL is too old.
         """
+        self._painters.check()
         with kept(self.ctx) as state:
-            ctx = host_context(self.ctx)
-            self._painters.check(ctx)
             if 0 in state.viewport[2:]:
                 yield None
                 return
-            arrive(ctx)
-            self.painter = self._painters.here(
-                ctx,
-                partial(
-                    Painter, site=site, quarantine=self._quarantine, mown=self._mown, shining=self._shining,
-                    linear=self.linear,
-                ),
-            )  # fmt: skip
+            self._must_have_depth(state)
+            self.painter = self._painters.here(state.gl, partial(self._made, site))
+            arrive(self.painter.ctx)
             if self.painter.site is not site:
                 self.painter.change(site)
             self.painter.mow()
             self.painter.shine()
             yield self.painter
+
+    def _must_have_depth(self, state: State) -> None:
+        """Tell once of a framebuffer without depth: it is drawn, but not as it should be."""
+        if self._told or has_depth(state.gl, state.framebuffer):
+            return
+        self._told = True
+        log.warning(
+            "a prairie is drawn into a framebuffer without depth, so what is far off lies over what is near: give it a "
+            "depth buffer, or ask for one when the window is made"
+        )
+
+    def _made(self, site: Site) -> Painter:
+        """Return a new painter, in the context that is current."""
+        ctx = host_context(self.ctx)
+        arrive(ctx)
+        return Painter(ctx, site, self._quarantine, self._mown, self._shining, linear=self.linear)
 
     def current(self) -> Painter:
         """Return the painter of the context that is drawn in."""

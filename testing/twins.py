@@ -10,8 +10,8 @@ import numpy as np
 from ..components.arrays import Floats
 from ..components.pose import HERE
 from ..components.wind import Grass, Mixing, WindPrimitive, WindSource
-from ..engine.gl.guest import FIRST_UNIT
 from ..engine.gl.stream import release_all
+from ..engine.gl.units import FIRST_UNIT
 from ..systems.grow.record import Response
 from ..systems.wind.blow import Blowing, ReceiverArrays, hear, places_alone
 from ..systems.wind.card import SAMPLERS, CardWinds

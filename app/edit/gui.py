@@ -6,9 +6,10 @@ import moderngl
 import numpy as np
 from imgui_bundle import imgui
 
-from ...engine.gl.guest import FIRST_UNIT, guest
+from ...engine.gl.guest import guest
 from ...engine.gl.shaders import program
 from ...engine.gl.stream import release_all
+from ...engine.gl.units import FIRST_UNIT
 
 _ROOM = 1 << 16
 

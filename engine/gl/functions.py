@@ -1,7 +1,7 @@
 """GL's functions by their addresses, and its numbers: what moderngl does not do, without any other library."""
 
-import sys
-from ctypes import CFUNCTYPE, c_int, c_ssize_t, c_ubyte, c_void_p
+import ctypes
+from ctypes import c_char_p, c_float, c_int, c_ssize_t, c_ubyte, c_void_p
 from functools import lru_cache
 from typing import Any
 
@@ -32,18 +32,28 @@ NUMBERS = {
     "PACK_IMAGE_HEIGHT": 0x806C, "PIXEL_PACK_BUFFER": 0x88EB, "PIXEL_PACK_BUFFER_BINDING": 0x88ED,
     "TRANSFORM_FEEDBACK_BUFFER": 0x8C8E, "TRANSFORM_FEEDBACK_BUFFER_BINDING": 0x8C8F,
     "TRANSFORM_FEEDBACK_BUFFER_START": 0x8C84, "TRANSFORM_FEEDBACK_BUFFER_SIZE": 0x8C85,
-    "TIMESTAMP": 0x8E28, "QUERY_RESULT": 0x8866, "QUERY_RESULT_AVAILABLE": 0x8867,
+    "TIMESTAMP": 0x8E28, "QUERY_RESULT": 0x8866, "QUERY_RESULT_AVAILABLE": 0x8867, "QUERY_COUNTER_BITS": 0x8864,
+    "VENDOR": 0x1F00, "RENDERER": 0x1F01, "VERSION": 0x1F02, "EXTENSIONS": 0x1F03, "NUM_EXTENSIONS": 0x821D,
+    "MAX_ARRAY_TEXTURE_LAYERS": 0x88FF, "MAX_UNIFORM_BUFFER_BINDINGS": 0x8A2F, "MAX_VIEWPORTS": 0x825B,
+    "TEXTURE_BINDING_2D": 0x8069, "TEXTURE_BINDING_2D_ARRAY": 0x8C1D, "SAMPLER_BINDING": 0x8919,
+    "CLIP_ORIGIN": 0x935C, "CLIP_DEPTH_MODE": 0x935D, "LOWER_LEFT": 0x8CA1, "UPPER_LEFT": 0x8CA2,
+    "NEGATIVE_ONE_TO_ONE": 0x935E, "ZERO_TO_ONE": 0x935F, "PROVOKING_VERTEX": 0x8E4F,
+    "LAST_VERTEX_CONVENTION": 0x8E4E, "VERTEX_ATTRIB_ARRAY_DIVISOR": 0x88FE,
 }  # fmt: skip
 """What OpenGL calls its constants, without GL_."""
 
 ASKS = {
-    "glIsEnabled": (c_int,), "glIsEnabledi": (c_int,) * 2, "glIsProgram": (c_int,),
+    "glIsEnabled": (c_int,), "glIsEnabledi": (c_int,) * 2, "glIsProgram": (c_int,), "glIsVertexArray": (c_int,),
 }  # fmt: skip
 """The functions that answer yes or no, and what each takes."""
+
+TELLS = {"glGetString": (c_int,), "glGetStringi": (c_int,) * 2}
+"""Those that answer with a text."""
 
 DOES = {
     "glGetIntegerv": (c_int, c_void_p), "glGetBooleani_v": (c_int, c_int, c_void_p),
     "glGetIntegeri_v": (c_int, c_int, c_void_p), "glGetInteger64i_v": (c_int, c_int, c_void_p),
+    "glGetFloati_v": (c_int, c_int, c_void_p),
     "glBindBufferBase": (c_int,) * 3, "glBindBufferRange": (c_int, c_int, c_int, c_ssize_t, c_ssize_t),
     "glGetFramebufferAttachmentParameteriv": (c_int, c_int, c_int, c_void_p), "glDrawBuffers": (c_int, c_void_p),
     "glEnable": (c_int,), "glDisable": (c_int,), "glEnablei": (c_int,) * 2, "glDisablei": (c_int,) * 2,
@@ -53,42 +63,45 @@ DOES = {
     "glScissor": (c_int,) * 4, "glPolygonMode": (c_int,) * 2, "glFrontFace": (c_int,), "glCullFace": (c_int,),
     "glDepthFunc": (c_int,), "glDepthMask": (c_ubyte,), "glColorMaski": (c_int, *(c_ubyte,) * 4),
     "glBlendFuncSeparate": (c_int,) * 4, "glBlendEquationSeparate": (c_int,) * 2,
-    "glBindTexture": (c_int,) * 2, "glTexImage2D": (*(c_int,) * 8, c_void_p),
-    "glTexImage3D": (*(c_int,) * 9, c_void_p),
+    "glBindTexture": (c_int,) * 2, "glBindSampler": (c_int,) * 2, "glTexImage2D": (*(c_int,) * 8, c_void_p),
+    "glTexImage3D": (*(c_int,) * 9, c_void_p), "glProvokingVertex": (c_int,), "glClipControl": (c_int,) * 2,
+    "glViewportIndexedf": (c_int, *(c_float,) * 4), "glScissorIndexed": (c_int,) * 5,
+    "glGenVertexArrays": (c_int, c_void_p), "glDeleteVertexArrays": (c_int, c_void_p),
+    "glVertexAttribDivisor": (c_int,) * 2, "glGetVertexAttribiv": (c_int, c_int, c_void_p),
     "glCopyTexSubImage2D": (c_int,) * 8, "glGenQueries": (c_int, c_void_p), "glDeleteQueries": (c_int, c_void_p),
-    "glQueryCounter": (c_int,) * 2, "glGetQueryObjectiv": (c_int, c_int, c_void_p),
-    "glGetQueryObjectui64v": (c_int, c_int, c_void_p), "glFlush": (),
+    "glQueryCounter": (c_int,) * 2, "glGetQueryiv": (c_int, c_int, c_void_p),
+    "glGetQueryObjectiv": (c_int, c_int, c_void_p), "glGetQueryObjectui64v": (c_int, c_int, c_void_p),
+    "glFlush": (),
 }  # fmt: skip
 """All others: what a state is read and brought back with, and what moderngl has no word for."""
 
+ANSWERS = {name: kind for names, kind in ((ASKS, c_ubyte), (TELLS, c_char_p), (DOES, None)) for name in names}
+TAKES: dict[str, tuple[Any, ...]] = ASKS | TELLS | DOES
+
+convention = getattr(ctypes, "WINFUNCTYPE", ctypes.CFUNCTYPE)
+"""How GL is called: on Windows who is called tidies up, elsewhere who calls."""
+
 
 class Functions:
-    """The functions of `ASKS` and `DOES` by name."""
+    """The functions of `ASKS`, `TELLS` and `DOES` by name; each is looked up when it is first called."""
 
     def __init__(self, loader: Any) -> None:
-        address = getattr(loader, "load_opengl_function", None) or loader.load
-        for takes, answer in ((ASKS, c_ubyte), (DOES, None)):
-            for name, arguments in takes.items():
-                setattr(self, name, CFUNCTYPE(answer, *arguments)(address(name)))
+        self._address = getattr(loader, "load_opengl_function", None) or loader.load
 
     def __getattr__(self, name: str) -> Any:
-        raise AttributeError(f"{name} is not among GL's functions here")
+        if name not in TAKES:
+            raise AttributeError(f"{name} is not among GL's functions here")
+        found = convention(ANSWERS[name], *TAKES[name])(self._address(name))
+        setattr(self, name, found)
+        return found
 
 
-@lru_cache(maxsize=4)
-def _functions(loader: Any) -> Functions:
+@lru_cache(maxsize=16)
+def functions_of_loader(loader: Any) -> Functions:
+    """Return the functions that a loader of moderngl's finds."""
     return Functions(loader)
 
 
 def functions_of(ctx: moderngl.Context) -> Functions:
     """Return the functions that a context of moderngl's draws with."""
-    return _functions(ctx.mglo._context)  # noqa: SLF001 - moderngl tells it nowhere else
-
-
-@lru_cache(maxsize=1)
-def current_functions() -> Functions:
-    """Return the functions of the context that is current, and leave its state alone: a new moderngl context would not.
-
-    Whatever moderngl's loader raises, where there is no context, is passed on.
-    """
-    return Functions(sys.modules["_moderngl"].DefaultLoader())
+    return functions_of_loader(ctx.mglo._context)  # noqa: SLF001 - moderngl tells it nowhere else

@@ -5,54 +5,60 @@ from contextlib import contextmanager
 
 import moderngl
 
-from .functions import Functions, current_functions, functions_of
+from ..camera import View
+from .current import current_functions, is_own, own_context
+from .functions import functions_of
 from .host import State, has_windows, is_hidden, loaded_gl, pyglet_context
-
-FIRST_UNIT = 32
-"""The first texture unit that is used: OpenGL 3.3 has 48, and hosts use the first few, with textures and samplers."""
+from .limits import limits_of
+from .units import SCRATCH_UNIT
 
 _kept: list[State] = []
 
 
 def host_context(ctx: moderngl.Context | None) -> moderngl.Context:
-    """Return `ctx`, or the context that is current now; RuntimeError if the host has none, or none is current.
-
-    moderngl's own choice is taken, whichever of a host's windows is current: it stands for the functions of GL, and
-    what it remembers is set anew for every frame.
-    """
+    """Return `ctx`, or one of our own in the context that is current now; RuntimeError if none is, or too old a one."""
     if ctx is not None:
         return ctx
-    place = pyglet_context()
-    if is_hidden(place) and has_windows():
+    _must_have_window()
+    limits_of(current_functions())
+    return own_context()
+
+
+def _must_have_window() -> None:
+    """Raise RuntimeError where pyglet draws and only its hidden window is current."""
+    if not is_hidden(pyglet_context()):
+        return
+    if has_windows():
         raise RuntimeError("no window is current: call the switch_to of one before the prairie is drawn, or pass ctx")
-    if is_hidden(place):
-        raise RuntimeError("there is no window yet: create the window before the prairie is first drawn, or pass ctx")
-    try:
-        found = moderngl.get_context()
-        # A context without a window is another one than that of the window which is current.
-        return moderngl.create_context() if place is not None and found.screen is None else found
-    except Exception as error:  # its loaders raise nothing narrower
-        raise RuntimeError(
-            f"there is no GL context ({error}): create the window before the prairie is first drawn, or pass ctx"
-        ) from error
+    raise RuntimeError("there is no window yet: create the window before the prairie is first drawn, or pass ctx")
 
 
 @contextmanager
 def kept(ctx: moderngl.Context | None) -> Iterator[State]:
     """Leave the host's GL state exactly as it is, whatever is done inside; yields what it was.
 
-    `ctx` is the host's context, None for the one that is current now; RuntimeError if there is none. What is bound to
-    texture units from `FIRST_UNIT` on, and to the last uniform block, is not kept.
+    `ctx` is the host's context, None for the one that is current now; RuntimeError if there is none, or too old a one.
+    Which textures are bound to units from `FIRST_UNIT` on is not kept, nor what is bound to the last uniform block.
     """
     if _kept:
         yield _kept[-1]
         return
-    _kept.append(State(_functions(ctx)))
+    if ctx is None:
+        _must_have_window()
+    gl = current_functions() if ctx is None else functions_of(ctx)
+    unit = SCRATCH_UNIT if ctx is None else ctx.default_texture_unit
+    _kept.append(State(gl, limits_of(gl), unit))
     try:
         _kept[-1].clear()
         yield _kept[-1]
     finally:
         _kept.pop().restore()
+
+
+def unturned(seen: View) -> View:
+    """Return a view for clip space as OpenGL has it, in which a guest draws, from the host's (`glClipControl`)."""
+    clip = _kept[-1].clip
+    return seen if clip is None else View(seen.view, clip @ seen.projection)
 
 
 def arrive(ctx: moderngl.Context) -> None:
@@ -62,16 +68,6 @@ def arrive(ctx: moderngl.Context) -> None:
     which the host may have deleted.
     """
     _host_framebuffer(ctx, ctx.detect_framebuffer()).use()
-
-
-def _functions(ctx: moderngl.Context | None) -> Functions:
-    """Return GL's functions for the host."""
-    if ctx is None:
-        try:
-            return current_functions()
-        except Exception:  # noqa: BLE001 - its loaders raise nothing narrower
-            ctx = host_context(None)
-    return functions_of(ctx)
 
 
 @contextmanager
@@ -123,7 +119,7 @@ def _remembered(ctx: moderngl.Context, target: moderngl.Framebuffer, state: Stat
 
 def _host_framebuffer(ctx: moderngl.Context, target: moderngl.Framebuffer) -> moderngl.Framebuffer:
     """Return the host's own object for the framebuffer it has bound, where it draws with moderngl."""
-    bound = ctx.fbo if loaded_gl() is None else None
+    bound = None if is_own(ctx) or loaded_gl() is not None else ctx.fbo
     if bound is None or bound.glo != target.glo or isinstance(bound.mglo, moderngl.InvalidObject):
         return target
     return bound

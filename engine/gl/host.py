@@ -11,11 +11,19 @@ from ctypes import addressof, c_int, c_int64
 from typing import Any
 
 import moderngl
+import numpy as np
 
+from ...components.arrays import Floats
 from .functions import NUMBERS, Functions
+from .limits import Limits
 from .outputs import Outputs
+from .units import Units
+from .viewports import Viewports
 
 Box = tuple[int, int, int, int]
+
+AS_EVER = NUMBERS["LOWER_LEFT"], NUMBERS["NEGATIVE_ONE_TO_ONE"]
+"""Clip space as OpenGL has it where nobody says otherwise."""
 
 MODERNGLS = ("BLEND", "CULL_FACE", "DEPTH_TEST", "PROGRAM_POINT_SIZE", "RASTERIZER_DISCARD")
 """The switches that moderngl knows, by the same names: a guest sets them itself."""
@@ -56,7 +64,7 @@ REMEMBERED = (
     ("READ_FRAMEBUFFER_BINDING", 1), ("RENDERBUFFER_BINDING", 1), ("ACTIVE_TEXTURE", 1), ("POLYGON_MODE", 2),
     ("FRONT_FACE", 1), ("CULL_FACE_MODE", 1), ("DEPTH_FUNC", 1), ("DEPTH_WRITEMASK", 1), ("COLOR_WRITEMASK", 4),
     ("BLEND_EQUATION_RGB", 1), ("BLEND_EQUATION_ALPHA", 1), ("VIEWPORT", 4), ("SCISSOR_BOX", 4),
-    ("PRIMITIVE_RESTART_INDEX", 1),
+    ("PRIMITIVE_RESTART_INDEX", 1), ("PROVOKING_VERTEX", 1),
 )  # fmt: skip
 """What is remembered besides, and how many numbers each is."""
 
@@ -134,16 +142,23 @@ WORDS = Words()
 
 
 class State:
-    """The host's GL state at one moment, which `restore` brings back."""
+    """The host's GL state at one moment, which `restore` brings back.
 
-    def __init__(self, gl: Functions) -> None:
-        self._gl = gl
+    `limits` is what its context has, and `unit` the texture unit that moderngl loads textures on.
+    """
+
+    def __init__(self, gl: Functions, limits: Limits, unit: int) -> None:
+        self.gl = gl
         self._on = {name for name, switch in WORDS.switches if gl.glIsEnabled(switch)}
         for _, number, address, _ in WORDS.values:
             gl.glGetIntegerv(number, address)
         self._value: dict[str, list[int]] = {name: found[:] for name, _, _, found in WORDS.values}
+        self._clip = _numbers(gl, "CLIP_ORIGIN", "CLIP_DEPTH_MODE") if limits.clipped else AS_EVER
         self._feedback = _feedback(gl)
         self._outputs = Outputs(gl, self.framebuffer, blends="BLEND" in self._on)
+        self._viewports = Viewports(gl, limits.viewports)
+        self._units = Units(gl, unit)
+        gl.glActiveTexture(*self._value["ACTIVE_TEXTURE"])
 
     @property
     def viewport(self) -> Box:
@@ -167,9 +182,24 @@ class State:
         """What the host has enabled of what moderngl knows, in moderngl's flags."""
         return sum(getattr(moderngl, name) for name in MODERNGLS if name in self._on)
 
+    @property
+    def clip(self) -> Floats | None:
+        """What brings the host's clip space to that of `AS_EVER`, (4, 4); None where it is that.
+
+        A host may have turned it over, or let depth run from 0 to 1 in it.
+        """
+        if self._clip == AS_EVER:
+            return None
+        found = np.eye(4, dtype=np.float32)
+        if self._clip[0] != AS_EVER[0]:
+            found[1, 1] = -1.0
+        if self._clip[1] != AS_EVER[1]:
+            found[2, 2:] = 2.0, -1.0
+        return found
+
     def clear(self) -> None:
         """Set back what moderngl leaves and what would change a guest's picture, or the texels it loads and reads."""
-        gl = self._gl
+        gl = self.gl
         for name, switch in WORDS.off:
             if name in self._on:
                 gl.glDisable(switch)
@@ -177,15 +207,19 @@ class State:
             gl.glPixelStorei(store, 0)
         for target in WORDS.texels:
             gl.glBindBuffer(target, 0)
+        self._units.clear()
+        gl.glProvokingVertex(NUMBERS["LAST_VERTEX_CONVENTION"])
+        if self._clip != AS_EVER:
+            gl.glClipControl(*AS_EVER)
 
     def narrow(self) -> None:
         """Let colour through where the host lets it: to its first output, in the colours that its mask has."""
         self._outputs.narrow()
-        self._gl.glColorMaski(0, *self._value["COLOR_WRITEMASK"])
+        self.gl.glColorMaski(0, *self._value["COLOR_WRITEMASK"])
 
     def restore(self) -> None:
         """Bring it all back."""
-        gl, value = self._gl, self._value
+        gl, value = self.gl, self._value
         for name, switch in WORDS.switches:
             (gl.glEnable if name in self._on else gl.glDisable)(switch)
         gl.glBindFramebuffer(NUMBERS["DRAW_FRAMEBUFFER"], self.framebuffer)
@@ -202,10 +236,14 @@ class State:
         gl.glBlendFuncSeparate(*(value[name][0] for name in BLEND))
         gl.glBlendEquationSeparate(*value["BLEND_EQUATION_RGB"], *value["BLEND_EQUATION_ALPHA"])
         gl.glPrimitiveRestartIndex(*value["PRIMITIVE_RESTART_INDEX"])
+        gl.glProvokingVertex(*value["PROVOKING_VERTEX"])
+        self._viewports.restore()
+        if self._clip != AS_EVER:
+            gl.glClipControl(*self._clip)
         self._bind()
 
     def _bind(self) -> None:
-        gl, value = self._gl, self._value
+        gl, value = self.gl, self._value
         for name, store in WORDS.stores:
             gl.glPixelStorei(store, *value[name])
         program = value["CURRENT_PROGRAM"][0]
@@ -221,7 +259,16 @@ class State:
         for name, target in WORDS.targets:
             gl.glBindBuffer(target, *value[name])
         gl.glBindRenderbuffer(NUMBERS["RENDERBUFFER"], *value["RENDERBUFFER_BINDING"])
+        self._units.restore()
         gl.glActiveTexture(*value["ACTIVE_TEXTURE"])
+
+
+def _numbers(gl: Functions, *names: str) -> tuple[int, ...]:
+    """Return one number of each name."""
+    found = (c_int * len(names))()
+    for place, name in enumerate(names):
+        gl.glGetIntegerv(NUMBERS[name], addressof(found) + 4 * place)
+    return tuple(found)
 
 
 def _feedback(gl: Functions) -> tuple[int, int, int]:

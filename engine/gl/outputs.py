@@ -42,6 +42,11 @@ class Outputs:
             gl.glDrawBuffers(COUNT, (c_uint * COUNT)(*self._drawn))
 
 
+def has_depth(gl: Functions, framebuffer: int, /) -> bool:
+    """Return whether the framebuffer that is bound has depth; `framebuffer` is its number, 0 for the window."""
+    return _attached(gl, "DEPTH_ATTACHMENT" if framebuffer else "DEPTH")
+
+
 def _drawn(gl: Functions) -> list[int]:
     """Return the attachment of each output."""
     found, drawn = (c_int * 1)(), []
@@ -53,9 +58,13 @@ def _drawn(gl: Functions) -> list[int]:
 
 def _has_second(gl: Functions) -> bool:
     """Return whether there is an attachment beside the first, drawn or not."""
+    return _attached(gl, "COLOR_ATTACHMENT1")
+
+
+def _attached(gl: Functions, name: str) -> bool:
     found = (c_int * 1)()
     question = NUMBERS["FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE"]
-    gl.glGetFramebufferAttachmentParameteriv(NUMBERS["DRAW_FRAMEBUFFER"], NUMBERS["COLOR_ATTACHMENT1"], question, found)
+    gl.glGetFramebufferAttachmentParameteriv(NUMBERS["DRAW_FRAMEBUFFER"], NUMBERS[name], question, found)
     return found[0] != NUMBERS["NONE"]
 
 

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import moderngl
 
 from .functions import functions_of
+from .limits import limits_of
 
 SOFTWARE = ("llvmpipe", "softpipe", "swrast", "software", "swiftshader", "basic render", "gdi generic", "noop")
 """Parts of the names of renderers that are no graphics cards, in small letters."""
@@ -17,7 +18,7 @@ def is_software(renderer: str, /) -> bool:
 
 def draws_in_software(ctx: moderngl.Context, /) -> bool:
     """Return whether a context is drawn in without a graphics card."""
-    return is_software(str(ctx.info["GL_RENDERER"]))
+    return is_software(limits_of(functions_of(ctx)).renderer)
 
 
 def handing_over(ctx: moderngl.Context, /) -> Callable[[], None]:

@@ -9,9 +9,11 @@ from dataclasses import dataclass
 import moderngl
 
 from .functions import NUMBERS, functions_of
-from .guest import FIRST_UNIT, aside
+from .guest import aside
+from .outputs import has_depth
 from .shaders import program
 from .stream import release_all
+from .units import FIRST_UNIT
 
 log = logging.getLogger("tallgrass")
 
@@ -141,7 +143,7 @@ class Smaller:
             return "several samples a pixel"
         if host.glo and self._number("DRAW_BUFFER0") == NUMBERS["NONE"]:
             return "no colour"
-        return None if self._has_depth(host) else "no depth"
+        return None if has_depth(self._gl, host.glo) else "no depth"
 
     def _room(self, full: Size, small: Size) -> Buffers:
         """Return buffers for a viewport and a picture of these sizes."""
@@ -159,13 +161,6 @@ class Smaller:
             for name, value in values.items():
                 if name in each:
                     each[name] = value
-
-    def _has_depth(self, host: moderngl.Framebuffer) -> bool:
-        found, name = (c_int * 1)(), "DEPTH_ATTACHMENT" if host.glo else "DEPTH"
-        self._gl.glGetFramebufferAttachmentParameteriv(
-            NUMBERS["DRAW_FRAMEBUFFER"], NUMBERS[name], NUMBERS["FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE"], found
-        )
-        return found[0] != NUMBERS["NONE"]
 
     def _number(self, name: str) -> int:
         found = (c_int * 1)()

@@ -10,6 +10,7 @@ from time import perf_counter
 import moderngl
 
 from .functions import NUMBERS, functions_of
+from .limits import limits_of
 from .rasteriser import draws_in_software
 
 Name = tuple[str, int]
@@ -22,7 +23,8 @@ MOST_UNDERWAY = 6
 class Stopwatch:
     """Times what is drawn in one GL context, and holds no card up: what it took comes in some frames later.
 
-    Without a card, it waits until everything is drawn. Each drawing has a name, which its time comes with.
+    Without a card, or with one that cannot tell, it waits until everything is drawn. Each drawing has a name, which its
+    time comes with.
     """
 
     def __init__(self, ctx: moderngl.Context) -> None:
@@ -32,8 +34,8 @@ class Stopwatch:
 
     @cached_property
     def waits(self) -> bool:
-        """Whether there is no card, so that what is timed is over when `timing` is."""
-        return draws_in_software(self._ctx)
+        """Whether no card tells the time, so that what is timed is over when `timing` is."""
+        return draws_in_software(self._ctx) or not limits_of(self._gl).timed
 
     @contextmanager
     def timing(self, name: Name, /) -> Iterator[None]:

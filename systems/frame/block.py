@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 
 from ...engine.camera import View
 from ...engine.declared.grass import MOST_KINDS
+from ...engine.gl.functions import functions_of
+from ...engine.gl.limits import limits_of
 from ...engine.gl.shaders import program
 from ..grow.record import GIVES
 
@@ -61,7 +63,7 @@ def aim(record: NDArray[np.void], view: View, size: tuple[int, int], /) -> None:
 
 def frame_binding(ctx: moderngl.Context) -> int:
     """Return the binding point of the block: the highest, away from a host's own."""
-    return int(ctx.info["GL_MAX_UNIFORM_BUFFER_BINDINGS"]) - 1
+    return limits_of(functions_of(ctx)).bindings - 1
 
 
 class FrameBlock:

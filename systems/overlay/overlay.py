@@ -1,11 +1,13 @@
 """The overlay of a prairie: chosen parts of how it works, drawn over its picture."""
 
 from collections.abc import Iterable
+from functools import partial
 
 import numpy as np
 
 from ...engine.camera import View, view_of
-from ...engine.gl.guest import guest
+from ...engine.gl.functions import functions_of
+from ...engine.gl.guest import guest, unturned
 from ...engine.gl.homes import Homes
 from ..around.outlook import Outlook
 from ..prairie import Prairie
@@ -54,7 +56,9 @@ class Overlay:
         ctx, outlook = prairie.painter.ctx, prairie.viewers[viewer]
         seen, masks = view_of(view, projection), self._masks(prairie, outlook)
         with guest(ctx) as target:
-            painter, size = self._painters.here(ctx, MarkPainter), target.viewport[2:]
+            seen = unturned(seen)
+            size = target.viewport[2:]
+            painter = self._painters.here(functions_of(ctx), partial(MarkPainter, ctx))
             painter.begin(size)
             painter.draw(self._on_ground(outlook, prairie.site, masks), _clip(seen))
             self._draw_flat(painter, outlook, prairie.site, masks, size)

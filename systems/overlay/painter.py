@@ -5,9 +5,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Bytes
-from ...engine.gl.guest import FIRST_UNIT
 from ...engine.gl.shaders import program
 from ...engine.gl.stream import Stream, attributes, release_all
+from ...engine.gl.units import FIRST_UNIT
 from .marks import LINE, SHAPE, Marks
 
 Matrix = NDArray[np.float32]

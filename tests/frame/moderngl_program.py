@@ -7,7 +7,7 @@ import json
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from ctypes import CFUNCTYPE, c_int, c_ubyte, c_void_p
+from ctypes import CFUNCTYPE, c_float, c_int, c_ubyte, c_void_p
 from ctypes.util import find_library
 from typing import Any
 
@@ -21,7 +21,7 @@ from tallgrass.engine.camera import camera_at, projection_matrix, view_matrix
 from tallgrass.engine.gl.headless import standalone_context
 
 Picture = NDArray[np.uint8]
-Values = dict[str, tuple[int, ...]]
+Values = dict[str, tuple[float, ...]]
 SIZE = (96, 64)
 
 SWITCHES = {
@@ -37,6 +37,7 @@ NUMBERS = {
     "buffer": 0x8894, "uniform buffer": 0x8A28, "unpack buffer": 0x88EF, "pack buffer": 0x88ED, "drawn": 0x8CA6,
     "read": 0x8CAA, "renderbuffer": 0x8CA7, "unit": 0x84E0, "captured": 0x8C8F,
     "restart index": 0x8F9E, "logic": 0x0BF0,
+    "provoking": 0x8E4F, "clip origin": 0x935C, "clip depth": 0x935D,
     "read buffer": 0x0C02, "stencil func": 0x0B92, "stencil mask": 0x0B98, "clear depth": 0x0B73,
 }  # fmt: skip
 STORES = {
@@ -45,7 +46,7 @@ STORES = {
 }  # fmt: skip
 """How texels lie in memory, as nobody else lays them."""
 
-ON_UNIT = {"texture": 0x8069, "texture array": 0x8C1D, "sampler": 0x8919}
+ON_UNIT = {"texture": 0x8069, "texture array": 0x8C1D}
 
 
 class Gl:
@@ -67,6 +68,12 @@ class Gl:
         (self.glGetIntegeri_v if place else self.glGetIntegerv)(name, *place, found)
         return tuple(found)
 
+    def box(self, place: int) -> tuple[float, ...]:
+        """Return the viewport of one place."""
+        found = (c_float * 4)()
+        self.glGetFloati_v(0x0BA2, place, found)
+        return tuple(found)
+
     def values(self) -> Values:
         """Return all of the state that a prairie could spoil."""
         told: Values = {name: (self.glIsEnabled(number),) for name, number in SWITCHES.items()}
@@ -77,10 +84,14 @@ class Gl:
             told[f"mask of {output}"] = self.number(0x0C23, output)
             told[f"captured of {output}"] = self.number(0x8C8F, output) if output < 4 else ()
             told[f"blend of {output}"] = (self.glIsEnabledi(0x0BE2, output),)
-        for unit in range(16):
+        for unit in range(48):
             self.glActiveTexture(0x84C0 + unit)
-            told |= {f"{name} on {unit}": self.number(number) for name, number in ON_UNIT.items()}
-            told[f"block {unit}"] = self.number(0x8A28, unit)
+            told[f"sampler on {unit}"] = self.number(0x8919)
+            told |= {f"{name} on {unit}": self.number(number) for name, number in ON_UNIT.items() if unit < 32}
+        for place in range(16):
+            told[f"block {place}"] = self.number(0x8A28, place)
+            told[f"viewport {place}"] = self.box(place)
+            told[f"scissor {place}"] = (*self.number(0x0C10, place), self.glIsEnabledi(0x0C11, place))
         self.glActiveTexture(told["unit"][0])
         return told
 
@@ -98,6 +109,21 @@ class Gl:
         self.glViewport(3, 2, 80, 50)
         self.glScissor(5, 4, 60, 40)
         self.glPrimitiveRestartIndex(77)
+        self.glProvokingVertex(0x8E4D)
+        self.glClipControl(0x8CA2, 0x935F)
+        for place in (2, 15):
+            self.glViewportIndexedfv(place, (c_float * 4)(0.5, place, 7.25, 9.0))
+            self.glScissorIndexed(place, place, 1, 7, 9)
+            self.glDisablei(0x0C11, place)
+        name = (c_int * 2)()
+        self.glGenTextures(2, name)
+        for unit in (15, 31):
+            self.glActiveTexture(0x84C0 + unit)
+            self.glBindTexture(0x0DE1, name[0])
+            self.glBindTexture(0x8C1A, name[1])
+        self.glGenSamplers(1, name)
+        for unit in (3, 32, 40, 47):
+            self.glBindSampler(unit, name[0])
         self.glActiveTexture(0x84C0 + 5)
         for store, value in STORES.items():
             self.glPixelStorei(store, value)
@@ -191,6 +217,8 @@ class Game:
             self.gl.glPixelStorei(store, 4 if store in (0x0CF5, 0x0D05) else 0)
         self.ctx.front_face = "ccw"
         self.gl.glColorMask(1, 1, 1, 1)
+        self.gl.glProvokingVertex(0x8E4E)
+        self.gl.glClipControl(0x8CA1, 0x935E)
         target.viewport = (0, 0, *SIZE)
         target.use()
 
@@ -261,6 +289,45 @@ def check_anaglyph(game: Game) -> str:
         game.gl.glColorMask(1, 1, 1, 1)
         found, _ = game.seen(target)
     return "" if np.array_equal(found.reshape(-1, 4)[:, :3], whole.reshape(-1, 4)[:, :3]) else "colours are missing"
+
+
+def check_samplers(game: Game) -> str:
+    """Sampler objects that a program left on any unit do not change how textures are read."""
+    name = (c_int * 1)()
+    game.gl.glGenSamplers(1, name)
+    with game.target(1) as target:
+        draw(game.prairie)
+        alone, _ = game.seen(target)
+        for unit in range(48):
+            game.gl.glBindSampler(unit, name[0])
+        target.clear()
+        draw(game.prairie)
+        found, _ = game.seen(target)
+        left = [unit for unit in range(48) if game.gl.values()[f"sampler on {unit}"][0] != name[0]]
+        for unit in range(48):
+            game.gl.glBindSampler(unit, 0)
+    return f"{left or ''}" if np.array_equal(found, alone) else "another picture"
+
+
+def check_clip_space(game: Game) -> str:
+    """A program that has turned clip space over, and lets depth run from 0 to 1, sees a prairie as it sees its own."""
+    pictures = []
+    turned = np.diag([1.0, -1.0, 1.0, 1.0])
+    nearer = np.eye(4)
+    nearer[2, 2:] = 0.5
+    with game.target(1) as target:
+        for clip, control in ((np.eye(4), (0x8CA1, 0x935E)), (nearer @ turned, (0x8CA2, 0x935F))):
+            game.gl.glClipControl(*control)
+            target.clear()
+            camera = camera_at(game.prairie.scene.camera, None, game.prairie.height_at)
+            game.prairie.draw(view_matrix(camera), clip @ projection_matrix(camera.view, SIZE[0] / SIZE[1]))
+            told = game.gl.number(0x935C)[0], game.gl.number(0x935D)[0]
+            pictures.append(game.seen(target)[0].astype(int))
+            if told != control:
+                return f"{told} was {control}"
+        game.gl.glClipControl(0x8CA1, 0x935E)
+    unlike = float((np.abs(pictures[1] - pictures[0]) > 12).mean())
+    return "" if unlike < 0.01 else f"{unlike:.0%} are unlike"
 
 
 def check_released(game: Game) -> str:

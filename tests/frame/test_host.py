@@ -226,6 +226,24 @@ def test_d2_released_a_prairie_leaves_no_entity_behind(stage: Stage, load: Load)
     esper.delete_entity(theirs, immediate=True)
 
 
+def test_a_framebuffer_without_depth_is_told_of_once(
+    ctx: moderngl.Context, stage: Stage, load: Load, caplog: pytest.LogCaptureFixture
+) -> None:
+    prairie, color = load(), ctx.texture(stage.size, 3, alignment=1)
+    flat = ctx.framebuffer([color])
+    stage.shot(prairie)
+    assert caplog.messages == []
+    for _ in range(2):
+        flat.use()
+        prairie.draw(*stage.matrices(camera_at(prairie.scene.camera, None, prairie.height_at)))
+    (told,) = caplog.messages
+    assert told.startswith(
+        "a prairie is drawn into a framebuffer without depth, so what is far off lies over what is near"
+    )
+    for thing in (flat, color):
+        thing.release()
+
+
 def test_d6_two_prairies_are_drawn_side_by_side(stage: Stage, load: Load, camera: Aim) -> None:
     one, two = load(), load("plain", preset="low")
     aim = camera(0.3, 4.1, 12.0, pitch=-14)

@@ -10,9 +10,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.engine.gl.functions import NUMBERS, functions_of
-from tallgrass.engine.gl.guest import FIRST_UNIT, guest, host_context
+from tallgrass.engine.gl.functions import NUMBERS, Functions, functions_of
+from tallgrass.engine.gl.guest import guest, host_context
 from tallgrass.engine.gl.host import LAYOUTS
+from tallgrass.engine.gl.limits import limits_of
+from tallgrass.engine.gl.units import FIRST_UNIT
 
 SIZE = (40, 30)
 VERTEX = """#version 330
@@ -348,3 +350,16 @@ def test_d6_pyglet_is_never_loaded_for_a_host_that_does_without(
     with guest(ctx) as target:
         assert target.glo == host.glo
     assert not any(name.split(".")[0] == "pyglet" for name in sys.modules)
+
+
+@pytest.mark.parametrize(
+    ("version", "found"),
+    [(b"2.1 Mesa", "OpenGL 2.1"), (b"OpenGL ES 3.2 v1", "OpenGL ES 3.2"), (b"3.2.0", "OpenGL 3.2")],
+)
+def test_an_opengl_that_is_too_old_is_refused_with_what_to_ask_for(version: bytes, found: str) -> None:
+    gl = Functions(SimpleNamespace(load=lambda _: 0))
+    gl.__dict__["glGetString"] = lambda _: version
+    with pytest.raises(
+        RuntimeError, match=f"context has {found}: ask for version 3.3 and a core profile when the"
+    ):
+        limits_of(gl)

@@ -5,7 +5,8 @@ from types import SimpleNamespace
 import moderngl
 import pytest
 
-from tallgrass.engine.gl import rasteriser
+from tallgrass.engine.gl import rasteriser, stopwatch
+from tallgrass.engine.gl.functions import Functions
 from tallgrass.engine.gl.rasteriser import handing_over, is_software
 from tallgrass.engine.gl.stopwatch import MOST_UNDERWAY, Stopwatch
 
@@ -36,6 +37,17 @@ def test_a_card_that_is_far_behind_is_asked_no_more(ctx: moderngl.Context, monke
     monkeypatch.undo()
     ctx.finish()
     assert len(watch.read()) == MOST_UNDERWAY
+
+
+@pytest.mark.parametrize("bits", [0, 30])
+def test_a_card_whose_timers_have_no_bits_is_timed_by_the_clock(
+    ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch, bits: int
+) -> None:
+    gl = Functions(ctx.mglo._context)  # noqa: SLF001
+    gl.__dict__["glGetQueryiv"] = lambda _timer, _question, found: found.__setitem__(0, bits)
+    monkeypatch.setattr(stopwatch, "draws_in_software", lambda _: False)
+    monkeypatch.setattr(stopwatch, "functions_of", lambda _: gl)
+    assert Stopwatch(ctx).waits is (bits == 0)
 
 
 def test_a_drawing_that_fails_leaves_the_watch_in_order(ctx: moderngl.Context) -> None:

@@ -1,0 +1,55 @@
+"""Texture units: those that a guest uses, and what a host has on them."""
+
+from ctypes import c_int
+
+from .functions import NUMBERS, Functions
+
+FIRST_UNIT = 32
+"""The first texture unit that is used: OpenGL 3.3 has 48, and hosts use the first few, with textures and samplers."""
+
+UNITS = range(FIRST_UNIT, 48)
+"""All that are used."""
+
+SCRATCH_UNIT = 15
+"""Where textures are loaded that no host's own moderngl context loads: every OpenGL has it, and it is kept."""
+
+LOADED = {"TEXTURE_2D": "TEXTURE_BINDING_2D", "TEXTURE_2D_ARRAY": "TEXTURE_BINDING_2D_ARRAY"}
+"""The sorts of texture that are loaded, and what says which one is bound."""
+
+
+class Units:
+    """A host's sampler objects on the units that are used, and its textures on `scratch`, where textures are loaded.
+
+    `clear` takes the samplers off, and `restore` brings all of it back. Either leaves another unit active.
+    """
+
+    def __init__(self, gl: Functions, scratch: int) -> None:
+        self._gl, self._scratch = gl, scratch
+        self._activate(scratch)
+        self._textures = {target: self._number(name) for target, name in LOADED.items()}
+        self._samplers = {unit: sampler for unit in UNITS if (sampler := self._sampler(unit))}
+
+    def clear(self) -> None:
+        """Let textures be read as they say themselves."""
+        for unit in self._samplers:
+            self._gl.glBindSampler(unit, 0)
+
+    def restore(self) -> None:
+        """Bring the host's back."""
+        for unit, sampler in self._samplers.items():
+            self._gl.glBindSampler(unit, sampler)
+        self._activate(self._scratch)
+        for target, texture in self._textures.items():
+            self._gl.glBindTexture(NUMBERS[target], texture)
+
+    def _sampler(self, unit: int) -> int:
+        self._activate(unit)
+        return self._number("SAMPLER_BINDING")
+
+    def _activate(self, unit: int) -> None:
+        self._gl.glActiveTexture(NUMBERS["TEXTURE0"] + unit)
+
+    def _number(self, name: str) -> int:
+        found = (c_int * 1)()
+        self._gl.glGetIntegerv(NUMBERS[name], found)
+        return found[0]
