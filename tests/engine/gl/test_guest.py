@@ -359,7 +359,5 @@ def test_d6_pyglet_is_never_loaded_for_a_host_that_does_without(
 def test_an_opengl_that_is_too_old_is_refused_with_what_to_ask_for(version: bytes, found: str) -> None:
     gl = Functions(SimpleNamespace(load=lambda _: 0))
     gl.__dict__["glGetString"] = lambda _: version
-    with pytest.raises(
-        RuntimeError, match=f"context has {found}: ask for version 3.3 and a core profile when the"
-    ):
+    with pytest.raises(RuntimeError, match=f"context has {found}: ask for version 3.3 and a core profile when the"):
         limits_of(gl)
