@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from .components.shade import Shade
     from .components.viewer import Viewer
     from .components.wind import Extent, Grass, TwinValues, WindPrimitive, WindSource
+    from .engine.declared.scene import Scene
     from .engine.plugins import wind
     from .engine.scene import SceneError
     from .engine.schedule import Phase
@@ -46,6 +47,7 @@ __all__ = [
     "Prairie",
     "Presser",
     "Receivers",
+    "Scene",
     "SceneError",
     "Shade",
     "Shape",
@@ -77,6 +79,7 @@ _HOMES = {
     "Prairie": ".systems.prairie",
     "Presser": ".components.presser",
     "Receivers": ".components.receivers",
+    "Scene": ".engine.declared.scene",
     "SceneError": ".engine.scene",
     "Shade": ".components.shade",
     "Shape": ".systems.wind.blast",

@@ -80,7 +80,7 @@ def _made_from(loaded: LoadedScene, take: Take) -> dict[str, object]:
     return {
         "tallgrass": __version__,
         "numpy": np.__version__,
-        "scene": loaded.path.name,
+        "scene": loaded.file.name,
         "seed": loaded.scene.seed,
         "files": {name: _hash(path) for name, path in loaded.paths.items()},
         "size": list(take.size),

@@ -22,7 +22,7 @@ from ..engine.declared.scene import LodName, Scene
 from ..engine.gl.guest import unturned
 from ..engine.handed import must_be_a, must_be_known, must_be_step, must_be_time, must_be_viewer
 from ..engine.plugged import bring_systems
-from ..engine.scene import LoadedScene, must_be_read, read_scene
+from ..engine.scene import LoadedScene, SceneLike, must_be_read, read_again, read_scene
 from ..engine.scene.change import changed
 from ..engine.schedule import Phase, Schedule
 from ..engine.terrain.sample import height_at
@@ -65,7 +65,7 @@ class Prairie:
     """What the last frame took and held."""
 
     loaded: LoadedScene
-    """The scene, and the file that it was read from."""
+    """The scene, and where it comes from."""
 
     preset: str | None
     """The preset that comes before the scene's own quality."""
@@ -110,7 +110,7 @@ class Prairie:
     @classmethod
     def load(
         cls,
-        scene: str | Path,
+        scene: SceneLike,
         *,
         ctx: moderngl.Context | None = None,
         preset: str | None = None,
@@ -120,14 +120,14 @@ class Prairie:
         hold: float | None = None,
         linear: bool = False,
     ) -> "Prairie":
-        """Return the prairie of a scene file, or of a bundled scene by its name.
+        """Return the prairie of a scene: a file, a bundled scene by its name, a mapping of keys, or a `Scene`.
 
         `ctx` is the context to draw in; without it the one that is current at the first draw. `preset` overrides
         the scene's quality, `lod` shows everything in one representation, `transitions` leaves out parts of what
         carries a patch from one representation to another. A `live` prairie leaves a plugin's wind out for a while
         that takes too long; others keep it. With `hold`, as little as is needed is left out of a picture for a draw to
         take no longer than that [s], pixels first. A `linear` prairie draws linear radiance, for a game that has a
-        framebuffer of floats and a tone curve of its own. Raises `SceneError` with every problem of the file and its
+        framebuffer of floats and a tone curve of its own. Raises `SceneError` with every problem of the scene and its
         maps, ValueError for an unknown preset or representation, and for a `hold` that is no time.
         """
         must_be_known("preset", preset, PRESETS)
@@ -154,17 +154,17 @@ class Prairie:
 
     @property
     def scene(self) -> Scene:
-        """The scene, as its file declares it."""
+        """The scene, as its file or a program declares it."""
         return self.site.scene
 
     @property
-    def path(self) -> Path:
-        """The scene's file."""
+    def path(self) -> Path | None:
+        """The scene's file; None of one that a program has handed in."""
         return self.loaded.path
 
     @property
     def files(self) -> dict[str, Path]:
-        """The scene's file and those that it names, by the names that it calls them."""
+        """The scene's file, if it has one, and those that it names, by the names that it calls them."""
         return self.loaded.paths
 
     @property
@@ -342,18 +342,19 @@ class Prairie:
         self._must_be_there("change its light")
         self._shining.ask(changed(self.light, changes, name="light"), time=self.time)
 
-    def reload(self, scene: str | Path | LoadedScene | None = None, *, site: Site | None = None) -> None:
+    def reload(self, scene: SceneLike | LoadedScene | None = None, *, site: Site | None = None) -> None:
         """Read the scene again, or another one, and go on with it at the same time: what did not change stays.
 
         Terrain, kinds of grass, textures and receivers are made anew only where what they come from has changed, and
         winds that have not changed blow on as if nothing had happened; so do those that were added, and the systems
         that a game has added, replaced or left out. What has been read already is not read again, and what `finding`
         has made of it is its `site`. Raises `SceneError` with every problem, and then nothing has changed at all;
-        RuntimeError after `release`, and while another esper world is current.
+        ValueError for a scene without a file where no other is given; RuntimeError after `release`, and while another
+        esper world is current.
         """
         self._must_be_there("read it again")
         self.winds.sources()
-        loaded = scene if isinstance(scene, LoadedScene) else read_scene(self.path if scene is None else scene)
+        loaded = read_again(self.loaded, scene)
         before, self.site = self.site, self.finding(loaded)() if site is None else site
         for outlook in self.viewers.values():
             settle_on(outlook, self.site, before, self.world)

@@ -268,10 +268,11 @@ class Editor:
         """Return the draft in which a kind has a map, the map's name, its channel, and what is painted so far."""
         place = self.scene.grass[kind].place
         if place is not None:
-            if place.map not in self._pictures(draft):
-                self._unpainted[place.map] = read_picture(self.loaded.folder / place.map)
-                self.pen.know(place.map, self._unpainted[place.map])
-            return draft, place.map, place.channel, self._pictures(draft)[place.map]
+            name = str(place.map)  # the scene stands in a file, and arrays do not
+            if name not in self._pictures(draft):
+                self._unpainted[name] = read_picture(self.loaded.folder / name)
+                self.pen.know(name, self._unpainted[name])
+            return draft, name, place.channel, self._pictures(draft)[name]
         name = self.pen.new_map(kind, draft.pictures)
         values = with_value(draft.values, ("grass", kind, "place"), {"map": name, "channel": "red"})
         ground, number = self.prairie.site.ground, list(self.prairie.scene.grass).index(kind)

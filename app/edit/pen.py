@@ -23,8 +23,8 @@ class Pen:
     """Writes drafts of one scene; a bundled one is written as a copy of its own, into the working folder."""
 
     def __init__(self, loaded: LoadedScene) -> None:
-        self.path = loaded.path
-        self._bytes = loaded.path.read_bytes()
+        self.path = loaded.file
+        self._bytes = self.path.read_bytes()
         self._names = [*loaded.files]
         self._written: dict[str, Picture] = {}
         self._files: dict[str, bytes] = {}

@@ -30,7 +30,7 @@ def packed(take: Take, loaded: LoadedScene, /) -> Parcel:
         if not _is_inside(loaded.folder, name):
             raise InputError(f"--on: {take.scene}: '{name}' lies outside the scene's folder: workers get no such file")
     files = {name: path.read_bytes() for name, path in loaded.paths.items()}
-    told = replace(take, scene=loaded.path.name)
+    told = replace(take, scene=loaded.file.name)
     mark = sha256(repr((told, [(name, sha256(data).digest()) for name, data in sorted(files.items())])).encode())
     return Parcel(told, files, mark.hexdigest())
 

@@ -5,6 +5,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from ...components.declaration import Color, Declaration, DeclarationError, Pair, rising
+from .array import PictureOrArray
 from .plant import ON_GRASS, SIZES, USUAL, Head, Plant
 
 MOST_KINDS = 16
@@ -34,7 +35,7 @@ _NONE = {"profile": "blade", "withered": 0.0}
 class Place(Declaration):
     """Where a kind grows: one channel of a density map laid over the whole terrain."""
 
-    map: str = Field(min_length=1)
+    map: PictureOrArray
     """Picture file, relative to the scene file: in a channel 0 is no grass, its largest number is full density."""
 
     channel: Literal["red", "green", "blue", "alpha"] = "red"

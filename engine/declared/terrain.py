@@ -5,6 +5,7 @@ from typing import Literal
 from pydantic import Field, field_validator, model_validator
 
 from ...components.declaration import Declaration, DeclarationError, Pair
+from .array import FileOrArray
 
 
 class TerrainSource(Declaration):
@@ -13,7 +14,7 @@ class TerrainSource(Declaration):
     It is centred on the origin; row 0 of the map is the far edge (-z), column 0 the left edge (-x).
     """
 
-    heights: str | None = None
+    heights: FileOrArray | None = None
     """Elevation map file, relative to the scene file: 16-bit grey .png, .r16 or .raw, .npy, or .tif (GeoTIFF too).
 
     Cells longer than 2.5 m are divided by a smooth surface; a map wider than 10240 m is cut to its middle. What says

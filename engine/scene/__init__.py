@@ -1,18 +1,20 @@
-"""Reading scene files: YAML with positions, problems with carets."""
+"""Reading scenes: YAML with positions, values with paths of keys, problems that show either."""
 
 from .maps import load_maps
 from .problem import Problem, SceneError, printable
-from .read import LoadedScene, bundled_scenes, must_be_read, parse_scene, read_scene, stamp_of
+from .read import LoadedScene, SceneLike, bundled_scenes, must_be_read, parse_scene, read_again, read_scene, stamp_of
 
 __all__ = [
     "LoadedScene",
     "Problem",
     "SceneError",
+    "SceneLike",
     "bundled_scenes",
     "load_maps",
     "must_be_read",
     "parse_scene",
     "printable",
+    "read_again",
     "read_scene",
     "stamp_of",
 ]

@@ -1,4 +1,4 @@
-"""The values of a scene file, each of which knows its place."""
+"""The values of a scene, each of which knows its place."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -50,10 +50,10 @@ def noded(data: Any, was: Node, /) -> Node:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Document:
-    """The values of one file, and the problems that did not stop the reading."""
+    """The values of a scene, and the problems that did not stop the reading."""
 
-    file: str
-    """The file, as the person called it."""
+    file: str | None
+    """The file, as the person called it; None of values that a program hands in."""
 
     lines: list[str]
     root: Node
@@ -71,12 +71,30 @@ class Document:
         node = self.node(where)
         if at_key and where:
             node = self.node(where[:-1]).keys.get(str(where[-1]), node)
+        if self.file is None:
+            return Problem("", node.line + 1, 1, _one_line(message), key=key_path(self._found(where)))
         return problem_at(self.file, self.lines, node.line, node.column, message)
+
+    def _found(self, where: Where) -> Where:
+        """Return the steps of `where` that there are."""
+        node, found = self.root, list[str | int]()
+        for step in where:
+            if step in node.below:
+                node = node.below[step]
+                found.append(step)
+        return found
+
+
+def key_path(where: Where, /) -> str:
+    """Return how a message calls a value that a program hands in: `wind[0].speed`."""
+    return "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in where).lstrip(".") or "the scene"
 
 
 def problem_at(file: str, lines: list[str], line: int, column: int, message: str) -> Problem:
     """Return a problem at a place counted from 0; its message becomes one line of a sensible length."""
+    return Problem(file, line + 1, column + 1, _one_line(message), lines[line] if line < len(lines) else "")
+
+
+def _one_line(message: str) -> str:
     text = " ".join(message.split())
-    if len(text) > _LONGEST:
-        text = text[:_LONGEST] + "..."
-    return Problem(file, line + 1, column + 1, text, lines[line] if line < len(lines) else "")
+    return text if len(text) <= _LONGEST else text[:_LONGEST] + "..."

@@ -1,5 +1,6 @@
 """Loading the maps that a scene names, with problems at the keys that name them."""
 
+from ..declared.array import MapArray
 from ..terrain.density import load_density
 from ..terrain.errors import MapError
 from ..terrain.load import load_terrain
@@ -49,13 +50,13 @@ def _kept_density(loaded: LoadedScene, terrain: Terrain, before: tuple[LoadedSce
     old, (_, density) = before
     places = [kind.place for kind in loaded.scene.grass.values()]
     same = terrain.size == density.size and places == [kind.place for kind in old.scene.grass.values()]
-    names = [None if place is None else place.map for place in places]
-    return density if same and _same_files(loaded, old, names) else None
+    maps = [None if place is None else place.map for place in places]
+    return density if same and _same_files(loaded, old, maps) else None
 
 
-def _same_files(loaded: LoadedScene, old: LoadedScene, names: list[str | None]) -> bool:
+def _same_files(loaded: LoadedScene, old: LoadedScene, maps: list[str | MapArray | None]) -> bool:
     same_folder = loaded.folder == old.folder
-    return all(name is None or (same_folder and _same_file(loaded, old, name)) for name in names)
+    return all(not isinstance(name, str) or (same_folder and _same_file(loaded, old, name)) for name in maps)
 
 
 def _same_file(loaded: LoadedScene, old: LoadedScene, name: str) -> bool:

@@ -1,4 +1,4 @@
-"""Problems of scene files: where, what, and the line itself."""
+"""Problems of scenes: where, what, and the line itself."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
@@ -11,13 +11,16 @@ _WIDEST = 120
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """One thing wrong in a scene file; its text is `file:line:column: what`, the line, and a caret."""
+    """One thing wrong in a scene; its text is `file:line:column: what`, the line, and a caret.
+
+    Of values that a program hands in, it is `grass.meadow.height: what`.
+    """
 
     file: str
-    """The file, as the person called it."""
+    """The file, as the person called it; empty where there is none."""
 
     line: int
-    """From 1."""
+    """From 1; without a file, the number of the value."""
 
     column: int
     """From 1, in characters."""
@@ -28,7 +31,12 @@ class Problem:
     source_line: str = ""
     """The line as it stands in the file; empty where there is none to show."""
 
+    key: str = ""
+    """The path of keys that leads to it, of a value that a program hands in."""
+
     def __str__(self) -> str:
+        if self.key:
+            return f"{printable(self.key)}: {printable(self.message)}"
         head = f"{printable(self.file)}:{self.line}:{self.column}: {printable(self.message)}"
         if not self.source_line:
             return head

@@ -1,4 +1,4 @@
-"""Reading scenes, by path or by the name of a bundled one."""
+"""Reading scenes: by path, by the name of a bundled one, or from a program's values."""
 
 import os
 from collections.abc import Container, Iterator, Mapping
@@ -8,6 +8,7 @@ from importlib.resources import files
 from pathlib import Path
 from reprlib import repr as shortened
 from stat import S_ISDIR, S_ISREG
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,10 @@ from .document import Document, Where
 from .problem import MOST_PROBLEMS, Problem, SceneError
 from .unusable import unusable
 from .validate import validate
+from .values import values_document
+
+SceneLike = str | Path | Mapping[str, Any] | Scene
+"""What names or is a scene: the path of a file, the name of a bundled one, its keys and values, or a `Scene`."""
 
 Stamp = tuple[int, int]
 """When a file was last changed [ns], and its size [bytes]."""
@@ -33,16 +38,18 @@ SUFFIXES = (".yaml", ".yml")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LoadedScene:
-    """A scene, and the file it was read from."""
+    """A scene, and where it comes from."""
 
     scene: Scene
-    path: Path
+
+    path: Path | None
+    """The file it was read from; None where a program has handed it in."""
 
     folder: Path
     """What the scene's own file names are relative to."""
 
     document: Document = field(repr=False)
-    """The file's values with their places, for problems that show later."""
+    """Its values with their places, for problems that show later."""
 
     files: Mapping[str, Stamp] = field(default_factory=dict)
     """The files that the scene names, as it names them, and what they were like when it was read."""
@@ -51,9 +58,17 @@ class LoadedScene:
     """Density maps in place of files of these names, (rows, columns, 3 or 4) each; another array is another map."""
 
     @property
+    def file(self) -> Path:
+        """The file it was read from. Raises ValueError where a program has handed it in."""
+        if self.path is None:
+            raise ValueError("this scene was made from a program's values: what writes or sends it needs a file")
+        return self.path
+
+    @property
     def paths(self) -> dict[str, Path]:
-        """The scene's file and those that it names, by the names that it calls them."""
-        return {self.path.name: self.path} | {name: self.folder / name for name in self.files}
+        """The scene's file, if it has one, and those that it names, by the names that it calls them."""
+        own = {} if self.path is None else {self.path.name: self.path}
+        return own | {name: self.folder / name for name in self.files}
 
 
 def bundled_scenes() -> dict[str, Path]:
@@ -62,38 +77,65 @@ def bundled_scenes() -> dict[str, Path]:
     return {path.stem: path for path in sorted(folder.glob("*.yaml"))}
 
 
-def read_scene(scene: str | Path, /) -> LoadedScene:
-    """Return the scene in a file, or the bundled scene of that name.
+def read_scene(scene: SceneLike, /) -> LoadedScene:
+    """Return the scene in a file, the bundled scene of a name, or the one that a program's values declare.
 
-    The files that the scene names must exist; `load_maps` reads them. Raises SceneError with all problems, and then
-    with those of its maps too, as far as they can be known; TypeError for what is no path and no name.
+    The files that the scene names must exist; `load_maps` reads them. Those that values name lie in the current folder.
+    Raises SceneError with all problems, and then with those of its maps too, as far as they can be known; TypeError for
+    what is no scene.
     """
-    if not isinstance(scene, str | os.PathLike):
-        raise TypeError(f"a scene is the path of a file or the name of a bundled one, unlike {shortened(scene)}")
-    path = _path(scene)
-    document = read_document(decode(_bytes(path), file=str(path)), file=str(path))
+    path, document = _document(scene)
     try:
         return load_document(document, path)
     except SceneError as error:
         told = {(problem.line, problem.column) for problem in error.problems}
-        more = [problem for problem in unusable(document, path.parent) if (problem.line, problem.column) not in told]
+        found = unusable(document, _folder(path))
+        more = [problem for problem in found if (problem.line, problem.column) not in told]
         if not more or len(error.problems) > MOST_PROBLEMS:  # the last counts the rest
             raise
         raise SceneError([*error.problems, *more]) from error
 
 
-def load_document(
-    document: Document, path: Path, /, *, pictures: Mapping[str, NDArray[np.uint8]] | None = None
-) -> LoadedScene:
-    """Return the scene that the values of a file declare, with `pictures` in place of the files of their names.
+def read_again(before: LoadedScene, scene: SceneLike | LoadedScene | None, /) -> LoadedScene:
+    """Return another reading of a scene, or of the one that is to take its place; what has been read already stays.
 
-    Raises SceneError with all problems.
+    Raises what `read_scene` raises, and ValueError for a scene that there is no file to read again from.
     """
-    given = pictures or {}
-    missing = _missing_files(document, path.parent, given)
-    scene = validate(document, find=wind_kinds().find, folder=path.parent, also=missing)
-    files = {name: stamp for name in _names(document.root.data) if (stamp := stamp_of(path.parent / name))}
-    return LoadedScene(scene, path, path.parent, document, files, given)
+    if isinstance(scene, LoadedScene):
+        return scene
+    if scene is not None:
+        return read_scene(scene)
+    if before.path is None:
+        raise ValueError("this prairie was made from a program's values: hand reload the scene that it is to become")
+    return read_scene(before.path)
+
+
+def _document(scene: object) -> tuple[Path | None, Document]:
+    if isinstance(scene, Mapping | Scene):
+        return None, values_document(scene)
+    if not isinstance(scene, str | os.PathLike):
+        due = "the path of a file, the name of a bundled one, a mapping of its keys or a Scene"
+        raise TypeError(f"a scene is {due}, unlike {shortened(scene)}")
+    path = _path(scene if isinstance(scene, str) else Path(scene))
+    return path, read_document(decode(_bytes(path), file=str(path)), file=str(path))
+
+
+def _folder(path: Path | None) -> Path:
+    return Path() if path is None else path.parent
+
+
+def load_document(
+    document: Document, path: Path | None, /, *, pictures: Mapping[str, NDArray[np.uint8]] | None = None
+) -> LoadedScene:
+    """Return the scene that values declare, with `pictures` in place of the files of their names.
+
+    `path` is the file that they stand in. Raises SceneError with all problems.
+    """
+    given, folder = pictures or {}, _folder(path)
+    missing = _missing_files(document, folder, given)
+    scene = validate(document, find=wind_kinds().find, folder=folder, also=missing)
+    files = {name: stamp for name in _names(document.root.data) if (stamp := stamp_of(folder / name))}
+    return LoadedScene(scene, path, folder, document, files, given)
 
 
 def stamp_of(path: Path, /) -> Stamp | None:

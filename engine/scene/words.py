@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable
 from difflib import get_close_matches
 from typing import Any
 
+import numpy as np
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
@@ -59,7 +60,7 @@ def found(value: object, /) -> str:
         case dict():
             return "a mapping of keys"
         case _:
-            return str(value)
+            return f"an array of shape {value.shape}" if isinstance(value, np.ndarray) else str(value)
 
 
 def _of_type(error: ErrorDetails, field: Field) -> str:

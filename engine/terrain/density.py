@@ -2,14 +2,16 @@
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
 from ...components.arrays import Floats
+from ..declared.array import MapArray
 from ..declared.grass import GrassKind, Place
-from .elevation import reading
+from .elevation import check_finite, reading
 from .errors import MapError
 from .record import Density, Terrain
 
@@ -24,6 +26,9 @@ NONE: Mapping[str, Picture] = {}
 MOST = 4097
 """Most pixels along a side of a density map."""
 
+_WHOLE = {"b1": 1.0, "u1": 255.0, "u2": 65535.0}
+"""What stands for full density in arrays of these kinds and sizes."""
+
 CHANNELS = ("red", "green", "blue", "alpha")
 
 
@@ -32,36 +37,59 @@ def load_density(
 ) -> Density:
     """Return how densely each kind grows on the terrain, in the order of `kinds`; map files lie in `folder`.
 
-    Of the files that are `given`, the pictures are taken instead.
+    Of the files that are `given`, the pictures are taken instead; an array is the map itself.
 
     Kinds with a place have what is painted; where their sum passes 1 it is brought down to 1. Kinds without one
     share equally what the others leave, so that with such a kind the prairie is full everywhere. Flowers stand among
     the others and take no ground from them. Maps of different sizes are brought to the longest sides among them. Raises
-    `MapError` where a file cannot be used.
+    `MapError` where one cannot be used.
     """
-    files = {kind.place.map for kind in kinds.values() if kind.place is not None}
-    pictures = {
-        name: _channels(given[name]) if name in given else _read_picture(folder / name) for name in sorted(files)
-    }
+    maps = dict.fromkeys(kind.place.map for kind in kinds.values() if kind.place is not None)
+    pictures = {each: _channels_in(each, folder, given) for each in maps}
     painted = {name: _channel(folder, kind.place, pictures) for name, kind in kinds.items() if kind.place is not None}
     rows, columns = (max([2, *(picture.shape[axis] for picture in painted.values())]) for axis in (0, 1))
-    maps = np.empty((len(kinds), rows, columns), np.float32)
+    densities = np.empty((len(kinds), rows, columns), np.float32)
     for number, name in enumerate(kinds):
-        maps[number] = _stretch(painted[name], rows, columns) if name in painted else 1.0
+        densities[number] = _stretch(painted[name], rows, columns) if name in painted else 1.0
     placed = np.array([name in painted for name in kinds])
     among = np.array([kind.plant == "flower" for kind in kinds.values()])
     placed, others = placed & ~among, ~(placed | among)
-    maps[placed] /= np.maximum(maps[placed].sum(axis=0), np.float32(1.0))
+    densities[placed] /= np.maximum(densities[placed].sum(axis=0), np.float32(1.0))
     if others.any():
-        maps[others] = np.maximum(1.0 - maps[placed].sum(axis=0), 0.0) / np.float32(others.sum())
-    return Density(maps, terrain.size)
+        densities[others] = np.maximum(1.0 - densities[placed].sum(axis=0), 0.0) / np.float32(others.sum())
+    return Density(densities, terrain.size)
 
 
-def _channel(folder: Path, place: Place, pictures: Mapping[str, Channels]) -> Floats:
+def _channel(folder: Path, place: Place, pictures: Mapping[str | MapArray, Channels]) -> Floats:
     channels = pictures[place.map]
     if place.channel not in channels:
-        raise MapError(folder / place.map, f"it has no {place.channel} channel, only {', '.join(channels)}")
+        path = None if isinstance(place.map, MapArray) else folder / place.map
+        raise MapError(path, f"it has no {place.channel} channel, only {', '.join(channels)}")
     return channels[place.channel]
+
+
+def _channels_in(each: str | MapArray, folder: Path, given: Mapping[str, Picture]) -> Channels:
+    if isinstance(each, MapArray):
+        return _channels_of(each.values)
+    return _channels(given[each]) if each in given else _read_picture(folder / each)
+
+
+def _channels_of(values: NDArray[Any]) -> Channels:
+    """Return the densities of an array (rows, columns), or (rows, columns, 1 to 4); raises `MapError` for another."""
+    shape = values.shape
+    if not (len(shape) == 2 or (len(shape) == 3 and 1 <= shape[2] <= len(CHANNELS))):
+        raise MapError(None, f"it must be an array of rows and columns, with 1 to 4 channels at most, not {shape}")
+    if not 1 <= min(shape[:2]) <= max(shape[:2]) <= MOST:
+        raise MapError(None, f"it is {shape[1]} by {shape[0]} cells; a density map has 1 to {MOST} a side")
+    whole = _WHOLE.get(values.dtype.kind + str(values.dtype.itemsize))
+    if whole is None and values.dtype.kind != "f":
+        due = "floats from 0 to 1, unsigned integers of 8 or 16 bits, or true and false"
+        raise MapError(None, f"it holds {values.dtype} values; densities are {due}")
+    check_finite(None, values, "density", "densities")
+    if whole is None and (values.min() < 0.0 or values.max() > 1.0):
+        raise MapError(None, f"it goes from {values.min():.6g} to {values.max():.6g}; densities are from 0 to 1")
+    numbers = values.reshape(*shape[:2], -1).astype(np.float32) / np.float32(whole or 1.0)
+    return {name: numbers[..., number] for number, name in enumerate(CHANNELS[: numbers.shape[2]])}
 
 
 def _read_picture(path: Path) -> Channels:

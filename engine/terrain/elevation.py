@@ -60,7 +60,7 @@ def reading(path: Path, kind: str) -> Iterator[None]:
         raise MapError(path, f"it cannot be read as {kind}: {' '.join(str(error).split())}") from error
 
 
-def check_size(path: Path, shape: tuple[int, ...]) -> None:
+def check_size(path: Path | None, shape: tuple[int, ...]) -> None:
     """Raise `MapError` where a map is no map of 2 to `MOST` cells a side."""
     if len(shape) != 2:
         raise MapError(path, f"it must be an array of rows and columns, not of {len(shape)} dimensions")
@@ -69,6 +69,22 @@ def check_size(path: Path, shape: tuple[int, ...]) -> None:
         raise MapError(path, f"it is {columns} by {rows} cells, and a map has 2 to {MOST} a side")
 
 
-def eight_bit(path: Path) -> MapError:
+def check_finite(
+    path: Path | None, values: NDArray[Any], one: str, several: str, void: NDArray[np.bool_] | None = None
+) -> None:
+    """Raise `MapError` where numbers are none, other than where there is a `void`; the names are what they are."""
+    if values.dtype.kind != "f":
+        return
+    wrong = ~np.isfinite(values)
+    if void is not None:
+        wrong &= ~void
+    count = int(wrong.sum())
+    if count:
+        row, column = np.unravel_index(int(wrong.argmax()), wrong.shape)[:2]
+        what = f"{one} is no number" if count == 1 else f"{several} are no numbers"
+        raise MapError(path, f"{count} {what}, the first at row {row}, column {column}, counted from 0")
+
+
+def eight_bit(path: Path | None) -> MapError:
     """Return why 8-bit heights are refused."""
     return MapError(path, "8 bits hold only 256 heights, which would make terraces; export 16-bit grey")

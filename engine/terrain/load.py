@@ -1,19 +1,18 @@
-"""Terrains from elevation map files and from noise."""
+"""Terrains from elevation maps and from noise."""
 
 from logging import getLogger
 from math import ceil
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...components.arrays import Doubles, Floats
+from ..declared.array import MapArray
 from ..declared.terrain import TerrainSource
-from .elevation import Elevation
+from .elevation import Elevation, check_finite
 from .errors import MapError
 from .noise import LANDSCAPES, landscape
-from .read import read_elevation
+from .read import elevation_of, read_elevation
 from .record import Terrain
 from .resample import resample
 from .voids import fill_voids
@@ -40,26 +39,29 @@ _log = getLogger(__name__)
 
 
 def load_terrain(source: TerrainSource, folder: Path, /) -> Terrain:
-    """Return the terrain that a scene in `folder` declares.
+    """Return the terrain that a scene declares; its files lie in `folder`.
 
     Cells longer than 2.5 m are divided by a smooth surface through their corners, and a map wider than the scene's
     size, or than 10240 m, is cut to its middle. Voids that an elevation model marks are filled from around them.
-    Raises `MapError` where the file cannot be used.
+    Raises `MapError` where the map cannot be used.
     """
     if source.heights is None:
         return _noise(source)
-    path = folder / source.heights
-    elevation = read_elevation(path, source)
+    if isinstance(source.heights, MapArray):
+        path, elevation = None, elevation_of(source.heights.values)
+    else:
+        path = folder / source.heights
+        elevation = read_elevation(path, source)
     heights = _metres(path, elevation, source)
     if source.flip:
         heights = heights[::-1]
     return _spread(path, heights, elevation.cell or (source.cell, source.cell), source.size)
 
 
-def _metres(path: Path, elevation: Elevation, source: TerrainSource) -> Floats:
+def _metres(path: Path | None, elevation: Elevation, source: TerrainSource) -> Floats:
     """Return an elevation map's heights [m], with its voids filled."""
     values, void = elevation.values, elevation.void
-    _check_finite(path, values, void)
+    check_finite(path, values, "height", "heights", void)
     if elevation.whole is None:
         factor = 1.0 if source.scale is None else source.scale
     else:
@@ -78,27 +80,15 @@ def _metres(path: Path, elevation: Elevation, source: TerrainSource) -> Floats:
     return heights
 
 
-def _check_finite(path: Path, values: NDArray[Any], void: NDArray[np.bool_] | None) -> None:
-    if values.dtype.kind != "f":
-        return
-    wrong = ~np.isfinite(values)
-    if void is not None:
-        wrong &= ~void
-    count = int(wrong.sum())
-    if count:
-        row, column = divmod(int(wrong.argmax()), values.shape[1])
-        cells = "height is no number" if count == 1 else "heights are no numbers"
-        raise MapError(path, f"{count} {cells}, the first at row {row}, column {column}, counted from 0")
-
-
-def _spread(path: Path, heights: Floats, cells: tuple[float, float], wanted: list[float] | None) -> Terrain:
+def _spread(path: Path | None, heights: Floats, cells: tuple[float, float], wanted: list[float] | None) -> Terrain:
     """Return the terrain of `heights` whose cells are `cells` long in x and z [m], or its middle of a `wanted` size."""
     counts = heights.shape[::-1]
     size = [(count - 1) * cell for count, cell in zip(counts, cells, strict=True)]
     if min(size) < NARROWEST:
         raise MapError(path, f"it is only {size[0]:.3g} by {size[1]:.3g} m; give a larger cell, in metres")
     if wanted is None and max(size) > WIDEST * 1.0001:
-        _log.warning("%s is %.0f by %.0f m; only its middle %.0f m are used", path.name, *size, WIDEST)
+        name = "the array of heights" if path is None else path.name
+        _log.warning("%s is %.0f by %.0f m; only its middle %.0f m are used", name, *size, WIDEST)
     sides = [min(side, most) for side, most in zip(size, wanted or (WIDEST, WIDEST), strict=True)]
     cell = min(cells)
     cell = max(cell / ceil(cell / SMOOTH - 1e-6), max(sides) / (SIDE - 1))

@@ -1,10 +1,12 @@
-"""Elevation maps read from files."""
+"""Elevation maps read from files and arrays."""
 
 from collections.abc import Callable
 from math import isqrt
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from PIL import Image
 
 from ..declared.terrain import TerrainSource
@@ -27,6 +29,21 @@ def read_elevation(path: Path, source: TerrainSource, /) -> Elevation:
     elevation = reader(path, source)
     check_size(path, elevation.values.shape)
     return elevation
+
+
+def elevation_of(values: NDArray[Any], /) -> Elevation:
+    """Return what an array of heights says, which is what a .npy file of it does; raises `MapError` as one would."""
+    check_size(None, values.shape)
+    return _elevation_in(None, values)
+
+
+def _elevation_in(path: Path | None, values: NDArray[Any]) -> Elevation:
+    kind = values.dtype.kind
+    if kind not in "fiu":
+        raise MapError(path, f"it holds {values.dtype} values; heights are floats or integers")
+    if values.dtype.itemsize == 1:
+        raise eight_bit(path)
+    return Elevation(values, whole=float(np.iinfo(values.dtype).max) if kind == "u" else None)
 
 
 def _readers() -> dict[str, Callable[[Path, TerrainSource], Elevation]]:
@@ -57,12 +74,7 @@ def _read_npy(path: Path, _: TerrainSource) -> Elevation:
         if not isinstance(values, np.ndarray):
             values.close()
             raise MapError(path, "it is an archive of arrays, not one array")
-        kind = values.dtype.kind
-        if kind not in "fiu":
-            raise MapError(path, f"it holds {values.dtype} values; heights are floats or integers")
-        if values.dtype.itemsize == 1:
-            raise eight_bit(path)
-        return Elevation(values, whole=float(np.iinfo(values.dtype).max) if kind == "u" else None)
+        return _elevation_in(path, values)
 
 
 def _read_raw(path: Path, source: TerrainSource) -> Elevation:

@@ -246,7 +246,7 @@ def test_d2_what_a_game_makes_after_clearing_its_world_is_not_taken_for_what_was
     handles = [windy.add(Breeze(strength=0.1), name=f"new {number}") for number in range(8)]
     bullets = [esper.create_entity(Bullet(float(number))) for number in range(600)]
     if reads_again:
-        windy.path.write_text(WINDY.replace("stiffness: 2", "stiffness: 1"), "utf-8")
+        windy.loaded.file.write_text(WINDY.replace("stiffness: 2", "stiffness: 1"), "utf-8")
         windy.reload()
     shot_until_all_are_there(stage, windy)
     names = [esper.component_for_entity(handle, WindSource).name for handle in handles]

@@ -125,7 +125,7 @@ def test_f4_a_scene_read_again_keeps_what_was_cut(stage: Stage, load: Load, came
     prairie.cut(ALL, 0.1)
     before = stage.shot(prairie, aim)
     for seed in ("seed: 5", "seed: 6", "seed: 5"):
-        prairie.path.write_text(FLAT.replace("seed: 5", seed), "utf-8")
+        prairie.loaded.file.write_text(FLAT.replace("seed: 5", seed), "utf-8")
         prairie.reload()
         last = stage.shot(prairie, aim)
     np.testing.assert_array_equal(last, before)

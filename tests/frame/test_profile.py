@@ -123,7 +123,7 @@ def test_g1_a_scene_that_is_read_again_with_other_segments_has_ribbons_of_as_man
 ) -> None:
     prairie = load(SCENE.format(profile="blade"))
     stage.shot(prairie, CAMERA)
-    prairie.path.write_text(SCENE.format(profile=f"blade, segments: {own}"), encoding="utf-8")
+    prairie.loaded.file.write_text(SCENE.format(profile=f"blade, segments: {own}"), encoding="utf-8")
     prairie.reload()
     stage.shot(prairie, CAMERA)
     assert prairie.painter is not None

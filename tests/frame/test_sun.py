@@ -90,7 +90,8 @@ def test_f5_a_scene_that_is_read_again_keeps_the_light_of_a_game_until_its_own_c
     prairie.shine(elevation=10.0)
     prairie.reload()
     assert prairie.light.elevation == 10.0
-    prairie.path.write_text(prairie.path.read_text("utf-8").replace("elevation: 40", "elevation: 60"), "utf-8")
+    file = prairie.loaded.file
+    file.write_text(file.read_text("utf-8").replace("elevation: 40", "elevation: 60"), "utf-8")
     prairie.reload()
     assert prairie.light.elevation == 60.0
 

@@ -113,7 +113,8 @@ def text_of(seen: Seen, folder: Path) -> str:
 @contextmanager
 def showing(prairie: Prairie, seen: Seen) -> Iterator[None]:
     """Let a prairie read a scene, with a ball between sun and grass where there is one."""
-    prairie.path.write_text(text_of(seen, prairie.path.parent), "utf-8")
+    file = prairie.loaded.file
+    file.write_text(text_of(seen, file.parent), "utf-8")
     prairie.reload()
     shades = [prairie.world.create(Shade((4.8, 4.8, 2.0), 3.0))] if seen.shade else []
     yield

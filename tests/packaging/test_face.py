@@ -32,7 +32,7 @@ def test_the_face_shows_what_programs_are_written_with() -> None:
         "Viewer",
         "WindSource",
     }
-    others = {"Phase", "Prairie", "SceneError", "install", "scenes", "wind"}
+    others = {"Phase", "Prairie", "Scene", "SceneError", "install", "scenes", "wind"}
     assert set(tallgrass.__all__) == {*records, *others, *winds}
     assert all(issubclass(getattr(tallgrass, name), WindPrimitive) for name in winds)
     assert (tallgrass.Prairie, tallgrass.SceneError) == (Prairie, SceneError)

@@ -26,7 +26,7 @@ def test_the_bundled_scenes_are_those_of_their_package() -> None:
 def test_every_bundled_scene_and_its_maps_can_be_read(name: str) -> None:
     loaded = read_scene(name)
     terrain, density = load_maps(loaded)
-    assert loaded.path.parent == loaded.folder
+    assert loaded.file.parent == loaded.folder
     assert terrain.heights.ndim == 2
     assert len(density.maps) == len(loaded.scene.grass)
     assert density.maps.max(axis=(1, 2)).min() > 0.1

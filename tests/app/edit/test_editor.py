@@ -212,7 +212,7 @@ def test_the_first_stroke_of_a_kind_without_a_map_makes_one_that_says_what_was_t
     low = editor.prairie.site.ground.density.maps[0]
     assert low[: len(low) // 2].min() == pytest.approx(0.8, abs=0.01)
     assert low.min() < 0.5
-    assert not (path.parent / place.map).exists()
+    assert not (path.parent / "little-low.png").exists()
     assert editor.save() == "little.yaml and little-low.png are written"
     assert path.read_text() == SCENE.replace(
         "    height: [0.2, 0.3]\n", "    height: [0.2, 0.3]\n    place: { map: little-low.png, channel: red }\n"
@@ -286,14 +286,14 @@ def test_a_bundled_scene_stays_and_a_copy_with_its_maps_is_written_here(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     loaded = read_scene("meadow")
-    bundled, values = loaded.path.read_text(), loaded.document.root.data
+    bundled, values = loaded.file.read_text(), loaded.document.root.data
     changed = with_value(values, ("light", "elevation"), 45.0)
     pen = Pen(loaded)
     assert pen.write(changed, {}) == ["meadow.yaml"]
     assert pen.path == tmp_path / "meadow.yaml"
     assert pen.path.read_text() == bundled.replace("elevation: 30", "elevation: 45")
     assert read_scene(pen.path).scene.light.elevation == 45.0
-    assert loaded.path.read_text() == bundled
+    assert loaded.file.read_text() == bundled
     assert pen.write(values, {}) == ["meadow.yaml"]
     with pytest.raises(ValueError, match=r"meadow\.yaml is in this folder already"):
         Pen(loaded).write(changed, {})

@@ -134,3 +134,21 @@ def test_d2_released_a_prairie_leaves_the_world_as_it_was(world: World, load: Lo
     prairie.release()
     assert sorted(esper.get_entities()) == theirs
     assert len(world) == 0
+
+
+def test_d4_a_prairie_of_values_has_no_file_and_goes_on_in_others(world: World) -> None:
+    del world
+    heights = np.linspace(0.0, 6.0, 61 * 61, dtype=np.float32).reshape(61, 61)
+    keys = {"tallgrass": 2, "terrain": {"heights": heights}, "grass": {"green": {"height": [0.3, 0.5]}}}
+    made = Prairie.load(keys, preset="low")
+    other = made.reseeded(9)
+    assert (made.path, made.files, other.scene.seed) == (None, {}, 9)
+    assert made.height_at([(0.0, 0.0)]) == pytest.approx(3.0)
+    ground = made.site.ground
+    made.reload(keys | {"wind": [{"kind": "breeze"}]})
+    assert made.site.ground is ground
+    assert len(made.scene.wind) == 1
+    made.reload(keys | {"terrain": {"heights": heights + 1.0}})
+    assert made.height_at([(0.0, 0.0)]) == pytest.approx(4.0)
+    other.release()
+    made.release()

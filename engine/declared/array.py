@@ -1,0 +1,58 @@
+"""Arrays that a program hands in where a scene file names a file."""
+
+from typing import Annotated, Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field, GetCoreSchemaHandler, GetPydanticSchema
+from pydantic_core import CoreSchema, core_schema
+
+from ...components.declaration import DeclarationError
+
+
+class MapArray:
+    """A copy of a program's array, which nobody writes to. Two are equal where they hold the same numbers."""
+
+    __slots__ = ("values",)
+
+    def __init__(self, array: NDArray[Any], /) -> None:
+        self.values = np.array(array, order="C")
+        self.values.flags.writeable = False
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, MapArray) or self.values.dtype != other.values.dtype:
+            return False
+        return self is other or np.array_equal(self.values, other.values)
+
+    def __hash__(self) -> int:
+        return hash((self.values.shape, self.values.dtype.str))
+
+    def __repr__(self) -> str:
+        return f"<array of shape {self.values.shape}, {self.values.dtype}>"
+
+
+def _taken(value: Any, as_text: core_schema.ValidatorFunctionWrapHandler) -> Any:
+    if isinstance(value, np.ma.MaskedArray):
+        raise DeclarationError("the mask of a masked array is not read; hand in what its filled() returns")
+    if isinstance(value, MapArray):
+        return value
+    return MapArray(value) if isinstance(value, np.ndarray) else as_text(value)
+
+
+def _or_array(text: Any, /) -> GetPydanticSchema:
+    """Return the schema of a file's name, or of an array in its place; to editors it is the name alone."""
+
+    def made(_: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        shown = core_schema.plain_serializer_function_ser_schema(
+            lambda value: repr(value) if isinstance(value, MapArray) else value, when_used="json"
+        )
+        return core_schema.no_info_wrap_validator_function(_taken, handler(text), serialization=shown)
+
+    return GetPydanticSchema(made)
+
+
+FileOrArray = Annotated[str | MapArray, _or_array(str)]
+"""The name of a map's file, or the map itself."""
+
+PictureOrArray = Annotated[str | MapArray, _or_array(Annotated[str, Field(min_length=1)])]
+"""The name of a picture, or its numbers."""

@@ -1,0 +1,76 @@
+"""Scenes that a program hands in as values: every value knows the path of keys that leads to it."""
+
+from collections.abc import Mapping
+from pathlib import PurePath
+from reprlib import repr as shortened
+from typing import Any
+
+import numpy as np
+
+from ...components.declaration import Declaration
+from ...components.wind import WindPrimitive
+from .compose import MOST_VALUES
+from .document import Document, Node, Where, key_path
+from .problem import Problem, SceneError
+from .syntax import DEEPEST, TOO_DEEP
+
+
+def values_document(values: Mapping[Any, Any] | Declaration, /) -> Document:
+    """Return the values of a program as a document whose places are paths of keys, such as `grass.meadow.height`.
+
+    Keys that are no text become its `problems`. Raises SceneError for values that are too many or too deep.
+    """
+    reading = _Reading()
+    root = reading.node(values, ())
+    return Document(None, [], root, reading.problems)
+
+
+class _Reading:
+    """Turns values into nodes and numbers them, so that problems come in their order."""
+
+    def __init__(self) -> None:
+        self.problems: list[Problem] = []
+        self._count = 0
+
+    def node(self, value: Any, where: Where) -> Node:
+        data = _plain(value)
+        node = Node(self._count, 0, data)
+        self._count += 1
+        if len(where) >= DEEPEST:
+            self._stop(where[:1], TOO_DEEP)
+        if self._count > MOST_VALUES:
+            self._stop(where[:1], f"more than {MOST_VALUES} values")
+        if isinstance(data, dict):
+            node.data = {}
+            for key, inner in data.items():
+                if not isinstance(key, str):
+                    self.problems.append(self._problem(where, f"a key must be text, found {shortened(key)}"))
+                    continue
+                node.below[key] = node.keys[key] = below = self.node(inner, (*where, key))
+                node.data[key] = below.data
+        elif isinstance(data, list):
+            node.below = {step: self.node(inner, (*where, step)) for step, inner in enumerate(data)}
+            node.data = [below.data for below in node.below.values()]
+        return node
+
+    def _problem(self, where: Where, message: str) -> Problem:
+        return Problem("", self._count, 1, message, key=key_path(where))
+
+    def _stop(self, where: Where, message: str) -> None:
+        raise SceneError([*self.problems, self._problem(where, message)])
+
+
+def _plain(value: Any) -> Any:
+    """Return what a scene file would have in place of a program's own types; winds and arrays stay as they are."""
+    match value:
+        case Declaration() if not isinstance(value, WindPrimitive):
+            return {name: getattr(value, name) for name in type(value).model_fields if name in value.model_fields_set}
+        case Mapping():
+            return dict(value)
+        case tuple():
+            return list(value)
+        case np.generic():
+            return value.item()
+        case PurePath():
+            return str(value)
+    return value
