@@ -15,6 +15,8 @@ What bounds them are the numbers that every OpenGL 3.3 takes from the corners of
 which each kind needs one, or two where some bear heads, and the light on what is seen all that are left.
 """
 
+GLSL = {"MOST_KINDS": MOST_KINDS}
+
 Profile = Literal["blade", "rush", "fold"]
 """What a blade is like across."""
 

@@ -3,12 +3,16 @@
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
+from importlib import import_module
 from importlib.resources import files
 
 import moderngl
 
+from .emit import emitted
+
 _INCLUDE = re.compile(r'\s*#include\s+"([^"]+)"')
 _PLACE = re.compile(r"\b\d+:(\d+)\b|\b\d+\((\d+)\)")
+PACKAGE = "tallgrass"
 _VERSION = "#version 330 core"
 
 Line = tuple[str, int, str]
@@ -21,8 +25,13 @@ class ShaderError(RuntimeError):
 
 @lru_cache(maxsize=64)
 def _read(name: str) -> tuple[str, ...]:
-    """Return the lines of a shader file: one of `lib/`, or else one named by its path inside the package."""
-    source = files("tallgrass").joinpath("engine/shaders/" + name if name.startswith("lib/") else name)
+    """Return the lines of a shader file: one of `lib/`, or else one named by its path inside the package.
+
+    Of a module of Python they are its `GLSL`.
+    """
+    if name.endswith(".py"):
+        return tuple(emitted(import_module(f"{PACKAGE}.{name[:-3].replace('/', '.')}").GLSL).splitlines())
+    source = files(PACKAGE).joinpath("engine/shaders/" + name if name.startswith("lib/") else name)
     if not source.is_file():
         raise ShaderError(f"there is no shader file '{name}'")
     return tuple(source.read_text("utf-8").splitlines())

@@ -1,6 +1,6 @@
 #include "lib/light.glsl"
+#include "systems/bodies/saucer.py"
 
-const float HULL = 0.0, GLASS = 1.0, JET = 2.0, FIN = 3.0;
 const float LAMPS = 12.0, LAMPS_AT = 1.22, LAMP = 0.055;  // how many, how far from the middle, how large [m]
 const vec3 AHEAD = vec3(1.0, 0.42, 0.16), AROUND = vec3(0.80, 1.0, 0.86), BREATH = vec3(0.74, 0.95, 1.0);
 

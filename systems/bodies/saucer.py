@@ -19,6 +19,8 @@ THICK = 0.6
 HULL, GLASS, JET, FIN = 0.0, 1.0, 2.0, 3.0
 """What a part is made of."""
 
+GLSL = {"HULL": HULL, "GLASS": GLASS, "JET": JET, "FIN": FIN}
+
 VERTEX = np.dtype([("place", "3f4"), ("normal", "3f4"), ("part", "f4")])
 """A vertex in the saucer's own axes, x right, y up, -z ahead: place [m], unit normal, what it is made of."""
 

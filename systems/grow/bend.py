@@ -63,6 +63,8 @@ def posture_of(rest: ArrayLike, bending: ArrayLike, /) -> tuple[Doubles, Doubles
 WIDENS = 0.16
 """The part of a blade's length over which it widens from its waist at the ground."""
 
+GLSL = {"WIDENS": WIDENS}
+
 
 def profile(along: Doubles, taper: float, section: Section = FLAT, /) -> Doubles:
     """Return the width at places along a blade, 0 to 1, as a part of its own: it widens from the root, then tapers."""

@@ -11,6 +11,8 @@ CURVE = 0.78, 0.349, -0.287
 WHITE = 1.44
 """Root of the radiance that is shown as white as can be."""
 
+GLSL = {"CURVE": CURVE, "WHITE": WHITE}
+
 
 def decoded(color: NDArray[np.floating]) -> Doubles:
     """Return sRGB colours of [0, 1] as linear light in [0, 1], same shape."""

@@ -18,7 +18,7 @@ SIDE = 512
 """Texels along a side."""
 
 LITTER_SIDE = 1.8
-"""Side of the square of ground that repeats [m], as `lib/repeating.glsl` has it."""
+"""Side of the square of ground that repeats [m]."""
 
 STRAWS = 2600
 """How many straws lie on it."""
@@ -35,12 +35,13 @@ LEAST_SEEN = 600.0
 LITTER_ONE = 128
 """The texel of ground that is as bright as the mean."""
 
-
 _REMEMBERED = 4
 """Seeds whose maps are remembered, less than a megabyte each: a scene read again has the seed that it had."""
 
 CLOUDS_SIDE = 900.0
-"""Side of the square that repeats [m], as `lib/repeating.glsl` has it."""
+"""Side of the square that repeats [m]."""
+
+GLSL = {"CLOUDS_SIDE": CLOUDS_SIDE, "LITTER_SIDE": LITTER_SIDE, "LITTER_ONE": LITTER_ONE}
 
 FASTER = 1.5
 """How much faster clouds go than the waves of the breeze."""

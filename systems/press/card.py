@@ -11,7 +11,9 @@ from .marks import NOTHING, SIDE, Marks, Trodden
 from .trail import NUMBERS
 
 ROW = 1024
-"""Texels in a row of the texture, as `press.glsl` has it."""
+"""Texels in a row of the texture; the first is the frame's."""
+
+GLSL = {"PRESSED_ROW": ROW}
 
 SAMPLERS = ("pressed",)
 """What `press.glsl` reads."""

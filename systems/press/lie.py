@@ -22,6 +22,8 @@ SAME = 1e-3
 
 _LONG_AGO = -1e6
 
+GLSL = {"TREADS": TREADS, "FLAT": FLAT, "AHEAD": AHEAD, "SAME": SAME, "LONG_AGO": _LONG_AGO}
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Lying:

@@ -15,6 +15,8 @@ SQUARE = 2.0
 SIDE = 128
 """Squares along the ground after which they are counted from 0 again: what lies so far apart shares a list."""
 
+GLSL = {"SQUARE": SQUARE, "SIDE": SIDE}
+
 MOST = 96
 """Marks that a square has at most: the latest."""
 

@@ -1,12 +1,12 @@
 // What grass feels of those who walk through it: the twin of systems/press/lie.py. `systems/press/card.py` fills the texture.
 #include "lib/kinds.glsl"
+#include "systems/press/card.py"
+#include "systems/press/lie.py"
+#include "systems/press/marks.py"
 
 uniform sampler2D pressed;  // the frame; how kinds swing back; the squares' lists; fresh marks, then settled ones
 
-const int PRESSED_ROW = 1024;  // texels in a row; the first row is the frame's
 const int SWINGS = PRESSED_ROW, SQUARES = 2 * PRESSED_ROW;  // texels before them
-const int SIDE = 128;  // squares along the ground after which they are counted from 0 again
-const float SQUARE = 2.0, TREADS = 0.75, FLAT = 0.9, AHEAD = 0.5, SAME = 1e-3, LONG_AGO = -1e6;
 
 struct Lying {
     vec2 lay;    // where grass lay before

@@ -8,7 +8,9 @@ import numpy as np
 from ...components.arrays import Floats
 
 ROW = 1024
-"""Receivers in a row of the texture, as `lib/received.glsl` has it."""
+"""Receivers in a row of the texture."""
+
+GLSL = {"RECEIVED_ROW": ROW}
 
 
 class Received:

@@ -10,7 +10,9 @@ from ..grow.record import Blades, Growth
 from .ground import Ground
 
 LODGED = 0.55
-"""How much lower the canopy is where all grass lies, of its height at rest; `lib/canopy.glsl` has it too."""
+"""How much lower the canopy is where all grass lies, of its height at rest."""
+
+GLSL = {"LODGED": LODGED}
 
 
 def lodged(index: float, /) -> float:

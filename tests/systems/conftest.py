@@ -1,8 +1,9 @@
 """What the tests of the systems share: a small field on uneven ground, grown once."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from math import pi
 
+import moderngl
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -12,12 +13,16 @@ from tallgrass.components.wind import WindPrimitive, WindSource
 from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.engine.declared.quality import BladeRing, Quality, StripRing
 from tallgrass.engine.declared.scene import Scene
+from tallgrass.engine.gl import shaders
+from tallgrass.engine.gl.shaders import program
+from tallgrass.engine.gl.stream import release_all
 from tallgrass.engine.schedule import Phase, Schedule
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.engine.world import World
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.blow import Hear
+from tallgrass.systems.frame.block import FrameBlock
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.site import Site, lay_out, outlook_on
 from tallgrass.systems.space.ground import Ground
@@ -25,6 +30,8 @@ from tallgrass.systems.stock.models import grow
 from tallgrass.systems.wind.blow import blowing, hear
 from tallgrass.systems.wind.quarantine import Quarantine
 from tallgrass.testing import systems_on
+
+Probe = Callable[..., NDArray[np.float32]]
 
 KINDS = {
     "tall": GrassKind(height=[0.6, 1.0], width=0.01, stiffness=0.6, lean=0.4),
@@ -122,3 +129,40 @@ def wind() -> Callable[..., Hear]:
         )
 
     return at
+
+
+@pytest.fixture
+def probe(ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch) -> Iterator[Probe]:
+    """Ask GLSL: `probe(lines, told, rows, record, textures)` gives the floats of the varying `told`, row by row.
+
+    `lines` is a vertex shader that may include the library's parts; `rows` is an array (n, k) that it reads as `row`,
+    of k floats; `record` is the frame block.
+    """
+    read, block = shaders._read, FrameBlock(ctx)  # noqa: SLF001
+
+    def ask(
+        lines: str,
+        rows: NDArray[np.float32],
+        record: NDArray[np.void],
+        textures: dict[str, moderngl.Texture | moderngl.TextureArray],
+        width: int,
+    ) -> NDArray[np.float32]:
+        name = f"probe {hash(lines)}.vert"  # what a file of one name consists of is remembered
+        told = {name: tuple(lines.splitlines())}
+        monkeypatch.setattr(shaders, "_read", lambda name: told.get(name) or read(name))
+        made = program(ctx, name, None, varyings=("told",))
+        block.join(made)
+        block.write(record)
+        for unit, (name, texture) in enumerate(textures.items()):
+            texture.use(unit)
+            made[name] = unit
+        source = ctx.buffer(np.ascontiguousarray(rows, np.float32))
+        result = ctx.buffer(reserve=4 * width * len(rows))
+        array = ctx.vertex_array(made, [(source, f"{rows.shape[1]}f", "row")])
+        array.transform(result, moderngl.POINTS, vertices=len(rows))
+        answer = np.frombuffer(result.read(), np.float32).reshape(len(rows), width)
+        release_all(array, source, result, made)
+        return answer
+
+    yield ask
+    block.release()

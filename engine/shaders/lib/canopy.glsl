@@ -1,7 +1,6 @@
 // The canopy as a medium: how high it stands, how much leaf area is above a height, and what light gets through it.
 #include "lib/sown.glsl"
-
-const float LODGED = 0.55;  // how much lower the canopy is where all grass lies
+#include "systems/space/canopy.py"
 
 // How high the canopy stands where `bend` bends it, of its height at rest: where all grass lies, its tips are the top.
 float lodged(vec2 bend) {

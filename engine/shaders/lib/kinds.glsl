@@ -1,6 +1,8 @@
 // Kinds of grass: figures that each has stand in vectors, four kinds in each.
+#include "engine/declared/grass.py"
+
 #ifndef KINDS
-#define KINDS 16  // who is told nothing has room for as many as there can be
+#define KINDS MOST_KINDS  // who is told nothing has room for as many as there can be
 #endif
 #define GROUPS ((KINDS + 3) / 4)
 #define ByKind vec4[GROUPS]

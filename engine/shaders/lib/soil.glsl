@@ -1,7 +1,7 @@
 // The ground between plants: its pigment, and what has fallen or grows low on it.
 #include "lib/surface.glsl"
 
-const float LITTER_ONE = 255.0 / 128.0;  // what stands for ground as bright as its mean
+const float LITTER_MEAN = 255.0 / float(LITTER_ONE);  // what stands for ground as bright as its mean
 const float FALLEN_TIPPED = 0.3;  // how much of the colour of tips what has fallen has, of a kind that shows it as grass does
 const float LITTER = 0.75;  // how much of the ground under dense grass is covered by what has fallen
 const float COARSEST = 16.0;  // level at which a texture is its mean, or its last
@@ -29,7 +29,7 @@ vec3 understorey_of(Lie lies, ByKind grows) {
 
 // The pigment of what lies there, of that of the ground between low leaves: `lying` from `repeating`.
 vec3 lying_pigment(vec2 lying, vec3 lush) {
-    return lying.x * LITTER_ONE * mix(vec3(1.0), lush, lying.y);
+    return lying.x * LITTER_MEAN * mix(vec3(1.0), lush, lying.y);
 }
 
 const float SOIL_SENDS = 1.3;  // what bare ground sends of the sun's light from straight above, of what a leaf that faces all ways does

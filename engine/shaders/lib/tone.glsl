@@ -1,8 +1,6 @@
 // What the door shows of radiance.
 #include "lib/frame.glsl"
-
-const vec3 CURVE = vec3(0.78, 0.349, -0.287);  // a toe, middle tones and a shoulder, by powers of the root of radiance
-const float WHITE = 1.44;  // root of the radiance that is as white as can be
+#include "systems/light/color.py"
 
 // What the door shows of radiance, with a toe in the shadows and a shoulder up to white; or the radiance itself.
 vec3 shown_of(vec3 light) {

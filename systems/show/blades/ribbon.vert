@@ -3,6 +3,7 @@
 // and not a row of dots. With MORPH it is on its way to its painted place on a moving strip (paper, section 4.2).
 #include "lib/light.glsl"
 #include "lib/posture.glsl"
+#include "systems/grow/bend.py"
 
 in vec4 foot;
 in vec4 lie_of;
@@ -95,8 +96,8 @@ float profile(float t, float taper, float segments) {
         float blunt = pow(segments, -taper) * max((1.0 - taper) / (1.0 + taper), 0.0);
         return narrower < 0.0 ? blunt : min(blunt, POINTED * distance(foot.xyz, eye.xyz) / max(length(lie_of.zw), 1e-5));
     }
-    float waist = max(narrower, 0.0) * min(0.16 * segments, 1.0);
-    return pow(max(1.0 - t, 0.0), taper) * (1.0 - waist * max(1.0 - t / 0.16, 0.0));
+    float waist = max(narrower, 0.0) * min(WIDENS * segments, 1.0);
+    return pow(max(1.0 - t, 0.0), taper) * (1.0 - waist * max(1.0 - t / WIDENS, 0.0));
 }
 
 const int segments_of[COUNTS] = SEGMENTS_OF;  // of a blade, sub-level by sub-level

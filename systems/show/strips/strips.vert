@@ -3,6 +3,7 @@
 #include "lib/posture.glsl"
 #include "lib/received.glsl"
 #include "lib/stack.glsl"
+#include "systems/show/strips/sublevel.py"
 
 uniform usampler2D strips;  // by place in the queue: the polygon strip that is drawn
 uniform sampler2D stood;    // by patch: STOOD
@@ -59,9 +60,6 @@ void thin(float dense, float below, float texels) {
 }
 #endif
 
-#ifdef MOWN
-const float CROSSED = 0.85;  // strips that a line of sight crosses at least where they do not show as rows
-#endif
 const float SHARPER = 0.15;  // how much finer texels are than pixels, in levels: blades would be washed out
 const float NARROWEST = 0.25;  // blades count as no closer together than this part of how far apart they are painted
 

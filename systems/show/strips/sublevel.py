@@ -19,6 +19,8 @@ STEEPER = 1.3
 CROSSED = 0.85
 """How many strips a line of sight must cross for them not to show as rows, where no finer ones are to be had."""
 
+GLSL = {"CROSSED": CROSSED}
+
 SINKING = 0.5
 """From which part on of the slope where they would, strips sink into the carpet: so no patch of it has an edge."""
 

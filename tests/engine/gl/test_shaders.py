@@ -1,8 +1,10 @@
 """Programs composed from shader files, and messages that lead back to them."""
 
+import sys
 from collections.abc import Iterator
 from importlib.resources import files
 from pathlib import Path
+from types import SimpleNamespace
 
 import moderngl
 import numpy as np
@@ -11,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tallgrass.engine.gl import shaders
+from tallgrass.engine.gl.emit import emitted
 from tallgrass.engine.gl.shaders import ShaderError, compose, locate, program
 
 ROOT = Path(str(files("tallgrass")))
@@ -55,8 +58,7 @@ def test_every_part_is_included_once(name: str) -> None:
     where = [(file, line) for file, line, _ in lines if line > 0]
     assert len(where) == len(set(where))
     for file in {file for file, _ in where}:
-        place = ROOT / "engine/shaders" if file.startswith("lib/") else ROOT
-        text = (place / file).read_text("utf-8").splitlines()
+        text = shaders._read(file)  # noqa: SLF001
         assert [line for other, line, _ in lines if other == file and line > 0] == [
             number for number, row in enumerate(text, 1) if not row.lstrip().startswith("#include")
         ]
@@ -80,6 +82,23 @@ def test_definitions_follow_the_version_line() -> None:
     assert source.splitlines()[:3] == ["#version 330 core", "#define SEGMENTS 3", "#define ROUND 0.5"]
     assert [line for _, line, _ in lines[:3]] == [0, 0, 0]
     assert len(source.splitlines()) == len(lines)
+
+
+def test_a_module_of_python_tells_shaders_its_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+    numbers = {"MANY": 3, "PART": 0.25, "TINY": 1e-6, "WAY": (1.0, 2), "CURVE": (0.5, -1.0, 2.0)}
+    monkeypatch.setitem(sys.modules, "tallgrass.systems.told", SimpleNamespace(GLSL=numbers))
+    monkeypatch.setitem(sys.modules, "tallgrass.systems.said", SimpleNamespace(GLSL="float x;\n"))
+    assert shaders._read("systems/told.py") == (  # noqa: SLF001
+        "#define MANY 3",
+        "const float PART = 0.25;",
+        "const float TINY = 1e-06;",
+        "const vec2 WAY = vec2(1.0, 2.0);",
+        "const vec3 CURVE = vec3(0.5, -1.0, 2.0);",
+    )
+    assert shaders._read("systems/said.py") == ("float x;",)  # noqa: SLF001
+    shaders._read.cache_clear()  # noqa: SLF001
+    with pytest.raises(ValueError, match="WAY has 5 numbers, and vectors of GLSL have 2 to 4"):
+        emitted({"WAY": (1.0,) * 5})
 
 
 def test_a_missing_file_is_named() -> None:

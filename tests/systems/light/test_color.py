@@ -1,9 +1,13 @@
 """Colours: linear inside, display colours at the door."""
 
+from collections.abc import Callable
+
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
+from tallgrass.systems.frame.block import FRAME
 from tallgrass.systems.light.color import WHITE, display, linear, luminance, shown_as, srgb
 
 colors = st.tuples(*[st.integers(0, 250)] * 3)
@@ -21,6 +25,18 @@ def test_brighter_light_never_looks_darker_and_never_overflows(levels: list[floa
     assert (np.diff(shown) >= 0.0).all()
     assert shown.min() >= 0.0
     assert shown.max() <= 1.0
+
+
+SHOWN = """#include "lib/tone.glsl"
+in vec3 row;
+out vec3 told;
+void main() { told = shown_of(row); }"""
+
+
+def test_the_graphics_card_shows_radiance_by_the_same_curve(probe: Callable[..., NDArray[np.float32]]) -> None:
+    radiance, record = np.linspace(-0.5, 4.0, 300).reshape(-1, 3), np.zeros(1, FRAME)
+    told = probe(SHOWN, radiance.astype(np.float32), record, {}, 3)
+    np.testing.assert_allclose(told, display(radiance), atol=1e-6)
 
 
 def test_the_curve_ends_level_in_white() -> None:

@@ -1,5 +1,7 @@
 """What a kind of grass does to light, and how far light comes into its canopy (F10)."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -10,6 +12,7 @@ from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.engine.declared.light import Light
 from tallgrass.engine.declared.plant import Head
 from tallgrass.engine.declared.quality import PRESETS
+from tallgrass.systems.frame.block import FRAME
 from tallgrass.systems.grow.bend import profile, ribbon
 from tallgrass.systems.grow.raster import rasterise, ribbon_triangles
 from tallgrass.systems.grow.record import Growth
@@ -17,6 +20,8 @@ from tallgrass.systems.light.daylight import daylight
 from tallgrass.systems.light.materials import bloom, grain, leaves_of, pigment, understorey, undertone
 from tallgrass.systems.space.canopy import canopy_height
 from tallgrass.systems.stock.models import grow
+
+Probe = Callable[..., NDArray[np.float32]]
 
 PATCH = 2.5
 HEIGHTS = np.array([0.0, 0.2, 0.4, 0.6, 0.8, 0.95])
@@ -64,23 +69,32 @@ def met(kind: GrassKind, growth: Growth, elevation: float, height: float, densit
     return 1.0 - len(hit.sample) / SAMPLES**2
 
 
-def closed_form(kind: GrassKind, growth: Growth, elevation: float, density: float) -> NDArray[np.float64]:
-    """What `lib/canopy.glsl` says of it, at HEIGHTS of the canopy."""
-    leaves = leaves_of(kind, growth, PATCH)
-    deep = 1.0 - HEIGHTS
-    way = 1.0 / np.tan(np.radians(elevation)) + leaves.above / leaves.side
-    return np.asarray(np.exp(-way * leaves.side * density * deep**2 * (0.75 + 0.25 * deep)))
+SEEN = """#include "lib/canopy.glsl"
+in vec4 row;
+out float told;
+void main() { told = through_leaves(sun_way(0, row.x) * leaves_above(row.y, vec2(0.0, row.z))); }"""
+
+
+def closed_form(
+    probe: Probe, kind: GrassKind, growth: Growth, elevation: float, density: float
+) -> NDArray[np.floating]:
+    """What the shaders say of it, at HEIGHTS of the canopy."""
+    leaves, record = leaves_of(kind, growth, PATCH), np.zeros(1, FRAME)
+    record["lying"][0, 0, 0] = leaves.above / leaves.side
+    rows = np.zeros((len(HEIGHTS), 4), np.float32)
+    rows[:, 0], rows[:, 1], rows[:, 2] = np.sin(np.radians(elevation)), HEIGHTS, leaves.side * density
+    return probe(SEEN, rows, record, {}, 1)[:, 0]
 
 
 @pytest.mark.parametrize("density", [1.0, 0.5, 0.2])
 def test_f10_light_reaches_into_the_canopy_as_rays_through_its_blades_do(
-    grown: tuple[GrassKind, Growth], density: float
+    probe: Probe, grown: tuple[GrassKind, Growth], density: float
 ) -> None:
     kind, growth = grown
     canopy = canopy_height(growth)
     for elevation in (10.0, 20.0, 35.0, 55.0, 80.0):
         rays = np.array([met(kind, growth, elevation, height * canopy, density) for height in HEIGHTS])
-        apart = np.abs(closed_form(kind, growth, elevation, density) - rays)
+        apart = np.abs(closed_form(probe, kind, growth, elevation, density) - rays)
         assert apart.max() < 0.08, elevation
         assert apart.mean() < 0.04, elevation
 
