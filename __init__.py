@@ -7,6 +7,7 @@ if TYPE_CHECKING:
     from . import scenes
     from .components.body import Hover
     from .components.footprint import Footprint
+    from .components.grass_at import GrassAt
     from .components.patch import Lod, Patch
     from .components.pose import Pose
     from .components.presser import Presser
@@ -36,6 +37,7 @@ __all__ = [
     "Extent",
     "Footprint",
     "Grass",
+    "GrassAt",
     "Gust",
     "Hover",
     "Lod",
@@ -68,6 +70,7 @@ _HOMES = {
     "Extent": ".components.wind",
     "Footprint": ".components.footprint",
     "Grass": ".components.wind",
+    "GrassAt": ".components.grass_at",
     "Gust": ".systems.wind.gust",
     "Hover": ".components.body",
     "Lod": ".components.patch",

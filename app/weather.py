@@ -1,17 +1,20 @@
 """Winds that the viewer of the window sets off where it looks."""
 
 from itertools import count
-from math import cos, degrees, remainder, sin, tau
+from math import cos, degrees, isnan, remainder, sin, tau
 from typing import Literal
+
+import numpy as np
 
 from ..components.wind import WindPrimitive
 from ..engine.camera import Camera, forward
 from ..engine.declared.way import Waypoint
+from ..engine.terrain.pick import pick
+from ..engine.terrain.record import Terrain
 from ..systems.prairie import Prairie
 from ..systems.wind.blast import Blast, Shape
 from ..systems.wind.gust import Gust
 from ..systems.wind.whirlwind import Whirlwind
-from .ray import met_by
 from .studio.walker import Ground, on_terrain
 
 Raised = Literal["gust", "whirlwind", "blast"]
@@ -33,15 +36,16 @@ BLAST_TIME, BLAST_RADIUS = 1.6, 5.0
 """How long a single blast lasts [s], and how wide it is [m]."""
 
 
-def looked_at(camera: Camera, ground: Ground, /) -> tuple[float, float]:
+def looked_at(camera: Camera, ground: Ground, terrain: Terrain, /) -> tuple[float, float]:
     """Return where on the terrain (x, z) [m] a camera looks: where its ray meets the ground.
 
     A look that meets none within `FARTHEST` leads to the ground `AHEAD`.
     """
-    place = met_by(camera.position, forward(camera.yaw, camera.pitch), ground.height_at, farthest=FARTHEST)
-    if place is None:
-        place = camera.position[0] + AHEAD * sin(camera.yaw), camera.position[2] - AHEAD * cos(camera.yaw)
-    return on_terrain(*place, ground)[:2]
+    eye, ahead = np.array([camera.position]), np.array([forward(camera.yaw, camera.pitch)])
+    x, _, z = pick(terrain, eye, ahead, farthest=FARTHEST)[0].tolist()
+    if isnan(x):
+        x, z = camera.position[0] + AHEAD * sin(camera.yaw), camera.position[2] - AHEAD * cos(camera.yaw)
+    return on_terrain(x, z, ground)[:2]
 
 
 def raised(kind: Raised, place: tuple[float, float], yaw: float, time: float, /) -> WindPrimitive:
@@ -72,7 +76,8 @@ class Weather:
 
     def raise_wind(self, kind: Raised, camera: Camera, ground: Ground) -> None:
         """Set off a wind where a camera looks."""
-        wind = raised(kind, looked_at(camera, ground), camera.yaw, self._prairie.time)
+        terrain = self._prairie.site.ground.terrain
+        wind = raised(kind, looked_at(camera, ground, terrain), camera.yaw, self._prairie.time)
         assert wind.stop is not None
         self._ends[self._prairie.add(wind, name=f"{kind} {next(self._numbers)}")] = wind.stop
 

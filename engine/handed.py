@@ -6,6 +6,7 @@ from reprlib import repr as shortened
 import numpy as np
 from numpy.typing import NDArray
 
+from ..components.arrays import Doubles
 from ..components.pose import Pose
 
 NUMBERS = (float, int, np.floating, np.integer)
@@ -31,6 +32,26 @@ def as_floats(thing: object, due: str, /) -> NDArray[np.float32]:
     if thing is None or not np.isfinite(array).all():
         raise ValueError(f"{due}, not {'None' if thing is None else 'NaN or infinity'}")
     return array
+
+
+def as_rays(origin: object, direction: object, /) -> tuple[Doubles, Doubles]:
+    """Return where rays begin and where they go, each of shape (n, 3); one of either may serve all of the other.
+
+    Raises ValueError for anything else, and for a direction that leads nowhere.
+    """
+    due = "rays have an origin and a direction (x, y, z), one of each in a row"
+    each = []
+    for thing in (origin, direction):
+        shape = as_floats(thing, due).shape
+        if shape[-1:] != (3,) and shape != (0,):
+            raise ValueError(f"{due}, not an array of shape {shape}")
+        each.append(np.asarray(thing, np.float64).reshape(-1, 3))
+    if len(each[0]) != len(each[1]) and 1 not in (len(each[0]), len(each[1])):
+        raise ValueError(f"{due}, not {len(each[0])} and {len(each[1])} of them")
+    if not np.abs(each[1]).max(axis=1, initial=0.0).all():
+        raise ValueError(f"{due}, and a direction of nothing but 0 leads nowhere")
+    start, way = np.broadcast_arrays(*each)
+    return start, way
 
 
 def is_somewhere(pose: Pose, /) -> bool:

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..components.arrays import Floats
 from ..components.footprint import Footprint
+from ..components.grass_at import GrassAt
 from ..components.pose import HERE, Pose
 from ..components.wind import WindPrimitive
 from ..engine.camera import View, view_of
@@ -20,12 +21,13 @@ from ..engine.declared.light import Light
 from ..engine.declared.quality import PRESETS
 from ..engine.declared.scene import LodName, Scene
 from ..engine.gl.guest import unturned
-from ..engine.handed import must_be_a, must_be_known, must_be_step, must_be_time, must_be_viewer
+from ..engine.handed import as_rays, must_be_a, must_be_known, must_be_step, must_be_time, must_be_viewer
 from ..engine.plugged import bring_systems
 from ..engine.scene import LoadedScene, SceneLike, must_be_read, read_again, read_scene
 from ..engine.scene.change import changed
 from ..engine.schedule import Phase, Schedule
-from ..engine.terrain.sample import height_at
+from ..engine.terrain.pick import pick
+from ..engine.terrain.sample import height_at, normal_at
 from ..engine.world import World
 from .around.clearing import Clearings
 from .around.outlook import Outlook, Outlooks
@@ -39,6 +41,7 @@ from .pressers import Pressers
 from .screen import Screen
 from .site import Site, found_again, found_site, is_grown, outlook_on, settle_on
 from .space.window import as_places, cell_of
+from .standing import grass_at
 from .statistics import Statistics
 from .winds import Winds
 
@@ -74,17 +77,10 @@ class Prairie:
     """What holds the time of a draw, if anything does; its `hold` may be changed at any time."""
 
     def __init__(
-        self,
-        loaded: LoadedScene,
-        *,
-        ctx: moderngl.Context | None = None,
-        preset: str | None = None,
-        lod: LodName = "auto",
-        transitions: Transitions = SEAMLESS,
-        live: bool = True,
-        hold: float | None = None,
+        self, loaded: LoadedScene, *, ctx: moderngl.Context | None = None, preset: str | None = None,
+        lod: LodName = "auto", transitions: Transitions = SEAMLESS, live: bool = True, hold: float | None = None,
         linear: bool = False,
-    ) -> None:
+    ) -> None:  # fmt: skip
         must_be_read(loaded)
         must_be_a(Transitions, transitions, "transitions are made as Transitions()")
         if ctx is not None:
@@ -109,17 +105,10 @@ class Prairie:
 
     @classmethod
     def load(
-        cls,
-        scene: SceneLike,
-        *,
-        ctx: moderngl.Context | None = None,
-        preset: str | None = None,
-        lod: LodName = "auto",
-        transitions: Transitions = SEAMLESS,
-        live: bool = True,
-        hold: float | None = None,
+        cls, scene: SceneLike, *, ctx: moderngl.Context | None = None, preset: str | None = None,
+        lod: LodName = "auto", transitions: Transitions = SEAMLESS, live: bool = True, hold: float | None = None,
         linear: bool = False,
-    ) -> "Prairie":
+    ) -> "Prairie":  # fmt: skip
         """Return the prairie of a scene: a file, a bundled scene by its name, a mapping of keys, or a `Scene`.
 
         `ctx` is the context to draw in; without it the one that is current at the first draw. `preset` overrides
@@ -133,15 +122,9 @@ class Prairie:
         must_be_known("preset", preset, PRESETS)
         must_be_known("representation", str(lod), get_args(LodName))
         return cls(
-            read_scene(scene),
-            ctx=ctx,
-            preset=preset,
-            lod=lod,
-            transitions=transitions,
-            live=live,
-            hold=hold,
+            read_scene(scene), ctx=ctx, preset=preset, lod=lod, transitions=transitions, live=live, hold=hold,
             linear=linear,
-        )
+        )  # fmt: skip
 
     def reseeded(self, seed: int) -> "Prairie":
         """Return another prairie of the same scene, quality and terrain, with other grass."""
@@ -226,13 +209,9 @@ class Prairie:
         self.systems.run(last=Phase.SEE)
 
     def group(
-        self,
-        batch: "Batch",
-        camera: Callable[[], tuple[object, object]],
-        *,
-        order: int = 0,
+        self, batch: "Batch", camera: Callable[[], tuple[object, object]], *, order: int = 0,
         parent: "Group | None" = None,
-    ) -> "DrawingGroup":
+    ) -> "DrawingGroup":  # fmt: skip
         """Put the prairie into a pyglet batch, and return the group that it is there.
 
         Whenever the batch is drawn, `camera` is asked for view and projection, as `draw` takes them, and the prairie is
@@ -245,6 +224,22 @@ class Prairie:
     def height_at(self, xz: ArrayLike) -> Floats:
         """Return the height of the ground [m], shape (n,), at ground positions (x, z) [m], shape (n, 2)."""
         return height_at(self.site.ground.terrain, as_places(xz))
+
+    def normal_at(self, xz: ArrayLike) -> Floats:
+        """Return the ground's normals, unit vectors (x, y, z) of shape (n, 3), at ground positions as `height_at`."""
+        return normal_at(self.site.ground.terrain, as_places(xz))
+
+    def pick(self, origin: ArrayLike, direction: ArrayLike) -> Floats:
+        """Return where rays first meet the ground (x, y, z) [m], shape (n, 3), and NaN where they never do.
+
+        They begin at `origin` [m] and go along `direction`, both of shape (n, 3), or (3,) for one; one origin may serve
+        many directions. One that begins below the ground meets it there. Raises ValueError for what are no rays.
+        """
+        return pick(self.site.ground.terrain, *as_rays(origin, direction))
+
+    def grass_at(self, xz: ArrayLike) -> GrassAt:
+        """Return what grows at ground positions (x, z) [m], shape (n, 2), and how high it stands there now."""
+        return grass_at(self.site, self.clearings, self._mown, self._felt, as_places(xz))
 
     def wind_at(self, xz: ArrayLike, time: float | None = None, *, kind: str | None = None) -> Floats:
         """Return what grass at ground positions (x, z) [m], shape (n, 2), feels at `time` [s], or now.
@@ -261,12 +256,10 @@ class Prairie:
         """Return what grass at ground positions (x, z) [m], shape (n, 2), feels now of winds and of pressers.
 
         Messages of shape (n, 2), of grass of a `kind` or of the densest, as those of `wind_at`: where nobody walks or
-        has walked, they are the same. Every presser has come to where its `Pose` is now. Raises ValueError for an
-        unknown kind.
+        has walked, they are the same. Every presser has come to where its `Pose` is now. Whether grass is cut, cleared
+        or grows there at all makes no difference: `grass_at` tells. Raises ValueError for an unknown kind.
         """
-        receivers = self.winds.standing(as_places(xz), kind=self.scene.number_of(kind))
-        self.pressers.note(self.time)
-        return self._assembly.felt(receivers, time=self.time)
+        return self._felt(as_places(xz), self.scene.number_of(kind))
 
     def patch_at(self, xz: ArrayLike, *, viewer: str = "main") -> NDArray[np.int64]:
         """Return the entity of the patch at each ground position (x, z) [m], shape (n, 2), as a viewer has it: (n,).
@@ -394,6 +387,10 @@ class Prairie:
     def _must_be_there(self, purpose: str) -> None:
         if self._released:
             raise RuntimeError(f"this prairie has been released: load it again to {purpose}")
+
+    def _felt(self, place: Floats, kind: int | None) -> Floats:
+        self.pressers.note(self.time)
+        return self._assembly.felt(self.winds.standing(place, kind=kind), time=self.time)
 
     def _look(self, seen: View, viewer: str) -> Outlook:
         outlook = self.viewers.looking(viewer, partial(outlook_on, self.site))

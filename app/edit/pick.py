@@ -2,18 +2,21 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
+from math import isnan
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...components.arrays import Doubles, Floats
+from ...engine.terrain.pick import pick
 from ...engine.terrain.record import Terrain
 from ...engine.terrain.sample import height_at
-from ..ray import NEAREST, met_by
 
 Place = tuple[float, float]
 """Ground position (x, z) [m]."""
+
+NEAREST = 0.2
+"""Nearer to the eye than this nothing is a pixel [m]."""
 
 FARTHEST = 3000.0
 """How far away the ground is looked for [m]."""
@@ -41,7 +44,8 @@ class Sight:
 
     def ground(self, pixel: tuple[float, float], /) -> Place | None:
         """Return where the ray through a pixel first meets the ground; None where it meets none."""
-        return met_by(self.eye, self.ray(pixel), partial(height_at, self.terrain), farthest=FARTHEST)
+        x, _, z = pick(self.terrain, self.eye[None], self.ray(pixel)[None], farthest=FARTHEST)[0].tolist()
+        return None if isnan(x) else (x, z)
 
     def ray(self, pixel: tuple[float, float], /) -> Doubles:
         """Return the unit vector from the eye through a pixel, shape (3,)."""

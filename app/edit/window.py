@@ -58,7 +58,7 @@ class EditWalk(Walk):
         self.editor.step()
         if self.prairie.site.ground.terrain is not terrain:
             self.settle()
-        self.editor.spot = looked_at(self.camera, self.ground)
+        self.editor.spot = looked_at(self.camera, self.ground, self.prairie.site.ground.terrain)
 
     def reload(self) -> None:
         """Read the scene again; what is not saved stays until F5 asks for it in so many words."""

@@ -45,6 +45,17 @@ def slope_at(terrain: Terrain, place: Floats, /) -> Floats:
     return slope
 
 
+def normal_at(terrain: Terrain, place: Floats, /) -> Floats:
+    """Return the ground's normal, unit vectors (x, y, z) of shape (n, 3), at ground positions (x, z) [m], shape (n, 2).
+
+    It goes with `slope_at`.
+    """
+    slope = slope_at(terrain, place)
+    normal = np.stack([-slope[:, 0], np.ones(len(place), np.float32), -slope[:, 1]], axis=1)
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    return normal
+
+
 def density_at(density: Density, place: Floats, /) -> Floats:
     """Return each kind's density in [0, 1] at ground positions (x, z) [m] of shape (n, 2), shape (kinds, n).
 

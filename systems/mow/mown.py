@@ -70,6 +70,15 @@ class Mown:
             self._tops = _Tops(self, patch)
         return self._tops.of(self, cells)
 
+    def at(self, place: Floats) -> Floats:
+        """Return up to which height grass is left at ground positions (n, 2) [m], shape (n,); infinite where uncut."""
+        left = np.full(len(place), np.inf, np.float32)
+        if self.heights is not None:
+            cell = np.floor((place.astype(np.float64) - self.origin) / self.cell).astype(np.int64)
+            on = ((cell >= 0) & (cell < self.shape[::-1])).all(axis=1)
+            left[on] = self.heights[cell[on, 1], cell[on, 0]]
+        return left
+
     def change(self, terrain: Terrain) -> None:
         """Take over another terrain: what was cut at a place stays cut there."""
         if (terrain.origin, (_cells(terrain.size[1]), _cells(terrain.size[0]))) == (self.origin, self.shape):

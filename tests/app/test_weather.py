@@ -12,6 +12,7 @@ from tallgrass.app.studio.walker import MARGIN, Ground
 from tallgrass.app.weather import AHEAD, FARTHEST, Raised, looked_at, raised
 from tallgrass.components.arrays import Floats
 from tallgrass.engine.camera import Camera, forward
+from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.whirlwind import Whirlwind
 
@@ -28,17 +29,27 @@ HILLS = Ground(hills, (200.0, 100.0), hills)
 FLAT = Ground(level, (1000.0, 1000.0), level)
 
 
+def mapped(ground: Ground) -> Terrain:
+    """The ground as a map of half a metre, twice as wide and deep as it is."""
+    x, z = (np.linspace(-side, side, round(4 * side) + 1) for side in ground.size)
+    place = np.stack(np.meshgrid(x, z), axis=-1).reshape(-1, 2).astype(np.float32)
+    return Terrain(ground.height_at(place).reshape(len(z), len(x)), 0.5)
+
+
+HILLY, LEVEL = mapped(HILLS), Terrain(np.zeros((2, 2), np.float32), 1000.0)
+
+
 def test_n8_a_look_leads_to_where_it_meets_the_ground() -> None:
     down = Camera((3.0, 2.0, 4.0), 0.0, -math.atan(0.2), 0.7)
-    assert looked_at(down, FLAT) == pytest.approx((3.0, -6.0), abs=1e-3)
+    assert looked_at(down, FLAT, LEVEL) == pytest.approx((3.0, -6.0), abs=1e-3)
     up = Camera((0.0, 2.0, 0.0), math.pi / 2, 0.5, 0.7)
-    assert looked_at(up, FLAT) == pytest.approx((AHEAD, 0.0), abs=1e-6)
+    assert looked_at(up, FLAT, LEVEL) == pytest.approx((AHEAD, 0.0), abs=1e-6)
 
 
 @given(x=st.floats(-99.0, 99.0), z=st.floats(-49.0, 49.0), yaw=st.floats(-4.0, 4.0), pitch=st.floats(-1.5, 1.5))
 def test_n8_a_look_leads_to_the_terrain_and_to_the_first_hill(x: float, z: float, yaw: float, pitch: float) -> None:
     eye = HILLS.height(x, z) + 1.7
-    there = looked_at(Camera((x, eye, z), yaw, pitch, 0.7), HILLS)
+    there = looked_at(Camera((x, eye, z), yaw, pitch, 0.7), HILLS, HILLY)
     assert abs(there[0]) <= 100.0 - MARGIN
     assert abs(there[1]) <= 50.0 - MARGIN
     away = math.hypot(there[0] - x, there[1] - z)

@@ -20,6 +20,7 @@ def test_the_face_shows_what_programs_are_written_with() -> None:
         "Extent",
         "Footprint",
         "Grass",
+        "GrassAt",
         "Hover",
         "Lod",
         "Patch",

@@ -1,0 +1,103 @@
+"""Where rays meet the ground, exactly: from cell to cell of the terrain, each a bilinear surface."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.arrays import Doubles, Floats
+from .record import Terrain
+
+_SAME = 1e-12
+"""What is taken for nothing, of a unit vector's parts and of how a surface bends along a ray."""
+
+
+_MARGIN = 1.0
+"""How far above the highest ground rays are followed, and how far below the lowest [m]: roundings do not count."""
+
+
+def pick(terrain: Terrain, origin: Doubles, direction: Doubles, /, *, farthest: float = np.inf) -> Floats:
+    """Return where rays first meet the ground (x, y, z) [m], NaN where they do not within `farthest` [m], shape (n, 3).
+
+    They begin at `origin` (n, 3) [m] and go along `direction` (n, 3), of any length but 0. One that begins below the
+    ground meets it where it begins. Beyond the terrain the height of its nearest edge holds, as for `height_at`.
+    """
+    found = np.full((len(origin), 3), np.nan, np.float32)
+    lowest, highest = float(terrain.heights.min()) - _MARGIN, float(terrain.heights.max()) + _MARGIN
+    for number, (start, way) in enumerate(zip(origin, direction, strict=True)):
+        along = way / np.linalg.norm(way)
+        along[np.abs(along) < _SAME] = 0.0
+        begin, end = _between(start[1], along[1], lowest, highest)
+        away = _met(terrain, start, along, begin, min(end, farthest))
+        if away is not None:
+            found[number] = start + away * along
+    return found
+
+
+def _between(y: float, rise: float, lowest: float, highest: float) -> tuple[float, float]:
+    """Return from where to where along a ray [m] it may meet ground between two heights; below both it has met it."""
+    if rise == 0.0:
+        return 0.0, np.inf if y <= highest else -1.0
+    ends = (highest - y) / rise, (lowest - y) / rise
+    if rise > 0.0:
+        return 0.0, ends[0] if y > lowest else 0.0 if y <= highest else -1.0
+    return max(ends[0], 0.0), max(ends[1], 0.0)
+
+
+def _met(terrain: Terrain, start: Doubles, along: Doubles, begin: float, end: float) -> float | None:
+    """Return how far along a ray the ground is met first between two distances [m]; None where it is not."""
+    if end < begin:
+        return None
+    rows, columns = terrain.heights.shape
+    at = (start[::2] - np.array(terrain.origin)) / terrain.cell
+    way = along[::2] / terrain.cell
+    lines = [_crossings(at[axis], way[axis], begin, end, count) for axis, count in ((0, columns), (1, rows))]
+    inner = np.sort(np.concatenate(lines))
+    last = end if np.isfinite(end) else (inner[-1] if len(inner) else begin)
+    stops = np.concatenate([[begin], inner, [last]])
+    before, after = stops[:-1], stops[1:]
+    middle = at + 0.5 * (before + after)[:, None] * way
+    a, b, c, d = _corners(terrain, np.floor(middle).astype(np.intp))
+    cell = np.floor(middle)
+    inside = (cell >= 0) & (cell < np.array([columns - 1, rows - 1]))
+    u, v = (at - cell + before[:, None] * way).T * inside.T
+    du, dv = way[:, None] * inside.T
+    twist = a - b - c + d
+    right, down = b - a, c - a
+    # Height above the ground along the ray, from the beginning of each cell: low + slope * t + bend * t * t.
+    low = start[1] + before * along[1] - (a + right * u + down * v + twist * u * v)
+    slope = along[1] - (right * du + down * dv + twist * (u * dv + v * du))
+    roots = _first_root(low, slope, -twist * du * dv, after - before)
+    hit = np.flatnonzero(np.isfinite(roots))
+    return float(before[hit[0]] + roots[hit[0]]) if len(hit) else None
+
+
+def _crossings(at: float, way: float, begin: float, end: float, count: int) -> Doubles:
+    """Return how far along a ray it crosses the lines 0 to count - 1 of an axis, between two distances [m]."""
+    if way == 0.0:
+        return np.zeros(0)
+    ends = sorted((at + begin * way, at + end * way))
+    first, last = max(np.ceil(ends[0]), 0.0), min(np.floor(ends[1]), count - 1.0)
+    crossed = (np.arange(first, last + 1.0) - at) / way
+    return np.asarray(crossed[(crossed > begin) & (crossed < end)])
+
+
+def _corners(terrain: Terrain, cell: NDArray[np.intp]) -> Doubles:
+    """Return the heights of the corners of cells (n, 2): far left, far right, near left, near right, shape (4, n)."""
+    rows, columns = terrain.heights.shape
+    i, j = cell.T
+    left, right = np.clip(i, 0, columns - 1), np.clip(i + 1, 0, columns - 1)
+    far, near = np.clip(j, 0, rows - 1), np.clip(j + 1, 0, rows - 1)
+    heights = terrain.heights
+    return np.array([heights[far, left], heights[far, right], heights[near, left], heights[near, right]], np.float64)
+
+
+def _first_root(low: Doubles, slope: Doubles, bend: Doubles, length: Doubles) -> Doubles:
+    """Return where low + slope * t + bend * t * t first comes to 0 or below, t from 0 to `length`; infinity if not."""
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        root = np.sqrt(slope * slope - 4.0 * bend * low)
+        half = -0.5 * (slope + np.where(slope < 0.0, -root, root))  # of two ways, the one that loses no digits
+        one = np.where(np.abs(bend) > _SAME, half / bend, np.inf)
+        other = np.where(half != 0.0, low / half, np.inf)
+    slack = 1e-9 * (1.0 + length)
+    each = np.array([one, other])
+    each = np.where((each >= -slack) & (each <= length + slack), np.clip(each, 0.0, length), np.inf)
+    return np.where(low <= 0.0, 0.0, each.min(axis=0))
