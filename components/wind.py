@@ -3,15 +3,17 @@
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import inf
 from reprlib import repr as shortened
-from typing import ClassVar, Literal, Self
+from typing import ClassVar, Literal, Self, cast
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field, model_validator
+from pydantic import Field, PrivateAttr, model_validator
 
 from .arrays import Floats
 from .body import Hover
+from .course import Course
 from .declaration import Declaration, DeclarationError
 from .pose import HERE, Pose
 from .presser import Presser
@@ -137,11 +139,46 @@ class WindPrimitive(Declaration):
     swing: float = Field(default=0.12, ge=0.0, le=0.5)
     """Largest posture index of a blade's own small oscillations in it, of random direction."""
 
+    _run: tuple[Course, "WindPrimitive"] | None = PrivateAttr(None)
+    """How its phases have run, and the same wind before, where a game has changed their rates; from `on_course`."""
+
     @model_validator(mode="after")
     def _stop_after_start(self) -> Self:
         if self.stop is not None and self.stop <= self.start:
             raise DeclarationError(f"stop must be later than start, which is {self.start:g} s", "stop")
         return self
+
+    def rates(self) -> Sequence[float]:
+        """Return how fast its phases run [1/s]: all that would be such a rate times the time.
+
+        What travels, turns or beats has a phase, and reads it from `phases`: so it goes on from where it is when a game
+        changes the speed. A wind has as many phases at any time.
+        """
+        return ()
+
+    def phases(self, *, time: float, since: float = 0.0) -> tuple[float, ...]:
+        """Return how far each of its phases has come from `since` to `time` [s]: its rate, integrated.
+
+        That is the rate times the time as long as nobody changes it; of a wind that a game has changed on its entity,
+        each rate counts for as long as it held.
+        """
+        if self.course is not None:
+            return self.course.phases(time, since=since)
+        return tuple(rate * (time - since) for rate in self.rates())
+
+    @property
+    def course(self) -> Course | None:
+        """How its phases have run where a game has changed how fast they do; None for most winds."""
+        return self._run and self._run[0]
+
+    @property
+    def first(self) -> Self:
+        """The same wind as it was before a game first changed how fast its phases run; for most winds itself."""
+        return cast(Self, self._run[1]) if self._run else self
+
+    def ends(self) -> float:
+        """Return when it is over for good [s]; `inf` is never. A wind that is over costs nothing."""
+        return inf if self.stop is None else self.stop
 
     def parts(self, *, time: float, seed: int) -> Sequence["WindPrimitive"]:  # noqa: ARG002 - for those that repeat
         """Return the winds it is made of at `time` [s]: itself, unless it says otherwise.
@@ -191,6 +228,20 @@ class WindPrimitive(Declaration):
     def twin_values(self, *, time: float, seed: int) -> TwinValues:  # noqa: ARG002 - for those that have a twin
         """Return what the twin reads at `time` [s]; `seed` is the wind's own, as for `action`."""
         return TwinValues()
+
+
+def on_course(wind: WindPrimitive, before: WindPrimitive, /, *, time: float) -> WindPrimitive:
+    """Return a wind in place of one `before` it, of the same class, whose phases it takes over at `time` [s].
+
+    It is itself where the rates are the same as ever.
+    """
+    rates, held, course = tuple(wind.rates()), tuple(before.rates()), before.course
+    if course is None and rates == held:
+        return wind
+    course = course or Course.of(held)
+    made = wind.model_copy()
+    made._run = course if rates == course.rates[-1] else course.changed(rates, time=time), before.first  # noqa: SLF001
+    return made
 
 
 @dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)

@@ -164,7 +164,7 @@ class Prairie:
         """Move time on by `dt` [s]: ValueError below 0 and above 1e9 s, TypeError for what is no number."""
         must_be_step(dt)
         self._clock += float(dt)  # in single precision, time would soon stand still
-        self.winds.quarantine.let_back(self.time)
+        self.winds.pass_to(self.time)
 
     def draw(self, view: object, projection: object, *, viewer: str = "main") -> None:
         """Draw the prairie into the framebuffer that is bound, and leave the host's GL state as it was.
@@ -342,10 +342,12 @@ class Prairie:
         winds that have not changed blow on as if nothing had happened; so do those that were added, and the systems
         that a game has added, replaced or left out. What has been read already is not read again, and what `finding`
         has made of it is its `site`. Raises `SceneError` with every problem, and then nothing has changed at all;
-        ValueError for a scene without a file where no other is given; RuntimeError after `release`, and while another
-        esper world is current.
+        ValueError for a scene without a file where no other is given; TypeError for a `site` that is none; RuntimeError
+        after `release`, and while another esper world is current.
         """
         self._must_be_there("read it again")
+        if site is not None:
+            must_be_a(Site, site, "site is what finding(...)() returned")
         self.winds.sources()
         loaded = read_again(self.loaded, scene)
         before, self.site = self.site, self.finding(loaded)() if site is None else site

@@ -3,6 +3,7 @@
 import logging
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from functools import partial
 from itertools import count
 from math import inf
@@ -12,7 +13,7 @@ import numpy as np
 
 from ..components.arrays import Floats
 from ..components.pose import Pose
-from ..components.wind import WindPrimitive, WindSource, must_be_name, must_be_wind
+from ..components.wind import WindPrimitive, WindSource, must_be_name, must_be_wind, on_course
 from ..engine.declared.scene import Scene
 from ..engine.handed import is_somewhere
 from ..engine.terrain.sample import height_at
@@ -28,6 +29,23 @@ from .wind.quarantine import Quarantine, QuarantinedError
 log = logging.getLogger("tallgrass")
 
 
+KEPT = 60.0
+"""How long a wind that a game added is kept when it is over [s], for those who ask about a moment before."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Known:
+    """A wind's entity as it was seen last."""
+
+    source: WindSource
+
+    wind: WindPrimitive
+    """The source's primitive, with the course of its phases."""
+
+    end: float
+    """When it is over for good [s]."""
+
+
 class Winds:
     """The winds in one world; those that a scene declares, those that a game adds, and a game's own entities."""
 
@@ -40,6 +58,8 @@ class Winds:
         self._added: dict[int, int] = {}
         """By its handle, the generation of the world in which a game added each wind."""
         self.quarantine = Quarantine(live=live)
+        self._clock = 0.0
+        self._known: dict[int, _Known] = {}
         self.change(scene, ground, growths)
 
     def change(self, scene: Scene, ground: Ground, growths: Sequence[Growth]) -> None:
@@ -87,7 +107,7 @@ class Winds:
         """
         _must_be_pose(pose)
         if not self._is_there(handle):
-            raise ValueError(f"the game has deleted the entity of wind {handle}: add the wind again to move it")
+            raise ValueError(f"wind {handle} is over, or the game has deleted its entity: add it again to move it")
         self._world.add(handle, pose)
 
     def remove(self, handle: int) -> None:
@@ -110,6 +130,11 @@ class Winds:
             return False
         return self._world.find(entity, WindSource) is not None
 
+    def pass_to(self, time: float) -> None:
+        """Let the prairie's clock stand at `time` [s]: what a game changes on a wind, it changes then."""
+        self._clock = time
+        self.quarantine.let_back(time)
+
     def sources(self) -> list[WindSource]:
         """Return the winds there are."""
         self._revive()
@@ -121,11 +146,9 @@ class Winds:
         A wind whose entity has a `Pose` is there; one that something hovers over is where its jet meets the ground; the
         others are where they say themselves.
         """
-        self._revive()
-        found = self._world.all(WindSource)
-        sources, poses = list[WindSource](), list[Pose | None]()
-        for entity, source in found:
-            pose = self._world.find(entity, Pose)
+        sources, poses, winds = list[WindSource](), list[Pose | None](), list[WindPrimitive]()
+        for entity, known in self._standing(time):
+            source, pose = known.source, self._world.find(entity, Pose)
             if pose is not None and not self._world.stands(entity, pose, "the wind"):
                 continue
             with suppress(QuarantinedError):
@@ -135,11 +158,47 @@ class Winds:
                     pose = foot(body, self._height_at)
             sources.append(source)
             poses.append(pose)
-        return blowing(sources, self.quarantine, time=time, seed=self._scene.seed, poses=poses)
+            winds.append(known.wind)
+        seed = self._scene.seed
+        return blowing(sources, self.quarantine, time=time, seed=seed, poses=poses, winds=winds)
+
+    def _standing(self, time: float) -> list[tuple[int, _Known]]:
+        """Return the winds that are not over at `time` [s], after noting what a game has changed.
+
+        Those that it added go when they have been over for `KEPT`.
+        """
+        self._revive()
+        found, known = self._world.all(WindSource), self._known
+        if len(known) > len(found):
+            there = {entity for entity, _ in found}
+            self._known = known = {entity: each for entity, each in known.items() if entity in there}
+        standing: list[tuple[int, _Known]] = []
+        for entity, source in found:
+            if entity not in known or known[entity].source is not source:
+                known[entity] = self._noted(source, known.get(entity))
+            each = known[entity]
+            if time < each.end:
+                standing.append((entity, each))
+            elif each.end + KEPT < self._clock and self._added.get(entity) == self._generation:
+                self._world.delete(entity)
+        return standing
+
+    def _noted(self, source: WindSource, before: _Known | None) -> _Known:
+        """Return what a source is known as from now on, in place of what its entity was `before`."""
+        wind = source.primitive
+        try:
+            if before is not None and type(before.wind) is type(wind):
+                go_on = partial(on_course, wind, before.wind, time=self._clock)
+                wind = self.quarantine.ask(source, "rates", go_on)
+            end = self.quarantine.ask(source, "ends", wind.ends)
+            self.quarantine.must_be(source, "ends", end, float, int)
+        except QuarantinedError:
+            return _Known(source, wind, inf)
+        return _Known(source, wind, float(end))
 
     def bent(self, time: float) -> float:
         """Return the posture index that the winds bring grass to everywhere at `time` [s], in the mean."""
-        return mean_index(self.sources(), self.quarantine, time=time)
+        return mean_index([known.source for _, known in self._standing(time)], self.quarantine, time=time)
 
     def heard(self, receivers: ReceiverArrays, /, *, time: float) -> Floats:
         """Return the message that each receiver ends up with at `time` [s], shape (n, 2)."""
@@ -159,7 +218,7 @@ class Winds:
         """Let the winds of the scene be entities again after the game has cleared its world; say so once."""
         if self._generation == self._world.check():
             return
-        self._declared = []  # their numbers may be others' by now
+        self._declared, self._known = [], {}  # their numbers may be others' by now
         self.change(self._scene, self._ground, self._growths)  # raises where the world is gone, or another is current
         self._generation = self._world.generation
         log.warning("the esper world was cleared: the scene's winds are entities again, those that were added are gone")

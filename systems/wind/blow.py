@@ -78,15 +78,17 @@ def blowing(
     time: float,
     seed: int,
     poses: Iterable[Pose | None] = (),
+    winds: Iterable[WindPrimitive | None] = (),
 ) -> list[Blowing]:
     """Return the winds that act at `time` [s], the strongest claim first.
 
     Higher priority goes first; of equal ones that which began later; then by kind, by what they declare, by name and by
     pose. So the order in which winds were made never counts. `poses` says where each source is; None, or none for it,
-    leaves that to the wind. A source may be there more than once, at other poses.
+    leaves that to the wind. A source may be there more than once, at other poses. `winds` has the primitive of each
+    source with the course of its phases, where that is another than the source's own.
     """
-    placed = zip(sources, chain(poses, repeat(None)), strict=False)
-    found = [wind for source, pose in placed for wind in _parts(source, quarantine, time, seed, pose)]
+    given = zip(sources, chain(poses, repeat(None)), chain(winds, repeat(None)), strict=False)
+    found = [wind for source, pose, own in given for wind in _parts(source, quarantine, time, seed, pose, own)]
     tied = (list(winds) for _, winds in groupby(sorted(found, key=_claim, reverse=True), key=_claim))
     return [wind for winds in tied for wind in (winds if len(winds) == 1 else _untied(winds, quarantine))]
 
@@ -176,9 +178,14 @@ class Sent:
 
 
 def _parts(
-    source: WindSource, quarantine: Quarantine, time: float, seed: int, placed: Pose | None
+    source: WindSource,
+    quarantine: Quarantine,
+    time: float,
+    seed: int,
+    placed: Pose | None,
+    on_course: WindPrimitive | None,
 ) -> Iterator[Blowing]:
-    wind = source.primitive
+    wind = on_course or source.primitive
     own = _own_seed(seed, source.name)
     try:
         if not quarantine.ask(source, "its timeline", partial(is_on, wind, time)):

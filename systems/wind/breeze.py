@@ -1,6 +1,6 @@
 """The gentle breeze: everywhere, small oscillations around a rest that drifts slowly (paper, section 3.3)."""
 
-from math import cos, radians, sin
+from math import radians
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -29,11 +29,8 @@ class Breeze(MeanWind):
 
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
         """Return its messages at ground positions (n, 2): a rest that drifts slowly, shape (n, 2)."""
-        heading = np.radians(self.direction)
-        travel = self.speed * time / WAVE
-        wave = smooth_noise(
-            noise_table(seed, 0), place / np.float32(WAVE), shift=(-np.sin(heading) * travel, np.cos(heading) * travel)
-        )
+        heading, (x, z) = np.radians(self.direction), self.phases(time=time)
+        wave = smooth_noise(noise_table(seed, 0), place / np.float32(WAVE), shift=(-x / WAVE, -z / WAVE))
         drift = np.float32(self.gustiness) * (wave[:, 0] + np.float32(0.5) * wave[:, 1])
         index = np.clip(np.float32(self.strength) * (1 + drift), 0.0, 1.0)
         angle = np.float32(heading) + np.float32(0.7 * self.gustiness) * wave[:, 2]
@@ -41,6 +38,6 @@ class Breeze(MeanWind):
 
     def twin_values(self, *, time: float, seed: int) -> TwinValues:
         """Return heading [rad], strength, gustiness and how far waves have come, within the noise's period."""
-        heading, travel = radians(self.direction), self.speed * time / WAVE
-        shift = -sin(heading) * travel % PERIOD, cos(heading) * travel % PERIOD
-        return TwinValues((heading, self.strength, self.gustiness, *shift), (noise_table(seed, 0),))
+        x, z = self.phases(time=time)
+        shift = -x / WAVE % PERIOD, -z / WAVE % PERIOD
+        return TwinValues((radians(self.direction), self.strength, self.gustiness, *shift), (noise_table(seed, 0),))

@@ -88,23 +88,43 @@ class Gust(WindPrimitive):
         """How long it is on its way, until the last grass is at rest again [s]."""
         return (self.reach + self.ragged) / self.speed + self.hold + self.tail
 
+    def rates(self) -> tuple[float]:
+        """Return how fast it travels [m/s]."""
+        return (self.speed,)
+
+    def ends(self) -> float:
+        """Return when its last grass is at rest again [s]; `inf` for one that comes again without end."""
+        stop = super().ends()
+        return stop if self.every is not None else min(stop, self.start + self._longest)
+
+    @property
+    def _longest(self) -> float:
+        """How long it is on its way at most, at the slowest that it has ever been [s]."""
+        slowest = self.speed if self.course is None else self.course.slowest[0]
+        return (self.reach + self.ragged) / slowest + self.hold + self.tail
+
+    def is_on_its_way(self, time: float, /) -> bool:
+        """Return whether it has set out at `time` [s], and some of its grass is not at rest again."""
+        return self.start <= time and self._way(time) < self.speed * self.life
+
     def parts(self, *, time: float, seed: int) -> Sequence[WindPrimitive]:
         """Return the gusts on their way at `time` [s]: itself, or those of its repetitions that have set out."""
         if self.every is None:
-            return (self,) if self.start <= time < self.start + self.life else ()
+            return (self,) if self.is_on_its_way(time) else ()
         waits, sides = _repetitions(seed, *self.every)
         once, period = len(waits) - 1, float(waits[-1])
-        first, last = (_set_out(waits, time - self.start - past) for past in (self.life, 0.0))
+        first, last = (_set_out(waits, time - self.start - past) for past in (self._longest, 0.0))
         known = _again(self)
         if len(known) > MOST_KEPT:
             known.clear()
-        return [
+        again = (
             known.get((seed, k))
             or known.setdefault(
                 (seed, k), self._repeated(k // once * period + float(waits[k % once]), float(sides[k % once]))
             )
             for k in range(first, last)
-        ]
+        )
+        return [each for each in again if each.is_on_its_way(time)]
 
     def _repeated(self, wait: float, side: float) -> "Gust":
         heading, aside = radians(self.direction), self.wander * side
@@ -147,7 +167,7 @@ class Gust(WindPrimitive):
         return TwinValues((*across, *along, *passing, self.ragged, *_phases(seed)))
 
     def _way(self, time: float) -> float:
-        return self.speed * (time - self.start)
+        return self.phases(time=time, since=self.start)[0]
 
     def _lag(self, across: Floats, seed: int) -> Floats:
         """Return how far parts of the front are behind, from 0 to `ragged` [m], shape (n,)."""

@@ -1,5 +1,7 @@
 """Winds that blow everywhere, about a mean that has a direction."""
 
+from math import cos, radians, sin
+
 import numpy as np
 from pydantic import Field
 
@@ -21,6 +23,11 @@ class MeanWind(WindPrimitive):
 
     speed: float = Field(default=4.0, ge=0.0, le=40.0)
     """How fast its waves or eddies travel [m/s]."""
+
+    def rates(self) -> tuple[float, ...]:
+        """Return how fast its waves or eddies travel along x and z [m/s]."""
+        heading = radians(self.direction)
+        return self.speed * sin(heading), -self.speed * cos(heading)
 
     def mask(self, place: Floats, /, *, time: float) -> Floats:
         """Return 1 everywhere: it has no edge."""

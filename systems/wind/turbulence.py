@@ -37,6 +37,11 @@ class Turbulence(MeanWind):
     scale: float = Field(default=12.0, ge=2.0, le=1000.0)
     """How large its eddies are: the integral length scale along its direction [m]."""
 
+    def rates(self) -> tuple[float, ...]:
+        """Return how fast its eddies travel, along x and z and altogether [length scales/s]."""
+        heading, pace = radians(self.direction), self.speed / self.scale
+        return pace * sin(heading), -pace * cos(heading), pace
+
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
         """Return its messages at ground positions (n, 2): the mean with its eddies, shape (n, 2)."""
         values = self.twin_values(time=time, seed=seed)
@@ -65,14 +70,18 @@ class Turbulence(MeanWind):
 
     def twin_values(self, *, time: float, seed: int) -> TwinValues:
         """Return the mean, how the tables lie, how far they are carried, and how much is felt of each half of both."""
-        heading, step, gone = radians(self.direction), self.scale * WIDE / PERIOD, self.speed * time / self.scale
+        heading, step = radians(self.direction), self.scale * WIDE / PERIOD
+        first = radians(self.first.direction)  # a wind that a game turns leaves its tables as they lie
+        gone_x, gone_z, gone = self.phases(time=time)
+        x, z = sin(first), -cos(first)
         ahead, aside = ASLANT
         large, _, more, across = wander(seed, 2, gone / LIFE)
         _, small, _, _ = wander(seed, 2, gone * FINER / LIFE)
-        way, off = (gone + SWAY * more) * PERIOD / WIDE, SWAY * across * PERIOD / WIDE
+        way = (x * gone_x + z * gone_z + SWAY * more) * PERIOD / WIDE
+        off = (x * gone_z - z * gone_x + SWAY * across) * PERIOD / WIDE
         carried = -ahead * way - aside * off, aside * way - ahead * off
         shift = [finer * part % PERIOD for finer in (1.0, FINER) for part in carried]
+        lie = (ahead * x - aside * z) / step, (-ahead * z - aside * x) / step
         share = [self.intensity * part for phase in (TURNS * large, TURNS * small) for part in (cos(phase), sin(phase))]
         x, z = sin(heading), -cos(heading)
-        lie = (ahead * x - aside * z) / step, (-ahead * z - aside * x) / step
         return TwinValues((self.strength * x, self.strength * z, *lie, *shift, *share), eddy_tables(seed))

@@ -45,6 +45,10 @@ class Whirlwind(PlacedWind):
     soft: float = Field(default=1.5, ge=0.0, le=1000.0)
     """Over what distance from its edge it takes hold, where winds are mixed by weight [m]."""
 
+    def rates(self) -> tuple[float]:
+        """Return how fast its stronger sides go round, clockwise seen from above [turns/s]."""
+        return (-self.turning if self.spin == "left" else self.turning,)
+
     def extent(self, *, time: float) -> Extent:
         """Return the square around its disc."""
         return Extent(-self.radius, self.radius, -self.radius, self.radius)
@@ -60,16 +64,18 @@ class Whirlwind(PlacedWind):
         away = np.asarray(np.maximum(np.sqrt(x * x + z * z), np.float32(1e-6)), np.float32)
         part = np.minimum(away / np.float32(self.radius), np.float32(1.0))
         fall = np.float32(1.0) - part * part * np.float32(0.85)
-        phase = np.float32(np.mod(2.0 * np.pi * LOBES * self.turning * time, 2.0 * np.pi))
         sign = np.float32(-1.0 if self.spin == "left" else 1.0)
-        around = np.arctan2(z, x) * np.float32(LOBES) - sign * phase
+        around = np.arctan2(z, x) * np.float32(LOBES) - np.float32(self._turned(time))
         uneven = np.float32(1.0 - UNEVEN) + np.float32(UNEVEN) * np.cos(around)
         index = np.float32(self.strength) * fall * uneven * smooth(away / np.float32(EYE))
         return np.stack([-sign * z / away * index, sign * x / away * index], axis=1)
 
     def twin_values(self, *, time: float, seed: int) -> TwinValues:
         """Return radius and width of its rim [m], strength, which way it turns, and how far its stronger sides are."""
-        sign = -1.0 if self.spin == "left" else 1.0
-        phase = sign * (2.0 * pi * LOBES * self.turning * time % (2.0 * pi))
+        sign, phase = -1.0 if self.spin == "left" else 1.0, self._turned(time)
         width = rim_width(-self.radius, self.radius, self.soft)
         return TwinValues((self.radius, width, self.strength, sign, cos(phase), sin(phase)))
+
+    def _turned(self, time: float) -> float:
+        """Return how far its stronger sides have gone round, as far as that shows [rad]."""
+        return 2.0 * pi * LOBES * self.phases(time=time)[0] % (2.0 * pi)

@@ -19,6 +19,10 @@ class VortexStreet(PlacedWind):
     strength: float = Field(default=0.8, ge=0.0, le=1.0)
     """Posture index that a young whirl adds on its rim."""
 
+    def rates(self) -> tuple[float]:
+        """Return how many whirls the rock sheds in a second; so they go on smoothly when a game changes the speed."""
+        return (self.speed / (2.5 * self.rock),)
+
     def extent(self, *, time: float) -> Extent:
         """Return the rectangle of ten whirls; a rock sheds one on each side every five of its widths."""
         return Extent(-2.5 * self.rock, 2.5 * self.rock, -25.0 * self.rock, 0.0)
@@ -30,7 +34,7 @@ class VortexStreet(PlacedWind):
 
     def action(self, place: np.ndarray, /, *, time: float, seed: int, grass: Grass) -> np.ndarray:
         """Return a light wind ahead, and on it what the ten latest whirls add."""
-        shed, message = time * self.speed / (2.5 * self.rock), np.full_like(place, [0.0, -0.2])
+        (shed,), message = self.phases(time=time), np.full_like(place, [0.0, -0.2])
         for number in range(int(shed) - 9, int(shed) + 1):
             side, age = number % 2 * 2 - 1, (shed - number) / 10.0
             centre = np.array([0.7 * side * self.rock, -25.0 * self.rock * age], np.float32)
@@ -41,5 +45,5 @@ class VortexStreet(PlacedWind):
 
     def twin_values(self, *, time: float, seed: int) -> TwinValues:
         """Return what its twin reads."""
-        latest, age = divmod(time * self.speed / (2.5 * self.rock), 1.0)
+        latest, age = divmod(self.phases(time=time)[0], 1.0)
         return TwinValues((self.rock, self.strength, latest % 2 * 2 - 1, age))

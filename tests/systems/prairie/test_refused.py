@@ -70,6 +70,11 @@ def test_an_option_of_another_type_is_refused_in_a_sentence(load: Load, option: 
         load(**option)
 
 
+def test_a_reload_with_what_is_no_site_is_refused_in_a_sentence(load: Load) -> None:
+    with pytest.raises(TypeError, match=r"^site is what finding\(\.\.\.\)\(\) returned, unlike 3$"):
+        load().reload(site=3)  # type: ignore[arg-type]
+
+
 def test_what_is_no_scene_is_refused_in_a_sentence() -> None:
     with pytest.raises(
         TypeError, match=r"^a scene is the path of a file, .* mapping of its keys or a Scene, unlike 5$"
@@ -223,7 +228,7 @@ def test_a_wind_that_the_game_has_deleted_cannot_be_moved_and_may_be_removed(pra
         esper.clear_database()
     else:
         esper.delete_entity(handle, immediate=how == "at once")
-    again = f"^the game has deleted the entity of wind {handle}: add the wind again to move it$"
+    again = f"^wind {handle} is over, or the game has deleted its entity: add it again to move it$"
     with pytest.raises(ValueError, match=again):
         prairie.move(handle, Pose())
     prairie.remove(handle)
