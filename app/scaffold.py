@@ -43,6 +43,10 @@ class $title(PlacedWind):
     period: float = Field(default=4.0, ge=0.1, le=60.0)
     """How long one breath takes [s]."""
 
+    def rates(self) -> tuple[float]:
+        """Return how many breaths it draws in a second: `phases` has their number, also when a game changes `period`."""
+        return (1.0 / self.period,)
+
     def extent(self, *, time: float) -> Extent:
         """Return the square around the patch: elsewhere the wind costs nothing."""
         return Extent(-self.radius, self.radius, -self.radius, self.radius)
@@ -54,7 +58,7 @@ class $title(PlacedWind):
 
     def action(self, place: np.ndarray, /, *, time: float, seed: int, grass: Grass) -> np.ndarray:
         """Return bending directions times posture indices, shape (n, 2): ahead is -z."""
-        breath = 0.75 + 0.25 * np.sin(2.0 * np.pi * time / self.period)
+        breath = 0.75 + 0.25 * np.sin(2.0 * np.pi * self.phases(time=time)[0])
         return np.full_like(place, [0.0, -self.strength * breath])
 ''')
 

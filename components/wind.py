@@ -1,7 +1,7 @@
 """Wind primitives: what every kind of wind is, the built-in ones and a stranger's alike."""
 
 from abc import abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import inf
 from reprlib import repr as shortened
@@ -87,10 +87,13 @@ class Grass:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TwinValues:
-    """What a wind's twin on the graphics card reads at one instant, in single precision."""
+    """What a wind's twin on the graphics card reads at one instant, in single precision, beside the wind's fields."""
 
-    numbers: Sequence[float] = ()
-    """What `value(wind, 0)` and so on are, 64 at most; phases are best reduced to one turn here."""
+    numbers: Mapping[str, float | Sequence[float]] | Sequence[float] = ()
+    """What its record has by these names, a number or two to four; phases are best reduced to one turn here.
+
+    A twin may read 64 numbers at most. Without names they are what `value(wind, 0)` and so on are.
+    """
 
     sheets: Sequence[Floats] = ()
     """What `sheet(wind, 0, at)` and so on read, four at most: shape (rows, columns, 1 to 4).

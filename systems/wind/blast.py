@@ -1,5 +1,6 @@
 """The blast of air under a flying object: a mask of any outline, pushed outwards (paper, section 3.3)."""
 
+from collections.abc import Sequence
 from functools import lru_cache
 from pathlib import Path
 from typing import ClassVar, Literal, Self
@@ -125,13 +126,19 @@ class Blast(PlacedWind):
         return np.asarray(outward * index[:, None], np.float32)
 
     def twin_values(self, *, time: float, seed: int) -> TwinValues:
-        """Return how its outline is sampled [m], how it takes hold, its strength, and how far its rings have run."""
+        """Return how its outline is sampled [m], how it takes hold, its mean, and how far its rings have run."""
         outline = self.outline.outline()
         rows, columns = outline.field.shape[:2]
-        sampled = *outline.corner, outline.step, columns - 1.001, rows - 1.001
-        strength = self.strength / (1.0 + PULSE)
-        numbers = *sampled, self._width(outline), outline.deepest, strength, BEAT * time % 1.0
-        return TwinValues(numbers, (outline.field,))
+        record: dict[str, float | Sequence[float]] = {
+            "corner": outline.corner,
+            "last": (columns - 1.001, rows - 1.001),
+            "stride": outline.step,
+            "side": self._width(outline),
+            "deepest": outline.deepest,
+            "mean": self.strength / (1.0 + PULSE),
+            "turn": BEAT * time % 1.0,
+        }
+        return TwinValues(record, (outline.field,))
 
     def _width(self, outline: Outline) -> float:
         """Return over what distance from its outline it takes hold [m]."""

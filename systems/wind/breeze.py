@@ -37,7 +37,7 @@ class Breeze(MeanWind):
         return np.stack([np.sin(angle) * index, -np.cos(angle) * index], axis=1).astype(np.float32)
 
     def twin_values(self, *, time: float, seed: int) -> TwinValues:
-        """Return heading [rad], strength, gustiness and how far waves have come, within the noise's period."""
+        """Return its heading [rad], and how far waves have come, within the noise's period."""
         x, z = self.phases(time=time)
         shift = -x / WAVE % PERIOD, -z / WAVE % PERIOD
-        return TwinValues((radians(self.direction), self.strength, self.gustiness, *shift), (noise_table(seed, 0),))
+        return TwinValues({"heading": radians(self.direction), "shift": shift}, (noise_table(seed, 0),))

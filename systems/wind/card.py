@@ -20,7 +20,20 @@ from .flutter import flutter_values
 from .quarantine import Quarantine
 from .sheets import Sheets
 from .told import Told
-from .twin import ANY, LARGEST, MOST_NUMBERS, TOLD, Twin, TwinError, check_values, fitted_few, joined_twins, twin_of
+from .twin import (
+    ANY,
+    LARGEST,
+    MOST_NUMBERS,
+    TOLD,
+    Layout,
+    Twin,
+    TwinError,
+    check_values,
+    fitted_few,
+    joined_twins,
+    layout_of,
+    twin_of,
+)
 
 Rows = NDArray[np.intp]
 
@@ -63,6 +76,7 @@ class CardWinds:
         """Why the twin of a class of winds is left out."""
         self._numbers: dict[type[WindPrimitive], int] = {}
         self._twins: list[Twin] = []
+        self._layouts: list[Layout] = []
         self._order: list[int] = []
         self._programs: dict[object, moderngl.Program] = {}
         self._winds: list[Blowing] = []
@@ -74,7 +88,7 @@ class CardWinds:
     def meet(self, winds: Iterable[WindPrimitive], /) -> None:
         """Make room for winds that may blow later, so that programs change now and not when they do."""
         order = sorted(winds, key=claim, reverse=True)
-        self._runs([self._number_of(type(wind)) for wind in order])
+        self._runs([self._number_of(wind, wind.start, 0) for wind in order])
 
     def write(
         self, winds: Sequence[Blowing], /, *, time: float, seed: int, mixing: Mixing, to: float = 0.0
@@ -99,10 +113,10 @@ class CardWinds:
     def _write(self, number: int, wind: Blowing, time: float, *, weighs: bool) -> int:
         """Write a wind into its row, and return the number of its twin."""
         primitive = wind.primitive
-        twin, values = self._number_of(type(primitive)), TwinValues()
+        twin, values = self._number_of(primitive, time, wind.seed), TwinValues()
         if twin != TOLD:
             try:
-                values = primitive.twin_values(time=time, seed=wind.seed)
+                values = self._layouts[twin].packed(primitive, primitive.twin_values(time=time, seed=wind.seed))
                 check_values(self._twins[twin], values)
             except Exception as error:  # noqa: BLE001 - a plugin may raise anything
                 self._do_without(type(primitive), error)
@@ -190,7 +204,8 @@ class CardWinds:
         among = len(self._twins) if ANY in order else 0
         key = vertex, fragment, tuple((defines or {}).items()), varyings, order, among
         if key not in self._programs:
-            self._programs[key] = self._made(vertex, fragment, defines, varyings, joined_twins(self._twins, order))
+            twins = joined_twins(self._twins, order, self._layouts)
+            self._programs[key] = self._made(vertex, fragment, defines, varyings, twins)
         return self._programs[key]
 
     def _made(
@@ -223,23 +238,28 @@ class CardWinds:
 
     # ---- Twins -----------------------------------------------------------------------------------
 
-    def _number_of(self, kind: type[WindPrimitive]) -> int:
-        """Return which of the twins is that of a class of winds, `TOLD` where numpy does without one."""
+    def _number_of(self, wind: WindPrimitive, time: float, seed: int) -> int:
+        """Return which of the twins is that of a wind's class, `TOLD` where numpy does without one.
+
+        Of the first of a class it is asked how its record lies, at a time [s] and with a seed.
+        """
+        kind = type(wind)
         if kind not in self._numbers:
             self._numbers[kind] = TOLD
             try:
                 twin = twin_of(kind)
-                self._numbers[kind] = TOLD if twin is None else self._admit(twin)
-            except (TwinError, ShaderError, OSError, UnicodeError) as error:
+                self._numbers[kind] = TOLD if twin is None else self._admit(twin, wind, time, seed)
+            except Exception as error:  # noqa: BLE001 - a plugin may raise anything
                 self._do_without(kind, error)
         return self._numbers[kind]
 
-    def _admit(self, twin: Twin) -> int:
+    def _admit(self, twin: Twin, wind: WindPrimitive, time: float, seed: int) -> int:
         """Return the number of a twin among the others; raises ShaderError where it does not go with them."""
         if twin not in self._twins:
-            twins = [*self._twins, twin]
-            self._made(_TRIED, None, None, ("message",), joined_twins(twins, range(len(twins)))).release()
-            self._twins = twins
+            layout = layout_of(twin, wind, wind.twin_values(time=time, seed=seed))
+            twins, layouts = [*self._twins, twin], [*self._layouts, layout]
+            self._made(_TRIED, None, None, ("message",), joined_twins(twins, range(len(twins)), layouts)).release()
+            self._twins, self._layouts = twins, layouts
         return self._twins.index(twin)
 
     def _do_without(self, kind: type[WindPrimitive], error: Exception) -> None:

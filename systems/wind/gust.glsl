@@ -1,19 +1,18 @@
 // The twin of systems/wind/gust.py.
 
-float mask(vec2 place, Wind wind) {
-    float across = rim(place.x, value(wind, 0), value(wind, 1), value(wind, 2));
-    return across * rim(place.y, value(wind, 3), value(wind, 4), value(wind, 5));
+float mask(vec2 place, Gust gust) {
+    vec2 along = gust.ahead_behind;
+    return rim(place.x, -0.5 * gust.width, 0.5 * gust.width, gust.side) * rim(place.y, along.x, along.y, gust.end);
 }
 
-float lag(float across, Wind wind) {
-    float wave = sin(across / 4.1 + value(wind, 11)) + sin(across / 1.7 + value(wind, 12)) * 0.6;
-    return value(wind, 10) * (0.5 + wave / 3.2);
+float lag(float across, Gust gust) {
+    float wave = sin(across / 4.1 + gust.waves.x) + sin(across / 1.7 + gust.waves.y) * 0.6;
+    return gust.ragged * (0.5 + wave / 3.2);
 }
 
-vec2 action(vec2 place, Wind wind) {
-    float speed = value(wind, 6), hold = value(wind, 7), tail = value(wind, 8), strength = value(wind, 9);
-    float elapsed = (place.y - lag(place.x, wind)) / speed;
-    float index = after_start(wind, elapsed) + after_stop(wind, elapsed - hold) - 1.0;
-    float left = clamp((hold + tail - elapsed) / (0.5 * tail), 0.0, 1.0);
-    return vec2(0.0, clamp(-strength * index * left, -1.0, 1.0));
+vec2 action(vec2 place, Gust gust) {
+    float elapsed = (place.y - lag(place.x, gust)) / gust.speed;
+    float index = after_start(gust.wind, elapsed) + after_stop(gust.wind, elapsed - gust.hold) - 1.0;
+    float left = clamp((gust.hold + gust.tail - elapsed) / (0.5 * gust.tail), 0.0, 1.0);
+    return vec2(0.0, clamp(-gust.strength * index * left, -1.0, 1.0));
 }

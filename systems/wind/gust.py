@@ -159,12 +159,11 @@ class Gust(WindPrimitive):
         return message
 
     def twin_values(self, *, time: float, seed: int) -> TwinValues:
-        """Return the strip and the widths of its rims [m], how it passes, and how its front lags."""
+        """Return where the strip begins and ends, how wide its rims are [m], and where its front's waves begin."""
         held = self.extent(time=time)
-        across = held.left, held.right, rim_width(held.left, held.right, self.soft)
-        along = held.ahead, held.behind, rim_width(held.ahead, held.behind, self.soft)
-        passing = self.speed, self.hold, self.tail, self.strength
-        return TwinValues((*across, *along, *passing, self.ragged, *_phases(seed)))
+        side, end = rim_width(held.left, held.right, self.soft), rim_width(held.ahead, held.behind, self.soft)
+        along = held.ahead, held.behind
+        return TwinValues({"ahead_behind": along, "side": side, "end": end, "waves": _phases(seed)})
 
     def _way(self, time: float) -> float:
         return self.phases(time=time, since=self.start)[0]

@@ -1,7 +1,8 @@
 """Turbulence: eddies of all sizes about a mean wind, as real wind has them (paper, section 3.3)."""
 
+from collections.abc import Mapping, Sequence
 from math import cos, pi, radians, sin
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, cast
 
 import numpy as np
 from pydantic import Field
@@ -11,6 +12,8 @@ from ...components.wind import Grass, TwinValues
 from ...engine.noise import ASLANT, PERIOD, smooth_noise, wander
 from .eddies import FINER, WIDE, eddy_tables
 from .mean import MeanWind
+
+Record = dict[str, Sequence[float]]
 
 LIFE = 64.0
 """How many length scales the wind goes while large eddies become others; small ones do `FINER` times sooner."""
@@ -45,20 +48,22 @@ class Turbulence(MeanWind):
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
         """Return its messages at ground positions (n, 2): the mean with its eddies, shape (n, 2)."""
         values = self.twin_values(time=time, seed=seed)
-        ahead_x, ahead_z, across, along, *_ = (np.float32(number) for number in values.numbers)
+        record = {name: np.asarray(each, np.float32) for name, each in cast(Record, values.numbers).items()}
+        (ahead_x, ahead_z), (across, along) = record["mean"], record["lie"]
         x, z = place[:, 0], place[:, 1]
-        faster, aside = self._eddies(np.stack([across * x - along * z, along * x + across * z], axis=1), values)
+        at = np.stack([across * x - along * z, along * x + across * z], axis=1)
+        faster, aside = self._eddies(at, record, values.sheets)
         faster += np.float32(1.0)
         x, z = ahead_x * faster - ahead_z * aside, ahead_z * faster + ahead_x * aside
         length = np.maximum(np.sqrt(x * x + z * z), np.float32(1.0))
         return np.stack([x / length, z / length], axis=1)
 
     @staticmethod
-    def _eddies(at: Floats, values: TwinValues) -> tuple[Floats, Floats]:
+    def _eddies(at: Floats, record: Mapping[str, Floats], tables: Sequence[Floats]) -> tuple[Floats, Floats]:
         """Return how much faster the wind is than its mean, and how much goes aside, of the mean, shape (n,) each."""
-        shift, share = values.numbers[4:8], [np.float32(number) for number in values.numbers[8:]]
-        large = smooth_noise(values.sheets[0], at, shift=(shift[0], shift[1]))
-        small = smooth_noise(values.sheets[1], np.float32(FINER) * at, shift=(shift[2], shift[3]))
+        shift, share = record["shift"], record["share"]
+        large = smooth_noise(tables[0], at, shift=(shift[0], shift[1]))
+        small = smooth_noise(tables[1], np.float32(FINER) * at, shift=(shift[2], shift[3]))
         faster, aside = (
             share[0] * large[:, part]
             + share[1] * large[:, part + 2]
@@ -84,4 +89,5 @@ class Turbulence(MeanWind):
         lie = (ahead * x - aside * z) / step, (-ahead * z - aside * x) / step
         share = [self.intensity * part for phase in (TURNS * large, TURNS * small) for part in (cos(phase), sin(phase))]
         x, z = sin(heading), -cos(heading)
-        return TwinValues((self.strength * x, self.strength * z, *lie, *shift, *share), eddy_tables(seed))
+        mean = self.strength * x, self.strength * z
+        return TwinValues({"mean": mean, "lie": lie, "shift": shift, "share": share}, eddy_tables(seed))

@@ -2,13 +2,16 @@
 
 import re
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from difflib import get_close_matches
 from functools import lru_cache
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from itertools import accumulate, chain
 from pathlib import Path
+from reprlib import repr as shortened
+from typing import Any
 
 import numpy as np
 
@@ -35,7 +38,10 @@ _FUNCTION = re.compile(rf"^{_TYPE}\s+(\w+)\s*[({{]")
 _CONSTANTS = re.compile(rf"^const\s+{_TYPE}\s+(.*)")
 _CONSTANT = re.compile(r"(\w+)\s*(?:\[[^\]]*\]\s*)?=(?!=)")
 _MACRO = re.compile(r"^\s*#\s*define\s+(\w+)")
-_NUMBER, _SHEET = (re.compile(rf"\b{name}\s*\(\s*wind\s*,\s*(\d+)\b") for name in ("value", "(?:sheet|smooth_noise)"))
+_NUMBER, _SHEET = (re.compile(rf"\b{name}\s*\(\s*[\w.]+\s*,\s*(\d+)\b") for name in ("value", "(?:sheet|smooth_noise)"))
+_ACTION = re.compile(r"\bvec2\s+action\s*\(\s*(?:in\s+)?vec2\s+\w+\s*,\s*(?:in\s+)?(\w+)\s+\w+\s*\)")
+_COMMENT = re.compile(r"//.*")
+_VECTOR = ("", "float", "vec2", "vec3", "vec4")
 
 
 class TwinError(Exception):
@@ -44,7 +50,10 @@ class TwinError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Twin:
-    """The GLSL of a wind: `float mask(vec2 place, Wind wind)` and `vec2 action(vec2 place, Wind wind)`."""
+    """The GLSL of a wind: `float mask(vec2 place, Gust gust)` and `vec2 action(vec2 place, Gust gust)`.
+
+    `Gust` is the record of what it reads, whatever it calls that; a twin that writes `Wind` reads numbers instead.
+    """
 
     file: str
     """What messages call it: the module that it stands beside, and its name."""
@@ -53,22 +62,32 @@ class Twin:
     """Its lines."""
 
     numbers: int
-    """How many numbers it reads, as far as its text tells."""
+    """How many numbers it reads by `value`, as far as its text tells."""
 
     sheets: int
     """How many sheets it reads, as far as its text tells."""
 
+    record: str | None
+    """What it calls the type of its record."""
+
+    reads: tuple[str, ...]
+    """The names that it reads of its record, each once."""
+
     @classmethod
     def of(cls, file: str, text: Sequence[str]) -> "Twin":
         """Return the twin of a file with these lines."""
-        return cls(file, tuple(text), _most(_NUMBER, text), _most(_SHEET, text))
+        bare = "\n".join(_COMMENT.sub("", line) for line in text)
+        found = _ACTION.search(bare)
+        record = found[1] if found and found[1] != "Wind" else None
+        reads = () if record is None else _read_of(record, bare)
+        return cls(file, tuple(text), _most(_NUMBER, text), _most(_SHEET, text), record, reads)
 
     @property
     def names(self) -> list[str]:
         """The functions, records and constants that it defines at its top level, each once."""
         found = [match[1] for line in self.text if (match := _FUNCTION.match(line))]
         constants = (_CONSTANT.findall(match[1]) for line in self.text if (match := _CONSTANTS.match(line)))
-        return list(dict.fromkeys([*found, *chain.from_iterable(constants)]))
+        return list(dict.fromkeys([*found, *chain.from_iterable(constants), *filter(None, [self.record])]))
 
 
 @lru_cache(maxsize=256)
@@ -89,13 +108,59 @@ def twin_of(primitive: type[WindPrimitive], /) -> Twin | None:
     return Twin.of(f"{owner.__module__}/{name}", source.read_text("utf-8").splitlines())
 
 
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """How a twin's record lies among the numbers of a wind: names and how many numbers each has, in that order."""
+
+    record: str | None = None
+    sizes: tuple[tuple[str, int], ...] = ()
+
+    @property
+    def lines(self) -> list[str]:
+        """GLSL that defines the record, and reads it as `read_` and its name: whole texels, and each once."""
+        if self.record is None:
+            return []
+        members = [f"    {_VECTOR[size]} {name};" for name, size in self.sizes]
+        ends = list(accumulate((size for _, size in self.sizes), initial=0))
+        read = "    vec4 texel{k} = texelFetch(winds, ivec2(HEAD + {k}, wind.row), 0);"
+        texels = [read.format(k=k) for k in range(-(-ends[-1] // 4))]
+        parts = [_VECTOR[size] + f"({_parts(end, size)})" for end, (_, size) in zip(ends, self.sizes, strict=False)]
+        return [
+            f"struct {self.record} {{", "    Wind wind;", *members, "};",
+            f"{self.record} read_{self.record}(Wind wind) {{", *texels,
+            f"    return {self.record}({', '.join(['wind', *parts])});", "}",
+        ]  # fmt: skip
+
+    def packed(self, wind: WindPrimitive, values: TwinValues, /) -> TwinValues:
+        """Return the numbers of a wind's record as it lies; raises TwinError where they are others than before."""
+        if self.record is None:
+            numbers = values.numbers
+            named = [_listed(number) for number in numbers.values()] if isinstance(numbers, Mapping) else [numbers]
+            return TwinValues([*chain.from_iterable(named)], values.sheets)
+        found = [_named(name, wind, values) for name, _ in self.sizes]
+        for (name, size), each in zip(self.sizes, found, strict=True):
+            if len(each) != size:
+                raise TwinError(f"'{name}' has {len(each)} numbers where it had {size} before")
+        return TwinValues([*chain.from_iterable(found)], values.sheets)
+
+
+def layout_of(twin: Twin, wind: WindPrimitive, values: TwinValues, /) -> Layout:
+    """Return how the record of a twin lies, from what a wind has by its names; raises TwinError for unknown ones."""
+    if twin.record is None:
+        return Layout()
+    if twin.numbers:
+        raise TwinError(f"it calls value(...) and reads a {twin.record}: write a name after a point, as gust.strength")
+    sizes = {name: len(_named(name, wind, values)) for name in twin.reads}
+    return Layout(twin.record, tuple(sorted(sizes.items(), key=lambda row: -row[1])))
+
+
 def check_values(twin: Twin, values: TwinValues, /) -> None:
-    """Raise TwinError unless these are what a twin can read."""
-    numbers, sheets = values.numbers, values.sheets
+    """Raise TwinError unless these are what a twin can read, packed as they lie."""
+    numbers, sheets = [*values.numbers], values.sheets
     if not twin.numbers <= len(numbers) <= MOST_NUMBERS:
         due = f"{twin.numbers} are read" if len(numbers) < twin.numbers else f"{MOST_NUMBERS} is the most"
         raise TwinError(f"twin_values returned {len(numbers)} numbers where {due}")
-    if not all(-LARGEST < number < LARGEST for number in numbers):
+    if not all(isinstance(number, float | int | np.number) and -LARGEST < number < LARGEST for number in numbers):
         raise TwinError("twin_values returned numbers that are not finite")
     if not twin.sheets <= len(sheets) <= MOST_SHEETS:
         due = f"{twin.sheets} are read" if len(sheets) < twin.sheets else f"{MOST_SHEETS} is the most"
@@ -108,20 +173,25 @@ def check_values(twin: Twin, values: TwinValues, /) -> None:
             raise TwinError(f"twin_values returned a sheet of shape {sheet.shape}; {MOST_SIDE} is the longest side")
 
 
-def joined_twins(twins: Sequence[Twin], order: Sequence[int], /) -> dict[str, list[Line]]:
+def joined_twins(
+    twins: Sequence[Twin], order: Sequence[int], /, layouts: Sequence[Layout] = ()
+) -> dict[str, list[Line]]:
     """Return the lines that stand in for `PLACE`: winds go by runs, each of one twin's number.
 
     `TOLD` stands for those without one, `ANY` for all. Runs of one twin are loops without a choice, because a software
     rasteriser goes through every branch of it. What a twin defines has a name of its own here, and no two can clash.
+    `layouts` says how the record of each lies.
     """
+    layouts = layouts or [Layout()] * len(twins)
     lines: list[Line] = []
     for number in range(len(twins)) if ANY in order else sorted(set(order) - {TOLD}):
         twin = twins[number]
-        lines += _head(f"#define {name} {name}_{number}" for name in twin.names)
+        lines += _head(f"#define {name} {name}_{number}" for name in _own(twin))
+        lines += _head(layouts[number].lines)
         lines += [(twin.file, at, text) for at, text in enumerate(twin.text, 1)]
         macros = (_MACRO.match(text) for text in twin.text)
-        lines += _head(f"#undef {name}" for name in [*twin.names, *(macro[1] for macro in macros if macro)])
-    runs = chain.from_iterable(_run(run, number, len(twins)) for run, number in enumerate(order))
+        lines += _head(f"#undef {name}" for name in [*_own(twin), *(macro[1] for macro in macros if macro)])
+    runs = chain.from_iterable(_run(run, number, twins) for run, number in enumerate(order))
     lines += _head([_HEAD, "    int row = 1;", *runs, "}"])
     return {PLACE: lines}
 
@@ -156,28 +226,70 @@ def fitted_few(order: Sequence[int], numbers: Sequence[int], /) -> tuple[list[in
 _HEAD = "void blow(inout Claims claims, vec2 place, int kind, int receiver) {"
 
 
-def _run(run: int, number: int, twins: int) -> list[str]:
+def _run(run: int, number: int, twins: Sequence[Twin]) -> list[str]:
     loop = f"    for (int end = end_of({run}); row < end && claims.left > 0.0; ++row) {{"
     told = "        lay_told(claims, row, receiver);"
     if number == TOLD:
         return [loop, told, "    }"]
     if number != ANY:
-        return [loop, *_sent(number), "    }"]
-    cases = ((f"        case {each}: {{", *_sent(each), "        } break;") for each in range(twins))
+        return [loop, *_sent(number, twins[number]), "    }"]
+    cases = ((f"        case {each}: {{", *_sent(each, twin), "        } break;") for each, twin in enumerate(twins))
     choice = "        switch (twin_of(row)) {"
     return [loop, choice, *chain.from_iterable(cases), f"        default: {told.strip()}", "        }", "    }"]
 
 
-def _sent(number: int) -> list[str]:
+def _sent(number: int, twin: Twin) -> list[str]:
+    record = "Wind" if twin.record is None else f"{twin.record}_{number}"
+    read = "one.wind" if twin.record is None else f"read_{record}(one.wind)"
     return [
         "        Asked one = asked(row, place, kind);",
         "        vec2 message = vec2(0.0);",
-        f"        float weight = one.held ? mask_{number}(one.own, one.wind) : 0.0;",
-        "        if (weight > 0.0) {",
-        f"            message = action_{number}(one.own, one.wind);",
+        "        float weight = 0.0;",
+        "        if (one.held) {",
+        f"            {record} record = {read};",
+        f"            weight = mask_{number}(one.own, record);",
+        "            if (weight > 0.0) {",
+        f"                message = action_{number}(one.own, record);",
+        "            }",
         "        }",
         "        lay_sent(claims, one, weight, message);",
     ]
+
+
+def _own(twin: Twin) -> list[str]:
+    """Return what is defined for a twin alone."""
+    return twin.names if twin.record is None else [*twin.names, f"read_{twin.record}"]
+
+
+def _parts(first: int, size: int) -> str:
+    """Return the numbers from the `first` on, of texels that have been read."""
+    return ", ".join(f"texel{k // 4}.{'xyzw'[k % 4]}" for k in range(first, first + size))
+
+
+def _read_of(record: str, text: str) -> tuple[str, ...]:
+    """Return the names that a text reads of its record, each once."""
+    called = "|".join(dict.fromkeys(re.findall(rf"\b{record}\s+(\w+)", text)))
+    read = re.findall(rf"\b(?:{called})\s*\.\s*(\w+)", text)
+    return tuple(name for name in dict.fromkeys(read) if name != "wind")
+
+
+def _named(name: str, wind: WindPrimitive, values: TwinValues) -> Sequence[float]:
+    """Return what a wind's record has by a name: of `twin_values`, or else a field; raises TwinError for none."""
+    named: Mapping[str, object] = values.numbers if isinstance(values.numbers, Mapping) else {}
+    fields = type(wind).model_fields
+    if name not in named and name not in fields:
+        near = get_close_matches(name, [*named, *fields], n=1)
+        guess = f"; did you mean '{near[0]}'?" if near else f", as in TwinValues({{'{name}': 0.5}})"
+        raise TwinError(f"it reads '{name}', which is no field and no name that twin_values returned{guess}")
+    found = _listed(named[name] if name in named else getattr(wind, name))
+    if not 1 <= len(found) <= 4 or not all(isinstance(number, float | int | np.number) for number in found):
+        what = shortened(found[0] if len(found) == 1 else found)
+        raise TwinError(f"it reads '{name}', which is {what} and not one to four numbers")
+    return found
+
+
+def _listed(number: Any) -> Sequence[Any]:
+    return list(number) if isinstance(number, list | tuple | np.ndarray) else [number]
 
 
 def _head(texts: Iterable[str]) -> list[Line]:

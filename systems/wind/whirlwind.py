@@ -71,10 +71,10 @@ class Whirlwind(PlacedWind):
         return np.stack([-sign * z / away * index, sign * x / away * index], axis=1)
 
     def twin_values(self, *, time: float, seed: int) -> TwinValues:
-        """Return radius and width of its rim [m], strength, which way it turns, and how far its stronger sides are."""
+        """Return the width of its rim [m], which way it turns, and how far its stronger sides are: cosine and sine."""
         sign, phase = -1.0 if self.spin == "left" else 1.0, self._turned(time)
         width = rim_width(-self.radius, self.radius, self.soft)
-        return TwinValues((self.radius, width, self.strength, sign, cos(phase), sin(phase)))
+        return TwinValues({"side": width, "sign": sign, "turned": (cos(phase), sin(phase))})
 
     def _turned(self, time: float) -> float:
         """Return how far its stronger sides have gone round, as far as that shows [rad]."""

@@ -44,6 +44,6 @@ class VortexStreet(PlacedWind):
         return np.asarray(message / np.maximum(1.0, np.linalg.norm(message, axis=1, keepdims=True)))
 
     def twin_values(self, *, time: float, seed: int) -> TwinValues:
-        """Return what its twin reads."""
+        """Return what its twin reads beside its fields: side and age of the latest whirl."""
         latest, age = divmod(self.phases(time=time)[0], 1.0)
-        return TwinValues((self.rock, self.strength, latest % 2 * 2 - 1, age))
+        return TwinValues({"side": latest % 2 * 2 - 1, "age": age})

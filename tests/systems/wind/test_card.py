@@ -1,6 +1,7 @@
 """Winds on the graphics card: strangers' twins, those without one, and twins that fail (D5)."""
 
 import logging
+import re
 from collections.abc import Iterator
 from typing import ClassVar
 
@@ -168,6 +169,73 @@ def test_d5_a_strangers_twin_is_heard_in_place_of_numpy(ear: CardEar, monkeypatc
     now = now_of(Breeze(), Draught(), Blast())
     assert ear.card.write(now, time=TIME, seed=7, mixing="weight") == []
     agrees(ear, now)
+
+
+NAMED = """
+float mask(vec2 place, Air draught) {
+    vec2 away = abs(place);
+    return clamp(draught.side - max(away.x, away.y), 0.0, 1.0);
+}
+vec2 sent(Air air) { return air.to * air.share; }  // air.nothing is no name
+vec2 action(vec2 place, Air draught) { return sent(draught); }
+"""
+
+
+def test_d5_a_twin_reads_its_record_by_the_names_of_fields_and_of_twin_values(
+    ear: CardEar, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Draught, "twin_values", lambda *_, **__: TwinValues({"share": 2.0, "to": (0.3, 0.05)}))
+    twin = written(monkeypatch, Draught, NAMED)
+    assert (twin.record, twin.reads) == ("Air", ("side", "to", "share"))
+    now = now_of(Breeze(), Draught(), Draught(side=9.0, priority=12), Blast())
+    assert ear.card.write(now, time=TIME, seed=7, mixing="weight") == []
+    agrees(ear, now)
+
+
+@pytest.mark.parametrize(
+    ("text", "values", "why"),
+    [
+        (
+            NAMED.replace("draught.side", "draught.sidee"),
+            {},
+            "it reads 'sidee', which is no field .*; did you mean 'side'",
+        ),
+        (NAMED, {"to": (0.3, 0.05)}, r"it reads 'share', which is no field .*, as in TwinValues\(\{'share': 0.5\}\)"),
+        (NAMED, (2.0,), "it reads 'to', which is no field and no name that twin_values returned"),
+        (NAMED.replace("air.share", "air.stop"), {"to": (1.0, 0.0)}, "it reads 'stop', which is None and not"),
+        (NAMED, {"share": "much", "to": (1.0, 0.0)}, "it reads 'share', which is 'much' and not one to four numbers"),
+        (
+            NAMED.replace("air.share", "value(air, 0)"),
+            {"to": (1.0, 0.0)},
+            "write a name after a point, as gust.strength",
+        ),
+        (NAMED, {"share": float("inf"), "to": (1.0, 0.0)}, "numbers that are not finite"),
+    ],
+)
+def test_d5_a_name_that_a_record_has_not_is_told_of_and_numpy_is_heard(
+    ear: CardEar,
+    monkeypatch: pytest.MonkeyPatch,
+    caplog: pytest.LogCaptureFixture,
+    text: str,
+    values: dict[str, float] | tuple[float, ...],
+    why: str,
+) -> None:
+    monkeypatch.setattr(Draught, "twin_values", lambda *_, **__: TwinValues(values))
+    written(monkeypatch, Draught, text)
+    agrees(ear, now_of(Breeze(), Draught(), Blast()))
+    (said,) = caplog.messages
+    assert re.search(why, said)
+
+
+def test_d5_a_record_whose_names_have_other_sizes_later_is_told_of_and_numpy_is_heard(
+    ear: CardEar, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    written(monkeypatch, Draught, NAMED)
+    for to in ((0.3, 0.05), (0.3, 0.05, 0.0)):
+        values = TwinValues({"share": 2.0, "to": to})
+        monkeypatch.setattr(Draught, "twin_values", lambda *_, values=values, **__: values)
+        agrees(ear, now_of(Breeze(), Draught()))
+    assert "'to' has 3 numbers where it had 2 before" in caplog.text
 
 
 @pytest.mark.parametrize(
