@@ -44,7 +44,7 @@ class $title(PlacedWind):
     """How long one breath takes [s]."""
 
     def rates(self) -> tuple[float]:
-        """Return how many breaths it draws in a second: `phases` has their number, also when a game changes `period`."""
+        """Return how many breaths it draws in a second: `phases` counts them, whatever a game changes."""
         return (1.0 / self.period,)
 
     def extent(self, *, time: float) -> Extent:

@@ -278,7 +278,7 @@ def _named(name: str, wind: WindPrimitive, values: TwinValues) -> Sequence[float
     named: Mapping[str, object] = values.numbers if isinstance(values.numbers, Mapping) else {}
     fields = type(wind).model_fields
     if name not in named and name not in fields:
-        near = get_close_matches(name, [*named, *fields], n=1)
+        near = get_close_matches(name, [*named, *fields], n=1, cutoff=0.7)
         guess = f"; did you mean '{near[0]}'?" if near else f", as in TwinValues({{'{name}': 0.5}})"
         raise TwinError(f"it reads '{name}', which is no field and no name that twin_values returned{guess}")
     found = _listed(named[name] if name in named else getattr(wind, name))

@@ -88,4 +88,4 @@ def test_the_examples_own_tests_pass(run: Run, site: Path) -> None:
 
 def test_an_example_is_as_short_as_a_plugin_may_be() -> None:
     (module,) = EXAMPLE.glob("vortex_street/*.py")
-    assert len(module.read_text("utf-8").splitlines()) <= 45, "40 without what its twin reads"
+    assert len(module.read_text("utf-8").splitlines()) <= 49, "40 without its phases and what its twin reads"
