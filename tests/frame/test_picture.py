@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from tallgrass.engine.camera import Camera, view_of
 from tallgrass.systems.prairie import Prairie
@@ -65,6 +66,21 @@ quality:
   carpet_to: 3
   carpet: 8
 """
+PALE = """\
+tallgrass: 2
+terrain: { noise: flat, size: [60, 60] }
+grass:
+  pale:
+    { height: [0.3, 0.4], width: 0.06, lean: 0.2, blades: 20, understorey: 0, clumping: 0, root: "#808080",
+      tip: "#ffffff" }
+light: { ground: "#000000", elevation: 70, azimuth: 90 }
+quality:
+  models: 4
+  blade_rings: [{ to: 2, segments: 3 }]
+  strip_rings: [{ to: 8, strips: 6, columns: 2, sections: 1, texel: 0.02 }]
+  carpet_to: 12
+  carpet: 96
+"""
 VIEWS: dict[str, dict[str, float]] = {
     "along": {"x": 0.7, "y": 1.7, "z": 20, "pitch": -5},
     "steep": {"x": 1, "y": 4, "z": 3, "pitch": -50, "yaw": 250},
@@ -112,6 +128,20 @@ def test_g1_the_carpet_has_the_hue_of_both_kinds_together(stage: Stage, load: Lo
     aim = camera(0, 2.5, 20, pitch=-25)
     pictures = {lod: stage.shot(load(TWO, lod=lod), aim)[30:].mean(axis=(0, 1)) for lod in ("strips", "carpet")}
     np.testing.assert_allclose(pictures["carpet"], pictures["strips"], rtol=0.12)
+
+
+def test_g1_strips_and_carpet_show_the_very_blades_of_each_patch(stage: Stage, load: Load, camera: Aim) -> None:
+    """Few pale blades on dark ground, from above: where they stand is seen in squares of 18 cm."""
+    aim = camera(0.7, 8, 3, pitch=-70, view=30)
+
+    def squares(lod: str) -> NDArray[np.float64]:
+        picture = stage.shot(load(PALE, lod=lod), aim)
+        return picture.reshape(18, 5, 32, 5, 3).mean(axis=(1, 3, 4)).ravel()
+
+    blades = squares("blades")
+    alike = {lod: float(np.corrcoef(blades, squares(lod))[0, 1]) for lod in ("strips", "carpet")}
+    assert alike["strips"] > 0.8
+    assert alike["carpet"] > 0.4
 
 
 @pytest.mark.parametrize("yaw", [0, 90, 200])

@@ -85,7 +85,7 @@ def look(world: World) -> Look:
     """Let the one viewer of a site look for one frame, as a prairie does, up to planting; return its outlook.
 
     `dt` is the time since it looked before [s], `yaw` where it looks to, without which it looks all round, `hear` what
-    the wind says to receivers, without which it is calm.
+    the wind says to receivers, without which it is calm; the eye is `up` metres above the ground.
     """
     outlooks: dict[Site, tuple[Outlook, Schedule]] = {}
 
@@ -98,6 +98,7 @@ def look(world: World) -> Look:
         dt: float = 1e9,
         jumped: bool = False,
         hear: Hear | None = None,
+        up: float = 0.8,
     ) -> Outlook:
         if site not in outlooks:
             viewer = Viewer()
@@ -106,7 +107,7 @@ def look(world: World) -> Look:
         outlook, systems = outlooks[site]
         viewer = outlook.viewer
         ground = float(height_at(site.ground.terrain, np.array([[x, z]], np.float32))[0])
-        viewer.eye, viewer.cone = (x, ground + 0.8, z), (0.0, pi) if yaw is None else (yaw, 0.6)
+        viewer.eye, viewer.cone = (x, ground + up, z), (0.0, pi) if yaw is None else (yaw, 0.6)
         viewer.dt, viewer.way, viewer.jumped = dt, 0.0, jumped
         systems.run(last=Phase.SEE)
         systems.step("plant")

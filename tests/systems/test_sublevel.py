@@ -14,7 +14,7 @@ from tallgrass.engine.camera import projection_matrix, view_matrix, view_of
 from tallgrass.engine.declared.quality import BladeRing, Quality, StripRing
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.around.outlook import Outlook
-from tallgrass.systems.lod import SLACK
+from tallgrass.systems.lod import SLACK, wanted_representation
 from tallgrass.systems.see import strips_kept
 from tallgrass.systems.show.blades.sublevel import blade_ring
 from tallgrass.systems.show.strips.representation import USUAL
@@ -364,3 +364,15 @@ def test_x3_a_patch_ends_the_change_of_its_sublevel_before_it_goes_to_blades(
     assert 6 <= len(ways) <= 11  # half of the change, and a step to begin with
     np.testing.assert_allclose(np.diff(ways[1:-1]), 0.05, atol=1e-5)
     assert (ways[-1], patches.progress[row]) == (1.0, 0.0)
+
+
+def test_f2_of_patches_within_reach_of_strips_those_that_are_looked_down_on_are_carpet(laid: Laid, look: Look) -> None:
+    site, passed = laid(terrain=FLAT), {}
+    for up in (0.8, 5.0):
+        patches = look(site, 0.6, 0.6, up=up).patches
+        near = wanted_representation(patches.away, np.full(len(patches.away), -1, np.int8), reach=site.reach)
+        strips = patches.visible & (near == 1)
+        passed[up] = (strips & (patches.wanted == 2)).sum()
+        assert (strips & (patches.wanted == 1)).sum() > 50
+    assert passed[0.8] == 0
+    assert passed[5.0] > 8

@@ -11,6 +11,7 @@ from tallgrass.systems.painter import UNITS
 from tallgrass.systems.show.blades.draw import PAINTED, Ribbons, segment_defines
 from tallgrass.systems.show.blades.gather import distances, gather_blades
 from tallgrass.systems.show.blades.morph import HOME, at_home, gather_morph
+from tallgrass.systems.transition import weights
 
 Defines = dict[str, str | int]
 
@@ -40,6 +41,15 @@ def drawn(scene: Any, weight: float) -> Doubles:
     data = scene.caught(ribbons.program, RIBBON, stream, size)
     stream.release()
     return middles(data)
+
+
+def as_drawn(scene: Any) -> tuple[Doubles, Doubles]:
+    """Middle lines of the blades on their way in the frame itself, and how far the card has moved each, shape (n,)."""
+    ribbons = scene.blades.morph
+    moving = np.frombuffer(ribbons.stream.buffer.read(), PAINTED)[: ribbons.stream.count]
+    scene.blades.store.targets.use(UNITS["targets"])
+    data = scene.caught(ribbons.program, RIBBON, ribbons.stream, (2 * ribbons.segments + 2, len(moving)))
+    return middles(data), moving["painted"][:, 3].astype(np.float64)
 
 
 def in_their_own_places(scene: Any) -> Doubles:
@@ -102,6 +112,19 @@ def test_x3_the_blades_on_their_way_are_of_all_kinds_turns_and_slices(scene: Any
     assert (patches.sublevel[1, rows] & 1 == scene.along).all()
     assert np.abs(patches.slope[rows]).max() > 0.15
     assert np.linalg.norm(scene.message, axis=1).mean() > 0.15
+
+
+def test_x3_in_the_frame_a_blade_has_moved_as_far_as_its_patch_has_come(scene: Any) -> None:
+    live, told = as_drawn(scene)
+    strips = weights(scene.outlook.patches)[1, scene.row]
+    assert (np.abs(told - strips) < 0.2).all(), "neither at home still nor there already"
+    assert 0.05 < told.min() <= told.max() < 0.95
+    start, end = drawn(scene, 0.0), drawn(scene, 1.0)
+    way = end - start
+    far = (way**2).sum(axis=(1, 2)) > 4.0
+    moved = ((live - start) * way).sum(axis=(1, 2))[far] / (way**2).sum(axis=(1, 2))[far]
+    assert far.sum() > 50
+    np.testing.assert_allclose(moved, told[far], atol=0.05)
 
 
 def test_x3_before_it_sets_off_a_blade_is_in_its_own_place(scene: Any) -> None:
