@@ -27,7 +27,7 @@ Shot = Callable[["Seen"], Picture]
 SCENE = """\
 tallgrass: 2
 terrain: {{ heights: {folder}/{ground}.npy, scale: 1 }}
-grass: {{ turf: {{ height: [0.4, 0.6], width: 0.02, blades: 500, variety: 0, {turf} }} }}
+grass: {{ turf: {{ height: [0.4, 0.6], width: 0.035, blades: 800, variety: 0, {turf} }} }}
 light: {{ azimuth: {azimuth}, elevation: {elevation}, haze: {haze}, {light} }}
 quality:
   models: 1
@@ -36,7 +36,7 @@ quality:
   carpet_to: 16
   carpet: 64
 """
-CAMERA = Camera((0.0, 6.0, 16.0), 0.0, -0.35, np.radians(30.0))
+CAMERA = Camera((0.0, 8.0, 8.0), 0.0, -0.8, np.radians(30.0))
 SIZE, SQUARE = (96, 64), 16
 """Pixels of a picture, and of the squares that it is compared by."""
 
@@ -67,21 +67,24 @@ class Term:
     without: Seen
     having: Seen
     least: float
-    missed: float = 0.1
+    missed: float = 0.15
 
 
 BLACK, BLUE = '"#000000"', '"#6080ff"'
+NIGHT = f"zenith: {BLACK}, horizon: {BLACK}"
+"""A sky that gives no light, so that the sun's alone is seen."""
+
 TERMS = {
-    "sun": Term(Seen(light="strength: 0"), Seen(), 1.5),
+    "sun": Term(Seen(light="strength: 0"), Seen(), 2.0),
     "sun behind or before the eye": Term(Seen(BEHIND, 25.0), Seen(BEFORE, 25.0), 0.08),
-    "sky": Term(Seen(light=f"zenith: {BLACK}, horizon: {BLACK}"), Seen(light=f"zenith: {BLUE}, horizon: {BLUE}"), 0.13),
-    "canopy's own shade": Term(Seen(elevation=60.0), Seen(elevation=10.0), 0.35),
-    "shadow of the terrain": Term(Seen(LEFT, 15.0), Seen(LEFT, 15.0, ground="ridge"), 0.35),
-    "shadow of clouds": Term(Seen(), Seen(light="clouds: 0.6"), 0.16),
-    "shadow of a body": Term(Seen(), Seen(shade=True), 0.075, missed=0.2),
-    "haze": Term(Seen(), Seen(haze=30.0), 0.75),
-    "gloss": Term(Seen(BEHIND, 20.0, turf="gloss: 0"), Seen(BEHIND, 20.0, turf="gloss: 0.5"), 0.1),
-    "transmission": Term(Seen(BEFORE, 25.0, turf="translucency: 0"), Seen(BEFORE, 25.0, turf="translucency: 1.5"), 0.6),
+    "sky": Term(Seen(light=NIGHT), Seen(light=f"zenith: {BLUE}, horizon: {BLUE}"), 0.12),
+    "canopy's own shade": Term(Seen(elevation=65.0, light=NIGHT), Seen(elevation=20.0, light=NIGHT), 0.45),
+    "shadow of the terrain": Term(Seen(LEFT, 15.0), Seen(LEFT, 15.0, ground="ridge"), 0.3),
+    "shadow of clouds": Term(Seen(), Seen(light="clouds: 0.6"), 0.14),
+    "shadow of a body": Term(Seen(), Seen(shade=True), 0.25),
+    "haze": Term(Seen(), Seen(haze=30.0), 0.9),
+    "gloss": Term(Seen(BEHIND, 20.0, turf="gloss: 0"), Seen(BEHIND, 20.0, turf="gloss: 1"), 0.12, missed=0.3),
+    "transmission": Term(Seen(BEFORE, 25.0, turf="translucency: 0"), Seen(BEFORE, 25.0, turf="translucency: 1.5"), 0.4),
 }
 
 
