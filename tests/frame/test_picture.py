@@ -136,7 +136,7 @@ def test_g1_strips_and_carpet_show_the_very_blades_of_each_patch(stage: Stage, l
 
     def squares(lod: str) -> NDArray[np.float64]:
         picture = stage.shot(load(PALE, lod=lod), aim)
-        return picture.reshape(18, 5, 32, 5, 3).mean(axis=(1, 3, 4)).ravel()
+        return np.asarray(picture.reshape(18, 5, 32, 5, 3).mean(axis=(1, 3, 4)).ravel())
 
     blades = squares("blades")
     alike = {lod: float(np.corrcoef(blades, squares(lod))[0, 1]) for lod in ("strips", "carpet")}
