@@ -4,7 +4,6 @@ import gc
 import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import partial
 from itertools import count
 from typing import TypeVar
 from weakref import WeakSet, ref
@@ -27,6 +26,23 @@ _worlds: WeakSet["World"] = WeakSet()
 _private = count()
 
 
+class Residents:
+    """The entities of one prairie, and which of them somebody else has deleted."""
+
+    __slots__ = ("lost", "marks")
+
+    def __init__(self) -> None:
+        self.marks: dict[int, int] = {}
+        """By entity, what tells its mark from that of another of the same number."""
+        self.lost: list[int] = []
+
+    def note_gone(self, resident: Resident, /) -> None:
+        """Take note that an entity has been deleted, unless its number is another one's by now."""
+        if self.marks.get(resident.entity) == id(resident):
+            del self.marks[resident.entity]
+            self.lost.append(resident.entity)
+
+
 class World:
     """A prairie's own entities among a game's.
 
@@ -40,10 +56,8 @@ class World:
         self.advance = advance
         self.generation = 0
         """How often everything of ours was deleted at once, as by `esper.clear_database`."""
-        self._entities: dict[int, ref[Resident]] = {}
-        self._lost: list[int] = []
         self._home: ref[Resident] | None = None
-        self._mark = object()
+        self._mine = Residents()
         self._told: set[int] = set()
         """Entities of which it was said that their pose is nowhere."""
         _worlds.add(self)
@@ -53,34 +67,33 @@ class World:
         self._must_be_current()
         self.check()
         if self._home is None:  # an entity that nobody has a reason to delete: it goes when all go
-            home = Resident(self._mark)
+            home = Resident(self._mine)
             self._home = ref(home)
             esper.create_entity(home)
-        mark = Resident(self._mark)
-        entity = esper.create_entity(*components, mark)
-        # Nobody but esper holds the mark: it goes in the moment that the entity is deleted, and is heard of then.
-        self._entities[entity] = ref(mark, partial(_note_lost, self._entities, self._lost, entity))
+        mark = Resident(self._mine)
+        mark.entity = entity = esper.create_entity(*components, mark)
+        self._mine.marks[entity] = id(mark)
         return entity
 
     def check(self) -> int:
         """Return `generation`, raised if the whole world was cleared since this was asked before."""
         if self._home is not None and self._home() is None:
             self._home = None
-            self._lost.clear()
+            self._mine.lost.clear()
             self.generation += 1
         return self.generation
 
     def lost(self) -> list[int]:
         """Return the entities of ours that somebody has deleted one by one since this was asked before."""
         self.check()
-        lost = self._lost.copy()
-        self._lost.clear()
+        lost = self._mine.lost.copy()
+        self._mine.lost.clear()
         return lost
 
     def delete(self, entity: int) -> None:
         """Delete an entity of ours at once; one that the game has deleted already is no error."""
         self._must_be_current()
-        self._entities.pop(entity, None)
+        self._mine.marks.pop(entity, None)
         if self.has(entity):
             esper.delete_entity(entity, immediate=True)
 
@@ -88,7 +101,7 @@ class World:
         """Return whether an entity of ours is there; one that the game has deleted is not, even if esper waits."""
         self._must_be_current()
         # A game that clears its world counts entities from 1 again: the number alone does not say whose one is.
-        return esper.entity_exists(entity) and self._owner(entity) is self._mark
+        return esper.entity_exists(entity) and self._owner(entity) is self._mine
 
     def add(self, entity: int, component: object) -> None:
         """Give an entity a component, in place of one of the same type."""
@@ -112,14 +125,14 @@ class World:
         so that nothing that follows from it depends on how a set is laid out.
         """
         self._must_be_current()
-        mine = (None, self._mark)  # the game's, and our own
+        mine = (None, self._mine)  # the game's, and our own
         found = [row for row in esper.get_component(kind) if self._owner(row[0]) in mine]
         return sorted(found, key=lambda row: row[0])
 
     def both(self, kind: type[Component], other: type[Other]) -> list[tuple[int, Component, Other]]:
         """Return every entity with components of exactly these two types, in the order and as far as `all` does."""
         self._must_be_current()
-        mine = (None, self._mark)
+        mine = (None, self._mine)
         found = [(row[0], *row[1]) for row in esper.get_components(kind, other) if self._owner(row[0]) in mine]
         return sorted(found, key=lambda row: row[0])
 
@@ -138,10 +151,10 @@ class World:
         return None if mark is None else mark.owner
 
     def __contains__(self, entity: object) -> bool:
-        return entity in self._entities
+        return entity in self._mine.marks
 
     def __len__(self) -> int:
-        return len(self._entities)
+        return len(self._mine.marks)
 
     def release(self) -> None:
         """Delete every entity created here that still exists, and with the world's last prairie its processor.
@@ -150,14 +163,14 @@ class World:
         """
         if self.name in esper.list_worlds():
             with _current(self.name):
-                for entity in list(self._entities):
+                for entity in list(self._mine.marks):
                     self.delete(entity)
                 for entity, mark in esper.get_component(Resident):
-                    if mark.owner is self._mark:
+                    if mark.owner is self._mine:
                         esper.delete_entity(entity, immediate=True)
                 if not _residents(self.name, but=self) and self in _worlds:
                     esper.remove_processor(Advance)
-        self._entities.clear()
+        self._mine.marks.clear()
         self._home = None
         self.advance = None
         _worlds.discard(self)
@@ -169,13 +182,6 @@ class World:
             raise RuntimeError(
                 f"this prairie lives in esper world '{self.name}', but '{esper.current_world}' is current"
             )
-
-
-def _note_lost(entities: dict[int, "ref[Resident]"], lost: list[int], entity: int, gone: "ref[Resident]") -> None:
-    """Note that an entity has been deleted, unless its number is another one's by now."""
-    if entities.get(entity) is gone:
-        del entities[entity]
-        lost.append(entity)
 
 
 class Advance(esper.Processor):

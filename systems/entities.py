@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,26 +50,35 @@ class PatchEntities:
             patches.entity[row] = 0
             self.clearings.clear(_cell(patches, row))
 
-    def leave(self, outlook: Outlook, fresh: NDArray[np.int32], /) -> None:
-        """Delete the entities of rows that other patches are in now, and find out what grows there."""
+    def go_on(self, outlook: Outlook, fresh: NDArray[np.int32], /) -> None:
+        """Delete the entities of rows that other patches are in now, and find out what grows there.
+
+        Patches that have none yet get theirs, the nearest first, `BATCH` of them at most.
+        """
         patches = outlook.patches
+        left = patches.entity[fresh]
         if fresh.size:
-            for entity in patches.entity[fresh[patches.entity[fresh] != 0]].tolist():
-                self.world.delete(entity)
             patches.entity[fresh] = 0
             for kept in outlook.kept.values():
                 kept.leave(fresh)
         if fresh.size or outlook.cleared != self.clearings.version:
             patches.grows[:] = self.clearings.spare(patches.cell)
             outlook.cleared = self.clearings.version
+        self._turn_over(outlook, left[left != 0].tolist())
 
-    def enlist(self, outlook: Outlook, /) -> None:
-        """Make entities of patches that have none yet, the nearest first, `BATCH` of them at most."""
+    def _turn_over(self, outlook: Outlook, left: list[int]) -> None:
+        """Make entities and delete those that are left, in turn.
+
+        Python's collector sets in when many more objects have been made than deleted, and goes through the whole game.
+        """
         patches = outlook.patches
-        without = np.flatnonzero(patches.alive & (patches.entity == 0))
-        if without.size:
-            for row in without[np.argsort(patches.distance[without], kind="stable")[:BATCH]].tolist():
+        without = (patches.alive & (patches.entity == 0)).nonzero()[0]
+        rows = without[np.argsort(patches.distance[without], kind="stable")[:BATCH]].tolist()
+        for row, entity in zip_longest(rows, left):
+            if row is not None:
                 self.make(outlook, row)
+            if entity is not None:
+                self.world.delete(entity)
 
     def make(self, outlook: Outlook, row: int, /) -> int:
         """Make the entity of the patch in a row, and return it."""
@@ -90,9 +100,9 @@ class PatchEntities:
         return np.where(there, patches.entity[rows], 0)
 
 
-def components(outlook: Outlook, representations: Sequence[Representation], row: int, /) -> tuple[object, ...]:
+def components(outlook: Outlook, representations: Sequence[Representation], row: int, /) -> list[object]:
     """Return what the representations give the entity of a patch to carry."""
-    return tuple(part for each in representations for part in each.components(outlook, row))
+    return [part for each in representations for part in each.components(outlook, row)]
 
 
 def _cell(patches: PatchTable, row: int) -> Cell:

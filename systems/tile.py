@@ -103,5 +103,4 @@ class Tile:
             viewer.centre = cell_stood_in(viewer.eye, viewer.centre, patch=self.patch)
             fresh = tile(patches, viewer.centre, self.terrain, patch=self.patch, seed=self.seed, models=self.models)
             patches.away[:] = seen_from(patches.distance, patches.height, viewer.eye[1], patch=self.patch)
-            self.entities.leave(outlook, fresh)
-            self.entities.enlist(outlook)
+            self.entities.go_on(outlook, fresh)

@@ -1,7 +1,7 @@
 """GL's functions by their addresses, and its numbers: what moderngl does not do, without any other library."""
 
 import ctypes
-from ctypes import c_char_p, c_float, c_int, c_ssize_t, c_ubyte, c_void_p
+from ctypes import c_char_p, c_float, c_int, c_ssize_t, c_ubyte, c_uint, c_uint64, c_void_p
 from functools import lru_cache
 from typing import Any
 
@@ -80,6 +80,10 @@ TAKES: dict[str, tuple[Any, ...]] = ASKS | TELLS | DOES
 
 convention = getattr(ctypes, "WINFUNCTYPE", ctypes.CFUNCTYPE)
 """How GL is called: on Windows who is called tidies up, elsewhere who calls."""
+
+
+ASKED_WITH = tuple(kind * count for kind in (c_int, c_uint, c_float, c_ubyte, c_uint64) for count in (1, 2, 4, 8))
+"""Types of arrays to ask with. Where nobody keeps such a type it is made anew each time, a cycle for the collector."""
 
 
 class Functions:

@@ -3,6 +3,7 @@
 import logging
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import zip_longest
 from math import prod
 from typing import Protocol
 
@@ -189,13 +190,18 @@ class Receiving:
         changed = np.flatnonzero(owner != self._owner)
         if not changed.size:
             return
-        for slot in changed[self._entity[changed] != 0].tolist():
-            self._delete(world, slot)
-        self._owner[changed] = 0
+        gone = changed[self._entity[changed] != 0]
+        left = self._entity[gone].tolist()
+        for slot in gone.tolist():
+            self.letters.forget(slot)
+        self._owner[changed] = self._entity[changed] = 0
         fresh = changed[owner[changed] != 0][: self.BATCH]
-        for slot in fresh.tolist():
-            self._entity[slot] = world.create(self.component(slot, viewer=patches.viewer, patch=int(owner[slot])))
         self._owner[fresh] = owner[fresh]
+        for slot, entity in zip_longest(fresh.tolist(), left):  # in turn, as those of patches
+            if slot is not None:
+                self._entity[slot] = world.create(self.component(slot, viewer=patches.viewer, patch=int(owner[slot])))
+            if entity is not None:
+                world.delete(entity)
 
     def component(self, slot: int, /, *, viewer: str, patch: int) -> Receivers:
         """Return the component that stands for the receivers of a slot."""
