@@ -9,10 +9,19 @@ from enum import IntEnum
 from functools import partial
 from inspect import isasyncgenfunction, iscoroutinefunction, isgeneratorfunction
 from itertools import count
-from time import perf_counter
+from time import perf_counter, thread_time
 from typing import Any, Protocol
 
 from .complaint import said
+
+WAITED = 0.25
+"""How long nobody may wait in a frame [s]: that is time on the clock in which this thread does nothing."""
+
+IDLE = 10.0
+"""How many times as long as it works: on a busy machine those who work wait as well, for their turn."""
+
+PATIENCE, WINDOW = 3, 16
+"""How often, of a system's latest turns, it may not have waited for so long."""
 
 log = logging.getLogger("tallgrass")
 
@@ -73,6 +82,11 @@ class System:
     """How many systems had been added to its schedule before."""
 
 
+def has_waited(took: float, busy: float, /) -> bool:
+    """Return whether somebody who took so long on the clock, and was busy for so long [s], has waited too long."""
+    return took - busy > max(WAITED, IDLE * busy)
+
+
 class UnknownSystemError(KeyError):
     """No system of a schedule has this name; the message is one sentence, and names the one it resembles."""
 
@@ -88,14 +102,23 @@ class Schedule:
     frame, what they remove or disable has none any more, and what they replace runs as the new one.
     """
 
+    live: bool = True
+    """Whether a system that waits in its turns is left out, as in a game; otherwise it is only named in the log."""
+
     milliseconds: dict[str, float] = field(init=False, default_factory=dict)
     """What each system took when its phase was last run [ms]; only those that ran then and raised nothing."""
 
     failures: dict[str, str] = field(init=False, default_factory=dict)
-    """One sentence for each system that raised something, and is left out since."""
+    """One sentence for each system that raised something, or often waited, and is left out since."""
 
     _systems: dict[str, System] = field(init=False, default_factory=dict)
     """By name, in running order."""
+
+    _waits: dict[str, int] = field(init=False, default_factory=dict)
+    """Of each system that has waited, in which of its latest turns, one bit for each."""
+
+    _told: set[str] = field(init=False, default_factory=set)
+    """The systems of which it has been said that they wait."""
 
     _numbers: Iterator[int] = field(init=False, default_factory=count)
 
@@ -150,12 +173,14 @@ class Schedule:
         """
         found = self[name]
         ready = _ready(name, run)
+        self._waits.pop(name, None)
         self._systems[name] = changed(found, run=ready, trusted=trusted, origin=_origin(run))
         self.failures.pop(name, None)
 
     def remove(self, name: str) -> None:
         """Remove a system; raises UnknownSystemError."""
         del self._systems[self[name].name]
+        self._waits.pop(name, None)
         self.failures.pop(name, None)
         self.milliseconds.pop(name, None)
 
@@ -165,9 +190,10 @@ class Schedule:
             self.remove(system.name)
 
     def enable(self, name: str) -> None:
-        """Let a system have its turns again, also one that has failed; raises UnknownSystemError."""
+        """Let a system have its turns again, also one that has failed or waited; raises UnknownSystemError."""
         self._systems[name] = changed(self[name], enabled=True)
         self.failures.pop(name, None)
+        self._waits.pop(name, None)
 
     def disable(self, name: str) -> None:
         """Let a system have no turns until it is enabled; raises UnknownSystemError."""
@@ -176,7 +202,9 @@ class Schedule:
     def run(self, *, first: Phase = Phase.INPUT, last: Phase = Phase.DRAW) -> None:
         """Run every enabled system from the `first` phase to the `last` one once, in order.
 
-        One that raises an Exception is named in the log and left out from then on, unless it is trusted.
+        One that raises an Exception is named in the log and left out from then on, unless it is trusted. One that waits
+        for longer than `WAITED`, for a disk or another program, is named once; where the schedule is `live` it is left
+        out when it has done so three times.
         """
         for system in self:
             if first <= system.phase <= last:
@@ -209,23 +237,39 @@ class Schedule:
         return now if now and now.number == system.number else None
 
     def _run(self, system: System) -> None:
-        start = perf_counter()
+        start, spent = perf_counter(), thread_time()
         try:
             system.run()
         except Exception as error:
             if system.trusted:
                 raise
-            self._leave_out(system, error)
+            log.debug("%s", system.name, exc_info=error)
+            self._leave_out(system, f"run raised {said(error)}")
         else:
+            took, busy = perf_counter() - start, thread_time() - spent
             if self._now(system):
-                self.milliseconds[system.name] = 1000.0 * (perf_counter() - start)
+                self.milliseconds[system.name] = 1000.0 * took
+                if not system.trusted:
+                    self._judge(system, took, busy)
 
-    def _leave_out(self, system: System, error: Exception) -> None:
-        why = f"system '{system.name}' of {system.origin}: run raised {said(error)}"
+    def _judge(self, system: System, took: float, busy: float) -> None:
+        """Tell of a system that waits in its turns, and in a game leave it out when it does so often."""
+        name, waits = system.name, has_waited(took, busy)
+        if not waits and name not in self._waits:
+            return
+        self._waits[name] = (self._waits.get(name, 0) << 1 | waits) & ((1 << WINDOW) - 1)
+        told = f"run waits: for {took - busy:.1f} s, and every frame with it"
+        if self.live and waits and self._waits[name].bit_count() >= PATIENCE:
+            self._leave_out(system, told)
+        elif waits and name not in self._told:
+            self._told.add(name)
+            log.warning("system '%s' of %s: %s", name, system.origin, told)
+
+    def _leave_out(self, system: System, what: str) -> None:
+        why = f"system '{system.name}' of {system.origin}: {what}"
         now = self._now(system)
         if now and now.run is system.run:  # it may have replaced or removed itself
             self.failures[system.name] = why
-        log.debug("%s", system.name, exc_info=error)
         log.warning("%s; it is left out from now on", why)
 
     def _place(self, added: System, before: str | None, after: str | None) -> int:

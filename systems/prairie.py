@@ -92,7 +92,7 @@ class Prairie:
         self.viewers, self.clearings = Outlooks(self.world), Clearings()
         self.winds = Winds(self.world, loaded.scene, self.site.ground, self.site.growths, live=live)
         self.pressers = Pressers(self.world, loaded.scene, self.site.growths)
-        self.systems = Schedule()
+        self.systems = Schedule(live=live)
         self.loaded, self.preset, self._clock, self._released = loaded, preset, 0.0, False
         self._mown = Mown(self.site.ground.terrain)
         self._shining = Shining(loaded.scene.light, live=live)

@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from functools import lru_cache
-from math import cos, radians, sin
 
 import moderngl
 import numpy as np
@@ -12,7 +11,7 @@ from ...components.arrays import Doubles
 from ...components.wind import WindPrimitive
 from ...engine.gl.mipmaps import mipmapped_image
 from ..grow.raster import rasterise, ribbon_triangles
-from ..wind.mean import MeanWind
+from ..wind.blow import mean_wind
 
 SIDE = 512
 """Texels along a side."""
@@ -48,11 +47,10 @@ FASTER = 1.5
 
 
 def drifted(winds: Sequence[WindPrimitive], time: float, /) -> tuple[float, float]:
-    """Return how far clouds have drifted with the first breeze at a time [s], along x and z, in sides from 0 to 1."""
-    for breeze in (wind for wind in winds if isinstance(wind, MeanWind)):
-        heading, way = radians(breeze.direction), FASTER * breeze.speed * time / CLOUDS_SIDE
-        return sin(heading) * way % 1.0, -cos(heading) * way % 1.0
-    return 0.0, 0.0
+    """Return how far clouds have drifted with the mean wind at a time [s], along x and z, in sides from 0 to 1."""
+    wind = mean_wind(winds)
+    x, z = wind.velocity if wind else (0.0, 0.0)
+    return FASTER * x * time / CLOUDS_SIDE % 1.0, FASTER * z * time / CLOUDS_SIDE % 1.0
 
 
 def cloud_map(*, seed: int) -> NDArray[np.uint8]:

@@ -132,10 +132,19 @@ def _mean_strength(wind: MeanWind, time: float) -> float:
     return float(wind.strength) * _set_in(wind, wind.stop, time) if is_on(wind, time) else 0.0
 
 
+def mean_wind(winds: Iterable[WindPrimitive], /) -> MeanWind | None:
+    """Return a scene's mean wind, which clouds and the small oscillations go with.
+
+    Of those that blow everywhere it is the one that claims least.
+    """
+    found = [wind for wind in winds if isinstance(wind, MeanWind)]
+    return min(found, key=lambda wind: (claim(wind), wind.direction), default=None)
+
+
 def mean_yaw(winds: Iterable[WindPrimitive], /) -> float:
-    """Return where a scene's mean wind blows to [rad]: of those that blow everywhere, the one that claims least."""
-    found = [(claim(wind), wind.direction) for wind in winds if isinstance(wind, MeanWind)]
-    return radians(min(found)[1] if found else TOWARDS)
+    """Return where a scene's mean wind blows to [rad]."""
+    found = mean_wind(winds)
+    return radians(found.direction if found else TOWARDS)
 
 
 def _heard(winds: list[Blowing], heard: ReceiverArrays, quarantine: Quarantine, time: float, mixing: Mixing) -> "_Sums":

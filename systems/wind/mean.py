@@ -24,10 +24,15 @@ class MeanWind(WindPrimitive):
     speed: float = Field(default=4.0, ge=0.0, le=40.0)
     """How fast its waves or eddies travel [m/s]."""
 
-    def rates(self) -> tuple[float, ...]:
-        """Return how fast its waves or eddies travel along x and z [m/s]."""
+    @property
+    def velocity(self) -> tuple[float, float]:
+        """How fast its waves or eddies travel along x and z [m/s]."""
         heading = radians(self.direction)
         return self.speed * sin(heading), -self.speed * cos(heading)
+
+    def rates(self) -> tuple[float, ...]:
+        """Return how fast its waves travel along x and z [m/s]."""
+        return self.velocity
 
     def mask(self, place: Floats, /, *, time: float) -> Floats:
         """Return 1 everywhere: it has no edge."""

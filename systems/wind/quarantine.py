@@ -1,7 +1,7 @@
 """Quarantine: a wind that raises or returns rubbish is left out, and the frame goes on; so is one that is too slow.
 
 A wind's time is measured as processor time of this thread, never by the clock: what happens must not depend on how busy
-the machine is.
+the machine is. The one exception is a game, which does without a wind that waits: it stands still meanwhile.
 """
 
 import logging
@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, MutableMapping
 from dataclasses import dataclass, field
 from functools import partial
 from math import inf, isnan
-from time import thread_time
+from time import perf_counter, thread_time
 from typing import TypeVar
 from weakref import WeakKeyDictionary
 
@@ -20,6 +20,7 @@ from ...components.pose import Pose
 from ...components.wind import Extent, WindPrimitive, WindSource
 from ...engine.complaint import said
 from ...engine.plugins import wind_kinds
+from ...engine.schedule import has_waited
 
 Answer = TypeVar("Answer")
 Called = tuple[str, type[WindPrimitive]]
@@ -38,7 +39,7 @@ STALLED = 3.0
 """How long no single call may take [s]."""
 
 PATIENCE, WINDOW = 3, 16
-"""How many slow calls, of how many calls of one method, are too many: one may import or compile something."""
+"""How many calls that are slow or wait, of how many of one method, are too many: one may import something."""
 
 WAIT, LONGEST_WAIT = 5.0, 60.0
 """How long a slow wind is left out, on the prairie's clock [s]: at first, and at most; the wait doubles every time."""
@@ -92,14 +93,16 @@ class Quarantine:
             self.reasons[source] = self._back[called][1]  # the same wind with other values
             raise QuarantinedError
         is_timed = not wind_kinds().is_ours(type(source.primitive))
-        start = thread_time() if is_timed else 0.0
+        begun, start = (perf_counter(), thread_time()) if is_timed else (0.0, 0.0)
         try:
             answer = ask()
         except Exception as error:  # a plugin may raise anything
             log.debug("%s", source.name, exc_info=error)
             raise self.leave_out(source, f"{what} raised {said(error)}") from error
         if is_timed:
-            self._judge(source, what, thread_time() - start, receivers)
+            took = thread_time() - start
+            self._judge(source, what, took, receivers)
+            self._judge_waiting(source, what, perf_counter() - begun, took)
         return answer
 
     def ask_for(self, source: WindSource, what: str, ask: Callable[[], Floats], /, *, shape: tuple[int, ...]) -> Floats:
@@ -182,6 +185,15 @@ class Quarantine:
             self._say_once((source.name, "takes long"), source, f"{what} takes too long: {told}")
         elif is_noticed:
             self._say_once((source.name, "takes long"), source, f"{what} takes {told}")
+
+    def _judge_waiting(self, source: WindSource, what: str, took: float, busy: float) -> None:
+        """Tell of a wind that waits for something; raises QuarantinedError where it does so often in a game."""
+        waits, waited = has_waited(took, busy), took - busy
+        is_often = self._is_often(source, what, "waits", is_long=waits)
+        if waits:
+            self._say_once((source.name, "waits"), source, f"{what} waits: for {waited:.1f} s, and the game with it")
+        if is_often and self.live:
+            raise self._leave_out_for_now(source, f"{what} waits for {waited:.1f} s at a time")
 
     def _is_often(self, source: WindSource, what: str, meaning: str, *, is_long: bool) -> bool:
         """Return whether this call takes long, and so did enough of the method's latest ones."""

@@ -42,8 +42,8 @@ class Turbulence(MeanWind):
 
     def rates(self) -> tuple[float, ...]:
         """Return how fast its eddies travel, along x and z and altogether [length scales/s]."""
-        heading, pace = radians(self.direction), self.speed / self.scale
-        return pace * sin(heading), -pace * cos(heading), pace
+        x, z = self.velocity
+        return x / self.scale, z / self.scale, self.speed / self.scale
 
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
         """Return its messages at ground positions (n, 2): the mean with its eddies, shape (n, 2)."""

@@ -123,3 +123,32 @@ def test_a_slow_wind_that_is_taken_away_while_it_is_left_out_is_no_harm(load: Lo
     prairie.remove(handle)
     prairie.advance(2.0 * WAIT)
     assert is_felt(prairie)
+
+
+@pytest.mark.parametrize("live", [True, False])
+def test_a_wind_that_waits_is_named_once_and_in_a_game_left_out_at_the_third_time(
+    world: World, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture, tmp_path: Path, *, live: bool
+) -> None:
+    """Processor time does not see that it waits for a disk or a socket, while the game stands still."""
+    del world
+    waited = [0.0]
+    monkeypatch.setattr(quarantine, "perf_counter", lambda: waited[0])
+
+    class Socket(Draught):
+        """A wind that asks somebody else how strong it is."""
+
+        kind: str = "socket"
+
+        def extent(self, *, time: float) -> None:
+            waited[0] += 5.0
+
+    (tmp_path / "scene.yaml").write_text(LITTLE)
+    prairie = Prairie.load(tmp_path / "scene.yaml", live=live)
+    prairie.add(Socket())
+    felt = [is_felt(prairie) for _ in range(PATIENCE + 2)]
+    assert felt == [True] * (PATIENCE - 1) + [not live] * 3
+    assert sum("extent waits: for 5.0 s" in message for message in caplog.messages) == 1
+    assert len(caplog.messages) == 1 + live
+    prairie.advance(WAIT + 0.1)
+    assert is_felt(prairie)
+    prairie.release()

@@ -10,6 +10,7 @@ import pytest
 from tallgrass.components.arrays import Floats
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import WindPrimitive
+from tallgrass.systems.light.repeating import CLOUDS_SIDE, FASTER, drifted
 from tallgrass.systems.wind.blast import Blast, Shape
 from tallgrass.systems.wind.blow import mean_yaw
 from tallgrass.systems.wind.breeze import Breeze
@@ -148,6 +149,15 @@ def test_f8_the_mean_wind_is_that_which_claims_least_of_those_everywhere() -> No
     assert all(mean_yaw(order) == pytest.approx(radians(-45.0)) for order in permutations(winds))
     assert mean_yaw(winds[:2]) == pytest.approx(radians(200.0))
     assert mean_yaw(winds[:1]) == mean_yaw([]) == mean_yaw([Breeze()])
+
+
+def test_clouds_go_with_the_same_mean_wind_as_the_oscillations() -> None:
+    winds: list[WindPrimitive] = [Breeze(direction=20.0, start=3.0), Breeze(direction=90.0, speed=6.0)]
+    assert mean_yaw(winds) == pytest.approx(radians(90.0))
+    x, z = drifted(winds, 10.0)
+    assert (x, z % 1.0) == pytest.approx((FASTER * 6.0 * 10.0 / CLOUDS_SIDE, 0.0), abs=1e-9)
+    assert drifted(winds, 10.0) == drifted(winds[::-1], 10.0)
+    assert drifted([Gust()], 10.0) == (0.0, 0.0)
 
 
 def test_f8_after_ten_hours_they_go_on_as_smoothly_as_at_first() -> None:
