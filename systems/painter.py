@@ -250,13 +250,7 @@ class Painter:
         """
         ctx = self.ctx
         with guest(ctx) as host, self.smaller.instead_of(host, scale) as target:
-            aim(self.record, view, target.viewport[2:])
-            self.block.write(self.record)
-            for name, texture in self.textures.items():
-                texture.use(UNITS[name])
-            self.light.use()
-            self.mown.use(UNITS["mown"])
-            self.press.texture.use(UNITS["pressed"])
+            self._tell(view, target)
             self.draw_calls = self._hear(target) if blades is None else 0
             self._draw_land(target, view)
             self._hand_over()
@@ -265,6 +259,25 @@ class Painter:
             else:
                 ctx.enable_only(moderngl.DEPTH_TEST)
                 self.draw_calls += sum(painter.draw() for painter in blades)
+
+    def hear(self, view: View) -> int:
+        """Let all receivers that the last frame showed hear the winds once more; return the number of draw calls.
+
+        That is all of the animation that a frame has besides its systems, and draws nothing.
+        """
+        with guest(self.ctx) as host:
+            self._tell(view, host)
+            return self._hear(host)
+
+    def _tell(self, view: View, target: moderngl.Framebuffer) -> None:
+        """Tell all shaders of the frame."""
+        aim(self.record, view, target.viewport[2:])
+        self.block.write(self.record)
+        for name, texture in self.textures.items():
+            texture.use(UNITS[name])
+        self.light.use()
+        self.mown.use(UNITS["mown"])
+        self.press.texture.use(UNITS["pressed"])
 
     def _draw_land(self, target: moderngl.Framebuffer, view: View) -> None:
         """Draw all that is opaque, the sky, and the carpet, on which bodies have their soft outlines."""

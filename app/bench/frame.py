@@ -31,6 +31,9 @@ EVERY = 12
 PARTS = {"growing": 6.0, "drawing": 60.0, "without drawing": 6.0}
 """What there is to do, and how long it takes [s], about."""
 
+MOVING = ("press", "wind")
+"""The systems that are animation (paper, section 5); the others choose what is shown, and plant it."""
+
 TURN = 6
 """Frames between two draws of the rivals."""
 
@@ -91,6 +94,9 @@ class Samples:
     all_3d: list[float] = field(default_factory=list)
     seen_3d: list[float] = field(default_factory=list)
     floor: list[float] = field(default_factory=list)
+    heard: list[float] = field(default_factory=list)
+    """Those of the passes in which all receivers hear the winds, by themselves."""
+
     card: list[float] = field(default_factory=list)
     """Those that the graphics card measured itself, where there is one."""
 
@@ -134,6 +140,7 @@ def sample(still: Still, rivals: Rivals) -> Samples:
         samples.frame.append(still.step(timer))
         if timer is not None:
             samples.card.append(timer.elapsed / 1e6)
+        samples.heard.append(still.hear())
         samples.draw.append(prairie.statistics.draw_ms)
         for name, milliseconds in prairie.statistics.systems_ms.items():
             samples.systems.setdefault(name, []).append(milliseconds)
@@ -169,6 +176,7 @@ def _figures(studio: Studio, take: Take, first: dict[str, float], samples: Sampl
         "draw_ms": _median(samples.draw),
         "systems_ms": {name: _median(rows) for name, rows in samples.systems.items()},
         "systems_total_ms": _median(np.sum(list(samples.systems.values()), axis=0)),
+        **_animation(samples),
         "blades": {
             "field": stats.blades_field,
             "considered": stats.blades_considered,
@@ -181,6 +189,13 @@ def _figures(studio: Studio, take: Take, first: dict[str, float], samples: Sampl
         "precompute_mb_by_kind": grown,
         "first_frame_ms": {name: _ms(value) for name, value in first.items()},
     }
+
+
+def _animation(samples: Samples) -> dict[str, float]:
+    """Return what moving the grass takes of a frame: the systems that blow and tread, and the passes that hear them."""
+    moving = np.sum([samples.heard, *(samples.systems[name] for name in MOVING if name in samples.systems)], axis=0)
+    took = float(np.median(moving))
+    return {"animation_ms": _ms(took), "animation_part": round(took / float(np.median(samples.frame)), 3)}
 
 
 def _against_every_blade(samples: Samples) -> dict[str, float]:

@@ -29,12 +29,11 @@ vec2 swayed(vec2 place) {
 }
 
 vec3 light(int k, float t, vec2 normal, vec3 place, float h, vec2 bent) {
-    vec4 here = lie_at(place.xz);
-    ByKind grows = grows_at(place.xz);
+    Lie lies = lie_at(place.xz);
     vec2 twice = vec2(normal.x * normal.x - normal.y * normal.y, 2.0 * normal.x * normal.y);
     vec3 grass = mix(root[k].rgb, tip[k].rgb, t) * (1.0 + grain_c[k].rgb * twice.x + grain_s[k].rgb * twice.y);
-    vec3 lit = radiance(grass * stretch(here), h, lit_at(k, bent, place, here, grows));
-    return shown_of(mix(lit, haze_light(place), haze_at(place)));
+    Light reaches = veiled(light_on(k, bent, place, lies, grows_at(place.xz)), place);
+    return shown_of(shade(leaf_at(grass * stretch(lies.slow), h), reaches));
 }
 
 void main() {

@@ -1,6 +1,7 @@
 """A scene before its fixed camera, frame after frame."""
 
 from contextlib import nullcontext
+from functools import partial
 
 import moderngl
 
@@ -33,6 +34,12 @@ class Still:
         """Draw this instant."""
         self.studio.begin()
         self.studio.prairie.draw(*self.matrices)
+
+    def hear(self) -> float:
+        """Let all receivers hear the winds of this instant once more, and return how long that takes [ms]."""
+        painter = self.studio.prairie.painter
+        assert painter is not None
+        return timed(self.studio.ctx, partial(painter.hear, self.view))
 
     def step(self, timer: moderngl.Query | None = None) -> float:
         """Draw the next frame, and return how long that takes [ms]; a `timer` times the graphics card meanwhile."""

@@ -35,7 +35,7 @@ COMMON = {"machine", "scene", "preset", "size", "frames"}
 FRAME = COMMON | {
     "frame_ms", "draw_ms", "systems_ms", "systems_total_ms", "blades", "receivers", "draw_calls", "all_3d_ms",
     "ratio_to_all_3d", "floor_ms", "precompute_mb", "first_frame_ms", "rivals", "cpu_ms", "cpu_by_system_ms", "gpu_ms",
-    "seen_3d_ms", "ratio_to_seen_3d", "yardstick_ms", "cpu_over_yardstick",
+    "seen_3d_ms", "ratio_to_seen_3d", "yardstick_ms", "cpu_over_yardstick", "animation_ms", "animation_part",
 }  # fmt: skip
 NARROW = (160, 216)
 """A picture that reaches as far as a wide one, with less than half of its blades [pixels]."""
@@ -96,6 +96,7 @@ def test_n6_the_frame_benchmark_tells_every_key_of_the_contract_and_what_the_cpu
     assert told["blades"]["field"] > told["blades"]["considered"] > told["blades"]["submitted"] > 0
     assert told["systems_total_ms"] >= max(told["systems_ms"].values())
     assert told["ratio_to_all_3d"] == ratio(told["all_3d_ms"] / told["frame_ms"]["p50"])
+    assert told["systems_ms"]["press"] + told["systems_ms"]["wind"] < told["animation_ms"] < told["frame_ms"]["p50"]
     assert told["all_3d_ms"] > told["floor_ms"]
     assert told["seen_3d_ms"] > told["floor_ms"]
     assert told["ratio_to_seen_3d"] == ratio(told["seen_3d_ms"] / told["frame_ms"]["p50"])

@@ -1,10 +1,13 @@
 """What frames have to do on a walk, counted: times say as much of the machine (R2, R3)."""
 
 from collections.abc import Callable
+from functools import partial
 
+import moderngl
 import numpy as np
 
-from tallgrass.engine.camera import Camera
+from tallgrass.app.studio.timing import timed
+from tallgrass.engine.camera import Camera, camera_at, view_of
 from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import Stage
 
@@ -30,3 +33,30 @@ def test_r2_on_a_walk_frames_have_as_much_to_do_however_many_patches_are_changin
     most, median = np.max(counts[1:], axis=0), np.median(counts[1:], axis=0)
     assert (most < 1.4 * median).all()
     assert max(changing) > 5
+
+
+def test_r3_moving_the_grass_takes_a_small_part_of_a_frame(ctx: moderngl.Context, load: Load) -> None:
+    """Its systems, and the passes in which all receivers hear: the least of several frames, taken in turn."""
+    room, prairie = Stage(ctx, (640, 360)), load()
+    camera = camera_at(prairie.scene.camera, None, prairie.height_at)
+    frames, moving = [], []
+    for _ in range(12):
+        frames.append(timed(ctx, partial(room.shot, prairie, camera)))
+        painter, systems = prairie.painter, prairie.statistics.systems_ms
+        assert painter is not None
+        heard = timed(ctx, partial(painter.hear, view_of(*room.matrices(camera))))
+        moving.append(heard + systems["press"] + systems["wind"])
+        prairie.advance(STEP)
+    room.release()
+    assert min(moving[2:]) < 0.12 * min(frames[2:])
+
+
+def test_r3_receivers_are_asked_in_one_draw_a_pool_however_many_patches_there_are(
+    stage: Stage, load: Load, camera: Aim
+) -> None:
+    prairie = load()
+    stage.shot(prairie, camera(0.6, 3, 20, pitch=-10))
+    assert prairie.painter is not None
+    pools = sum(len(each.receivers(prairie.viewers["main"])) for each in prairie.painter.painters.values())
+    calls = prairie.painter.hear(view_of(*stage.matrices(camera(0.6, 3, 20, pitch=-10))))
+    assert calls <= pools + 2
