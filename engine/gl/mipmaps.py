@@ -11,6 +11,7 @@ import numpy as np
 
 from ...components.arrays import Bytes
 from .functions import NUMBERS, functions_of
+from .limits import limits_of
 
 _FORMATS = {1: ("R8", "RED"), 2: ("RG8", "RG"), 3: ("RGB8", "RGB"), 4: ("RGBA8", "RGBA")}
 
@@ -23,8 +24,31 @@ def levels(texels: Bytes, /) -> list[Bytes]:
     return found
 
 
+def stack_for(ctx: moderngl.Context, layers: int, /) -> int:
+    """Return how many layers have to lie in one for a texture to have room for all: OpenGL promises 256 alone."""
+    return -(-layers // limits_of(functions_of(ctx)).layers)
+
+
+def stacked(texels: Bytes, stack: int, /) -> list[Bytes]:
+    """Return `levels` of layers of which `stack` lie in one, each on top of the one before, down to one row of each.
+
+    Their rows are as many as the next power of two, so that none shares a texel with another.
+    """
+    rows = texels.shape[1]
+    whole = 1 << (rows - 1).bit_length()
+    padded = np.pad(texels, [(0, -len(texels) % stack), (0, whole - rows), *[(0, 0)] * (texels.ndim - 2)])
+    made = levels(padded)[: whole.bit_length()]
+    return [each.reshape(len(each) // stack, stack * each.shape[1], *each.shape[2:]) for each in made]
+
+
 def mipmapped(ctx: moderngl.Context, made: list[Bytes], /) -> moderngl.TextureArray:
-    """Return a texture of `levels` of layers (layers, rows, columns, 4), or of one channel without the last axis."""
+    """Return a texture of `levels` of layers (layers, rows, columns, 4), or of one channel without the last axis.
+
+    There are `stack_for` of them in each layer of the texture; `lib/layered.glsl` reads it.
+    """
+    stack = stack_for(ctx, len(made[0]))
+    if stack > 1:
+        made = stacked(made[0], stack)
     layers, rows, columns, channels = (*made[0].shape, 1)[:4]
     texture = ctx.texture_array((columns, rows, layers), channels, made[0], alignment=1)
     stored, given = (NUMBERS[name] for name in _FORMATS[channels])
@@ -35,6 +59,7 @@ def mipmapped(ctx: moderngl.Context, made: list[Bytes], /) -> moderngl.TextureAr
         rows, columns = texels.shape[1:3]
         size = columns, rows, layers
         gl.glTexImage3D(target, level, stored, *size, 0, given, NUMBERS["UNSIGNED_BYTE"], texels.ctypes.data)
+    gl.glTexParameteri(target, NUMBERS["TEXTURE_MAX_LEVEL"], len(made) - 1)
     texture.filter = (moderngl.NEAREST_MIPMAP_NEAREST, moderngl.LINEAR)
     return texture
 

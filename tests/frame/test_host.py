@@ -2,6 +2,7 @@
 
 import gc
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,8 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass.engine.camera import Camera, camera_at
+from tallgrass.engine.gl import mipmaps
+from tallgrass.engine.gl.limits import limits_of
 from tallgrass.systems.prairie import Prairie
 
 Stage = Any
@@ -224,6 +227,18 @@ def test_d2_released_a_prairie_leaves_no_entity_behind(stage: Stage, load: Load)
     assert set(esper.get_entities()) == before
     assert esper.component_for_entity(theirs, str) == "a game's own"
     esper.delete_entity(theirs, immediate=True)
+
+
+def test_d6_with_fewer_layers_than_there_are_pictures_a_prairie_looks_the_same(
+    stage: Stage, load: Load, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    expected = stage.shot(load("plain", preset="low"))
+    monkeypatch.setattr(mipmaps, "limits_of", lambda gl: replace(limits_of(gl), layers=5))
+    prairie = load("plain", preset="low")
+    found = stage.shot(prairie)
+    assert prairie.painter is not None
+    assert prairie.painter.carpet.images.layers <= 5
+    assert (np.abs(found - expected).max(axis=-1) > 8.0).mean() < 0.003
 
 
 def test_a_framebuffer_without_depth_is_told_of_once(

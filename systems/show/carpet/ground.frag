@@ -63,6 +63,7 @@ float left_seen() {
 #endif
 
 #if defined(CARPET) && !defined(UNDER)
+#include "lib/layered.glsl"
 #include "lib/random.glsl"
 #include "systems/show/carpet/border.glsl"
 #include "systems/show/carpet/lit.glsl"
@@ -254,10 +255,10 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
     if (kind < KINDS) do {
         float layer = OF(first, kind) + float((model * SLOPES + int(seen.x)) * 4 + side);
         vec3 low = vec3(read.low, layer), high = vec3(read.high, layer + 4.0);
-        vec4 mean_low = texelFetch(images, ivec3(0, 0, int(low.z)), coarsest);
-        vec4 mean_high = texelFetch(images, ivec3(0, 0, int(high.z)), coarsest);
+        vec4 mean_low = layer_mean(images, int(low.z), coarsest);
+        vec4 mean_high = layer_mean(images, int(high.z), coarsest);
         vec4 mean = mix(mean_low, mean_high, seen.y);
-        vec4 image = mix(textureLod(images, low, read.level), textureLod(images, high, read.level), seen.y);
+        vec4 image = mix(layer_at(images, low, read.level), layer_at(images, high, read.level), seen.y);
         image = mean + (image - mean) * grain;
         float fill = filled(mean_high.a, seen, on_level, mean.a);
         image *= fill;

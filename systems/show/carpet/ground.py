@@ -7,6 +7,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ....engine.gl.mipmaps import stack_for
 from ....engine.gl.stream import Stream, release_all
 from ....engine.terrain.record import Terrain
 from ...around.appearance import GROWN, SINKS
@@ -16,6 +17,7 @@ from ...space.canopy import canopy_height
 from ...space.cone import beyond_cone
 from .grow import carpet_of
 from .heads import HEIGHTS, HIGHEST, any_heads, bears_heads, profile_of
+from .textures import image_count
 
 Tiles = NDArray[np.float64]
 
@@ -201,6 +203,9 @@ class GroundPainter:
         self.grid = ctx.buffer(corners), ctx.buffer(indices)
         self.streams = Stream(ctx, TILE), Stream(ctx, TILE), Stream(ctx, TILE)
         laid = _defines_of(growths)
+        stack = stack_for(ctx, image_count(growths))
+        if stack > 1:
+            laid |= {"STACK": stack, "REPEATED": 1}
 
         def layer(defines: dict[str, str | int], stream: Stream) -> _Layer:
             return _Layer(

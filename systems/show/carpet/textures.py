@@ -5,6 +5,8 @@ from collections.abc import Sequence
 import moderngl
 import numpy as np
 
+from ....components.arrays import Bytes
+from ....engine.gl.mipmaps import mipmapped, stack_for
 from ...grow.record import Growth
 from .grow import carpet_of
 
@@ -19,7 +21,24 @@ def carpet_texture(ctx: moderngl.Context, growths: Sequence[Growth]) -> moderngl
         ]
     )
     layers, rows, columns, _ = images.shape
+    if stack_for(ctx, layers) > 1:
+        texture = mipmapped(ctx, [_whole(images)])
+        texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
+        return texture
     texture = ctx.texture_array((columns, rows, layers), 4, np.ascontiguousarray(images).tobytes())
     texture.build_mipmaps()
     texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
     return texture
+
+
+def image_count(growths: Sequence[Growth], /) -> int:
+    """Return how many images there are."""
+    return sum(int(np.prod(carpet_of(model).texels.shape[:2])) for growth in growths for model in growth.models)
+
+
+def _whole(images: Bytes) -> Bytes:
+    """Return images (layers, side, side, 4) with sides of a power of two: they go on beyond their edges."""
+    side = images.shape[1]
+    whole = 1 << (side - 1).bit_length()
+    nearest = np.arange(whole) * side // whole
+    return np.ascontiguousarray(images[:, nearest][:, :, nearest])

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....engine.declared.quality import StripRing
+from ....engine.gl.mipmaps import stack_for
 from ....engine.gl.records import Records
 from ....engine.gl.stream import release_all
 from ...frame.block import by_kind, joined
@@ -40,6 +41,8 @@ class StripPainter:
         self.sections = max(ring.sections for ring in rings)
         self.most = self.kinds * max(ring.strips * ring.columns for ring in rings)
         self.atlas, self.ranks = (strip_texture(canvas.ctx, made) for made in (atlas.texels, atlas.ranks))
+        stack = stack_for(canvas.ctx, len(atlas.texels[0]))
+        self._rows = self.atlas.height // stack
         self.extents = extent_texture(canvas.ctx, stock, [ring.columns for ring in rings])
         self._stock = stock
         self.stood = Records(canvas.ctx, STOOD, STOOD_ROW)
@@ -47,7 +50,9 @@ class StripPainter:
         laid: dict[str, str | int] = {"RINGS": len(rings), "STOOD_ROW": STOOD_ROW}
         self.hearing = Hearing(canvas, "systems/show/strips/receivers.frag", laid, self._tell)
         whole = {**laid, "STRIPS_ROW": STRIPS_ROW}
-        whole["ATLAS"] = f"{self.atlas.height}.0"
+        whole["ATLAS"] = f"{self._rows}.0"
+        if stack > 1:
+            whole["STACK"] = stack
         self.programs = [
             joined(
                 canvas.ctx, canvas.block, canvas.units, "systems/show/strips/strips.vert",
@@ -75,7 +80,7 @@ class StripPainter:
         found, layer = [], 0
         for models in (models for kinds in self._stock for models in kinds):
             rows, columns = models[0].texels.shape[2:4]
-            found.append((columns / self.atlas.width, rows / self.atlas.height, float(layer)))
+            found.append((columns / self.atlas.width, rows / self._rows, float(layer)))
             layer += sum(2 * len(strips.plane) for strips in models)
         return found
 

@@ -1,3 +1,4 @@
+#include "lib/layered.glsl"
 #include "lib/light.glsl"
 
 uniform sampler2DArray atlas;  // place along the blade, cosine and sine of twice the normal's azimuth, coverage; premultiplied
@@ -38,7 +39,7 @@ const float FAINT = 0.006; // coverage that is left out: in bytes, layer upon la
 
 void main() {
     float sheet = lit[3].x, level = lit[3].y, boost = lit[3].z;
-    vec4 texel = textureLod(atlas, vec3(at, sheet), level);
+    vec4 texel = layer_at(atlas, vec3(at, sheet), level);
     vec3 mean = texel.rgb / max(texel.a, 0.002);
     vec3 pigment = (foot_color + rise_color * mean.r) * (mean_face + grain_cos * (2.0 * mean.g - 1.0) + grain_sin * (2.0 * mean.b - 1.0));
     float seen = past_body(sqrt(shadow.x + on_column * (shadow.y + on_column * shadow.z)), shadow.w);
@@ -60,7 +61,7 @@ void main() {
 #endif
     vec3 grass = shown_of(shade(leaf_at(pigment, h), light));
 #ifdef THIN
-    float rank = textureLod(ranks, vec3(at, sheet), level).r / max(texel.a, 0.002);
+    float rank = layer_at(ranks, vec3(at, sheet), level).r / max(texel.a, 0.002);
     covered *= clamp(grows - rank * sharp, 0.0, 1.0) * clamp(stays.x * rank + stays.y, 0.0, 1.0);
 #endif
     pixel = vec4(grass, 1.0) * (covered < FAINT ? 0.0 : covered);

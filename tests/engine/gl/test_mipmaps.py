@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.engine.gl.mipmaps import halved, levels, mipmapped, mipmapped_image
+from tallgrass.engine.gl.mipmaps import halved, levels, mipmapped, mipmapped_image, stacked
 
 SHOW = """#version 330 core
 uniform sampler2DArray images;
@@ -45,6 +45,20 @@ def test_every_level_of_a_texture_is_the_half_of_the_one_before(
         texels = halved(texels)
     assert len(made) == 6
     texture.release()
+
+
+@pytest.mark.parametrize("channels", [(), (4,)])
+def test_every_level_of_layers_that_lie_in_one_has_each_of_them_whole(channels: tuple[int, ...]) -> None:
+    texels = np.random.default_rng(0).integers(0, 256, (5, 12, 16, *channels), np.uint8)
+    high = np.zeros((5, 16, 16, *channels), np.uint8)
+    high[:, :12] = texels
+    made, alone = stacked(texels, 3), levels(high)
+    assert [len(level) for level in made] == [2] * 5
+    assert made[-1].shape[1:3] == (3, 1)
+    for level, each in zip(made, alone, strict=True):
+        apart = level.reshape(6, -1, *level.shape[2:])
+        np.testing.assert_array_equal(apart[:5], each)
+        assert not apart[5].any()
 
 
 def test_every_level_of_an_image_is_what_was_given(ctx: moderngl.Context) -> None:
