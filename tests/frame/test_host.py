@@ -177,6 +177,7 @@ def resident() -> float:
 
 def test_d6_released_a_prairie_leaves_nothing_behind_in_gl(ctx: moderngl.Context, stage: Stage, load: Load) -> None:
     scene = load().loaded
+    gc.collect()  # what other tests have left
     before, ctx.gc_mode = ctx.gc_mode, "context_gc"
     ctx.objects.clear()
     memory = []
