@@ -11,7 +11,7 @@ from .around.outlook import Outlook
 from .show.representation import Representation
 
 SLACK = 1
-"""How many patches farther a patch must be to go to the coarser representation than to come back from it."""
+"""Width of the hysteresis [patches]: a patch goes to the coarser representation farther out than it comes back."""
 
 ROOM = 2
 """How many patches beyond the slack there is room in the pools for those that are still changing; farther out, a change

@@ -158,9 +158,9 @@ def _rows(poses: Sequence[Pose]) -> Doubles:
 
 
 def _start(pressers: Sequence[PresserOnPath], latest: float) -> float:
-    """Return from when on [s] all pressers have to be asked for all to be the same that they tread after `latest` [s].
+    """Return the latest time [s] from which a replay of all pressers' ways treads the same after `latest` [s].
 
-    That is a multiple of `EVERY` at which each of them is on its way, has not set out yet, or has arrived.
+    It is a multiple of `EVERY` at which each of them is on its way, has not set out yet, or has arrived.
     """
 
     def may(presser: PresserOnPath, then: float) -> bool:

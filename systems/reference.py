@@ -40,8 +40,8 @@ class Truth:
     """sRGB bytes, top row first, shape (height, width, 3)."""
 
     doubt: NDArray[np.float32]
-    """Half of what two halves of a pixel's samples are apart, those like a chessboard's white and its black fields,
-    shape (height, width, 3): on the mean, its square is no less than that of the picture's own noise."""
+    """How unsure each pixel is, shape (height, width, 3): half the difference between the means of two halves of its
+    samples, taken like the white and black fields of a chessboard. Its mean square is at least that of the noise."""
 
 
 def terrain_cells(ground: Ground, /) -> Ints:

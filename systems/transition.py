@@ -95,10 +95,10 @@ def held(patches: PatchTable, /, *, reach: tuple[int, ...]) -> Levels:
 
 
 def unfinished(patches: PatchTable, wanted: Levels, /, *, reach: tuple[int, ...], step: float) -> Mask:
-    """Return which patches wait with a change between blades and strips, shape (rows,): for that of a sub-level to end.
+    """Return which patches have to end a change of sub-level before they change their representation, shape (rows,).
 
-    Blades then go between places that one sub-level paints. Nobody waits for what ends in this `step`, nor who is left
-    behind farther than there is room.
+    So blades morph to the painted places of a single sub-level. A patch does not wait where its change ends in this
+    `step`, nor where it has been left behind farther than pools have room.
     """
     now, last = patches.representation, len(patches.names) - 1
     rows = ((now != wanted) & (patches.progress >= 1.0)).nonzero()[0]

@@ -34,10 +34,10 @@ LONGER = 2.0
 
 
 def brought_near(reach: tuple[int, ...], lens: float, /) -> tuple[float, ...]:
-    """Return up to where representations are due, from the finest, that a lens shows so many times larger.
+    """Return the reach of each representation, from the finest, under a lens that shows things `lens` times larger.
 
-    None comes to be due farther than the next coarser one is without it: so it is the room for patches that ends it.
-    What has no range of its own ends where the finer one does.
+    Each reach is multiplied by `lens`, but goes no farther than the next coarser one's does without a lens. A
+    representation that has no range of its own ends where the finer one does.
     """
     near: list[float] = []
     for number, limit in enumerate(reach[:-1]):

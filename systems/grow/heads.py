@@ -22,11 +22,11 @@ MANY = 9
 """Petals from which on a disc has several whorls, as a dandelion."""
 
 _REACH = 0.8
-"""How far a petal reaches out from its root, of its length, where its posture index is 1."""
+"""How far a petal of posture index 1 reaches out from its root, as a part of its length."""
 
 _OVERLAP = 1.6
 _WIDEST = 1.15
-"""Width of a petal at most, of its length."""
+"""Largest width of a petal, as a part of its length."""
 
 _SPIKE = 0.165
 """Area of a spike's florets, of the square of its length."""

@@ -57,7 +57,7 @@ def let_through(kind: GrassKind, /) -> Doubles:
 
 
 def bloom(kind: GrassKind, growth: Growth, /) -> float:
-    """Return how much of a kind's colour `tip` there is at rest, of how much grass has: 1 for grass, and at most."""
+    """Return how much of its `tip` colour a kind shows at rest, relative to grass, in [0, 1]; grass itself has 1."""
     blades = growth.models[0].blades
     if not blades.organ.any():
         return 1.0

@@ -213,9 +213,9 @@ class Representation(ABC):
         return np.zeros(len(rows), np.int8)
 
     def unfit(self, outlook: Outlook, rows: Rows, has: Mask, /, *, slack: int) -> Mask:  # noqa: ARG002 - the same
-        """Return on which of these patches (n,) it would show what it is, so that a coarser one is due instead.
+        """Return which of these patches (n,) would give it away, as strips do from above: a coarser one is due there.
 
-        With `slack`, it is kept a little longer by those that it is on, as `has` (n,) says.
+        `has` (n,) tells which patches have it already. With a `slack` above 0 these keep it a little longer.
         """
         return np.zeros(len(rows), np.bool_)
 

@@ -22,11 +22,11 @@ CROSSED = 0.85
 GLSL = {"CROSSED": CROSSED}
 
 SINKING = 0.5
-"""From which part on of the slope where they would, strips sink into the carpet: so no patch of it has an edge."""
+"""Strips begin to sink into the carpet at this part of the slope at which they would show as rows."""
 
 APART = 4.0
-"""Discrete distance from which on it must cross more of them, as many times more as it is farther: blades are thinner
-than pixels there, so that nothing would hide their rows."""
+"""Discrete distance from which on a line of sight must cross more strips, in proportion to the distance: there blades
+are thinner than pixels, and would not hide the rows."""
 
 
 def strip_ring(
