@@ -1,6 +1,7 @@
 """Painting blades: those on their way first, then all rings from far to near."""
 
 from collections.abc import Mapping
+from functools import partial
 from math import prod
 
 import moderngl
@@ -10,8 +11,8 @@ from numpy.typing import NDArray
 from ....components.arrays import Floats
 from ....engine.declared.quality import Quality
 from ....engine.gl.records import Records
+from ....engine.gl.remembered import Remembered
 from ....engine.gl.stream import Stream, release_all
-from ....engine.gl.unchanged import Unchanged
 from ...around.appearance import handed_over
 from ...around.outlook import Outlook
 from ...frame.block import by_kind
@@ -63,7 +64,7 @@ class BladesPainter:
         self.morph = Ribbons(ctx, block, segments[-1:], units, soft=True, record=PAINTED, defines={**laid, "MORPH": 1})
         self._tell(self.morph.program)
         self._counts: list[int] = []
-        self._unchanged = Unchanged()
+        self._gathered = Remembered[list[Numbers]]()
         self._first = self._asked = 0
 
     def _tell(self, made: moderngl.Program) -> None:
@@ -94,16 +95,17 @@ class BladesPainter:
         left, _ = handed_over(outlook.appearance.handed[shown.morphing.rows], fade=self._fade)
         slots, places = shown.standing.slots, (ring.places.tobytes() for ring in shown.rings)
         stamp = kept.pool.stamp.take(slots, axis=0)
-        same = self._unchanged.since(viewer.eye, viewer.sides, kept.pool, slots, stamp, *places)
-        if not same or len(shown.morphing.rows):
-            numbers = self._gathered(outlook, kept.pool, shown, left)
+        made_of = None if len(shown.morphing.rows) else (viewer.eye, viewer.sides, kept.pool, slots, stamp, *places)
+        gather = partial(self._gather, outlook, kept.pool, shown, left)
+        numbers, is_new = self._gathered.of(viewer.name, made_of, gather)
+        if is_new:
             self.numbers.write(np.concatenate(numbers).view(NUMBER))
             self._counts = [len(each) for each in numbers]
         self.standing.write(self._standing(outlook, shown, left, first["strips"]))
         (self._asked,), (self._first,) = self.receivers(outlook), first["blades"]
         return sum(self._counts)
 
-    def _gathered(self, outlook: Outlook, pool: BladePool, shown: BladesShown, left: Floats) -> list[Numbers]:
+    def _gather(self, outlook: Outlook, pool: BladePool, shown: BladesShown, left: Floats) -> list[Numbers]:
         """Return the numbers of the blades that are on their way, and of those that stand, group by group."""
         eye, moving = (outlook.viewer.eye[0], outlook.viewer.eye[2]), shown.morphing
         away = distances(pool, moving.slots, eye)

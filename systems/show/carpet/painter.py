@@ -1,14 +1,16 @@
 """Painting the carpet, and the ground under everything."""
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from ....components.arrays import Floats
+from ....components.viewer import Viewer
+from ....engine.gl.remembered import Remembered
 from ....engine.gl.stream import release_all
-from ....engine.gl.unchanged import Unchanged
 from ...around.appearance import border_of
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
@@ -44,8 +46,7 @@ class CarpetPainter:
         self.stand_on(ground)
         self._whole_to = canvas.reach[-2] - int(border_of(canvas.reach[-2])) - 1
         self._units = canvas.units
-        self._unchanged, self._stays = Unchanged(), Unchanged()
-        self._tiles: Tiles = np.zeros((0, 4))
+        self._around, self._seen = Remembered[Tiles](), Remembered[tuple[NDArray[np.void], NDArray[np.bool_]]]()
         self.images = carpet_texture(canvas.ctx, growths)
         self.air = Air(canvas, side)
         self._heard: tuple[NDArray[np.int32], int, CarpetKept] | None = None
@@ -86,24 +87,34 @@ class CarpetPainter:
         """
         patches, viewer = outlook.patches, outlook.viewer
         bare_to = self._bare_to(patches, cover)
-        if not self._unchanged.since(self._ground, viewer.eye, viewer.cone, viewer.centre, cover is None, bare_to):
-            tiles = tiles_seen(self._tiles_around(viewer.eye), viewer.eye, viewer.cone)
-            bare = on_terrain(tiles, self._ground.terrain)
-            if cover is not None:
-                bare &= within(tiles, viewer.centre, patch=self._ground.patch, reach=bare_to)
-            self.ground.write(tiles, ~bare)
+        made_of = self._ground, viewer.eye, viewer.cone, viewer.centre, cover is None, bare_to
+        tiles, is_new = self._seen.of(
+            viewer.name, made_of, partial(self._tiles, viewer, None if cover is None else bare_to)
+        )
+        if is_new:
+            self.ground.write(*tiles)
         whole = np.where(patches.alive, np.float32(0.0) if cover is None else cover, np.float32(1.0))
         self.ground.write_shares(
             np.where(patches.grows, whole, np.float32(0.0)), viewer.centre, beyond=float(cover is not None)
         )
 
-    def _tiles_around(self, eye: tuple[float, float, float]) -> Tiles:
+    def _tiles(self, viewer: Viewer, bare_to: int | None) -> tuple[NDArray[np.void], NDArray[np.bool_]]:
+        """Return the tiles that a viewer sees (n,), and on which of them carpet may lie.
+
+        Up to the discrete distance `bare_to` there is none on the terrain; None is everywhere.
+        """
+        tiles = tiles_seen(self._tiles_around(viewer), viewer.eye, viewer.cone)
+        bare = on_terrain(tiles, self._ground.terrain)
+        if bare_to is not None:
+            bare &= within(tiles, viewer.centre, patch=self._ground.patch, reach=bare_to)
+        return tiles, ~bare
+
+    def _tiles_around(self, viewer: Viewer) -> Tiles:
         """Return the tiles all around: the same as long as the eye stays about where it is."""
-        step = STEP * self._spacing * GRID
-        place = round(eye[0] / step) * step, round(eye[2] / step) * step
-        if not self._stays.since(self._ground, place):
-            self._tiles = tiles_around(self._ground.terrain, place, spacing=self._spacing, about=step * HALF_DIAGONAL)
-        return self._tiles
+        step, terrain = STEP * self._spacing * GRID, self._ground.terrain
+        place = round(viewer.eye[0] / step) * step, round(viewer.eye[2] / step) * step
+        make = partial(tiles_around, terrain, place, spacing=self._spacing, about=step * HALF_DIAGONAL)
+        return self._around.of(viewer.name, (self._ground, place), make)[0]
 
     def _bare_to(self, patches: PatchTable, cover: Floats | None) -> int:
         """Return the discrete distance up to which there is no carpet: it is nearer than always while ranges are."""
@@ -117,7 +128,7 @@ class CarpetPainter:
         """Send a carpet that lies everywhere, at this part of the height of the grass."""
         tiles = ground_tiles(self._ground.terrain, outlook.viewer.eye, outlook.viewer.cone, spacing=self._spacing)
         self.ground.write(tiles, np.ones(len(tiles), np.bool_))
-        self._unchanged.since()
+        self._seen.lose()
         self.ground.write_shares(np.ones(len(outlook.patches.progress), np.float32), outlook.viewer.centre, beyond=1.0)
         self.ground.raise_carpet(height)
 

@@ -1,6 +1,7 @@
 """Painting strips: all rings in one far-to-near order."""
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from itertools import accumulate
 from math import prod
 
@@ -9,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....engine.declared.quality import Quality
-from ....engine.gl.unchanged import Unchanged
+from ....engine.gl.remembered import Remembered
 from ...around.outlook import Outlook
 from ...grow.record import Growth
 from ..representation import Canvas
@@ -33,8 +34,7 @@ class StripsPainter:
         self.strips = StripPainter(canvas, quality.strip_rings, stock, ready or strip_atlas(stock))
         self.runs: list[tuple[int, int, bool]] = []
         self._asked: list[tuple[int, int, int]] = []
-        self._amount = np.zeros(0, np.int64)
-        self._unchanged = Unchanged()
+        self._ordered = Remembered[tuple[NDArray[np.uint32], NDArray[np.int64]]]()
 
     def receivers(self, outlook: Outlook, /) -> list[int]:
         """Return how many edges each ring has."""
@@ -53,10 +53,11 @@ class StripsPainter:
         patch = queue[stood["fade"].take(queue) > 0.0]
         present = np.concatenate([pool.present.take(ring.slots, axis=0) for pool, ring in rings]).take(patch, axis=0)
         self.strips.write(stood)
-        if not self._unchanged.since(stood["stand"], patch, present):
-            strips, self._amount = polygon_strips(stood, patch, present, self._fineness, most=self.strips.most)
+        order = partial(polygon_strips, stood, patch, present, self._fineness, most=self.strips.most)
+        (strips, amount), is_new = self._ordered.of(outlook.viewer.name, (stood["stand"], patch, present), order)
+        if is_new:
             self.strips.write_strips(strips)
-        self.runs = runs(_ranked(rings).take(patch), self._amount)
+        self.runs = runs(_ranked(rings).take(patch), amount)
         return 0
 
     def hear(self) -> int:

@@ -1,0 +1,47 @@
+"""What has been made for a viewer already need not be made again, whoever has looked meanwhile."""
+
+from collections.abc import Callable
+from typing import Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+Made = TypeVar("Made")
+
+MOST = 4
+"""Viewers for whom anything is remembered: those that looked last."""
+
+
+class Remembered(Generic[Made]):
+    """What was last made for each viewer, and what it was made of."""
+
+    def __init__(self) -> None:
+        self._made: dict[str, tuple[object, Made]] = {}
+        self._sent: object = None
+
+    def of(self, viewer: str, made_of: tuple[object, ...] | None, make: Callable[[], Made], /) -> tuple[Made, bool]:
+        """Return what `make` makes for a viewer, and whether it is still to be sent: it is not what was returned last.
+
+        It is not made again if it was made of the same: of arrays of the same bytes, and of other things that are
+        equal. With None it is always made.
+        """
+        now = None if made_of is None else tuple(map(_compared, made_of))
+        found = self._made.pop(viewer, None)
+        if found is None or now is None or now != found[0]:
+            found = now, make()
+        self._made[viewer] = found
+        if len(self._made) > MOST:
+            del self._made[next(iter(self._made))]
+        is_sent, self._sent = found is self._sent, found
+        return found[1], not is_sent
+
+    def lose(self) -> None:
+        """Take note that something else was sent since."""
+        self._sent = None
+
+
+def _compared(part: object) -> object:
+    if not isinstance(part, np.ndarray):
+        return part
+    array: NDArray[np.generic] = part
+    return array.tobytes()

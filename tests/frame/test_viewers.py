@@ -1,0 +1,55 @@
+"""Several viewers in a frame: each one's picture is its own, and nobody makes anew what another has (N11)."""
+
+from collections import Counter
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass.engine.camera import Camera
+from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.show.blades import painter as blades
+from tallgrass.systems.show.carpet import painter as carpet
+from tallgrass.systems.show.strips import painter as strips
+
+Picture = NDArray[np.float64]
+Stage = Any
+Load = Callable[..., Prairie]
+Aim = Callable[..., Camera]
+
+MADE = ((blades, "gather_blades"), (strips, "polygon_strips"), (carpet, "tiles_seen"), (carpet, "tiles_around"))
+"""What takes long, and is the same as long as a viewer stands still."""
+
+
+def seen(stage: Stage, prairie: Prairie, aim: Camera, viewer: str) -> Picture:
+    stage.begin()
+    prairie.draw(*stage.matrices(aim), viewer=viewer)
+    return np.asarray(stage.read())
+
+
+def test_n11_viewers_in_turn_have_made_what_they_see_once_and_see_what_they_would_alone(
+    stage: Stage, load: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    prairie, made = load(), Counter[str]()
+
+    def counted(name: str, make: Callable[..., object]) -> Callable[..., object]:
+        def call(*args: object, **options: object) -> object:
+            made[name] += 1
+            return make(*args, **options)
+
+        return call
+
+    for module, name in MADE:
+        monkeypatch.setattr(module, name, counted(name, getattr(module, name)))
+    aims = {"left": camera(0.3, 1.7, 12.0, pitch=-8), "right": camera(3.3, 2.5, 9.0, yaw=40, pitch=-12)}
+    alone = {viewer: [seen(stage, prairie, aim, viewer) for _ in range(3)][-1] for viewer, aim in aims.items()}
+    assert set(made) == {name for _, name in MADE}
+    made.clear()
+    for _ in range(3):
+        for viewer, aim in aims.items():
+            np.testing.assert_array_equal(seen(stage, prairie, aim, viewer), alone[viewer])
+    assert not made
+    seen(stage, prairie, camera(0.3, 1.7, 11.0, pitch=-8), "left")
+    assert made["gather_blades"] > 0
