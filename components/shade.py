@@ -29,7 +29,7 @@ class Shade:
     """How high it is from end to end along `up`, above 0 [m]; without it, twice the radius, which is a ball."""
 
     up: tuple[float, float, float] = (0.0, 1.0, 0.0)
-    """The direction of the axis that it is round about, of any length."""
+    """The direction of the axis that it is round about; its length does not count."""
 
     def __post_init__(self) -> None:
         """Raise ValueError for what cannot cast a shadow."""

@@ -59,7 +59,7 @@ class Grass:
     """Time between a curve's samples [s], shape (kinds,)."""
 
     rise: Floats
-    """Index after a constant wind starts, of its final index, shape (kinds, samples)."""
+    """Index after a constant wind starts, as a part of its final index, shape (kinds, samples)."""
 
     fall: Floats
     """Index after it stops, shape (kinds, samples)."""

@@ -212,7 +212,7 @@ class Prairie:
         self, batch: "Batch", camera: Callable[[], tuple[object, object]], *, order: int = 0,
         parent: "Group | None" = None,
     ) -> "DrawingGroup":  # fmt: skip
-        """Put the prairie into a pyglet batch, and return the group that it is there.
+        """Put the prairie into a pyglet batch, and return its group.
 
         Whenever the batch is drawn, `camera` is asked for view and projection, as `draw` takes them, and the prairie is
         drawn after groups of a lower `order` and before those of a higher one. The group's `visible` hides it, its

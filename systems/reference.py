@@ -26,7 +26,7 @@ from .wind.grass import grass_of
 
 Place = tuple[float, float, float]
 ROOM = 1.5
-"""How far a blade is taken to reach from its root, of its length: more than it can be bent and leaned to."""
+"""How far a blade may reach from its root, in its own lengths: more than it can be bent and leaned to."""
 
 CHUNK = 400
 """Patches drawn at a time in a reference, so that a large terrain needs no large buffers."""

@@ -29,7 +29,7 @@ ASIDE = 0.05
 """How long before the leg's border the first of them is, and how long before its end the last [s]."""
 
 TOP = 0.75
-"""Height over a patch's middle that the middle of its tile shows, of its tallest grass."""
+"""Height over a patch's middle that the middle of its tile shows, as a part of its tallest grass's."""
 
 WINDOW = 1.5
 """Time in which a change of brightness counts as drift [s]."""

@@ -22,7 +22,7 @@ from .truth import Truth
 from .verdict import Step, Verdict, judge
 
 Watch = Callable[[Iterator[Step], int], Iterator[Step]]
-"""Passes the steps of a walk on, of which there are so many."""
+"""Passes the steps of a walk on, and knows how many there are."""
 
 TOLD = 6
 """Frames that are told of."""

@@ -31,7 +31,7 @@ class Pen:
         """What was in the files of maps that are painted."""
 
     def know(self, name: str, picture: Picture) -> None:
-        """Remember what is in the file of a map, so that it is not written again, and only over that."""
+        """Remember a map's file as it is: it is not written again unchanged, and never over another's changes."""
         if name not in self._written:
             self._written[name], self._files[name] = picture, (self.path.parent / name).read_bytes()
 

@@ -48,7 +48,7 @@ class EditWalk(Walk):
         self._pointer: tuple[float, float] = (-1.0, -1.0)
         self._dt = 0.0
         self._warned: Draft | None = None
-        """The draft of which was said that it is not saved."""
+        """The draft about which the panel has said that it is not saved."""
 
     def step(self, dt: float) -> None:
         """Move on by `dt` [s], with what has grown since the last frame."""

@@ -26,13 +26,13 @@ def counted(items: Iterable[Item], /, *, total: int, doing: str) -> Iterator[Ite
 
 @contextmanager
 def busy(doing: str, /) -> Iterator[None]:
-    """Let a terminal's standard error show that something is being done, of which nobody knows how long it takes."""
+    """Show on a terminal's standard error that something is being done, where nobody knows how long it takes."""
     with _bar(doing, None):
         yield
 
 
 class Course:
-    """Work in named parts, of which it is known how long they take in terms of one another."""
+    """Work in named parts, whose lengths are known relative to one another."""
 
     def __init__(self, bar: "_Bar", doing: str, parts: Mapping[str, float]) -> None:
         self._bar, self._doing, self._parts = bar, doing, parts

@@ -100,7 +100,7 @@ class GrassKind(Declaration):
     """How far blades differ in brightness and hue from one another, as a fraction."""
 
     translucency: float = Field(default=0.8, ge=0.0, le=1.5)
-    """How much light its leaves let through, of what they send back: grass glows against the sun."""
+    """How much light its leaves let through, as a part of what they send back: grass glows against the sun."""
 
     gloss: float = Field(default=0.06, ge=0.0, le=2.0)
     """How much its leaves mirror the sun along themselves: wind runs over glossy grass as bands of light."""

@@ -29,7 +29,7 @@ class Habit:
     """Leaves of one stem."""
 
     leaf: float
-    """Length of a leaf, of its plant's height."""
+    """Length of a leaf, as a part of its plant's height."""
 
     heads: int = 1
     """Heads that share the petals of one, as they are small."""

@@ -15,7 +15,7 @@ from .color import linear, luminance
 from .daylight import Daylight
 
 LEAVES_THROUGH = np.array([1.05, 1.18, 0.55])
-"""What a leaf lets through of the light that it does not take, of what it sends back: more yellow and green."""
+"""Light that a leaf lets through, as a part of what it sends back: more yellow and green."""
 
 PETALS_THROUGH = np.array([1.05, 1.05, 0.9])
 """The same of a plant in flower: petals let through the colour that they have."""
@@ -52,7 +52,7 @@ def pigment(color: str, /) -> Doubles:
 
 
 def let_through(kind: GrassKind, /) -> Doubles:
-    """Return what a kind's leaves let through, of what they send back, shape (3,)."""
+    """Return the light that a kind's leaves let through, as a part of what they send back, shape (3,)."""
     return np.asarray(kind.translucency * (LEAVES_THROUGH if kind.head is None else PETALS_THROUGH))
 
 
@@ -82,7 +82,7 @@ def leaves_of(kind: GrassKind, growth: Growth, patch: float, /) -> Leaves:
 
 
 def understorey(kind: GrassKind, canopy: float, /) -> float:
-    """Return how much of the ground the low leaves under a canopy of some height [m] cover, of what they cover at most.
+    """Return how much of the ground the low leaves under a canopy of some height [m] cover, as a part of the most.
 
     Under low grass there are as much fewer: they would stand above it.
     """

@@ -23,10 +23,10 @@ GRAZING = 0.012
 """Sine of the least angle at which the ground may be seen and still has arrows."""
 
 LONGEST = 0.08
-"""Length of an arrow of index 1, of its distance from the eye; where arrows are closer than that, it is less."""
+"""Length of an arrow of index 1, as a part of its distance from the eye; where arrows stand closer, it is less."""
 
 HEAD, SPREAD = 0.36, 0.45
-"""Length of an arrow's head, of the arrow's; half its width, of its length."""
+"""Length of an arrow's head, as a part of the arrow's; half the head's width, as a part of its length."""
 
 
 def felt(outlook: Outlook, /) -> tuple[Floats, Floats]:

@@ -19,7 +19,7 @@ LIFT = 0.05
 """How high over the ground marks lie [m]."""
 
 HIDDEN = 0.12
-"""Opacity of what a hill hides, of its own."""
+"""Opacity of what a hill hides, as a part of its own."""
 
 CLEARANCE = 0.3
 """How far a hill must rise over the line of sight to hide what is behind it [m]."""

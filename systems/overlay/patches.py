@@ -21,7 +21,7 @@ OUTLINED = 20.0
 """Distance up to which the outlines of changing patches are bright [m]; farther off there are too many."""
 
 GAP = 0.035
-"""Width of the gap inside a patch's border, of its side."""
+"""Width of the gap inside a patch's border, as a part of the patch's side."""
 
 SETTLED = 0.995
 """Weight from which on a patch has one representation alone."""

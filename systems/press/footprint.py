@@ -53,7 +53,7 @@ def _in_polygon(corners: tuple[tuple[float, float], ...]) -> Doubles:
 
 
 def _discs_in(outline: Outline, depth: Doubles, apart: float) -> Doubles:
-    """Return discs, the largest first, of which each stands outside the middles of those before it."""
+    """Return discs, the largest first; each stands outside the middles of those before it."""
     rows, columns = np.indices(depth.shape)
     x, z = outline.corner[0] + columns * outline.step, outline.corner[1] + rows * outline.step
     left, least = depth.copy(), _LEAST * depth.max()

@@ -21,7 +21,7 @@ REACH, STRENGTH, HEADING = 7, 8, slice(9, 11)
 """How far from its middle grass bends aside [m]; the message there; where it went, or looked if it only stood."""
 
 SERIAL = 11
-"""The number of the way that it is a part of, as they began; those of a scene's own pressers are below 0."""
+"""The number of its way, in the order in which ways began; those of a scene's own pressers are below 0."""
 
 SCENES = -(2**40)
 """The number of the first way of a scene's own pressers: so many never begin that it comes to 0."""

@@ -10,13 +10,13 @@ from ..grow.record import Blades, Growth
 from .ground import Ground
 
 LODGED = 0.55
-"""How much lower the canopy is where all grass lies, of its height at rest."""
+"""How much lower the canopy is where all grass lies, as a part of its height at rest."""
 
 GLSL = {"LODGED": LODGED}
 
 
 def lodged(index: float, /) -> float:
-    """Return how high the canopy stands where grass is bent by a posture index, of its height at rest."""
+    """Return the height of a canopy that is bent by a posture index, as a part of its height at rest."""
     return 1.0 - LODGED * index * index
 
 

@@ -19,7 +19,7 @@ HIGH = 0.7
 """What a metre of height above a walker's eyes counts, of one along the ground."""
 
 HALF_DIAGONAL = 0.7072
-"""Distance from the middle of a square to its corners, of its side."""
+"""Distance from the middle of a square to its corners, as a part of its side."""
 
 BESIDE = 0.05
 """How far outside the picture straight up and down still count as seen, in halves of the picture."""

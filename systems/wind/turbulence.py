@@ -35,7 +35,7 @@ class Turbulence(MeanWind):
     """A turbulent wind."""
 
     intensity: float = Field(default=0.35, ge=0.0, le=1.0)
-    """Standard deviation of it along its direction, and across, of its mean; 0 is steady."""
+    """Standard deviation along its direction, and across, as a part of its mean; 0 is steady."""
 
     scale: float = Field(default=12.0, ge=2.0, le=1000.0)
     """How large its eddies are: the integral length scale along its direction [m]."""
