@@ -17,7 +17,7 @@ class Organ:
     """What all organs of one sort have in common; each is a ribbon."""
 
     widths: tuple[float, ...]
-    """Width at `KNOTS` places from root to tip, relative to its own; none for a blade, which tapers as its kind says."""
+    """Width at `KNOTS` places from root to tip, relative to its own; none for a blade: it tapers as its kind says."""
 
     tones: tuple[float, float]
     """Where its root and its tip are on the way from the kind's colour `root`, 0, to its colour `tip`, 1."""

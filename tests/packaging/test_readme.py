@@ -3,6 +3,7 @@
 import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -93,6 +94,16 @@ pyglet.clock.schedule_once(look, 0.5)
 def test_every_command_is_in_the_table() -> None:
     told = set(re.findall(r"^\| `tallgrass (\w+)", README, re.MULTILINE))
     assert told == set(typer.main.get_command(app).commands)  # type: ignore[attr-defined]
+
+
+def test_what_an_index_shows_links_to_no_file_and_has_the_program_of_the_readme() -> None:
+    shown = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]["readme"]
+    text = (ROOT / shown).read_text("utf-8")
+    targets = re.findall(r"\]\(([^)]+)\)", text)
+    assert [target for target in targets if not target.startswith("https://")] == []
+    (program,) = re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+    assert program in README
+    assert set(re.findall(r"^tallgrass (\w+)", text, re.MULTILINE)) <= set(typer.main.get_command(app).commands)  # type: ignore[attr-defined]
 
 
 def test_every_file_that_is_linked_exists() -> None:
