@@ -1,17 +1,14 @@
 """The systems that a prairie comes with, each made from what it needs."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from ..components.arrays import Floats
-from ..components.body import Body
-from ..components.shade import Shade
 from ..engine.schedule import HasRun, Phase, Schedule
 from ..engine.world import World
 from .around.clearing import Clearings
 from .around.outlook import Outlook, Outlooks
 from .blow import Blow, Hear, Now
-from .bodies.fly import flying
 from .cull import Cull
 from .entities import PatchEntities
 from .gather import Gather
@@ -52,13 +49,6 @@ class Assembly:
 
     def on(self, site: Site, /) -> list[BuiltIn]:
         """Return the systems of a site in running order."""
-
-        def bodies(time: float) -> list[Body]:
-            return flying(self.world, site.top_at, self.winds.quarantine, time=time)
-
-        def shades() -> list[Shade]:
-            return [shade for _, shade in self.world.all(Shade)]
-
         return built_in(
             site,
             self.viewers,
@@ -67,8 +57,6 @@ class Assembly:
             hear=self.felt,
             note=self.pressers.note,
             painter=self.screen.current,
-            bodies=bodies,
-            shades=shades,
             bent=self.winds.bent,
         )
 
@@ -82,8 +70,6 @@ def built_in(
     now: Now,
     hear: Hear,
     painter: Callable[[], Painter],
-    bodies: Callable[[float], Sequence[Body]],
-    shades: Callable[[], Sequence[Shade]] = tuple,
     note: Callable[[float], Trodden] = lambda _: UNTRODDEN,
     bent: Callable[[float], float] = lambda _: 0.0,
 ) -> list[BuiltIn]:
@@ -107,7 +93,7 @@ def built_in(
         (Phase.SEE, "see", See(outlooks, shown, reach, patch, change, site.choosy)),
         (Phase.BLOW, "plant", Plant(outlooks, shown, entities.world)),
         (Phase.BLOW, "wind", Blow(outlooks, now, hear, site.growths)),
-        (Phase.DRAW, "gather", Gather(outlooks, painter, bodies, shades)),
+        (Phase.DRAW, "gather", Gather(outlooks, painter)),
     ]  # fmt: skip
 
 

@@ -29,6 +29,20 @@ Now = Callable[[float], Sequence[Blowing]]
 """Gives the winds that act at a time [s], the strongest claim first."""
 
 
+@dataclass(frozen=True, slots=True)
+class Blown:
+    """What blows in a frame."""
+
+    winds: Sequence[Blowing] = ()
+    """The winds that act, the strongest claim first."""
+
+    at: float = 0.0
+    """The instant that they were asked for [s]."""
+
+    heard: int = 0
+    """Receivers of blades and strips that heard them."""
+
+
 @dataclass(slots=True)
 class Blow:
     """The system `wind`: the winds of this frame, and what they tell those receivers that a game has asked for.
@@ -46,11 +60,12 @@ class Blow:
         """Blow for every viewer that looks."""
         for outlook in self.outlooks:
             time = outlook.viewer.time
-            outlook.winds, outlook.blown_at, outlook.heard = list(self.now(time)), time, 0
+            winds, heard = list(self.now(time)), 0
             for receiving in hearing(outlook):
                 receiving.letters.blow(partial(self._tell, receiving, time))
                 if not receiving.still:
-                    outlook.heard += len(receiving.slots) * prod(receiving.pool.shape)
+                    heard += len(receiving.slots) * prod(receiving.pool.shape)
+            outlook.note(Blown(winds, time, heard))
 
     def _tell(self, receiving: Receiving, time: float, slots: NDArray[np.int64]) -> Floats:
         """Return what the receivers of some slots of a pool hear, shape (n, 2)."""

@@ -176,7 +176,7 @@ class Governor:
         name = outlook.viewer.name
         if not self.resting:
             self._drawn[name] = 0 if self.hold is None else self._paces.setdefault(name, Pace()).rung
-            outlook.range = eased(outlook.range, RUNGS[self._drawn[name]].range, dt=counted(outlook.viewer))
+            outlook.lens.range = eased(outlook.lens.range, RUNGS[self._drawn[name]].range, dt=counted(outlook.viewer))
         return RUNGS[self._drawn.get(name, 0)]
 
     @contextmanager

@@ -84,7 +84,7 @@ class ChooseLevels:
             settled = patches.was_visible & patches.visible & (not outlook.viewer.jumped)
             none = settled.view(np.int8) - np.int8(1)  # 0 where settled, elsewhere -1, which has all bits
             held = patches.representation | none
-            reach = outlook.reach_in(self.reach)
+            reach = outlook.lens.reach_in(self.reach)
             patches.wanted[:] = wanted_representation(patches.away, held, reach=reach, slack=self.slack)
             self._pass_on(outlook, held)
 

@@ -33,9 +33,11 @@ from .around.clearing import Clearings
 from .around.outlook import Outlook, Outlooks
 from .around.transitions import SEAMLESS, Transitions
 from .assembly import Assembly, settle_in
+from .features import begun, one
+from .frame.feature import Start
 from .govern import Governor
-from .light.shining import Shining
-from .mow.mown import Mown
+from .light.feature import Lighting
+from .mow.feature import Mowing
 from .painter import Painter
 from .pressers import Pressers
 from .screen import Screen
@@ -43,6 +45,7 @@ from .site import Site, found_again, found_site, is_grown, outlook_on, settle_on
 from .space.window import as_places, cell_of
 from .standing import grass_at
 from .statistics import Statistics
+from .wind.quarantine import Quarantine
 from .winds import Winds
 
 if TYPE_CHECKING:
@@ -90,13 +93,12 @@ class Prairie:
         self.statistics = Statistics(blades_field=self.site.blades)
         self.world, self.governor = World(self.advance), Governor(hold)
         self.viewers, self.clearings = Outlooks(self.world), Clearings()
-        self.winds = Winds(self.world, loaded.scene, self.site.ground, self.site.growths, live=live)
-        self.pressers = Pressers(self.world, loaded.scene, self.site.growths)
+        self.features = begun(Start(self.world, self.site, Quarantine(live=live), live))
+        self.winds, self.pressers = one(Winds, self.features), one(Pressers, self.features)
         self.systems = Schedule(live=live)
         self.loaded, self.preset, self._clock, self._released = loaded, preset, 0.0, False
-        self._mown = Mown(self.site.ground.terrain)
-        self._shining = Shining(loaded.scene.light, live=live)
-        screen = Screen(ctx, self.winds.quarantine, self._mown, self._shining, linear=linear)
+        self._mown, self._shining = one(Mowing, self.features).mown, one(Lighting, self.features).shining
+        screen = Screen(ctx, self.features, self.winds.quarantine, linear=linear)
         self._assembly = Assembly(self.world, self.viewers, self.clearings, self.winds, self.pressers, screen)
         self._built = self._assembly.on(self.site)
         for phase, name, system in self._built:
@@ -179,7 +181,8 @@ class Prairie:
         self._must_be_there("draw it")
         must_be_viewer(viewer)
         seen = view_of(view, projection)
-        self._shining.step(viewer, time=self.time)
+        for feature in self.features:
+            feature.step(viewer, time=self.time)
         with self._assembly.screen.opened(self.site) as painter:
             if painter is None:
                 return
@@ -355,11 +358,8 @@ class Prairie:
             settle_on(outlook, self.site, before, self.world)
         self._built, built = self._assembly.on(self.site), self._built
         settle_in(self.systems, self._built, built)
-        self.winds.change(loaded.scene, self.site.ground, self.site.growths)
-        self.pressers.change(loaded.scene, self.site.growths)
-        if loaded.scene.light != self.loaded.scene.light:
-            self._shining.declare(loaded.scene.light, time=self.time)
-        self._mown.change(self.site.ground.terrain)
+        for feature in self.features:
+            feature.settle(self.site, before, time=self.time)
         self.loaded, self.statistics.blades_field = loaded, self.site.blades
 
     def finding(self, loaded: LoadedScene) -> Callable[[], Site]:
@@ -396,6 +396,7 @@ class Prairie:
 
     def _look(self, seen: View, viewer: str) -> Outlook:
         outlook = self.viewers.looking(viewer, partial(outlook_on, self.site))
-        outlook.mown = self._mown
+        for feature in self.features:
+            feature.look(outlook)
         outlook.look(seen, time=self.time, leap=LEAP * self.site.ground.patch)
         return outlook

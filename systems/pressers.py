@@ -1,9 +1,11 @@
 """The pressers of a prairie: whose entities they are, the ways they have come, and what grass feels of them."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import ceil, floor, pi
+from typing import Self
 
+import moderngl
 import numpy as np
 
 from ..components.arrays import Doubles, Floats
@@ -14,11 +16,15 @@ from ..engine.declared.scene import Scene
 from ..engine.declared.way import Waypoint
 from ..engine.world import World
 from .around.outlook import Outlook
+from .frame.block import FrameBlock
+from .frame.feature import Feature, Start
 from .grow.record import Growth
+from .press.card import PressPart
 from .press.lie import laid_over, pressed, recoveries, touches
 from .press.marks import UNTRODDEN, Memory, Trodden
 from .press.trail import SCENES, Trail
 from .press.walk import Walk, Who, staying
+from .space.grown import Grown
 from .wind.blow import ReceiverArrays
 
 REMEMBERED = 2.0
@@ -33,12 +39,14 @@ EVERY = 60.0
 """How often the ways of those that a scene declares begin new stretches [s]: what is forgotten is not gone again."""
 
 
-class Pressers:
+class Pressers(Feature):
     """The entities of one world that have a `Presser` and a `Pose`, and what they have trodden.
 
     Those that a scene declares are entities too, and go their ways from the beginning of time: what they have trodden
     does not depend on when pictures are drawn, nor on when the scene was read.
     """
+
+    samplers = ("pressed",)
 
     def __init__(self, world: World, scene: Scene, growths: Sequence[Growth]) -> None:
         self._world = world
@@ -53,6 +61,21 @@ class Pressers:
         self.trodden = UNTRODDEN
         """What has been trodden so far."""
         self.change(scene, growths)
+
+    @classmethod
+    def begin(cls, start: Start, /) -> Self:
+        """Return those of a prairie's world."""
+        return cls(start.world, start.grown.scene, start.grown.growths)
+
+    def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
+        """Take over a scene that was read again."""
+        del before, time
+        self.change(grown.scene, grown.growths)
+
+    def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> PressPart:
+        """Return what they tread, for passes over receivers."""
+        del block
+        return PressPart(ctx, units["pressed"])
 
     def change(self, scene: Scene, growths: Sequence[Growth]) -> None:
         """Take over the kinds of grass of a scene, at first or when it was read again, and those who walk in it.
@@ -223,4 +246,4 @@ class Press:
     def run(self) -> None:
         """Press for every viewer that looks."""
         for outlook in self.outlooks:
-            outlook.trodden = self.note(outlook.viewer.time)
+            outlook.note(self.note(outlook.viewer.time))

@@ -17,6 +17,7 @@ from .prairie import Prairie
 from .show.blades.draw import BladePainter
 from .show.blades.plant import standing_blades
 from .show.blades.representation import BladeRepresentation
+from .show.carpet.painter import CarpetPainter
 from .space.cone import HALF_DIAGONAL, beyond_sides, discrete_distance, inside_cone, picture_sides, view_cone
 from .space.ground import Ground
 from .space.window import cell_of
@@ -112,6 +113,13 @@ def near_picture(blades: NDArray[np.void], seen: View, /) -> NDArray[np.bool_]:
     return inside
 
 
+def carpet_painter(painter: Painter, /) -> CarpetPainter:
+    """Return what draws ground and carpet."""
+    carpet = painter.coarsest
+    assert isinstance(carpet, CarpetPainter)
+    return carpet
+
+
 class EveryBlade:
     """Draws a prairie with every blade in 3D at the finest level; shares the prairie's painter.
 
@@ -138,7 +146,7 @@ class EveryBlade:
             cover = np.where(patches.distance > reach, appears.cover[-1], np.float32(0.0))
             cells = cells[discrete_distance(cells, self.outlook.viewer.centre) <= reach]
         cells = cells[self.prairie.clearings.spare(cells)]
-        self.painter.carpet.lay(self.outlook, cover)
+        carpet_painter(self.painter).lay(self.outlook, cover)
         self.painter.draw(view, blades=self._chunks(cells, view))
 
     def _chunks(self, cells: Ints, seen: View) -> Iterator[BladePainter]:
@@ -168,7 +176,10 @@ def patch_distances(prairie: Prairie, view: object, projection: object, size: tu
     try:
         target.use()
         target.clear(depth=1.0)
-        every.draw_carpet_everywhere(seen, prairie.viewers["main"])
+        carpet = carpet_painter(every)
+        carpet.lay_everywhere(prairie.viewers["main"], height=0.5)  # about the middle of the grass
+        every.draw(seen, blades=[])
+        carpet.lay_as_always()
         fine = np.frombuffer(depth.read(alignment=1), np.float32).reshape(height, width)[::-1]
     finally:
         host.use()

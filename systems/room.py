@@ -5,7 +5,8 @@ from math import ceil, log2
 
 from ..engine.world import World
 from .around.appearance import Appearance
-from .around.outlook import Outlook, brought_near
+from .around.lens import brought_near
+from .around.outlook import Outlook
 from .lod import farthest
 from .show.representation import Representation
 
@@ -15,7 +16,7 @@ def keep_room(outlook: Outlook, representations: Sequence[Representation], reach
 
     The carpet alone is shown until the system `see` has run, which a game may have left out.
     """
-    outlook.reach = outlook.room = reach
+    outlook.lens.reach = outlook.lens.room = reach
     for each, side in zip(representations, _sides(outlook), strict=True):
         outlook.kept[each.name] = each.keep(outlook.patches, side)
     outlook.appearance = Appearance.of_carpet(len(representations), len(outlook.patches.progress))
@@ -28,12 +29,13 @@ def make_room(outlook: Outlook, representations: Sequence[Representation], world
 
     What stood in the smaller stores is planted anew, and its receivers are other entities.
     """
-    if outlook.lens == 1.0 or not outlook.reach:
+    lens = outlook.lens
+    if lens.factor == 1.0 or not lens.reach:
         return
-    due = tuple(max(limits) for limits in zip(room_for(outlook.reach, outlook.lens), outlook.room, strict=True))
-    if due == outlook.room:
+    due = tuple(max(limits) for limits in zip(room_for(lens.reach, lens.factor), lens.room, strict=True))
+    if due == lens.room:
         return
-    before, outlook.room = _sides(outlook), due
+    before, lens.room = _sides(outlook), due
     for each, old, side in zip(representations, before, _sides(outlook), strict=True):
         if side != old:
             outlook.kept[each.name].release(world)
@@ -48,4 +50,4 @@ def room_for(reach: tuple[int, ...], lens: float, /) -> tuple[int, ...]:
 def _sides(outlook: Outlook) -> list[int]:
     """Return how many patches there is room for along a side of each representation's stores."""
     most = outlook.patches.side
-    return [*(min(max(2 * limit + 1, 1), most) for limit in farthest(outlook.room)), most]
+    return [*(min(max(2 * limit + 1, 1), most) for limit in farthest(outlook.lens.room)), most]

@@ -1,7 +1,7 @@
 """Where a prairie is drawn: a painter in each GL context, and places in pyglet's batches."""
 
 import logging
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING
@@ -12,8 +12,7 @@ from ..engine.gl.guest import arrive, host_context, kept
 from ..engine.gl.homes import Homes
 from ..engine.gl.host import State
 from ..engine.gl.outputs import has_depth
-from .light.shining import Shining
-from .mow.mown import Mown
+from .frame.feature import Feature
 from .painter import Painter
 from .site import Site
 from .wind.quarantine import Quarantine
@@ -32,14 +31,13 @@ class Screen:
     def __init__(
         self,
         ctx: moderngl.Context | None,
+        features: Sequence[Feature],
         quarantine: Quarantine,
-        mown: Mown,
-        shining: Shining,
         *,
         linear: bool = False,
     ) -> None:
         self.ctx, self.linear = ctx, linear
-        self._quarantine, self._mown, self._shining = quarantine, mown, shining
+        self._features, self._quarantine = features, quarantine
         self.painter: Painter | None = None
         """The painter of the context that was drawn in last; None before the first time."""
         self._painters: Homes[Painter] = Homes()
@@ -61,10 +59,7 @@ class Screen:
             self._must_have_depth(state)
             self.painter = self._painters.here(state.gl, partial(self._made, site))
             arrive(self.painter.ctx)
-            if self.painter.site is not site:
-                self.painter.change(site)
-            self.painter.mow()
-            self.painter.shine()
+            self.painter.settle(site)
             yield self.painter
 
     def _must_have_depth(self, state: State) -> None:
@@ -81,7 +76,7 @@ class Screen:
         """Return a new painter, in the context that is current."""
         ctx = host_context(self.ctx)
         arrive(ctx)
-        return Painter(ctx, site, self._quarantine, self._mown, self._shining, linear=self.linear)
+        return Painter(ctx, site, self._features, self._quarantine, linear=self.linear)
 
     def current(self) -> Painter:
         """Return the painter of the context that is drawn in."""

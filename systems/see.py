@@ -28,7 +28,7 @@ def strips_kept(
     They leave all of them where something else than the carpet comes after them.
     """
     number = outlook.patches.names.index("strips")
-    drawn = outlook.reach_in(reach)
+    drawn = outlook.lens.reach_in(reach)
     if drawn[number] < drawn[-2]:
         return np.ones(len(rows), np.float32)
     (x, z), eye = outlook.patches.middle.T, outlook.viewer.eye

@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 from itertools import starmap
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..components.viewer import Viewer
 from ..engine.declared.grass import GrassKind
@@ -22,8 +21,9 @@ from .lod import reach_of
 from .room import keep_room
 from .show.registry import NAMES, REPRESENTATIONS
 from .show.representation import Representation
-from .space.canopy import canopy_height, top_at
+from .space.canopy import canopy_height
 from .space.ground import Ground
+from .space.grown import Grown
 from .stock.cache import cached_growth, growth_key
 
 LAYERS = 2048
@@ -31,13 +31,9 @@ LAYERS = 2048
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Site:
+class Site(Grown):
     """A scene with its ground, its grown kinds, and its representations in stock."""
 
-    scene: Scene
-    quality: Quality
-    ground: Ground
-    growths: list[Growth]
     representations: tuple[Representation, ...]
     reach: tuple[int, ...]
     """Largest discrete distance of each representation."""
@@ -45,27 +41,12 @@ class Site:
     sway: float
     """How far grass may reach beyond its patch, leaning and blown [m]."""
 
-    canopy: tuple[float, ...]
-    """Height of each kind's canopy [m]."""
-
-    tallest: float
-    """Height that no blade comes to [m]."""
-
     transitions: Transitions = SEAMLESS
-
-    def top_at(self, place: NDArray[np.float32], /) -> NDArray[np.float32]:
-        """Return how high the top of the grass is (y) at ground positions (n, 2) [m], shape (n,)."""
-        return top_at(self.ground, self.canopy, place)
 
     @property
     def finest(self) -> int:
         """Line segments per blade at the finest level, of kinds that do not say."""
         return max(ring.segments for ring in self.quality.blade_rings)
-
-    @property
-    def own_segments(self) -> tuple[int | None, ...]:
-        """Line segments per blade at the finest level that each kind asks for; None of those that do not say."""
-        return tuple(kind.segments for kind in self.scene.grass.values())
 
     @property
     def margin(self) -> float:

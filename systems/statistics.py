@@ -6,6 +6,7 @@ import numpy as np
 
 from ..engine.schedule import Schedule
 from .around.outlook import Outlook
+from .blow import Blown
 from .govern import Fineness
 from .painter import Painter
 from .site import Site
@@ -52,5 +53,6 @@ class Statistics:
         share = self.blades_field * site.ground.patch**2 / (width * depth)
         self.blades_considered = round(share * int(np.count_nonzero(shown)))
         self.patches = {name: int(np.count_nonzero(shown & (level == number))) for number, name in enumerate(names)}
-        self.receivers, self.transitions, self.blades_submitted = outlook.heard, outlook.changing, outlook.blades
+        self.receivers, self.transitions = outlook.noted(Blown, Blown()).heard, outlook.changing
+        self.blades_submitted = painter.blades
         self.systems_ms, self.draw_calls, self.draw_ms = dict(systems.milliseconds), painter.draw_calls, draw_ms

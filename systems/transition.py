@@ -218,7 +218,7 @@ class Transition:
         settled = patches.was_visible & patches.visible & (not viewer.jumped)
         step = step_of_change(counted(viewer), way=viewer.way, patch=self.patch)
         before = patches.representation.copy()
-        reach = outlook.room or self.reach
+        reach = outlook.lens.room or self.reach
         wanted = held(patches, reach=reach)
         waits = unfinished(patches, wanted, reach=reach, step=step)
         wanted[waits] = patches.representation[waits]

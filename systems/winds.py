@@ -8,6 +8,7 @@ from functools import partial
 from itertools import count
 from math import inf
 from reprlib import repr as shortened
+from typing import Self
 
 import numpy as np
 
@@ -19,10 +20,13 @@ from ..engine.handed import is_somewhere
 from ..engine.terrain.sample import height_at
 from ..engine.world import World
 from .bodies.fly import foot, hover_of, hovering
+from .frame.feature import Feature, Start
 from .grow.record import Growth
 from .space.canopy import canopy_height, top_at
 from .space.ground import Ground, densest_kind
+from .space.grown import Grown
 from .wind.blow import Blowing, ReceiverArrays, blowing, hear, mean_index, mean_yaw, places_alone
+from .wind.card import SAMPLERS
 from .wind.grass import grass_of
 from .wind.quarantine import Quarantine, QuarantinedError
 
@@ -46,21 +50,39 @@ class _Known:
     """When it is over for good [s]."""
 
 
-class Winds:
+class Winds(Feature):
     """The winds in one world; those that a scene declares, those that a game adds, and a game's own entities."""
 
+    asked = SAMPLERS
+
     def __init__(
-        self, world: World, scene: Scene, ground: Ground, growths: Sequence[Growth], *, live: bool = True
+        self,
+        world: World,
+        scene: Scene,
+        ground: Ground,
+        growths: Sequence[Growth],
+        quarantine: Quarantine | None = None,
     ) -> None:
         self._world = world
         self._generation = world.generation
         self._declared: list[int] = []
         self._added: dict[int, int] = {}
         """By its handle, the generation of the world in which a game added each wind."""
-        self.quarantine = Quarantine(live=live)
+        self.quarantine = quarantine or Quarantine()
         self._clock = 0.0
         self._known: dict[int, _Known] = {}
         self.change(scene, ground, growths)
+
+    @classmethod
+    def begin(cls, start: Start, /) -> Self:
+        """Return the winds of a prairie."""
+        grown = start.grown
+        return cls(start.world, grown.scene, grown.ground, grown.growths, start.quarantine)
+
+    def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
+        """Take over the winds that a scene declares that was read again."""
+        del before, time
+        self.change(grown.scene, grown.ground, grown.growths)
 
     def change(self, scene: Scene, ground: Ground, growths: Sequence[Growth]) -> None:
         """Take over the winds that a scene declares, at first or when it was read again.

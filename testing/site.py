@@ -70,9 +70,7 @@ def systems_on(site: Site, outlooks: Sequence[Outlook], world: World, /, *, hear
     """
     schedule = Schedule()
     entities = PatchEntities(world, Clearings(), site.representations)
-    parts = built_in(
-        site, outlooks, entities, now=lambda _: (), hear=hear or _calm, painter=_no_painter, bodies=lambda _: ()
-    )
+    parts = built_in(site, outlooks, entities, now=lambda _: (), hear=hear or _calm, painter=_no_painter)
     for phase, name, system in parts:
         schedule.add(phase, name, system, trusted=True)
     return schedule

@@ -10,8 +10,9 @@ from ...components.arrays import Floats, Mask
 from ...engine.camera import View
 from ...engine.gl.stream import release_all
 from ...engine.terrain.sample import height_at
+from ...systems.features import UNITS
 from ...systems.frame.block import joined
-from ...systems.painter import UNITS, Painter
+from ...systems.painter import Painter
 from ...systems.reference import terrain_cells
 from ...systems.show.blades.plant import BladeStock
 from ...systems.show.blades.representation import BladeRepresentation

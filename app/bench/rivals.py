@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...systems.reference import draw_reference
+from ...systems.reference import carpet_painter, draw_reference
 from ..studio.errors import MachineError
 from ..studio.take import SAMPLES
 from ..studio.timing import timed
@@ -25,7 +25,7 @@ class Rivals:
         self._still, self._ctx = still, still.studio.ctx
         prairie, size = still.studio.prairie, still.studio.take.size
         assert prairie.painter is not None
-        self._carpet, self._outlook = prairie.painter.carpet, prairie.viewers["main"]
+        self._carpet, self._outlook = carpet_painter(prairie.painter), prairie.viewers["main"]
         self._hand = ByHand(prairie.painter, prairie.site)
         self._fine = Multisampled(self._ctx, size)
         self.times: dict[str, list[float]] = {}

@@ -62,7 +62,7 @@ class Truth:
         return self._near(view, cropped(projection, first, part, self._studio.take.size), part)
 
     def _near(self, view: Matrix, projection: Matrix, size: tuple[int, int]) -> Picture:
-        room = room_for(self._studio.prairie.site.reach, self._prairie.viewers["main"].lens)
+        room = room_for(self._studio.prairie.site.reach, self._prairie.viewers["main"].lens.factor)
         reach = farthest(room)[-1]
         return draw_reference(self._prairie, view, projection, size, samples=SAMPLES, reach=reach)
 

@@ -15,6 +15,11 @@ from .units import SCRATCH_UNIT
 _kept: list[State] = []
 
 
+def block_binding(ctx: moderngl.Context) -> int:
+    """Return the binding point of the one uniform block that is used: the highest, away from a host's own."""
+    return limits_of(functions_of(ctx)).bindings - 1
+
+
 def host_context(ctx: moderngl.Context | None) -> moderngl.Context:
     """Return `ctx`, or one of our own in the context that is current now; RuntimeError if none is, or too old a one."""
     if ctx is not None:

@@ -8,8 +8,7 @@ from numpy.typing import NDArray
 
 from ...engine.camera import View
 from ...engine.declared.grass import MOST_KINDS
-from ...engine.gl.functions import functions_of
-from ...engine.gl.limits import limits_of
+from ...engine.gl.guest import block_binding
 from ...engine.gl.shaders import program
 from ..grow.record import GIVES
 
@@ -61,11 +60,6 @@ def aim(record: NDArray[np.void], view: View, size: tuple[int, int], /) -> None:
     row["eye"][:3] = view.eye
 
 
-def frame_binding(ctx: moderngl.Context) -> int:
-    """Return the binding point of the block: the highest, away from a host's own."""
-    return limits_of(functions_of(ctx)).bindings - 1
-
-
 class FrameBlock:
     """The uniform block on the graphics card."""
 
@@ -73,7 +67,7 @@ class FrameBlock:
         self.defines: dict[str, str | int] = {}
         """What every program is told that is made from now on."""
         self.buffer = ctx.buffer(reserve=FRAME.itemsize, dynamic=True)
-        self.binding = frame_binding(ctx)
+        self.binding = block_binding(ctx)
 
     def join(self, program: moderngl.Program) -> None:
         """Tell a program where the block is."""

@@ -4,17 +4,20 @@ from collections.abc import Mapping
 
 import moderngl
 import numpy as np
+from numpy.typing import NDArray
 
 from ...engine.gl.stream import release_all
 from ...engine.terrain.record import Terrain
+from ..around.outlook import Outlook
 from ..frame.block import FrameBlock, joined
+from ..frame.feature import Part
+from ..space.grown import Grown
 from .daylight import Daylight
 from .lie import LieMap
-from .repeating import repeating_texture
+from .repeating import drifted, repeating_texture
+from .shine import shine, toward_sun
+from .shining import Shining
 from .sky import COLUMNS, ROWS
-
-SAMPLERS = ("lie", "repeating", "sky")
-"""What programs read of it. `sky` is read by the sky alone."""
 
 ACROSS, UP = 48, 48
 """Squares across and up the picture, at whose corners the sky's colour is looked up."""
@@ -22,11 +25,14 @@ ACROSS, UP = 48, 48
 GRID: dict[str, str | int] = {"ACROSS": ACROSS, "UP": UP}
 
 
-class LightPainter:
+class LightPart(Part):
     """Holds the sky's colours, clouds and litter, and how the terrain lies to the sun; draws the sky."""
 
-    def __init__(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int]) -> None:
-        self.ctx, self._units = ctx, units
+    def __init__(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], shining: Shining) -> None:
+        self.ctx, self._units, self._shining = ctx, units, shining
+        self._grown: Grown | None = None
+        self._lit: Daylight | None = None
+        self._leaps = 0
         self._skies = tuple(
             joined(ctx, block, units, "systems/light/sky.vert", "systems/light/sky.frag", GRID | clouds)
             for clouds in ({}, {"CLOUDS": 1})
@@ -38,17 +44,32 @@ class LightPainter:
         self._toward = 0.0, -1.0
         self._cloudy = False
 
-    def lay(self, terrain: Terrain, *, seed: int) -> None:
-        """Take over another terrain, or another seed."""
+    def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
+        """Take over another terrain or seed, and the light as it is by now."""
+        before, self._grown = self._grown, grown
+        if before is not grown and not (
+            before and before.ground.terrain is grown.ground.terrain and before.scene.seed == grown.scene.seed
+        ):
+            self._lay(grown.ground.terrain, seed=grown.scene.seed)
+        now, light = self._shining, self._shining.light
+        if now.leaps != self._leaps:
+            self.lie.leap()
+        if now.daylight is not self._lit or before is not grown:
+            shine(record, light, now.daylight, list(grown.scene.grass.values()))
+            self._sky.write(now.daylight.sky.map.astype(np.float32))
+            self._toward, self._cloudy = toward_sun(light), light.clouds > 0.0
+        self._leaps, self._lit = now.leaps, now.daylight
+
+    def _lay(self, terrain: Terrain, *, seed: int) -> None:
         self.lie.lay(terrain, seed=seed)
         if self._repeating is not None:
             self._repeating.release()
         self._repeating = repeating_texture(self.ctx, seed=seed)
 
-    def shine(self, light: Daylight, /, *, toward: tuple[float, float], clouds: float) -> None:
-        """Take over another light; `toward` is the direction over the ground that its sun stands in (x, z)."""
-        self._sky.write(light.sky.map.astype(np.float32))
-        self._toward, self._cloudy = toward, clouds > 0.0
+    def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
+        """Write how far the clouds have drifted."""
+        assert self._grown is not None
+        record[0]["drift"][:2] = drifted(self._grown.scene.wind, outlook.viewer.time)
 
     def use(self) -> None:
         """Bind what programs read, but for the sky's own: its unit is another's until it is drawn."""
@@ -60,7 +81,7 @@ class LightPainter:
         """Draw what is due of how the terrain lies to the sun; return the number of draw calls."""
         return self.lie.prepare(self._toward)
 
-    def draw(self) -> int:
+    def draw_behind(self) -> int:
         """Draw the sky behind all that has been drawn; return the number of draw calls."""
         self._sky.use(self._units["sky"])
         self._arrays[self._cloudy].render(moderngl.TRIANGLE_STRIP, vertices=2 * (ACROSS + 1), instances=UP)

@@ -1,32 +1,34 @@
 """How high grass is left to stand, as a texture over the terrain."""
 
+from collections.abc import Mapping
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ..frame.feature import Part
+from ..space.grown import Grown
 from .mown import Mown
 
-SAMPLERS = ("mown",)
-"""What `lib/mown.glsl` reads where anything is mown."""
 
-
-class CardMown:
+class MownPart(Part):
     """The map as one GL context holds it: a texel for a cell, and mip-maps for what lies far off."""
 
-    def __init__(self, ctx: moderngl.Context) -> None:
-        self.ctx = ctx
+    def __init__(self, ctx: moderngl.Context, unit: int, mown: Mown) -> None:
+        self.ctx, self._unit, self._mown = ctx, unit, mown
         self.texture: moderngl.Texture | None = None
         self._strokes, self._tallest = 0, 0.0
 
-    def write(self, mown: Mown, *, tallest: float) -> bool:
-        """Send the rows that have changed; return whether there is a texture now that was not there before.
+    def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
+        """Send the rows that have changed.
 
-        What is not cut stands at `tallest` [m], above all tips: a mean of that and what is cut means something.
+        What is not cut stands above all tips: a mean of that and what is cut means something.
         """
+        del record
+        mown, tallest = self._mown, grown.tallest
         if mown.heights is None or (mown.strokes, tallest) == (self._strokes, self._tallest):
-            return False
+            return
         rows, columns = mown.shape
-        begun = self.texture is None
         if self.texture is None or self.texture.size != (columns, rows) or tallest != self._tallest:
             self.release()
             self.texture, self._strokes = self._room(columns, rows), -1
@@ -37,7 +39,10 @@ class CardMown:
         )
         self.texture.build_mipmaps()
         self._strokes, self._tallest = mown.strokes, tallest
-        return begun
+
+    def defines(self) -> Mapping[str, str | int]:
+        """Return that something is cut, if it is."""
+        return {} if self.texture is None else {"MOWN": 1}
 
     def _room(self, columns: int, rows: int) -> moderngl.Texture:
         texture = self.ctx.texture((columns, rows), 1, dtype="f2", alignment=2)
@@ -46,10 +51,10 @@ class CardMown:
         texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
         return texture
 
-    def use(self, unit: int) -> None:
+    def use(self) -> None:
         """Bind it, where there is one."""
         if self.texture is not None:
-            self.texture.use(unit)
+            self.texture.use(self._unit)
 
     def release(self) -> None:
         """Give the texture back."""

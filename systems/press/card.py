@@ -4,19 +4,21 @@ from collections.abc import Sequence
 
 import moderngl
 import numpy as np
+from numpy.typing import NDArray
 
 from ...components.arrays import Floats
+from ..around.outlook import Outlook
+from ..frame.feature import Part
 from ..grow.record import Growth
-from .marks import NOTHING, SIDE, Marks, Trodden
+from ..space.grown import Grown
+from .lie import recoveries
+from .marks import NOTHING, SIDE, UNTRODDEN, Marks, Trodden
 from .trail import NUMBERS
 
 ROW = 1024
 """Texels in a row of the texture; the first is the frame's."""
 
 GLSL = {"PRESSED_ROW": ROW}
-
-SAMPLERS = ("pressed",)
-"""What `press.glsl` reads."""
 
 HEAD = 2 + SIDE * SIDE // ROW
 """Rows of the frame, of how kinds swing back, and of the squares."""
@@ -25,19 +27,26 @@ TEXELS = NUMBERS // 4
 """Texels of a mark."""
 
 
-class CardPress:
+class PressPart(Part):
     """All marks as one GL context holds them: the frame and its fresh marks first, then those that have settled."""
 
-    def __init__(self, ctx: moderngl.Context) -> None:
-        self.ctx = ctx
+    def __init__(self, ctx: moderngl.Context, unit: int) -> None:
+        self.ctx, self._unit = ctx, unit
+        self._grown: Grown | None = None
         self._head = np.zeros((HEAD * ROW, 4), np.float32)
         self._settled = NOTHING
         self._fresh_rows, self._settled_rows = 4, 0
         self._still = True
         self.texture = self._room()
 
-    def stand(self, growths: Sequence[Growth], recovery: Floats) -> None:
-        """Take over how kinds of grass swing back, and how long each takes to recover [s], shape (kinds,)."""
+    def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
+        """Take over how kinds of grass swing back, and how long each takes to recover."""
+        del record
+        if grown is not self._grown:
+            self._grown = grown
+            self._stand(grown.growths, recoveries(grown.scene))
+
+    def _stand(self, growths: Sequence[Growth], recovery: Floats) -> None:
         samples = len(growths[0].response.fall)
         for kind, growth in enumerate(growths):
             group, own = divmod(kind, 4)
@@ -45,8 +54,16 @@ class CardPress:
             self._head[ROW + group * samples :, own][:samples] = growth.response.fall
         self._head[0, 2], self._still = samples, False
 
-    def write(self, trodden: Trodden) -> None:
+    def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
         """Send what has been trodden; settled marks only where they are others than before."""
+        del record
+        self._write(outlook.noted(Trodden, UNTRODDEN))
+
+    def use(self) -> None:
+        """Bind it."""
+        self.texture.use(self._unit)
+
+    def _write(self, trodden: Trodden) -> None:
         if not trodden and self._still:
             return
         self._still = not trodden

@@ -3,7 +3,7 @@
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, Protocol, Self
+from typing import Any, ClassVar, Self
 
 import moderngl
 import numpy as np
@@ -12,15 +12,16 @@ from numpy.typing import NDArray
 from ...components.arrays import Levels, Mask, Rows
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
-from ...engine.world import World
+from ..around.kept import Kept
 from ..around.outlook import Outlook
 from ..around.patches import PatchTable
-from ..around.receivers import Receiving
 from ..around.transitions import Transitions
 from ..frame.block import FrameBlock
+from ..frame.feature import Part
 from ..grow.record import Blades, Growth, Postures
 from ..receive.received import Received
 from ..space.ground import Ground
+from ..space.grown import Grown
 from ..wind.card import CardWinds
 
 Color = tuple[float, float, float]
@@ -69,57 +70,30 @@ class Canvas:
     """All of them, for a painter that draws one on its way to another."""
 
 
-class Kept:
-    """What a representation keeps for one viewer: the receivers that it stands on, of each pool."""
-
-    def __init__(self, receiving: Sequence[Receiving] = ()) -> None:
-        self.receiving = list(receiving)
-
-    def enlist(self, world: World, patches: PatchTable, /) -> None:
-        """Let the receivers of what is shown be entities, and no others."""
-        for receiving in self.receiving:
-            receiving.enlist(world, patches)
-
-    def leave(self, rows: NDArray[np.int32], /) -> None:
-        """Take note that other patches are in some rows of the patch table now."""
-
-    def lose(self) -> None:
-        """Take note that all entities are gone."""
-        for receiving in self.receiving:
-            receiving.lose()
-
-    def release(self, world: World, /) -> None:
-        """Delete its entities."""
-        for receiving in self.receiving:
-            receiving.release(world)
-
-
-class RepresentationPainter(Protocol):
+class RepresentationPainter(Part, ABC):
     """Everything that one GL context holds of a representation, and the drawing of it."""
 
+    @abstractmethod
     def receivers(self, outlook: Outlook, /) -> list[int]:
         """Return how many of its receivers are to hear the wind, pool by pool."""
 
+    @abstractmethod
     def write(self, outlook: Outlook, first: Mapping[str, list[int]], /) -> int:
         """Send what a viewer is shown of it; return how many blades that is as geometry.
 
         `first` gives the numbers of the first receivers of each representation's pools, by its name.
         """
 
+    @abstractmethod
     def hear(self) -> int:
         """Let its receivers hear the wind; return the number of draw calls."""
 
-    def draw_solid(self) -> int:
-        """Draw what is opaque and writes depth, before the sky; return the number of draw calls."""
-
+    @abstractmethod
     def draw(self, target: moderngl.Framebuffer, /) -> int:
         """Draw what is blended over all that is coarser; return the number of draw calls.
 
         Depth is tested and blending is on; `target.depth_mask` is False before, and has to be so afterwards.
         """
-
-    def release(self) -> None:
-        """Give everything back to the context."""
 
 
 class Representation(ABC):
@@ -181,6 +155,10 @@ class Representation(ABC):
     @abstractmethod
     def on(self, ground: Ground, /) -> Self:
         """Return it with the same grass, on another ground."""
+
+    def defines(self, grown: Grown, /) -> Mapping[str, str | int]:  # noqa: ARG002 - for those with something special
+        """Return what all programs are told of what is special about a scene's kinds."""
+        return {}
 
     def prepare(self) -> None:  # noqa: B027 - for those whose painters take long to make
         """Make what the next painter of it takes long to make, without any GL: it may be called on another thread."""

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from ...components.wind import Mixing, TwinValues, WindPrimitive
 from ...engine.complaint import said
+from ...engine.gl.guest import block_binding
 from ...engine.gl.shaders import Line, ShaderError, program
 from ...engine.gl.stream import release_all
-from ..frame.block import frame_binding
 from ..grow.record import Response
 from .blow import BESIDE, Blowing, ReceiverArrays, claim, send
 from .flutter import flutter_values
@@ -221,7 +221,7 @@ class CardWinds:
             if name in made:
                 made[name] = unit
         if "Frame" in made:
-            made["Frame"].binding = frame_binding(self.ctx)  # type: ignore[union-attr]
+            made["Frame"].binding = block_binding(self.ctx)  # type: ignore[union-attr]
         return made
 
     def use(self, program: moderngl.Program, /) -> None:

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from tallgrass.app.studio.take import Take
+from tallgrass.systems.bodies.feature import BodiesPart
 from tallgrass.systems.prairie import Prairie
 
 if TYPE_CHECKING:
@@ -254,8 +255,9 @@ def test_r4_g_boards_a_saucer_that_keys_fly_and_leaves_it(walk: "Walk") -> None:
     seen(walk)
     painter = walk.prairie.painter
     assert painter is not None
-    assert painter.bodies is not None
-    assert painter.bodies.stream.count == 0
+    bodies = painter.part(BodiesPart).painter
+    assert bodies is not None
+    assert bodies.stream.count == 0
 
 
 def test_r4_grass_under_the_saucer_is_pressed_outwards_wherever_it_flies(walk: "Walk") -> None:

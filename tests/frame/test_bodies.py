@@ -13,6 +13,7 @@ from tallgrass.components.body import Body, Hover
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import Grass, WindPrimitive
 from tallgrass.engine.camera import Camera
+from tallgrass.systems.bodies.feature import BodiesPart
 from tallgrass.systems.bodies.fly import carried
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import draw_reference
@@ -187,7 +188,7 @@ def test_no_program_is_made_before_something_flies(load: Load, stage: Stage, cam
     calm = load(FLAT)
     stage.shot(calm, camera(0.0, 1.7, 10.0))
     assert calm.painter is not None
-    assert calm.painter.bodies is None
+    assert calm.painter.part(BodiesPart).painter is None
 
 
 class Rotor(WindPrimitive):

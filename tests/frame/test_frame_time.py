@@ -170,7 +170,7 @@ def test_n11_representations_are_drawn_in_little_by_little_and_come_back(stage: 
     at(1.0, 0.5)
     prairie.advance(1 / 60)
     shown(stage, prairie)
-    assert 0.9 < prairie.viewers["main"].range < 1.0
+    assert 0.9 < prairie.viewers["main"].lens.range < 1.0
     assert standing() < 0.6 * before
     at(1.0, 1.0)
     assert standing() == before

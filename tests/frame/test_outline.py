@@ -15,7 +15,7 @@ from tallgrass.components.arrays import Doubles
 from tallgrass.engine.camera import Camera, camera_at, view_of
 from tallgrass.systems.around.appearance import Appearance, appearance
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.reference import draw_reference
+from tallgrass.systems.reference import carpet_painter, draw_reference
 from tallgrass.testing import Stage as Room
 
 Load = Callable[..., Prairie]
@@ -100,8 +100,8 @@ def drawn(
     outlook.appearance = shows
     outlook.shown["strips"] = standing.show(outlook, shows.cover[1])
     standing.plant(outlook)
-    painter.write(outlook, [])
-    painter.carpet.lay(outlook, shows.cover[2] if carpet else None)
+    painter.write(outlook)
+    carpet_painter(painter).lay(outlook, shows.cover[2] if carpet else None)
     room.target.use()
     room.target.clear(depth=1.0)
     painter.draw(view_of(*room.matrices(camera)), blades=None if strips else [])

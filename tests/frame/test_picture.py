@@ -8,7 +8,9 @@ import pytest
 
 from tallgrass.engine.camera import Camera, view_of
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.reference import carpet_painter
 from tallgrass.systems.show.blades.plant import standing_blades
+from tallgrass.systems.show.blades.pool import BladesKept
 from tallgrass.systems.show.blades.representation import BladeRepresentation
 from tallgrass.systems.show.strips.painter import StripsPainter
 from tallgrass.systems.tile import patch_models
@@ -134,7 +136,7 @@ def test_g1_each_patch_of_the_carpet_shows_the_patch_model_that_its_blades_are_o
     prairie, aim = load(PALE, lod="carpet"), camera(0.1, 30, 0.1, pitch=-89.9, view=40)
     stage.shot(prairie, aim)
     assert prairie.painter is not None
-    images, patches = prairie.painter.carpet.images, prairie.viewers["main"].patches
+    images, patches = carpet_painter(prairie.painter).images, prairie.viewers["main"].patches
     columns, rows, layers = images.size
     texels = np.full((layers, rows, columns, 4), 255, np.uint8)
     texels[..., 0] = (np.arange(layers) * 4 // layers % 2 * 255)[:, None, None]
@@ -166,7 +168,7 @@ def test_each_representation_draws_something_else(stage: Stage, load: Load) -> N
 def test_t1_blades_grow_out_of_the_ground_and_do_not_float(stage: Stage, load: Load, camera: Aim) -> None:
     prairie = load(LONE, lod="blades")
     stage.shot(prairie, camera(0, 10, 0, pitch=-89, view=125))
-    pool, site, near = prairie.viewers["main"].kept["blades"].pool, prairie.site, prairie.site.representations[0]
+    pool, site, near = prairie.viewers["main"].keeps(BladesKept).pool, prairie.site, prairie.site.representations[0]
     assert isinstance(near, BladeRepresentation)
     cells = pool.stamp[pool.present.any(axis=1)]
     standing, grows = standing_blades(

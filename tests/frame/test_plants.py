@@ -18,6 +18,7 @@ from tallgrass.systems.show.blades.draw import RIBBON
 from tallgrass.systems.show.blades.painter import BladesPainter
 from tallgrass.systems.show.blades.plant import standing_blades
 from tallgrass.systems.show.blades.representation import BladeRepresentation
+from tallgrass.systems.show.blades.shown import BladesShown
 from tallgrass.testing import LITTLE
 
 Load = Callable[..., Prairie]
@@ -79,7 +80,7 @@ def test_f3_each_organ_is_drawn_where_numpy_has_it_and_with_its_own_pigment(stag
     assert isinstance(painter, BladesPainter)
     assert isinstance(near, BladeRepresentation)
     outlook = garden.viewers["main"]
-    patches, shown = outlook.patches, outlook.shown["blades"].standing
+    patches, shown = outlook.patches, outlook.shows(BladesShown).standing
     rows = patches.cell[shown.rows], patches.model[shown.rows], patches.turn[shown.rows]
     standing, _ = standing_blades(near.stock, *rows, garden.site.ground)
     heard = outlook.kept["blades"].receiving[0].letters.heard(shown.slots).reshape(*standing.shape, 2)

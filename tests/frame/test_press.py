@@ -13,8 +13,9 @@ from tallgrass.components.arrays import Floats
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.gl.stream import release_all
 from tallgrass.systems.around.receivers import Receiving
-from tallgrass.systems.painter import UNITS
+from tallgrass.systems.features import UNITS
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.press.card import PressPart
 from tallgrass.testing import LITTLE
 
 Stage = Any
@@ -45,7 +46,7 @@ def told_by_card(ctx: moderngl.Context, prairie: Prairie, place: Floats, kind: i
     assert painter is not None
     made = painter.air.program("systems/press/press.vert", None, varyings=("lies",))
     made["pressed"] = UNITS["pressed"]
-    painter.press.texture.use(UNITS["pressed"])
+    painter.part(PressPart).use()
     asked = np.column_stack([place, np.full(len(place), kind)]).astype(np.float32)
     source, result = ctx.buffer(asked), ctx.buffer(reserve=8 * len(place))
     array = ctx.vertex_array(made, [(source, "2f 1f", "place", "grass")])

@@ -21,10 +21,12 @@ from tallgrass.systems.around.receivers import Receiving
 from tallgrass.systems.grow.bend import bending
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.receive.received import ROW, Received
+from tallgrass.systems.reference import carpet_painter
 from tallgrass.systems.show.blades.draw import RIBBON
 from tallgrass.systems.show.blades.painter import BladesPainter
 from tallgrass.systems.show.blades.plant import standing_blades
 from tallgrass.systems.show.blades.representation import BladeRepresentation
+from tallgrass.systems.show.blades.shown import BladesShown
 from tallgrass.systems.wind.blast import Blast, Shape
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.turbulence import Turbulence
@@ -94,7 +96,7 @@ def told_alike(prairie: Prairie, on_card: OnCard) -> dict[str, float]:
 def on_carpet(prairie: Prairie) -> Floats:
     """What the card tells the middle of each patch, by its row, shape (rows, 2)."""
     assert prairie.painter is not None
-    return np.frombuffer(prairie.painter.carpet.air.texture.read(), np.float32).reshape(-1, 2)
+    return np.frombuffer(carpet_painter(prairie.painter).air.texture.read(), np.float32).reshape(-1, 2)
 
 
 @pytest.fixture(scope="module", params=["priority", "weight"])
@@ -223,7 +225,7 @@ def test_f6_far_off_the_carpet_is_told_the_mean_of_patches_nearer_by(stage: Stag
     air = on_carpet(mapped)
     side = int(len(air) ** 0.5)
     some = np.arange(12) * side // 12
-    mean = np.frombuffer(mapped.painter.carpet.air.mean.read(), np.float32)
+    mean = np.frombuffer(carpet_painter(mapped.painter).air.mean.read(), np.float32)
     np.testing.assert_allclose(mean, air.reshape(side, side, 2)[np.ix_(some, some)].mean(axis=(0, 1)), atol=1e-5)
     assert np.linalg.norm(mean) > 0.05
 
@@ -237,7 +239,7 @@ def test_w1_each_blade_is_drawn_where_it_stands_with_its_own_message(
     assert isinstance(painter, BladesPainter)
     assert isinstance(near, BladeRepresentation)
     outlook = mapped.viewers["main"]
-    patches, shown = outlook.patches, outlook.shown["blades"].standing
+    patches, shown = outlook.patches, outlook.shows(BladesShown).standing
     rows = patches.cell[shown.rows], patches.model[shown.rows], patches.turn[shown.rows]
     standing, _ = standing_blades(near.stock, *rows, mapped.site.ground)
     heard = on_card(mapped)[0][0].letters.heard(shown.slots).reshape(*standing.shape, 2)

@@ -21,6 +21,7 @@ from tallgrass.systems.reference import (
     stand_all,
     terrain_cells,
 )
+from tallgrass.systems.show.blades.pool import BladesKept
 
 Stage = Any
 Load = Callable[..., Prairie]
@@ -91,7 +92,7 @@ def test_n3_the_blades_of_the_reference_stand_and_bend_as_the_near_ones_are_draw
     prairie: Prairie, on_card: Callable[[Prairie], Any]
 ) -> None:
     (near, told), every = on_card(prairie)[0], EveryBlade(prairie)
-    pool = prairie.viewers["main"].kept["blades"].pool
+    pool = prairie.viewers["main"].keeps(BladesKept).pool
     assert near.pool is pool
     assert len(near.slots) > 6
     for slot, texels in zip(near.slots[:6], told, strict=False):

@@ -16,7 +16,9 @@ from PIL import Image
 from tallgrass.components.pose import Pose
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.scene import SceneError
+from tallgrass.systems.land.part import LandPart
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.reference import carpet_painter
 from tallgrass.systems.wind.gust import Gust
 
 Stage = Any
@@ -101,7 +103,7 @@ def receivers(on_card: Callable[[Prairie], Any]) -> Told:
             told.update(receiving.letters.heard(slots).tobytes())
         told.update(patches.representation.tobytes() + patches.progress.tobytes())
         assert prairie.painter is not None
-        told.update(prairie.painter.carpet.air.texture.read())
+        told.update(carpet_painter(prairie.painter).air.texture.read())
         return told.hexdigest()
 
     return digest
@@ -145,19 +147,20 @@ def test_n7_what_did_not_change_stays_in_gl(edited: Edited, stage: Stage, camera
     stage.shot(prairie, walked(camera, 0))
     painter = prairie.painter
     assert painter is not None
-    textures, painters, before = dict(painter.textures), dict(painter.painters), prairie.site
+    land = painter.part(LandPart)
+    textures, painters, before = dict(land.textures), dict(painter.painters), prairie.site
     outlook = prairie.viewers["main"]
     patches, kept = outlook.patches, dict(outlook.kept)
     edited.edit(("strength: 0.4", "strength: 0.2"), ("#dcc98f", "#ffffff"))
     stage.shot(prairie, walked(camera, 0))
-    assert painter.textures == textures
+    assert land.textures == textures
     assert painter.painters == painters
     assert prairie.viewers["main"] is outlook
     assert outlook.patches is patches
     assert outlook.kept == kept
     edited.edit(("rolling, seed: 2", "rolling, seed: 3"))
     stage.shot(prairie, walked(camera, 0))
-    assert {name for name, texture in painter.textures.items() if texture is textures[name]} == {"postures"}
+    assert {name for name, texture in land.textures.items() if texture is textures[name]} == {"postures"}
     assert painter.painters == painters
     edited.edit(("height: [0.5, 0.9]", "height: [0.4, 0.9]"), ("rolling, seed: 2", "rolling, seed: 3"))
     assert prairie.site.growths[0] is not before.growths[0]
@@ -276,7 +279,7 @@ def lasting(prairie: Prairie) -> list[object]:
     painter, outlook = prairie.painter, prairie.viewers["main"]
     assert painter is not None
     grown = [*prairie.site.growths, prairie.site.ground.terrain]
-    drawn = [*painter.textures.values(), *painter.painters.values()]
+    drawn = [*painter.part(LandPart).textures.values(), *painter.painters.values()]
     return [*grown, *drawn, outlook, outlook.patches, *outlook.kept.values()]
 
 

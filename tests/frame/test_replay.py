@@ -24,6 +24,7 @@ import hashlib, sys
 import moderngl, numpy as np
 from tallgrass.engine.camera import camera_at, projection_matrix, view_matrix
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.reference import carpet_painter
 
 ctx = moderngl.create_context(standalone=True, backend="egl", require=330)
 size = (160, 90)
@@ -45,7 +46,7 @@ counts = [count for each in painter.painters.values() for count in each.receiver
 texels = np.frombuffer(painter.received.texture.read(), np.float32).reshape(-1, 4)
 for first, count in zip(painter.received.lay(counts), counts[:-1], strict=False):
     told.update(texels[first : first + count].tobytes())
-told.update(painter.carpet.air.texture.read())
+told.update(carpet_painter(painter).air.texture.read())
 patches = outlook.patches
 told.update(patches.representation.tobytes() + patches.progress.tobytes() + patches.model.tobytes())
 print(told.hexdigest())

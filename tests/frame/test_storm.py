@@ -52,7 +52,7 @@ def received():
             told[each, *where[0].tolist(), digest(where)] = tuple(map(digest, what))
     (carpet,), patches = outlook.kept["carpet"].receiving, outlook.patches
     rows = (patches.alive & patches.visible).nonzero()[0]
-    air = np.frombuffer(painter.carpet.air.texture.read(), np.float32).reshape(-1, 2)
+    air = np.frombuffer(carpet_painter(painter).air.texture.read(), np.float32).reshape(-1, 2)
     for row, heard in zip(rows, carpet.letters.heard(rows)):
         told["carpet", *patches.cell[row].tolist()] = heard.tobytes(), air[row].tobytes()
     return told

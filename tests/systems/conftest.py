@@ -22,10 +22,14 @@ from tallgrass.engine.terrain.sample import height_at
 from tallgrass.engine.world import World
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.blow import Hear
-from tallgrass.systems.frame.block import FrameBlock
+from tallgrass.systems.frame.block import FRAME, FrameBlock
 from tallgrass.systems.grow.record import Growth
+from tallgrass.systems.land.record import write_land
+from tallgrass.systems.light.daylight import daylight
+from tallgrass.systems.light.shine import shine
 from tallgrass.systems.site import Site, lay_out, outlook_on
 from tallgrass.systems.space.ground import Ground
+from tallgrass.systems.space.grown import Grown
 from tallgrass.systems.stock.models import grow
 from tallgrass.systems.wind.blow import blowing, hear
 from tallgrass.systems.wind.quarantine import Quarantine
@@ -52,6 +56,7 @@ SCENE = Scene(tallgrass=2, seed=3, grass=KINDS, quality=QUALITY)
 
 Laid = Callable[..., Site]
 Look = Callable[..., Outlook]
+RecordOf = Callable[[Grown], NDArray[np.void]]
 
 
 @pytest.fixture(scope="session")
@@ -167,3 +172,16 @@ def probe(ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch) -> Iterator[Pr
 
     yield ask
     block.release()
+
+
+@pytest.fixture
+def record_of() -> RecordOf:
+    """Give the frame's record with all that holds for a whole scene: `record_of(site)`."""
+
+    def make(grown: Grown) -> NDArray[np.void]:
+        record, light = np.zeros(1, FRAME), grown.scene.light
+        write_land(record, grown)
+        shine(record, light, daylight(light), list(grown.scene.grass.values()))
+        return record
+
+    return make

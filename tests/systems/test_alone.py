@@ -9,13 +9,16 @@ from tallgrass.components.wind import WindSource
 from tallgrass.engine.schedule import Phase
 from tallgrass.engine.world import World
 from tallgrass.systems.around.clearing import Clearings
-from tallgrass.systems.blow import Blow, hearing
+from tallgrass.systems.around.outlook import Outlook
+from tallgrass.systems.blow import Blow, Blown, hearing
 from tallgrass.systems.cull import Cull
 from tallgrass.systems.entities import PatchEntities
 from tallgrass.systems.gather import Gather
 from tallgrass.systems.lod import ChooseLevels
 from tallgrass.systems.plant import Plant
 from tallgrass.systems.see import See
+from tallgrass.systems.show.blades.pool import BladesKept
+from tallgrass.systems.show.blades.shown import BladesShown
 from tallgrass.systems.space.window import window_rows
 from tallgrass.systems.tile import Tile
 from tallgrass.systems.transition import Transition
@@ -70,7 +73,7 @@ def test_see_shows_each_patch_in_its_representation(world: World) -> None:
     systems_on(SITE, [outlook], world).run(last=Phase.SEE)
     See([outlook], SITE.representations, SITE.reach, PATCH).run()
     assert outlook.appearance is not None
-    rows = outlook.shown["blades"].standing.rows
+    rows = outlook.shows(BladesShown).standing.rows
     assert (outlook.appearance.cover[0, rows] > 0.0).all()
     assert (outlook.patches.distance[rows] <= 2).all()
 
@@ -79,7 +82,7 @@ def test_plant_stands_blades_where_their_patch_is_and_makes_their_receivers_enti
     outlook = viewer_on(SITE, world)
     systems_on(SITE, [outlook], world).run(last=Phase.SEE)
     Plant([outlook], SITE.representations, world).run()
-    shown, pool = outlook.shown["blades"].standing, outlook.kept["blades"].pool
+    shown, pool = outlook.shows(BladesShown).standing, outlook.keeps(BladesKept).pool
     away = pool.places(shown.slots) - outlook.patches.middle[shown.rows][:, None]
     assert np.abs(away).max() <= PATCH / 2 + 1e-4
     blades = [receivers for _, receivers in world.all(Receivers) if receivers.representation == "blades"]
@@ -99,21 +102,23 @@ def test_wind_tells_which_winds_act_and_what_receivers_hear_that_a_game_asks_for
     source = WindSource(Breeze(), "breeze")
     now = blowing([source], Quarantine(), time=0.25, seed=1)
     Blow([outlook], lambda time: now if time == 0.25 else [], eastwards, SITE.growths).run()
-    assert (list(outlook.winds), outlook.blown_at) == (now, 0.25)
+    blown = outlook.noted(Blown, Blown())
+    assert (list(blown.winds), blown.at) == (now, 0.25)
     for message, receiving in zip(asked, hearing(outlook), strict=True):
         assert (message == (0.75, 0.0)).all()
         assert (receiving.letters.heard(receiving.slots) == (0.75, 0.0)).all()
-    assert outlook.heard > 1000
+    assert blown.heard > 1000
 
 
 def test_gather_sends_what_is_shown_to_the_painter(world: World) -> None:
     class Painter:
-        def write(self, *what: object) -> int:
-            return 7 if what == (viewers[0], ["a saucer at 0 s"], ["a barn"]) else 0
+        def write(self, outlook: Outlook) -> None:
+            sent.append(outlook)
 
+    sent: list[Outlook] = []
     viewers = [viewer_on(SITE, world)]
-    Gather(viewers, Painter, lambda time: [f"a saucer at {time:g} s"], lambda: ["a barn"]).run()  # type: ignore[arg-type, list-item]
-    assert viewers[0].blades == 7
+    Gather(viewers, Painter).run()  # type: ignore[arg-type]
+    assert sent == viewers
 
 
 def test_a_viewer_is_an_entity_that_says_where_it_looks_from(world: World) -> None:

@@ -14,11 +14,11 @@ from tallgrass.components.arrays import Rows
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.show.blades.gather import gather_blades
-from tallgrass.systems.show.blades.pool import BladePool
-from tallgrass.systems.show.blades.shown import Standing
+from tallgrass.systems.show.blades.pool import BladePool, BladesKept
+from tallgrass.systems.show.blades.shown import BladesShown, Standing
 from tallgrass.systems.show.strips.gather import MOST, STOOD, gather_strips, polygon_strips, runs
-from tallgrass.systems.show.strips.pool import StripPool
-from tallgrass.systems.show.strips.shown import StripsOfRing
+from tallgrass.systems.show.strips.pool import StripPool, StripsKept
+from tallgrass.systems.show.strips.shown import StripsOfRing, StripsShown
 from tallgrass.systems.site import Site
 
 Laid = Callable[..., Site]
@@ -42,12 +42,12 @@ def outlook(laid: Laid, look: Look) -> Outlook:
 
 def blades(outlook: Outlook) -> tuple[BladePool, list[Standing]]:
     """The pool of blades, and the patches shown by ring."""
-    return outlook.kept["blades"].pool, outlook.shown["blades"].rings
+    return outlook.keeps(BladesKept).pool, outlook.shows(BladesShown).rings
 
 
 def strips(outlook: Outlook) -> list[tuple[StripPool, StripsOfRing]]:
     """By ring, the pool of strips and the patches shown."""
-    return list(zip(outlook.kept["strips"].pools, outlook.shown["strips"].rings, strict=True))
+    return list(zip(outlook.keeps(StripsKept).pools, outlook.shows(StripsShown).rings, strict=True))
 
 
 def gathered(outlook: Outlook, *, first: int = 0) -> tuple[NDArray[np.void], NDArray[np.float32]]:
@@ -208,7 +208,7 @@ def test_a_kind_that_does_not_grow_on_a_patch_is_not_gathered_there(laid: Laid, 
 
 def placed(outlook: Outlook, numbers: NDArray[np.uint32]) -> NDArray[np.float32]:
     """Where the blades of these numbers stand, counted among all patches with blades, shape (n, 2)."""
-    standing: Standing = outlook.shown["blades"].standing
+    standing: Standing = outlook.shows(BladesShown).standing
     patch, blade = np.divmod(numbers.astype(np.int64), 42)
     return np.asarray(blades(outlook)[0].places(standing.slots)[patch, blade])
 

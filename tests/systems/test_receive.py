@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.receivers import Receiving
-from tallgrass.systems.blow import Hear
-from tallgrass.systems.show.blades.pool import BladePool
-from tallgrass.systems.show.blades.shown import Standing
-from tallgrass.systems.show.strips.pool import StripPool
-from tallgrass.systems.show.strips.shown import StripsOfRing
+from tallgrass.systems.blow import Blown, Hear
+from tallgrass.systems.show.blades.pool import BladePool, BladesKept
+from tallgrass.systems.show.blades.shown import BladesShown, Standing
+from tallgrass.systems.show.strips.pool import StripPool, StripsKept
+from tallgrass.systems.show.strips.shown import StripsOfRing, StripsShown
 from tallgrass.systems.site import Site
 from tallgrass.systems.space.cone import far_to_near
 from tallgrass.systems.wind.blow import ReceiverArrays, places_alone
@@ -36,13 +36,13 @@ def site(laid: Laid) -> Site:
 
 def blades(outlook: Outlook) -> list[Standing]:
     """Patches shown with blades, by ring."""
-    rings: list[Standing] = outlook.shown["blades"].rings
+    rings: list[Standing] = outlook.shows(BladesShown).rings
     return rings
 
 
 def strips(outlook: Outlook) -> list[StripsOfRing]:
     """Patches shown with strips, by ring."""
-    rings: list[StripsOfRing] = outlook.shown["strips"].rings
+    rings: list[StripsOfRing] = outlook.shows(StripsShown).rings
     return rings
 
 
@@ -52,10 +52,9 @@ def rows(shown: list[Standing] | list[StripsOfRing]) -> NDArray[np.int64]:
 
 def pooled(outlook: Outlook) -> list[tuple[BladePool | StripPool, Shown]]:
     """All that is shown, each with the pool that holds it."""
-    kept = outlook.kept
     return [
-        (kept["blades"].pool, outlook.shown["blades"].standing),
-        *zip(kept["strips"].pools, strips(outlook), strict=True),
+        (outlook.keeps(BladesKept).pool, outlook.shows(BladesShown).standing),
+        *zip(outlook.keeps(StripsKept).pools, strips(outlook), strict=True),
     ]
 
 
@@ -145,7 +144,7 @@ def test_g3_strips_are_planted_anew_when_their_orientation_changes(site: Site, l
     before = strips(look(site, 1.0, 1.0))
     outlook = look(site, 1.0, 9.0)
     turned = 0
-    for pool, shown in zip(outlook.kept["strips"].pools, strips(outlook), strict=True):
+    for pool, shown in zip(outlook.keeps(StripsKept).pools, strips(outlook), strict=True):
         feet = pool.places(shown.slots)[:, 0]
         across = np.take_along_axis(feet, (1 - shown.along)[:, None, None, None], axis=-1)
         np.testing.assert_allclose(np.ptp(across, axis=2), 0.0, atol=1e-5)
@@ -165,7 +164,7 @@ def test_w1_every_receiver_that_is_seen_hears_the_wind(site: Site, look: Look, w
         np.testing.assert_array_equal(message, hear(alone, time=0.0))
         assert np.linalg.norm(message, axis=1).mean() > 0.3
         count += len(message)
-    assert outlook.heard == count
+    assert outlook.noted(Blown, Blown()).heard == count
     near, far = (len(ring.rows) for ring in strips(outlook))
     assert count == 25 * (30 + 12) + near * 2 * 3 * 3 + far * 2 * 2 * 2
 
@@ -180,7 +179,7 @@ def test_w1_receivers_hear_the_instant_that_the_viewer_sees(site: Site, look: Lo
     outlook = look(site, 1.0, 1.0, hear=hear)
     outlook.viewer.time = 7.5
     look(site, 1.0, 1.0, hear=hear)
-    assert outlook.blown_at == 7.5
+    assert outlook.noted(Blown, Blown()).at == 7.5
     assert asked == [], "numpy is asked by those alone who want to know"
     for hears in receiving(outlook):
         assert (hears.letters.heard(hears.slots) == 0.25).all()
@@ -192,7 +191,7 @@ def test_w1_the_same_place_gets_the_same_message_in_blades_and_strips(site: Site
     outlook = look(site, 1.0, 1.0, hear=hear)
     (_, near), (edge, far), *_ = pooled(outlook)
     to_blades, to_edges, _ = receiving(outlook)
-    blade: BladePool = outlook.kept["blades"].pool
+    blade: BladePool = outlook.keeps(BladesKept).pool
     at_blade, at_edge = near.slots[:1], far.slots[:1]
     blade.x[at_blade, :6], blade.z[at_blade, :6] = edge.places(at_edge)[0, 0].reshape(-1, 2)[:6].T
     edges = to_edges.letters.heard(at_edge)[:6]
@@ -203,10 +202,10 @@ def test_w1_the_same_place_gets_the_same_message_in_blades_and_strips(site: Site
 def test_t2_patches_out_of_sight_do_not_hear(site: Site, look: Look, wind: Wind) -> None:
     hear = wind(WIND, time=2.0)
     outlook = look(site, 1.0, 1.0, hear=hear)
-    every = outlook.heard
+    every = outlook.noted(Blown, Blown()).heard
     look(site, 1.0, 1.0, yaw=0.0, hear=hear)
     count = 0
     for hears in receiving(outlook):
         assert outlook.patches.visible[hears.rows].all()
         count += len(hears.slots) * int(np.prod(hears.pool.shape))
-    assert outlook.heard == count < 0.5 * every
+    assert outlook.noted(Blown, Blown()).heard == count < 0.5 * every

@@ -18,6 +18,8 @@ from tallgrass.systems.around.receivers import Receiving
 from tallgrass.systems.blow import Hear
 from tallgrass.systems.gather import Gather
 from tallgrass.systems.painter import Painter
+from tallgrass.systems.show.blades.shown import BladesShown
+from tallgrass.systems.show.strips.shown import StripsShown
 from tallgrass.systems.site import Site
 from tallgrass.systems.wind.blow import ReceiverArrays, places_alone
 from tallgrass.systems.wind.breeze import Breeze
@@ -56,7 +58,7 @@ class Game:
         outlook = self.look(1.0, 1.0, yaw=yaw, hear=lambda heard, **_: np.full_like(heard.place, self.wind))
         if after_wind is not None:
             after_wind()
-        Gather([outlook], lambda: cast(Painter, self), lambda _: ()).run()
+        Gather([outlook], lambda: cast(Painter, self)).run()
         outlook.settle()
         return outlook
 
@@ -102,7 +104,7 @@ def times(game: Game, name: str, message: list[float]) -> int:
 def test_d2_there_is_one_entity_for_each_patch_and_representation_that_is_shown(world: World, looking: Looking) -> None:
     for x, z, yaw in ((1.0, 1.0, None), (4.0, 1.0, None), (4.0, 1.0, 0.3), (-9.0, 6.0, 2.0), (1.0, 1.0, None)):
         outlook = looking(x, z, yaw=yaw)
-        near, far = outlook.shown["blades"].standing, outlook.shown["strips"].rings
+        near, far = outlook.shows(BladesShown).standing, outlook.shows(StripsShown).rings
         assert sorted(len(receivers.place) for _, receivers in of(world, "blades")) == len(near.rows) * [42]
         expected = len(far[0].rows) * [2 * 3 * 3] + len(far[1].rows) * [2 * 2 * 2]
         assert sorted(len(receivers.place) for _, receivers in of(world, "strips")) == sorted(expected)
@@ -133,7 +135,7 @@ def test_d2_receivers_of_blades_and_strips_say_whose_they_are(world: World, look
             assert set(receivers.kind.tolist()) == {0, 1}
             assert kinds is None or receivers.kind.tolist() == kinds
     assert {receivers.patch for _, receivers in of(world, "blades")} == set(
-        outlook.patches.entity[outlook.shown["blades"].standing.rows].tolist()
+        outlook.patches.entity[outlook.shows(BladesShown).standing.rows].tolist()
     )
 
 

@@ -8,8 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tallgrass.engine.world import World
-from tallgrass.systems.around.outlook import LONG, Outlook, brought_near
+from tallgrass.systems.around.lens import LONG, brought_near
+from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.lod import farthest, reach_of
+from tallgrass.systems.show.blades.pool import BladesKept
 from tallgrass.systems.site import Site
 from tallgrass.systems.transition import FADE
 
@@ -42,7 +44,7 @@ def test_a_lens_brings_nothing_near_that_another_representation_stands_for(lens:
 
 def far_look(look: Look, site: Site, zoom: float, dt: float = 1e9) -> Outlook:
     """Look through a lens of this zoom until it has brought near what it brings, or for `dt` seconds."""
-    look(site, 0.6, 0.6, dt=0.0).zoom = zoom
+    look(site, 0.6, 0.6, dt=0.0).lens.zoom = zoom
     look(site, 0.6, 0.6, dt=0.0)
     return look(site, 0.6, 0.6, dt=dt)
 
@@ -59,7 +61,7 @@ def test_g3_blades_and_strips_reach_as_far_as_a_long_lens_brings_them(laid: Laid
     site = laid()
     outlook = far_look(look, site, zoom)
     near = brought_near(site.reach, 1.0 if zoom <= LONG else zoom)
-    assert outlook.reach_in(site.reach) == pytest.approx(near)
+    assert outlook.lens.reach_in(site.reach) == pytest.approx(near)
     for level in (0, 1):
         unfit = outlook.patches.away > near[level]
         finer = outlook.patches.shown & (outlook.patches.wanted <= level)
@@ -72,7 +74,7 @@ def test_a_lens_that_is_not_long_asks_for_no_room(laid: Laid, look: Look) -> Non
     site = laid()
     kept = dict(look(site, 0.6, 0.6).kept)
     outlook = far_look(look, site, LONG)
-    assert outlook.room == site.reach
+    assert outlook.lens.room == site.reach
     assert outlook.kept == kept
 
 
@@ -81,7 +83,7 @@ def test_room_that_a_long_lens_made_stays_and_is_made_for_twice_as_much_each_tim
     rooms, pools = [], []
     for zoom in (1.0, 1.8, 1.9, 1.0, 2.0):
         outlook = far_look(look, site, zoom)
-        rooms.append(outlook.room[0])
+        rooms.append(outlook.lens.room[0])
         pools.append(outlook.kept["blades"])
     assert rooms == [2, 4, 4, 4, 4]
     assert pools[1] is pools[2] is pools[3] is pools[4]
@@ -94,10 +96,12 @@ def test_receivers_of_a_store_that_was_too_small_are_gone_and_others_stand_in_th
     site = laid()
     look(site, 0.6, 0.6)
     outlook = far_look(look, site, 2.5)
-    (receiving,) = outlook.kept["blades"].receiving
+    kept = outlook.keeps(BladesKept)
+    (receiving,) = kept.receiving
     assert len(receiving.slots) == len(set(receiving.slots.tolist()))
-    assert receiving.pool.slots == (2 * farthest(outlook.room)[0] + 1) ** 2 > (2 * farthest(site.reach)[0] + 1) ** 2
-    planted = receiving.pool.stamp[receiving.slots]
+    slots = [(2 * farthest(reach)[0] + 1) ** 2 for reach in (outlook.lens.room, site.reach)]
+    assert kept.pool.slots == slots[0] > slots[1]
+    planted = kept.pool.stamp[receiving.slots]
     assert np.array_equal(planted, outlook.patches.cell[receiving.rows])
     assert world.lost() == []
 

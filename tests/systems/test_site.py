@@ -13,9 +13,12 @@ from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.lod import ROOM, SLACK, reach_of, wanted_representation
 from tallgrass.systems.show.blades.plant import stock_blades
+from tallgrass.systems.show.blades.pool import BladesKept
 from tallgrass.systems.show.carpet.grow import carpet_of
+from tallgrass.systems.show.carpet.pool import CarpetKept
 from tallgrass.systems.show.registry import NAMES, REPRESENTATIONS
 from tallgrass.systems.show.strips.grow import strips_of
+from tallgrass.systems.show.strips.pool import StripsKept
 from tallgrass.systems.show.strips.stock import stock_strips
 from tallgrass.systems.site import LAYERS, Site, farthest_reach, numbers_of, outlook_on
 
@@ -86,14 +89,14 @@ def test_pools_have_room_for_all_that_can_be_shown_at_once(laid: Laid) -> None:
     outlook = outlook_on(site, Viewer(), 0)
     blades, strips, carpet = site.reach
     assert outlook.patches.side == 2 * carpet + 1
-    pool, pools = outlook.kept["blades"].pool, outlook.kept["strips"].pools
+    pool, pools = outlook.keeps(BladesKept).pool, outlook.keeps(StripsKept).pools
     assert pool.side == 2 * (blades + SLACK + ROOM) + 1
     assert [each.side for each in pools] == [2 * (strips + SLACK + ROOM) + 1] * 2
     assert (pool.slots, pool.shape) == (pool.side**2, (30 + 12,))
     assert [(each.slots, each.shape) for each in pools] == [
         (2 * each.side**2, (2, strips, edges)) for each, strips, edges in zip(pools, (3, 2), (3, 2), strict=True)
     ]
-    over = outlook.kept["carpet"].pool
+    over = outlook.keeps(CarpetKept).pool
     assert (over.slots, over.shape) == (outlook.patches.side**2, (1,))
 
 
@@ -103,7 +106,7 @@ def test_each_viewer_has_patches_and_pools_of_its_own(laid: Laid) -> None:
     assert (one.patches.viewer, other.patches.viewer) == ("left", "right")
     assert list(one.kept) == list(other.kept) == list(NAMES)
     assert not np.shares_memory(one.patches.cell, other.patches.cell)
-    assert not np.shares_memory(one.kept["blades"].pool.present, other.kept["blades"].pool.present)
+    assert not np.shares_memory(one.keeps(BladesKept).pool.present, other.keeps(BladesKept).pool.present)
     for name in NAMES:
         for mine, theirs in zip(one.kept[name].receiving, other.kept[name].receiving, strict=True):
             assert mine.pool is not theirs.pool

@@ -16,9 +16,10 @@ from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.lod import SLACK, wanted_representation
 from tallgrass.systems.see import strips_kept
+from tallgrass.systems.show.blades.shown import BladesShown
 from tallgrass.systems.show.blades.sublevel import blade_ring
 from tallgrass.systems.show.strips.representation import USUAL
-from tallgrass.systems.show.strips.shown import show_strips
+from tallgrass.systems.show.strips.shown import StripsShown, show_strips
 from tallgrass.systems.show.strips.sublevel import (
     APART,
     CROSSED,
@@ -262,7 +263,7 @@ def test_f1_a_patch_whose_strips_change_shows_every_blade_once(laid: Laid, look:
     site = laid(terrain=FLAT)
     look(site, 1.25, 1.2)
     look(site, 1.25, 8.8, dt=0.0)
-    rings = look(site, 1.25, 8.8, dt=0.3 * FADE).shown["strips"].rings
+    rings = look(site, 1.25, 8.8, dt=0.3 * FADE).shows(StripsShown).rings
     rows = np.concatenate([ring.rows for ring in rings])
     least, most = (np.concatenate([getattr(ring, name) for ring in rings]) for name in ("least", "most"))
     twice = np.flatnonzero(np.bincount(rows) == 2)
@@ -279,7 +280,7 @@ def test_f1_a_patch_whose_strips_change_shows_every_blade_once(laid: Laid, look:
 
 def painted(outlook: Outlook, row: int) -> set[tuple[int, int, float, float]]:
     """On which rings' strips, along which axis, blades of which ranks of a patch are painted."""
-    rings = outlook.shown["strips"].rings
+    rings = outlook.shows(StripsShown).rings
     return {
         (number, int(ring.along[at]), round(float(ring.least[at]), 3), round(float(ring.most[at]), 3))
         for number, ring in enumerate(rings)
@@ -311,7 +312,7 @@ def test_f1_blades_slide_from_one_ring_to_the_next_in_the_finer_one(laid: Laid, 
     slides = []
     for step in range(6):
         outlook = look(site, 1.25, -1.3, dt=0.24 * FADE if step else 0.0)
-        patches, (fine, coarse) = outlook.patches, outlook.shown["blades"].rings
+        patches, (fine, coarse) = outlook.patches, outlook.shows(BladesShown).rings
         nearer = patches.sublevel[0][fine.rows] < patches.sublevel_before[0][fine.rows]
         slides.append(sorted(set(fine.slide[nearer].tolist())))
         assert (coarse.slide == 0.0).all()
@@ -327,9 +328,9 @@ def test_g3_a_narrow_lens_brings_finer_rings_as_far_as_it_brings_things_near(
 ) -> None:
     outlook = look(laid(), 0.6, 0.6)
     camera = looking(0.6, 1.7, 0.6, view=view)
-    outlook.look(view_of(view_matrix(camera), projection_matrix(camera.view, 16 / 9)), time=0.0)
-    assert outlook.zoom == pytest.approx(zoom, rel=1e-3)
-    assert outlook.rings_in((3, 7)) == pytest.approx((3.0 * zoom, 7.0 * zoom), rel=1e-3)
+    outlook.look(view_of(view_matrix(camera), projection_matrix(camera.view, 16 / 9)), time=0.0, leap=5.0)
+    assert outlook.lens.zoom == pytest.approx(zoom, rel=1e-3)
+    assert outlook.lens.rings_in((3, 7)) == pytest.approx((3.0 * zoom, 7.0 * zoom), rel=1e-3)
 
 
 def test_a_ring_of_strips_may_serve_no_distance_but_only_what_is_seen_from_above() -> None:

@@ -18,7 +18,9 @@ from tallgrass.systems.around.appearance import Appearance, appearance, border_o
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.transitions import SEAMLESS, Transitions
 from tallgrass.systems.lod import SLACK
+from tallgrass.systems.show.blades.shown import BladesShown
 from tallgrass.systems.show.registry import NAMES
+from tallgrass.systems.show.strips.shown import StripsShown
 from tallgrass.systems.site import Site, outlook_on
 from tallgrass.systems.space.window import window_rows
 from tallgrass.systems.transition import FADE, move_on, move_rows, unsettled
@@ -194,8 +196,8 @@ def alone(site: Site, world: World) -> Outlook:
 def showing(outlook: Outlook, row: int) -> set[str]:
     """Which representations draw the patch in a row; the carpet only where it covers anything."""
     assert outlook.appearance is not None
-    strips = np.concatenate([ring.rows for ring in outlook.shown["strips"].rings])
-    blades, carpet = outlook.shown["blades"].standing.rows, outlook.appearance.cover[2, row] > 0.0
+    strips = np.concatenate([ring.rows for ring in outlook.shows(StripsShown).rings])
+    blades, carpet = outlook.shows(BladesShown).standing.rows, outlook.appearance.cover[2, row] > 0.0
     return {name for name, there in zip(NAMES, (row in blades, row in strips, carpet), strict=True) if there}
 
 
@@ -246,7 +248,7 @@ def test_half_way_to_what_it_is_held_in_a_patch_shows_both(laid: Laid, look: Loo
     look(site, *HERE, dt=STEP)
     look(site, *HERE, dt=0.5 * FADE)
     assert showing(outlook, row) == {"blades", "strips"}
-    assert row in outlook.shown["blades"].morphing.rows
+    assert row in outlook.shows(BladesShown).morphing.rows
 
 
 def test_only_the_patch_that_is_held_changes(laid: Laid, look: Look, world: World) -> None:

@@ -17,9 +17,11 @@ from ...around.appearance import handed_over
 from ...around.outlook import Outlook
 from ...frame.block import by_kind
 from ..hearing import Hearing
-from ..representation import Canvas
+from ..representation import Canvas, RepresentationPainter
 from ..strips.draw import tell_stacks
+from ..strips.pool import StripsKept
 from ..strips.representation import StripRepresentation
+from ..strips.shown import StripsShown
 from .draw import CORES, EDGES, PAINTED, RIBBON, Ribbons, blade_program
 from .gather import Numbers, distances, gather_blades, may_be_seen
 from .morph import at_home, gather_morph
@@ -34,7 +36,7 @@ PARTED = 1
 NUMBER = np.dtype([("number", "u4")])
 
 
-class BladesPainter:
+class BladesPainter(RepresentationPainter):
     """Draws the blades of all rings, and those on their way to their strips."""
 
     def __init__(self, canvas: Canvas, stock: BladeStock, strips: StripRepresentation, quality: Quality) -> None:
@@ -83,13 +85,13 @@ class BladesPainter:
 
     def receivers(self, outlook: Outlook, /) -> list[int]:
         """Return how many blades there are on the patches that are shown."""
-        shown: BladesShown = outlook.shown["blades"]
+        shown = outlook.shows(BladesShown)
         return [len(shown.standing.rows) * self.store.count]
 
     def write(self, outlook: Outlook, first: Mapping[str, list[int]], /) -> int:
         """Send the patches with blades, and the numbers of the blades that are shown; return how many."""
-        kept: BladesKept = outlook.kept["blades"]
-        shown: BladesShown = outlook.shown["blades"]
+        kept = outlook.keeps(BladesKept)
+        shown = outlook.shows(BladesShown)
         viewer = outlook.viewer
         assert outlook.appearance is not None
         left, _ = handed_over(outlook.appearance.handed[shown.morphing.rows], fade=self._fade)
@@ -146,10 +148,6 @@ class BladesPainter:
         self.standing.texture.use(self._units["standing"])
         return self._received.ask(self.hearing.array(), first=self._first, count=self._asked)
 
-    def draw_solid(self) -> int:
-        """Draw nothing: blades come after all that is coarser."""
-        return 0
-
     def _make_out(self) -> int:
         """Make out all about each blade that is the same along its ribbon; return the number of draw calls."""
         self.store.blades.texture.use(self._units["blades"])
@@ -194,7 +192,7 @@ def _send_away(
     for number in np.unique(ring).tolist():
         here = ring == number
         stands = np.zeros(len(appears.morph), np.int64)
-        of_ring = strips.shown(outlook)[number].rows
+        of_ring = outlook.shows(StripsShown).rings[number].rows
         stands[of_ring] = np.arange(len(of_ring))
-        each = prod(strips.pools(outlook)[number].shape)
+        each = prod(outlook.keeps(StripsKept).pools[number].shape)
         standing["edges"][places[here]] = first[number] + stands[rows[here]] * each

@@ -1,6 +1,6 @@
 """3D: every blade a ribbon of segments (paper, section 2.1)."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
@@ -13,8 +13,11 @@ from ...around.outlook import Outlook
 from ...around.patches import PatchTable
 from ...grow.record import Growth
 from ...space.ground import Ground
+from ...space.grown import Grown
 from ..representation import Canvas, Color, Representation
 from ..strips.representation import StripRepresentation
+from .draw import own_segment_defines
+from .organs import any_teeth
 from .painter import BladesPainter
 from .plant import BladeStock, plant_blades, stock_blades
 from .pool import BladePool, BladesKept
@@ -50,6 +53,10 @@ class BladeRepresentation(Representation):
         """Return it with the same blades, on another ground."""
         return replace(self, ground=ground)
 
+    def defines(self, grown: Grown, /) -> Mapping[str, str | int]:
+        """Return which kinds have numbers of segments of their own, and whether any has leaves with teeth."""
+        return {**own_segment_defines(grown.own_segments), **({"TOOTHED": 1} if any_teeth(grown.growths) else {})}
+
     def rings(self) -> int:
         """Return how many rings it has."""
         return len(self.quality.blade_rings)
@@ -59,24 +66,14 @@ class BladeRepresentation(Representation):
         del patches
         return BladesKept(BladePool.allocate(side, self.stock.kinds), self.name)
 
-    def pool(self, outlook: Outlook, /) -> BladePool:
-        """Return the pool around a viewer."""
-        kept: BladesKept = outlook.kept[self.name]
-        return kept.pool
-
-    def shown(self, outlook: Outlook, /) -> BladesShown:
-        """Return what a viewer is shown in this frame."""
-        shown: BladesShown = outlook.shown[self.name]
-        return shown
-
     def sublevels(self, outlook: Outlook, rows: Rows, held: Levels, /, *, slack: int) -> Levels:
         """Return the ring that is due on patches (n,)."""
-        limits = np.array(outlook.rings_in(tuple(ring.to for ring in self.quality.blade_rings[:-1])), np.float32)
+        limits = np.array(outlook.lens.rings_in(tuple(ring.to for ring in self.quality.blade_rings[:-1])), np.float32)
         return blade_ring(outlook.patches.away[rows], held, limits, slack=slack)
 
     def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> BladesShown:
         """Return the patches with blades, by ring, and those on their way."""
-        kept: BladesKept = outlook.kept[self.name]
+        kept = outlook.keeps(BladesKept)
         level = outlook.patches.names.index(self.name)
         shown = show_blades(outlook, cover, level=level, side=kept.pool.side, rings=self.rings())
         kept.receiving[0].show(shown.standing.rows, shown.standing.slots)
@@ -84,7 +81,7 @@ class BladeRepresentation(Representation):
 
     def plant(self, outlook: Outlook, /) -> None:
         """Plant the blades of patches whose slot holds another's."""
-        patches, pool, shown = outlook.patches, self.pool(outlook), self.shown(outlook).standing
+        patches, pool, shown = outlook.patches, outlook.keeps(BladesKept).pool, outlook.shows(BladesShown).standing
         differs = pool.stamp.take(shown.slots, axis=0) != patches.cell.take(shown.rows, axis=0)
         if differs.any():
             stale = differs.any(axis=1)

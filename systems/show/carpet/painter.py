@@ -15,9 +15,11 @@ from ...around.appearance import border_of
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
 from ...grow.record import Growth
+from ...press.marks import UNTRODDEN, Trodden
 from ...space.cone import HALF_DIAGONAL
 from ...space.ground import Ground
-from ..representation import Canvas
+from ...space.grown import Grown
+from ..representation import Canvas, RepresentationPainter
 from .air import Air
 from .ground import (
     GRID,
@@ -39,11 +41,11 @@ STEP = 0.4
 """How far the eye goes before tiles are chosen anew, in sides of the finest."""
 
 
-class CarpetPainter:
+class CarpetPainter(RepresentationPainter):
     """Draws the ground and the carpet on it."""
 
     def __init__(self, canvas: Canvas, growths: Sequence[Growth], ground: Ground, side: int) -> None:
-        self.stand_on(ground)
+        self._ground, self._spacing = ground, finest_spacing(ground.terrain, ground.patch)
         self._whole_to = canvas.reach[-2] - int(border_of(canvas.reach[-2])) - 1
         self._units = canvas.units
         self._around, self._seen = Remembered[Tiles](), Remembered[tuple[NDArray[np.void], NDArray[np.bool_]]]()
@@ -52,10 +54,11 @@ class CarpetPainter:
         self._heard: tuple[NDArray[np.int32], int, CarpetKept] | None = None
         self.ground = GroundPainter(canvas.ctx, canvas.block, growths, canvas.units, side=side, seed=canvas.seed)
 
-    def stand_on(self, ground: Ground, /) -> None:
+    def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Draw on this ground from now on."""
-        self._ground = ground
-        self._spacing = finest_spacing(ground.terrain, ground.patch)
+        del record
+        self._ground = grown.ground
+        self._spacing = finest_spacing(grown.ground.terrain, grown.ground.patch)
 
     def receivers(self, outlook: Outlook, /) -> list[int]:
         """Return how many patches there are."""
@@ -65,8 +68,8 @@ class CarpetPainter:
         """Send the tiles of the ground, and how much carpet lies on each patch; it has no blades."""
         assert outlook.appearance is not None
         self.lay(outlook, outlook.appearance.cover[-1])
-        self.ground.is_trodden = bool(outlook.trodden)
-        self._heard = outlook.viewer.centre, first["carpet"][0], outlook.kept["carpet"]
+        self.ground.is_trodden = bool(outlook.noted(Trodden, UNTRODDEN))
+        self._heard = outlook.viewer.centre, first["carpet"][0], outlook.keeps(CarpetKept)
         return 0
 
     def hear(self) -> int:
@@ -145,6 +148,8 @@ class CarpetPainter:
         """Draw the carpet; return the number of draw calls."""
         target.depth_mask = True
         self.images.use(self._units["images"])
+        self.ground.shares.use(self._units["shares"])
+        self.air.use()
         calls = self.ground.draw_carpet()
         target.depth_mask = False
         return calls

@@ -5,10 +5,10 @@ from numpy.typing import NDArray
 
 from ....components.arrays import Floats, Rows
 from ....engine.world import World
+from ...around.kept import Kept
 from ...around.patches import PatchTable
 from ...around.receivers import Receiving
 from ...space.ground import Ground, densest_kind
-from ..representation import Kept
 
 
 class CarpetPool:

@@ -7,6 +7,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Rows
 from ....engine.declared.grass import GrassKind
 from ....engine.declared.quality import Quality
 from ...around.outlook import Outlook
@@ -27,7 +28,8 @@ class CarpetRepresentation(Representation):
     name: ClassVar[str] = "carpet"
     label: ClassVar[str] = "2D carpet"
     color: ClassVar[Color] = (0.72, 0.45, 0.95)
-    samplers: ClassVar[tuple[str, ...]] = ("images", "shares", "air", "mean_air")
+    samplers: ClassVar[tuple[str, ...]] = ("images", "shares", "mean_air")
+    asked: ClassVar[tuple[str, ...]] = ("air",)
     record: ClassVar[type | None] = Carpet
 
     growths: Sequence[Growth]
@@ -86,13 +88,13 @@ class CarpetRepresentation(Representation):
 
     def components(self, outlook: Outlook, row: int, /) -> tuple[object, ...]:
         """Return the receiver in the middle of a patch: the patch's own entity carries it."""
-        kept: CarpetKept = outlook.kept[self.name]
+        kept = outlook.keeps(CarpetKept)
         return (kept.receiving[0].component(row, viewer=outlook.viewer.name, patch=0),)
 
-    def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> NDArray[np.int64]:
+    def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> Rows:
         """Return the patches whose receivers hear the wind: those in the view cone, and their neighbours."""
         del cover
-        kept: CarpetKept = outlook.kept[self.name]
+        kept = outlook.keeps(CarpetKept)
         rows = (outlook.patches.alive & outlook.patches.near).nonzero()[0]
         kept.receiving[0].show(rows, rows)
         return rows

@@ -13,7 +13,7 @@ from ....engine.declared.quality import Quality
 from ....engine.gl.remembered import Remembered
 from ...around.outlook import Outlook
 from ...grow.record import Growth
-from ..representation import Canvas
+from ..representation import Canvas, RepresentationPainter
 from .draw import StripPainter
 from .gather import gather_strips, polygon_strips, runs
 from .pool import StripPool, StripsKept
@@ -24,7 +24,7 @@ WHOLE = 0.995
 """Density from which on no blade of a kind is missing."""
 
 
-class StripsPainter:
+class StripsPainter(RepresentationPainter):
     """Draws the strips of all rings from far to near."""
 
     def __init__(self, canvas: Canvas, growths: Sequence[Growth], quality: Quality, ready: Atlas | None = None) -> None:
@@ -67,10 +67,6 @@ class StripsPainter:
             for ring, (patch, first, count) in enumerate(self._asked)
         )
 
-    def draw_solid(self) -> int:
-        """Draw nothing: strips are blended."""
-        return 0
-
     def draw(self, target: moderngl.Framebuffer, /) -> int:
         """Draw all runs; return the number of draw calls."""
         del target
@@ -83,9 +79,7 @@ class StripsPainter:
 
 def _rings(outlook: Outlook) -> list[tuple[StripPool, StripsOfRing]]:
     """Return each ring's pool, and which of its patches are shown."""
-    kept: StripsKept = outlook.kept["strips"]
-    shown: StripsShown = outlook.shown["strips"]
-    return list(zip(kept.pools, shown.rings, strict=True))
+    return list(zip(outlook.keeps(StripsKept).pools, outlook.shows(StripsShown).rings, strict=True))
 
 
 def _ranked(rings: list[tuple[StripPool, StripsOfRing]]) -> NDArray[np.bool_]:

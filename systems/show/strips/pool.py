@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....components.arrays import Floats
+from ...around.kept import Kept
 from ...around.patches import NOWHERE
 from ...around.receivers import Receiving
-from ..representation import Kept
 from .grow import Strips
 from .stand import strip_edges
 

@@ -15,6 +15,7 @@ from ...around.patches import PatchTable
 from ...grow.record import Growth
 from ...grow.section import SECTIONS
 from ...grow.simulate import LINKS
+from ...mow.mown import Mown
 from ...space.canopy import lodged
 from ...space.ground import Ground
 from ..representation import Canvas, Color, Representation, Seedling
@@ -22,7 +23,7 @@ from .grow import Strips, grow_strips, texel_of
 from .painter import StripsPainter
 from .plant import plant_strips
 from .pool import StripPool, StripsKept
-from .shown import StripsOfRing, StripsShown, show_strips
+from .shown import StripsShown, show_strips
 from .stock import StripStock, stock_strips
 from .sublevel import (
     axis_of,
@@ -139,16 +140,6 @@ class StripRepresentation(Representation):
         """Return how far strips reach beyond their patch."""
         return self.stock.margin
 
-    def pools(self, outlook: Outlook, /) -> list[StripPool]:
-        """Return the pools around a viewer, by ring."""
-        kept: StripsKept = outlook.kept[self.name]
-        return kept.pools
-
-    def shown(self, outlook: Outlook, /) -> list[StripsOfRing]:
-        """Return what a viewer is shown in this frame, by ring."""
-        shown: StripsShown = outlook.shown[self.name]
-        return shown.rings
-
     def sublevels(self, outlook: Outlook, rows: Rows, held: Levels, /, *, slack: int) -> Levels:
         """Return the ring and the axis that are due on patches (n,), as one number each."""
         patches, viewer, quality = outlook.patches, outlook.viewer, self.quality
@@ -178,8 +169,9 @@ class StripRepresentation(Representation):
         """
         patches, side = outlook.patches, self.quality.patch
         height = np.full(len(rows), self._height(outlook), np.float32)
-        if outlook.mown is not None and outlook.mown.strokes:
-            height = np.minimum(height, outlook.mown.tops(patches.cell[rows], patch=side))
+        mown = outlook.noted(Mown, None)
+        if mown is not None and mown.strokes:
+            height = np.minimum(height, mown.tops(patches.cell[rows], patch=side))
         slope, drop = viewing_slope(patches, rows, eye=outlook.viewer.eye, patch=side)
         return looked_down_on(slope, drop, away), height, float(self._spacing().min())
 
@@ -188,8 +180,8 @@ class StripRepresentation(Representation):
         quality = self.quality
         near = quality.blade_rings[-1].to
         if ring.to > near:
-            return outlook.rings_in((ring.to,))[0]
-        blades, *_ = outlook.reach_in((near, self.reach(quality), quality.carpet_to))
+            return outlook.lens.rings_in((ring.to,))[0]
+        blades, *_ = outlook.lens.reach_in((near, self.reach(quality), quality.carpet_to))
         return ring.to * blades / max(near, 1)
 
     def _spacing(self) -> NDArray[np.float32]:
@@ -210,7 +202,7 @@ class StripRepresentation(Representation):
     def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> StripsShown:
         """Return the patches with strips, by ring."""
         level = outlook.patches.names.index(self.name)
-        kept: StripsKept = outlook.kept[self.name]
+        kept = outlook.keeps(StripsKept)
         shown = show_strips(outlook, cover, level=level, side=kept.pools[0].side, rings=self.rings())
         for receiving, ring in zip(kept.receiving, shown.rings, strict=True):
             receiving.show(ring.rows, ring.slots)
@@ -219,7 +211,7 @@ class StripRepresentation(Representation):
     def plant(self, outlook: Outlook, /) -> None:
         """Plant the strips of patches whose slot holds another's, or strips that run the other way."""
         patches = outlook.patches
-        for pool, shown in zip(self.pools(outlook), self.shown(outlook), strict=True):
+        for pool, shown in zip(outlook.keeps(StripsKept).pools, outlook.shows(StripsShown).rings, strict=True):
             wanted = np.empty((len(shown.rows), 3), np.int32)
             wanted[:, :2], wanted[:, 2] = patches.cell.take(shown.rows, axis=0), shown.along
             differs = pool.stamp.take(shown.slots, axis=0) != wanted

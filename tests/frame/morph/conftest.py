@@ -15,17 +15,21 @@ from tallgrass.engine.gl.shaders import program
 from tallgrass.engine.gl.stream import Stream, release_all
 from tallgrass.systems.around.appearance import Appearance
 from tallgrass.systems.around.outlook import Outlook
-from tallgrass.systems.painter import UNITS, Painter
+from tallgrass.systems.features import UNITS
+from tallgrass.systems.land.part import LandPart
+from tallgrass.systems.painter import Painter
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.show.blades import draw as blades_draw
 from tallgrass.systems.show.blades.painter import BladesPainter
 from tallgrass.systems.show.blades.plant import standing_blades
 from tallgrass.systems.show.blades.representation import BladeRepresentation
-from tallgrass.systems.show.blades.shown import Standing
+from tallgrass.systems.show.blades.shown import BladesShown, Standing
 from tallgrass.systems.show.strips import draw as strips_draw
 from tallgrass.systems.show.strips.gather import gather_strips, polygon_strips
 from tallgrass.systems.show.strips.painter import StripsPainter
+from tallgrass.systems.show.strips.pool import StripsKept
 from tallgrass.systems.show.strips.representation import StripRepresentation
+from tallgrass.systems.show.strips.shown import StripsShown
 from tallgrass.systems.transition import FADE
 from tallgrass.testing import Stage as Room
 
@@ -148,8 +152,7 @@ class Scene:
                 made[uniform].write(like[uniform].read())  # type: ignore[union-attr]
         painter.block.join(made)
         painter.block.write(painter.record)
-        for texture in painter.textures:
-            painter.textures[texture].use(UNITS[texture])
+        painter.part(LandPart).use()
         painter.received.texture.use(UNITS["received"])
         array = painter.ctx.vertex_array(made, [] if stream is None else [stream.binding(made)])
         numbers = 4 + (16 if stream is None else 1)
@@ -162,7 +165,7 @@ class Scene:
     def strips_drawn(self, *, whole: bool = True) -> Drawn:
         """All strips, also those that do not show yet: whole, or up to where they are painted."""
         outlook, strips = self.outlook, self.strips.strips
-        pools, rings = outlook.kept["strips"].pools, outlook.shown["strips"].rings
+        pools, rings = outlook.keeps(StripsKept).pools, outlook.shows(StripsShown).rings
         appears = replace(self.appears, handed=np.ones_like(self.appears.handed))
         counts = {name: each.receivers(outlook) for name, each in self.painter.painters.items()}
         first = self.painter.received.lay([count for each in counts.values() for count in each])[1:]
@@ -225,14 +228,14 @@ def scene(
     assert isinstance(near, BladeRepresentation)
     assert isinstance(representation, StripRepresentation)
     numbers = np.frombuffer(blades.numbers.buffer.read(), np.uint32)[: blades.morph.stream.count].astype(np.int64)
-    (_, texels), patches, rows = on_card(prairie)[0], outlook.patches, outlook.shown["blades"].standing.rows
+    (_, texels), patches, rows = on_card(prairie)[0], outlook.patches, outlook.shows(BladesShown).standing.rows
     patch, own = np.divmod(numbers, texels.shape[1])
     standing, _ = standing_blades(
         near.stock, patches.cell[rows], patches.model[rows], patches.turn[rows], prairie.site.ground
     )
     return Scene(
         prairie=prairie, outlook=outlook, appears=outlook.appearance, painter=painter, blades=blades, strips=strips,
-        representation=representation, morphing=outlook.shown["blades"].morphing, records=standing[patch, own],
+        representation=representation, morphing=outlook.shows(BladesShown).morphing, records=standing[patch, own],
         message=texels[patch, own, :2], row=rows[patch], own=own, along=int(yaw == 90.0),
         defines={
             RIBBON: next(defines for name, defines in told if name == RIBBON and "MORPH" in defines),

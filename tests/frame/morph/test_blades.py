@@ -7,10 +7,12 @@ import numpy as np
 
 from tallgrass.components.arrays import Doubles
 from tallgrass.engine.gl.stream import Stream, release_all
-from tallgrass.systems.painter import UNITS
+from tallgrass.systems.features import UNITS
+from tallgrass.systems.land.part import LandPart
 from tallgrass.systems.show.blades.draw import PAINTED, Ribbons, segment_defines
 from tallgrass.systems.show.blades.gather import distances, gather_blades
 from tallgrass.systems.show.blades.morph import HOME, at_home, gather_morph
+from tallgrass.systems.show.blades.pool import BladesKept
 from tallgrass.systems.transition import weights
 
 Defines = dict[str, str | int]
@@ -59,7 +61,7 @@ def in_their_own_places(scene: Any) -> Doubles:
     ribbons = Ribbons(painter.ctx, painter.block, [segments], UNITS, soft=True)
     blades.write(scene.records, scene.message)
     painter.block.write(painter.record)
-    for name, texture in painter.textures.items():
+    for name, texture in painter.part(LandPart).textures.items():
         texture.use(UNITS[name])
     ribbons.fill(blades.array, count)
     defines: Defines = {**segment_defines([segments]), "SOFT": 1}
@@ -146,7 +148,7 @@ def test_x3_in_between_it_is_on_the_straight_way(scene: Any) -> None:
 
 def test_x3_blades_that_arrive_in_their_own_places_are_in_the_order_of_those_that_stand(scene: Any) -> None:
     outlook, shown = scene.outlook, scene.morphing
-    pool, left = outlook.kept["blades"].pool, np.ones(len(shown.rows), np.float32)
+    pool, left = outlook.keeps(BladesKept).pool, np.ones(len(shown.rows), np.float32)
     arrived = replace(outlook.appearance, morph=np.zeros_like(outlook.appearance.morph))
     eye = outlook.viewer.eye[0], outlook.viewer.eye[2]
     away, nowhere = distances(pool, shown.slots, eye), np.zeros((len(left), pool.present.shape[1]), np.bool_)
@@ -158,7 +160,7 @@ def test_x3_blades_that_arrive_in_their_own_places_are_in_the_order_of_those_tha
 
 def test_x3_blades_that_come_home_take_their_turn_one_by_one_from_the_nearest_on(scene: Any) -> None:
     outlook, shown = scene.outlook, scene.morphing
-    pool, left = outlook.kept["blades"].pool, np.ones(len(shown.rows), np.float32)
+    pool, left = outlook.keeps(BladesKept).pool, np.ones(len(shown.rows), np.float32)
     eye, each = (outlook.viewer.eye[0], outlook.viewer.eye[2]), pool.present.shape[1]
     away = distances(pool, shown.slots, eye)
     stood = []

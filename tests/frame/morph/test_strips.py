@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 
 from tallgrass.components.arrays import Doubles
 from tallgrass.systems.grow.bend import bending
+from tallgrass.systems.light.draw import LightPart
+from tallgrass.systems.show.strips.shown import StripsShown
 from tallgrass.systems.show.strips.stand import falls
 
 
@@ -50,7 +52,7 @@ def put_nearer(foot: Doubles, run: Doubles, spacing: float, rise: Doubles) -> Do
 
 def rise_of(scene: Any, place: Doubles) -> Doubles:
     """How the ground rises along x and z at places (n, 2), as the map of light has it, shape (n, 2)."""
-    texture, terrain = scene.painter.light.lie._textures[0], scene.prairie.site.ground.terrain  # noqa: SLF001
+    texture, terrain = scene.painter.part(LightPart).lie._textures[0], scene.prairie.site.ground.terrain  # noqa: SLF001
     normals = np.frombuffer(texture.read(), np.float16).reshape(*texture.size[::-1], 4).astype(float)
     still = normals[:, : texture.width // 2, :2]
     at = (place - np.array(terrain.origin)) / terrain.size * still.shape[1::-1] - 0.5
@@ -69,7 +71,7 @@ def test_w1_a_strip_stands_between_two_edges_on_the_ground_each_bent_as_numpy_sa
     clip = scene.painter.record[0]["clip"].reshape(4, 4).astype(float)
     layers, kinds = scene.first_layers, len(stock.strips[0])
     patches, kept = scene.outlook.patches, scene.outlook.kept["strips"].receiving
-    for number, (receiving, ring) in enumerate(zip(kept, scene.outlook.shown["strips"].rings, strict=True)):
+    for number, (receiving, ring) in enumerate(zip(kept, scene.outlook.shows(StripsShown).rings, strict=True)):
         here, count = everything.ring == number, quality.strip_rings[number].strips
         first = layers[kinds * number :][:2]
         layer, column = everything.layer[here], everything.column[here].astype(int)

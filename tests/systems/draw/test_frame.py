@@ -12,9 +12,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.engine.camera import Camera, View, projection_matrix, view_matrix, view_of
+from tallgrass.systems.features import UNITS
 from tallgrass.systems.frame.block import FRAME, FrameBlock, aim, by_kind
-from tallgrass.systems.land.record import frame_record
-from tallgrass.systems.painter import UNITS
 from tallgrass.systems.show.blades.draw import MESSAGE, BladePainter
 from tallgrass.systems.show.blades.pool import BLADE, ORGAN
 from tallgrass.systems.show.blades.store import STANDING
@@ -22,6 +21,7 @@ from tallgrass.systems.show.strips.gather import STOOD
 from tallgrass.systems.site import Site
 
 Laid = Callable[..., Site]
+RecordOf = Callable[..., NDArray[np.void]]
 Probe = Callable[..., NDArray[np.float32]]
 
 TELL = """#include "lib/frame.glsl"
@@ -31,9 +31,9 @@ void main() { told = %s; }"""
 
 
 @pytest.fixture
-def record(laid: Laid) -> NDArray[np.void]:
+def record(laid: Laid, record_of: RecordOf) -> NDArray[np.void]:
     site = laid()
-    made = frame_record(site.scene, site.growths, site.ground.terrain, site.quality.patch)
+    made = record_of(site)
     view = View(view_matrix(Camera((1.0, 2.0, 3.0), 0.4, -0.1, 0.7)), projection_matrix(0.7, 1.6))
     aim(made, view, (320, 200))
     return made

@@ -16,7 +16,6 @@ from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.systems.frame.block import FrameBlock
 from tallgrass.systems.land.maps import density_texture, height_texture
-from tallgrass.systems.land.record import frame_record
 from tallgrass.systems.light.slow import laid_over
 from tallgrass.systems.show.carpet.ground import (
     BEYOND,
@@ -31,6 +30,7 @@ from tallgrass.systems.show.carpet.ground import (
 from tallgrass.systems.site import Site
 
 Laid = Callable[..., Site]
+RecordOf = Callable[..., NDArray[np.void]]
 Corners = Callable[..., NDArray[np.float32]]
 
 WIDE = Terrain(np.zeros((41, 61), np.float32), 10.0)
@@ -126,10 +126,10 @@ def test_no_tile_is_within_a_negative_reach() -> None:
 
 
 @pytest.fixture
-def corners(ctx: moderngl.Context, laid: Laid) -> Iterator[Corners]:
+def corners(ctx: moderngl.Context, laid: Laid, record_of: RecordOf) -> Iterator[Corners]:
     """Where the graphics card puts the grid points of tiles (n,), shape (n, GRID + 1, GRID + 1, 3)."""
     site = laid()
-    record = frame_record(site.scene, site.growths, site.ground.terrain, site.quality.patch)
+    record = record_of(site)
     textures: dict[str, moderngl.Texture | moderngl.TextureArray] = {
         "heights": height_texture(ctx, site.ground.terrain),
         "lie": laid_over(ctx, np.full((4, 4, 4), 128, np.uint8)),

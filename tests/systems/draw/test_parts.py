@@ -17,10 +17,10 @@ from tallgrass.systems.grow.postures import grow_postures
 from tallgrass.systems.grow.record import GIVES, Blades, Growth
 from tallgrass.systems.grow.response import grow_response
 from tallgrass.systems.land.maps import height_texture, posture_texture
-from tallgrass.systems.land.record import frame_record
 from tallgrass.systems.site import Site
 
 Laid = Callable[..., Site]
+RecordOf = Callable[..., NDArray[np.void]]
 Probe = Callable[..., NDArray[np.float32]]
 
 POSTURE = """#include "lib/posture.glsl"
@@ -45,9 +45,9 @@ def postures(ctx: moderngl.Context, growths: list[Growth]) -> Iterator[moderngl.
 
 
 @pytest.fixture
-def record(laid: Laid) -> NDArray[np.void]:
+def record(laid: Laid, record_of: RecordOf) -> NDArray[np.void]:
     site = laid()
-    return frame_record(site.scene, site.growths, site.ground.terrain, site.quality.patch)
+    return record_of(site)
 
 
 def upright(count: int, variant: int) -> Blades:

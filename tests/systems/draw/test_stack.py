@@ -8,13 +8,13 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass.systems.grow.record import Growth
-from tallgrass.systems.land.record import frame_record
 from tallgrass.systems.show.strips.pool import StripPool
 from tallgrass.systems.show.strips.stand import falls
 from tallgrass.systems.show.strips.stock import stock_strips
 from tallgrass.systems.site import Site
 
 Laid = Callable[..., Site]
+RecordOf = Callable[..., NDArray[np.void]]
 Probe = Callable[..., NDArray[np.float32]]
 
 ASK = """#include "lib/stack.glsl"
@@ -32,10 +32,10 @@ void main() {
 @pytest.mark.parametrize("cell", [(0, 0), (-7, 12)])
 @pytest.mark.parametrize(("ring", "columns"), [(0, 2), (1, 1), (0, 5)])
 def test_g3_edges_stand_in_the_same_places_on_the_card_and_in_numpy_whichever_way_a_patch_is_turned(
-    laid: Laid, growths: list[Growth], probe: Probe, ring: int, columns: int, cell: tuple[int, int]
+    laid: Laid, growths: list[Growth], record_of: RecordOf, probe: Probe, ring: int, columns: int, cell: tuple[int, int]
 ) -> None:
     site, strips = laid(), stock_strips(growths).strips[ring]
-    record = frame_record(site.scene, site.growths, site.ground.terrain, site.quality.patch)
+    record = record_of(site)
     ways = np.array(list(product((0, 1), range(4))), np.int32)
     pool = StripPool(3, strips, columns, site.quality.patch)
     slots = np.arange(len(ways))

@@ -14,6 +14,8 @@ from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.overlay.arrows import arrow_marks, arrows, felt, thinned
 from tallgrass.systems.overlay.paint import index_color
+from tallgrass.systems.show.blades.shown import BladesShown, Standing
+from tallgrass.systems.show.strips.shown import StripsOfRing, StripsShown
 from tallgrass.systems.site import Site
 
 Laid = Callable[..., Site]
@@ -94,8 +96,8 @@ def test_n8_ground_that_faces_away_has_no_arrows() -> None:
 def test_n8_arrows_are_what_receivers_have_been_told_whoever_has_told_them(laid: Laid, look: Look) -> None:
     site, angles = laid(), (0.3, 1.3, 2.3)
     outlook = look(site, 0.0, 0.0, hear=lambda heard, **_: np.full_like(heard.place, bent(0.3)))
-    kept, shown = outlook.kept, outlook.shown
-    rings = (shown["blades"].standing, *shown["strips"].rings)
+    kept = outlook.kept
+    rings: list[Standing | StripsOfRing] = [outlook.shows(BladesShown).standing, *outlook.shows(StripsShown).rings]
     for receiving, angle in zip(kept["strips"].receiving, angles[1:], strict=True):
         for slot in receiving.slots.tolist():
             receiving.letters.ask(slot)[:] = bent(angle)

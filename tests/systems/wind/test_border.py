@@ -13,8 +13,10 @@ from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.world import World
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.receivers import Receiving
-from tallgrass.systems.blow import Blow, Hear, receivers_shown
+from tallgrass.systems.blow import Blow, Blown, Hear, receivers_shown
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.show.blades.pool import BladesKept
+from tallgrass.systems.show.strips.pool import StripsKept
 from tallgrass.systems.site import Site
 from tallgrass.systems.wind.blast import Blast, Shape
 from tallgrass.systems.wind.blow import ReceiverArrays
@@ -98,7 +100,7 @@ def slots_at_the_border(flat: Seen) -> tuple[int, int]:
 def put_together(flat: Seen) -> list[tuple[int, NDArray[np.intp]]]:
     """Put blades where strip edges are, on both sides of the border; return the blades' rows by kind."""
     site, outlook = flat
-    blades, strips = outlook.kept["blades"].pool, outlook.kept["strips"].pools[0]
+    blades, strips = outlook.keeps(BladesKept).pool, outlook.keeps(StripsKept).pools[0]
     at_blade, at_edge = slots_at_the_border(flat)
     kind = blades.kind(np.array([at_blade]))
     strips.stamp[at_edge, 2] = 0  # as if they ran across the border
@@ -182,7 +184,7 @@ def test_n4_a_carpet_hears_what_is_asked_for_in_its_patchs_middle_less_the_small
     for kind, side in ((0, west), (1, ~west)):
         assert np.linalg.norm(heard[side], axis=1).max() > 0.3
         np.testing.assert_array_equal(heard[side], made.at(middle[side], time=5.0, kind=kind))
-    assert outlook.heard == sum(len(each.pool.kind(each.slots)) for each in pooled(outlook))
+    assert outlook.noted(Blown, Blown()).heard == sum(len(each.pool.kind(each.slots)) for each in pooled(outlook))
 
 
 SCENE = """\

@@ -1,0 +1,35 @@
+"""What a representation keeps for one viewer."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...engine.world import World
+from .patches import PatchTable
+from .receivers import Receiving
+
+
+class Kept:
+    """What a representation keeps for one viewer: the receivers that it stands on, of each pool."""
+
+    def __init__(self, receiving: Sequence[Receiving] = ()) -> None:
+        self.receiving = list(receiving)
+
+    def enlist(self, world: World, patches: PatchTable, /) -> None:
+        """Let the receivers of what is shown be entities, and no others."""
+        for receiving in self.receiving:
+            receiving.enlist(world, patches)
+
+    def leave(self, rows: NDArray[np.int32], /) -> None:
+        """Take note that other patches are in some rows of the patch table now."""
+
+    def lose(self) -> None:
+        """Take note that all entities are gone."""
+        for receiving in self.receiving:
+            receiving.lose()
+
+    def release(self, world: World, /) -> None:
+        """Delete its entities."""
+        for receiving in self.receiving:
+            receiving.release(world)

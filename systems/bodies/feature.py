@@ -1,0 +1,80 @@
+"""Bodies: what flies over a prairie, and what stands there and casts shadows."""
+
+from collections.abc import Mapping
+from typing import Self
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.body import Body
+from ...components.shade import Shade
+from ...engine.world import World
+from ..around.outlook import Outlook
+from ..frame.block import FrameBlock
+from ..frame.feature import Feature, Part, Start
+from ..space.grown import Grown
+from ..wind.quarantine import Quarantine
+from .cast import cast, nearest
+from .draw import BodyPainter, shade_of
+from .fly import flying
+
+
+class Bodies(Feature):
+    """The entities of one world that have a `Body` or a `Shade`, and what hovers over its winds."""
+
+    def __init__(self, world: World, grown: Grown, quarantine: Quarantine) -> None:
+        self._world, self._grown, self._quarantine = world, grown, quarantine
+
+    @classmethod
+    def begin(cls, start: Start, /) -> Self:
+        """Return those of a prairie's world."""
+        return cls(start.world, start.grown, start.quarantine)
+
+    def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
+        """Fly over the grass that there is now."""
+        del before, time
+        self._grown = grown
+
+    def flying(self, time: float, /) -> list[Body]:
+        """Return what is in the air at a time [s]."""
+        return flying(self._world, self._grown.top_at, self._quarantine, time=time)
+
+    def shades(self) -> list[Shade]:
+        """Return what else casts shadows."""
+        return [shade for _, shade in self._world.all(Shade)]
+
+    def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> "BodiesPart":
+        """Return what draws them."""
+        del units
+        return BodiesPart(self, ctx, block)
+
+
+class BodiesPart(Part):
+    """Draws what flies; it makes nothing before something does."""
+
+    def __init__(self, bodies: Bodies, ctx: moderngl.Context, block: FrameBlock) -> None:
+        self._bodies, self._ctx, self._block = bodies, ctx, block
+        self.painter: BodyPainter | None = None
+
+    def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
+        """Send what is in the air, and write what casts shadows."""
+        flies = self._bodies.flying(outlook.viewer.time)
+        cast(record, nearest([*map(shade_of, flies), *self._bodies.shades()], outlook.viewer.eye))
+        if self.painter is None and flies:
+            self.painter = BodyPainter(self._ctx, self._block)
+        if self.painter is not None:
+            self.painter.write(flies)
+
+    def draw_solid(self) -> int:
+        """Draw them, opaque."""
+        return 0 if self.painter is None else self.painter.draw()
+
+    def draw_soft(self) -> int:
+        """Draw their soft outlines."""
+        return 0 if self.painter is None else self.painter.draw_border()
+
+    def release(self) -> None:
+        """Give everything back."""
+        if self.painter is not None:
+            self.painter.release()

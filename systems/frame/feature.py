@@ -1,0 +1,95 @@
+"""Features: what a prairie has beside its grass, and all that painters, reloads and the frame block ask of it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar, Self
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ...engine.world import World
+from ..around.outlook import Outlook
+from ..space.grown import Grown
+from ..wind.quarantine import Quarantine
+from .block import FrameBlock
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Start:
+    """What there is when features are made."""
+
+    world: World
+    grown: Grown
+    quarantine: Quarantine
+    live: bool
+    """Whether somebody watches while pictures are drawn."""
+
+
+class Part:
+    """What one GL context holds of a feature, and the drawing of it; a frame calls its methods in this order."""
+
+    def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
+        """Take over what is other than before, and write it into the frame's record (1,)."""
+
+    def defines(self) -> Mapping[str, str | int]:
+        """Return what the programs of representations are told: where it changes, they are made anew."""
+        return {}
+
+    def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
+        """Send what a viewer is shown in this frame."""
+
+    def use(self) -> None:
+        """Bind what programs read throughout the frame."""
+
+    def prepare(self) -> int:
+        """Draw what is read in this frame, into framebuffers of its own; return the number of draw calls."""
+        return 0
+
+    def draw_solid(self) -> int:
+        """Draw what is opaque and writes depth; return the number of draw calls."""
+        return 0
+
+    def draw_behind(self) -> int:
+        """Draw behind all that is opaque; return the number of draw calls."""
+        return 0
+
+    def draw_soft(self) -> int:
+        """Blend over ground and sky, before the grass that stands; return the number of draw calls."""
+        return 0
+
+    def release(self) -> None:
+        """Give everything back to the context."""
+
+
+class Feature:
+    """One thing that a prairie has. `FEATURES` lists them; what one leaves open has an answer here."""
+
+    samplers: ClassVar[tuple[str, ...]] = ()
+    """The names of its samplers that are bound throughout a frame."""
+
+    asked: ClassVar[tuple[str, ...]] = ()
+    """The names of those that only passes over receivers read."""
+
+    own: ClassVar[tuple[str, ...]] = ()
+    """The names of those that it binds itself whenever it draws."""
+
+    @classmethod
+    def begin(cls, start: Start, /) -> Self:
+        """Return it for a prairie."""
+        del start
+        return cls()
+
+    def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
+        """Go on at a time [s] with a scene read again; `before` is what the scene was."""
+
+    def step(self, viewer: str, /, *, time: float) -> None:
+        """Come to the next frame that is drawn for a viewer, at a time [s]."""
+
+    def look(self, outlook: Outlook, /) -> None:
+        """Note what other systems are to know of it in this frame."""
+
+    def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> Part:
+        """Return what a GL context holds of it."""
+        del ctx, block, units
+        return Part()

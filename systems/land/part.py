@@ -1,0 +1,68 @@
+"""The land: terrain and kinds of grass, as every program knows them."""
+
+from collections.abc import Mapping
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ...engine.gl.stream import release_all
+from ..frame.block import FrameBlock
+from ..frame.feature import Feature, Part
+from ..space.grown import Grown
+from .maps import density_texture, height_texture, posture_texture
+from .record import write_land
+
+
+class Land(Feature):
+    """The ground and what grows on it: it is made with the site."""
+
+    samplers = ("postures", "density", "heights")
+
+    def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> "LandPart":
+        """Return its textures, and its part of the frame's record."""
+        del block
+        return LandPart(ctx, units)
+
+
+class LandPart(Part):
+    """The textures of terrain, densities and postures."""
+
+    def __init__(self, ctx: moderngl.Context, units: Mapping[str, int]) -> None:
+        self.ctx, self._units = ctx, units
+        self.textures: dict[str, moderngl.Texture | moderngl.TextureArray] = {}
+        self._grown: Grown | None = None
+        self._kinds: Mapping[str, str | int] = {}
+
+    def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
+        """Send what is another terrain, density or kind."""
+        before, self._grown = self._grown, grown
+        if before is grown:
+            return
+        if before is None or before.ground.terrain is not grown.ground.terrain:
+            self._put("heights", height_texture(self.ctx, grown.ground.terrain))
+        if before is None or before.ground.density is not grown.ground.density:
+            self._put("density", density_texture(self.ctx, grown.ground.density))
+        if before is None or before.growths != grown.growths:
+            self._put("postures", posture_texture(self.ctx, grown.growths))
+        write_land(record, grown)
+        folds = any(kind.profile == "fold" for kind in grown.scene.grass.values())
+        self._kinds = {"KINDS": len(grown.growths), **({"FOLDS": 1} if folds else {})}
+
+    def defines(self) -> Mapping[str, str | int]:
+        """Return how many kinds there are, and whether blades of any are folded."""
+        return self._kinds
+
+    def use(self) -> None:
+        """Bind all of them."""
+        for name, texture in self.textures.items():
+            texture.use(self._units[name])
+
+    def _put(self, name: str, texture: moderngl.Texture | moderngl.TextureArray) -> None:
+        if name in self.textures:
+            self.textures[name].release()
+        self.textures[name] = texture
+
+    def release(self) -> None:
+        """Give everything back."""
+        release_all(*self.textures.values())

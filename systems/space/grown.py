@@ -1,0 +1,35 @@
+"""What a scene has become: its ground, and what was grown of its kinds."""
+
+from dataclasses import dataclass
+
+from ...components.arrays import Floats
+from ...engine.declared.quality import Quality
+from ...engine.declared.scene import Scene
+from ..grow.record import Growth
+from .canopy import top_at
+from .ground import Ground
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Grown:
+    """A scene with its ground and its grown kinds."""
+
+    scene: Scene
+    quality: Quality
+    ground: Ground
+    growths: list[Growth]
+
+    canopy: tuple[float, ...]
+    """Height of each kind's canopy [m]."""
+
+    tallest: float
+    """Height that no blade comes to [m]."""
+
+    def top_at(self, place: Floats, /) -> Floats:
+        """Return how high the top of the grass is (y) at ground positions (n, 2) [m], shape (n,)."""
+        return top_at(self.ground, self.canopy, place)
+
+    @property
+    def own_segments(self) -> tuple[int | None, ...]:
+        """Line segments per blade at the finest level that each kind asks for; None of those that do not say."""
+        return tuple(kind.segments for kind in self.scene.grass.values())
