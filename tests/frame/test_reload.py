@@ -160,7 +160,7 @@ def test_n7_what_did_not_change_stays_in_gl(edited: Edited, stage: Stage, camera
     assert outlook.kept == kept
     edited.edit(("rolling, seed: 2", "rolling, seed: 3"))
     stage.shot(prairie, walked(camera, 0))
-    assert {name for name, texture in land.textures.items() if texture is textures[name]} == {"postures"}
+    assert {name for name, texture in land.textures.items() if texture is textures[name]} == {"density", "postures"}
     assert painter.painters == painters
     edited.edit(("height: [0.5, 0.9]", "height: [0.4, 0.9]"), ("rolling, seed: 2", "rolling, seed: 3"))
     assert prairie.site.growths[0] is not before.growths[0]

@@ -21,6 +21,7 @@ from hashlib import blake2b
 import moderngl, numpy as np
 from tallgrass.engine.camera import camera_at, projection_matrix, view_matrix
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.reference import carpet_painter
 
 path, rate, first, count = sys.argv[1], *map(int, sys.argv[2:])
 ctx = moderngl.create_context(standalone=True, backend="egl", require=330)
