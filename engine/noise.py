@@ -27,17 +27,18 @@ def noise_table(seed: int, stream: int) -> Floats:
 def smooth_noise(table: Floats, place: Floats, /, *, shift: tuple[float, float] = (0.0, 0.0)) -> Floats:
     """Return four channels of noise in [-1, 1] at `place` + `shift` in lattice units, shape (n, 4).
 
-    `place` has shape (n, 2). The noise has a continuous slope. The shift is reduced by the noise's period first, so
-    that hours of travel cost no precision.
+    `place` has shape (n, 2). The noise has a continuous slope. Its period is the table's side, a power of two;
+    the shift is reduced by it first, so that hours of travel cost no precision.
     """
-    moved = place + np.mod(shift, PERIOD).astype(np.float32)
+    side = len(table)
+    moved = place + np.mod(shift, side).astype(np.float32)
     low = np.floor(moved)
     part = moved - low
     part = part * part * (np.float32(3.0) - np.float32(2.0) * part)
-    corner = low.astype(np.int32) & (PERIOD - 1)
+    corner = low.astype(np.int32) & (side - 1)
     x, z = corner[:, 0], corner[:, 1]
-    right, below = (x + 1) & (PERIOD - 1), ((z + 1) & (PERIOD - 1)) * PERIOD
-    z = z * PERIOD
+    right, below = (x + 1) & (side - 1), ((z + 1) & (side - 1)) * side
+    z = z * side
     flat = table.reshape(-1, 4)
     s, t = part[:, :1], part[:, 1:]
     far: Floats = flat.take(z + x, axis=0)

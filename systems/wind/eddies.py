@@ -8,12 +8,17 @@ import numpy as np
 from ...components.arrays import Doubles, Floats
 from ...engine.noise import ASLANT, PERIOD, power_left
 
-WIDE, FINER = 24.0, 8.0
+WIDE, FINER = 24.0, 12.0
 """After how many length scales the table of large eddies repeats, and how much sooner that of small ones does."""
 
-BETWEEN, SMALLEST, SOFT = 6.5, 90.0, 0.8
-"""Wave numbers where small eddies take over from large ones, and where they end, of the length scale; and over how wide
-a ratio's logarithm they do."""
+FINE = 256
+"""Points along a side of the table of small eddies: so many that the spectrum falls over two decades as it should."""
+
+BETWEEN, SMALLEST = 6.5, 370.0
+"""Wave numbers where small eddies take over from large ones, and where they end, of the length scale."""
+
+SOFT, SOFT_END = 0.8, 0.2
+"""Over how wide a ratio's logarithm they do."""
 
 CORNER = 1.285
 """What the length scale is multiplied by in the spectrum: 1.339 in one without end, less in ours, which ends at
@@ -22,27 +27,27 @@ CORNER = 1.285
 
 @lru_cache(maxsize=16)
 def eddy_tables(seed: int, /) -> tuple[Floats, Floats]:
-    """Return tables of large and of small eddies, each of shape (PERIOD, PERIOD, 4).
+    """Return tables of large and of small eddies, shapes (PERIOD, PERIOD, 4) and (FINE, FINE, 4).
 
     They are a horizontal slice of isotropic turbulence, for a length scale of 1: velocity along the wind and to its
-    right, and both once more a quarter of a turn on. Table points are WIDE / PERIOD apart, and those of small eddies
-    FINER times closer; the wind crosses them `ASLANT`. What `smooth_noise` reads of both
+    right, and both once more a quarter of a turn on. Table points are WIDE / PERIOD apart, those of small eddies
+    WIDE / FINER / FINE; the wind crosses them `ASLANT`. What `smooth_noise` reads of both
     tables together has, in each component, the variance 1. So it has where the two halves of a table are mixed by the
     cosine and sine of any angle.
     """
     random = np.random.default_rng((seed, 0x65646479))
-    coarse, fine = _waves(WIDE), _waves(WIDE / FINER)
+    coarse, fine = _waves(WIDE, PERIOD), _waves(WIDE / FINER, FINE)
     powers = [_power(coarse, 0.0, BETWEEN), _power(fine, BETWEEN, SMALLEST)]
-    felt = sum(float((power.sum(axis=0) * _left(PERIOD)).sum()) / 2.0 for power in powers)
+    felt = sum(float((power.sum(axis=0) * _left(len(power[0]))).sum()) / 2.0 for power in powers)
     made = [_velocity(waves, power / felt, random) for waves, power in zip((coarse, fine), powers, strict=True)]
     for table in made:
         table.setflags(write=False)
     return made[0], made[1]
 
 
-def _waves(period: float) -> Doubles:
-    """Return the wave numbers of a table, along the wind and to its right, shape (2, rows, columns)."""
-    number = 2.0 * pi * np.fft.fftfreq(PERIOD, period / PERIOD)
+def _waves(period: float, points: int) -> Doubles:
+    """Return the wave numbers of a table, along the wind and to its right, shape (2, points, points)."""
+    number = 2.0 * pi * np.fft.fftfreq(points, period / points)
     column, row = np.meshgrid(number, number)
     ahead, aside = ASLANT
     return np.stack([ahead * column - aside * row, aside * column + ahead * row])
@@ -64,8 +69,9 @@ def _power(waves: Doubles, least: float, most: float) -> Doubles:
 
     across = over(11.0 / 6.0) - low * over(17.0 / 6.0)
     along = across - square * over(17.0 / 6.0)
-    held = _share(square, most) if least == 0.0 else _share(square, most) - _share(square, least)
-    cell = (waves[0, 0, 1] ** 2 + waves[1, 0, 1] ** 2) * held / _left(PERIOD)
+    held = _share(square, most, SOFT if least == 0.0 else SOFT_END)
+    held -= 0.0 if least == 0.0 else _share(square, least, SOFT)
+    cell = (waves[0, 0, 1] ** 2 + waves[1, 0, 1] ** 2) * held / _left(len(square))
     return np.stack([along * cell, across * cell])
 
 
@@ -75,14 +81,17 @@ def _left(points: int) -> Doubles:
     return axis[:, None] * axis
 
 
-def _share(square: Doubles, most: float) -> Doubles:
-    """Return 1 for wave numbers well below `most`, 0 for those well above it, from their squares."""
+def _share(square: Doubles, most: float, soft: float) -> Doubles:
+    """Return 1 for wave numbers well below `most`, 0 for those well above it, from their squares.
+
+    Between them is a ratio whose logarithm is `soft`.
+    """
     ratio = np.log(np.maximum(square, 1e-30)) / 2.0 - np.log(most)
-    return np.asarray(0.5 - 0.5 * np.sin(pi * np.clip(ratio / SOFT, -0.5, 0.5)))
+    return np.asarray(0.5 - 0.5 * np.sin(pi * np.clip(ratio / soft, -0.5, 0.5)))
 
 
 def _velocity(waves: Doubles, power: Doubles, random: np.random.Generator) -> Floats:
-    """Return a table of waves of these powers whose phases are random, shape (PERIOD, PERIOD, 4).
+    """Return a table of waves of these powers whose phases are random, shape (points, points, 4).
 
     Each wave's two directions, and its two halves, are a quarter of a turn apart, so that no chance changes the
     variance. Of a wave and its opposite, which are one, the table has one.

@@ -2,12 +2,17 @@
 
 const int PERIOD = 128;
 
-// Four channels in [-1, 1] at a place in lattice units; shifts are reduced by the period before they come here.
-vec4 smooth_noise(Wind wind, int number, vec2 place) {
+// Four channels in [-1, 1] at a place in lattice units, of a table of a side that is a power of two.
+// Shifts are reduced by the side before they come here.
+vec4 smooth_noise(Wind wind, int number, vec2 place, int side) {
     vec2 low = floor(place), part = place - low;
     part = part * part * (3.0 - 2.0 * part);
-    ivec2 corner = ivec2(low) & (PERIOD - 1), next = (corner + 1) & (PERIOD - 1);
+    ivec2 corner = ivec2(low) & (side - 1), next = (corner + 1) & (side - 1);
     vec4 far = mix(sheet(wind, number, corner), sheet(wind, number, ivec2(next.x, corner.y)), part.x);
     vec4 near = mix(sheet(wind, number, ivec2(corner.x, next.y)), sheet(wind, number, next), part.x);
     return mix(far, near, part.y);
+}
+
+vec4 smooth_noise(Wind wind, int number, vec2 place) {
+    return smooth_noise(wind, number, place, PERIOD);
 }

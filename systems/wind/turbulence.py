@@ -10,18 +10,21 @@ from pydantic import Field
 from ...components.arrays import Floats
 from ...components.wind import Grass, TwinValues
 from ...engine.noise import ASLANT, PERIOD, smooth_noise, wander
-from .eddies import FINER, WIDE, eddy_tables
+from .eddies import FINE, FINER, WIDE, eddy_tables
 from .mean import MeanWind
 
 Record = dict[str, Sequence[float]]
 
-LIFE = 64.0
-"""How many length scales the wind goes while large eddies become others; small ones do `FINER` times sooner."""
+CLOSER = FINER * FINE / PERIOD
+"""How much closer the points of the table of small eddies are than those of the other."""
+
+LIFE, SOONER = 64.0, 8.0
+"""How many length scales the wind goes while large eddies become others, and how much sooner small ones do."""
 
 TURNS = 2.0 * pi
 """Largest phase that eddies come to as they become others [rad]."""
 
-SWAY = 4.0
+SWAY = 1.5
 """How many length scales, ahead and aside, they wander from the way that the mean wind carries them."""
 
 
@@ -36,6 +39,9 @@ class Turbulence(MeanWind):
 
     intensity: float = Field(default=0.35, ge=0.0, le=1.0)
     """Standard deviation along its direction, and across, as a part of its mean; 0 is steady."""
+
+    swing: float = Field(default=0.03, ge=0.0, le=0.5)
+    """Largest posture index of a blade's own small oscillations; more of them stand out of the spectrum at 1 Hz."""
 
     scale: float = Field(default=12.0, ge=2.0, le=1000.0)
     """How large its eddies are: the integral length scale along its direction [m]."""
@@ -63,7 +69,7 @@ class Turbulence(MeanWind):
         """Return how much faster the wind is than its mean, and how much goes aside, of the mean, shape (n,) each."""
         shift, share = record["shift"], record["share"]
         large = smooth_noise(tables[0], at, shift=(shift[0], shift[1]))
-        small = smooth_noise(tables[1], np.float32(FINER) * at, shift=(shift[2], shift[3]))
+        small = smooth_noise(tables[1], np.float32(CLOSER) * at, shift=(shift[2], shift[3]))
         faster, aside = (
             share[0] * large[:, part]
             + share[1] * large[:, part + 2]
@@ -81,11 +87,11 @@ class Turbulence(MeanWind):
         x, z = sin(first), -cos(first)
         ahead, aside = ASLANT
         large, _, more, across = wander(seed, 2, gone / LIFE)
-        _, small, _, _ = wander(seed, 2, gone * FINER / LIFE)
+        _, small, _, _ = wander(seed, 2, gone * SOONER / LIFE)
         way = (x * gone_x + z * gone_z + SWAY * more) * PERIOD / WIDE
         off = (x * gone_z - z * gone_x + SWAY * across) * PERIOD / WIDE
         carried = -ahead * way - aside * off, aside * way - ahead * off
-        shift = [finer * part % PERIOD for finer in (1.0, FINER) for part in carried]
+        shift = [closer * part % side for closer, side in ((1.0, PERIOD), (CLOSER, FINE)) for part in carried]
         lie = (ahead * x - aside * z) / step, (-ahead * z - aside * x) / step
         share = [self.intensity * part for phase in (TURNS * large, TURNS * small) for part in (cos(phase), sin(phase))]
         x, z = sin(heading), -cos(heading)

@@ -8,9 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tallgrass.components.arrays import Doubles, Floats
-from tallgrass.components.wind import Grass
+from tallgrass.components.wind import Grass, WindSource
 from tallgrass.engine.noise import PERIOD, noise_table, power_left, smooth_noise
+from tallgrass.systems.wind.blow import blowing, hear, places_alone
 from tallgrass.systems.wind.eddies import CORNER, eddy_tables
+from tallgrass.systems.wind.quarantine import Quarantine
 from tallgrass.systems.wind.turbulence import Turbulence
 
 STILL = Grass(np.zeros(0, np.intp), *np.ones((3, 1, 2), np.float32))
@@ -108,6 +110,29 @@ def test_f8_its_spectrum_is_von_karmans(along: Doubles) -> None:
     ratio = np.array([power[each].mean() for each in held])
     ratio /= [((1.0 + (1.339 * number[each]) ** 2) ** (-5.0 / 6.0)).mean() for each in held]
     assert np.abs(np.log(ratio / np.exp(np.log(ratio).mean()))).max() < 0.2
+
+
+@pytest.mark.parametrize("wind", [Turbulence(direction=33.0), Turbulence(direction=-70.0, scale=30.0, speed=9.0)])
+def test_f8_what_grass_feels_in_time_falls_by_five_thirds_over_two_decades(wind: Turbulence) -> None:
+    """Of the frequencies from 0.3 to 30, of speed over length scale, its small oscillations included."""
+    place = np.random.default_rng(2).uniform(-500.0, 500.0, (64, 2)).astype(np.float32)
+    pace, steps, quarantine = wind.speed / wind.scale, 2048, Quarantine()
+    rate = 72.0 * pace
+    receivers = places_alone(place, Grass(np.zeros(64, np.intp), *np.ones((3, 1, 2), np.float32)))
+    to, source, story = np.radians(wind.direction), WindSource(wind, "turbulence"), []
+    for time in np.arange(2 * steps) / rate:
+        now = blowing([source], quarantine, time=float(time), seed=7)
+        story.append(axes(wind)[0] @ hear(now, receivers, quarantine, time=float(time), seed=7, to=float(to)).T)
+    parts = np.array(story, np.float64).T.reshape(64 * 2, steps)
+    parts -= parts.mean(axis=1, keepdims=True)
+    power = (np.abs(np.fft.rfft(parts * np.hanning(steps), axis=1)) ** 2).mean(axis=0)
+    number = np.fft.rfftfreq(steps, 1.0 / rate) / pace
+    edges = np.geomspace(0.3, 30.0, 15)
+    mean = np.log([power[(number >= low) & (number < high)].mean() for low, high in pairwise(edges)])
+    middle = np.log(np.sqrt(edges[1:] * edges[:-1]))
+    assert np.polyfit(middle, mean, 1)[0] == pytest.approx(-5.0 / 3.0, abs=0.12)
+    for part in (slice(5), slice(5, 10), slice(9, 14)):
+        assert np.polyfit(middle[part], mean[part], 1)[0] == pytest.approx(-5.0 / 3.0, abs=0.45)
 
 
 def test_f8_its_length_scale_is_as_asked_and_half_of_it_across(hours: Doubles) -> None:
