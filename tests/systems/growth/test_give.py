@@ -25,13 +25,13 @@ SHAPES = st.fixed_dictionaries(
 )
 
 
-@settings(max_examples=10)
+@settings(max_examples=5)
 @given(SHAPES)
 def test_w12_grass_of_stiffness_one_is_bent_as_far_as_the_message_says(shape: dict[str, Any]) -> None:
     np.testing.assert_allclose(grow_give(GrassKind(**shape)), LEVEL, atol=1e-6)
 
 
-@settings(max_examples=10)
+@settings(max_examples=6)
 @given(SHAPES, st.floats(0.02, 80.0), st.floats(1.1, 20.0))
 def test_w12_the_stiffer_of_two_kinds_gives_way_less_to_every_message(
     shape: dict[str, Any], soft: float, more: float
@@ -48,22 +48,20 @@ def test_w12_the_stiffer_of_two_kinds_gives_way_less_to_every_message(
 
 
 @pytest.mark.parametrize("stiffness", [0.2, 8.0])
-@pytest.mark.parametrize("level", [0.25, 0.5, 0.75])
-def test_w12_a_kind_bends_as_the_simulation_does_in_the_wind_that_bends_common_grass_so_far(
-    stiffness: float, level: float
-) -> None:
+def test_w12_a_kind_bends_as_the_simulation_does_in_the_wind_that_bends_common_grass_so_far(stiffness: float) -> None:
+    levels = np.array([0.25, 0.5, 0.75])
     common, own = (build_chain(GrassKind(stiffness=each), np.ones((1, LINKS))) for each in (1.0, stiffness))
     winds = np.linspace(0.02, 16.0, 800)
     rest = settle(common, winds)[:, 0]
     flat = int(np.argmax(rest[:, -1] >= NEAR_FLAT))
-    wind = np.interp(level * chord_angle(rest[flat]), chord_angle(rest[: flat + 1]), winds[: flat + 1])
-    steady = np.full((4000, 1), wind)
-    history, _ = simulate(damp(own, ratio=0.7), np.zeros((1, LINKS)), np.zeros((1, LINKS)), steady, step=0.02)
+    wind = np.interp(levels * chord_angle(rest[flat]), chord_angle(rest[: flat + 1]), winds[: flat + 1])
+    blades = build_chain(GrassKind(stiffness=stiffness), np.ones((len(levels), LINKS)))
+    still = np.zeros((len(levels), LINKS))
+    history, _ = simulate(damp(blades, ratio=0.7), still, still, np.tile(wind, (4000, 1)), step=0.02)
     own_rest = settle(own, np.linspace(0.02, 32.0, 800))[:, 0]
     own_flat = own_rest[int(np.argmax(own_rest[:, -1] >= NEAR_FLAT))]
-    expected = min(float(chord_angle(history[-1, 0]) / chord_angle(own_flat)), 1.0)
-    given_way = np.interp(level, LEVEL, grow_give(GrassKind(stiffness=stiffness)))
-    assert given_way == pytest.approx(expected, abs=0.02)
+    expected = np.minimum(chord_angle(history[-1]) / chord_angle(own_flat), 1.0)
+    np.testing.assert_allclose(np.interp(levels, LEVEL, grow_give(GrassKind(stiffness=stiffness))), expected, atol=0.02)
 
 
 def test_w12_at_half_the_force_that_lays_common_grass_the_stiff_tip_stands_a_quarter_of_its_length_higher() -> None:
