@@ -6,6 +6,7 @@ Every command exits with 0 on success, with 2 on bad input (one line per problem
 import os
 import signal
 import sys
+from io import TextIOWrapper
 from typing import Annotated, NoReturn
 
 import typer
@@ -49,6 +50,9 @@ def main() -> None:
 
     Asked to end, as by `kill`, it takes away what is half written, and exits with 143.
     """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):  # what a terminal cannot show, as `\u8349`, is better than nothing said
+            stream.reconfigure(errors="backslashreplace")
     asked: list[int] = []
 
     def end(number: int, _: object) -> NoReturn:

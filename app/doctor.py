@@ -3,7 +3,6 @@
 import json
 import os
 import re
-import shlex
 import shutil
 import subprocess
 import sys
@@ -15,6 +14,7 @@ from typing import Literal
 from ..engine.gl.rasteriser import is_software
 from ..engine.installed import OURS
 from ..engine.plugins import GROUP, PluginError, WindKinds, wind_kinds
+from .shell import command_line
 
 _DISTRIBUTION = "tallgrass"
 _EXTRA = re.compile(r"extra\s*==\s*.(\w+)")
@@ -25,11 +25,12 @@ _NEEDED_BY = {
     "figures": "figures and bench all",
     "video": "films in .mp4",
 }
-_NEWER_DRIVER = "update the graphics driver, or draw in software: LIBGL_ALWAYS_SOFTWARE=1"
+_NEWER_DRIVER = "update the graphics driver"
+_OR_SOFTWARE = f"{_NEWER_DRIVER}, or draw in software: LIBGL_ALWAYS_SOFTWARE=1"
 
 _OTHER_CURES = (
     (r"externally-managed-environment", "python3 -m venv .venv && .venv/bin/pip install ."),
-    (r"eglCreateContext failed|Could not create GL context|OpenGL version", _NEWER_DRIVER),
+    (r"eglCreateContext failed|Could not create GL context|OpenGL version", _OR_SOFTWARE),
 )
 
 _DEBIAN_PACKAGES = (
@@ -91,10 +92,15 @@ def tell(findings: Sequence[Finding]) -> int:
 
 
 def cure(message: str, /) -> str | None:
-    """Return the line that mends what a loader, a driver or an installer complained of; None if it is unknown."""
+    """Return what mends what a loader, a driver or an installer complained of; None if it is unknown.
+
+    It is a line for a terminal where there are packages for it; Windows and macOS have drivers alone.
+    """
     for pattern, line in _OTHER_CURES:
         if re.search(pattern, message):
-            return line
+            return _NEWER_DRIVER if line == _OR_SOFTWARE and not _has_packages() else line
+    if not _has_packages():
+        return _NEWER_DRIVER if re.search("GL", message) else None
     return next((_debian(names) for pattern, names in _DEBIAN_PACKAGES if re.search(pattern, message)), None)
 
 
@@ -158,7 +164,7 @@ def winds(kinds: WindKinds, entries: Sequence[EntryPoint], /) -> list[Finding]:
 
 
 def _pip(requirement: str) -> str:
-    return shlex.join([sys.executable, "-m", "pip", "install", "--upgrade", requirement])
+    return command_line([sys.executable, "-m", "pip", "install", "--upgrade", requirement])
 
 
 def _debian(names: str) -> str:
@@ -173,9 +179,13 @@ def _virtual_display() -> str:
     return run if shutil.which("xvfb-run") else f"{_debian('xvfb xauth')} && {run}"
 
 
+def _has_packages() -> bool:
+    """Return whether OpenGL and windows come from packages here, as on Linux."""
+    return sys.platform not in {"darwin", "win32"}
+
+
 def _has_display() -> bool:
-    unix = sys.platform not in {"darwin", "win32"}
-    return not unix or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+    return not _has_packages() or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
 
 
 def _probe(name: str) -> dict[str, str]:

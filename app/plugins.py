@@ -1,6 +1,5 @@
 """Plugins at the command line: what is installed, whether a wind keeps to the rules, and how to begin one."""
 
-import shlex
 from dataclasses import asdict
 from json import dumps
 from pathlib import Path
@@ -9,6 +8,7 @@ from ..engine.plugged import system_plugins
 from ..engine.plugins import PluginError, wind_kinds
 from ..testing import NoContextError, headless_context, twin_problems, wind_problems
 from .scaffold import scaffold
+from .shell import command_line
 
 
 def list_plugins(*, json: bool = False) -> None:
@@ -74,4 +74,5 @@ def new_plugin(kind: str, folder: str | None) -> None:
     place = Path(folder or kind)
     for file in scaffold(kind, place):
         print(file)
-    print(f"next: pip install -e {shlex.quote(str(place))} && tallgrass plugins check {kind}")
+    install = command_line(["pip", "install", "-e", str(place)])
+    print(f"next: {install} && tallgrass plugins check {kind}")

@@ -1,6 +1,7 @@
 """What was grown once, kept on disk under a hash of everything that it depends on."""
 
 import json
+import logging
 import os
 import tempfile
 from collections.abc import Iterator
@@ -22,6 +23,8 @@ from ..show.registry import REPRESENTATIONS
 from .archive import pack, unpack
 from .models import blade_count, grow
 
+log = logging.getLogger("tallgrass")
+
 _SUFFIX = ".growth"
 _MOST = 48
 
@@ -34,14 +37,26 @@ def cached_growth(kind: GrassKind, quality: Quality, /, *, seed: int, folder: Pa
     """
     folder = cache_folder() if folder is None else folder
     if folder is None:
+        _tell("a cache folder", "there is no home folder")
         return grow(kind, quality, seed=seed)
     key = growth_key(kind, quality, seed=seed)
     growth = _kept(kind, quality, key, folder)
     if growth is None:
         growth = grow(kind, quality, seed=seed)
-        with suppress(OSError):
+        try:
             keep(pack(growth, key=key), key, folder)
+        except OSError as error:
+            _tell(str(folder), error.strerror or "it cannot be written to")
     return growth
+
+
+@cache
+def _tell(folder: str, reason: str) -> None:
+    """Say once that nothing is kept."""
+    log.warning(
+        "what has been grown cannot be kept in %s (%s), so it is grown each time: TALLGRASS_CACHE may name a folder",
+        folder, reason,
+    )  # fmt: skip
 
 
 def is_kept(kind: GrassKind, quality: Quality, /, *, seed: int, folder: Path) -> bool:

@@ -1,10 +1,14 @@
 """The command that checks scene files."""
 
+import signal
+import sys
+from io import BytesIO, TextIOWrapper
 from pathlib import Path
 
 import pytest
 
 from tallgrass.app.check import check
+from tallgrass.app.cli import main
 from tallgrass.engine.scene import bundled_scenes
 
 GOOD = "tallgrass: 2\ngrass: { lawn: {} }\n"
@@ -69,3 +73,19 @@ def test_what_is_no_scene_file_is_one_line(
 def test_an_empty_name_is_told_as_such(capsys: pytest.CaptureFixture[str]) -> None:
     assert check([""]) == 2
     assert capsys.readouterr().out == "<scene>:1:1: this is an empty text, and no scene file's name\n"
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "cp1252"])
+def test_what_the_terminal_cannot_show_is_told_all_the_same(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, encoding: str
+) -> None:
+    path, said = tmp_path / "\u8349.yaml", TextIOWrapper(BytesIO(), encoding)
+    path.write_text(GOOD + "sed: 3\n", "utf-8")
+    monkeypatch.setattr(sys, "stdout", said)
+    monkeypatch.setattr(sys, "argv", ["tallgrass", "check", str(path)])
+    monkeypatch.setattr(signal, "signal", lambda *_: None)
+    with pytest.raises(SystemExit) as ended:
+        main()
+    said.seek(0)
+    assert ended.value.code == 2
+    assert said.read().startswith(f"{tmp_path}/\\u8349.yaml:3:1: unknown key 'sed'")

@@ -2,6 +2,7 @@
 
 import os
 import re
+import sys
 from importlib.metadata import EntryPoint, distributions, entry_points, version
 from pathlib import Path
 
@@ -72,6 +73,21 @@ def test_a_missing_requirement_is_told_with_its_line_and_an_optional_one_only_no
         ("no-such-film", "note"),
     ]
     assert (found[1].cure or "").endswith("-m pip install --upgrade 'no-such-grass[fast]>=1.2'")
+
+
+def test_on_windows_a_line_is_quoted_as_its_own_terminal_reads_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "platform", "win32")
+    monkeypatch.setattr(sys, "executable", r"C:\Program Files\Python\python.exe")
+    (found,) = packages(["no-such-grass[fast]>=1.2"])
+    assert found.cure == (r'"C:\Program Files\Python\python.exe" -m pip install --upgrade "no-such-grass[fast]>=1.2"')
+
+
+@pytest.mark.parametrize("platform", ["win32", "darwin"])
+def test_nobody_is_told_of_packages_where_there_are_none(platform: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "platform", platform)
+    for complaint in ("Cannot find OpenGL support library libGL", f"libEGL.so not loaded; {NO_DISPLAY}"):
+        assert cure(complaint) == "update the graphics driver"
+    assert cure("KeyError: 'grass'") is None
 
 
 def test_of_what_is_optional_it_is_told_what_needs_it() -> None:

@@ -195,13 +195,18 @@ def test_a_folder_that_is_a_file_is_no_error(tmp_path: Path, grows: list[Any]) -
 
 
 @pytest.mark.usefixtures("grows")
-def test_a_place_where_nothing_can_be_written_is_no_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_place_where_nothing_can_be_written_is_told_once_and_no_error(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
     def refuse(*_args: Any, **_options: Any) -> Never:
         raise PermissionError(13, "Permission denied")
 
     monkeypatch.setattr(tempfile, "mkstemp", refuse)
-    assert cached_growth(KIND, SMALL, seed=5, folder=tmp_path) is GROWN
+    for _ in range(2):
+        assert cached_growth(KIND, SMALL, seed=5, folder=tmp_path) is GROWN
     assert stored(tmp_path) == []
+    (told,) = caplog.messages
+    assert told.startswith(f"what has been grown cannot be kept in {tmp_path} (Permission denied), so it is grown")
 
 
 @pytest.mark.usefixtures("grows")
@@ -242,7 +247,9 @@ def test_the_folder_is_where_people_say_it_is(monkeypatch: pytest.MonkeyPatch, t
 
 
 @pytest.mark.usefixtures("grows")
-def test_without_a_home_there_is_no_cache_and_no_error(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_a_home_there_is_no_cache_and_no_error(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
     def nowhere() -> Never:
         raise RuntimeError("Could not determine home directory.")
 
@@ -251,3 +258,6 @@ def test_without_a_home_there_is_no_cache_and_no_error(monkeypatch: pytest.Monke
     monkeypatch.setattr(Path, "home", nowhere)
     assert cache_folder() is None
     assert cached_growth(KIND, SMALL, seed=5) is GROWN
+    assert [told.partition(")")[0] for told in caplog.messages] == [
+        "what has been grown cannot be kept in a cache folder (there is no home folder"
+    ]
