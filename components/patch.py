@@ -112,7 +112,8 @@ class Patch:
 class Lod:
     """The level of detail of a patch for one viewer. `wanted` and `hold` may be written; the rest cannot.
 
-    Representations go by their names, `blades`, `strips` and `carpet`; None is none.
+    Representations go by their names, `blades`, `strips` and `carpet`; None is none. A patch that the viewer has left
+    behind has none and is not visible: after a leap its entity stays for a few frames.
     """
 
     __slots__ = ("_cell", "_levels", "_row")
@@ -131,13 +132,16 @@ class Lod:
 
     @property
     def distance(self) -> int:
-        """Discrete distance: 0 for the viewer's patch, 1 for its eight neighbours, and so on."""
-        return int(self._levels.distance[self._row])
+        """Discrete distance: 0 for the viewer's patch, 1 for its eight neighbours, and so on.
+
+        Of a patch that the viewer has left behind it is more than that of any other.
+        """
+        return int(self._levels.distance[self._row]) if self._is_there() else len(self._levels.distance)
 
     @property
     def visible(self) -> bool:
         """Whether the patch is inside the view cone."""
-        return bool(self._levels.visible[self._row])
+        return bool(self._levels.visible[self._row]) and self._is_there()
 
     @property
     def representation(self) -> str | None:
@@ -179,7 +183,7 @@ class Lod:
 
     def _name(self, numbers: NDArray[np.int8]) -> str | None:
         number = int(numbers[self._row])
-        return None if number < 0 else self._levels.names[number]
+        return None if number < 0 or not self._is_there() else self._levels.names[number]
 
     def _number(self, name: str | None) -> int:
         if name is None:
@@ -188,7 +192,12 @@ class Lod:
             raise ValueError(f"unknown representation {name!r}; there are {', '.join(self._levels.names)}")
         return self._levels.names.index(name)
 
+    def _is_there(self) -> bool:
+        """Return whether the row is still that of this patch."""
+        i, j = self._levels.cell[self._row].tolist()
+        return (i, j) == self._cell
+
     def _own_row(self) -> int:
-        if tuple(self._levels.cell[self._row].tolist()) != self._cell:
+        if not self._is_there():
             raise RuntimeError(f"the viewer '{self.viewer}' has left the patch {self._cell} behind")
         return self._row

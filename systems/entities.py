@@ -16,7 +16,7 @@ from .show.representation import Representation
 from .space.window import window_rows
 
 BATCH = 200
-"""Most entities made in one frame: otherwise a frame takes long when a viewer leaps."""
+"""Most entities made, and most deleted, in one frame: otherwise a frame takes long when a viewer leaps."""
 
 
 @dataclass(slots=True)
@@ -44,6 +44,7 @@ class PatchEntities:
         if outlook.generation != self.world.generation:
             outlook.generation = self.world.generation
             patches.entity[:] = 0
+            outlook.left.clear()
             for kept in outlook.kept.values():
                 kept.lose()
         for row in np.flatnonzero(np.isin(patches.entity, lost)).tolist() if lost else ():
@@ -53,20 +54,21 @@ class PatchEntities:
     def go_on(self, outlook: Outlook, fresh: NDArray[np.int32], /) -> None:
         """Delete the entities of rows that other patches are in now, and find out what grows there.
 
-        Patches that have none yet get theirs, the nearest first, `BATCH` of them at most.
+        Patches that have none yet get theirs, the nearest first; `BATCH` at most are made, and as many deleted.
         """
         patches = outlook.patches
-        left = patches.entity[fresh]
         if fresh.size:
+            left = patches.entity[fresh]
+            outlook.left.extend(left[left != 0].tolist())
             patches.entity[fresh] = 0
             for kept in outlook.kept.values():
                 kept.leave(fresh)
         if fresh.size or outlook.cleared != self.clearings.version:
             patches.grows[:] = self.clearings.spare(patches.cell)
             outlook.cleared = self.clearings.version
-        self._turn_over(outlook, left[left != 0].tolist())
+        self._turn_over(outlook)
 
-    def _turn_over(self, outlook: Outlook, left: list[int]) -> None:
+    def _turn_over(self, outlook: Outlook) -> None:
         """Make entities and delete those that are left, in turn.
 
         Python's collector sets in when many more objects have been made than deleted, and goes through the whole game.
@@ -74,6 +76,7 @@ class PatchEntities:
         patches = outlook.patches
         without = (patches.alive & (patches.entity == 0)).nonzero()[0]
         rows = without[np.argsort(patches.distance[without], kind="stable")[:BATCH]].tolist()
+        left, outlook.left[:] = outlook.left[:BATCH], outlook.left[BATCH:]
         for row, entity in zip_longest(rows, left):
             if row is not None:
                 self.make(outlook, row)

@@ -55,6 +55,9 @@ class Outlook:
     pace: Pace = field(default_factory=Pace)
     """How fast the viewer's time goes."""
 
+    left: list[int] = field(default_factory=list)
+    """Entities of patches that were left behind, and are still to be deleted."""
+
     cleared: int = -1
     """Version of the clearings that the patches stand for."""
 
@@ -140,7 +143,7 @@ class Outlooks:
         gone = self._all.pop(name, None)
         if gone is None or gone.generation != self._world.check():
             return  # what the whole world was cleared of: its numbers may be others' by now
-        for entity in gone.patches.entity[gone.patches.entity != 0].tolist():
+        for entity in (*gone.patches.entity[gone.patches.entity != 0].tolist(), *gone.left):
             self._world.delete(entity)
         for kept in gone.kept.values():
             kept.release(self._world)

@@ -230,6 +230,38 @@ def test_d2_who_leaps_before_all_are_entities_has_the_nearest_first_again(world:
     assert len(world) == (patches.entity != 0).sum() == 33 * 33
 
 
+def test_d2_after_a_leap_entities_go_a_batch_at_a_time_and_are_nowhere_to_be_seen_meanwhile(world: World) -> None:
+    tiled = Tiled(world, side=33)
+    for _ in range(6):
+        tiled.at(0, 0)
+    patches = tiled.patches
+    patches.visible[:], patches.representation[:] = True, 2
+    before = {entity: world.get(entity, Lod) for entity in patches.entity.tolist()}
+    assert all(lod.visible and lod.distance <= 16 for lod in before.values())
+    tiled.at(500, 0)
+    patches.visible[:], patches.representation[:] = True, 2
+    there = [lod for entity, lod in before.items() if esper.entity_exists(entity)]
+    assert len(there) == len(before) - BATCH
+    assert not any(lod.visible or lod.representation or lod.wanted for lod in there)
+    assert min(lod.distance for lod in there) > 16
+    for _ in range(6):
+        tiled.at(500, 0)
+    assert not any(map(esper.entity_exists, before))
+    assert len(world) == (patches.entity != 0).sum() == 33 * 33
+
+
+def test_d2_after_a_leap_what_is_still_to_go_is_forgotten_with_a_world_that_was_cleared(world: World) -> None:
+    tiled = Tiled(world, side=33)
+    for _ in range(6):
+        tiled.at(0, 0)
+    tiled.at(500, 0)
+    esper.clear_database()
+    for _ in range(6):
+        tiled.at(500, 0)
+    assert (tiled.patches.entity != 0).all()
+    assert len(world) == 33 * 33
+
+
 def test_d2_a_patch_that_is_asked_for_is_an_entity_at_once(world: World) -> None:
     tiled = Tiled(world, side=33)
     tiled.at(0, 0)
