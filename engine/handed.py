@@ -84,9 +84,9 @@ def must_be_step(thing: object, /) -> None:
     _must_be_seconds(thing, "a prairie advances", "by")
 
 
-def must_be_time(thing: object, /) -> None:
+def must_be_time(thing: object, what: str = "a wind is asked for", at: str = "at", /) -> None:
     """Raise TypeError for what is no number, ValueError for one that is no instant of a scene's."""
-    _must_be_seconds(thing, "a wind is asked for", "at")
+    _must_be_seconds(thing, what, at)
 
 
 def _must_be_seconds(thing: object, what: str, at: str) -> None:

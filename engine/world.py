@@ -108,6 +108,12 @@ class World:
         self._must_be_current()
         esper.add_component(entity, component)
 
+    def drop(self, entity: int, kind: type[object]) -> None:
+        """Take an entity's component of exactly this type away, if it has one."""
+        self._must_be_current()
+        if esper.has_component(entity, kind):
+            esper.remove_component(entity, kind)
+
     def get(self, entity: int, kind: type[Component]) -> Component:
         """Return an entity's component of exactly this type; KeyError if it has none."""
         self._must_be_current()

@@ -40,6 +40,7 @@ from .light.feature import Lighting
 from .mow.feature import Mowing
 from .painter import Painter
 from .pressers import Pressers
+from .saving import Saving
 from .screen import Screen
 from .site import Site, found_again, found_site, is_grown, outlook_on, settle_on
 from .space.window import as_places, cell_of
@@ -99,6 +100,7 @@ class Prairie:
         self.loaded, self.preset, self._clock, self._released = loaded, preset, 0.0, False
         self._mown, self._shining = one(Mowing, self.features).mown, one(Lighting, self.features).shining
         screen = Screen(ctx, self.features, self.winds.quarantine, linear=linear)
+        self._saving = Saving(self.world, self.winds, self.pressers, self._mown, self.clearings, self._shining)
         self._assembly = Assembly(self.world, self.viewers, self.clearings, self.winds, self.pressers, screen)
         self._built = self._assembly.on(self.site)
         for phase, name, system in self._built:
@@ -159,8 +161,21 @@ class Prairie:
 
     @property
     def time(self) -> float:
-        """The scene's time [s], to the nearest microsecond: however it was cut into steps, it is the same instant."""
+        """The scene's time [s], to the nearest microsecond: however it was cut into steps, it is the same instant.
+
+        It may be set: all that the scene declares is then as at that time, for viewers at once. What is cut stays cut;
+        going back, what a game's own pressers have trodden is forgotten. Raises the errors of `wind_at` for no time.
+        """
         return round(self._clock, 6)
+
+    @time.setter
+    def time(self, time: float) -> None:
+        must_be_time(time, "a prairie's time is set", "to")
+        if time < self._clock:
+            self.pressers.go_back()
+        self._clock = float(time)
+        self.winds.quarantine.let_back(self.time)
+        self.viewers.begin_anew()
 
     def advance(self, dt: float) -> None:
         """Move time on by `dt` [s]: ValueError below 0 and above 1e9 s, TypeError for what is no number."""
@@ -373,6 +388,25 @@ class Prairie:
     def is_grown(self, loaded: LoadedScene) -> bool:
         """Return whether all the grass and the ground of another reading of the scene is there already."""
         return is_grown(self.site, loaded.scene, preset=self.preset)
+
+    def state(self) -> bytes:
+        """Return all that a game has done, for `restore`: a few bytes to keep in a file.
+
+        Raises ValueError for a wind whose class nobody has registered, RuntimeError after `release`.
+        """
+        self._must_be_there("save it")
+        return self._saving.state(self.site, time=self.time)
+
+    def restore(self, state: bytes) -> dict[int, int]:
+        """Bring back what `state` returned; return which entity each wind and presser of a game's in it is now.
+
+        Every viewer begins anew. Raises ValueError for a state of another scene or format and for one that has been
+        altered, and then nothing has changed; TypeError for no bytes, RuntimeError after `release`.
+        """
+        self._must_be_there("restore a state")
+        self._clock, entities = self._saving.restore(state, self.site, self.loaded)
+        self.viewers.begin_anew()
+        return entities
 
     def release(self) -> None:
         """Give back everything: GL objects in every window, places in batches, entities, and what `install` added.

@@ -1,7 +1,7 @@
 """The pressers of a prairie: whose entities they are, the ways they have come, and what grass feels of them."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil, floor, pi
 from typing import Self
 
@@ -14,6 +14,7 @@ from ..components.presser import Presser
 from ..engine.declared.presser import PresserOnPath
 from ..engine.declared.scene import Scene
 from ..engine.declared.way import Waypoint
+from ..engine.handed import is_somewhere
 from ..engine.world import World
 from .around.outlook import Outlook
 from .frame.block import FrameBlock
@@ -22,8 +23,8 @@ from .grow.record import Growth
 from .press.card import PressPart
 from .press.lie import laid_over, pressed, recoveries, touches
 from .press.marks import UNTRODDEN, Memory, Trodden
-from .press.trail import SCENES, Trail
-from .press.walk import Walk, Who, staying
+from .press.trail import SCENES, Stretches, Trail
+from .press.walk import Stand, Walk, Who, staying
 from .space.grown import Grown
 from .wind.blow import ReceiverArrays
 
@@ -37,6 +38,27 @@ RATE = 30
 
 EVERY = 60.0
 """How often the ways of those that a scene declares begin new stretches [s]: what is forgotten is not gone again."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Treading:
+    """What pressers have done so far, to go on from."""
+
+    walks: tuple[Stand, Stand]
+    """Those that the scene declares, whose entities are -1, -2 and so on in its order; and a game's own."""
+
+    kept: Stretches
+    since: float
+    """The marks that have settled, and when they did so last [s]."""
+
+    trodden: float | None
+    """The instant of what was trodden last [s], if anything was."""
+
+    anew: bool
+    """Whether those that the scene declares have their whole way still to go."""
+
+    declared: list[Presser | None]
+    """What those press with that the scene declares; None of one that a game has deleted."""
 
 
 class Pressers(Feature):
@@ -103,6 +125,55 @@ class Pressers(Feature):
         if self._come(_who(scenes), _rows([pose for _, _, pose in scenes]), time) or is_new:
             self.trodden = self._memory.at(time)
         return self.trodden
+
+    def go_back(self) -> None:
+        """Forget what has been trodden, as time goes back: those that the scene declares tread it anew."""
+        self._games, self.trodden = Walk(Trail()), UNTRODDEN
+        self._memory = Memory([self._scenes.trail, self._games.trail], self._memory.lasts)
+        self._begin_anew()
+
+    def games(self) -> list[tuple[int, Presser, Pose]]:
+        """Return a game's own pressers that are somewhere: their entities, and what these carry."""
+        every = self._world.both(Presser, Pose)
+        return [row for row in every if row[0] not in self._declared and is_somewhere(row[2])]
+
+    @property
+    def declared(self) -> list[int]:
+        """The entities of those that the scene declares, in its order; a game may have deleted some."""
+        return [*self._declared]
+
+    def treading(self) -> Treading:
+        """Return what has been done so far."""
+        numbers = {entity: -1 - number for number, entity in enumerate(self._declared)}
+        scenes, games = self._scenes.stand(), self._games.stand()
+        scenes = replace(scenes, who=[(numbers[entity], presser) for entity, presser in scenes.who])
+        there = dict(self._world.all(Presser))
+        return Treading(
+            (scenes, games), self._memory.kept, self._memory.since, self.trodden.time if self.trodden else None,
+            self._is_anew, [there.get(entity) for entity in self._declared],
+        )  # fmt: skip
+
+    def resume(self, treading: Treading, entities: Mapping[int, int]) -> None:
+        """Go on from what was done in a prairie of the same scene; `entities` are the game's own, by what they were."""
+        self._go(0.0)  # what the scene declares are entities, though the world was cleared
+        declared = dict[int, PresserOnPath]()
+        for (entity, path), presser in zip(self._declared.items(), treading.declared, strict=True):
+            is_there, now = self._world.has(entity), entity
+            if presser is None and is_there:
+                self._world.delete(entity)
+            elif presser is not None:
+                now = entity if is_there else self._world.create(path.pose(time=0.0))
+                self._world.add(now, presser)
+            declared[now] = path
+        self._declared, numbers = declared, [*declared]
+        self._scenes, self._games = Walk(Trail(begun=SCENES, every=EVERY)), Walk(Trail())
+        scenes, games = treading.walks
+        self._scenes.resume(scenes, [(numbers[-1 - number], presser) for number, presser in scenes.who])
+        self._games.resume(games, [(entities.get(entity, entity), presser) for entity, presser in games.who])
+        self._memory = Memory([self._scenes.trail, self._games.trail], self._memory.lasts)
+        self._memory.resume(treading.kept, treading.since)
+        self._is_anew = treading.anew
+        self.trodden = UNTRODDEN if treading.trodden is None else self._memory.at(treading.trodden)
 
     def over(self, message: Floats, receivers: ReceiverArrays, /) -> Floats:
         """Return messages of the wind (n, 2) to receivers where grass is pressed as well, shape (n, 2).

@@ -157,6 +157,21 @@ class Winds(Feature):
         self._clock = time
         self.quarantine.let_back(time)
 
+    @property
+    def declared(self) -> list[int]:
+        """The entities of the winds that the scene declares, in its order; a game may have deleted some."""
+        return [*self._declared]
+
+    @property
+    def added(self) -> list[int]:
+        """The entities of those that a game has added and that are still there."""
+        return [entity for entity in self._added if self._is_there(entity)]
+
+    def take(self, declared: Sequence[int], added: Sequence[int]) -> None:
+        """Take these entities for those that the scene declares, and for those that a game has added."""
+        generation = self._world.check()
+        self._declared, self._added = [*declared], dict.fromkeys(added, generation)
+
     def sources(self) -> list[WindSource]:
         """Return the winds there are."""
         self._revive()

@@ -1,5 +1,7 @@
 """Clearings: patches whose grass a game has taken away."""
 
+from collections.abc import Iterable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -25,6 +27,16 @@ class Clearings:
     def restore(self, cell: Cell, /) -> None:
         """Give the grass of a cell back."""
         self._cells.discard(cell)
+        self.version += 1
+
+    @property
+    def cells(self) -> frozenset[Cell]:
+        """The cells that are cleared."""
+        return frozenset(self._cells)
+
+    def resume(self, cells: Iterable[Cell], /) -> None:
+        """Let just these cells be cleared."""
+        self._cells = set(cells)
         self.version += 1
 
     def spare(self, cells: NDArray[np.int32], /) -> NDArray[np.bool_]:

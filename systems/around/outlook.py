@@ -50,7 +50,7 @@ class Outlook:
     """Patches that were seen to change their representation in this frame, or to be changing it."""
 
     drawn_at: float | None = None
-    """The instant that it saw last [s]; None before the first."""
+    """The instant that it saw last [s]; None before the first, and where time has leapt."""
 
     pace: Pace = field(default_factory=Pace)
     """How fast the viewer's time goes."""
@@ -92,7 +92,7 @@ class Outlook:
         """Look from where two matrices say, at an instant [s]; who comes farther than `leap` [m] has jumped."""
         viewer, eye = self.viewer, view.eye
         viewer.way = float(np.hypot(eye[0] - viewer.eye[0], eye[2] - viewer.eye[2]))
-        viewer.jumped = viewer.way > leap
+        viewer.jumped = viewer.way > leap or self.drawn_at is None
         viewer.eye, viewer.cone, viewer.time = eye, view_cone(view), time
         viewer.sides = picture_sides(view)
         self.lens.zoom = zoom_of(view)
@@ -137,6 +137,11 @@ class Outlooks:
             made.generation = self._world.check()
         self._looking = found = self._all[name]
         return found
+
+    def begin_anew(self) -> None:
+        """Let all viewers see what they see next as if they came from somewhere else: time has leapt."""
+        for outlook in self.values():
+            outlook.drawn_at, outlook.pace = None, Pace()
 
     def forget(self, name: str, /) -> None:
         """Forget a viewer, and delete the entities that were its own."""

@@ -50,7 +50,16 @@ class Shining:
 
     def declare(self, light: Light, /, *, time: float) -> None:
         """Let the light be what a scene says that was read again, all of it at once; its `hour` is that of time 0."""
-        self.ask(light, time=0.0)
+        self.resume(light, since=0.0, time=time)
+
+    @property
+    def asked(self) -> tuple[Light, float]:
+        """What is asked for, and the instant that its hour is that of [s]."""
+        return self._asked, self._since
+
+    def resume(self, light: Light, /, *, since: float, time: float) -> None:
+        """Let the light be what was asked for at another instant, all of it at once."""
+        self.ask(light, time=since)
         self.light = self.at(time)
         self._leap()
 

@@ -79,6 +79,13 @@ class Mown:
             left[on] = self.heights[cell[on, 1], cell[on, 0]]
         return left
 
+    def resume(self, heights: Floats | None) -> None:
+        """Let just this be cut, of the map's shape [m]; None is nothing."""
+        if heights is None and self.heights is None:
+            return
+        strokes, self.heights = self.strokes, np.full(self.shape, np.inf, np.float32) if heights is None else heights
+        self.changed[:] = strokes + 1
+
     def change(self, terrain: Terrain) -> None:
         """Take over another terrain: what was cut at a place stays cut there."""
         if (terrain.origin, (_cells(terrain.size[1]), _cells(terrain.size[0]))) == (self.origin, self.shape):

@@ -160,6 +160,21 @@ class Memory:
         self.trails[1].closed.append(kept[kept[:, SERIAL] >= 0.0])  # they settle again, among those of the other trail
         self._kept, self._since = Listed.of(kept[:0]), -1.0
 
+    @property
+    def kept(self) -> Stretches:
+        """The stretches that have settled, in the order in which they count."""
+        return self._kept.stretches
+
+    @property
+    def since(self) -> float:
+        """When marks settled last [s]."""
+        return self._since
+
+    def resume(self, kept: Stretches, since: float) -> None:
+        """Remember just these stretches, in this order, which settled last at `since` [s]."""
+        self._kept, self._since = Listed(kept, *_touched(kept)), since
+        self._settled = self._kept.marks(since=since) if len(kept) else NOTHING
+
     def at(self, time: float) -> Trodden:
         """Return what has been trodden by `time` [s], to which the trail has come."""
         if floor(time) != self._since:

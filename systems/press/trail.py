@@ -91,6 +91,15 @@ class Trail:
         opened[after], way[after] = self.open[before], self._way[before]
         self.open, self._way = opened, way
 
+    def resume(self, opened: Stretches, way: Doubles, closed: Stretches, begun: int) -> None:
+        """Go on from stretches that discs were on, how far each had come, those that are over, and their number."""
+        self.open, self._way, self.closed, self.begun = opened.copy(), way.copy(), [closed], begun
+
+    @property
+    def way(self) -> Doubles:
+        """How far each disc has come on its stretch [m]."""
+        return self._way
+
     def over(self) -> Stretches:
         """Return the stretches that have been closed, in one array."""
         if len(self.closed) != 1:

@@ -1,16 +1,36 @@
 """Walking: pressers that go together, from pose to pose, and the trail that their footprints leave."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
 from ...components.presser import Presser
 from .footprint import discs_of
-from .trail import Discs, Trail
+from .trail import Discs, Stretches, Trail
 
 Who = tuple[int, Presser]
 """An entity, and what it presses with: with another footprint it counts as somebody else."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stand:
+    """How far a walk has come, with its trail."""
+
+    who: list[Who]
+    pose: Doubles
+    """Their poses, shape (n, 3)."""
+
+    time: float
+    """The instant of those [s]."""
+
+    open: Stretches
+    way: Doubles
+    closed: Stretches
+    begun: int
+    """What its trail is made of, as `Trail` has it."""
 
 
 class Walk:
@@ -37,21 +57,38 @@ class Walk:
         self.trail.tread(self._stood(pose), time)
         return True
 
+    def stand(self) -> Stand:
+        """Return how far it has come."""
+        trail = self.trail
+        return Stand(self.who, self._pose, self.time, trail.open.copy(), trail.way.copy(), trail.over(), trail.begun)
+
+    def resume(self, stand: Stand, who: list[Who]) -> None:
+        """Go on from where a walk stood, with these in the place of those who went."""
+        self._arrange(who)
+        self._pose, self.time = stand.pose, stand.time
+        self.trail.resume(stand.open, stand.way, stand.closed, stand.begun)
+
     def _take(self, who: list[Who], pose: Doubles, time: float) -> None:
         """Take over other pressers; those that stay go on where they are."""
-        each = [discs_of(presser) for _, presser in who]
         first = {key: number for number, key in enumerate(self.who)}
-        counts = np.array([len(discs) for discs in each], np.intp)
-        starts, before_starts = np.cumsum(counts) - counts, np.flatnonzero(np.diff(self._owner, prepend=-1))
+        before_starts = np.flatnonzero(np.diff(self._owner, prepend=-1))
+        counts = self._arrange(who)
+        starts = np.cumsum(counts) - counts
         before, after = [np.zeros(0, np.intp)], [np.zeros(0, np.intp)]
         for number, key in enumerate(who):
             if key in first:
                 before.append(before_starts[first[key]] + np.arange(counts[number]))
                 after.append(starts[number] + np.arange(counts[number]))
+        self.trail.keep(np.concatenate(before), np.concatenate(after), self._stood(pose), time)
+
+    def _arrange(self, who: list[Who]) -> NDArray[np.intp]:
+        """Let these be who go, and return how many discs each has, shape (n,)."""
+        each = [discs_of(presser) for _, presser in who]
+        counts = np.array([len(discs) for discs in each], np.intp)
         self.who, self._owner = who, np.repeat(np.arange(len(who)), counts)
         self._discs = np.concatenate([np.zeros((0, 3)), *each])
         self._strength = np.array([presser.strength for _, presser in who])[self._owner]
-        self.trail.keep(np.concatenate(before), np.concatenate(after), self._stood(pose), time)
+        return counts
 
     def _stood(self, pose: Doubles) -> Discs:
         """Return where the discs of pressers with these poses (n, 3) are."""

@@ -164,9 +164,9 @@ class Quarantine:
                 raise self.leave_out(source, f"{what} returned numbers that are not finite")
 
     def let_back(self, now: float, /) -> None:
-        """Let slow winds back in whose wait is over `now`, on the prairie's clock [s]."""
-        self._now = now
-        for called in [called for called, (back, _) in self._back.items() if back <= now]:
+        """Let slow winds back in whose wait is over `now`, on the prairie's clock [s]; all where it has gone back."""
+        since, self._now = self._now, now
+        for called in [called for called, (back, _) in self._back.items() if back <= now or now < since]:
             _, why = self._back.pop(called)
             for source in [source for source, reason in self.reasons.items() if reason == why]:
                 if _called(source) == called:

@@ -28,7 +28,7 @@ def load(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) -> Ite
     """Load a scene from its text, or a bundled one by its name; all are released in the end."""
     loaded: list[Prairie] = []
 
-    def scene(text: str = BLOWN, **options: str) -> Prairie:
+    def scene(text: str = BLOWN, **options: object) -> Prairie:
         path: str | Path = text
         if "\n" in text:
             path = tmp_path_factory.mktemp("scene") / "scene.yaml"

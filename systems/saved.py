@@ -1,0 +1,197 @@
+"""A prairie's state as bytes: what a game has done to it, to be kept and brought back."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from hashlib import blake2b
+from io import BytesIO
+from typing import Any, NoReturn
+from zlib import compress, decompressobj
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field, ValidationError
+
+from ..components.declaration import Declaration, Pair, Triple
+from ..components.presser import Presser
+from ..engine.declared.light import Light
+from ..engine.memo import by_identity
+from .site import Site
+from .space.ground import Ground
+
+FORMAT = 1
+"""Version of what a state holds."""
+
+MAGIC = b"tallgrass state\n"
+"""What a state begins with."""
+
+_DIGEST = 20
+_MOST = 2**28
+"""Most bytes that a state comes to when it is unpacked."""
+
+Arrays = Mapping[str, NDArray[Any]]
+"""What a state holds of arrays, by name."""
+
+
+class SavedWind(Declaration):
+    """A wind that a game has made, or one of the scene's as a game has left it."""
+
+    entity: int
+    """The entity that it was."""
+
+    kind: str
+    name: str
+    values: dict[str, Any]
+    pose: Triple | None
+    """x, z [m] and yaw [rad], where its entity has a `Pose`."""
+
+
+class SavedShape(Declaration):
+    """What presses: the fields of a `Presser`."""
+
+    radius: float
+    length: float
+    corners: list[Pair]
+    strength: float
+
+    def presser(self) -> Presser:
+        """Return the presser; raises ValueError for what is none."""
+        corners = tuple((x, z) for x, z in self.corners)
+        return Presser(self.radius, self.length, corners, self.strength)
+
+
+class SavedPresser(Declaration):
+    """An entity of a game's that presses."""
+
+    entity: int
+    shape: SavedShape
+    pose: Triple
+    """x, z [m] and yaw [rad]."""
+
+
+class SavedWalk(Declaration):
+    """Pressers that have gone together; their trail and their poses are arrays."""
+
+    time: float = Field(ge=0.0, le=1e9)
+    """The instant to which they have come [s]."""
+
+    begun: int = Field(ge=-(2**40), le=2**40)
+    """The number of the way that begins next."""
+
+    who: list[tuple[int, SavedShape]]
+    """Their entities, and what they press with; -1 - n is the nth that the scene declares."""
+
+
+class SavedTreading(Declaration):
+    """What pressers have done; the marks are arrays."""
+
+    walks: list[SavedWalk] = Field(min_length=2, max_length=2)
+    """Those that the scene declares, and the game's."""
+
+    since: float = Field(ge=-1.0, le=1e9)
+    """When marks settled last [s]."""
+
+    trodden: float | None
+    """The instant of what was trodden last [s], if anything was."""
+
+    anew: bool
+    """Whether those that the scene declares have their whole way still to go."""
+
+    declared: list[SavedShape | None]
+    """What those press with that the scene declares; None of one that a game has deleted."""
+
+
+class State(Declaration):
+    """All of a state but its arrays."""
+
+    scene: str
+    """What tells its scene from others."""
+
+    time: float = Field(ge=0.0, le=1e9)
+    light: Light
+    light_since: float = Field(ge=0.0, le=1e9)
+    """The instant that the light's hour is that of [s]."""
+
+    declared: list[SavedWind | None]
+    """The winds that the scene declares; None where a game has deleted one."""
+
+    added: list[SavedWind]
+    winds: list[SavedWind]
+    """Entities of a game's that are winds."""
+
+    pressers: list[SavedPresser]
+    treading: SavedTreading
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Saved:
+    """A state as it is packed."""
+
+    state: State
+    arrays: Arrays
+
+
+def packed(saved: Saved, /) -> bytes:
+    """Return a state as bytes: what it is, a checksum, and the compressed rest."""
+    head = np.frombuffer(saved.state.model_dump_json().encode(), np.uint8)
+    file = BytesIO()
+    np.savez(file, allow_pickle=False, head=head, **saved.arrays)
+    body = FORMAT.to_bytes(2) + compress(file.getvalue(), 6)
+    return MAGIC + blake2b(body, digest_size=_DIGEST).digest() + body
+
+
+def unpacked(state: object, /) -> Saved:
+    """Return what bytes hold. Raises TypeError for what are no bytes, ValueError for what is no whole state of ours."""
+    if not isinstance(state, bytes | bytearray | memoryview):
+        raise TypeError(f"a state is the bytes that state() returned, not {type(state).__name__}")
+    data = bytes(state)
+    if not data.startswith(MAGIC):
+        raise ValueError("these bytes are no state of a prairie")
+    digest, body = data[len(MAGIC) :][:_DIGEST], data[len(MAGIC) + _DIGEST :]
+    if blake2b(body, digest_size=_DIGEST).digest() != digest:
+        raise ValueError("this state has been altered or is broken off")
+    version = int.from_bytes(body[:2])
+    if version != FORMAT:
+        raise ValueError(f"this state is of format {version}, and this release reads format {FORMAT}")
+    try:
+        unpacking = decompressobj()
+        plain = unpacking.decompress(body[2:], _MOST)
+        if unpacking.unconsumed_tail or not unpacking.eof:
+            refuse("it does not end where it should")
+        with np.load(BytesIO(plain), allow_pickle=False) as file:
+            arrays = {name: file[name] for name in file.files}
+        return Saved(State.model_validate_json(arrays.pop("head").tobytes()), arrays)
+    except ValidationError as error:
+        refuse(str(error.errors(include_url=False)[0]["msg"]))
+    except Exception as error:  # noqa: BLE001 - zlib, zipfile and numpy raise what they like on a file that was forged
+        refuse(str(error))
+
+
+def refuse(why: str, /) -> NoReturn:
+    """Raise ValueError for a state that cannot be right, though its checksum is."""
+    raise ValueError(f"this state cannot be right: {' '.join(why.split())[:200]}")
+
+
+def mark_of(site: Site, /) -> str:
+    """Return what tells a scene from others whose states are no use to it: all but camera, light and quality."""
+    told = json.loads(site.scene.model_dump_json(exclude={"camera", "light", "quality"}))
+    text = json.dumps([told, site.quality.patch, _ground_mark(site.ground)], sort_keys=True)
+    return blake2b(text.encode(), digest_size=_DIGEST).hexdigest()
+
+
+@by_identity(most=4)
+def _ground_mark(ground: Ground) -> str:
+    digest = blake2b(digest_size=_DIGEST)
+    for array in (ground.terrain.heights, ground.density.maps):
+        digest.update(np.ascontiguousarray(array).data)
+    return digest.hexdigest()
+
+
+def planes(heights: NDArray[np.float32], /) -> NDArray[np.uint8]:
+    """Return numbers byte by byte, all first bytes before all second ones, (4, n): they compress far better so."""
+    return np.ascontiguousarray(heights.reshape(-1).view(np.uint8).reshape(-1, 4).T)
+
+
+def from_planes(bytes_: NDArray[np.uint8], shape: tuple[int, int], /) -> NDArray[np.float32]:
+    """Return the numbers that `planes` took apart."""
+    return np.ascontiguousarray(bytes_.T).view(np.float32).reshape(shape)

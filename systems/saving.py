@@ -1,0 +1,281 @@
+"""Saving and restoring what a game has done to a prairie."""
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..components.arrays import Doubles, Floats
+from ..components.patch import Cell
+from ..components.pose import Pose
+from ..components.presser import Presser
+from ..components.wind import WindSource
+from ..engine.declared.scene import Reading
+from ..engine.handed import is_somewhere
+from ..engine.plugins import wind_kinds
+from ..engine.scene import LoadedScene
+from ..engine.world import World
+from .around.clearing import Clearings
+from .light.shining import Shining
+from .mow.mown import Mown
+from .press.footprint import discs_of
+from .press.trail import BEGUN, FIRST, LAST, LEFT, NUMBERS, REACH, Stretches
+from .press.walk import Stand
+from .pressers import Pressers, Treading
+from .saved import (
+    Arrays,
+    Saved,
+    SavedPresser,
+    SavedShape,
+    SavedTreading,
+    SavedWalk,
+    SavedWind,
+    State,
+    from_planes,
+    mark_of,
+    packed,
+    planes,
+    refuse,
+    unpacked,
+)  # fmt: skip
+from .site import Site
+from .winds import Winds
+
+WALKS = ("scenes", "games")
+"""How arrays of a state are called: of those that the scene declares, and of a game's own."""
+
+FARTHEST, WIDEST, LONGEST = 2e6, 31.0, 40.0
+"""What marks keep within: places, reaches, and the lengths of stretches [m]."""
+
+LATEST = 1e9
+"""Nor are they later than that, to either side of 0 [s]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Saving:
+    """What there is to be saved of a prairie, besides its time."""
+
+    world: World
+    winds: Winds
+    pressers: Pressers
+    mown: Mown
+    clearings: Clearings
+    shining: Shining
+
+    def state(self, site: Site, /, *, time: float) -> bytes:
+        """Return all that a game has done until `time` [s]. Raises ValueError for a wind whose kind nobody knows."""
+        self.winds.sources()
+        treading, marks = _treading(self.pressers.treading())
+        light, since = self.shining.asked
+        own = {*self.winds.declared, *self.winds.added}
+        state = State(
+            scene=mark_of(site),
+            time=time,
+            light=light,
+            light_since=since,
+            declared=self._winds(self.winds.declared),
+            added=[*filter(None, self._winds(self.winds.added))],
+            winds=[*filter(None, self._winds([each for each, _ in self.world.all(WindSource) if each not in own]))],
+            pressers=[
+                SavedPresser(entity=entity, shape=_shape(presser), pose=_numbers(pose))
+                for entity, presser, pose in self.pressers.games()
+            ],
+            treading=treading,
+        )
+        cleared = np.array(sorted(self.clearings.cells), np.int32).reshape(-1, 2)
+        mown = np.zeros((4, 0), np.uint8) if self.mown.heights is None else planes(self.mown.heights)
+        return packed(Saved(state, {"cleared": cleared, "mown": mown, **marks}))
+
+    def restore(self, data: object, site: Site, loaded: LoadedScene, /) -> tuple[float, dict[int, int]]:
+        """Bring a state back; return its time [s], and which entity each one of a game's that it holds is now.
+
+        Raises what `unpacked` raises, and ValueError for a state of another scene: then nothing has changed.
+        """
+        saved = unpacked(data)
+        state = saved.state
+        if state.scene != mark_of(site):
+            raise ValueError("this state is of another scene, or of this one before its ground, grass or winds changed")
+        if len(state.declared) != len(site.scene.wind) or len(state.treading.declared) != len(site.scene.pressers):
+            refuse("it has other winds or pressers than its scene")
+        kinds = Reading(wind=wind_kinds().find, folder=loaded.folder)
+        made = _Made(
+            {wind.entity: _source(wind, kinds) for wind in [*filter(None, state.declared), *state.added, *state.winds]},
+            _checked(state.treading, saved.arrays),
+            _mown(saved.arrays, self.mown.shape),
+            _cells(saved.arrays),
+        )
+        self.winds.sources()  # raises where another esper world is current
+        return state.time, self._bring(state, made)
+
+    def _bring(self, state: State, made: "_Made") -> dict[int, int]:
+        entities = self._bring_winds(state, made.sources)
+        there = {entity for entity, _, _ in self.pressers.games()}
+        for each in state.pressers:
+            entity = entities.get(each.entity, each.entity if each.entity in there else None)
+            parts = each.shape.presser(), Pose(*each.pose)
+            if entity is None:
+                entity = self.world.create(*parts)
+            else:
+                for part in parts:
+                    self.world.add(entity, part)
+            entities[each.entity] = entity
+        self.pressers.resume(made.treading, entities)
+        self.mown.resume(made.mown)
+        self.clearings.resume(made.cleared)
+        self.shining.resume(state.light, since=state.light_since, time=state.time)
+        return entities
+
+    def _bring_winds(self, state: State, sources: Mapping[int, WindSource]) -> dict[int, int]:
+        before = dict(self.world.all(WindSource))
+        declared, added = self.winds.declared, self.winds.added
+        kept, stay = list[int](), {wind.entity for wind in state.added}
+        for wind, entity in zip(state.declared, declared, strict=True):
+            is_there = entity in before
+            if wind is not None:
+                kept.append(self._put(wind, sources, entity if is_there else None))
+                continue
+            kept.append(entity)
+            if is_there:
+                self.world.delete(entity)
+        for entity in set(added) - stay:
+            self.world.delete(entity)
+        entities = dict[int, int]()
+        for wind in state.added:
+            entities[wind.entity] = self._put(wind, sources, wind.entity if wind.entity in added else None)
+        self.winds.take(kept, list(entities.values()))
+        own = {*declared, *added}
+        for wind in state.winds:
+            is_there = wind.entity in before and wind.entity not in own
+            entities[wind.entity] = self._put(wind, sources, wind.entity if is_there else None)
+        return entities
+
+    def _put(self, wind: SavedWind, sources: Mapping[int, WindSource], entity: int | None) -> int:
+        """Make an entity a wind as it was saved, or else a new one, and return it."""
+        source = sources[wind.entity]
+        entity = self.world.create(source) if entity is None else entity
+        self.world.add(entity, source)
+        if wind.pose is None:
+            self.world.drop(entity, Pose)
+        else:
+            self.world.add(entity, Pose(*wind.pose))
+        return entity
+
+    def _winds(self, entities: Sequence[int]) -> list[SavedWind | None]:
+        """Return some winds as they are saved; None for one that is gone, and for one that is nowhere."""
+        there = dict(self.world.all(WindSource))
+        return [
+            _wind(entity, there[entity], self.world.find(entity, Pose)) if entity in there else None
+            for entity in entities
+        ]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Made:
+    """What is made of a state before anything changes."""
+
+    sources: Mapping[int, WindSource]
+    """By the entities that they were."""
+
+    treading: Treading
+    mown: Floats | None
+    cleared: list[Cell]
+
+
+def _wind(entity: int, source: WindSource, pose: Pose | None) -> SavedWind | None:
+    if pose is not None and not is_somewhere(pose):
+        return None
+    wind = source.primitive
+    try:
+        known, values = wind_kinds().find(wind.kind), json.loads(wind.model_dump_json())
+    except Exception as error:  # a stranger's wind may raise anything
+        raise ValueError(f"the wind '{source.name}' cannot be saved: {error}") from error
+    if known is not type(wind):
+        raise ValueError(f"the wind '{source.name}' cannot be saved: another class is registered as '{wind.kind}'")
+    numbers = None if pose is None else _numbers(pose)
+    return SavedWind(entity=entity, kind=wind.kind, name=source.name, values=values, pose=numbers)
+
+
+def _source(wind: SavedWind, kinds: Reading) -> WindSource:
+    try:
+        made = kinds["wind"](wind.kind).model_validate_json(json.dumps(wind.values), context=kinds)
+    except Exception as error:  # as above; pydantic's own among them
+        raise ValueError(f"the wind '{wind.name}' of this state cannot be made: {error}") from error
+    return WindSource(made, wind.name)
+
+
+def _numbers(pose: Pose) -> list[float]:
+    return [float(number) for number in (pose.x, pose.z, pose.yaw)]
+
+
+def _shape(presser: Presser) -> SavedShape:
+    corners = [[float(x), float(z)] for x, z in presser.corners]
+    radius, length, strength = float(presser.radius), float(presser.length), float(presser.strength)
+    return SavedShape(radius=radius, length=length, corners=corners, strength=strength)
+
+
+def _treading(treading: Treading) -> tuple[SavedTreading, Arrays]:
+    """Return what pressers have done as it is saved."""
+    walks, arrays = list[SavedWalk](), {"kept": treading.kept}
+    for name, stand in zip(WALKS, treading.walks, strict=True):
+        who = [(entity, _shape(presser)) for entity, presser in stand.who]
+        walks.append(SavedWalk(time=stand.time, begun=stand.begun, who=who))
+        parts = {"pose": stand.pose, "open": stand.open, "way": stand.way, "closed": stand.closed}
+        arrays |= {f"{name}_{part}": array for part, array in parts.items()}
+    declared = [None if presser is None else _shape(presser) for presser in treading.declared]
+    saved = SavedTreading(
+        walks=walks, since=treading.since, trodden=treading.trodden, anew=treading.anew, declared=declared
+    )
+    return saved, arrays
+
+
+def _checked(saved: SavedTreading, arrays: Arrays) -> Treading:
+    """Return what pressers have done; raises ValueError for what cannot be."""
+    stands = []
+    for name, walk in zip(WALKS, saved.walks, strict=True):
+        who = [(entity, shape.presser()) for entity, shape in walk.who]
+        discs = sum(len(discs_of(presser)) for _, presser in who)
+        opened, way = _stretches(arrays, f"{name}_open", discs), _doubles(arrays, f"{name}_way", (discs,))
+        pose, closed = _doubles(arrays, f"{name}_pose", (len(who), 3)), _stretches(arrays, f"{name}_closed")
+        stands.append(Stand(who, pose, walk.time, opened, way, closed, walk.begun))
+    declared = [None if shape is None else shape.presser() for shape in saved.declared]
+    kept = _stretches(arrays, "kept")
+    return Treading((stands[0], stands[1]), kept, saved.since, saved.trodden, saved.anew, declared)
+
+
+def _doubles(arrays: Arrays, name: str, shape: tuple[int, ...]) -> Doubles:
+    """Return an array of this name and shape, -1 for any number; raises ValueError for another."""
+    array = arrays.get(name, np.zeros(()))
+    fits = array.ndim == len(shape) and all(due in (-1, n) for due, n in zip(shape, array.shape, strict=True))
+    if array.dtype != np.float64 or not fits or not np.isfinite(array).all():
+        refuse(f"there is something wrong with its {name}")
+    return array
+
+
+def _stretches(arrays: Arrays, name: str, count: int = -1) -> Stretches:
+    found = _doubles(arrays, name, (count, NUMBERS))
+    long = np.hypot(*(found[:, LAST] - found[:, FIRST]).T)
+    right = (np.abs(found[:, : LAST.stop]) <= FARTHEST).all() and (long <= LONGEST).all()
+    right = right and ((found[:, REACH] > 0.0) & (found[:, REACH] <= WIDEST)).all()
+    if not right or (np.abs(found[:, BEGUN : LEFT + 1]) > LATEST).any():
+        refuse(f"there is something wrong with its {name}")
+    return found
+
+
+def _mown(arrays: Arrays, shape: tuple[int, int]) -> Floats | None:
+    found = arrays.get("mown", np.zeros(0, np.uint8))
+    if found.dtype != np.uint8 or found.shape not in ((4, 0), (4, shape[0] * shape[1])):
+        refuse("what is cut has another size than its scene")
+    if not found.size:
+        return None
+    heights = from_planes(found, shape)
+    if not (heights >= 0.0).all():
+        refuse("something is cut to no height")
+    return heights
+
+
+def _cells(arrays: Arrays) -> list[Cell]:
+    found = arrays.get("cleared", np.zeros(0))
+    if found.dtype != np.int32 or found.ndim != 2 or found.shape[1] != 2:
+        refuse("there is something wrong with what is cleared")
+    return [(i, j) for i, j in found.tolist()]

@@ -1,0 +1,263 @@
+"""A prairie's state, saved and restored: the same wind, grass and light in another process, or a sentence (F4, N5)."""
+
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from hashlib import blake2b
+from pathlib import Path
+from time import process_time
+from typing import Any
+from zlib import compress, decompress
+
+import esper
+import numpy as np
+import pytest
+
+from tallgrass.components.arrays import Floats
+from tallgrass.components.footprint import Footprint
+from tallgrass.components.patch import Patch
+from tallgrass.components.pose import Pose
+from tallgrass.components.presser import Presser
+from tallgrass.components.wind import WindSource
+from tallgrass.engine.world import World
+from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.wind.blast import Blast
+from tallgrass.systems.wind.breeze import Breeze
+from tallgrass.systems.wind.gust import Gust
+from tallgrass.testing import watch
+
+SCENE: dict[str, Any] = {
+    "tallgrass": 2,
+    "terrain": {"size": [60, 60], "cell": 5.0},
+    "grass": {"green": {"height": [0.3, 0.5], "recovery": 8.0}, "dry": {"height": [0.4, 0.6]}},
+    "wind": [{"kind": "breeze", "strength": 0.3}, {"kind": "gust", "position": [-20, 0], "every": [3, 5]}],
+    "pressers": [{"path": [{"at": 0, "position": [-20, 3]}, {"at": 30, "position": [20, 3]}]}],
+    "light": {"hour": 9.0, "hours_per_minute": 6.0},
+    "quality": "low",
+}
+PLACES = np.random.default_rng(0).uniform(-25.0, 25.0, (600, 2)).astype(np.float32)
+HEAD = len(b"tallgrass state\n")
+
+Told = dict[str, Floats]
+
+
+@pytest.fixture
+def played(world: World) -> Iterator[Prairie]:
+    """A prairie in which a game has done everything that there is to do."""
+    del world
+    made = Prairie.load(SCENE)
+    walker = esper.create_entity(Presser(radius=0.8), Pose(0.0, -20.0))
+    cart = esper.create_entity(Presser(corners=((-1, -1), (1, -1), (1, 2))), Pose(-5.0, 10.0, 0.3))
+    esper.create_entity(WindSource(Breeze(strength=0.5, priority=3, start=2.0, stop=40.0), "mine"), Pose(2.0, 3.0))
+    made.add(Gust(position=[-20.0, 5.0], start=4.0), name="storm")
+    gone = made.add(Gust())
+    moved = made.add(Blast(strength=0.6), pose=Pose(5.0, 5.0))
+    made.remove(gone)
+    watch(made)
+    (cleared,) = made.patch_at([(0.0, 10.0)]).tolist()
+    esper.component_for_entity(cleared, Patch).grows = False
+    for number in range(40):
+        made.advance(0.2)
+        esper.add_component(walker, Pose(0.4 * number - 8.0, -20.0 + 0.2 * number))
+        esper.add_component(cart, Pose(-5.0, 10.0 - 0.4 * number, 0.3))
+        made.bent_at(PLACES[:1])
+    made.move(moved, Pose(5.0, 3.0))
+    watch(made)
+    made.cut(Footprint(radius=3.0), 0.1, pose=Pose(10.0, 10.0))
+    made.cut(Footprint(radius=2.0, length=9.0), 0.2, pose=Pose(12.0, 4.0, 0.7))
+    made.grow(Footprint(radius=1.0), pose=Pose(10.0, 10.0))
+    made.shine(clouds=0.5, hour=11.0)
+    made.advance(0.313)
+    yield made
+    made.release()
+
+
+def told(prairie: Prairie, *, on: float = 0.0) -> Told:
+    """What can be asked of a prairie, now and a while on."""
+    found: Told = {}
+    for later in (0.0, on):
+        prairie.advance(later)
+        found |= {
+            f"wind {later}": prairie.wind_at(PLACES),
+            f"bent {later}": prairie.bent_at(PLACES),
+            f"height {later}": prairie.grass_at(PLACES).height,
+            f"light {later}": np.array([prairie.light.hour, prairie.light.clouds, prairie.time]),
+        }
+    return found
+
+
+def assert_same(one: Told, other: Told) -> None:
+    for name, due in one.items():
+        np.testing.assert_array_equal(other[name], due, err_msg=name)
+
+
+def test_n5_a_state_brings_everything_back_to_the_bit_in_another_world(played: Prairie, world: World) -> None:
+    state, due = played.state(), told(played, on=2.5)
+    played.release()
+    esper.switch_world("another")
+    other = Prairie.load(SCENE)
+    entities = other.restore(state)
+    assert len(entities) == 5
+    assert_same(due, told(other, on=2.5))
+    assert played.clearings.cells == other.clearings.cells != frozenset()
+    other.release()
+    esper.switch_world(world.name)
+    esper.delete_world("another")
+
+
+PROGRAM = """
+import sys
+from pathlib import Path
+import numpy as np
+from tallgrass import Prairie
+scene, state, places, out = sys.argv[1:]
+prairie = Prairie.load(eval(scene))
+prairie.restore(Path(state).read_bytes())
+at = np.load(places)
+np.savez(out, wind=prairie.wind_at(at), bent=prairie.bent_at(at), height=prairie.grass_at(at).height)
+Path(state).write_bytes(prairie.state())
+"""
+
+
+def test_n5_a_state_brings_everything_back_to_the_bit_in_another_process(played: Prairie, tmp_path: Path) -> None:
+    state, places, out = tmp_path / "state", tmp_path / "places.npy", tmp_path / "out.npz"
+    state.write_bytes(played.state())
+    np.save(places, PLACES)
+    command = [sys.executable, "-W", "error", "-c", PROGRAM, repr(SCENE), str(state), str(places), str(out)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    with np.load(out) as found:
+        np.testing.assert_array_equal(found["wind"], played.wind_at(PLACES))
+        np.testing.assert_array_equal(found["bent"], played.bent_at(PLACES))
+        np.testing.assert_array_equal(found["height"], played.grass_at(PLACES).height)
+
+
+def test_what_was_done_since_is_undone_and_handles_hold(played: Prairie) -> None:
+    state, due = played.state(), told(played)
+    before = {entity for entity, _ in esper.get_component(WindSource)}
+    late = played.add(Breeze(strength=0.9, priority=9))
+    played.cut(Footprint(radius=9.0), 0.05)
+    played.advance(20.0)
+    played.shine(hour=3.0)
+    entities = played.restore(state)
+    assert all(now == then for then, now in entities.items())
+    assert {entity for entity, _ in esper.get_component(WindSource)} == before
+    assert_same(due, told(played))
+    with pytest.raises(ValueError, match="no wind has the handle"):
+        played.move(late, Pose())
+    storm = next(entity for entity, source in esper.get_component(WindSource) if source.name == "storm")
+    played.move(storm, Pose(1.0, 1.0))
+
+
+def test_a_wind_and_a_presser_of_the_scenes_that_a_game_has_deleted_stay_away(played: Prairie) -> None:
+    winds = [entity for entity, source in esper.get_component(WindSource) if source.name == "wind[0] breeze"]
+    for entity in (*winds, *played.pressers.declared):
+        esper.delete_entity(entity, immediate=True)
+    played.advance(0.1)
+    state, due = played.state(), told(played)
+    other = Prairie.load(SCENE)
+    other.restore(state)
+    assert "wind[0] breeze" not in [source.name for source in other.winds.sources()]
+    assert_same({"bent": due["bent 0.0"]}, {"bent": other.bent_at(PLACES)})
+    other.release()
+
+
+def test_a_state_is_small_and_comes_back_fast_after_an_hour_of_mowing(world: World) -> None:
+    del world
+    scene = SCENE | {"terrain": {"size": [400, 400], "cell": 5.0}}
+    made = Prairie.load(scene)
+    random = np.random.default_rng(1)
+    for _ in range(4000):
+        x, z = random.uniform(-190.0, 190.0, 2).tolist()
+        made.cut(Footprint(radius=0.5), float(random.choice([0.05, 0.06, 0.08])), pose=Pose(x, z))
+    state = made.state()
+    assert len(state) < 2_000_000
+    other = Prairie.load(scene)
+    begun = process_time()
+    other.restore(state)
+    assert process_time() - begun < 0.5
+    np.testing.assert_array_equal(other.grass_at(PLACES).height, made.grass_at(PLACES).height)
+    made.release()
+    other.release()
+
+
+def refused(prairie: Prairie, state: object, why: str) -> None:
+    due, before = told(prairie), prairie.state()
+    with pytest.raises(ValueError, match=why):
+        prairie.restore(state)  # type: ignore[arg-type]
+    assert prairie.state() == before
+    assert_same(due, told(prairie))
+
+
+def signed(body: bytes) -> bytes:
+    return b"tallgrass state\n" + blake2b(body, digest_size=20).digest() + body
+
+
+@pytest.mark.parametrize("keys", [{"terrain": {"size": [60, 50]}}, {"wind": []}, {"pressers": []}])
+def test_a_state_of_another_scene_is_refused_and_nothing_changes(played: Prairie, keys: dict[str, Any]) -> None:
+    other = Prairie.load(SCENE | keys)
+    refused(played, other.state(), r"^this state is of another scene, or of this one before its ground")
+    other.release()
+
+
+def test_a_state_serves_the_same_scene_in_other_light_and_another_camera(played: Prairie) -> None:
+    other = Prairie.load(SCENE | {"light": {"elevation": 10.0}, "camera": {"eye": 3.0}})
+    other.restore(played.state())
+    assert other.light == played.light
+    other.release()
+
+
+def test_what_is_no_state_of_this_release_is_refused_in_a_sentence(played: Prairie) -> None:
+    state = played.state()
+    refused(played, b"", "^these bytes are no state of a prairie$")
+    refused(played, b"PK" + state, "^these bytes are no state of a prairie$")
+    refused(played, state[:-1], "^this state has been altered or is broken off$")
+    refused(
+        played,
+        signed(b"\x00\x02" + state[HEAD + 22 :]),
+        r"^this state is of format 2, and this release reads format 1$",
+    )
+    with pytest.raises(TypeError, match=r"^a state is the bytes that state\(\) returned, not str$"):
+        played.restore("state")  # type: ignore[arg-type]
+
+
+def test_200_mutated_states_are_refused_and_nothing_changes(played: Prairie) -> None:
+    state, random = played.state(), np.random.default_rng(7)
+    due = told(played)
+    for number in range(200):
+        changed = bytearray(state)
+        for place in random.integers(0, len(state), random.integers(1, 4)).tolist():
+            changed[place] ^= 1 << int(random.integers(8))
+        if number % 3 == 0:
+            del changed[int(random.integers(len(changed))) :]
+        if bytes(changed) == state:
+            continue
+        with pytest.raises(ValueError, match=r"^(this state|these bytes) "):
+            played.restore(bytes(changed))
+    assert_same(due, told(played))
+
+
+def test_a_forged_state_is_refused_or_restored_and_never_a_traceback(played: Prairie) -> None:
+    plain, random = decompress(played.state()[HEAD + 22 :]), np.random.default_rng(1)
+    for _ in range(60):
+        changed = bytearray(plain)
+        for place in random.integers(0, len(plain), random.integers(1, 3)).tolist():
+            changed[place] = int(random.integers(256))
+        with suppress(ValueError):
+            played.restore(signed(b"\x00\x01" + compress(bytes(changed), 1)))
+            played.bent_at(PLACES[:20])
+
+
+def test_a_wind_that_nobody_could_make_again_is_named(played: Prairie, build: Callable[[], WindSource]) -> None:
+    esper.create_entity(build())
+    with pytest.raises(ValueError, match=r"^the wind 'odd' cannot be saved: "):
+        played.state()
+
+
+@pytest.fixture
+def build() -> Callable[[], WindSource]:
+    class Odd(Breeze):
+        """A wind that nobody has registered."""
+
+    return lambda: WindSource(Odd(kind="breeze"), "odd")
