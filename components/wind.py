@@ -242,8 +242,14 @@ def on_course(wind: WindPrimitive, before: WindPrimitive, /, *, time: float) -> 
     if course is None and rates == held:
         return wind
     course = course or Course.of(held)
+    run = course if rates == course.rates[-1] else course.changed(rates, time=time)
+    return with_course(wind, run, before.first)
+
+
+def with_course(wind: WindPrimitive, course: Course, first: WindPrimitive, /) -> WindPrimitive:
+    """Return a wind whose phases have run on a course, which was `first` before a game first changed their rates."""
     made = wind.model_copy()
-    made._run = course if rates == course.rates[-1] else course.changed(rates, time=time), before.first  # noqa: SLF001
+    made._run = course, first  # noqa: SLF001
     return made
 
 

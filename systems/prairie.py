@@ -42,8 +42,8 @@ from .painter import Painter
 from .pressers import Pressers
 from .saving import Saving
 from .screen import Screen
-from .site import Site, found_again, found_site, is_grown, outlook_on, settle_on
-from .space.window import as_places, cell_of
+from .site import Site, found_again, found_site, outlook_on, settle_on
+from .space.window import as_places
 from .standing import grass_at
 from .statistics import Statistics
 from .wind.quarantine import Quarantine
@@ -163,8 +163,8 @@ class Prairie:
     def time(self) -> float:
         """The scene's time [s], to the nearest microsecond: however it was cut into steps, it is the same instant.
 
-        It may be set: all that the scene declares is then as at that time, for viewers at once. What is cut stays cut;
-        going back, what a game's own pressers have trodden is forgotten. Raises the errors of `wind_at` for no time.
+        It may be set: all that the scene declares is as at that time then. Going back, what a game's own pressers have
+        trodden is forgotten; what is cut stays cut. Raises ValueError and TypeError for what is no time.
         """
         return round(self._clock, 6)
 
@@ -174,7 +174,7 @@ class Prairie:
         if time < self._clock:
             self.pressers.go_back()
         self._clock = float(time)
-        self.winds.quarantine.let_back(self.time)
+        self.winds.pass_to(self.time)
         self.viewers.begin_anew()
 
     def advance(self, dt: float) -> None:
@@ -257,7 +257,8 @@ class Prairie:
 
     def grass_at(self, xz: ArrayLike) -> GrassAt:
         """Return what grows at ground positions (x, z) [m], shape (n, 2), and how high it stands there now."""
-        return grass_at(self.site, self.clearings, self._mown, self._felt, as_places(xz))
+        felt = partial(self._assembly.felt_at, time=self.time)
+        return grass_at(self.site, self.clearings, self._mown, felt, as_places(xz))
 
     def wind_at(self, xz: ArrayLike, time: float | None = None, *, kind: str | None = None) -> Floats:
         """Return what grass at ground positions (x, z) [m], shape (n, 2), feels at `time` [s], or now.
@@ -277,7 +278,7 @@ class Prairie:
         has walked, they are the same. Every presser has come to where its `Pose` is now. Whether grass is cut, cleared
         or grows there at all makes no difference: `grass_at` tells. Raises ValueError for an unknown kind.
         """
-        return self._felt(as_places(xz), self.scene.number_of(kind))
+        return self._assembly.felt_at(as_places(xz), self.scene.number_of(kind), time=self.time)
 
     def patch_at(self, xz: ArrayLike, *, viewer: str = "main") -> NDArray[np.int64]:
         """Return the entity of the patch at each ground position (x, z) [m], shape (n, 2), as a viewer has it: (n,).
@@ -287,10 +288,7 @@ class Prairie:
         is no name.
         """
         must_be_viewer(viewer)
-        cells = cell_of(as_places(xz), patch=self.site.ground.patch)
-        if viewer not in self.viewers:
-            return np.zeros(len(cells), np.int64)
-        return self._assembly.entities(self.site).at(self.viewers[viewer], cells)
+        return self._assembly.patch_at(self.site, as_places(xz), viewer)
 
     def add(self, primitive: WindPrimitive, *, pose: Pose | None = None, name: str | None = None) -> int:
         """Add a wind and return its entity, a handle that `move` and `remove` take.
@@ -385,23 +383,15 @@ class Prairie:
         """
         return partial(found_again, self.site, self.loaded, loaded, preset=self.preset, lod=self.lod)
 
-    def is_grown(self, loaded: LoadedScene) -> bool:
-        """Return whether all the grass and the ground of another reading of the scene is there already."""
-        return is_grown(self.site, loaded.scene, preset=self.preset)
-
     def state(self) -> bytes:
-        """Return all that a game has done, for `restore`: a few bytes to keep in a file.
-
-        Raises ValueError for a wind whose class nobody has registered, RuntimeError after `release`.
-        """
+        """Return all that a game has done, for `restore`. Raises ValueError for a wind of a class not registered."""
         self._must_be_there("save it")
         return self._saving.state(self.site, time=self.time)
 
     def restore(self, state: bytes) -> dict[int, int]:
-        """Bring back what `state` returned; return which entity each wind and presser of a game's in it is now.
+        """Bring back what `state` returned, and return which entity each wind and presser of a game's in it is now.
 
-        Every viewer begins anew. Raises ValueError for a state of another scene or format and for one that has been
-        altered, and then nothing has changed; TypeError for no bytes, RuntimeError after `release`.
+        Raises ValueError for another scene's, another format's or an altered state: then nothing has changed.
         """
         self._must_be_there("restore a state")
         self._clock, entities = self._saving.restore(state, self.site, self.loaded)
@@ -423,10 +413,6 @@ class Prairie:
     def _must_be_there(self, purpose: str) -> None:
         if self._released:
             raise RuntimeError(f"this prairie has been released: load it again to {purpose}")
-
-    def _felt(self, place: Floats, kind: int | None) -> Floats:
-        self.pressers.note(self.time)
-        return self._assembly.felt(self.winds.standing(place, kind=kind), time=self.time)
 
     def _look(self, seen: View, viewer: str) -> Outlook:
         outlook = self.viewers.looking(viewer, partial(outlook_on, self.site))

@@ -15,7 +15,6 @@ from pydantic import Field, ValidationError
 from ..components.declaration import Declaration, Pair, Triple
 from ..components.presser import Presser
 from ..engine.declared.light import Light
-from ..engine.memo import by_identity
 from .site import Site
 from .space.ground import Ground
 
@@ -33,6 +32,18 @@ Arrays = Mapping[str, NDArray[Any]]
 """What a state holds of arrays, by name."""
 
 
+class SavedCourse(Declaration):
+    """How the phases of a wind have run whose rates a game has changed."""
+
+    times: list[float]
+    rates: list[list[float]]
+    offsets: list[list[float]]
+    """As `Course` has them."""
+
+    first: dict[str, Any]
+    """The values of the wind before that."""
+
+
 class SavedWind(Declaration):
     """A wind that a game has made, or one of the scene's as a game has left it."""
 
@@ -44,6 +55,8 @@ class SavedWind(Declaration):
     values: dict[str, Any]
     pose: Triple | None
     """x, z [m] and yaw [rad], where its entity has a `Pose`."""
+
+    course: SavedCourse | None
 
 
 class SavedShape(Declaration):
@@ -172,15 +185,18 @@ def refuse(why: str, /) -> NoReturn:
     raise ValueError(f"this state cannot be right: {' '.join(why.split())[:200]}")
 
 
-def mark_of(site: Site, /) -> str:
-    """Return what tells a scene from others whose states are no use to it: all but camera, light and quality."""
+def mark_of(site: Site, ground: str, /) -> str:
+    """Return what tells a scene from others whose states are no use to it: all but camera, light and quality.
+
+    `ground` is the mark of its ground.
+    """
     told = json.loads(site.scene.model_dump_json(exclude={"camera", "light", "quality"}))
-    text = json.dumps([told, site.quality.patch, _ground_mark(site.ground)], sort_keys=True)
+    text = json.dumps([told, site.quality.patch, ground], sort_keys=True)
     return blake2b(text.encode(), digest_size=_DIGEST).hexdigest()
 
 
-@by_identity(most=4)
-def _ground_mark(ground: Ground) -> str:
+def ground_mark(ground: Ground, /) -> str:
+    """Return what tells a ground from others."""
     digest = blake2b(digest_size=_DIGEST)
     for array in (ground.terrain.heights, ground.density.maps):
         digest.update(np.ascontiguousarray(array).data)

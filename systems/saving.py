@@ -3,14 +3,16 @@
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from ..components.arrays import Doubles, Floats
+from ..components.course import Course
 from ..components.patch import Cell
 from ..components.pose import Pose
 from ..components.presser import Presser
-from ..components.wind import WindSource
+from ..components.wind import WindPrimitive, WindSource, with_course
 from ..engine.declared.scene import Reading
 from ..engine.handed import is_somewhere
 from ..engine.plugins import wind_kinds
@@ -26,6 +28,7 @@ from .pressers import Pressers, Treading
 from .saved import (
     Arrays,
     Saved,
+    SavedCourse,
     SavedPresser,
     SavedShape,
     SavedTreading,
@@ -33,6 +36,7 @@ from .saved import (
     SavedWind,
     State,
     from_planes,
+    ground_mark,
     mark_of,
     packed,
     planes,
@@ -40,6 +44,7 @@ from .saved import (
     unpacked,
 )  # fmt: skip
 from .site import Site
+from .space.ground import Ground
 from .winds import Winds
 
 WALKS = ("scenes", "games")
@@ -52,7 +57,7 @@ LATEST = 1e9
 """Nor are they later than that, to either side of 0 [s]."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(slots=True, eq=False)
 class Saving:
     """What there is to be saved of a prairie, besides its time."""
 
@@ -62,6 +67,8 @@ class Saving:
     mown: Mown
     clearings: Clearings
     shining: Shining
+    _marked: tuple[Ground, str] | None = None
+    """The ground that was marked last, and its mark: it takes a while."""
 
     def state(self, site: Site, /, *, time: float) -> bytes:
         """Return all that a game has done until `time` [s]. Raises ValueError for a wind whose kind nobody knows."""
@@ -70,7 +77,7 @@ class Saving:
         light, since = self.shining.asked
         own = {*self.winds.declared, *self.winds.added}
         state = State(
-            scene=mark_of(site),
+            scene=self._mark(site),
             time=time,
             light=light,
             light_since=since,
@@ -94,13 +101,15 @@ class Saving:
         """
         saved = unpacked(data)
         state = saved.state
-        if state.scene != mark_of(site):
+        if state.scene != self._mark(site):
             raise ValueError("this state is of another scene, or of this one before its ground, grass or winds changed")
         if len(state.declared) != len(site.scene.wind) or len(state.treading.declared) != len(site.scene.pressers):
             refuse("it has other winds or pressers than its scene")
         kinds = Reading(wind=wind_kinds().find, folder=loaded.folder)
+        winds = [*filter(None, state.declared), *state.added, *state.winds]
         made = _Made(
-            {wind.entity: _source(wind, kinds) for wind in [*filter(None, state.declared), *state.added, *state.winds]},
+            {wind.entity: WindSource(_made(wind.kind, wind.values, kinds), wind.name) for wind in winds},
+            {wind.entity: _run(wind, wind.course, kinds) for wind in winds if wind.course is not None},
             _checked(state.treading, saved.arrays),
             _mown(saved.arrays, self.mown.shape),
             _cells(saved.arrays),
@@ -108,8 +117,14 @@ class Saving:
         self.winds.sources()  # raises where another esper world is current
         return state.time, self._bring(state, made)
 
+    def _mark(self, site: Site) -> str:
+        if self._marked is None or self._marked[0] is not site.ground:
+            self._marked = site.ground, ground_mark(site.ground)
+        return mark_of(site, self._marked[1])
+
     def _bring(self, state: State, made: "_Made") -> dict[int, int]:
-        entities = self._bring_winds(state, made.sources)
+        self.winds.pass_to(state.time)
+        entities = self._bring_winds(state, made)
         there = {entity for entity, _, _ in self.pressers.games()}
         for each in state.pressers:
             entity = entities.get(each.entity, each.entity if each.entity in there else None)
@@ -126,8 +141,8 @@ class Saving:
         self.shining.resume(state.light, since=state.light_since, time=state.time)
         return entities
 
-    def _bring_winds(self, state: State, sources: Mapping[int, WindSource]) -> dict[int, int]:
-        before = dict(self.world.all(WindSource))
+    def _bring_winds(self, state: State, made: "_Made") -> dict[int, int]:
+        before, sources = dict(self.world.all(WindSource)), made.sources
         declared, added = self.winds.declared, self.winds.added
         kept, stay = list[int](), {wind.entity for wind in state.added}
         for wind, entity in zip(state.declared, declared, strict=True):
@@ -143,11 +158,13 @@ class Saving:
         entities = dict[int, int]()
         for wind in state.added:
             entities[wind.entity] = self._put(wind, sources, wind.entity if wind.entity in added else None)
-        self.winds.take(kept, list(entities.values()))
+        own_now = list(entities.values())
         own = {*declared, *added}
         for wind in state.winds:
             is_there = wind.entity in before and wind.entity not in own
             entities[wind.entity] = self._put(wind, sources, wind.entity if is_there else None)
+        now = entities | {wind.entity: entity for wind, entity in zip(state.declared, kept, strict=True) if wind}
+        self.winds.take(kept, own_now, {now[entity]: wind for entity, wind in made.runs.items()})
         return entities
 
     def _put(self, wind: SavedWind, sources: Mapping[int, WindSource], entity: int | None) -> int:
@@ -163,10 +180,10 @@ class Saving:
 
     def _winds(self, entities: Sequence[int]) -> list[SavedWind | None]:
         """Return some winds as they are saved; None for one that is gone, and for one that is nowhere."""
-        there = dict(self.world.all(WindSource))
+        there, runs = dict(self.world.all(WindSource)), self.winds.runs()
         return [
-            _wind(entity, there[entity], self.world.find(entity, Pose)) if entity in there else None
-            for entity in entities
+            _wind(each, there[each], self.world.find(each, Pose), runs.get(each)) if each in there else None
+            for each in entities
         ]
 
 
@@ -177,12 +194,15 @@ class _Made:
     sources: Mapping[int, WindSource]
     """By the entities that they were."""
 
+    runs: Mapping[int, WindPrimitive]
+    """Those whose phases have run on a course of their own, likewise."""
+
     treading: Treading
     mown: Floats | None
     cleared: list[Cell]
 
 
-def _wind(entity: int, source: WindSource, pose: Pose | None) -> SavedWind | None:
+def _wind(entity: int, source: WindSource, pose: Pose | None, run: WindPrimitive | None) -> SavedWind | None:
     if pose is not None and not is_somewhere(pose):
         return None
     wind = source.primitive
@@ -193,15 +213,34 @@ def _wind(entity: int, source: WindSource, pose: Pose | None) -> SavedWind | Non
     if known is not type(wind):
         raise ValueError(f"the wind '{source.name}' cannot be saved: another class is registered as '{wind.kind}'")
     numbers = None if pose is None else _numbers(pose)
-    return SavedWind(entity=entity, kind=wind.kind, name=source.name, values=values, pose=numbers)
+    course = None if run is None else _course(run)
+    return SavedWind(entity=entity, kind=wind.kind, name=source.name, values=values, pose=numbers, course=course)
 
 
-def _source(wind: SavedWind, kinds: Reading) -> WindSource:
+def _course(wind: WindPrimitive) -> SavedCourse | None:
+    course = wind.course
+    if course is None:
+        return None
+    rates, offsets = ([list(each) for each in part] for part in (course.rates, course.offsets))
+    first = json.loads(wind.first.model_dump_json())
+    return SavedCourse(times=list(course.times), rates=rates, offsets=offsets, first=first)
+
+
+def _made(kind: str, values: dict[str, Any], kinds: Reading) -> WindPrimitive:
     try:
-        made = kinds["wind"](wind.kind).model_validate_json(json.dumps(wind.values), context=kinds)
+        return kinds["wind"](kind).model_validate_json(json.dumps(values), context=kinds)
     except Exception as error:  # as above; pydantic's own among them
-        raise ValueError(f"the wind '{wind.name}' of this state cannot be made: {error}") from error
-    return WindSource(made, wind.name)
+        raise ValueError(f"a wind of this state, a {kind}, cannot be made: {error}") from error
+
+
+def _run(wind: SavedWind, saved: SavedCourse, kinds: Reading) -> WindPrimitive:
+    """Return a wind with the course of its phases; raises ValueError for none."""
+    made = _made(wind.kind, wind.values, kinds)
+    rates, offsets = (tuple(map(tuple, part)) for part in (saved.rates, saved.offsets))
+    widths = {len(each) for each in (*rates, *offsets)}
+    if not len(rates) == len(offsets) == len(saved.times) + 1 or widths != {len(made.rates())}:
+        refuse("a wind's phases have run at no rates")
+    return with_course(made, Course(tuple(saved.times), rates, offsets), _made(wind.kind, saved.first, kinds))
 
 
 def _numbers(pose: Pose) -> list[float]:

@@ -1,9 +1,9 @@
 """The winds of a prairie: whose entities they are, where they are now, and what grass feels of them."""
 
 import logging
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import count
 from math import inf
@@ -167,10 +167,21 @@ class Winds(Feature):
         """The entities of those that a game has added and that are still there."""
         return [entity for entity in self._added if self._is_there(entity)]
 
-    def take(self, declared: Sequence[int], added: Sequence[int]) -> None:
-        """Take these entities for those that the scene declares, and for those that a game has added."""
+    def runs(self) -> dict[int, WindPrimitive]:
+        """Return the winds whose rates a game has changed, with the courses of their phases, by entity."""
+        self._standing(self._clock)
+        return {entity: known.wind for entity, known in self._known.items() if known.wind.course is not None}
+
+    def take(self, declared: Sequence[int], added: Sequence[int], runs: Mapping[int, WindPrimitive]) -> None:
+        """Take these entities for those that the scene declares, and for those that a game has added.
+
+        `runs` are winds of a game's, by entity, whose phases have run on a course of their own.
+        """
         generation = self._world.check()
         self._declared, self._added = [*declared], dict.fromkeys(added, generation)
+        there = dict(self._world.all(WindSource))
+        known = {entity: (self._noted(there[entity], None), wind) for entity, wind in runs.items()}
+        self._known = {entity: replace(each, wind=wind) for entity, (each, wind) in known.items()}
 
     def sources(self) -> list[WindSource]:
         """Return the winds there are."""

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from ...engine.scene import LoadedScene, SceneError
 from ...systems.prairie import Prairie
-from ...systems.site import Site
+from ...systems.site import Site, is_grown
 
 SLOW = ("terrain", "grass", "seed", "quality")
 """The keys of a scene that may need something to grow."""
@@ -32,7 +32,7 @@ class Remaking:
 
         Raises SceneError with every problem of its maps that can be told at once, and then nothing has changed.
         """
-        if self._prairie.is_grown(loaded):
+        if is_grown(self._prairie.site, loaded.scene, preset=self._prairie.preset):
             self._prairie.reload(loaded)
             self._wanted = None
             return

@@ -21,7 +21,7 @@ def pick(terrain: Terrain, origin: Doubles, direction: Doubles, /, *, farthest: 
     ground meets it where it begins. Beyond the terrain the height of its nearest edge holds, as for `height_at`.
     """
     found = np.full((len(origin), 3), np.nan, np.float32)
-    lowest, highest = float(terrain.heights.min()) - _MARGIN, float(terrain.heights.max()) + _MARGIN
+    lowest, highest = terrain.span[0] - _MARGIN, terrain.span[1] + _MARGIN
     for number, (start, way) in enumerate(zip(origin, direction, strict=True)):
         along = way / np.linalg.norm(way)
         along[np.abs(along) < _SAME] = 0.0

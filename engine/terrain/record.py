@@ -1,6 +1,6 @@
 """Terrain and density as arrays over the ground."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,13 @@ class Terrain:
 
     cell: float
     """Metres per cell."""
+
+    span: tuple[float, float] = field(init=False)
+    """The lowest and the highest of the heights [m]."""
+
+    def __post_init__(self) -> None:
+        """Look through the heights once."""
+        object.__setattr__(self, "span", (float(self.heights.min()), float(self.heights.max())))
 
     @property
     def size(self) -> tuple[float, float]:

@@ -43,7 +43,7 @@ class LieMap:
         lie.repeat_x = lie.repeat_y = False
         self._textures = [lie, laid_over(self.ctx, slow_map(terrain, seed=seed))]
         self._target = self.ctx.framebuffer([lie])
-        self._before["highest"] = float(terrain.heights.max())
+        self._before["highest"] = terrain.span[1]
         self._rows, self._columns, self._is_new = rows, columns, True
         self.leap()
 

@@ -25,13 +25,19 @@ from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.wind.blast import Blast
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust
+from tallgrass.systems.wind.turbulence import Turbulence
 from tallgrass.testing import watch
 
 SCENE: dict[str, Any] = {
     "tallgrass": 2,
     "terrain": {"size": [60, 60], "cell": 5.0},
     "grass": {"green": {"height": [0.3, 0.5], "recovery": 8.0}, "dry": {"height": [0.4, 0.6]}},
-    "wind": [{"kind": "breeze", "strength": 0.3}, {"kind": "gust", "position": [-20, 0], "every": [3, 5]}],
+    "wind": [
+        {"kind": "breeze", "strength": 0.3},
+        {"kind": "gust", "position": [-20, 0], "every": [3, 5]},
+        {"kind": "turbulence", "strength": 0.3, "speed": 3.0},
+    ],
+    "mixing": "weight",
     "pressers": [{"path": [{"at": 0, "position": [-20, 3]}, {"at": 30, "position": [20, 3]}]}],
     "light": {"hour": 9.0, "hours_per_minute": 6.0},
     "quality": "low",
@@ -49,7 +55,9 @@ def played(world: World) -> Iterator[Prairie]:
     made = Prairie.load(SCENE)
     walker = esper.create_entity(Presser(radius=0.8), Pose(0.0, -20.0))
     cart = esper.create_entity(Presser(corners=((-1, -1), (1, -1), (1, 2))), Pose(-5.0, 10.0, 0.3))
-    esper.create_entity(WindSource(Breeze(strength=0.5, priority=3, start=2.0, stop=40.0), "mine"), Pose(2.0, 3.0))
+    esper.create_entity(
+        WindSource(Breeze(strength=0.5, priority=3, weight=0.5, start=2.0, stop=40.0), "mine"), Pose(2.0, 3.0)
+    )
     made.add(Gust(position=[-20.0, 5.0], start=4.0), name="storm")
     gone = made.add(Gust())
     moved = made.add(Blast(strength=0.6), pose=Pose(5.0, 5.0))
@@ -64,6 +72,8 @@ def played(world: World) -> Iterator[Prairie]:
         made.bent_at(PLACES[:1])
     made.move(moved, Pose(5.0, 3.0))
     watch(made)
+    ramped = next(entity for entity, source in esper.get_component(WindSource) if source.name == "wind[2] turbulence")
+    esper.add_component(ramped, WindSource(Turbulence(strength=0.3, speed=7.0), "wind[2] turbulence"))
     made.cut(Footprint(radius=3.0), 0.1, pose=Pose(10.0, 10.0))
     made.cut(Footprint(radius=2.0, length=9.0), 0.2, pose=Pose(12.0, 4.0, 0.7))
     made.grow(Footprint(radius=1.0), pose=Pose(10.0, 10.0))
