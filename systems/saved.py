@@ -104,7 +104,7 @@ class SavedTreading(Declaration):
     since: float = Field(ge=-1.0, le=1e9)
     """When marks settled last [s]."""
 
-    trodden: float | None
+    trodden: float | None = Field(ge=0.0, le=1e9)
     """The instant of what was trodden last [s], if anything was."""
 
     anew: bool

@@ -110,6 +110,7 @@ class Saving:
         made = _Made(
             {wind.entity: WindSource(_made(wind.kind, wind.values, kinds), wind.name) for wind in winds},
             {wind.entity: _run(wind, wind.course, kinds) for wind in winds if wind.course is not None},
+            {each.entity: each.shape.presser() for each in state.pressers},
             _checked(state.treading, saved.arrays),
             _mown(saved.arrays, self.mown.shape),
             _cells(saved.arrays),
@@ -128,7 +129,7 @@ class Saving:
         there = {entity for entity, _, _ in self.pressers.games()}
         for each in state.pressers:
             entity = entities.get(each.entity, each.entity if each.entity in there else None)
-            parts = each.shape.presser(), Pose(*each.pose)
+            parts = made.pressers[each.entity], Pose(*each.pose)
             if entity is None:
                 entity = self.world.create(*parts)
             else:
@@ -197,6 +198,9 @@ class _Made:
     runs: Mapping[int, WindPrimitive]
     """Those whose phases have run on a course of their own, likewise."""
 
+    pressers: Mapping[int, Presser]
+    """Those of a game's, likewise."""
+
     treading: Treading
     mown: Floats | None
     cleared: list[Cell]
@@ -233,12 +237,20 @@ def _made(kind: str, values: dict[str, Any], kinds: Reading) -> WindPrimitive:
         raise ValueError(f"a wind of this state, a {kind}, cannot be made: {error}") from error
 
 
+def _rates(wind: WindPrimitive) -> int:
+    try:
+        return len(wind.rates())
+    except Exception as error:  # as above
+        raise ValueError(f"a wind of this state, a {wind.kind}, cannot tell its rates: {error}") from error
+
+
 def _run(wind: SavedWind, saved: SavedCourse, kinds: Reading) -> WindPrimitive:
     """Return a wind with the course of its phases; raises ValueError for none."""
     made = _made(wind.kind, wind.values, kinds)
+    due = _rates(made)
     rates, offsets = (tuple(map(tuple, part)) for part in (saved.rates, saved.offsets))
     widths = {len(each) for each in (*rates, *offsets)}
-    if not len(rates) == len(offsets) == len(saved.times) + 1 or widths != {len(made.rates())}:
+    if not len(rates) == len(offsets) == len(saved.times) + 1 or widths != {due}:
         refuse("a wind's phases have run at no rates")
     return with_course(made, Course(tuple(saved.times), rates, offsets), _made(wind.kind, saved.first, kinds))
 
@@ -278,6 +290,8 @@ def _checked(saved: SavedTreading, arrays: Arrays) -> Treading:
         pose, closed = _doubles(arrays, f"{name}_pose", (len(who), 3)), _stretches(arrays, f"{name}_closed")
         stands.append(Stand(who, pose, walk.time, opened, way, closed, walk.begun))
     declared = [None if shape is None else shape.presser() for shape in saved.declared]
+    if not all(-len(declared) <= number < 0 for number, _ in stands[0].who):
+        refuse("others walk in it than its scene declares")
     kept = _stretches(arrays, "kept")
     return Treading((stands[0], stands[1]), kept, saved.since, saved.trodden, saved.anew, declared)
 
