@@ -48,7 +48,7 @@ class Painter:
         self.ctx, self.quarantine = ctx, quarantine
         self.block, self.received = FrameBlock(ctx), Received(ctx)
         self.record = np.zeros(1, FRAME)
-        self.record["sun"][:, 3] = linear
+        self.record["writes_raw"] = linear
         self.parts = [each.part(ctx, self.block, UNITS) for each in features]
         self.painters: dict[str, RepresentationPainter] = {}
         """Those of the representations by their names, from the finest."""

@@ -30,8 +30,7 @@ vec2 swayed(vec2 place) {
 
 vec3 light(int k, float t, vec2 normal, vec3 place, float h, vec2 bent) {
     Lie lies = lie_at(place.xz);
-    vec2 twice = vec2(normal.x * normal.x - normal.y * normal.y, 2.0 * normal.x * normal.y);
-    vec3 grass = mix(root[k].rgb, tip[k].rgb, t) * (1.0 + grain_c[k].rgb * twice.x + grain_s[k].rgb * twice.y);
+    vec3 grass = pigment_at(k, t) * grain_at(k, doubled(normal));
     Light reaches = veiled(light_on(k, bent, place, lies, grows_at(place.xz)), place);
     return shown_of(shade(leaf_at(grass * stretch(lies.slow), h), reaches));
 }
@@ -42,10 +41,10 @@ void main() {
     int number = min(int(tile.w) + gl_InstanceID % CHUNK, many - 1);
     int at = 3 * (int(tile.z) * many + number);
     vec4 stem = texel(blades, at), lean = texel(blades, at + 1), sort = texel(blades, at + 2);
-    vec2 part = stem.xy / soil.w;
+    vec2 part = stem.xy / patch_side;
     float ground = mix(mix(corners.x, corners.y, part.x), mix(corners.z, corners.w, part.x), part.y);
     vec3 foot = vec3(tile.x + stem.x, ground, tile.y + stem.y);
-    float share = min(full / distance(foot, eye.xyz), 1.0);
+    float share = min(full / distance(foot, eye), 1.0);
     int k = int(sort.x);
     color = vec3(0.0);
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
@@ -59,7 +58,7 @@ void main() {
     vec2 across = vec2(-lean.w, lean.z) * (float(gl_VertexID % 2) * 2.0 - 1.0);
     float h = spine.y / (OF(crown, k) * lodged(message));
     color = light(k, t, lean.zw + ROUNDED * across, foot, h, message);
-    across *= 0.5 * stem.w / share * pow(1.0 - t, tip[k].w);
+    across *= 0.5 * stem.w / share * pow(1.0 - t, kinds[k].taper);
     vec2 over = normalize(bend + 1e-6) * spine.x + across;
     gl_Position = clip * vec4(foot.x + over.x, foot.y + spine.y, foot.z + over.y, 1.0);
 }

@@ -4,7 +4,9 @@ A shader takes them by `#include "systems/light/color.py"`: they are that module
 numbers, or lines of GLSL.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+
+import numpy as np
 
 Number = float | int | tuple[float, ...]
 
@@ -25,3 +27,75 @@ def _line(name: str, number: Number) -> str:
         kind = f"vec{len(number)}"
         return f"const {kind} {name} = {kind}({', '.join(repr(float(each)) for each in number)});\n"
     return f"#define {name} {number}\n" if isinstance(number, int) else f"const float {name} = {number!r};\n"
+
+
+def struct(name: str, record: np.dtype[np.void], /) -> str:
+    """Return the GLSL struct of a record of float32 fields: numbers, vectors, and lists of vectors or of records."""
+    return f"struct {name} {{\n{_members(record)}}};\n"
+
+
+def block(name: str, record: np.dtype[np.void], /) -> str:
+    """Return the uniform block of a record, laid out as std140 has it, and the structs of what it has lists of.
+
+    Raises `ValueError` where a field does not lie where std140 puts it.
+    """
+    structs, at = "", 0
+    for field in record.names or ():
+        kind, offset = record[field], _offset(record, field)
+        if kind.base.names:
+            structs += struct(field.capitalize(), kind.base)
+        at += 0 if _is_padding(kind) else -at % _alignment(kind)
+        if at != offset:
+            raise ValueError(f"{name}.{field} is at {offset}, and std140 has it at {at}")
+        at += kind.itemsize
+    return f"{structs}layout(std140) uniform {name} {{\n{_members(record)}}};\n"
+
+
+def looked_up(name: str, record: np.dtype[np.void], sampler: str, per_row: int, /) -> str:
+    """Return GLSL that looks records up by number in a texture, `per_row` in a row: `name_of` returns a `Name`."""
+    texels, values = record.itemsize // 16, []
+    for field in record.names or ():
+        texel, first = divmod(_offset(record, field) // 4, 4)
+        count = record[field].itemsize // 4
+        if first + count > 4:
+            raise ValueError(f"{name}.{field} lies in two texels")
+        values.append(f"part{texel}.{'xyzw'[first : first + count]}")
+    fetched = "".join(
+        f"    vec4 part{texel} = texelFetch({sampler}, at + ivec2({texel}, 0), 0);\n" for texel in range(texels)
+    )
+    return (
+        f"{struct(name, record)}uniform sampler2D {sampler};\n{name} {name.lower()}_of(int number) {{\n"
+        f"    ivec2 at = ivec2(number % {per_row} * {texels}, number / {per_row});\n{fetched}"
+        f"    return {name}({', '.join(values)});\n}}\n"
+    )
+
+
+def _offset(record: np.dtype[np.void], field: str) -> int:
+    fields = record.fields
+    assert fields is not None
+    return fields[field][1]
+
+
+_KINDS: Sequence[str] = ("float", "vec2", "vec3", "vec4")
+
+
+def _members(record: np.dtype[np.void]) -> str:
+    fields = ((name, record[name]) for name in record.names or ())
+    return "".join(f"    {_member(name, kind)}\n" for name, kind in fields if not _is_padding(kind))
+
+
+def _member(name: str, kind: np.dtype[np.void]) -> str:
+    if kind.base.names:
+        return f"{name.capitalize()} {name}[{kind.shape[0]}];"
+    if kind.shape == (16,):
+        return f"mat4 {name};"
+    many = f"[{kind.shape[0]}]" if len(kind.shape) == 2 else ""
+    return f"{_KINDS[(kind.shape[-1] if kind.shape else 1) - 1]} {name}{many};"
+
+
+def _is_padding(kind: np.dtype[np.void]) -> bool:
+    return kind.base.kind == "V" and not kind.base.names
+
+
+def _alignment(kind: np.dtype[np.void]) -> int:
+    return {(): 4, (2,): 8}.get(kind.shape, 16)

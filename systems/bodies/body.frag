@@ -19,15 +19,15 @@ out vec4 pixel;
 // Radiance of grass in this light, seen from above: the pigment at this part of its blades.
 vec3 meadow(float at) {
     vec3 pigment = pigment_at(0, at);
-    return pigment * pigment * (0.6 * sunlight.rgb * max(sun.y, 0.2) + 0.8 * skylight.rgb);
+    return pigment * pigment * (0.6 * sunlight * max(sun.y, 0.2) + 0.8 * skylight);
 }
 
 // What a mirror shows that looks this way: the sky, and below the horizon the grass.
 vec3 around(vec3 toward) {
     float low = 1.0 - max(toward.y, 0.0);
-    vec3 sky = mix(zenith.rgb, haze_light(eye.xyz + toward), low * low * low);
-    float near_sun = max(dot(toward, sun.xyz), 0.0);
-    sky += sunlight.rgb * (0.12 * pow(near_sun, 8.0) + 4.0 * pow(near_sun, 400.0));
+    vec3 sky = mix(zenith, haze_light(eye + toward), low * low * low);
+    float near_sun = max(dot(toward, sun), 0.0);
+    sky += sunlight * (0.12 * pow(near_sun, 8.0) + 4.0 * pow(near_sun, 400.0));
     return mix(meadow(0.45), sky, smoothstep(-0.12, 0.06, toward.y));
 }
 
@@ -60,9 +60,9 @@ vec3 fitted(vec3 plate) {
 }
 
 void main() {
-    vec3 normal = normalize(facing), ray = normalize(seen_at - eye.xyz);
+    vec3 normal = normalize(facing), ray = normalize(seen_at - eye);
     float open = 0.5 + 0.5 * normal.y, grazing = 1.0 - max(-dot(ray, normal), 0.0);
-    vec3 light = mix(meadow(0.7) * 0.8, skylight.rgb, open) + 1.25 * sunlight.rgb * max(dot(normal, sun.xyz), 0.0);
+    vec3 light = mix(meadow(0.7) * 0.8, skylight, open) + 1.25 * sunlight * max(dot(normal, sun), 0.0);
     vec3 mirrored = around(reflect(ray, normal));
     float sheen = grazing * grazing * grazing;
     vec3 color;

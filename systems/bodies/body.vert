@@ -30,18 +30,18 @@ void main() {
     cover = 1.0;
     gl_Position = clip * vec4(seen_at, 1.0);
 #ifdef BORDER
-    vec3 ray = transpose(axes) * (eye.xyz - middle) - place;
+    vec3 ray = transpose(axes) * (eye - middle) - place;
     vec4 far = clip * vec4(middle + axes * other, 1.0);
     if (dot(ray, side) * dot(ray, beyond) > 0.0 || min(far.w, gl_Position.w) < 0.15) {
         gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
         return;
     }
     vec2 here = gl_Position.xy / gl_Position.w;
-    vec2 run = (far.xy / far.w - here) * screen.xy;
+    vec2 run = (far.xy / far.w - here) * half_screen;
     vec2 aside = vec2(-run.y, run.x) / max(length(run), 1e-6);
     vec4 away = clip * vec4(axes * (side + beyond), 0.0);
-    aside *= sign(dot(aside, (away.xy - here * away.w) * screen.xy));
-    gl_Position.xy += outside * aside / screen.xy * gl_Position.w;
+    aside *= sign(dot(aside, (away.xy - here * away.w) * half_screen));
+    gl_Position.xy += outside * aside / half_screen * gl_Position.w;
     cover = 1.0 - outside;
 #endif
 }

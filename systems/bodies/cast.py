@@ -18,8 +18,8 @@ def nearest(shades: Sequence[Shade], eye: tuple[float, float, float], /) -> list
 def cast(record: NDArray[np.void], shades: Sequence[Shade], /) -> None:
     """Write what casts shadows, at most `SHADES`."""
     row = record[0]
-    row["shades"] = 0.0
-    for into, shaped, shade in zip(row["shades"], row["shaped"], shades, strict=False):
-        into[:] = (*shade.place, shade.radius)
+    row["shades"]["radius"] = 0.0
+    for into, shade in zip(row["shades"], shades, strict=False):
+        into["middle"], into["radius"] = shade.place, shade.radius
         length, high = hypot(*shade.up), 2.0 * shade.radius if shade.height is None else shade.height
-        shaped[:3], shaped[3] = np.divide(shade.up, length), 2.0 * shade.radius / high - 1.0
+        into["axis"], into["pressed"] = np.divide(shade.up, length), 2.0 * shade.radius / high - 1.0

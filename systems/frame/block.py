@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ...engine.camera import View
 from ...engine.declared.grass import MOST_KINDS
+from ...engine.gl.emit import block, emitted
 from ...engine.gl.guest import block_binding
 from ...engine.gl.shaders import program
 from ..grow.record import GIVES
@@ -18,37 +19,53 @@ SHADES = 8
 GROUPS = -(-MOST_KINDS // 4)
 """Vectors of four that a figure takes for each kind that there can be."""
 
+SHADE = np.dtype([("middle", "3f4"), ("radius", "f4"), ("axis", "3f4"), ("pressed", "f4")])
+"""A body that casts a shadow: middle, radius [m], 0 where there is none; its axis, a unit vector, and how much longer
+it would have to be along that to be a ball."""
+
+KIND = np.dtype(
+    [
+        ("root", "3f4"), ("gloss", "f4"),  # pigment at the root; what it mirrors
+        ("tip", "3f4"), ("taper", "f4"),  # pigment at the tip
+        ("through", "3f4"), ("bloom", "f4"),  # light that leaves let through, of what they send back
+        ("grain_c", "3f4"), ("apart", "f4"),  # change of pigment with the cosine of twice the face normal's azimuth
+        ("grain_s", "3f4"), ("narrowed", "f4"),  # the same with the sine
+    ]
+)  # fmt: skip
+"""A kind of grass. `apart` is how far a face's sides are lit apart, and `narrowed` how much narrower a blade is at its
+root, below 0 where it is round; `bloom` is how much of it has the pigment of tips."""
+
 FRAME = np.dtype(
     [
-        ("clip", "16f4"),
-        ("unclip", "16f4"),
-        ("eye", "4f4"),
-        ("sun", "4f4"),
-        ("sunlight", "4f4"),
-        ("skylight", "4f4"),
-        ("zenith", "4f4"),
-        ("horizon", "(3,4)f4"),
-        ("drift", "4f4"),
-        ("shades", f"({SHADES},4)f4"),
-        ("shaped", f"({SHADES},4)f4"),
-        ("soil", "4f4"),
-        ("terrain", "4f4"),
-        ("field", "4f4"),
-        ("screen", "4f4"),
-        ("crown", f"({GROUPS},4)f4"),
-        ("leaf", f"({GROUPS},4)f4"),
-        ("lying", f"({GROUPS},4)f4"),
-        ("understorey", f"({GROUPS},4)f4"),
-        ("undertone", f"({GROUPS},4)f4"),
-        ("root", f"({MOST_KINDS},4)f4"),
-        ("tip", f"({MOST_KINDS},4)f4"),
-        ("through", f"({MOST_KINDS},4)f4"),
-        ("grain_c", f"({MOST_KINDS},4)f4"),
-        ("grain_s", f"({MOST_KINDS},4)f4"),
+        ("clip", "16f4"),  # world to clip space
+        ("unclip", "16f4"),  # clip space to world
+        ("eye", "3f4"), ("writes_raw", "f4"),  # [m]; 1 where raw radiance is written
+        ("sun", "3f4"), ("cloud_cover", "f4"),  # direction to the sun; how much of the sky has clouds
+        ("sunlight", "3f4"), ("haze_density", "f4"),  # radiance of a white leaf in full sun; 1 / haze distance [1/m]
+        ("skylight", "3f4"), ("tallest_grass", "f4"),  # that under the whole sky; height that no blade comes to [m]
+        ("zenith", "3f4"), ("patch_side", "f4"),  # radiance overhead; [m]
+        ("soil", "3f4"), ("terrain_cell", "f4"),  # pigment of bare ground; [m]
+        ("horizon", "(3,4)f4"),  # radiance of horizon and haze, by powers of the cosine of the azimuth from the sun
+        ("clouds_drift", "2f4"),  # where the clouds have drifted to, in their own sides
+        ("toward_sun", "2f4"),  # the sun's azimuth, as a direction (x, z)
+        ("terrain_origin", "2f4"), ("terrain_size", "2f4"),  # x, z [m]
+        ("half_screen", "2f4"),  # pixels from the middle to the edge, across and up
+        ("posture_links", "f4"), ("posture_rows", "f4"), ("posture_variants", "f4"),  # the last of each kind
+        ("padding", "V12"),
+        ("crown", f"({GROUPS},4)f4"),  # by kind, four in each: height of the canopy [m]
+        ("leaf", f"({GROUPS},4)f4"),  # leaf area seen from the side, of the ground's area
+        ("lying", f"({GROUPS},4)f4"),  # leaf area seen from above, of that from the side
+        ("understorey", f"({GROUPS},4)f4"),  # how much of the ground low leaves cover, of what they cover at most
+        ("undertone", f"({GROUPS},4)f4"),  # how much of the colour of tips low leaves have
+        ("kinds", KIND, (MOST_KINDS,)),
+        ("shades", SHADE, (SHADES,)),
+        # By four kinds, by length of a message, evenly from 0 to 1: posture index that it bends the kinds to.
         ("give", f"({GROUPS * GIVES},4)f4"),
     ]
-)
-"""The block's fields, as `lib/frame.glsl` declares them (std140)."""
+)  # fmt: skip
+"""The block's fields, as std140 lays them out; shaders have them by the same names."""
+
+GLSL = emitted({"SHADES": SHADES}) + block("Frame", FRAME)
 
 
 def aim(record: NDArray[np.void], view: View, size: tuple[int, int], /) -> None:
@@ -56,8 +73,8 @@ def aim(record: NDArray[np.void], view: View, size: tuple[int, int], /) -> None:
     row = record[0]
     row["clip"] = view.clip.T.reshape(16)
     row["unclip"] = view.unclip.T.reshape(16)
-    row["screen"][:2] = size[0] / 2, size[1] / 2
-    row["eye"][:3] = view.eye
+    row["half_screen"] = size[0] / 2, size[1] / 2
+    row["eye"] = view.eye
 
 
 class FrameBlock:

@@ -69,7 +69,7 @@ class LightPart(Part):
     def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
         """Write how far the clouds have drifted."""
         assert self._grown is not None
-        record[0]["drift"][:2] = drifted(self._grown.scene.wind, outlook.viewer.time)
+        record[0]["clouds_drift"] = drifted(self._grown.scene.wind, outlook.viewer.time)
 
     def use(self) -> None:
         """Bind what programs read, but for the sky's own: its unit is another's until it is drawn."""

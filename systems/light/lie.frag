@@ -9,9 +9,9 @@ out vec4 told;
 uniform sampler2D slow;
 
 void main() {
-    vec2 place = terrain.xy + at * field.xy, step = vec2(terrain.z, 0.0);
+    vec2 place = terrain_origin + at * terrain_size, step = vec2(terrain_cell, 0.0);
     vec2 rise = vec2(height_at(place + step.xy) - height_at(place - step.xy),
-                     height_at(place + step.yx) - height_at(place - step.yx)) / (2.0 * terrain.z);
+                     height_at(place + step.yx) - height_at(place - step.yx)) / (2.0 * terrain_cell);
     vec3 normal = normalize(vec3(-rise.x, 1.0, -rise.y));
     told = vec4(normal.xz, 2.0 * textureLod(slow, at, 0.0).rg - 1.0);
 }
@@ -23,12 +23,12 @@ const int STEPS = 40;
 const float LEVEL = -0.05;  // what stands before the sun over level ground: below any sun
 
 void main() {
-    vec2 place = terrain.xy + vec2(at.x, rows.x + rows.y * at.y) * field.xy;
-    float foot = height_at(place) + 0.05, away = 1.2 * terrain.z, most = LEVEL;
+    vec2 place = terrain_origin + vec2(at.x, rows.x + rows.y * at.y) * terrain_size;
+    float foot = height_at(place) + 0.05, away = 1.2 * terrain_cell, most = LEVEL;
     for (int step = 0; step < STEPS; step++) {
-        vec2 there = place + drift.zw * away;
-        vec2 inside = abs(there - terrain.xy - 0.5 * field.xy);
-        if (highest - foot < most * away || any(greaterThan(inside, 0.5 * field.xy)))
+        vec2 there = place + toward_sun * away;
+        vec2 inside = abs(there - terrain_origin - 0.5 * terrain_size);
+        if (highest - foot < most * away || any(greaterThan(inside, 0.5 * terrain_size)))
             break;
         most = max(most, (height_at(there) - foot) / away);
         away *= 1.15;

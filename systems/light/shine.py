@@ -16,16 +16,15 @@ from .sun import sun_at
 def shine(record: NDArray[np.void], declared: Light, light: Daylight, kinds: Sequence[GrassKind], /) -> None:
     """Write the light that is `declared`, and what it does to the kinds of grass."""
     row = record[0]
-    row["sun"][:3] = light.direction
-    row["sunlight"] = (*light.sun, declared.clouds)
-    row["skylight"] = (*light.down, 1.0 / declared.haze)
-    row["zenith"][:3] = light.sky.map[-1].mean(axis=0)
+    row["sun"], row["sunlight"], row["skylight"] = light.direction, light.sun, light.down
+    row["cloud_cover"], row["haze_density"] = declared.clouds, 1.0 / declared.haze
+    row["zenith"] = light.sky.map[-1].mean(axis=0)
     row["horizon"][:, :3] = light.sky.horizon
-    row["drift"][2:] = toward_sun(declared)
-    row["soil"][:3] = pigment(declared.ground)
+    row["toward_sun"] = toward_sun(declared)
+    row["soil"] = pigment(declared.ground)
     for index, kind in enumerate(kinds):
-        row["grain_c"][index, :3], row["grain_s"][index, :3] = grain(kind, light)
-        row["grain_c"][index, 3] = apart(kind, light)
+        row["kinds"]["grain_c"][index], row["kinds"]["grain_s"][index] = grain(kind, light)
+        row["kinds"]["apart"][index] = apart(kind, light)
 
 
 def toward_sun(light: Light, /) -> tuple[float, float]:

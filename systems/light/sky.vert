@@ -16,9 +16,9 @@ void main() {
     vec2 cell = vec2(float(gl_VertexID / 2), float(gl_InstanceID + (gl_VertexID & 1)));
     vec2 corner = cell * vec2(2.0 / float(ACROSS), 2.0 / float(UP)) - 1.0;
     vec4 far = unclip * vec4(corner, 1.0, 1.0);
-    ray = far.xyz / far.w - eye.xyz;
+    ray = far.xyz / far.w - eye;
     vec3 toward = normalize(ray);
-    float c = dot(toward.xz, drift.zw) * inversesqrt(dot(toward.xz, toward.xz) + 1e-6);
+    float c = dot(toward.xz, toward_sun) * inversesqrt(dot(toward.xz, toward.xz) + 1e-6);
     vec2 size = vec2(textureSize(sky, 0)), at = vec2(angle_of(clamp(c, -1.0, 1.0)) / 3.14159, sqrt(max(toward.y, 0.0)));
     light = textureLod(sky, (at * (size - 1.0) + 0.5) / size, 0.0).rgb;
     gl_Position = vec4(corner, 1.0, 1.0);

@@ -16,7 +16,8 @@ class MownPart(Part):
 
     def __init__(self, ctx: moderngl.Context, unit: int, mown: Mown) -> None:
         self.ctx, self._unit, self._mown = ctx, unit, mown
-        self.texture: moderngl.Texture | None = None
+        self.texture = self._room(1, 1)
+        """A single texel for as long as nothing has been cut."""
         self._strokes, self._tallest = 0, 0.0
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
@@ -29,7 +30,7 @@ class MownPart(Part):
         if mown.heights is None or (mown.strokes, tallest) == (self._strokes, self._tallest):
             return
         rows, columns = mown.shape
-        if self.texture is None or self.texture.size != (columns, rows) or tallest != self._tallest:
+        if self.texture.size != (columns, rows) or tallest != self._tallest:
             self.release()
             self.texture, self._strokes = self._room(columns, rows), -1
         stale = np.flatnonzero(mown.changed > self._strokes)
@@ -42,7 +43,7 @@ class MownPart(Part):
 
     def defines(self) -> Mapping[str, str | int]:
         """Return that something is cut, if it is."""
-        return {} if self.texture is None else {"MOWN": 1}
+        return {} if self.texture.size == (1, 1) else {"MOWN": 1}
 
     def _room(self, columns: int, rows: int) -> moderngl.Texture:
         texture = self.ctx.texture((columns, rows), 1, dtype="f2", alignment=2)
@@ -52,15 +53,12 @@ class MownPart(Part):
         return texture
 
     def use(self) -> None:
-        """Bind it, where there is one."""
-        if self.texture is not None:
-            self.texture.use(self._unit)
+        """Bind it."""
+        self.texture.use(self._unit)
 
     def release(self) -> None:
         """Give the texture back."""
-        if self.texture is not None:
-            self.texture.release()
-            self.texture = None
+        self.texture.release()
 
 
 def _texels(heights: NDArray[np.float32], tallest: float) -> NDArray[np.float16]:

@@ -46,7 +46,7 @@ float level_slope(float slope, float crest, float share, float tall, float stand
 
 // Tangent of the angle between the line of sight and ground that rises by `rise` along x and z.
 float viewing_slope(vec2 rise, vec3 place) {
-    vec3 ray = place - eye.xyz;
+    vec3 ray = place - eye;
     return (dot(rise, ray.xz) - ray.y) / max(length(ray.xz), 1e-4);
 }
 

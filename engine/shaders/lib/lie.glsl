@@ -14,7 +14,7 @@ struct Lie {
 
 // What lies over the terrain at a place, as `lie` has it; beyond the edge that goes on as in a mirror.
 vec2 on_map(vec2 place) {
-    return 1.0 - abs(1.0 - mod((place - terrain.xy) / field.xy, 2.0));
+    return 1.0 - abs(1.0 - mod((place - terrain_origin) / terrain_size, 2.0));
 }
 
 // Where the left half of `lie` has a place.
@@ -46,5 +46,5 @@ vec2 rise_at(vec2 place) {
 // How steep a line of sight is to the ground: the sine of the angle between them.
 float steep_at(vec3 place) {
     vec2 still = textureLod(lie, on_left(place.xz), 0.0).xy;
-    return dot(normalize(eye.xyz - place), vec3(still, sqrt(max(1.0 - dot(still, still), 0.0))).xzy);
+    return dot(normalize(eye - place), vec3(still, sqrt(max(1.0 - dot(still, still), 0.0))).xzy);
 }

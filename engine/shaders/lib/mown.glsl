@@ -1,23 +1,27 @@
 // Up to which height grass is left to stand where it has been cut.
 #include "lib/sown.glsl"
 
-#ifdef MOWN
-uniform sampler2D mown;  // over the terrain: up to which height grass is left to stand [m]
+uniform sampler2D mown;  // over the terrain: up to which height grass is left to stand [m]; one texel where nothing has been cut
+
+// Whether anything has been, anywhere: it is the same for all of a program's run, and else nobody need look.
+bool anything_is_cut() {
+    return textureSize(mown, 0).x > 1;
+}
 
 // Beyond the terrain nobody mows.
 bool can_be_mown(vec2 place) {
-    vec2 beside = abs(place - terrain.xy - 0.5 * field.xy) - 0.5 * field.xy;
+    vec2 beside = abs(place - terrain_origin - 0.5 * terrain_size) - 0.5 * terrain_size;
     return max(beside.x, beside.y) < 0.0;
 }
 
 float left_at(vec2 place) {
-    return can_be_mown(place) ? textureLod(mown, (place - terrain.xy) / field.xy, 0.0).r : zenith.w;
+    return can_be_mown(place) ? textureLod(mown, (place - terrain_origin) / terrain_size, 0.0).r : tallest_grass;
 }
 
 // The mean over squares of `side` [m].
 float left_about(vec2 place, float side) {
-    float cell = field.x / float(textureSize(mown, 0).x), level = log2(max(side / cell, 1.0));
-    return can_be_mown(place) ? textureLod(mown, (place - terrain.xy) / field.xy, level).r : zenith.w;
+    float cell = terrain_size.x / float(textureSize(mown, 0).x), level = log2(max(side / cell, 1.0));
+    return can_be_mown(place) ? textureLod(mown, (place - terrain_origin) / terrain_size, level).r : tallest_grass;
 }
 
 // Whether that is lower than the canopy of the tallest kind.
@@ -37,4 +41,3 @@ ByKind leaves_left(float top) {
     }
     return left;
 }
-#endif

@@ -4,6 +4,7 @@
 #include "lib/posture.glsl"
 #include "lib/received.glsl"
 #include "lib/stack.glsl"
+#include "systems/show/blades/store.py"
 
 uniform sampler2D targets;    // (u, v) of POINTS points for each blade
 uniform ivec4 stacks[RINGS];  // by ring: columns of a strip, sections of a column, strips of a kind on a patch
@@ -30,13 +31,13 @@ struct Painted {
 Edge edge_at(vec4 base, int receiver, int edge, int kind, int count, float height) {
     vec4 told = received_by(receiver + edge);
     vec2 at = base.xy + base.zw * float(edge), bend = bending(kind, told.xy);
-    vec3 foot = put_nearer(vec3(at.x, told.z, at.y), base.zw, count), top = posture(float(kind) * field.w, bend, 1.0).place * height;
+    vec3 foot = put_nearer(vec3(at.x, told.z, at.y), base.zw, count), top = posture(float(kind) * posture_variants, bend, 1.0).place * height;
     return Edge(foot, bend, top, laid_back(base.zw, foot, top, height, count));
 }
 
 // The point at `part` of an edge's length, on a strip of this height [m], and its height in the canopy.
 vec4 on_edge(Edge edge, int kind, float part, float height) {
-    vec3 spine = posture(float(kind) * field.w, edge.bend, part).place;
+    vec3 spine = posture(float(kind) * posture_variants, edge.bend, part).place;
     vec3 back = vec3(edge.back.x, 0.0, edge.back.y) * part;
     return vec4(edge.foot + spine * height + back, spine.y * OF(tall, kind) / (OF(crown, kind) * lodged(edge.bend)));
 }

@@ -11,12 +11,12 @@ vec3 stretch(vec2 slow) {
 
 // The pigment of a kind's blades at a part of their length.
 vec3 pigment_at(int kind, float part) {
-    return mix(root[kind].rgb, tip[kind].rgb, part);
+    return mix(kinds[kind].root, kinds[kind].tip, part);
 }
 
 // What that changes by where a face has its normal, whose azimuth twice has this cosine and sine.
 vec3 grain_at(int kind, vec2 twice) {
-    return 1.0 + grain_c[kind].rgb * twice.x + grain_s[kind].rgb * twice.y;
+    return 1.0 + kinds[kind].grain_c * twice.x + kinds[kind].grain_s * twice.y;
 }
 
 // Cosine and sine of twice an angle, of those of the angle.

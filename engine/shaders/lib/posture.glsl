@@ -20,8 +20,8 @@ vec2 bending(int kind, vec2 message) {
 Spine posture(float variant, vec2 bend, float t) {
     float index = length(bend);
     vec2 heading = bend / max(index, 1e-6);
-    float column = (t * terrain.w + 0.5) / (terrain.w + 1.0);
-    float row = ((0.5 + 0.5 * min(index, 1.0)) * (field.z - 1.0) + 0.5) / field.z;
+    float column = (t * posture_links + 0.5) / (posture_links + 1.0);
+    float row = ((0.5 + 0.5 * min(index, 1.0)) * (posture_rows - 1.0) + 0.5) / posture_rows;
     vec4 at = textureLod(postures, vec3(column, row, variant), 0.0);
     return Spine(vec3(heading.x * at.x, at.y, heading.y * at.x), vec3(heading.x * at.z, at.w, heading.y * at.z));
 }

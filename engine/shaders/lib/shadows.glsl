@@ -2,7 +2,6 @@
 #include "lib/frame.glsl"
 #include "lib/repeating.glsl"
 
-const int SHADES = 8;  // bodies that cast shadows
 const float CLOUDS_AT = 450.0;  // height of the clouds [m]
 const float CLOUD_TAKES = 0.75;  // what a dense cloud takes of the sun's light
 const float CLOUD_EDGE = 0.25;  // how much denser than its edge a dense cloud is
@@ -13,21 +12,21 @@ const float SHADOW_SOFTER = 0.01;  // how much more that is for each radius that
 // How much of the sun is seen past the clouds, from a place.
 float past_clouds(vec3 place) {
     vec2 at = place.xz + sun.xz * (CLOUDS_AT / max(sun.y, LOWEST_RAY));
-    float dense = textureLod(repeating, at / CLOUDS_SIDE - drift.xy, 0.0).r;
-    return 1.0 - CLOUD_TAKES * smoothstep(1.0 - sunlight.w, 1.0 + CLOUD_EDGE - sunlight.w, dense);
+    float dense = textureLod(repeating, at / CLOUDS_SIDE - clouds_drift, 0.0).r;
+    return 1.0 - CLOUD_TAKES * smoothstep(1.0 - cloud_cover, 1.0 + CLOUD_EDGE - cloud_cover, dense);
 }
 
 // How the sun's ray past a place comes by a body: from its middle, in radii, and how soft the shadow's edge is; far off where
 // the body stands behind. A body is a ball that is stretched or pressed flat along an axis: it is drawn out until it is one,
 // and the ray with it.
 vec4 ray_by(int body, vec3 place) {
-    vec3 apart = shades[body].xyz - place, axis = shaped[body].xyz;
-    float pressed = shaped[body].w, radius = shades[body].w;
-    vec3 way = apart + axis * (pressed * dot(axis, apart)), ray = sun.xyz + axis * (pressed * dot(axis, sun.xyz));
-    float before = dot(way, ray) / dot(ray, ray), along = dot(apart, sun.xyz);
+    vec3 apart = shades[body].middle - place, axis = shades[body].axis;
+    float pressed = shades[body].pressed, radius = shades[body].radius;
+    vec3 way = apart + axis * (pressed * dot(axis, apart)), ray = sun + axis * (pressed * dot(axis, sun));
+    float before = dot(way, ray) / dot(ray, ray), along = dot(apart, sun);
     vec3 by = (way - ray * before) / radius;
     // The farther a shadow falls, the softer is its edge.
-    float soft = SHADOW_EDGE + SHADOW_SOFTER * abs(along) * max(length(by), 1e-3) / max(length(apart - sun.xyz * along), 1e-3 * radius);
+    float soft = SHADOW_EDGE + SHADOW_SOFTER * abs(along) * max(length(by), 1e-3) / max(length(apart - sun * along), 1e-3 * radius);
     return vec4(before > 0.0 ? by : vec3(1e3), soft);
 }
 
@@ -39,7 +38,7 @@ float past_body(float near, float soft) {
 // How much of it is seen from a place past all bodies but one.
 float past_bodies(vec3 place, int but) {
     float seen = 1.0;
-    for (int body = 0; body < SHADES && shades[body].w > 0.0; body++) {
+    for (int body = 0; body < SHADES && shades[body].radius > 0.0; body++) {
         vec4 by = ray_by(body, place);
         seen *= body == but ? 1.0 : past_body(length(by.xyz), by.w);
     }
@@ -48,10 +47,10 @@ float past_bodies(vec3 place, int but) {
 
 // How much of the sun is seen from a place past all but bodies, `past` of it past the terrain.
 float sun_past(vec3 place, float past) {
-    return sunlight.w > 0.0 ? past * past_clouds(place) : past;
+    return cloud_cover > 0.0 ? past * past_clouds(place) : past;
 }
 
 // How much of it is seen past these too.
 float sun_seen(vec3 place, float past) {
-    return sun_past(place, past) * (shades[0].w > 0.0 ? past_bodies(place, -1) : 1.0);
+    return sun_past(place, past) * (shades[0].radius > 0.0 ? past_bodies(place, -1) : 1.0);
 }

@@ -10,9 +10,9 @@ const float COARSEST = 16.0;  // level at which a texture is its mean, or its la
 vec3 soil_pigment(Lie lies, ByKind grows) {
     ByKind tipped;
     for (int kind = 0; kind < KINDS; kind++)
-        OF(tipped, kind) = FALLEN_TIPPED * through[kind].w * through[kind].w;
+        OF(tipped, kind) = FALLEN_TIPPED * kinds[kind].bloom * kinds[kind].bloom;
     vec3 fallen = low_pigment(grows, tipped);
-    return mix(soil.rgb, mix(soil.rgb, fallen, LITTER), min(total(grows), 1.0)) * stretch(lies.slow);
+    return mix(soil, mix(soil, fallen, LITTER), min(total(grows), 1.0)) * stretch(lies.slow);
 }
 
 // The pigment of the understorey's leaves, of that of the ground between; 1 where there are none.

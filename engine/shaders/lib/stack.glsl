@@ -17,7 +17,7 @@ int stacked(int plane, int count, int own, int along, int turn) {
 
 // The foot (x, z) [m] of an edge of a strip, on the patch of a cell.
 vec2 edge_foot(vec2 cell, int turn, int own, int plane, int count, int edge, int columns, float margin) {
-    float side = soil.w, u = -margin + (side + 2.0 * margin) * float(edge) / float(columns);
+    float side = patch_side, u = -margin + (side + 2.0 * margin) * float(edge) / float(columns);
     float v = (float(plane) + 0.5) * (side / float(count));
     vec2 local = (own == 0 ? vec2(u, v) : vec2(v, u)) - 0.5 * side;
     return cell * side + turned_by(local, turn) + 0.5 * side;
@@ -29,9 +29,9 @@ const vec2 AT_MOST = vec2(0.2, 0.0125);  // the same [m], and of their distance:
 // Where a strip along `run` is put whose slice of the ground has its middle at a foot: nearer to the eye. In the middle, half
 // a slice would be open to lines of sight behind the last blades, and show as a dark line. So many strips stand on a patch.
 vec3 put_nearer(vec3 foot, vec2 run, int strips) {
-    vec3 ray = foot - eye.xyz;
+    vec3 ray = foot - eye;
     vec2 off = normalize(vec2(-run.y, run.x));
-    vec2 way = off * -dot(off, ray.xz) * min(min(NEARER * soil.w / float(strips), AT_MOST.x) / max(length(ray), 0.01), AT_MOST.y);
+    vec2 way = off * -dot(off, ray.xz) * min(min(NEARER * patch_side / float(strips), AT_MOST.x) / max(length(ray), 0.01), AT_MOST.y);
     return foot + vec3(way.x, dot(rise_at(foot.xz), way), way.y);
 }
 
@@ -46,7 +46,7 @@ vec2 laid_back(vec2 run, vec3 foot, vec3 top, float height, int strips) {
     off *= sign(dot(off, ray));
     float above = eye.y - foot.y, along = dot(ray, off);
     float behind = along / max(above + dot(rise_at(foot.xz), ray), 0.01);  // what a metre of height hides of the ground [m]
-    float least = min(SPREAD * soil.w / float(strips), height * behind), drop = max(above, 0.01) / max(along, 0.01);
+    float least = min(SPREAD * patch_side / float(strips), height * behind), drop = max(above, 0.01) / max(along, 0.01);
     float reach = (top.y + dot(top.xz, off) * drop) * behind;
     return off * clamp((least - reach) / max(drop * behind, 1.0), 0.0, 2.0 * least);
 }
@@ -55,7 +55,7 @@ vec2 laid_back(vec2 run, vec3 foot, vec3 top, float height, int strips) {
 // leans to `top` and `back`; real ones face all ways and lean to `top`. It is the ratio of both breadths as the eye sees them,
 // a little less, as leaves hide leaves.
 float boosted(int kind, vec2 run, vec3 middle, vec3 top, vec2 back) {
-    vec3 ray = normalize(middle - eye.xyz), own = cross(top + vec3(back.x, 0.0, back.y), ray);
+    vec3 ray = normalize(middle - eye), own = cross(top + vec3(back.x, 0.0, back.y), ray);
     vec2 all = cross(top, ray).xz;
     float lies = OF(lying, kind) * top.y * ray.y, whole = sqrt(dot(all, all) + lies * lies);
     return mix(1.0, whole / max(max(abs(dot(run, own.xz)), 0.4 * whole), 1e-9), 0.95);
@@ -64,6 +64,6 @@ float boosted(int kind, vec2 run, vec3 middle, vec3 top, vec2 back) {
 // The pigment of what is seen on a strip, of that of what is painted there: of blades that lean to `top`, those are seen most
 // that face the eye; on a strip that runs along `run`, those that face as it does.
 vec3 faced(int kind, vec2 run, vec3 middle, vec3 top) {
-    vec2 seen = faces_seen(kind, top, middle - eye.xyz) - FACING * vec2(run.y * run.y - run.x * run.x, -2.0 * run.x * run.y);
-    return 1.0 + grain_c[kind].rgb * seen.x + grain_s[kind].rgb * seen.y;
+    vec2 seen = faces_seen(kind, top, middle - eye) - FACING * vec2(run.y * run.y - run.x * run.x, -2.0 * run.x * run.y);
+    return 1.0 + kinds[kind].grain_c * seen.x + kinds[kind].grain_s * seen.y;
 }

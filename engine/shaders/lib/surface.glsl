@@ -52,24 +52,24 @@ const vec2 SPINE = vec2(1.3, 0.7);  // a spine's mean slope leans by so much, an
 
 // How leaves of a kind at a place send light to the eye that the wind bends by `bend`; the sun's elevation has the sine `high`.
 Response leaf_response(int kind, vec2 bend, vec3 place, float high) {
-    vec3 ray = normalize(place - eye.xyz);
-    float facing = dot(ray, sun.xyz);
+    vec3 ray = normalize(place - eye);
+    float facing = dot(ray, sun);
     // Leaves that face all ways send back what the eye sees lit, and let through what it sees against the light.
     float back = 0.5 - 0.5 * facing, against = 1.0 - back;
-    vec3 phase = back * sqrt(back) + against * sqrt(against) * through[kind].rgb;
+    vec3 phase = back * sqrt(back) + against * sqrt(against) * kinds[kind].through;
     float lies = min(dot(bend, bend), 1.0), face = 1.0 + LIES_OPEN * lies + LEANS_AWAY * dot(bend, normalize(ray.xz + 1e-6));
     // A blade mirrors the sun along itself like a thread (Kajiya and Kay, Rendering Fur, 1989).
-    vec3 spine = normalize(vec3(SPINE.x * bend, 1.0 - SPINE.y * length(bend)).xzy), half_way = normalize(sun.xyz - ray);
+    vec3 spine = normalize(vec3(SPINE.x * bend, 1.0 - SPINE.y * length(bend)).xzy), half_way = normalize(sun - ray);
     float along = dot(spine, half_way), thread = 1.0 - along * along;
     thread *= thread;
     thread *= thread;
-    return Response(phase * (face * mix(SIDELONG, 1.0, high)), vec3(face), root[kind].w * thread * thread);
+    return Response(phase * (face * mix(SIDELONG, 1.0, high)), vec3(face), kinds[kind].gloss * thread * thread);
 }
 
 // The light at a place that a surface sends to the eye, where it sees so much of the sun. This is the list of all lights.
 Light light_at(Response response, float seen) {
-    vec3 from_sun = sunlight.rgb * response.sun * seen;
-    vec3 from_sky = skylight.rgb * response.sky;
+    vec3 from_sun = sunlight * response.sun * seen;
+    vec3 from_sky = skylight * response.sky;
     return Light(from_sun, from_sky, vec3(0.0), response.gloss * seen, 0.0, vec2(0.0));
 }
 
@@ -85,14 +85,12 @@ Light light_on(int kind, vec2 bend, vec3 place, Lie lies, ByKind grows) {
     return light_on(kind, bend, place, lies, grows, sun_seen(place, lies.past));
 }
 
-#ifdef MOWN
 // The light on a kind where nothing stands above `top` [m]: leaves over that shade nothing. `area` is that of leaves, by kind.
 Light mown_to(float top, Light light, int kind, ByKind area) {
     float high = top / max(OF(crown, kind), 0.01);
     light.leaves.x -= leaves_above(max(top, OF(crown, kind)), area) + leaves_above(high, vec2(0.0, light.leaves.y));
     return light;
 }
-#endif
 
 // A light with the haze before a place.
 Light veiled(Light light, vec3 place) {
@@ -122,11 +120,8 @@ Light unbundled(mat4 light) {
 // The radiance that a surface sends to the eye in some light.
 vec3 shade(Surface surface, Light light) {
     vec3 albedo = surface.pigment * surface.pigment;
-    float over = leaves_above(surface.height, light.leaves);
-#ifdef MOWN
-    over = max(over, 0.0);  // grass that lies flat stands lower than its cut
-#endif
+    float over = max(leaves_above(surface.height, light.leaves), 0.0);  // grass that lies flat stands lower than its cut
     vec2 seen = through_leaves(vec2(light.way, OPEN_SKY) * over);
     vec3 received = light.sun * seen.x + light.sky * seen.y + albedo * light.sun * (surface.among * seen.y);
-    return albedo * received + sunlight.rgb * (light.gloss * seen.x) + light.haze;
+    return albedo * received + sunlight * (light.gloss * seen.x) + light.haze;
 }

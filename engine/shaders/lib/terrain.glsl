@@ -5,7 +5,7 @@ uniform sampler2D heights;
 
 float height_at(vec2 place) {
     ivec2 last = textureSize(heights, 0) - 1;
-    vec2 cell = clamp((place - terrain.xy) / terrain.z, vec2(0.0), vec2(last));
+    vec2 cell = clamp((place - terrain_origin) / terrain_cell, vec2(0.0), vec2(last));
     ivec2 low = min(ivec2(cell), last - 1);
     vec2 part = cell - vec2(low);
     float a = texelFetch(heights, low, 0).r, b = texelFetch(heights, low + ivec2(1, 0), 0).r;

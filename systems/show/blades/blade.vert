@@ -2,14 +2,14 @@
 // its receiver; with MORPH it is on its way between its own place and its painted place on a moving strip (paper, 4.2).
 #include "lib/light.glsl"
 #include "lib/posture.glsl"
+#include "systems/show/blades/organs.glsl"
+#include "systems/show/blades/store.py"
 
 #ifdef STORED
 #include "lib/received.glsl"
 
 in uint number;            // of its receiver, among those of blades
 uniform int blades_from;   // the first of these receivers among all
-uniform sampler2D blades;  // by model, quarter turn and blade: BLADE
-uniform sampler2D standing; // by patch: STANDING
 uniform float near;        // distance up to which blades hide one another by depth [m]; beyond it order alone says
 #ifdef MORPH
 uniform sampler2D slices;  // by ring, model, orientation and blade: the strip that it is painted on
@@ -32,139 +32,164 @@ in float variant;
 in float kind;
 #ifdef ORGANS
 in float organ;
-in float stem;  // length of the one that it stands on [m]
-in float part;  // and the place along it
-in vec2 sways;  // and its lean
+in float stem;
+in float part;
+in vec2 sways;
 #endif
 in vec2 message;
 #endif
 #ifdef TOOTHED
 #include "systems/show/blades/teeth.glsl"
 #endif
-#ifdef ORGANS
-const vec2 tones[ORGANS] = TONES;
-const float gives[ORGANS] = GIVES;
-#endif
 
 out vec4 foot;   // where its ribbon begins [m]; its length [m]
 out vec4 lie_of; // bending vector; half its way across at the root [m]
 out vec4 low;    // pigment at the root; row of the posture table
 out vec4 high;   // pigment at the tip; taper
-out mat4 lit;    // light on it, bundled; relative change of pigment to its sides
+out mat4 lit;    // light on it, bundled; beside it the relative change of pigment to its sides
 out vec4 stands; // where its foot is in the canopy, and how much of it is its length; organ, plus the part that is cut off; cover
 out vec4 joints; // sub-level, and slide to those of the next; coverage from which on it hides what is behind; kind; ring of strips, or teeth seen
 
-#ifdef MOWN
+const float MOST_CUT = 0.999;  // part of a blade that is cut off at most
+const float PARTED = 0.5;  // coverage from which on a blade hides what is behind it, near by
+const float NEARLY = 0.8;  // from which part of the distance on, up to which blades do so, that begins to change
+const float NEVER = 2.0;  // coverage that no blade has
+
+// A blade that is drawn: it roots at a place of the world, and hears this message.
+struct Drawn {
+    Blade blade;
+    vec2 message;
+};
+
+#ifdef STORED
+Drawn drawn(Standing patch_of_it, int number_on_it) {
+    Drawn one;
+    one.blade = blade_of(int(patch_of_it.row) * EACH + number_on_it);
+    vec4 told = received_by(blades_from + int(number));
+    one.blade.root = vec3(one.blade.root.xz + patch_of_it.cell * patch_side, told.z).xzy;
+    one.message = told.xy;
+    return one;
+}
+#else
+Drawn drawn() {
+#ifdef ORGANS
+    Blade blade = Blade(root_at, height, rest, facing, width, variant, kind, organ, stem, part, sways);
+#else
+    Blade blade = Blade(root_at, height, rest, facing, width, variant, kind, 0.0);
+#endif
+    return Drawn(blade, message);
+}
+#endif
+
+// Where it stands on a stem that leans so, from the foot of the stem.
+vec3 on_stem(Blade blade, vec2 leans) {
+#ifdef ORGANS
+    return blade.stem > 0.0 ? posture(blade.kind * posture_variants, leans, blade.part).place * blade.stem : vec3(0.0);
+#else
+    return vec3(0.0);
+#endif
+}
+
+// How its stem stands in calm air.
+vec2 stem_of(Blade blade) {
+#ifdef ORGANS
+    return blade.sways;
+#else
+    return vec2(0.0);
+#endif
+}
+
+// A bending vector of something that leans so at rest: as much as it is bent, it leans no more.
+vec2 bent(vec2 moved, vec2 rest_of_it) {
+    return moved + rest_of_it * (1.0 - min(length(moved), 1.0));
+}
+
 // The part of a blade up to where it first stands as high as `top` in calm air, of its length.
-float cut_at(float variant, vec2 rest, float top) {
+float cut_at(Blade blade, float top) {
     float before = 0.0;
-    for (float link = 1.0; link <= terrain.w; link++) {
-        float here = posture(variant, rest, link / terrain.w).place.y;
+    if (top < 1.0) for (float link = 1.0; link <= posture_links; link++) {
+        float here = posture(blade.variant, blade.rest, link / posture_links).place.y;
         if (here > top)
-            return max((link - 1.0 + (top - before) / (here - before)) / terrain.w, 0.0);
+            return max((link - 1.0 + (top - before) / (here - before)) / posture_links, 0.0);
         before = here;
     }
     return 1.0;
+}
+
+// Its pigments, and how they change to its sides.
+vec3 dye(Blade blade, vec2 across, bool has_section, bool is_round, vec2 slow) {
+    int k = int(blade.kind);
+    vec2 twice = doubled(blade.facing), grade = tones_of(int(blade.organ));
+    vec3 grain = grain_at(k, twice), dry = stretch(slow) * grain;
+    low = vec4(pigment_at(k, grade.x) * dry, blade.variant);
+    high = vec4(pigment_at(k, grade.y) * dry, kinds[k].taper);
+    if (has_section) {
+        vec2 round_to = doubled(toward_sun);
+        float fold = twice.x * round_to.y - twice.y * round_to.x;
+        return vec3(kinds[k].apart * (is_round ? dot(across, toward_sun) : fold));
+    }
+    return 2.0 * ROUND * (kinds[k].grain_s * twice.x - kinds[k].grain_c * twice.y) / grain;
+}
+
+#ifdef MORPH
+// Where it is painted.
+void paint(Standing patch_of_it, int blade, int k) {
+    int ring = int(patch_of_it.ring), model = int(patch_of_it.row) / 4, turn = int(patch_of_it.row) % 4;
+    int along = int(patch_of_it.along), own = (along + turn) % 2, count = stacks[ring].z, columns = stacks[ring].x;
+    int row = (model * 2 + own) * EACH + blade, slice = ring * models * 2 * EACH + row;
+    int plane = int(texelFetch(slices, ivec2(slice % SLICES_ROW, slice / SLICES_ROW), 0).r);
+    int strip = k * count + stacked(plane, count, own, along, turn);
+    vec2 first = edge_foot(patch_of_it.cell, turn, own, plane, count, 0, columns, OF(margin, k));
+    vec2 second = edge_foot(patch_of_it.cell, turn, own, plane, count, 1, columns, OF(margin, k));
+    float receiver = patch_of_it.edges + float(strip * (columns + 1));
+    base = vec4(first, second - first);
+    painted = vec4(receiver, float(row), OF(tall, k) * patch_of_it.growth, patch_of_it.morph);
+    joints.yw = vec2(NEVER, patch_of_it.ring);
 }
 #endif
 
 void main() {
 #ifdef STORED
-    int patch_number = int(number) / EACH, blade = int(number) % EACH;
-    ivec2 at = ivec2(patch_number % STANDING_ROW * 3, patch_number / STANDING_ROW);
-    vec4 where = texelFetch(standing, at, 0), how = texelFetch(standing, at + ivec2(1, 0), 0);
-#ifdef MORPH
-    vec4 strips = texelFetch(standing, at + ivec2(2, 0), 0);
-#endif
-    int record = int(where.z) * EACH + blade;
-    at = ivec2(record % BLADES_ROW * TEXELS, record / BLADES_ROW);
-    vec4 part0 = texelFetch(blades, at, 0), part1 = texelFetch(blades, at + ivec2(1, 0), 0);
-    vec4 part2 = texelFetch(blades, at + ivec2(2, 0), 0);
-    vec4 told = received_by(blades_from + int(number));
-    vec3 root_at = vec3(part0.x + where.x * soil.w, told.z, part0.z + where.y * soil.w);
-    float height = part0.w, width = part2.x, variant = part2.y;
-#ifdef ORGANS
-    vec4 part3 = texelFetch(blades, at + ivec2(3, 0), 0);
-    float organ = part2.w, stem = part3.x, part = part3.y;
-    vec2 sways = part3.zw;
-#endif
-    vec2 rest = part1.xy, facing = part1.zw, message = told.xy;
-    int k = int(part2.z);
-    joints = vec4(how.x, mix(0.5, 2.0, smoothstep(0.8 * near, near, distance(root_at.xz, eye.xz))), float(k), 0.0);
-    stands.w = where.w;
+    Standing patch_of_it = standing_of(int(number) / EACH);
+    Drawn one = drawn(patch_of_it, int(number) % EACH);
+    float hides = mix(PARTED, NEVER, smoothstep(NEARLY * near, near, distance(one.blade.root.xz, eye.xz)));
+    joints = vec4(patch_of_it.slide, hides, one.blade.kind, 0.0);
+    stands.w = patch_of_it.fade;
 #else
-    int k = int(kind);
-    joints = vec4(0.0, 2.0, kind, 0.0);
+    Drawn one = drawn();
+    joints = vec4(0.0, NEVER, one.blade.kind, 0.0);
     stands.w = 1.0;
 #endif
-    vec2 blown = bending(k, message), across = vec2(-facing.y, facing.x);
-#ifdef ORGANS
-    vec2 moved = blown * gives[int(organ)], bend = moved + rest * (1.0 - min(length(moved), 1.0));
-    vec2 swayed = blown + sways * (1.0 - min(length(blown), 1.0)), grade = tones[int(organ)];
-    vec3 up = stem > 0.0 ? posture(float(k) * field.w, swayed, part).place * stem : vec3(0.0);
-    foot = vec4(root_at + up, height);
-#else
-    vec2 bend = blown + rest * (1.0 - min(length(blown), 1.0));
-    foot = vec4(root_at, height);
-#endif
-    bool has_section = grain_c[k].w > 0.0, is_round = grain_s[k].w < 0.0;
-#ifdef ORGANS
-    has_section = has_section && int(organ) == BLADE_ITSELF;
-    is_round = is_round && int(organ) == BLADE_ITSELF;
-#endif
-    if (is_round) {
-        vec2 toward = normalize(root_at.xz - eye.xz + 1e-6);
-        across = vec2(-toward.y, toward.x);
-    }
-    lie_of = vec4(bend, 0.5 * width * across);
-    vec2 twice = doubled(facing);
-    Lie lies = lie_at(root_at.xz);
-    vec3 grain = grain_at(k, twice), dry = stretch(lies.slow) * grain;
-#ifdef ORGANS
-    low = vec4(pigment_at(k, grade.x) * dry, variant);
-    high = vec4(pigment_at(k, grade.y) * dry, tip[k].w);
-#else
-    low = vec4(root[k].rgb * dry, variant);
-    high = vec4(tip[k].rgb * dry, tip[k].w);
-#endif
-    ByKind grows = grows_at(root_at.xz);
-    Light light = veiled(light_on(k, blown, root_at, lies, grows), root_at);
-#ifdef MOWN
-    float top = left_at(root_at.xz);
-    light = mown_to(top, light, k, areas(grows));
-#endif
-    vec3 tilt = 2.0 * ROUND * (grain_s[k].rgb * twice.x - grain_c[k].rgb * twice.y) / grain;
-    if (has_section) {
-        vec2 toward = drift.zw, round_to = doubled(toward);
-        tilt = vec3(grain_c[k].w * (is_round ? dot(across, toward) : twice.x * round_to.y - twice.y * round_to.x));
+    Blade blade = one.blade;
+    int k = int(blade.kind);
+    vec2 blown = bending(k, one.message);
+    vec3 up = on_stem(blade, bent(blown, stem_of(blade)));
+    foot = vec4(blade.root + up, blade.height);
+
+    bool is_itself = is_blade(int(blade.organ));
+    bool has_section = is_itself && kinds[k].apart > 0.0, is_round = is_itself && kinds[k].narrowed < 0.0;
+    vec2 across = is_round ? normalize(blade.root.xz - eye.xz + 1e-6) : blade.facing;
+    across = vec2(-across.y, across.x);
+    lie_of = vec4(bent(blown * give_of(int(blade.organ)), blade.rest), 0.5 * blade.width * across);
+
+    Lie lies = lie_at(blade.root.xz);
+    ByKind grows = grows_at(blade.root.xz);
+    Light light = veiled(light_on(k, blown, blade.root, lies, grows), blade.root);
+    vec3 tilt = dye(blade, across, has_section, is_round, lies.slow);
+    float canopy_height = OF(crown, k) * lodged(blown);
+    stands.xyz = vec3(up.y / canopy_height, blade.height / canopy_height, blade.organ);
+    if (anything_is_cut()) {
+        float top = left_at(blade.root.xz);
+        light = mown_to(top, light, k, areas(grows));
+        top -= on_stem(blade, stem_of(blade)).y;
+        stands.z += min(1.0 - cut_at(blade, top / blade.height), MOST_CUT);
     }
     lit = bundled(light, tilt);
-    float canopy_height = OF(crown, k) * lodged(blown);
-#ifdef ORGANS
-    stands.xyz = vec3(up.y / canopy_height, height / canopy_height, organ);
 #ifdef TOOTHED
-    joints.w = teeth_seen(height, TEETH_OF[int(organ)], foot.xyz);
-#endif
-#else
-    stands.xyz = vec3(0.0, height / canopy_height, 0.0);
-#endif
-#ifdef MOWN
-#ifdef ORGANS
-    top -= stem > 0.0 ? posture(float(k) * field.w, sways, part).place.y * stem : 0.0;
-#endif
-    stands.z += min(1.0 - cut_at(variant, rest, top / height), 0.999);
+    joints.w = teeth_seen(blade.height, TEETH_OF[int(blade.organ)], foot.xyz);
 #endif
 #ifdef MORPH
-    int ring = int(strips.x), model = int(where.z) / 4, turn = int(where.z) % 4, along = int(how.w);
-    int own = (along + turn) % 2, count = stacks[ring].z, columns = stacks[ring].x;
-    int row = (model * 2 + own) * EACH + blade, slice = ring * models * 2 * EACH + row;
-    int plane = int(texelFetch(slices, ivec2(slice % SLICES_ROW, slice / SLICES_ROW), 0).r);
-    int strip = k * count + stacked(plane, count, own, along, turn);
-    vec2 first = edge_foot(where.xy, turn, own, plane, count, 0, columns, OF(margin, k));
-    vec2 second = edge_foot(where.xy, turn, own, plane, count, 1, columns, OF(margin, k));
-    base = vec4(first, second - first);
-    painted = vec4(strips.y + float(strip * (columns + 1)), float(row), OF(tall, k) * how.z, how.y);
-    joints.yw = vec2(2.0, strips.x);
+    paint(patch_of_it, int(number) % EACH, k);
 #endif
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
 }

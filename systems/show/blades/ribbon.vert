@@ -4,6 +4,7 @@
 #include "lib/light.glsl"
 #include "lib/posture.glsl"
 #include "systems/grow/bend.py"
+#include "systems/show/blades/organs.glsl"
 
 in vec4 foot;
 in vec4 lie_of;
@@ -36,65 +37,21 @@ noperspective out float half_width;  // of the ribbon [pixel]
 flat out float hides;  // coverage from which on a pixel counts as hidden behind it
 uniform int part;      // 1: where it hides what is behind it; 2: the rest
 #endif
-
-// Move a point aside on the screen, so that the ribbon reaches half a pixel beyond its edge.
-vec4 widened(vec3 place, vec3 tangent, vec2 across) {
-    vec4 middle = clip * vec4(place, 1.0);
-    vec4 edge = clip * vec4(across.x, 0.0, across.y, 0.0);
-    if (middle.w < 0.15) {
-        aside = half_width = 8.0;
-        return middle + edge;
-    }
-    vec4 ahead = clip * vec4(tangent, 0.0);
-    vec2 run = (ahead.xy * middle.w - middle.xy * ahead.w) * screen.xy;
-    vec2 wide = (edge.xy * middle.w - middle.xy * edge.w) * screen.xy / (middle.w * middle.w);
-    vec2 normal = vec2(-run.y, run.x) / max(length(run), 1e-9);
-    float signed_width = dot(wide, normal);
-    half_width = abs(signed_width);
-    aside = (half_width + 0.5) * (gl_VertexID % 2 == 0 ? -1.0 : 1.0);
-    middle.xy += normal * aside / screen.xy * middle.w;
-    return middle;
-}
 #endif
 
-#ifdef MORPH
-// The radiance at part `t` of a blade of kind `k` with this face normal, where it is painted.
-vec3 painted_light(int k, float t, vec2 face, Painted target) {
-    Lie lies = lie_at(target.middle.xz);
-    vec3 pigment = pigment_at(k, t) * stretch(lies.slow) * grain_at(k, doubled(face));
-    pigment *= faced(k, normalize(target.run.xz), target.middle, target.top);
-    ByKind grows = grows_at(target.middle.xz);
-    Light light = veiled(light_on(k, target.bend, target.middle, lies, grows), target.middle);
-#ifdef MOWN
-    light = mown_to(left_at(target.place.xz), light, k, areas(grows));
-#endif
-    return shade(leaf_at(pigment, target.h), light);
-}
-#endif
-
-#ifdef ORGANS
-const vec2 tones[ORGANS] = TONES;
-const float widths[ORGANS * KNOTS] = WIDTHS;
-#endif
-
+const float AT_TIP = 0.9999;  // part of a blade from which on it is its tip
 const float POINTED = 1e-4;  // half the breadth of an end that is seen as a point, of its distance
 
 // Width of a blade at part `t` of it: as systems/grow/bend.py has it. It ends as bluntly as makes up for what the last segment
 // cuts off, but in a point where it is seen from near by, unless it is round. Where segments are longer than the waist, it is
 // less drawn in, so that the blade is as broad in the mean.
 float profile(float t, float taper, float segments) {
-#ifdef ORGANS
-    int organ = int(stands.z);
-    if (organ != BLADE_ITSELF) {
-        float at = t * float(KNOTS - 1);
-        int low = min(int(at), KNOTS - 2), row = organ * KNOTS + low;
-        return mix(widths[row], widths[row + 1], at - float(low));
-    }
-#endif
-    float narrower = grain_s[int(joints.z)].w;
-    if (t > 0.9999) {
+    if (!is_blade(int(stands.z)))
+        return width_of(int(stands.z), t);
+    float narrower = kinds[int(joints.z)].narrowed;
+    if (t > AT_TIP) {
         float blunt = pow(segments, -taper) * max((1.0 - taper) / (1.0 + taper), 0.0);
-        return narrower < 0.0 ? blunt : min(blunt, POINTED * distance(foot.xyz, eye.xyz) / max(length(lie_of.zw), 1e-5));
+        return narrower < 0.0 ? blunt : min(blunt, POINTED * distance(foot.xyz, eye) / max(length(lie_of.zw), 1e-5));
     }
     float waist = max(narrower, 0.0) * min(WIDENS * segments, 1.0);
     return pow(max(1.0 - t, 0.0), taper) * (1.0 - waist * max(1.0 - t / WIDENS, 0.0));
@@ -124,42 +81,67 @@ float joint_at(float t, int segments) {
     return floor(t * float(segments) + 0.5) / float(segments);
 }
 
-void main() {
-#ifdef PARTED
-    hides = joints.y;
-    if (part == 1 && hides > 1.0) {
-        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-        color = vec3(0.0);
-        aside = half_width = shown = 0.0;
-#ifdef TOOTHED
-        tooth = vec3(0.0);
-#endif
-        return;
+// A point of a ribbon on its way.
+struct Point {
+    vec3 place;
+    vec3 tangent;
+    vec2 across;  // half the ribbon, to the point's side
+};
+
+const float NEAREST = 0.15;  // distance from the eye below which a ribbon is as wide as it is [m]
+const float UNEDGED = 8.0;  // how wide it counts there [pixel]
+
+#ifdef SOFT
+// Move a point aside on the screen, so that the ribbon reaches half a pixel beyond its edge.
+vec4 widened(Point point) {
+    vec4 middle = clip * vec4(point.place, 1.0);
+    vec4 edge = clip * vec4(point.across.x, 0.0, point.across.y, 0.0);
+    if (middle.w < NEAREST) {
+        aside = half_width = UNEDGED;
+        return middle + edge;
     }
+    vec4 ahead = clip * vec4(point.tangent, 0.0);
+    vec2 run = (ahead.xy * middle.w - middle.xy * ahead.w) * half_screen;
+    vec2 wide = (edge.xy * middle.w - middle.xy * edge.w) * half_screen / (middle.w * middle.w);
+    vec2 normal = vec2(-run.y, run.x) / max(length(run), 1e-9);
+    half_width = abs(dot(wide, normal));
+    aside = (half_width + 0.5) * (gl_VertexID % 2 == 0 ? -1.0 : 1.0);
+    middle.xy += normal * aside / half_screen * middle.w;
+    return middle;
+}
 #endif
-    int level = min(int(joints.x), COUNTS - 1), k = int(joints.z);
-    int fine = segments_on(level, k), coarse = segments_on(min(level + 1, COUNTS - 1), k);
-    float t = float(gl_VertexID / 2) / float(SEGMENTS), slide = fract(joints.x), of_coarse = joint_at(t, coarse);
+
 #ifdef MORPH
-    slide = 0.0;
+// The radiance at part `t` of a blade of kind `k` with this face normal, where it is painted.
+vec3 painted_light(int k, float t, vec2 face, Painted target) {
+    Lie lies = lie_at(target.middle.xz);
+    vec3 pigment = pigment_at(k, t) * stretch(lies.slow) * grain_at(k, doubled(face));
+    pigment *= faced(k, normalize(target.run.xz), target.middle, target.top);
+    ByKind grows = grows_at(target.middle.xz);
+    Light light = veiled(light_on(k, target.bend, target.middle, lies, grows), target.middle);
+    if (anything_is_cut())
+        light = mown_to(left_at(target.place.xz), light, k, areas(grows));
+    return shade(leaf_at(pigment, target.h), light);
+}
+
+// Bring a point at part `t` of a blade nearer to where it is painted, and its light to what it is there.
+void bring(inout Point point, inout vec3 light, float t, int k) {
+    Painted target = painted_at(base, int(painted.x), int(painted.y), painted.z, t, k, int(joints.w));
+    vec2 run = normalize(target.run.xz), tones = tones_of(int(stands.z)), face = normalize(vec2(lie_of.w, -lie_of.z));
+    float wide = dot(run, point.across);
+    if (is_blade(int(stands.z)) && kinds[k].narrowed < 0.0)  // it is round
+        wide = sign(wide) * length(point.across);
+    point.place = mix(point.place, target.place, painted.w);
+    point.tangent = mix(point.tangent, target.tangent, painted.w);
+    float boost = boosted(k, run, target.middle, target.top, target.back);
+    point.across = mix(point.across, run * wide * boost, painted.w);
+    light = mix(light, painted_light(k, mix(tones.x, tones.y, t), face, target), painted.w);
+}
 #endif
-    t = joint_at(t, fine);
-#ifdef MOWN
-    float left = 1.0 - fract(stands.z);
-    t *= left;
-    of_coarse *= left;
-#endif
-    // A blade's width slides along with its joints: as it is where they are meanwhile, a tip would be far broader.
-    float broad = profile(t, high.w, float(fine));
-    if (slide > 0.0) {
-        broad = mix(broad, profile(of_coarse, high.w, float(coarse)), slide);
-        t = mix(t, of_coarse, slide);
-    }
-    float side = float(gl_VertexID % 2) * 2.0 - 1.0;
-    Spine spine = posture(low.w, lie_of.xy, t);
-    vec3 place = foot.xyz + spine.place * foot.w, tangent = spine.tangent * foot.w;
-    vec2 across = lie_of.zw * (side * broad);
+
 #ifdef TOOTHED
+// How much wider a ribbon is for its teeth, and what fragments must know of them.
+float widened_by_teeth(float t, float side) {
     float teeth = TEETH_OF[int(stands.z)];
 #ifdef MORPH
     float seen = teeth_seen(foot.w, teeth, foot.xyz) * (1.0 - painted.w);
@@ -167,46 +149,76 @@ void main() {
     float seen = joints.w;
 #endif
     tooth = vec3(t * teeth, side, seen);
-    across *= mix(1.0, TOOTHED_WIDER, seen);
+    return mix(1.0, TOOTHED_WIDER, seen);
+}
+#endif
+
+#ifdef PARTED
+// Leave a blade out of the pass over what hides what is behind it.
+void leave_out() {
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    color = vec3(0.0);
+    aside = half_width = shown = 0.0;
+#ifdef TOOTHED
+    tooth = vec3(0.0);
+#endif
+#ifdef FOLDS
+    keel = vec3(0.0);
+#endif
+}
+#endif
+
+// The part of the blade that a vertex is at, and how broad the blade is there.
+vec2 along_blade(int k) {
+    int level = min(int(joints.x), COUNTS - 1);
+    int fine = segments_on(level, k), coarse = segments_on(min(level + 1, COUNTS - 1), k);
+    float t = float(gl_VertexID / 2) / float(SEGMENTS), left = 1.0 - fract(stands.z);
+    float of_fine = left * joint_at(t, fine), broad = profile(of_fine, high.w, float(fine));
+#ifndef MORPH
+    float slide = fract(joints.x), of_coarse = left * joint_at(t, coarse);
+    // A blade's width slides along with its joints: as it is where they are meanwhile, a tip would be far broader.
+    if (slide > 0.0) {
+        broad = mix(broad, profile(of_coarse, high.w, float(coarse)), slide);
+        of_fine = mix(of_fine, of_coarse, slide);
+    }
+#endif
+    return vec2(of_fine, broad);
+}
+
+void main() {
+    shown = stands.w;
+#ifdef PARTED
+    hides = joints.y;
+    if (part == 1 && hides > 1.0) {
+        leave_out();
+        return;
+    }
+#endif
+    int k = int(joints.z);
+    vec2 along = along_blade(k);
+    float t = along.x, side = float(gl_VertexID % 2) * 2.0 - 1.0;
+    Spine spine = posture(low.w, lie_of.xy, t);
+    Point point = Point(foot.xyz + spine.place * foot.w, spine.tangent * foot.w, lie_of.zw * (side * along.y));
+#ifdef TOOTHED
+    point.across *= widened_by_teeth(t, side);
 #endif
     float high_up = stands.x + spine.place.y * stands.y;
     Light reaches = unbundled(lit);
     vec3 pigment = mix(low.rgb, high.rgb, t), light = shade(leaf_at(pigment * (1.0 + side * lit[3].xyz), high_up), reaches);
 #ifdef FOLDS
-    bool is_folded = grain_c[int(joints.z)].w > 0.0 && grain_s[int(joints.z)].w > 0.0;
-#ifdef ORGANS
-    is_folded = is_folded && int(stands.z) == BLADE_ITSELF;
-#endif
+    bool is_folded = is_blade(int(stands.z)) && kinds[k].apart > 0.0 && kinds[k].narrowed > 0.0;
     keel = is_folded ? side * (shown_of(light) - shown_of(shade(leaf_at(pigment, high_up), reaches))) : vec3(0.0);
 #endif
 #ifdef MORPH
-    Painted target = painted_at(base, int(painted.x), int(painted.y), painted.z, t, k, int(joints.w));
-    vec2 run = normalize(target.run.xz);
-    place = mix(place, target.place, painted.w);
-    tangent = mix(tangent, target.tangent, painted.w);
-    float wide = dot(run, across);
-    bool is_round = grain_s[k].w < 0.0;
-#ifdef ORGANS
-    is_round = is_round && int(stands.z) == BLADE_ITSELF;
-#endif
-    wide = is_round ? sign(wide) * length(across) : wide;
-    across = mix(across, run * wide * boosted(k, run, target.middle, target.top, target.back), painted.w);
-    vec2 face = normalize(vec2(lie_of.w, -lie_of.z));
-    float tone = t;
-#ifdef ORGANS
-    tone = mix(tones[int(stands.z)].x, tones[int(stands.z)].y, t);
-#endif
-    vec3 painted_as = painted_light(k, tone, face, target);
-    light = mix(light, painted_as, painted.w);
+    bring(point, light, t, k);
 #ifdef FOLDS
     keel *= 1.0 - painted.w;
 #endif
 #endif
     color = shown_of(light);
 #ifdef SOFT
-    gl_Position = widened(place, tangent, across);
+    gl_Position = widened(point);
 #else
-    gl_Position = clip * vec4(place.x + across.x, place.y, place.z + across.y, 1.0);
+    gl_Position = clip * vec4(point.place.x + point.across.x, point.place.y, point.place.z + point.across.y, 1.0);
 #endif
-    shown = stands.w;
 }

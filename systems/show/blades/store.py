@@ -4,11 +4,13 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ....engine.gl.emit import emitted, looked_up
 from ....engine.gl.records import Records
 from ....engine.gl.stream import release_all
 from ..strips.stock import StripStock
 from .organs import organ_defines
 from .plant import BladeStock
+from .pool import BLADE, ORGAN
 
 STANDING = np.dtype(
     [
@@ -33,6 +35,14 @@ STANDING_ROW, BLADES_ROW, SLICES_ROW, TARGETS_ROW = 64, 256, 1024, 64
 """Records in a row of the textures that hold patches, blades, the strips and the painted places of blades."""
 
 
+GLSL = (
+    looked_up("Standing", STANDING, "standing", STANDING_ROW)
+    + f"#ifdef ORGANS\n{looked_up('Blade', ORGAN, 'blades', BLADES_ROW)}"
+    + f"#else\n{looked_up('Blade', BLADE, 'blades', BLADES_ROW)}#endif\n"
+    + emitted({"SLICES_ROW": SLICES_ROW, "TARGETS_ROW": TARGETS_ROW})
+)
+
+
 class BladeStore:
     """What of all patch models' blades never changes."""
 
@@ -49,13 +59,8 @@ class BladeStore:
     def defines(self) -> dict[str, str | int]:
         """What shaders are told of how it is laid out."""
         return {
-            "STANDING_ROW": STANDING_ROW,
-            "BLADES_ROW": BLADES_ROW,
-            "SLICES_ROW": SLICES_ROW,
-            "TARGETS_ROW": TARGETS_ROW,
             "POINTS": self.points,
             "EACH": self.count,
-            "TEXELS": self.blades.texels,
             **self.organs,
         }
 

@@ -13,6 +13,6 @@ const float TEETH_OF[ORGANS] = TEETH;
 
 // How much is seen of so many teeth along a ribbon of some length [m] at a place.
 float teeth_seen(float along, float teeth, vec3 place) {
-    float magnified = screen.y * length(vec3(clip[0].y, clip[1].y, clip[2].y));
-    return teeth > 0.0 ? smoothstep(TEETH_FROM, TEETH_ALL, magnified * along / teeth / max(distance(place, eye.xyz), 0.1)) : 0.0;
+    float magnified = half_screen.y * length(vec3(clip[0].y, clip[1].y, clip[2].y));
+    return teeth > 0.0 ? smoothstep(TEETH_FROM, TEETH_ALL, magnified * along / teeth / max(distance(place, eye), 0.1)) : 0.0;
 }

@@ -19,7 +19,7 @@ vec2 come_through(vec2 place, float slope, float share, float tall, float stands
     vec2 way = normalize(eye.xz - place + 1e-4) * (tall / max(RAISED * slope, 1e-3));
     for (int part = 0; part < PARTS; part++) {
         float above = step * (float(part) + 0.5);
-        float there = share_at(ivec2(floor((place + way * above) / soil.w)));
+        float there = share_at(ivec2(floor((place + way * above) / patch_side)));
         shows += (1.0 - there) / float(PARTS);
         if (there < 1.0) {
             vec2 heights = least + vec2(above) + vec2(-0.5, 0.5) * step;

@@ -57,8 +57,8 @@ float left;  // up to which height grass is left to stand, in the mean over the 
 float left_seen() {
     vec2 dx = dFdx(place.xz), dy = dFdy(place.xz);
     float fine = sharper(dx, dy);
-    float here = textureGrad(mown, (place.xz - terrain.xy) / field.xy, dx * fine / field.xy, dy * fine / field.xy).r;
-    return can_be_mown(place.xz) ? here : zenith.w;
+    float here = textureGrad(mown, (place.xz - terrain_origin) / terrain_size, dx * fine / terrain_size, dy * fine / terrain_size).r;
+    return can_be_mown(place.xz) ? here : tallest_grass;
 }
 #endif
 
@@ -211,10 +211,10 @@ vec2 arched(vec2 met, float lying) {
 
 // What the carpet shows: of grass and of the ground between, as much as there is of each, as of blades in front of it.
 vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
-    ivec2 cell = ivec2(floor(place.xz / soil.w));
+    ivec2 cell = ivec2(floor(place.xz / patch_side));
     uint drawn = hash3(stock.y, cell.x, cell.y);
     int model = int(drawn % uint(stock.x)), side = int(drawn >> 16u) & 3;
-    vec3 ray = place - eye.xyz;
+    vec3 ray = place - eye;
     vec2 heading = ray.xz / max(length(ray.xz), 1e-4), turn = turned(heading, side);
     float above = smoothstep(0.0, 2.0, slope), lying = above * (1.0 - stands) / LODGED;
     Light lit = Light(direct, open_to, vec3(0.0), reach.x, reach.y, reach.zw);
@@ -297,8 +297,8 @@ vec4 carpet_seen(float slope, float on_level, vec3 below, float share) {
             met_by = mown_to(left, lit, kind, leaf_area);
         }
 #endif
-        vec3 tint = (grain_c[kind].rgb * sight + grain_s[kind].rgb * aside) * (2.0 * mean_of.b - 1.0);
-        vec3 pigment = mix(root[kind].rgb, tip[kind].rgb, mean_of.r) * dry * (1.0 + tint);
+        vec3 tint = (kinds[kind].grain_c * sight + kinds[kind].grain_s * aside) * (2.0 * mean_of.b - 1.0);
+        vec3 pigment = mix(kinds[kind].root, kinds[kind].tip, mean_of.r) * dry * (1.0 + tint);
         sum += OF(met, kind) * covers * vec4(shown_of(mix(shade(leaf_at(pigment, mean_of.g), met_by), veil.rgb, veil.w)), 1.0);
         kind = next_kind(met, LEAST_MET, kind + 1);
     } while (kind < KINDS);
@@ -353,7 +353,7 @@ void main() {
 #endif
     color = shown_of(mix(color, veil.rgb, veil.w));
 #if defined(CARPET) && !defined(UNDER)
-    float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / soil.w))) : 0.0;
+    float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / patch_side))) : 0.0;
     float top = slope + rises_ahead(), covered = mix(1.0, outline_cover(top, exp(SPIKES * TALLER)), min(3.0 * share, 1.0));
     // It writes its depth: where strips still stand on the patch, the thin edge of an outline would hide them.
     if (covered < max(0.004, STANDING * (1.0 - share)))

@@ -210,7 +210,7 @@ const float FARTHEST = 5.0; // how much farther ahead ground is looked at, at mo
 // How fast the rise of the ground falls off along a line of sight of some slope [1/m]: where it is, or where it goes on through
 // the grass, if ground falls away from it there.
 float curved_at(vec2 place, vec2 rise, float slope) {
-    float near_by = max(4.0 * terrain.z, 2.0 * tile.z), here = height_at(place);
+    float near_by = max(4.0 * terrain_cell, 2.0 * tile.z), here = height_at(place);
     float far = clamp(STOPPED * tall / max(slope, 0.005), near_by, FARTHEST * near_by);
     vec2 way = normalize(place - eye.xz + 1e-4);
     float bulges = (2.0 * here - height_at(place + way * near_by) - height_at(place - way * near_by)) / (near_by * near_by);
@@ -229,7 +229,7 @@ float uneven(vec2 place) {
 #endif
 
 float lowest_share(vec2 place) {
-    ivec2 low = ivec2(floor((place - 0.01) / soil.w)), high = ivec2(floor((place + 0.01) / soil.w));
+    ivec2 low = ivec2(floor((place - 0.01) / patch_side)), high = ivec2(floor((place + 0.01) / patch_side));
     return min(min(share_at(low), share_at(high)), min(share_at(ivec2(low.x, high.y)), share_at(ivec2(high.x, low.y))));
 }
 #endif
@@ -276,7 +276,7 @@ void main() {
     for (int group = 0; group < GROUPS; group++)
         tall += dot(grows[group], min(raised[group], left));
     tall /= max(total(grows), 1.0);
-    vec2 step = vec2(max(terrain.z, tile.z), 0.0);
+    vec2 step = vec2(max(terrain_cell, tile.z), 0.0);
     rise = vec2(height_at(flat_at + step.xy) - height_at(flat_at - step.xy),
                 height_at(flat_at + step.yx) - height_at(flat_at - step.yx)) / (2.0 * step.x);
     place.y += carpet * tall;
@@ -325,8 +325,8 @@ void main() {
 #endif
     soil_seen = soil_light(ground, lies, stand, weighed(leaf_area, leaves_left(left_about(flat_at, tile.z))));
     vec3 pigment = soil_pigment(lies, stand);
-    sunlit = pigment * pigment * sunlight.rgb * (SOIL_SENDS * lies.high * sun_seen(ground, lies.past));
-    skylit = pigment * pigment * skylight.rgb;
+    sunlit = pigment * pigment * sunlight * (SOIL_SENDS * lies.high * sun_seen(ground, lies.past));
+    skylit = pigment * pigment * skylight;
     to_light = vec2(sun_way(0, lies.high), OPEN_SKY);
 #else
     soil_seen = soil_light(ground, lies, stand, total(areas(stand)));
@@ -345,7 +345,7 @@ void main() {
         high *= min(left / max(OF(crown, kind), 0.01), 1.0);
         deep = 1.0 - high;
 #endif
-        vec3 pigment = mix(mix(root[kind].rgb, tip[kind].rgb, through[kind].w), root[kind].rgb, deep) * stretch(here.slow);
+        vec3 pigment = mix(mix(kinds[kind].root, kinds[kind].tip, kinds[kind].bloom), kinds[kind].root, deep) * stretch(here.slow);
         under += OF(met, kind) * shade(leaf_at(pigment, high), lit);
     }
     // Where grass grows thinly or not at all, what lies beneath is the soil.

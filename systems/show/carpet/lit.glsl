@@ -39,7 +39,7 @@ float laid(int kind, vec3 lean, vec2 sight, float falls) {
 // The pigment of what is met of a kind that leans so, of that where it stands upright.
 vec3 turned_to(int kind, vec3 lean, vec3 ray) {
     vec2 seen = faces_seen(kind, lean, ray) - faces_seen(kind, vec3(0.0, 1.0, 0.0), ray);
-    return 1.0 + grain_c[kind].rgb * seen.x + grain_s[kind].rgb * seen.y;
+    return 1.0 + kinds[kind].grain_c * seen.x + kinds[kind].grain_s * seen.y;
 }
 
 // How much of each kind's tips is met, of what its images show, which have it grow densely and alone. What grows thinly, or
@@ -64,8 +64,8 @@ vec3 stretch_seen(vec3 there, float slope, float tall) {
 
 // The wind's message; far off, where nobody asks for it, the mean of those nearer by.
 vec2 message_at(vec2 at) {
-    float side = float(textureSize(air, 0).x) * soil.w;
-    vec2 apart = abs(at - (vec2(window.xy) + 0.5) * soil.w);
+    float side = float(textureSize(air, 0).x) * patch_side;
+    vec2 apart = abs(at - (vec2(window.xy) + 0.5) * patch_side);
     float far = smoothstep(0.35, 0.48, max(apart.x, apart.y) / side);
     return mix(textureLod(air, at / side, 0.0).xy, texelFetch(mean_air, ivec2(0), 0).xy, far);
 }
@@ -74,7 +74,7 @@ vec2 message_at(vec2 at) {
 Sum summed(ByKind met, float slope, vec3 there, Lie here, vec2 messages[KINDS]) {
     ByKind grows = grows_at(there.xz);
     Sum sum = Sum(vec3(0.0), vec3(0.0), vec4(0.0), 0.0, vec2(0.0));
-    vec3 ray = there - eye.xyz;
+    vec3 ray = there - eye;
     ray /= max(length(ray.xz), 1e-4) * max(slope, LOWEST);
     for (int kind = 0; kind < KINDS; kind++) {
         vec2 bend = bending(kind, messages[kind]);

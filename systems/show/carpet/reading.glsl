@@ -26,7 +26,7 @@ const float FEATURE = 0.3;      // height of what can be told apart in the grass
 // How far the leaves of a patch are moved that the wind bends [m], and how high they stand, of their height at rest. It is one
 // wind for all of a patch: images that are sheared here and there otherwise would curl.
 vec3 blown_on(ivec2 cell) {
-    vec2 message = message_at((vec2(cell) + 0.5) * soil.w);
+    vec2 message = message_at((vec2(cell) + 0.5) * patch_side);
     vec3 sum = vec3(0.0);
     for (int kind = 0; kind < KINDS; kind++) {
         vec2 bend = bending(kind, message);
@@ -63,13 +63,13 @@ struct Reading {
 // What is read of the images of a cell, turned to the line of sight. `seen` is of elevation_seen.
 Reading reading(ivec2 cell, vec2 heading, vec2 turn, vec3 blown, vec2 seen, float slope, float on_level) {
     vec2 leans = sheared(blown, on_level), beside = vec2(-heading.y, heading.x);
-    vec2 at = leant_back((place.xz - blown.xy) / soil.w - vec2(cell) - 0.5, heading, leans);
+    vec2 at = leant_back((place.xz - blown.xy) / patch_side - vec2(cell) - 0.5, heading, leans);
     // From the side blades are drawn out along the line of sight as they are seen, and not as at the slopes of the images.
     vec2 longer = max(on_level, FLATTEST) / vec2(slopes[int(seen.x)], slopes[int(seen.x) + 1]) - 1.0;
     longer *= dot(at, heading) * (1.0 - smoothstep(ROOTS_SEEN.x, ROOTS_SEEN.y, on_level));
     // From a low angle a pixel is a long stripe of ground, but blades are drawn out as far: what counts is how broad it is
     // across them.
-    vec2 dx = leant_back(dFdx(place.xz), heading, leans) / soil.w, dy = leant_back(dFdy(place.xz), heading, leans) / soil.w;
+    vec2 dx = leant_back(dFdx(place.xz), heading, leans) / patch_side, dy = leant_back(dFdy(place.xz), heading, leans) / patch_side;
     float across = max(max(abs(dot(dx, beside)), abs(dot(dy, beside))), 1e-6);
     // Over a crest a line of sight meets plants one by one, as on level ground.
     float finer = SHARP * clamp(slope / on_level, 0.25, 1.0) * inversesqrt(max(1.0 + dot(leans, heading), SHORTEST));
@@ -80,7 +80,7 @@ Reading reading(ivec2 cell, vec2 heading, vec2 turn, vec3 blown, vec2 seen, floa
 // How far what is read is from its mean, of how far it is in images, of grass that stands so high, of its height at rest.
 float grain_of(Reading read, vec2 seen, float slope, float upright) {
     float steep = smoothstep(0.05, 0.3, slope), above = smoothstep(0.0, 2.0, slope);
-    float tufts = smoothstep(TUFTS.x, TUFTS.y, read.across * soil.w);
+    float tufts = smoothstep(TUFTS.x, TUFTS.y, read.across * patch_side);
     float filtered = clamp(log2(read.across * float(textureSize(images, 0).x)) + 0.4, 0.0, 1.0);
     // Two images are flatter once they are mixed: as much is put back (Heitz and Neyret, High-Performance By-Example Noise,
     // 2018). From the side they have nothing to do with one another; from above they show the same tufts.
@@ -89,5 +89,5 @@ float grain_of(Reading read, vec2 seen, float slope, float upright) {
     float grain = mix(1.0, mix(GRAIN, mix(GRAIN_ABOVE.x, GRAIN_ABOVE.y, tufts), steep), filtered) * inversesqrt(mixed);
     grain *= 1.0 - max(EVENER * above * (1.0 - stands) / LODGED, EVENER_ASIDE * (1.0 - above) * (1.0 - upright));
     // Far away a pixel is higher than what can be told apart in the grass: it is the mean of several.
-    return grain * mix(inversesqrt(1.0 + read.across * soil.w / (FEATURE * max(tall, LEAST))), 1.0, steep);
+    return grain * mix(inversesqrt(1.0 + read.across * patch_side / (FEATURE * max(tall, LEAST))), 1.0, steep);
 }

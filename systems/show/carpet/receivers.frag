@@ -10,7 +10,7 @@ void main() {
     ivec2 at = ivec2(gl_FragCoord.xy), low = around.xy - around.z / 2;
     // Rows wrap round: each texel is a cell of the window. What is added keeps the remainder from being that of a negative.
     ivec2 cell = low + (at - low + 4096 * around.z) % around.z;
-    vec2 place = (vec2(cell) + 0.5) * soil.w;
+    vec2 place = (vec2(cell) + 0.5) * patch_side;
     ByKind grows = grows_at(place);
     int kind = 0;
     for (int other = 1; other < KINDS; other++)

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....engine.declared.quality import StripRing
+from ....engine.gl.emit import emitted, looked_up
 from ....engine.gl.mipmaps import stack_for
 from ....engine.gl.records import Records
 from ....engine.gl.stream import release_all
@@ -19,6 +20,8 @@ from .textures import Atlas, extent_texture, strip_texture
 
 STOOD_ROW, STRIPS_ROW = 64, 1024
 """Records in a row of the textures that hold patches, and the numbers of polygon strips."""
+
+GLSL = looked_up("Stood", STOOD, "stood", STOOD_ROW) + emitted({"STRIPS_ROW": STRIPS_ROW})
 
 NUMBER = np.dtype([("number", "u4")])
 
@@ -47,10 +50,9 @@ class StripPainter:
         self._stock = stock
         self.stood = Records(canvas.ctx, STOOD, STOOD_ROW)
         self.strips = Records(canvas.ctx, NUMBER, STRIPS_ROW)
-        laid: dict[str, str | int] = {"RINGS": len(rings), "STOOD_ROW": STOOD_ROW}
+        laid: dict[str, str | int] = {"RINGS": len(rings)}
         self.hearing = Hearing(canvas, "systems/show/strips/receivers.frag", laid, self._tell)
-        whole = {**laid, "STRIPS_ROW": STRIPS_ROW}
-        whole["ATLAS"] = f"{self._rows}.0"
+        whole = {**laid, "ATLAS": f"{self._rows}.0"}
         if stack > 1:
             whole["STACK"] = stack
         self.programs = [

@@ -1,8 +1,8 @@
 // Every vertical edge of a strip is a receiver.
 #include "systems/receive/receivers.glsl"
 #include "lib/stack.glsl"
+#include "systems/show/strips/draw.py"
 
-uniform sampler2D stood;     // by patch: STOOD
 uniform ByKind margin;       // by kind: how far strips reach beyond their patch [m]
 uniform ivec4 stacks[RINGS]; // by ring: columns of a strip, sections of a column, strips of a kind on a patch
 uniform ivec2 of_ring;       // the ring that is asked; its first patch
@@ -13,9 +13,8 @@ void main() {
         told = vec4(0.0);
         return;
     }
-    int patch_number = of_ring.y + number / (KINDS * count * edges);
-    vec4 where = texelFetch(stood, ivec2(patch_number % STOOD_ROW * 2, patch_number / STOOD_ROW), 0);
-    int stand = int(where.w), turn = stand % 4, along = stand / 4 % 2, own = (along + turn) % 2;
+    Stood stood = stood_of(of_ring.y + number / (KINDS * count * edges));
+    int stand = int(stood.stand), turn = stand % 4, along = stand / 4 % 2, own = (along + turn) % 2;
     int k = number / (count * edges) % KINDS, plane = stacked(number / edges % count, count, own, along, turn);
-    told = told_at(edge_foot(where.xy, turn, own, plane, count, number % edges, edges - 1, OF(margin, k)), k, number);
+    told = told_at(edge_foot(stood.cell, turn, own, plane, count, number % edges, edges - 1, OF(margin, k)), k, number);
 }

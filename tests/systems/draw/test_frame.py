@@ -1,8 +1,6 @@
 """What every program knows of a frame, and what the painters tell their programs."""
 
-import re
 from collections.abc import Callable, Iterator
-from importlib.resources import files
 
 import moderngl
 import numpy as np
@@ -12,8 +10,10 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.engine.camera import Camera, View, projection_matrix, view_matrix, view_of
+from tallgrass.engine.gl import emit
+from tallgrass.engine.gl.records import Records
 from tallgrass.systems.features import UNITS
-from tallgrass.systems.frame.block import FRAME, FrameBlock, aim, by_kind
+from tallgrass.systems.frame.block import FRAME, KIND, SHADE, FrameBlock, aim, by_kind
 from tallgrass.systems.show.blades.draw import MESSAGE, BladePainter
 from tallgrass.systems.show.blades.pool import BLADE, ORGAN
 from tallgrass.systems.show.blades.store import STANDING
@@ -46,23 +46,49 @@ def block(ctx: moderngl.Context) -> Iterator[FrameBlock]:
     made.release()
 
 
-def test_the_shaders_block_has_the_records_fields_in_its_order() -> None:
-    source = files("tallgrass.engine.shaders").joinpath("lib/frame.glsl").read_text("utf-8")
-    declared = re.findall(r"^\s+(mat4|vec4) (\w+)(?:\[(\d+)\])?;", source, re.MULTILINE)
-    sizes = {name: {"mat4": 64, "vec4": 16}[kind] * int(count or 1) for kind, name, count in declared}
-    assert list(sizes.items()) == [(name, FRAME[name].itemsize) for name in FRAME.names or ()]
+FIELDS = {
+    **{name: FRAME[name] for name in FRAME.names or () if name not in {"clip", "unclip", "kinds", "shades", "padding"}},
+    **{f"kinds[int(row.x)].{name}": KIND[name] for name in KIND.names or ()},
+    **{f"shades[int(row.x)].{name}": SHADE[name] for name in SHADE.names or ()},
+}
 
 
-@pytest.mark.parametrize("name", [name for name in FRAME.names or () if name not in {"clip", "unclip"}])
-def test_the_graphics_card_reads_every_field_as_it_was_written(
-    probe: Probe, record: NDArray[np.void], name: str
-) -> None:
-    many = len(FRAME[name].shape) == 2
-    count = FRAME[name].shape[0]
-    rows = np.ones((count, 4), np.float32) * np.arange(count, dtype=np.float32)[:, None]
-    told = probe(TELL % (f"{name}[int(row.x)]" if many else f"{name} * row.w"), rows, record, {}, 4)
-    expected = record[0][name] if many else rows * record[0][name]
-    np.testing.assert_array_equal(told, expected)
+@pytest.mark.parametrize("name", FIELDS)
+def test_the_graphics_card_reads_every_field_as_it_was_written(probe: Probe, name: str) -> None:
+    record, kind = np.zeros(1, FRAME), FIELDS[name]
+    record.view(np.float32)[:] = np.random.default_rng(len(name)).normal(0.0, 1.0, FRAME.itemsize // 4)
+    each, _, member = name.partition("[int(row.x)].")
+    written = record[0][each][member] if member else record[0][each]
+    many, numbers = member or len(kind.shape) == 2, kind.shape[-1] if kind.shape else 1
+    rows = np.arange(len(written) if many else 1, dtype=np.float32)[:, None] * np.ones(4, np.float32)
+    asked = f"{name}[int(row.x)]" if many and not member else name
+    told = probe(TELL % f"min(row.x, 0.0) + vec4({', '.join([asked, *['0.0'] * (4 - numbers)])})", rows, record, {}, 4)
+    np.testing.assert_array_equal(told[:, :numbers], np.reshape(written, (-1, numbers)))
+
+
+def test_a_block_that_is_laid_out_otherwise_than_std140_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"Frame\.sun is at 4, and std140 has it at 16"):
+        emit.block("Frame", np.dtype([("tall", "f4"), ("sun", "3f4")]))
+
+
+def test_records_are_looked_up_by_their_fields_names(ctx: moderngl.Context, probe: Probe) -> None:
+    record, per_row = np.dtype([("cell", "2f4"), ("row", "f4"), ("fade", "f4"), ("root", "3f4"), ("growth", "f4")]), 3
+    rows = np.zeros(7, record)
+    rows.view(np.float32)[:] = np.random.default_rng(1).normal(0.0, 1.0, 56)
+    texture = Records(ctx, record, per_row)
+    texture.write(rows)
+    numbers = np.arange(7, dtype=np.float32)[:, None]
+    for asked, field in (("vec3(one.cell, one.fade)", ["cell", "fade"]), ("one.root", ["root"])):
+        lines = f"""#include "lib/frame.glsl"
+            {emit.looked_up("Standing", record, "standing", per_row)}
+            in float row;
+            out vec3 told;
+            void main() {{ Standing one = standing_of(int(row)); told = {asked}; }}"""
+        told = probe(lines, numbers, np.zeros(1, FRAME), {"standing": texture.texture}, 3)
+        np.testing.assert_array_equal(told, np.column_stack([rows[name] for name in field]))
+    texture.release()
+    with pytest.raises(ValueError, match=r"Standing\.root lies in two texels"):
+        emit.looked_up("Standing", np.dtype([("cell", "2f4"), ("root", "3f4"), ("rest", "3f4")]), "standing", 4)
 
 
 @pytest.mark.parametrize("name", ["clip", "unclip"])
@@ -75,8 +101,8 @@ def test_matrices_arrive_for_column_vectors(probe: Probe, record: NDArray[np.voi
 def test_clip_and_unclip_are_inverse_and_the_eye_is_the_cameras(record: NDArray[np.void]) -> None:
     clip, unclip = (record[0][name].reshape(4, 4).T.astype(float) for name in ("clip", "unclip"))
     np.testing.assert_allclose(clip @ unclip, np.eye(4), atol=1e-3)
-    np.testing.assert_allclose(record[0]["eye"], [1.0, 2.0, 3.0, 0.0], atol=1e-5)
-    np.testing.assert_array_equal(record[0]["screen"][:2], [160.0, 100.0])
+    np.testing.assert_allclose(record[0]["eye"], [1.0, 2.0, 3.0], atol=1e-5)
+    np.testing.assert_array_equal(record[0]["half_screen"], [160.0, 100.0])
 
 
 def test_d6_the_block_stays_away_from_the_hosts_own_binding_points(ctx: moderngl.Context, block: FrameBlock) -> None:

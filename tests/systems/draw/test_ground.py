@@ -141,7 +141,7 @@ def corners(ctx: moderngl.Context, laid: Laid, record_of: RecordOf) -> Iterator[
     grid = ctx.buffer(np.stack(np.meshgrid(line, line), -1).reshape(-1, 2))
 
     def place(tiles: NDArray[np.void], eye: tuple[float, float, float]) -> NDArray[np.float32]:
-        record["eye"][0, :3] = eye
+        record["eye"] = eye
         block.write(record)
         for unit, (name, texture) in enumerate(textures.items()):
             texture.use(unit)

@@ -1,0 +1,43 @@
+// What organs of plants are like, where a scene has plants other than grass; without, all are blades themselves.
+#ifdef ORGANS
+bool is_blade(int organ) {
+    return organ == BLADE_ITSELF;
+}
+
+const vec2 tones[ORGANS] = TONES;
+const float gives[ORGANS] = GIVES;
+const float widths[ORGANS * KNOTS] = WIDTHS;
+
+// How much of the tip's pigment it has at its own ends.
+vec2 tones_of(int organ) {
+    return tones[organ];
+}
+
+// How far it gives way to wind, of how far a blade does.
+float give_of(int organ) {
+    return gives[organ];
+}
+
+// How wide it is at part `t` of its length, of its own width.
+float width_of(int organ, float t) {
+    float at = t * float(KNOTS - 1);
+    int low = min(int(at), KNOTS - 2), row = organ * KNOTS + low;
+    return mix(widths[row], widths[row + 1], at - float(low));
+}
+#else
+bool is_blade(int organ) {
+    return true;
+}
+
+vec2 tones_of(int organ) {
+    return vec2(0.0, 1.0);
+}
+
+float give_of(int organ) {
+    return 1.0;
+}
+
+float width_of(int organ, float t) {
+    return 1.0;
+}
+#endif
