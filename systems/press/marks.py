@@ -1,6 +1,7 @@
 """Marks: stretches of trails, sorted into squares of the ground, so that a receiver looks at a few alone."""
 
 from dataclasses import dataclass
+from itertools import islice
 from math import floor
 
 import numpy as np
@@ -82,7 +83,7 @@ class Listed:
     def of(cls, stretches: Stretches) -> "Listed":
         """Return stretches (n, NUMBERS) in the order in which they began, and then of their ways."""
         ordered = stretches[np.lexsort((stretches[:, SERIAL], np.round(stretches[:, BEGUN] / ROUNDED)))]
-        return cls(ordered, *_touched(ordered))
+        return cls(ordered, *touched(ordered))
 
     def after(self, time: float) -> "Listed":
         """Return those that were left after `time` [s]."""
@@ -103,14 +104,26 @@ class Listed:
 
     def marks(self, *, since: float) -> Marks:
         """Return them as marks; times count from `since` [s]."""
-        times = slice(BEGUN, LEFT + 1)
-        marks = self.stretches.astype(np.float32)
-        marks[:, times] = self.stretches[:, times] - since
+        return _marks(told(self.stretches, since), *self.lists())
+
+    def lists(self) -> tuple[NDArray[np.intp], Ints]:
+        """Return how many touch each square, and the lists of the squares one after the other."""
         count = np.bincount(self.square, minlength=SIDE * SIDE)
-        fewer = np.minimum(count, MOST)
-        first = np.cumsum(count) - fewer
-        listed = self.number[np.argsort(self.square, kind="stable")]
-        return Marks(marks, first.astype(np.int32), fewer.astype(np.int32), listed)
+        return count, self.number[np.argsort(self.square, kind="stable")]
+
+
+def told(stretches: Stretches, since: float) -> Floats:
+    """Return stretches (n, NUMBERS) as marks are told, whose times count from `since` [s]."""
+    times = slice(BEGUN, LEFT + 1)
+    marks = stretches.astype(np.float32)
+    marks[:, times] = stretches[:, times] - since
+    return marks
+
+
+def _marks(marks: Floats, count: NDArray[np.intp], listed: Ints) -> Marks:
+    fewer = np.minimum(count, MOST)
+    first = np.cumsum(count) - fewer
+    return Marks(marks, first.astype(np.int32), fewer.astype(np.int32), listed)
 
 
 def square_of(place: Floats, /) -> Ints:
@@ -119,7 +132,7 @@ def square_of(place: Floats, /) -> Ints:
     return np.asarray(at[:, 1] * SIDE + at[:, 0], np.int32)
 
 
-def _touched(stretches: Stretches) -> tuple[Ints, NDArray[np.uint16]]:
+def touched(stretches: Stretches) -> tuple[Ints, NDArray[np.uint16]]:
     """Return which stretches touch which squares: their numbers, in order, and the squares', each of shape (m,)."""
     reach = stretches[:, REACH, None]
     low = np.floor((np.minimum(stretches[:, FIRST], stretches[:, LAST]) - reach) / SQUARE).astype(np.int32)
@@ -134,11 +147,77 @@ def _touched(stretches: Stretches) -> tuple[Ints, NDArray[np.uint16]]:
     return number, ((z & (SIDE - 1)) * SIDE + (x & (SIDE - 1))).astype(np.uint16)
 
 
+NO_STRETCHES = np.zeros((0, NUMBERS))
+NO_LISTS = np.zeros(SIDE * SIDE, np.intp), np.zeros(0, np.int32)
+
 NOTHING = Listed.of(np.zeros((0, NUMBERS))).marks(since=0.0)
 """No marks at all."""
 
 UNTRODDEN = Trodden(NOTHING, NOTHING, 0.0, 0.0)
 """What has been trodden where nobody goes."""
+
+
+AT_A_TIME = 2
+"""Pieces of what is kept that are told again at a time."""
+
+WHOLE = 512
+"""Stretches from which on a piece is whole: what settles next begins another one."""
+
+READY = 0.8
+"""Part of a second within which all that is kept is told again for the next one."""
+
+
+class Telling:
+    """What is kept, told for a second `since` [s] that comes: bit by bit, so that no frame has all of it to do."""
+
+    def __init__(self, kept: list[Listed], since: float, lasts: float) -> None:
+        self.since, self.lasts = since, lasts
+        self._left = iter(kept)
+        self._turns, self._done = 1 + -(-len(kept) // AT_A_TIME), 0
+        self.kept: list[Listed] = []
+        """Those that still count then, in pieces."""
+        self._told: list[Floats] = []
+        self._count, self._listed = NO_LISTS
+
+    def go_on(self, part: float) -> None:
+        """Have this part of it done."""
+        while self._done < min(part, 1.0) * self._turns:
+            self._done += 1
+            for piece in islice(self._left, AT_A_TIME):
+                self._add(piece.after(self.since - self.lasts))
+            if self._done == self._turns:
+                self._count, self._listed = whole(self.kept).lists()
+
+    def settle(self, stretches: Stretches) -> Marks:
+        """Return all of it as marks, with others (n, NUMBERS) after them that are kept from now on."""
+        self.go_on(1.0)
+        fresh = Listed.of(stretches).after(self.since - self.lasts)
+        count, listed = fresh.lists()
+        listed = listed + np.int32(sum(map(len, self._told)))
+        both = np.empty(len(self._listed) + len(listed), np.int32)
+        both[np.repeat(np.cumsum(count) - count, self._count) + np.arange(len(self._listed))] = self._listed
+        both[np.repeat(np.cumsum(self._count), count) + np.arange(len(listed))] = listed
+        self._add(fresh)
+        return _marks(np.concatenate(self._told), self._count + count, both) if self._told else NOTHING
+
+    def _add(self, piece: Listed) -> None:
+        if not len(piece.stretches):
+            return
+        if self.kept and len(self.kept[-1].stretches) < WHOLE:
+            piece = self.kept.pop().and_then(piece)
+            self._told.pop()
+        self.kept.append(piece)
+        self._told.append(told(piece.stretches, self.since))
+
+
+def whole(pieces: list[Listed], /) -> Listed:
+    """Return pieces, one after the other, as one."""
+    begins = np.cumsum([0, *(len(piece.stretches) for piece in pieces)], dtype=np.int32)[:-1]
+    return Listed(
+        np.concatenate([NO_STRETCHES, *(piece.stretches for piece in pieces)]),
+        np.concatenate([NO_LISTS[1], *(piece.number + begin for piece, begin in zip(pieces, begins, strict=True))]),
+        np.concatenate([np.zeros(0, np.uint16), *(piece.square for piece in pieces)]),
+    )
 
 
 class Memory:
@@ -150,20 +229,21 @@ class Memory:
     def __init__(self, trails: list[Trail], lasts: float = 0.0) -> None:
         self.trails, self.lasts = trails, lasts
         """The trail of a scene's own pressers and that of a game's, and how long a mark is remembered [s]."""
-        self._kept = Listed.of(np.zeros((0, NUMBERS)))
+        self._kept: list[Listed] = []
+        self._telling: Telling | None = None
         self._settled, self._since = NOTHING, 0.0
 
     def replace(self, trail: Trail) -> None:
         """Take another trail for that of the scene's own: what the old one has left is as if it had never been."""
         self.trails[0] = trail
-        kept = self._kept.stretches
+        kept = self.kept
         self.trails[1].closed.append(kept[kept[:, SERIAL] >= 0.0])  # they settle again, among those of the other trail
-        self._kept, self._since = Listed.of(kept[:0]), -1.0
+        self._kept, self._telling, self._since = [], None, -1.0
 
     @property
     def kept(self) -> Stretches:
         """The stretches that have settled, in the order in which they count."""
-        return self._kept.stretches
+        return np.concatenate([NO_STRETCHES, *(piece.stretches for piece in self._kept)])
 
     @property
     def since(self) -> float:
@@ -172,16 +252,26 @@ class Memory:
 
     def resume(self, kept: Stretches, since: float) -> None:
         """Remember just these stretches, in this order, which settled last at `since` [s]."""
-        self._kept, self._since = Listed(kept, *_touched(kept)), since
-        self._settled = self._kept.marks(since=since) if len(kept) else NOTHING
+        all_of_it = Listed(kept, *touched(kept))
+        self._kept, self._telling, self._since = [all_of_it], None, since
+        self._settled = all_of_it.marks(since=since) if len(kept) else NOTHING
 
     def at(self, time: float) -> Trodden:
         """Return what has been trodden by `time` [s], to which the trail has come."""
-        if floor(time) != self._since:
-            self._settle(float(floor(time)))
+        now = float(floor(time))
+        if now != self._since:
+            self._settle(now)
+        self._due(now + 1.0).go_on((time - now) / READY)
         found = np.concatenate([part for trail in self.trails for part in (trail.over(), trail.open)])
         fresh = Listed.of(found).marks(since=self._since) if len(found) else NOTHING
         return Trodden(self._settled, fresh, self._since, time)
+
+    def _due(self, since: float) -> Telling:
+        """Return what is kept, told for a second: as far as that has come, if it was begun."""
+        found = self._telling
+        if found is None or found.since != since or found.lasts != self.lasts:
+            self._telling = found = Telling(self._kept, since, self.lasts)
+        return found
 
     def _settle(self, since: float) -> None:
         self._since = since
@@ -191,5 +281,6 @@ class Memory:
             then = over[:, LEFT] <= since - APART
             trail.closed = [over[~then]]
             found.append(over[then])
-        self._kept = self._kept.and_then(Listed.of(np.concatenate(found))).after(since - self.lasts)
-        self._settled = self._kept.marks(since=since) if len(self._kept.stretches) else NOTHING
+        telling = self._due(since)
+        self._settled = telling.settle(np.concatenate(found))
+        self._kept, self._telling = telling.kept, None

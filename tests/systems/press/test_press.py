@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from tallgrass.components.arrays import Floats
 from tallgrass.components.presser import Presser
+from tallgrass.systems.press import marks
 from tallgrass.systems.press.footprint import discs_of
 from tallgrass.systems.press.lie import laid_over, pressed, touches
 from tallgrass.systems.press.marks import MOST, UNTRODDEN, Memory, Trodden
@@ -213,3 +215,39 @@ def test_f4_corners_may_stand_in_lists_and_in_arrays() -> None:
         presser = Presser(corners=corners)  # type: ignore[arg-type]
         assert hash(presser) == hash(Presser(corners=square))
         np.testing.assert_array_equal(discs_of(presser), discs_of(Presser(corners=square)))
+
+
+def test_what_settles_is_told_a_little_in_each_frame_and_comes_to_what_it_is_told_at_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    told: list[int] = []
+
+    def counted(stretches: NDArray[np.float64], since: float) -> NDArray[np.float32]:
+        told[-1] += len(stretches)
+        return tell(stretches, since)
+
+    tell = marks.told
+    monkeypatch.setattr(marks, "told", counted)
+    random, trail = np.random.default_rng(4), Trail()
+    middle, none, count = random.uniform(-30.0, 30.0, (300, 2)), np.zeros(0, np.intp), 0
+    memory, radius = Memory([trail], 12.0), np.full(300, 0.2)
+    for frame in range(20 * 60):
+        time = frame / 60.0
+        told.append(0)
+        place = middle + 5.0 * np.stack([np.cos(middle[:, 0] + 0.6 * time), np.sin(middle[:, 0] + 0.6 * time)], axis=1)
+        discs = Discs(place, np.tile([1.0, 0.0], (300, 1)), radius, np.ones(300))
+        if not frame:
+            trail.keep(none, none, discs, time)
+        trail.tread(discs, time)
+        trodden = memory.at(time)
+        if frame % 60 in (0, 7):
+            told.append(0)
+            at_once = marks.Listed(memory.kept, *marks.touched(memory.kept)).marks(since=memory.since)
+            told.pop()
+            for field in ("marks", "first", "count", "listed") if len(memory.kept) else ():
+                np.testing.assert_array_equal(getattr(trodden.settled, field), getattr(at_once, field))
+                count += 1
+    assert count > 100
+    kept = len(memory.kept)
+    assert kept > 20_000
+    assert max(told[-240:]) < 0.25 * kept
