@@ -43,7 +43,8 @@ NUMBERS = {
 """What OpenGL calls its constants, without GL_."""
 
 ASKS = {
-    "glIsEnabled": (c_int,), "glIsEnabledi": (c_int,) * 2, "glIsProgram": (c_int,), "glIsVertexArray": (c_int,),
+    "glIsEnabled": (c_int,), "glIsEnabledi": (c_int,) * 2, "glIsProgram": (c_int,), "glIsBuffer": (c_int,),
+    "glIsVertexArray": (c_int,),
 }  # fmt: skip
 """The functions that answer yes or no, and what each takes."""
 

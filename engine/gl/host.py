@@ -257,7 +257,9 @@ class State:
         else:
             gl.glBindBufferBase(NUMBERS[FEEDBACK], 0, buffer)
         for name, target in WORDS.targets:
-            gl.glBindBuffer(target, *value[name])
+            bound = value[name][0]
+            # One that was given back meanwhile, with a painter that is gone, is no buffer any more.
+            gl.glBindBuffer(target, bound if bound and gl.glIsBuffer(bound) else 0)
         gl.glBindRenderbuffer(NUMBERS["RENDERBUFFER"], *value["RENDERBUFFER_BINDING"])
         self._units.restore()
         gl.glActiveTexture(*value["ACTIVE_TEXTURE"])
