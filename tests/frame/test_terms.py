@@ -78,7 +78,9 @@ TERMS = {
     "sun": Term(Seen(light="strength: 0"), Seen(), 2.0),
     "sun behind or before the eye": Term(Seen(BEHIND, 25.0), Seen(BEFORE, 25.0), 0.08),
     "sky": Term(Seen(light=NIGHT), Seen(light=f"zenith: {BLUE}, horizon: {BLUE}"), 0.12),
-    "canopy's own shade": Term(Seen(elevation=65.0, light=NIGHT), Seen(elevation=20.0, light=NIGHT), 0.45),
+    "canopy's own shade": Term(
+        Seen(elevation=65.0, light=NIGHT), Seen(elevation=20.0, light=NIGHT), 0.45, missed=0.075
+    ),
     "shadow of the terrain": Term(Seen(LEFT, 15.0), Seen(LEFT, 15.0, ground="ridge"), 0.3),
     "shadow of clouds": Term(Seen(), Seen(light="clouds: 0.6"), 0.14),
     "shadow of a body": Term(Seen(), Seen(shade=True), 0.25),
