@@ -72,7 +72,7 @@ def owner(entry: EntryPoint) -> tuple[str, str]:
 @lru_cache(maxsize=64)
 def _told(distribution: Distribution) -> tuple[str, str]:
     """Return what a distribution says of itself: it reads its own file each time it is asked."""
-    return distribution.name, distribution.version
+    return distribution.name or "a distribution without a name", distribution.version or ""
 
 
 def owners(entries: list[EntryPoint]) -> str:

@@ -76,8 +76,13 @@ runpy.run_path(told["program"], run_name="__main__")
 _HOME = pytest.StashKey[moderngl.Framebuffer]()
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what draws, and run what opens windows last: a window takes the current GL context away."""
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Mark what draws, and run what opens windows last: a window takes the current GL context away.
+
+    What other people's programs are needed for is left out unless it is asked for.
+    """
+    if "hosts" not in config.option.markexpr:
+        items[:] = [item for item in items if item.get_closest_marker("hosts") is None]
     for item in items:
         if "ctx" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.gl)

@@ -1,9 +1,14 @@
 """Something of ours among what a pyglet batch draws. It imports pyglet: import it only where a game has a batch."""
 
 from collections.abc import Callable
+from typing import Any
 
 import moderngl
+import pyglet
 from pyglet.graphics import Batch, Group, get_default_shader
+
+_STATES: Any = getattr(pyglet.graphics, "State", None)
+"""What a group of pyglet 3 is made of; pyglet 2 has none, and calls the group itself."""
 
 
 class DrawingGroup(Group):
@@ -17,8 +22,13 @@ class DrawingGroup(Group):
         super().__init__(order, parent)
         self._draw: Callable[[], None] | None = draw
         self._program = get_default_shader()
+        mode: Any = moderngl.TRIANGLES
         # A batch leaves out groups in which there is nothing: this is a triangle of no size.
-        self._nothing = self._program.vertex_list(3, moderngl.TRIANGLES, batch, self, position=("f", (0.0,) * 9))
+        nothing: dict[str, Any] = {"position": ("f", (0.0,) * 9)}
+        if _STATES is not None:
+            mode = _as_state(self, self._program, self._take_turn)
+            nothing = {"position": (0.0,) * 9, "colors": (0.0,) * 12}
+        self._nothing = self._program.vertex_list(3, mode, batch, self, **nothing)
 
     def __eq__(self, other: object) -> bool:
         return self is other
@@ -26,15 +36,20 @@ class DrawingGroup(Group):
     def __hash__(self) -> int:
         return id(self)
 
-    def set_state(self) -> None:
-        """Draw; the batch calls this."""
+    def _take_turn(self) -> None:
         if self._draw is not None:
             self._draw()
-        self._program.use()
 
-    def unset_state(self) -> None:
-        """End the drawing of what is in the group; the batch calls this."""
-        self._program.stop()
+    if _STATES is None:
+
+        def set_state(self) -> None:
+            """Draw; the batch calls this."""
+            self._take_turn()
+            self._program.use()
+
+        def unset_state(self) -> None:
+            """End the drawing of what is in the group; the batch calls this."""
+            self._program.stop()
 
     def delete(self) -> None:
         """Take this out of the batch; what else is in the group stays there. A second time does nothing."""
@@ -43,3 +58,21 @@ class DrawingGroup(Group):
             self._nothing.delete()
             for batch in self.batches:
                 batch.invalidate()
+
+
+def _as_state(group: Any, program: Any, draw: Callable[[], None]) -> Any:
+    """Let a group of pyglet 3 draw when its state is set; return what it calls triangles."""
+    from pyglet.enums import GeometryMode  # type: ignore[import-not-found]  # noqa: PLC0415 - pyglet 2 has none
+
+    class Turn(_STATES):  # type: ignore[misc]
+        """The group's turn among others."""
+
+        sets_state = True
+
+        def set_state(self, _context: object) -> None:
+            """Draw; the batch calls this."""
+            draw()
+
+    group.set_state(Turn())
+    group.set_shader_program(program)
+    return GeometryMode.TRIANGLES
