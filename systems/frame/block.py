@@ -6,6 +6,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Doubles
 from ...engine.camera import View
 from ...engine.declared.grass import MOST_KINDS
 from ...engine.gl.emit import block, emitted
@@ -38,7 +39,9 @@ root, below 0 where it is round; `bloom` is how much of it has the pigment of ti
 FRAME = np.dtype(
     [
         ("clip", "16f4"),  # world to clip space
-        ("unclip", "16f4"),  # clip space to world
+        # Along the line of sight at a corner of the picture, each from -1 to 1: ahead, more across, and more up.
+        ("ray_ahead", "3f4"), ("pad_a", "V4"), ("ray_across", "3f4"), ("pad_b", "V4"),
+        ("ray_up", "3f4"), ("anything_cut", "f4"),  # 1 where any grass has been cut
         ("eye", "3f4"), ("writes_raw", "f4"),  # [m]; 1 where raw radiance is written
         ("sun", "3f4"), ("cloud_cover", "f4"),  # direction to the sun; how much of the sky has clouds
         ("sunlight", "3f4"), ("haze_density", "f4"),  # radiance of a white leaf in full sun; 1 / haze distance [1/m]
@@ -68,11 +71,24 @@ FRAME = np.dtype(
 GLSL = emitted({"SHADES": SHADES}) + block("Frame", FRAME)
 
 
+def rays(view: View, /) -> Doubles:
+    """Return the line of sight ahead, and what is added to it across and up the picture, each from -1 to 1: (3, 3).
+
+    They come from the rows of the projection that say where on the picture a place is, and not from any plane of depth:
+    it may be tilted, or infinitely far.
+    """
+    one = view.clip[[0, 1, 3], :3]
+    other = one[[1, 2, 0]]
+    made = one[:, [1, 2, 0]] * other[:, [2, 0, 1]] - one[:, [2, 0, 1]] * other[:, [1, 2, 0]]
+    ahead = made[0] @ view.view[2, :3]
+    return np.asarray(made * (-np.sign(ahead) / np.sqrt(made[0] @ made[0])), np.float64)
+
+
 def aim(record: NDArray[np.void], view: View, size: tuple[int, int], /) -> None:
     """Write the frame's matrices, eye and picture size [pixels] into the block."""
     row = record[0]
     row["clip"] = view.clip.T.reshape(16)
-    row["unclip"] = view.unclip.T.reshape(16)
+    row["ray_ahead"], row["ray_across"], row["ray_up"] = rays(view)
     row["half_screen"] = size[0] / 2, size[1] / 2
     row["eye"] = view.eye
 
@@ -83,6 +99,8 @@ class FrameBlock:
     def __init__(self, ctx: moderngl.Context) -> None:
         self.defines: dict[str, str | int] = {}
         """What every program is told that is made from now on."""
+        self.record = np.zeros(1, FRAME)
+        """What it says by now."""
         self.buffer = ctx.buffer(reserve=FRAME.itemsize, dynamic=True)
         self.binding = block_binding(ctx)
 
@@ -92,6 +110,7 @@ class FrameBlock:
 
     def write(self, record: NDArray[np.void]) -> None:
         """Send the block and bind it."""
+        self.record = record
         self.buffer.write(record)
         self.buffer.bind_to_uniform_block(self.binding)
 

@@ -6,20 +6,22 @@ uniform sampler2D sky;  // by azimuth from the sun, from 0 to pi, and by the roo
 out vec3 ray;
 out vec3 light;
 
+const float PI = 3.14159;
+const vec3 ARC = vec3(1.5707, -0.2121, 0.0742);  // the arc cosine over the root of 1 - c, by powers of c (Hastings, 1955)
+
 // An angle in [0, pi] by its cosine, within 0.004 of itself; acos is dearer.
 float angle_of(float cosine) {
-    float c = abs(cosine), near = sqrt(1.0 - c) * (1.5707 - 0.2121 * c + 0.0742 * c * c);
-    return cosine < 0.0 ? 3.14159 - near : near;
+    float c = abs(cosine), near = sqrt(1.0 - c) * (ARC.x + c * (ARC.y + c * ARC.z));
+    return cosine < 0.0 ? PI - near : near;
 }
 
 void main() {
     vec2 cell = vec2(float(gl_VertexID / 2), float(gl_InstanceID + (gl_VertexID & 1)));
     vec2 corner = cell * vec2(2.0 / float(ACROSS), 2.0 / float(UP)) - 1.0;
-    vec4 far = unclip * vec4(corner, 1.0, 1.0);
-    ray = far.xyz / far.w - eye;
+    ray = ray_ahead + corner.x * ray_across + corner.y * ray_up;
     vec3 toward = normalize(ray);
     float c = dot(toward.xz, toward_sun) * inversesqrt(dot(toward.xz, toward.xz) + 1e-6);
-    vec2 size = vec2(textureSize(sky, 0)), at = vec2(angle_of(clamp(c, -1.0, 1.0)) / 3.14159, sqrt(max(toward.y, 0.0)));
+    vec2 size = vec2(textureSize(sky, 0)), at = vec2(angle_of(clamp(c, -1.0, 1.0)) / PI, sqrt(max(toward.y, 0.0)));
     light = textureLod(sky, (at * (size - 1.0) + 0.5) / size, 0.0).rgb;
     gl_Position = vec4(corner, 1.0, 1.0);
 }

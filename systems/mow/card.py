@@ -25,7 +25,6 @@ class MownPart(Part):
 
         What is not cut stands above all tips: a mean of that and what is cut means something.
         """
-        del record
         mown, tallest = self._mown, grown.tallest
         if mown.heights is None or (mown.strokes, tallest) == (self._strokes, self._tallest):
             return
@@ -40,6 +39,7 @@ class MownPart(Part):
         )
         self.texture.build_mipmaps()
         self._strokes, self._tallest = mown.strokes, tallest
+        record["anything_cut"] = 1.0
 
     def defines(self) -> Mapping[str, str | int]:
         """Return that something is cut, if it is."""

@@ -3,9 +3,9 @@
 
 uniform sampler2D mown;  // over the terrain: up to which height grass is left to stand [m]; one texel where nothing has been cut
 
-// Whether anything has been, anywhere: it is the same for all of a program's run, and else nobody need look.
+// Whether anything has been, anywhere: else nobody need look.
 bool anything_is_cut() {
-    return textureSize(mown, 0).x > 1;
+    return anything_cut > 0.5;
 }
 
 // Beyond the terrain nobody mows.

@@ -59,8 +59,8 @@ Response leaf_response(int kind, vec2 bend, vec3 place, float high) {
     vec3 phase = back * sqrt(back) + against * sqrt(against) * kinds[kind].through;
     float lies = min(dot(bend, bend), 1.0), face = 1.0 + LIES_OPEN * lies + LEANS_AWAY * dot(bend, normalize(ray.xz + 1e-6));
     // A blade mirrors the sun along itself like a thread (Kajiya and Kay, Rendering Fur, 1989).
-    vec3 spine = normalize(vec3(SPINE.x * bend, 1.0 - SPINE.y * length(bend)).xzy), half_way = normalize(sun - ray);
-    float along = dot(spine, half_way), thread = 1.0 - along * along;
+    vec3 spine = normalize(vec3(SPINE.x * bend, 1.0 - SPINE.y * length(bend)).xzy), half_way = sun - ray;
+    float along = dot(spine, half_way), thread = 1.0 - along * along / max(dot(half_way, half_way), 1e-9);
     thread *= thread;
     thread *= thread;
     return Response(phase * (face * mix(SIDELONG, 1.0, high)), vec3(face), kinds[kind].gloss * thread * thread);

@@ -40,7 +40,7 @@ class StripPainter:
         atlas: Atlas,
     ) -> None:
         self.units, self.rings, self.kinds = canvas.units, rings, len(stock[0])
-        self.received = canvas.received
+        self.received, self._block = canvas.received, canvas.block
         self.sections = max(ring.sections for ring in rings)
         self.most = self.kinds * max(ring.strips * ring.columns for ring in rings)
         self.atlas, self.ranks = (strip_texture(canvas.ctx, made) for made in (atlas.texels, atlas.ranks))
@@ -60,7 +60,8 @@ class StripPainter:
                 canvas.ctx, canvas.block, canvas.units, "systems/show/strips/strips.vert",
                 "systems/show/strips/strips.frag", defines,
             )
-            for defines in (whole, {**whole, "THIN": 1})
+            for touched in ({}, {"TOUCHED": 1})
+            for defines in ({**whole, **touched}, {**whole, **touched, "THIN": 1})
         ]  # fmt: skip
         pictures = self._pictures()
         for made in self.programs:
@@ -113,8 +114,11 @@ class StripPainter:
         self.stood.texture.use(self.units["stood"])
         self.extents.use(self.units["extents"])
         self.strips.texture.use(self.units["strips"])
-        self.programs[thin]["first"] = first
-        self.arrays[thin].render(moderngl.TRIANGLE_STRIP, vertices=2 * self.sections + 2, instances=count)
+        frame = self._block.record[0]
+        touched = bool(frame["anything_cut"] or frame["shades"]["radius"].any())
+        which = 2 * touched + thin
+        self.programs[which]["first"] = first
+        self.arrays[which].render(moderngl.TRIANGLE_STRIP, vertices=2 * self.sections + 2, instances=count)
         return 1
 
     def release(self) -> None:

@@ -1,3 +1,5 @@
+// With THIN, blades are drawn by rank. With TOUCHED, bodies may cast shadows and grass may be cut: that is a program of its own,
+// as fragments pay a third more for it.
 #include "lib/layered.glsl"
 #include "lib/light.glsl"
 
@@ -15,11 +17,13 @@ const float FAINT = 0.006; // coverage that is left out: in bytes, layer upon la
 const float LEAST_PAINT = 0.002;  // coverage of a texel that counts at least, for what it shows
 const float SUNKEN = 0.3;  // height of grass from which on strips begin to show, of that below which they would show as rows
 
+#ifdef TOUCHED
 // How much of a strip is left where grass is cut.
 float left_of(float top) {
     float left = clamp((top - roots.z) * cut.y + 0.5, 0.0, 1.0);
     return is_mown(top) ? left * smoothstep(SUNKEN * cut.z, max(cut.z, 1e-6), top) : left;
 }
+#endif
 
 void main() {
     vec4 texel = layer_at(atlas, vec3(on.xy, lit[3].x), lit[3].y);
@@ -32,16 +36,16 @@ void main() {
     vec2 twice = 2.0 * mean.gb - 1.0;
     vec3 pigment = (foot.rgb + rise.rgb * mean.r) * (1.0 + grain_cos.rgb * twice.x + grain_sin.rgb * twice.y);
     Light light = unbundled(lit);
-    if (shades[0].radius > 0.0) {
-        float seen = past_body(sqrt(shadow.x + on.z * (shadow.y + on.z * shadow.z)), shadow.w);
-        light.sun *= seen;
-        light.gloss *= seen;
-    }
-    if (anything_is_cut() && cut.w > 0.5) {
+#ifdef TOUCHED
+    float seen = past_body(sqrt(max(shadow.x + on.z * (shadow.y + on.z * shadow.z), 0.0)), shadow.w);
+    light.sun *= seen;
+    light.gloss *= seen;
+    if (cut.w > 0.5) {
         float top = left_at(roots.xy);
         light = mown_to(top, light, int(cut.x), areas(grows_at(roots.xy)));
         covered *= left_of(top);
     }
+#endif
     vec3 grass = shown_of(shade(leaf_at(pigment, on.w), light));
 #ifdef THIN
     float rank = layer_at(ranks, vec3(on.xy, lit[3].x), lit[3].y).r / max(texel.a, LEAST_PAINT);

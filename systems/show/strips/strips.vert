@@ -140,6 +140,7 @@ void dye(Column column, vec2 run, vec3 middle, vec3 top, float lying, vec2 slow)
     grain_sin.rgb = turned * kinds[column.kind].grain_s / mean_face;
 }
 
+#ifdef TOUCHED
 const float UNSHADED = 9.0;  // square of how far off a body's middle the sun's ray goes where nothing is shaded, in radii
 
 // The body whose shadow comes nearest to a column between two places; none is -1. Where it ends, pixels find out.
@@ -165,9 +166,10 @@ const float UNCUT = 0.999;  // grass that is left to stand so high, of the talle
 // What pixels of a column must know where anything is cut within so many metres of it.
 vec4 cut_about(Column column, vec2 rooted, vec3 middle, float pixels, float within) {
     float spacing = patch_side / float(stacks[column.ring].z), far = max(distance(middle.xz, eye.xz), 0.5 * patch_side);
-    bool is_cut = left_about(rooted, within) < UNCUT * tallest_grass;
+    bool is_cut = anything_is_cut() && left_about(rooted, within) < UNCUT * tallest_grass;
     return vec4(float(column.kind), pixels, CROSSED * spacing * abs(eye.y - middle.y) / far, is_cut ? 1.0 : 0.0);
 }
+#endif
 
 #ifdef THIN
 const float UNHURRIED = 0.15;  // part of all ranks that change their sub-level at a time: one by one, blades would flicker
@@ -211,15 +213,17 @@ void main() {
 
     Lie lies = lie_at(rooted.xz);
     ByKind grows = grows_at(rooted.xz);
-    int body = shading(a.rooted, b.rooted);
-    float seen = sun_past(rooted, lies.past) * past_bodies(rooted, body);
+    float seen = sun_past(rooted, lies.past);
+#ifdef TOUCHED
+    seen *= past_bodies(rooted, shading(a.rooted, b.rooted));
+    roots.xyz = vec3(mix(a.rooted.xz, b.rooted.xz, corner.x), corner.y * OF(tall, k));
+    cut = cut_about(column, rooted.xz, middle, pixels, 2.0 * distance(a.foot.xz, b.foot.xz));
+#endif
     Light light = veiled(light_on(k, bend, rooted, lies, grows, seen), middle);
     float texels = picture.y * ATLAS / (OF(tall, k) * apart_at(middle, run, top + vec3(back.x, 0.0, back.y)));
     lit = bundled(light, vec3(float(column.layer), log2(texels) - SHARPER, boosted(k, run, middle, top, back)));
     dye(column, run, middle, top, 1.0 - lodged(bend), lies.slow);
     foot.a = column.stood.fade;
-    roots.xyz = vec3(mix(a.rooted.xz, b.rooted.xz, corner.x), corner.y * OF(tall, k));
-    cut = cut_about(column, rooted.xz, middle, pixels, 2.0 * distance(a.foot.xz, b.foot.xz));
 #ifdef THIN
     thin(mix(a.dense, b.dense, corner.x), column.stood.ranks, 0.5 * texels);
 #endif

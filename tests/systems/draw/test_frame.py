@@ -13,7 +13,7 @@ from tallgrass.engine.camera import Camera, View, projection_matrix, view_matrix
 from tallgrass.engine.gl import emit
 from tallgrass.engine.gl.records import Records
 from tallgrass.systems.features import UNITS
-from tallgrass.systems.frame.block import FRAME, KIND, SHADE, FrameBlock, aim, by_kind
+from tallgrass.systems.frame.block import FRAME, KIND, SHADE, FrameBlock, aim, by_kind, rays
 from tallgrass.systems.show.blades.draw import MESSAGE, BladePainter
 from tallgrass.systems.show.blades.pool import BLADE, ORGAN
 from tallgrass.systems.show.blades.store import STANDING
@@ -46,8 +46,9 @@ def block(ctx: moderngl.Context) -> Iterator[FrameBlock]:
     made.release()
 
 
+PLAIN = [name for name in FRAME.names or () if FRAME[name].base == np.float32 and name != "clip"]
 FIELDS = {
-    **{name: FRAME[name] for name in FRAME.names or () if name not in {"clip", "unclip", "kinds", "shades", "padding"}},
+    **{name: FRAME[name] for name in PLAIN},
     **{f"kinds[int(row.x)].{name}": KIND[name] for name in KIND.names or ()},
     **{f"shades[int(row.x)].{name}": SHADE[name] for name in SHADE.names or ()},
 }
@@ -91,18 +92,69 @@ def test_records_are_looked_up_by_their_fields_names(ctx: moderngl.Context, prob
         emit.looked_up("Standing", np.dtype([("cell", "2f4"), ("root", "3f4"), ("rest", "3f4")]), "standing", 4)
 
 
-@pytest.mark.parametrize("name", ["clip", "unclip"])
-def test_matrices_arrive_for_column_vectors(probe: Probe, record: NDArray[np.void], name: str) -> None:
+def test_matrices_arrive_for_column_vectors(probe: Probe, record: NDArray[np.void]) -> None:
     rows = np.random.default_rng(0).normal(0.0, 1.0, (20, 4)).astype(np.float32)
-    told = probe(TELL % f"{name} * row", rows, record, {}, 4)
-    np.testing.assert_allclose(told, rows @ record[0][name].reshape(4, 4), rtol=1e-4, atol=1e-4)
+    told = probe(TELL % "clip * row", rows, record, {}, 4)
+    np.testing.assert_allclose(told, rows @ record[0]["clip"].reshape(4, 4), rtol=1e-4, atol=1e-4)
 
 
-def test_clip_and_unclip_are_inverse_and_the_eye_is_the_cameras(record: NDArray[np.void]) -> None:
-    clip, unclip = (record[0][name].reshape(4, 4).T.astype(float) for name in ("clip", "unclip"))
-    np.testing.assert_allclose(clip @ unclip, np.eye(4), atol=1e-3)
+def test_the_eye_is_the_cameras(record: NDArray[np.void]) -> None:
     np.testing.assert_allclose(record[0]["eye"], [1.0, 2.0, 3.0], atol=1e-5)
     np.testing.assert_array_equal(record[0]["half_screen"], [160.0, 100.0])
+
+
+def oblique(projection: NDArray[np.float64], plane: list[float]) -> NDArray[np.float64]:
+    """Lengyel's projection with a near plane of its own (Oblique View Frustum Depth Projection, 2005)."""
+    made, side = projection.copy(), np.array(plane)
+    corner = np.linalg.inv(projection) @ [np.sign(side[0]), np.sign(side[1]), 1.0, 1.0]
+    made[2] = side * (2.0 / (side @ corner)) - made[3]
+    return made
+
+
+def rows_of(depth: list[float]) -> NDArray[np.float64]:
+    """A projection off the picture's middle with another row of depth."""
+    return np.array([[1.2, 0.0, 0.3, 0.0], [0.0, 2.1, -0.2, 0.0], depth, [0.0, 0.0, -1.0, 0.0]])
+
+
+USUAL = rows_of([0.0, 0.0, -1.0002, -0.20002])
+PROJECTIONS = {
+    "infinitely far": rows_of([0.0, 0.0, -1.0, -0.2]),
+    "far over near of 1e12": rows_of([0.0, 0.0, -1.0 - 2e-12, -2e-3]),
+    "depth reversed": rows_of([0.0, 0.0, 1e-4, 0.1]),
+    "near plane oblique": oblique(USUAL, [0.1, 0.95, -0.2, -1.5]),
+}
+
+
+def sights(view: NDArray[np.float64], projection: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Unit vectors along the lines of sight at nine places of the picture, shape (9, 3)."""
+    ahead, across, up = rays(View(view.astype(np.float32), projection.astype(np.float32)))
+    along = np.array([ahead + x * across + y * up for x in (-1, 0, 1) for y in (-1, 0, 1)])
+    return np.asarray(along / np.linalg.norm(along, axis=1, keepdims=True))
+
+
+VIEWS = {"upright": np.diag([1.0, 1.0, 1.0, 1.0]), "mirrored": np.diag([1.0, -1.0, 1.0, 1.0])}
+
+
+@pytest.mark.parametrize("mirror", VIEWS)
+def test_lines_of_sight_are_those_to_the_far_plane_of_a_usual_projection(mirror: str) -> None:
+    view = view_matrix(Camera((1.0, 2.0, 3.0), 0.4, -0.1, 0.7)).astype(float) @ VIEWS[mirror]
+    back = np.linalg.inv(USUAL @ view) @ np.array([[x, y, 1.0, 1.0] for x in (-1, 0, 1) for y in (-1, 0, 1)]).T
+    eye = np.linalg.inv(view)[:3, 3]
+    to = (back[:3] / back[3]).T - eye
+    np.testing.assert_allclose(sights(view, USUAL), to / np.linalg.norm(to, axis=1, keepdims=True), atol=1e-4)
+
+
+@pytest.mark.parametrize("mirror", VIEWS)
+@pytest.mark.parametrize("name", PROJECTIONS)
+def test_lines_of_sight_do_not_ask_where_planes_of_depth_are(name: str, mirror: str) -> None:
+    view = view_matrix(Camera((1.0, 2.0, 3.0), -2.4, 0.3, 0.7)).astype(float) @ VIEWS[mirror]
+    np.testing.assert_allclose(sights(view, PROJECTIONS[name]), sights(view, USUAL), atol=1e-6)
+
+
+def test_lines_of_sight_of_an_orthographic_projection_are_all_ahead() -> None:
+    view = view_matrix(Camera((1.0, 2.0, 3.0), 0.4, -0.6, 0.7)).astype(float)
+    flat = np.diag([0.1, 0.2, -0.01, 1.0])
+    np.testing.assert_allclose(sights(view, flat), np.tile(-view[2, :3], (9, 1)), atol=1e-6)
 
 
 def test_d6_the_block_stays_away_from_the_hosts_own_binding_points(ctx: moderngl.Context, block: FrameBlock) -> None:
