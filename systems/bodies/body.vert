@@ -15,6 +15,8 @@ in vec3 beyond;
 in float outside;
 #endif
 
+const float NEAREST = 0.15;  // distance from the eye below which a body has no border [m]
+
 out vec3 own;
 out vec3 seen_at;
 out vec3 facing;
@@ -32,7 +34,7 @@ void main() {
 #ifdef BORDER
     vec3 ray = transpose(axes) * (eye - middle) - place;
     vec4 far = clip * vec4(middle + axes * other, 1.0);
-    if (dot(ray, side) * dot(ray, beyond) > 0.0 || min(far.w, gl_Position.w) < 0.15) {
+    if (dot(ray, side) * dot(ray, beyond) > 0.0 || min(far.w, gl_Position.w) < NEAREST) {
         gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
         return;
     }

@@ -20,18 +20,20 @@ uniform vec2 rows;      // the first that is drawn, and how many are, of all
 uniform float highest;  // ground of the terrain [m]
 
 const int STEPS = 40;
+const float FIRST = 1.2, LONGER = 1.15;  // the first step, in cells; and how much longer each is than the one before
+const float ABOVE = 0.05;  // how high over the ground the sun is looked for [m]
 const float LEVEL = -0.05;  // what stands before the sun over level ground: below any sun
 
 void main() {
     vec2 place = terrain_origin + vec2(at.x, rows.x + rows.y * at.y) * terrain_size;
-    float foot = height_at(place) + 0.05, away = 1.2 * terrain_cell, most = LEVEL;
+    float foot = height_at(place) + ABOVE, away = FIRST * terrain_cell, most = LEVEL;
     for (int step = 0; step < STEPS; step++) {
         vec2 there = place + toward_sun * away;
         vec2 inside = abs(there - terrain_origin - 0.5 * terrain_size);
         if (highest - foot < most * away || any(greaterThan(inside, 0.5 * terrain_size)))
             break;
         most = max(most, (height_at(there) - foot) / away);
-        away *= 1.15;
+        away *= LONGER;
     }
     told = vec4(most);
 }

@@ -8,6 +8,8 @@ uniform sampler2D pressed;  // the frame; how kinds swing back; the squares' lis
 
 const int SWINGS = PRESSED_ROW, SQUARES = 2 * PRESSED_ROW;  // texels before them
 
+const float PAST_END = 1.001;  // samples before the end of a table that it is read at last
+
 struct Lying {
     vec2 lay;    // where grass lay before
     vec2 aside;  // where it is pressed to
@@ -24,7 +26,7 @@ vec2 unit(vec2 vector) {
 
 // The index after a constant wind stopped: 1 before, past 0 and back to 0.
 float swung_back(float elapsed, int kind) {
-    float at = clamp(elapsed / texel_of(2 + 2 * GROUP(kind))[IN_GROUP(kind)], 0.0, texel_of(0).z - 1.001);
+    float at = clamp(elapsed / texel_of(2 + 2 * GROUP(kind))[IN_GROUP(kind)], 0.0, texel_of(0).z - PAST_END);
     float low = floor(at);
     int first = SWINGS + GROUP(kind) * int(texel_of(0).z) + int(low), own = IN_GROUP(kind);
     float before = texel_of(first)[own];

@@ -11,7 +11,7 @@ float lodged(vec2 bend) {
 float leaves_above(float height, ByKind area) {
     float over = 0.0;
     for (int group = 0; group < GROUPS; group++) {
-        vec4 above = max(1.0 - height / max(crown[group], 0.01), 0.0);
+        vec4 above = max(1.0 - height / max(crown[group], LOWEST_CROWN), 0.0);
         over += dot(area[group], above * above);
     }
     return over;

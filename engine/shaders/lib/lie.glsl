@@ -6,6 +6,8 @@ uniform sampler2D lie;  // over the terrain, side by side: its normal (x, z) and
 const float PENUMBRA = 0.02;  // half the width of a shadow's edge, of the distance from what casts it; the sun's alone is 0.005
 const float LOWEST_SUN = 0.01;  // sine of the sun's elevation that counts at least
 
+const float FLATTEST_NORMAL = 0.01;  // squared cosine of a slope that counts at least
+
 struct Lie {
     float high;  // sine of the sun's elevation over the slope
     float past;  // how much of the sun's disc is seen past the terrain
@@ -40,7 +42,7 @@ vec2 slow_at(vec2 place) {
 // How the ground rises along x and z.
 vec2 rise_at(vec2 place) {
     vec2 still = textureLod(lie, on_left(place), 0.0).xy;
-    return -still * inversesqrt(max(1.0 - dot(still, still), 0.01));
+    return -still * inversesqrt(max(1.0 - dot(still, still), FLATTEST_NORMAL));
 }
 
 // How steep a line of sight is to the ground: the sine of the angle between them.

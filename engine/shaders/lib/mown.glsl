@@ -36,7 +36,7 @@ bool is_mown(float left) {
 ByKind leaves_left(float top) {
     ByKind left;
     for (int group = 0; group < GROUPS; group++) {
-        vec4 gone = max(1.0 - top / max(crown[group], 0.01), 0.0);
+        vec4 gone = max(1.0 - top / max(crown[group], LOWEST_CROWN), 0.0);
         left[group] = 1.0 - gone * gone;
     }
     return left;

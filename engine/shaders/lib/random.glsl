@@ -15,6 +15,8 @@ uint stream(uint hashed, int number) {
     return scramble(hashed ^ scramble(uint(number)));
 }
 
+const float STEP = 1.0 / 16777216.0;  // of 24 bits
+
 float unit(uint hashed) {
-    return float(hashed >> 8u) * (1.0 / 16777216.0);
+    return float(hashed >> 8u) * STEP;
 }

@@ -6,6 +6,7 @@ const float CLOUDS_AT = 450.0;  // height of the clouds [m]
 const float CLOUD_TAKES = 0.75;  // what a dense cloud takes of the sun's light
 const float CLOUD_EDGE = 0.25;  // how much denser than its edge a dense cloud is
 const float LOWEST_RAY = 0.1;  // sine of the sun's elevation that counts at least, for where its ray meets the clouds
+const float FAR_OFF = 1e3;  // how far off a body's middle a ray goes that does not come by it, in radii
 const float SHADOW_EDGE = 0.12;  // half the width of a body's shadow's edge, of its radius, where it is at the body
 const float SHADOW_SOFTER = 0.01;  // how much more that is for each radius that the shadow falls
 
@@ -27,7 +28,7 @@ vec4 ray_by(int body, vec3 place) {
     vec3 by = (way - ray * before) / radius;
     // The farther a shadow falls, the softer is its edge.
     float soft = SHADOW_EDGE + SHADOW_SOFTER * abs(along) * max(length(by), 1e-3) / max(length(apart - sun * along), 1e-3 * radius);
-    return vec4(before > 0.0 ? by : vec3(1e3), soft);
+    return vec4(before > 0.0 ? by : vec3(FAR_OFF), soft);
 }
 
 // How much of the sun is seen past a body, where its ray comes so near to the middle, in radii.

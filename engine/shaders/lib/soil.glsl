@@ -4,6 +4,7 @@
 const float LITTER_MEAN = 255.0 / float(LITTER_ONE);  // what stands for ground as bright as its mean
 const float FALLEN_TIPPED = 0.3;  // how much of the colour of tips what has fallen has, of a kind that shows it as grass does
 const float LITTER = 0.75;  // how much of the ground under dense grass is covered by what has fallen
+const float BLACKEST = 0.02;  // pigment that counts at least, for what is told of another by it
 const float COARSEST = 16.0;  // level at which a texture is its mean, or its last
 
 // What lies on the ground where grass stands, and the ground.
@@ -24,7 +25,7 @@ vec3 understorey_of(Lie lies, ByKind grows) {
         tipped[group] = undertone[group];
     }
     vec3 leaves = low_pigment(grows, tipped) * stretch(lies.slow);
-    return mix(vec3(1.0), leaves / max(between, 0.02), min(total(grows), 1.0));
+    return mix(vec3(1.0), leaves / max(between, BLACKEST), min(total(grows), 1.0));
 }
 
 // The pigment of what lies there, of that of the ground between low leaves: `lying` from `repeating`.
@@ -36,7 +37,7 @@ const float SOIL_SENDS = 1.3;  // what bare ground sends of the sun's light from
 
 // The light on it, under a leaf area [of the ground's].
 Light light_on_soil(vec3 place, Lie lies, float leaves) {
-    Light light = light_at(Response(vec3(SOIL_SENDS * lies.high), vec3(1.0), 0.0), sun_seen(place, lies.past));
+    Light light = light_at(place, Response(vec3(SOIL_SENDS * lies.high), vec3(1.0), 0.0), sun_seen(place, lies.past));
     light.way = sun_way(0, lies.high);
     light.leaves = vec2(leaves, 0.0);
     return light;

@@ -3,6 +3,8 @@
 
 uniform sampler2DArray density;  // over the terrain, four kinds in each layer: how densely each grows
 
+const float LOWEST_CROWN = 0.01;  // height of a canopy that counts at least [m]
+
 // How densely each kind grows at a place.
 ByKind grows_at(vec2 place) {
     vec2 at = on_map(place);

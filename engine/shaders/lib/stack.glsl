@@ -23,6 +23,7 @@ vec2 edge_foot(vec2 cell, int turn, int own, int plane, int count, int edge, int
     return cell * side + turned_by(local, turn) + 0.5 * side;
 }
 
+const float CLOSEST = 0.01;  // ways from the eye that count at least [m]
 const float NEARER = 0.33;  // how far strips stand before the middles of their slices, of the way from one to the next
 const vec2 AT_MOST = vec2(0.2, 0.0125);  // the same [m], and of their distance: blades must not leap to their painted places
 
@@ -31,7 +32,7 @@ const vec2 AT_MOST = vec2(0.2, 0.0125);  // the same [m], and of their distance:
 vec3 put_nearer(vec3 foot, vec2 run, int strips) {
     vec3 ray = foot - eye;
     vec2 off = normalize(vec2(-run.y, run.x));
-    vec2 way = off * -dot(off, ray.xz) * min(min(NEARER * patch_side / float(strips), AT_MOST.x) / max(length(ray), 0.01), AT_MOST.y);
+    vec2 way = off * -dot(off, ray.xz) * min(min(NEARER * patch_side / float(strips), AT_MOST.x) / max(length(ray), CLOSEST), AT_MOST.y);
     return foot + vec3(way.x, dot(rise_at(foot.xz), way), way.y);
 }
 
@@ -45,11 +46,14 @@ vec2 laid_back(vec2 run, vec3 foot, vec3 top, float height, int strips) {
     vec2 off = normalize(vec2(-run.y, run.x)), ray = foot.xz - eye.xz;
     off *= sign(dot(off, ray));
     float above = eye.y - foot.y, along = dot(ray, off);
-    float behind = along / max(above + dot(rise_at(foot.xz), ray), 0.01);  // what a metre of height hides of the ground [m]
-    float least = min(SPREAD * patch_side / float(strips), height * behind), drop = max(above, 0.01) / max(along, 0.01);
+    float behind = along / max(above + dot(rise_at(foot.xz), ray), CLOSEST);  // what a metre of height hides of the ground [m]
+    float least = min(SPREAD * patch_side / float(strips), height * behind), drop = max(above, CLOSEST) / max(along, CLOSEST);
     float reach = (top.y + dot(top.xz, off) * drop) * behind;
     return off * clamp((least - reach) / max(drop * behind, 1.0), 0.0, 2.0 * least);
 }
+
+const float EDGE_ON = 0.4;  // of the breadth of real blades, what painted ones keep where their strip is seen edge-on
+const float BOOSTED = 0.95;  // how much of the factor is taken: leaves hide leaves
 
 // Factor on what blades on a strip cover. They are painted as if all faced the way the strip does, which runs along `run` and
 // leans to `top` and `back`; real ones face all ways and lean to `top`. It is the ratio of both breadths as the eye sees them,
@@ -58,7 +62,7 @@ float boosted(int kind, vec2 run, vec3 middle, vec3 top, vec2 back) {
     vec3 ray = normalize(middle - eye), own = cross(top + vec3(back.x, 0.0, back.y), ray);
     vec2 all = cross(top, ray).xz;
     float lies = OF(lying, kind) * top.y * ray.y, whole = sqrt(dot(all, all) + lies * lies);
-    return mix(1.0, whole / max(max(abs(dot(run, own.xz)), 0.4 * whole), 1e-9), 0.95);
+    return mix(1.0, whole / max(max(abs(dot(run, own.xz)), EDGE_ON * whole), 1e-9), BOOSTED);
 }
 
 // The pigment of what is seen on a strip, of that of what is painted there: of blades that lean to `top`, those are seen most

@@ -67,7 +67,7 @@ Response leaf_response(int kind, vec2 bend, vec3 place, float high) {
 }
 
 // The light at a place that a surface sends to the eye, where it sees so much of the sun. This is the list of all lights.
-Light light_at(Response response, float seen) {
+Light light_at(vec3 place, Response response, float seen) {
     vec3 from_sun = sunlight * response.sun * seen;
     vec3 from_sky = skylight * response.sky;
     return Light(from_sun, from_sky, vec3(0.0), response.gloss * seen, 0.0, vec2(0.0));
@@ -75,7 +75,7 @@ Light light_at(Response response, float seen) {
 
 // The light on leaves of a kind at a place: the wind bends them by `bend`, the terrain lies so, and so much of the sun is seen.
 Light light_on(int kind, vec2 bend, vec3 place, Lie lies, ByKind grows, float seen) {
-    Light light = light_at(leaf_response(kind, bend, place, lies.high), seen);
+    Light light = light_at(place, leaf_response(kind, bend, place, lies.high), seen);
     light.way = sun_way(kind, lies.high);
     light.leaves = leaves_over(grows, kind);
     return light;
@@ -87,7 +87,7 @@ Light light_on(int kind, vec2 bend, vec3 place, Lie lies, ByKind grows) {
 
 // The light on a kind where nothing stands above `top` [m]: leaves over that shade nothing. `area` is that of leaves, by kind.
 Light mown_to(float top, Light light, int kind, ByKind area) {
-    float high = top / max(OF(crown, kind), 0.01);
+    float high = top / max(OF(crown, kind), LOWEST_CROWN);
     light.leaves.x -= leaves_above(max(top, OF(crown, kind)), area) + leaves_above(high, vec2(0.0, light.leaves.y));
     return light;
 }

@@ -6,6 +6,7 @@ const float BETWEEN = 0.4;  // how wide it is between teeth, of how wide it is a
 const float ENDS_AT = 0.7;   // where they end, on the way from one to the next: they point upwards
 const float TOOTHED_WIDER = 2.0 / (1.0 + BETWEEN);  // how wide it is at their ends, of the mean
 const float TEETH_FROM = 1.2, TEETH_ALL = 3.0;  // pixels from one to the next from which on they are seen, and all of them
+const float TEETH_NEAREST = 0.1;  // distance from the eye that counts at least [m]
 const float OUTER = 0.5;     // how much brighter a tooth is at its end than deep between two
 const float MEAN_END = (0.5 * BETWEEN + (1.0 - BETWEEN) / 3.0) * TOOTHED_WIDER;  // how far out on teeth its area is, in the mean
 
@@ -14,5 +15,5 @@ const float TEETH_OF[ORGANS] = TEETH;
 // How much is seen of so many teeth along a ribbon of some length [m] at a place.
 float teeth_seen(float along, float teeth, vec3 place) {
     float magnified = half_screen.y * length(vec3(clip[0].y, clip[1].y, clip[2].y));
-    return teeth > 0.0 ? smoothstep(TEETH_FROM, TEETH_ALL, magnified * along / teeth / max(distance(place, eye), 0.1)) : 0.0;
+    return teeth > 0.0 ? smoothstep(TEETH_FROM, TEETH_ALL, magnified * along / teeth / max(distance(place, eye), TEETH_NEAREST)) : 0.0;
 }
