@@ -12,8 +12,10 @@ from .around.clearing import Clearings
 from .around.outlook import Outlook, Outlooks
 from .blow import Blow, Hear, Now
 from .cull import Cull
+from .draw import Draw
 from .entities import PatchEntities
 from .gather import Gather
+from .govern import Governor
 from .lod import SLACK, ChooseLevels
 from .painter import Painter
 from .plant import Plant
@@ -41,6 +43,7 @@ class Assembly:
     winds: Winds
     pressers: Pressers
     screen: Screen
+    governor: Governor
 
     def entities(self, site: Site, /) -> PatchEntities:
         """Return what keeps the entities of patches on a site."""
@@ -72,6 +75,7 @@ class Assembly:
             hear=self.felt,
             note=self.pressers.note,
             painter=self.screen.current,
+            governor=self.governor,
             bent=self.winds.bent,
         )
 
@@ -85,6 +89,7 @@ def built_in(
     now: Now,
     hear: Hear,
     painter: Callable[[], Painter],
+    governor: Governor,
     note: Callable[[float], Trodden] = lambda _: UNTRODDEN,
     bent: Callable[[float], float] = lambda _: 0.0,
 ) -> list[BuiltIn]:
@@ -109,6 +114,7 @@ def built_in(
         (Phase.BLOW, "plant", Plant(outlooks, shown, entities.world)),
         (Phase.BLOW, "wind", Blow(outlooks, now, hear, site.growths)),
         (Phase.DRAW, "gather", Gather(outlooks, painter)),
+        (Phase.DRAW, "draw", Draw(outlooks, painter, governor)),
     ]  # fmt: skip
 
 

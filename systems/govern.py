@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from math import ceil, floor, inf, log
 from statistics import median
+from time import perf_counter
 
 from ..engine.handed import NUMBERS
 from .around.outlook import Outlook
@@ -159,6 +160,7 @@ class Governor:
 
         self._paces: dict[str, Pace] = {}
         self._drawn: dict[str, int] = {}
+        self._begun = 0.0
 
     @property
     def hold(self) -> float | None:
@@ -171,26 +173,29 @@ class Governor:
             raise ValueError(f"a frame is held to a time above 0 s, or by None to none, not to {seconds!r}")
         self._hold = seconds
 
-    def fineness(self, outlook: Outlook, /) -> Fineness:
-        """Return what is drawn of a viewer's picture now, and let the representations around it follow."""
-        name = outlook.viewer.name
+    def begin(self, outlook: Outlook, /) -> None:
+        """Begin a viewer's frame: let the representations around it follow what is drawn of its picture now."""
+        name, self._begun = outlook.viewer.name, perf_counter()
         if not self.resting:
             self._drawn[name] = 0 if self.hold is None else self._paces.setdefault(name, Pace()).rung
             outlook.lens.range = eased(outlook.lens.range, RUNGS[self._drawn[name]].range, dt=counted(outlook.viewer))
-        return RUNGS[self._drawn.get(name, 0)]
+
+    def fineness(self, viewer: str, /) -> Fineness:
+        """Return what is drawn of a viewer's picture now."""
+        return RUNGS[self._drawn.get(viewer, 0)]
 
     @contextmanager
-    def watching(self, painter: Painter, viewer: str, /, *, spent: float) -> Iterator[None]:
-        """Time what is drawn meanwhile for a viewer, after `spent` seconds on what a picture is made of.
+    def watching(self, painter: Painter, viewer: str, /) -> Iterator[Fineness]:
+        """Time what is drawn meanwhile for a viewer; with a graphics card it is the card that is timed.
 
-        With a graphics card it is the card that is timed, and what is known of it comes later.
+        What is known of a card comes later. Without one, all that has been done since the frame began counts too.
         """
         if self.hold is None or viewer not in self._paces:  # a system may have set it since the frame began
-            yield
+            yield self.fineness(viewer)
             return
-        watch = painter.stopwatch
+        watch, spent = painter.stopwatch, perf_counter() - self._begun
         with watch.timing((viewer, self._drawn.get(viewer, 0))):
-            yield
+            yield self.fineness(viewer)
         for (name, rung), seconds in watch.read():
             pace = self._paces[name]
             if rung == pace.rung and not self.resting:

@@ -4,7 +4,6 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from time import perf_counter
 from typing import TYPE_CHECKING, get_args
 
 import moderngl
@@ -101,7 +100,9 @@ class Prairie:
         self._mown, self._shining = one(Mowing, self.features).mown, one(Lighting, self.features).shining
         screen = Screen(ctx, self.features, self.winds.quarantine, linear=linear)
         self._saving = Saving(self.world, self.winds, self.pressers, self._mown, self.clearings, self._shining)
-        self._assembly = Assembly(self.world, self.viewers, self.clearings, self.winds, self.pressers, screen)
+        self._assembly = Assembly(
+            self.world, self.viewers, self.clearings, self.winds, self.pressers, screen, self.governor
+        )
         self._built = self._assembly.on(self.site)
         for phase, name, system in self._built:
             self.systems.add(phase, name, system, trusted=True)
@@ -201,18 +202,13 @@ class Prairie:
         with self._assembly.screen.opened(self.site) as painter:
             if painter is None:
                 return
-            seen = unturned(seen)
-            outlook = self._look(seen, viewer)
-            fineness, begun = self.governor.fineness(outlook), perf_counter()
+            outlook = self._look(unturned(seen), viewer)
+            self.governor.begin(outlook)
             self.systems.run()
-            if self._released:  # by one of them: there is nothing left to draw
+            if self._released:  # by one of them
                 return
-            start = perf_counter()
-            with self.governor.watching(painter, viewer, spent=start - begun):
-                painter.draw(seen, scale=fineness.scale)
-            self.statistics.fineness = fineness
-            took = 1000.0 * (perf_counter() - start)
-            self.statistics.count(outlook, self.site, self.systems, painter, draw_ms=took)
+            self.statistics.fineness = self.governor.fineness(viewer)
+            self.statistics.count(outlook, self.site, self.systems, painter)
             outlook.settle()
 
     def follow(self, view: object, projection: object, *, viewer: str = "main") -> None:

@@ -17,10 +17,10 @@ class Statistics:
     """What the last frame took and held."""
 
     systems_ms: dict[str, float] = field(default_factory=dict)
-    """Time of each system [ms]."""
+    """Time of each system but `draw` [ms]."""
 
     draw_ms: float = 0.0
-    """Time of the draw calls, without waiting for the graphics card [ms]."""
+    """Time of the system `draw`, without waiting for the graphics card [ms]."""
 
     blades_field: int = 0
     """Blades that grow on the whole terrain."""
@@ -45,8 +45,8 @@ class Statistics:
     transitions: int = 0
     """Patches that were seen to change their representation, or to be changing it; a change of sub-level is none."""
 
-    def count(self, outlook: Outlook, site: Site, systems: Schedule, painter: Painter, /, *, draw_ms: float) -> None:
-        """Count what a viewer was shown in a frame whose draw calls took so long [ms]."""
+    def count(self, outlook: Outlook, site: Site, systems: Schedule, painter: Painter, /) -> None:
+        """Count what a viewer was shown in a frame."""
         shown, names = outlook.patches.shown, outlook.patches.names
         level = outlook.patches.representation
         width, depth = site.ground.terrain.size
@@ -55,4 +55,5 @@ class Statistics:
         self.patches = {name: int(np.count_nonzero(shown & (level == number))) for number, name in enumerate(names)}
         self.receivers, self.transitions = outlook.noted(Blown, Blown()).heard, outlook.changing
         self.blades_submitted = painter.blades
-        self.systems_ms, self.draw_calls, self.draw_ms = dict(systems.milliseconds), painter.draw_calls, draw_ms
+        self.systems_ms, self.draw_calls = dict(systems.milliseconds), painter.draw_calls
+        self.draw_ms = self.systems_ms.pop("draw", 0.0)

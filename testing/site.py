@@ -21,6 +21,7 @@ from ..systems.around.outlook import Outlook
 from ..systems.assembly import built_in
 from ..systems.blow import Hear
 from ..systems.entities import PatchEntities
+from ..systems.govern import Governor
 from ..systems.painter import Painter
 from ..systems.site import Site, found_site, outlook_on
 from ..systems.wind.blow import ReceiverArrays
@@ -70,7 +71,9 @@ def systems_on(site: Site, outlooks: Sequence[Outlook], world: World, /, *, hear
     """
     schedule = Schedule()
     entities = PatchEntities(world, Clearings(), site.representations)
-    parts = built_in(site, outlooks, entities, now=lambda _: (), hear=hear or _calm, painter=_no_painter)
+    parts = built_in(
+        site, outlooks, entities, now=lambda _: (), hear=hear or _calm, painter=_no_painter, governor=Governor()
+    )
     for phase, name, system in parts:
         schedule.add(phase, name, system, trusted=True)
     return schedule

@@ -22,7 +22,7 @@ def watch(prairie: Prairie, camera: Camera | None = None, /) -> None:
 def step(prairie: Prairie, which: Phase | str, /) -> None:
     """Run one system of a prairie once, by its name, or all those of one phase, and nothing else.
 
-    The names are those of `prairie.systems`; tile, cull, lod, transition, see, plant, wind and gather come along.
+    The names are those of `prairie.systems`; tile, cull, lod, transition, see, plant, wind, gather and draw come along.
     What earlier systems leave behind has to be there: `watch` does what comes before `Phase.BLOW`, and a picture has
     to be drawn before `Phase.DRAW`. Raises KeyError for a name that is none, RuntimeError where something is missing.
     """

@@ -45,7 +45,7 @@ def spans_of(milliseconds: Sequence[float], draw_ms: float, /) -> list[tuple[flo
 def _timeline(prairie: Prairie) -> None:
     """Show a bar for each system, one below the other, each beginning where the one before it ends."""
     taken = prairie.statistics.systems_ms
-    rows = [(each.name, each.phase.name, taken.get(each.name, 0.0)) for each in prairie.systems]
+    rows = [(each.name, each.phase.name, taken.get(each.name, 0.0)) for each in prairie.systems if each.name != "draw"]
     spans = spans_of([row[2] for row in rows], prairie.statistics.draw_ms)
     rows.append(("drawing", "DRAW", prairie.statistics.draw_ms))
     width, canvas = imgui.get_content_region_avail().x, imgui.get_window_draw_list()

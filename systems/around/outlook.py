@@ -31,6 +31,9 @@ class Outlook:
 
     patches: PatchTable
 
+    view: View | None = None
+    """The matrices that it looked with last; None before the first time."""
+
     lens: Lens = field(default_factory=Lens)
     """How far it sees each representation."""
 
@@ -90,7 +93,7 @@ class Outlook:
 
     def look(self, view: View, /, *, time: float, leap: float) -> None:
         """Look from where two matrices say, at an instant [s]; who comes farther than `leap` [m] has jumped."""
-        viewer, eye = self.viewer, view.eye
+        self.view, viewer, eye = view, self.viewer, view.eye
         viewer.way = float(np.hypot(eye[0] - viewer.eye[0], eye[2] - viewer.eye[2]))
         viewer.jumped = viewer.way > leap or self.drawn_at is None
         viewer.eye, viewer.cone, viewer.time = eye, view_cone(view), time

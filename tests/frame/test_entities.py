@@ -193,6 +193,27 @@ def test_d3_any_system_may_be_left_out_before_the_first_frame_and_after_another_
         prairie.release()
 
 
+def test_d3_drawing_is_a_system_that_a_game_may_order_its_own_around_and_leave_out(
+    prairie: Prairie, easel: Stage
+) -> None:
+    whole, seen = settled(prairie, easel), list[int]()
+
+    def look() -> None:
+        seen.append(len(np.unique(easel.read().reshape(-1, 3), axis=0)))
+
+    prairie.systems.add("draw", "before", look, before="draw")
+    prairie.systems.add("draw", "after", look, after="draw")
+    np.testing.assert_array_equal(easel.shot(prairie, ABOVE), whole)
+    assert seen[0] == 1
+    assert seen[1] > 50
+    prairie.systems.disable("draw")
+    assert len(np.unique(easel.shot(prairie, ABOVE).reshape(-1, 3), axis=0)) == 1
+    prairie.systems.enable("draw")
+    for name in ("before", "after"):
+        prairie.systems.remove(name)
+    np.testing.assert_array_equal(easel.shot(prairie, ABOVE), whole)
+
+
 def test_d6_a_system_between_wind_and_drawing_is_seen(prairie: Prairie, easel: Stage) -> None:
     before = settled(prairie, easel)
 
@@ -202,7 +223,7 @@ def test_d6_a_system_between_wind_and_drawing_is_seen(prairie: Prairie, easel: S
             receivers.message *= (2.0, 1.0)
 
     prairie.systems.add("blow", "comb", comb, after="wind")
-    assert [system.name for system in prairie.systems][-2:] == ["comb", "gather"]
+    assert [system.name for system in prairie.systems][-3:] == ["comb", "gather", "draw"]
     combed = easel.shot(prairie, ABOVE)
     assert apart(before, combed).mean() > 1.0
     prairie.systems.disable("comb")

@@ -200,7 +200,7 @@ def test_one_system_runs_and_no_other(prairie: Prairie) -> None:
 
 
 def test_a_step_without_what_comes_before_it_is_refused_in_one_sentence(prairie: Prairie) -> None:
-    built_in = "press, tile, cull, lod, transition, see, plant, wind, gather"
+    built_in = "press, tile, cull, lod, transition, see, plant, wind, gather, draw"
     with pytest.raises(KeyError, match=f"no system 'moths'; there are {built_in}"):
         step(prairie, "moths")
     with pytest.raises(KeyError, match=r"no system 'winds', did you mean 'wind'\?"):
