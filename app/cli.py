@@ -12,7 +12,7 @@ from typing import Annotated, NoReturn
 import typer
 
 from .. import __version__
-from ..engine.declared.scene import LodName
+from ..engine.declared.quality import LodName
 from .bench.commands import bench
 from .options import (
     Edit,

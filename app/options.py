@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from ..engine.camera import Camera, parse_camera
-from ..engine.declared.scene import PresetName
+from ..engine.declared.quality import PresetName
 from ..systems.overlay.layers import LAYERS, Layer, parse_layers
 from .studio.errors import InputError
 from .studio.take import LARGEST, SAMPLES, parse_frames, parse_size

@@ -7,7 +7,8 @@ from math import pi
 import numpy as np
 
 from .around.outlook import Outlook
-from .space.cone import HALF_DIAGONAL, beyond_cone, beyond_sides
+from .space.cone import HALF_DIAGONAL, beyond_cone
+from .space.frustum import beyond_sides
 
 HIGH_UP = 10.0
 """Height over all ground around from which on the picture's upper and lower sides are worth asking for [m]."""

@@ -17,8 +17,8 @@ from ..components.pose import HERE, Pose
 from ..components.wind import WindPrimitive
 from ..engine.camera import View, view_of
 from ..engine.declared.light import Light
-from ..engine.declared.quality import PRESETS
-from ..engine.declared.scene import LodName, Scene
+from ..engine.declared.quality import PRESETS, LodName
+from ..engine.declared.scene import Scene
 from ..engine.gl.guest import unturned
 from ..engine.handed import as_rays, must_be_a, must_be_known, must_be_step, must_be_time, must_be_viewer
 from ..engine.plugged import bring_systems

@@ -18,7 +18,8 @@ from .show.blades.draw import BladePainter
 from .show.blades.plant import standing_blades
 from .show.blades.representation import BladeRepresentation
 from .show.carpet.painter import CarpetPainter
-from .space.cone import HALF_DIAGONAL, beyond_sides, discrete_distance, inside_cone, picture_sides, view_cone
+from .space.cone import HALF_DIAGONAL, discrete_distance, inside_cone, view_cone
+from .space.frustum import beyond, beyond_sides, picture_sides
 from .space.ground import Ground
 from .space.window import cell_of
 from .tile import cells_on, patch_models
@@ -106,11 +107,7 @@ def near_picture(blades: NDArray[np.void], seen: View, /) -> NDArray[np.bool_]:
     root = blades["root"].astype(np.float64)
     length = blades["height"] + (blades["stem"] if "stem" in (blades.dtype.names or ()) else 0.0)
     reach = ROOM * length.astype(np.float64) + blades["width"]
-    x, y, _, ahead = seen.clip
-    inside = np.ones(len(blades), np.bool_)
-    for plane in (ahead + x, ahead - x, ahead + y, ahead - y):
-        inside &= root @ plane[:3] + plane[3] >= -reach * np.linalg.norm(plane[:3])
-    return inside
+    return np.asarray(beyond(root, picture_sides(seen)) <= reach)
 
 
 def carpet_painter(painter: Painter, /) -> CarpetPainter:

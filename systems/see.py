@@ -9,6 +9,7 @@ from ..components.arrays import Floats, Rows
 from .around.appearance import Appearance, appearance, kept_near
 from .around.outlook import Outlook
 from .around.transitions import SEAMLESS, Transitions
+from .show.registry import THREE
 from .show.representation import Representation
 from .space.cone import seen_from
 from .transition import weights
@@ -27,7 +28,7 @@ def strips_kept(
 
     They leave all of them where something else than the carpet comes after them.
     """
-    number = outlook.patches.names.index("strips")
+    number = THREE[1]
     drawn = outlook.lens.reach_in(reach)
     if drawn[number] < drawn[-2]:
         return np.ones(len(rows), np.float32)
@@ -72,5 +73,5 @@ class See:
         finer = (patches.representation != last) | (patches.previous != last)
         rows = (patches.alive & finer & (patches.near | patches.visible)).nonzero()[0]
         kept = strips_kept(outlook, rows, reach=self.reach, patch=self.patch, choosy=self.choosy)
-        seen = appearance(weights(patches, rows), kept, transitions=self.transitions, names=patches.names)
+        seen = appearance(weights(patches, rows), kept, transitions=self.transitions, three=THREE)
         return seen.among(rows, len(patches.progress))

@@ -7,7 +7,7 @@ from pathlib import Path
 import moderngl
 
 from ..components.wind import WindPrimitive
-from ..engine.declared.scene import LodName
+from ..engine.declared.quality import LodName
 from ..engine.plugins import wind_kinds
 from ..engine.scene.compose import read_document
 from ..engine.scene.read import LoadedScene

@@ -40,7 +40,7 @@ PARTS = ("morph", "fade", "growth", "hysteresis")
 SMALLEST = TILE + 2 * MARGIN + 2
 """Least side of a picture [pixels]."""
 
-MOST = 8
+MOST_PROCESSES = 8
 """Most processes that walk at a time, each with a prairie of its own: one for each core, up to so many."""
 
 KEPT = ("judged", "error", "drift", "ghosting", "over", "changing", "changes", "worst")
@@ -134,7 +134,7 @@ def _walks(
     """Return the record of each walk; where frame times are to be held, nothing else goes on meanwhile."""
     steps = {name: sum(frames_of(leg, less) for leg in walk) for name, less in left_out.items()}
     jobs = [(name, number) for name in left_out for number in reversed(range(len(walk)))]
-    workers = min(cores(), MOST, len(jobs)) if crew and not hold else 1
+    workers = min(cores(), MOST_PROCESSES, len(jobs)) if crew and not hold else 1
     if workers > 1:
         asked = [(studio.take, walk, left_out[name], number, _kept(name)) for name, number in jobs]
         found = by_many(leg_walked, asked, workers=workers, steps=sum(steps.values()), doing="walking")

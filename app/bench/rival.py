@@ -6,7 +6,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Floats, Mask
+from ...components.arrays import Floats
 from ...engine.camera import View
 from ...engine.gl.stream import release_all
 from ...engine.terrain.sample import height_at
@@ -17,6 +17,7 @@ from ...systems.reference import terrain_cells
 from ...systems.show.blades.plant import BladeStock
 from ...systems.show.blades.representation import BladeRepresentation
 from ...systems.site import Site
+from ...systems.space.frustum import beyond, picture_sides
 from ...systems.tile import patch_models
 from ...systems.wind.breeze import Breeze
 
@@ -87,7 +88,8 @@ class ByHand:
     def cull(self, view: View) -> None:
         """Choose the tiles that are seen, and how many blades of each, and send them."""
         eye = np.array(view.eye)
-        seen = np.flatnonzero(inside_frustum(self._middle, self._radius, view))
+        planes = picture_sides(view, ends=True).astype(np.float32)
+        seen = np.flatnonzero(beyond(self._middle, planes) <= self._radius)
         away = np.linalg.norm(self._middle[seen] - eye.astype(np.float32), axis=1)
         order = np.argsort(away)
         seen, away = seen[order], away[order]
@@ -119,14 +121,6 @@ class ByHand:
     def release(self) -> None:
         """Give everything back."""
         release_all(*self._arrays, *self._programs, self._blades, self._chunks)
-
-
-def inside_frustum(middle: Floats, radius: Floats, view: View) -> Mask:
-    """Return whether spheres around `middle` (n, 3) of `radius` (n,) [m] touch what is seen, shape (n,)."""
-    clip = view.clip.astype(np.float32)
-    planes = np.concatenate([clip[3] + clip[:3], clip[3] - clip[:3]])
-    planes /= np.linalg.norm(planes[:, :3], axis=1, keepdims=True)
-    return np.asarray((middle @ planes[:, :3].T + planes[:, 3] >= -radius[:, None]).all(axis=1))
 
 
 def _blade_texels(stock: BladeStock, order: NDArray[np.intp]) -> Floats:

@@ -6,7 +6,7 @@ from typing import Any
 
 from ...engine.terrain.density import Picture
 
-MOST = 500
+MOST_STEPS = 500
 """Most steps that can be undone."""
 
 
@@ -54,7 +54,7 @@ class History:
         """Go on with another draft; changes of one subject in a row are one step, until `rest`."""
         joins = subject is not None and subject == self._subject and self.can_undo and not self.can_redo
         kept = self._drafts[: self._at + (not joins)]
-        self._drafts = [*kept[-MOST:], draft]
+        self._drafts = [*kept[-MOST_STEPS:], draft]
         self._at, self._subject = len(self._drafts) - 1, subject
 
     def rest(self) -> None:

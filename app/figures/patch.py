@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from ...components.arrays import Doubles, Floats
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.light import Light
-from ...engine.declared.quality import Quality
-from ...engine.declared.scene import LodName
+from ...engine.declared.quality import LodName, Quality
 from ...systems.grow.bend import ribbon, spine
 from ...systems.grow.record import Blades, Growth
 from ...systems.light.color import display

@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 
-from ...engine.declared.scene import LodName
+from ...engine.declared.quality import LodName
 from ...systems.overlay.layers import Layer
 
 LARGEST = 16384

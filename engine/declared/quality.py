@@ -1,10 +1,14 @@
 """Quality: how fine each representation is, and up to which discrete distance it reaches."""
 
 from itertools import pairwise
+from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field, model_validator
 
 from ...components.declaration import Declaration, DeclarationError
+
+LodName = Literal["auto", "blades", "strips", "carpet"]
+"""Which representation is drawn: the one due at each distance, or one of them everywhere."""
 
 
 class BladeRing(Declaration):
@@ -122,3 +126,9 @@ no more than strips and are much nearer to the truth.
 
 The paper's reach so far that the image of a wide enough `plain` has about 100,000, 500,000 and 1,000,000 blades.
 """
+
+if TYPE_CHECKING:
+    PresetName = str
+else:
+    PresetName = Literal[tuple(PRESETS)]
+"""The name of a preset."""

@@ -14,17 +14,11 @@ from .camera import CameraSource
 from .grass import MOST_KINDS, GrassKind
 from .light import Light
 from .presser import PresserOnPath
-from .quality import PRESETS, Quality
+from .quality import PRESETS, PresetName, Quality
 from .terrain import TerrainSource
 
 FORMAT = 2
 """Version of the scene format that this release writes."""
-
-PresetName = Literal["low", "medium", "high", "ultra", "paper-low", "paper-medium", "paper-high"]
-
-LodName = Literal["auto", "blades", "strips", "carpet"]
-"""Which representation is drawn: the one due at each distance, or one of them everywhere."""
-
 
 _MISSING_KIND = "the key 'kind' is missing, which says what wind it is, such as 'breeze'"
 

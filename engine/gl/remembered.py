@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 Made = TypeVar("Made")
 
-MOST = 4
+MOST_VIEWERS = 4
 """Viewers for whom anything is remembered: those that looked last."""
 
 
@@ -30,7 +30,7 @@ class Remembered(Generic[Made]):
         if found is None or now is None or now != found[0]:
             found = now, make()
         self._made[viewer] = found
-        if len(self._made) > MOST:
+        if len(self._made) > MOST_VIEWERS:
             del self._made[next(iter(self._made))]
         is_sent, self._sent = found is self._sent, found
         return found[1], not is_sent

@@ -19,7 +19,7 @@ log = logging.getLogger("tallgrass")
 
 Size = tuple[int, int]
 
-MOST = 4
+MOST_SIZES = 4
 """Sizes whose buffers are kept: a viewer's last and present one, and another viewer's."""
 
 UNITS = {"before": FIRST_UNIT, "picture": FIRST_UNIT + 1, "deep": FIRST_UNIT + 2}
@@ -150,7 +150,7 @@ class Smaller:
         if not self._passes:
             self._make()
         if (full, small) not in self._buffers:
-            if len(self._buffers) == MOST:
+            if len(self._buffers) == MOST_SIZES:
                 self._buffers.pop(next(iter(self._buffers))).release()
             self._buffers[full, small] = Buffers.made(self._ctx, full, small, floats=self._floats)
         self._tell({"size": small, "unit": (1.0 / small[0], 1.0 / small[1])})

@@ -23,7 +23,7 @@ Picture = NDArray[np.uint8]
 
 NONE: Mapping[str, Picture] = {}
 
-MOST = 4097
+MOST_SIDE = 4097
 """Most pixels along a side of a density map."""
 
 _WHOLE = {"b1": 1.0, "u1": 255.0, "u2": 65535.0}
@@ -79,8 +79,8 @@ def _channels_of(values: NDArray[Any]) -> Channels:
     shape = values.shape
     if not (len(shape) == 2 or (len(shape) == 3 and 1 <= shape[2] <= len(CHANNELS))):
         raise MapError(None, f"it must be an array of rows and columns, with 1 to 4 channels at most, not {shape}")
-    if not 1 <= min(shape[:2]) <= max(shape[:2]) <= MOST:
-        raise MapError(None, f"it is {shape[1]} by {shape[0]} cells; a density map has 1 to {MOST} a side")
+    if not 1 <= min(shape[:2]) <= max(shape[:2]) <= MOST_SIDE:
+        raise MapError(None, f"it is {shape[1]} by {shape[0]} cells; a density map has 1 to {MOST_SIDE} a side")
     whole = _WHOLE.get(values.dtype.kind + str(values.dtype.itemsize))
     if whole is None and values.dtype.kind != "f":
         due = "floats from 0 to 1, unsigned integers of 8 or 16 bits, or true and false"
@@ -97,9 +97,9 @@ def _read_picture(path: Path) -> Channels:
         if not path.is_file():
             raise MapError(path, "there is no such file")
         with Image.open(path) as image:
-            if max(image.size) > MOST:
+            if max(image.size) > MOST_SIDE:
                 width, height = image.size
-                raise MapError(path, f"it is {width} by {height} pixels; a density map has at most {MOST} a side")
+                raise MapError(path, f"it is {width} by {height} pixels; a density map has at most {MOST_SIDE} a side")
             if image.mode in ("I;16", "I;16B", "I;16L"):
                 return dict.fromkeys(CHANNELS[:3], np.asarray(image).astype(np.float32) / np.float32(65535.0))
             if image.mode not in ("1", "L", "LA", "P", "PA", "RGB", "RGBA"):

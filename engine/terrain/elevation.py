@@ -15,7 +15,7 @@ from PIL import Image, UnidentifiedImageError
 
 from .errors import MapError
 
-MOST = 8193
+MOST_CELLS = 8193
 """Most cells along a side of a map."""
 
 _BROKEN = ".*(Truncated|[Cc]orrupt)"
@@ -51,7 +51,7 @@ def reading(path: Path, kind: str) -> Iterator[None]:
     except MapError:
         raise
     except (Image.DecompressionBombWarning, Image.DecompressionBombError) as error:
-        raise MapError(path, f"it has more than {MOST} cells a side, the most there may be") from error
+        raise MapError(path, f"it has more than {MOST_CELLS} cells a side, the most there may be") from error
     except UnidentifiedImageError as error:
         raise MapError(path, f"it cannot be read as {kind}") from error
     except UserWarning as warning:
@@ -61,12 +61,12 @@ def reading(path: Path, kind: str) -> Iterator[None]:
 
 
 def check_size(path: Path | None, shape: tuple[int, ...]) -> None:
-    """Raise `MapError` where a map is no map of 2 to `MOST` cells a side."""
+    """Raise `MapError` where a map is no map of 2 to `MOST_CELLS` cells a side."""
     if len(shape) != 2:
         raise MapError(path, f"it must be an array of rows and columns, not of {len(shape)} dimensions")
     rows, columns = shape
-    if min(rows, columns) < 2 or max(rows, columns) > MOST:
-        raise MapError(path, f"it is {columns} by {rows} cells, and a map has 2 to {MOST} a side")
+    if min(rows, columns) < 2 or max(rows, columns) > MOST_CELLS:
+        raise MapError(path, f"it is {columns} by {rows} cells, and a map has 2 to {MOST_CELLS} a side")
 
 
 def check_finite(

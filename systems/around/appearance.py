@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 from ...components.arrays import Doubles, Floats
 from .transitions import Transitions
 
-THREE = ("blades", "strips", "carpet")
-"""The representations whose changes into one another are more than a fade."""
+Three = tuple[int, int, int]
+"""The numbers of the representations whose changes into one another are more than a fade: the one that moves to its
+painted places on the next, this next one, and the one that this grows out of."""
 
 ARRIVED = 0.95
 """Part of a change from blades to strips after which the blades are in their painted places."""
@@ -93,17 +94,15 @@ def kept_near(away: Floats | Doubles, /, *, reach: float) -> Floats:
     return _part(((reach + 0.5 - away) / border_of(reach)).astype(np.float32))
 
 
-def appearance(
-    weight: Floats, kept: Floats, /, *, transitions: Transitions, names: tuple[str, ...] = THREE
-) -> Appearance:
+def appearance(weight: Floats, kept: Floats, /, *, transitions: Transitions, three: Three = (0, 1, 2)) -> Appearance:
     """Return how each patch appears whose representations have these weights, (representations, rows).
 
     `kept` (rows,) is how much of the strips the distance leaves. Between blades and strips, and between strips and
-    carpet, there are changes of their own (paper, sections 4.2 and 4.3); any other two of `names` fade into each other.
+    carpet, there are changes of their own (paper, sections 4.2 and 4.3): these are `three`, and all others fade.
     """
     if not transitions.gradual:
         kept = np.ones_like(kept)
-    blades, strips, carpet = (weight[names.index(name)] for name in THREE)
+    blades, strips, carpet = (weight[number] for number in three)
     both = (blades > 0.0) & (strips > 0.0)
     covers, growth, laid = _grown(np.where(carpet > 0.0, kept * strips, kept), transitions)
     shown, morph, handed = _moved(blades, strips, transitions)
@@ -111,11 +110,11 @@ def appearance(
         covers = np.where(both, covers * _early(strips, transitions), covers)
     lies = np.where(strips > 0.0, np.where(both, laid * strips, laid), carpet)
     cover = np.empty_like(weight)
-    for number in (number for number, name in enumerate(names) if name not in THREE):
+    for number in (number for number in range(len(weight)) if number not in three):
         cover[number] = _early(weight[number], transitions)
         covers = np.where(weight[number] > 0.0, covers * _early(strips, transitions), covers)
-    for name, values in zip(THREE, (shown, np.where(strips > 0.0, covers, np.float32(0.0)), lies), strict=True):
-        cover[names.index(name)] = values
+    for number, values in zip(three, (shown, np.where(strips > 0.0, covers, np.float32(0.0)), lies), strict=True):
+        cover[number] = values
     return Appearance(cover, morph, handed, growth)
 
 

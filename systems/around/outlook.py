@@ -9,7 +9,8 @@ import numpy as np
 from ...components.viewer import Viewer
 from ...engine.camera import View
 from ...engine.world import World
-from ..space.cone import picture_sides, view_cone
+from ..space.cone import view_cone
+from ..space.frustum import picture_sides
 from .appearance import Appearance
 from .kept import Kept
 from .lens import Lens, zoom_of

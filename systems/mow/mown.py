@@ -10,13 +10,14 @@ from ...components.arrays import Floats, Mask
 from ...components.footprint import Footprint
 from ...components.pose import Pose
 from ...engine.terrain.record import Terrain
+from ..space.polygon import in_polygon
 
 Number = TypeVar("Number", np.float32, np.int64)
 
 CELL = 0.2
 """Side of a cell of the map, if the terrain is small enough [m]."""
 
-MOST = 2048
+MOST_CELLS = 2048
 """Cells along a side of the map at most: of a terrain of more than 400 m they are larger."""
 
 LEAST = 0.75
@@ -188,20 +189,10 @@ def inside(footprint: Footprint, pose: Pose, place: Floats, /, *, least: float =
     """Return which ground positions (n, 2) [m] lie under a footprint, shape (n,); a round one is `least` [m] wide."""
     own = pose.inside(place)
     if footprint.corners:
-        return _in_polygon(np.array(footprint.corners, np.float32), own)
+        return in_polygon(own, np.array(footprint.corners, np.float32))
     half = np.float32(footprint.length / 2)
     off = np.hypot(own[:, 0], own[:, 1] - np.clip(own[:, 1], -half, half))
     return np.asarray(off <= max(footprint.radius, least))
-
-
-def _in_polygon(corners: Floats, place: Floats) -> Mask:
-    """Return which places (n, 2) lie in a polygon: a ray from them to the right crosses its edges an odd time."""
-    odd = np.zeros(len(place), np.bool_)
-    for (x, z), (next_x, next_z) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        if z != next_z:
-            crosses = (z > place[:, 1]) != (next_z > place[:, 1])
-            odd ^= crosses & (place[:, 0] < x + (place[:, 1] - z) / (next_z - z) * (next_x - x))
-    return odd
 
 
 def _check(done: str, footprint: object, height: object, pose: object) -> None:
@@ -218,4 +209,4 @@ def _check(done: str, footprint: object, height: object, pose: object) -> None:
 
 
 def _cells(side: float) -> int:
-    return int(np.clip(np.ceil(side / CELL - 1e-6), 1, MOST))
+    return int(np.clip(np.ceil(side / CELL - 1e-6), 1, MOST_CELLS))

@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 from ...components.arrays import Floats, Rows
 from ..around.outlook import Outlook
 from ..see import strips_kept
+from ..show.registry import THREE
 from ..site import Site
 from ..transition import weights
 from .marks import Marks, filled, on_ground, split, stroked, together
@@ -57,12 +58,12 @@ def patch_colors(outlook: Outlook, site: Site, /) -> Floats:
 
 def patch_weights(outlook: Outlook, site: Site, /) -> Floats:
     """Return how much each representation counts on each patch, (representations, rows), the strips' border too."""
-    share, strips = weights(outlook.patches), outlook.patches.names.index("strips")
+    share, (_, strips, carpet) = weights(outlook.patches), THREE
     every = np.arange(len(outlook.patches.progress))
     kept = strips_kept(outlook, every, reach=site.reach, patch=site.ground.patch, choosy=site.choosy)
     handed = share[strips] * (1.0 - kept)
     share[strips] -= handed
-    share[-1] += handed
+    share[carpet] += handed
     return share
 
 

@@ -8,7 +8,7 @@ from ...components.arrays import Doubles
 from ...components.presser import Presser
 from ..wind.outline import Outline, outline_of_polygon
 
-MOST = 40
+MOST_DISCS = 40
 """How many discs a footprint is made of at most."""
 
 _APART, _LEAST = 0.9, 0.3
@@ -31,7 +31,7 @@ def discs_of(presser: Presser, /) -> Doubles:
 
 
 def _in_capsule(radius: float, length: float) -> Doubles:
-    count = min(1 + int(np.ceil(length / (_ALONG * radius))), MOST)
+    count = min(1 + int(np.ceil(length / (_ALONG * radius))), MOST_DISCS)
     ahead = np.linspace(-0.5, 0.5, count) * length if count > 1 else np.zeros(1)
     return np.stack([np.zeros(count), ahead, np.full(count, radius)], axis=1)
 
@@ -46,7 +46,7 @@ def _in_polygon(corners: tuple[tuple[float, float], ...]) -> Doubles:
     if outline.deepest < outline.step:
         depth += outline.step
     apart, discs = _APART, _discs_in(outline, depth, _APART)
-    while len(discs) > MOST:
+    while len(discs) > MOST_DISCS:
         apart *= _FARTHER
         discs = _discs_in(outline, depth, apart)
     return discs
@@ -58,7 +58,7 @@ def _discs_in(outline: Outline, depth: Doubles, apart: float) -> Doubles:
     x, z = outline.corner[0] + columns * outline.step, outline.corner[1] + rows * outline.step
     left, least = depth.copy(), _LEAST * depth.max()
     discs: list[tuple[float, float, float]] = []
-    while len(discs) <= MOST and left.max() > least:
+    while len(discs) <= MOST_DISCS and left.max() > least:
         at = int(left.argmax())
         disc = float(x.flat[at]), float(z.flat[at]), float(left.flat[at])
         discs.append(disc)

@@ -18,7 +18,7 @@ SIDE = 128
 
 GLSL = {"SQUARE": SQUARE, "SIDE": SIDE}
 
-MOST = 96
+MOST_MARKS = 96
 """Marks that a square has at most: the latest."""
 
 
@@ -121,7 +121,7 @@ def told(stretches: Stretches, since: float) -> Floats:
 
 
 def _marks(marks: Floats, count: NDArray[np.intp], listed: Ints) -> Marks:
-    fewer = np.minimum(count, MOST)
+    fewer = np.minimum(count, MOST_MARKS)
     first = np.cumsum(count) - fewer
     return Marks(marks, first.astype(np.int32), fewer.astype(np.int32), listed)
 

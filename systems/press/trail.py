@@ -38,8 +38,8 @@ LEAST, PART = 0.3, 0.75
 STAYS = 0.25
 """How long a disc stands in a place before a stretch ends there [s]."""
 
-LEAP, FASTEST = 2.0, 40.0
-"""What moves farther than `LEAP` [m] and as far as this speed brings it [m/s] has jumped, and trod on nothing."""
+JUMP, FASTEST = 2.0, 40.0
+"""What moves farther than `JUMP` [m] and as far as this speed brings it [m/s] has jumped, and trod on nothing."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -111,7 +111,7 @@ class Trail:
         on = self.open
         gone = discs.place - on[:, LAST]
         far, took = np.hypot(gone[:, 0], gone[:, 1]), time - on[:, LEFT]
-        jumped, moved = far > LEAP + FASTEST * took, far > 0.0
+        jumped, moved = far > JUMP + FASTEST * took, far > 0.0
         stood = moved & ~jumped & (on[:, LEFT] - on[:, CAME] > STAYS)
         stood |= moved & ~jumped & (on[:, LEFT] % self.every == 0.0) & (on[:, BEGUN] < on[:, LEFT])
         self._close(jumped | stood)

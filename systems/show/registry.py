@@ -1,5 +1,6 @@
 """The representations that there are."""
 
+from ..around.appearance import Three
 from .blades.representation import BladeRepresentation
 from .carpet.representation import CarpetRepresentation
 from .representation import Representation
@@ -10,3 +11,13 @@ REPRESENTATIONS: tuple[type[Representation], ...] = (BladeRepresentation, StripR
 
 NAMES = tuple(each.name for each in REPRESENTATIONS)
 """What they are called, in the same order."""
+
+
+def _three() -> Three:
+    finest = next(number for number, each in enumerate(REPRESENTATIONS) if each.morphs_into)
+    middle = NAMES.index(str(REPRESENTATIONS[finest].morphs_into))
+    return finest, middle, NAMES.index(str(REPRESENTATIONS[middle].grows_out_of))
+
+
+THREE = _three()
+"""Those whose changes into one another are more than a fade."""

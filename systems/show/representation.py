@@ -119,6 +119,12 @@ class Representation(ABC):
     asked: ClassVar[tuple[str, ...]] = ()
     """The names of those that are read before, by passes over receivers and blades."""
 
+    morphs_into: ClassVar[str | None] = None
+    """The name of the coarser one on which its blades have painted places that they move to (paper, section 4.2)."""
+
+    grows_out_of: ClassVar[str | None] = None
+    """The name of the coarser one out of which it grows (paper, section 4.3)."""
+
     record: ClassVar[type | None] = None
     """The dataclass of arrays that its pictures are records of, as they are kept on disk."""
 

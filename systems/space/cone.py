@@ -89,28 +89,6 @@ def beyond_cone(
     return np.maximum(across, -along)
 
 
-def picture_sides(seen: View, /) -> Doubles:
-    """Return the planes of the picture's left, right, lower and upper side, (4, 4).
-
-    A row times (x, y, z, 1) is how far a point lies inside of one [m].
-    """
-    clip = seen.clip
-    planes = clip[3] + np.stack([clip[0], -clip[0], clip[1], -clip[1]])
-    return np.asarray(planes / np.maximum(np.linalg.norm(planes[:, :3], axis=1, keepdims=True), 1e-12))
-
-
-def beyond_sides(x: Doubles, z: Doubles, heights: Floats, sides: Doubles, /) -> Floats:
-    """Return how large balls have to be to touch what the picture holds [m]: inside it 0 or less, shape (n, m).
-
-    Their middles are at (x, heights, z) [m], of shapes (m,), (n, m) and (n, 1).
-    """
-    beyond = np.full(heights.shape, -np.inf, np.float32)
-    for across, up, along, far in sides:
-        inside = (z * along + far).astype(np.float32) + (x * across).astype(np.float32)
-        np.maximum(beyond, -(inside + heights * np.float32(up)), out=beyond)
-    return beyond
-
-
 def discrete_distance(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArray[np.int32]:
     """Return the patches' distance (paper, section 2.2): 0 for the viewer's, 1 for its eight neighbours, ..."""
     aside, ahead = cells_apart(cell, centre)

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles, Floats, Mask
+from ..space.polygon import in_polygon
 
 FINE = 96
 """Samples along the longer side of an outline."""
@@ -108,15 +109,11 @@ def _outline(depth: Doubles, corner: tuple[float, float], step: float) -> Outlin
 def _to_edges(place: Doubles, points: Doubles) -> tuple[Doubles, Mask]:
     """Return the distances of places (..., 2) to a closed polygon's edges, and whether it holds them (even-odd)."""
     away = np.full(place.shape[:-1], np.inf)
-    holds = np.zeros(place.shape[:-1], np.bool_)
     for a, b in zip(points, np.roll(points, -1, axis=0), strict=True):
         edge, to = b - a, place - a
         part = np.clip(to @ edge / max(float(edge @ edge), 1e-12), 0.0, 1.0)
         away = np.minimum(away, np.linalg.norm(to - part[..., None] * edge, axis=-1))
-        crosses = (a[1] > place[..., 1]) != (b[1] > place[..., 1])
-        before = to[..., 0] * edge[1] - edge[0] * to[..., 1]
-        holds ^= crosses & ((before < 0.0) == (edge[1] > 0.0))
-    return away, holds
+    return away, in_polygon(place, points)
 
 
 def _signed(holds: Mask) -> Doubles:

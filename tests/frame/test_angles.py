@@ -13,7 +13,7 @@ from tallgrass.app.bench.contrast import luma
 from tallgrass.app.bench.flip import MOMENT
 from tallgrass.components.arrays import Doubles
 from tallgrass.engine.camera import Camera, camera_at
-from tallgrass.engine.declared.scene import LodName
+from tallgrass.engine.declared.quality import LodName
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import cropped, draw_reference, patch_distances
 from tallgrass.testing import Stage

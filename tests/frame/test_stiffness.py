@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from tallgrass.engine.camera import Camera
-from tallgrass.engine.declared.scene import LodName
+from tallgrass.engine.declared.quality import LodName
 from tallgrass.systems.grow.bend import spine
 from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import Stage as Room

@@ -16,7 +16,8 @@ from tallgrass.systems.cull import Cull
 from tallgrass.systems.show.blades.gather import may_be_seen
 from tallgrass.systems.show.blades.pool import BladePool
 from tallgrass.systems.show.registry import NAMES
-from tallgrass.systems.space.cone import discrete_distance, far_to_near, inside_cone, picture_sides, view_cone
+from tallgrass.systems.space.cone import discrete_distance, far_to_near, inside_cone, view_cone
+from tallgrass.systems.space.frustum import picture_sides
 
 PATCH = 2.5
 AROUND = np.stack(np.meshgrid(np.arange(-12, 13), np.arange(-12, 13)), -1).reshape(-1, 2).astype(np.int32)

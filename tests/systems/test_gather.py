@@ -16,7 +16,7 @@ from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.show.blades.gather import gather_blades
 from tallgrass.systems.show.blades.pool import BladePool, BladesKept
 from tallgrass.systems.show.blades.shown import BladesShown, Standing
-from tallgrass.systems.show.strips.gather import MOST, STOOD, gather_strips, polygon_strips, runs
+from tallgrass.systems.show.strips.gather import MOST_DRAWS, STOOD, gather_strips, polygon_strips, runs
 from tallgrass.systems.show.strips.pool import StripPool, StripsKept
 from tallgrass.systems.show.strips.shown import StripsOfRing, StripsShown
 from tallgrass.systems.site import Site
@@ -122,7 +122,7 @@ def test_t5_patches_that_follow_one_another_are_one_draw_and_all_are_where_that_
 ) -> None:
     amount = np.array(data.draw(st.lists(st.integers(0, 5), min_size=len(ranked), max_size=len(ranked))), np.int64)
     draws = runs(np.array(ranked, np.bool_), amount)
-    assert len(draws) <= MOST
+    assert len(draws) <= MOST_DRAWS
     drawn = [strip for first, count, _ in draws for strip in range(first, first + count)]
     assert drawn == list(range(int(amount.sum())))
     if len(draws) > 1:

@@ -9,7 +9,7 @@ from ...around.appearance import Appearance, handed_over
 from ...around.patches import PatchTable
 from .shown import StripsOfRing
 
-MOST = 8
+MOST_DRAWS = 8
 """Draws of strips in a frame at most."""
 
 STOOD = np.dtype(
@@ -108,14 +108,14 @@ def runs(ranked: NDArray[np.bool_], amount: NDArray[np.int64], /) -> list[tuple[
     """Return the draws that show strips from far to near: first strip, number of strips, whether by rank.
 
     `ranked` says which patches have to be drawn by rank, `amount` how many strips each has, both in their order, (m,).
-    Patches that follow one another are drawn together; where that would make more than `MOST` draws, all are drawn
-    by rank at once, which takes longer for each pixel and shows the same.
+    Patches that follow one another are drawn together; where that would make more draws than `MOST_DRAWS`, all are
+    drawn by rank at once, which takes longer for each pixel and shows the same.
     """
     if not len(ranked):
         return []
     starts = np.flatnonzero(np.diff(ranked.astype(np.int8), prepend=-1))
     first = np.concatenate([[0], np.cumsum(amount)])
-    if len(starts) > MOST:
+    if len(starts) > MOST_DRAWS:
         return [(0, int(first[-1]), True)]
     ends = [*starts[1:].tolist(), len(ranked)]
     return [

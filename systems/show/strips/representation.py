@@ -49,6 +49,7 @@ class StripRepresentation(Representation):
     name: ClassVar[str] = "strips"
     label: ClassVar[str] = "2.5D strips"
     color: ClassVar[Color] = (0.12, 0.50, 0.98)
+    grows_out_of: ClassVar[str | None] = "carpet"
     samplers: ClassVar[tuple[str, ...]] = ("atlas", "ranks", "extents", "strips", "stood")
     asked: ClassVar[tuple[str, ...]] = ("stood",)
     record: ClassVar[type | None] = Strips

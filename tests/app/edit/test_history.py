@@ -1,6 +1,6 @@
 """Every state that a scene was in while it was edited."""
 
-from tallgrass.app.edit.history import MOST, Draft, History
+from tallgrass.app.edit.history import MOST_STEPS, Draft, History
 
 
 def history(*seeds: int, subject: object = None) -> History:
@@ -60,7 +60,7 @@ def test_the_state_that_was_saved_is_known_when_one_comes_back_to_it() -> None:
 
 
 def test_only_so_many_steps_are_kept() -> None:
-    made = history(*range(1, MOST + 50))
+    made = history(*range(1, MOST_STEPS + 50))
     while made.undo():
         pass
     assert seed(made) == 49

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tallgrass.engine.gl.remembered import MOST, Remembered
+from tallgrass.engine.gl.remembered import MOST_VIEWERS, Remembered
 
 
 @pytest.fixture
@@ -56,10 +56,10 @@ def test_made_of_nothing_to_be_told_apart_it_is_made_each_time() -> None:
 
 def test_only_those_who_looked_last_are_remembered(made: list[str]) -> None:
     remembered = Remembered[str]()
-    for number in range(MOST + 1):
+    for number in range(MOST_VIEWERS + 1):
         of(remembered, made, str(number))
-    of(remembered, made, str(MOST))
+    of(remembered, made, str(MOST_VIEWERS))
     of(remembered, made, "1")
-    assert made == [str(number) for number in range(MOST + 1)]
+    assert made == [str(number) for number in range(MOST_VIEWERS + 1)]
     of(remembered, made, "0")
     assert made[-1] == "0"

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass.engine.gl.guest import guest
-from tallgrass.engine.gl.smaller import MOST, Smaller, smaller_size
+from tallgrass.engine.gl.smaller import MOST_SIZES, Smaller, smaller_size
 from tallgrass.engine.gl.stream import release_all
 
 SIZE = (40, 30)
@@ -195,5 +195,5 @@ def test_buffers_of_the_last_sizes_alone_are_kept(ctx: moderngl.Context, host: H
         with guest(ctx) as target, smaller.instead_of(target, 0.4 + 0.05 * number) as small:
             made.append(small)
     assert made[-1] is made[-3]
-    assert sum(not isinstance(each.mglo, moderngl.InvalidObject) for each in made[:-1]) == MOST
+    assert sum(not isinstance(each.mglo, moderngl.InvalidObject) for each in made[:-1]) == MOST_SIZES
     assert (host.picture() == 0).all()

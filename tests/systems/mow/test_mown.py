@@ -12,7 +12,7 @@ from tallgrass.components.footprint import Footprint
 from tallgrass.components.pose import HERE, Pose
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.world import World
-from tallgrass.systems.mow.mown import CELL, LEAST, MOST, Mown, inside
+from tallgrass.systems.mow.mown import CELL, LEAST, MOST_CELLS, Mown, inside
 from tallgrass.testing import LITTLE, little_prairie, watch
 
 LONG = Footprint(radius=1.0, length=6.0)
@@ -113,8 +113,8 @@ def test_f4_no_map_is_made_before_something_is_cut_on_the_terrain() -> None:
 def test_f4_cells_are_as_wide_as_told_and_wider_on_a_large_terrain() -> None:
     assert Mown(ground()).cell == pytest.approx((CELL, CELL))
     large = Mown(Terrain(np.zeros((3, 3), np.float32), 1000.0))
-    assert large.shape == (MOST, MOST)
-    assert large.cell == pytest.approx((2000.0 / MOST,) * 2)
+    assert large.shape == (MOST_CELLS, MOST_CELLS)
+    assert large.cell == pytest.approx((2000.0 / MOST_CELLS,) * 2)
 
 
 def test_f4_on_another_terrain_what_was_cut_stays_cut_at_its_place() -> None:

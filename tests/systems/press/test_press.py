@@ -14,7 +14,7 @@ from tallgrass.components.presser import Presser
 from tallgrass.systems.press import marks
 from tallgrass.systems.press.footprint import discs_of
 from tallgrass.systems.press.lie import laid_over, pressed, touches
-from tallgrass.systems.press.marks import MOST, UNTRODDEN, Memory, Trodden
+from tallgrass.systems.press.marks import MOST_MARKS, UNTRODDEN, Memory, Trodden
 from tallgrass.systems.press.trail import BESIDE, Discs, Trail
 from tallgrass.testing.receivers import grass_at
 
@@ -146,7 +146,7 @@ def test_f4_of_more_who_walk_over_a_place_than_are_kept_the_latest_count() -> No
         return 0.5 * float(np.cos(9.0 * time)), 0.5 * float(np.sin(9.0 * time))
 
     trodden = walked(around, until=16.0, steps=1200)
-    assert trodden.settled.count.max() == MOST
+    assert trodden.settled.count.max() == MOST_MARKS
     assert np.linalg.norm(felt(trodden, around(16.0))) > 0.9
 
 
