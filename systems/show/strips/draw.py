@@ -60,8 +60,8 @@ class StripPainter:
                 canvas.ctx, canvas.block, canvas.units, "systems/show/strips/strips.vert",
                 "systems/show/strips/strips.frag", defines,
             )
-            for touched in ({}, {"TOUCHED": 1})
-            for defines in ({**whole, **touched}, {**whole, **touched, "THIN": 1})
+            for rare in ({}, {"SHADED": 1}, {"SHADED": 1, "CUT": 1})
+            for defines in ({**whole, **rare}, {**whole, **rare, "THIN": 1})
         ]  # fmt: skip
         pictures = self._pictures()
         for made in self.programs:
@@ -115,8 +115,8 @@ class StripPainter:
         self.extents.use(self.units["extents"])
         self.strips.texture.use(self.units["strips"])
         frame = self._block.record[0]
-        touched = bool(frame["anything_cut"] or frame["shades"]["radius"].any())
-        which = 2 * touched + thin
+        rare = 2 if frame["anything_cut"] else int(frame["shades"]["radius"].any())
+        which = 2 * rare + thin
         self.programs[which]["first"] = first
         self.arrays[which].render(moderngl.TRIANGLE_STRIP, vertices=2 * self.sections + 2, instances=count)
         return 1

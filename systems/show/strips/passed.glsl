@@ -6,7 +6,9 @@ flat PASSED vec4 rise;      // how that changes up to the tip; with THIN, how sh
 flat PASSED vec4 grain_cos; // change of pigment with the cosine of twice the normal's azimuth; with THIN, what shows by rank: slope
 flat PASSED vec4 grain_sin; // the same with the sine; with THIN, start
 flat PASSED mat4 lit;       // light on it, bundled; beside it layer of the texture, level of its mip-maps, factor on coverage
-#ifdef TOUCHED
+#ifdef SHADED
 flat PASSED vec4 shadow;    // of a body: the square of how near the sun's ray comes to it, by powers of `on.z`; how soft its edge is
+#endif
+#ifdef CUT
 flat PASSED vec4 cut;       // kind; pixels that a metre is long; height below which strips would show as rows [m]; 1 where any is cut
 #endif

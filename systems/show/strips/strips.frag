@@ -1,5 +1,5 @@
-// With THIN, blades are drawn by rank. With TOUCHED, bodies may cast shadows and grass may be cut: that is a program of its own,
-// as fragments pay a third more for it.
+// With THIN, blades are drawn by rank. With SHADED bodies cast shadows, and with CUT some grass is cut: those are programs of
+// their own, as fragments would pay half as much again for what is rare.
 #include "lib/layered.glsl"
 #include "lib/light.glsl"
 
@@ -17,7 +17,7 @@ const float FAINT = 0.006; // coverage that is left out: in bytes, layer upon la
 const float LEAST_PAINT = 0.002;  // coverage of a texel that counts at least, for what it shows
 const float SUNKEN = 0.3;  // height of grass from which on strips begin to show, of that below which they would show as rows
 
-#ifdef TOUCHED
+#ifdef CUT
 // How much of a strip is left where grass is cut.
 float left_of(float top) {
     float left = clamp((top - roots.z) * cut.y + 0.5, 0.0, 1.0);
@@ -36,10 +36,12 @@ void main() {
     vec2 twice = 2.0 * mean.gb - 1.0;
     vec3 pigment = (foot.rgb + rise.rgb * mean.r) * (1.0 + grain_cos.rgb * twice.x + grain_sin.rgb * twice.y);
     Light light = unbundled(lit);
-#ifdef TOUCHED
+#ifdef SHADED
     float seen = past_body(sqrt(max(shadow.x + on.z * (shadow.y + on.z * shadow.z), 0.0)), shadow.w);
     light.sun *= seen;
     light.gloss *= seen;
+#endif
+#ifdef CUT
     if (cut.w > 0.5) {
         float top = left_at(roots.xy);
         light = mown_to(top, light, int(cut.x), areas(grows_at(roots.xy)));

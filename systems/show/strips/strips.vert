@@ -140,7 +140,7 @@ void dye(Column column, vec2 run, vec3 middle, vec3 top, float lying, vec2 slow)
     grain_sin.rgb = turned * kinds[column.kind].grain_s / mean_face;
 }
 
-#ifdef TOUCHED
+#ifdef SHADED
 const float UNSHADED = 9.0;  // square of how far off a body's middle the sun's ray goes where nothing is shaded, in radii
 
 // The body whose shadow comes nearest to a column between two places; none is -1. Where it ends, pixels find out.
@@ -160,7 +160,9 @@ int shading(vec3 a, vec3 b) {
     }
     return nearest;
 }
+#endif
 
+#ifdef CUT
 const float UNCUT = 0.999;  // grass that is left to stand so high, of the tallest, is not cut
 
 // What pixels of a column must know where anything is cut within so many metres of it.
@@ -214,8 +216,10 @@ void main() {
     Lie lies = lie_at(rooted.xz);
     ByKind grows = grows_at(rooted.xz);
     float seen = sun_past(rooted, lies.past);
-#ifdef TOUCHED
+#ifdef SHADED
     seen *= past_bodies(rooted, shading(a.rooted, b.rooted));
+#endif
+#ifdef CUT
     roots.xyz = vec3(mix(a.rooted.xz, b.rooted.xz, corner.x), corner.y * OF(tall, k));
     cut = cut_about(column, rooted.xz, middle, pixels, 2.0 * distance(a.foot.xz, b.foot.xz));
 #endif
