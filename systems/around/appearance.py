@@ -37,6 +37,8 @@ GROWN = 0.6
 SINKS = 0.4
 """Part of a change from carpet to strips after which the carpet begins to sink and fade."""
 
+GLSL = {"GROWN": GROWN, "SINKS": SINKS}
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Appearance:

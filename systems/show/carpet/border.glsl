@@ -1,13 +1,15 @@
 // What stands on strips before the carpet, where the one gives way to the other.
-#include "lib/carpet.glsl"
 #include "lib/shares.glsl"
+#include "systems/around/appearance.py"
+#include "systems/show/carpet/sight.glsl"
 
 const float TOPS = 0.85;  // height up to which the leaf area falls off linearly, of the tallest tip's: as strips show it
 
-// How high strips stand where the carpet has this share, of their full height: they rise first, and then it sinks.
+// How high strips stand where the carpet has this share, of their full height: they rise first, and then it sinks. The share is a
+// smooth step; this is where it is on its way.
 float grown_by(float share) {
-    float sunk = 0.5 - sin(asin(2.0 * share - 1.0) / 3.0), rise = min((SINKS + (1.0 - SINKS) * sunk) / GROWN, 1.0);
-    return rise * rise * (3.0 - 2.0 * rise);
+    float sunk = 0.5 - sin(asin(2.0 * share - 1.0) / 3.0);  // the inverse of a smooth step, x^2 (3 - 2 x)
+    return smoothstep(0.0, 1.0, (SINKS + (1.0 - SINKS) * sunk) / GROWN);
 }
 
 // What a line of sight of this slope has come through above the carpet, which has this share: how much strips show there, in
@@ -16,7 +18,7 @@ float grown_by(float share) {
 vec2 come_through(vec2 place, float slope, float share, float tall, float stands) {
     const int PARTS = 3;
     float least = RAISED * share, shows = 0.0, leaves = 0.0, step = max(stands - least, 0.0) / float(PARTS);
-    vec2 way = normalize(eye.xz - place + 1e-4) * (tall / max(RAISED * slope, 1e-3));
+    vec2 way = -heading_to(place) * (tall / (RAISED * max(slope, TINY)));
     for (int part = 0; part < PARTS; part++) {
         float above = step * (float(part) + 0.5);
         float there = share_at(ivec2(floor((place + way * above) / patch_side)));

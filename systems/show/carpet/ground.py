@@ -10,13 +10,12 @@ from numpy.typing import NDArray
 from ....engine.gl.mipmaps import stack_for
 from ....engine.gl.stream import Stream, release_all
 from ....engine.terrain.record import Terrain
-from ...around.appearance import GROWN, SINKS
 from ...frame.block import FrameBlock, by_kind, joined
 from ...grow.record import Growth
 from ...space.canopy import canopy_height
 from ...space.cone import beyond_cone
 from .grow import carpet_of
-from .heads import HEIGHTS, HIGHEST, any_heads, bears_heads, profile_of
+from .heads import any_heads, bears_heads, profile_of
 from .textures import image_count
 
 Tiles = NDArray[np.float64]
@@ -31,8 +30,7 @@ RAISED = 0.66
 OUTLINE = 0.88
 """Height of the carpet along outlines, as a part of the grass's: where leaves begin, with a few thin tips above."""
 
-STRETCH = "5.0"
-"""How many times longer than wide a pixel's footprint on the ground counts as at most, where litter is read."""
+GLSL = {"RAISED": RAISED}
 
 FINE, COARSENESS = 1.25, 0.3
 """Largest distance between grid points near the viewer: on cells of 1 m and more, and on the smallest cells [m]."""
@@ -166,22 +164,6 @@ def _of_images(growths: Sequence[Growth], seed: int) -> dict[str, object]:
     }
 
 
-def _defines_of(growths: Sequence[Growth]) -> dict[str, str | int]:
-    """Return what the shaders of the carpet of these kinds are told at the top."""
-    slopes = carpet_of(growths[0].models[0]).slope
-    heads: dict[str, str | int] = {"HEADS": 1, "HEIGHTS": HEIGHTS, "HIGHEST": str(HIGHEST)}
-    return {
-        "CARPET": 1,
-        "STRETCH": STRETCH,
-        "RAISED": str(RAISED),
-        "SLOPES": len(slopes),
-        "LOWEST": str(slopes[0]),
-        "GROWN": str(GROWN),
-        "SINKS": str(SINKS),
-        **(heads if any_heads(growths) else {}),
-    }
-
-
 class GroundPainter:
     """Draws ground and carpet."""
 
@@ -202,30 +184,24 @@ class GroundPainter:
         corners, indices = _grid()
         self.grid = ctx.buffer(corners), ctx.buffer(indices)
         self.streams = Stream(ctx, TILE), Stream(ctx, TILE), Stream(ctx, TILE)
-        laid = _defines_of(growths)
+        heads: dict[str, str | int] = {"HEADS": 1} if any_heads(growths) else {}
         stack = stack_for(ctx, image_count(growths))
-        if stack > 1:
-            laid |= {"STACK": stack, "REPEATED": 1}
+        stacked: dict[str, str | int] = {"STACK": stack, "REPEATED": 1} if stack > 1 else {}
 
-        def layer(defines: dict[str, str | int], stream: Stream) -> _Layer:
-            return _Layer(
-                joined(
-                    ctx, block, units, "systems/show/carpet/ground.vert", "systems/show/carpet/ground.frag", defines
-                ),
-                stream,
-                *self.grid,
-            )
+        def layer(name: str, defines: dict[str, str | int], stream: Stream) -> _Layer:
+            files = (f"systems/show/carpet/{name}.{stage}" for stage in ("vert", "frag"))
+            return _Layer(joined(ctx, block, units, *files, defines), stream, *self.grid)
 
-        self.bare = layer({"STRETCH": STRETCH}, self.streams[0])
-        self.under = layer({**laid, "UNDER": 1}, self.streams[1])
-        self.carpet = layer(laid, self.streams[2])
+        self.bare = layer("ground", {}, self.streams[0])
+        self.under = layer("under", heads, self.streams[1])
+        self.carpet = layer("carpet", heads | stacked, self.streams[2])
         self.is_trodden = False
         """Whether anybody treads the grass, or has: then pixels of the carpet ask for that, which costs."""
         self._trodden: _Layer | None = None
-        self._make_trodden = partial(layer, {**laid, "TRODDEN": 1}, self.streams[2])
+        self._make_trodden = partial(layer, "carpet", {**heads, **stacked, "TRODDEN": 1}, self.streams[2])
         self._told = _of_images(growths, seed)
         _tell(self.carpet, self._told)
-        if "HEADS" in laid:
+        if heads:
             self._tell("profile", np.concatenate([profile_of(growth) for growth in growths]).tolist())
         self.raise_carpet(RAISED, outline=OUTLINE)
 

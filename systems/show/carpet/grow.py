@@ -1,15 +1,18 @@
 """The carpet: images of an endless field of a patch model from several viewing angles (paper, section 2.2)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ....components.arrays import Bytes, Doubles, Floats
 from ...grow.bend import highest_tip, ribbon, segment_normals, spine, tone
+from ...grow.met import first_met
 from ...grow.raster import Fragments, interpolate, rasterise, ribbon_triangles
-from ...grow.record import Blades, PatchModel, Postures
+from ...grow.record import LENGTHS, Blades, PatchModel, Postures
 from ...grow.section import FLAT, Section
+from ...space.canopy import lodged
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -30,9 +33,25 @@ class Carpet:
     height: float
     """Height of the canopy [m]."""
 
+    bent: Floats
+    """How what lines of sight meet of the field changes as it is bent, shape (`BENT_SLOPES`, `BENDS`, 3): by how many
+    leaves; and by which factors the mean place along blades and the mean height in the canopy of what stops them. Rows
+    are slopes, columns posture indices from -1, towards the eye, to 1, away from it."""
+
 
 SLOPES = (0.02, 0.07, 0.25, 0.9, 3.2)
 """Tangents of the viewing elevations, a geometric series: each is about 3.5 times the one before."""
+
+BENT_SLOPES, BENDS = 12, 9
+"""How many slopes of lines of sight, and how many posture indices, `Carpet.bent` has."""
+
+FLATTEST = 0.005
+"""The least slope that is told apart: lines of sight that are flatter meet tips alone."""
+
+STEEPEST = 20.0
+"""The greatest slope that is told apart for bent grass: above it, all is seen straight from above."""
+
+GLSL = {"SLOPES": len(SLOPES), "HEADINGS": 4, "LOWEST": SLOPES[0], "STEEPEST": STEEPEST, "FLATTEST": FLATTEST}
 
 _SEGMENTS = 8
 _SAMPLES_PER_WIDTH = 5.0
@@ -87,7 +106,29 @@ def grow_carpet(
         slope=np.asarray(slopes, np.float32),
         texels=np.stack([np.stack(row) for row in images]),
         height=height,
+        bent=_bent(blades, postures, patch=patch, taper=taper, section=section),
     )
+
+
+def _bent(blades: Blades, postures: Postures, /, *, patch: float, taper: float, section: Section) -> Floats:
+    """Return `Carpet.bent`.
+
+    Bent grass is lower: across a line of sight of some slope it has as much leaf as grass at rest has across a steeper
+    one, and rows go by that.
+    """
+    at_rest, straight = np.geomspace(FLATTEST, STEEPEST, BENT_SLOPES), replace(postures, give=LENGTHS)
+    table = np.zeros((BENT_SLOPES, BENDS, 3))
+    for heading in _HEADINGS[:2]:
+        met = partial(first_met, blades, straight, heading=heading, patch=patch, taper=taper, section=section)
+        still = met(0.0 * heading, slopes=at_rest)
+        for away, bend in enumerate(np.linspace(0.0, 1.0, BENDS // 2 + 1).tolist()):
+            slopes, middle = at_rest * lodged(bend), BENDS // 2
+            both = met(bend * heading, slopes=np.concatenate([slopes, -slopes]))
+            for column, seen in ((middle + away, both[:BENT_SLOPES]), (middle - away, both[BENT_SLOPES:])):
+                table[:, column, 0] += 0.5 * (seen[:, 0] - still[:, 0])
+                table[:, column, 1:] += 0.5 * seen[:, 1:] / (still[:, 1:] * (1.0, lodged(bend)))
+    table[:, BENDS // 2] *= 0.5  # the middle is met twice
+    return table.astype(np.float32)
 
 
 class _Field:

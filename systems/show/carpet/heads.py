@@ -18,6 +18,8 @@ HEIGHTS = 24
 HIGHEST = 1.2
 """How high the topmost reaches, of the canopy's height: the tallest plants stand out of it."""
 
+GLSL = {"HEIGHTS": HEIGHTS, "HIGHEST": HIGHEST}
+
 _POINTS = 9
 _TAPER = 0.6
 """Of blades among the rows: near enough to share out the leaf area."""

@@ -35,7 +35,7 @@ from .ground import (
     within,
 )
 from .pool import CarpetKept
-from .textures import carpet_texture
+from .textures import bent_texture, carpet_texture
 
 STEP = 0.4
 """How far the eye goes before tiles are chosen anew, in sides of the finest."""
@@ -49,7 +49,7 @@ class CarpetPainter(RepresentationPainter):
         self._whole_to = canvas.reach[-2] - int(border_of(canvas.reach[-2])) - 1
         self._units = canvas.units
         self._around, self._seen = Remembered[Tiles](), Remembered[tuple[NDArray[np.void], NDArray[np.bool_]]]()
-        self.images = carpet_texture(canvas.ctx, growths)
+        self.images, self.bents = carpet_texture(canvas.ctx, growths), bent_texture(canvas.ctx, growths)
         self.air = Air(canvas, side)
         self._heard: tuple[NDArray[np.int32], int, CarpetKept] | None = None
         self.ground = GroundPainter(canvas.ctx, canvas.block, growths, canvas.units, side=side, seed=canvas.seed)
@@ -150,10 +150,11 @@ class CarpetPainter(RepresentationPainter):
         self.images.use(self._units["images"])
         self.ground.shares.use(self._units["shares"])
         self.air.use()
+        self.bents.use(self._units["bents"])
         calls = self.ground.draw_carpet()
         target.depth_mask = False
         return calls
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(self.ground, self.air, self.images)
+        release_all(self.ground, self.air, self.images, self.bents)

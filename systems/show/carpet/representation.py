@@ -16,7 +16,7 @@ from ...grow.record import Growth
 from ...grow.section import SECTIONS
 from ...space.ground import Ground
 from ..representation import Canvas, Color, Representation, Seedling
-from .grow import SLOPES, Carpet, grow_carpet
+from .grow import BENDS, BENT_SLOPES, SLOPES, Carpet, grow_carpet
 from .painter import CarpetPainter
 from .pool import CarpetKept, CarpetPool
 
@@ -28,7 +28,7 @@ class CarpetRepresentation(Representation):
     name: ClassVar[str] = "carpet"
     label: ClassVar[str] = "2D carpet"
     color: ClassVar[Color] = (0.72, 0.45, 0.95)
-    samplers: ClassVar[tuple[str, ...]] = ("images", "shares", "mean_air")
+    samplers: ClassVar[tuple[str, ...]] = ("images", "bents", "shares", "mean_air")
     asked: ClassVar[tuple[str, ...]] = ("air",)
     record: ClassVar[type | None] = Carpet
 
@@ -62,8 +62,9 @@ class CarpetRepresentation(Representation):
         """Return whether there is one record of images of the right size."""
         del blades
         side = quality.carpet
-        return len(pictures) == 1 and (
-            pictures[0].slope.shape == (len(SLOPES),) and pictures[0].texels.shape == (len(SLOPES), 4, side, side, 4)
+        shapes = (len(SLOPES),), (len(SLOPES), 4, side, side, 4), (BENT_SLOPES, BENDS, 3)
+        return (
+            len(pictures) == 1 and (pictures[0].slope.shape, pictures[0].texels.shape, pictures[0].bent.shape) == shapes
         )
 
     @staticmethod

@@ -1,4 +1,4 @@
-"""The carpet's images as a texture."""
+"""The carpet's images, and what becomes of them in the wind, as textures."""
 
 from collections.abc import Sequence
 
@@ -42,3 +42,14 @@ def _whole(images: Bytes) -> Bytes:
     whole = 1 << (side - 1).bit_length()
     nearest = np.arange(whole) * side // whole
     return np.ascontiguousarray(images[:, nearest][:, :, nearest])
+
+
+def bent_texture(ctx: moderngl.Context, growths: Sequence[Growth]) -> moderngl.TextureArray:
+    """Return `Carpet.bent` of all kinds, a layer each: bends are columns, slopes rows, and models taken in the mean."""
+    tables = np.stack([np.mean([carpet_of(model).bent for model in growth.models], axis=0) for growth in growths])
+    layers, rows, columns, _ = tables.shape
+    texels = np.pad(tables, ((0, 0), (0, 0), (0, 0), (0, 1))).astype(np.float16)
+    texture = ctx.texture_array((columns, rows, layers), 4, texels.tobytes(), dtype="f2")
+    texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
+    texture.repeat_x = texture.repeat_y = False
+    return texture

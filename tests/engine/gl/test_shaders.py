@@ -46,6 +46,10 @@ def test_there_are_shaders_to_try() -> None:
         "systems/show/strips/strips.frag",
         "systems/show/carpet/ground.vert",
         "systems/show/carpet/ground.frag",
+        "systems/show/carpet/under.vert",
+        "systems/show/carpet/under.frag",
+        "systems/show/carpet/carpet.vert",
+        "systems/show/carpet/carpet.frag",
     } < set(STAGES)
     assert "light.glsl" in PARTS
 

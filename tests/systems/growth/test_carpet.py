@@ -12,7 +12,8 @@ from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.systems.grow.bend import ribbon, segment_normals, spine
 from tallgrass.systems.grow.blades import grow_blades
 from tallgrass.systems.grow.postures import grow_postures
-from tallgrass.systems.show.carpet.grow import ASIDE, Carpet, grow_carpet
+from tallgrass.systems.show.carpet.grow import ASIDE, BENDS, FLATTEST, STEEPEST, Carpet, grow_carpet
+from tallgrass.systems.space.canopy import lodged
 
 PATCH, TEXELS, SEGMENTS = 1.0, 128, 8
 KIND = GrassKind(height=[0.25, 0.4], width=0.014)
@@ -177,3 +178,24 @@ def test_g5_a_coarser_carpet_has_the_same_means(carpet: Carpet, texels: int) -> 
     np.testing.assert_allclose(
         other.texels.mean(axis=(2, 3)) / 255.0, carpet.texels.mean(axis=(2, 3)) / 255.0, atol=0.03
     )
+
+
+@pytest.mark.parametrize("bend", [-0.75, -0.5, 0.5, 0.75])
+def test_g5_of_bent_grass_as_much_is_met_as_its_own_images_show(dense: Carpet, bend: float) -> None:
+    blades = grow_blades(KIND, count=240, patch=PATCH, variants=4, seed=4)
+    leant = replace(blades, rest=np.float32([0.0, -bend]) + blades.rest * np.float32(1.0 - abs(bend)))
+    rows = dense.bent[:, round((1.0 + bend) * (BENDS // 2))]
+    at_rest = 0.1, 0.3, 1.0
+    slopes = tuple(slope * lodged(bend) for slope in at_rest)
+    truth, still = (
+        grow_carpet(
+            grown, POSTURES, patch=PATCH, texels=64, taper=KIND.taper, slopes=seen, height=dense.height
+        ).texels[:, 0].reshape(len(seen), -1, 4).mean(axis=1) / 255.0
+        for grown, seen in ((leant, slopes), (blades, at_rest))
+    )  # fmt: skip
+    known = np.geomspace(FLATTEST, STEEPEST, len(rows))
+    for slope, shown, usual in zip(at_rest, truth, still, strict=True):
+        more, place, height = (np.interp(np.log(slope), np.log(known), column) for column in rows.T)
+        assert 1.0 - (1.0 - usual[3]) * np.exp(-more) == pytest.approx(shown[3], abs=0.04)
+        assert usual[0] / usual[3] * place == pytest.approx(shown[0] / shown[3], abs=0.05)
+        assert usual[1] / usual[3] * height * lodged(bend) == pytest.approx(shown[1] / shown[3], abs=0.05)

@@ -1,0 +1,118 @@
+// The carpet: what is seen of its grass, and of the ground between.
+#include "lib/light.glsl"
+#include "systems/show/carpet/litter.glsl"
+
+// With many kinds, pixels work out themselves what FEW kinds bring along: carpet.vert says what is what.
+#if KINDS > 4
+#define FEW
+#else
+#define FEW in
+#endif
+
+in vec3 place;
+in float carpet;
+in vec2 rise;
+in float crest;
+in float tall;
+in float dense;
+in ByKind met;
+in vec3 soil_seen;
+in mat4 lit;
+#ifdef HEADS
+in ByKind riper;
+#endif
+FEW float stands;
+FEW float strips_before;
+FEW vec2 slow;
+FEW vec3 sunlit;
+FEW vec3 skylit;
+FEW float soil_way;
+FEW vec3 lush;
+
+out vec4 pixel;
+
+#include "systems/show/carpet/shown.glsl"
+#ifdef TRODDEN
+#include "systems/show/carpet/trodden.glsl"
+#endif
+
+#if KINDS > 4
+void work_out(float slope) {
+    Lie lies = lie_at(place.xz);
+    ByKind grows = grows_at(place.xz);
+    strips_before = 1.0;
+    lush = understorey_of(lies, grows);
+    if (anything_is_cut()) {
+        Soil soil = soil_lit(place, lies, grows, 1.0 - haze_at(place));
+        sunlit = soil.sunlit;
+        skylit = soil.skylit;
+        soil_way = soil.way;
+    }
+    slow = slow_seen(seen_at(place, slope, tall, dense), slope, tall);
+    stands = lodged(message_at(place.xz));
+}
+#else
+void work_out(float slope) {}
+#endif
+
+// The light on what is met, and how that is bent: as the mesh has it, or as it is trodden.
+Canopy canopy_here(Sight sight) {
+    Canopy canopy = Canopy(unbundled(lit), lit[3].xyz, vec2(0.0));
+#ifdef TRODDEN
+    if (trodden_at(place.xz))
+        canopy = trodden(canopy, met, place, sight.slope, sight.on_level, seen_at(place, sight.slope, tall, dense));
+#endif
+    return canopy;
+}
+
+// What the carpet shows: of grass and of the ground between, as much as there is of each, as of blades in front of it; and how
+// much more leaves are met of plants that stand out of it.
+vec4 carpet_seen(Sight sight, float left, vec3 below) {
+    Patch own = patch_at(place.xz, met);
+    Canopy canopy = canopy_here(sight);
+    own.blown.xy += canopy.sways;
+    vec2 among = vec2(1.0);
+    if (min(sight.share, 1.0 - strips_before) < 1.0) {
+        float on_strips = come_through(place.xz, max(sight.slope, TINY), carpet, tall, stands).y;
+        among = among_strips(on_strips, sight.on_level, carpet, stands, dense);
+    }
+    float deep = deepest(sight.slope, crest, tall * stands), stubble = 1.0;
+    ByKind area = all_kinds(0.0);
+    if (anything_is_cut()) {
+        area = areas(grows_at(place.xz));
+        stubble -= through_leaves(weighed(area, leaves_left(left)) / max(sight.slope, LOWEST));
+    }
+    canopy.bent.yz *= higher(sight.on_level, dense);
+    float shallow = shallower(deep, sight.on_level, sight.share, crest, stands, dense);
+    View view = View(canopy.light, canopy.bent, among, shallow, left, stubble, area, stretch(slow));
+    Reading read = reading(own, sight, place.xz, tall, dense);
+    float taller, grain = grain_of(read, sight, tall, stands, own.blown.z);
+    vec4 sum = kinds_seen(own, read, sight, grain, view, taller);
+    // Who sees past grass over a crest sees no ground there, but the grass behind.
+    float ends = smoothstep(ENDS.x * sight.share, ENDS.y * sight.share, deep);
+    sum *= among.x * mix(1.0 / max(sum.a, LEAST_COVER), 1.0, ends);
+    return vec4(sum.rgb + below * (1.0 - min(sum.a, 1.0)), standing_out(taller, sight.share));
+}
+
+void main() {
+    float slope = viewing_slope(rise, place), left = left_seen(place.xz);
+    vec2 dx = dFdx(place.xz), dy = dFdy(place.xz);
+    work_out(slope);
+    vec3 pigment = lying_pigment(lying_seen(place.xz, through_leaves(dense / max(slope, LOWEST))), lush);
+    vec3 color = shown_of(soil_between(Soil(soil_seen, sunlit, skylit, soil_way), place.xz, left) * pigment * pigment + lit[2].rgb);
+    float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / patch_side))) : 0.0;
+    float top = slope + carpet * rises_ahead(place.xz, tall), hides = min(share / SHOWN_FROM, 1.0);
+    float covered = mix(1.0, outline_cover(top, crest, tall, stands, dense, standing_out(TALLER, 1.0)), hides);
+    // It writes its depth: where strips still stand on the patch, the thin edge of an outline would hide them.
+    if (covered < max(NOTHING, STANDING * (1.0 - share)))
+        discard;
+    if (share > 0.0) {
+        float on_level = level_slope(slope, crest, share, tall, stands);
+        Sight sight = Sight(normalize(place.xz - eye.xz), slope, on_level, smoothstep(ABOVE.x, ABOVE.y, slope), share, dx, dy);
+        vec4 seen = carpet_seen(sight, left, color);
+        color = seen.rgb;
+        if (covered < WHOLE)
+            covered = mix(1.0, outline_cover(top, crest, tall, stands, dense, seen.a), hides);
+    }
+    pixel = vec4(color, 1.0) * covered;
+}

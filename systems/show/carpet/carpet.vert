@@ -1,0 +1,89 @@
+// The carpet: what is the same over a few pixels is made out at the corners of the mesh.
+#include "lib/light.glsl"
+#include "systems/show/carpet/laid.glsl"
+#include "systems/show/carpet/met.glsl"
+#include "systems/show/carpet/floor.glsl"
+
+// No more than 60 numbers are sure to come through: with many kinds, pixels work out themselves what FEW kinds bring along.
+#if KINDS > 4
+#define FEW
+#else
+#define FEW out
+#endif
+
+out vec3 place;
+out float carpet;    // how much of what is seen is carpet's
+out vec2 rise;       // of the ground, along x and z
+out float crest;     // how fast the rise falls off along the line of sight [1/m]
+out float tall;      // height of the carpet [m]
+out float dense;     // leaf area seen from the side, of the ground's area
+out ByKind met;      // by kind: how much of what a line of sight meets
+out vec3 soil_seen;  // radiance of the soil, without haze
+out mat4 lit;        // the light on leaves of the kinds that are met; beside it, how what is met changes as the wind bends them
+#ifdef HEADS
+out ByKind riper;    // by kind: how much more of its heads than an image shows; all the others at 1, none at -1
+#endif
+FEW float stands;         // how high the grass stands, of its height at rest
+FEW float strips_before;  // how much strips show of what lines of sight come through above the carpet
+FEW vec2 slow;            // slow noises of the pigment, where leaves are seen
+FEW vec3 sunlit;          // radiance of the soil without any grass: of the sun's light,
+FEW vec3 skylit;          // and of the sky's
+FEW float soil_way;       // how many leaves the sun's light meets
+FEW vec3 lush;            // pigment of the understorey, of that of the ground between
+
+const float UNEVENNESS = 0.4;  // of the grass's height
+const vec4 UNEVEN_WAVES = vec4(5.3, 4.7, 0.2, 0.7);  // [1/m], along x, along z, and across the latter; phase
+
+// How much higher or lower the carpet lies where it gives way to strips, of the grass's height. A row of strips that lies as
+// the carpet does would come out of it all at once; so it does here and there.
+float uneven(vec2 at) {
+    return UNEVENNESS * sin(UNEVEN_WAVES.x * at.x + UNEVEN_WAVES.w) * sin(UNEVEN_WAVES.y * at.y + UNEVEN_WAVES.z * at.x);
+}
+
+void hand_on(Laid laid) {
+    carpet = laid.share;
+    rise = laid.rise;
+    crest = laid.crest;
+    tall = laid.tall;
+    dense = laid.dense;
+    stands = laid.stands;
+}
+
+// The light on what is met.
+void light_up(float slope, float on_level, ByKind grows, vec2 message) {
+    vec3 there = seen_at(place, slope, tall, dense);
+    vec2 messages[KINDS];
+    for (int kind = 0; kind < KINDS; kind++)
+        messages[kind] = message;
+    Canopy canopy = canopy_lit(met, slope, on_level, there, lie_at(there.xz), messages);
+    canopy.bent.y *= tips_met(met, grows, on_level);
+    lit = bundled(veiled(canopy.light, place), canopy.bent);
+    slow = slow_seen(there, slope, tall);
+}
+
+void main() {
+    place = on_ground(on_mesh());
+    Laid laid = laid_on(place);
+    place.y += laid.share * (1.0 - laid.share) * laid.tall * uneven(place.xz);
+    hand_on(laid);
+    float slope = viewing_slope(rise, place), from_above = max(slope, FLATTEST);
+    vec2 came = come_through(place.xz, from_above, carpet, tall, stands);
+    strips_before = came.x;
+    float on_level = max(level_slope(max(slope, 0.0), crest, carpet, tall, stands), FLATTEST);
+    ByKind ripe;
+    met = shared_out(kinds_met(laid.grows, on_level, laid.left, left_by_strips(1.0 - came.x, carpet), ripe), laid.grows, on_level);
+#ifdef HEADS
+    riper = ripe;
+#endif
+    light_up(slope, on_level, laid.grows, laid.message);
+    vec3 ground = seen_behind(place, from_above);
+    Lie lies = lie_at(ground.xz);
+    ByKind grows = grows_at(ground.xz);
+    Soil soil = soil_lit(ground, lies, grows, 1.0 - haze_at(place));
+    soil_seen = soil.seen;
+    sunlit = soil.sunlit;
+    skylit = soil.skylit;
+    soil_way = soil.way;
+    lush = understorey_of(lies, grows);
+    gl_Position = clip * vec4(place, 1.0);
+}

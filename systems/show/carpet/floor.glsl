@@ -1,0 +1,21 @@
+// The ground between plants: with the light that comes through the grass, and with that of the open.
+#include "lib/soil.glsl"
+
+// The soil as it is lit: under the grass that stands there, and under none by the sun and by the sky alone.
+struct Soil {
+    vec3 seen;    // radiance, without haze
+    vec3 sunlit;
+    vec3 skylit;
+    float way;    // how many leaves the sun's light meets, of those seen from the side
+};
+
+Soil soil_lit(vec3 place, Lie lies, ByKind grows, float clear) {
+    Surface surface = soil_at(lies, grows);
+    Light light = light_on_soil(place, lies, total(areas(grows)));
+    vec3 seen = shade(surface, light);
+    light.leaves = vec2(0.0);
+    vec3 both = shade(surface, light);
+    light.sun = vec3(0.0);
+    vec3 sky = shade(surface, light);
+    return Soil(seen * clear, (both - sky) * clear, sky * clear, light.way);
+}

@@ -1,0 +1,86 @@
+// How the grass of the carpet stands at a corner of the mesh, and where the carpet lies over it.
+#include "systems/show/carpet/border.glsl"
+#include "systems/show/carpet/lit.glsl"
+#include "systems/show/carpet/mesh.glsl"
+#include "systems/show/carpet/sight.glsl"
+
+const float STOPPED = 0.6;  // how deep a line of sight comes in the grass before it is stopped, of its height: about
+const float FARTHEST = 5.0; // how much farther ahead ground is looked at, at most, than close by
+const float NEAR_CELLS = 4.0;  // how far off that is, in cells of the terrain
+const float UNCUT = 1e9;      // where all stands: above all grass [m]
+const float EDGE = 0.01;    // a corner counts as on both sides of a patch's edge that is so near [m]
+
+uniform ByKind raised; // by kind: height of the carpet above the ground [m]
+
+struct Laid {
+    float share;   // how much of what is seen is carpet's
+    ByKind grows;  // how densely each kind grows
+    float left;    // up to which height it is left to stand [m]
+    float tall;    // height of the carpet [m]
+    float dense;   // leaf area seen from the side, of the ground's area
+    vec2 rise;     // of the ground, along x and z
+    float crest;   // how fast the rise falls off along the line of sight [1/m]
+    float stands;  // how high the grass stands, of its height at rest
+    vec2 message;  // the wind's
+    float slope;   // of the line of sight, to the ground
+};
+
+float lowest_share(vec2 place) {
+    ivec2 low = ivec2(floor((place - EDGE) / patch_side)), high = ivec2(floor((place + EDGE) / patch_side));
+    return min(min(share_at(low), share_at(high)), min(share_at(ivec2(low.x, high.y)), share_at(ivec2(high.x, low.y))));
+}
+
+// How high grass stands that a message bends, of its height at rest.
+float standing(ByKind grows, vec2 message) {
+    ByKind area = areas(grows);
+    float high = 0.0;
+    for (int kind = 0; kind < KINDS; kind++)
+        high += OF(area, kind) * lodged(bending(kind, message));
+    return total(area) > TINY ? high / total(area) : 1.0;
+}
+
+// How fast the rise of the ground falls off along a line of sight of some slope [1/m]: where it is, or where it goes on through
+// the grass, if ground falls away from it there.
+float curved_at(vec2 place, vec2 rise, float slope, float tall) {
+    float near_by = max(NEAR_CELLS * terrain_cell, 2.0 * tile.z), here = height_at(place);
+    float far = clamp(STOPPED * tall / max(slope, FLATTEST), near_by, FARTHEST * near_by);
+    vec2 way = heading_to(place);
+    float bulges = (2.0 * here - height_at(place + way * near_by) - height_at(place - way * near_by)) / (near_by * near_by);
+    float falls = 2.0 * (here + dot(rise, way) * far - height_at(place + way * far)) / (far * far);
+    return max(bulges, falls);
+}
+
+vec2 rising_at(vec2 at) {
+    vec2 step = vec2(max(terrain_cell, tile.z), 0.0);
+    return vec2(height_at(at + step.xy) - height_at(at - step.xy), height_at(at + step.yx) - height_at(at - step.yx)) / (2.0 * step.x);
+}
+
+// How grass stands at a place of the ground, which is raised to the carpet.
+Laid laid_on(inout vec3 place) {
+    Laid laid;
+    laid.share = lowest_share(place.xz);
+    laid.grows = grows_at(place.xz);
+    laid.left = anything_is_cut() ? left_about(place.xz, tile.z) : UNCUT;
+    laid.dense = weighed(laid.grows, areas(leaves_left(laid.left)));
+    laid.tall = 0.0;
+    for (int group = 0; group < GROUPS; group++)
+        laid.tall += dot(laid.grows[group], min(raised[group], laid.left));
+    laid.tall /= max(total(laid.grows), 1.0);
+    laid.rise = rising_at(place.xz);
+    place.y += laid.share * laid.tall;
+    laid.crest = curved_at(place.xz, laid.rise, viewing_slope(laid.rise, place), laid.tall);
+    laid.message = message_at(place.xz);
+    laid.stands = standing(laid.grows, laid.message);
+    float deep = deepest(max(viewing_slope(laid.rise, place), 0.0), laid.crest, laid.tall * laid.stands);
+    place.y += laid.share * laid.tall * (lifted(deep, laid.crest, laid.stands) - 1.0);
+    laid.slope = viewing_slope(laid.rise, place);
+    return laid;
+}
+
+const vec2 LOW = vec2(0.1, 0.4);  // slopes of lines of sight up to which it counts where they meet the ground, and no more
+
+// The ground that is seen between blades: from a low angle it lies metres behind, where lines of sight come out of the grass.
+vec3 seen_behind(vec3 place, float slope) {
+    float over = max(place.y - height_at(place.xz), 0.0) * (1.0 - smoothstep(LOW.x, LOW.y, slope));
+    return on_ground(place.xz + heading_to(place.xz) * min(over / max(slope, LOWEST), FARTHEST_SEEN));
+}

@@ -1,0 +1,33 @@
+// What lies on the ground between plants, litter and low leaves, in the mean over a pixel.
+#include "lib/soil.glsl"
+#include "systems/show/carpet/footprint.glsl"
+
+const float LITTER_SHARPER = 0.4;  // how much finer texels are than what is read, in levels: filtering takes grain away
+#ifdef ANISOTROPIC
+
+// From a low angle a pixel is a long stripe of ground: the sampler is anisotropic.
+vec2 lying_seen(vec2 at, float bare) {
+    return texture(repeating, at / LITTER_SIDE, -LITTER_SHARPER).gb;
+}
+#else
+const float LITTER_PARTS = 4.0;  // a long stripe is taken in so many parts at most, one behind the other
+const float BARE_ENOUGH = 0.2;   // how much of the ground is to be seen between grass for all of them to count
+const float ONE_PART = 0.1;      // a stripe counts as longer than so many parts from so much of the next on
+
+// From a low angle a pixel is a long stripe of ground. Anisotropic filtering costs a processor too much: parts of the stripe are
+// read that lie one behind another along the line of sight, fewer where little of the ground is `bare`, seen between the
+// grass. Each part is read at the one level that fits best; where one part is enough, two levels share it.
+vec2 lying_seen(vec2 at, float bare) {
+    vec2 dx = dFdx(at), dy = dFdy(at), along = dot(dx, dx) > dot(dy, dy) ? dx : dy, sum = vec2(0.0);
+    float parts = min(1.0 / narrowed(dx, dy), mix(1.0, LITTER_PARTS, min(bare / BARE_ENOUGH, 1.0)));
+    float count = max(ceil(parts - ONE_PART), 2.0);
+    float level = log2(length(along) * float(textureSize(repeating, 0).x) / (LITTER_SIDE * parts)) - LITTER_SHARPER;
+    float apart = max(2.0 - parts, 0.0) / count;  // levels from a part to the next
+    vec2 step = along * (1.0 - 1.0 / parts) / (count - 1.0), first = at - 0.5 * (count - 1.0) * step;
+    float part = 0.0;
+    do  // a rasteriser in software goes through the body once more where a loop asks first
+        sum += textureLod(repeating, (first + part * step) / LITTER_SIDE, level + (part - 0.5 * count + 0.5) * apart).gb;
+    while (++part < count);
+    return sum / count;
+}
+#endif

@@ -1,0 +1,90 @@
+// What the carpet shows at a pixel: the grass of all kinds that is met, and the ground between.
+#include "lib/light.glsl"
+#include "systems/show/carpet/among.glsl"
+#include "systems/show/carpet/outline.glsl"
+#include "systems/show/carpet/stubble.glsl"
+#include "systems/show/carpet/texel.glsl"
+#ifdef HEADS
+uniform ByKind bears;  // by kind: whether it has any heads
+const float DARKER = 0.5;  // how far heads, which are no darker deep down, follow the leaves that are
+const float LEAST_USUAL = 0.02;  // mean coverage of heads that what is met of them is parted among at least
+#endif
+
+const float STUBBLE = 1.5;  // how unevenly stubble stands, for how unevenly the grass did
+const float LEAST_COVER = 0.05;  // what is seen of grass over a crest stands for all of it where it covers so much at least
+const vec2 ENDS = vec2(0.5, 1.5);  // how deep lines of sight come, of the carpet's share, where grass behind is seen, and ground
+
+// How a pixel sees the grass of all kinds.
+struct View {
+    Light light;
+    vec3 bent;      // how what is met changes as the wind bends it: leaves more, factors of place and height
+    vec2 among;     // how much of it is seen among strips, and how high
+    float shallow;  // how deep it is, of how deep it is on level ground
+    float left;     // up to which height it is left to stand [m]
+    float stubble;  // how much of the ground is hidden by what is left
+    ByKind area;    // leaf area of each kind, of the ground's, where anything is cut
+    vec3 fresh;     // drier and fresher stretches: a factor of the pigment
+};
+
+// Where leaves are met that stand among strips, over a crest and in the wind, of where images show them.
+void place_leaves(int kind, inout Texel texel, View view) {
+#ifdef HEADS
+    // Leaves are darker deep down, heads are not; among plants in flower, grass is as bright as its images show it.
+    texel.place *= OF(bears, kind) > 0.0 ? mix(1.0, view.among.y, DARKER) : view.among.y;
+    vec2 bent = vec2(1.0);
+#else
+    texel.place *= view.among.y;
+    vec2 bent = view.bent.yz;
+#endif
+    texel.height *= view.among.y;
+    texel.place = (1.0 - (1.0 - texel.place) * view.shallow) * bent.x;
+    texel.height = (1.0 - (1.0 - texel.height) * view.shallow) * bent.y * OF(tops, kind);
+}
+
+// What is left of a kind where it is cut is taken for the same grass pressed together.
+void cut_down(int kind, inout Texel texel, inout Light light, View view, float usual_height) {
+    float part = min(view.left / max(OF(crown, kind), LOWEST_GRASS), 1.0);
+    float uneven = 1.0 + STUBBLE * (texel.height / max(usual_height, LEAST_TEXEL) - 1.0);
+    texel.covers = mix(min(view.stubble * uneven, 1.0), texel.covers, part);
+    texel.place *= part;
+    texel.height *= part;
+    light = mown_to(view.left, light, kind, view.area);
+}
+
+// The display colour of a kind, and its coverage; `taller` is how much higher what is seen is than the mean, of that.
+vec4 kind_seen(int kind, Patch own, Reading read, Sight sight, float grain, View view, out float taller) {
+    Texel texel = texel_of(kind, own, read, sight.on_level, grain);
+    Light light = view.light;
+    float usual_height = texel.height / (1.0 + texel.taller) * OF(tops, kind);
+    taller = texel.taller;
+    place_leaves(kind, texel, view);
+    texel.covers = max(1.0 - (1.0 - texel.covers) * through_leaves(view.bent.x), 0.0);
+#ifdef HEADS
+    float ripe = OF(riper, kind);
+    texel.place += ripe * (ripe > 0.0 ? 1.0 - texel.place : texel.place);
+    // What stands scattered among others has what is met of it where it stands, and nothing between.
+    if (OF(bears, kind) > 0.0)
+        texel.covers = texel.covers / max(texel.usual, LEAST_USUAL);
+#endif
+    if (anything_is_cut() && is_mown(view.left))
+        cut_down(kind, texel, light, view, usual_height);
+    vec3 pigment = pigment_at(kind, texel.place) * view.fresh * grain_at(kind, doubled(sight.heading) * texel.twice);
+    return texel.covers * vec4(shown_of(shade(leaf_at(pigment, texel.height), light)), 1.0);
+}
+
+// What all kinds show together, premultiplied, and how much taller it is than the mean.
+vec4 kinds_seen(Patch own, Reading read, Sight sight, float grain, View view, out float taller) {
+    vec4 sum = vec4(0.0);
+    float higher = 0.0, one;
+    int kind = next_kind(met, LEAST_MET, 0);
+    if (kind < KINDS) do {
+        sum += OF(met, kind) * kind_seen(kind, own, read, sight, grain, view, one);
+        higher += OF(met, kind) * one;
+        kind = next_kind(met, LEAST_MET, kind + 1);
+    } while (kind < KINDS);
+    taller = higher / max(total(met), LEAST_TEXEL);
+#ifdef HEADS
+    sum /= max(sum.a, 1.0);
+#endif
+    return sum;
+}

@@ -1,0 +1,80 @@
+// Lines of sight that enter the grass of the carpet: how steep they are to the ground, how deep they come and what they meet.
+#include "lib/frame.glsl"
+#include "systems/show/carpet/grow.py"
+#include "systems/show/carpet/ground.py"
+
+const float TINY = 1e-4;  // what no divisor is below [m], or [m/m]
+const float CREST = 3.6;  // optical depth of a way over a crest, of a level one's as deep: as the reference shows it
+const float FARTHEST_SEEN = 15.0;  // how far behind where it enters the grass what it meets lies at most [m]
+const float BULGES = 5e-4;  // curvature from which on ground counts as a crest [1/m]
+const vec2 LEAVES_BEGIN = vec2(0.5, 2.0);  // how deep lines of sight come along an outline, and where they meet as much as on level ground
+const float UPPER = 0.58;  // how much the upper part of a way through the grass counts: there most of it is met
+const float BEFORE = 0.27;  // how far before the carpet lines of sight meet the first leaves, in heights over their slope
+const float SPREAD = 0.17;  // how far before and behind the mean of what they meet it lies
+const float THINNEST = 0.01;  // leaf area that grass has at least, for where it is met
+const float THINNEST_LAYER = 1e-6;  // leaf area that a layer of it has at least
+const float LEAST_MET = 0.004;  // of a kind, as a part of all that is: of less, nothing is seen
+const float LEAST_HEADS = 1e-3;  // part of what is met of a kind that counts as heads at least, and as other leaves
+const float LOWEST_GRASS = 0.01;  // how tall grass is at least [m]
+
+uniform float outline;  // how high the carpet lies along an outline, of how high it lies elsewhere; 0 where that is the same
+
+// How far below the top of the grass, of its height `tall` [m], a line of sight comes at most that enters it at this slope over
+// a crest of this curvature [1/m].
+float deepest(float slope, float crest, float tall) {
+    return slope * slope / (2.0 * max(crest, 1e-5) * max(tall, LOWEST_GRASS));
+}
+
+// How high the carpet lies where a line of sight comes so deep, of how high it lies on level ground. Over a crest lines of sight
+// pass through: there it lies where leaves begin. Grass stands so high, of its height at rest.
+float lifted(float deep, float crest, float stands) {
+    float along = clamp(crest / BULGES, 0.0, 1.0) * (1.0 - smoothstep(LEAVES_BEGIN.x, LEAVES_BEGIN.y, deep));
+    return outline > 0.0 ? mix(1.0, outline * sqrt(stands), along) : 1.0;
+}
+
+// The mean depth in the grass, of its height, of what a line of sight meets whose way to the ground has this optical depth.
+// Leaf area falls off linearly with height, so that above the depth d lies d^2 of it: the mean of what is met tends to 2/3
+// where it is thin and to sqrt(pi) / 2 over the root of the optical depth where it is dense. This joins both, to 4 %.
+const float THIN_MEAN = 5.0625;  // (2/3)^-4
+const float DENSE_MEAN = 1.2732;  // 4 / pi
+
+vec3 depth_met(vec3 optical_depth) {
+    optical_depth *= DENSE_MEAN;
+    return inversesqrt(sqrt(THIN_MEAN + optical_depth * optical_depth));
+}
+
+float depth_met(float optical_depth) {
+    return depth_met(vec3(optical_depth)).x;
+}
+
+// The slope on level ground of a line of sight that goes as far through the grass as one of this slope does over ground
+// that bulges, or is hollow: from the top of the grass to the ground, or to where it comes nearest to it.
+float level_slope(float slope, float crest, float share, float tall, float stands) {
+    share *= lifted(deepest(slope, crest, tall * stands), crest, stands);
+    vec2 way = 2.0 * crest * tall * vec2(max(stands / RAISED - share, 0.0), -share);
+    way = sqrt(max(slope * abs(slope) + way, 0.0));
+    return mix(way.y, way.x, UPPER) / stands;  // bent grass has less of its leaf area across the way
+}
+
+// The unit vector over the ground from the eye to a place.
+vec2 heading_to(vec2 place) {
+    return normalize(place - eye.xz + TINY);
+}
+
+// Tangent of the angle between the line of sight and ground that rises by `rise` along x and z.
+float viewing_slope(vec2 rise, vec3 place) {
+    vec3 ray = place - eye;
+    return (dot(rise, ray.xz) - ray.y) / max(length(ray.xz), TINY);
+}
+
+// How far along a line of sight what it meets spreads, for each height of the carpet, over the ground [m].
+float along_ground(float slope, float tall) {
+    return tall / max(slope, LOWEST);
+}
+
+// Where leaves are that are seen: the less densely they grow, the farther behind where a line of sight comes to the carpet.
+vec3 seen_at(vec3 place, float slope, float tall, float dense) {
+    float behind = (sqrt(max(slope, LOWEST) / max(dense, THINNEST)) - BEFORE) * along_ground(slope, tall);
+    vec2 on = heading_to(place.xz) * clamp(behind, -FARTHEST_SEEN, FARTHEST_SEEN);
+    return vec3(place.x + on.x, place.y, place.z + on.y);
+}

@@ -1,0 +1,42 @@
+// What the carpet's images show of a kind.
+#include "lib/layered.glsl"
+#include "systems/show/carpet/reading.glsl"
+
+uniform ByKind tops;  // by kind: how high the images reach, of the canopy's height
+
+const float LEAST_TEXEL = 1e-3;  // coverage, or height, that divides another at least
+const float LEAST_MEAN = 0.01;   // mean coverage of an image that does
+const float HIDES_ALL = 1e-3;    // what is seen through the steepest image at least
+
+struct Texel {
+    float place;   // along the blade: what part of the tip's pigment it has
+    float height;  // in the canopy
+    float twice;   // cosine of twice the azimuth that the face has from the line of sight
+    float covers;  // coverage
+    float usual;   // mean coverage
+    float taller;  // how much higher it is than the mean, of that
+};
+
+// How much more grass hides, seen at a slope between those of two images, than the mean of both: by the optical depth that the
+// steeper one shows it to have, which goes by the reciprocal of the slope. What is seen straight from above is taken for the
+// steepest image.
+float filled(float steeper, Reading read, float slope, float mean) {
+    float longer = slopes[read.elevation + 1] / clamp(slope, FLATTEST, slopes[SLOPES - 1]);
+    return (1.0 - pow(max(1.0 - steeper, HIDES_ALL), longer)) / max(mean, LEAST_MEAN);
+}
+
+// The texel of a kind, whose grain is so far from the mean, of how far it is in images.
+Texel texel_of(int kind, Patch own, Reading read, float on_level, float grain) {
+    int coarsest = int(log2(float(textureSize(images, 0).x)) + 0.5);
+    float layer = OF(first, kind) + float((own.model * SLOPES + read.elevation) * HEADINGS + own.side), next = layer + float(HEADINGS);
+    vec4 mean_high = layer_mean(images, int(next), coarsest);
+    vec4 mean = mix(layer_mean(images, int(layer), coarsest), mean_high, read.next);
+    vec4 low = layer_at(images, vec3(read.low, layer), read.level), high = layer_at(images, vec3(read.high, next), read.level);
+    float fill = filled(mean_high.a, read, on_level, mean.a);
+    vec4 image = (mean + (mix(low, high, read.next) - mean) * grain) * fill;
+    image.a = clamp(image.a, 0.0, 1.0);
+    image.rgb = clamp(image.rgb, 0.0, image.a);
+    vec3 shown = image.rgb / max(image.a, LEAST_TEXEL);
+    float taller = shown.g * mean.a / max(mean.g, LEAST_TEXEL) - 1.0;
+    return Texel(shown.r, shown.g, 2.0 * shown.b - 1.0, image.a, mean.a * fill, taller);
+}

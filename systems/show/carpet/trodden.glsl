@@ -1,0 +1,28 @@
+// The canopy where somebody walks or has walked: a way is narrower than the mesh that light is made out on.
+#include "systems/press/press.glsl"
+#include "systems/show/carpet/lit.glsl"
+
+const float HARDLY = 1e-3;  // pressing of less is none
+
+// The canopy of the mesh, and what pressing changes of it there.
+Canopy trodden(Canopy canopy, ByKind met, vec3 place, float slope, float on_level, vec3 there) {
+    vec2 message = message_at(place.xz), messages[KINDS], blown[KINDS];
+    float most = 0.0;
+    for (int kind = 0; kind < KINDS; kind++) {
+        vec2 pressed = pressing(place.xz, kind);
+        most = max(most, length(pressed));
+        blown[kind] = message;
+        messages[kind] = laid_over(message, pressed);
+    }
+    if (most < HARDLY)
+        return canopy;
+    Lie lies = lie_at(there.xz);
+    Canopy with = canopy_lit(met, slope, on_level, there, lies, messages);
+    Canopy without = canopy_lit(met, slope, on_level, there, lies, blown);
+    canopy.light = plus(plus(canopy.light, veiled(with.light, place), 1.0), veiled(without.light, place), -1.0);
+    canopy.light.sun = max(canopy.light.sun, 0.0);
+    canopy.light.sky = max(canopy.light.sky, 0.0);
+    canopy.bent += with.bent - without.bent;
+    canopy.sways = with.sways - without.sways;
+    return canopy;
+}
