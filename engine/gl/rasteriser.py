@@ -21,6 +21,15 @@ def draws_in_software(ctx: moderngl.Context, /) -> bool:
     return is_software(limits_of(functions_of(ctx)).renderer)
 
 
+MOST_SAMPLES = 8.0
+"""How many samples along a pixel's footprint a sampler takes at most."""
+
+
+def anisotropy(ctx: moderngl.Context, /) -> float:
+    """Return how many samples along a pixel's footprint samplers are to take; 1 where that is not at hand, or slow."""
+    return 1.0 if draws_in_software(ctx) else max(min(MOST_SAMPLES, float(ctx.max_anisotropy)), 1.0)
+
+
 def handing_over(ctx: moderngl.Context, /) -> Callable[[], None]:
     """Return what lets a software rasteriser begin with all that has been drawn so far, while more is got ready.
 

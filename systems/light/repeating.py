@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ...components.arrays import Doubles
 from ...components.wind import WindPrimitive
 from ...engine.gl.mipmaps import mipmapped_image
+from ...engine.gl.rasteriser import anisotropy
 from ..grow.raster import rasterise, ribbon_triangles
 from ..wind.blow import mean_wind
 
@@ -130,8 +131,12 @@ def ground_maps(*, seed: int) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
 
 
 def repeating_texture(ctx: moderngl.Context, *, seed: int) -> moderngl.Texture:
-    """Return `repeating_levels` as a texture that repeats."""
-    return mipmapped_image(ctx, repeating_levels(seed=seed))
+    """Return `repeating_levels` as a texture that repeats; it is read anisotropically where that is at hand."""
+    texture = mipmapped_image(ctx, repeating_levels(seed=seed))
+    if anisotropy(ctx) > 1.0:
+        texture.anisotropy = anisotropy(ctx)
+        texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
+    return texture
 
 
 @lru_cache(maxsize=_REMEMBERED)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....engine.gl.mipmaps import stack_for
+from ....engine.gl.rasteriser import anisotropy
 from ....engine.gl.stream import Stream, release_all
 from ....engine.terrain.record import Terrain
 from ...frame.block import FrameBlock, by_kind, joined
@@ -185,6 +186,7 @@ class GroundPainter:
         self.grid = ctx.buffer(corners), ctx.buffer(indices)
         self.streams = Stream(ctx, TILE), Stream(ctx, TILE), Stream(ctx, TILE)
         heads: dict[str, str | int] = {"HEADS": 1} if any_heads(growths) else {}
+        litter: dict[str, str | int] = {"ANISOTROPIC": 1} if anisotropy(ctx) > 1.0 else {}
         stack = stack_for(ctx, image_count(growths))
         stacked: dict[str, str | int] = {"STACK": stack, "REPEATED": 1} if stack > 1 else {}
 
@@ -192,13 +194,13 @@ class GroundPainter:
             files = (f"systems/show/carpet/{name}.{stage}" for stage in ("vert", "frag"))
             return _Layer(joined(ctx, block, units, *files, defines), stream, *self.grid)
 
-        self.bare = layer("ground", {}, self.streams[0])
+        self.bare = layer("ground", litter, self.streams[0])
         self.under = layer("under", heads, self.streams[1])
-        self.carpet = layer("carpet", heads | stacked, self.streams[2])
+        self.carpet = layer("carpet", heads | stacked | litter, self.streams[2])
         self.is_trodden = False
         """Whether anybody treads the grass, or has: then pixels of the carpet ask for that, which costs."""
         self._trodden: _Layer | None = None
-        self._make_trodden = partial(layer, "carpet", {**heads, **stacked, "TRODDEN": 1}, self.streams[2])
+        self._make_trodden = partial(layer, "carpet", {**heads, **stacked, **litter, "TRODDEN": 1}, self.streams[2])
         self._told = _of_images(growths, seed)
         _tell(self.carpet, self._told)
         if heads:

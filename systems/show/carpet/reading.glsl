@@ -48,7 +48,7 @@ vec3 blown_on(ivec2 cell, ByKind met) {
 Patch patch_at(vec2 at, ByKind met) {
     ivec2 cell = ivec2(floor(at / patch_side));
     uint drawn = hash3(stock.y, cell.x, cell.y);
-    return Patch(cell, int(drawn % uint(stock.x)), int(drawn >> 16u) & 3, blown_on(cell, met));
+    return Patch(cell, int(drawn % uint(stock.x)), int(drawn >> 16u) & (HEADINGS - 1), blown_on(cell, met));
 }
 
 // The rotation that turns the line of sight into the heading of the images that are taken: of four headings, one on each

@@ -7,6 +7,7 @@ const float TINY = 1e-4;  // what no divisor is below [m], or [m/m]
 const float CREST = 3.6;  // optical depth of a way over a crest, of a level one's as deep: as the reference shows it
 const float FARTHEST_SEEN = 15.0;  // how far behind where it enters the grass what it meets lies at most [m]
 const float BULGES = 5e-4;  // curvature from which on ground counts as a crest [1/m]
+const float EVEN = 1e-5;  // curvature that ground has at least [1/m]
 const vec2 LEAVES_BEGIN = vec2(0.5, 2.0);  // how deep lines of sight come along an outline, and where they meet as much as on level ground
 const float UPPER = 0.58;  // how much the upper part of a way through the grass counts: there most of it is met
 const float BEFORE = 0.27;  // how far before the carpet lines of sight meet the first leaves, in heights over their slope
@@ -22,7 +23,7 @@ uniform float outline;  // how high the carpet lies along an outline, of how hig
 // How far below the top of the grass, of its height `tall` [m], a line of sight comes at most that enters it at this slope over
 // a crest of this curvature [1/m].
 float deepest(float slope, float crest, float tall) {
-    return slope * slope / (2.0 * max(crest, 1e-5) * max(tall, LOWEST_GRASS));
+    return slope * slope / (2.0 * max(crest, EVEN) * max(tall, LOWEST_GRASS));
 }
 
 // How high the carpet lies where a line of sight comes so deep, of how high it lies on level ground. Over a crest lines of sight

@@ -89,3 +89,11 @@ def test_software_begins_before_a_frame_is_whole_and_a_card_is_left_alone(
     monkeypatch.setattr(rasteriser, "functions_of", lambda _: SimpleNamespace(glFlush=lambda: begun.append(True)))
     handing_over(ctx)()
     assert begun == [True] * software
+
+
+@pytest.mark.parametrize("software", [True, False])
+def test_samplers_are_anisotropic_on_cards_alone(
+    ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch, *, software: bool
+) -> None:
+    monkeypatch.setattr(rasteriser, "draws_in_software", lambda _: software)
+    assert rasteriser.anisotropy(ctx) == (1.0 if software else min(rasteriser.MOST_SAMPLES, ctx.max_anisotropy))
