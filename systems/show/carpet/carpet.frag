@@ -82,7 +82,9 @@ vec4 carpet_seen(Sight sight, float left, vec3 below) {
         area = areas(grows_at(place.xz));
         stubble -= through_leaves(weighed(area, leaves_left(left)) / max(sight.slope, LOWEST));
     }
+#ifndef HEADS
     canopy.bent.yz *= higher(sight.on_level, dense);
+#endif
     float shallow = shallower(deep, sight.on_level, sight.share, crest, stands, dense);
     View view = View(canopy.light, canopy.bent, among, shallow, left, stubble, area, stretch(slow));
     Reading read = reading(own, sight, place.xz, tall, dense);

@@ -56,7 +56,9 @@ void light_up(float slope, float on_level, ByKind grows, vec2 message) {
     for (int kind = 0; kind < KINDS; kind++)
         messages[kind] = message;
     Canopy canopy = canopy_lit(met, slope, on_level, there, lie_at(there.xz), messages);
+#ifndef HEADS  // among plants in flower, grass is as bright as its images show it
     canopy.bent.y *= tips_met(met, grows, on_level);
+#endif
     lit = bundled(veiled(canopy.light, place), canopy.bent);
     slow = slow_seen(there, slope, tall);
 }

@@ -29,16 +29,14 @@ struct View {
 // Where leaves are met that stand among strips, over a crest and in the wind, of where images show them.
 void place_leaves(int kind, inout Texel texel, View view) {
 #ifdef HEADS
-    // Leaves are darker deep down, heads are not; among plants in flower, grass is as bright as its images show it.
+    // Leaves are darker deep down, heads are not.
     texel.place *= OF(bears, kind) > 0.0 ? mix(1.0, view.among.y, DARKER) : view.among.y;
-    vec2 bent = vec2(1.0);
 #else
     texel.place *= view.among.y;
-    vec2 bent = view.bent.yz;
 #endif
     texel.height *= view.among.y;
-    texel.place = (1.0 - (1.0 - texel.place) * view.shallow) * bent.x;
-    texel.height = (1.0 - (1.0 - texel.height) * view.shallow) * bent.y * OF(tops, kind);
+    texel.place = (1.0 - (1.0 - texel.place) * view.shallow) * view.bent.y;
+    texel.height = (1.0 - (1.0 - texel.height) * view.shallow) * view.bent.z * OF(tops, kind);
 }
 
 // What is left of a kind where it is cut is taken for the same grass pressed together.
@@ -58,13 +56,14 @@ vec4 kind_seen(int kind, Patch own, Reading read, Sight sight, float grain, View
     float usual_height = texel.height / (1.0 + texel.taller) * OF(tops, kind);
     taller = texel.taller;
     place_leaves(kind, texel, view);
-    texel.covers = max(1.0 - (1.0 - texel.covers) * through_leaves(view.bent.x), 0.0);
+    float bent = max(1.0 - (1.0 - texel.covers) * through_leaves(view.bent.x), 0.0);
 #ifdef HEADS
     float ripe = OF(riper, kind);
     texel.place += ripe * (ripe > 0.0 ? 1.0 - texel.place : texel.place);
     // What stands scattered among others has what is met of it where it stands, and nothing between.
-    if (OF(bears, kind) > 0.0)
-        texel.covers = texel.covers / max(texel.usual, LEAST_USUAL);
+    texel.covers = OF(bears, kind) > 0.0 ? texel.covers / max(texel.usual, LEAST_USUAL) : bent;
+#else
+    texel.covers = bent;
 #endif
     if (anything_is_cut() && is_mown(view.left))
         cut_down(kind, texel, light, view, usual_height);
