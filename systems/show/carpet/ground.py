@@ -191,8 +191,8 @@ class GroundPainter:
         stacked: dict[str, str | int] = {"STACK": stack, "REPEATED": 1} if stack > 1 else {}
 
         def layer(name: str, defines: dict[str, str | int], stream: Stream) -> _Layer:
-            files = (f"systems/show/carpet/{name}.{stage}" for stage in ("vert", "frag"))
-            return _Layer(joined(ctx, block, units, *files, defines), stream, *self.grid)
+            vertex, fragment = f"systems/show/carpet/{name}.vert", f"systems/show/carpet/{name}.frag"
+            return _Layer(joined(ctx, block, units, vertex, fragment, defines), stream, *self.grid)
 
         self.bare = layer("ground", litter, self.streams[0])
         self.under = layer("under", heads, self.streams[1])

@@ -116,7 +116,10 @@ def _bent(blades: Blades, postures: Postures, /, *, patch: float, taper: float, 
     Bent grass is lower: across a line of sight of some slope it has as much leaf as grass at rest has across a steeper
     one, and rows go by that.
     """
-    at_rest, straight = np.geomspace(FLATTEST, STEEPEST, BENT_SLOPES), replace(postures, give=LENGTHS)
+    at_rest, straight = (
+        np.geomspace(FLATTEST, STEEPEST, BENT_SLOPES),
+        replace(postures, give=LENGTHS.astype(np.float32)),
+    )
     table = np.zeros((BENT_SLOPES, BENDS, 3))
     for heading in _HEADINGS[:2]:
         met = partial(first_met, blades, straight, heading=heading, patch=patch, taper=taper, section=section)

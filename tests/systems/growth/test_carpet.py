@@ -183,7 +183,7 @@ def test_g5_a_coarser_carpet_has_the_same_means(carpet: Carpet, texels: int) -> 
 @pytest.mark.parametrize("bend", [-0.75, -0.5, 0.5, 0.75])
 def test_g5_of_bent_grass_as_much_is_met_as_its_own_images_show(dense: Carpet, bend: float) -> None:
     blades = grow_blades(KIND, count=240, patch=PATCH, variants=4, seed=4)
-    leant = replace(blades, rest=np.float32([0.0, -bend]) + blades.rest * np.float32(1.0 - abs(bend)))
+    leant = replace(blades, rest=np.array([0.0, -bend], np.float32) + blades.rest * np.float32(1.0 - abs(bend)))
     rows = dense.bent[:, round((1.0 + bend) * (BENDS // 2))]
     at_rest = 0.1, 0.3, 1.0
     slopes = tuple(slope * lodged(bend) for slope in at_rest)
