@@ -25,6 +25,7 @@ from ..engine.plugged import bring_systems
 from ..engine.scene import LoadedScene, SceneLike, must_be_read, read_again, read_scene
 from ..engine.scene.change import changed
 from ..engine.schedule import Phase, Schedule
+from ..engine.terrain.change import set_heights
 from ..engine.terrain.pick import pick
 from ..engine.terrain.sample import height_at, normal_at
 from ..engine.world import World
@@ -331,6 +332,17 @@ class Prairie:
         """
         self._must_be_there("grow its grass")
         self._mown.grow(footprint, height, pose)
+
+    def set_heights(self, corner: ArrayLike, heights: ArrayLike) -> None:
+        """Put other heights [m] into the ground, from its sample at `corner` (x, z) [m] on: a crater, a dike, a field.
+
+        `heights` (rows, columns) are samples at the terrain's own cell size, `site.ground.terrain.cell`, with row 0 at
+        the far edge (-z). All that stands, hovers, flies and asks there is on the new ground at once; shadows that it
+        casts far may follow within some sixty frames. Raises ValueError for what are no finite heights, for a corner
+        between samples, and where any lies beyond the terrain; RuntimeError after `release`.
+        """
+        self._must_be_there("change its ground")
+        set_heights(self.site.ground.terrain, corner, heights)
 
     @property
     def light(self) -> Light:

@@ -15,6 +15,7 @@ from pydantic import Field, ValidationError
 from ..components.declaration import Declaration, Pair, Triple
 from ..components.presser import Presser
 from ..engine.declared.light import Light
+from ..engine.terrain.change import as_loaded
 from .site import Site
 from .space.ground import Ground
 
@@ -196,9 +197,9 @@ def mark_of(site: Site, ground: str, /) -> str:
 
 
 def ground_mark(ground: Ground, /) -> str:
-    """Return what tells a ground from others."""
+    """Return what tells a ground from others, as it was loaded."""
     digest = blake2b(digest_size=_DIGEST)
-    for array in (ground.terrain.heights, ground.density.maps):
+    for array in (*as_loaded(ground.terrain), ground.density.maps):
         digest.update(np.ascontiguousarray(array).data)
     return digest.hexdigest()
 
@@ -208,6 +209,6 @@ def planes(heights: NDArray[np.float32], /) -> NDArray[np.uint8]:
     return np.ascontiguousarray(heights.reshape(-1).view(np.uint8).reshape(-1, 4).T)
 
 
-def from_planes(bytes_: NDArray[np.uint8], shape: tuple[int, int], /) -> NDArray[np.float32]:
+def from_planes(bytes_: NDArray[np.uint8], shape: tuple[int, ...], /) -> NDArray[np.float32]:
     """Return the numbers that `planes` took apart."""
     return np.ascontiguousarray(bytes_.T).view(np.float32).reshape(shape)

@@ -17,6 +17,8 @@ from ..engine.declared.scene import Reading
 from ..engine.handed import is_somewhere
 from ..engine.plugins import wind_kinds
 from ..engine.scene import LoadedScene
+from ..engine.terrain.change import Squares, changed_squares, must_be_squares, restore_squares
+from ..engine.terrain.record import Terrain
 from ..engine.world import World
 from .around.clearing import Clearings
 from .light.shining import Shining
@@ -92,7 +94,9 @@ class Saving:
         )
         cleared = np.array(sorted(self.clearings.cells), np.int32).reshape(-1, 2)
         mown = np.zeros((4, 0), np.uint8) if self.mown.heights is None else planes(self.mown.heights)
-        return packed(Saved(state, {"cleared": cleared, "mown": mown, **marks}))
+        squares, heights = changed_squares(site.ground.terrain)
+        ground: Arrays = {"ground_squares": squares, "ground_heights": planes(heights)}
+        return packed(Saved(state, {"cleared": cleared, "mown": mown, **ground, **marks}))
 
     def restore(self, data: object, site: Site, loaded: LoadedScene, /) -> tuple[float, dict[int, int]]:
         """Bring a state back; return its time [s], and which entity each one of a game's that it holds is now.
@@ -114,8 +118,10 @@ class Saving:
             _checked(state.treading, saved.arrays),
             _mown(saved.arrays, self.mown.shape),
             _cells(saved.arrays),
+            _ground(saved.arrays, site.ground.terrain),
         )
         self.winds.sources()  # raises where another esper world is current
+        restore_squares(site.ground.terrain, made.ground)
         return state.time, self._bring(state, made)
 
     def _mark(self, site: Site) -> str:
@@ -204,6 +210,7 @@ class _Made:
     treading: Treading
     mown: Floats | None
     cleared: list[Cell]
+    ground: Squares
 
 
 def _wind(entity: int, source: WindSource, pose: Pose | None, run: WindPrimitive | None) -> SavedWind | None:
@@ -325,6 +332,18 @@ def _mown(arrays: Arrays, shape: tuple[int, int]) -> Floats | None:
     if not (heights >= 0.0).all():
         refuse("something is cut to no height")
     return heights
+
+
+def _ground(arrays: Arrays, terrain: Terrain) -> Squares:
+    where, found = (arrays.get(name, np.zeros(0)) for name in ("ground_squares", "ground_heights"))
+    if where.dtype != np.int32 or where.shape != (len(where), 2) or found.dtype != np.uint8 or found.shape[:-1] != (4,):
+        refuse("there is something wrong with its ground")
+    squares = where, from_planes(found, (found.shape[-1],))
+    try:
+        must_be_squares(terrain, squares)
+    except ValueError as error:
+        refuse(str(error))
+    return squares
 
 
 def _cells(arrays: Arrays) -> list[Cell]:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ..components.arrays import Ints
 from ..engine.random import hash3
-from ..engine.terrain.record import Terrain
+from ..engine.terrain.record import Part, Terrain
 from ..engine.terrain.sample import height_at, slope_at
 from .around.outlook import Outlook
 from .around.patches import PatchTable
@@ -26,6 +26,13 @@ def cells_on(terrain: Terrain, cell: Ints, /, *, patch: float) -> NDArray[np.boo
     half = np.asarray(terrain.size) / 2
     inside: NDArray[np.bool_] = (np.abs((cell + 0.5) * patch) <= half).all(axis=-1)
     return inside
+
+
+def cells_over(terrain: Terrain, part: Part, /, *, patch: float) -> tuple[Ints, Ints]:
+    """Return the first and the last of the cells (i, j) of patches that stand on a part of a terrain, each (2,)."""
+    ends = np.array([(part.column - 1, part.row - 1), (part.column + part.columns, part.row + part.rows)])
+    first, last = np.floor((ends * terrain.cell + terrain.origin) / patch).astype(np.int32)
+    return first, last
 
 
 def patch_models(cell: Ints, /, *, seed: int, models: int) -> tuple[Ints, Ints]:
@@ -101,6 +108,23 @@ class Tile:
             make_room(outlook, self.entities.representations, self.entities.world)
             patches, viewer = outlook.patches, outlook.viewer
             viewer.centre = cell_stood_in(viewer.eye, viewer.centre, patch=self.patch)
+            self._follow(outlook)
             fresh = tile(patches, viewer.centre, self.terrain, patch=self.patch, seed=self.seed, models=self.models)
             patches.away[:] = seen_from(patches.distance, patches.height, viewer.eye[1], patch=self.patch)
             self.entities.go_on(outlook, fresh)
+
+    def _follow(self, outlook: Outlook) -> None:
+        """Let a viewer's patches stand on the ground as it is, where it has changed since the viewer looked last."""
+        changes, patches = self.terrain.changes, outlook.patches
+        if outlook.heights == changes.count:
+            return
+        rows, columns = self.terrain.heights.shape
+        for part in changes.since(outlook.heights) or [Part(0, 0, rows, columns)]:
+            first, last = cells_over(self.terrain, part, patch=self.patch)
+            on = np.flatnonzero(((patches.cell >= first) & (patches.cell <= last)).all(axis=1))
+            middle = patches.middle[on].astype(np.float32)
+            patches.height[on], patches.slope[on] = height_at(self.terrain, middle), slope_at(self.terrain, middle)
+            heights = self.terrain.heights[part.around]
+            for kept in outlook.kept.values():
+                kept.stand_on(first, last, (float(heights.min()), float(heights.max())))
+        outlook.heights = changes.count

@@ -1,16 +1,71 @@
 """Terrain and density as arrays over the ground."""
 
+from collections import deque
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from ...components.arrays import Floats
+
+MOST = 4096
+"""Changes that are told apart; who has missed more takes over all heights."""
+
+
+class Part(NamedTuple):
+    """A rectangle of samples."""
+
+    row: int
+    """The first of its rows."""
+
+    column: int
+    """The first of its columns."""
+
+    rows: int
+    columns: int
+
+    @property
+    def slices(self) -> tuple[slice, slice]:
+        """What an array of heights is indexed with."""
+        return slice(self.row, self.row + self.rows), slice(self.column, self.column + self.columns)
+
+    @property
+    def around(self) -> tuple[slice, slice]:
+        """The same with the samples next to it: it and they make out the ground that it is part of."""
+        low, left = max(self.row - 1, 0), max(self.column - 1, 0)
+        return slice(low, self.row + self.rows + 1), slice(left, self.column + self.columns + 1)
+
+
+@dataclass(slots=True, eq=False)
+class Changes:
+    """What a game has changed of a terrain."""
+
+    count: int = 0
+    """How often it has."""
+
+    loaded: dict[tuple[int, int], Floats] = field(default_factory=dict)
+    """The heights as they were loaded, of each square of samples that has been changed since, by its row and column."""
+
+    _last: deque[Part] = field(default_factory=lambda: deque(maxlen=MOST))
+
+    def note(self, part: Part, /) -> None:
+        """Note that a part has changed."""
+        self.count += 1
+        self._last.append(part)
+
+    def since(self, count: int, /) -> list[Part] | None:
+        """Return what has changed since there were `count` changes; None for too many: it may be anything."""
+        missed = self.count - count
+        return None if missed > len(self._last) else list(self._last)[len(self._last) - missed :]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Terrain:
     """An elevation map whose samples stand at cell corners; between them heights are bilinear.
 
-    It has at least 2 by 2 samples and is centred on the origin.
+    It has at least 2 by 2 samples and is centred on the origin. It is one prairie's own: what a game changes of its
+    heights is written into the array (`change`), and who has made anything of them looks at `changes`.
     """
 
     heights: NDArray[np.float32]
@@ -19,12 +74,19 @@ class Terrain:
     cell: float
     """Metres per cell."""
 
-    span: tuple[float, float] = field(init=False)
-    """The lowest and the highest of the heights [m]."""
+    changes: Changes = field(init=False, default_factory=Changes)
+
+    _ends: Floats = field(init=False)
+    """The lowest and the highest of each row [m], shape (2, rows)."""
 
     def __post_init__(self) -> None:
         """Look through the heights once."""
-        object.__setattr__(self, "span", (float(self.heights.min()), float(self.heights.max())))
+        object.__setattr__(self, "_ends", np.stack([self.heights.min(axis=1), self.heights.max(axis=1)]))
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """The lowest and the highest of the heights [m]."""
+        return float(self._ends[0].min()), float(self._ends[1].max())
 
     @property
     def size(self) -> tuple[float, float]:
@@ -37,6 +99,13 @@ class Terrain:
         """Ground position (x, z) of sample [0, 0] [m]."""
         width, depth = self.size
         return -width / 2, -depth / 2
+
+    def put(self, part: Part, heights: Floats, /) -> None:
+        """Write other heights (rows, columns) [m] into a part."""
+        self.heights[part.slices] = heights
+        touched = self.heights[part.slices[0]]
+        self._ends[:, part.slices[0]] = touched.min(axis=1), touched.max(axis=1)
+        self.changes.note(part)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

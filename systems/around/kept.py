@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Ints
 from ...engine.world import World
 from .patches import PatchTable
 from .receivers import Receiving
@@ -23,6 +24,12 @@ class Kept:
 
     def leave(self, rows: NDArray[np.int32], /) -> None:
         """Take note that other patches are in some rows of the patch table now."""
+
+    def stand_on(self, first: Ints, last: Ints, span: tuple[float, float], /) -> None:
+        """Take note that the ground is another on the cells from `first` to `last`, each (i, j).
+
+        `span` has its lowest and its highest height [m].
+        """
 
     def lose(self) -> None:
         """Take note that all entities are gone."""

@@ -65,6 +65,9 @@ class Outlook:
     cleared: int = -1
     """Version of the clearings that the patches stand for."""
 
+    heights: int = 0
+    """Changes of the terrain's heights that the patches stand for."""
+
     generation: int = 0
     """Generation of the world that the patches' entities are of."""
 

@@ -3,7 +3,7 @@
 import moderngl
 import numpy as np
 
-from ...engine.terrain.record import Density, Terrain
+from ...engine.terrain.record import Density, Part, Terrain
 from ..grow.record import Growth
 
 
@@ -27,6 +27,15 @@ def height_texture(ctx: moderngl.Context, terrain: Terrain) -> moderngl.Texture:
     texture = ctx.texture((columns, rows), 1, np.ascontiguousarray(terrain.heights).tobytes(), dtype="f4")
     texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
     return texture
+
+
+def send_heights(texture: moderngl.Texture, terrain: Terrain, /, *, since: int) -> None:
+    """Send what has changed of a terrain's heights since there were `since` changes."""
+    rows, columns = terrain.heights.shape
+    changed = terrain.changes.since(since)
+    for part in [Part(0, 0, rows, columns)] if changed is None else changed:
+        heights = np.ascontiguousarray(terrain.heights[part.slices])
+        texture.write(heights.tobytes(), viewport=(part.column, part.row, part.columns, part.rows))
 
 
 def density_texture(ctx: moderngl.Context, density: Density) -> moderngl.TextureArray:

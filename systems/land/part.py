@@ -10,7 +10,7 @@ from ...engine.gl.stream import release_all
 from ..frame.block import FrameBlock
 from ..frame.feature import Feature, Part
 from ..space.grown import Grown
-from .maps import density_texture, height_texture, posture_texture
+from .maps import density_texture, height_texture, posture_texture, send_heights
 from .record import write_land
 
 
@@ -32,15 +32,23 @@ class LandPart(Part):
         self.ctx, self._units = ctx, units
         self.textures: dict[str, moderngl.Texture | moderngl.TextureArray] = {}
         self._grown: Grown | None = None
+        self._changes = 0
+        """Changes of the terrain that have been sent."""
         self._kinds: Mapping[str, str | int] = {}
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
-        """Send what is another terrain, density or kind."""
+        """Send what is another terrain, density or kind, and what has changed of the heights."""
         before, self._grown = self._grown, grown
+        terrain = grown.ground.terrain
+        if before is None or before.ground.terrain is not terrain:
+            self._put("heights", height_texture(self.ctx, terrain))
+        elif self._changes != terrain.changes.count:
+            heights = self.textures["heights"]
+            assert isinstance(heights, moderngl.Texture)
+            send_heights(heights, terrain, since=self._changes)
+        self._changes = terrain.changes.count
         if before is grown:
             return
-        if before is None or before.ground.terrain is not grown.ground.terrain:
-            self._put("heights", height_texture(self.ctx, grown.ground.terrain))
         if before is None or before.ground.density is not grown.ground.density:
             self._put("density", density_texture(self.ctx, grown.ground.density))
         if before is None or before.growths != grown.growths:

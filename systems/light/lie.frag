@@ -1,6 +1,7 @@
 // How a place lies to the sun: with STILL the terrain's normal (x, z) and two slow noises; without, how high the terrain
 // stands before the sun, as the tangent of the angle that it is seen at.
 #include "lib/terrain.glsl"
+#include "systems/light/lie.py"
 
 in vec2 at;
 out vec4 told;
@@ -16,16 +17,13 @@ void main() {
     told = vec4(normal.xz, 2.0 * textureLod(slow, at, 0.0).rg - 1.0);
 }
 #else
-uniform vec2 rows;      // the first that is drawn, and how many are, of all
 uniform float highest;  // ground of the terrain [m]
 
-const int STEPS = 40;
-const float FIRST = 1.2, LONGER = 1.15;  // the first step, in cells; and how much longer each is than the one before
 const float ABOVE = 0.05;  // how high over the ground the sun is looked for [m]
 const float LEVEL = -0.05;  // what stands before the sun over level ground: below any sun
 
 void main() {
-    vec2 place = terrain_origin + vec2(at.x, rows.x + rows.y * at.y) * terrain_size;
+    vec2 place = terrain_origin + at * terrain_size;
     float foot = height_at(place) + ABOVE, away = FIRST * terrain_cell, most = LEVEL;
     for (int step = 0; step < STEPS; step++) {
         vec2 there = place + toward_sun * away;

@@ -3,14 +3,26 @@
 from collections.abc import Mapping
 
 import moderngl
+import numpy as np
 
+from ...components.arrays import Doubles
 from ...engine.gl.stream import release_all
-from ...engine.terrain.record import Terrain
+from ...engine.terrain.record import Part, Terrain
 from ..frame.block import FrameBlock, joined
 from .slow import laid_over, map_shape, slow_map
 
 AT_ONCE = 1 << 15
 """Samples drawn in a frame while the sun moves: a graphics card hardly feels them."""
+
+GLSL = {"STEPS": 40, "FIRST": 1.2, "LONGER": 1.15}
+"""How often what stands before the sun is looked for on the way there; how far the first step goes [cells of the
+terrain], and how many times farther each comes than the last."""
+
+_FARTHEST = GLSL["FIRST"] * GLSL["LONGER"] ** (GLSL["STEPS"] - 1)
+"""How far off that is looked for [cells of the terrain]."""
+
+Box = tuple[int, int, int, int]
+"""Of the map: the first column and row, and how many there are."""
 
 FILLED, SHADER = "engine/gl/fill.vert", "systems/light/lie.frag"
 
@@ -43,8 +55,7 @@ class LieMap:
         lie.repeat_x = lie.repeat_y = False
         self._textures = [lie, laid_over(self.ctx, slow_map(terrain, seed=seed))]
         self._target = self.ctx.framebuffer([lie])
-        self._before["highest"] = terrain.span[1]
-        self._rows, self._columns, self._is_new = rows, columns, True
+        self._rows, self._columns, self._terrain, self._seen = rows, columns, terrain, -1
         self.leap()
 
     def leap(self) -> None:
@@ -61,29 +72,65 @@ class LieMap:
         if toward != self._toward:
             rows = self._rows if self._toward is None else rows
             self._toward, self._left = toward, self._rows
-        if not self._left:
+        changed = self._seen != self._terrain.changes.count
+        if not (self._left or changed):
             return 0
-        calls = 0
         self._target.use()
-        if self._is_new:
-            self._textures[1].use(self._unit)
-            self._target.viewport = 0, 0, self._columns, self._rows
-            self._arrays[0].render(moderngl.TRIANGLES, vertices=3)
-            self._is_new, calls = False, 1
+        calls = self._follow(toward) if changed else 0
         self.use()
-        return calls + self._draw(min(rows, self._left))
+        return calls + self._draw_rows(min(rows, self._left))
 
-    def _draw(self, rows: int) -> int:
+    def _follow(self, toward: tuple[float, float]) -> int:
+        """Draw what is other since heights have changed; return the number of draw calls.
+
+        What they stand before is drawn at once where it is little, and else all of that map in its turn.
+        """
+        terrain, whole = self._terrain, (0, 0, self._columns, self._rows)
+        changed = None if self._seen < 0 else terrain.changes.since(self._seen)
+        self._seen = terrain.changes.count
+        self._before["highest"] = terrain.span[1]
+        self._textures[1].use(self._unit)
+        still = [whole] if changed is None else [self._box(part, 2.0) for part in changed]
+        calls = sum(self._draw(0, box) for box in still)
+        if changed is None or self._left == self._rows:
+            self._left = self._rows
+            return calls
+        before = [self._box(part, 1.0, np.multiply(toward, _FARTHEST)) for part in changed]
+        if sum(width * height for _, _, width, height in before) > AT_ONCE:
+            self._left = self._rows
+            return calls
+        self.use()
+        return calls + sum(self._draw(1, box) for box in before)
+
+    def _box(self, part: Part, around: float, away: Doubles | None = None) -> Box:
+        """Return what of the map lies within some cells of a part of the terrain, or looks that way from `away`."""
+        first, last = (part.column, part.row), (part.column + part.columns - 1, part.row + part.rows - 1)
+        ends = np.array([np.subtract(first, around), np.add(last, around)])
+        far = ends if away is None else ends - away
+        count = np.array([self._columns, self._rows])
+        scale = count * self._terrain.cell / self._terrain.size
+        low = np.clip(np.floor(np.minimum(ends[0], far[0]) * scale - 0.5), 0, count - 1).astype(int)
+        high = np.clip(np.ceil(np.maximum(ends[1], far[1]) * scale - 0.5) + 1, low + 1, count).astype(int)
+        return int(low[0]), int(low[1]), int(high[0] - low[0]), int(high[1] - low[1])
+
+    def _draw_rows(self, rows: int) -> int:
         """Draw the rows that have waited longest; return the number of draw calls."""
         calls = 0
         self._left -= rows
         while rows:
             some = min(rows, self._rows - self._row)
-            self._before["rows"] = self._row / self._rows, some / self._rows
-            self._target.viewport = self._columns, self._row, self._columns, some
-            self._arrays[1].render(moderngl.TRIANGLES, vertices=3)
-            self._row, rows, calls = (self._row + some) % self._rows, rows - some, calls + 1
+            calls += self._draw(1, (0, self._row, self._columns, some))
+            self._row, rows = (self._row + some) % self._rows, rows - some
         return calls
+
+    def _draw(self, half: int, box: Box) -> int:
+        """Draw a box of the first half of the map, or of the second; return the number of draw calls."""
+        column, row, width, height = box
+        left = half * self._columns
+        self._target.viewport = left, 0, self._columns, self._rows
+        self._target.scissor = left + column, row, width, height
+        self._arrays[half].render(moderngl.TRIANGLES, vertices=3)
+        return 1
 
     def release(self) -> None:
         """Give everything back."""

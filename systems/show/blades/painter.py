@@ -96,8 +96,9 @@ class BladesPainter(RepresentationPainter):
         assert outlook.appearance is not None
         left, _ = handed_over(outlook.appearance.handed[shown.morphing.rows], fade=self._fade)
         slots, places = shown.standing.slots, (ring.places.tobytes() for ring in shown.rings)
-        stamp = kept.pool.stamp.take(slots, axis=0)
-        made_of = None if len(shown.morphing.rows) else (viewer.eye, viewer.sides, kept.pool, slots, stamp, *places)
+        stamp, ground = (each.take(slots, axis=0) for each in (kept.pool.stamp, kept.pool.ground))
+        planted = kept.pool, slots, stamp, ground
+        made_of = None if len(shown.morphing.rows) else (viewer.eye, viewer.sides, *planted, *places)
         gather = partial(self._gather, outlook, kept.pool, shown, left)
         numbers, is_new = self._gathered.of(viewer.name, made_of, gather)
         if is_new:

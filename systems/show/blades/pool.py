@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ....components.arrays import Floats
+from ....components.arrays import Floats, Ints
 from ...around.kept import Kept
 from ...around.patches import NOWHERE
 from ...around.receivers import Receiving
@@ -54,7 +54,7 @@ class BladePool:
     """The same along z."""
 
     ground: Floats
-    """The lowest and the highest ground that a slot's blades grow on [m], shape (side * side, 2)."""
+    """What the ground that a slot's blades grow on lies between [m], shape (side * side, 2)."""
 
     stamp: NDArray[np.int32]
     """Cell (i, j) that each slot is planted for, shape (side * side, 2)."""
@@ -103,3 +103,9 @@ class BladesKept(Kept):
     def __init__(self, pool: BladePool, name: str) -> None:
         super().__init__([Receiving(pool, name)])
         self.pool = pool
+
+    def stand_on(self, first: Ints, last: Ints, span: tuple[float, float], /) -> None:
+        """Let the ground of these cells reach as low and as high: planting all blades again would take far longer."""
+        stamp, ground = self.pool.stamp, self.pool.ground
+        on = ((stamp >= first) & (stamp <= last)).all(axis=1)
+        ground[on] = np.stack([np.minimum(ground[on, 0], span[0]), np.maximum(ground[on, 1], span[1])], axis=1)
