@@ -9,7 +9,7 @@ import pytest
 
 from tallgrass.components.arrays import Floats
 from tallgrass.engine.camera import Camera
-from tallgrass.engine.declared.scene import LodName
+from tallgrass.engine.declared.quality import LodName
 from tallgrass.systems.prairie import Prairie
 
 Stage = Any
