@@ -26,7 +26,7 @@ FACES = [(tallgrass, name) for name in tallgrass.__all__] + [
     (tallgrass.testing, name) for name in tallgrass.testing.__all__
 ]
 UNITS = re.compile(
-    r"\[(m|s|ms|rad|degrees|m/s|turns/s|pixels|levels of 255|patch sides|bytes|ns)\]|posture ind|shape",
+    r"\[(m|s|1/s|ms|rad|degrees|m/s|turns/s|pixels|levels of 255|patch sides|bytes|ns)\]|posture ind|shape",
 )
 
 
