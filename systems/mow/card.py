@@ -1,7 +1,5 @@
 """How high grass is left to stand, as a texture over the terrain."""
 
-from collections.abc import Mapping
-
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
@@ -40,10 +38,6 @@ class MownPart(Part):
         self.texture.build_mipmaps()
         self._strokes, self._tallest = mown.strokes, tallest
         record["anything_cut"] = 1.0
-
-    def defines(self) -> Mapping[str, str | int]:
-        """Return that something is cut, if it is."""
-        return {} if self.texture.size == (1, 1) else {"MOWN": 1}
 
     def _room(self, columns: int, rows: int) -> moderngl.Texture:
         texture = self.ctx.texture((columns, rows), 1, dtype="f2", alignment=2)

@@ -3,9 +3,13 @@
 
 uniform sampler2D mown;  // over the terrain: up to which height grass is left to stand [m]; one texel where nothing has been cut
 
-// Whether anything has been, anywhere: else nobody need look.
+// Whether anything has been, anywhere: else nobody need look. Programs that are made for either case are told by CUT.
 bool anything_is_cut() {
+#ifdef CUT
+    return CUT > 0;
+#else
     return anything_cut > 0.5;
+#endif
 }
 
 // Beyond the terrain nobody mows.

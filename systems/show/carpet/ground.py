@@ -1,7 +1,6 @@
 """Drawing the ground, and on it the 2D carpet: square tiles that grow coarser with distance."""
 
 from collections.abc import Mapping, Sequence
-from functools import partial
 
 import moderngl
 import numpy as np
@@ -178,7 +177,7 @@ class GroundPainter:
         side: int,
         seed: int,
     ) -> None:
-        self.growths = growths
+        self.growths, self._block = growths, block
         self.shares = ctx.texture((side, side), 1, alignment=1)
         self.shares.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self.units = units
@@ -194,26 +193,30 @@ class GroundPainter:
             vertex, fragment = f"systems/show/carpet/{name}.vert", f"systems/show/carpet/{name}.frag"
             return _Layer(joined(ctx, block, units, vertex, fragment, defines), stream, *self.grid)
 
-        self.bare = layer("ground", litter, self.streams[0])
-        self.under = layer("under", heads, self.streams[1])
-        self.carpet = layer("carpet", heads | stacked | litter, self.streams[2])
+        def both(name: str, defines: dict[str, str | int], stream: Stream) -> tuple[_Layer, _Layer]:
+            return layer(name, {**defines, "CUT": 0}, stream), layer(name, {**defines, "CUT": 1}, stream)
+
+        known = heads | stacked | litter
+        self.bare = both("ground", litter, self.streams[0])
+        self.under = both("under", heads, self.streams[1])
+        self.carpet = both("carpet", known, self.streams[2])
+        self.trodden = both("carpet", {**known, "TRODDEN": 1}, self.streams[2])
         self.is_trodden = False
         """Whether anybody treads the grass, or has: then pixels of the carpet ask for that, which costs."""
-        self._trodden: _Layer | None = None
-        self._make_trodden = partial(layer, "carpet", {**heads, **stacked, **litter, "TRODDEN": 1}, self.streams[2])
-        self._told = _of_images(growths, seed)
-        _tell(self.carpet, self._told)
+        for each in (*self.carpet, *self.trodden):
+            _tell(each, _of_images(growths, seed))
         if heads:
             self._tell("profile", np.concatenate([profile_of(growth) for growth in growths]).tolist())
         self.raise_carpet(RAISED, outline=OUTLINE)
 
     def _tell(self, name: str, value: object) -> None:
-        self._told[name] = value
-        for layer in (self.under, self.carpet, *self._when_trodden()):
+        for layer in (*self.under, *self.carpet, *self.trodden):
             layer.program[name] = value
 
-    def _when_trodden(self) -> list[_Layer]:
-        return [] if self._trodden is None else [self._trodden]
+    @property
+    def _is_cut(self) -> bool:
+        """Whether any grass has been cut: programs that need not ask for that are cheaper."""
+        return bool(self._block.record["anything_cut"][0])
 
     def write(self, tiles: NDArray[np.void], laid: NDArray[np.bool_]) -> None:
         """Send the tiles (n,), and on which of them carpet may lie."""
@@ -237,19 +240,14 @@ class GroundPainter:
     def draw_opaque(self) -> int:
         """Draw the bare ground, and what lies under the carpet; return the number of draw calls."""
         self.shares.use(self.units["shares"])
-        return self.bare.draw() + self.under.draw()
+        return self.bare[self._is_cut].draw() + self.under[self._is_cut].draw()
 
     def draw_carpet(self) -> int:
         """Draw the carpet, whose outlines let through what is behind them; return the number of draw calls."""
-        if not self.is_trodden:
-            return self.carpet.draw()
-        if self._trodden is None:
-            self._trodden = self._make_trodden()
-            _tell(self._trodden, self._told)
-        return self._trodden.draw()
+        return (self.trodden if self.is_trodden else self.carpet)[self._is_cut].draw()
 
     def release(self) -> None:
         """Give everything back."""
-        layers = (self.bare, self.under, self.carpet, *self._when_trodden())
+        layers = *self.bare, *self.under, *self.carpet, *self.trodden
         release_all(*(layer.array for layer in layers), *(layer.program for layer in layers))
         release_all(*self.streams, *self.grid, self.shares)

@@ -1,0 +1,67 @@
+"""Programs are made while a prairie begins, and not when something happens in it for the first time."""
+
+from collections.abc import Callable
+from typing import Any
+
+import esper
+import moderngl
+import numpy as np
+import pytest
+
+from tallgrass import Footprint, Pose, Presser
+from tallgrass.components.shade import Shade
+from tallgrass.engine.camera import Camera
+from tallgrass.systems.prairie import Prairie
+from tallgrass.testing import LITTLE
+
+Stage = Any
+Load = Callable[..., Prairie]
+Aim = Callable[..., Camera]
+
+CALM = LITTLE + "wind: [{ kind: breeze, strength: 0.2 }]\n"
+
+
+@pytest.fixture
+def made(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The vertex shaders of all programs that are made."""
+    made: list[str] = []
+    make = moderngl.Context.program
+
+    def noted(self: moderngl.Context, **options: Any) -> moderngl.Program:
+        made.append(options["vertex_shader"])
+        return make(self, **options)
+
+    monkeypatch.setattr(moderngl.Context, "program", noted)
+    return made
+
+
+def first_cut(prairie: Prairie) -> list[int]:
+    prairie.cut(Footprint(radius=4.0), 0.05, pose=Pose(0.0, 10.0))
+    return []
+
+
+def first_presser(prairie: Prairie) -> list[int]:
+    del prairie
+    return [esper.create_entity(Presser(radius=0.5), Pose(0.0, 10.0))]
+
+
+def first_shadow(prairie: Prairie) -> list[int]:
+    del prairie
+    return [esper.create_entity(Shade((0.0, 3.0, 10.0), 1.0))]
+
+
+@pytest.mark.parametrize("happens", [first_cut, first_presser, first_shadow])
+def test_nothing_that_happens_to_grass_for_the_first_time_makes_a_program(
+    made: list[str], load: Load, stage: Stage, camera: Aim, happens: Callable[[Prairie], list[int]]
+) -> None:
+    prairie, there = load(CALM), camera(0.0, 2.0, 18.0)
+    before = stage.shot(prairie, there)
+    assert len(made) > 10
+    made.clear()
+    entities = happens(prairie)
+    prairie.advance(0.2)
+    after = stage.shot(prairie, there)
+    for entity in entities:
+        esper.delete_entity(entity, immediate=True)
+    assert np.abs(after - before).max() > 20.0
+    assert made == []
