@@ -15,7 +15,7 @@ from .around.patches import PatchTable
 from .entities import PatchEntities
 from .room import make_room
 from .space.cone import discrete_distance, nearness, seen_from
-from .space.window import window_cells
+from .space.window import between, window_cells
 
 EDGE = 1e-4
 """How far beyond its edge a cell is still the one that a viewer stands in [patch sides]."""
@@ -121,7 +121,7 @@ class Tile:
         rows, columns = self.terrain.heights.shape
         for part in changes.since(outlook.heights) or [Part(0, 0, rows, columns)]:
             first, last = cells_over(self.terrain, part, patch=self.patch)
-            on = np.flatnonzero(((patches.cell >= first) & (patches.cell <= last)).all(axis=1))
+            on = np.flatnonzero(between(patches.cell, first, last))
             middle = patches.middle[on].astype(np.float32)
             patches.height[on], patches.slope[on] = height_at(self.terrain, middle), slope_at(self.terrain, middle)
             heights = self.terrain.heights[part.around]

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...components.arrays import Floats, Ints
+from ...components.arrays import Floats, Ints, Mask
 from ...engine.handed import FARTHEST, as_floats
 
 
@@ -22,6 +22,12 @@ def as_places(xz: ArrayLike, /) -> Floats:
 def cell_of(place: NDArray[np.float32], /, *, patch: float) -> Ints:
     """Return the cells (i, j) that ground positions (x, z) lie in, both of shape (..., 2)."""
     return np.floor(np.asarray(place, np.float64) / patch).astype(np.int32)
+
+
+def between(cell: Ints, first: Ints, last: Ints, /) -> Mask:
+    """Return which cells (n, 2) lie in the rectangle from the cell `first` to the cell `last`, shape (n,)."""
+    i, j = cell.T
+    return np.asarray((i >= first[0]) & (i <= last[0]) & (j >= first[1]) & (j <= last[1]))
 
 
 def window_rows(cell: Ints, /, *, side: int) -> NDArray[np.int64]:

@@ -1,6 +1,12 @@
 """Pictures of ground that a game has changed: those of a prairie that was loaded with it (F1, N5)."""
 
+import json
+import os
+import subprocess
+import sys
 from collections.abc import Callable
+from pathlib import Path
+from statistics import median
 from typing import Any
 
 import moderngl
@@ -113,13 +119,45 @@ def test_ground_that_is_raised_keeps_its_blades_in_the_picture(
 ) -> None:
     """They are left out where the ground as it was is out of the picture."""
     pictures, top = [], before()
-    top[40:60, 30:50] += 12.0
+    top[40:60, 30:50] += 6.0
     for first, is_changed in ((before(), True), (top, False)):
         prairie = Prairie.load(scene(first), ctx=ctx, lod="blades")
-        aim = camera(0.0, 13.0, 22.0, pitch=0)
+        aim = camera(0.0, 8.0, 22.0, pitch=0)
         stage.shot(prairie, aim)
         if is_changed:
             prairie.set_heights((-10.0, 0.0), top[40:60, 30:50])
         pictures.append(stage.shot(prairie, aim))
         prairie.release()
     np.testing.assert_array_equal(*pictures)
+
+
+def test_far_shadows_follow_and_are_right_in_the_end(stage: Stage, ctx: moderngl.Context, camera: Aim) -> None:
+    """Those that reach over too much of the map of what stands before the sun to be drawn at once."""
+    flat, ridge = (np.zeros((601, 601), np.float32) for _ in range(2))
+    ridge[200:202, 150:450] = 9.0
+    aim, pictures = camera(0.0, 90.0, 0.0, pitch=-50), []
+    for first, is_changed in ((flat, True), (ridge, False)):
+        prairie = Prairie.load(scene(first), ctx=ctx, lod="carpet")
+        stage.shot(prairie, aim)
+        if is_changed:
+            prairie.set_heights((-150.0, -100.0), ridge[200:202, 150:450])
+        shown = [stage.shot(prairie, aim) for _ in range(12)]
+        pictures.append((shown[0], shown[-1]))
+        prairie.release()
+    (early, late), (_, due) = pictures
+    np.testing.assert_array_equal(late, due)
+    assert np.abs(early - due).max() > 20.0
+
+
+def test_a_frame_in_which_10_km_of_terrain_are_dug_takes_no_longer_than_half_as_long_again(
+    ctx: moderngl.Context,
+) -> None:
+    """Processor time in a process whose driver draws nothing."""
+    assert ctx.version_code >= 330
+    program = Path(__file__).with_name("heights_program.py")
+    done = subprocess.run(
+        [sys.executable, program], env=os.environ | {"GALLIUM_NOOP": "1"}, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    times = json.loads(done.stdout)
+    assert median(times["digs"]) < 1.5 * median(times["rests"])

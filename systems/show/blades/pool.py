@@ -9,6 +9,7 @@ from ....components.arrays import Floats, Ints
 from ...around.kept import Kept
 from ...around.patches import NOWHERE
 from ...around.receivers import Receiving
+from ...space.window import between
 
 BLADE = np.dtype(
     [
@@ -107,5 +108,5 @@ class BladesKept(Kept):
     def stand_on(self, first: Ints, last: Ints, span: tuple[float, float], /) -> None:
         """Let the ground of these cells reach as low and as high: planting all blades again would take far longer."""
         stamp, ground = self.pool.stamp, self.pool.ground
-        on = ((stamp >= first) & (stamp <= last)).all(axis=1)
+        on = between(stamp, first, last)
         ground[on] = np.stack([np.minimum(ground[on, 0], span[0]), np.maximum(ground[on, 1], span[1])], axis=1)
