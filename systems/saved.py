@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, ValidationError
 
-from ..components.declaration import Declaration, Pair, Triple
-from ..components.presser import Presser
+from ..components.declaration import Declaration, Triple
 from ..engine.declared.light import Light
 from ..engine.terrain.change import as_loaded
 from .site import Site
@@ -60,25 +59,13 @@ class SavedWind(Declaration):
     course: SavedCourse | None
 
 
-class SavedShape(Declaration):
-    """What presses: the fields of a `Presser`."""
-
-    radius: float
-    length: float
-    corners: list[Pair]
-    strength: float
-
-    def presser(self) -> Presser:
-        """Return the presser; raises ValueError for what is none."""
-        corners = tuple((x, z) for x, z in self.corners)
-        return Presser(self.radius, self.length, corners, self.strength)
-
-
 class SavedPresser(Declaration):
     """An entity of a game's that presses."""
 
     entity: int
-    shape: SavedShape
+    shape: dict[str, Any]
+    """The fields of its `Presser`."""
+
     pose: Triple
     """x, z [m] and yaw [rad]."""
 
@@ -92,7 +79,7 @@ class SavedWalk(Declaration):
     begun: int = Field(ge=-(2**40), le=2**40)
     """The number of the way that begins next."""
 
-    who: list[tuple[int, SavedShape]]
+    who: list[tuple[int, dict[str, Any]]]
     """Their entities, and what they press with; -1 - n is the nth that the scene declares."""
 
 
@@ -111,7 +98,7 @@ class SavedTreading(Declaration):
     anew: bool
     """Whether those that the scene declares have their whole way still to go."""
 
-    declared: list[SavedShape | None]
+    declared: list[dict[str, Any] | None]
     """What those press with that the scene declares; None of one that a game has deleted."""
 
 

@@ -2,7 +2,8 @@
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -32,7 +33,6 @@ from .saved import (
     Saved,
     SavedCourse,
     SavedPresser,
-    SavedShape,
     SavedTreading,
     SavedWalk,
     SavedWind,
@@ -114,7 +114,7 @@ class Saving:
         made = _Made(
             {wind.entity: WindSource(_made(wind.kind, wind.values, kinds), wind.name) for wind in winds},
             {wind.entity: _run(wind, wind.course, kinds) for wind in winds if wind.course is not None},
-            {each.entity: each.shape.presser() for each in state.pressers},
+            {each.entity: _presser(each.shape) for each in state.pressers},
             _checked(state.treading, saved.arrays),
             _mown(saved.arrays, self.mown.shape),
             _cells(saved.arrays),
@@ -266,10 +266,17 @@ def _numbers(pose: Pose) -> list[float]:
     return [float(number) for number in (pose.x, pose.z, pose.yaw)]
 
 
-def _shape(presser: Presser) -> SavedShape:
-    corners = [[float(x), float(z)] for x, z in presser.corners]
-    radius, length, strength = float(presser.radius), float(presser.length), float(presser.strength)
-    return SavedShape(radius=radius, length=length, corners=corners, strength=strength)
+def _shape(presser: Presser) -> dict[str, Any]:
+    """Return the fields of a presser, as JSON has them."""
+    return {name: float(value) if isinstance(value, Real) else value for name, value in asdict(presser).items()}
+
+
+def _presser(shape: Mapping[str, Any]) -> Presser:
+    """Return the presser of these fields; raises ValueError for what is none."""
+    try:
+        return Presser(**shape)
+    except TypeError as error:
+        raise ValueError(f"what presses is no presser: {error}") from error
 
 
 def _treading(treading: Treading) -> tuple[SavedTreading, Arrays]:
@@ -291,12 +298,12 @@ def _checked(saved: SavedTreading, arrays: Arrays) -> Treading:
     """Return what pressers have done; raises ValueError for what cannot be."""
     stands = []
     for name, walk in zip(WALKS, saved.walks, strict=True):
-        who = [(entity, shape.presser()) for entity, shape in walk.who]
+        who = [(entity, _presser(shape)) for entity, shape in walk.who]
         discs = sum(len(discs_of(presser)) for _, presser in who)
         opened, way = _stretches(arrays, f"{name}_open", discs), _doubles(arrays, f"{name}_way", (discs,))
         pose, closed = _doubles(arrays, f"{name}_pose", (len(who), 3)), _stretches(arrays, f"{name}_closed")
         stands.append(Stand(who, pose, walk.time, opened, way, closed, walk.begun))
-    declared = [None if shape is None else shape.presser() for shape in saved.declared]
+    declared = [None if shape is None else _presser(shape) for shape in saved.declared]
     if not all(-len(declared) <= number < 0 for number, _ in stands[0].who):
         refuse("others walk in it than its scene declares")
     kept = _stretches(arrays, "kept")

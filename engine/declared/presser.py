@@ -1,5 +1,6 @@
 """Who walks through a scene's grass, as its file declares it."""
 
+from dataclasses import fields
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -10,6 +11,9 @@ from ...components.presser import Presser
 from .way import Waypoint, check_times, pose_on
 
 LARGEST = 20.0
+
+SHAPE = tuple(field.name for field in fields(Presser))
+"""What a presser says of its shape; a scene may declare it under the same names."""
 
 
 class PresserOnPath(Declaration):
@@ -47,8 +51,7 @@ class PresserOnPath(Declaration):
 
     def footprint(self) -> Presser:
         """Return what it presses with."""
-        corners = tuple((x, z) for x, z in self.corners)
-        return Presser(self.radius, self.length, corners, self.strength)
+        return Presser(**{name: getattr(self, name) for name in SHAPE if name in type(self).model_fields})
 
     def pose(self, *, time: float) -> Pose:
         """Return where it is at `time` [s]."""

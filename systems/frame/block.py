@@ -54,7 +54,8 @@ FRAME = np.dtype(
         ("terrain_origin", "2f4"), ("terrain_size", "2f4"),  # x, z [m]
         ("half_screen", "2f4"),  # pixels from the middle to the edge, across and up
         ("posture_links", "f4"), ("posture_rows", "f4"), ("posture_variants", "f4"),  # the last of each kind
-        ("padding", "V12"),
+        ("exposure", "f4"),  # radiance in the picture, of that of the scene, where the sun before the air sends `SUN`
+        ("padding", "V8"),
         ("crown", f"({GROUPS},4)f4"),  # by kind, four in each: height of the canopy [m]
         ("leaf", f"({GROUPS},4)f4"),  # leaf area seen from the side, of the ground's area
         ("lying", f"({GROUPS},4)f4"),  # leaf area seen from above, of that from the side

@@ -41,6 +41,9 @@ class Daylight:
     sky: Sky
     """The colours of the sky."""
 
+    exposure: float
+    """Radiance in the picture, of that in the scene."""
+
 
 def daylight(light: Light, /) -> Daylight:
     """Return the light that a scene declares, as bright as the picture is exposed."""
@@ -54,7 +57,7 @@ def daylight_under(light: Light, clear: Doubles, /) -> Daylight:
     exposure = exposure_of(light, sun, sky.down)
     shown = Sky(sky.map * exposure, sky.horizon * exposure, sky.down * exposure)
     down = shown.down + PALER * (luminance(shown.down) - shown.down)
-    return Daylight(to_sun(light), sun * exposure, down + BOUNCED * sun * exposure, shown)
+    return Daylight(to_sun(light), sun * exposure, down + BOUNCED * sun * exposure, shown, exposure)
 
 
 def exposure_of(light: Light, sun: Doubles, down: Doubles, /) -> float:
