@@ -1,12 +1,13 @@
 """Drawing a whole frame: ground, sky and carpet, then strips and blades from far to near."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from typing import TypeVar
 
 import moderngl
 import numpy as np
 
+from ..components.wind import WindPrimitive
 from ..engine.camera import View, is_mirrored
 from ..engine.gl.guest import aside, guest
 from ..engine.gl.rasteriser import handing_over
@@ -19,7 +20,7 @@ from .features import UNITS
 from .frame.block import FRAME, FrameBlock, aim
 from .frame.feature import Feature, Part
 from .receive.ask import numbers_of, write_messages
-from .receive.received import Received
+from .receive.received import ROW, Received
 from .show.blades.draw import BladePainter
 from .show.blades.plant import record_of
 from .show.representation import Canvas, RepresentationPainter
@@ -30,6 +31,9 @@ from .wind.quarantine import Quarantine
 
 Sort = TypeVar("Sort", bound=Part)
 
+READY_ROWS = 512
+"""Rows of receivers that there is room for once a game has prepared: half a million, in 8 MiB."""
+
 OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
 
 
@@ -39,7 +43,6 @@ class Painter:
     def __init__(
         self,
         ctx: moderngl.Context,
-        site: Site,
         features: Sequence[Feature],
         quarantine: Quarantine,
         *,
@@ -62,7 +65,8 @@ class Painter:
         self._first: dict[str, list[int]] = {}
         self._special: dict[str, str | int] = {}
         """What shaders are told of what is special about any kind of grass."""
-        self.settle(site)
+        self._winds: Sequence[WindPrimitive] | None = None
+        """One of each kind that it is ready for; None where no game has prepared."""
 
     @property
     def coarsest(self) -> RepresentationPainter:
@@ -75,7 +79,39 @@ class Painter:
 
     def settle(self, site: Site) -> None:
         """Take over a site, and what has changed since the frame before; what has not stays in GL as it is."""
-        before, self.site = self.site, site
+        for _ in self._settling(site):
+            pass
+
+    def preparing(self, site: Site, winds: Sequence[WindPrimitive], /) -> Iterator[None]:
+        """Make all that a game may come to need, `steps` of them, with winds of the kinds of these."""
+        for part in self.parts:
+            part.settle(site, self.record)
+            part.make_ready(site)
+            yield
+        self._winds = winds
+        self.smaller.make_ready()
+        self.received.reserve(READY_ROWS)
+        yield
+        before = self.painters
+        yield from self._settling(site)
+        if before is self.painters:
+            yield from self._making_ready(site)
+
+    def steps(self, site: Site) -> int:
+        """Return how many steps `preparing` takes at most."""
+        return len(self.parts) + 2 + 2 * len(site.representations)
+
+    def _making_ready(self, site: Site) -> Iterator[None]:
+        """Make room and programs for whatever winds will blow."""
+        assert self._winds is not None
+        self.air.make_ready([*site.scene.wind, *self._winds], receivers=READY_ROWS * ROW)
+        for painter in self.painters.values():
+            painter.make_ready(site)
+            yield
+
+    def _settling(self, site: Site) -> Iterator[None]:
+        """Do what `settle` does, bit by bit; where that is left off, it begins anew the next time."""
+        before = self.site
         for part in self.parts:
             part.settle(site, self.record)
         if site is not before:
@@ -83,25 +119,33 @@ class Painter:
         defines = dict(self._special)
         for part in self.parts:
             defines |= part.defines()
-        if before is None or defines != self.block.defines or _is_other_grass(site, before):
-            self.block.defines = defines
-            self._grow(site)
+        is_other = before is None or defines != self.block.defines or _is_other_grass(site, before)
+        if is_other:
+            self.site = None
+            yield from self._growing(site, defines)
         elif site is before:
             return
+        self.site = site
         for painter in self.painters.values():
             painter.settle(site, self.record)
         self.air.meet(site.scene.wind)
+        if is_other and self._winds is not None:
+            yield from self._making_ready(site)
 
-    def _grow(self, site: Site) -> None:
-        """Bring the grass into GL."""
+    def _growing(self, site: Site, defines: dict[str, str | int]) -> Iterator[None]:
+        """Bring the grass into GL, a representation at a time."""
         if self.painters:
             release_all(*self.painters.values(), self.air)
+        self.block.defines = defines
         self.air = CardWinds(self.ctx, UNITS, site.growths)
         canvas = Canvas(
             self.ctx, self.block, UNITS, site.scene.seed, site.transitions, self.air, self.received, site.reach,
             site.representations,
         )  # fmt: skip
-        self.painters = {each.name: each.painter(canvas) for each in site.representations}
+        self.painters = {}
+        for each in site.representations:
+            self.painters[each.name] = each.painter(canvas)
+            yield
 
     def blade_painter(self, segments: int) -> BladePainter:
         """Return a painter of opaque blades with this many segments, in any order."""

@@ -1,6 +1,6 @@
 """A prairie: what a game loads, advances and draws."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -211,6 +211,24 @@ class Prairie:
             self.statistics.fineness = self.governor.fineness(viewer)
             self.statistics.count(outlook, self.site, self.systems, painter)
             outlook.settle()
+
+    def preparing(self) -> Iterator[tuple[int, int]]:
+        """Do what `prepare` does a step at a time, for a loading screen: gives how many steps are done, of how many.
+
+        GL state is the host's own at each step, and the same context must be current. It raises the errors of `draw`.
+        """
+        self._must_be_there("prepare it")
+        return self._assembly.screen.preparing(self.site, self.winds.samples())
+
+    def prepare(self, *, on_progress: Callable[[int, int], object] | None = None) -> None:
+        """Upload and compile in the current context all that the scene and a game may need, so that no frame does.
+
+        That is for winds of all kinds that are installed or blow already, for pressers, cuts, bodies and `hold`.
+        `on_progress` is called with how many steps are done, and of how many. It raises the errors of `draw`.
+        """
+        for done, of in self.preparing():
+            if on_progress is not None:
+                on_progress(done, of)
 
     def follow(self, view: object, projection: object, *, viewer: str = "main") -> None:
         """Follow a viewer for a frame as `draw` does, without drawing it and without any GL.

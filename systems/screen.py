@@ -3,12 +3,12 @@
 import logging
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from functools import partial
 from typing import TYPE_CHECKING
 
 import moderngl
 
-from ..engine.gl.guest import arrive, host_context, kept
+from ..components.wind import WindPrimitive
+from ..engine.gl.guest import arrive, guest, host_context, kept
 from ..engine.gl.homes import Homes
 from ..engine.gl.host import State
 from ..engine.gl.outputs import has_depth
@@ -51,15 +51,43 @@ class Screen:
         Where the viewport has no pixels there is none. Raises RuntimeError where the host has no window, and where its
         OpenGL is too old.
         """
+        with self._entered() as painter:
+            if painter is not None:
+                painter.settle(site)
+            yield painter
+
+    def preparing(self, site: Site, winds: Sequence[WindPrimitive]) -> Iterator[tuple[int, int]]:
+        """Make all that may come to be needed in the context that is current, and give how many steps of all are done.
+
+        The host's GL state is its own between steps. Where the viewport has no pixels, there is no step. Raises
+        RuntimeError as `opened` does, and where another context has become current.
+        """
+        with self._entered() as painter:
+            if painter is None:
+                return
+            steps, of = painter.preparing(site, winds), painter.steps(site)
+        yield 0, of
+        for done in range(1, of):
+            with self._entered() as here:
+                if here is not painter:
+                    raise RuntimeError("a prairie is prepared in one GL context: make that current before each step")
+                with guest(painter.ctx):
+                    if next(steps, "over") == "over":
+                        break
+            yield done, of
+        yield of, of
+
+    @contextmanager
+    def _entered(self) -> Iterator[Painter | None]:
+        """Give the painter of the host's context, whatever it has settled on."""
         self._painters.check()
         with kept(self.ctx) as state:
             if 0 in state.viewport[2:]:
                 yield None
                 return
             self._must_have_depth(state)
-            self.painter = self._painters.here(state.gl, partial(self._made, site))
+            self.painter = self._painters.here(state.gl, self._made)
             arrive(self.painter.ctx)
-            self.painter.settle(site)
             yield self.painter
 
     def _must_have_depth(self, state: State) -> None:
@@ -72,11 +100,11 @@ class Screen:
             "depth buffer, or ask for one when the window is made"
         )
 
-    def _made(self, site: Site) -> Painter:
+    def _made(self) -> Painter:
         """Return a new painter, in the context that is current."""
         ctx = host_context(self.ctx)
         arrive(ctx)
-        return Painter(ctx, site, self._features, self._quarantine, linear=self.linear)
+        return Painter(ctx, self._features, self._quarantine, linear=self.linear)
 
     def current(self) -> Painter:
         """Return the painter of the context that is drawn in."""

@@ -17,6 +17,7 @@ from ..components.pose import Pose
 from ..components.wind import WindPrimitive, WindSource, must_be_name, must_be_wind, on_course
 from ..engine.declared.scene import Scene
 from ..engine.handed import is_somewhere
+from ..engine.plugins import wind_kinds
 from ..engine.terrain.sample import height_at
 from ..engine.world import World
 from .bodies.fly import foot, hover_of, hovering
@@ -187,6 +188,16 @@ class Winds(Feature):
         """Return the winds there are."""
         self._revive()
         return [source for _, source in self._world.all(WindSource)]
+
+    def samples(self) -> list[WindPrimitive]:
+        """Return the winds there are, and one of each kind that is installed and has a default for all it is told."""
+        found = [source.primitive for source in self.sources()]
+        for name in wind_kinds().names():
+            try:
+                found.append(wind_kinds().find(name)(kind=name))
+            except Exception as error:  # a plugin may raise anything, or ask for a field
+                log.debug("kind '%s' is not prepared", name, exc_info=error)
+        return found
 
     def now(self, time: float) -> list[Blowing]:
         """Return the winds that act at `time` [s], the strongest claim first.

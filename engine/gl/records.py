@@ -23,12 +23,17 @@ class Records:
         """Replace the contents by `records`, shape (n,)."""
         rows = -(-len(records) // self.per_row)
         if rows > self.texture.height:
-            self.texture.release()
-            self.texture = self._room(rows * 3 // 2)
+            self.reserve(rows * 3 // 2)
         if rows:
             padded = np.zeros(rows * self.per_row, self.record)
             padded[: len(records)] = records
             self.texture.write(padded, viewport=(0, 0, self.texels * self.per_row, rows))
+
+    def reserve(self, rows: int) -> None:
+        """Make room for so many rows, of whatever is written from now on."""
+        if rows > self.texture.height:
+            self.texture.release()
+            self.texture = self._room(rows)
 
     def _room(self, rows: int) -> moderngl.Texture:
         texture = self.ctx.texture((self.texels * self.per_row, rows), self.channels, dtype=self.kind)

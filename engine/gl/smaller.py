@@ -124,11 +124,12 @@ class Smaller:
         self._passes[name].render(moderngl.TRIANGLES, 3)
         ctx.depth_func = "<="
 
-    def _make(self) -> None:
-        for name in PASSES:
+    def make_ready(self) -> None:
+        """Make its programs, unless they are there."""
+        for name in PASSES.keys() - self._passes.keys():
             self._programs[name] = program(self._ctx, "engine/gl/fill.vert", f"engine/gl/{name}.frag")
             self._passes[name] = self._ctx.vertex_array(self._programs[name], [])
-        self._tell(UNITS)
+            self._tell(UNITS)
 
     def _is_obstructed(self, host: moderngl.Framebuffer) -> bool:
         """Return whether nothing can stand in for the host's framebuffer, and tell it once."""
@@ -147,8 +148,7 @@ class Smaller:
 
     def _room(self, full: Size, small: Size) -> Buffers:
         """Return buffers for a viewport and a picture of these sizes."""
-        if not self._passes:
-            self._make()
+        self.make_ready()
         if (full, small) not in self._buffers:
             if len(self._buffers) == MOST_SIZES:
                 self._buffers.pop(next(iter(self._buffers))).release()

@@ -57,12 +57,21 @@ class BodiesPart(Part):
         self._bodies, self._ctx, self._block = bodies, ctx, block
         self.painter: BodyPainter | None = None
 
+    def make_ready(self, grown: Grown, /) -> None:
+        """Make what draws them, before anything flies."""
+        del grown
+        self._make()
+
+    def _make(self) -> None:
+        if self.painter is None:
+            self.painter = BodyPainter(self._ctx, self._block)
+
     def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
         """Send what is in the air, and write what casts shadows."""
         flies = self._bodies.flying(outlook.viewer.time)
         cast(record, nearest([*map(shade_of, flies), *self._bodies.shades()], outlook.viewer.eye))
-        if self.painter is None and flies:
-            self.painter = BodyPainter(self._ctx, self._block)
+        if flies:
+            self._make()
         if self.painter is not None:
             self.painter.write(flies)
 

@@ -29,6 +29,9 @@ class Start:
 class Part:
     """What one GL context holds of a feature, and the drawing of it; a frame calls its methods in this order."""
 
+    def make_ready(self, grown: Grown, /) -> None:
+        """Make all that a game may come to need in GL, so that no frame does: it is asked where a game prepares."""
+
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Take over what is other than before, and write it into the frame's record (1,)."""
 

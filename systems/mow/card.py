@@ -18,12 +18,25 @@ class MownPart(Part):
         """A single texel for as long as nothing has been cut."""
         self._strokes, self._tallest = 0, 0.0
 
+    def make_ready(self, grown: Grown, /) -> None:
+        """Have the whole map, with nothing cut, before anything is."""
+        rows, columns = self._mown.shape
+        is_there = self.texture.size == (columns, rows) and grown.tallest == self._tallest
+        if is_there or self._mown.heights is not None:
+            return
+        self.release()
+        self.texture, self._strokes, self._tallest = self._room(columns, rows), 0, grown.tallest
+        self.texture.write(np.full((rows, columns), grown.tallest, np.float16), alignment=2)
+        self.texture.build_mipmaps()
+
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Send the rows that have changed.
 
         What is not cut stands above all tips: a mean of that and what is cut means something.
         """
         mown, tallest = self._mown, grown.tallest
+        if mown.heights is None and self.texture.size != (1, 1):
+            self.make_ready(grown)
         if mown.heights is None or (mown.strokes, tallest) == (self._strokes, self._tallest):
             return
         rows, columns = mown.shape

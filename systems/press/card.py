@@ -23,6 +23,9 @@ GLSL = {"PRESSED_ROW": ROW}
 HEAD = 2 + SIDE * SIDE // ROW
 """Rows of the frame, of how kinds swing back, and of the squares."""
 
+FRESH_ROOM, SETTLED_ROOM = 32, 224
+"""Rows for fresh and for settled marks that a game has room for that prepares: 4 MiB in all."""
+
 TEXELS = NUMBERS // 4
 """Texels of a mark."""
 
@@ -38,6 +41,11 @@ class PressPart(Part):
         self._fresh_rows, self._settled_rows = 4, 0
         self._still = True
         self.texture = self._room()
+
+    def make_ready(self, grown: Grown, /) -> None:
+        """Have room for the marks of many."""
+        del grown
+        self._grow(FRESH_ROOM, SETTLED_ROOM)
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Take over how kinds of grass swing back, and how long each takes to recover."""
@@ -69,9 +77,7 @@ class PressPart(Part):
         self._still = not trodden
         fresh, settled = _rows(trodden.fresh), _rows(trodden.settled)
         if fresh > self._fresh_rows or settled > self._settled_rows:
-            self._fresh_rows, self._settled_rows = max(fresh * 2, self._fresh_rows), settled * 3 // 2
-            self.texture.release()
-            self.texture, self._settled = self._room(), NOTHING
+            self._grow(fresh * 2, settled * 3 // 2)
         from_settled = HEAD + self._fresh_rows
         if trodden.settled is not self._settled:
             self._settled = trodden.settled
@@ -82,6 +88,11 @@ class PressPart(Part):
         self._head[0] = trodden.time - trodden.since, float(bool(trodden)), self._head[0, 2], 0.0
         sent = np.concatenate([self._head, _texels(trodden.fresh, HEAD)])
         self.texture.write(sent, viewport=(0, 0, ROW, HEAD + fresh))
+
+    def _grow(self, fresh: int, settled: int) -> None:
+        self._fresh_rows, self._settled_rows = max(fresh, self._fresh_rows), max(settled, self._settled_rows)
+        self.texture.release()
+        self.texture, self._settled, self._still = self._room(), NOTHING, False
 
     def _place(self, marks: Marks, row: int, column: int) -> None:
         """Write where the lists of the squares begin, in numbers from the beginning of the texture, and how long."""

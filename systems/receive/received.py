@@ -32,9 +32,14 @@ class Received:
         """Make room for pools of so many receivers, and return the number of each one's first."""
         rows = np.cumsum([0, *(-(-count // ROW) for count in counts)])
         if rows[-1] > self.texture.height:
-            self.release()
-            self._make(int(rows[-1]) * 3 // 2)
+            self.reserve(int(rows[-1]) * 3 // 2)
         return [int(row) * ROW for row in rows[:-1]]
+
+    def reserve(self, rows: int) -> None:
+        """Make room for so many rows."""
+        if rows > self.texture.height:
+            self.release()
+            self._make(rows)
 
     def ask(self, array: moderngl.VertexArray, *, first: int, count: int) -> int:
         """Ask `count` receivers from the `first` on with the program of a vertex array; return the number of draws."""

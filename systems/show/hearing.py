@@ -39,6 +39,11 @@ class Hearing:
         canvas.air.use(made)
         return self._array
 
+    def make_ready(self) -> None:
+        """Have a program for whatever winds will blow."""
+        for _ in self._canvas.air.orders():
+            self.array()
+
     def release(self) -> None:
         """Give everything back; the program is that of the winds."""
         if self._array is not None:

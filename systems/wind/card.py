@@ -1,7 +1,7 @@
 """The winds of a frame on the graphics card: what `hear.glsl` reads, and the programs that include it."""
 
 import logging
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from math import cos, sin
 from typing import Protocol
 
@@ -29,6 +29,7 @@ from .twin import (
     Twin,
     TwinError,
     check_values,
+    fitted,
     fitted_few,
     joined_twins,
     layout_of,
@@ -42,6 +43,9 @@ SAMPLERS = ("winds", "wind_sheets", "wind_curves", "wind_told")
 
 HEAD, SHARE, SHEET = 16, 8, 12
 """Numbers in a row before those of `twin_values`, as `hear.glsl` reads them; where the share and the sheets stand."""
+
+READY_ROWS, READY_SHEETS, READY_TOLD = 64, 16, 4
+"""Room that a game has that prepares: for winds, for their tables, and for winds without a twin."""
 
 _NOTHING = (0.0,) * (SHEET - 1)
 _TRIED = "systems/wind/hear.vert"
@@ -78,6 +82,8 @@ class CardWinds:
         self._twins: list[Twin] = []
         self._layouts: list[Layout] = []
         self._order: list[int] = []
+        self._ready: list[int] = []
+        """The order of runs whose program is there, and beside it one for winds in any order; empty before."""
         self._programs: dict[object, moderngl.Program] = {}
         self._winds: list[Blowing] = []
         self._untwinned: list[int] = []
@@ -89,6 +95,31 @@ class CardWinds:
         """Make room for winds that may blow later, so that programs change now and not when they do."""
         order = sorted(winds, key=claim, reverse=True)
         self._runs([self._number_of(wind, wind.start, 0) for wind in order])
+
+    def make_ready(self, winds: Sequence[WindPrimitive], /, *, receivers: int) -> None:
+        """Make room for winds of these kinds, `receivers` of which are told something where a kind has no twin.
+
+        From now on a program is another one only for a kind that was never met: winds that come in another order than
+        their claims share one that asks each wind what it is.
+        """
+        self._ready = []
+        self.meet(winds)
+        self._ready = self._order
+        self._reserve(READY_ROWS, 0)
+        known = [(wind, self._numbers[type(wind)]) for wind in winds]
+        tables = [wind.twin_values(time=0.0, seed=0).sheets for wind, number in known if number != TOLD]
+        shapes = [table.shape for each in tables for table in each]
+        rows, columns = (max((shape[axis] for shape in shapes), default=1) for axis in (0, 1))
+        self._sheets.reserve(rows, columns, READY_SHEETS)
+        if any(number == TOLD for _, number in known):
+            self._told.reserve(READY_TOLD, receivers)
+
+    def orders(self) -> Iterator[None]:
+        """Take each order of runs in turn that a program may be asked for, and in the end that of now."""
+        now = self._order
+        for order in (self._ready, [ANY], now):
+            self._order = order
+            yield
 
     def write(
         self, winds: Sequence[Blowing], /, *, time: float, seed: int, mixing: Mixing, to: float = 0.0
@@ -129,6 +160,10 @@ class CardWinds:
 
     def _runs(self, numbers: Sequence[int]) -> list[int]:
         """Return in which row each run of a program ends, with room in programs for all that are needed."""
+        if self._ready:
+            found, ends = fitted(self._ready, numbers)
+            self._order = found if found == self._ready else [ANY]
+            return ends if found == self._ready else [len(numbers) + 1]
         self._order, ends = fitted_few(self._order, numbers)
         return ends
 

@@ -20,6 +20,13 @@ class Sheets:
         self.sent = 0
         """How many tables have been sent so far."""
 
+    def reserve(self, rows: int, columns: int, layers: int) -> None:
+        """Make room for so many tables of so many rows and columns."""
+        rows, columns = max(rows, self.texture.height), max(columns, self.texture.width)
+        self._held += [None] * (layers - len(self._held))
+        if self.texture.size != (columns, rows, len(self._held)):
+            self._grow(rows, columns)
+
     def begin(self) -> None:
         """Begin a frame: layers whose tables are not asked for in it may be given to others."""
         self._used.clear()

@@ -16,6 +16,7 @@ from ....engine.gl.stream import Stream, release_all
 from ...around.appearance import handed_over
 from ...around.outlook import Outlook
 from ...frame.block import by_kind
+from ...space.grown import Grown
 from ..hearing import Hearing
 from ..representation import Canvas, RepresentationPainter
 from ..strips.draw import tell_stacks
@@ -32,6 +33,9 @@ from .store import STANDING, STANDING_ROW, BladeStore
 
 PARTED = 1
 """Distance up to which blades hide one another by depth [patch sides]."""
+
+READY_ROWS = 256
+"""Rows of patches that there is room for once a game has prepared."""
 
 NUMBER = np.dtype([("number", "u4")])
 
@@ -82,6 +86,12 @@ class BladesPainter(RepresentationPainter):
                 made[name] = value
         if "stacks" in made:
             tell_stacks(made, self._strips.quality.strip_rings)
+
+    def make_ready(self, grown: Grown, /) -> None:
+        """Make room for more patches than are usually shown, and programs for whatever winds will blow."""
+        del grown
+        self.standing.reserve(READY_ROWS)
+        self.hearing.make_ready()
 
     def receivers(self, outlook: Outlook, /) -> list[int]:
         """Return how many blades there are on the patches that are shown."""

@@ -60,6 +60,11 @@ class CarpetPainter(RepresentationPainter):
         self._ground = grown.ground
         self._spacing = finest_spacing(grown.ground.terrain, grown.ground.patch)
 
+    def make_ready(self, grown: Grown, /) -> None:
+        """Make programs for whatever winds will blow."""
+        del grown
+        self.air.hearing.make_ready()
+
     def receivers(self, outlook: Outlook, /) -> list[int]:
         """Return how many patches there are."""
         return [len(outlook.patches.progress)]

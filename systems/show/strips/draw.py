@@ -21,6 +21,9 @@ from .textures import Atlas, extent_texture, strip_texture
 STOOD_ROW, STRIPS_ROW = 64, 1024
 """Records in a row of the textures that hold patches, and the numbers of polygon strips."""
 
+READY_ROWS = 256
+"""Rows of both that there is room for once a game has prepared."""
+
 GLSL = looked_up("Stood", STOOD, "stood", STOOD_ROW) + emitted({"STRIPS_ROW": STRIPS_ROW})
 
 NUMBER = np.dtype([("number", "u4")])
@@ -86,6 +89,12 @@ class StripPainter:
             found.append((columns / self.atlas.width, rows / self._rows, float(layer)))
             layer += sum(2 * len(strips.plane) for strips in models)
         return found
+
+    def make_ready(self) -> None:
+        """Make room for more than is usually shown, and programs for whatever winds will blow."""
+        self.stood.reserve(READY_ROWS)
+        self.strips.reserve(READY_ROWS)
+        self.hearing.make_ready()
 
     def write(self, stood: NDArray[np.void]) -> None:
         """Send the patches, ring after ring."""

@@ -13,6 +13,7 @@ from ....engine.declared.quality import Quality
 from ....engine.gl.remembered import Remembered
 from ...around.outlook import Outlook
 from ...grow.record import Growth
+from ...space.grown import Grown
 from ..representation import Canvas, RepresentationPainter
 from .draw import StripPainter
 from .gather import gather_strips, polygon_strips, runs
@@ -35,6 +36,11 @@ class StripsPainter(RepresentationPainter):
         self.runs: list[tuple[int, int, bool]] = []
         self._asked: list[tuple[int, int, int]] = []
         self._ordered = Remembered[tuple[NDArray[np.uint32], NDArray[np.int64]]]()
+
+    def make_ready(self, grown: Grown, /) -> None:
+        """Make all that strips may come to need."""
+        del grown
+        self.strips.make_ready()
 
     def receivers(self, outlook: Outlook, /) -> list[int]:
         """Return how many edges each ring has."""

@@ -1,0 +1,203 @@
+"""Getting ready: once a game has prepared, no frame makes anything in GL."""
+
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import esper
+import moderngl
+import numpy as np
+import pytest
+
+from tallgrass import Blast, Breeze, Footprint, Gust, Pose, Presser, Shade, Turbulence, Whirlwind, WindPrimitive
+from tallgrass.engine.camera import Camera
+from tallgrass.engine.plugins import wind_kinds
+from tallgrass.systems.prairie import Prairie
+from tallgrass.testing import LITTLE
+
+Stage = Any
+Load = Callable[..., Prairie]
+Aim = Callable[..., Camera]
+
+MADE = "program", "buffer", "texture", "texture_array", "depth_texture"
+
+FRONT = """
+import numpy as np
+from tallgrass import WindPrimitive
+
+class Front(WindPrimitive):
+    kind: str = "front"
+    twin = "front.glsl"
+    power: float = 0.5
+
+    def mask(self, place, /, *, time):
+        return np.ones(len(place), np.float32)
+
+    def action(self, place, /, *, time, seed, grass):
+        return np.full_like(place, [0.0, self.power])
+
+class Untold(WindPrimitive):
+    kind: str = "untold"
+
+    def mask(self, place, /, *, time):
+        return np.ones(len(place), np.float32)
+
+    def action(self, place, /, *, time, seed, grass):
+        return np.full_like(place, [0.1, 0.0])
+"""
+
+TWIN = """
+float mask(vec2 place, Front front) { return 1.0; }
+vec2 action(vec2 place, Front front) { return vec2(0.0, front.power); }
+"""
+
+
+@pytest.fixture
+def made(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """What is made in GL, by the name of the call."""
+    found: list[str] = []
+
+    def noting(name: str, plain: Callable[..., Any]) -> Callable[..., Any]:
+        def noted(ctx: moderngl.Context, *given: Any, **named: Any) -> Any:
+            found.append(name)
+            return plain(ctx, *given, **named)
+
+        return noted
+
+    for name in MADE:
+        monkeypatch.setattr(moderngl.Context, name, noting(name, getattr(moderngl.Context, name)))
+    return found
+
+
+@pytest.fixture
+def plugin(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[list[WindPrimitive]]:
+    """Winds of a game's own kinds, with a twin and without one."""
+    (tmp_path / "prepared_front.py").write_text(FRONT, "utf-8")
+    (tmp_path / "front.glsl").write_text(TWIN, "utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    import prepared_front  # type: ignore[import-not-found]  # noqa: PLC0415
+
+    monkeypatch.setitem(wind_kinds()._classes, "front", prepared_front.Front)  # noqa: SLF001
+    monkeypatch.setitem(wind_kinds()._classes, "untold", prepared_front.Untold)  # noqa: SLF001
+    yield [prepared_front.Front(), prepared_front.Untold()]
+    del sys.modules["prepared_front"]
+
+
+def test_nothing_is_made_on_a_frame_after_a_game_has_prepared(
+    stage: Stage, load: Load, camera: Aim, made: list[str], plugin: list[WindPrimitive]
+) -> None:
+    prairie = load(LITTLE)
+    prairie.prepare()
+    near, far = camera(0.0, 2.0, 20.0, pitch=-10), camera(0.0, 2.0, 20.0, pitch=-4, view=6.0)
+
+    def frames(aim: Camera) -> list[str]:
+        made.clear()
+        for _ in range(3):
+            prairie.advance(0.4)
+            stage.shot(prairie, aim)
+        return list(made)
+
+    def add(*winds: WindPrimitive) -> Callable[[], object]:
+        return lambda: [prairie.add(wind) for wind in winds]
+
+    acts: dict[str, Callable[[], object]] = {
+        "first frame": lambda: None,
+        "gust": add(Gust(position=[0, 0])),
+        "blast": lambda: prairie.add(Blast(), pose=Pose(0, 5)),
+        "whirlwind": add(Whirlwind(position=[5, 0])),
+        "turbulence": add(Turbulence()),
+        "a plugin's with a twin": add(plugin[0]),
+        "a plugin's without one": add(plugin[1]),
+        "in another order": add(Gust(priority=50), Breeze(priority=45), Gust(priority=40), Blast(priority=0)),
+        "presser": lambda: esper.create_entity(Presser(radius=0.4), Pose(0, 10)),
+        "shade": lambda: esper.create_entity(Shade((0.0, 5.0, 8.0), 1.0)),
+        "saucer": lambda: prairie.add(Blast(body="saucer"), pose=Pose(0, 5)),
+        "cut": lambda: prairie.cut(Footprint(radius=1.0), 0.05, pose=Pose(0, 8)),
+        "light": lambda: prairie.shine(hour=19.0, clouds=0.5),
+    }
+    try:
+        for name, act in acts.items():
+            act()
+            assert frames(near) == [], name
+        assert frames(far) == [], "a lens that zooms"
+    finally:
+        for entity in [entity for kind in (Presser, Shade) for entity, _ in esper.get_component(kind)]:
+            esper.delete_entity(entity, immediate=True)
+
+
+def test_what_was_prepared_draws_what_is_drawn_without(stage: Stage, load: Load, camera: Aim) -> None:
+    plain, ready, aim = load(), load(), camera(0.0, 2.0, 20.0, pitch=-10)
+    ready.prepare()
+    stroke = Footprint(radius=3.0), 0.05
+    acts: list[Callable[[Prairie], object]] = [
+        lambda _: None,
+        lambda prairie: prairie.add(Gust(position=[0, 0])),
+        lambda prairie: prairie.cut(*stroke),
+    ]
+    for act in acts:
+        pictures = []
+        for prairie in (plain, ready):
+            act(prairie)
+            pictures.append(stage.shot(prairie, aim))
+            prairie.advance(0.5)
+        np.testing.assert_allclose(pictures[1], pictures[0], atol=1.0)
+
+
+def test_it_may_come_before_the_first_frame_between_frames_and_twice(
+    stage: Stage, load: Load, camera: Aim, made: list[str]
+) -> None:
+    prairie, aim = load(), camera(0.0, 2.0, 20.0, pitch=-10)
+    told: list[tuple[int, int]] = []
+    before = stage.shot(prairie, aim)
+    for done, of in prairie.preparing():
+        told.append((done, of))
+        if done == of // 2:
+            np.testing.assert_allclose(stage.shot(prairie, aim), before, atol=1.0)
+    assert [done for done, _ in told[:-1]] == list(range(len(told) - 1))
+    assert told[-1][0] == told[-1][1] == told[0][1] > 8
+    np.testing.assert_allclose(stage.shot(prairie, aim), before, atol=1.0)
+    again: list[tuple[int, int]] = []
+    prairie.prepare(on_progress=lambda done, of: again.append((done, of)))
+    assert again[-1][0] == again[-1][1]
+    made.clear()
+    prairie.add(Gust(position=[0, 0]))
+    stage.shot(prairie, aim)
+    assert made == []
+
+
+def test_a_scene_read_again_is_as_ready_as_before(stage: Stage, load: Load, camera: Aim, made: list[str]) -> None:
+    prairie, aim = load(LITTLE), camera(0.0, 2.0, 20.0, pitch=-10)
+    prairie.prepare()
+    prairie.loaded.file.write_text(LITTLE.replace("seed: 5", "seed: 6"), "utf-8")
+    prairie.reload()
+    stage.shot(prairie, aim)
+    made.clear()
+    prairie.add(Whirlwind())
+    prairie.cut(Footprint(radius=1.0), 0.05)
+    stage.shot(prairie, aim)
+    assert made == []
+
+
+def test_a_prairie_is_loaded_on_another_thread_while_one_is_drawn(stage: Stage, load: Load, camera: Aim) -> None:
+    shown, aim = load(), camera(0.0, 2.0, 20.0, pitch=-10)
+    found: list[Prairie] = []
+    loading = threading.Thread(target=lambda: found.append(load(LITTLE.replace("seed: 5", "seed: 77"))))
+    loading.start()
+    frames = 0
+    while loading.is_alive() or not frames:
+        shown.advance(0.02)
+        stage.shot(shown, aim)
+        frames += 1
+    loading.join()
+    assert len(found) == 1
+    expected = load(LITTLE.replace("seed: 5", "seed: 77"))
+    np.testing.assert_array_equal(stage.shot(found[0], aim), stage.shot(expected, aim))
+
+
+def test_a_prairie_that_was_released_is_not_prepared(load: Load) -> None:
+    prairie = load(LITTLE)
+    prairie.release()
+    with pytest.raises(RuntimeError, match="this prairie has been released"):
+        prairie.prepare()
