@@ -30,7 +30,7 @@ class Records:
             self.texture.write(padded, viewport=(0, 0, self.texels * self.per_row, rows))
 
     def reserve(self, rows: int) -> None:
-        """Make room for so many rows, of whatever is written from now on."""
+        """Make room for so many rows; where there is too little, what was written is lost."""
         if rows > self.texture.height:
             self.texture.release()
             self.texture = self._room(rows)

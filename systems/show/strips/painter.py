@@ -41,6 +41,7 @@ class StripsPainter(RepresentationPainter):
         """Make all that strips may come to need."""
         del grown
         self.strips.make_ready()
+        self._ordered.lose()
 
     def receivers(self, outlook: Outlook, /) -> list[int]:
         """Return how many edges each ring has."""
