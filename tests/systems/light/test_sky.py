@@ -125,6 +125,7 @@ def test_exposure_counts_in_stops(stops: float) -> None:
     plain, other = daylight(Light()), daylight(Light(exposure=stops))
     np.testing.assert_allclose(other.sun, plain.sun * 2.0**stops)
     np.testing.assert_allclose(other.sky.map, plain.sky.map * 2.0**stops)
+    assert other.exposure == pytest.approx(plain.exposure * 2.0**stops)
 
 
 def test_nights_and_dusks_can_be_seen() -> None:
