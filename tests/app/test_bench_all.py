@@ -30,7 +30,7 @@ def short(monkeypatch: pytest.MonkeyPatch) -> None:
     ):  # fmt: skip
         monkeypatch.setattr(module, name, value)
     monkeypatch.setattr(scale, "_alone", map)  # another process would draw many frames
-    monkeypatch.setattr(pop, "MOST", 1)
+    monkeypatch.setattr(pop, "MOST_PROCESSES", 1)
     monkeypatch.setattr(pop, "legs", lambda prairie: stroll.legs(prairie)[:1])
 
 

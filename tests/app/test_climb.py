@@ -43,7 +43,7 @@ def test_n2_changes_on_a_climb_are_judged_all_along_it(
 ) -> None:
     pytest.importorskip("flip_evaluator")
     monkeypatch.setattr(stroll, "RATE", 6)
-    monkeypatch.setattr(pop, "MOST", 1)
+    monkeypatch.setattr(pop, "MOST_PROCESSES", 1)
     monkeypatch.setattr(pop, "climb", lambda prairie: [climb(prairie)[number] for number in (0, -1)])
     assert run(["bench", "pop", str(scene), "--climb", "--size", "64x64", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)

@@ -59,7 +59,7 @@ def measure(folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Captur
     monkeypatch.setattr(pop, "_walks", once)
     monkeypatch.setattr(stroll, "RATE", 20)
     monkeypatch.setattr(stroll, "PITCH", math.radians(-20.0))
-    monkeypatch.setattr(pop, "MOST", 1)
+    monkeypatch.setattr(pop, "MOST_PROCESSES", 1)
     monkeypatch.setattr(pop, "legs", lambda prairie: legs(prairie)[:1])
     path = folder / "scene.yaml"
     path.write_text(SCENE)

@@ -50,7 +50,7 @@ def scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A small scene, walked through on one leg, in few frames."""
     monkeypatch.setattr(stroll, "RATE", 30)
     monkeypatch.setattr(stroll, "SECONDS", 0.3)
-    monkeypatch.setattr(pop, "MOST", 1)
+    monkeypatch.setattr(pop, "MOST_PROCESSES", 1)
     monkeypatch.setattr(pop, "legs", lambda prairie: legs(prairie)[:1])
     path = tmp_path / "scene.yaml"
     path.write_text(SCENE)
