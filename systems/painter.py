@@ -96,10 +96,26 @@ class Painter:
         yield from self._settling(site)
         if before is self.painters:
             yield from self._making_ready(site)
+        yield from self._rehearsing()
+
+    def _rehearsing(self) -> Iterator[None]:
+        """Draw the last frame where no pixel is, as if there were more in it: each thing alone, and then all."""
+        view = None if self._outlook is None else self._outlook.view
+        every = [*self.parts, *self.painters.values()]
+        alone = [[each] for each in every if type(each).rehearse is not Part.rehearse]
+        if view is None:
+            return
+        for some in [*alone, every]:
+            before = self.record.copy()
+            for each in some:
+                each.rehearse(self.record)
+            self.draw(view, hidden=True)
+            self.record[:] = before
+            yield
 
     def steps(self, site: Site) -> int:
         """Return how many steps `preparing` takes at most."""
-        return len(self.parts) + 2 + 2 * len(site.representations)
+        return len(self.parts) + 6 + 2 * len(site.representations)
 
     def _making_ready(self, site: Site) -> Iterator[None]:
         """Make room and programs for whatever winds will blow."""
@@ -181,14 +197,18 @@ class Painter:
             self.received.texture.use(UNITS["received"])
         return calls
 
-    def draw(self, view: View, *, blades: Iterable[BladePainter] | None = None, scale: float = 1.0) -> None:
+    def draw(
+        self, view: View, *, blades: Iterable[BladePainter] | None = None, scale: float = 1.0, hidden: bool = False
+    ) -> None:
         """Draw the frame into the framebuffer that the host has bound.
 
         With `blades`, these alone stand on the ground and the carpet. Of the host's pixels, `scale` times as many are
-        drawn, across and up.
+        drawn, across and up; none at all where it is `hidden`.
         """
         ctx = self.ctx
         with guest(ctx) as host, self.smaller.instead_of(host, scale) as target:
+            if hidden:
+                target.scissor = 0, 0, 0, 0
             self._tell(view, target)
             self.draw_calls = self._hear(target) if blades is None else 0
             self._draw_land(target, view)

@@ -62,6 +62,13 @@ class BodiesPart(Part):
         del grown
         self._make()
 
+    def rehearse(self, record: NDArray[np.void], /) -> None:
+        """Pretend that something flies, and casts a shadow."""
+        body = Body((0.0, 0.0, 0.0))
+        cast(record, [shade_of(body)])
+        if self.painter is not None:
+            self.painter.write([body])
+
     def _make(self) -> None:
         if self.painter is None:
             self.painter = BodyPainter(self._ctx, self._block)

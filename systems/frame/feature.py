@@ -32,6 +32,9 @@ class Part:
     def make_ready(self, grown: Grown, /) -> None:
         """Make all that a game may come to need in GL, so that no frame does: it is asked where a game prepares."""
 
+    def rehearse(self, record: NDArray[np.void], /) -> None:
+        """Pretend until the next frame that there is whatever it draws otherwise for: drivers work when they draw."""
+
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Take over what is other than before, and write it into the frame's record (1,)."""
 

@@ -29,6 +29,10 @@ class MownPart(Part):
         self.texture.write(np.full((rows, columns), grown.tallest, np.float16), alignment=2)
         self.texture.build_mipmaps()
 
+    def rehearse(self, record: NDArray[np.void], /) -> None:
+        """Pretend that something is cut."""
+        record["anything_cut"] = 1.0
+
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Send the rows that have changed.
 

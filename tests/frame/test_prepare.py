@@ -201,3 +201,29 @@ def test_a_prairie_that_was_released_is_not_prepared(load: Load) -> None:
     prairie.release()
     with pytest.raises(RuntimeError, match="this prairie has been released"):
         prairie.prepare()
+
+
+def test_where_a_frame_was_drawn_it_is_rehearsed_with_all_that_may_come_and_no_pixel_changes(
+    stage: Stage, load: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    prairie, aim = load(LITTLE), camera(0.0, 2.0, 20.0, pitch=-10)
+    before = stage.shot(prairie, aim)
+    rendered: set[int] = set()
+    render = moderngl.VertexArray.render
+
+    def noted(array: moderngl.VertexArray, *given: Any, **named: Any) -> None:
+        rendered.add(array.program.glo)
+        render(array, *given, **named)
+
+    monkeypatch.setattr(moderngl.VertexArray, "render", noted)
+    stage.begin()
+    empty = stage.read()
+    prairie.prepare()
+    np.testing.assert_array_equal(stage.read(), empty)
+    rendered_before = set(rendered)
+    assert prairie.painter is not None
+    prairie.cut(Footprint(radius=4.0), 0.05, pose=Pose(0, 10))
+    prairie.add(Blast(body="saucer"), pose=Pose(0, 5))
+    changed = stage.shot(prairie, aim)
+    assert (changed != before).any()
+    assert rendered <= rendered_before

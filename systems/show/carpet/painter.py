@@ -65,6 +65,11 @@ class CarpetPainter(RepresentationPainter):
         del grown
         self.air.hearing.make_ready()
 
+    def rehearse(self, record: NDArray[np.void], /) -> None:
+        """Pretend that somebody treads it."""
+        del record
+        self.ground.is_trodden = True
+
     def receivers(self, outlook: Outlook, /) -> list[int]:
         """Return how many patches there are."""
         return [len(outlook.patches.progress)]
