@@ -50,9 +50,10 @@ def prairie(load: Load, stage: Stage, camera: Aim) -> Prairie:
 
 @pytest.fixture
 def show(prairie: Prairie, stage: Stage) -> Callable[..., Picture]:
-    """Draw bodies: `show(camera, *bodies)`."""
+    """Draw bodies as one sees them who comes anew: `show(camera, *bodies)`."""
 
     def drawn(aim: Camera, *bodies: Body) -> Picture:
+        prairie.viewers.forget("main")
         entities = [prairie.world.create(body) for body in bodies]
         picture = stage.shot(prairie, aim)
         for entity in entities:

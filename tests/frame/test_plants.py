@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from tallgrass.engine.camera import Camera
-from tallgrass.systems import painter
 from tallgrass.systems.grow import organs
 from tallgrass.systems.grow.bend import spine
 from tallgrass.systems.grow.record import Blades, Growth
 from tallgrass.systems.light.materials import pigment
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import draw_reference
+from tallgrass.systems.show.blades import representation
 from tallgrass.systems.show.blades.draw import RIBBON
 from tallgrass.systems.show.blades.painter import BladesPainter
 from tallgrass.systems.show.blades.plant import standing_blades
@@ -169,7 +169,7 @@ def test_f3_florets_and_leaves_of_twigs_stand_out_near_by_and_leave_the_colour_o
     aim, pictures = camera(0.0, 0.5, 3.0, pitch=-15, view=15), []
     for _ in range(2):
         pictures.append(stage.shot(load(HEATH, lod="blades"), aim).astype(float))
-        monkeypatch.setattr(painter, "any_teeth", lambda _: False)
+        monkeypatch.setattr(representation, "any_teeth", lambda _: False)
     toothed, plain = pictures
     assert np.abs(toothed - plain).mean() > 1.0
     np.testing.assert_allclose(toothed.mean(axis=(0, 1)), plain.mean(axis=(0, 1)), rtol=0.02)
@@ -180,5 +180,5 @@ def test_f3_florets_far_off_are_drawn_without_their_teeth(
 ) -> None:
     aim = camera(0.0, 30.0, 3.0, pitch=-80, view=40)
     toothed = stage.shot(load(HEATH, lod="blades"), aim)
-    monkeypatch.setattr(painter, "any_teeth", lambda _: False)
+    monkeypatch.setattr(representation, "any_teeth", lambda _: False)
     np.testing.assert_array_equal(stage.shot(load(HEATH, lod="blades"), aim), toothed)
