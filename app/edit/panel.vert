@@ -9,5 +9,5 @@ out vec4 tint;
 void main() {
     image_at = at;
     tint = color;
-    gl_Position = vec4(2.0 * place.x / half_screen.x - 1.0, 1.0 - 2.0 * place.y / half_screen.y, 0.0, 1.0);
+    gl_Position = vec4(2.0 * place.x / screen.x - 1.0, 1.0 - 2.0 * place.y / screen.y, 0.0, 1.0);
 }
