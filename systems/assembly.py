@@ -3,12 +3,7 @@
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-import numpy as np
-
-from ..components.arrays import Floats, Rows
 from ..engine.schedule import HasRun, Phase, Schedule
-from ..engine.world import World
-from .around.clearing import Clearings
 from .around.outlook import Outlook, Outlooks
 from .blow import Blow, Hear, Now
 from .cull import Cull
@@ -24,10 +19,8 @@ from .pressers import Press, Pressers
 from .screen import Screen
 from .see import See
 from .site import Site
-from .space.window import cell_of
 from .tile import Tile
 from .transition import Transition
-from .wind.blow import ReceiverArrays
 from .winds import Winds
 
 BuiltIn = tuple[Phase, str, HasRun]
@@ -37,33 +30,16 @@ BuiltIn = tuple[Phase, str, HasRun]
 class Assembly:
     """What the systems of a prairie share, whatever its site."""
 
-    world: World
     viewers: Outlooks
-    clearings: Clearings
     winds: Winds
     pressers: Pressers
     screen: Screen
     governor: Governor
+    entities: Callable[[Site], PatchEntities]
+    """Gives what keeps the entities of patches on a site."""
 
-    def entities(self, site: Site, /) -> PatchEntities:
-        """Return what keeps the entities of patches on a site."""
-        return PatchEntities(self.world, self.clearings, site.representations, self.viewers.values)
-
-    def felt(self, receivers: ReceiverArrays, /, *, time: float) -> Floats:
-        """Return what receivers feel at `time` [s] of the winds and of those who walk there, shape (n, 2)."""
-        return self.pressers.over(self.winds.heard(receivers, time=time), receivers)
-
-    def felt_at(self, place: Floats, kind: int | None, /, *, time: float) -> Floats:
-        """Return what grass of a kind, or of the densest, feels at places (n, 2) [m] once all have come, (n, 2)."""
-        self.pressers.note(time)
-        return self.felt(self.winds.standing(place, kind=kind), time=time)
-
-    def patch_at(self, site: Site, place: Floats, viewer: str, /) -> Rows:
-        """Return the entity of the patch at each place (n, 2) [m] that a viewer has there, or 0, shape (n,)."""
-        cells = cell_of(place, patch=site.ground.patch)
-        if viewer not in self.viewers:
-            return np.zeros(len(cells), np.int64)
-        return self.entities(site).at(self.viewers[viewer], cells)
+    hear: Hear
+    """Gives what receivers feel of the winds and of those who walk there."""
 
     def on(self, site: Site, /) -> list[BuiltIn]:
         """Return the systems of a site in running order."""
@@ -72,7 +48,7 @@ class Assembly:
             self.viewers,
             self.entities(site),
             now=self.winds.now,
-            hear=self.felt,
+            hear=self.hear,
             note=self.pressers.note,
             painter=self.screen.current,
             governor=self.governor,

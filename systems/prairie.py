@@ -7,47 +7,25 @@ from pathlib import Path
 from typing import TYPE_CHECKING, get_args
 
 import moderngl
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-from ..components.arrays import Floats
-from ..components.footprint import Footprint
-from ..components.grass_at import GrassAt
-from ..components.pose import HERE, Pose
-from ..components.wind import WindPrimitive
 from ..engine.camera import View, view_of
-from ..engine.declared.light import Light
 from ..engine.declared.quality import PRESETS, LodName
-from ..engine.declared.scene import Scene
 from ..engine.gl.guest import unturned
-from ..engine.handed import as_rays, must_be_a, must_be_known, must_be_step, must_be_time, must_be_viewer
+from ..engine.handed import must_be_a, must_be_known, must_be_viewer
 from ..engine.plugged import bring_systems
 from ..engine.scene import LoadedScene, SceneLike, must_be_read, read_again, read_scene
-from ..engine.scene.change import changed
 from ..engine.schedule import Phase, Schedule
-from ..engine.terrain.change import set_heights
-from ..engine.terrain.pick import pick
-from ..engine.terrain.sample import height_at, normal_at
 from ..engine.world import World
-from .around.clearing import Clearings
-from .around.outlook import Outlook, Outlooks
+from .around.outlook import Outlook
 from .around.transitions import SEAMLESS, Transitions
 from .assembly import Assembly, settle_in
-from .features import begun, one
-from .frame.feature import Start
 from .govern import Governor
-from .light.feature import Lighting
-from .mow.feature import Mowing
 from .painter import Painter
-from .pressers import Pressers
 from .saving import Saving
 from .screen import Screen
 from .site import Site, found_again, found_site, outlook_on, settle_on
-from .space.window import as_places
-from .standing import grass_at
 from .statistics import Statistics
-from .wind.quarantine import Quarantine
-from .winds import Winds
+from .tending import Tending
 
 if TYPE_CHECKING:
     from pyglet.graphics import Batch, Group
@@ -59,14 +37,11 @@ LEAP = 2.0
 """A viewer who moves more than this in one frame has jumped [patch sides]."""
 
 
-class Prairie:
+class Prairie(Tending):
     """A prairie in the current esper world: grown at once, drawn once there is a GL context."""
 
     systems: Schedule
     """What happens in a frame, for each viewer that is drawn: to be read, added to, replaced in and left out."""
-
-    viewers: Outlooks
-    """What is kept for each viewer, by its name."""
 
     statistics: Statistics
     """What the last frame took and held."""
@@ -89,20 +64,16 @@ class Prairie:
         must_be_a(Transitions, transitions, "transitions are made as Transitions()")
         if ctx is not None:
             must_be_a(moderngl.Context, ctx, "ctx is a moderngl context")
-        self.site: Site = found_site(loaded, preset=preset, lod=lod, transitions=transitions)
+        site = found_site(loaded, preset=preset, lod=lod, transitions=transitions)
+        super().__init__(site, World(self.advance), live=live)
+        self.loaded, self.preset = loaded, preset
         self.lod: LodName = lod
-        self.statistics = Statistics(blades_field=self.site.blades)
-        self.world, self.governor = World(self.advance), Governor(hold)
-        self.viewers, self.clearings = Outlooks(self.world), Clearings()
-        self.features = begun(Start(self.world, self.site, Quarantine(live=live), live))
-        self.winds, self.pressers = one(Winds, self.features), one(Pressers, self.features)
+        self.statistics, self.governor = Statistics(blades_field=site.blades), Governor(hold)
         self.systems = Schedule(live=live)
-        self.loaded, self.preset, self._clock, self._released = loaded, preset, 0.0, False
-        self._mown, self._shining = one(Mowing, self.features).mown, one(Lighting, self.features).shining
         screen = Screen(ctx, self.features, self.winds.quarantine, linear=linear)
         self._saving = Saving(self.world, self.winds, self.pressers, self._mown, self.clearings, self._shining)
         self._assembly = Assembly(
-            self.world, self.viewers, self.clearings, self.winds, self.pressers, screen, self.governor
+            self.viewers, self.winds, self.pressers, screen, self.governor, self._entities, self._felt
         )
         self._built = self._assembly.on(self.site)
         for phase, name, system in self._built:
@@ -142,11 +113,6 @@ class Prairie:
         )  # fmt: skip
 
     @property
-    def scene(self) -> Scene:
-        """The scene, as its file or a program declares it."""
-        return self.site.scene
-
-    @property
     def path(self) -> Path | None:
         """The scene's file; None of one that a program has handed in."""
         return self.loaded.path
@@ -160,30 +126,6 @@ class Prairie:
     def painter(self) -> Painter | None:
         """What holds the prairie in the GL context that it was drawn in last; None before the first time."""
         return self._assembly.screen.painter
-
-    @property
-    def time(self) -> float:
-        """The scene's time [s], to the nearest microsecond: however it was cut into steps, it is the same instant.
-
-        It may be set: all that the scene declares is as at that time then. Going back, what a game's own pressers have
-        trodden is forgotten; what is cut stays cut. Raises ValueError and TypeError for what is no time.
-        """
-        return round(self._clock, 6)
-
-    @time.setter
-    def time(self, time: float) -> None:
-        must_be_time(time, "a prairie's time is set", "to")
-        if time < self._clock:
-            self.pressers.go_back()
-        self._clock = float(time)
-        self.winds.pass_to(self.time)
-        self.viewers.begin_anew()
-
-    def advance(self, dt: float) -> None:
-        """Move time on by `dt` [s]: ValueError below 0 and above 1e9 s, TypeError for what is no number."""
-        must_be_step(dt)
-        self._clock += float(dt)  # in single precision, time would soon stand still
-        self.winds.pass_to(self.time)
 
     def draw(self, view: object, projection: object, *, viewer: str = "main") -> None:
         """Draw the prairie into the framebuffer that is bound, and leave the host's GL state as it was.
@@ -254,129 +196,6 @@ class Prairie:
         self._must_be_there("put it into a batch")
         return self._assembly.screen.group(lambda: self.draw(*camera()), batch, order, parent)
 
-    def height_at(self, xz: ArrayLike) -> Floats:
-        """Return the height of the ground [m], shape (n,), at ground positions (x, z) [m], shape (n, 2)."""
-        return height_at(self.site.ground.terrain, as_places(xz))
-
-    def normal_at(self, xz: ArrayLike) -> Floats:
-        """Return the ground's normals, unit vectors (x, y, z) of shape (n, 3), at ground positions as `height_at`."""
-        return normal_at(self.site.ground.terrain, as_places(xz))
-
-    def pick(self, origin: ArrayLike, direction: ArrayLike) -> Floats:
-        """Return where rays first meet the ground (x, y, z) [m], shape (n, 3), and NaN where they never do.
-
-        They begin at `origin` [m] and go along `direction`, both of shape (n, 3), or (3,) for one; one origin may serve
-        many directions. One that begins below the ground meets it there. Raises ValueError for what are no rays.
-        """
-        return pick(self.site.ground.terrain, *as_rays(origin, direction))
-
-    def grass_at(self, xz: ArrayLike) -> GrassAt:
-        """Return what grows at ground positions (x, z) [m], shape (n, 2), and how high it stands there now."""
-        felt = partial(self._assembly.felt_at, time=self.time)
-        return grass_at(self.site, self.clearings, self._mown, felt, as_places(xz))
-
-    def wind_at(self, xz: ArrayLike, time: float | None = None, *, kind: str | None = None) -> Floats:
-        """Return what grass at ground positions (x, z) [m], shape (n, 2), feels at `time` [s], or now.
-
-        Messages of shape (n, 2): vectors along the bending direction whose norm is the posture index, in [0, 1], of
-        grass of stiffness 1. They are those of grass of a `kind`, or else of the kind that grows most densely at each
-        place. Raises ValueError for an unknown kind and a time that is negative or not finite, TypeError for no time.
-        """
-        number, then = self.scene.number_of(kind), self.time if time is None else time
-        must_be_time(then)
-        return self.winds.at(as_places(xz), time=float(then), kind=number)
-
-    def bent_at(self, xz: ArrayLike, *, kind: str | None = None) -> Floats:
-        """Return what grass at ground positions (x, z) [m], shape (n, 2), feels now of winds and of pressers.
-
-        Messages of shape (n, 2), of grass of a `kind` or of the densest, as those of `wind_at`: where nobody walks or
-        has walked, they are the same. Every presser has come to where its `Pose` is now. Whether grass is cut, cleared
-        or grows there at all makes no difference: `grass_at` tells. Raises ValueError for an unknown kind.
-        """
-        return self._assembly.felt_at(as_places(xz), self.scene.number_of(kind), time=self.time)
-
-    def patch_at(self, xz: ArrayLike, *, viewer: str = "main") -> NDArray[np.int64]:
-        """Return the entity of the patch at each ground position (x, z) [m], shape (n, 2), as a viewer has it: (n,).
-
-        It has `Patch` and `Lod`. 0 stands for places off the terrain or too far away from the viewer to be kept, and
-        for all before it has looked once. Raises ValueError for places that are no pairs, TypeError for a viewer that
-        is no name.
-        """
-        must_be_viewer(viewer)
-        return self._assembly.patch_at(self.site, as_places(xz), viewer)
-
-    def add(self, primitive: WindPrimitive, *, pose: Pose | None = None, name: str | None = None) -> int:
-        """Add a wind and return its entity, a handle that `move` and `remove` take.
-
-        With a `pose` the wind is there until it is moved, whatever it says itself; so it follows what a game steers.
-        Winds of one name share what is random about them; without a name it is their kind. Raises TypeError for what is
-        no wind, such as the name or the class of one, and RuntimeError after `release`.
-        """
-        self._must_be_there("add a wind")
-        return self.winds.add(primitive, name, pose)
-
-    def move(self, handle: int, pose: Pose) -> None:
-        """Put a wind elsewhere that `add` returned: it follows what carries it.
-
-        Raises TypeError for what is no handle or no `Pose`, ValueError for a pose that is not finite, and for a wind
-        that is gone: removed, or deleted by the game.
-        """
-        self._must_be_there("move a wind")
-        self.winds.move(handle, pose)
-
-    def remove(self, handle: int) -> None:
-        """Take a wind away that `add` returned; one that the game has deleted meanwhile is no error.
-
-        Raises TypeError for what is no handle, ValueError for a wind that has been removed before.
-        """
-        self.winds.remove(handle)
-
-    def cut(self, footprint: Footprint, height: float, *, pose: Pose = HERE) -> None:
-        """Cut the grass under a footprint to `height` [m], at once and until it is grown again.
-
-        Blades end where they stand so high in calm air; shorter ones stay as they are. The footprint lies at `pose`,
-        without one its corners are places of the world. Heights are kept on a map whose cells are 0.2 m wide, larger
-        on a terrain of more than 400 m; a cell is cut if its middle is under the footprint. Raises TypeError for what
-        is no footprint, height or pose, ValueError for a negative height and a pose that is not finite, and
-        RuntimeError after `release`.
-        """
-        self._must_be_there("cut its grass")
-        self._mown.cut(footprint, height, pose)
-
-    def grow(self, footprint: Footprint, height: float = np.inf, *, pose: Pose = HERE) -> None:
-        """Let the grass that was cut under a footprint stand up to `height` [m] again, or as high as it grows.
-
-        What stands higher than that stays as it is. It raises the errors of `cut`.
-        """
-        self._must_be_there("grow its grass")
-        self._mown.grow(footprint, height, pose)
-
-    def set_heights(self, corner: ArrayLike, heights: ArrayLike) -> None:
-        """Put other heights [m] into the ground, from its sample at `corner` (x, z) [m] on: a crater, a dike, a field.
-
-        `heights` (rows, columns) are samples at the terrain's own cell size, `site.ground.terrain.cell`, with row 0 at
-        the far edge (-z). All that stands, hovers, flies and asks there is on the new ground at once; shadows that it
-        casts far may follow within some sixty frames. Raises ValueError for what are no finite heights, for a corner
-        between samples, and where any lies beyond the terrain; RuntimeError after `release`.
-        """
-        self._must_be_there("change its ground")
-        set_heights(self.site.ground.terrain, corner, heights)
-
-    @property
-    def light(self) -> Light:
-        """The light that shines now: what the scene declares, until `shine` changes it; hours pass in it."""
-        return self._shining.at(self.time)
-
-    def shine(self, **changes: object) -> None:
-        """Change the light from the next frame on, by keys of `light:` in a scene: `shine(hour=17.5, clouds=0.4)`.
-
-        The rest of it stays. No frame waits for it, so it may be called in every frame. The sun stands there at once;
-        the sky's colours and the terrain's shadows follow within some sixty frames, or at once before the first. Raises
-        ValueError for an unknown key and a bad value, RuntimeError after `release`.
-        """
-        self._must_be_there("change its light")
-        self._shining.ask(changed(self.light, changes, name="light"), time=self.time)
-
     def reload(self, scene: SceneLike | LoadedScene | None = None, *, site: Site | None = None) -> None:
         """Read the scene again, or another one, and go on with it at the same time: what did not change stays.
 
@@ -435,10 +254,6 @@ class Prairie:
         self.world.release()
         self.systems.clear()
         self._built.clear()
-
-    def _must_be_there(self, purpose: str) -> None:
-        if self._released:
-            raise RuntimeError(f"this prairie has been released: load it again to {purpose}")
 
     def _look(self, seen: View, viewer: str) -> Outlook:
         outlook = self.viewers.looking(viewer, partial(outlook_on, self.site))

@@ -97,13 +97,21 @@ def _entry(name: str, part: Part, told: str) -> Iterator[str]:
         bases = [each for each in map(ast.unparse, part.bases) if each in tallgrass.__all__]
         if bases:
             yield f"It derives from {', '.join(f'[`{each}`](#{each.lower()})' for each in bases)}."
-        yield from _members(name, part)
+        yield from _members(name, [part, *_hidden_bases(getattr(tallgrass, name, object))])
 
 
-def _members(owner: str, part: ast.ClassDef) -> Iterator[str]:
-    """Yield the paragraphs of a class's fields and properties, and then of its methods."""
-    members = list(_parts(part.body))
-    values = [_value(each, told) for each, told in members if not isinstance(each, ast.ClassDef) and _is_value(each)]
+def _hidden_bases(thing: type) -> Iterator[ast.ClassDef]:
+    """Yield the bases of a class that are ours and have no entry of their own: their members are the class's."""
+    for base in thing.__mro__[1:]:
+        if base.__module__.startswith("tallgrass.") and base.__name__ not in tallgrass.__all__:
+            parsed = _parsed(import_module(base.__module__))
+            yield from (each for each in parsed.body if isinstance(each, ast.ClassDef) and each.name == base.__name__)
+
+
+def _members(owner: str, parts: list[ast.ClassDef]) -> Iterator[str]:
+    """Yield the paragraphs of a class, in as many parts as it has: fields and properties, and then methods."""
+    members = [each for part in parts for each in _parts(part.body) if not isinstance(each[0], ast.ClassDef)]
+    values = [_value(each, told) for each, told in members if _is_value(each)]
     if values:
         yield "\n".join(values)
     for each, told in members:

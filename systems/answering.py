@@ -1,0 +1,146 @@
+"""What there is on a site at one time, and what a prairie tells of it to those who ask."""
+
+from functools import partial
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..components.arrays import Floats
+from ..components.grass_at import GrassAt
+from ..engine.declared.light import Light
+from ..engine.declared.scene import Scene
+from ..engine.handed import as_rays, must_be_step, must_be_time, must_be_viewer
+from ..engine.terrain.pick import pick
+from ..engine.terrain.sample import height_at, normal_at
+from ..engine.world import World
+from .around.clearing import Clearings
+from .around.outlook import Outlooks
+from .entities import PatchEntities
+from .features import begun, one
+from .frame.feature import Start
+from .light.feature import Lighting
+from .mow.feature import Mowing
+from .pressers import Pressers
+from .site import Site
+from .space.window import as_places, cell_of
+from .standing import grass_at
+from .wind.blow import ReceiverArrays
+from .wind.quarantine import Quarantine
+from .winds import Winds
+
+
+class Answering:
+    """What stands, blows and walks on a site at one time, and answers what is asked of it."""
+
+    viewers: Outlooks
+    """What is kept for each viewer, by its name."""
+
+    def __init__(self, site: Site, world: World, *, live: bool) -> None:
+        self.site: Site = site
+        self.world = world
+        self.viewers, self.clearings = Outlooks(world), Clearings()
+        self.features = begun(Start(world, site, Quarantine(live=live), live))
+        self.winds, self.pressers = one(Winds, self.features), one(Pressers, self.features)
+        self._mown, self._shining = one(Mowing, self.features).mown, one(Lighting, self.features).shining
+        self._clock = 0.0
+
+    @property
+    def scene(self) -> Scene:
+        """The scene, as its file or a program declares it."""
+        return self.site.scene
+
+    @property
+    def time(self) -> float:
+        """The scene's time [s], to the nearest microsecond: however it was cut into steps, it is the same instant.
+
+        It may be set: all that the scene declares is as at that time then. Going back, what a game's own pressers have
+        trodden is forgotten; what is cut stays cut. Raises ValueError and TypeError for what is no time.
+        """
+        return round(self._clock, 6)
+
+    @time.setter
+    def time(self, time: float) -> None:
+        must_be_time(time, "a prairie's time is set", "to")
+        if time < self._clock:
+            self.pressers.go_back()
+        self._clock = float(time)
+        self.winds.pass_to(self.time)
+        self.viewers.begin_anew()
+
+    def advance(self, dt: float) -> None:
+        """Move time on by `dt` [s]: ValueError below 0 and above 1e9 s, TypeError for what is no number."""
+        must_be_step(dt)
+        self._clock += float(dt)  # in single precision, time would soon stand still
+        self.winds.pass_to(self.time)
+
+    @property
+    def light(self) -> Light:
+        """The light that shines now: what the scene declares, until `shine` changes it; hours pass in it."""
+        return self._shining.at(self.time)
+
+    def height_at(self, xz: ArrayLike) -> Floats:
+        """Return the height of the ground [m], shape (n,), at ground positions (x, z) [m], shape (n, 2)."""
+        return height_at(self.site.ground.terrain, as_places(xz))
+
+    def normal_at(self, xz: ArrayLike) -> Floats:
+        """Return the ground's normals, unit vectors (x, y, z) of shape (n, 3), at ground positions as `height_at`."""
+        return normal_at(self.site.ground.terrain, as_places(xz))
+
+    def pick(self, origin: ArrayLike, direction: ArrayLike) -> Floats:
+        """Return where rays first meet the ground (x, y, z) [m], shape (n, 3), and NaN where they never do.
+
+        They begin at `origin` [m] and go along `direction`, both of shape (n, 3), or (3,) for one; one origin may serve
+        many directions. One that begins below the ground meets it there. Raises ValueError for what are no rays.
+        """
+        return pick(self.site.ground.terrain, *as_rays(origin, direction))
+
+    def grass_at(self, xz: ArrayLike) -> GrassAt:
+        """Return what grows at ground positions (x, z) [m], shape (n, 2), and how high it stands there now."""
+        felt = partial(self._felt_at, time=self.time)
+        return grass_at(self.site, self.clearings, self._mown, felt, as_places(xz))
+
+    def wind_at(self, xz: ArrayLike, time: float | None = None, *, kind: str | None = None) -> Floats:
+        """Return what grass at ground positions (x, z) [m], shape (n, 2), feels at `time` [s], or now.
+
+        Messages of shape (n, 2): vectors along the bending direction whose norm is the posture index, in [0, 1], of
+        grass of stiffness 1. They are those of grass of a `kind`, or else of the kind that grows most densely at each
+        place. Raises ValueError for an unknown kind and a time that is negative or not finite, TypeError for no time.
+        """
+        number, then = self.scene.number_of(kind), self.time if time is None else time
+        must_be_time(then)
+        return self.winds.at(as_places(xz), time=float(then), kind=number)
+
+    def bent_at(self, xz: ArrayLike, *, kind: str | None = None) -> Floats:
+        """Return what grass at ground positions (x, z) [m], shape (n, 2), feels now of winds and of pressers.
+
+        Messages of shape (n, 2), of grass of a `kind` or of the densest, as those of `wind_at`: where nobody walks or
+        has walked, they are the same. Every presser has come to where its `Pose` is now. Whether grass is cut, cleared
+        or grows there at all makes no difference: `grass_at` tells. Raises ValueError for an unknown kind.
+        """
+        return self._felt_at(as_places(xz), self.scene.number_of(kind), time=self.time)
+
+    def patch_at(self, xz: ArrayLike, *, viewer: str = "main") -> NDArray[np.int64]:
+        """Return the entity of the patch at each ground position (x, z) [m], shape (n, 2), as a viewer has it: (n,).
+
+        It has `Patch` and `Lod`. 0 stands for places off the terrain or too far away from the viewer to be kept, and
+        for all before it has looked once. Raises ValueError for places that are no pairs, TypeError for a viewer that
+        is no name.
+        """
+        must_be_viewer(viewer)
+        cells = cell_of(as_places(xz), patch=self.site.ground.patch)
+        if viewer not in self.viewers:
+            return np.zeros(len(cells), np.int64)
+        return self._entities(self.site).at(self.viewers[viewer], cells)
+
+    def _entities(self, site: Site, /) -> PatchEntities:
+        """Return what keeps the entities of patches on a site."""
+        return PatchEntities(self.world, self.clearings, site.representations, self.viewers.values)
+
+    def _felt(self, receivers: ReceiverArrays, /, *, time: float) -> Floats:
+        """Return what receivers feel at `time` [s] of the winds and of those who walk there, shape (n, 2)."""
+        return self.pressers.over(self.winds.heard(receivers, time=time), receivers)
+
+    def _felt_at(self, place: Floats, kind: int | None, /, *, time: float) -> Floats:
+        """Return what grass of a kind, or of the densest, feels at places (n, 2) [m] once all have come, (n, 2)."""
+        self.pressers.note(time)
+        return self._felt(self.winds.standing(place, kind=kind), time=time)

@@ -1,0 +1,88 @@
+"""What a game does to a prairie: winds, cuts, other ground, and another light."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..components.footprint import Footprint
+from ..components.pose import HERE, Pose
+from ..components.wind import WindPrimitive
+from ..engine.scene.change import changed
+from ..engine.terrain.change import set_heights
+from .answering import Answering
+
+
+class Tending(Answering):
+    """What can be changed of what stands on a site, until it is released."""
+
+    _released = False
+
+    def add(self, primitive: WindPrimitive, *, pose: Pose | None = None, name: str | None = None) -> int:
+        """Add a wind and return its entity, a handle that `move` and `remove` take.
+
+        With a `pose` the wind is there until it is moved, whatever it says itself; so it follows what a game steers.
+        Winds of one name share what is random about them; without a name it is their kind. Raises TypeError for what is
+        no wind, such as the name or the class of one, and RuntimeError after `release`.
+        """
+        self._must_be_there("add a wind")
+        return self.winds.add(primitive, name, pose)
+
+    def move(self, handle: int, pose: Pose) -> None:
+        """Put a wind elsewhere that `add` returned: it follows what carries it.
+
+        Raises TypeError for what is no handle or no `Pose`, ValueError for a pose that is not finite, and for a wind
+        that is gone: removed, or deleted by the game.
+        """
+        self._must_be_there("move a wind")
+        self.winds.move(handle, pose)
+
+    def remove(self, handle: int) -> None:
+        """Take a wind away that `add` returned; one that the game has deleted meanwhile is no error.
+
+        Raises TypeError for what is no handle, ValueError for a wind that has been removed before.
+        """
+        self.winds.remove(handle)
+
+    def cut(self, footprint: Footprint, height: float, *, pose: Pose = HERE) -> None:
+        """Cut the grass under a footprint to `height` [m], at once and until it is grown again.
+
+        Blades end where they stand so high in calm air; shorter ones stay as they are. The footprint lies at `pose`,
+        without one its corners are places of the world. Heights are kept on a map whose cells are 0.2 m wide, larger
+        on a terrain of more than 400 m; a cell is cut if its middle is under the footprint. Raises TypeError for what
+        is no footprint, height or pose, ValueError for a negative height and a pose that is not finite, and
+        RuntimeError after `release`.
+        """
+        self._must_be_there("cut its grass")
+        self._mown.cut(footprint, height, pose)
+
+    def grow(self, footprint: Footprint, height: float = np.inf, *, pose: Pose = HERE) -> None:
+        """Let the grass that was cut under a footprint stand up to `height` [m] again, or as high as it grows.
+
+        What stands higher than that stays as it is. It raises the errors of `cut`.
+        """
+        self._must_be_there("grow its grass")
+        self._mown.grow(footprint, height, pose)
+
+    def set_heights(self, corner: ArrayLike, heights: ArrayLike) -> None:
+        """Put other heights [m] into the ground, from its sample at `corner` (x, z) [m] on: a crater, a dike, a field.
+
+        `heights` (rows, columns) are samples at the terrain's own cell size, `site.ground.terrain.cell`, with row 0 at
+        the far edge (-z). All that stands, hovers, flies and asks there is on the new ground at once; shadows that it
+        casts far may follow within some sixty frames. Raises ValueError for what are no finite heights, for a corner
+        between samples, and where any lies beyond the terrain; RuntimeError after `release`.
+        """
+        self._must_be_there("change its ground")
+        set_heights(self.site.ground.terrain, corner, heights)
+
+    def shine(self, **changes: object) -> None:
+        """Change the light from the next frame on, by keys of `light:` in a scene: `shine(hour=17.5, clouds=0.4)`.
+
+        The rest of it stays. No frame waits for it, so it may be called in every frame. The sun stands there at once;
+        the sky's colours and the terrain's shadows follow within some sixty frames, or at once before the first. Raises
+        ValueError for an unknown key and a bad value, RuntimeError after `release`.
+        """
+        self._must_be_there("change its light")
+        self._shining.ask(changed(self.light, changes, name="light"), time=self.time)
+
+    def _must_be_there(self, purpose: str) -> None:
+        if self._released:
+            raise RuntimeError(f"this prairie has been released: load it again to {purpose}")
