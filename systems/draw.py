@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
+from .around.asked import Asked
 from .around.outlook import Outlook
 from .govern import Governor
 from .painter import Painter
@@ -24,4 +25,4 @@ class Draw:
             assert outlook.view is not None
             painter = self.painter()
             with self.governor.watching(painter, outlook.viewer.name) as fineness:
-                painter.draw(outlook.view, scale=fineness.scale)
+                painter.draw(outlook.view, outlook.noted(Asked, Asked()), scale=fineness.scale)

@@ -173,10 +173,13 @@ class Governor:
             raise ValueError(f"a frame is held to a time above 0 s, or by None to none, not to {seconds!r}")
         self._hold = seconds
 
-    def begin(self, outlook: Outlook, /) -> None:
-        """Begin a viewer's frame: let the representations around it follow what is drawn of its picture now."""
+    def begin(self, outlook: Outlook, /, *, goes_on: bool = False) -> None:
+        """Begin a viewer's frame: let the representations around it follow what is drawn of its picture now.
+
+        One that `goes_on` with other parts is the same as before.
+        """
         name, self._begun = outlook.viewer.name, perf_counter()
-        if not self.resting:
+        if not self.resting and not goes_on:
             self._drawn[name] = 0 if self.hold is None else self._paces.setdefault(name, Pace()).rung
             outlook.lens.range = eased(outlook.lens.range, RUNGS[self._drawn[name]].range, dt=counted(outlook.viewer))
 

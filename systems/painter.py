@@ -14,10 +14,11 @@ from ..engine.gl.rasteriser import handing_over
 from ..engine.gl.smaller import Smaller
 from ..engine.gl.stopwatch import Stopwatch
 from ..engine.gl.stream import release_all
+from .around.asked import Asked
 from .around.outlook import Outlook
 from .blow import Blown, receivers_shown
 from .features import UNITS
-from .frame.block import FRAME, FrameBlock, aim
+from .frame.block import FRAME, FrameBlock, aim, confine
 from .frame.feature import Feature, Part
 from .receive.ask import numbers_of, write_messages
 from .receive.received import ROW, Received
@@ -35,6 +36,8 @@ READY_ROWS = 512
 """Rows of receivers that there is room for once a game has prepared: half a million, in 8 MiB."""
 
 OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
+
+WHOLE = Asked()
 
 
 class Painter:
@@ -178,11 +181,14 @@ class Painter:
         self._outlook = outlook
         self.blades = sum(painter.write(outlook, self._first) for painter in self.painters.values())
 
-    def _hear(self, target: moderngl.Framebuffer) -> int:
+    def _hear(self, target: moderngl.Framebuffer, asked: Asked) -> int:
         """Let all receivers that are seen hear the wind; return the number of draw calls."""
         outlook, air, site = self._outlook, self.air, self.site
         if outlook is None or site is None:
             return 0
+        if "grass" not in asked.parts:
+            with aside(self.ctx, target):
+                return sum(part.prepare() for part in self.parts)
         scene, blown = site.scene, outlook.noted(Blown, Blown())
         to = mean_yaw(scene.wind)
         air.write(blown.winds, time=blown.at, seed=scene.seed, mixing=scene.mixing, to=to)
@@ -198,9 +204,15 @@ class Painter:
         return calls
 
     def draw(
-        self, view: View, *, blades: Iterable[BladePainter] | None = None, scale: float = 1.0, hidden: bool = False
+        self,
+        view: View,
+        asked: Asked = WHOLE,
+        *,
+        blades: Iterable[BladePainter] | None = None,
+        scale: float = 1.0,
+        hidden: bool = False,
     ) -> None:
-        """Draw the frame into the framebuffer that the host has bound.
+        """Draw what is `asked` for of the frame into the framebuffer that the host has bound.
 
         With `blades`, these alone stand on the ground and the carpet. Of the host's pixels, `scale` times as many are
         drawn, across and up; none at all where it is `hidden`.
@@ -209,13 +221,15 @@ class Painter:
         with guest(ctx) as host, self.smaller.instead_of(host, scale) as target:
             if hidden:
                 target.scissor = 0, 0, 0, 0
-            self._tell(view, target)
-            self.draw_calls = self._hear(target) if blades is None else 0
-            self._draw_land(target, view)
+            self._tell(view, target, asked)
+            self.draw_calls = self._hear(target, asked) if blades is None else 0
+            self._draw_land(target, asked)
+            if "grass" in asked.parts:
+                self._draw_carpet(target, view)
             self._hand_over()
-            if blades is None:
+            if "grass" in asked.parts and blades is None:
                 self._draw_grass(target)
-            else:
+            elif blades is not None:
                 ctx.enable_only(moderngl.DEPTH_TEST)
                 self.draw_calls += sum(painter.draw() for painter in blades)
 
@@ -225,23 +239,32 @@ class Painter:
         That is all of the animation that a frame has besides its systems, and draws nothing.
         """
         with guest(self.ctx) as host:
-            self._tell(view, host)
-            return self._hear(host)
+            self._tell(view, host, WHOLE)
+            return self._hear(host, WHOLE)
 
-    def _tell(self, view: View, target: moderngl.Framebuffer) -> None:
+    def _tell(self, view: View, target: moderngl.Framebuffer, asked: Asked) -> None:
         """Tell all shaders of the frame."""
         aim(self.record, view, target.viewport[2:])
+        confine(self.record, asked)
         self.block.write(self.record)
         for part in self.parts:
             part.use()
 
-    def _draw_land(self, target: moderngl.Framebuffer, view: View) -> None:
-        """Draw all that is opaque, the sky, and what lies on the land."""
+    def _draw_land(self, target: moderngl.Framebuffer, asked: Asked) -> None:
+        """Draw all that is opaque, and the sky behind it."""
         self.ctx.enable_only(moderngl.DEPTH_TEST)
-        self.draw_calls += sum(painter.draw_solid() for painter in self.painters.values())
-        self.draw_calls += sum(part.draw_solid() for part in self.parts)
+        if "ground" in asked.parts:
+            self.draw_calls += self.coarsest.draw_ground(alone="grass" not in asked.parts)
+        if "grass" in asked.parts:
+            solid = self.parts if asked.over_hosts else [*self.painters.values(), *self.parts]
+            self.draw_calls += sum(each.draw_solid() for each in solid)
+        if "sky" in asked.parts:
+            target.depth_mask = False
+            self.draw_calls += sum(part.draw_behind() for part in self.parts)
+
+    def _draw_carpet(self, target: moderngl.Framebuffer, view: View) -> None:
+        """Draw what lies on the land."""
         target.depth_mask = False
-        self.draw_calls += sum(part.draw_behind() for part in self.parts)
         self._blend()
         mirrored = is_mirrored(view)
         if mirrored is not None:  # hillsides that face away are hidden by the hill

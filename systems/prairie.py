@@ -1,6 +1,6 @@
 """A prairie: what a game loads, advances and draws."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, get_args
 import moderngl
 
 from ..engine.camera import View, view_of
+from ..engine.declared.parts import as_parts
 from ..engine.declared.quality import PRESETS, LodName
 from ..engine.gl.guest import unturned
 from ..engine.handed import must_be_a, must_be_known, must_be_viewer
@@ -16,6 +17,7 @@ from ..engine.plugged import bring_systems
 from ..engine.scene import LoadedScene, SceneLike, must_be_read, read_again, read_scene
 from ..engine.schedule import Phase, Schedule
 from ..engine.world import World
+from .around.asked import Frame
 from .around.outlook import Outlook
 from .around.transitions import SEAMLESS, Transitions
 from .assembly import Assembly, settle_in
@@ -127,32 +129,44 @@ class Prairie(Tending):
         """What holds the prairie in the GL context that it was drawn in last; None before the first time."""
         return self._assembly.screen.painter
 
-    def draw(self, view: object, projection: object, *, viewer: str = "main") -> None:
+    def draw(
+        self, view: object, projection: object, *, viewer: str = "main", parts: Iterable[str] | None = None
+    ) -> None:
         """Draw the prairie into the framebuffer that is bound, and leave the host's GL state as it was.
 
         Ground, carpet and the nearest blades write depth; strips and other blades only test it. So a game draws its
         own opaque things before the prairie, and its 2D after it.
 
         Both matrices are 4x4 numpy arrays for column vectors, or `pyglet.math.Mat4`. Of several viewers in a frame,
-        each needs a name of its own. Raises ValueError for other matrices, TypeError for a viewer that is no name, and
-        RuntimeError after `release` or without a window. Where the viewport has no pixels, nothing happens at all.
+        each needs a name of its own. Of `parts`, "sky", "ground", "grass" and "beyond", only those are drawn that are
+        named; without them, those of the scene. Where `ground` has not been drawn in the same frame, of the same view
+        and time, grass is laid over the game's own by how much it covers. Raises ValueError for other matrices and
+        parts, TypeError for a viewer that is no name and parts that are no list of names, and RuntimeError after
+        `release` or without a window. Where the viewport has no pixels, nothing happens at all.
         """
         self._must_be_there("draw it")
         must_be_viewer(viewer)
+        chosen = as_parts(self.scene.parts if parts is None else parts)
         seen = view_of(view, projection)
-        for feature in self.features:
-            feature.step(viewer, time=self.time)
+        before = self.viewers[viewer].frame if viewer in self.viewers else None
+        frame, asked, goes_on = Frame(seen, self.time, self.site, chosen).after(before)
+        if not goes_on:
+            for feature in self.features:
+                feature.step(viewer, time=self.time)
         with self._assembly.screen.opened(self.site) as painter:
             if painter is None:
                 return
-            outlook = self._look(unturned(seen), viewer)
-            self.governor.begin(outlook)
-            self.systems.run()
+            outlook = self._look(unturned(seen), viewer, goes_on=goes_on)
+            outlook.frame = frame
+            outlook.note(asked)
+            self.governor.begin(outlook, goes_on=goes_on)
+            self.systems.run(first=Phase.DRAW if goes_on else Phase.INPUT)
             if self._released:  # by one of them
                 return
             self.statistics.fineness = self.governor.fineness(viewer)
             self.statistics.count(outlook, self.site, self.systems, painter)
-            outlook.settle()
+            if "grass" in chosen:
+                outlook.settle()
 
     def preparing(self) -> Iterator[tuple[int, int]]:
         """Do what `prepare` does a step at a time, for a loading screen: gives how many steps are done, of how many.
@@ -185,16 +199,23 @@ class Prairie(Tending):
 
     def group(
         self, batch: "Batch", camera: Callable[[], tuple[object, object]], *, order: int = 0,
-        parent: "Group | None" = None,
+        parent: "Group | None" = None, viewer: str = "main", parts: Iterable[str] | None = None,
     ) -> "DrawingGroup":  # fmt: skip
         """Put the prairie into a pyglet batch, and return its group.
 
         Whenever the batch is drawn, `camera` is asked for view and projection, as `draw` takes them, and the prairie is
-        drawn after groups of a lower `order` and before those of a higher one. The group's `visible` hides it, its
-        `delete` takes it out of the batch, as `release` does. Raises RuntimeError after `release`.
+        drawn after groups of a lower `order` and before those of a higher one. A batch may have several groups, each of
+        other `parts`. The group's `visible` hides it, its `delete` takes it out of the batch, as `release` does. Raises
+        RuntimeError after `release`, and what `draw` raises for a viewer and for parts.
         """
         self._must_be_there("put it into a batch")
-        return self._assembly.screen.group(lambda: self.draw(*camera()), batch, order, parent)
+        must_be_viewer(viewer)
+        chosen = None if parts is None else as_parts(parts)
+
+        def draw() -> None:
+            self.draw(*camera(), viewer=viewer, parts=chosen)
+
+        return self._assembly.screen.group(draw, batch, order, parent)
 
     def reload(self, scene: SceneLike | LoadedScene | None = None, *, site: Site | None = None) -> None:
         """Read the scene again, or another one, and go on with it at the same time: what did not change stays.
@@ -255,8 +276,10 @@ class Prairie(Tending):
         self.systems.clear()
         self._built.clear()
 
-    def _look(self, seen: View, viewer: str) -> Outlook:
+    def _look(self, seen: View, viewer: str, *, goes_on: bool = False) -> Outlook:
         outlook = self.viewers.looking(viewer, partial(outlook_on, self.site))
+        if goes_on:
+            return outlook
         for feature in self.features:
             feature.look(outlook)
         outlook.look(seen, time=self.time, leap=LEAP * self.site.ground.patch)

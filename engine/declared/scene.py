@@ -13,6 +13,7 @@ from ..handed import must_be_known
 from .camera import CameraSource
 from .grass import MOST_KINDS, GrassKind
 from .light import Light
+from .parts import PARTS, PartName
 from .presser import PresserOnPath
 from .quality import PRESETS, PresetName, Quality
 from .terrain import TerrainSource
@@ -103,6 +104,9 @@ class Scene(Declaration):
 
     light: Light = Light()
     """Sun, sky and haze."""
+
+    parts: list[PartName] = Field(default=list(PARTS), max_length=len(PARTS))
+    """What of the prairie is drawn where a game asks for nothing else: a part that is left out, it draws itself."""
 
     quality: Annotated[
         Annotated[PresetName, Tag("preset")] | Annotated[Quality, Tag("numbers")], Discriminator(_quality_form)

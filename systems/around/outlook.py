@@ -12,6 +12,7 @@ from ...engine.world import World
 from ..space.cone import view_cone
 from ..space.frustum import picture_sides
 from .appearance import Appearance
+from .asked import Frame
 from .kept import Kept
 from .lens import Lens, zoom_of
 from .pace import Pace
@@ -34,6 +35,9 @@ class Outlook:
 
     view: View | None = None
     """The matrices that it looked with last; None before the first time."""
+
+    frame: Frame | None = None
+    """What it has been drawn of its frame."""
 
     lens: Lens = field(default_factory=Lens)
     """How far it sees each representation."""
@@ -148,7 +152,7 @@ class Outlooks:
     def begin_anew(self) -> None:
         """Let all viewers see what they see next as if they came from somewhere else: time has leapt."""
         for outlook in self.values():
-            outlook.drawn_at, outlook.pace = None, Pace()
+            outlook.drawn_at, outlook.pace, outlook.frame = None, Pace(), None
 
     def forget(self, name: str, /) -> None:
         """Forget a viewer, and delete the entities that were its own."""

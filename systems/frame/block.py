@@ -12,6 +12,7 @@ from ...engine.declared.grass import MOST_KINDS
 from ...engine.gl.emit import block, emitted
 from ...engine.gl.guest import block_binding
 from ...engine.gl.shaders import program
+from ..around.asked import Asked
 from ..grow.record import GIVES
 
 SHADES = 8
@@ -19,6 +20,9 @@ SHADES = 8
 
 GROUPS = -(-MOST_KINDS // 4)
 """Vectors of four that a figure takes for each kind that there can be."""
+
+EVERYWHERE = 1e9
+"""Farther than any ground is [m]."""
 
 SHADE = np.dtype([("middle", "3f4"), ("radius", "f4"), ("axis", "3f4"), ("pressed", "f4")])
 """A body that casts a shadow: middle, radius [m], 0 where there is none; its axis, a unit vector, and how much longer
@@ -55,7 +59,9 @@ FRAME = np.dtype(
         ("half_screen", "2f4"),  # pixels from the middle to the edge, across and up
         ("posture_links", "f4"), ("posture_rows", "f4"), ("posture_variants", "f4"),  # the last of each kind
         ("exposure", "f4"),  # radiance in the picture, of that of the scene, where the sun before the air sends `SUN`
-        ("padding", "V8"),
+        ("over_hosts", "f4"),  # 1 where grass is laid over ground that is the game's own
+        ("padding", "V4"),
+        ("mesh_low", "2f4"), ("mesh_high", "2f4"),  # x, z [m]: no ground is drawn beyond
         ("crown", f"({GROUPS},4)f4"),  # by kind, four in each: height of the canopy [m]
         ("leaf", f"({GROUPS},4)f4"),  # leaf area seen from the side, of the ground's area
         ("lying", f"({GROUPS},4)f4"),  # leaf area seen from above, of that from the side
@@ -92,6 +98,15 @@ def aim(record: NDArray[np.void], view: View, size: tuple[int, int], /) -> None:
     row["ray_ahead"], row["ray_across"], row["ray_up"] = rays(view)
     row["half_screen"] = size[0] / 2, size[1] / 2
     row["eye"] = view.eye
+
+
+def confine(record: NDArray[np.void], asked: Asked, /) -> None:
+    """Write how far ground and carpet go, and what they are laid over, once the terrain is written."""
+    row = record[0]
+    row["over_hosts"] = asked.over_hosts
+    row["mesh_low"], row["mesh_high"] = -EVERYWHERE, EVERYWHERE
+    if "beyond" not in asked.parts:
+        row["mesh_low"], row["mesh_high"] = row["terrain_origin"], row["terrain_origin"] + row["terrain_size"]
 
 
 class FrameBlock:

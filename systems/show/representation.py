@@ -88,6 +88,10 @@ class RepresentationPainter(Part, ABC):
     def hear(self) -> int:
         """Let its receivers hear the wind; return the number of draw calls."""
 
+    def draw_ground(self, *, alone: bool) -> int:  # noqa: ARG002 - for the one that lies on the ground
+        """Draw the bare ground, where it comes `alone` that of the grass too; return the number of draw calls."""
+        return 0
+
     @abstractmethod
     def draw(self, target: moderngl.Framebuffer, /) -> int:
         """Draw what is blended over all that is coarser; return the number of draw calls.

@@ -66,8 +66,8 @@ Canopy canopy_here(Sight sight) {
 }
 
 // What the carpet shows: of grass and of the ground between, as much as there is of each, as of blades in front of it; and how
-// much more leaves are met of plants that stand out of it.
-vec4 carpet_seen(Sight sight, float left, vec3 below) {
+// much more leaves are met of plants that stand out of it. `cover` is how much of it is grass.
+vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
     Patch own = patch_at(place.xz, met);
     Canopy canopy = canopy_here(sight);
     own.blown.xy += canopy.sways;
@@ -93,7 +93,8 @@ vec4 carpet_seen(Sight sight, float left, vec3 below) {
     // Who sees past grass over a crest sees no ground there, but the grass behind.
     float ends = smoothstep(ENDS.x * sight.share, ENDS.y * sight.share, deep);
     sum *= among.x * mix(1.0 / max(sum.a, LEAST_COVER), 1.0, ends);
-    return vec4(sum.rgb + below * (1.0 - min(sum.a, 1.0)), standing_out(taller, sight.share));
+    cover = min(sum.a, 1.0);
+    return vec4(sum.rgb + below * (1.0 - cover), standing_out(taller, sight.share));
 }
 
 void main() {
@@ -102,7 +103,9 @@ void main() {
     work_out(slope);
     vec3 pigment = lying_pigment(lying_seen(place.xz, through_leaves(dense / max(slope, LOWEST))), lush);
     vec3 color = shown_of(soil_between(Soil(soil_seen, sunlit, skylit, soil_way), place.xz, left) * pigment * pigment + lit[2].rgb);
-    float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / patch_side))) : 0.0;
+    float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / patch_side))) : 0.0, cover = 0.0;
+    if (over_hosts > 0.0)
+        color = vec3(0.0);  // the game's ground is seen there
     float top = slope + carpet * rises_ahead(place.xz, tall), hides = min(share / SHOWN_FROM, 1.0);
     float covered = mix(1.0, outline_cover(top, crest, tall, stands, dense, standing_out(TALLER, 1.0)), hides);
     // It writes its depth: where strips still stand on the patch, the thin edge of an outline would hide them.
@@ -111,10 +114,12 @@ void main() {
     if (share > 0.0) {
         float on_level = level_slope(slope, crest, share, tall, stands);
         Sight sight = Sight(normalize(place.xz - eye.xz), slope, on_level, smoothstep(ABOVE.x, ABOVE.y, slope), share, dx, dy);
-        vec4 seen = carpet_seen(sight, left, color);
+        vec4 seen = carpet_seen(sight, left, color, cover);
         color = seen.rgb;
         if (covered < WHOLE)
             covered = mix(1.0, outline_cover(top, crest, tall, stands, dense, seen.a), hides);
     }
-    pixel = vec4(color, 1.0) * covered;
+    pixel = vec4(color, over_hosts > 0.0 ? cover : 1.0) * covered;
+    if (over_hosts > 0.0 && pixel.a < NOTHING)
+        discard;
 }

@@ -30,7 +30,14 @@ RAISED = 0.66
 OUTLINE = 0.88
 """Height of the carpet along outlines, as a part of the grass's: where leaves begin, with a few thin tips above."""
 
-GLSL = {"RAISED": RAISED}
+APART = 1e-6
+"""How much farther what lies under the carpet is taken to be, of the depths that there are: kilometres away these are
+too coarse to part the two."""
+
+PUSHED = 2.0 * APART
+"""The same of ground that is drawn before any grass."""
+
+GLSL = {"RAISED": RAISED, "APART": APART}
 
 FINE, COARSENESS = 1.25, 0.3
 """Largest distance between grid points near the viewer: on cells of 1 m and more, and on the smallest cells [m]."""
@@ -111,6 +118,14 @@ def on_terrain(tiles: NDArray[np.void], terrain: Terrain, /) -> NDArray[np.bool_
     corner, side = tiles["tile"][:, :2], tiles["tile"][:, 2:3] * GRID
     inside: NDArray[np.bool_] = ((corner >= low - 1e-3) & (corner + side <= low + terrain.size + 1e-3)).all(axis=1)
     return inside
+
+
+def meets_terrain(tiles: NDArray[np.void], terrain: Terrain, /) -> NDArray[np.bool_]:
+    """Return which tiles (n,) lie on the terrain at least in part, shape (n,)."""
+    low = np.asarray(terrain.origin)
+    corner, side = tiles["tile"][:, :2], tiles["tile"][:, 2:3] * GRID
+    meets: NDArray[np.bool_] = ((corner < low + terrain.size) & (corner + side > low)).all(axis=1)
+    return meets
 
 
 def _nearest(corners: Tiles, side: float, place: tuple[float, float]) -> Tiles:
@@ -198,6 +213,8 @@ class GroundPainter:
 
         known = heads | stacked | litter
         self.bare = both("ground", litter, self.streams[0])
+        self.covered = tuple(_Layer(each.program, self.streams[1], *self.grid) for each in self.bare)
+        """The same, where carpet may lie."""
         self.under = both("under", heads, self.streams[1])
         self.carpet = both("carpet", known, self.streams[2])
         self.trodden = both("carpet", {**known, "TRODDEN": 1}, self.streams[2])
@@ -237,10 +254,21 @@ class GroundPainter:
         self._tell("beyond", beyond)
         self._tell("window", (int(centre[0]), int(centre[1]), self.shares.width // 2))
 
-    def draw_opaque(self) -> int:
-        """Draw the bare ground, and what lies under the carpet; return the number of draw calls."""
+    def draw_bare(self, *, alone: bool) -> int:
+        """Draw the bare ground, where it comes `alone` that of the carpet too; return the number of draw calls."""
         self.shares.use(self.units["shares"])
-        return self.bare[self._is_cut].draw() + self.under[self._is_cut].draw()
+        calls = self.bare[self._is_cut].draw()
+        if alone:
+            covered = self.covered[self._is_cut]
+            covered.program["pushed"] = PUSHED
+            calls += covered.draw()
+            covered.program["pushed"] = 0.0
+        return calls
+
+    def draw_under(self) -> int:
+        """Draw what lies under the carpet; return the number of draw calls."""
+        self.shares.use(self.units["shares"])
+        return self.under[self._is_cut].draw()
 
     def draw_carpet(self) -> int:
         """Draw the carpet, whose outlines let through what is behind them; return the number of draw calls."""
@@ -249,5 +277,5 @@ class GroundPainter:
     def release(self) -> None:
         """Give everything back."""
         layers = *self.bare, *self.under, *self.carpet, *self.trodden
-        release_all(*(layer.array for layer in layers), *(layer.program for layer in layers))
+        release_all(*(layer.array for layer in (*layers, *self.covered)), *(layer.program for layer in layers))
         release_all(*self.streams, *self.grid, self.shares)

@@ -3,6 +3,8 @@
 #include "systems/show/carpet/mesh.glsl"
 #include "systems/show/carpet/floor.glsl"
 
+uniform float pushed;  // how much farther it is taken to lie, of the depths that there are
+
 out vec3 place;
 out vec3 soil_seen;  // its radiance, without haze
 out vec3 sunlit;     // that of the sun's light without any grass,
@@ -24,4 +26,5 @@ void main() {
     haze = haze_light(place) * hidden;
     lush = understorey_of(lies, grows);
     gl_Position = clip * vec4(place, 1.0);
+    gl_Position.z += pushed * gl_Position.w;
 }

@@ -10,7 +10,7 @@ const float SLIDES = 0.75;  // part of that distance from which on the grid slid
 vec2 on_mesh() {
     vec2 at = tile.xy + corner * tile.z;
     float slide = clamp((distance(at, eye.xz) / tile.w - SLIDES) / (1.0 - SLIDES), 0.0, 1.0);
-    return at - fract(corner * 0.5) * 2.0 * tile.z * slide;
+    return clamp(at - fract(corner * 0.5) * 2.0 * tile.z * slide, mesh_low, mesh_high);
 }
 
 vec3 on_ground(vec2 at) {

@@ -12,6 +12,7 @@ from ....components.viewer import Viewer
 from ....engine.gl.remembered import Remembered
 from ....engine.gl.stream import release_all
 from ...around.appearance import border_of
+from ...around.asked import Asked
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
 from ...grow.record import Growth
@@ -29,6 +30,7 @@ from .ground import (
     Tiles,
     finest_spacing,
     ground_tiles,
+    meets_terrain,
     on_terrain,
     tiles_around,
     tiles_seen,
@@ -36,6 +38,9 @@ from .ground import (
 )
 from .pool import CarpetKept
 from .textures import bent_texture, carpet_texture
+
+SeenTiles = tuple[NDArray[np.void], NDArray[np.bool_]]
+"""Tiles, and on which of them carpet may lie."""
 
 STEP = 0.4
 """How far the eye goes before tiles are chosen anew, in sides of the finest."""
@@ -48,7 +53,7 @@ class CarpetPainter(RepresentationPainter):
         self._ground, self._spacing = ground, finest_spacing(ground.terrain, ground.patch)
         self._whole_to = canvas.reach[-2] - int(border_of(canvas.reach[-2])) - 1
         self._units = canvas.units
-        self._around, self._seen = Remembered[Tiles](), Remembered[tuple[NDArray[np.void], NDArray[np.bool_]]]()
+        self._around, self._seen = Remembered[Tiles](), Remembered[SeenTiles]()
         self.images, self.bents = carpet_texture(canvas.ctx, growths), bent_texture(canvas.ctx, growths)
         self.air = Air(canvas, side)
         self._heard: tuple[NDArray[np.int32], int, CarpetKept] | None = None
@@ -100,9 +105,10 @@ class CarpetPainter(RepresentationPainter):
         """
         patches, viewer = outlook.patches, outlook.viewer
         bare_to = self._bare_to(patches, cover)
-        made_of = self._ground, viewer.eye, viewer.cone, viewer.centre, cover is None, bare_to
+        goes_on = "beyond" in outlook.noted(Asked, Asked()).parts
+        made_of = self._ground, viewer.eye, viewer.cone, viewer.centre, cover is None, bare_to, goes_on
         tiles, is_new = self._seen.of(
-            viewer.name, made_of, partial(self._tiles, viewer, None if cover is None else bare_to)
+            viewer.name, made_of, partial(self._tiles, viewer, None if cover is None else bare_to, goes_on=goes_on)
         )
         if is_new:
             self.ground.write(*tiles)
@@ -111,12 +117,15 @@ class CarpetPainter(RepresentationPainter):
             np.where(patches.grows, whole, np.float32(0.0)), viewer.centre, beyond=float(cover is not None)
         )
 
-    def _tiles(self, viewer: Viewer, bare_to: int | None) -> tuple[NDArray[np.void], NDArray[np.bool_]]:
+    def _tiles(self, viewer: Viewer, bare_to: int | None, *, goes_on: bool) -> SeenTiles:
         """Return the tiles that a viewer sees (n,), and on which of them carpet may lie.
 
-        Up to the discrete distance `bare_to` there is none on the terrain; None is everywhere.
+        Up to the discrete distance `bare_to` there is none on the terrain; None is everywhere. Tiles beyond the
+        terrain are left out unless ground `goes_on` there.
         """
         tiles = tiles_seen(self._tiles_around(viewer), viewer.eye, viewer.cone)
+        if not goes_on:
+            tiles = tiles[meets_terrain(tiles, self._ground.terrain)]
         bare = on_terrain(tiles, self._ground.terrain)
         if bare_to is not None:
             bare &= within(tiles, viewer.centre, patch=self._ground.patch, reach=bare_to)
@@ -149,10 +158,15 @@ class CarpetPainter(RepresentationPainter):
         """Lay the carpet at its own height again."""
         self.ground.raise_carpet(RAISED, outline=OUTLINE)
 
-    def draw_solid(self) -> int:
-        """Draw the bare ground, and what lies under the carpet; return the number of draw calls."""
+    def draw_ground(self, *, alone: bool) -> int:
+        """Draw the bare ground, where it comes `alone` that of the carpet too; return the number of draw calls."""
         self.air.use()
-        return self.ground.draw_opaque()
+        return self.ground.draw_bare(alone=alone)
+
+    def draw_solid(self) -> int:
+        """Draw what lies under the carpet; return the number of draw calls."""
+        self.air.use()
+        return self.ground.draw_under()
 
     def draw(self, target: moderngl.Framebuffer, /) -> int:
         """Draw the carpet; return the number of draw calls."""

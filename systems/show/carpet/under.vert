@@ -12,7 +12,6 @@ const vec2 BEHIND = vec2(0.01, 0.05);  // slopes at which ground falls away from
 const float WITHIN = 0.25;  // how high the eye is over the layer from which on it is not within the grass [m]
 const float SHADED = 0.6;  // how far down what is seen stands, of how deep is seen into the grass
 const float ON_TOP = 0.9;  // where it stands if nothing is seen into it, of the height of the grass
-const float APART = 1e-6;  // how much farther it is taken to lie: kilometres away depths are too coarse to part the two layers
 
 out vec3 color;  // radiance
 

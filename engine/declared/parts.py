@@ -1,0 +1,26 @@
+"""The parts of a picture: what a game may have by itself, and leave out to draw its own."""
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+from reprlib import repr as shortened
+from typing import Literal, cast
+
+PartName = Literal["sky", "ground", "grass", "beyond"]
+
+PARTS: tuple[PartName, ...] = ("sky", "ground", "grass", "beyond")
+"""All of them: together they are a whole picture.
+
+Bodies come with the grass; `beyond` is whatever is drawn of ground and grass that lies beyond the terrain's edge."""
+
+
+def as_parts(names: object, /) -> frozenset[PartName]:
+    """Return parts by their names. Raises TypeError for what is no list of names, ValueError for one that is none."""
+    if isinstance(names, str) or not isinstance(names, Iterable):
+        raise TypeError(f"parts are given as a list of names such as ('ground', 'grass'), unlike {shortened(names)}")
+    found = list(names)
+    for name in found:
+        if name not in PARTS:
+            near = get_close_matches(str(name), PARTS, n=1)
+            guess = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(PARTS)}"
+            raise ValueError(f"no part of a prairie is called {shortened(name)}; {guess}")
+    return frozenset(cast("list[PartName]", found))

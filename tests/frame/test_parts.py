@@ -1,0 +1,195 @@
+"""Parts of a picture: what a game draws by itself, and grass over its own ground (D6, T1)."""
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass.engine.camera import Camera
+from tallgrass.engine.schedule import Phase
+from tallgrass.systems.prairie import Prairie
+from tallgrass.testing import LITTLE
+
+Stage = Any
+Load = Callable[..., Prairie]
+Aim = Callable[..., Camera]
+Picture = NDArray[np.float64]
+
+STILL = LITTLE + "light: { elevation: 40 }\n"
+SKY = 0.2, 0.4, 0.6
+"""What a game clears its framebuffer with."""
+
+EARTH = np.array([255.0, 0.0, 255.0])
+"""The colour of a game's own ground: no grass has any of it."""
+
+VERTEX = """#version 330
+in vec3 at;
+uniform mat4 clip;
+void main() { gl_Position = clip * vec4(at, 1.0); }"""
+FRAGMENT = """#version 330
+out vec4 pixel;
+void main() { pixel = vec4(1.0, 0.0, 1.0, 1.0); }"""
+
+Mesh = Callable[[Prairie, float, float], moderngl.VertexArray]
+
+
+@pytest.fixture
+def mesh(ctx: moderngl.Context) -> Iterator[Mesh]:
+    """Make a game's own ground: cells of a width [m], so much higher than the prairie's [m]."""
+    program = ctx.program(vertex_shader=VERTEX, fragment_shader=FRAGMENT)
+    made: list[Any] = [program]
+
+    def ground(prairie: Prairie, cell: float, higher: float) -> moderngl.VertexArray:
+        half = prairie.site.ground.terrain.size[0] / 2
+        line = np.arange(-half, half + 1e-3, cell, dtype=np.float32)
+        place = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2)
+        corners = np.column_stack([place[:, 0], prairie.height_at(place) + higher, place[:, 1]])
+        first = (np.arange(len(line) - 1)[:, None] * len(line) + np.arange(len(line) - 1)).reshape(-1, 1)
+        indices = first + np.array([0, len(line), 1, 1, len(line), len(line) + 1])
+        buffers = ctx.buffer(corners.astype(np.float32)), ctx.buffer(indices.astype(np.int32))
+        array = ctx.vertex_array(program, [(buffers[0], "3f", "at")], index_buffer=buffers[1])
+        made.extend([*buffers, array])
+        return array
+
+    yield ground
+    for each in reversed(made):
+        each.release()
+
+
+def drawn(stage: Stage, prairie: Prairie, camera: Camera, *draws: Sequence[str] | None) -> Picture:
+    """What is seen of some parts, drawn in turn into a framebuffer that a game has cleared."""
+    stage.target.use()
+    stage.target.clear(*SKY, depth=1.0)
+    for parts in draws:
+        prairie.draw(*stage.matrices(camera), parts=parts)
+    return np.asarray(stage.read())
+
+
+def over(stage: Stage, prairie: Prairie, camera: Camera, ground: moderngl.VertexArray) -> Picture:
+    """How much of a game's own ground is seen through the grass, pixel by pixel, 0 to 1; NaN beside it."""
+    view, projection = stage.matrices(camera)
+    ground.program["clip"].write(np.ascontiguousarray((projection.astype(float) @ view).T, np.float32))
+
+    def lay() -> Picture:
+        stage.begin()
+        stage.ctx.enable_only(moderngl.DEPTH_TEST)
+        ground.render()
+        return np.asarray(stage.read())
+
+    where = (lay() == EARTH).all(axis=-1)
+    prairie.draw(view, projection, parts=("grass",))
+    seen = stage.read()
+    return np.where(where, np.clip((0.5 * (seen[..., 0] + seen[..., 2]) - seen[..., 1]) / 255.0, 0.0, 1.0), np.nan)
+
+
+@pytest.mark.parametrize(
+    "draws",
+    [
+        [("ground", "beyond"), ("sky",), ("grass", "beyond")],
+        [("sky", "ground", "beyond"), ("grass", "beyond")],
+    ],
+)
+@pytest.mark.parametrize("height", [1.7, 25.0])
+def test_parts_drawn_in_turn_are_the_whole_bit_for_bit(
+    stage: Stage, load: Load, camera: Aim, draws: list[Sequence[str]], height: float
+) -> None:
+    prairie, aim = load(STILL), camera(0.0, height, 25.0, pitch=-10)
+    whole = drawn(stage, prairie, aim, None)
+    np.testing.assert_array_equal(drawn(stage, prairie, aim, *draws), whole)
+    assert len(np.unique(whole.reshape(-1, 3), axis=0)) > 1000
+    without = drawn(stage, prairie, aim, *draws[:-1])
+    assert (without != whole).any(axis=-1).mean() > 0.2
+
+
+def test_a_frame_that_is_drawn_in_parts_is_one_frame(stage: Stage, load: Load, camera: Aim) -> None:
+    prairie, aim, seen = load(STILL), camera(0.0, 1.7, 25.0), []
+    prairie.systems.add(Phase.SEE, "see twice", lambda: seen.append(prairie.time))
+    for _ in range(3):
+        prairie.advance(0.5)
+        drawn(stage, prairie, aim, ("ground",), ("sky",), ("grass",))
+    assert seen == [0.5, 1.0, 1.5]
+    drawn(stage, prairie, aim, ("ground",), ("ground",))  # what comes again is another frame's
+    assert len(seen) == 5
+
+
+def test_without_the_sky_nothing_is_written_where_nothing_is(stage: Stage, load: Load, camera: Aim) -> None:
+    prairie = load(STILL)
+    prairie.shine(haze=30.0)
+    aim = camera(0.0, 1.0, 20.0, pitch=6)
+    whole, own = drawn(stage, prairie, aim, None), drawn(stage, prairie, aim, ("ground", "grass", "beyond"))
+    cleared = np.round(np.array(SKY) * 255.0)
+    beside = (drawn(stage, prairie, aim, ("ground", "grass", "beyond")) == cleared).all(axis=-1)
+    assert 0.3 < beside.mean() < 0.9
+    assert (own[beside] == cleared).all()
+    np.testing.assert_array_equal(own[60:], whole[60:])  # below the horizon it is the same picture
+    assert (whole[beside] != cleared).any(axis=-1).all()
+
+
+@pytest.mark.parametrize(("lod", "height"), [("carpet", 1.7), ("carpet", 8.0), ("strips", 1.7), ("auto", 6.0)])
+def test_grass_over_a_games_own_ground_is_neither_cut_by_it_nor_hidden(
+    stage: Stage, load: Load, camera: Aim, mesh: Mesh, lod: str, height: float
+) -> None:
+    prairie = load(STILL.replace("height: [0.2, 0.4]", "height: [0.12, 0.2]").replace("[0.5, 0.9]", "[0.15, 0.25]"), lod=lod)
+    aim = camera(0.0, height + float(prairie.height_at([(0.0, 25.0)])[0]), 25.0, pitch=-12)
+    exact = over(stage, prairie, aim, mesh(prairie, 0.5, 0.0))
+    assert 0.1 < np.nanmean(exact) < 0.9
+    for cell, higher in ((0.5, 0.1), (0.5, -0.1), (5.0, 0.0)):
+        other = over(stage, prairie, aim, mesh(prairie, cell, higher))
+        both = ~np.isnan(exact) & ~np.isnan(other)
+        assert abs(np.mean(exact[both] - other[both])) < (0.01 if lod == "carpet" else 0.15), (cell, higher)
+
+
+def test_no_ground_of_ours_is_seen_where_a_game_draws_its_own(
+    stage: Stage, load: Load, camera: Aim, mesh: Mesh
+) -> None:
+    prairie = load(STILL.replace("seed: 5\n", "seed: 5\nparts: [grass]\n"))
+    prairie.shine(ground="#00ff00")
+    aim = camera(0.0, 4.0, 25.0, pitch=-15)
+    view, projection = stage.matrices(aim)
+    ground = mesh(prairie, 0.5, 0.0)
+    pictures = []
+    for color in ("#00ff00", "#ff0000"):
+        prairie.shine(ground=color)
+        over(stage, prairie, aim, ground)
+        pictures.append(stage.read())
+    np.testing.assert_array_equal(*pictures)
+    stage.begin()
+    prairie.draw(view, projection)  # a scene's own parts are those that are drawn
+    assert (stage.depth() == 1.0).mean() > 0.2
+
+
+def test_the_ground_ends_with_the_terrain_where_nothing_beyond_is_asked_for(
+    stage: Stage, load: Load, camera: Aim
+) -> None:
+    prairie, aim = load(STILL), camera(0.0, 30.0, 60.0, pitch=-30)
+    drawn(stage, prairie, aim, ("ground",))
+    where = stage.ground(aim)
+    ends = np.abs(where).max(axis=-1)  # hills rise 4 m: they hide, and show, a few metres more
+    depth = stage.depth()
+    assert (depth[ends > 40.0] == 1.0).all()
+    assert (depth[ends < 22.0] < 1.0).all()
+    drawn(stage, prairie, aim, ("ground", "beyond"))
+    assert (stage.depth()[ends > 40.0] < 1.0).all()
+
+
+@pytest.mark.parametrize(
+    ("parts", "error", "said"),
+    [
+        (("gras",), ValueError, r"no part of a prairie is called 'gras'; did you mean 'grass'\?"),
+        ((3,), ValueError, "no part of a prairie is called 3; there are sky, ground, grass, beyond"),
+        ("grass", TypeError, r"parts are given as a list of names such as \('ground', 'grass'\), unlike 'grass'"),
+        (7, TypeError, "parts are given as a list of names"),
+    ],
+)
+def test_parts_that_are_none_are_told_before_anything_is_drawn(
+    stage: Stage, load: Load, camera: Aim, parts: Any, error: type[Exception], said: str
+) -> None:
+    prairie = load(STILL)
+    stage.begin()
+    with pytest.raises(error, match=said):
+        prairie.draw(*stage.matrices(camera(0.0, 1.7, 20.0)), parts=parts)
+    assert not stage.read().any()
+    assert prairie.painter is None
