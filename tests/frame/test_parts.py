@@ -144,7 +144,7 @@ def test_grass_over_a_games_own_ground_is_neither_cut_by_it_nor_hidden(
     for cell, higher in ((0.5, 0.1), (0.5, -0.1), (5.0, 0.0)):
         other = over(stage, prairie, aim, mesh(prairie, cell, higher))
         both = ~np.isnan(exact) & ~np.isnan(other)
-        assert abs(np.mean(exact[both] - other[both])) < (0.01 if lod == "carpet" else 0.15), (cell, higher)
+        assert abs(np.mean(exact[both] - other[both])) < (0.02 if lod == "carpet" else 0.15), (cell, higher)
 
 
 def test_no_ground_of_ours_is_seen_where_a_game_draws_its_own(
