@@ -20,9 +20,10 @@ from tallgrass.engine.schedule import Phase, Schedule
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.engine.world import World
+from tallgrass.systems.around.asked import Asked
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.blow import Hear
-from tallgrass.systems.frame.block import FRAME, FrameBlock
+from tallgrass.systems.frame.block import FRAME, FrameBlock, confine
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.land.record import write_land
 from tallgrass.systems.light.daylight import daylight
@@ -181,6 +182,7 @@ def record_of() -> RecordOf:
     def make(grown: Grown) -> NDArray[np.void]:
         record, light = np.zeros(1, FRAME), grown.scene.light
         write_land(record, grown)
+        confine(record, Asked())
         shine(record, light, daylight(light), list(grown.scene.grass.values()))
         return record
 
