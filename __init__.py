@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from .components.body import Hover
     from .components.footprint import Footprint
     from .components.grass_at import GrassAt
+    from .components.lamp import Lamp
     from .components.patch import Lod, Patch
     from .components.pose import Pose
     from .components.presser import Presser
@@ -40,6 +41,7 @@ __all__ = [
     "GrassAt",
     "Gust",
     "Hover",
+    "Lamp",
     "Lod",
     "MeanWind",
     "Patch",
@@ -73,6 +75,7 @@ _HOMES = {
     "GrassAt": ".components.grass_at",
     "Gust": ".systems.wind.gust",
     "Hover": ".components.body",
+    "Lamp": ".components.lamp",
     "Lod": ".components.patch",
     "MeanWind": ".systems.wind.mean",
     "Patch": ".components.patch",

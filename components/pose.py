@@ -23,6 +23,9 @@ class Pose:
     yaw: float = 0.0
     """Heading: 0 is -z, positive turns right [rad]."""
 
+    y: float | None = None
+    """Height [m], of what has one: a lamp must, to all else it makes no difference."""
+
     def inside(self, place: Floats, /) -> Floats:
         """Return ground positions (n, 2) in this frame [m], shape (n, 2)."""
         return _turned(place - np.array([self.x, self.z], np.float32), -self.yaw)

@@ -56,7 +56,7 @@ def as_rays(origin: object, direction: object, /) -> tuple[Doubles, Doubles]:
 
 def is_somewhere(pose: Pose, /) -> bool:
     """Return whether a pose that a game has made is a place on the ground and a heading."""
-    numbers = (pose.x, pose.z, pose.yaw)
+    numbers = (pose.x, pose.z, pose.yaw, 0.0 if pose.y is None else pose.y)
     return all(isinstance(n, NUMBERS) and -FARTHEST <= n <= FARTHEST for n in numbers)
 
 

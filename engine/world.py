@@ -148,7 +148,7 @@ class World:
             return True
         if entity not in self._told:
             self._told.add(entity)
-            due = "x, z [m] and yaw [rad] are finite numbers"
+            due = "x, y, z [m] and yaw [rad] are finite numbers"
             log.warning("%s of entity %d is left out while it has %s: %s", what, entity, pose, due)
         return False
 

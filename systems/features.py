@@ -6,6 +6,7 @@ from typing import TypeVar
 from .bodies.feature import Bodies
 from .frame.feature import Feature, Start
 from .frame.units import dealt
+from .lamps.feature import Lamps
 from .land.part import Land
 from .light.feature import Lighting
 from .mow.feature import Mowing
@@ -13,7 +14,7 @@ from .pressers import Pressers
 from .show.registry import REPRESENTATIONS
 from .winds import Winds
 
-FEATURES: tuple[type[Feature], ...] = (Winds, Pressers, Land, Lighting, Mowing, Bodies)
+FEATURES: tuple[type[Feature], ...] = (Winds, Pressers, Land, Lighting, Mowing, Lamps, Bodies)
 """In the order in which they are made, told of a scene read again, and drawn."""
 
 UNITS = dealt(

@@ -12,6 +12,7 @@ from ...components.wind import Mixing, WindPrimitive
 from ..handed import must_be_known
 from .camera import CameraSource
 from .grass import MOST_KINDS, GrassKind
+from .lamp import LampOnPath
 from .light import Light
 from .parts import PARTS, PartName
 from .presser import PresserOnPath
@@ -104,6 +105,9 @@ class Scene(Declaration):
 
     light: Light = Light()
     """Sun, sky and haze."""
+
+    lamps: list[LampOnPath] = Field(default=[], max_length=256)
+    """What shines beside them."""
 
     parts: list[PartName] = Field(default=list(PARTS), max_length=len(PARTS))
     """What of the prairie is drawn where a game asks for nothing else: a part that is left out, it draws itself."""

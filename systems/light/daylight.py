@@ -15,6 +15,15 @@ USUAL = 1.5
 ADAPTS = 0.55
 """Exponent by which the exposure follows the light: 0 is a camera that is never set anew, 1 knows no dusk."""
 
+LIT_NIGHT = 0.86
+"""Exponent by which lamps shine brighter the less daylight there is, for what twilight and night are here too bright.
+
+From noon to night the light here goes down by a factor of 240; in the world it comes down to 5 lx, as at the end of civil
+twilight, by one of 25 000 (Seidelmann, Explanatory Supplement to the Astronomical Almanac, 1992)."""
+
+DARKEST = 0.005
+"""The least luminance of a white leaf that counts for that: it is that of night."""
+
 PALER = 0.45
 """How much paler the sky's light is taken than it is, as eyes do and films that are balanced for shade."""
 
@@ -44,6 +53,9 @@ class Daylight:
     exposure: float
     """Radiance in the picture, of that in the scene."""
 
+    lamplight: float
+    """The same of what lamps send."""
+
 
 def daylight(light: Light, /) -> Daylight:
     """Return the light that a scene declares, as bright as the picture is exposed."""
@@ -57,10 +69,15 @@ def daylight_under(light: Light, clear: Doubles, /) -> Daylight:
     exposure = exposure_of(light, sun, sky.down)
     shown = Sky(sky.map * exposure, sky.horizon * exposure, sky.down * exposure)
     down = shown.down + PALER * (luminance(shown.down) - shown.down)
-    return Daylight(to_sun(light), sun * exposure, down + BOUNCED * sun * exposure, shown, exposure)
+    night = max(USUAL / max(_level(sun, sky.down), DARKEST), 1.0) ** LIT_NIGHT
+    return Daylight(to_sun(light), sun * exposure, down + BOUNCED * sun * exposure, shown, exposure, exposure * night)
 
 
 def exposure_of(light: Light, sun: Doubles, down: Doubles, /) -> float:
     """Return the factor by which a picture is exposed: in part it makes up for little light, as eyes and films do."""
-    level = float(luminance(sun + down))
-    return float(2.0**light.exposure * (USUAL / max(level, 1e-3)) ** ADAPTS)
+    return float(2.0**light.exposure * (USUAL / max(_level(sun, down), 1e-3)) ** ADAPTS)
+
+
+def _level(sun: Doubles, down: Doubles) -> float:
+    """Return the luminance of a white leaf in this light."""
+    return float(luminance(sun + down))

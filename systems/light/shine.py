@@ -18,7 +18,7 @@ def shine(record: NDArray[np.void], declared: Light, light: Daylight, kinds: Seq
     row = record[0]
     row["sun"], row["sunlight"], row["skylight"] = light.direction, light.sun, light.down
     row["cloud_cover"], row["haze_density"] = declared.clouds, 1.0 / declared.haze
-    row["exposure"] = light.exposure
+    row["exposure"], row["lamplight"] = light.exposure, light.lamplight
     row["zenith"] = light.sky.map[-1].mean(axis=0)
     row["horizon"][:, :3] = light.sky.horizon
     row["toward_sun"] = toward_sun(declared)

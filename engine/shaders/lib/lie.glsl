@@ -12,6 +12,7 @@ struct Lie {
     float high;  // sine of the sun's elevation over the slope
     float past;  // how much of the sun's disc is seen past the terrain
     vec2 slow;   // two slow noises, -1 to 1
+    vec3 normal; // the slope's
 };
 
 // What lies over the terrain at a place, as `lie` has it; beyond the edge that goes on as in a mirror.
@@ -29,9 +30,9 @@ Lie lie_at(vec2 place) {
     vec2 at = on_left(place);
     vec4 still = textureLod(lie, at, 0.0);
     float before = textureLod(lie, vec2(at.x + 0.5, at.y), 0.0).r;
-    float high = dot(sun.xz, still.xy) + sun.y * sqrt(max(1.0 - dot(still.xy, still.xy), 0.0));
+    float up = sqrt(max(1.0 - dot(still.xy, still.xy), 0.0)), high = dot(sun.xz, still.xy) + sun.y * up;
     float rise = max(sun.y, LOWEST_SUN) / max(length(sun.xz), 1e-4);
-    return Lie(max(high, 0.0), smoothstep(-PENUMBRA, PENUMBRA, rise - before), still.zw);
+    return Lie(max(high, 0.0), smoothstep(-PENUMBRA, PENUMBRA, rise - before), still.zw, vec3(still.x, up, still.y));
 }
 
 // The slow noises alone.

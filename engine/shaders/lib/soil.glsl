@@ -37,8 +37,7 @@ const float SOIL_SENDS = 1.3;  // what bare ground sends of the sun's light from
 
 // The light on it, under a leaf area [of the ground's].
 Light light_on_soil(vec3 place, Lie lies, float leaves) {
-    Light light = light_at(place, Response(vec3(SOIL_SENDS * lies.high), vec3(1.0), 0.0), sun_seen(place, lies.past));
-    light.way = sun_way(0, lies.high);
+    Light light = light_at(place, Sender(FACE, vec2(0.0), lies.normal, SOIL_SENDS), lies.high, sun_seen(place, lies.past));
     light.leaves = vec2(leaves, 0.0);
     return light;
 }

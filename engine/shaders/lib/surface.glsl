@@ -1,30 +1,41 @@
 // One surface and one light for all that is drawn: blades, strips, carpet, ground, bodies, in the frame and the reference.
 //
 // Light comes in two steps, as most of it is the same all along a blade, a strip's column or a square of ground.
-// 1. Once a vertex, receiver or column: what light reaches the place, past all but the canopy. Ask for a `Response`, how a
-//    sort of surface sends light to the eye (leaf_response, soil_response), and give it to `light_at`, the one list of all lights;
-//    `light_on` does both for leaves. Lights may be summed over kinds with `plus`. Last, `veiled` puts the haze before it.
+// 1. Once a vertex, receiver or column: what light reaches the place, past all but the canopy. Say how the surface sends light
+//    to the eye, as a `Sender`, and give it to `light_at`, the one list of all lights; `light_on` does both for leaves. Lights
+//    may be summed over kinds with `plus`. Last, `veiled` puts the haze before it.
 //    `bundled` and `unbundled` bring a light through stages, as a mat4 with three numbers of one's own beside it.
 // 2. Once a fragment: fill a `Surface` and ask `shade`, which gives radiance; `shown_of` of lib/tone.glsl is the last step.
 // A new light is a term of `light_at`, a new shadow one of `sun_seen` (lib/shadows.glsl), what lies on surfaces (snow, water)
 // a change of the `Surface` at the head of `shade`: all representations get it.
 #include "lib/canopy.glsl"
 #include "lib/haze.glsl"
+#include "lib/lamps.glsl"
 #include "lib/mown.glsl"
 #include "lib/pigment.glsl"
 #include "lib/shadows.glsl"
 
 // The light that reaches a surface through the canopy, as radiance towards the eye of a white one.
 struct Light {
-    vec3 sun;     // in full sun
+    vec3 sun;     // in full sun; that of lamps counts with it
     vec3 sky;     // under the whole sky
     vec3 haze;    // what is seen before it, as it is
     float gloss;  // mirrored of the sun, where it is seen
-    float way;    // how many leaves the sun's light meets, of those that stand above, seen from the side
+    float way;    // how many leaves the sun's light meets, of those that stand above, seen from the side; the mean with lamps'
     vec2 leaves;  // that stand above the kind's top, and between that and the ground, of the ground's area
 };
 
-// How a surface sends light to the eye, of what a white leaf that faces all ways does.
+const int FACE = -1;  // in place of a kind
+
+// What sends light to the eye: leaves of a kind that the wind bends so, or a FACE.
+struct Sender {
+    int kind;
+    vec2 bend;
+    vec3 normal;  // the ground's, or the face's
+    float sends;  // what a face sends of light from straight above, of what a white leaf that faces all ways does
+};
+
+// How much it does, of what a white leaf that faces all ways does.
 struct Response {
     vec3 sun;
     vec3 sky;
@@ -50,33 +61,73 @@ const float LIES_OPEN = 0.22;  // how much more light grass sends that lies, whi
 const float LEANS_AWAY = 0.18;  // and how much more to an eye that it leans away from
 const vec2 SPINE = vec2(1.3, 0.7);  // a spine's mean slope leans by so much, and rises by so much less, of the posture index
 
-// How leaves of a kind at a place send light to the eye that the wind bends by `bend`; the sun's elevation has the sine `high`.
-Response leaf_response(int kind, vec2 bend, vec3 place, float high) {
+// How leaves of a kind at a place send light to the eye that the wind bends by `bend`; it comes from a direction whose elevation
+// has the sine `high`.
+Response leaf_response(int kind, vec2 bend, vec3 place, vec3 from, float high) {
     vec3 ray = normalize(place - eye);
-    float facing = dot(ray, sun);
+    float facing = dot(ray, from);
     // Leaves that face all ways send back what the eye sees lit, and let through what it sees against the light.
     float back = 0.5 - 0.5 * facing, against = 1.0 - back;
     vec3 phase = back * sqrt(back) + against * sqrt(against) * kinds[kind].through;
     float lies = min(dot(bend, bend), 1.0), face = 1.0 + LIES_OPEN * lies + LEANS_AWAY * dot(bend, normalize(ray.xz + 1e-6));
-    // A blade mirrors the sun along itself like a thread (Kajiya and Kay, Rendering Fur, 1989).
-    vec3 spine = normalize(vec3(SPINE.x * bend, 1.0 - SPINE.y * length(bend)).xzy), half_way = sun - ray;
+    // A blade mirrors light along itself like a thread (Kajiya and Kay, Rendering Fur, 1989).
+    vec3 spine = normalize(vec3(SPINE.x * bend, 1.0 - SPINE.y * length(bend)).xzy), half_way = from - ray;
     float along = dot(spine, half_way), thread = 1.0 - along * along / max(dot(half_way, half_way), 1e-9);
     thread *= thread;
     thread *= thread;
     return Response(phase * (face * mix(SIDELONG, 1.0, high)), vec3(face), kinds[kind].gloss * thread * thread);
 }
 
-// The light at a place that a surface sends to the eye, where it sees so much of the sun. This is the list of all lights.
-Light light_at(vec3 place, Response response, float seen) {
+Response response_of(Sender sender, vec3 place, vec3 from, float high) {
+    if (sender.kind == FACE)
+        return Response(vec3(sender.sends * high), vec3(1.0), 0.0);
+    return leaf_response(sender.kind, sender.bend, place, from, high);
+}
+
+const float LIT_AT = 0.7;  // where leaves are that send most of a lamp's light to the eye, of the canopy's height
+
+// A light with that of lamps, of lamps_at.
+Light with_lamps(Light light, vec4 sent) {
+    float own = brightness(light.sun), more = brightness(sent.rgb);
+    light.way = (own * light.way + more * sent.w) / max(own + more, DARKEST);
+    light.sun += sent.rgb;
+    return light;
+}
+
+// What lamps send of their light at a place of the ground, and how many leaves that meets in the mean.
+vec4 lamps_at(vec3 place, Sender sender) {
+    vec3 sum = vec3(0.0);
+    float ways = 0.0;
+    if (sender.kind != FACE)
+        place.y += LIT_AT * OF(crown, sender.kind) * lodged(sender.bend);
+    ivec2 listed = lamps_about(place.xz);
+    for (int number = listed.x; number < listed.y; number++) {
+        Shine lamp = lamp_at(number, place);
+        float high = max(dot(sender.normal, lamp.from), 0.0);
+        vec3 sent = lamp.light * response_of(sender, place, lamp.from, high).sun;
+        sum += sent;
+        ways += brightness(sent) * sun_way(max(sender.kind, 0), high);
+    }
+    return vec4(sum, ways / max(brightness(sum), DARKEST));
+}
+
+// The light at a place that a surface sends to the eye, where the sun's elevation has the sine `high` and so much of it is
+// seen. This is the list of all lights.
+Light light_at(vec3 place, Sender sender, float high, float seen) {
+    Response response = response_of(sender, place, sun, high);
     vec3 from_sun = sunlight * response.sun * seen;
     vec3 from_sky = skylight * response.sky;
-    return Light(from_sun, from_sky, vec3(0.0), response.gloss * seen, 0.0, vec2(0.0));
+    Light light = Light(from_sun, from_sky, vec3(0.0), response.gloss * seen, sun_way(max(sender.kind, 0), high), vec2(0.0));
+#ifndef LAMPS_LATER  // where pixels ask for them
+    if (any_lamps())
+        light = with_lamps(light, lamps_at(place, sender));
+#endif
+    return light;
 }
 
 // The light on leaves of a kind at a place: the wind bends them by `bend`, the terrain lies so, and so much of the sun is seen.
 Light light_on(int kind, vec2 bend, vec3 place, Lie lies, ByKind grows, float seen) {
-    Light light = light_at(place, leaf_response(kind, bend, place, lies.high), seen);
-    light.way = sun_way(kind, lies.high);
+    Light light = light_at(place, Sender(kind, bend, lies.normal, 1.0), lies.high, seen);
     light.leaves = leaves_over(grows, kind);
     return light;
 }

@@ -1,4 +1,5 @@
 // The carpet: what is seen of its grass, and of the ground between.
+#define LAMPS_LATER
 #include "lib/light.glsl"
 #include "systems/show/carpet/litter.glsl"
 
@@ -102,7 +103,10 @@ void main() {
     vec2 dx = dFdx(place.xz), dy = dFdy(place.xz);
     work_out(slope);
     vec3 pigment = lying_pigment(lying_seen(place.xz, through_leaves(dense / max(slope, LOWEST))), lush);
-    vec3 color = shown_of(soil_between(Soil(soil_seen, sunlit, skylit, soil_way), place.xz, left) * pigment * pigment + lit[2].rgb);
+    vec3 soil_light = soil_between(Soil(soil_seen, sunlit, skylit, soil_way), place.xz, left);
+    if (any_lamps())
+        soil_light += lamps_on_soil(vec3(place.x, place.y - carpet * tall, place.z), left);
+    vec3 color = shown_of(soil_light * pigment * pigment + lit[2].rgb);
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / patch_side))) : 0.0, cover = 0.0;
     if (over_hosts > 0.0)
         color = vec3(0.0);  // the game's ground is seen there

@@ -1,4 +1,5 @@
 // The carpet: what is the same over a few pixels is made out at the corners of the mesh.
+#define LAMPS_LATER  // pixels ask for them: pools of light are smaller than the mesh
 #include "lib/light.glsl"
 #include "systems/show/carpet/laid.glsl"
 #include "systems/show/carpet/met.glsl"

@@ -15,6 +15,9 @@ out vec4 pixel;
 
 void main() {
     vec3 pigment = lying_pigment(lying_seen(place.xz, 1.0), lush);
-    vec3 ground = soil_between(Soil(soil_seen, sunlit, skylit, soil_way), place.xz, left_seen(place.xz));
+    float left = left_seen(place.xz);
+    vec3 ground = soil_between(Soil(soil_seen, sunlit, skylit, soil_way), place.xz, left);
+    if (any_lamps())
+        ground += lamps_on_soil(place, left);
     pixel = vec4(shown_of(ground * pigment * pigment + haze), 1.0);
 }

@@ -211,29 +211,35 @@ class GroundPainter:
         def both(name: str, defines: dict[str, str | int], stream: Stream) -> tuple[_Layer, _Layer]:
             return layer(name, {**defines, "CUT": 0}, stream), layer(name, {**defines, "CUT": 1}, stream)
 
+        plain: dict[str, str | int] = {"PLAIN": 1}
         known = heads | stacked | litter
-        self.bare = both("ground", litter, self.streams[0])
+        self.bare = *both("ground", litter | plain, self.streams[0]), layer("ground", litter, self.streams[0])
         self.covered = tuple(_Layer(each.program, self.streams[1], *self.grid) for each in self.bare)
         """The same, where carpet may lie."""
         self.under = both("under", heads, self.streams[1])
-        self.carpet = both("carpet", known, self.streams[2])
-        self.trodden = both("carpet", {**known, "TRODDEN": 1}, self.streams[2])
+        trodden = layer("carpet", {**known, "TRODDEN": 1}, self.streams[2])
+        self.carpet = *both("carpet", known | plain, self.streams[2]), trodden
         self.is_trodden = False
         """Whether anybody treads the grass, or has: then pixels of the carpet ask for that, which costs."""
-        for each in (*self.carpet, *self.trodden):
+        for each in self.carpet:
             _tell(each, _of_images(growths, seed))
         if heads:
             self._tell("profile", np.concatenate([profile_of(growth) for growth in growths]).tolist())
         self.raise_carpet(RAISED, outline=OUTLINE)
 
     def _tell(self, name: str, value: object) -> None:
-        for layer in (*self.under, *self.carpet, *self.trodden):
+        for layer in (*self.under, *self.carpet):
             layer.program[name] = value
 
     @property
     def _is_cut(self) -> bool:
         """Whether any grass has been cut: programs that need not ask for that are cheaper."""
         return bool(self._block.record["anything_cut"][0])
+
+    @property
+    def _is_lamplit(self) -> bool:
+        """Whether lamps shine: then pixels ask for their light."""
+        return bool(self._block.record["lamps_grid"][0, 3])
 
     def write(self, tiles: NDArray[np.void], laid: NDArray[np.bool_]) -> None:
         """Send the tiles (n,), and on which of them carpet may lie."""
@@ -257,9 +263,10 @@ class GroundPainter:
     def draw_bare(self, *, alone: bool) -> int:
         """Draw the bare ground, where it comes `alone` that of the carpet too; return the number of draw calls."""
         self.shares.use(self.units["shares"])
-        calls = self.bare[self._is_cut].draw()
+        rare = 2 if self._is_lamplit else self._is_cut
+        calls = self.bare[rare].draw()
         if alone:
-            covered = self.covered[self._is_cut]
+            covered = self.covered[rare]
             covered.program["pushed"] = PUSHED
             calls += covered.draw()
             covered.program["pushed"] = 0.0
@@ -272,10 +279,10 @@ class GroundPainter:
 
     def draw_carpet(self) -> int:
         """Draw the carpet, whose outlines let through what is behind them; return the number of draw calls."""
-        return (self.trodden if self.is_trodden else self.carpet)[self._is_cut].draw()
+        return self.carpet[2 if self._is_lamplit or self.is_trodden else self._is_cut].draw()
 
     def release(self) -> None:
         """Give everything back."""
-        layers = *self.bare, *self.under, *self.carpet, *self.trodden
+        layers = *self.bare, *self.under, *self.carpet
         release_all(*(layer.array for layer in (*layers, *self.covered)), *(layer.program for layer in layers))
         release_all(*self.streams, *self.grid, self.shares)

@@ -49,10 +49,23 @@ void cut_down(int kind, inout Texel texel, inout Light light, View view, float u
     light = mown_to(view.left, light, kind, view.area);
 }
 
+// The light on a kind with that of lamps, where leaves are that are seen.
+Light lamplit(int kind, Light light, Sight sight) {
+    vec3 there = seen_at(place, sight.slope, tall, dense);
+    vec2 bend = bending(kind, message_at(place.xz));
+    there.y -= sight.share * tall;
+    vec3 turned = turned_to(kind, leaning(bend), vec3(sight.heading, (there.y - eye.y) / max(distance(there.xz, eye.xz), TINY)).xzy);
+    vec4 sent = lamps_at(there, Sender(kind, bend, lie_at(there.xz).normal, 1.0));
+    sent.rgb *= turned * turned * (1.0 - haze_at(place));
+    return with_lamps(light, sent);
+}
+
 // The display colour of a kind, and its coverage; `taller` is how much higher what is seen is than the mean, of that.
 vec4 kind_seen(int kind, Patch own, Reading read, Sight sight, float grain, View view, out float taller) {
     Texel texel = texel_of(kind, own, read, sight.on_level, grain);
     Light light = view.light;
+    if (any_lamps())
+        light = lamplit(kind, light, sight);
     float usual_height = texel.height / (1.0 + texel.taller) * OF(tops, kind);
     taller = texel.taller;
     place_leaves(kind, texel, view);

@@ -1,0 +1,54 @@
+"""What shines beside sun and sky."""
+
+import re
+from dataclasses import dataclass
+from math import pi
+from reprlib import repr as shortened
+
+from .footprint import is_between
+
+FARTHEST = 1000.0
+"""How far a lamp reaches at most [m]."""
+
+BRIGHTEST = 1e7
+"""Candela that one has at most: a lighthouse's."""
+
+_COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
+
+
+@dataclass(frozen=True, slots=True)
+class Lamp:
+    """A light that shines on grass and ground: the component of a game's own entity, whose `Pose` says where it is.
+
+    It shines all ways, or within a `cone` ahead of its pose. Its light falls off by the inverse square of the distance,
+    and a little faster towards its `range`. Of more than 256 that are seen at once, the brightest count. Raises
+    ValueError for what cannot shine. A pose without a height `y` is an error when the prairie is next drawn.
+    """
+
+    colour: str = "#ffd9a6"
+    """Its colour (sRGB), `#rrggbb`; how bright it is, `candela` alone says."""
+
+    candela: float = 400.0
+    """How brightly it shines in the middle of its light, 0 to 1e7 [cd]: a street lamp 400, a car's headlight 20 000."""
+
+    range: float = 30.0
+    """Distance at which it has faded away, above 0, at most 1000 [m]: the shorter, the cheaper."""
+
+    cone: float | None = None
+    """Half the angle of a spot light, above 0, below pi [rad]: it fades over the outer third; None shines all ways."""
+
+    pitch: float = 0.0
+    """Elevation that a spot light points to, positive up, within half a turn [rad]; the pose's `yaw` is its heading."""
+
+    def __post_init__(self) -> None:
+        """Raise ValueError for what cannot shine."""
+        if not (isinstance(self.colour, str) and _COLOUR.fullmatch(self.colour)):
+            raise ValueError(f"a lamp's colour is written '#rrggbb', not {shortened(self.colour)}")
+        if not is_between(0.0, self.candela, BRIGHTEST):
+            raise ValueError(f"a lamp's candela is from 0 to {BRIGHTEST:g}, not {shortened(self.candela)}")
+        if not (is_between(0.0, self.range, FARTHEST) and self.range > 0.0):
+            raise ValueError(f"a lamp's range is above 0 m, at most {FARTHEST:g} m, not {shortened(self.range)}")
+        if self.cone is not None and not (is_between(0.0, self.cone, pi) and 0.0 < self.cone < pi):
+            raise ValueError(f"a lamp's cone is half its angle, above 0 and below pi rad, not {shortened(self.cone)}")
+        if not is_between(-pi, self.pitch, pi):
+            raise ValueError(f"a lamp's pitch is from -pi to pi rad, not {shortened(self.pitch)}")

@@ -1,0 +1,1 @@
+"""Lamps: what shines beside sun and sky."""

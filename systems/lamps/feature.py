@@ -1,0 +1,72 @@
+"""The lamps of a prairie: whose entities they are, and which of them shine."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Self
+
+import moderngl
+import numpy as np
+
+from ...components.lamp import Lamp
+from ...components.pose import Pose
+from ...engine.declared.lamp import LampOnPath
+from ...engine.terrain.sample import height_at
+from ...engine.world import World
+from ..frame.block import FrameBlock
+from ..frame.feature import Feature, Start
+from ..space.grown import Grown
+from .card import LampPart, Lit
+
+
+class Lamps(Feature):
+    """The entities of one world that have a `Lamp` and a `Pose`, and those that a scene declares."""
+
+    samplers = ("lamps",)
+
+    def __init__(self, world: World, grown: Grown) -> None:
+        self._world, self._grown = world, grown
+        self.shining: list[Lit] = []
+        """Those of this frame."""
+
+    @classmethod
+    def begin(cls, start: Start, /) -> Self:
+        """Return those of a prairie's world."""
+        return cls(start.world, start.grown)
+
+    def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
+        """Take over a scene that was read again."""
+        del before, time
+        self._grown = grown
+
+    def step(self, viewer: str, /, *, time: float) -> None:
+        """Look where all of them are at a time [s]; raises ValueError for one without a place."""
+        del viewer
+        declared = self._grown.scene.lamps
+        self.shining = self._games() + (self._scenes(declared, time) if declared else [])
+
+    def _games(self) -> list[Lit]:
+        found = self._world.all(Lamp)
+        lit = [(who, lamp, self._world.find(who, Pose)) for who, lamp in found]
+        placed = [(lamp, _placed(who, pose)) for who, lamp, pose in lit]
+        return [one for (who, *_), one in zip(lit, placed, strict=True) if self._world.stands(who, one[1], "the lamp")]
+
+    def _scenes(self, declared: Sequence[LampOnPath], time: float) -> list[Lit]:
+        poses = [one.pose(time=time) for one in declared]
+        ground = height_at(self._grown.ground.terrain, np.array([(pose.x, pose.z) for pose in poses], np.float32))
+        heights = [float(low) + one.height for low, one in zip(ground, declared, strict=True)]
+        return [
+            (one.lamp(), replace(pose, y=height)) for one, pose, height in zip(declared, poses, heights, strict=True)
+        ]
+
+    def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> LampPart:
+        """Return what shaders are told of them."""
+        del block
+        return LampPart(ctx, units["lamps"], lambda: self.shining)
+
+
+def _placed(who: int, pose: Pose | None) -> Pose:
+    """Return the pose of a lamp's entity; raises ValueError where that is no place."""
+    if pose is None or pose.y is None:
+        have = "no Pose" if pose is None else f"{pose}, which has no height"
+        raise ValueError(f"the lamp of entity {who} has {have}: give it a Pose(x, z, y=...)")
+    return pose
