@@ -1,6 +1,6 @@
 """Drawing what flies over the prairie: opaque, with a soft border along the outline."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import cos, sin
 
 import moderngl
@@ -66,13 +66,13 @@ class _Layer:
 class BodyPainter:
     """Draws saucers."""
 
-    def __init__(self, ctx: moderngl.Context, block: FrameBlock) -> None:
+    def __init__(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int]) -> None:
         self.stream = Stream(ctx, PLACED)
         mesh = saucer()
 
         def layer(mesh: tuple[NDArray[np.void], NDArray[np.int32]], defines: dict[str, str | int]) -> _Layer:
             return _Layer(
-                joined(ctx, block, {}, "systems/bodies/body.vert", "systems/bodies/body.frag", defines),
+                joined(ctx, block, units, "systems/bodies/body.vert", "systems/bodies/body.frag", defines),
                 mesh,
                 self.stream,
             )

@@ -46,15 +46,14 @@ class Bodies(Feature):
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> "BodiesPart":
         """Return what draws them."""
-        del units
-        return BodiesPart(self, ctx, block)
+        return BodiesPart(self, ctx, block, units)
 
 
 class BodiesPart(Part):
     """Draws what flies; it makes nothing before something does."""
 
-    def __init__(self, bodies: Bodies, ctx: moderngl.Context, block: FrameBlock) -> None:
-        self._bodies, self._ctx, self._block = bodies, ctx, block
+    def __init__(self, bodies: Bodies, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int]) -> None:
+        self._bodies, self._ctx, self._block, self._units = bodies, ctx, block, units
         self.painter: BodyPainter | None = None
 
     def make_ready(self, grown: Grown, /) -> None:
@@ -71,7 +70,7 @@ class BodiesPart(Part):
 
     def _make(self) -> None:
         if self.painter is None:
-            self.painter = BodyPainter(self._ctx, self._block)
+            self.painter = BodyPainter(self._ctx, self._block, self._units)
 
     def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
         """Send what is in the air, and write what casts shadows."""

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...components.arrays import Doubles, Floats, Ints
+from ...components.arrays import Doubles, Floats, Rows
 
 SIDE = 64
 """Cells along a side of the square that lamps shine on, at most."""
@@ -29,32 +29,32 @@ class Listed:
     side: int
     """Cells along a side of the whole."""
 
-    first: Ints
+    first: Rows
     """Where each cell's list begins, (side * side,)."""
 
-    count: Ints
+    count: Rows
     """How long it is, (side * side,)."""
 
-    lamps: Ints
+    lamps: Rows
     """The lists, one after another: numbers of lamps."""
 
 
 def listed(place: Floats, reach: Floats, /) -> Listed:
     """Return the cells that lamps shine on which stand over places (n, 2) [m] and reach so far (n,) [m]."""
-    middle, reach = place.astype(np.float64), reach.astype(np.float64)
-    low = (middle - reach[:, None]).min(axis=0)
-    extent = float(((middle + reach[:, None]).max(axis=0) - low).max())
+    middle, far = place.astype(np.float64), reach.astype(np.float64)
+    low = (middle - far[:, None]).min(axis=0)
+    extent = float(((middle + far[:, None]).max(axis=0) - low).max())
     cell = max(extent / SIDE, SMALLEST)
-    while np.sum((2.0 * reach / cell + 2.0) ** 2) > ROOM and cell < extent:
+    while np.sum((2.0 * far / cell + 2.0) ** 2) > ROOM and cell < extent:
         cell *= 1.25
     side = max(int(np.ceil(extent / cell)), 1)
-    lamps, cells = _meeting(middle - low, reach, cell, side)
+    lamps, cells = _meeting(middle - low, far, cell, side)
     count = np.bincount(cells, minlength=side * side)
     order = np.argsort(cells, kind="stable")
     return Listed((float(low[0]), float(low[1])), cell, side, np.cumsum(count) - count, count, lamps[order])
 
 
-def _meeting(middle: Doubles, reach: Doubles, cell: float, side: int) -> tuple[Ints, Ints]:
+def _meeting(middle: Doubles, reach: Doubles, cell: float, side: int) -> tuple[Rows, Rows]:
     """Return each lamp and each cell that it shines on, (m,) and (m,); `middle` is from the first cell's corner."""
     first = np.clip(np.floor((middle - reach[:, None]) / cell).astype(np.int64), 0, side - 1)
     last = np.clip(np.floor((middle + reach[:, None]) / cell).astype(np.int64), 0, side - 1)

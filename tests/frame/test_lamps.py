@@ -1,6 +1,7 @@
 """Lamps: the same light on all representations, falling off as it does in the world (F5, N12)."""
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 
 import esper
@@ -10,11 +11,12 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass import Lamp, Pose
-from tallgrass.engine.camera import Camera
-from tallgrass.systems.lamps.card import MOST
+from tallgrass.engine.camera import Camera, view_of
+from tallgrass.systems.lamps.card import MOST, seen, stand
 from tallgrass.systems.light.color import shown_as
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import draw_reference
+from tallgrass.systems.space.frustum import picture_sides
 from tallgrass.testing import LITTLE, Stage
 
 Picture = NDArray[np.float64]
@@ -83,9 +85,71 @@ def test_n12_a_lamp_lights_all_representations_alike(stage: Stage, prairies: dic
 
     due = of_rings(lamplight(truth, *LAMPS[name]))
     found = {
-        lod: of_rings(lamplight(lambda at=prairie: stage.shot(at, CAMERA), *LAMPS[name])) / due
+        lod: of_rings(lamplight(partial(stage.shot, prairie, CAMERA), *LAMPS[name])) / due
         for lod, prairie in prairies.items()
     }
-    print(due, found)
     assert due.min() > 0.003
     assert max(np.abs(ratio - 1.0).max() for ratio in found.values()) < 0.08, found
+
+
+def test_light_of_a_lamp_falls_off_by_the_inverse_square_and_ends_at_its_range(
+    stage: Stage, prairies: dict[str, Prairie]
+) -> None:
+    def at(height: float, far: float) -> float:
+        lamp, pose = Lamp(candela=300.0 * height**2, range=far), Pose(0.0, 0.0, y=height)
+        return float(lamplight(lambda: stage.shot(prairies["carpet"], CAMERA), lamp, pose)[40:60, 60:84].mean())
+
+    high, higher = at(15.0, 1000.0), at(30.0, 1000.0)
+    assert high > 0.005
+    assert higher == pytest.approx(high, rel=0.1)
+    assert abs(at(15.0, 14.0)) < 1e-4
+
+
+def test_a_lamp_goes_where_its_pose_goes_and_out_with_its_entity(
+    stage: Stage, load: Load, camera: Aim
+) -> None:
+    prairie, aim = load(LITTLE), camera(0.0, 2.0, 20.0, pitch=-10)
+    dark = stage.shot(prairie, aim)
+    entity = esper.create_entity(Lamp(candela=1e6), Pose(-5.0, 8.0, y=4.0))
+    left = stage.shot(prairie, aim) - dark
+    esper.add_component(entity, Pose(5.0, 8.0, y=4.0))
+    right = stage.shot(prairie, aim) - dark
+    esper.delete_entity(entity, immediate=True)
+    half = dark.shape[1] // 2
+    assert left[:, :half].mean() > 2.0 * left[:, half:].mean() > 0.0
+    assert right[:, half:].mean() > 2.0 * right[:, :half].mean() > 0.0
+    assert (stage.shot(prairie, aim) == dark).all()
+
+
+def test_a_scene_declares_lamps_at_heights_above_the_ground(stage: Stage, load: Load, camera: Aim) -> None:
+    aim = camera(0.0, 2.0, 20.0, pitch=-10)
+    scene = LITTLE.rstrip() + "\nlamps: [{ position: [2, 8], height: 4, candela: 1000000 }]\n"
+    declared = stage.shot(load(scene), aim)
+    prairie = load(LITTLE)
+    esper.create_entity(Lamp(candela=1e6), Pose(2.0, 8.0, y=4.0 + float(prairie.height_at([(2.0, 8.0)])[0])))
+    assert np.abs(stage.shot(prairie, aim) - declared).max() <= 1.0
+
+
+def test_of_more_lamps_than_there_is_room_for_the_brightest_count(stage: Stage, camera: Aim) -> None:
+    candela = np.random.default_rng(1).permutation(MOST + 40) + 1.0
+    told = stand([(Lamp(candela=float(each)), Pose(0.0, 0.0, y=3.0)) for each in candela])
+    sides = picture_sides(view_of(*stage.matrices(camera(0.0, 2.0, 20.0))))
+    found = seen(told, sides, (0.0, 2.0, 20.0))
+    kept = candela > 40
+    assert np.array_equal(found, told[kept])
+    behind = stand([(Lamp(range=5.0), Pose(0.0, 30.0, y=3.0))])
+    assert len(seen(behind, sides, (0.0, 2.0, 20.0))) == 0
+
+
+@pytest.mark.parametrize("pose", [None, Pose(1.0, 2.0)])
+def test_a_lamp_without_a_place_is_told_before_anything_is_drawn(
+    stage: Stage, load: Load, camera: Aim, pose: Pose | None
+) -> None:
+    prairie, aim = load(LITTLE), camera(0.0, 2.0, 20.0)
+    stage.shot(prairie, aim)
+    entity = esper.create_entity(Lamp(), *([] if pose is None else [pose]))
+    stage.begin()
+    with pytest.raises(ValueError, match=rf"^the lamp of entity {entity} has .*: give it a Pose\(x, z, y=\.\.\.\)$"):
+        prairie.draw(*stage.matrices(aim))
+    assert (stage.read() == 0.0).all()
+    esper.delete_entity(entity, immediate=True)

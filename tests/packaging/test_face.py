@@ -22,6 +22,7 @@ def test_the_face_shows_what_programs_are_written_with() -> None:
         "Grass",
         "GrassAt",
         "Hover",
+        "Lamp",
         "Lod",
         "Patch",
         "Pose",

@@ -1,0 +1,46 @@
+"""Which lamps shine on which cells (F5)."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tallgrass import Lamp
+from tallgrass.systems.lamps.listed import ROOM, SIDE, listed
+
+
+@given(st.integers(1, 256), st.floats(0.1, 900.0), st.floats(0.0, 3000.0), st.integers(0, 2**32 - 1))
+def test_every_lamp_that_reaches_a_place_is_in_its_cells_list(count: int, far: float, apart: float, seed: int) -> None:
+    random = np.random.default_rng(seed)
+    place = (random.random((count, 2)) * apart).astype(np.float32)
+    reach = (far * (0.2 + 0.8 * random.random(count))).astype(np.float32)
+    lists = listed(place, reach)
+    assert len(lists.first) == lists.side**2 <= SIDE**2
+    assert lists.count.sum() == len(lists.lamps) <= ROOM
+    asked = place[random.integers(count, size=40)] + (random.random((40, 2)) - 0.5) * 2.2 * far
+    for x, z in asked:
+        near = np.hypot(*(place.astype(np.float64) - (x, z)).T) < reach * (1.0 - 1e-6)
+        cell = np.floor((np.array((x, z)) - lists.corner) / lists.cell).astype(int)
+        if (cell < 0).any() or (cell >= lists.side).any():
+            assert not near.any()
+            continue
+        number = cell[1] * lists.side + cell[0]
+        those = lists.lamps[lists.first[number] : lists.first[number] + lists.count[number]]
+        assert set(np.flatnonzero(near)) <= set(those.tolist())
+
+
+@pytest.mark.parametrize(
+    ("keys", "why"),
+    [
+        ({"colour": "red"}, "a lamp's colour is written '#rrggbb', not 'red'"),
+        ({"candela": -1.0}, "a lamp's candela is from 0 to 1e+07, not -1.0"),
+        ({"candela": float("nan")}, "a lamp's candela is from 0 to 1e+07, not nan"),
+        ({"range": 0.0}, "a lamp's range is above 0 m, at most 1000 m, not 0.0"),
+        ({"cone": 3.2}, "a lamp's cone is half its angle, above 0 and below pi rad, not 3.2"),
+        ({"pitch": "up"}, "a lamp's pitch is from -pi to pi rad, not 'up'"),
+    ],
+)
+def test_what_cannot_shine_is_refused_in_a_sentence(keys: dict[str, object], why: str) -> None:
+    with pytest.raises(ValueError, match="^a lamp") as caught:
+        Lamp(**keys)  # type: ignore[arg-type]
+    assert str(caught.value) == why
