@@ -62,7 +62,7 @@ FRAME = np.dtype(
         ("over_hosts", "f4"),  # 1 where grass is laid over ground that is the game's own
         ("lamplight", "f4"),  # as `exposure`, of what lamps send
         ("mesh_low", "2f4"), ("mesh_high", "2f4"),  # x, z [m]: no ground is drawn beyond
-        ("lamps_grid", "4f4"),  # cells that lamps shine on: first corner (x, z) [m]; cells a metre; along a side, 0 for none
+        ("lamps_grid", "4f4"),  # cells that lamps shine on: corner (x, z) [m]; cells a metre; along a side, 0 for none
         ("crown", f"({GROUPS},4)f4"),  # by kind, four in each: height of the canopy [m]
         ("leaf", f"({GROUPS},4)f4"),  # leaf area seen from the side, of the ground's area
         ("lying", f"({GROUPS},4)f4"),  # leaf area seen from above, of that from the side

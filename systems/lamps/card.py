@@ -81,7 +81,7 @@ def seen(told: Floats, sides: Doubles, eye: tuple[float, float, float], /) -> Fl
 
 
 def texels(told: Floats, lists: Listed, /) -> NDArray[np.uint32]:
-    """Return the rows of the texture that tell of lamps (n, 3, 4) and of the cells that they shine on, (rows, ROW, 4)."""
+    """Return the texture's rows that tell of lamps (n, 3, 4) and of the cells that they shine on, (rows, ROW, 4)."""
     used = LISTS_FROM + -(-len(lists.lamps) // (16 * ROW))
     rows = np.zeros((used, ROW, 4), np.uint32)
     rows[:CELLS_FROM, : len(told)] = told.transpose(1, 0, 2).view(np.uint32)

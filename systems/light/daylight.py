@@ -18,7 +18,7 @@ ADAPTS = 0.55
 LIT_NIGHT = 0.86
 """Exponent by which lamps shine brighter the less daylight there is, for what twilight and night are here too bright.
 
-From noon to night the light here goes down by a factor of 240; in the world it comes down to 5 lx, as at the end of civil
+From noon to night light goes down by a factor of 240 here; in the world, down to 5 lx as at the end of civil
 twilight, by one of 25 000 (Seidelmann, Explanatory Supplement to the Astronomical Almanac, 1992)."""
 
 DARKEST = 0.005

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from functools import partial
+from itertools import pairwise
 from typing import Any
 
 import esper
@@ -78,7 +79,7 @@ def test_n12_a_lamp_lights_all_representations_alike(stage: Stage, prairies: dic
         return draw_reference(prairies["blades"], *stage.matrices(CAMERA), SIZE, samples=3).astype(np.float64)
 
     away = np.linalg.norm(stage.ground(CAMERA, 0.35), axis=-1)
-    rings = [(away > near) & (away < far) for near, far in zip(RINGS, RINGS[1:], strict=False)]
+    rings = [(away > near) & (away < far) for near, far in pairwise(RINGS)]
 
     def of_rings(picture: Picture) -> Picture:
         return np.array([picture[ring].mean() for ring in rings])
@@ -105,9 +106,7 @@ def test_light_of_a_lamp_falls_off_by_the_inverse_square_and_ends_at_its_range(
     assert abs(at(15.0, 14.0)) < 1e-4
 
 
-def test_a_lamp_goes_where_its_pose_goes_and_out_with_its_entity(
-    stage: Stage, load: Load, camera: Aim
-) -> None:
+def test_a_lamp_goes_where_its_pose_goes_and_out_with_its_entity(stage: Stage, load: Load, camera: Aim) -> None:
     prairie, aim = load(LITTLE), camera(0.0, 2.0, 20.0, pitch=-10)
     dark = stage.shot(prairie, aim)
     entity = esper.create_entity(Lamp(candela=1e6), Pose(-5.0, 8.0, y=4.0))
