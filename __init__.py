@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from . import scenes
     from .components.body import Hover
-    from .components.footprint import Footprint
+    from .components.footprint import Footprint, Road
     from .components.grass_at import GrassAt
     from .components.lamp import Lamp
     from .components.patch import Lod, Patch
@@ -51,6 +51,7 @@ __all__ = [
     "Prairie",
     "Presser",
     "Receivers",
+    "Road",
     "Scene",
     "SceneError",
     "Shade",
@@ -85,6 +86,7 @@ _HOMES = {
     "Prairie": ".systems.prairie",
     "Presser": ".components.presser",
     "Receivers": ".components.receivers",
+    "Road": ".components.footprint",
     "Scene": ".engine.declared.scene",
     "SceneError": ".engine.scene",
     "Shade": ".components.shade",

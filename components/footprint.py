@@ -1,4 +1,4 @@
-"""Footprints: the outlines on the ground under which grass is pressed down or cut."""
+"""Footprints: the outlines on the ground under which grass is pressed down, cut, sown or cleared."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ class Footprint:
 
     def __post_init__(self) -> None:
         """Make pairs of the corners, whatever they stand in; raise ValueError for what is no footprint."""
-        object.__setattr__(self, "corners", _pairs(self.corners))
+        object.__setattr__(self, "corners", _pairs(self.corners, "a footprint's corners are"))
         most = self._largest
         if not is_between(0.02, self.radius, most):
             raise ValueError(f"a footprint's radius is from 0.02 to {most:g} m, not {self.radius!r}")
@@ -42,16 +42,41 @@ class Footprint:
             raise ValueError(f"a footprint's corners are 3 or more places (x, z) within {most:g} m, not in a line")
 
 
+@dataclass(frozen=True, slots=True)
+class Road:
+    """A way of one width along a line of places, round at its ends and bends; a `Pose` says where its frame lies.
+
+    Raises ValueError for what is no road.
+    """
+
+    _farthest: ClassVar[float] = 20_000.0
+
+    line: tuple[tuple[float, float], ...]
+    """Places (x, z) in its own frame that it goes through, straight from each to the next, 2 or more [m]."""
+
+    width: float = 4.0
+    """How wide it is [m]."""
+
+    def __post_init__(self) -> None:
+        """Make pairs of the places, whatever they stand in; raise ValueError for what is no road."""
+        object.__setattr__(self, "line", _pairs(self.line, "a road goes through"))
+        far, numbers = self._farthest, [number for place in self.line for number in place]
+        if len(self.line) < 2 or not all(isfinite(number) and abs(number) <= far for number in numbers):
+            raise ValueError(f"a road goes through 2 or more places (x, z) within {far:g} m")
+        if not is_between(0.05, self.width, 1000.0):
+            raise ValueError(f"a road's width is from 0.05 to 1000 m, not {self.width!r}")
+
+
 def is_between(least: float, thing: object, most: float) -> bool:
     """Return whether something is a number from `least` to `most`."""
     return isinstance(thing, Real) and least <= float(thing) <= most
 
 
-def _pairs(corners: Iterable[Iterable[float]]) -> tuple[tuple[float, float], ...]:
+def _pairs(places: Iterable[Iterable[float]], due: str) -> tuple[tuple[float, float], ...]:
     try:
-        return tuple((float(x), float(z)) for x, z in corners)
+        return tuple((float(x), float(z)) for x, z in places)
     except (TypeError, ValueError):
-        raise ValueError(f"a footprint's corners are places (x, z), not {shortened(corners)}") from None
+        raise ValueError(f"{due} places (x, z), not {shortened(places)}") from None
 
 
 def _area(corners: tuple[tuple[float, float], ...]) -> float:

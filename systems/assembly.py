@@ -79,8 +79,7 @@ def built_in(
             Phase.TILE,
             "tile",
             Tile(
-                outlooks, entities, ground.terrain, patch, site.scene.seed,
-                site.quality.models,
+                outlooks, entities, ground, site.scene.seed, site.quality.models,
             ),
         ),
         (Phase.SEE, "cull", Cull(outlooks, patch, site.sway)),

@@ -179,7 +179,7 @@ def tallest_tip(growth: Growth) -> float:
 def outlook_on(site: Site, viewer: Viewer, entity: int, /) -> Outlook:
     """Return the empty outlook of a viewer on a site; `entity` is the viewer's."""
     outlook = Outlook(viewer, entity, PatchTable.allocate(2 * site.reach[-1] + 1, NAMES, viewer=viewer.name))
-    outlook.heights = site.ground.terrain.changes.count
+    outlook.heights, outlook.sown = site.ground.terrain.changes.count, site.ground.density.sown.count
     keep_room(outlook, site.representations, site.reach)
     return outlook
 
@@ -197,6 +197,7 @@ def settle_on(outlook: Outlook, site: Site, before: Site, world: World, /) -> No
             world.delete(entity)
         outlook.patches = PatchTable.allocate(2 * site.reach[-1] + 1, NAMES, viewer=outlook.viewer.name)
         outlook.heights = site.ground.terrain.changes.count
+    outlook.sown = site.ground.density.sown.count
     keep_room(outlook, site.representations, site.reach)
     for row in np.flatnonzero(outlook.patches.entity).tolist():
         for part in components(outlook, site.representations, row):

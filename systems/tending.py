@@ -1,14 +1,15 @@
-"""What a game does to a prairie: winds, cuts, other ground, and another light."""
+"""What a game does to a prairie: winds, cuts, what it sows and clears, other ground, and another light."""
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..components.footprint import Footprint
+from ..components.footprint import Footprint, Road
 from ..components.pose import HERE, Pose
 from ..components.wind import WindPrimitive
 from ..engine.scene.change import changed
 from ..engine.terrain.change import set_heights
 from .answering import Answering
+from .mow.sown import clear, sow
 
 
 class Tending(Answering):
@@ -42,25 +43,50 @@ class Tending(Answering):
         """
         self.winds.remove(handle)
 
-    def cut(self, footprint: Footprint, height: float, *, pose: Pose = HERE) -> None:
-        """Cut the grass under a footprint to `height` [m], at once and until it is grown again.
+    def cut(self, footprint: Footprint | Road, height: float, *, pose: Pose = HERE) -> None:
+        """Cut the grass under a footprint or a road to `height` [m], at once and until it is grown again.
 
         Blades end where they stand so high in calm air; shorter ones stay as they are. The footprint lies at `pose`,
-        without one its corners are places of the world. Heights are kept on a map whose cells are 0.2 m wide, larger
-        on a terrain of more than 400 m; a cell is cut if its middle is under the footprint. Raises TypeError for what
-        is no footprint, height or pose, ValueError for a negative height and a pose that is not finite, and
-        RuntimeError after `release`.
+        without one its corners are places of the world. Heights are kept on a map whose cells are 0.2 m wide, on a
+        terrain of any size; a cell is cut if its middle is under the footprint. Raises TypeError for what is no
+        footprint, height or pose, ValueError for a negative height and a pose that is not finite, and RuntimeError
+        after `release`.
         """
         self._must_be_there("cut its grass")
         self._mown.cut(footprint, height, pose)
 
-    def grow(self, footprint: Footprint, height: float = np.inf, *, pose: Pose = HERE) -> None:
-        """Let the grass that was cut under a footprint stand up to `height` [m] again, or as high as it grows.
+    def grow(self, footprint: Footprint | Road, height: float = np.inf, *, pose: Pose = HERE) -> None:
+        """Let the grass that was cut under a footprint or a road stand up to `height` [m] again, or as high as it grows.
 
         What stands higher than that stays as it is. It raises the errors of `cut`.
         """
         self._must_be_there("grow its grass")
         self._mown.grow(footprint, height, pose)
+
+    def sow(
+        self, kind: str, footprint: Footprint | Road, density: float, *, soft: float = 0.0, pose: Pose = HERE
+    ) -> None:
+        """Let a kind grow under a footprint or a road with a density in [0, 1], at once and in every representation.
+
+        Other kinds give way as far as all would come to more than 1 together; flowers take no ground from them. Over
+        `soft` [m] beside it there is ever less of that. Densities are kept on a map whose cells are 0.2 m wide, on a
+        terrain of any size. Raises ValueError for an unknown kind, and for what is no density or width; TypeError for
+        what is no footprint or pose, and RuntimeError after `release`.
+        """
+        self._must_be_there("sow on it")
+        among = [each.plant == "flower" for each in self.scene.grass.values()]
+        number = self.scene.number_of(kind)
+        if number is None:
+            raise TypeError(f"what is sown is the name of a kind, not {kind!r}")
+        sow(self.site.ground.density, number, among, footprint, density, pose, soft=soft)
+
+    def clear(self, footprint: Footprint | Road, *, soft: float = 0.0, pose: Pose = HERE) -> None:
+        """Let nothing grow under a footprint or a road any more: a house's floor, a way, until it is sown again.
+
+        Over `soft` [m] beside it there is ever more of what grows. It is kept as `sow` does, and raises its errors.
+        """
+        self._must_be_there("clear it")
+        clear(self.site.ground.density, footprint, pose, soft=soft)
 
     def set_heights(self, corner: ArrayLike, heights: ArrayLike) -> None:
         """Put other heights [m] into the ground, from its sample at `corner` (x, z) [m] on: a crater, a dike, a field.

@@ -8,14 +8,17 @@ from numpy.typing import NDArray
 
 from ..components.arrays import Ints
 from ..engine.random import hash3
-from ..engine.terrain.record import Part, Terrain
+from ..engine.terrain.part import Part
+from ..engine.terrain.plots import CELL, ends_of
+from ..engine.terrain.record import Terrain
 from ..engine.terrain.sample import height_at, slope_at
 from .around.outlook import Outlook
 from .around.patches import PatchTable
 from .entities import PatchEntities
 from .room import make_room
 from .space.cone import discrete_distance, nearness, seen_from
-from .space.window import between, window_cells
+from .space.ground import Ground
+from .space.window import between, cell_of, window_cells
 
 EDGE = 1e-4
 """How far beyond its edge a cell is still the one that a viewer stands in [patch sides]."""
@@ -93,10 +96,7 @@ class Tile:
 
     outlooks: Iterable[Outlook]
     entities: PatchEntities
-    terrain: Terrain
-    patch: float
-    """Side of a patch [m]."""
-
+    ground: Ground
     seed: int
     models: int
     """Patch models of each kind."""
@@ -107,24 +107,41 @@ class Tile:
         for outlook in self.outlooks:
             make_room(outlook, self.entities.representations, self.entities.world)
             patches, viewer = outlook.patches, outlook.viewer
-            viewer.centre = cell_stood_in(viewer.eye, viewer.centre, patch=self.patch)
+            patch, terrain = self.ground.patch, self.ground.terrain
+            viewer.centre = cell_stood_in(viewer.eye, viewer.centre, patch=patch)
             self._follow(outlook)
-            fresh = tile(patches, viewer.centre, self.terrain, patch=self.patch, seed=self.seed, models=self.models)
-            patches.away[:] = seen_from(patches.distance, patches.height, viewer.eye[1], patch=self.patch)
+            fresh = tile(patches, viewer.centre, terrain, patch=patch, seed=self.seed, models=self.models)
+            patches.away[:] = seen_from(patches.distance, patches.height, viewer.eye[1], patch=patch)
             self.entities.go_on(outlook, fresh)
 
     def _follow(self, outlook: Outlook) -> None:
-        """Let a viewer's patches stand on the ground as it is, where it has changed since the viewer looked last."""
-        changes, patches = self.terrain.changes, outlook.patches
-        if outlook.heights == changes.count:
-            return
-        rows, columns = self.terrain.heights.shape
-        for part in changes.since(outlook.heights) or [Part(0, 0, rows, columns)]:
-            first, last = cells_over(self.terrain, part, patch=self.patch)
+        """Let a viewer's patches be what the ground is, where it has changed since the viewer looked last."""
+        if outlook.heights != self.ground.terrain.changes.count:
+            self._stand(outlook)
+        if outlook.sown != self.ground.density.sown.count:
+            self._sow(outlook)
+
+    def _stand(self, outlook: Outlook) -> None:
+        terrain, patches, patch = self.ground.terrain, outlook.patches, self.ground.patch
+        rows, columns = terrain.heights.shape
+        for part in terrain.changes.since(outlook.heights) or [Part(0, 0, rows, columns)]:
+            first, last = cells_over(terrain, part, patch=patch)
             on = np.flatnonzero(between(patches.cell, first, last))
             middle = patches.middle[on].astype(np.float32)
-            patches.height[on], patches.slope[on] = height_at(self.terrain, middle), slope_at(self.terrain, middle)
-            heights = self.terrain.heights[part.around]
+            patches.height[on], patches.slope[on] = height_at(terrain, middle), slope_at(terrain, middle)
+            heights = terrain.heights[part.around]
             for kept in outlook.kept.values():
                 kept.stand_on(first, last, (float(heights.min()), float(heights.max())))
-        outlook.heights = changes.count
+        outlook.heights = terrain.changes.count
+
+    def _sow(self, outlook: Outlook) -> None:
+        sown, patches, patch = self.ground.density.sown, outlook.patches, self.ground.patch
+        changed = sown.since(outlook.sown)
+        squares = np.array([(patches.cell.min(axis=0), patches.cell.max(axis=0))])
+        if changed is not None:
+            ends = np.array([ends_of(part) for part in changed])
+            squares = np.unique(cell_of(ends + np.array([[-CELL], [CELL]], np.float32), patch=patch), axis=0)
+        for first, last in squares:
+            for kept in outlook.kept.values():
+                kept.sow_on(first, last)
+        outlook.sown = sown.count

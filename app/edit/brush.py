@@ -10,7 +10,7 @@ from PIL import Image
 
 from ...engine.terrain.density import CHANNELS, Picture
 from ...engine.terrain.record import Density
-from ...engine.terrain.sample import density_at
+from ...engine.terrain.sample import painted_at
 
 FINEST, LEAST, MOST = 0.5, 64, 1024
 """Side of a pixel of a new map [m], and the fewest and most pixels along its longer side."""
@@ -111,7 +111,7 @@ def new_picture(density: Density, number: int, /) -> Picture:
         .reshape(-1, 2)
         .astype(np.float32)
     )
-    values = np.rint(255.0 * density_at(density, place)[number]).astype(np.uint8).reshape(rows, columns)
+    values = np.rint(255.0 * painted_at(density, place)[number]).astype(np.uint8).reshape(rows, columns)
     return np.repeat(values[..., None], 3, axis=2)
 
 

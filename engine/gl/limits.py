@@ -23,6 +23,9 @@ class Limits:
     bindings: int
     """Uniform blocks that may be bound, 36 at least."""
 
+    side: int
+    """Texels along a side of a texture, 1024 at least."""
+
     timed: bool
     """Whether it can tell the time: a timer may have no bits at all."""
 
@@ -54,6 +57,7 @@ def limits_of(gl: Functions) -> Limits:
         renderer=_told(gl.glGetString(NUMBERS["RENDERER"])),
         layers=_number(gl, "MAX_ARRAY_TEXTURE_LAYERS"),
         bindings=_number(gl, "MAX_UNIFORM_BUFFER_BINDINGS"),
+        side=_number(gl, "MAX_TEXTURE_SIZE"),
         timed=bits[0] > 0,
         clipped=version >= (4, 5) or "GL_ARB_clip_control" in extensions,
         viewports=_number(gl, "MAX_VIEWPORTS") if several else 1,

@@ -9,7 +9,8 @@ from numpy.typing import ArrayLike
 from ...components.arrays import Floats, Ints
 from ..handed import as_floats
 from .load import HIGHEST
-from .record import Part, Terrain
+from .part import Part
+from .record import Terrain
 
 SQUARE = 16
 """Samples along a side of the squares that changes are kept by."""

@@ -2,39 +2,13 @@
 
 from collections import deque
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Floats
-
-MOST = 4096
-"""Changes that are told apart; who has missed more takes over all heights."""
-
-
-class Part(NamedTuple):
-    """A rectangle of samples."""
-
-    row: int
-    """The first of its rows."""
-
-    column: int
-    """The first of its columns."""
-
-    rows: int
-    columns: int
-
-    @property
-    def slices(self) -> tuple[slice, slice]:
-        """What an array of heights is indexed with."""
-        return slice(self.row, self.row + self.rows), slice(self.column, self.column + self.columns)
-
-    @property
-    def around(self) -> tuple[slice, slice]:
-        """The same with the samples next to it: it and they make out the ground that it is part of."""
-        low, left = max(self.row - 1, 0), max(self.column - 1, 0)
-        return slice(low, self.row + self.rows + 1), slice(left, self.column + self.columns + 1)
+from .part import MOST, Part
+from .plots import Plots
 
 
 @dataclass(slots=True, eq=False)
@@ -119,3 +93,10 @@ class Density:
 
     size: tuple[float, float]
     """Width (x) and depth (z) of the terrain that the maps are laid over, centred on the origin [m]."""
+
+    sown: Plots = field(init=False)
+    """What a game has sown and cleared: densities of all kinds in bytes, in place of those of the maps."""
+
+    def __post_init__(self) -> None:
+        """Begin with nothing sown."""
+        object.__setattr__(self, "sown", Plots(self.size, np.dtype(np.uint8), (len(self.maps),)))

@@ -6,8 +6,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Floats
+from ...components.arrays import Floats, Mask
 from .record import Density, Terrain
+
+_WHOLE = np.float32(1.0 / 255.0)
+"""What a byte of full density is multiplied by."""
 
 _BLOCK = 12288
 """Places worked on at a time: few enough that allocators keep the memory at hand, which makes it twice as fast."""
@@ -59,15 +62,12 @@ def normal_at(terrain: Terrain, place: Floats, /) -> Floats:
 def density_at(density: Density, place: Floats, /) -> Floats:
     """Return each kind's density in [0, 1] at ground positions (x, z) [m] of shape (n, 2), shape (kinds, n).
 
-    It is what a texture laid over the terrain gives: pixels have their value in their middle, and beyond the middle
-    of the outermost pixels that value holds.
+    It is what a game has sown or cleared there, and else what is painted.
     """
-    result = np.empty((len(density.maps), len(place)), np.float32)
-    for block in _blocks(len(place)):
-        at = _within_maps(density, place[block])
-        for kind, values in enumerate(density.maps):
-            far, near = _rows(values.reshape(-1), at)
-            result[kind, block] = far + at.down * (near - far)
+    result = painted_at(density, place)
+    if density.sown.any:
+        on = density.sown.on(place)
+        result[:, on.which] = density.sown.between(on).T * _WHOLE
     return result
 
 
@@ -82,6 +82,44 @@ def own_density_at(density: Density, kind: NDArray[np.intp], place: Floats, /) -
         at = _within_maps(density, place[block])
         far, near = _rows(flat, at._replace(corner=at.corner + kind[block] * each))
         result[block] = far + at.down * (near - far)
+    if density.sown.any:
+        on = density.sown.on(place)
+        result[on.which] = density.sown.between(on, kind[on.which]) * _WHOLE
+    return result
+
+
+def sown_between(density: Density, low: Floats, high: Floats, /) -> tuple[Mask, Floats, Floats]:
+    """Return in which squares (n,) of the ground a game has sown or cleared anything, and the ends of densities there.
+
+    Squares lie between corners `low` and `high` (x, z) [m], (n, 2). The least and the greatest density that each kind
+    has are of shape (n, kinds); they hold where anything was sown.
+    """
+    count, kinds = len(low), len(density.maps)
+    touched, least, most = np.zeros(count, np.bool_), np.ones((count, kinds), np.float32), np.zeros((count, kinds))
+    if not density.sown.any:
+        return touched, least, most.astype(np.float32)
+    corners = np.stack([low, high, np.stack([low[:, 0], high[:, 1]], 1), np.stack([high[:, 0], low[:, 1]], 1)])
+    touched[np.unique(density.sown.on(corners.reshape(-1, 2)).which % count)] = True
+    for number in np.flatnonzero(touched).tolist():
+        for values in density.sown.within(low[number], high[number]):
+            if values is not None:
+                least[number] = np.minimum(least[number], values.min(axis=(0, 1)) * _WHOLE)
+                most[number] = np.maximum(most[number], values.max(axis=(0, 1)) * _WHOLE)
+    return touched, least, most.astype(np.float32)
+
+
+def painted_at(density: Density, place: Floats, /) -> Floats:
+    """Return each kind's density as the scene has it, whatever has been sown, as `density_at` does.
+
+    It is what a texture laid over the terrain gives: pixels have their value in their middle, and beyond the middle
+    of the outermost pixels that value holds.
+    """
+    result = np.empty((len(density.maps), len(place)), np.float32)
+    for block in _blocks(len(place)):
+        at = _within_maps(density, place[block])
+        for kind, values in enumerate(density.maps):
+            far, near = _rows(values.reshape(-1), at)
+            result[kind, block] = far + at.down * (near - far)
     return result
 
 

@@ -31,6 +31,9 @@ class Kept:
         `span` has its lowest and its highest height [m].
         """
 
+    def sow_on(self, first: Ints, last: Ints, /) -> None:
+        """Take note that something else grows on the cells from `first` to `last`, each (i, j)."""
+
     def lose(self) -> None:
         """Take note that all entities are gone."""
         for receiving in self.receiving:

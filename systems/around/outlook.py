@@ -72,6 +72,9 @@ class Outlook:
     heights: int = 0
     """Changes of the terrain's heights that the patches stand for."""
 
+    sown: int = 0
+    """Changes of what is sown and cleared that the patches stand for."""
+
     generation: int = 0
     """Generation of the world that the patches' entities are of."""
 

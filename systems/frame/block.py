@@ -44,7 +44,8 @@ FRAME = np.dtype(
     [
         ("clip", "16f4"),  # world to clip space
         # Along the line of sight at a corner of the picture, each from -1 to 1: ahead, more across, and more up.
-        ("ray_ahead", "3f4"), ("pad_a", "V4"), ("ray_across", "3f4"), ("pad_b", "V4"),
+        ("ray_ahead", "3f4"), ("anything_sown", "f4"),  # 1 where a game has sown or cleared anything
+        ("ray_across", "3f4"), ("pad_b", "V4"),
         ("ray_up", "3f4"), ("anything_cut", "f4"),  # 1 where any grass has been cut
         ("eye", "3f4"), ("writes_raw", "f4"),  # [m]; 1 where raw radiance is written
         ("sun", "3f4"), ("cloud_cover", "f4"),  # direction to the sun; how much of the sky has clouds
@@ -63,6 +64,8 @@ FRAME = np.dtype(
         ("lamplight", "f4"),  # as `exposure`, of what lamps send
         ("mesh_low", "2f4"), ("mesh_high", "2f4"),  # x, z [m]: no ground is drawn beyond
         ("lamps_grid", "4f4"),  # cells that lamps shine on: corner (x, z) [m]; cells a metre; along a side, 0 for none
+        ("plots_half", "2f4"),  # plots of the terrain that there may be, from its middle to its edges
+        ("padding_b", "V8"),
         ("crown", f"({GROUPS},4)f4"),  # by kind, four in each: height of the canopy [m]
         ("leaf", f"({GROUPS},4)f4"),  # leaf area seen from the side, of the ground's area
         ("lying", f"({GROUPS},4)f4"),  # leaf area seen from above, of that from the side

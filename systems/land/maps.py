@@ -3,7 +3,8 @@
 import moderngl
 import numpy as np
 
-from ...engine.terrain.record import Density, Part, Terrain
+from ...engine.terrain.part import Part
+from ...engine.terrain.record import Density, Terrain
 from ..grow.record import Growth
 
 

@@ -7,7 +7,8 @@ import numpy as np
 
 from ...components.arrays import Doubles
 from ...engine.gl.stream import release_all
-from ...engine.terrain.record import Part, Terrain
+from ...engine.terrain.part import Part
+from ...engine.terrain.record import Terrain
 from ..frame.block import FrameBlock, joined
 from .slow import laid_over, map_shape, slow_map
 

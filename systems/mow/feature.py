@@ -1,4 +1,4 @@
-"""Mowing: what a game has cut of a prairie."""
+"""Mowing: what a game has cut, sown and cleared of a prairie."""
 
 from collections.abc import Mapping
 from typing import Self
@@ -9,14 +9,15 @@ from ..around.outlook import Outlook
 from ..frame.block import FrameBlock
 from ..frame.feature import Feature, Start
 from ..space.grown import Grown
-from .card import MownPart
+from .card import PlotsPart
 from .mown import Mown
+from .sown import carry_over
 
 
 class Mowing(Feature):
-    """How high grass is left to stand."""
+    """How high grass is left to stand, and where it has been sown and cleared."""
 
-    samplers = ("mown",)
+    samplers = ("plots",)
 
     def __init__(self, mown: Mown) -> None:
         self.mown = mown
@@ -27,15 +28,17 @@ class Mowing(Feature):
         return cls(Mown(start.grown.ground.terrain))
 
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
-        """Leave cut what was cut at a place."""
-        del before, time
+        """Leave cut, sown and cleared what was so at a place."""
+        del time
         self.mown.change(grown.ground.terrain)
+        if grown.ground.density is not before.ground.density:
+            carry_over(before.ground.density, grown.ground.density)
 
     def look(self, outlook: Outlook, /) -> None:
         """Note what is cut."""
         outlook.note(self.mown)
 
-    def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> MownPart:
-        """Return the map of it."""
+    def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> PlotsPart:
+        """Return the maps of it."""
         del block
-        return MownPart(ctx, units["mown"], self.mown)
+        return PlotsPart(ctx, units["plots"], self.mown)

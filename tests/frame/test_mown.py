@@ -12,7 +12,7 @@ import pytest
 from tallgrass import Footprint, Pose, Presser
 from tallgrass.components.arrays import Doubles
 from tallgrass.engine.camera import Camera
-from tallgrass.systems.mow.card import MownPart
+from tallgrass.systems.mow.card import PlotsPart
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import draw_reference
 from tallgrass.testing import LITTLE
@@ -139,7 +139,7 @@ def test_f4_nobody_knows_of_mowing_where_nothing_was_cut(
     prairie.grow(ALL, inf)
     stage.shot(prairie, camera(0.0, 3.0, 20.0))
     assert prairie.painter is not None
-    assert prairie.painter.part(MownPart).texture.size == (1, 1)
+    assert prairie.painter.part(PlotsPart).texture.size == (1, 1)
     assert ctx.error == "GL_NO_ERROR"
 
 

@@ -10,13 +10,14 @@ from hypothesis import strategies as st
 
 from tallgrass.components.patch import Lod, Patch
 from tallgrass.components.viewer import Viewer
-from tallgrass.engine.terrain.record import Terrain
+from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.world import World
 from tallgrass.systems.around.clearing import Clearings
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.patches import PatchTable
 from tallgrass.systems.entities import BATCH, PatchEntities
 from tallgrass.systems.show.registry import NAMES
+from tallgrass.systems.space.ground import Ground
 from tallgrass.systems.space.window import window_rows
 from tallgrass.systems.tile import Tile
 
@@ -36,7 +37,8 @@ class Tiled:
         self.clearings = clearings or Clearings()
         self.outlook = Outlook(Viewer(), 0, PatchTable.allocate(side, NAMES))
         self.entities = PatchEntities(world, self.clearings)
-        self.system = Tile([self.outlook], self.entities, terrain, PATCH, 3, 4)
+        density = Density(np.ones((1, 2, 2), np.float32), terrain.size)
+        self.system = Tile([self.outlook], self.entities, Ground(terrain, density, PATCH), 3, 4)
 
     @property
     def patches(self) -> PatchTable:

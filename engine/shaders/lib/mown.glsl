@@ -1,8 +1,6 @@
 // Up to which height grass is left to stand where it has been cut.
 #include "lib/sown.glsl"
 
-uniform sampler2D mown;  // over the terrain: up to which height grass is left to stand [m]; one texel where nothing has been cut
-
 // Whether anything has been, anywhere: else nobody need look. Programs that are made for either case are told by CUT.
 bool anything_is_cut() {
 #ifdef CUT
@@ -18,14 +16,16 @@ bool can_be_mown(vec2 place) {
     return max(beside.x, beside.y) < 0.0;
 }
 
-float left_at(vec2 place) {
-    return can_be_mown(place) ? textureLod(mown, (place - terrain_origin) / terrain_size, 0.0).r : tallest_grass;
-}
-
 // The mean over squares of `side` [m].
 float left_about(vec2 place, float side) {
-    float cell = terrain_size.x / float(textureSize(mown, 0).x), level = log2(max(side / cell, 1.0));
-    return can_be_mown(place) ? textureLod(mown, (place - terrain_origin) / terrain_size, level).r : tallest_grass;
+    Plot plot = plot_at(place);
+    if (plot.mown == 0 || !can_be_mown(place))
+        return tallest_grass;
+    return tallest_grass * (255.0 / 65535.0) * dot(on_page(plot.mown, plot.cell, page_level(side)).rg, vec2(256.0, 1.0));
+}
+
+float left_at(vec2 place) {
+    return left_about(place, 0.0);
 }
 
 // Whether that is lower than the canopy of the tallest kind.

@@ -1,22 +1,43 @@
 // How densely each kind grows, and what leaf area that is.
 #include "lib/lie.glsl"
+#include "lib/plots.glsl"
 
-uniform sampler2DArray density;  // over the terrain, four kinds in each layer: how densely each grows
+uniform sampler2DArray density;  // over the terrain, four kinds in each layer: how densely each is painted to grow
 
 const float LOWEST_CROWN = 0.01;  // height of a canopy that counts at least [m]
 
-// How densely each kind grows at a place.
-ByKind grows_at(vec2 place) {
+// Whether a game has sown or cleared anything, anywhere.
+bool anything_is_sown() {
+    return anything_sown > 0.5;
+}
+
+// How densely each kind grows at a place, in the mean over squares of `side` [m] where a game has sown or cleared.
+ByKind grows_about(vec2 place, float side) {
     vec2 at = on_map(place);
     ByKind grows;
     for (int group = 0; group < GROUPS; group++)
         grows[group] = textureLod(density, vec3(at, float(group)), 0.0);
+    if (anything_is_sown()) {
+        Plot plot = plot_at(terrain_origin + at * terrain_size);
+        if (plot.sown > 0) for (int group = 0; group < GROUPS; group++)
+            grows[group] = on_page(plot.sown + group, plot.cell, page_level(side));
+    }
     return grows;
+}
+
+ByKind grows_at(vec2 place) {
+    return grows_about(place, 0.0);
 }
 
 // How densely one does.
 float grows_at(vec2 place, int kind) {
-    return textureLod(density, vec3(on_map(place), float(GROUP(kind))), 0.0)[IN_GROUP(kind)];
+    vec2 at = on_map(place);
+    if (anything_is_sown()) {
+        Plot plot = plot_at(terrain_origin + at * terrain_size);
+        if (plot.sown > 0)
+            return on_page(plot.sown + GROUP(kind), plot.cell, 0.0)[IN_GROUP(kind)];
+    }
+    return textureLod(density, vec3(at, float(GROUP(kind))), 0.0)[IN_GROUP(kind)];
 }
 
 // The leaf area of each kind, of the ground's.

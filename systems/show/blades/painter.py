@@ -106,8 +106,8 @@ class BladesPainter(RepresentationPainter):
         assert outlook.appearance is not None
         left, _ = handed_over(outlook.appearance.handed[shown.morphing.rows], fade=self._fade)
         slots, places = shown.standing.slots, (ring.places.tobytes() for ring in shown.rings)
-        stamp, ground = (each.take(slots, axis=0) for each in (kept.pool.stamp, kept.pool.ground))
-        planted = kept.pool, slots, stamp, ground
+        pool = kept.pool
+        planted = pool, slots, *(each.take(slots, axis=0) for each in (pool.stamp, pool.ground, pool.sown))
         made_of = None if len(shown.morphing.rows) else (viewer.eye, viewer.sides, *planted, *places)
         gather = partial(self._gather, outlook, kept.pool, shown, left)
         numbers, is_new = self._gathered.of(viewer.name, made_of, gather)

@@ -122,6 +122,13 @@ def plant_blades(
     height = height_at(ground.terrain, place.reshape(-1, 2)).reshape(place.shape[:-1])
     pool.ground[slots] = np.stack([height.min(axis=1, initial=np.inf), height.max(axis=1, initial=-np.inf)], 1)
     pool.present[slots] = _grown(stock, place, model, ground)
+    pool.sown[slots, 1] = pool.sown[slots, 0]
+
+
+def sow_blades(pool: BladePool, slots: NDArray[np.int64], model: Ints, stock: BladeStock, ground: Ground, /) -> None:
+    """Let blades stand in slots (m,) of the pool only where they grow by now."""
+    pool.present[slots] = _grown(stock, pool.places(slots), model, ground)
+    pool.sown[slots, 1] = pool.sown[slots, 0]
 
 
 def _grown(stock: BladeStock, place: Floats, model: Ints, ground: Ground) -> NDArray[np.bool_]:

@@ -60,6 +60,9 @@ class BladePool:
     stamp: NDArray[np.int32]
     """Cell (i, j) that each slot is planted for, shape (side * side, 2)."""
 
+    sown: NDArray[np.int64]
+    """How often each slot was sown, and how often of these its blades have been reckoned anew, (side * side, 2)."""
+
     @property
     def slots(self) -> int:
         """How many slots there are."""
@@ -95,6 +98,7 @@ class BladePool:
             z=np.zeros(shape, np.float32),
             ground=np.zeros((side * side, 2), np.float32),
             stamp=np.full((side * side, 2), NOWHERE, np.int32),
+            sown=np.zeros((side * side, 2), np.int64),
         )
 
 
@@ -110,3 +114,7 @@ class BladesKept(Kept):
         stamp, ground = self.pool.stamp, self.pool.ground
         on = between(stamp, first, last)
         ground[on] = np.stack([np.minimum(ground[on, 0], span[0]), np.maximum(ground[on, 1], span[1])], axis=1)
+
+    def sow_on(self, first: Ints, last: Ints, /) -> None:
+        """Let the blades of these cells be reckoned anew once they are shown."""
+        self.pool.sown[between(self.pool.stamp, first, last), 0] += 1

@@ -19,7 +19,7 @@ from ..strips.representation import StripRepresentation
 from .draw import own_segment_defines
 from .organs import any_teeth
 from .painter import BladesPainter
-from .plant import BladeStock, plant_blades, stock_blades
+from .plant import BladeStock, plant_blades, sow_blades, stock_blades
 from .pool import BladePool, BladesKept
 from .shown import BladesShown, show_blades
 from .sublevel import blade_ring
@@ -89,6 +89,10 @@ class BladeRepresentation(Representation):
             rows = shown.rows[stale]
             cell, model, turn = patches.cell[rows], patches.model[rows], patches.turn[rows]
             plant_blades(pool, shown.slots[stale], cell, model, turn, self.stock, self.ground)
+        sown = pool.sown.take(shown.slots, axis=0)
+        if (sown[:, 0] != sown[:, 1]).any():
+            anew = sown[:, 0] != sown[:, 1]
+            sow_blades(pool, shown.slots[anew], patches.model[shown.rows[anew]], self.stock, self.ground)
 
     def painter(self, canvas: Canvas, /) -> BladesPainter:
         """Return a painter of all rings."""

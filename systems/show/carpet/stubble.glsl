@@ -6,10 +6,8 @@
 float left_seen(vec2 at) {
     if (!anything_is_cut())
         return tallest_grass;
-    vec2 dx = dFdx(at) / terrain_size, dy = dFdy(at) / terrain_size;
-    float fine = narrowed(dx * terrain_size, dy * terrain_size);
-    float here = textureGrad(mown, (at - terrain_origin) / terrain_size, dx * fine, dy * fine).r;
-    return can_be_mown(at) ? here : tallest_grass;
+    vec2 dx = dFdx(at), dy = dFdy(at);
+    return left_about(at, narrowed(dx, dy) * sqrt(max(dot(dx, dx), dot(dy, dy))));
 }
 
 // The radiance of the soil where grass is left to stand so high [m].

@@ -5,10 +5,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ....components.arrays import Floats
+from ....components.arrays import Floats, Ints
 from ...around.kept import Kept
 from ...around.patches import NOWHERE
 from ...around.receivers import Receiving
+from ...space.window import between
 from .grow import Strips
 from .stand import strip_edges
 
@@ -93,3 +94,8 @@ class StripsKept(Kept):
     def __init__(self, pools: list[StripPool], name: str) -> None:
         super().__init__([Receiving(pool, name) for pool in pools])
         self.pools = pools
+
+    def sow_on(self, first: Ints, last: Ints, /) -> None:
+        """Plant strips anew of patches on these cells."""
+        for pool in self.pools:
+            pool.stamp[between(pool.stamp[:, :2], first, last), :2] = NOWHERE

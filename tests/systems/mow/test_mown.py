@@ -10,9 +10,11 @@ from hypothesis import strategies as st
 from tallgrass.components.arrays import Floats
 from tallgrass.components.footprint import Footprint
 from tallgrass.components.pose import HERE, Pose
+from tallgrass.engine.terrain.plots import CELL, ends_of
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.world import World
-from tallgrass.systems.mow.mown import CELL, LEAST, MOST_CELLS, Mown, inside
+from tallgrass.systems.mow.area import LEAST, inside
+from tallgrass.systems.mow.mown import Mown
 from tallgrass.testing import LITTLE, little_prairie, watch
 
 LONG = Footprint(radius=1.0, length=6.0)
@@ -25,9 +27,7 @@ def ground(width: float = 40.0, depth: float = 20.0) -> Terrain:
 
 def left(mown: Mown, x: float, z: float) -> float:
     """Up to which height grass is left at a place."""
-    assert mown.heights is not None
-    column, row = int((x - mown.origin[0]) / mown.cell[0]), int((z - mown.origin[1]) / mown.cell[1])
-    return float(mown.heights[row, column])
+    return float(mown.at(places((x, z)))[0])
 
 
 def places(*each: tuple[float, float]) -> Floats:
@@ -79,7 +79,7 @@ def test_f4_the_map_says_at_each_place_what_the_strokes_over_it_say(
         (mown.grow if grows else mown.cut)(footprint, height, pose)
         if inside(footprint, pose, at, least=LEAST * CELL)[0]:
             due = (max if grows else min)(due, np.float32(height))
-    assert (inf if mown.heights is None else left(mown, 1.1, 0.3)) == due
+    assert left(mown, 1.1, 0.3) == due
 
 
 def test_f4_even_the_narrowest_footprint_cuts_the_cell_that_it_is_on() -> None:
@@ -89,7 +89,7 @@ def test_f4_even_the_narrowest_footprint_cuts_the_cell_that_it_is_on() -> None:
         assert left(mown, x, 0.07) == pytest.approx(0.1)
 
 
-def test_f4_only_the_rows_that_a_stroke_has_changed_are_new() -> None:
+def test_f4_only_what_a_stroke_has_changed_is_new() -> None:
     mown = Mown(ground())
     assert mown.strokes == 0
     mown.cut(Footprint(radius=1.0), 0.1, Pose(0.0, 5.0))
@@ -97,24 +97,26 @@ def test_f4_only_the_rows_that_a_stroke_has_changed_are_new() -> None:
     mown.cut(Footprint(radius=0.5), 0.1, Pose(0.0, 5.0))
     assert mown.strokes == first, "nothing is lower than before"
     mown.cut(Footprint(radius=1.0), 0.1, Pose(0.0, -5.0))
-    rows = np.flatnonzero(mown.changed > first)
-    far, near = ((z + 10.0) / CELL for z in (-6.2, -3.8))
-    assert far <= rows.min() < rows.max() <= near
+    changed = mown.plots.since(first)
+    assert changed is not None
+    low, high = (np.array([ends_of(part)[end] for part in changed]) for end in (0, 1))
+    assert (-1.4 < low.min(axis=0)[0], -6.4 < low.min(axis=0)[1]) == (True, True)
+    assert (high.max(axis=0)[0] < 1.4, high.max(axis=0)[1] < -3.6) == (True, True)
 
 
 def test_f4_no_map_is_made_before_something_is_cut_on_the_terrain() -> None:
     mown = Mown(ground())
     mown.grow(Footprint(radius=5.0), 0.2, HERE)
     mown.cut(Footprint(radius=5.0), 0.2, Pose(500.0, 0.0))
-    assert mown.heights is None
+    assert not mown.plots.any
     assert mown.strokes == 0
 
 
-def test_f4_cells_are_as_wide_as_told_and_wider_on_a_large_terrain() -> None:
-    assert Mown(ground()).cell == pytest.approx((CELL, CELL))
-    large = Mown(Terrain(np.zeros((3, 3), np.float32), 1000.0))
-    assert large.shape == (MOST_CELLS, MOST_CELLS)
-    assert large.cell == pytest.approx((2000.0 / MOST_CELLS,) * 2)
+def test_f4_cells_are_as_small_on_a_large_terrain_and_only_what_is_cut_takes_room() -> None:
+    mown = Mown(Terrain(np.zeros((3, 3), np.float32), 5000.0))
+    mown.cut(Footprint(radius=0.3), 0.1, Pose(3000.1, -4000.1))
+    assert [left(mown, x, -4000.1) for x in (3000.1, 3000.3, 3000.5)] == pytest.approx([0.1, 0.1, inf])
+    assert len(mown.plots.written) == 1
 
 
 def test_f4_on_another_terrain_what_was_cut_stays_cut_at_its_place() -> None:
@@ -124,9 +126,9 @@ def test_f4_on_another_terrain_what_was_cut_stays_cut_at_its_place() -> None:
     before = mown.strokes
     mown.change(ground(100.0, 12.0))
     assert [left(mown, 15.0, -3.0), left(mown, -40.0, 0.0)] == pytest.approx([0.1, inf])
-    assert (mown.changed > before).all()
-    mown.change(ground())
-    assert [left(mown, 15.0, -3.0), left(mown, -2.0, 8.0)] == pytest.approx([0.1, inf])
+    assert mown.strokes > before
+    mown.change(ground(20.0, 20.0))
+    assert [left(mown, 15.0, -3.0), left(mown, -2.0, 8.0)] == pytest.approx([inf, 0.2])
 
 
 @pytest.mark.parametrize(
@@ -135,7 +137,7 @@ def test_f4_on_another_terrain_what_was_cut_stays_cut_at_its_place() -> None:
         ((Footprint(), -0.1, HERE), ValueError, "grass is cut to 0 m or more, not to -0.1"),
         ((Footprint(), nan, HERE), ValueError, "grass is cut to 0 m or more, not to nan"),
         ((Footprint(), "low", HERE), TypeError, "grass is cut to a height in metres, not to 'low'"),
-        ((0.5, 0.1, HERE), TypeError, "grass is cut under a Footprint, not under 0.5"),
+        ((0.5, 0.1, HERE), TypeError, "grass is cut under a Footprint or a Road, not under 0.5"),
         ((Footprint(), 0.1, (1.0, 2.0)), TypeError, r"a footprint lies at a Pose, not at \(1.0, 2.0\)"),
         ((Footprint(), 0.1, Pose(nan)), ValueError, "a footprint lies at a pose of finite numbers"),
     ],
@@ -144,7 +146,7 @@ def test_f4_what_cannot_be_cut_is_told_in_a_sentence(arguments: tuple[object, ..
     mown = Mown(ground())
     with pytest.raises(error, match=told):
         mown.cut(*arguments)  # type: ignore[arg-type]
-    assert mown.heights is None
+    assert not mown.plots.any
 
 
 @settings(max_examples=12)
@@ -158,26 +160,10 @@ def test_f4_the_top_of_a_patch_is_the_highest_grass_that_is_left_on_it(
     for number, (x_at, z_at, radius) in enumerate(strokes):
         (mown.grow if number % 3 == 2 else mown.cut)(Footprint(radius=radius), 0.1 * number, Pose(x_at, z_at))
         found = mown.tops(cells, patch=patch)
-        assert mown.heights is not None or (found == inf).all()
-        if mown.heights is not None:
-            row, column = np.indices(mown.shape)
-            middle = np.stack([-20.0 + (column + 0.5) * mown.cell[0], -10.0 + (row + 0.5) * mown.cell[1]], axis=-1)
-            own = np.floor(middle / patch).astype(int)
-            for cell, top in zip(cells.tolist(), found.tolist(), strict=True):
-                here = (own == cell).all(axis=-1)
-                assert top == (mown.heights[here].max() if here.any() else inf)
-
-
-@pytest.mark.parametrize("size", [4000.0, 8000.0], ids=["smaller cells", "larger cells"])
-def test_f4_the_patches_that_are_mown_are_where_it_was_cut_whether_cells_are_smaller_or_larger(size: float) -> None:
-    mown, patch = Mown(Terrain(np.zeros((3, 3), np.float32), size / 2.0)), 2.5
-    mown.cut(Footprint(radius=15.0), 0.1, Pose(500.0, -300.0))
-    i, j = np.arange(-int(size / 5.0), int(size / 5.0)), np.full(int(size / 2.5), -120)
-    low = mown.tops(np.stack([i, j], axis=-1).astype(np.int32), patch=patch) < 1.0
-    places = (i[low] + 0.5) * patch
-    assert 485.0 - mown.cell[0] < places.min() < 490.0
-    assert 510.0 < places.max() < 515.0 + mown.cell[0]
-    assert low.sum() >= 10
+        middle = (np.stack(np.meshgrid(np.arange(-130, 130), np.arange(-80, 80)), axis=-1) + 0.5) * CELL
+        own, left_there = np.floor(middle / patch), mown.at(middle.reshape(-1, 2).astype(np.float32))
+        for cell, top in zip(cells.tolist(), found.tolist(), strict=True):
+            assert top == left_there[(own == cell).all(axis=-1).ravel()].max()
 
 
 def test_f4_where_grass_is_mown_so_short_that_strips_would_show_as_rows_lies_the_carpet(world: World) -> None:

@@ -1,0 +1,260 @@
+"""Maps that are 0.2 m fine on a terrain of any size: only those plots of the ground are there that were changed."""
+
+from collections import deque
+from collections.abc import Callable
+from itertools import pairwise
+from math import ceil
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.arrays import Floats, Ints
+from .part import MOST, Part
+
+CELL = 0.2
+"""Side of a cell of the ground [m]."""
+
+CELLS = 64
+"""Cells along a plot's side: a power of two, so that its mip-maps end with the plot."""
+
+SIDE = CELL * CELLS
+"""Side of a plot [m]."""
+
+GLSL = {"PLOT_CELLS": CELLS, "PLOT_SIDE": SIDE}
+
+Values = NDArray[Any]
+"""What a map has in some cells, shape (rows, columns, ...)."""
+
+Untouched = Callable[[Part], Values]
+"""Gives what is in the cells of a part where nobody has changed anything."""
+
+
+class On(NamedTuple):
+    """Which of some places lie on plots that are there, and where."""
+
+    which: NDArray[np.intp]
+    """Their numbers among all places, shape (m,)."""
+
+    page: Ints
+    """The page of each, shape (m,)."""
+
+    cell: Floats
+    """Where on the plot, (x, z) [cells], shape (m, 2)."""
+
+
+class Plots:
+    """A map of cells, kept by plots: a page for each plot that was changed, and one page for all that are all alike.
+
+    Cells are counted along x (columns) and z (rows) from the world's origin, so that they stay where they are under
+    another terrain. Whoever has made anything of a map looks at `count` and asks `since`.
+    """
+
+    def __init__(self, size: tuple[float, float], kind: np.dtype[Any], channels: tuple[int, ...] = ()) -> None:
+        self.half = half_of(size)
+        """Plots from the middle of the terrain to its edges, along x and z."""
+        self.pages: Values = np.empty((0, CELLS, CELLS, *channels), kind)
+        self.written: NDArray[np.int64] = np.zeros(0, np.int64)
+        """At which change each page was written last, shape (pages,)."""
+        self.count = 0
+        """How often anything was changed."""
+        self._index: Ints | None = None
+        self._uses: NDArray[np.int64] = np.zeros(0, np.int64)
+        self._free: list[int] = []
+        self._alike: dict[bytes, int] = {}
+        self._last: deque[Part] = deque(maxlen=MOST)
+
+    @property
+    def index(self) -> Ints:
+        """The page of each plot, -1 where there is none, row 0 at the far edge (-z), shape (rows, columns)."""
+        if self._index is None:
+            self._index = np.full((2 * self.half[1], 2 * self.half[0]), -1, np.int32)
+        return self._index
+
+    @property
+    def any(self) -> bool:
+        """Whether there is any plot."""
+        return self._index is not None
+
+    def since(self, count: int, /) -> list[Part] | None:
+        """Return the cells, no part beyond one plot, that changed since there were `count` changes; None: any may."""
+        missed = self.count - count
+        return None if missed > len(self._last) else list(self._last)[len(self._last) - missed :]
+
+    def on(self, place: Floats, /) -> On:
+        """Return which ground positions (n, 2) [m] lie on plots that are there."""
+        if self._index is None:
+            return On(np.zeros(0, np.intp), np.zeros(0, np.int32), np.zeros((0, 2), np.float32))
+        at = place.astype(np.float64) / SIDE + self.half
+        plot = np.floor(at).astype(np.int64)
+        rows, columns = self._index.shape
+        within = np.flatnonzero(((plot >= 0) & (plot < (columns, rows))).all(axis=1))
+        page = self._index[plot[within, 1], plot[within, 0]]
+        there = page >= 0
+        which = within[there]
+        return On(which, page[there], ((at[which] - plot[which]) * CELLS).astype(np.float32))
+
+    def nearest(self, on: On, /) -> Values:
+        """Return what the cells have that places lie in, shape (m, ...)."""
+        column, row = np.minimum(on.cell.astype(np.intp), CELLS - 1).T
+        return self.pages[on.page, row, column]
+
+    def between(self, on: On, channel: NDArray[np.intp] | None = None, /) -> Floats:
+        """Return what places have between the middles of cells, bilinear: all channels (m, channels), or one each (m,).
+
+        A plot's outermost cells go on to its edge.
+        """
+        at = np.clip(on.cell - np.float32(0.5), 0.0, np.float32(CELLS - 1))
+        low = np.minimum(at.astype(np.intp), CELLS - 2)
+        part = at - low
+        (column, row), (right, down) = low.T, part.T
+        if channel is None:
+            right, down = right[:, None], down[:, None]
+        a, b, c, d = (
+            self._texel(on.page, row + j, column + i, channel).astype(np.float32) for j in (0, 1) for i in (0, 1)
+        )
+        far, near = a + right * (b - a), c + right * (d - c)
+        return np.asarray(far + down * (near - far), np.float32)
+
+    def _texel(
+        self, page: Ints, row: NDArray[np.intp], column: NDArray[np.intp], channel: NDArray[np.intp] | None
+    ) -> Values:
+        return self.pages[page, row, column] if channel is None else self.pages[page, row, column, channel]
+
+    def parts(self, low: Floats, high: Floats, /) -> list[Part]:
+        """Return the cells between two corners (x, z) [m], plot by plot, of those that the map has at all."""
+        first = np.maximum(np.floor(np.asarray(low, np.float64) / CELL), np.multiply(self.half, -CELLS))
+        last = np.minimum(np.ceil(np.asarray(high, np.float64) / CELL), np.multiply(self.half, CELLS))
+        if not (first < last).all():
+            return []
+        (left, far), (right, near) = first.astype(int).tolist(), last.astype(int).tolist()
+        columns, rows = _cut(left, right), _cut(far, near)
+        return [Part(row, column, down - row, over - column) for row, down in rows for column, over in columns]
+
+    def within(self, low: Floats, high: Floats, /) -> list[Values | None]:
+        """Return what the cells between two corners (x, z) [m] have, plot by plot; None of plots that are not there."""
+        found = list[Values | None]()
+        for part in self.parts(low, high):
+            page = self.index[part.row // CELLS + self.half[1], part.column // CELLS + self.half[0]]
+            inner = Part(part.row % CELLS, part.column % CELLS, part.rows, part.columns)
+            found.append(self.pages[page][inner.slices] if page >= 0 else None)
+        return found
+
+    def put(self, part: Part, change: Callable[[Values], Values], untouched: Untouched, /) -> None:
+        """Change the cells of a part, which lies on one plot; `change` returns what is there then."""
+        row, column = part.row // CELLS, part.column // CELLS
+        inner = Part(part.row % CELLS, part.column % CELLS, part.rows, part.columns)
+        plot = row + self.half[1], column + self.half[0]
+        page = int(self.index[plot])
+        whole = untouched(Part(row * CELLS, column * CELLS, CELLS, CELLS)) if page < 0 else self.pages[page]
+        before = whole[inner.slices]
+        after = change(before)
+        if np.array_equal(before, after):
+            return
+        self.count += 1
+        self._last.append(part)
+        if after.shape[:2] == (CELLS, CELLS) and (after == after[:1, :1]).all():
+            self._share(plot, after)
+            return
+        own = page
+        if page < 0 or self._uses[page] > 1 or self._is_alike(page):
+            own = self._claim()
+            self.pages[own] = whole
+            self._give(plot, own)
+        self.pages[own][inner.slices] = after
+        self.written[own] = self.count
+
+    def put_alike(self, part: Part, values: Values, /) -> None:
+        """Let all cells of a whole plot be like these, of shape (1, 1, ...)."""
+        plot = part.row // CELLS + self.half[1], part.column // CELLS + self.half[0]
+        if int(self.index[plot]) == self._alike.get(values.tobytes(), -2):
+            return
+        self.count += 1
+        self._last.append(part)
+        self._share(plot, values)
+
+    def _is_alike(self, page: int) -> bool:
+        return self._alike.get(self.pages[page, :1, :1].tobytes(), -1) == page
+
+    def _share(self, plot: tuple[int, int], values: Values) -> None:
+        """Let a plot have the page of all whose cells are all like these."""
+        mark = values[:1, :1].tobytes()
+        if mark not in self._alike:
+            page = self._claim()
+            self.pages[page], self._alike[mark], self.written[page] = values, page, self.count
+        self._give(plot, self._alike[mark])
+
+    def _give(self, plot: tuple[int, int], page: int) -> None:
+        before = int(self.index[plot])
+        if before == page:
+            return
+        self.index[plot] = page
+        self._uses[page] += 1
+        if before >= 0:
+            self._uses[before] -= 1
+            if not self._uses[before]:
+                if self._is_alike(before):
+                    del self._alike[self.pages[before, :1, :1].tobytes()]
+                self._free.append(before)
+
+    def _claim(self) -> int:
+        """Return the number of a page that nothing is on."""
+        if self._free:
+            return self._free.pop()
+        page = len(self._uses)
+        if page >= len(self.pages):
+            more = np.empty((max(16, 2 * page), *self.pages.shape[1:]), self.pages.dtype)
+            more[:page] = self.pages
+            self.pages = more
+        self._uses, self.written = np.append(self._uses, 0), np.append(self.written, 0)
+        return page
+
+    def saved(self) -> tuple[Ints, Values]:
+        """Return row, column and page of each plot that is there, (n, 3), and those pages, numbered from 0 on."""
+        if self._index is None:
+            return np.zeros((0, 3), np.int32), self.pages[:0]
+        row, column = (self._index >= 0).nonzero()
+        used, number = np.unique(self._index[row, column], return_inverse=True)
+        where = np.stack([row - self.half[1], column - self.half[0], number.reshape(-1)], axis=1).astype(np.int32)
+        return where, self.pages[used]
+
+    def resume(self, where: Ints, pages: Values, /) -> None:
+        """Be what `saved` returned of a map of as many channels; plots off the terrain are left out."""
+        count = self.count + 1
+        at = where[:, :2] + (self.half[1], self.half[0])
+        kept = ((at >= 0) & (at < (2 * self.half[1], 2 * self.half[0]))).all(axis=1)
+        self._index, self._free, self._alike = None, [], {}
+        self.pages, self.written = pages.copy(), np.full(len(pages), count, np.int64)
+        self._uses = np.bincount(where[kept, 2], minlength=len(pages)).astype(np.int64)
+        if kept.any():
+            self.index[at[kept, 0], at[kept, 1]] = where[kept, 2]
+        same = (pages == pages[:, :1, :1]).reshape(len(pages), -1).all(axis=1)
+        self._alike = {pages[page, :1, :1].tobytes(): page for page in np.flatnonzero(same).tolist()}
+        self._last.clear()
+        self.count = count
+
+
+def half_of(size: tuple[float, float], /) -> tuple[int, int]:
+    """Return how many plots there are from the middle of a terrain of a size [m] to its edges, along x and z."""
+    across, along = (max(ceil(side / 2.0 / SIDE - 1e-6), 1) for side in size)
+    return across, along
+
+
+def middles(part: Part, /) -> Floats:
+    """Return where the middles of a part's cells are, (x, z) [m], shape (rows, columns, 2)."""
+    place = np.empty((part.rows, part.columns, 2), np.float32)
+    place[..., 0] = (part.column + 0.5 + np.arange(part.columns)) * CELL
+    place[..., 1] = ((part.row + 0.5 + np.arange(part.rows)) * CELL)[:, None]
+    return place
+
+
+def ends_of(part: Part, /) -> tuple[Floats, Floats]:
+    """Return the corners (x, z) [m] that a part's cells lie between."""
+    low = np.array([part.column, part.row], np.float32) * np.float32(CELL)
+    return low, low + np.array([part.columns, part.rows], np.float32) * np.float32(CELL)
+
+
+def _cut(first: int, last: int) -> list[tuple[int, int]]:
+    """Return from which to before which cell an axis goes on each plot."""
+    stops = [first, *range((first // CELLS + 1) * CELLS, last, CELLS), last]
+    return list(pairwise(stops))

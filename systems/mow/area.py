@@ -1,0 +1,122 @@
+"""Areas of the ground: how far places are from a footprint or a road, and how much of a cell lies under it."""
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+
+from ...components.arrays import Floats, Mask
+from ...components.footprint import Footprint, Road
+from ...components.pose import Pose
+from ...engine.handed import is_somewhere
+from ...engine.terrain.part import Part
+from ...engine.terrain.plots import CELL, CELLS, SIDE, Plots, Untouched, Values, ends_of, middles
+from ..space.polygon import in_polygon
+
+Area = Footprint | Road
+"""What a stroke goes over."""
+
+LEAST = 0.75
+"""A footprint counts as at least so wide, in cells: half the diagonal of one, and a little."""
+
+Change = Callable[[Values, Floats], Values]
+"""Gives what some cells have, (rows, columns, ...), that lie so far outside of an area [m], (rows, columns)."""
+
+Stretches = Sequence[int] | None
+"""The numbers of some stretches of a road, from one place of its line to the next; None are all."""
+
+_WITHIN = -1e9
+"""How far outside cells count that lie well within an area [m]."""
+
+
+def must_be_area(area: object, pose: object, done: str, /) -> None:
+    """Raise TypeError for what is no area or no pose, ValueError for a pose that is nowhere; `done` is what is."""
+    if not isinstance(area, Footprint | Road):
+        raise TypeError(f"grass is {done} under a Footprint or a Road, not under {area!r}")
+    if not isinstance(pose, Pose):
+        raise TypeError(f"a footprint lies at a Pose, not at {pose!r}")
+    if not is_somewhere(pose):
+        raise ValueError(f"a footprint lies at a pose of finite numbers, not at {pose!r}")
+
+
+def beside(area: Area, pose: Pose, place: Floats, /, *, least: float = 0.0, near: Stretches = None) -> Floats:
+    """Return how far ground positions (n, 2) lie outside of an area [m], below 0 within it, shape (n,).
+
+    A round one, and a road, count as at least `least` [m] to either side of their middle. Of a road, only some
+    stretches may be `near`.
+    """
+    own = pose.inside(place)
+    if isinstance(area, Road):
+        return _from_line(np.array(area.line, np.float32), own, near) - np.float32(max(area.width / 2.0, least))
+    if area.corners:
+        corners = np.array(area.corners, np.float32)
+        edge = _from_line(np.concatenate([corners, corners[:1]]), own)
+        return np.asarray(np.where(in_polygon(own, corners), -edge, edge), np.float32)
+    half = np.float32(area.length / 2)
+    off = np.hypot(own[:, 0], own[:, 1] - np.clip(own[:, 1], -half, half))
+    return np.asarray(off - np.float32(max(area.radius, least)), np.float32)
+
+
+def inside(area: Area, pose: Pose, place: Floats, /, *, least: float = 0.0) -> Mask:
+    """Return which ground positions (n, 2) [m] lie under an area, shape (n,), a round one as wide as `least` [m]."""
+    return np.asarray(beside(area, pose, place, least=least) <= 0.0)
+
+
+def stroke(
+    plots: Plots, area: Area, pose: Pose, change: Change, untouched: Untouched, /, *, beyond: float,
+    least: float = 0.0, alike: Values | None = None,
+) -> None:  # fmt: skip
+    """Change what a map has in cells whose middles are no farther than `beyond` [m] outside of an area.
+
+    Where all well within it become `alike` whatever they were, (1, 1, ...), it is faster to be told.
+    """
+    for part, near in _reached(plots, area, pose, max(beyond, least)):
+        low, high = ends_of(part)
+        half = float(np.hypot(*(high - low))) / 2.0
+        off = float(beside(area, pose, ((low + high) / 2.0)[None], least=least, near=near)[0])
+        if off - half > beyond:
+            continue
+        if off + half < -CELL:
+            if alike is not None and part.rows == part.columns == CELLS:
+                plots.put_alike(part, alike)
+                continue
+            away = np.full((part.rows, part.columns), _WITHIN, np.float32)
+        else:
+            place = middles(part).reshape(-1, 2)
+            away = beside(area, pose, place, least=least, near=near).reshape(part.rows, part.columns)
+        plots.put(part, partial(change, away=away), untouched)
+
+
+def _reached(plots: Plots, area: Area, pose: Pose, beyond: float) -> Iterator[tuple[Part, Stretches]]:
+    """Yield the cells that an area may reach, plot by plot, and which stretches of a road reach them."""
+    here = np.array([pose.x, pose.z], np.float32)
+    if isinstance(area, Footprint):
+        round_one = ((-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0))
+        reach = area.radius + area.length / 2.0
+        corners = area.corners or tuple((reach * x, reach * z) for x, z in round_one)
+        places = pose.outside(np.array(corners, np.float32)) + here
+        for part in plots.parts(places.min(axis=0) - beyond, places.max(axis=0) + beyond):
+            yield part, None
+        return
+    found, reach = dict[Part, set[int]](), area.width / 2.0 + beyond
+    places = pose.outside(np.array(area.line, np.float32)) + here
+    for number, (first, last) in enumerate(pairwise(places)):
+        for part in plots.parts(np.minimum(first, last) - reach, np.maximum(first, last) + reach):
+            row, column = part.row // CELLS * CELLS, part.column // CELLS * CELLS
+            found.setdefault(Part(row, column, CELLS, CELLS), set()).add(number)
+    for part, numbers in found.items():
+        middle, half = np.add(ends_of(part)[0], SIDE / 2.0)[None], SIDE / np.sqrt(2.0)
+        near = [n for n in sorted(numbers) if _from_line(places[n : n + 2], middle)[0] <= reach + half]
+        if near:
+            yield part, near
+
+
+def _from_line(line: Floats, place: Floats, near: Stretches = None) -> Floats:
+    """Return how far places (n, 2) are from the nearest of some stretches between places (m, 2) of a line, (n,)."""
+    least = np.full(len(place), np.inf, np.float32)
+    for number in range(len(line) - 1) if near is None else near:
+        to, way = place - line[number], line[number + 1] - line[number]
+        along = np.clip((to @ way) / max(float(way @ way), 1e-12), 0.0, 1.0)
+        np.minimum(least, np.hypot(to[:, 0] - along * way[0], to[:, 1] - along * way[1]), out=least)
+    return least

@@ -1,0 +1,101 @@
+"""Sowing and clearing: how densely kinds grow where a game says so."""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from math import isfinite
+
+import numpy as np
+
+from ...components.arrays import Floats, Mask
+from ...components.pose import Pose
+from ...engine.handed import NUMBERS
+from ...engine.terrain.part import Part
+from ...engine.terrain.plots import CELL, CELLS, Values, middles
+from ...engine.terrain.record import Density
+from ...engine.terrain.sample import painted_at
+from .area import Area, must_be_area, stroke
+
+SOFTEST = 1000.0
+"""Widest verge over which a stroke may end [m]."""
+
+
+def sow(
+    density: Density, kind: int, among: Sequence[bool], area: Area, dense: float, pose: Pose, /, *, soft: float
+) -> None:
+    """Let a kind, by its number, grow under an area with a density of `dense`, and over `soft` [m] beside it ever less.
+
+    Other kinds give way as far as all would come to more than 1 together, but those that stand `among` others. Raises
+    TypeError and ValueError for what is no area, density, pose or verge.
+    """
+    must_be_area(area, pose, "sown")
+    _must_be_number(dense, "grass is sown with a density", 1.0)
+    _must_be_number(soft, "a verge is", SOFTEST, " m wide")
+    apart = ~np.array(among, np.bool_)
+    alike = np.where(np.arange(len(apart)) == kind, 255, 0).astype(np.uint8)[None, None]
+    only = dense == 1.0 and bool(apart.all())
+    change = partial(_sown, kind=kind, dense=float(dense), apart=apart)
+    _stroke(density, area, pose, change, soft, alike if only else None)
+
+
+def clear(density: Density, area: Area, pose: Pose, /, *, soft: float) -> None:
+    """Let nothing grow under an area, and over `soft` [m] beside it ever more of what does; raises what `sow` does."""
+    must_be_area(area, pose, "cleared")
+    _must_be_number(soft, "a verge is", SOFTEST, " m wide")
+    _stroke(density, area, pose, _cleared, soft, np.zeros((1, 1, len(density.maps)), np.uint8))
+
+
+def carry_over(before: Density, after: Density, /) -> None:
+    """Let what was sown and cleared be so where the same kinds are painted in another way, or on another terrain."""
+    where, pages = before.sown.saved()
+    if not len(where) or len(before.maps) != len(after.maps):
+        return
+    made = []
+    for row, column, page in where.tolist():
+        plot = Part(row * CELLS, column * CELLS, CELLS, CELLS)
+        old, new = _painted(before, plot), _painted(after, plot)
+        made.append(np.where((pages[page] == old).all(axis=2, keepdims=True), new, pages[page]))
+    where[:, 2] = np.arange(len(where))
+    after.sown.resume(where, np.stack(made))
+
+
+def _stroke(
+    density: Density, area: Area, pose: Pose, change: Callable[[Floats], Floats], soft: float, alike: Values | None
+) -> None:
+    verge = max(soft, CELL)
+
+    def covered(before: Values, away: Floats) -> Values:
+        part = np.clip(0.5 - (away - np.float32(soft / 2.0)) / np.float32(verge), 0.0, 1.0)[..., None]
+        due = change(before.astype(np.float32))
+        return np.rint(before + part * (due - before)).astype(np.uint8)
+
+    untouched = partial(_painted, density)
+    stroke(density.sown, area, pose, covered, untouched, beyond=0.5 * (soft + verge), alike=alike)
+
+
+def _sown(before: Floats, *, kind: int, dense: float, apart: Mask) -> Floats:
+    due = before.copy()
+    if apart[kind]:
+        others = apart.copy()
+        others[kind] = False
+        left = np.float32(255.0 * (1.0 - dense))
+        crowd = before[..., others].sum(axis=-1, keepdims=True)
+        due[..., others] *= np.minimum(left / np.maximum(crowd, np.float32(1e-6)), 1.0)
+    due[..., kind] = 255.0 * dense
+    return due
+
+
+def _cleared(before: Floats) -> Floats:
+    return np.zeros_like(before)
+
+
+def _painted(density: Density, part: Part) -> Values:
+    """Return what is painted in some cells, as bytes, shape (rows, columns, kinds)."""
+    painted = painted_at(density, middles(part).reshape(-1, 2)).T
+    return np.rint(painted * 255.0).astype(np.uint8).reshape(part.rows, part.columns, -1)
+
+
+def _must_be_number(thing: object, due: str, most: float, unit: str = "") -> None:
+    if isinstance(thing, bool) or not isinstance(thing, NUMBERS):
+        raise TypeError(f"{due} from 0 to {most:g}{unit}, not {thing!r}")
+    if not isfinite(thing) or not 0.0 <= thing <= most:
+        raise ValueError(f"{due} from 0 to {most:g}{unit}, not {thing}")
