@@ -18,7 +18,7 @@ from ..engine.terrain.change import as_loaded
 from .site import Site
 from .space.ground import Ground
 
-FORMAT = 1
+FORMAT = 2
 """Version of what a state holds."""
 
 MAGIC = b"tallgrass state\n"

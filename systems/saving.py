@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..components.arrays import Doubles, Floats
+from ..components.arrays import Bytes, Doubles, Floats, Ints
 from ..components.course import Course
 from ..components.patch import Cell
 from ..components.pose import Pose
@@ -19,6 +19,7 @@ from ..engine.handed import is_somewhere
 from ..engine.plugins import wind_kinds
 from ..engine.scene import LoadedScene
 from ..engine.terrain.change import Squares, changed_squares, must_be_squares, restore_squares
+from ..engine.terrain.plots import CELLS, Plots
 from ..engine.terrain.record import Terrain
 from ..engine.world import World
 from .around.clearing import Clearings
@@ -93,10 +94,11 @@ class Saving:
             treading=treading,
         )
         cleared = np.array(sorted(self.clearings.cells), np.int32).reshape(-1, 2)
-        mown = np.zeros((4, 0), np.uint8) if self.mown.heights is None else planes(self.mown.heights)
+        (mown, left), (sown, dense) = self.mown.plots.saved(), site.ground.density.sown.saved()
         squares, heights = changed_squares(site.ground.terrain)
         ground: Arrays = {"ground_squares": squares, "ground_heights": planes(heights)}
-        return packed(Saved(state, {"cleared": cleared, "mown": mown, **ground, **marks}))
+        plots: Arrays = {"mown": mown, "mown_heights": planes(left), "sown": sown, "sown_densities": dense}
+        return packed(Saved(state, {"cleared": cleared, **plots, **ground, **marks}))
 
     def restore(self, data: object, site: Site, loaded: LoadedScene, /) -> tuple[float, dict[int, int]]:
         """Bring a state back; return its time [s], and which entity each one of a game's that it holds is now.
@@ -116,12 +118,15 @@ class Saving:
             {wind.entity: _run(wind, wind.course, kinds) for wind in winds if wind.course is not None},
             {each.entity: _presser(each.shape) for each in state.pressers},
             _checked(state.treading, saved.arrays),
-            _mown(saved.arrays, self.mown.shape),
+            _mown(saved.arrays, self.mown.plots),
+            _sown(saved.arrays, site.ground.density.sown),
             _cells(saved.arrays),
             _ground(saved.arrays, site.ground.terrain),
         )
         self.winds.sources()  # raises where another esper world is current
         restore_squares(site.ground.terrain, made.ground)
+        self.mown.plots.resume(*made.mown)
+        site.ground.density.sown.resume(*made.sown)
         return state.time, self._bring(state, made)
 
     def _mark(self, site: Site) -> str:
@@ -143,7 +148,6 @@ class Saving:
                     self.world.add(entity, part)
             entities[each.entity] = entity
         self.pressers.resume(made.treading, entities)
-        self.mown.resume(made.mown)
         self.clearings.resume(made.cleared)
         self.shining.resume(state.light, since=state.light_since, time=state.time)
         return entities
@@ -208,7 +212,8 @@ class _Made:
     """Those of a game's, likewise."""
 
     treading: Treading
-    mown: Floats | None
+    mown: tuple[Ints, Floats]
+    sown: tuple[Ints, Bytes]
     cleared: list[Cell]
     ground: Squares
 
@@ -329,16 +334,36 @@ def _stretches(arrays: Arrays, name: str, count: int = -1) -> Stretches:
     return found
 
 
-def _mown(arrays: Arrays, shape: tuple[int, int]) -> Floats | None:
-    found = arrays.get("mown", np.zeros(0, np.uint8))
-    if found.dtype != np.uint8 or found.shape not in ((4, 0), (4, shape[0] * shape[1])):
-        refuse("what is cut has another size than its scene")
-    if not found.size:
-        return None
-    heights = from_planes(found, shape)
+def _mown(arrays: Arrays, plots: Plots) -> tuple[Ints, Floats]:
+    found = arrays.get("mown_heights", np.zeros(0))
+    if found.dtype != np.uint8 or found.shape[:-1] != (4,) or found.shape[-1] % CELLS**2:
+        refuse("there is something wrong with what is cut")
+    heights = from_planes(found, (found.shape[-1] // CELLS**2, CELLS, CELLS))
     if not (heights >= 0.0).all():
         refuse("something is cut to no height")
-    return heights
+    return _plots(arrays, "mown", plots, len(heights)), heights
+
+
+def _sown(arrays: Arrays, plots: Plots) -> tuple[Ints, Bytes]:
+    found = arrays.get("sown_densities", np.zeros(0))
+    if found.dtype != np.uint8 or found.shape[1:] != plots.pages.shape[1:]:
+        refuse("what is sown are no densities of its scene's kinds")
+    return _plots(arrays, "sown", plots, len(found)), found
+
+
+def _plots(arrays: Arrays, name: str, plots: Plots, pages: int) -> Ints:
+    """Return which plots have which of so many pages; raises ValueError for plots that are not there."""
+    where = arrays.get(name, np.zeros(0))
+    if (
+        where.dtype != np.int32
+        or where.shape != (len(where), 3)
+        or len({*map(tuple, where[:, :2].tolist())}) != len(where)
+    ):
+        refuse(f"there is something wrong with what is {name}")
+    across, along = plots.half
+    if not ((where >= (-along, -across, 0)) & (where < (along, across, pages))).all():
+        refuse(f"something is {name} that is not there")
+    return where
 
 
 def _ground(arrays: Arrays, terrain: Terrain) -> Squares:

@@ -97,7 +97,8 @@ class Plots:
     def nearest(self, on: On, /) -> Values:
         """Return what the cells have that places lie in, shape (m, ...)."""
         column, row = np.minimum(on.cell.astype(np.intp), CELLS - 1).T
-        return self.pages[on.page, row, column]
+        found: Values = self.pages[on.page, row, column]
+        return found
 
     def between(self, on: On, channel: NDArray[np.intp] | None = None, /) -> Floats:
         """Return what places have between the middles of cells, bilinear: all channels (m, channels), or one each (m,).
@@ -220,6 +221,8 @@ class Plots:
 
     def resume(self, where: Ints, pages: Values, /) -> None:
         """Be what `saved` returned of a map of as many channels; plots off the terrain are left out."""
+        if not (self.any or len(where)):
+            return
         count = self.count + 1
         at = where[:, :2] + (self.half[1], self.half[0])
         kept = ((at >= 0) & (at < (2 * self.half[1], 2 * self.half[0]))).all(axis=1)
@@ -228,7 +231,7 @@ class Plots:
         self._uses = np.bincount(where[kept, 2], minlength=len(pages)).astype(np.int64)
         if kept.any():
             self.index[at[kept, 0], at[kept, 1]] = where[kept, 2]
-        same = (pages == pages[:, :1, :1]).reshape(len(pages), -1).all(axis=1)
+        same = (pages == pages[:, :1, :1]).all(axis=tuple(range(1, pages.ndim)))
         self._alike = {pages[page, :1, :1].tobytes(): page for page in np.flatnonzero(same).tolist()}
         self._last.clear()
         self.count = count

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Floats, Mask
+from .plots import CELL
 from .record import Density, Terrain
 
 _WHOLE = np.float32(1.0 / 255.0)
@@ -66,7 +67,7 @@ def density_at(density: Density, place: Floats, /) -> Floats:
     """
     result = painted_at(density, place)
     if density.sown.any:
-        on = density.sown.on(place)
+        on = density.sown.on(_inward(density, place))
         result[:, on.which] = density.sown.between(on).T * _WHOLE
     return result
 
@@ -83,7 +84,7 @@ def own_density_at(density: Density, kind: NDArray[np.intp], place: Floats, /) -
         far, near = _rows(flat, at._replace(corner=at.corner + kind[block] * each))
         result[block] = far + at.down * (near - far)
     if density.sown.any:
-        on = density.sown.on(place)
+        on = density.sown.on(_inward(density, place))
         result[on.which] = density.sown.between(on, kind[on.which]) * _WHOLE
     return result
 
@@ -121,6 +122,12 @@ def painted_at(density: Density, place: Floats, /) -> Floats:
             far, near = _rows(values.reshape(-1), at)
             result[kind, block] = far + at.down * (near - far)
     return result
+
+
+def _inward(density: Density, place: Floats) -> Floats:
+    """Return the places (n, 2) of the map nearest to others, no nearer to its edge than the middles of cells."""
+    most = (np.array(density.size) - CELL) / 2.0
+    return place.clip(-most, most).astype(np.float32)
 
 
 def _blocks(count: int) -> Iterator[slice]:

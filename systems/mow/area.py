@@ -85,7 +85,11 @@ def stroke(
         else:
             place = middles(part).reshape(-1, 2)
             away = beside(area, pose, place, least=least, near=near).reshape(part.rows, part.columns)
-        plots.put(part, partial(change, away=away), untouched)
+        plots.put(part, partial(_changed, change, away), untouched)
+
+
+def _changed(change: Change, away: Floats, before: Values) -> Values:
+    return change(before, away)
 
 
 def _reached(plots: Plots, area: Area, pose: Pose, beyond: float) -> Iterator[tuple[Part, Stretches]]:

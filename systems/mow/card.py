@@ -174,9 +174,16 @@ class PlotsPart(Part):
             for level, pages in enumerate(texels):
                 side = CELLS >> level
                 block = np.ascontiguousarray(pages[first:last].swapaxes(0, 1))
-                viewport = across * side, down * side, (last - first) * side, side
-                self.texture.write(block.tobytes(), viewport=viewport, level=level, alignment=1)
+                self._write(block, level, (across * side, down * side, int(last - first) * side, side))
         sheets.sent[:] = sheets.plots.written
+
+    def _write(self, texels: Bytes, level: int, viewport: tuple[int, int, int, int]) -> None:
+        """Write a rectangle: from column and row on, so many across and down."""
+        if level == 0:
+            self.texture.write(texels.tobytes(), viewport=viewport, alignment=1)
+            return  # which leaves it bound
+        gl, sort = functions_of(self.ctx), (NUMBERS["RGBA"], NUMBERS["UNSIGNED_BYTE"])
+        gl.glTexSubImage2D(NUMBERS["TEXTURE_2D"], level, *viewport, *sort, texels.ctypes.data)
 
     def _point(self, *both: _Sheets) -> None:
         """Tell which pages plots have."""
@@ -190,8 +197,8 @@ class PlotsPart(Part):
             if changed is None:
                 which = np.arange(plots.index.size)
             else:
-                rows = ((part.row // CELLS + plots.half[1]) * columns + part.column // CELLS for part in changed)
-                which = np.unique(np.fromiter(rows, np.intp) + plots.half[0])
+                each = ((part.row // CELLS + plots.half[1]) * columns + part.column // CELLS for part in changed)
+                which = np.unique(np.fromiter(each, np.intp) + plots.half[0])
             page = plots.index.reshape(-1)[which]
             place = np.where(page < 0, 0, sheets.place[page])
             self._index[which, 2 * number], self._index[which, 2 * number + 1] = place >> 8, place & 255

@@ -10,9 +10,9 @@ from ...components.arrays import Floats
 from ...components.pose import Pose
 from ...engine.handed import NUMBERS
 from ...engine.terrain.part import Part
-from ...engine.terrain.plots import CELL, CELLS, Plots, Values, ends_of
+from ...engine.terrain.plots import CELL, CELLS, Plots, ends_of
 from ...engine.terrain.record import Terrain
-from .area import LEAST, Area, must_be_area, stroke
+from .area import LEAST, Area, Change, must_be_area, stroke
 
 _MOST_TOPS = 100_000
 """Patches whose highest grass is remembered at most."""
@@ -59,7 +59,8 @@ class Mown:
         first, last = (np.ceil((cells + end) * (patch / CELL) - 0.5).astype(np.int64) for end in (0, 1))
         cut = np.flatnonzero(self._is_on(first) & self._is_on(last - 1))
         tops = self._tops
-        for number, cell in zip(cut.tolist(), map(tuple, cells[cut].tolist()), strict=True):
+        for number in cut.tolist():
+            cell = int(cells[number, 0]), int(cells[number, 1])
             if cell not in tops:
                 tops[cell] = self._top(first[number], last[number])
             found[number] = tops[cell]
@@ -82,14 +83,14 @@ class Mown:
             after.resume(*before.saved())
         self.plots, self._tops = after, {}
 
-    def _stroke(self, area: Area, pose: Pose, change: partial[Values]) -> None:
+    def _stroke(self, area: Area, pose: Pose, change: Change) -> None:
         stroke(self.plots, area, pose, change, _uncut, beyond=0.0, least=LEAST * CELL)
 
     def _is_on(self, cell: NDArray[np.int64]) -> NDArray[np.bool_]:
         """Return whether cells of the map (n, 2) are on plots that are there, shape (n,)."""
         plot = cell // CELLS + self.plots.half
         rows, columns = self.plots.index.shape
-        within = ((plot >= 0) & (plot < (columns, rows))).all(axis=1)
+        within = np.all((plot >= 0) & (plot < (columns, rows)), axis=1)
         column, row = np.where(within[:, None], plot, 0).T
         return np.asarray(within & (self.plots.index[row, column] >= 0))
 
@@ -117,11 +118,11 @@ def _uncut(part: Part) -> Floats:
     return np.full((part.rows, part.columns), np.inf, np.float32)
 
 
-def _lowered(before: Values, away: Floats, *, height: np.float32) -> Values:
+def _lowered(before: Floats, away: Floats, *, height: np.float32) -> Floats:
     return np.where(away <= 0.0, np.minimum(before, height), before)
 
 
-def _raised(before: Values, away: Floats, *, height: np.float32) -> Values:
+def _raised(before: Floats, away: Floats, *, height: np.float32) -> Floats:
     return np.where(away <= 0.0, np.maximum(before, height), before)
 
 

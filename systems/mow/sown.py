@@ -66,7 +66,7 @@ def _stroke(
     def covered(before: Values, away: Floats) -> Values:
         part = np.clip(0.5 - (away - np.float32(soft / 2.0)) / np.float32(verge), 0.0, 1.0)[..., None]
         due = change(before.astype(np.float32))
-        return np.rint(before + part * (due - before)).astype(np.uint8)
+        return np.asarray(np.rint(before + part * (due - before)), np.uint8)
 
     untouched = partial(_painted, density)
     stroke(density.sown, area, pose, covered, untouched, beyond=0.5 * (soft + verge), alike=alike)
@@ -91,7 +91,7 @@ def _cleared(before: Floats) -> Floats:
 def _painted(density: Density, part: Part) -> Values:
     """Return what is painted in some cells, as bytes, shape (rows, columns, kinds)."""
     painted = painted_at(density, middles(part).reshape(-1, 2)).T
-    return np.rint(painted * 255.0).astype(np.uint8).reshape(part.rows, part.columns, -1)
+    return np.asarray(np.rint(painted * 255.0), np.uint8).reshape(part.rows, part.columns, -1)
 
 
 def _must_be_number(thing: object, due: str, most: float, unit: str = "") -> None:

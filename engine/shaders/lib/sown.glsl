@@ -11,6 +11,12 @@ bool anything_is_sown() {
     return anything_sown > 0.5;
 }
 
+// The plot that counts at a place: beyond the terrain it is that of its mirror image, and at its edge that of the last cell.
+Plot plot_on(vec2 at) {
+    const float HALF_CELL = 0.5 * PLOT_SIDE / float(PLOT_CELLS);
+    return plot_at(terrain_origin + clamp(at * terrain_size, vec2(HALF_CELL), terrain_size - HALF_CELL));
+}
+
 // How densely each kind grows at a place, in the mean over squares of `side` [m] where a game has sown or cleared.
 ByKind grows_about(vec2 place, float side) {
     vec2 at = on_map(place);
@@ -18,7 +24,7 @@ ByKind grows_about(vec2 place, float side) {
     for (int group = 0; group < GROUPS; group++)
         grows[group] = textureLod(density, vec3(at, float(group)), 0.0);
     if (anything_is_sown()) {
-        Plot plot = plot_at(terrain_origin + at * terrain_size);
+        Plot plot = plot_on(at);
         if (plot.sown > 0) for (int group = 0; group < GROUPS; group++)
             grows[group] = on_page(plot.sown + group, plot.cell, page_level(side));
     }
@@ -33,7 +39,7 @@ ByKind grows_at(vec2 place) {
 float grows_at(vec2 place, int kind) {
     vec2 at = on_map(place);
     if (anything_is_sown()) {
-        Plot plot = plot_at(terrain_origin + at * terrain_size);
+        Plot plot = plot_on(at);
         if (plot.sown > 0)
             return on_page(plot.sown + GROUP(kind), plot.cell, 0.0)[IN_GROUP(kind)];
     }

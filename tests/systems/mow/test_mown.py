@@ -100,8 +100,8 @@ def test_f4_only_what_a_stroke_has_changed_is_new() -> None:
     changed = mown.plots.since(first)
     assert changed is not None
     low, high = (np.array([ends_of(part)[end] for part in changed]) for end in (0, 1))
-    assert (-1.4 < low.min(axis=0)[0], -6.4 < low.min(axis=0)[1]) == (True, True)
-    assert (high.max(axis=0)[0] < 1.4, high.max(axis=0)[1] < -3.6) == (True, True)
+    assert (low.min(axis=0) > (-1.4, -6.4)).all()
+    assert (high.max(axis=0) < (1.4, -3.6)).all()
 
 
 def test_f4_no_map_is_made_before_something_is_cut_on_the_terrain() -> None:

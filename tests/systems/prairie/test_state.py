@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from tallgrass.components.arrays import Floats
-from tallgrass.components.footprint import Footprint
+from tallgrass.components.footprint import Footprint, Road
 from tallgrass.components.patch import Patch
 from tallgrass.components.pose import Pose
 from tallgrass.components.presser import Presser
@@ -76,6 +76,8 @@ def played(world: World) -> Iterator[Prairie]:
     made.cut(Footprint(radius=3.0), 0.1, pose=Pose(10.0, 10.0))
     made.cut(Footprint(radius=2.0, length=9.0), 0.2, pose=Pose(12.0, 4.0, 0.7))
     made.grow(Footprint(radius=1.0), pose=Pose(10.0, 10.0))
+    made.sow("dry", Footprint(radius=4.0), 0.8, soft=2.0, pose=Pose(-10.0, -10.0))
+    made.clear(Road(((-30.0, 12.0), (0.0, 18.0), (30.0, 10.0)), 3.0), soft=0.5)
     made.shine(clouds=0.5, hour=11.0)
     made.advance(0.313)
     yield made
@@ -91,6 +93,7 @@ def told(prairie: Prairie, *, on: float = 0.0) -> Told:
             f"wind {later}": prairie.wind_at(PLACES),
             f"bent {later}": prairie.bent_at(PLACES),
             f"height {later}": prairie.grass_at(PLACES).height,
+            f"density {later}": prairie.grass_at(PLACES).density,
             f"light {later}": np.array([prairie.light.hour, prairie.light.clouds, prairie.time]),
         }
     return found
@@ -224,8 +227,8 @@ def test_what_is_no_state_of_this_release_is_refused_in_a_sentence(played: Prair
     refused(played, state[:-1], "^this state has been altered or is broken off$")
     refused(
         played,
-        signed(b"\x00\x02" + state[HEAD + 22 :]),
-        r"^this state is of format 2, and this release reads format 1$",
+        signed(b"\x00\x01" + state[HEAD + 22 :]),
+        r"^this state is of format 1, and this release reads format 2$",
     )
     with pytest.raises(TypeError, match=r"^a state is the bytes that state\(\) returned, not str$"):
         played.restore("state")  # type: ignore[arg-type]
@@ -255,7 +258,7 @@ def test_a_forged_state_is_refused_or_restored_and_never_a_traceback(played: Pra
             changed[place] = int(random.integers(256))
         before = played.state()
         try:
-            played.restore(signed(b"\x00\x01" + compress(bytes(changed), 1)))
+            played.restore(signed(b"\x00\x02" + compress(bytes(changed), 1)))
         except ValueError:
             assert played.state() == before, "refused, it has changed nothing"
         played.bent_at(PLACES[:20])
