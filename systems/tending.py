@@ -56,7 +56,7 @@ class Tending(Answering):
         self._mown.cut(footprint, height, pose)
 
     def grow(self, footprint: Footprint | Road, height: float = np.inf, *, pose: Pose = HERE) -> None:
-        """Let the grass that was cut under a footprint or a road stand up to `height` [m] again, or as high as it grows.
+        """Let the grass that was cut under a footprint or a road stand up to `height` [m] again, or as it grows.
 
         What stands higher than that stays as it is. It raises the errors of `cut`.
         """
