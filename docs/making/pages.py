@@ -6,12 +6,19 @@ from pathlib import Path
 
 from .api import api, testing
 from .examples import example_pages
+from .public import public_names
 from .reference import scene_reference
 
 DOCS = Path(__file__).parents[1]
 END = "<!-- end of what is generated -->"
 PART = re.compile(rf"^<!-- generated: (?P<what>\w+) -->$.*?^{END}$", re.MULTILINE | re.DOTALL)
-GENERATED = {"api": api, "testing": testing, "scene": scene_reference, "examples": example_pages}
+GENERATED = {
+    "api": api,
+    "testing": testing,
+    "scene": scene_reference,
+    "examples": example_pages,
+    "public": public_names,
+}
 
 
 def main() -> None:

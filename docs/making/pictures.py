@@ -27,9 +27,11 @@ IN_FLOWER = ("poppies", "dandelions", "heather")
 
 PICTURES = (
     Picture("meadow.png", ("shot", "meadow", "--size", "960x540", "--time", "3")),
-    Picture("evening.png", ("shot", "evening.yaml", "--size", "960x540"), "tour.md"),
+    Picture("evening.png", ("shot", "evening.yaml", "--size", "960x540"), "first-scene.md"),
     Picture(
-        "crossing.webp", ("film", "crossing.yaml", "--size", "480x270", "--seconds", "5", "--fps", "12"), "tour.md"
+        "crossing.webp",
+        ("film", "crossing.yaml", "--size", "480x270", "--seconds", "5", "--fps", "12"),
+        "first-scene.md",
     ),
     Picture("levels.png", ("shot", "meadow", "--size", "960x540", "--time", "3", "--overlay", "levels,map")),
     Picture("noon.png", ("shot", "plain", "--size", "960x540", "--time", "2")),
@@ -52,8 +54,10 @@ PICTURES = (
     Picture("gust.webp", ("film", "gust", "--size", "480x270", "--seconds", "5", "--fps", "12")),
     Picture("flight.webp", ("film", "saucer", "--size", "480x270", "--seconds", "5", "--fps", "12")),
     Picture("day.webp", ("film", "day.yaml", "--size", "480x270", "--seconds", "5", "--fps", "12"), "gallery.md"),
-    Picture("lawn.png", ("python", "lawn.py"), "recipes.md"),
-    Picture("music.webp", ("python", "music.py"), "recipes.md"),
+    Picture("bow.png", ("python", "picture.py"), "first-system.md"),
+    Picture("lawn.png", ("python", "lawn.py"), "mowing.md"),
+    Picture("top-down.png", ("python", "top_down.py"), "cameras.md"),
+    Picture("music.webp", ("python", "music.py"), "music.md"),
     Picture("storm.png", ("shot", "storm", "--size", "960x540", "--time", "12", "--overlay", "masks,arrows")),
 )
 

@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
+from tallgrass import WindPrimitive
 from tallgrass.engine.declared.plant import PETALS, SIZES, USUAL
 from tallgrass.engine.declared.quality import PRESETS, Quality
 from tallgrass.engine.installed import OURS
@@ -14,6 +15,8 @@ Schema = dict[str, Any]
 
 HEAD = "| key | takes | unit | range | default | what it is |\n|---|---|---|---|---|---|"
 FACTS = ("Default:", "Range:")
+HELD = ("default", "exclusiveMaximum", "exclusiveMinimum", "maximum", "minimum", "type")
+"""What is recorded of a key as public; what it is may be said in other words."""
 EVERYWHERE = 1e6
 """Numbers of lists have this bound at least; the page says it once."""
 UNIT = re.compile(r"\s*\[([A-Za-z/²%]+)\]")
@@ -32,8 +35,7 @@ PLACES = {
 
 def scene_reference() -> str:
     """Return the reference of all keys of scene files with the built-in winds, as Markdown."""
-    kinds = {row.kind: wind_kinds().find(row.kind) for row in wind_kinds().provided() if row.distribution == OURS}
-    schema = scene_schema(kinds)
+    schema = scene_schema(_ours())
     titles = _titles(schema)
     parts = ["## The whole file", "", _table(schema, titles)]
     for name, title in titles.items():
@@ -46,6 +48,29 @@ def scene_reference() -> str:
         if name == "Head":
             parts += ["", "What suits a form:", "", _forms()]
     return "\n".join(parts) + "\n"
+
+
+def _ours() -> dict[str, type[WindPrimitive]]:
+    return {row.kind: wind_kinds().find(row.kind) for row in wind_kinds().provided() if row.distribution == OURS}
+
+
+def public_keys() -> Iterator[tuple[str, str]]:
+    """Yield every key of scene files with the built-in winds, and every word that a key takes, with what it is."""
+    schema = scene_schema(_ours())
+    titles = _titles(schema)
+    yield from _keys("", schema)
+    for name, title in titles.items():
+        yield from _keys(f"{title}.", schema["definitions"][name])
+
+
+def _keys(owner: str, model: Schema) -> Iterator[tuple[str, str]]:
+    for key, declared in model["properties"].items():
+        choices = [each for each in (declared, *declared.get("anyOf", [])) if each.get("type") != "null"]
+        held = {fact: each[fact] for each in choices for fact in HELD if fact in each}
+        held |= {"required": True} if key in model.get("required", []) else {}
+        yield f"{owner}{key}", " ".join(f"{fact} {held[fact]!r}" for fact in sorted(held)) or "key"
+        for word in (word for each in choices for word in [*each.get("enum", []), *filter(None, [each.get("const")])]):
+            yield f"{owner}{key} = {word}", "word"
 
 
 def _titles(schema: Schema) -> dict[str, str]:

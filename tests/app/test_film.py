@@ -17,7 +17,7 @@ from PIL import Image
 
 from tallgrass.app.cli import run
 
-TOUR = (Path(__file__).parents[2] / "docs" / "tour.md").read_text("utf-8")
+MANIFEST = (Path(__file__).parents[2] / "docs" / "farm.md").read_text("utf-8")
 
 Tallgrass = Callable[..., subprocess.CompletedProcess[str]]
 pytestmark = [pytest.mark.gl, pytest.mark.usefixtures("ctx")]
@@ -141,8 +141,8 @@ def test_n5_a_manifest_says_what_a_film_was_made_from(tallgrass: Tallgrass, stor
         name: hashlib.sha256((folder / name).read_bytes()).hexdigest() for name in (stormy.name, "ring.png")
     }
     assert str(folder) not in (folder / "a.webp.json").read_text()
-    told = {key for line in TOUR.splitlines() if line.startswith("| `") for key in re.findall("`(\\w+)`", line)}
-    assert whole.keys() | whole["frames"].keys() | whole["pictures"][0].keys() <= told, "the tour tells of every key"
+    told = {key for line in MANIFEST.splitlines() if line.startswith("| `") for key in re.findall("`(\\w+)`", line)}
+    assert whole.keys() | whole["frames"].keys() | whole["pictures"][0].keys() <= told, "the page tells of every key"
 
 
 @pytest.mark.parametrize(

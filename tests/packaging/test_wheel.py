@@ -91,7 +91,7 @@ def test_d6_the_type_checker_passes_on_the_examples_and_the_tutorial_against_the
     assert len(programs) >= 5
     names = [path.parent.name + ".py" if path.stem == "__init__" else path.name for path in programs]
     copies = [shutil.copy(path, tmp_path / name) for path, name in zip(programs, names, strict=True)]
-    tutorial = (ROOT / "docs" / "wind-plugin.md").read_text("utf-8")
+    tutorial = "".join((ROOT / "docs" / page).read_text("utf-8") for page in ("first-wind.md", "wind-plugin.md"))
     for name, text in re.findall(
         r"^`(?:[\w-]+/)*(\w+\.py)`:\n\n```python\n(.*?)^```$", tutorial, re.MULTILINE | re.DOTALL
     ):

@@ -1,0 +1,50 @@
+"""The pages that teach are easy to read: Flesch's reading ease is 60 or more, and no sentence has over 30 words."""
+
+import re
+from pathlib import Path
+
+import pytest
+import textstat
+
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+EASE, LONGEST = 60.0, 30
+"""Flesch's reading ease of plain English begins at 60; the longest sentence [words]."""
+
+NOT_PROSE = re.compile(r"^```.*?^```$|<!-- generated: .*?end of what is generated -->|<!--.*?-->", re.M | re.S)
+LINES_OF_NO_PROSE = re.compile(r"^(\||#|!\[|`[^`]+`:$).*$", re.MULTILINE)
+LINK, CODE, NUMBER = re.compile(r"!?\[([^\]]*)\]\([^)]*\)"), re.compile(r"`[^`]*`"), re.compile(r"(?<=\d)[.,](?=\d)")
+
+
+def prose(text: str, /) -> list[str]:
+    """Return the sentences of a page. What stands in code counts as one short word; an item of a list ends one."""
+    plain = LINES_OF_NO_PROSE.sub("", NOT_PROSE.sub("", text))
+    plain = NUMBER.sub("", CODE.sub("code", LINK.sub(r"\1", plain))).replace("*", "")
+    parts = [" ".join(part.split()) for part in re.split(r"\n\s*\n|^\s*(?:-|\d\.) ", plain, flags=re.MULTILINE)]
+    return [sentence for part in parts for sentence in re.split(r"(?<=[.!?])\s+", part) if sentence]
+
+
+def taught() -> list[str]:
+    """The pages that the manual lists as tutorials and how-to pages, with the first one, and the README."""
+    listed = (DOCS / "mkdocs.yml").read_text("utf-8")
+    parts = re.findall(r"^  - (?:Tutorials|How to):\n((?:      - .*\n)+)", listed, re.MULTILINE)
+    assert len(parts) == 2
+    return ["../README.md", "index.md", *re.findall(r": (\S+\.md)$", "".join(parts), re.MULTILINE)]
+
+
+@pytest.mark.parametrize("page", taught())
+def test_a_page_that_teaches_is_easy_to_read(page: str) -> None:
+    sentences = prose((DOCS / page).read_text("utf-8"))
+    assert len(sentences) >= 5
+    long = [sentence for sentence in sentences if len(sentence.split()) > LONGEST]
+    assert not long, "\n".join(long)
+    ease = textstat.flesch_reading_ease(" ".join(re.sub(r"[:,;]?$", ".", each.rstrip(".")) for each in sentences))
+    hard = sorted(sentences, key=textstat.flesch_reading_ease)[:5]
+    assert ease >= EASE, f"reading ease {ease:.0f}; the hardest sentences:\n" + "\n".join(hard)
+
+
+def test_the_measure_tells_plain_prose_from_heavy_prose() -> None:
+    plain = prose("# No prose\n\nThe wind blows. `Prairie.load` reads a [scene](scene.md) in 0.3 s.\n\n- Grass bends.")
+    assert plain == ["The wind blows.", "code reads a scene in 03 s.", "Grass bends."]
+    heavy = "Representational transitions necessitate considerable precomputation of individual configurations."
+    assert textstat.flesch_reading_ease(" ".join(plain)) > EASE > textstat.flesch_reading_ease(heavy)
