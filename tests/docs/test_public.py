@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -27,14 +28,12 @@ def told() -> Any:
 @pytest.fixture
 def broken(monkeypatch: pytest.MonkeyPatch) -> Any:
     monkeypatch.syspath_prepend(str(ROOT))
-    from docs.making.public import broken
-
-    return broken
+    return import_module("docs.making.public").broken
 
 
 def test_nothing_public_is_gone_or_changed(told: Any) -> None:
     gone, new, _ = told
-    print(*(f"to be recorded: {name}" for name in new), sep="\n")
+    sys.stdout.write("".join(f"to be recorded: {name}\n" for name in new))
     assert not gone, "\n".join([*gone, "If it has to be, `python -m docs.making.public` records what is public anew."])
 
 

@@ -11,7 +11,7 @@ DOCS = ROOT / "docs"
 EASE, LONGEST = 60.0, 30
 """Flesch's reading ease of plain English begins at 60; the longest sentence [words]."""
 
-NOT_PROSE = re.compile(r"^```.*?^```$|<!-- generated: .*?end of what is generated -->|<!--.*?-->", re.M | re.S)
+NOT_PROSE = re.compile(r"(?ms)^```.*?^```$|<!-- generated: .*?end of what is generated -->|<!--.*?-->")
 LINES_OF_NO_PROSE = re.compile(r"^(\||#|!\[|`[^`]+`:$).*$", re.MULTILINE)
 LINK, CODE, NUMBER = re.compile(r"!?\[([^\]]*)\]\([^)]*\)"), re.compile(r"`[^`]*`"), re.compile(r"(?<=\d)[.,](?=\d)")
 
