@@ -1,8 +1,16 @@
 """Viewports and scissors by index, of which OpenGL has 16 from 4.1 on; whoever sets one as ever sets them all."""
 
-from ctypes import c_float, c_int
+from collections.abc import Iterable
+from ctypes import Array, addressof, c_float, c_int
+from functools import lru_cache
+from typing import TypeVar
 
 from .functions import NUMBERS, Functions
+
+Value = TypeVar("Value")
+
+BYTES = 16
+"""What a box takes."""
 
 
 class Viewports:
@@ -10,9 +18,22 @@ class Viewports:
 
     def __init__(self, gl: Functions, count: int) -> None:
         self._gl = gl
-        self._boxes = _unlike([self._box(index) for index in range(count)] if count > 1 else [])
-        self._cuts = _unlike([self._cut(index) for index in range(count)] if count > 1 else [])
-        self._cutting = _unlike([self._is_cutting(index) for index in range(count)] if count > 1 else [])
+        self._boxes: dict[int, list[float]] = {}
+        self._cuts: dict[int, list[int]] = {}
+        self._cutting: dict[int, int] = {}
+        if count > 1:
+            self._ask(count)
+
+    def _ask(self, count: int) -> None:
+        """Ask for all: nothing tells whether a host has used any, so it has to be cheap."""
+        gl, viewport, scissor, test = self._gl, NUMBERS["VIEWPORT"], NUMBERS["SCISSOR_BOX"], NUMBERS["SCISSOR_TEST"]
+        boxes, cuts, box, cut = _room(count)
+        for index in range(count):
+            gl.glGetFloati_v(viewport, index, box)
+            gl.glGetIntegeri_v(scissor, index, cut)
+            box, cut = box + BYTES, cut + BYTES
+        self._boxes, self._cuts = _unlike(_by_four(boxes)), _unlike(_by_four(cuts))
+        self._cutting = _unlike([gl.glIsEnabledi(test, index) for index in range(count)])
 
     def restore(self) -> None:
         """Bring them back."""
@@ -21,23 +42,22 @@ class Viewports:
             gl.glViewportIndexedf(index, *box)
         for index, cut in self._cuts.items():
             gl.glScissorIndexed(index, *cut)
-        for index, (is_cutting,) in self._cutting.items():
+        for index, is_cutting in self._cutting.items():
             (gl.glEnablei if is_cutting else gl.glDisablei)(switch, index)
 
-    def _box(self, index: int) -> tuple[float, ...]:
-        found = (c_float * 4)()
-        self._gl.glGetFloati_v(NUMBERS["VIEWPORT"], index, found)
-        return tuple(found)
 
-    def _cut(self, index: int) -> tuple[int, ...]:
-        found = (c_int * 4)()
-        self._gl.glGetIntegeri_v(NUMBERS["SCISSOR_BOX"], index, found)
-        return tuple(found)
-
-    def _is_cutting(self, index: int) -> tuple[int, ...]:
-        return (self._gl.glIsEnabledi(NUMBERS["SCISSOR_TEST"], index),)
+@lru_cache(maxsize=4)
+def _room(count: int) -> tuple[Array[c_float], Array[c_int], int, int]:
+    """Return where boxes and cuts are asked for, and the addresses: ctypes takes numbers faster than arrays."""
+    boxes, cuts = (c_float * (4 * count))(), (c_int * (4 * count))()
+    return boxes, cuts, addressof(boxes), addressof(cuts)
 
 
-def _unlike(values: list[tuple[float, ...]]) -> dict[int, tuple[float, ...]]:
+def _by_four(array: Iterable[Value]) -> list[list[Value]]:
+    return [list(four) for four in zip(*[iter(array)] * 4, strict=True)]
+
+
+def _unlike(values: list[Value]) -> dict[int, Value]:
     """Return those that are not what the first is."""
-    return {index: value for index, value in enumerate(values) if value != values[0]}
+    first = values[0]
+    return {} if values.count(first) == len(values) else {k: each for k, each in enumerate(values) if each != first}
