@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -236,7 +236,14 @@ def view_of(view: object, projection: object) -> View:
     that has not 16 finite numbers or has no inverse, for an eye beyond a million kilometres, and for two matrices that
     come to more together than single precision holds.
     """
-    seen = View(_matrix(view, "view"), _matrix(projection, "projection"))
+    one, other = _matrix(view, "view"), _matrix(projection, "projection")
+    return _usable(one.tobytes(), other.tobytes())
+
+
+@lru_cache(maxsize=16)
+def _usable(view: bytes, projection: bytes) -> View:
+    """Return the view of two matrices, row by row: who looks as before has the same one."""
+    seen = View(*(np.frombuffer(each, np.float32).reshape(4, 4) for each in (view, projection)))
     if not seen.is_usable:
         _must_be_usable(seen)
     return seen

@@ -49,6 +49,10 @@ def smooth_noise(table: Floats, place: Floats, /, *, shift: tuple[float, float] 
     return far
 
 
+def _eased(part: float) -> float:
+    return part * part * (3.0 - 2.0 * part)
+
+
 @lru_cache(maxsize=64)
 def wander(seed: int, stream: int, steps: float, /) -> tuple[float, float, float, float]:
     """Return four numbers in [-1, 1] that wander independently, each elsewhere after a step or two.
@@ -56,8 +60,15 @@ def wander(seed: int, stream: int, steps: float, /) -> tuple[float, float, float
     They are the noise of a table along a way that crosses it aslant, by the golden section: it is 7000 steps long
     before it comes within a lattice point of itself.
     """
-    way = [[steps * part % PERIOD for part in ASLANT]]
-    first, second, third, fourth = smooth_noise(noise_table(seed, stream), np.array(way, np.float32))[0].tolist()
+    x, z = (steps * part % PERIOD for part in ASLANT)
+    column, row, s, t = int(x), int(z), _eased(x % 1.0), _eased(z % 1.0)
+    table, below, right = noise_table(seed, stream), (row + 1) % PERIOD, (column + 1) % PERIOD
+    # Plain numbers: for a single place, arrays take many times as long.
+    corners = (row, column), (row, right), (below, column), (below, right)
+    a, b, c, d = (table[corner].tolist() for corner in corners)
+    first, second, third, fourth = (
+        (e + s * (f - e)) + t * ((g + s * (h - g)) - (e + s * (f - e))) for e, f, g, h in zip(a, b, c, d, strict=True)
+    )
     return first, second, third, fourth
 
 

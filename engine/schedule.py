@@ -237,7 +237,7 @@ class Schedule:
         return now if now and now.number == system.number else None
 
     def _run(self, system: System) -> None:
-        start, spent = perf_counter(), thread_time()
+        start, spent = perf_counter(), 0.0 if system.trusted else thread_time()
         try:
             system.run()
         except Exception as error:
@@ -246,11 +246,11 @@ class Schedule:
             log.debug("%s", system.name, exc_info=error)
             self._leave_out(system, f"run raised {said(error)}")
         else:
-            took, busy = perf_counter() - start, thread_time() - spent
+            took = perf_counter() - start
             if self._now(system):
                 self.milliseconds[system.name] = 1000.0 * took
                 if not system.trusted:
-                    self._judge(system, took, busy)
+                    self._judge(system, took, thread_time() - spent)
 
     def _judge(self, system: System, took: float, busy: float) -> None:
         """Tell of a system that waits in its turns, and in a game leave it out when it does so often."""

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import partial
 from math import pi
 
 import numpy as np
@@ -28,12 +29,17 @@ class Cull:
     def run(self) -> None:
         """Cull for every viewer that looks."""
         for outlook in self.outlooks:
-            patches, viewer = outlook.patches, outlook.viewer
-            patches.was_visible[:] = patches.visible
-            beyond = beyond_cone(*patches.lines, apex=(viewer.eye[0], viewer.eye[2]), cone=viewer.cone)
-            if viewer.cone[1] >= pi or viewer.eye[1] > HIGH_UP + float(patches.height.max()):
-                heights = patches.height.reshape(patches.side, patches.side)
-                beyond = np.maximum(beyond, beyond_sides(*patches.lines, heights, viewer.sides))
-            beyond = beyond.ravel()
-            np.less_equal(beyond, HALF_DIAGONAL * self.patch + self.sway, out=patches.visible)
-            np.less_equal(beyond, 2.0 * self.patch + self.sway, out=patches.near)
+            viewer = outlook.viewer
+            seen = viewer.eye, viewer.cone, viewer.sides.tobytes(), viewer.centre.tobytes()
+            outlook.unless_at_rest(self, seen, partial(self._run, outlook))
+
+    def _run(self, outlook: Outlook) -> None:
+        patches, viewer = outlook.patches, outlook.viewer
+        patches.was_visible[:] = patches.visible
+        beyond = beyond_cone(*patches.lines, apex=(viewer.eye[0], viewer.eye[2]), cone=viewer.cone)
+        if viewer.cone[1] >= pi or viewer.eye[1] > HIGH_UP + float(patches.height.max()):
+            heights = patches.height.reshape(patches.side, patches.side)
+            beyond = np.maximum(beyond, beyond_sides(*patches.lines, heights, viewer.sides))
+        beyond = beyond.ravel()
+        np.less_equal(beyond, HALF_DIAGONAL * self.patch + self.sway, out=patches.visible)
+        np.less_equal(beyond, 2.0 * self.patch + self.sway, out=patches.near)

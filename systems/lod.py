@@ -2,12 +2,14 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..components.arrays import Levels
 from .around.outlook import Outlook
+from .mow.mown import Mown
 from .show.representation import Representation
 
 SLACK = 1
@@ -57,6 +59,14 @@ def farthest(reach: tuple[int, ...], /) -> tuple[int, ...]:
     return tuple(limit + SLACK + ROOM for limit in reach[:-1])
 
 
+def read_of(outlook: Outlook, /) -> tuple[object, ...]:
+    """Return what levels of detail depend on beside the patch table, to be compared."""
+    viewer, lens, mown = outlook.viewer, outlook.lens, outlook.noted(Mown, None)
+    looks = viewer.eye, viewer.cone, viewer.jumped, viewer.centre.tobytes()
+    sees = lens.zoom, lens.range, lens.reach, lens.room
+    return *looks, *sees, outlook.bent, mown and mown.strokes
+
+
 @dataclass(slots=True)
 class ChooseLevels:
     """The system `lod`: which representation is due on each patch, by its discrete distance and how it is seen.
@@ -79,14 +89,17 @@ class ChooseLevels:
     def run(self) -> None:
         """Choose for every viewer that looks."""
         for outlook in self.outlooks:
-            patches = outlook.patches
             outlook.bent = self.bent(outlook.viewer.time)
-            settled = patches.was_visible & patches.visible & (not outlook.viewer.jumped)
-            none = settled.view(np.int8) - np.int8(1)  # 0 where settled, elsewhere -1, which has all bits
-            held = patches.representation | none
-            reach = outlook.lens.reach_in(self.reach)
-            patches.wanted[:] = wanted_representation(patches.away, held, reach=reach, slack=self.slack)
-            self._pass_on(outlook, held)
+            outlook.unless_at_rest(self, read_of(outlook), partial(self._run, outlook))
+
+    def _run(self, outlook: Outlook) -> None:
+        patches = outlook.patches
+        settled = patches.was_visible & patches.visible & (not outlook.viewer.jumped)
+        none = settled.view(np.int8) - np.int8(1)  # 0 where settled, elsewhere -1, which has all bits
+        held = patches.representation | none
+        reach = outlook.lens.reach_in(self.reach)
+        patches.wanted[:] = wanted_representation(patches.away, held, reach=reach, slack=self.slack)
+        self._pass_on(outlook, held)
 
     def _pass_on(self, outlook: Outlook, held: Levels) -> None:
         """Leave patches to the next coarser representation where theirs would not do."""

@@ -198,6 +198,7 @@ class Painter:
         )  # fmt: skip
         with aside(self.ctx, target):
             calls = sum(part.prepare() for part in self.parts)
+            air.use()
             calls += sum(painter.hear() for painter in self.painters.values())
             write_messages(self.received, outlook, self._first, site.ground)
             self.received.texture.use(UNITS["received"])

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -9,6 +10,7 @@ from ..components.arrays import Floats, Rows
 from .around.appearance import Appearance, appearance, kept_near
 from .around.outlook import Outlook
 from .around.transitions import SEAMLESS, Transitions
+from .lod import read_of
 from .show.registry import THREE
 from .show.representation import Representation
 from .space.cone import seen_from
@@ -60,9 +62,13 @@ class See:
     def run(self) -> None:
         """See for every viewer that looks."""
         for outlook in self.outlooks:
-            outlook.appearance = self._appearance(outlook)
-            for representation, cover in zip(self.representations, outlook.appearance.cover, strict=True):
-                outlook.shown[representation.name] = representation.show(outlook, cover)
+            seen, made = (*read_of(outlook), *outlook.kept.values()), partial(getattr, outlook, "appearance")
+            outlook.unless_at_rest(self, seen, partial(self._run, outlook), made=made)
+
+    def _run(self, outlook: Outlook) -> None:
+        outlook.appearance = self._appearance(outlook)
+        for representation, cover in zip(self.representations, outlook.appearance.cover, strict=True):
+            outlook.shown[representation.name] = representation.show(outlook, cover)
 
     def _appearance(self, outlook: Outlook) -> Appearance:
         """Return how patches appear that are in view or next to it; of all others it is as if there were carpet.

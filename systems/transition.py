@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from .around.outlook import Outlook
 from .around.pace import counted
 from .around.patches import PatchTable
 from .around.transitions import SEAMLESS, Transitions
-from .lod import SLACK, farthest
+from .lod import SLACK, farthest, read_of
 from .show.representation import Representation
 
 FADE = 1.2
@@ -92,6 +93,11 @@ def held(patches: PatchTable, /, *, reach: tuple[int, ...]) -> Levels:
     for limit in reach[:-1]:
         finest += patches.distance > limit + SLACK + 1  # from there on there is still room to come back slowly
     return np.maximum(chosen, finest)
+
+
+def is_over(patches: PatchTable, /) -> bool:
+    """Return whether nothing is changing: what a frame does then does not depend on how long it takes."""
+    return bool((patches.progress >= 1.0).all() and (patches.sublevel_progress >= 1.0).all())
 
 
 def unfinished(patches: PatchTable, wanted: Levels, /, *, reach: tuple[int, ...], step: float) -> Mask:
@@ -211,7 +217,8 @@ class Transition:
     def run(self) -> None:
         """Move on for every viewer that looks."""
         for outlook in self.outlooks:
-            self._run(outlook)
+            over = partial(is_over, outlook.patches)
+            outlook.unless_at_rest(self, read_of(outlook), partial(self._run, outlook), settled=over)
 
     def _run(self, outlook: Outlook) -> None:
         patches, viewer = outlook.patches, outlook.viewer

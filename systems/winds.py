@@ -23,7 +23,7 @@ from ..engine.world import World
 from .bodies.fly import foot, hover_of, hovering
 from .frame.feature import Feature, Start
 from .grow.record import Growth
-from .space.canopy import canopy_height, top_at
+from .space.canopy import canopy_height, top_over
 from .space.ground import Ground, densest_kind
 from .space.grown import Grown
 from .wind.blow import Blowing, ReceiverArrays, blowing, hear, mean_index, mean_yaw, places_alone
@@ -93,7 +93,7 @@ class Winds(Feature):
         """
         self._scene, self._ground, self._growths = scene, ground, growths
         self._height_at = partial(height_at, ground.terrain)
-        self._top_at = partial(top_at, ground, tuple(map(canopy_height, growths)))
+        self._canopy = tuple(map(canopy_height, growths))
         there = dict(self._world.all(WindSource))
         before = {entity: there[entity] for entity in self._declared if entity in there}
         after = matched(list(before.values()), scene.wind)
@@ -205,6 +205,7 @@ class Winds(Feature):
         A wind whose entity has a `Pose` is there; one that something hovers over is where its jet meets the ground; the
         others are where they say themselves.
         """
+        top_at = top_over(self._ground, self._canopy)
         sources, poses, winds = list[WindSource](), list[Pose | None](), list[WindPrimitive]()
         for entity, known in self._standing(time):
             source, pose = known.source, self._world.find(entity, Pose)
@@ -213,7 +214,7 @@ class Winds(Feature):
             with suppress(QuarantinedError):
                 if pose is not None:
                     hover_of(source, self.quarantine)  # one that fails is left out of this very frame
-                elif (body := hovering(source, self._top_at, self.quarantine, time=time)) is not None:
+                elif (body := hovering(source, top_at, self.quarantine, time=time)) is not None:
                     pose = foot(body, self._height_at)
             sources.append(source)
             poses.append(pose)

@@ -99,7 +99,7 @@ class CardEar:
         still = np.arange(count) >= count - receivers.still
         each = [*receivers.place.T, receivers.grass.kind, still, np.arange(count)]
         made = self.card.program("systems/wind/hear.vert", None, varyings=("message",))
-        self.card.use(made)
+        self.card.use()
         names = {"place": "2f", "grass": "1f", "still": "1f", "receiver": "1f"}
         form = " ".join(part if name in made else f"{4 * int(part[0])}x" for name, part in names.items())
         source = self.ctx.buffer(np.stack(each, axis=1).astype(np.float32))

@@ -1,6 +1,6 @@
 """Where a host's colours go: the outputs of its fragment shaders, and the attachments that they are written to."""
 
-from ctypes import c_int, c_ubyte, c_uint
+from ctypes import addressof, c_int, c_ubyte, c_uint
 
 from .functions import NUMBERS, Functions
 
@@ -49,11 +49,11 @@ def has_depth(gl: Functions, framebuffer: int, /) -> bool:
 
 def _drawn(gl: Functions) -> list[int]:
     """Return the attachment of each output."""
-    found, drawn = (c_int * 1)(), []
+    found, first = (c_int * COUNT)(), NUMBERS["DRAW_BUFFER0"]
+    start = addressof(found)
     for output in range(COUNT):
-        gl.glGetIntegerv(NUMBERS["DRAW_BUFFER0"] + output, found)
-        drawn.append(found[0])
-    return drawn
+        gl.glGetIntegerv(first + output, start + 4 * output)
+    return found[:]
 
 
 def _has_second(gl: Functions) -> bool:

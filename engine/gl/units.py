@@ -1,6 +1,6 @@
 """Texture units: those that a guest uses, and what a host has on them."""
 
-from ctypes import c_int
+from ctypes import addressof, c_int
 
 from .functions import NUMBERS, Functions
 
@@ -17,6 +17,11 @@ LOADED = {"TEXTURE_2D": "TEXTURE_BINDING_2D", "TEXTURE_2D_ARRAY": "TEXTURE_BINDI
 """The sorts of texture that are loaded, and what says which one is bound."""
 
 
+_FOUND = (c_int * len(UNITS))()
+_FOUND_AT = addressof(_FOUND)
+"""Where answers are written; ctypes takes addresses faster than arrays."""
+
+
 class Units:
     """A host's sampler objects on the units that are used, and its textures on `scratch`, where textures are loaded.
 
@@ -27,7 +32,7 @@ class Units:
         self._gl, self._scratch = gl, scratch
         self._activate(scratch)
         self._textures = {target: self._number(name) for target, name in LOADED.items()}
-        self._samplers = {unit: sampler for unit in UNITS if (sampler := self._sampler(unit))}
+        self._samplers = self._bound()
 
     def clear(self) -> None:
         """Let textures be read as they say themselves."""
@@ -42,14 +47,17 @@ class Units:
         for target, texture in self._textures.items():
             self._gl.glBindTexture(NUMBERS[target], texture)
 
-    def _sampler(self, unit: int) -> int:
-        self._activate(unit)
-        return self._number("SAMPLER_BINDING")
+    def _bound(self) -> dict[int, int]:
+        """Return the sampler objects, by unit."""
+        gl, first, question = self._gl, NUMBERS["TEXTURE0"] + FIRST_UNIT, NUMBERS["SAMPLER_BINDING"]
+        for place in range(len(UNITS)):
+            gl.glActiveTexture(first + place)
+            gl.glGetIntegerv(question, _FOUND_AT + 4 * place)
+        return {unit: sampler for unit, sampler in zip(UNITS, _FOUND, strict=True) if sampler}
 
     def _activate(self, unit: int) -> None:
         self._gl.glActiveTexture(NUMBERS["TEXTURE0"] + unit)
 
     def _number(self, name: str) -> int:
-        found = (c_int * 1)()
-        self._gl.glGetIntegerv(NUMBERS[name], found)
-        return found[0]
+        self._gl.glGetIntegerv(NUMBERS[name], _FOUND_AT)
+        return _FOUND[0]

@@ -16,6 +16,8 @@ class Kept:
 
     def __init__(self, receiving: Sequence[Receiving] = ()) -> None:
         self.receiving = list(receiving)
+        self.planted = 0
+        """How often anything of it has been planted, or has come to stand elsewhere."""
 
     def enlist(self, world: World, patches: PatchTable, /) -> None:
         """Let the receivers of what is shown be entities, and no others."""

@@ -17,6 +17,7 @@ from .kept import Kept
 from .lens import Lens, zoom_of
 from .pace import Pace
 from .patches import PatchTable
+from .rest import Rest
 
 Record = TypeVar("Record")
 Other = TypeVar("Other")
@@ -80,6 +81,9 @@ class Outlook:
 
     _noted: dict[type, object] = field(default_factory=dict)
 
+    _rests: dict[type, Rest] = field(default_factory=dict)
+    """By the class of a system, how it ran last."""
+
     def note(self, record: object, /) -> None:
         """Keep what a system has found out for this viewer, in place of the last record of the same class."""
         self._noted[type(record)] = record
@@ -96,6 +100,32 @@ class Outlook:
         """Return what is shown by the representation that shows a class of things."""
         return next(each for each in self.shown.values() if isinstance(each, shown))
 
+    def unless_at_rest(
+        self,
+        system: object,
+        seen: tuple[object, ...],
+        run: Callable[[], None],
+        *,
+        made: Callable[[], object] = lambda: None,
+        settled: Callable[[], bool] = lambda: True,
+    ) -> None:
+        """Run a system, unless it would change nothing: it finds all as it left it when it last ran, and found it then.
+
+        `seen` is what it reads beside the patch table, to be compared, and `made` gives what it makes anew. While it
+        has not `settled`, the next frame may be another one though it finds the same.
+        """
+        rest = self._rests.setdefault(type(system), Rest())
+        if rest.system is not system or rest.seen != seen:
+            rest.system, rest.seen, rest.table = system, seen, bytearray()
+            run()
+            return
+        table = self.patches.changing.data
+        if rest.table == table and made() is rest.made:
+            return
+        found = bytearray(table)
+        run()
+        rest.table, rest.made = found if found == table and settled() else bytearray(), made()
+
     def settle(self) -> None:
         """End the frame: what a game has written into messages holds no longer."""
         for kept in self.kept.values():
@@ -104,12 +134,12 @@ class Outlook:
 
     def look(self, view: View, /, *, time: float, leap: float) -> None:
         """Look from where two matrices say, at an instant [s]; who comes farther than `leap` [m] has jumped."""
-        self.view, viewer, eye = view, self.viewer, view.eye
+        before, self.view, viewer, eye = self.view, view, self.viewer, view.eye
         viewer.way = float(np.hypot(eye[0] - viewer.eye[0], eye[2] - viewer.eye[2]))
         viewer.jumped = viewer.way > leap or self.drawn_at is None
-        viewer.eye, viewer.cone, viewer.time = eye, view_cone(view), time
-        viewer.sides = picture_sides(view)
-        self.lens.zoom = zoom_of(view)
+        viewer.eye, viewer.time = eye, time
+        if view is not before:
+            viewer.cone, viewer.sides, self.lens.zoom = view_cone(view), picture_sides(view), zoom_of(view)
         viewer.dt = 1e9 if self.drawn_at is None else time - self.drawn_at
         self.drawn_at, viewer.idles = time, self.pace.idles(viewer.dt)
 

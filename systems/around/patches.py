@@ -1,9 +1,16 @@
 """The patches around a viewer, as one structure of arrays."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import accumulate
+from math import prod
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+WORD = 8
+"""Columns begin at multiples of this [bytes]."""
 
 NOWHERE = np.iinfo(np.int32).min
 """Cell of a row, and of a slot, on which nothing stands."""
@@ -26,6 +33,9 @@ class PatchTable:
 
     side: int
     """Patches along the window's side."""
+
+    changing: NDArray[np.uint8]
+    """All that may change while the viewer stands in a cell, as it lies in memory: so it can be told whether it has."""
 
     cell: NDArray[np.int32]
     """Shape (rows, 2)."""
@@ -116,35 +126,28 @@ class PatchTable:
     @classmethod
     def allocate(cls, side: int, names: tuple[str, ...], *, viewer: str = "main") -> "PatchTable":
         """Return an empty table for a window of `side` by `side` patches."""
-        rows, levels = side * side, (len(names), side * side)
+        rows, several = side * side, (len(names), side * side)
+        columns: dict[str, tuple[type[np.generic], tuple[int, ...], int]] = {
+            "alive": (np.bool_, (rows,), 0), "grows": (np.bool_, (rows,), 1),
+            "away": (np.int32, (rows,), 0), "height": (np.float32, (rows,), 0), "slope": (np.float32, (rows, 2), 0),
+            "visible": (np.bool_, (rows,), 0), "near": (np.bool_, (rows,), 0), "was_visible": (np.bool_, (rows,), 0),
+            "wanted": (np.int8, (rows,), -1), "hold": (np.int8, (rows,), -1),
+            "representation": (np.int8, (rows,), -1), "previous": (np.int8, (rows,), -1),
+            "progress": (np.float32, (rows,), 1),
+            "sublevel": (np.int8, several, -1), "sublevel_before": (np.int8, several, -1),
+            "sublevel_progress": (np.float32, several, 1),
+        }  # fmt: skip
+        changing, made = _in_one(columns)
         return cls(
-            viewer=viewer,
-            names=names,
-            side=side,
+            viewer=viewer, names=names, side=side, changing=changing, **made,
             cell=np.full((rows, 2), NOWHERE, np.int32),
             middle=np.zeros((rows, 2)),
-            alive=np.zeros(rows, np.bool_),
-            grows=np.ones(rows, np.bool_),
             model=np.zeros(rows, np.int32),
             turn=np.zeros(rows, np.int32),
             distance=np.zeros(rows, np.int32),
-            away=np.zeros(rows, np.int32),
             nearness=np.zeros(rows, np.int16),
-            visible=np.zeros(rows, np.bool_),
-            near=np.zeros(rows, np.bool_),
-            was_visible=np.zeros(rows, np.bool_),
-            wanted=np.full(rows, -1, np.int8),
-            hold=np.full(rows, -1, np.int8),
-            representation=np.full(rows, -1, np.int8),
-            previous=np.full(rows, -1, np.int8),
-            progress=np.ones(rows, np.float32),
-            height=np.zeros(rows, np.float32),
-            slope=np.zeros((rows, 2), np.float32),
-            sublevel=np.full(levels, -1, np.int8),
-            sublevel_before=np.full(levels, -1, np.int8),
-            sublevel_progress=np.ones(levels, np.float32),
             entity=np.zeros(rows, np.int64),
-        )
+        )  # fmt: skip
 
     def far_to_near(self, rows: NDArray[np.int64], /) -> NDArray[np.int64]:
         """Return some rows (n,) in the order in which their patches are drawn, from far to near, shape (n,)."""
@@ -157,3 +160,17 @@ class PatchTable:
         self.sublevel[:, rows] = self.sublevel_before[:, rows] = -1
         self.progress[rows], self.sublevel_progress[:, rows] = 1.0, 1.0
         self.visible[rows] = self.was_visible[rows] = False
+
+
+def _in_one(
+    columns: Mapping[str, tuple[type[np.generic], tuple[int, ...], int]],
+) -> tuple[NDArray[np.uint8], dict[str, NDArray[Any]]]:
+    """Return columns of some type, shape and first value that lie in one piece of memory, and that."""
+    sizes = [-(-prod(shape) * np.dtype(kind).itemsize // WORD) * WORD for kind, shape, _ in columns.values()]
+    whole = np.zeros(sum(sizes), np.uint8)
+    made: dict[str, NDArray[Any]] = {}
+    for (name, (kind, shape, first)), start in zip(columns.items(), accumulate(sizes, initial=0), strict=False):
+        end = start + prod(shape) * np.dtype(kind).itemsize
+        made[name] = whole[start:end].view(kind).reshape(shape)
+        made[name][:] = first
+    return whole, made

@@ -178,6 +178,8 @@ class Receiving:
         """Their slots, shape (m,)."""
         self._owner = np.zeros(pool.slots, np.int64)
         self._entity = np.zeros(pool.slots, np.int64)
+        self._listed: tuple[Rows | None, Rows] = None, self.slots
+        """The slots whose receivers are entities, and their patches' entities; None where it may be others."""
 
     def show(self, rows: Rows, slots: Rows, /) -> None:
         """Let the receivers of these patches hear the wind in this frame."""
@@ -185,10 +187,14 @@ class Receiving:
 
     def enlist(self, world: World, patches: PatchTable, /) -> None:
         """Create and delete entities so that they are those of the patches shown now."""
+        shown = patches.entity.take(self.rows)
+        if self.slots is self._listed[0] and np.array_equal(shown, self._listed[1]):
+            return
         owner = np.zeros_like(self._owner)
-        owner[self.slots] = patches.entity[self.rows]
+        owner[self.slots] = shown
         changed = np.flatnonzero(owner != self._owner)
         if not changed.size:
+            self._listed = self.slots, shown
             return
         gone = changed[self._entity[changed] != 0]
         left = self._entity[gone].tolist()
@@ -210,12 +216,14 @@ class Receiving:
     def lose(self) -> None:
         """Take note that all entities are gone."""
         self._owner[:] = self._entity[:] = 0
+        self._listed = None, self.slots
 
     def release(self, world: World, /) -> None:
         """Delete all of its entities."""
         for slot in np.flatnonzero(self._entity).tolist():
             self._delete(world, slot)
         self._owner[:] = 0
+        self._listed = None, self.slots
 
     def _delete(self, world: World, slot: int) -> None:
         world.delete(int(self._entity[slot]))

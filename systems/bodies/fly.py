@@ -5,6 +5,7 @@ from contextlib import suppress
 from functools import partial
 from math import atan2, cos, hypot, pi, sin, tan, tanh
 from types import NoneType
+from typing import cast
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from ...components.body import Body, Hover, Model
 from ...components.pose import Pose
 from ...components.wind import WindPrimitive, WindSource
 from ...engine.camera import Heights
+from ...engine.memo import by_identity
 from ...engine.world import World
 from ..wind.blow import is_on
 from ..wind.quarantine import Quarantine, QuarantinedError
@@ -125,7 +127,16 @@ def hovering(
     def path(moment: float) -> Pose:
         return pose or quarantine.ask_pose(source, time=moment)
 
-    return carried(path, time, top_at, height=hover.height, model=hover.model)
+    known, asked = _flown(source), (time, pose, top_at, hover)
+    if known[0] != asked:  # the wind is asked where it blows, and what flies where it is drawn
+        known[:] = asked, carried(path, time, top_at, height=hover.height, model=hover.model)
+    return cast(Body, known[1])
+
+
+@by_identity(most=256)
+def _flown(_: WindSource) -> list[object]:
+    """Return what was asked last of what hovers over a wind, and the answer."""
+    return [None, None]
 
 
 def flying(world: World, top_at: Heights, quarantine: Quarantine, /, *, time: float) -> list[Body]:

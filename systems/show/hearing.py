@@ -36,7 +36,6 @@ class Hearing:
                     made[name] = unit
             self._tell(made)
             self._array = canvas.ctx.vertex_array(made, [])
-        canvas.air.use(made)
         return self._array
 
     def make_ready(self) -> None:

@@ -1,6 +1,7 @@
 """How high the grass stands over the ground."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -30,6 +31,26 @@ def _tall(blades: Blades, /) -> Floats:
     row = np.maximum(blades.height, blades.stem * blades.part)
     first = np.flatnonzero(np.diff(blades.rank, prepend=np.float32(-1.0)))
     return np.asarray(np.maximum.reduceat(row, first), np.float32)
+
+
+@dataclass(frozen=True, slots=True)
+class Top:
+    """The top of the grass over a ground as it was when that had been changed so often; two alike are equal."""
+
+    ground: Ground
+    canopy: tuple[float, ...]
+    """Height of each kind's canopy [m]."""
+
+    changes: int
+
+    def __call__(self, place: Floats, /) -> Floats:
+        """Return how high the top of the grass is (y) at ground positions (n, 2) [m], shape (n,)."""
+        return top_at(self.ground, self.canopy, place)
+
+
+def top_over(ground: Ground, canopy: tuple[float, ...], /) -> Top:
+    """Return the top of the grass over a ground as it is now."""
+    return Top(ground, canopy, ground.terrain.changes.count)
 
 
 def top_at(ground: Ground, canopy: Sequence[float], place: Floats, /) -> Floats:

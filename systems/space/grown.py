@@ -2,11 +2,10 @@
 
 from dataclasses import dataclass
 
-from ...components.arrays import Floats
 from ...engine.declared.quality import Quality
 from ...engine.declared.scene import Scene
 from ..grow.record import Growth
-from .canopy import top_at
+from .canopy import Top, top_over
 from .ground import Ground
 
 
@@ -25,9 +24,10 @@ class Grown:
     tallest: float
     """Height that no blade comes to [m]."""
 
-    def top_at(self, place: Floats, /) -> Floats:
-        """Return how high the top of the grass is (y) at ground positions (n, 2) [m], shape (n,)."""
-        return top_at(self.ground, self.canopy, place)
+    @property
+    def top_at(self) -> Top:
+        """Gives how high the top of the grass is (y) at ground positions (n, 2) [m], shape (n,)."""
+        return top_over(self.ground, self.canopy)
 
     @property
     def own_segments(self) -> tuple[int | None, ...]:

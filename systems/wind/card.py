@@ -259,17 +259,12 @@ class CardWinds:
             made["Frame"].binding = block_binding(self.ctx)  # type: ignore[union-attr]
         return made
 
-    def use(self, program: moderngl.Program, /) -> None:
-        """Bind what a program reads of the winds."""
-        for name, texture in (
-            ("winds", self._records),
-            ("wind_curves", self._curves),
-            ("wind_told", self._told.texture),
-        ):
-            if name in program:
-                texture.use(self._units[name])
-        if "wind_sheets" in program:
-            self._sheets.texture.use(self._units["wind_sheets"])
+    def use(self) -> None:
+        """Bind what programs read of the winds."""
+        self._records.use(self._units["winds"])
+        self._curves.use(self._units["wind_curves"])
+        self._told.texture.use(self._units["wind_told"])
+        self._sheets.texture.use(self._units["wind_sheets"])
 
     # ---- Twins -----------------------------------------------------------------------------------
 

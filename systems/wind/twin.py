@@ -33,6 +33,9 @@ MOST_RUNS = 12
 LARGEST = 1e30
 """No number may be this large: single precision ends there."""
 
+PLAIN, SEVERAL = frozenset({float, int}), frozenset({tuple, list})
+"""The types of numbers, and of several of them, that nearly all winds have."""
+
 _TYPE = r"(?:float|int|uint|bool|[biu]?vec[234]|mat[234]|void|struct)"
 _FUNCTION = re.compile(rf"^{_TYPE}\s+(\w+)\s*[({{]")
 _CONSTANTS = re.compile(rf"^const\s+{_TYPE}\s+(.*)")
@@ -137,11 +140,28 @@ class Layout:
             numbers = values.numbers
             named = [_listed(number) for number in numbers.values()] if isinstance(numbers, Mapping) else [numbers]
             return TwinValues([*chain.from_iterable(named)], values.sheets)
+        plain = self._plain(wind, values)
+        if plain is not None:
+            return TwinValues(plain, values.sheets)
         found = [_named(name, wind, values) for name, _ in self.sizes]
         for (name, size), each in zip(self.sizes, found, strict=True):
             if len(each) != size:
                 raise TwinError(f"'{name}' has {len(each)} numbers where it had {size} before")
         return TwinValues([*chain.from_iterable(found)], values.sheets)
+
+    def _plain(self, wind: WindPrimitive, values: TwinValues) -> list[float] | None:
+        """Return the numbers as they lie where all are plain ones, and as many as before: in nearly every frame."""
+        found: list[float] = []
+        named = values.numbers if isinstance(values.numbers, dict) else {}
+        for name, size in self.sizes:
+            number: Any = named[name] if name in named else getattr(wind, name, None)
+            if size == 1 and type(number) in PLAIN:
+                found.append(number)
+            elif type(number) in SEVERAL and len(number) == size > 1:
+                found += number
+            else:
+                return None
+        return found if PLAIN.issuperset(map(type, found)) else None
 
 
 def layout_of(twin: Twin, wind: WindPrimitive, values: TwinValues, /) -> Layout:
@@ -160,7 +180,8 @@ def check_values(twin: Twin, values: TwinValues, /) -> None:
     if not twin.numbers <= len(numbers) <= MOST_NUMBERS:
         due = f"{twin.numbers} are read" if len(numbers) < twin.numbers else f"{MOST_NUMBERS} is the most"
         raise TwinError(f"twin_values returned {len(numbers)} numbers where {due}")
-    if not all(isinstance(number, float | int | np.number) and -LARGEST < number < LARGEST for number in numbers):
+    counts = PLAIN.issuperset(map(type, numbers)) or all(isinstance(each, float | int | np.number) for each in numbers)
+    if not (counts and all(-LARGEST < number < LARGEST for number in numbers)):
         raise TwinError("twin_values returned numbers that are not finite")
     if not twin.sheets <= len(sheets) <= MOST_SHEETS:
         due = f"{twin.sheets} are read" if len(sheets) < twin.sheets else f"{MOST_SHEETS} is the most"

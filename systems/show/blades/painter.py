@@ -1,6 +1,7 @@
 """Painting blades: those on their way first, then all rings from far to near."""
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import partial
 from math import prod
 
@@ -40,6 +41,14 @@ READY_ROWS = 256
 NUMBER = np.dtype([("number", "u4")])
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Told:
+    """What is sent of a frame: the patches, and the numbers of the blades, group by group."""
+
+    standing: NDArray[np.void]
+    numbers: list[Numbers]
+
+
 class BladesPainter(RepresentationPainter):
     """Draws the blades of all rings, and those on their way to their strips."""
 
@@ -70,7 +79,9 @@ class BladesPainter(RepresentationPainter):
         self.morph = Ribbons(ctx, block, segments[-1:], units, soft=True, record=PAINTED, defines={**laid, "MORPH": 1})
         self._tell(self.morph.program)
         self._counts: list[int] = []
-        self._gathered = Remembered[list[Numbers]]()
+        self._gathered, self._told = Remembered[list[Numbers]](), Remembered[_Told]()
+        self._numbers: list[Numbers] | None = None
+        """The numbers that were sent last."""
         self._first = self._asked = 0
 
     def _tell(self, made: moderngl.Program) -> None:
@@ -91,6 +102,7 @@ class BladesPainter(RepresentationPainter):
         """Make room for more patches than are usually shown, and programs for whatever winds will blow."""
         del grown
         self.standing.reserve(READY_ROWS)
+        self._told.lose()
         self.hearing.make_ready()
 
     def receivers(self, outlook: Outlook, /) -> list[int]:
@@ -100,9 +112,22 @@ class BladesPainter(RepresentationPainter):
 
     def write(self, outlook: Outlook, first: Mapping[str, list[int]], /) -> int:
         """Send the patches with blades, and the numbers of the blades that are shown; return how many."""
-        kept = outlook.keeps(BladesKept)
-        shown = outlook.shows(BladesShown)
-        viewer = outlook.viewer
+        kept, shown, strips = outlook.keeps(BladesKept), outlook.shows(BladesShown), outlook.shows(StripsShown)
+        stands = outlook.view, shown, strips, outlook.appearance, kept, kept.planted, outlook.keeps(StripsKept)
+        made_of = *stands, *first["strips"], *first["blades"]
+        told, is_new = self._told.of(outlook.viewer.name, made_of, partial(self._tell_of, outlook, first))
+        if is_new:
+            self.standing.write(told.standing)
+            self._counts = [len(each) for each in told.numbers]
+        if told.numbers is not self._numbers:
+            self._numbers = told.numbers
+            self.numbers.write(np.concatenate(told.numbers).view(NUMBER))
+        (self._asked,), (self._first,) = self.receivers(outlook), first["blades"]
+        return sum(self._counts)
+
+    def _tell_of(self, outlook: Outlook, first: Mapping[str, list[int]]) -> "_Told":
+        """Return what a viewer is shown."""
+        kept, shown, viewer = outlook.keeps(BladesKept), outlook.shows(BladesShown), outlook.viewer
         assert outlook.appearance is not None
         left, _ = handed_over(outlook.appearance.handed[shown.morphing.rows], fade=self._fade)
         slots, places = shown.standing.slots, (ring.places.tobytes() for ring in shown.rings)
@@ -110,13 +135,8 @@ class BladesPainter(RepresentationPainter):
         planted = pool, slots, *(each.take(slots, axis=0) for each in (pool.stamp, pool.ground, pool.sown))
         made_of = None if len(shown.morphing.rows) else (viewer.eye, viewer.sides, *planted, *places)
         gather = partial(self._gather, outlook, kept.pool, shown, left)
-        numbers, is_new = self._gathered.of(viewer.name, made_of, gather)
-        if is_new:
-            self.numbers.write(np.concatenate(numbers).view(NUMBER))
-            self._counts = [len(each) for each in numbers]
-        self.standing.write(self._standing(outlook, shown, left, first["strips"]))
-        (self._asked,), (self._first,) = self.receivers(outlook), first["blades"]
-        return sum(self._counts)
+        numbers, _ = self._gathered.of(viewer.name, made_of, gather)
+        return _Told(self._standing(outlook, shown, left, first["strips"]), numbers)
 
     def _gather(self, outlook: Outlook, pool: BladePool, shown: BladesShown, left: Floats) -> list[Numbers]:
         """Return the numbers of the blades that are on their way, and of those that stand, group by group."""

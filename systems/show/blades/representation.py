@@ -82,9 +82,11 @@ class BladeRepresentation(Representation):
 
     def plant(self, outlook: Outlook, /) -> None:
         """Plant the blades of patches whose slot holds another's."""
-        patches, pool, shown = outlook.patches, outlook.keeps(BladesKept).pool, outlook.shows(BladesShown).standing
+        patches, kept, shown = outlook.patches, outlook.keeps(BladesKept), outlook.shows(BladesShown).standing
+        pool = kept.pool
         differs = pool.stamp.take(shown.slots, axis=0) != patches.cell.take(shown.rows, axis=0)
         if differs.any():
+            kept.planted += 1
             stale = differs.any(axis=1)
             rows = shown.rows[stale]
             cell, model, turn = patches.cell[rows], patches.model[rows], patches.turn[rows]

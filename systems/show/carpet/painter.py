@@ -54,6 +54,7 @@ class CarpetPainter(RepresentationPainter):
         self._whole_to = canvas.reach[-2] - int(border_of(canvas.reach[-2])) - 1
         self._units = canvas.units
         self._around, self._seen = Remembered[Tiles](), Remembered[SeenTiles]()
+        self._laid = Remembered[Floats]()
         self.images, self.bents = carpet_texture(canvas.ctx, growths), bent_texture(canvas.ctx, growths)
         self.air = Air(canvas, side)
         self._heard: tuple[NDArray[np.int32], int, CarpetKept] | None = None
@@ -112,10 +113,10 @@ class CarpetPainter(RepresentationPainter):
         )
         if is_new:
             self.ground.write(*tiles)
-        whole = np.where(patches.alive, np.float32(0.0) if cover is None else cover, np.float32(1.0))
-        self.ground.write_shares(
-            np.where(patches.grows, whole, np.float32(0.0)), viewer.centre, beyond=float(cover is not None)
-        )
+        laid = cover, patches.alive, patches.grows, viewer.centre
+        shares, is_new = self._laid.of(viewer.name, laid, partial(_shares, patches, cover))
+        if is_new:
+            self.ground.write_shares(shares, viewer.centre, beyond=float(cover is not None))
 
     def _tiles(self, viewer: Viewer, bare_to: int | None, *, goes_on: bool) -> SeenTiles:
         """Return the tiles that a viewer sees (n,), and on which of them carpet may lie.
@@ -151,6 +152,7 @@ class CarpetPainter(RepresentationPainter):
         tiles = ground_tiles(self._ground.terrain, outlook.viewer.eye, outlook.viewer.cone, spacing=self._spacing)
         self.ground.write(tiles, np.ones(len(tiles), np.bool_))
         self._seen.lose()
+        self._laid.lose()
         self.ground.write_shares(np.ones(len(outlook.patches.progress), np.float32), outlook.viewer.centre, beyond=1.0)
         self.ground.raise_carpet(height)
 
@@ -182,3 +184,9 @@ class CarpetPainter(RepresentationPainter):
     def release(self) -> None:
         """Give everything back."""
         release_all(self.ground, self.air, self.images, self.bents)
+
+
+def _shares(patches: PatchTable, cover: Floats | None) -> Floats:
+    """Return how much carpet lies on each row of the patch table, shape (rows,)."""
+    whole = np.where(patches.alive, np.float32(0.0) if cover is None else cover, np.float32(1.0))
+    return np.where(patches.grows, whole, np.float32(0.0))

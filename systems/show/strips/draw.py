@@ -106,6 +106,8 @@ class StripPainter:
 
     def hear(self, ring: int, *, patch: int, first: int, count: int) -> int:
         """Ask the receivers of a ring's patches, whose first is number `patch`; return the number of draw calls."""
+        if not count:
+            return 0
         self.stood.texture.use(self.units["stood"])
         array = self.hearing.array()
         array.program["of_ring"] = ring, patch

@@ -1,6 +1,7 @@
 """Painting strips: all rings in one far-to-near order."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from itertools import accumulate
 from math import prod
@@ -25,6 +26,24 @@ WHOLE = 0.995
 """Density from which on no blade of a kind is missing."""
 
 
+Order = tuple[NDArray[np.uint32], NDArray[np.int64]]
+"""Polygon strips in the order of drawing, and how many there are on each patch."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Sent:
+    """What is sent of a frame."""
+
+    stood: NDArray[np.void]
+    strips: NDArray[np.uint32]
+
+    runs: list[tuple[int, int, bool]]
+    """The draws: first strip, how many, and whether by rank."""
+
+    asked: list[tuple[int, int, int]]
+    """By ring, the first patch, its first receiver, and how many receivers there are."""
+
+
 class StripsPainter(RepresentationPainter):
     """Draws the strips of all rings from far to near."""
 
@@ -35,13 +54,16 @@ class StripsPainter(RepresentationPainter):
         self.strips = StripPainter(canvas, quality.strip_rings, stock, ready or strip_atlas(stock))
         self.runs: list[tuple[int, int, bool]] = []
         self._asked: list[tuple[int, int, int]] = []
-        self._ordered = Remembered[tuple[NDArray[np.uint32], NDArray[np.int64]]]()
+        self._gathered, self._ordered = Remembered[_Sent](), Remembered[Order]()
+        self._strips: NDArray[np.uint32] | None = None
+        """The strips that were sent last."""
 
     def make_ready(self, grown: Grown, /) -> None:
         """Make all that strips may come to need."""
         del grown
         self.strips.make_ready()
-        self._ordered.lose()
+        self._gathered.lose()
+        self._strips = None
 
     def receivers(self, outlook: Outlook, /) -> list[int]:
         """Return how many edges each ring has."""
@@ -49,23 +71,34 @@ class StripsPainter(RepresentationPainter):
 
     def write(self, outlook: Outlook, first: Mapping[str, list[int]], /) -> int:
         """Send the patches with strips, and the strips that are shown; they are no blades."""
+        kept, shown, centre = outlook.keeps(StripsKept), outlook.shows(StripsShown), outlook.viewer.centre
+        made_of = shown, outlook.appearance, kept, kept.planted, centre, *first["strips"]
+        sent, is_new = self._gathered.of(outlook.viewer.name, made_of, partial(self._gather, outlook, first))
+        if is_new:
+            self._send(sent)
+        return 0
+
+    def _send(self, sent: "_Sent") -> None:
+        self.strips.write(sent.stood)
+        if sent.strips is not self._strips:
+            self._strips = sent.strips
+            self.strips.write_strips(sent.strips)
+        self.runs, self._asked = sent.runs, sent.asked
+
+    def _gather(self, outlook: Outlook, first: Mapping[str, list[int]]) -> "_Sent":
         rings, appears = _rings(outlook), outlook.appearance
         assert appears is not None
         shown = [ring for _, ring in rings]
         numbered = [(start, prod(pool.shape)) for start, (pool, _) in zip(first["strips"], rings, strict=True)]
         stood = gather_strips(shown, numbered, appears, outlook.patches, outlook.viewer.centre, fade=self._fade)
         before = accumulate((len(ring.rows) for ring in shown), initial=0)
-        self._asked = list(zip(before, first["strips"], self.receivers(outlook), strict=False))
+        asked = list(zip(before, first["strips"], self.receivers(outlook), strict=False))
         queue = np.argsort(np.concatenate([ring.queue for ring in shown]), kind="stable")
         patch = queue[stood["fade"].take(queue) > 0.0]
         present = np.concatenate([pool.present.take(ring.slots, axis=0) for pool, ring in rings]).take(patch, axis=0)
-        self.strips.write(stood)
         order = partial(polygon_strips, stood, patch, present, self._fineness, most=self.strips.most)
-        (strips, amount), is_new = self._ordered.of(outlook.viewer.name, (stood["stand"], patch, present), order)
-        if is_new:
-            self.strips.write_strips(strips)
-        self.runs = runs(_ranked(rings).take(patch), amount)
-        return 0
+        (strips, amount), _ = self._ordered.of(outlook.viewer.name, (stood["stand"], patch, present), order)
+        return _Sent(stood, strips, runs(_ranked(rings).take(patch), amount), asked)
 
     def hear(self) -> int:
         """Let all edges hear the wind; return the number of draw calls."""

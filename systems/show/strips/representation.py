@@ -211,12 +211,13 @@ class StripRepresentation(Representation):
 
     def plant(self, outlook: Outlook, /) -> None:
         """Plant the strips of patches whose slot holds another's, or strips that run the other way."""
-        patches = outlook.patches
-        for pool, shown in zip(outlook.keeps(StripsKept).pools, outlook.shows(StripsShown).rings, strict=True):
+        patches, kept = outlook.patches, outlook.keeps(StripsKept)
+        for pool, shown in zip(kept.pools, outlook.shows(StripsShown).rings, strict=True):
             wanted = np.empty((len(shown.rows), 3), np.int32)
             wanted[:, :2], wanted[:, 2] = patches.cell.take(shown.rows, axis=0), shown.along
             differs = pool.stamp.take(shown.slots, axis=0) != wanted
             if differs.any():
+                kept.planted += 1
                 stale = differs.any(axis=1)
                 rows = shown.rows[stale]
                 plant_strips(

@@ -233,7 +233,7 @@ def test_a_fragment_shader_hears_the_same(
     now = at_once(Breeze(), Gust(position=[-20.0, 0.0]), Blast(), time=2.0)
     _, due = both(ear, grass, now, place, time=2.0, mixing="weight")
     made = ear.card.program("all.vert", "heard.frag")
-    ear.card.use(made)
+    ear.card.use()
     texture = ctx.texture((40, 40), 2, dtype="f4")
     target, array = ctx.framebuffer([texture]), ctx.vertex_array(made, [])
     target.use()
