@@ -120,6 +120,25 @@ def test_r4_the_body_of_a_strangers_wind_flies_along_its_pose(
     assert body == carried(lambda moment: Rotor().pose(time=moment), time, site.top_at, height=5.0)
 
 
+def test_r3_where_a_body_flies_is_worked_out_once_though_it_is_asked_for_where_it_blows_and_where_it_is_drawn(
+    winds: Winds, bodies: Bodies
+) -> None:
+    asked = list[float]()
+
+    class Counted(Rotor):
+        def pose(self, *, time: float) -> Pose:
+            asked.append(time)
+            return Pose(8.0 * sin(time), 3.0, 0.5)
+
+    winds.add(Counted(), "rotor")
+    winds.now(0.4)
+    once = len(asked)
+    assert len(bodies(0.4)) == 1
+    assert len(asked) == once > 0
+    bodies(0.5)
+    assert len(asked) > once
+
+
 def test_r4_a_strangers_wind_acts_where_its_tilted_jet_meets_the_ground(
     winds: Winds, site: Site, bodies: Bodies
 ) -> None:
