@@ -12,6 +12,8 @@ from ..components.pose import Pose
 NUMBERS = (float, int, np.floating, np.integer)
 """What is taken for a number where one is handed in."""
 
+_PLAIN = frozenset({float, np.float64, np.float32})
+
 FARTHEST = 1e6
 """Largest coordinate that is taken for a place [m]: beyond, the numbers of cells and squares would overflow."""
 
@@ -58,6 +60,15 @@ def is_somewhere(pose: Pose, /) -> bool:
     """Return whether a pose that a game has made is a place on the ground and a heading."""
     numbers = (pose.x, pose.z, pose.yaw, 0.0 if pose.y is None else pose.y)
     return all(isinstance(n, NUMBERS) and -FARTHEST <= n <= FARTHEST for n in numbers)
+
+
+def as_places_of(poses: Iterable[Pose], /) -> Doubles | None:
+    """Return where poses are and head (x, z, yaw), shape (n, 3); None where `is_somewhere` may not hold for one."""
+    numbers = [number for pose in poses for number in (pose.x, pose.z, pose.yaw)]
+    if not _PLAIN.issuperset(map(type, numbers)):
+        return None
+    rows = np.array(numbers, np.float64).reshape(-1, 3)
+    return rows if (np.abs(rows) <= FARTHEST).all() else None
 
 
 def must_be_a(due: type, thing: object, what: str, /) -> None:

@@ -5,6 +5,7 @@ import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from itertools import count
+from operator import itemgetter
 from typing import TypeVar
 from weakref import WeakSet, ref
 
@@ -138,9 +139,12 @@ class World:
     def both(self, kind: type[Component], other: type[Other]) -> list[tuple[int, Component, Other]]:
         """Return every entity with components of exactly these two types, in the order and as far as `all` does."""
         self._must_be_current()
-        mine = (None, self._mine)
-        found = [(row[0], *row[1]) for row in esper.get_components(kind, other) if self._owner(row[0]) in mine]
-        return sorted(found, key=lambda row: row[0])
+        mine, part_of, found = self._mine, esper.try_component, list[tuple[int, Component, Other]]()
+        for entity, one in esper.get_component(kind):
+            two, mark = part_of(entity, other), part_of(entity, Resident)
+            if two is not None and (mark is None or mark.owner is mine):
+                found.append((entity, one, two))
+        return sorted(found, key=itemgetter(0))
 
     def stands(self, entity: int, pose: Pose, what: str) -> bool:
         """Return whether an entity's pose is somewhere; where it is not, say once `what` is left out meanwhile."""

@@ -14,7 +14,7 @@ from ..components.presser import Presser
 from ..engine.declared.presser import PresserOnPath
 from ..engine.declared.scene import Scene
 from ..engine.declared.way import Waypoint
-from ..engine.handed import is_somewhere
+from ..engine.handed import as_places_of, is_somewhere
 from ..engine.world import World
 from .around.outlook import Outlook
 from .frame.block import FrameBlock
@@ -115,16 +115,24 @@ class Pressers(Feature):
     def note(self, time: float) -> Trodden:
         """Take note of where all pressers are at `time` [s], and return what has been trodden."""
         self._go(time)
-        every = self._world.both(Presser, Pose)
-        found = [(who, presser, pose) for who, presser, pose in every if self._world.stands(who, pose, "the presser")]
+        found, rows = self._standing()
         if not found and not self._scenes.who and not self._games.who and not self.trodden:
             return self.trodden
-        scenes = [row for row in found if row[0] in self._declared]
-        games = [row for row in found if row[0] not in self._declared]
-        is_new = self._games.come(_who(games), _rows([pose for _, _, pose in games]), time)
-        if self._come(_who(scenes), _rows([pose for _, _, pose in scenes]), time) or is_new:
+        is_scenes = np.array([entity in self._declared for entity, _ in found], np.bool_)
+        games, scenes = ([found[number] for number in np.flatnonzero(which)] for which in (~is_scenes, is_scenes))
+        is_new = self._games.come(games, rows[~is_scenes], time)
+        if self._come(scenes, rows[is_scenes], time) or is_new:
             self.trodden = self._memory.at(time)
         return self.trodden
+
+    def _standing(self) -> tuple[list[Who], Doubles]:
+        """Return who presses anywhere, and where they are and look (x, z, yaw), shape (n, 3)."""
+        found = self._world.both(Presser, Pose)
+        rows = as_places_of(pose for _, _, pose in found)
+        if rows is None:
+            found = [row for row in found if self._world.stands(row[0], row[2], "the presser")]
+            rows = _rows([pose for _, _, pose in found])
+        return [row[:2] for row in found], rows
 
     def go_back(self) -> None:
         """Forget what has been trodden, as time goes back: those that the scene declares tread it anew."""
@@ -241,10 +249,6 @@ class Pressers(Feature):
     def _where(self, who: list[Who], time: float) -> Doubles:
         """Return where the paths of some of those that the scene declares lead at `time` [s], shape (n, 3)."""
         return _rows([self._declared[entity].pose(time=time) for entity, _ in who])
-
-
-def _who(found: Sequence[tuple[int, Presser, Pose]]) -> list[Who]:
-    return [(entity, presser) for entity, presser, _ in found]
 
 
 def _rows(poses: Sequence[Pose]) -> Doubles:

@@ -116,8 +116,9 @@ class Trail:
         stood |= moved & ~jumped & (on[:, LEFT] % self.every == 0.0) & (on[:, BEGUN] < on[:, LEFT])
         self._close(jumped | stood)
         on[stood, FIRST], on[stood, BEGUN], self._way[stood] = on[stood, LAST], on[stood, LEFT], 0.0
-        for number in np.flatnonzero(moved & ~jumped & (self._way + far >= _length(on[:, REACH]))):
-            self._mark(int(number), gone[number], float(far[number]), time)
+        past = np.flatnonzero(moved & ~jumped & (self._way + far >= _length(on[:, REACH])))
+        if len(past):
+            self._mark(past, gone[past], far[past], time)
         moved &= ~jumped
         on[moved, LAST], on[moved, CAME] = discs.place[moved], time
         on[moved, HEADING] = gone[moved] / far[moved, None]
@@ -127,21 +128,22 @@ class Trail:
             rows = np.flatnonzero(jumped)
             on[rows], self._way[rows] = self._begun(discs, rows, time), 0.0
 
-    def _mark(self, number: int, gone: Doubles, far: float, time: float) -> None:
-        """Close a disc's stretches on its way of one step; the last one stays open."""
-        on, length = self.open, float(_length(self.open[number, REACH]))
-        start, since = on[number, LAST].copy(), float(on[number, LEFT])
-        before = float(self._way[number])
-        on[number, HEADING] = gone / far
-        at = length - before
-        while at <= far:
-            part = at / far
-            on[number, LAST] = place = start + part * gone
-            on[number, CAME] = on[number, LEFT] = then = since + part * (time - since)
-            self.closed.append(on[number : number + 1].copy())
-            on[number, FIRST], on[number, BEGUN] = place, then
-            at += length
-        self._way[number] = -(at - length)  # `tread` adds the whole of the step
+    def _mark(self, rows: NDArray[np.intp], gone: Doubles, far: Doubles, time: float) -> None:
+        """Close the stretches of some discs (n,) on their way of one step (n, 2) [m]; the last ones stay open."""
+        on, length = self.open, _length(self.open[rows, REACH])
+        start, since, at = on[rows, LAST], on[rows, LEFT], length - self._way[rows]
+        on[rows, HEADING] = gone / far[:, None]
+        left = np.flatnonzero(at <= far)
+        while len(left):
+            part, these = at[left] / far[left], rows[left]
+            on[these, LAST] = place = start[left] + part[:, None] * gone[left]
+            then = since[left] + part * (time - since[left])
+            on[these, CAME] = on[these, LEFT] = then
+            self.closed.append(on[these])
+            on[these, FIRST], on[these, BEGUN] = place, then
+            at[left] += length[left]
+            left = left[at[left] <= far[left]]
+        self._way[rows] = -(at - length)  # `tread` adds the whole of the step
 
     def _close(self, which: NDArray[np.bool_]) -> None:
         if which.any():

@@ -65,7 +65,12 @@ def seen(prairie: Prairie) -> list[bytes]:
 def test_r3_for_a_viewer_who_stands_still_nothing_is_seen_anew(load: Load, monkeypatch: pytest.MonkeyPatch) -> None:
     prairie, seen_anew = load(), list[float]()
     run = See._run  # noqa: SLF001
-    monkeypatch.setattr(See, "_run", lambda self, outlook: (seen_anew.append(prairie.time), run(self, outlook)))
+
+    def noted(system: See, outlook: Outlook) -> None:
+        seen_anew.append(prairie.time)
+        run(system, outlook)
+
+    monkeypatch.setattr(See, "_run", noted)
     for _ in range(STOOD):
         follow(prairie)
     came = len(seen_anew)

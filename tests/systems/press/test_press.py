@@ -1,5 +1,6 @@
 """Pressing: ways cut into stretches, and grass that lies down and stands up again (F4)."""
 
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -69,6 +70,21 @@ def test_f4_under_a_presser_grass_lies_down_and_beside_it_it_bends_aside() -> No
     assert abs(ahead[1]) < 1e-6
     assert left[1] < -0.25 < 0.25 < right[1]
     assert np.abs(beyond).max() == 0.0
+
+
+def test_r3_many_who_walk_in_step_take_as_many_steps_of_the_program_as_two() -> None:
+    def calls(count: int) -> int:
+        trail, none, called = Trail(), np.zeros(0, np.intp), list[str]()
+        trail.keep(none, none, discs_at(*[(0.0, float(number)) for number in range(count)]), 0.0)
+        sys.setprofile(lambda _, event, __: called.append(event))
+        try:
+            trail.tread(discs_at(*[(1.0, float(number)) for number in range(count)]), 0.5)
+        finally:
+            sys.setprofile(None)
+        assert sum(map(len, trail.closed)) == 3 * count
+        return len(called)
+
+    assert calls(200) == calls(2)
 
 
 def test_f4_beside_a_way_grass_swings_past_rest_as_its_kind_answers_and_comes_to_rest() -> None:
