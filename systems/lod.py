@@ -60,11 +60,11 @@ def farthest(reach: tuple[int, ...], /) -> tuple[int, ...]:
 
 
 def read_of(outlook: Outlook, /) -> tuple[object, ...]:
-    """Return what levels of detail depend on beside the patch table, to be compared."""
+    """Return all that levels of detail, and what is seen of them, depend on beside the patch table, to be compared."""
     viewer, lens, mown = outlook.viewer, outlook.lens, outlook.noted(Mown, None)
     looks = viewer.eye, viewer.cone, viewer.jumped, viewer.centre.tobytes()
     sees = lens.zoom, lens.range, lens.reach, lens.room
-    return *looks, *sees, outlook.bent, mown and mown.strokes
+    return *looks, *sees, outlook.bent, outlook.heights, outlook.sown, mown and mown.strokes
 
 
 @dataclass(slots=True)

@@ -131,6 +131,7 @@ class Tile:
             patches.height[on], patches.slope[on] = height_at(terrain, middle), slope_at(terrain, middle)
             heights = terrain.heights[part.around]
             for kept in outlook.kept.values():
+                kept.planted += 1
                 kept.stand_on(first, last, (float(heights.min()), float(heights.max())))
         outlook.heights = terrain.changes.count
 
@@ -143,5 +144,6 @@ class Tile:
             squares = np.unique(cell_of(ends + np.array([[-CELL], [CELL]], np.float32), patch=patch), axis=0)
         for first, last in squares:
             for kept in outlook.kept.values():
+                kept.planted += 1
                 kept.sow_on(first, last)
         outlook.sown = sown.count

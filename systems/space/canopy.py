@@ -35,13 +35,14 @@ def _tall(blades: Blades, /) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class Top:
-    """The top of the grass over a ground as it was when that had been changed so often; two alike are equal."""
+    """The top of the grass over a ground that had been changed so often; two alike are equal."""
 
     ground: Ground
     canopy: tuple[float, ...]
     """Height of each kind's canopy [m]."""
 
-    changes: int
+    changes: tuple[int, int]
+    """How often its heights had been changed, and what is sown on it."""
 
     def __call__(self, place: Floats, /) -> Floats:
         """Return how high the top of the grass is (y) at ground positions (n, 2) [m], shape (n,)."""
@@ -50,7 +51,7 @@ class Top:
 
 def top_over(ground: Ground, canopy: tuple[float, ...], /) -> Top:
     """Return the top of the grass over a ground as it is now."""
-    return Top(ground, canopy, ground.terrain.changes.count)
+    return Top(ground, canopy, (ground.terrain.changes.count, ground.density.sown.count))
 
 
 def top_at(ground: Ground, canopy: Sequence[float], place: Floats, /) -> Floats:

@@ -111,7 +111,6 @@ class BladesKept(Kept):
 
     def stand_on(self, first: Ints, last: Ints, span: tuple[float, float], /) -> None:
         """Let the ground of these cells reach as low and as high: planting all blades again would take far longer."""
-        self.planted += 1
         stamp, ground = self.pool.stamp, self.pool.ground
         on = between(stamp, first, last)
         ground[on] = np.stack([np.minimum(ground[on, 0], span[0]), np.maximum(ground[on, 1], span[1])], axis=1)

@@ -93,6 +93,7 @@ class BladeRepresentation(Representation):
             plant_blades(pool, shown.slots[stale], cell, model, turn, self.stock, self.ground)
         sown = pool.sown.take(shown.slots, axis=0)
         if (sown[:, 0] != sown[:, 1]).any():
+            kept.planted += 1
             anew = sown[:, 0] != sown[:, 1]
             sow_blades(pool, shown.slots[anew], patches.model[shown.rows[anew]], self.stock, self.ground)
 
