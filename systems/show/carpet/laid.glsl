@@ -42,7 +42,7 @@ float standing(ByKind grows, vec2 message) {
 // How fast the rise of the ground falls off along a line of sight of some slope [1/m]: where it is, or where it goes on through
 // the grass, if ground falls away from it there.
 float curved_at(vec2 place, vec2 rise, float slope, float tall) {
-    float near_by = max(NEAR_CELLS * terrain_cell, 2.0 * tile.z), here = height_at(place);
+    float near_by = max(NEAR_CELLS * terrain_cell, 2.0 * spaced), here = height_at(place);
     float far = clamp(STOPPED * tall / max(slope, FLATTEST), near_by, FARTHEST * near_by);
     vec2 way = heading_to(place);
     float bulges = (2.0 * here - height_at(place + way * near_by) - height_at(place - way * near_by)) / (near_by * near_by);
@@ -51,7 +51,7 @@ float curved_at(vec2 place, vec2 rise, float slope, float tall) {
 }
 
 vec2 rising_at(vec2 at) {
-    vec2 step = vec2(max(terrain_cell, tile.z), 0.0);
+    vec2 step = vec2(max(terrain_cell, spaced), 0.0);
     return vec2(height_at(at + step.xy) - height_at(at - step.xy), height_at(at + step.yx) - height_at(at - step.yx)) / (2.0 * step.x);
 }
 
@@ -60,7 +60,7 @@ Laid laid_on(inout vec3 place) {
     Laid laid;
     laid.share = lowest_share(place.xz);
     laid.grows = grows_at(place.xz);
-    laid.left = anything_is_cut() ? left_about(place.xz, tile.z) : UNCUT;
+    laid.left = anything_is_cut() ? left_about(place.xz, spaced) : UNCUT;
     laid.dense = weighed(laid.grows, areas(leaves_left(laid.left)));
     laid.tall = 0.0;
     for (int group = 0; group < GROUPS; group++)
