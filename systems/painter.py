@@ -9,7 +9,7 @@ import numpy as np
 
 from ..components.wind import WindPrimitive
 from ..engine.camera import View, is_mirrored
-from ..engine.gl.guest import aside, guest
+from ..engine.gl.guest import aside, colourless, guest
 from ..engine.gl.rasteriser import handing_over
 from ..engine.gl.smaller import Smaller
 from ..engine.gl.stopwatch import Stopwatch
@@ -112,7 +112,7 @@ class Painter:
             before = self.record.copy()
             for each in some:
                 each.rehearse(self.record)
-            self.draw(view, hidden=True)
+            self.draw(view, Asked(is_deep=True), hidden=True)
             self.record[:] = before
             yield
 
@@ -229,7 +229,7 @@ class Painter:
                 self._draw_carpet(target, view)
             self._hand_over()
             if "grass" in asked.parts and blades is None:
-                self._draw_grass(target)
+                self._draw_grass(target, is_deep=asked.is_deep)
             elif blades is not None:
                 ctx.enable_only(moderngl.DEPTH_TEST)
                 self.draw_calls += sum(painter.draw() for painter in blades)
@@ -276,13 +276,18 @@ class Painter:
         target.depth_mask = True
         self.draw_calls += sum(part.draw_soft() for part in self.parts)
 
-    def _draw_grass(self, target: moderngl.Framebuffer) -> None:
+    def _draw_grass(self, target: moderngl.Framebuffer, *, is_deep: bool) -> None:
         """Draw what stands on the land, the coarser representations first."""
         self._blend()
         target.depth_mask = False
         for painter in list(self.painters.values())[-2::-1]:
             self.draw_calls += painter.draw(target)
             self._hand_over()
+        if is_deep:
+            self.ctx.enable_only(moderngl.DEPTH_TEST)
+            target.depth_mask = True
+            with colourless(target):
+                self.draw_calls += sum(painter.draw_deep() for painter in self.painters.values())
 
     def _blend(self) -> None:
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND)

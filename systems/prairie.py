@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, get_args
 import moderngl
 
 from ..engine.camera import View, view_of
-from ..engine.declared.parts import as_parts
+from ..engine.declared.parts import DEPTHS, as_parts
 from ..engine.declared.quality import PRESETS, LodName
 from ..engine.gl.guest import unturned
 from ..engine.handed import must_be_a, must_be_known, must_be_viewer
@@ -130,26 +130,29 @@ class Prairie(Tending):
         return self._assembly.screen.painter
 
     def draw(
-        self, view: object, projection: object, *, viewer: str = "main", parts: Iterable[str] | None = None
-    ) -> None:
+        self, view: object, projection: object, *, viewer: str = "main", parts: Iterable[str] | None = None,
+        depth: str = "near",
+    ) -> None:  # fmt: skip
         """Draw the prairie into the framebuffer that is bound, and leave the host's GL state as it was.
 
         Ground, carpet and the nearest blades write depth; strips and other blades only test it. So a game draws its
-        own opaque things before the prairie, and its 2D after it.
+        own opaque things before the prairie, and its 2D after it. With a `depth` of "all" in place of "near", all grass
+        writes it where it covers at least half a pixel: for water, smoke or a sky that a game draws after it.
 
         Both matrices are 4x4 numpy arrays for column vectors, or `pyglet.math.Mat4`. Of several viewers in a frame,
         each needs a name of its own. Of `parts`, "sky", "ground", "grass" and "beyond", only those are drawn that are
         named; without them, those of the scene. Where `ground` has not been drawn in the same frame, of the same view
-        and time, grass is laid over the game's own by how much it covers. Raises ValueError for other matrices and
-        parts, TypeError for a viewer that is no name and parts that are no list of names, and RuntimeError after
+        and time, grass is laid over the game's own by how much it covers. Raises ValueError for other matrices, parts
+        and depths, TypeError for a viewer that is no name and parts that are no list of names, and RuntimeError after
         `release` or without a window. Where the viewport has no pixels, nothing happens at all.
         """
         self._must_be_there("draw it")
         must_be_viewer(viewer)
+        must_be_known("depth", depth, DEPTHS)
         chosen = as_parts(self.scene.parts if parts is None else parts)
         seen = view_of(view, projection)
         before = self.viewers[viewer].frame if viewer in self.viewers else None
-        frame, asked, goes_on = Frame(seen, self.time, self.site, chosen).after(before)
+        frame, asked, goes_on = Frame(seen, self.time, self.site, chosen).after(before, is_deep=depth == "all")
         if not goes_on:
             for feature in self.features:
                 feature.step(viewer, time=self.time)
@@ -200,20 +203,22 @@ class Prairie(Tending):
     def group(
         self, batch: "Batch", camera: Callable[[], tuple[object, object]], *, order: int = 0,
         parent: "Group | None" = None, viewer: str = "main", parts: Iterable[str] | None = None,
+        depth: str = "near",
     ) -> "DrawingGroup":  # fmt: skip
         """Put the prairie into a pyglet batch, and return its group.
 
         Whenever the batch is drawn, `camera` is asked for view and projection, as `draw` takes them, and the prairie is
         drawn after groups of a lower `order` and before those of a higher one. A batch may have several groups, each of
         other `parts`. The group's `visible` hides it, its `delete` takes it out of the batch, as `release` does. Raises
-        RuntimeError after `release`, and what `draw` raises for a viewer and for parts.
+        RuntimeError after `release`, and what `draw` raises for a viewer, parts and depth.
         """
         self._must_be_there("put it into a batch")
         must_be_viewer(viewer)
+        must_be_known("depth", depth, DEPTHS)
         chosen = None if parts is None else as_parts(parts)
 
         def draw() -> None:
-            self.draw(*camera(), viewer=viewer, parts=chosen)
+            self.draw(*camera(), viewer=viewer, parts=chosen, depth=depth)
 
         return self._assembly.screen.group(draw, batch, order, parent)
 

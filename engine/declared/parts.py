@@ -12,6 +12,9 @@ PARTS: tuple[PartName, ...] = ("sky", "ground", "grass", "beyond")
 
 Bodies come with the grass; `beyond` is whatever is drawn of ground and grass that lies beyond the terrain's edge."""
 
+DEPTHS = "near", "all"
+"""Which grass writes depth: the nearest, or all that covers at least half a pixel."""
+
 
 def as_parts(names: object, /) -> frozenset[PartName]:
     """Return parts by their names. Raises TypeError for what is no list of names, ValueError for one that is none."""

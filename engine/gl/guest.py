@@ -107,6 +107,19 @@ def aside(ctx: moderngl.Context, target: moderngl.Framebuffer) -> Iterator[None]
 
 
 @contextmanager
+def colourless(target: moderngl.Framebuffer) -> Iterator[None]:
+    """Write no colour meanwhile into the framebuffer that is drawn in."""
+    state = _kept[-1]
+    state.gl.glColorMaski(0, 0, 0, 0, 0)
+    try:
+        yield
+    finally:
+        target.color_mask = (True, True, True, True)
+        if target.glo == state.framebuffer:
+            state.narrow()
+
+
+@contextmanager
 def _remembered(ctx: moderngl.Context, target: moderngl.Framebuffer, state: State) -> Iterator[None]:
     """Let moderngl remember in the end what it does now, so that a host that draws with it finds what it has set."""
     host = _host_framebuffer(ctx, target)

@@ -19,6 +19,9 @@ class Asked:
 
     parts: frozenset[PartName] = frozenset(PARTS)
 
+    is_deep: bool = False
+    """Whether all grass writes depth, where it covers at least half a pixel."""
+
     on_ours: bool = True
     """Whether what the grass stands on has been drawn here, and is not the game's own."""
 
@@ -52,8 +55,8 @@ class Frame:
         )  # fmt: skip
         return not ONCE & self.parts & next_one.parts and all(is_same)
 
-    def after(self, before: Self | None, /) -> "tuple[Frame, Asked, bool]":
+    def after(self, before: Self | None, /, *, is_deep: bool) -> "tuple[Frame, Asked, bool]":
         """Return the frame as it is once this much is drawn, what that is, and whether it goes on from `before`."""
         is_next = before is None or not before.goes_on(self)
         drawn = self.parts if is_next or before is None else before.parts | self.parts
-        return replace(self, parts=drawn), Asked(self.parts, "ground" in drawn), not is_next
+        return replace(self, parts=drawn), Asked(self.parts, is_deep, "ground" in drawn), not is_next

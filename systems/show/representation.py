@@ -99,6 +99,10 @@ class RepresentationPainter(Part, ABC):
         Depth is tested and blending is on; `target.depth_mask` is False before, and has to be so afterwards.
         """
 
+    def draw_deep(self) -> int:
+        """Write depth, and no colour, where what was drawn covers at least half a pixel; return the draw calls."""
+        return 0
+
 
 class Representation(ABC):
     """One way in which the same grass is kept and drawn (paper, section 2.1).

@@ -97,6 +97,7 @@ def test_nothing_is_made_on_a_frame_after_a_game_has_prepared(
         for _ in range(3):
             prairie.advance(0.4)
             stage.shot(prairie, aim)
+            prairie.draw(*stage.matrices(aim), parts=("grass",), depth="all")
         return list(made)
 
     def add(*winds: WindPrimitive) -> Callable[[], object]:

@@ -15,6 +15,11 @@ uint stream(uint hashed, int number) {
     return scramble(hashed ^ scramble(uint(number)));
 }
 
+// A number that a place on the ground has.
+int number_at(vec2 place) {
+    return floatBitsToInt(place.x) * 3 + floatBitsToInt(place.y);
+}
+
 const float STEP = 1.0 / 16777216.0;  // of 24 bits
 
 float unit(uint hashed) {

@@ -15,6 +15,11 @@ vec2 toothed(float to_side) {
     return vec2(wide / mix(1.0, TOOTHED_WIDER, tooth.z), 1.0 + tooth.z * OUTER * (end - MEAN_END));
 }
 #endif
+#ifdef DEEP
+#include "systems/show/deep.glsl"
+
+flat in int number;
+#endif
 #ifdef PARTED
 uniform int part;     // 1: where it hides what is behind it; 2: the rest
 flat in float hides;  // coverage from which on it does
@@ -40,11 +45,17 @@ void main() {
 #endif
     float covered = shown * clamp(wide + 0.5 - abs(aside), 0.0, min(1.0, 2.0 * wide));
     covered = covered < FAINT ? 0.0 : covered;
+#ifdef DEEP
+    if (covered < least_cover(number, clamp(2.0 - 2.0 * half_width, 0.0, 1.0)))
+        discard;
+#endif
 #ifdef PARTED
     if (covered == 0.0 || (covered < hides) == (part == 1))
         discard;
 #endif
-#ifdef FOLDS
+#ifdef DEEP
+    pixel = vec4(0.0);
+#elif defined(FOLDS)
     // Each face of a fold is evenly lit: the ramp from side to side, as corners have it, becomes a step.
     pixel = vec4((seen + keel * (clamp(2.0 * aside, -1.0, 1.0) - aside / (half_width + 0.5))) * covered, covered);
 #else

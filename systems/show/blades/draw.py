@@ -1,6 +1,7 @@
 """Drawing 3D blades: a pass over the blades, then a ribbon for each."""
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 
 import moderngl
 import numpy as np
@@ -87,11 +88,22 @@ class Ribbons:
             **segment_defines(counts, own=own), **({"SOFT": 1} if soft else {}), **({"PARTED": 1} if parted else {}),
             **({"FINEST": 1} if finest else {}), **(defines or {}),
         }  # fmt: skip
-        self.program = joined(
-            ctx, block, units, "systems/show/blades/ribbon.vert", "systems/show/blades/blades.frag", whole
+        self._make = partial(
+            joined, ctx, block, units, "systems/show/blades/ribbon.vert", "systems/show/blades/blades.frag"
         )
+        self._deep_defines = {name: value for name, value in whole.items() if name != "PARTED"} | {"DEEP": 1}
+        self.program = self._make(whole)
         self.stream = Stream(ctx, record)
         self.array = ctx.vertex_array(self.program, [self.stream.binding(self.program)])
+        self._deep: moderngl.VertexArray | None = None
+        """What writes depth alone, once it is asked for."""
+
+    def deep(self) -> moderngl.VertexArray:
+        """Return what writes depth alone, where a soft ribbon covers at least half a pixel."""
+        if self._deep is None:
+            made = self._make(self._deep_defines)
+            self._deep = made.ctx.vertex_array(made, [self.stream.binding(made)])
+        return self._deep
 
     def fill(self, blades: moderngl.VertexArray, count: int, *, first: int = 0) -> int:
         """Let the pass over blades make out `count` of them, from the `first` on; return the number of draw calls."""
@@ -106,11 +118,20 @@ class Ribbons:
             return 0
         if part is not None:
             self.program["part"] = part
-        self.array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.segments + 2, instances=self.stream.count)
+        return self._draw(self.array)
+
+    def draw_deep(self) -> int:
+        """Write the depth of what was filled in; return the number of draw calls."""
+        return self._draw(self.deep()) if self.stream.count else 0
+
+    def _draw(self, array: moderngl.VertexArray) -> int:
+        array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.segments + 2, instances=self.stream.count)
         return 1
 
     def release(self) -> None:
         """Give everything back."""
+        if self._deep is not None:
+            release_all(self._deep, self._deep.program)
         release_all(self.array, self.program, self.stream)
 
 

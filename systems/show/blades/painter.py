@@ -104,6 +104,8 @@ class BladesPainter(RepresentationPainter):
         self.standing.reserve(READY_ROWS)
         self._told.lose()
         self.hearing.make_ready()
+        for ribbons in (self.morph, *self.groups):
+            self._tell(ribbons.deep().program)
 
     def receivers(self, outlook: Outlook, /) -> list[int]:
         """Return how many blades there are on the patches that are shown."""
@@ -204,6 +206,12 @@ class BladesPainter(RepresentationPainter):
         calls += near.draw(CORES)
         target.depth_mask = False
         return calls + near.draw(EDGES)
+
+    def draw_deep(self) -> int:
+        """Write the depth of all blades; return the number of draw calls."""
+        self.store.targets.use(self._units["targets"])
+        self._tell(self.morph.deep().program)
+        return sum(ribbons.draw_deep() for ribbons in (self.morph, *self.groups))
 
     def release(self) -> None:
         """Give everything back."""

@@ -39,6 +39,12 @@ uniform int part;      // 1: where it hides what is behind it; 2: the rest
 #endif
 #endif
 
+#ifdef DEEP
+#include "lib/random.glsl"
+
+flat out int number;
+#endif
+
 const float AT_TIP = 0.9999;  // part of a blade from which on it is its tip
 const float POINTED = 1e-4;  // half the breadth of an end that is seen as a point, of its distance
 
@@ -216,6 +222,9 @@ void main() {
 #endif
 #endif
     color = shown_of(light);
+#ifdef DEEP
+    number = number_at(foot.xz);
+#endif
 #ifdef SOFT
     gl_Position = widened(point);
 #else

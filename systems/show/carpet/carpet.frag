@@ -32,6 +32,9 @@ FEW vec3 lush;
 
 out vec4 pixel;
 
+uniform int part;         // what is drawn: 0, all of it; 1, where it covers at least half a pixel; 2, the rest
+const float HALF = 0.5;
+
 #include "systems/show/carpet/shown.glsl"
 #ifdef TRODDEN
 #include "systems/show/carpet/trodden.glsl"
@@ -124,6 +127,6 @@ void main() {
             covered = mix(1.0, outline_cover(top, crest, tall, stands, dense, seen.a), hides);
     }
     pixel = vec4(color, over_hosts > 0.0 ? cover : 1.0) * covered;
-    if (over_hosts > 0.0 && pixel.a < NOTHING)
+    if (over_hosts > 0.0 && pixel.a < NOTHING || part != 0 && pixel.a < HALF == (part == 1))
         discard;
 }

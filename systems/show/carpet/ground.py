@@ -37,6 +37,9 @@ too coarse to part the two."""
 PUSHED = 2.0 * APART
 """The same of ground that is drawn before any grass."""
 
+WHOLE, DENSE, THIN = 0, 1, 2
+"""What is drawn of the carpet: all, where it covers at least half a pixel, or the rest."""
+
 GLSL = {"RAISED": RAISED, "APART": APART}
 
 FINE, COARSENESS = 1.25, 0.3
@@ -277,9 +280,11 @@ class GroundPainter:
         self.shares.use(self.units["shares"])
         return self.under[self._is_cut].draw()
 
-    def draw_carpet(self) -> int:
-        """Draw the carpet, whose outlines let through what is behind them; return the number of draw calls."""
-        return self.carpet[2 if self._is_lamplit or self.is_trodden else self._is_cut].draw()
+    def draw_carpet(self, part: int = WHOLE) -> int:
+        """Draw the carpet, or a part of it: its outlines let through what is behind; return the draw calls."""
+        carpet = self.carpet[2 if self._is_lamplit or self.is_trodden else self._is_cut]
+        carpet.program["part"] = part
+        return carpet.draw()
 
     def release(self) -> None:
         """Give everything back."""

@@ -23,9 +23,11 @@ from ...space.grown import Grown
 from ..representation import Canvas, RepresentationPainter
 from .air import Air
 from .ground import (
+    DENSE,
     GRID,
     OUTLINE,
     RAISED,
+    THIN,
     GroundPainter,
     Tiles,
     finest_spacing,
@@ -57,6 +59,8 @@ class CarpetPainter(RepresentationPainter):
         self._laid = Remembered[Floats]()
         self.images, self.bents = carpet_texture(canvas.ctx, growths), bent_texture(canvas.ctx, growths)
         self.air = Air(canvas, side)
+        self._deep = False
+        """Whether it writes depth only where it covers at least half a pixel."""
         self._heard: tuple[NDArray[np.int32], int, CarpetKept] | None = None
         self.ground = GroundPainter(canvas.ctx, canvas.block, growths, canvas.units, side=side, seed=canvas.seed)
 
@@ -106,7 +110,8 @@ class CarpetPainter(RepresentationPainter):
         """
         patches, viewer = outlook.patches, outlook.viewer
         bare_to = self._bare_to(patches, cover)
-        goes_on = "beyond" in outlook.noted(Asked, Asked()).parts
+        asked = outlook.noted(Asked, Asked())
+        goes_on, self._deep = "beyond" in asked.parts, asked.is_deep
         made_of = self._ground, viewer.eye, viewer.cone, viewer.centre, cover is None, bare_to, goes_on
         tiles, is_new = self._seen.of(
             viewer.name, made_of, partial(self._tiles, viewer, None if cover is None else bare_to, goes_on=goes_on)
@@ -177,8 +182,16 @@ class CarpetPainter(RepresentationPainter):
         self.ground.shares.use(self._units["shares"])
         self.air.use()
         self.bents.use(self._units["bents"])
-        calls = self.ground.draw_carpet()
+        if not self._deep:
+            calls = self.ground.draw_carpet()
+            target.depth_mask = False
+            return calls
+        calls = self.ground.draw_carpet(DENSE)
         target.depth_mask = False
+        ctx = self.images.ctx
+        ctx.depth_func = "<"  # where it is dense, it is itself in the way
+        calls += self.ground.draw_carpet(THIN)
+        ctx.depth_func = "<="
         return calls
 
     def release(self) -> None:

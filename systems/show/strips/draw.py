@@ -58,20 +58,31 @@ class StripPainter:
         whole = {**laid, "ATLAS": f"{self._rows}.0"}
         if stack > 1:
             whole["STACK"] = stack
-        self.programs = [
-            joined(
+        self._canvas, self._whole = canvas, whole
+        self.arrays = self._made({}, {"SHADED": 1}, {"SHADED": 1, "CUT": 1})
+        self._deep: list[moderngl.VertexArray] = []
+        """Those that write depth alone, once they are asked for."""
+
+    def _made(self, *special: dict[str, str | int]) -> list[moderngl.VertexArray]:
+        """Return what draws strips as programs of these sorts do, each with all blades and by rank."""
+        canvas, pictures, made = self._canvas, self._pictures(), []
+        for defines in ({**self._whole, **each, **thin} for each in special for thin in ({}, {"THIN": 1})):
+            program = joined(
                 canvas.ctx, canvas.block, canvas.units, "systems/show/strips/strips.vert",
                 "systems/show/strips/strips.frag", defines,
-            )
-            for rare in ({}, {"SHADED": 1}, {"SHADED": 1, "CUT": 1})
-            for defines in ({**whole, **rare}, {**whole, **rare, "THIN": 1})
-        ]  # fmt: skip
-        pictures = self._pictures()
-        for made in self.programs:
-            self._tell(made)
-            made["most"] = self.most
-            made["pictures"] = pictures if len(pictures) > 1 else pictures[0]
-        self.arrays = [canvas.ctx.vertex_array(made, []) for made in self.programs]
+            )  # fmt: skip
+            self._tell(program)
+            program["most"] = self.most
+            program["pictures"] = pictures if len(pictures) > 1 else pictures[0]
+            made.append(canvas.ctx.vertex_array(program, []))
+        return made
+
+    @property
+    def deep(self) -> list[moderngl.VertexArray]:
+        """What writes depth alone: with all blades and by rank, and then where any grass is cut."""
+        if not self._deep:
+            self._deep = self._made({"DEEP": 1}, {"DEEP": 1, "CUT": 1})
+        return self._deep
 
     def _tell(self, made: moderngl.Program) -> None:
         """Tell a program how strips stand."""
@@ -95,6 +106,7 @@ class StripPainter:
         self.stood.reserve(READY_ROWS)
         self.strips.reserve(READY_ROWS)
         self.hearing.make_ready()
+        _ = self.deep
 
     def write(self, stood: NDArray[np.void]) -> None:
         """Send the patches, ring after ring."""
@@ -113,10 +125,11 @@ class StripPainter:
         array.program["of_ring"] = ring, patch
         return self.received.ask(array, first=first, count=count)
 
-    def draw(self, first: int, count: int, *, thin: bool) -> int:
+    def draw(self, first: int, count: int, *, thin: bool, deep: bool = False) -> int:
         """Draw `count` of what was written, from the `first` on; return the number of draw calls.
 
-        With `thin`, blades are drawn by rank: only those that the density and the patch's `ranks` leave.
+        With `thin`, blades are drawn by rank: only those that the density and the patch's `ranks` leave. With `deep`,
+        depth alone is written, where a strip covers at least half a pixel.
         """
         if not count:
             return 0
@@ -126,16 +139,18 @@ class StripPainter:
         self.extents.use(self.units["extents"])
         self.strips.texture.use(self.units["strips"])
         frame = self._block.record[0]
-        rare = 2 if frame["anything_cut"] else int(frame["shades"]["radius"].any())
-        which = 2 * rare + thin
-        self.programs[which]["first"] = first
-        self.arrays[which].render(moderngl.TRIANGLE_STRIP, vertices=2 * self.sections + 2, instances=count)
+        is_cut = bool(frame["anything_cut"])
+        rare = is_cut if deep else 2 if is_cut else int(frame["shades"]["radius"].any())
+        array = (self.deep if deep else self.arrays)[2 * rare + thin]
+        array.program["first"] = first
+        array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.sections + 2, instances=count)
         return 1
 
     def release(self) -> None:
         """Give everything back."""
         textures = self.atlas, self.ranks, self.extents
-        release_all(*self.arrays, *self.programs, self.hearing, self.stood, self.strips, *textures)
+        arrays = *self.arrays, *self._deep
+        release_all(*arrays, *(array.program for array in arrays), self.hearing, self.stood, self.strips, *textures)
 
 
 def tell_stacks(made: moderngl.Program, rings: Sequence[StripRing], /) -> None:

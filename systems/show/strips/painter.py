@@ -112,6 +112,10 @@ class StripsPainter(RepresentationPainter):
         del target
         return sum(self.strips.draw(first, count, thin=thin) for first, count, thin in self.runs)
 
+    def draw_deep(self) -> int:
+        """Write the depth of all runs; return the number of draw calls."""
+        return sum(self.strips.draw(first, count, thin=thin, deep=True) for first, count, thin in self.runs)
+
     def release(self) -> None:
         """Give everything back."""
         self.strips.release()

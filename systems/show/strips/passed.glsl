@@ -9,6 +9,9 @@ flat PASSED mat4 lit;       // light on it, bundled; beside it layer of the text
 #ifdef SHADED
 flat PASSED vec4 shadow;    // of a body: the square of how near the sun's ray comes to it, by powers of `on.z`; how soft its edge is
 #endif
+#ifdef DEEP
+flat PASSED int number;     // of the column
+#endif
 #ifdef CUT
 flat PASSED vec4 cut;       // kind; pixels that a metre is long; height below which strips would show as rows [m]; 1 where any is cut
 #endif

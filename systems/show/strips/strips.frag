@@ -1,5 +1,5 @@
 // With THIN, blades are drawn by rank. With SHADED bodies cast shadows, and with CUT some grass is cut: those are programs of
-// their own, as fragments would pay half as much again for what is rare.
+// their own, as fragments would pay half as much again for what is rare. With DEEP, only depth is written.
 #include "lib/layered.glsl"
 #include "lib/light.glsl"
 
@@ -13,6 +13,11 @@ uniform sampler2DArray ranks;  // rank; premultiplied
 
 out vec4 pixel;
 
+#ifdef DEEP
+#include "systems/show/deep.glsl"
+
+const float WHOLE_TEXELS = -1.0;  // level of the mip-maps from which on texels are the mean of several blades, or of none
+#endif
 const float FAINT = 0.006; // coverage that is left out: in bytes, layer upon layer, it would but be rounded up
 const float LEAST_PAINT = 0.002;  // coverage of a texel that counts at least, for what it shows
 const float SUNKEN = 0.3;  // height of grass from which on strips begin to show, of that below which they would show as rows
@@ -29,6 +34,9 @@ void main() {
     vec4 texel = layer_at(atlas, vec3(on.xy, lit[3].x), lit[3].y);
     float covered = foot.a * min(texel.a * lit[3].z, 1.0);
     if (covered < FAINT) {
+#ifdef DEEP
+        discard;
+#endif
         pixel = vec4(0.0);
         return;
     }
@@ -48,10 +56,18 @@ void main() {
         covered *= left_of(top);
     }
 #endif
+#ifdef DEEP
+    vec3 grass = vec3(0.0);
+#else
     vec3 grass = shown_of(shade(leaf_at(pigment, on.w), light));
+#endif
 #ifdef THIN
     float rank = layer_at(ranks, vec3(on.xy, lit[3].x), lit[3].y).r / max(texel.a, LEAST_PAINT);
     covered *= clamp(roots.w - rank * rise.a, 0.0, 1.0) * clamp(grain_cos.a * rank + grain_sin.a, 0.0, 1.0);
+#endif
+#ifdef DEEP
+    if (covered < least_cover(number, clamp(lit[3].y - WHOLE_TEXELS, 0.0, 1.0)))
+        discard;
 #endif
     pixel = vec4(grass, 1.0) * (covered < FAINT ? 0.0 : covered);
 }

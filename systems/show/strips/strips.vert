@@ -16,6 +16,10 @@ uniform ByKind margin;      // by kind: how far strips reach beyond their patch 
 uniform vec3 pictures[RINGS * KINDS];    // how far each reaches across its layer of the texture, and up; the first layer
 uniform ivec4 stacks[RINGS];             // by ring: columns of a strip, sections of a column, strips of a kind on a patch
 
+#ifdef DEEP
+#include "lib/random.glsl"
+#endif
+
 #define PASSED out
 #include "systems/show/strips/passed.glsl"
 
@@ -228,6 +232,9 @@ void main() {
     lit = bundled(light, vec3(float(column.layer), log2(texels) - SHARPER, boosted(k, run, middle, top, back)));
     dye(column, run, middle, top, 1.0 - lodged(bend), lies.slow);
     foot.a = column.stood.fade;
+#ifdef DEEP
+    number = number_at(rooted.xz);
+#endif
 #ifdef THIN
     thin(mix(a.dense, b.dense, corner.x), column.stood.ranks, 0.5 * texels);
 #endif
