@@ -8,6 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass.engine.camera import Camera
+from tallgrass.engine.gl.stream import release_all
 from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import Stage, stage
 
@@ -51,13 +52,12 @@ class Host:
         self.buffers = [ctx.buffer(np.array(each, np.float32)) for each in (pond, sky)]
         self.pond, self.sky = (ctx.vertex_array(self.program, [(each, "3f", "at")]) for each in self.buffers)
 
-    def draw(self, what: moderngl.VertexArray, clip: Picture, *, opaque: float = 1.0) -> None:
+    def draw(self, what: moderngl.VertexArray, clip: NDArray[np.floating], *, opaque: float = 1.0) -> None:
         self.program["clip"], self.program["opaque"] = clip.T.reshape(16).tolist(), opaque
         what.render(moderngl.TRIANGLE_STRIP)
 
     def release(self) -> None:
-        for each in (self.pond, self.sky, *self.buffers, self.program):
-            each.release()
+        release_all(self.pond, self.sky, *self.buffers, self.program)
 
 
 @pytest.fixture(scope="module")
@@ -153,7 +153,6 @@ def test_a_games_sky_goes_in_underneath_by_what_the_prairie_covers(
         assert np.abs(first - last).max() <= 4  # layer upon layer, each rounded to bytes
     finally:
         ctx.enable_only(moderngl.NOTHING)
-        ctx.blend_func = moderngl.DEFAULT_BLENDING
         for each in (target, color, deep):
             each.release()
 
