@@ -16,6 +16,8 @@ _SIN = np.array([0, 1, 0, -1], np.float32)
 PRESENT = 1.0 / 255.0
 """Density below which a kind is taken not to grow at all."""
 
+GLSL = {"PRESENT": PRESENT}
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Ground:

@@ -1,4 +1,4 @@
-// The carpet: what is seen of its grass, and of the ground between.
+// The carpet: what is seen of its grass, and of the ground between. With EDGED, grass ends or has been cut there.
 #define LAMPS_LATER
 #include "lib/light.glsl"
 #include "systems/show/carpet/litter.glsl"
@@ -10,17 +10,26 @@
 #define FEW in
 #endif
 
-in vec3 place;
+#ifdef EDGED
+#define BROUGHT
+in vec3 over;
+in float lies_over;
+in float raises;
+#else
+#define BROUGHT in
+#endif
+
+BROUGHT vec3 place;
 in float carpet;
 in vec2 rise;
 in float crest;
-in float tall;
-in float dense;
-in ByKind met;
+BROUGHT float tall;
+BROUGHT float dense;
+BROUGHT ByKind met;
 in vec3 soil_seen;
 in mat4 lit;
 #ifdef HEADS
-in ByKind riper;
+BROUGHT ByKind riper;
 #endif
 FEW float stands;
 FEW float strips_before;
@@ -38,6 +47,10 @@ const float HALF = 0.5;
 #include "systems/show/carpet/shown.glsl"
 #ifdef TRODDEN
 #include "systems/show/carpet/trodden.glsl"
+#endif
+#ifdef EDGED
+#include "systems/show/carpet/edged.glsl"
+#include "systems/show/carpet/met.glsl"
 #endif
 
 #if KINDS > 4
@@ -62,6 +75,12 @@ void work_out(float slope) {}
 // The light on what is met, and how that is bent: as the mesh has it, or as it is trodden.
 Canopy canopy_here(Sight sight) {
     Canopy canopy = Canopy(unbundled(lit), lit[3].xyz, vec2(0.0));
+#ifdef EDGED
+    ByKind grows = grows_at(place.xz);
+    canopy.light.leaves = vec2(0.0);
+    for (int kind = 0; kind < KINDS; kind++)
+        canopy.light.leaves += OF(met, kind) / max(total(met), TINY) * leaves_over(grows, kind);
+#endif
 #ifdef TRODDEN
     if (trodden_at(place.xz))
         canopy = trodden(canopy, met, place, sight.slope, sight.on_level, seen_at(place, sight.slope, tall, dense));
@@ -101,10 +120,44 @@ vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
     return vec4(sum.rgb + below * (1.0 - cover), standing_out(taller, sight.share));
 }
 
+#ifdef EDGED
+// Where the line of sight comes to grass, from the mesh on, is the place of the pixel; how much that hides of what is behind.
+float comes_to_grass() {
+    Way way = Way(over.xz, heading_to(over.xz), lies_over, raises, viewing_slope(rise, over), crest);
+    bool aside;
+    float at = enters(way, aside);
+    place = farther(over, max(at, 0.0));
+    ByKind grows = grows_at(place.xz);
+    float left = left_here(place.xz);
+    tall = carpet_high(grows, left);
+    dense = weighed(grows, areas(leaves_left(left)));
+    return at < 0.0 ? 0.0 : hidden_behind(way, at, aside, areas(grows), left);
+}
+
+// How much of each kind is met there.
+void meet(float slope, float left) {
+    ByKind grows = grows_at(place.xz), ripe;
+    float on_level = max(level_slope(max(slope, 0.0), crest, carpet, tall, stands), FLATTEST);
+    met = kinds_met(grows, on_level, left, left_by_strips(1.0 - strips_before, carpet), ripe);
+    met = shared_out(met, grows, on_level);
+#ifdef HEADS
+    riper = ripe;
+#endif
+}
+#endif
+
 void main() {
-    float slope = viewing_slope(rise, place), left = left_seen(place.xz);
-    vec2 dx = dFdx(place.xz), dy = dFdy(place.xz);
+#ifdef EDGED
+    float hidden = comes_to_grass();
+    vec2 dx = dFdx(over.xz), dy = dFdy(over.xz);
+    float slope = viewing_slope(rise, place), left = left_here(place.xz), ahead = 0.0;
     work_out(slope);
+    meet(slope, left);
+#else
+    vec2 dx = dFdx(place.xz), dy = dFdy(place.xz);
+    float slope = viewing_slope(rise, place), left = left_seen(place.xz), ahead = rises_ahead(place.xz, tall);
+    work_out(slope);
+#endif
     vec3 pigment = lying_pigment(lying_seen(place.xz, through_leaves(dense / max(slope, LOWEST))), lush);
     vec3 soil_light = soil_between(Soil(soil_seen, sunlit, skylit, soil_way), place.xz, left);
     if (any_lamps())
@@ -113,11 +166,16 @@ void main() {
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / patch_side))) : 0.0, cover = 0.0;
     if (over_hosts > 0.0)
         color = vec3(0.0);  // the game's ground is seen there
-    float top = slope + carpet * rises_ahead(place.xz, tall), hides = min(share / SHOWN_FROM, 1.0);
+    float top = slope + carpet * ahead, hides = min(share / SHOWN_FROM, 1.0);
     float covered = mix(1.0, outline_cover(top, crest, tall, stands, dense, standing_out(TALLER, 1.0)), hides);
     // It writes its depth: where strips still stand on the patch, the thin edge of an outline would hide them.
     if (covered < max(NOTHING, STANDING * (1.0 - share)))
         discard;
+#ifdef EDGED
+    if (hidden < NOTHING || share <= 0.0)
+        discard;
+    gl_FragDepth = gl_FragCoord.z + depth_of(place) - depth_of(over);
+#endif
     if (share > 0.0) {
         float on_level = level_slope(slope, crest, share, tall, stands);
         Sight sight = Sight(normalize(place.xz - eye.xz), slope, on_level, smoothstep(ABOVE.x, ABOVE.y, slope), share, dx, dy);
@@ -126,6 +184,9 @@ void main() {
         if (covered < WHOLE)
             covered = mix(1.0, outline_cover(top, crest, tall, stands, dense, seen.a), hides);
     }
+#ifdef EDGED
+    covered *= hidden;
+#endif
     pixel = vec4(color, over_hosts > 0.0 ? cover : 1.0) * covered;
     if (over_hosts > 0.0 && pixel.a < NOTHING || part != 0 && pixel.a < HALF == (part == 1))
         discard;

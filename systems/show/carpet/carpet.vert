@@ -1,4 +1,5 @@
-// The carpet: what is the same over a few pixels is made out at the corners of the mesh.
+// The carpet: what is the same over a few pixels is made out at the corners of the mesh. With EDGED, grass ends or has been
+// cut there: pixels make out themselves what is BROUGHT along otherwise.
 #define LAMPS_LATER  // pixels ask for them: pools of light are smaller than the mesh
 #include "lib/light.glsl"
 #include "systems/show/carpet/laid.glsl"
@@ -12,17 +13,26 @@
 #define FEW out
 #endif
 
-out vec3 place;
+#ifdef EDGED
+#define BROUGHT
+out vec3 over;       // place on the mesh, which is raised to the carpet of whole grass,
+out float lies_over;      // how high that is over the ground [m],
+out float raises;      // and of how high the carpet is on level ground
+#else
+#define BROUGHT out
+#endif
+
+BROUGHT vec3 place;
 out float carpet;    // how much of what is seen is carpet's
 out vec2 rise;       // of the ground, along x and z
 out float crest;     // how fast the rise falls off along the line of sight [1/m]
-out float tall;      // height of the carpet [m]
-out float dense;     // leaf area seen from the side, of the ground's area
-out ByKind met;      // by kind: how much of what a line of sight meets
+BROUGHT float tall;     // height of the carpet [m]
+BROUGHT float dense;    // leaf area seen from the side, of the ground's area
+BROUGHT ByKind met;     // by kind: how much of what a line of sight meets
 out vec3 soil_seen;  // radiance of the soil, without haze
 out mat4 lit;        // the light on leaves of the kinds that are met; beside it, how what is met changes as the wind bends them
 #ifdef HEADS
-out ByKind riper;    // by kind: how much more of its heads than an image shows; all the others at 1, none at -1
+BROUGHT ByKind riper;   // by kind: how much more of its heads than an image shows; all the others at 1, none at -1
 #endif
 FEW float stands;         // how high the grass stands, of its height at rest
 FEW float strips_before;  // how much strips show of what lines of sight come through above the carpet
@@ -80,8 +90,16 @@ void light_up(float slope, float on_level, ByKind grows, vec2 message) {
 
 void main() {
     place = on_ground(on_mesh());
+#ifdef EDGED
+    lies_over = place.y;
+#endif
     Laid laid = laid_on(place);
     place.y += laid.share * (1.0 - laid.share) * laid.tall * uneven(place.xz);
+#ifdef EDGED
+    over = place;
+    lies_over = place.y - lies_over;
+    raises = lies_over / max(laid.tall, LOWEST_GRASS);
+#endif
     hand_on(laid);
     float slope = viewing_slope(rise, place), from_above = max(slope, FLATTEST);
     vec2 came = come_through(place.xz, from_above, carpet, tall, stands);
@@ -95,7 +113,7 @@ void main() {
     light_up(slope, on_level, laid.grows, laid.message);
     vec3 ground = seen_behind(place, from_above);
     Lie lies = lie_at(ground.xz);
-    ByKind grows = grows_at(ground.xz);
+    ByKind grows = grown_at(ground.xz, laid);
     Soil soil = soil_lit(ground, lies, grows, 1.0 - haze_at(place));
     soil_seen = soil.seen;
     sunlit = soil.sunlit;

@@ -1,22 +1,32 @@
-// Ground that no carpet lies on.
+// Ground that no carpet lies on. With EDGED, grass ends or has been cut on it, and pixels make out themselves what light gets there.
 #include "lib/light.glsl"
 #include "systems/show/carpet/litter.glsl"
 #include "systems/show/carpet/stubble.glsl"
 
 in vec3 place;
+in vec3 haze;
+#ifndef EDGED
 in vec3 soil_seen;
 in vec3 sunlit;
 in vec3 skylit;
 in float soil_way;
-in vec3 haze;
 in vec3 lush;
+#endif
 
 out vec4 pixel;
 
 void main() {
+#ifdef EDGED
+    Lie lies = lie_at(place.xz);
+    ByKind grows = grows_at(place.xz);
+    Soil soil = soil_lit(place, lies, grows, 1.0 - haze_at(place));
+    vec3 lush = understorey_of(lies, grows);
+#else
+    Soil soil = Soil(soil_seen, sunlit, skylit, soil_way);
+#endif
     vec3 pigment = lying_pigment(lying_seen(place.xz, 1.0), lush);
     float left = left_seen(place.xz);
-    vec3 ground = soil_between(Soil(soil_seen, sunlit, skylit, soil_way), place.xz, left);
+    vec3 ground = soil_between(soil, place.xz, left);
     if (any_lamps())
         ground += lamps_on_soil(place, left);
     pixel = vec4(shown_of(ground * pigment * pigment + haze), 1.0);

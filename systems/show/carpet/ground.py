@@ -6,6 +6,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Mask
 from ....engine.gl.mipmaps import stack_for
 from ....engine.gl.rasteriser import anisotropy
 from ....engine.gl.stream import Stream, release_all
@@ -19,6 +20,9 @@ from .heads import any_heads, bears_heads, profile_of
 from .textures import image_count
 
 Tiles = NDArray[np.float64]
+
+Defines = dict[str, str | int]
+"""What a program is told."""
 
 TILE = np.dtype([("tile", "4f4")])
 GRID = 8
@@ -165,7 +169,8 @@ class _Layer:
 
 def _tell(layer: _Layer, told: Mapping[str, object]) -> None:
     for name, value in told.items():
-        layer.program[name] = value
+        if name in layer.program:
+            layer.program[name] = value
 
 
 def _of_images(growths: Sequence[Growth], seed: int) -> dict[str, object]:
@@ -201,38 +206,48 @@ class GroundPainter:
         self.units = units
         corners, indices = _grid()
         self.grid = ctx.buffer(corners), ctx.buffer(indices)
-        self.streams = Stream(ctx, TILE), Stream(ctx, TILE), Stream(ctx, TILE)
-        heads: dict[str, str | int] = {"HEADS": 1} if any_heads(growths) else {}
-        litter: dict[str, str | int] = {"ANISOTROPIC": 1} if anisotropy(ctx) > 1.0 else {}
+        self.streams = tuple(Stream(ctx, TILE) for _ in range(5))
+        heads: Defines = {"HEADS": 1} if any_heads(growths) else {}
+        litter: Defines = {"ANISOTROPIC": 1} if anisotropy(ctx) > 1.0 else {}
         stack = stack_for(ctx, image_count(growths))
-        stacked: dict[str, str | int] = {"STACK": stack, "REPEATED": 1} if stack > 1 else {}
+        stacked: Defines = {"STACK": stack, "REPEATED": 1} if stack > 1 else {}
 
-        def layer(name: str, defines: dict[str, str | int], stream: Stream) -> _Layer:
+        def layer(name: str, defines: Defines, stream: int) -> _Layer:
             vertex, fragment = f"systems/show/carpet/{name}.vert", f"systems/show/carpet/{name}.frag"
-            return _Layer(joined(ctx, block, units, vertex, fragment, defines), stream, *self.grid)
+            made = joined(ctx, block, units, vertex, fragment, defines)
+            return _Layer(made, self.streams[stream], *self.grid)
 
-        def both(name: str, defines: dict[str, str | int], stream: Stream) -> tuple[_Layer, _Layer]:
+        def both(name: str, defines: Defines, stream: int) -> tuple[_Layer, _Layer]:
             return layer(name, {**defines, "CUT": 0}, stream), layer(name, {**defines, "CUT": 1}, stream)
 
-        plain: dict[str, str | int] = {"PLAIN": 1}
+        plain: Defines = {"PLAIN": 1}
         known = heads | stacked | litter
-        self.bare = *both("ground", litter | plain, self.streams[0]), layer("ground", litter, self.streams[0])
+        self.bare = *both("ground", litter | plain, 0), layer("ground", litter, 0)
         self.covered = tuple(_Layer(each.program, self.streams[1], *self.grid) for each in self.bare)
         """The same, where carpet may lie."""
-        self.under = both("under", heads, self.streams[1])
-        trodden = layer("carpet", {**known, "TRODDEN": 1}, self.streams[2])
-        self.carpet = *both("carpet", known | plain, self.streams[2]), trodden
+        self.under = both("under", heads, 1)
+        self.carpet = *both("carpet", known | plain, 2), layer("carpet", {**known, "TRODDEN": 1}, 2)
+        self.edged = (
+            layer("ground", {**litter, "EDGED": 1}, 3),
+            layer("under", {**heads, "EDGED": 1}, 4),
+            layer("carpet", {**known, "EDGED": 1, "TRODDEN": 1}, 4),
+        )
+        """What is drawn where grass ends or is cut: ground, what lies under the carpet, and the carpet."""
         self.is_trodden = False
         """Whether anybody treads the grass, or has: then pixels of the carpet ask for that, which costs."""
-        for each in self.carpet:
+        for each in self._layers:
             _tell(each, _of_images(growths, seed))
         if heads:
             self._tell("profile", np.concatenate([profile_of(growth) for growth in growths]).tolist())
         self.raise_carpet(RAISED, outline=OUTLINE)
 
+    @property
+    def _layers(self) -> tuple[_Layer, ...]:
+        return *self.bare, *self.under, *self.carpet, *self.edged
+
     def _tell(self, name: str, value: object) -> None:
-        for layer in (*self.under, *self.carpet):
-            layer.program[name] = value
+        for layer in self._layers:
+            _tell(layer, {name: value})
 
     @property
     def _is_cut(self) -> bool:
@@ -244,9 +259,10 @@ class GroundPainter:
         """Whether lamps shine: then pixels ask for their light."""
         return bool(self._block.record["lamps_grid"][0, 3])
 
-    def write(self, tiles: NDArray[np.void], laid: NDArray[np.bool_]) -> None:
-        """Send the tiles (n,), and on which of them carpet may lie."""
-        for stream, chosen in zip(self.streams, (~laid, laid, laid), strict=True):
+    def write(self, tiles: NDArray[np.void], laid: Mask, edged: Mask) -> None:
+        """Send the tiles (n,), on which of them carpet may lie, and on which grass ends or is cut."""
+        even = laid & ~edged
+        for stream, chosen in zip(self.streams, (~(laid | edged), even, even, edged, laid & edged), strict=True):
             stream.write(tiles[chosen])
 
     def raise_carpet(self, part: float, *, outline: float = 0.0) -> None:
@@ -267,7 +283,7 @@ class GroundPainter:
         """Draw the bare ground, where it comes `alone` that of the carpet too; return the number of draw calls."""
         self.shares.use(self.units["shares"])
         rare = 2 if self._is_lamplit else self._is_cut
-        calls = self.bare[rare].draw()
+        calls = self.bare[rare].draw() + self.edged[0].draw()
         if alone:
             covered = self.covered[rare]
             covered.program["pushed"] = PUSHED
@@ -278,16 +294,17 @@ class GroundPainter:
     def draw_under(self) -> int:
         """Draw what lies under the carpet; return the number of draw calls."""
         self.shares.use(self.units["shares"])
-        return self.under[self._is_cut].draw()
+        return self.under[self._is_cut].draw() + self.edged[1].draw()
 
     def draw_carpet(self, part: int = WHOLE) -> int:
         """Draw the carpet, or a part of it: its outlines let through what is behind; return the draw calls."""
-        carpet = self.carpet[2 if self._is_lamplit or self.is_trodden else self._is_cut]
-        carpet.program["part"] = part
-        return carpet.draw()
+        even = self.carpet[2 if self._is_lamplit or self.is_trodden else self._is_cut]
+        for carpet in (even, self.edged[2]):
+            carpet.program["part"] = part
+        return even.draw() + self.edged[2].draw()
 
     def release(self) -> None:
         """Give everything back."""
-        layers = *self.bare, *self.under, *self.carpet
-        release_all(*(layer.array for layer in (*layers, *self.covered)), *(layer.program for layer in layers))
+        every = *self._layers, *self.covered
+        release_all(*(layer.array for layer in every), *(layer.program for layer in self._layers))
         release_all(*self.streams, *self.grid, self.shares)

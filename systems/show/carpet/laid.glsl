@@ -3,11 +3,13 @@
 #include "systems/show/carpet/lit.glsl"
 #include "systems/show/carpet/mesh.glsl"
 #include "systems/show/carpet/sight.glsl"
+#include "lib/mown.glsl"
 
 const float STOPPED = 0.6;  // how deep a line of sight comes in the grass before it is stopped, of its height: about
 const float FARTHEST = 5.0; // how much farther ahead ground is looked at, at most, than close by
 const float NEAR_CELLS = 4.0;  // how far off that is, in cells of the terrain
 const float UNCUT = 1e9;      // where all stands: above all grass [m]
+const float SPARSEST = 0.02;  // density of grass that tells a corner what grows about it
 const float EDGE = 0.01;    // a corner counts as on both sides of a patch's edge that is so near [m]
 
 uniform ByKind raised; // by kind: height of the carpet above the ground [m]
@@ -55,17 +57,44 @@ vec2 rising_at(vec2 at) {
     return vec2(height_at(at + step.xy) - height_at(at - step.xy), height_at(at + step.yx) - height_at(at - step.yx)) / (2.0 * step.x);
 }
 
-// How grass stands at a place of the ground, which is raised to the carpet.
-Laid laid_on(inout vec3 place) {
-    Laid laid;
-    laid.share = lowest_share(place.xz);
-    laid.grows = grows_at(place.xz);
-    laid.left = anything_is_cut() ? left_about(place.xz, spaced) : UNCUT;
-    laid.dense = weighed(laid.grows, areas(leaves_left(laid.left)));
+#ifdef EDGED
+// The grass of a corner of the mesh, where pixels see how much of it there is: the densest about.
+ByKind densest_about(vec2 place) {
+    ByKind densest = all_kinds(0.0);
+    for (int number = 0; number < 5; number++) {
+        vec2 way = number == 0 ? vec2(0.0) : number < 3 ? vec2(0.0, spaced) : vec2(spaced, 0.0);
+        ByKind grows = grows_at(place + (number % 2 == 0 ? way : -way));
+        if (total(grows) > total(densest))
+            densest = grows;
+    }
+    return total(densest) > SPARSEST ? densest : all_kinds(1.0 / float(KINDS));
+}
+#endif
+
+// How grass grows and stands at a corner of the mesh.
+void sow(inout Laid laid, vec2 place) {
+#ifdef EDGED
+    laid.grows = densest_about(place);
+    laid.left = UNCUT;
+    laid.tall = 0.0;
+    for (int kind = 0; kind < KINDS; kind++)
+        laid.tall = max(laid.tall, OF(raised, kind));
+#else
+    laid.grows = grows_at(place);
+    laid.left = anything_is_cut() ? left_about(place, spaced) : UNCUT;
     laid.tall = 0.0;
     for (int group = 0; group < GROUPS; group++)
         laid.tall += dot(laid.grows[group], min(raised[group], laid.left));
     laid.tall /= max(total(laid.grows), 1.0);
+#endif
+    laid.dense = weighed(laid.grows, areas(leaves_left(laid.left)));
+}
+
+// How grass stands at a place of the ground, which is raised to the carpet.
+Laid laid_on(inout vec3 place) {
+    Laid laid;
+    laid.share = lowest_share(place.xz);
+    sow(laid, place.xz);
     laid.rise = rising_at(place.xz);
     place.y += laid.share * laid.tall;
     laid.crest = curved_at(place.xz, laid.rise, viewing_slope(laid.rise, place), laid.tall);
@@ -83,4 +112,13 @@ const vec2 LOW = vec2(0.1, 0.4);  // slopes of lines of sight up to which it cou
 vec3 seen_behind(vec3 place, float slope) {
     float over = max(place.y - height_at(place.xz), 0.0) * (1.0 - smoothstep(LOW.x, LOW.y, slope));
     return on_ground(place.xz + heading_to(place.xz) * min(over / max(slope, LOWEST), FARTHEST_SEEN));
+}
+
+// How each kind grows at a place of the ground that is seen from a corner of the mesh.
+ByKind grown_at(vec2 place, Laid laid) {
+#ifdef EDGED
+    return laid.grows;
+#else
+    return grows_at(place);
+#endif
 }

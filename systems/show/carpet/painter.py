@@ -7,7 +7,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ....components.arrays import Floats
+from ....components.arrays import Floats, Mask
 from ....components.viewer import Viewer
 from ....engine.gl.remembered import Remembered
 from ....engine.gl.stream import release_all
@@ -16,12 +16,14 @@ from ...around.asked import Asked
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
 from ...grow.record import Growth
+from ...mow.mown import Mown
 from ...press.marks import UNTRODDEN, Trodden
 from ...space.cone import HALF_DIAGONAL
 from ...space.ground import Ground
 from ...space.grown import Grown
 from ..representation import Canvas, RepresentationPainter
 from .air import Air
+from .edges import Edges
 from .ground import (
     DENSE,
     GRID,
@@ -41,8 +43,8 @@ from .ground import (
 from .pool import CarpetKept
 from .textures import bent_texture, carpet_texture
 
-SeenTiles = tuple[NDArray[np.void], NDArray[np.bool_]]
-"""Tiles, and on which of them carpet may lie."""
+TilesSeen = tuple[NDArray[np.void], Mask, Mask]
+"""Tiles, on which of them carpet may lie, and on which grass ends or is cut."""
 
 STEP = 0.4
 """How far the eye goes before tiles are chosen anew, in sides of the finest."""
@@ -55,7 +57,8 @@ class CarpetPainter(RepresentationPainter):
         self._ground, self._spacing = ground, finest_spacing(ground.terrain, ground.patch)
         self._whole_to = canvas.reach[-2] - int(border_of(canvas.reach[-2])) - 1
         self._units = canvas.units
-        self._around, self._seen = Remembered[Tiles](), Remembered[SeenTiles]()
+        self._around, self._seen = Remembered[Tiles](), Remembered[TilesSeen]()
+        self._edges, self._tallest = Edges(), 0.0
         self._laid = Remembered[Floats]()
         self.images, self.bents = carpet_texture(canvas.ctx, growths), bent_texture(canvas.ctx, growths)
         self.air = Air(canvas, side)
@@ -67,7 +70,7 @@ class CarpetPainter(RepresentationPainter):
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Draw on this ground from now on."""
         del record
-        self._ground = grown.ground
+        self._ground, self._tallest = grown.ground, grown.tallest
         self._spacing = finest_spacing(grown.ground.terrain, grown.ground.patch)
 
     def make_ready(self, grown: Grown, /) -> None:
@@ -112,9 +115,13 @@ class CarpetPainter(RepresentationPainter):
         bare_to = self._bare_to(patches, cover)
         asked = outlook.noted(Asked, Asked())
         goes_on, self._deep = "beyond" in asked.parts, asked.is_deep
-        made_of = self._ground, viewer.eye, viewer.cone, viewer.centre, cover is None, bare_to, goes_on
+        mown = outlook.noted(Mown, None)
+        changes = 0 if mown is None else mown.strokes, self._ground.density.sown.count
+        made_of = self._ground, viewer.eye, viewer.cone, viewer.centre, cover is None, bare_to, goes_on, changes
         tiles, is_new = self._seen.of(
-            viewer.name, made_of, partial(self._tiles, viewer, None if cover is None else bare_to, goes_on=goes_on)
+            viewer.name,
+            made_of,
+            partial(self._tiles, viewer, None if cover is None else bare_to, mown, goes_on=goes_on),
         )
         if is_new:
             self.ground.write(*tiles)
@@ -123,10 +130,10 @@ class CarpetPainter(RepresentationPainter):
         if is_new:
             self.ground.write_shares(shares, viewer.centre, beyond=float(cover is not None))
 
-    def _tiles(self, viewer: Viewer, bare_to: int | None, *, goes_on: bool) -> SeenTiles:
-        """Return the tiles that a viewer sees (n,), and on which of them carpet may lie.
+    def _tiles(self, viewer: Viewer, bare_to: int | None, mown: Mown | None, *, goes_on: bool) -> TilesSeen:
+        """Return the tiles that a viewer sees (n,), on which of them carpet may lie, and on which grass ends or is cut.
 
-        Up to the discrete distance `bare_to` there is none on the terrain; None is everywhere. Tiles beyond the
+        Up to the discrete distance `bare_to` there is no carpet on the terrain; None is everywhere. Tiles beyond the
         terrain are left out unless ground `goes_on` there.
         """
         tiles = tiles_seen(self._tiles_around(viewer), viewer.eye, viewer.cone)
@@ -135,7 +142,8 @@ class CarpetPainter(RepresentationPainter):
         bare = on_terrain(tiles, self._ground.terrain)
         if bare_to is not None:
             bare &= within(tiles, viewer.centre, patch=self._ground.patch, reach=bare_to)
-        return tiles, ~bare
+        squares = tiles["tile"][:, :3] * (1.0, 1.0, GRID)
+        return tiles, ~bare, self._edges.at(self._ground, mown, self._tallest, squares)
 
     def _tiles_around(self, viewer: Viewer) -> Tiles:
         """Return the tiles all around: the same as long as the eye stays about where it is."""
@@ -155,7 +163,7 @@ class CarpetPainter(RepresentationPainter):
     def lay_everywhere(self, outlook: Outlook, /, *, height: float) -> None:
         """Send a carpet that lies everywhere, at this part of the height of the grass."""
         tiles = ground_tiles(self._ground.terrain, outlook.viewer.eye, outlook.viewer.cone, spacing=self._spacing)
-        self.ground.write(tiles, np.ones(len(tiles), np.bool_))
+        self.ground.write(tiles, np.ones(len(tiles), np.bool_), np.zeros(len(tiles), np.bool_))
         self._seen.lose()
         self._laid.lose()
         self.ground.write_shares(np.ones(len(outlook.patches.progress), np.float32), outlook.viewer.centre, beyond=1.0)

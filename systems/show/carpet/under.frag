@@ -1,10 +1,25 @@
-// An opaque layer beneath the carpet.
+// An opaque layer beneath the carpet. With EDGED, there is none where no grass stands, and it is as high as that.
 #include "lib/tone.glsl"
+#ifdef EDGED
+#include "systems/show/carpet/edged.glsl"
 
+in vec3 over;
+in float lies_over;
+in float raises;
+in float slope;
+in float crest;
+#endif
 in vec3 color;
 
 out vec4 pixel;
 
 void main() {
+#ifdef EDGED
+    bool aside;
+    float way = enters(Way(over.xz, heading_to(over.xz), lies_over, raises, slope, crest), aside);
+    if (way < 0.0)
+        discard;
+    gl_FragDepth = gl_FragCoord.z + depth_of(farther(over, way)) - depth_of(over);
+#endif
     pixel = vec4(shown_of(color), 1.0);
 }

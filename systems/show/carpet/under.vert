@@ -14,6 +14,13 @@ const float SHADED = 0.6;  // how far down what is seen stands, of how deep is s
 const float ON_TOP = 0.9;  // where it stands if nothing is seen into it, of the height of the grass
 
 out vec3 color;  // radiance
+#ifdef EDGED
+out vec3 over;   // place, where all grass is whole; with EDGED it ends there, or has been cut,
+out float lies_over;  // how high that is over the ground [m],
+out float raises;  // and of how high the carpet is on level ground
+out float slope; // of the line of sight to the ground
+out float crest; // how fast the rise of the ground falls off along it [1/m]
+#endif
 
 // How deep it lies, of the height of the grass: as deep as is seen into it, from above and through a crest.
 float sunk_by(Laid laid, vec3 place) {
@@ -48,8 +55,15 @@ void main() {
     Laid laid = laid_on(place);
     float sunk = sunk_by(laid, place);
     place.y -= laid.share * laid.tall * sunk;
-    float slope = viewing_slope(laid.rise, place), from_above = max(slope, FLATTEST);
-    float on_level = max(level_slope(max(slope, 0.0), laid.crest, laid.share, laid.tall, laid.stands), FLATTEST);
+    float sight = viewing_slope(laid.rise, place), from_above = max(sight, FLATTEST);
+#ifdef EDGED
+    over = place;
+    lies_over = place.y - height_at(place.xz);
+    raises = lies_over / max(laid.tall, LOWEST_GRASS);
+    slope = sight;
+    crest = laid.crest;
+#endif
+    float on_level = max(level_slope(max(sight, 0.0), laid.crest, laid.share, laid.tall, laid.stands), FLATTEST);
     float came = come_through(place.xz, from_above, laid.share, laid.tall, laid.stands).x;
     ByKind ripe, met = kinds_met(laid.grows, on_level, laid.left, left_by_strips(1.0 - came, laid.share), ripe);
     float part = min(total(laid.grows), 1.0) / max(total(met), THINNEST_LAYER);
@@ -58,7 +72,7 @@ void main() {
 
     vec3 ground = seen_behind(place, from_above);
     Lie lies = lie_at(ground.xz);
-    ByKind grows = grows_at(ground.xz);
+    ByKind grows = grown_at(ground.xz, laid);
     float leaves = weighed(areas(grows), leaves_left(laid.left));
     vec3 litter = lying_pigment(textureLod(repeating, vec2(0.5), COARSEST).gb, understorey_of(lies, grows));
     color = soil_light(ground, lies, grows, leaves) * litter * litter;

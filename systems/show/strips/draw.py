@@ -26,6 +26,9 @@ READY_ROWS = 256
 
 GLSL = looked_up("Stood", STOOD, "stood", STOOD_ROW) + emitted({"STRIPS_ROW": STRIPS_ROW})
 
+EDGED: dict[str, str | int] = {"SHADED": 1, "CUT": 1, "THIN": 1, "EDGED": 1}
+"""What the program is told that draws grass whose density has edges, whatever else there is: it is the last."""
+
 NUMBER = np.dtype([("number", "u4")])
 
 
@@ -59,14 +62,14 @@ class StripPainter:
         if stack > 1:
             whole["STACK"] = stack
         self._canvas, self._whole = canvas, whole
-        self.arrays = self._made({}, {"SHADED": 1}, {"SHADED": 1, "CUT": 1})
+        self.arrays = self._made(*_sorts({}, {"SHADED": 1}, {"SHADED": 1, "CUT": 1}), EDGED)
         self._deep: list[moderngl.VertexArray] = []
         """Those that write depth alone, once they are asked for."""
 
     def _made(self, *special: dict[str, str | int]) -> list[moderngl.VertexArray]:
-        """Return what draws strips as programs of these sorts do, each with all blades and by rank."""
+        """Return what draws strips as programs of these sorts do."""
         canvas, pictures, made = self._canvas, self._pictures(), []
-        for defines in ({**self._whole, **each, **thin} for each in special for thin in ({}, {"THIN": 1})):
+        for defines in ({**self._whole, **each} for each in special):
             program = joined(
                 canvas.ctx, canvas.block, canvas.units, "systems/show/strips/strips.vert",
                 "systems/show/strips/strips.frag", defines,
@@ -79,9 +82,9 @@ class StripPainter:
 
     @property
     def deep(self) -> list[moderngl.VertexArray]:
-        """What writes depth alone: with all blades and by rank, and then where any grass is cut."""
+        """What writes depth alone: with all blades and by rank, then where any grass is cut, and with edges."""
         if not self._deep:
-            self._deep = self._made({"DEEP": 1}, {"DEEP": 1, "CUT": 1})
+            self._deep = self._made(*_sorts({"DEEP": 1}, {"DEEP": 1, "CUT": 1}), {"DEEP": 1, **EDGED})
         return self._deep
 
     def _tell(self, made: moderngl.Program) -> None:
@@ -125,11 +128,11 @@ class StripPainter:
         array.program["of_ring"] = ring, patch
         return self.received.ask(array, first=first, count=count)
 
-    def draw(self, first: int, count: int, *, thin: bool, deep: bool = False) -> int:
+    def draw(self, first: int, count: int, *, thin: int, deep: bool = False) -> int:
         """Draw `count` of what was written, from the `first` on; return the number of draw calls.
 
-        With `thin`, blades are drawn by rank: only those that the density and the patch's `ranks` leave. With `deep`,
-        depth alone is written, where a strip covers at least half a pixel.
+        With a `thin` of 1, blades are drawn by rank: only those that the density and the patch's `ranks` leave. With 2,
+        density has edges. With `deep`, depth alone is written, where a strip covers at least half a pixel.
         """
         if not count:
             return 0
@@ -139,9 +142,9 @@ class StripPainter:
         self.extents.use(self.units["extents"])
         self.strips.texture.use(self.units["strips"])
         frame = self._block.record[0]
-        is_cut = bool(frame["anything_cut"])
+        is_cut, arrays = bool(frame["anything_cut"]), self.deep if deep else self.arrays
         rare = is_cut if deep else 2 if is_cut else int(frame["shades"]["radius"].any())
-        array = (self.deep if deep else self.arrays)[2 * rare + thin]
+        array = arrays[2 * rare + thin if thin < 2 else -1]
         array.program["first"] = first
         array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.sections + 2, instances=count)
         return 1
@@ -151,6 +154,12 @@ class StripPainter:
         textures = self.atlas, self.ranks, self.extents
         arrays = *self.arrays, *self._deep
         release_all(*arrays, *(array.program for array in arrays), self.hearing, self.stood, self.strips, *textures)
+
+
+def _sorts(*special: dict[str, str | int]) -> list[dict[str, str | int]]:
+    """Return what programs of some sorts are told, each with all blades and by rank."""
+    thin: dict[str, str | int] = {"THIN": 1}
+    return [{**each, **more} for each in special for more in ({}, thin)]
 
 
 def tell_stacks(made: moderngl.Program, rings: Sequence[StripRing], /) -> None:

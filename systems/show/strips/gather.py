@@ -104,21 +104,22 @@ def polygon_strips(
     return numbers[drawn], np.bincount(index[drawn], minlength=len(patch))
 
 
-def runs(ranked: NDArray[np.bool_], amount: NDArray[np.int64], /) -> list[tuple[int, int, bool]]:
-    """Return the draws that show strips from far to near: first strip, number of strips, whether by rank.
+def runs(ranked: NDArray[np.int8], amount: NDArray[np.int64], /) -> list[tuple[int, int, int]]:
+    """Return the draws that show strips from far to near: first strip, number of strips, how.
 
-    `ranked` says which patches have to be drawn by rank, `amount` how many strips each has, both in their order, (m,).
-    Patches that follow one another are drawn together; where that would make more draws than `MOST_DRAWS`, all are
-    drawn by rank at once, which takes longer for each pixel and shows the same.
+    `ranked` says which patches have to be drawn by rank, 1, and which with edges of density, 2; `amount` how many
+    strips each has, both in their order, (m,). Patches that follow one another are drawn together; where that would
+    make more draws than `MOST_DRAWS`, all are drawn at once in the one way that does for all, which takes longer for
+    each pixel and shows the same.
     """
     if not len(ranked):
         return []
-    starts = np.flatnonzero(np.diff(ranked.astype(np.int8), prepend=-1))
+    starts = np.flatnonzero(np.diff(ranked, prepend=np.int8(-1)))
     first = np.concatenate([[0], np.cumsum(amount)])
     if len(starts) > MOST_DRAWS:
-        return [(0, int(first[-1]), True)]
+        return [(0, int(first[-1]), int(ranked.max()))]
     ends = [*starts[1:].tolist(), len(ranked)]
     return [
-        (int(first[start]), int(first[end] - first[start]), bool(ranked[start]))
+        (int(first[start]), int(first[end] - first[start]), int(ranked[start]))
         for start, end in zip(starts.tolist(), ends, strict=True)
     ]

@@ -37,7 +37,7 @@ class _Sent:
     stood: NDArray[np.void]
     strips: NDArray[np.uint32]
 
-    runs: list[tuple[int, int, bool]]
+    runs: list[tuple[int, int, int]]
     """The draws: first strip, how many, and whether by rank."""
 
     asked: list[tuple[int, int, int]]
@@ -52,7 +52,7 @@ class StripsPainter(RepresentationPainter):
         self._fineness = [(ring.strips, ring.columns) for ring in quality.strip_rings]
         stock = strip_stocks(growths)
         self.strips = StripPainter(canvas, quality.strip_rings, stock, ready or strip_atlas(stock))
-        self.runs: list[tuple[int, int, bool]] = []
+        self.runs: list[tuple[int, int, int]] = []
         self._asked: list[tuple[int, int, int]] = []
         self._gathered, self._ordered = Remembered[_Sent](), Remembered[Order]()
         self._strips: NDArray[np.uint32] | None = None
@@ -126,12 +126,13 @@ def _rings(outlook: Outlook) -> list[tuple[StripPool, StripsOfRing]]:
     return list(zip(outlook.keeps(StripsKept).pools, outlook.shows(StripsShown).rings, strict=True))
 
 
-def _ranked(rings: list[tuple[StripPool, StripsOfRing]]) -> NDArray[np.bool_]:
-    """Return which patches, ring after ring, have to be drawn by rank: some of their blades do not show.
+def _ranked(rings: list[tuple[StripPool, StripsOfRing]]) -> NDArray[np.int8]:
+    """Return which patches, ring after ring, have to be drawn by rank, 1: some of their blades do not show.
 
-    Where grass is thin anywhere in a ring, all of the ring is.
+    Where grass is thin anywhere in a ring, all of the ring is. Where its density has edges anywhere, that is 2.
     """
-    ranked = [
-        (pool.least.take(ring.slots) < WHOLE).any() | (ring.most < 1.0) | (ring.least > 0.0) for pool, ring in rings
-    ]
-    return np.concatenate(ranked)
+    ranked = []
+    for pool, ring in rings:
+        is_thin = (pool.least.take(ring.slots) < WHOLE).any() | (ring.most < 1.0) | (ring.least > 0.0)
+        ranked.append(np.full(len(ring.slots), 2) if pool.edged.take(ring.slots).any() else is_thin)
+    return np.concatenate(ranked).astype(np.int8)

@@ -3,10 +3,16 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ....components.arrays import Ints
+from ....components.arrays import Floats, Ints
 from ....engine.terrain.sample import own_density_at, sown_between
 from ...space.ground import PRESENT, Ground
 from .pool import StripPool
+
+MOST_PLACES = 13
+"""Places along a side of a patch that are asked how densely grass grows there at most."""
+
+STEP_OF_DENSITY = 0.35
+"""By how much a kind's density changes on a patch where pixels make out themselves how densely it grows."""
 
 
 def plant_strips(
@@ -15,13 +21,30 @@ def plant_strips(
     """Stand the strips of each cell (m, 2), running along axis `along` (m,), in its slot of the pool."""
     pool.stamp[slots, :2], pool.stamp[slots, 2] = cell, along
     pool.stand[slots] = np.column_stack([model, turn])
-    own = own_density_at(ground.density, pool.kind(slots), pool.places(slots).reshape(-1, 2))
-    dense = own.reshape(len(slots), len(pool.strips), -1)
-    least, most = dense.min(axis=2), dense.max(axis=2)
+    place = _spread(cell, ground, pool.strips[0].margin)
+    kinds = range(len(pool.strips))
+    kind = np.repeat(np.array(kinds), place.shape[0] * place.shape[1])
+    own = own_density_at(ground.density, kind, np.tile(place.reshape(-1, 2), (len(kinds), 1)))
+    dense = own.reshape(len(kinds), len(slots), -1)
+    least, most = dense.min(axis=2).T, dense.max(axis=2).T
     corner = cell.astype(np.float32) * np.float32(ground.patch)
     sown, least_sown, most_sown = sown_between(ground.density, corner, corner + np.float32(ground.patch))
-    least[sown] = np.minimum(least[sown], least_sown[sown])  # edges stand too far apart for what is so narrow
+    least[sown] = np.minimum(least[sown], least_sown[sown])
     most[sown] = np.maximum(most[sown], most_sown[sown])
     grows = most > PRESENT
     pool.present[slots] = grows
     pool.least[slots] = np.where(grows, least, np.float32(1.0)).min(axis=1)
+    pool.edged[slots] = (most - least > STEP_OF_DENSITY).any(axis=1)
+
+
+def _spread(cell: Ints, ground: Ground, margin: float) -> Floats:
+    """Return places (x, z) all over cells (m, 2), and as far beyond as strips reach, shape (m, n, 2) [m].
+
+    They lie about as close as the samples of what is painted, so that no way across a patch is missed.
+    """
+    _, rows, columns = ground.density.maps.shape
+    finest = min(ground.density.size[0] / columns, ground.density.size[1] / rows)
+    count = int(np.clip(np.ceil((ground.patch + 2.0 * margin) / finest), 1, MOST_PLACES - 1)) + 1
+    line = np.linspace(-margin, ground.patch + margin, count, dtype=np.float32)
+    square = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2)
+    return np.asarray(cell[:, None] * np.float32(ground.patch) + square, np.float32)

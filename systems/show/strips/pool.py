@@ -47,6 +47,9 @@ class StripPool:
     least: Floats = field(init=False)
     """Density at each slot's thinnest edge, of the kinds that grow there at all, shape (slots,)."""
 
+    edged: NDArray[np.bool_] = field(init=False)
+    """Whether the density of any kind changes much on the patch, shape (slots,)."""
+
     def __post_init__(self) -> None:
         slots = 2 * self.side * self.side
         stamp = np.full((slots, 3), NOWHERE, np.int32)
@@ -56,6 +59,7 @@ class StripPool:
             ("stand", np.zeros((slots, 2), np.int32)),
             ("present", np.zeros((slots, len(self.strips)), np.bool_)),
             ("least", np.zeros(slots, np.float32)),
+            ("edged", np.zeros(slots, np.bool_)),
         ):
             object.__setattr__(self, name, value)
 

@@ -1,5 +1,6 @@
-// With THIN, blades are drawn by rank. With SHADED bodies cast shadows, and with CUT some grass is cut: those are programs of
-// their own, as fragments would pay half as much again for what is rare. With DEEP, only depth is written.
+// With THIN, blades are drawn by rank, and with EDGED density has edges. With SHADED bodies cast shadows, and with CUT some grass
+// is cut: those are programs of their own, as fragments would pay half as much again for what is rare. With DEEP, only depth is
+// written.
 #include "lib/layered.glsl"
 #include "lib/light.glsl"
 
@@ -21,6 +22,17 @@ const float WHOLE_TEXELS = -1.0;  // level of the mip-maps from which on texels 
 const float FAINT = 0.006; // coverage that is left out: in bytes, layer upon layer, it would but be rounded up
 const float LEAST_PAINT = 0.002;  // coverage of a texel that counts at least, for what it shows
 const float SUNKEN = 0.3;  // height of grass from which on strips begin to show, of that below which they would show as rows
+
+#ifdef EDGED
+#include "systems/space/ground.py"
+#include "systems/show/strips/thin.glsl"
+
+// How much of blades of a rank grows where density has edges.
+float grown(float rank) {
+    float dense = grows_at(roots.xy, int(roots.w + 0.5));
+    return dense > PRESENT ? clamp((dense - rank) / span_of(dense, rise.a) + 0.5, 0.0, 1.0) : 0.0;
+}
+#endif
 
 #ifdef CUT
 // How much of a strip is left where grass is cut.
@@ -63,7 +75,12 @@ void main() {
 #endif
 #ifdef THIN
     float rank = layer_at(ranks, vec3(on.xy, lit[3].x), lit[3].y).r / max(texel.a, LEAST_PAINT);
-    covered *= clamp(roots.w - rank * rise.a, 0.0, 1.0) * clamp(grain_cos.a * rank + grain_sin.a, 0.0, 1.0);
+#ifdef EDGED
+    covered *= grown(rank);
+#else
+    covered *= clamp(roots.w - rank * rise.a, 0.0, 1.0);
+#endif
+    covered *= clamp(grain_cos.a * rank + grain_sin.a, 0.0, 1.0);
 #endif
 #ifdef DEEP
     if (covered < least_cover(number, clamp(lit[3].y - WHOLE_TEXELS, 0.0, 1.0)))

@@ -178,17 +178,21 @@ vec4 cut_about(Column column, vec2 rooted, vec3 middle, float pixels, float with
 #endif
 
 #ifdef THIN
+#include "systems/show/strips/thin.glsl"
 const float UNHURRIED = 0.15;  // part of all ranks that change their sub-level at a time: one by one, blades would flicker
 const float SOFTER = 0.35;  // how much wider the span of ranks is that go, of all, each time that texels are half as large
 const float SHARPEST = 0.06;  // the narrowest
-const float DENSE = 0.995;  // from which density on all grow
 
-// How much of a texel stays where its kind grows thinly, and where only blades of some ranks show: the others go, over a
-// span of ranks that is narrow where a texel is one blade, and wide where a pixel is the mean of many.
-void thin(float dense, float below, float texels) {
+// How much of a texel stays where its kind grows so densely at the column's edges, and where only blades of some ranks show: the
+// others go, over a span of ranks that is narrow where a texel is one blade, and wide where a pixel is the mean of many.
+void thin(vec2 dense, float at, float below, float texels) {
     float soft = clamp(SOFTER * log2(max(texels, 1.0)), SHARPEST, 1.0);
-    rise.a = 1.0 / soft;
-    roots.w = (dense > DENSE ? 1.0 : dense - 0.5 * soft) * rise.a + 1.0;
+#ifdef EDGED
+    rise.a = soft;
+#else
+    rise.a = 1.0 / span_of(0.5 * (dense.x + dense.y), soft);
+    roots.w = mix(dense.x, dense.y, at) * rise.a + 0.5;
+#endif
     // The span must reach from below all ranks to above them, softness included.
     float span = max(soft, UNHURRIED), edge = mix(-0.5 * span, 1.0 + 0.5 * span, abs(below));
     vec2 stays = vec2(-1.0, edge) / span + vec2(0.0, 0.5);
@@ -224,7 +228,7 @@ void main() {
     seen *= past_bodies(rooted, shading(a.rooted, b.rooted));
 #endif
 #ifdef CUT
-    roots.xyz = vec3(mix(a.rooted.xz, b.rooted.xz, corner.x), corner.y * OF(tall, k));
+    roots = vec4(mix(a.rooted.xz, b.rooted.xz, corner.x), corner.y * OF(tall, k), float(k));
     cut = cut_about(column, rooted.xz, middle, pixels, 2.0 * distance(a.foot.xz, b.foot.xz));
 #endif
     Light light = veiled(light_on(k, bend, rooted, lies, grows, seen), middle);
@@ -236,6 +240,6 @@ void main() {
     number = number_at(rooted.xz);
 #endif
 #ifdef THIN
-    thin(mix(a.dense, b.dense, corner.x), column.stood.ranks, 0.5 * texels);
+    thin(vec2(a.dense, b.dense), corner.x, column.stood.ranks, 0.5 * texels);
 #endif
 }

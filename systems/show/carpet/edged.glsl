@@ -1,0 +1,101 @@
+// Where lines of sight enter grass that ends or has been cut: the mesh is too coarse for its edges. The carpet's mesh lies
+// where whole grass would be, and pixels look along the line of sight for where it comes to what stands.
+#include "lib/mown.glsl"
+#include "lib/canopy.glsl"
+#include "systems/show/carpet/sight.glsl"
+
+uniform ByKind raised; // by kind: height of the carpet above the ground [m]
+
+const float STEPS = 16.0;      // places looked at on the way to the ground at most
+const float SHORTEST_STEP = 0.08;  // way over the ground between two of them at least [m]
+const int HALVINGS = 3;        // of the last step, to the edge
+const float FARTHEST_ENTERED = 40.0;  // way over the ground that is looked along at most [m]
+const float NO_GRASS = 0.004;  // height of the carpet up to which there is none [m]
+const float ROUNDED = 1e-3;    // what of the mesh's height is taken for rounding
+
+// The height of the carpet over the ground where grass grows so and is left so high [m].
+float carpet_high(ByKind grows, float left) {
+    float high = 0.0;
+    for (int group = 0; group < GROUPS; group++)
+        high += dot(grows[group], min(raised[group], left));
+    return high / max(total(grows), 1.0);
+}
+
+float left_here(vec2 place) {
+    return anything_is_cut() ? left_at(place) : tallest_grass;
+}
+
+// A line of sight from the mesh on, over the ground.
+struct Way {
+    vec2 from;
+    vec2 heading;
+    float high;    // how high the mesh lies over the ground [m]
+    float raises;  // and of how high the carpet is on level ground
+    float slope;   // of the line of sight to the ground
+    float crest;   // how fast the rise of the ground falls off along it [1/m]
+};
+
+float falls(Way way, float at) {
+    return at * (way.slope - 0.5 * way.crest * at);
+}
+
+// How far it is below the top of the grass, so far over the ground [m]; below 0 over it, and where none stands.
+float below_top(Way way, float at) {
+    vec2 there = way.from + way.heading * at;
+    float stands = way.raises * carpet_high(grows_at(there), left_here(there));
+    return stands > NO_GRASS ? stands - way.high * (1.0 - ROUNDED) + falls(way, at) : -1.0;
+}
+
+// How far over the ground it goes on until it comes to grass [m], below 0 where it comes to none; whether it does so from the side.
+float enters(Way way, out bool aside) {
+    float most = min(way.high / max(way.slope, FLATTEST), FARTHEST_ENTERED);
+    float steps = clamp(ceil(most / SHORTEST_STEP), 1.0, STEPS), step = most / steps, at = 0.0, below = -1.0, number = 0.0;
+    do {
+        at = step * number;
+        below = below_top(way, at);
+    } while (below < 0.0 && ++number <= steps);
+    aside = false;
+    if (below < 0.0)
+        return -1.0;
+    // On even grass it came from above; at an edge it comes in from the side.
+    float outside = max(at - step, 0.0), above = clamp(at - below / max(way.slope, FLATTEST), outside, at);
+    if (below_top(way, above) >= -ROUNDED * way.high)
+        return above;
+    aside = true;
+    for (int halving = 0; halving < HALVINGS; halving++) {
+        float middle = 0.5 * (above + at);
+        bool is_inside = below_top(way, middle) >= 0.0;
+        above = is_inside ? above : middle;
+        at = is_inside ? middle : at;
+    }
+    return at;
+}
+
+const float PARTS = 6.0;  // places looked at on the way through grass, up to where it comes out
+const float LEAVES_ENOUGH = 3.0;  // leaves that a line of sight meets until nothing is seen behind them
+
+// How much is hidden of what lies behind grass that a line of sight has come to: less where it comes out again before it is
+// stopped. It has met the leaves above the height where it comes out, of those that are left.
+float hidden_behind(Way way, float at, bool aside, ByKind area, float left) {
+    float slope = max(way.slope, FLATTEST), enters_at = way.high - falls(way, at), none = leaves_above(left, area);
+    float before = aside ? leaves_above(min(enters_at, left), area) : none, step = enters_at / (slope * PARTS + TINY);
+    for (float part = 1.0; part <= PARTS; part += 1.0) {
+        float there = at + step * (part - 0.5), met = (leaves_above(min(way.high - falls(way, there), left), area) - before) / slope;
+        if (met > LEAVES_ENOUGH)
+            return 1.0;
+        if (below_top(way, there + 0.49 * step) < 0.0)
+            return 1.0 - through_leaves(max(met, 0.0));
+    }
+    return 1.0;
+}
+
+// A place so much farther over the ground on the line of sight.
+vec3 farther(vec3 place, float way) {
+    vec3 ray = place - eye;
+    return place + ray * (way / max(length(ray.xz), TINY));
+}
+
+float depth_of(vec3 place) {
+    vec4 at = clip * vec4(place, 1.0);
+    return 0.5 * (gl_DepthRange.diff * at.z / at.w + gl_DepthRange.near + gl_DepthRange.far);
+}

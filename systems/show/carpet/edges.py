@@ -1,0 +1,141 @@
+"""Where grass does not stand evenly: where it ends, or has been cut, more sharply than the mesh of the ground shows."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....components.arrays import Doubles, Floats, Ints, Mask
+from ....engine.handed import FARTHEST
+from ....engine.terrain.plots import SIDE, Plots, Values
+from ...mow.mown import Mown
+from ...space.ground import Ground
+
+WITHIN = 1.0 / 3.0
+"""An edge is a step within this part of a patch's side: what is softer the mesh shows well enough."""
+
+STEP_OF_DENSITY = 0.35
+"""By how much a kind's density changes at least where there is an edge."""
+
+STEP_OF_HEIGHT = 0.05
+"""By how much the height changes at least that grass is cut to where there is an edge [m]."""
+
+MOST_BLOCKS = 1024
+"""Blocks along a side of a map at most."""
+
+
+class Edges:
+    """Where there are edges in the grass of a terrain; made out anew where that has changed."""
+
+    def __init__(self) -> None:
+        self._maps: Values | None = None
+        self._painted: list[_Blocks] = []
+        self._sown, self._cut = _OnPlots(STEP_OF_DENSITY * 255.0), _OnPlots(STEP_OF_HEIGHT)
+
+    def at(self, ground: Ground, mown: Mown | None, tallest: float, squares: Doubles, /) -> Mask:
+        """Return in which squares of ground (n, 3), their low corners (x, z) and sides [m], there are any, shape (n,).
+
+        `tallest` is the height that no grass comes to [m].
+        """
+        density = ground.density
+        if self._maps is not density.maps:
+            self._maps = density.maps
+            self._painted = [each for values in density.maps for each in _painted_edges(values, ground)]
+        found = [each.touch(squares) for each in self._painted]
+        found.append(self._sown.touch(density.sown, squares))
+        if mown is not None:
+            found.append(self._cut.touch(mown.plots, squares, most=tallest))
+        return np.asarray(np.any(found, axis=0))
+
+
+class _Blocks:
+    """Which blocks of a terrain have an edge, summed up, so that squares of any size are asked alike."""
+
+    def __init__(self, uneven: Mask, corner: Floats | Doubles, side: Floats | Doubles) -> None:
+        """Take blocks (rows, columns), the first of them at a corner (x, z), with sides along x and z [m]."""
+        self._corner, self._side = np.asarray(corner, np.float64), np.asarray(side, np.float64)
+        self._sums: NDArray[np.int32] = np.zeros(np.add(uneven.shape, 1), np.int32)
+        self._sums[1:, 1:] = uneven.cumsum(axis=0, dtype=np.int32).cumsum(axis=1, dtype=np.int32)
+
+    def touch(self, squares: Doubles) -> Mask:
+        """Return which squares (n, 3) touch a block with an edge, shape (n,)."""
+        rows, columns = self._sums.shape
+        low = (squares[:, :2] - self._corner) / self._side
+        high = np.ceil(low + squares[:, 2:3] / self._side).astype(np.int64)
+        low = np.floor(low).astype(np.int64)
+        (left, top), (right, bottom) = (np.clip(each, 0, (columns - 1, rows - 1)).T for each in (low, high))
+        sums = self._sums
+        return np.asarray(sums[bottom, right] - sums[top, right] - sums[bottom, left] + sums[top, left] > 0)
+
+
+def _painted_edges(values: Floats, ground: Ground) -> list[_Blocks]:
+    """Return where a kind's density has edges over the terrain, as painted (rows, columns): nothing where nowhere."""
+    shape, size = np.array(values.shape), np.array(ground.terrain.size)[::-1]
+    within = ground.patch * WITHIN
+    step = STEP_OF_DENSITY / min(1.0, within * float((shape / size).max()))
+    if np.ptp(values) <= step:
+        return []
+    down, across = np.maximum(np.ceil(np.maximum(within * shape / size, shape / MOST_BLOCKS)), 1).astype(int).tolist()
+    high, low = (_reduced(reach, _reduced(reach, values, 0, down), 1, across) for reach in (np.maximum, np.minimum))
+    uneven = high - low > step
+    if not uneven.any():
+        return []
+    for axis in (0, 1):  # the way to the first sample of the next block goes on into that
+        uneven[(slice(None),) * axis + (slice(1, None),)] |= np.diff(uneven.astype(np.int8), axis=axis) < 0
+    side = (size / shape * (down, across))[::-1]
+    return [_Blocks(uneven, np.array(ground.terrain.origin), side)]
+
+
+def _reduced(reach: np.ufunc, values: Floats, axis: int, each: int) -> Floats:
+    """Return the greatest or the least of blocks of samples along an axis: of each, and the first of the next."""
+    count = values.shape[axis]
+    starts = np.arange(0, count, each)
+    found = reach.reduceat(values, starts, axis=axis)
+    return np.asarray(reach(found, values.take(np.minimum(starts + each, count - 1), axis=axis)))
+
+
+class _OnPlots:
+    """The edges of a map that is kept by plots: a plot is uneven that has one, or one towards the plot beside it."""
+
+    def __init__(self, step: float) -> None:
+        self._step = step
+        self._of: tuple[Plots | None, int, float] = None, -1, 0.0
+        self._uneven, self._seen = np.zeros(0, np.bool_), np.zeros(0, np.int64)
+        self._blocks: _Blocks | None = None
+
+    def touch(self, plots: Plots, squares: Doubles, *, most: float = np.inf) -> Mask:
+        """Return which squares (n, 3) touch an uneven plot, shape (n,); values are told apart up to `most`."""
+        if self._of != (plots, plots.count, most):
+            if self._of[::2] != (plots, most):
+                self._seen = np.zeros(0, np.int64)
+            self._look(plots, most)
+            self._of = plots, plots.count, most
+        return np.zeros(len(squares), np.bool_) if self._blocks is None else self._blocks.touch(squares)
+
+    def _look(self, plots: Plots, most: float) -> None:
+        self._blocks = None
+        if not plots.any:
+            return
+        known, count = len(self._seen), len(plots.written)
+        self._uneven = np.append(self._uneven[:known], np.zeros(count - known, np.bool_))
+        stale = np.flatnonzero(plots.written != np.append(self._seen, np.full(count - known, -1)))
+        pages = np.minimum(plots.pages[stale].astype(np.float32), np.float32(min(most, FARTHEST)))
+        self._uneven[stale] = (np.ptp(pages, axis=(1, 2)) > self._step).reshape(len(stale), -1).any(axis=1)
+        self._seen = plots.written.copy()
+        rows, columns = (np.flatnonzero((plots.index >= 0).any(axis=axis)) for axis in (1, 0))
+        if not len(rows):
+            return
+        first = np.array([rows[0], columns[0]]) - 1
+        page = np.pad(plots.index, 1, constant_values=-1)[rows[0] : rows[-1] + 3, columns[0] : columns[-1] + 3]
+        corner = (first[::-1] - plots.half) * SIDE
+        self._blocks = _Blocks(_uneven_plots(page, self._uneven), corner, np.array([SIDE, SIDE]))
+
+
+def _uneven_plots(page: Ints, uneven: Mask) -> Mask:
+    """Return which plots (rows, columns) have an edge, by the page of each, -1 for none, and which pages have (n,)."""
+    own = (page >= 0) & uneven[np.maximum(page, 0)]
+    found = own.copy()
+    for axis in (0, 1):
+        one, other = (np.s_[:-1], np.s_[1:]) if axis == 0 else (np.s_[:, :-1], np.s_[:, 1:])
+        differs = (page[one] != page[other]) & ~own[one] & ~own[other]
+        found[one] |= differs
+        found[other] |= differs
+    return found

@@ -1,0 +1,142 @@
+"""What a game builds on the ground lies free where grass has been taken away, as among every blade in 3D (F4, T1)."""
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PIL import Image
+
+from tallgrass import Footprint, Pose, Prairie, testing
+from tallgrass.engine.camera import Camera
+from tallgrass.systems.mow.mown import Mown
+from tallgrass.systems.show.carpet.edges import Edges
+from tallgrass.systems.space.ground import Ground
+from tallgrass.testing import LITTLE, Stage
+
+Load = Callable[..., Prairie]
+Aim = Callable[..., Camera]
+
+FLAT = LITTLE.replace("noise: rolling", "noise: flat").replace("blades: 60", "blades: 300")
+NEAR, FAR = 16.0, -12.0
+"""Where a floor lies among strips, and where on the carpet (z) [m]."""
+
+HALF, LIFT = 2.0, 0.05
+MAGENTA = 255.0, 0.0, 255.0
+
+
+@pytest.fixture(scope="module")
+def room(ctx: moderngl.Context) -> Iterator[Stage]:
+    with testing.stage(ctx, (320, 180)) as made:
+        yield made
+
+
+@pytest.fixture(scope="module")
+def floor(ctx: moderngl.Context) -> Callable[..., None]:
+    """Draw a square of ground as a game would: its middle (z), and where it is seen from."""
+    made = ctx.program(
+        "#version 330\nin vec3 at; uniform mat4 m; void main() { gl_Position = m * vec4(at, 1); }",
+        fragment_shader="#version 330\nout vec4 c; void main() { c = vec4(1, 0, 1, 1); }",
+    )
+
+    def draw(z: float, matrices: tuple[NDArray[np.float32], NDArray[np.float32]]) -> None:
+        corners = [(x * HALF, LIFT, z + y * HALF) for x, y in ((-1, -1), (1, -1), (-1, 1), (1, 1))]
+        made["m"].write((matrices[1].astype(float) @ matrices[0]).T.astype("f4").tobytes())  # type: ignore[union-attr]
+        ctx.enable_only(moderngl.DEPTH_TEST)
+        array = ctx.vertex_array(made, [(ctx.buffer(np.array(corners, "f4").tobytes()), "3f", "at")])
+        array.render(moderngl.TRIANGLE_STRIP)
+        array.release()
+
+    return draw
+
+
+def seen_of(room: Stage, floor: Callable[..., None], prairie: Prairie, z: float, aim: Camera) -> tuple[Any, Any]:
+    """Which pixels the floor has alone, and how much of each is seen of it in the prairie: no grass is magenta."""
+    matrices = room.matrices(aim)
+    room.begin()
+    floor(z, matrices)
+    due = (room.read() == MAGENTA).all(axis=2)
+    prairie.draw(*matrices)
+    picture = room.read()
+    return due, due * np.clip((picture[..., 0] - picture[..., 1] - 40.0) / 215.0, 0.0, 1.0)
+
+
+def cut(prairie: Prairie) -> None:
+    for z in (NEAR, FAR):
+        prairie.cut(
+            Footprint(corners=((-HALF, -HALF), (HALF, -HALF), (HALF, HALF), (-HALF, HALF))), 0.0, pose=Pose(0.0, z)
+        )
+
+
+@pytest.fixture(scope="module", params=["cut", "map"])
+def built(
+    request: pytest.FixtureRequest, load: Load, tmp_path_factory: pytest.TempPathFactory
+) -> tuple[Prairie, Prairie]:
+    """The prairie without grass on two squares: as it is drawn, and with every blade."""
+    scene = FLAT
+    if request.param == "map":
+        x, z = np.meshgrid(np.arange(300) * 0.2 - 29.9, np.arange(300) * 0.2 - 29.9)
+        square = (np.abs(x) < HALF) & ((np.abs(z - NEAR) < HALF) | (np.abs(z - FAR) < HALF))
+        path = tmp_path_factory.mktemp("map") / "map.png"
+        Image.fromarray(np.where(square, 0, 255).astype(np.uint8)).save(path)
+        for tip in ("#dcc98f", "#8fae4a"):
+            scene = scene.replace(f'tip: "{tip}"', f'tip: "{tip}", place: {{ map: {path} }}')
+    found = load(scene), load(scene, lod="blades")
+    if request.param == "cut":
+        for each in found:
+            cut(each)
+    return found
+
+
+@pytest.mark.parametrize(("z", "eye", "pitch"), [(NEAR, 1.7, -6), (NEAR, 6.0, -25), (FAR, 4.0, -6), (FAR, 14.0, -18)])
+def test_f4_a_floor_is_seen_as_among_every_blade(
+    room: Stage,
+    floor: Callable[..., None],
+    built: tuple[Prairie, Prairie],
+    camera: Aim,
+    z: float,
+    eye: float,
+    pitch: float,
+) -> None:
+    aim = camera(0.5, eye, 28.0, pitch=pitch, view=30)
+    (due, seen), (_, right) = (seen_of(room, floor, prairie, z, aim) for prairie in built)
+    assert due.sum() > 100
+    assert right.sum() > 0.2 * due.sum()
+    assert 0.93 < seen.sum() / right.sum() < 1.1, "a row of cells at its edge, where what is left rises, hides it"
+
+
+def test_f4_no_depth_is_written_above_the_ground_where_grass_was_cut(
+    room: Stage, built: tuple[Prairie, Prairie], camera: Aim
+) -> None:
+    aim = camera(0.0, 20.0, FAR + 20.0, pitch=-45, view=30)
+    room.shot(built[0], aim)
+    place, deep = room.ground(aim), room.depth()
+    bare = np.abs(place - (0.0, FAR)).max(axis=2) < HALF - 0.8
+    view, projection = room.matrices(aim)
+    spots = np.column_stack([place[bare][:, 0], np.zeros(bare.sum()), place[bare][:, 1], np.ones(bare.sum())])
+    clip = spots @ (projection.astype(float) @ view).T
+    due = 0.5 + 0.5 * clip[:, 2] / clip[:, 3]
+    assert bare.sum() > 100
+    np.testing.assert_allclose(deep[bare], due, atol=2e-5)
+
+
+def squares(*places: tuple[float, float]) -> NDArray[np.float64]:
+    return np.array([(x - 1.0, z - 1.0, 2.0) for x, z in places])
+
+
+def test_edges_are_found_where_density_or_cuts_end_and_nowhere_else(load: Load) -> None:
+    prairie = load(FLAT)
+    ground, edges = prairie.site.ground, Edges()
+    mown = Mown(ground.terrain)
+    where = squares((0.0, 25.0), (7.0, 0.0), (-20.0, -20.0))
+    assert not edges.at(ground, mown, 1.0, where).any()
+    mown.cut(Footprint(radius=7.0), 0.1, Pose())
+    np.testing.assert_array_equal(edges.at(ground, mown, 1.0, where), [False, True, False])
+    mown.cut(Footprint(radius=4.0), 0.1, Pose(-20.0, -24.0))
+    np.testing.assert_array_equal(edges.at(ground, mown, 1.0, where), [False, True, True])
+    soft = np.linspace(0.0, 1.0, 60, dtype=np.float32)
+    for line, found in ((soft, False), ((soft > 0.5).astype(np.float32), True)):
+        density = type(ground.density)(np.broadcast_to(line, (1, 60, 60)).copy(), ground.terrain.size)
+        assert Edges().at(Ground(ground.terrain, density, ground.patch), None, 1.0, where)[0] == found
