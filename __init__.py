@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from .components.presser import Presser
     from .components.receivers import Receivers
     from .components.shade import Shade
+    from .components.sun import Sun
     from .components.viewer import Viewer
     from .components.wind import Extent, Grass, TwinValues, WindPrimitive, WindSource
     from .engine.declared.scene import Scene
@@ -56,6 +57,7 @@ __all__ = [
     "SceneError",
     "Shade",
     "Shape",
+    "Sun",
     "Turbulence",
     "TwinValues",
     "Viewer",
@@ -91,6 +93,7 @@ _HOMES = {
     "SceneError": ".engine.scene",
     "Shade": ".components.shade",
     "Shape": ".systems.wind.blast",
+    "Sun": ".components.sun",
     "Turbulence": ".systems.wind.turbulence",
     "TwinValues": ".components.wind",
     "Viewer": ".components.viewer",

@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from reprlib import repr as shortened
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,8 @@ from ..components.arrays import Doubles, Floats
 from .curve import Curve
 from .declared.camera import CameraSource, Stop
 from .handed import FARTHEST, as_floats
+
+Place = tuple[float, float, float]
 
 Heights = Callable[[Floats], Floats]
 """Heights [m], shape (n,), of ground positions (x, z) [m], shape (n, 2)."""
@@ -229,15 +232,31 @@ def _look_on_path(
     return yaw, max(-math.pi / 2, min(math.pi / 2, pitch))
 
 
-def view_of(view: object, projection: object) -> View:
+def view_of(view: object, projection: object, origin: Place = (0.0, 0.0, 0.0)) -> View:
     """Return the two matrices as numpy arrays for column vectors.
 
-    Each is a 4x4 array, or pyglet's `Mat4`, whose 16 numbers run column by column. Raises ValueError for anything
+    Each is a 4x4 array, or pyglet's `Mat4`, whose 16 numbers run column by column. `origin` is where the scene's is in
+    the world of `view` [m]; what is far away from both cancels out in double precision. Raises ValueError for anything
     that has not 16 finite numbers or has no inverse, for an eye beyond a million kilometres, and for two matrices that
     come to more together than single precision holds.
     """
     one, other = _matrix(view, "view"), _matrix(projection, "projection")
+    if any(origin):
+        moved = np.asarray(view, np.float64)
+        moved = (moved.reshape(4, 4).T if moved.shape == (16,) else moved).copy()
+        moved[:, 3] = moved @ (*origin, 1.0)
+        one = moved.astype(np.float32)
     return _usable(one.tobytes(), other.tobytes())
+
+
+def as_origin(place: object, /) -> Place:
+    """Return where a scene's origin is [m]. Raises ValueError for what are no three numbers up to `OUTERMOST`."""
+    due = "an origin is a place (x, y, z) [m]"
+    found = as_floats(place, due)
+    if found.shape != (3,) or np.abs(found).max() > OUTERMOST:
+        raise ValueError(f"{due} no farther off than {OUTERMOST:.0e} m, not {shortened(place)}")
+    x, y, z = np.asarray(place, np.float64).tolist()
+    return x, y, z
 
 
 @lru_cache(maxsize=16)

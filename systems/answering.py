@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..components.arrays import Floats
 from ..components.grass_at import GrassAt
+from ..components.sun import Sun
 from ..engine.declared.light import Light
 from ..engine.declared.scene import Scene
 from ..engine.handed import as_rays, must_be_step, must_be_time, must_be_viewer
@@ -75,8 +76,19 @@ class Answering:
 
     @property
     def light(self) -> Light:
-        """The light that shines now: what the scene declares, until `shine` changes it; hours pass in it."""
-        return self._shining.at(self.time)
+        """The light that shines now: what the scene declares, until `shine` changes it; hours pass in it.
+
+        Where there is an hour, azimuth and elevation are those that follow from it; at night the elevation is below 0.
+        """
+        return self._shining.told_at(self.time)
+
+    @property
+    def sun(self) -> Sun:
+        """Sun and sky as they shine now: direction and linear radiance, for what a game lights itself.
+
+        The sky's colours are as the last frame had them; clouds and shadows are not in it.
+        """
+        return self._shining.sun_at(self.time)
 
     def height_at(self, xz: ArrayLike) -> Floats:
         """Return the height of the ground [m], shape (n,), at ground positions (x, z) [m], shape (n, 2)."""

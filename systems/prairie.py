@@ -1,6 +1,6 @@
 """A prairie: what a game loads, advances and draws."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, get_args
 
 import moderngl
 
-from ..engine.camera import View, view_of
+from ..engine.camera import View, as_origin, view_of
 from ..engine.declared.parts import DEPTHS, as_parts
 from ..engine.declared.quality import PRESETS, LodName
 from ..engine.gl.guest import unturned
@@ -68,7 +68,7 @@ class Prairie(Tending):
             must_be_a(moderngl.Context, ctx, "ctx is a moderngl context")
         site = found_site(loaded, preset=preset, lod=lod, transitions=transitions)
         super().__init__(site, World(self.advance), live=live)
-        self.loaded, self.preset = loaded, preset
+        self.loaded, self.preset, self._origin = loaded, preset, (0.0, 0.0, 0.0)
         self.lod: LodName = lod
         self.statistics, self.governor = Statistics(blades_field=site.blades), Governor(hold)
         self.systems = Schedule(live=live)
@@ -150,7 +150,7 @@ class Prairie(Tending):
         must_be_viewer(viewer)
         must_be_known("depth", depth, DEPTHS)
         chosen = as_parts(self.scene.parts if parts is None else parts)
-        seen = view_of(view, projection)
+        seen = view_of(view, projection, self._origin)
         before = self.viewers[viewer].frame if viewer in self.viewers else None
         frame, asked, goes_on = Frame(seen, self.time, self.site, chosen).after(before, is_deep=depth == "all")
         if not goes_on:
@@ -170,6 +170,20 @@ class Prairie(Tending):
             self.statistics.count(outlook, self.site, self.systems, painter)
             if "grass" in chosen:
                 outlook.settle()
+
+    @property
+    def origin(self) -> tuple[float, float, float]:
+        """Where the scene's origin (0, 0, 0) is in the world that matrices for `draw` are of, (x, y, z) [m].
+
+        It is for a game whose own origin moves, or that has the prairie far off; then matrices of float64 keep what
+        float32 would lose. Places that are asked for and handed in stay the scene's own. Setting it raises ValueError
+        for what are no three finite numbers up to 1e9 m.
+        """
+        return self._origin
+
+    @origin.setter
+    def origin(self, place: Sequence[float]) -> None:
+        self._origin = as_origin(place)
 
     def preparing(self) -> Iterator[tuple[int, int]]:
         """Do what `prepare` does a step at a time, for a loading screen: gives how many steps are done, of how many.
@@ -197,7 +211,7 @@ class Prairie(Tending):
         """
         self._must_be_there("follow a viewer")
         must_be_viewer(viewer)
-        self._look(view_of(view, projection), viewer)
+        self._look(view_of(view, projection, self._origin), viewer)
         self.systems.run(last=Phase.SEE)
 
     def group(

@@ -107,7 +107,7 @@ class Tending(Answering):
         ValueError for an unknown key and a bad value, RuntimeError after `release`.
         """
         self._must_be_there("change its light")
-        self._shining.ask(changed(self.light, changes, name="light"), time=self.time)
+        self._shining.ask(changed(self._shining.at(self.time), changes, name="light"), time=self.time)
 
     def _must_be_there(self, purpose: str) -> None:
         if self._released:

@@ -3,8 +3,9 @@
 from collections.abc import Iterator
 
 from ...components.arrays import Doubles
+from ...components.sun import Sun
 from ...engine.declared.light import Light
-from .daylight import Daylight, daylight_under
+from .daylight import LEAF, Daylight, daylight_under
 from .sky import PIECES, clear_air, clear_air_in_pieces
 from .sun import sun_at
 
@@ -36,6 +37,21 @@ class Shining:
         if self._shown is None:
             self._shown = daylight_under(self.light, self._clear)
         return self._shown
+
+    def sun_at(self, time: float, /) -> Sun:
+        """Return what shines at a time [s]; the sky's colours are those of the last frame."""
+        light = self.at(time)
+        shines = self.daylight if light == self.light else daylight_under(light, self._clear)
+        (red, green, blue), sky = (shines.sun / LEAF).tolist(), shines.down.tolist()
+        return Sun(shines.direction, (red, green, blue), (sky[0], sky[1], sky[2]))
+
+    def told_at(self, time: float, /) -> Light:
+        """Return what is asked for at a time [s], with the sun where it stands, also where it follows from an hour."""
+        light = self.at(time)
+        if light.hour is None:
+            return light
+        azimuth, elevation = sun_at(light)
+        return light.model_copy(update={"azimuth": azimuth, "elevation": elevation})
 
     def at(self, time: float, /) -> Light:
         """Return what is asked for at a time [s]."""

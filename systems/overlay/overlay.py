@@ -54,7 +54,7 @@ class Overlay:
         if prairie.painter is None:
             raise RuntimeError("an overlay shows a frame that is drawn: draw the prairie first")
         ctx, outlook = prairie.painter.ctx, prairie.viewers[viewer]
-        seen, masks = view_of(view, projection), self._masks(prairie, outlook)
+        seen, masks = view_of(view, projection, prairie.origin), self._masks(prairie, outlook)
         with guest(ctx) as target:
             seen = unturned(seen)
             size = target.viewport[2:]

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from tallgrass.engine.camera import Camera
+from tallgrass.systems.light.daylight import LEAF
 from tallgrass.systems.light.lie import AT_ONCE
 from tallgrass.systems.light.sky import PIECES
 from tallgrass.systems.prairie import Prairie
-from tallgrass.testing import Stage
+from tallgrass.testing import LITTLE, Stage
 
 Load = Callable[..., Prairie]
 
@@ -102,3 +103,31 @@ def test_a_light_that_is_none_is_refused(load: Load, ridge: Path, wrong: dict[st
     with pytest.raises(ValueError, match=next(iter(wrong))):
         prairie.shine(**wrong)
     assert prairie.light.elevation == 40.0
+
+
+def test_a_game_is_told_of_the_sun_as_it_shines_now(load: Load) -> None:
+    prairie = load(LITTLE + "light: { hour: 4.3 }\n")
+    sun = prairie.sun
+    assert prairie.light.elevation == pytest.approx(np.degrees(np.arcsin(sun.direction[1])), abs=1e-6)
+    assert -5.0 < prairie.light.elevation < 10.0  # and not the 35 degrees of a scene without an hour
+    heading = np.degrees(np.arctan2(sun.direction[0], -sun.direction[2]))
+    assert prairie.light.azimuth == pytest.approx(heading, abs=1e-6)
+    prairie.shine(hour=12.0)
+    noon = prairie.sun
+    assert noon.direction[1] > 0.8
+    assert np.min(noon.colour) > np.max(noon.sky) > 0.0
+    prairie.shine(hour=0.0)
+    assert prairie.sun.direction[1] < 0.0
+    assert prairie.sun.colour == (0.0, 0.0, 0.0)
+    prairie.shine(clouds=0.5)  # what is told is no bad value where it is handed in again
+    assert prairie.light.hour == 0.0
+
+
+def test_a_game_is_told_what_shaders_are_told(room: Stage, load: Load) -> None:
+    prairie = load(LITTLE + "light: { hour: 9.5, day: 100 }\n")
+    room.shot(prairie, CAMERA)
+    assert prairie.painter is not None
+    told, sun = prairie.painter.record[0], prairie.sun
+    np.testing.assert_allclose(sun.direction, told["sun"], atol=1e-6)
+    np.testing.assert_allclose(np.multiply(sun.colour, LEAF), told["sunlight"], rtol=1e-5)
+    np.testing.assert_allclose(sun.sky, told["skylight"], rtol=1e-5)
