@@ -43,6 +43,8 @@ app = typer.Typer(
 app.add_typer(bench, name="bench")
 plugins = typer.Typer(help="Kinds of wind and systems that other packages bring.", no_args_is_help=True)
 app.add_typer(plugins, name="plugins")
+begin = typer.Typer(help="Begin a game, or a wind of your own.", no_args_is_help=True)
+app.add_typer(begin, name="new")
 
 
 def main() -> None:
@@ -229,15 +231,28 @@ def check_(name: Annotated[str, typer.Argument(metavar="NAME", help="A kind of w
     return check_plugin(name)
 
 
-@plugins.command("new")
-def new(
-    name: Annotated[str, typer.Argument(metavar="NAME", help="The kind of wind, as scenes will call it.")],
-    output: Annotated[str | None, typer.Option("-o", "--output", help="A new folder; by default NAME.")] = None,
-) -> None:
-    """Begin a plugin: an installable package with one kind of wind that works, and its test."""
-    from .plugins import new_plugin
+Folder = Annotated[str | None, typer.Option("-o", "--output", help="A new folder; by default NAME.")]
+WindName = Annotated[str, typer.Argument(metavar="NAME", help="The kind of wind, as scenes will call it.")]
 
-    new_plugin(name, output)
+
+@plugins.command("new")
+@begin.command("wind")
+def wind(name: WindName, output: Folder = None) -> None:
+    """Begin a plugin: an installable package with one kind of wind that works, and its test."""
+    from .scaffold import new_wind
+
+    new_wind(name, output)
+
+
+@begin.command("game")
+def game(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="The game, as its window is called.")],
+    output: Folder = None,
+) -> None:
+    """Begin a game: a walk through a prairie, with a wind by key, a pause, settings for quality, and a test."""
+    from .scaffold import new_game
+
+    new_game(name, output)
 
 
 def _print_version(wanted: bool) -> None:  # noqa: FBT001 - typer passes it by place

@@ -2,13 +2,10 @@
 
 from dataclasses import asdict
 from json import dumps
-from pathlib import Path
 
 from ..engine.plugged import system_plugins
 from ..engine.plugins import PluginError, wind_kinds
 from ..testing import NoContextError, headless_context, twin_problems, wind_problems
-from .scaffold import scaffold
-from .shell import command_line
 
 
 def list_plugins(*, json: bool = False) -> None:
@@ -67,12 +64,3 @@ def _system(name: str) -> str | None:
     return (
         f"'{name}' is a system of {' and '.join(owners)}; check is for kinds of wind, systems have tests of their own"
     )
-
-
-def new_plugin(kind: str, folder: str | None) -> None:
-    """Write a new plugin into a folder, by default one called like its kind, and say what comes next."""
-    place = Path(folder or kind)
-    for file in scaffold(kind, place):
-        print(file)
-    install = command_line(["pip", "install", "-e", str(place)])
-    print(f"next: {install} && tallgrass plugins check {kind}")

@@ -11,8 +11,8 @@ from typing import Any, ClassVar
 import numpy as np
 import pytest
 
-from tallgrass.app.plugins import check_plugin, list_plugins, new_plugin
-from tallgrass.app.scaffold import scaffold
+from tallgrass.app.plugins import check_plugin, list_plugins
+from tallgrass.app.scaffold import new_game, new_wind, scaffold, scaffold_game
 from tallgrass.app.studio.errors import InputError
 from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Grass, WindPrimitive
@@ -183,9 +183,22 @@ def test_a_new_plugin_passes_the_check_and_its_own_test(tmp_path: Path, kind: st
     assert "1 passed" in done.stdout
 
 
-def test_a_new_plugin_is_clean_by_the_houses_own_rules(tmp_path: Path) -> None:
-    files = scaffold("eddy", tmp_path / "examples" / "eddy")
-    rules = ["--config", str(Path(__file__).parents[2] / "pyproject.toml"), "--ignore", "INP001,ARG002"]
+@pytest.mark.window
+def test_a_new_game_passes_its_own_tests_and_draws_in_its_window(tmp_path: Path, display: str) -> None:
+    """With its prairie in this process's cache of grown grass; the window is closed after three frames."""
+    folder = tmp_path / "my-walk"
+    scaffold_game("my-walk", folder)
+    place = os.environ | {"DISPLAY": display}
+    for command in (["-m", "pytest", "-q", "-p", "no:cacheprovider", "tests"], ["game.py", "--frames", "3"]):
+        done = subprocess.run(
+            [sys.executable, *command], cwd=folder, env=place, capture_output=True, text=True, check=False
+        )
+        assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_what_is_begun_is_clean_by_the_houses_own_rules(tmp_path: Path) -> None:
+    files = scaffold("eddy", tmp_path / "examples" / "eddy") + scaffold_game("walk", tmp_path / "examples" / "walk")
+    rules = ["--config", str(Path(__file__).parents[2] / "pyproject.toml"), "--ignore", "INP001,ARG002,E402,I001"]
     modules = [str(file) for file in files if file.suffix == ".py"]
     for command in (["check", *rules], ["format", "--check", *rules[:2]]):
         done = subprocess.run(
@@ -202,11 +215,13 @@ def test_what_comes_next_is_said(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    new_plugin("eddy", None)
-    new_plugin("eddy", "my winds")
+    new_wind("eddy", None)
+    new_wind("eddy", "my winds")
     told = capsys.readouterr().out.splitlines()
     assert told[:3] == ["eddy/pyproject.toml", "eddy/tallgrass_eddy.py", "eddy/tests/test_eddy.py"]
     assert told[3] == "next: pip install -e eddy && tallgrass plugins check eddy"
+    new_game("my-walk", None)
+    assert capsys.readouterr().out.splitlines()[-1] == "next: python my-walk/game.py"
     assert told[7] == "next: pip install -e 'my winds' && tallgrass plugins check eddy"
 
 
@@ -214,8 +229,9 @@ def test_what_comes_next_is_said(
     "kind", ["", "Eddy", "two words", "../up", "1st", "a--b", "end-", "-x", "a" * 61, "é", "a/b", "os.path"]
 )
 def test_a_name_that_cannot_be_one_is_refused(tmp_path: Path, kind: str) -> None:
-    with pytest.raises(InputError, match="lower-case letters and digits"):
-        scaffold(kind, tmp_path / "new")
+    for begin in (scaffold, scaffold_game):
+        with pytest.raises(InputError, match="lower-case letters and digits"):
+            begin(kind, tmp_path / "new")
     assert not (tmp_path / "new").exists()
 
 
@@ -242,5 +258,7 @@ def test_the_command_ends_as_all_others_do(tallgrass: Any) -> None:
     refused = tallgrass("plugins", "new", "Breeze")
     assert (refused.returncode, refused.stdout, refused.stderr.count("\n")) == (2, "", 1)
     assert tallgrass("plugins", "new", "eddy", "-o", "new/eddy").returncode == 0
+    assert tallgrass("new", "wind", "eddy", "-o", "again/eddy").returncode == 0
+    assert tallgrass("new", "game", "Walk").returncode == 2
     assert tallgrass("plugins", "check", "eddy").returncode == 2
     assert tallgrass("plugins", "list").returncode == 0
