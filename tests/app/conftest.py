@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from tallgrass.engine.declared.quality import PRESETS, BladeRing, Quality, StripRing
+
 SCENE = """\
 tallgrass: 2
 seed: 5
@@ -52,3 +54,14 @@ def tallgrass(tmp_path: Path) -> Tallgrass:
         return subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
 
     return run
+
+
+@pytest.fixture
+def _coarse(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let every preset be grown in a moment, with twice the blades in one that says high."""
+    rings = [StripRing(to=5, strips=2, columns=1, sections=1, texel=0.03)]
+    blades = [BladeRing(to=2, segments=2)]
+    for name in PRESETS:
+        count = 60 if "high" in name else 30
+        coarse = Quality(blades=count, models=1, blade_rings=blades, strip_rings=rings, carpet_to=12, carpet=8)
+        monkeypatch.setitem(PRESETS, name, coarse)

@@ -1,15 +1,13 @@
 """A prairie's entities: guests in the game's own world (D2, D6)."""
 
 import gc
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import esper
-import numpy as np
 import pytest
 
 from tallgrass.components.resident import Resident
-from tallgrass.engine.world import Advance, World, install
+from tallgrass.engine.world import World
 
 
 @dataclass
@@ -25,15 +23,6 @@ class Reed(Grass):
 @dataclass
 class Score:
     points: int
-
-
-@pytest.fixture
-def elsewhere(world: World) -> Iterator[str]:
-    """The game shows its menu, which is another world."""
-    esper.switch_world("menu")
-    yield "menu"
-    esper.switch_world(world.name)
-    esper.delete_world("menu")
 
 
 def test_d2_an_entity_has_the_components_it_was_created_with(world: World) -> None:
@@ -345,95 +334,3 @@ def test_d6_a_number_that_is_the_games_by_now_is_left_alone(world: World) -> Non
     assert ours not in world
     esper.delete_entity(ours, immediate=True)
     assert world.lost() == []
-
-
-# ---- install() -----------------------------------------------------------------------------------
-
-
-class Order(esper.Processor):
-    """A game's own processor: what the prairies' time was when it ran."""
-
-    def __init__(self, steps: list[float]) -> None:
-        self.steps = steps
-        self.seen: list[float] = []
-
-    def process(self, *args: object, **options: object) -> None:
-        self.seen.append(sum(self.steps))
-
-
-@pytest.fixture
-def steps(world: World) -> list[float]:
-    """By what a prairie in the world has been advanced."""
-    told: list[float] = []
-    world.advance = told.append
-    return told
-
-
-def test_d6_installed_a_world_advances_its_prairies_before_the_games_own_processors(
-    steps: list[float],
-) -> None:
-    order = Order(steps)
-    esper.add_processor(order)
-    install()
-    esper.process(0.25)
-    esper.process(dt=0.5)
-    esper.process(0.125, "what else a game hands around", paused=False)
-    esper.process()
-    assert steps == [0.25, 0.5, 0.125]
-    assert order.seen == [0.25, 0.75, 0.875, 0.875]
-
-
-def test_d6_installing_twice_advances_once(steps: list[float]) -> None:
-    install()
-    install()
-    esper.process(0.1)
-    assert steps == [0.1]
-
-
-def test_d6_only_prairies_of_the_current_world_are_advanced(world: World, steps: list[float], elsewhere: str) -> None:
-    esper.switch_world(world.name)
-    install()
-    esper.switch_world(elsewhere)
-    install()
-    esper.process(0.1)
-    assert steps == []
-
-
-def test_d6_a_step_that_is_no_time_is_refused_in_a_sentence(world: World) -> None:
-    install()
-    assert world.advance is None
-    with pytest.raises(TypeError, match=r"tallgrass needs dt \[s\] first, not 'a game'"):
-        esper.process("a game")
-
-
-@pytest.mark.parametrize("dt", [1, 0.5, np.float32(0.5), np.int64(1)])
-def test_d6_a_step_may_be_any_number_and_comes_to_prairies_as_a_float(steps: list[float], dt: float) -> None:
-    install()
-    esper.process(dt)
-    assert [(type(step), step) for step in steps] == [(float, dt)]
-
-
-def test_d6_the_processor_leaves_with_the_worlds_last_prairie(world: World, steps: list[float]) -> None:
-    other = World()
-    own = Order(steps)
-    esper.add_processor(own, 3)
-    install()
-    other.release()
-    assert esper.get_processor(Advance) is not None
-    world.release()
-    world.release()
-    assert esper.get_processor(Advance) is None
-    assert esper.get_processor(Order) is own
-    esper.process(0.1)
-    assert own.seen == [0]
-    esper.remove_processor(Order)
-
-
-def test_d6_a_second_release_takes_no_other_prairies_processor_away(world: World) -> None:
-    world.release()
-    World()
-    kept = World()
-    install()
-    world.release()
-    assert esper.get_processor(Advance) is not None
-    kept.release()

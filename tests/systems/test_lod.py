@@ -8,13 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.components.viewer import Viewer
 from tallgrass.engine.declared.quality import PRESETS
-from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.patches import PatchTable
-from tallgrass.systems.lod import SLACK, ChooseLevels, farthest, wanted_representation
+from tallgrass.systems.lod import SLACK, farthest, wanted_representation
 from tallgrass.systems.show.registry import NAMES, REPRESENTATIONS
-from tallgrass.systems.show.strips.representation import StripRepresentation
 from tallgrass.systems.transition import FADE, change, held, step_of_change, weights
 
 REACH = (2, 5, 9)
@@ -276,29 +273,6 @@ def test_t4_a_forced_representation_has_all_the_range() -> None:
     assert (wanted >= STRIPS).all()
 
 
-def test_the_system_writes_what_is_due_and_changes_nothing_else() -> None:
-    outlook = Outlook(Viewer(jumped=False), 0, PatchTable.allocate(3, NAMES))
-    patches = outlook.patches
-    patches.away[:] = np.arange(9)
-    patches.visible[:] = patches.was_visible[:] = True
-    patches.visible[3] = patches.was_visible[6] = False
-    patches.representation[:] = patches.previous[:] = [0, 0, 0, 0, 1, 1, 1, 2, 2]
-    patches.hold[2] = CARPET
-    before = patches.representation.copy()
-    ChooseLevels([outlook], REACH).run()
-    assert patches.wanted.tolist() == [0, 0, 0, 1, 1, 1, 2, 2, 2]  # row 3 is not seen, row 6 was not
-    patches.visible[:] = patches.was_visible[:] = True
-    ChooseLevels([outlook], REACH).run()
-    assert patches.wanted.tolist() == [0, 0, 0, 0, 1, 1, 1, 2, 2]
-    ChooseLevels([outlook], REACH, slack=0).run()
-    assert patches.wanted.tolist() == [0, 0, 0, 1, 1, 1, 2, 2, 2]
-    outlook.viewer.jumped = True
-    ChooseLevels([outlook], REACH).run()
-    assert patches.wanted.tolist() == [0, 0, 0, 1, 1, 1, 2, 2, 2]
-    np.testing.assert_array_equal(patches.representation, before)
-    assert (patches.progress == 1.0).all()
-
-
 # ---- Holding -------------------------------------------------------------------------------------
 
 
@@ -384,24 +358,3 @@ def test_x1_a_held_patch_too_is_never_finer_than_there_is_room_for(story: list[i
 def test_where_nothing_is_wanted_a_patch_is_the_coarsest() -> None:
     table = PatchTable.allocate(1, NAMES)
     assert held(table, reach=REACH).tolist() == [CARPET]
-
-
-class Choosy(StripRepresentation):
-    """Strips that would not do on the first of the patches that are to have them."""
-
-    def unfit(self, outlook: Outlook, rows: Any, has: Any, /, *, slack: int) -> Any:
-        del outlook, has, slack
-        return rows == 3
-
-
-def test_a_representation_passes_patches_that_it_would_not_do_for_on_to_the_next() -> None:
-    outlook = Outlook(Viewer(jumped=False), 0, PatchTable.allocate(3, NAMES))
-    outlook.patches.away[:] = np.arange(9)
-    outlook.patches.visible[:] = True
-    ChooseLevels([outlook], REACH).run()
-    alone = outlook.patches.wanted.copy()
-    first, _, last = (object.__new__(each) for each in REPRESENTATIONS)
-    ChooseLevels([outlook], REACH, (first, object.__new__(Choosy), last)).run()
-    assert np.flatnonzero(outlook.patches.wanted != alone).tolist() == [3]
-    assert alone[3] == STRIPS
-    assert outlook.patches.wanted[3] == CARPET

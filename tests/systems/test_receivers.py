@@ -395,9 +395,3 @@ def test_an_entitys_places_stay_on_one_patch(world: World, looking: Looking) -> 
             middle = receivers.place.mean(axis=0)
             assert np.abs(middle - homes.setdefault(entity, middle)).max() < 1.0
             assert np.ptp(receivers.place, axis=0).max() < 2.5 + 1.5
-
-
-def test_released_nothing_of_ours_is_left(world: World, looking: Looking) -> None:
-    looking(1.0, 1.0)
-    world.release()
-    assert world.all(Receivers) == []

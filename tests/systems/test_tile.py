@@ -5,8 +5,6 @@ from typing import Any
 import esper
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from tallgrass.components.patch import Lod, Patch
 from tallgrass.components.viewer import Viewer
@@ -366,16 +364,6 @@ def test_a_cleared_place_is_bare_for_every_viewer(world: World) -> None:
     assert not one.grows(1, 1)
     assert not other.grows(1, 1)
     assert not other.patch(1, 1).grows
-
-
-@given(st.sets(st.tuples(st.integers(-3, 3), st.integers(-3, 3)), max_size=20))
-def test_grass_grows_wherever_no_cell_has_been_cleared(cleared: set[tuple[int, int]]) -> None:
-    clearings = Clearings()
-    for cell in cleared:
-        clearings.clear(cell)
-    every = [(i, j) for i in range(-4, 5) for j in range(-4, 5)]
-    grows = clearings.spare(np.array(every, np.int32))
-    assert grows.tolist() == [cell not in cleared for cell in every]
 
 
 def test_d6_where_a_game_clears_its_world_all_patches_are_entities_again_and_none_is_bare(tiled: Tiled) -> None:

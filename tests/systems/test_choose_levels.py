@@ -1,0 +1,59 @@
+"""The system that says which representation is due."""
+
+from typing import Any
+
+import numpy as np
+
+from tallgrass.components.viewer import Viewer
+from tallgrass.systems.around.outlook import Outlook
+from tallgrass.systems.around.patches import PatchTable
+from tallgrass.systems.lod import ChooseLevels
+from tallgrass.systems.show.registry import NAMES, REPRESENTATIONS
+from tallgrass.systems.show.strips.representation import StripRepresentation
+
+_, STRIPS, CARPET = range(3)
+REACH = (2, 5, 9)
+
+
+def test_the_system_writes_what_is_due_and_changes_nothing_else() -> None:
+    outlook = Outlook(Viewer(jumped=False), 0, PatchTable.allocate(3, NAMES))
+    patches = outlook.patches
+    patches.away[:] = np.arange(9)
+    patches.visible[:] = patches.was_visible[:] = True
+    patches.visible[3] = patches.was_visible[6] = False
+    patches.representation[:] = patches.previous[:] = [0, 0, 0, 0, 1, 1, 1, 2, 2]
+    patches.hold[2] = CARPET
+    before = patches.representation.copy()
+    ChooseLevels([outlook], REACH).run()
+    assert patches.wanted.tolist() == [0, 0, 0, 1, 1, 1, 2, 2, 2]  # row 3 is not seen, row 6 was not
+    patches.visible[:] = patches.was_visible[:] = True
+    ChooseLevels([outlook], REACH).run()
+    assert patches.wanted.tolist() == [0, 0, 0, 0, 1, 1, 1, 2, 2]
+    ChooseLevels([outlook], REACH, slack=0).run()
+    assert patches.wanted.tolist() == [0, 0, 0, 1, 1, 1, 2, 2, 2]
+    outlook.viewer.jumped = True
+    ChooseLevels([outlook], REACH).run()
+    assert patches.wanted.tolist() == [0, 0, 0, 1, 1, 1, 2, 2, 2]
+    np.testing.assert_array_equal(patches.representation, before)
+    assert (patches.progress == 1.0).all()
+
+
+class Choosy(StripRepresentation):
+    """Strips that would not do on the first of the patches that are to have them."""
+
+    def unfit(self, outlook: Outlook, rows: Any, has: Any, /, *, slack: int) -> Any:
+        del outlook, has, slack
+        return rows == 3
+
+
+def test_a_representation_passes_patches_that_it_would_not_do_for_on_to_the_next() -> None:
+    outlook = Outlook(Viewer(jumped=False), 0, PatchTable.allocate(3, NAMES))
+    outlook.patches.away[:] = np.arange(9)
+    outlook.patches.visible[:] = True
+    ChooseLevels([outlook], REACH).run()
+    alone = outlook.patches.wanted.copy()
+    first, _, last = (object.__new__(each) for each in REPRESENTATIONS)
+    ChooseLevels([outlook], REACH, (first, object.__new__(Choosy), last)).run()
+    assert np.flatnonzero(outlook.patches.wanted != alone).tolist() == [3]
+    assert alone[3] == STRIPS
+    assert outlook.patches.wanted[3] == CARPET
