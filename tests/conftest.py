@@ -1,6 +1,7 @@
 """What all tests share: numbers that fail loudly, one headless GL context, a private world, a display."""
 
 import ctypes
+import gc
 import json
 import os
 import shutil
@@ -79,14 +80,21 @@ _HOME = pytest.StashKey[moderngl.Framebuffer]()
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Mark what draws, and run what opens windows last: a window takes the current GL context away.
 
-    What other people's programs are needed for is left out unless it is asked for.
+    What takes other people's programs, or long, is left out unless `-m` names its mark.
     """
-    if "hosts" not in config.option.markexpr:
-        items[:] = [item for item in items if item.get_closest_marker("hosts") is None]
+    for mark in ("hosts", "slow"):
+        if mark not in config.option.markexpr:
+            items[:] = [item for item in items if item.get_closest_marker(mark) is None]
     for item in items:
         if "ctx" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.gl)
     items.sort(key=lambda item: item.get_closest_marker("window") is not None)
+
+
+def pytest_collection_finish() -> None:
+    """Let the collector of garbage go through what tests make, and not through all of them."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.hookimpl(tryfirst=True)

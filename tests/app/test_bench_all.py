@@ -43,6 +43,7 @@ def with_new_figures(told: Any, factor: float) -> Any:
     return told * factor if isinstance(told, float) else told
 
 
+@pytest.mark.slow
 @pytest.mark.gl
 @pytest.mark.usefixtures("ctx", "short")
 def test_all_benchmarks_make_one_file_and_one_page_and_a_second_time_they_are_compared(

@@ -36,6 +36,7 @@ def test_n2_a_climb_goes_up_without_a_break_and_ends_with_a_look_straight_down(s
     prairie.release()
 
 
+@pytest.mark.slow
 @pytest.mark.gl
 @pytest.mark.usefixtures("ctx")
 def test_n2_changes_on_a_climb_are_judged_all_along_it(

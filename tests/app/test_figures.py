@@ -91,6 +91,7 @@ def _narrow(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tallgrass.app.figures.figure.Detail", partial(Detail, dots=SMALL.dots))
 
 
+@pytest.mark.slow
 @pytest.mark.gl
 @pytest.mark.usefixtures("ctx", "_coarse", "_narrow")
 def test_every_figure_is_drawn_and_the_page_shows_all_of_them(tmp_path: Path) -> None:

@@ -89,6 +89,7 @@ def test_n3_whole_changes_are_judged_in_every_frame(sound: Told) -> None:
     assert sound["drift"]["mean"] < 0.08
 
 
+@pytest.mark.slow
 def test_n3_strips_that_are_too_bright_are_named_as_drift(
     sound: Told, measure: Callable[[], Told], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -135,6 +136,7 @@ def test_n3_a_jump_at_the_end_of_a_change_is_named_as_flicker(
     assert abs(told["worst"][0]["frame"] - end) <= 2
 
 
+@pytest.mark.slow
 def test_n3_two_representations_half_transparent_are_named_as_ghosting(
     sound: Told, measure: Callable[[], Told], monkeypatch: pytest.MonkeyPatch
 ) -> None:

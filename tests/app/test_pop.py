@@ -108,6 +108,7 @@ def test_n3_hard_switches_show_where_they_happen(scene: Path) -> None:
     assert once.worst[0].ratio < worst.ratio
 
 
+@pytest.mark.slow
 def test_n3_legs_that_are_walked_alone_are_those_of_the_whole_walk(scene: Path) -> None:
     with Studio(Take(str(scene), (128, 72))) as studio:
         walk = legs(studio.prairie)[:2]

@@ -39,6 +39,9 @@ LOW_CONTRAST = 0.7
 ROOM = {"luminance": 0.003, "hue": 0.2, "contrast": 0.01, "flip": 0.001}
 """What drivers differ by."""
 
+SLOW = {"above-60", "clouds", "crest-low", "diagonal", "gale", "heath", "sun-behind", "two-kinds", "walk-medium"}
+"""Those that others are like, and those whose grass takes longest to grow."""
+
 Figures = dict[str, float]
 
 
@@ -85,7 +88,13 @@ def test_there_are_more_than_twenty_cameras_in_three_presets() -> None:
         assert any(f"quality: {preset}\n" in text for text in told)
 
 
-@pytest.mark.parametrize("camera", sorted(path.stem for path in CAMERAS.glob("*.yaml")))
+@pytest.mark.parametrize(
+    "camera",
+    [
+        pytest.param(name, marks=pytest.mark.slow if name in SLOW else ())
+        for name in sorted(path.stem for path in CAMERAS.glob("*.yaml"))
+    ],
+)
 def test_g5_a_picture_is_as_true_as_it_was(
     ctx: moderngl.Context, stage: Stage, today: dict[str, Figures], camera: str
 ) -> None:

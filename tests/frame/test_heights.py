@@ -149,6 +149,7 @@ def test_far_shadows_follow_and_are_right_in_the_end(stage: Stage, ctx: moderngl
     assert np.abs(early - due).max() > 20.0
 
 
+@pytest.mark.slow
 def test_a_frame_in_which_10_km_of_terrain_are_dug_takes_no_longer_than_half_as_long_again(
     ctx: moderngl.Context,
 ) -> None:

@@ -97,7 +97,7 @@ def counted(prairie: Prairie) -> dict[str, int]:
 @pytest.mark.parametrize(
     ("scene", "before", "presets"),
     [
-        ("meadow", "## What it takes here", ("low", "medium", "high")),
+        pytest.param("meadow", "## What it takes here", ("low", "medium", "high"), marks=pytest.mark.slow),
         ("wide plain", "## The paper's instances", tuple(PAPER)),
         ("plain", "on the 100 m that come along", tuple(PAPER)),
     ],

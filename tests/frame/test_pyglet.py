@@ -22,7 +22,7 @@ CHECKS = [
     for file in PROGRAM.glob("*.py")
     for check in re.findall(r"^def check_(\w+)", file.read_text("utf-8"), re.MULTILINE)
 ]
-ROUNDS = os.environ.get("TALLGRASS_ROUNDS", "9")
+ROUNDS = os.environ.get("TALLGRASS_ROUNDS", "6")
 pytestmark = [pytest.mark.window, pytest.mark.gl]
 
 

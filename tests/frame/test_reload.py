@@ -283,6 +283,7 @@ def lasting(prairie: Prairie) -> list[object]:
     return [*grown, *drawn, outlook, outlook.patches, *outlook.kept.values()]
 
 
+@pytest.mark.slow
 def test_n7_thirty_edits_make_nothing_anew_that_takes_a_frame_and_cost_no_memory(
     edited: Edited, untouched: Prairie, stage: Stage, camera: Aim
 ) -> None:

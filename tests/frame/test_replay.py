@@ -69,11 +69,13 @@ def played(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) -> l
     return runs
 
 
+@pytest.mark.slow
 def test_n5_a_walk_replays_bit_for_bit_in_another_process(played: list[tuple[str, Any]]) -> None:
     assert played[0][0] == played[1][0]
     assert len(played[0][0]) == 16
 
 
+@pytest.mark.slow
 def test_n5_its_pictures_are_the_same_within_one_level_in_another_process(played: list[tuple[str, Any]]) -> None:
     (_, one), (_, other) = played
     assert np.abs(one - other).max() <= 1

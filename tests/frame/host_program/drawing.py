@@ -46,16 +46,15 @@ def frames(game: Game, prairie: Prairie | None, size: tuple[int, int] = SIZE) ->
     return seen
 
 
-def around(game: Game, leave: Callable[[], None], size: tuple[int, int] = SIZE) -> str:
-    """Compare the game's own drawing around prairies with the same without any."""
+def around(game: Game, prairie: Prairie, leave: Callable[[], None], size: tuple[int, int] = SIZE) -> str:
+    """Compare the game's own drawing around a prairie with the same without one."""
     told: dict[str, str] = {}
     tidy()
     leave()
     alone = frames(game, None, size)
     tidy()
     leave()
-    with prairies() as (prairie,):
-        found = frames(game, prairie, size)
+    found = frames(game, prairie, size)
     tidy()
     drawn = {"raw": alone[0], "flat": alone[1], "solid": alone[2]}
     if leave in STATES[:2]:
@@ -70,7 +69,11 @@ def around(game: Game, leave: Callable[[], None], size: tuple[int, int] = SIZE) 
 
 def check_pyglets_drawing(game: Game) -> str:
     """Sprites, labels, shapes, models and raw GL look alike with prairies around them, whatever was set."""
-    return together(**{leave.__name__: around(game, leave) for leave in STATES})
+    told = {}
+    with prairies(2) as (first, last):
+        for leave in STATES:  # one makes what it draws with while nothing is set, the other while everything is
+            told[leave.__name__] = around(game, last if leave is disorder else first, leave)
+    return together(**told)
 
 
 def check_samplers(game: Game) -> str:
@@ -83,7 +86,7 @@ def check_samplers(game: Game) -> str:
                 gl.glBindSampler(unit, game.sampler)
 
         leave()
-        return together(prairie=different(picture(prairie), neutral), game=around(game, leave))
+        return together(prairie=different(picture(prairie), neutral), game=around(game, prairie, leave))
 
 
 def check_hostile_state(game: Game) -> str:
@@ -116,8 +119,9 @@ def check_host_framebuffer(game: Game) -> str:
     clear()
     window = read()
     with framebuffer(large):
-        told = {name: around(game, leave, large) for name, leave in (("tidy", tidy), ("3D", depth_and_culling))}
         with prairies() as (prairie,):
+            states = ("tidy", tidy), ("3D", depth_and_culling)
+            told = {name: around(game, prairie, leave, large) for name, leave in states}
             found = picture(prairie, large)
         told["prairie"] = "" if len(np.unique(found[-80:].reshape(-1, 3), axis=0)) > 500 else "it is not all there"
     return together(**told, window=different(read(), window))

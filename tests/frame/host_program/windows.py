@@ -32,7 +32,7 @@ def check_resize(game: Game) -> str:
     with prairies() as (prairie,):
         picture(prairie)
         resize(game, size)
-        found, told = picture(prairie, size), around(game, tidy, size)
+        found, told = picture(prairie, size), around(game, prairie, tidy, size)
     with prairies() as (prairie,):
         expected = picture(prairie, size)
     with framebuffer(size), prairies() as (prairie,):
@@ -68,7 +68,7 @@ def check_two_windows(game: Game) -> str:
             window.switch_to()
             told[f"window {number}"] = different(picture(prairie), expected)
         game.window.switch_to()
-        told["game"] = around(game, depth_and_culling)
+        told["game"] = around(game, prairie, depth_and_culling)
     if pyglet.gl.current_context is not game.window.context:
         told["current"] = "another window is current after the release"
     for number, window in enumerate((other, game.window)):
