@@ -58,6 +58,7 @@ def run(lines: str, programs: Path, folder: Path) -> str:
     return done.stdout
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="the tutorial is written for a POSIX shell")
 @pytest.mark.usefixtures("ctx")
 def test_d5_following_the_tutorial_alone_ends_in_a_plugin_that_works(programs: Path, tmp_path: Path) -> None:

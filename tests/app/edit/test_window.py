@@ -5,7 +5,6 @@ What opens windows is imported inside the tests: there has to be a display first
 
 # ruff: noqa: PLC0415
 
-import ctypes
 import difflib
 from collections.abc import Iterator
 from pathlib import Path
@@ -119,10 +118,6 @@ def drag(walk: "EditWalk", *places: tuple[float, float], modifiers: int = 0) -> 
     frames(walk)
 
 
-def click(walk: "EditWalk", place: tuple[float, float], modifiers: int = 0) -> None:
-    drag(walk, place, modifiers=modifiers)
-
-
 def field(walk: "EditWalk", way: Way, part: float = 0.5) -> tuple[float, float]:
     """Where the field of a key is, so far along [pixels from the window's lower left]."""
     left, top, right, bottom = walk.panel.tree.boxes[way]
@@ -149,18 +144,14 @@ def on_ground(walk: "EditWalk", x: float, z: float) -> tuple[float, float]:
 
 def seen(walk: "EditWalk") -> NDArray[np.float64]:
     """Draw the prairie without panel and notes, and return what is in the window beside the panel."""
-    from pyglet import gl
+    from pyglet.image import get_buffer_manager
 
     walk.window.switch_to()
     walk.window.clear()
     walk.prairie.draw(*walk.matrices(SIZE))
-    width, height = SIZE
-    data = (ctypes.c_ubyte * (3 * width * height))()
-    gl.glReadBuffer(gl.GL_BACK)
-    gl.glPixelStorei(gl.GL_PACK_ALIGNMENT, 1)
-    gl.glReadPixels(0, 0, width, height, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, data)
-    picture = np.frombuffer(bytes(data), np.uint8).reshape(height, width, 3)[::-1]
-    return np.asarray(picture, np.float64)
+    shown = get_buffer_manager().get_color_buffer().get_image_data()
+    picture = np.frombuffer(shown.get_data("RGBA"), np.uint8).reshape(shown.height, shown.width, 4)
+    return picture[::-1, :, :3].astype(np.float64)
 
 
 def test_n13_a_slider_changes_the_picture_while_the_wind_blows_on(walk: "EditWalk") -> None:
@@ -223,7 +214,7 @@ def test_n13_what_cannot_be_is_refused_where_it_was_entered_and_says_why(walk: "
     from pyglet.window import key
 
     tell(walk, "on_key_press", key.LCTRL, 0)
-    click(walk, field(walk, ("light", "elevation")), modifiers=key.MOD_CTRL)
+    drag(walk, field(walk, ("light", "elevation")), modifiers=key.MOD_CTRL)
     tell(walk, "on_key_release", key.LCTRL, key.MOD_CTRL)
     tell(walk, "on_text", "120")
     frames(walk)
@@ -283,8 +274,8 @@ def test_keys_that_are_typed_into_a_field_do_not_walk(walk: "EditWalk") -> None:
     opened(walk, ("light",))
     from pyglet.window import key
 
-    click(walk, field(walk, ("light", "sun"), 0.1))
-    click(walk, field(walk, ("light", "elevation")), modifiers=key.MOD_CTRL)
+    drag(walk, field(walk, ("light", "sun"), 0.1))
+    drag(walk, field(walk, ("light", "elevation")), modifiers=key.MOD_CTRL)
     place = walk.walker.position
     tell(walk, "on_key_press", key.W, 0)
     frames(walk, 5)
@@ -401,7 +392,7 @@ def test_n13_a_tab_has_a_bar_for_every_system_of_the_frame(walk: "EditWalk", mon
 
     told: list[str] = []
     monkeypatch.setattr(imgui, "set_item_tooltip", told.append)
-    click(walk, button(walk, "frame"))
+    drag(walk, button(walk, "frame"))
     told.clear()
     frames(walk)
     bars = [line.partition(",")[0] for line in told]
