@@ -149,7 +149,8 @@ def seen(walk: "EditWalk") -> NDArray[np.float64]:
     walk.window.switch_to()
     walk.window.clear()
     walk.prairie.draw(*walk.matrices(SIZE))
-    shown = get_buffer_manager().get_color_buffer().get_image_data()
+    buffers: Any = get_buffer_manager()
+    shown = buffers.get_color_buffer().get_image_data()
     picture = np.frombuffer(shown.get_data("RGBA"), np.uint8).reshape(shown.height, shown.width, 4)
     return picture[::-1, :, :3].astype(np.float64)
 
