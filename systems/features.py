@@ -9,12 +9,13 @@ from .frame.units import dealt
 from .lamps.feature import Lamps
 from .land.part import Land
 from .light.feature import Lighting
+from .light.given import GivenHaze
 from .mow.feature import Mowing
 from .pressers import Pressers
 from .show.registry import REPRESENTATIONS
 from .winds import Winds
 
-FEATURES: tuple[type[Feature], ...] = (Winds, Pressers, Land, Lighting, Mowing, Lamps, Bodies)
+FEATURES: tuple[type[Feature], ...] = (Winds, Pressers, Land, Lighting, GivenHaze, Mowing, Lamps, Bodies)
 """In the order in which they are made, told of a scene read again, and drawn."""
 
 UNITS = dealt(

@@ -21,7 +21,9 @@ from .around.asked import Frame
 from .around.outlook import Outlook
 from .around.transitions import SEAMLESS, Transitions
 from .assembly import Assembly, settle_in
+from .features import one
 from .govern import Governor
+from .light.given import GivenHaze, Haze
 from .painter import Painter
 from .saving import Saving
 from .screen import Screen
@@ -170,6 +172,21 @@ class Prairie(Tending):
             self.statistics.count(outlook, self.site, self.systems, painter)
             if "grass" in chosen:
                 outlook.settle()
+
+    @property
+    def haze(self) -> Haze | None:
+        """What ground and grass fade into far off, where a game has a sky of its own; None: the scene's horizon.
+
+        It is a colour, (red, green, blue) as the picture is to show it, or "#a0b0c0"; or a function that is given unit
+        vectors (x, 0, z), shape (n, 3), and returns the colours of the game's sky there, (n, 3). It is asked at once,
+        and kept as smoothly as the sky near the horizon changes around. A `linear` prairie takes radiance. How far one
+        sees stays the scene's `light.haze`. Setting it raises ValueError for what are no colours.
+        """
+        return one(GivenHaze, self.features).haze
+
+    @haze.setter
+    def haze(self, haze: Haze | None) -> None:
+        one(GivenHaze, self.features).give(haze)
 
     @property
     def origin(self) -> tuple[float, float, float]:

@@ -66,6 +66,7 @@ FRAME = np.dtype(
         ("lamps_grid", "4f4"),  # cells that lamps shine on: corner (x, z) [m]; cells a metre; along a side, 0 for none
         ("plots_half", "2f4"),  # plots of the terrain that there may be, from its middle to its edges
         ("padding_b", "V8"),
+        ("haze_given", "(5,4)f4"),  # a game's own, radiance by 1, x, z, x^2, xz of the direction; 1 where there is one
         ("crown", f"({GROUPS},4)f4"),  # by kind, four in each: height of the canopy [m]
         ("leaf", f"({GROUPS},4)f4"),  # leaf area seen from the side, of the ground's area
         ("lying", f"({GROUPS},4)f4"),  # leaf area seen from above, of that from the side

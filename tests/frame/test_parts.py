@@ -198,3 +198,38 @@ def test_parts_that_are_none_are_told_before_anything_is_drawn(
         prairie.draw(*stage.matrices(camera(0.0, 1.7, 20.0)), parts=parts)
     assert not stage.read().any()
     assert prairie.painter is None
+
+
+def test_far_ground_fades_into_the_haze_that_a_game_gives(stage: Stage, load: Load, camera: Aim) -> None:
+    prairie = load(STILL)
+    prairie.shine(haze=10.0)
+    eye = prairie.height_at([(0.0, 0.0)])[0] + 30.0
+    north, east = (camera(0.0, float(eye), 0.0, yaw=yaw, pitch=-12) for yaw in (0.0, 90.0))
+    before = drawn(stage, prairie, north, None)
+    colours = []
+
+    def around(toward: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.where(toward[:, :1] > 0.5, (0.1, 0.6, 0.3), (0.8, 0.2, 0.4))
+
+    for haze in ((0.8, 0.2, 0.4), "#cc3366", around):
+        prairie.haze = haze
+        assert prairie.haze is haze
+        colours.append([drawn(stage, prairie, aim, ("ground", "grass", "beyond"))[45, 80] for aim in (north, east)])
+    red, green = np.array((204.0, 51.0, 102.0)), np.array((26.0, 153.0, 76.0))
+    for seen in colours[:2]:
+        np.testing.assert_allclose(seen, [red, red], atol=12.0)
+    assert np.abs(colours[2][0] - red).max() < 50.0
+    assert np.abs(colours[2][1] - red).max() > 60.0
+    assert np.abs(colours[2][1] - green).max() < 50.0
+    prairie.haze = None
+    np.testing.assert_array_equal(drawn(stage, prairie, north, None), before)
+
+
+@pytest.mark.parametrize(
+    "haze", ["grey", (0.1, 0.2), (0.1, -1.0, 0.0), lambda toward: toward[:, 0], (np.nan, 0.0, 0.0)]
+)
+def test_haze_without_a_colour_is_refused_in_a_sentence(load: Load, haze: Any) -> None:
+    prairie = load(STILL)
+    with pytest.raises(ValueError, match="^haze has a colour"):
+        prairie.haze = haze
+    assert prairie.haze is None

@@ -4,6 +4,11 @@
 // Radiance of the haze that lies before a place.
 vec3 haze_light(vec3 place) {
     vec2 ray = place.xz - eye.xz;
+    if (haze_given[0].w > 0.0) {  // the game's own
+        vec2 to = ray * inversesqrt(dot(ray, ray) + 1e-6);
+        vec3 turning = to.x * (haze_given[1].rgb + to.x * haze_given[3].rgb + to.y * haze_given[4].rgb);
+        return max(haze_given[0].rgb + turning + to.y * haze_given[2].rgb, 0.0);
+    }
     float c = dot(ray, toward_sun) * inversesqrt(dot(ray, ray) + 1e-6);
     return horizon[0].rgb + c * (horizon[1].rgb + c * horizon[2].rgb);
 }
