@@ -7,6 +7,7 @@ from .bodies.feature import Bodies
 from .frame.feature import Feature, Start
 from .frame.units import dealt
 from .lamps.feature import Lamps
+from .land.earth import Earth
 from .land.part import Land
 from .light.feature import Lighting
 from .light.given import GivenHaze
@@ -15,7 +16,7 @@ from .pressers import Pressers
 from .show.registry import REPRESENTATIONS
 from .winds import Winds
 
-FEATURES: tuple[type[Feature], ...] = (Winds, Pressers, Land, Lighting, GivenHaze, Mowing, Lamps, Bodies)
+FEATURES: tuple[type[Feature], ...] = (Winds, Pressers, Land, Earth, Lighting, GivenHaze, Mowing, Lamps, Bodies)
 """In the order in which they are made, told of a scene read again, and drawn."""
 
 UNITS = dealt(

@@ -9,6 +9,8 @@ from ..components.wind import WindPrimitive
 from ..engine.scene.change import changed
 from ..engine.terrain.change import set_heights
 from .answering import Answering
+from .features import one
+from .land.earth import Earth
 from .mow.sown import clear, sow
 
 
@@ -108,6 +110,17 @@ class Tending(Answering):
         """
         self._must_be_there("change its light")
         self._shining.ask(changed(self._shining.at(self.time), changes, name="light"), time=self.time)
+
+    def ground_texture(self, texture: object, *, side: float | None = None, linear: bool = False) -> None:
+        """Let a game's own texture lie as the ground from the next frame on, between plants and where none grow.
+
+        It is a 2D texture of moderngl's or pyglet's, or its number in GL, and is read as it says itself: with mip-maps,
+        and repeating. It is laid over the terrain once, its first row at the far edge (-z), or comes again every `side`
+        metres. Its texels are colours as sRGB has them, or `linear`. None brings the scene's own ground back. Raises
+        TypeError for what is no such texture, ValueError for a side that is no length, RuntimeError after `release`.
+        """
+        self._must_be_there("change its ground")
+        one(Earth, self.features).hand_in(texture, side, linear=linear)
 
     def _must_be_there(self, purpose: str) -> None:
         if self._released:

@@ -45,7 +45,7 @@ NUMBERS = {
 
 ASKS = {
     "glIsEnabled": (c_int,), "glIsEnabledi": (c_int,) * 2, "glIsProgram": (c_int,), "glIsBuffer": (c_int,),
-    "glIsVertexArray": (c_int,),
+    "glIsVertexArray": (c_int,), "glIsTexture": (c_int,),
 }  # fmt: skip
 """The functions that answer yes or no, and what each takes."""
 

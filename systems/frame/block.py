@@ -65,7 +65,7 @@ FRAME = np.dtype(
         ("mesh_low", "2f4"), ("mesh_high", "2f4"),  # x, z [m]: no ground is drawn beyond
         ("lamps_grid", "4f4"),  # cells that lamps shine on: corner (x, z) [m]; cells a metre; along a side, 0 for none
         ("plots_half", "2f4"),  # plots of the terrain that there may be, from its middle to its edges
-        ("padding_b", "V8"),
+        ("earth_side", "f4"), ("earth_power", "f4"),  # how often a game's ground comes again [m]; its texels' pigment
         ("haze_given", "(5,4)f4"),  # a game's own, radiance by 1, x, z, x^2, xz of the direction; 1 where there is one
         ("crown", f"({GROUPS},4)f4"),  # by kind, four in each: height of the canopy [m]
         ("leaf", f"({GROUPS},4)f4"),  # leaf area seen from the side, of the ground's area
@@ -124,6 +124,8 @@ class FrameBlock:
         """What it says by now."""
         self.buffer = ctx.buffer(reserve=FRAME.itemsize, dynamic=True)
         self.binding = block_binding(ctx)
+        self.earth = 0
+        """The texture of a game's own ground, by its number in GL; 0 for none."""
 
     def join(self, program: moderngl.Program) -> None:
         """Tell a program where the block is."""

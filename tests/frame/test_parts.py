@@ -230,6 +230,6 @@ def test_far_ground_fades_into_the_haze_that_a_game_gives(stage: Stage, load: Lo
 )
 def test_haze_without_a_colour_is_refused_in_a_sentence(load: Load, haze: Any) -> None:
     prairie = load(STILL)
-    with pytest.raises(ValueError, match="^haze has a colour"):
+    with pytest.raises(ValueError, match=r"^haze has a colour"):
         prairie.haze = haze
     assert prairie.haze is None

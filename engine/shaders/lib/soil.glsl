@@ -7,8 +7,13 @@ const float LITTER = 0.75;  // how much of the ground under dense grass is cover
 const float BLACKEST = 0.02;  // pigment that counts at least, for what is told of another by it
 const float COARSEST = 16.0;  // level at which a texture is its mean, or its last
 
-// What lies on the ground where grass stands, and the ground.
+// What lies on the ground where grass stands, and the ground; white where a game has a ground of its own, whose pigment pixels
+// bring. Programs that are made for none are told so by PLAIN.
 vec3 soil_pigment(Lie lies, ByKind grows) {
+#ifndef PLAIN
+    if (earth_side != 0.0)
+        return vec3(1.0);
+#endif
     ByKind tipped;
     for (int kind = 0; kind < KINDS; kind++)
         OF(tipped, kind) = FALLEN_TIPPED * kinds[kind].bloom * kinds[kind].bloom;
@@ -32,6 +37,20 @@ vec3 understorey_of(Lie lies, ByKind grows) {
 vec3 lying_pigment(vec2 lying, vec3 lush) {
     return lying.x * LITTER_MEAN * mix(vec3(1.0), lush, lying.y);
 }
+
+#ifndef PLAIN
+uniform sampler2D earth;  // a game's own ground
+
+// Where that has a place: it comes again, or is laid over the terrain.
+vec2 on_earth(vec2 place) {
+    return earth_side > 0.0 ? place / earth_side : on_map(place);
+}
+
+// The pigment that a texel of it stands for.
+vec3 earth_pigment(vec4 texel) {
+    return pow(max(texel.rgb, 0.0), vec3(earth_power));
+}
+#endif
 
 const float SOIL_SENDS = 1.3;  // what bare ground sends of the sun's light from straight above, of what a leaf that faces all ways does
 

@@ -158,7 +158,7 @@ void main() {
     float slope = viewing_slope(rise, place), left = left_seen(place.xz), ahead = rises_ahead(place.xz, tall);
     work_out(slope);
 #endif
-    vec3 pigment = lying_pigment(lying_seen(place.xz, through_leaves(dense / max(slope, LOWEST))), lush);
+    vec3 pigment = pigment_lying(place.xz, through_leaves(dense / max(slope, LOWEST)), lush);
     vec3 soil_light = soil_between(Soil(soil_seen, sunlit, skylit, soil_way), place.xz, left);
     if (any_lamps())
         soil_light += lamps_on_soil(vec3(place.x, place.y - carpet * tall, place.z), left);

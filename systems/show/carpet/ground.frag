@@ -24,7 +24,7 @@ void main() {
 #else
     Soil soil = Soil(soil_seen, sunlit, skylit, soil_way);
 #endif
-    vec3 pigment = lying_pigment(lying_seen(place.xz, 1.0), lush);
+    vec3 pigment = pigment_lying(place.xz, 1.0, lush);
     float left = left_seen(place.xz);
     vec3 ground = soil_between(soil, place.xz, left);
     if (any_lamps())

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....components.arrays import Mask
+from ....engine.gl.functions import NUMBERS, functions_of
 from ....engine.gl.mipmaps import stack_for
 from ....engine.gl.rasteriser import anisotropy
 from ....engine.gl.stream import Stream, release_all
@@ -256,8 +257,8 @@ class GroundPainter:
 
     @property
     def _is_lamplit(self) -> bool:
-        """Whether lamps shine: then pixels ask for their light."""
-        return bool(self._block.record["lamps_grid"][0, 3])
+        """Whether lamps shine, or a game has a ground of its own: then pixels ask for these."""
+        return bool(self._block.record["lamps_grid"][0, 3]) or bool(self._block.earth)
 
     def write(self, tiles: NDArray[np.void], laid: Mask, edged: Mask) -> None:
         """Send the tiles (n,), on which of them carpet may lie, and on which grass ends or is cut."""
@@ -279,9 +280,17 @@ class GroundPainter:
         self._tell("beyond", beyond)
         self._tell("window", (int(centre[0]), int(centre[1]), self.shares.width // 2))
 
+    def _use(self) -> None:
+        """Bind what all of it reads."""
+        self.shares.use(self.units["shares"])
+        if self._block.earth:
+            gl = functions_of(self.shares.ctx)
+            gl.glActiveTexture(NUMBERS["TEXTURE0"] + self.units["earth"])
+            gl.glBindTexture(NUMBERS["TEXTURE_2D"], self._block.earth)
+
     def draw_bare(self, *, alone: bool) -> int:
         """Draw the bare ground, where it comes `alone` that of the carpet too; return the number of draw calls."""
-        self.shares.use(self.units["shares"])
+        self._use()
         rare = 2 if self._is_lamplit else self._is_cut
         calls = self.bare[rare].draw() + self.edged[0].draw()
         if alone:
@@ -293,11 +302,12 @@ class GroundPainter:
 
     def draw_under(self) -> int:
         """Draw what lies under the carpet; return the number of draw calls."""
-        self.shares.use(self.units["shares"])
+        self._use()
         return self.under[self._is_cut].draw() + self.edged[1].draw()
 
     def draw_carpet(self, part: int = WHOLE) -> int:
         """Draw the carpet, or a part of it: its outlines let through what is behind; return the draw calls."""
+        self._use()
         even = self.carpet[2 if self._is_lamplit or self.is_trodden else self._is_cut]
         for carpet in (even, self.edged[2]):
             carpet.program["part"] = part

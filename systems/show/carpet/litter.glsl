@@ -31,3 +31,12 @@ vec2 lying_seen(vec2 at, float bare) {
     return sum / count;
 }
 #endif
+
+// The pigment of what lies there, of that of the ground between low leaves; or that of a game's own ground.
+vec3 pigment_lying(vec2 at, float bare, vec3 lush) {
+#ifndef PLAIN
+    if (earth_side != 0.0)
+        return earth_pigment(texture(earth, on_earth(at)));
+#endif
+    return lying_pigment(lying_seen(at, bare), lush);
+}

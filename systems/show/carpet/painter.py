@@ -187,7 +187,6 @@ class CarpetPainter(RepresentationPainter):
         """Draw the carpet; return the number of draw calls."""
         target.depth_mask = True
         self.images.use(self._units["images"])
-        self.ground.shares.use(self._units["shares"])
         self.air.use()
         self.bents.use(self._units["bents"])
         if not self._deep:

@@ -1,0 +1,85 @@
+"""A game's own ground: a texture in place of the scene's soil and what lies on it."""
+
+import logging
+from collections.abc import Mapping
+from math import inf
+from reprlib import repr as shortened
+from typing import Any
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ...engine.gl.functions import functions_of
+from ...engine.handed import NUMBERS
+from ..frame.block import FrameBlock
+from ..frame.feature import Feature, Part
+from ..space.grown import Grown
+
+log = logging.getLogger("tallgrass")
+
+ENCODED, LINEAR = 1.1, 0.5
+"""Power of a texel that is a pigment, the root of an albedo: of display colours, about sRGB, and of linear ones."""
+
+OVER_TERRAIN = -1.0
+"""What shaders are told in place of a side [m] where the texture is laid over the terrain once."""
+
+
+class Earth(Feature):
+    """The texture that a game has handed in, if any."""
+
+    def __init__(self) -> None:
+        self.texture: Any = None
+        self.side: float | None = None
+        self.power = ENCODED
+
+    def hand_in(self, texture: object, side: float | None, /, *, linear: bool) -> None:
+        """Let a texture lie there from the next frame on; raises TypeError and ValueError for what is none."""
+        if texture is not None:
+            number_of(texture)
+        if side is not None and not (isinstance(side, NUMBERS) and 0.0 < side < inf):
+            raise ValueError(f"a ground's texture comes again every so many metres, above 0, not {shortened(side)}")
+        self.texture, self.side, self.power = texture, side, LINEAR if linear else ENCODED
+
+    def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> "EarthPart":
+        """Return what tells shaders of it."""
+        del units
+        return EarthPart(ctx, block, self)
+
+
+class EarthPart(Part):
+    """Tells shaders of it, as long as it is there."""
+
+    def __init__(self, ctx: moderngl.Context, block: FrameBlock, earth: Earth) -> None:
+        self._gl, self._block, self._earth = functions_of(ctx), block, earth
+        self._told: Any = None
+
+    def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
+        """Write how it lies."""
+        del grown
+        earth, row = self._earth, record[0]
+        self._block.earth = number = self._there(earth.texture)
+        row["earth_power"] = earth.power
+        row["earth_side"] = 0.0 if not number else OVER_TERRAIN if earth.side is None else earth.side
+
+    def _there(self, texture: Any) -> int:
+        """Return the number of a texture, 0 for none: one that a game has released is named once."""
+        if texture is None:
+            return 0
+        number = number_of(texture)
+        is_gone = isinstance(getattr(texture, "mglo", None), moderngl.InvalidObject) or not self._gl.glIsTexture(number)
+        if is_gone and self._told is not texture:
+            self._told = texture
+            log.warning("texture %d of a game's ground has been released: the scene's own ground is drawn", number)
+        return 0 if is_gone else number
+
+
+def number_of(texture: object, /) -> int:
+    """Return a texture's number in GL; raises TypeError for what is no 2D texture."""
+    number = next((found for name in ("glo", "id") if (found := getattr(texture, name, None)) is not None), texture)
+    is_other = type(texture).__name__ in {"TextureArray", "TextureCube", "Texture3D"}
+    if not isinstance(number, int) or isinstance(number, bool) or number < 1 or is_other:
+        raise TypeError(
+            f"a ground's texture is a 2D one of moderngl or pyglet, or its number, not {shortened(texture)}"
+        )
+    return number
