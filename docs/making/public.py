@@ -48,6 +48,14 @@ def recorded() -> Public:
     return cast("Public", json.loads(RECORD.read_text("utf-8")))
 
 
+def record() -> None:
+    """Record what is public now, and say what is gone, changed and new."""
+    before, now = recorded() if RECORD.is_file() else {}, public()
+    for line in [*broken(before, now), *(f"{name} is new" for name in now if name not in before)]:
+        print(line)
+    RECORD.write_text(json.dumps(now, indent=0) + "\n", "utf-8")
+
+
 def broken(before: Public, now: Public, /) -> list[str]:
     """Return what programs that were written before would stumble over, a sentence each."""
     told = [f"{name} is gone" for name in before if name not in now]
@@ -146,8 +154,4 @@ def _told(page: str) -> Iterator[str]:
 
 
 if __name__ == "__main__":
-    before = recorded() if RECORD.is_file() else {}
-    now = public()
-    for line in [*broken(before, now), *(f"{name} is new" for name in now if name not in before)]:
-        print(line)
-    RECORD.write_text(json.dumps(now, indent=0) + "\n", "utf-8")
+    record()
