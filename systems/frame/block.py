@@ -53,7 +53,7 @@ FRAME = np.dtype(
         ("skylight", "3f4"), ("tallest_grass", "f4"),  # that under the whole sky; height that no blade comes to [m]
         ("zenith", "3f4"), ("patch_side", "f4"),  # radiance overhead; [m]
         ("soil", "3f4"), ("terrain_cell", "f4"),  # pigment of bare ground; [m]
-        ("horizon", "(3,4)f4"),  # radiance of horizon and haze, by powers of the cosine of the azimuth from the sun
+        ("horizon", "(4,4)f4"),  # radiance of horizon and haze, by the ways in which `scattered` has it
         ("clouds_drift", "2f4"),  # where the clouds have drifted to, in their own sides
         ("toward_sun", "2f4"),  # the sun's azimuth, as a direction (x, z)
         ("terrain_origin", "2f4"), ("terrain_size", "2f4"),  # x, z [m]

@@ -9,8 +9,9 @@ import numpy as np
 
 from ...components.arrays import Doubles
 from ...engine.declared.light import Light
-from .air import HEIGHTS, from_all_sides, seen_in_rows
+from .air import FORWARD, HEIGHTS, from_all_sides, seen_in_rows
 from .color import luminance, shown_as, srgb
+from .sun import sun_at
 
 COLUMNS, ROWS = 33, 32
 """Size of the map of the sky: from the sun's azimuth to the opposite one, and from the horizon to the zenith."""
@@ -21,6 +22,9 @@ SUN = 5.0
 BRIGHTER = 2.0
 """How much brighter the sky is shown than it is beside the sun, as photographs are exposed that show both."""
 
+LEAST = 1e-6
+"""What counts as nothing: of radiance, and of the largest where ways to scatter are one, as under a sun overhead."""
+
 MEETS = 0.05
 """Sine of the elevation up to which the sky passes into the haze of the horizon."""
 
@@ -30,13 +34,16 @@ AROUND_PIECES, MAP_PIECES = 10, 22
 PIECES = AROUND_PIECES + MAP_PIECES
 """Pieces of the work on a sky."""
 
+PEAK = (1.0 + FORWARD**2) / (2.0 * FORWARD)
+"""By how much light that haze scatters goes forwards: as (PEAK - s)^-1.5, by the cosine s of the angle to the sun."""
+
+GLSL = {"PEAK": PEAK}
+
 NIGHT = np.array([0.0030, 0.0052, 0.0120])
 """Radiance of the sky at night, by stars and by a moon that is not seen."""
 
 _HEIGHT = (np.arange(ROWS) / (ROWS - 1.0)) ** 2
 _AZIMUTH = np.linspace(0.0, pi, COLUMNS)
-_POWERS = np.cos(_AZIMUTH)[:, None] ** np.arange(3)
-_FIT = np.linalg.pinv(_POWERS)
 _LOW = np.clip(1.0 - _HEIGHT / MEETS, 0.0, 1.0)[:, None, None]
 
 
@@ -60,7 +67,7 @@ class Sky:
     shape (ROWS, COLUMNS, 3)."""
 
     horizon: Doubles
-    """Colour of the horizon by the cosine c of the azimuth from the sun: coefficients of 1, c and c^2, shape (3, 3)."""
+    """Colour of the horizon by the cosine s of the angle to the sun: what `scattered` gives is times these, (4, 3)."""
 
     down: Doubles
     """What it sends to level ground, as the radiance of an even sky that sends as much, shape (3,)."""
@@ -70,8 +77,27 @@ def sky_of(light: Light, clear: Doubles, /) -> Sky:
     """Return the sky of a scene's light under clear air of `clear_air`, or one between the colours that it gives."""
     map_ = clear * (SUN * BRIGHTER * min(light.strength, 1.0)) + NIGHT
     map_ = _clouded(_given(map_, light), light.clouds)
-    horizon = _FIT @ map_[0]
-    return Sky(map_ * (1.0 - _LOW) + np.maximum(_POWERS @ horizon, 0.0) * _LOW, horizon, _sent_down(map_))
+    ways = scattered(np.cos(_AZIMUTH) * cos(radians(sun_at(light)[1])))
+    horizon = _horizon(map_[0], ways)
+    return Sky(map_ * (1.0 - _LOW) + ways @ horizon * _LOW, horizon, _sent_down(map_))
+
+
+def scattered(cosine: Doubles, /) -> Doubles:
+    """Return how much light goes each way that air scatters it, by the cosine of the angle to the sun (n,): (n, 4).
+
+    Evenly and by the square of the cosine, as molecules do and what is scattered again; and forwards, as haze does.
+    """
+    return np.stack([np.ones_like(cosine), cosine, cosine * cosine, (PEAK - cosine) ** -1.5], axis=1)
+
+
+def _horizon(colors: Doubles, ways: Doubles, /) -> Doubles:
+    """Return how much of each of the ways (n, 4) makes up colours (n, 3) best, by what each is off: (4, 3).
+
+    What is dark beside the sun counts as much as what is bright there: else it would come out as a colour of its own.
+    """
+    weight = 1.0 / np.maximum(colors.T, LEAST)
+    fits = [np.linalg.lstsq(ways * by[:, None], part * by, rcond=LEAST)[0] for part, by in zip(colors.T, weight, strict=True)]
+    return np.stack(fits, axis=1)
 
 
 @lru_cache(maxsize=16)

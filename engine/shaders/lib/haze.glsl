@@ -1,5 +1,6 @@
 // The haze before a place.
 #include "lib/frame.glsl"
+#include "systems/light/sky.py"
 
 // Radiance of the haze that lies before a place.
 vec3 haze_light(vec3 place) {
@@ -9,8 +10,8 @@ vec3 haze_light(vec3 place) {
         vec3 turning = to.x * (haze_given[1].rgb + to.x * haze_given[3].rgb + to.y * haze_given[4].rgb);
         return max(haze_given[0].rgb + turning + to.y * haze_given[2].rgb, 0.0);
     }
-    float c = dot(ray, toward_sun) * inversesqrt(dot(ray, ray) + 1e-6);
-    return horizon[0].rgb + c * (horizon[1].rgb + c * horizon[2].rgb);
+    float s = dot(ray, sun.xz) * inversesqrt(dot(ray, ray) + 1e-6), forwards = inversesqrt(PEAK - s);
+    return horizon[0].rgb + s * (horizon[1].rgb + s * horizon[2].rgb) + forwards * forwards * forwards * horizon[3].rgb;
 }
 
 float haze_at(vec3 place) {

@@ -12,7 +12,7 @@ from tallgrass.engine.declared.light import Light
 from tallgrass.systems.light.air import EYE, GROUND, from_all_sides, seen, sunlight
 from tallgrass.systems.light.color import display, luminance
 from tallgrass.systems.light.daylight import daylight
-from tallgrass.systems.light.sky import COLUMNS, ROWS, Sky, clear_air, sky_of
+from tallgrass.systems.light.sky import BRIGHTER, COLUMNS, NIGHT, ROWS, SUN, Sky, clear_air, scattered, sky_of
 from tallgrass.systems.light.sun import sun_at, to_sun, transmitted
 
 
@@ -87,9 +87,17 @@ def test_every_sky_is_a_map_of_finite_colours_with_a_horizon(light: Light) -> No
     assert sky.map.shape == (ROWS, COLUMNS, 3)
     assert np.isfinite(sky.map).all()
     assert (sky.map >= 0.0).all()
-    c = np.cos(np.linspace(0.0, np.pi, COLUMNS))[:, None]
-    horizon = sky.horizon[0] + c * (sky.horizon[1] + c * sky.horizon[2])
-    np.testing.assert_allclose(np.maximum(horizon, 0.0), sky.map[0], atol=1e-9)
+    cosine = np.cos(np.linspace(0.0, np.pi, COLUMNS)) * np.cos(np.radians(sun_at(light)[1]))
+    np.testing.assert_allclose(scattered(cosine) @ sky.horizon, sky.map[0], atol=1e-9)
+
+
+@pytest.mark.parametrize("turbidity", [2.0, 2.6, 6.0])
+@pytest.mark.parametrize("hour", [4.0, 4.3, 4.5, 5.0, 6.0, 12.0])
+def test_f5_all_round_the_horizon_a_sky_is_as_the_air_has_it(hour: float, turbidity: float) -> None:
+    """A low sun's glow is narrow: smoothed away, it once left a band of teal at 85 degrees from the sun."""
+    light = Light(hour=hour, turbidity=turbidity)
+    air = clear_air(sun_at(light)[1], turbidity)[0] * (SUN * BRIGHTER) + NIGHT
+    np.testing.assert_allclose(the_sky(light).map[0], air, rtol=0.08)
 
 
 def test_a_clear_sky_is_blue_above_and_paler_below_and_brightest_about_the_sun() -> None:
