@@ -223,12 +223,16 @@ class Prairie(Tending):
     def follow(self, view: object, projection: object, *, viewer: str = "main") -> None:
         """Follow a viewer for a frame as `draw` does, without drawing it and without any GL.
 
-        Patches come, go and change their representation as they would have, so that a film can start in its middle.
+        Patches come, go and change their representation as they would have, and the light follows the sun, so that a
+        film can start in its middle.
         The matrices are those of `draw`, and it raises the same errors.
         """
         self._must_be_there("follow a viewer")
         must_be_viewer(viewer)
-        self._look(view_of(view, projection, self._origin), viewer)
+        seen = view_of(view, projection, self._origin)
+        for feature in self.features:
+            feature.step(viewer, time=self.time)
+        self._look(seen, viewer)
         self.systems.run(last=Phase.SEE)
 
     def group(

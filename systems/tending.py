@@ -101,15 +101,21 @@ class Tending(Answering):
         self._must_be_there("change its ground")
         set_heights(self.site.ground.terrain, corner, heights)
 
-    def shine(self, **changes: object) -> None:
+    def shine(self, *, at_once: bool = False, **changes: object) -> None:
         """Change the light from the next frame on, by keys of `light:` in a scene: `shine(hour=17.5, clouds=0.4)`.
 
         The rest of it stays. No frame waits for it, so it may be called in every frame. The sun stands there at once;
-        the sky's colours and the terrain's shadows follow within some sixty frames, or at once before the first. Raises
-        ValueError for an unknown key and a bad value, RuntimeError after `release`.
+        the sky's colours and the terrain's shadows follow within some sixty frames, or before the first frame at once.
+        With `at_once` all of it is there in the next frame, which waits for it: for a cut to another scene of a game's,
+        or a night that is slept through. Raises ValueError for an unknown key and a bad value, RuntimeError after
+        `release`.
         """
         self._must_be_there("change its light")
-        self._shining.ask(changed(self._shining.at(self.time), changes, name="light"), time=self.time)
+        light = changed(self._shining.at(self.time), changes, name="light")
+        if at_once:
+            self._shining.resume(light, since=self.time, time=self.time)
+        else:
+            self._shining.ask(light, time=self.time)
 
     def ground_texture(self, texture: object, *, side: float | None = None, linear: bool = False) -> None:
         """Let a game's own texture lie as the ground from the next frame on, between plants and where none grow.

@@ -58,6 +58,25 @@ def test_f5_a_sun_that_was_moved_shines_as_if_the_scene_had_said_so(room: Stage,
     assert np.abs(picture - after).max() <= 1.0
 
 
+def test_f5_a_sun_that_leaps_at_once_brings_sky_and_shadows_along(room: Stage, load: Load, ridge: Path) -> None:
+    night = "azimuth: -80, elevation: 3, clouds: 0.2"
+    moved, due = load(SCENE.format(heights=ridge, light="hour: 12")), load(SCENE.format(heights=ridge, light=night))
+    room.shot(moved, CAMERA)
+    moved.shine(hour=None, azimuth=-80.0, elevation=3.0, clouds=0.2, at_once=True)
+    assert np.abs(room.shot(moved, CAMERA) - room.shot(due, CAMERA)).max() <= 1.0
+
+
+def test_f5_light_goes_on_while_a_viewer_is_followed(room: Stage, load: Load, ridge: Path) -> None:
+    drawn, followed = (load(SCENE.format(heights=ridge, light="elevation: 60")) for _ in range(2))
+    for prairie in (drawn, followed):
+        room.shot(prairie, CAMERA)
+        prairie.shine(elevation=4.0)
+    for _ in range(2 * PIECES + 1):
+        followed.follow(*room.matrices(CAMERA))
+        due = room.shot(drawn, CAMERA)
+    assert np.abs(room.shot(followed, CAMERA) - due).max() <= 1.0
+
+
 def test_f10_shadows_of_the_terrain_come_row_by_row_and_none_is_forgotten(room: Stage, load: Load, ridge: Path) -> None:
     prairie = load(SCENE.format(heights=ridge, light="azimuth: 90, elevation: 20"))
     calls = []
