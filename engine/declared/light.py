@@ -44,7 +44,7 @@ class Light(Declaration):
     """Colour of the sky at the horizon, and of the haze; without it, that of a clear sky."""
 
     clouds: float = Field(default=0.0, ge=0.0, le=1.0)
-    """How much of the sky has clouds; their shadows drift over the grass with the first breeze."""
+    """How much of the sky has clouds, 1 is overcast; their shadows drift over the grass with the first breeze."""
 
     exposure: float = Field(default=0.0, ge=-8.0, le=8.0)
     """How much brighter the picture is taken than it would be by itself, in stops: 1 is twice as bright."""

@@ -48,7 +48,10 @@ FRAME = np.dtype(
         ("ray_across", "3f4"), ("pad_b", "V4"),
         ("ray_up", "3f4"), ("anything_cut", "f4"),  # 1 where any grass has been cut
         ("eye", "3f4"), ("writes_raw", "f4"),  # [m]; 1 where raw radiance is written
-        ("sun", "3f4"), ("cloud_cover", "f4"),  # direction to the sun; how much of the sky has clouds
+        # Direction to the sun; radiance in the picture, of that of the scene, where the sun before the air sends `SUN`.
+        ("sun", "3f4"), ("exposure", "f4"),
+        # Radiance of a cloud's underside in full shade; where clouds begin on their map, above 1 for none.
+        ("cloudlight", "3f4"), ("cloud_edge", "f4"),
         ("sunlight", "3f4"), ("haze_density", "f4"),  # radiance of a white leaf in full sun; 1 / haze distance [1/m]
         ("skylight", "3f4"), ("tallest_grass", "f4"),  # that under the whole sky; height that no blade comes to [m]
         ("zenith", "3f4"), ("patch_side", "f4"),  # radiance overhead; [m]
@@ -59,9 +62,9 @@ FRAME = np.dtype(
         ("terrain_origin", "2f4"), ("terrain_size", "2f4"),  # x, z [m]
         ("half_screen", "2f4"),  # pixels from the middle to the edge, across and up
         ("posture_links", "f4"), ("posture_rows", "f4"), ("posture_variants", "f4"),  # the last of each kind
-        ("exposure", "f4"),  # radiance in the picture, of that of the scene, where the sun before the air sends `SUN`
         ("over_hosts", "f4"),  # 1 where grass is laid over ground that is the game's own
         ("lamplight", "f4"),  # as `exposure`, of what lamps send
+        ("padding", "V4"),
         ("mesh_low", "2f4"), ("mesh_high", "2f4"),  # x, z [m]: no ground is drawn beyond
         ("lamps_grid", "4f4"),  # cells that lamps shine on: corner (x, z) [m]; cells a metre; along a side, 0 for none
         ("plots_half", "2f4"),  # plots of the terrain that there may be, from its middle to its edges

@@ -5,6 +5,7 @@ from math import pi
 
 from ...components.arrays import Doubles
 from ...engine.declared.light import Light
+from .clouds import clouds_of
 from .color import linear, luminance
 from .sky import SUN, Sky, clear_air, sky_of
 from .sun import sun_at, to_sun, transmitted
@@ -23,9 +24,6 @@ twilight, by one of 25 000 (Seidelmann, Explanatory Supplement to the Astronomic
 
 DARKEST = 0.005
 """The least luminance of a white leaf that counts for that: it is that of night."""
-
-PALER = 0.45
-"""How much paler the sky's light is taken than it is, as eyes do and films that are balanced for shade."""
 
 BOUNCED = 0.05
 """What grass and air all around send back of the sun's light into its shadows."""
@@ -47,6 +45,9 @@ class Daylight:
     down: Doubles
     """Radiance of a white leaf under the whole sky."""
 
+    clouds: Doubles
+    """Radiance of a cloud's underside in full shade."""
+
     sky: Sky
     """The colours of the sky."""
 
@@ -64,13 +65,13 @@ def daylight(light: Light, /) -> Daylight:
 
 def daylight_under(light: Light, clear: Doubles, /) -> Daylight:
     """Return the light that a scene declares under the clear air that `clear_air` returns, exposed for it."""
-    sky = sky_of(light, clear)
     sun = SUN / pi * LEAF * light.strength * transmitted(sun_at(light)[1], light.turbidity) * linear(light.sun)
-    exposure = exposure_of(light, sun, sky.down)
-    shown = Sky(sky.map * exposure, sky.horizon * exposure, sky.down * exposure)
-    down = shown.down + PALER * (luminance(shown.down) - shown.down)
+    sky = sky_of(light, clear, sun)
+    exposure = exposure_of(light, sun * clouds_of(light.clouds).past, sky.down)
+    shown = Sky(sky.map * exposure, sky.horizon * exposure, sky.down * exposure, sky.clouds * exposure)
+    down = shown.down + BOUNCED * sun * exposure
     night = max(USUAL / max(_level(sun, sky.down), DARKEST), 1.0) ** LIT_NIGHT
-    return Daylight(to_sun(light), sun * exposure, down + BOUNCED * sun * exposure, shown, exposure, exposure * night)
+    return Daylight(to_sun(light), sun * exposure, down, shown.clouds, shown, exposure, exposure * night)
 
 
 def exposure_of(light: Light, sun: Doubles, down: Doubles, /) -> float:

@@ -62,7 +62,7 @@ def cloud_map(*, seed: int) -> NDArray[np.uint8]:
     random = np.random.default_rng([seed, 0x636C6F75])
     wave = np.fft.fftfreq(SIDE, 1.0 / SIDE)
     size = np.hypot(wave[:, None], wave[None])
-    amplitude = np.where(size > 0.0, np.maximum(size, 2.5) ** -1.9, 0.0) * np.exp(-((size / 70.0) ** 2))
+    amplitude = np.where(size > 0.0, np.maximum(size, 2.5) ** -1.75, 0.0) * np.exp(-((size / 120.0) ** 2))
     spectrum = amplitude * np.exp(2j * np.pi * random.random((SIDE, SIDE)))
     field = np.fft.ifft2(spectrum).real
     rank = np.empty(field.size)

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.light import Light
+from .clouds import clouds_of
 from .daylight import Daylight
 from .materials import apart, grain, pigment
 from .sun import sun_at
@@ -17,8 +18,8 @@ def shine(record: NDArray[np.void], declared: Light, light: Daylight, kinds: Seq
     """Write the light that is `declared`, and what it does to the kinds of grass."""
     row = record[0]
     row["sun"], row["sunlight"], row["skylight"] = light.direction, light.sun, light.down
-    row["cloud_cover"], row["haze_density"] = declared.clouds, 1.0 / declared.haze
-    row["exposure"], row["lamplight"] = light.exposure, light.lamplight
+    row["cloud_edge"], row["haze_density"] = clouds_of(declared.clouds).edge, 1.0 / declared.haze
+    row["exposure"], row["lamplight"], row["cloudlight"] = light.exposure, light.lamplight, light.clouds
     row["zenith"] = light.sky.map[-1].mean(axis=0)
     row["horizon"][:, :3] = light.sky.horizon
     row["toward_sun"] = toward_sun(declared)

@@ -10,6 +10,7 @@ import numpy as np
 from ...components.arrays import Doubles
 from ...engine.declared.light import Light
 from .air import FORWARD, HEIGHTS, from_all_sides, seen_in_rows
+from .clouds import Clouds, clouds_of, in_shade
 from .color import luminance, shown_as, srgb
 from .sun import sun_at
 
@@ -22,8 +23,14 @@ SUN = 5.0
 BRIGHTER = 2.0
 """How much brighter the sky is shown than it is beside the sun, as photographs are exposed that show both."""
 
+PALER = 0.45
+"""How much paler the sky's light is taken than it is, as eyes do and films that are balanced for shade."""
+
 LEAST = 1e-6
 """What counts as nothing: of radiance, and of the largest where ways to scatter are one, as under a sun overhead."""
+
+VEIL = 0.35
+"""How much of the clouds' light the air between them has overhead, of what they hide."""
 
 MEETS = 0.05
 """Sine of the elevation up to which the sky passes into the haze of the horizon."""
@@ -72,14 +79,24 @@ class Sky:
     down: Doubles
     """What it sends to level ground, as the radiance of an even sky that sends as much, shape (3,)."""
 
+    clouds: Doubles
+    """Of a cloud's underside in full shade, shape (3,)."""
 
-def sky_of(light: Light, clear: Doubles, /) -> Sky:
-    """Return the sky of a scene's light under clear air of `clear_air`, or one between the colours that it gives."""
-    map_ = clear * (SUN * BRIGHTER * min(light.strength, 1.0)) + NIGHT
-    map_ = _clouded(_given(map_, light), light.clouds)
-    ways = scattered(np.cos(_AZIMUTH) * cos(radians(sun_at(light)[1])))
+
+def sky_of(light: Light, clear: Doubles, sun: Doubles, /) -> Sky:
+    """Return the sky of a scene's light under clear air of `clear_air`, or one between the colours that it gives.
+
+    `sun` is the radiance of a white leaf in full sun, by which its clouds are lit.
+    """
+    map_, clouds = _given(clear * (SUN * BRIGHTER * min(light.strength, 1.0)) + NIGHT, light), clouds_of(light.clouds)
+    high, clear = radians(sun_at(light)[1]), _sent_down(map_)
+    shaded = in_shade(sun, sin(high), clear)
+    grey = sun * clouds.sunlit + shaded * clouds.shaded
+    map_ = _clouded(map_, grey, clouds)
+    ways = scattered(np.cos(_AZIMUTH) * cos(high))
     horizon = _horizon(map_[0], ways)
-    return Sky(map_ * (1.0 - _LOW) + ways @ horizon * _LOW, horizon, _sent_down(map_))
+    map_ = map_ * (1.0 - _LOW) + ways @ horizon * _LOW
+    return Sky(map_, horizon, clear * (1.0 - clouds.hides) + grey, shaded)
 
 
 def scattered(cosine: Doubles, /) -> Doubles:
@@ -95,8 +112,8 @@ def _horizon(colors: Doubles, ways: Doubles, /) -> Doubles:
 
     What is dark beside the sun counts as much as what is bright there: else it would come out as a colour of its own.
     """
-    weight = 1.0 / np.maximum(colors.T, LEAST)
-    fits = [np.linalg.lstsq(ways * by[:, None], part * by, rcond=LEAST)[0] for part, by in zip(colors.T, weight, strict=True)]
+    off = 1.0 / np.maximum(colors, LEAST)
+    fits = [np.linalg.lstsq(ways * off[:, [k]], colors[:, k] * off[:, k], rcond=LEAST)[0] for k in range(3)]
     return np.stack(fits, axis=1)
 
 
@@ -136,12 +153,15 @@ def _given(clear: Doubles, light: Light, /) -> Doubles:
     return np.broadcast_to((zenith * (1.0 - low) + horizon * low)[:, None], clear.shape)
 
 
-def _clouded(sky: Doubles, clouds: float, /) -> Doubles:
-    """Return the mean of a sky and its clouds, which are grey and brighter than the sky in the mean."""
-    part = 0.35 * clouds
-    return np.asarray(sky * (1.0 - part) + 1.3 * luminance(sky).mean() * part)
+def _clouded(sky: Doubles, grey: Doubles, clouds: Clouds, /) -> Doubles:
+    """Return what is seen between clouds: the lower, the more is it the clouds themselves, far off in the haze."""
+    if clouds.hides == 0.0:
+        return sky
+    part = clouds.hides * (VEIL + (1.0 - VEIL) * np.maximum((1.0 - _HEIGHT) ** 4, clouds.hides**4))[:, None, None]
+    return np.asarray(sky * (1.0 - part) + grey / clouds.hides * part)
 
 
 def _sent_down(sky: Doubles, /) -> Doubles:
-    """Return the mean over the hemisphere, weighted by the sine of the elevation: the ground is level."""
-    return np.asarray((sky * _WEIGHT).sum(axis=(0, 1)))
+    """Return the mean over the hemisphere, weighted by the sine of the elevation, and paler: the ground is level."""
+    sent = (sky * _WEIGHT).sum(axis=(0, 1))
+    return np.asarray(sent + PALER * (luminance(sent) - sent))

@@ -31,6 +31,10 @@ CAMERA = Camera((0.0, 9.0, 16.0), 0.0, -0.6, np.radians(40.0))
 NOON = "light: { azimuth: 90, elevation: 60 }\n"
 
 
+UP, BREEZE = 0.75, "wind: [{ kind: breeze, direction: 90, strength: 0.0, speed: 20, swing: 0 }]\n"
+"""An elevation to look up at [rad], and clouds that drift."""
+
+
 @pytest.fixture(scope="module")
 def room(ctx: moderngl.Context) -> Stage:
     return Stage(ctx, (240, 160))
@@ -139,8 +143,7 @@ def test_a_slope_away_from_the_sun_is_not_crushed(
 
 
 def test_clouds_cast_shadows_that_drift_with_the_breeze(room: Stage, load: Load) -> None:
-    breeze = "wind: [{ kind: breeze, direction: 90, strength: 0.0, speed: 20, swing: 0 }]\n"
-    clear, cloudy = load(SCENE + NOON + breeze), load(SCENE + NOON.replace("60 }", "60, clouds: 0.6 }") + breeze)
+    clear, cloudy = load(SCENE + NOON + BREEZE), load(SCENE + NOON.replace("60 }", "60, clouds: 0.6 }") + BREEZE)
     ratios = []
     for _ in range(6):
         ratios.append(bright(room.shot(cloudy, CAMERA)) / bright(room.shot(clear, CAMERA)))
@@ -148,6 +151,50 @@ def test_clouds_cast_shadows_that_drift_with_the_breeze(room: Stage, load: Load)
             prairie.advance(4.0)
     means = [ratio.mean() for ratio in ratios]
     assert max(means) - min(means) > 0.05
+
+
+def sky_over(room: Stage, load: Load, clouds: float, *, up: float = UP) -> Picture:
+    """What is seen of the sky over a noon, by rows from the top, shape (n, 3)."""
+    prairie = load(SCENE + NOON.replace("60 }", f"60, clouds: {clouds} }}"))
+    return room.shot(prairie, Camera((0.0, 2.0, 0.0), 0.0, up, np.radians(50.0))).reshape(-1, 3)
+
+
+def test_f5_an_overcast_sky_is_grey_all_over_down_to_the_horizon(room: Stage, load: Load) -> None:
+    for up in (0.45, 1.3):
+        sky, clear = sky_over(room, load, 1.0, up=up), sky_over(room, load, 0.0, up=up)
+        assert np.ptp(sky, axis=1).max() < 0.35 * np.ptp(clear, axis=1).max()
+        assert np.ptp(bright(sky[None])) < 30.0
+
+
+def test_f5_under_an_overcast_sky_nothing_casts_a_shadow(room: Stage, load: Load) -> None:
+    prairie = load(SCENE + NOON.replace("60 }", "60, clouds: 1 }"))
+    before = bright(room.shot(prairie, CAMERA))
+    prairie.world.create(Shade((4.0 / np.tan(np.radians(60.0)), 4.0, 0.0), 1.5))
+    assert np.abs(bright(room.shot(prairie, CAMERA)) - before).max() <= 1.0
+
+
+def test_f5_clouds_have_soft_edges_and_dark_undersides(room: Stage, load: Load) -> None:
+    sky, clear = sky_over(room, load, 0.4), sky_over(room, load, 0.0)
+    blue = np.ptp(sky, axis=1) / np.ptp(clear, axis=1)
+    clouds, edges = bright(sky[None])[0][blue < 0.1], (blue > 0.15) & (blue < 0.85)
+    assert np.percentile(clouds, 10) < 0.8 * np.percentile(clouds, 90)
+    assert edges.mean() > 0.15
+
+
+def test_f10_the_sun_is_hidden_where_a_cloud_casts_its_shadow(ctx: moderngl.Context, load: Load) -> None:
+    """It is looked at from many places on the ground, and each is looked at from above."""
+    stage, light = Stage(ctx, (24, 24)), "azimuth: 90, elevation: 60, exposure: -4"
+    clear, cloudy = (load(f"{SCENE}{BREEZE}light: {{ {light}, clouds: {part} }}\n") for part in (0.0, 0.5))
+    sun = Camera((0.0, 1.0, 0.0), np.pi / 2.0, np.radians(60.0), np.radians(0.3))
+    ground = Camera((0.0, 9.0, 0.0), 0.0, -1.5, np.radians(6.0))
+    due = [stage.shot(clear, camera).mean() for camera in (sun, ground)]
+    seen = []
+    for _ in range(24):
+        seen.append([stage.shot(cloudy, camera).mean() for camera in (sun, ground)])
+        cloudy.advance(1.3)
+    disc, lit = (np.array(seen) / due).T
+    assert disc.min() < 0.35 < 0.9 < disc.max()
+    assert np.corrcoef(disc, lit)[0, 1] > 0.9
 
 
 def test_a_night_is_dark_and_not_black(room: Stage, load: Load) -> None:

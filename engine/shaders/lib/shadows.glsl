@@ -1,21 +1,9 @@
 // How much of the sun is seen from a place: past the terrain, clouds and bodies. A shadow of another sort joins `sun_seen`.
-#include "lib/frame.glsl"
-#include "lib/repeating.glsl"
+#include "lib/clouds.glsl"
 
-const float CLOUDS_AT = 450.0;  // height of the clouds [m]
-const float CLOUD_TAKES = 0.75;  // what a dense cloud takes of the sun's light
-const float CLOUD_EDGE = 0.25;  // how much denser than its edge a dense cloud is
-const float LOWEST_RAY = 0.1;  // sine of the sun's elevation that counts at least, for where its ray meets the clouds
 const float FAR_OFF = 1e3;  // how far off a body's middle a ray goes that does not come by it, in radii
 const float SHADOW_EDGE = 0.12;  // half the width of a body's shadow's edge, of its radius, where it is at the body
 const float SHADOW_SOFTER = 0.01;  // how much more that is for each radius that the shadow falls
-
-// How much of the sun is seen past the clouds, from a place.
-float past_clouds(vec3 place) {
-    vec2 at = place.xz + sun.xz * (CLOUDS_AT / max(sun.y, LOWEST_RAY));
-    float dense = textureLod(repeating, at / CLOUDS_SIDE - clouds_drift, 0.0).r;
-    return 1.0 - CLOUD_TAKES * smoothstep(1.0 - cloud_cover, 1.0 + CLOUD_EDGE - cloud_cover, dense);
-}
 
 // How the sun's ray past a place comes by a body: from its middle, in radii, and how soft the shadow's edge is; far off where
 // the body stands behind. A body is a ball that is stretched or pressed flat along an axis: it is drawn out until it is one,
@@ -48,7 +36,7 @@ float past_bodies(vec3 place, int but) {
 
 // How much of the sun is seen from a place past all but bodies, `past` of it past the terrain.
 float sun_past(vec3 place, float past) {
-    return cloud_cover > 0.0 ? past * past_clouds(place) : past;
+    return cloud_edge < 1.0 ? past * past_clouds(place) : past;
 }
 
 // How much of it is seen past these too.

@@ -17,7 +17,7 @@ from tallgrass.systems.light.sun import sun_at, to_sun, transmitted
 
 
 def the_sky(light: Light) -> Sky:
-    return sky_of(light, clear_air(sun_at(light)[1], light.turbidity))
+    return sky_of(light, clear_air(sun_at(light)[1], light.turbidity), np.zeros(3))
 
 
 lights = st.builds(
