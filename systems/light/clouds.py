@@ -90,5 +90,5 @@ def clouds_of(cover: float, /) -> Clouds:
     shows = before[:-1] * (1.0 - open_**4)
     sunlit = SUNLIT * (0.5 + 0.5 * open_) * np.clip(1.0 - above / SHADES, 0.0, 1.0) ** 4
     shaded = 1.0 + HIGHER * _HEIGHTS
-    parts = (float(each.sum(axis=0).mean()) for each in (shows, shows * sunlit, shows * shaded))
-    return Clouds(edge, *parts, past=least + (1.0 - least) * float(before[2].mean()))
+    hides, sun, sky = (float(each.sum(axis=0).mean()) for each in (shows, shows * sunlit, shows * shaded))
+    return Clouds(edge, hides, sun, sky, least + (1.0 - least) * float(before[2].mean()))

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import moderngl
 import numpy as np
@@ -117,7 +118,7 @@ def test_f5_a_scene_that_is_read_again_keeps_the_light_of_a_game_until_its_own_c
 
 
 @pytest.mark.parametrize("wrong", [{"brightness": 2.0}, {"elevation": 120.0}, {"hour": "noon"}])
-def test_a_light_that_is_none_is_refused(load: Load, ridge: Path, wrong: dict[str, object]) -> None:
+def test_a_light_that_is_none_is_refused(load: Load, ridge: Path, wrong: dict[str, Any]) -> None:
     prairie = load(SCENE.format(heights=ridge, light="elevation: 40"))
     with pytest.raises(ValueError, match=next(iter(wrong))):
         prairie.shine(**wrong)
