@@ -6,7 +6,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ....components.arrays import Mask
+from ....components.arrays import Floats, Mask
 from ....engine.gl.functions import NUMBERS, functions_of
 from ....engine.gl.mipmaps import stack_for
 from ....engine.gl.rasteriser import anisotropy
@@ -15,9 +15,10 @@ from ....engine.terrain.record import Terrain
 from ...frame.block import FrameBlock, by_kind, joined
 from ...grow.record import Growth
 from ...space.canopy import canopy_height
-from ...space.cone import beyond_cone
+from ...space.cone import HALF_DIAGONAL, beyond_cone
 from .grow import carpet_of
 from .heads import any_heads, bears_heads, profile_of
+from .rims import Rims
 from .textures import image_count
 
 Tiles = NDArray[np.float64]
@@ -58,13 +59,16 @@ SPREAD = 6.0
 that is split must lie inside it."""
 
 
-def tiles_around(terrain: Terrain, place: tuple[float, float], /, *, spacing: float, about: float = 0.0) -> Tiles:
+def tiles_around(
+    terrain: Terrain, place: tuple[float, float], /, *, spacing: float, about: float = 0.0, rims: Rims | None = None
+) -> Tiles:
     """Return the tiles that cover a terrain and what lies `BEYOND`, for who is near a place (x, z) [m], shape (n, 4).
 
     "Near" is at most `about` [m] away, which may be a third of the finest tiles' side. A tile of `GRID` quads is split
-    in four while it is nearer than `SPREAD` sides of its quarters, down to `spacing` [m] between grid points. Its row
-    is what `TILE` says.
+    in four while it is nearer than `SPREAD` sides of its quarters, down to `spacing` [m] between grid points. At `rims`
+    tiles count as nearer, and are split as often as it takes for each cell of the terrain. A row is what `TILE` says.
     """
+    more = 0 if rims is None else max(int(np.ceil(np.log2(spacing / terrain.cell))), 0)
     side = spacing * GRID
     edge, size = np.asarray(terrain.origin) - BEYOND, np.asarray(terrain.size) + 2.0 * BEYOND
     levels = max(0, int(np.ceil(np.log2(max(size) / side))))
@@ -73,12 +77,15 @@ def tiles_around(terrain: Terrain, place: tuple[float, float], /, *, spacing: fl
     counts = np.ceil((edge + size - low) / side).astype(int)
     corners = low + side * np.stack(np.meshgrid(*map(np.arange, counts)), -1).reshape(-1, 2)
     done: list[Tiles] = []
-    for level in range(levels, -1, -1):
+    for level in range(levels, -1 - more, -1):
         corners = corners[((corners < edge + size) & (corners + side > edge)).all(axis=1)]
-        near = _nearest(corners, side, place) - about
-        split = (near < SPREAD * side / 2) if level else np.zeros(len(corners), np.bool_)
-        kept = corners[~split]
-        done.append(np.column_stack([kept, np.full(len(kept), side / GRID), np.full(len(kept), SPREAD * side)]))
+        near = _nearest(corners, side, place) - about if level > 0 else np.full(len(corners), np.inf)
+        if rims is not None:
+            reach = HALF_DIAGONAL * side + about
+            near = np.minimum(near, rims.near_to(corners + 0.5 * side, np.array(place)) - reach)
+        split = (near < SPREAD * side / 2) if level > -more else np.zeros(len(corners), np.bool_)
+        kept, far = corners[~split], SPREAD * side * (1.0 if level >= 0 else -1.0)
+        done.append(np.column_stack([kept, np.full(len(kept), side / GRID), np.full(len(kept), far)]))
         side /= 2.0
         corners = (corners[split][:, None, :] + side * np.array([[0, 0], [1, 0], [0, 1], [1, 1]])).reshape(-1, 2)
     return np.concatenate(done)
@@ -97,10 +104,16 @@ def tiles_seen(tiles: Tiles, eye: tuple[float, float, float], cone: tuple[float,
 
 
 def ground_tiles(
-    terrain: Terrain, eye: tuple[float, float, float], cone: tuple[float, float], /, *, spacing: float
+    terrain: Terrain,
+    eye: tuple[float, float, float],
+    cone: tuple[float, float],
+    /,
+    *,
+    spacing: float,
+    rims: Rims | None = None,
 ) -> NDArray[np.void]:
     """Return the tiles that cover what is seen of the ground, records of `TILE`, far to near."""
-    return tiles_seen(tiles_around(terrain, (eye[0], eye[2]), spacing=spacing), eye, cone)
+    return tiles_seen(tiles_around(terrain, (eye[0], eye[2]), spacing=spacing, rims=rims), eye, cone)
 
 
 def finest_spacing(terrain: Terrain, patch: float, /) -> float:
@@ -205,6 +218,7 @@ class GroundPainter:
         self.shares = ctx.texture((side, side), 1, alignment=1)
         self.shares.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self.units = units
+        self._ctx, self.rims = ctx, ctx.texture((1, 1), 1, dtype="f4")
         corners, indices = _grid()
         self.grid = ctx.buffer(corners), ctx.buffer(indices)
         self.streams = tuple(Stream(ctx, TILE) for _ in range(5))
@@ -266,6 +280,14 @@ class GroundPainter:
         for stream, chosen in zip(self.streams, (~(laid | edged), even, even, edged, laid & edged), strict=True):
             stream.write(tiles[chosen])
 
+    def write_rims(self, far: Floats) -> None:
+        """Send how far the ground is from the next rim of a cliff (rows, columns) [m]."""
+        if self.rims.size != far.shape[::-1]:
+            self.rims.release()
+            self.rims = self._ctx.texture(far.shape[::-1], 1, dtype="f4")
+            self.rims.repeat_x = self.rims.repeat_y = False
+        self.rims.write(np.ascontiguousarray(far))
+
     def raise_carpet(self, part: float, *, outline: float = 0.0) -> None:
         """Lay the carpet at this part of the height of the grass, and along outlines at that of `outline`, if any."""
         self._tell("outline", outline / part)
@@ -280,9 +302,10 @@ class GroundPainter:
         self._tell("beyond", beyond)
         self._tell("window", (int(centre[0]), int(centre[1]), self.shares.width // 2))
 
-    def _use(self) -> None:
+    def use(self) -> None:
         """Bind what all of it reads."""
         self.shares.use(self.units["shares"])
+        self.rims.use(self.units["rims"])
         if self._block.earth:
             gl = functions_of(self.shares.ctx)
             gl.glActiveTexture(NUMBERS["TEXTURE0"] + self.units["earth"])
@@ -290,7 +313,7 @@ class GroundPainter:
 
     def draw_bare(self, *, alone: bool) -> int:
         """Draw the bare ground, where it comes `alone` that of the carpet too; return the number of draw calls."""
-        self._use()
+        self.use()
         rare = 2 if self._is_lamplit else self._is_cut
         calls = self.bare[rare].draw() + self.edged[0].draw()
         if alone:
@@ -302,7 +325,7 @@ class GroundPainter:
 
     def draw_under(self) -> int:
         """Draw what lies under the carpet; return the number of draw calls."""
-        self._use()
+        self.use()
         return self.under[self._is_cut].draw() + self.edged[1].draw()
 
     def draw_carpet(self, part: int = WHOLE) -> int:
@@ -317,4 +340,4 @@ class GroundPainter:
         """Give everything back."""
         every = *self._layers, *self.covered
         release_all(*(layer.array for layer in every), *(layer.program for layer in self._layers))
-        release_all(*self.streams, *self.grid, self.shares)
+        release_all(*self.streams, *self.grid, self.shares, self.rims)

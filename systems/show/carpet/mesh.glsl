@@ -1,19 +1,42 @@
 // The mesh of the ground: square tiles whose grids slide into the next coarser one with distance, so that tiles of different
 // fineness meet without cracks. One instance is one tile.
 #include "lib/terrain.glsl"
+#include "systems/show/carpet/rims.py"
 
 in vec2 corner;  // of the grid, 0 .. GRID
-in vec4 tile;    // x, z [m]; spacing [m]; distance at which the next coarser spacing has taken over [m]
+in vec4 tile;    // x, z [m]; spacing [m]; distance at which the next coarser spacing has taken over [m], below 0 that from rims alone
+
+uniform sampler2D rims;  // over the terrain: how far the next rim of a cliff is [m]
 
 const float SLIDES = 0.75;  // part of that distance from which on the grid slides
 
 float spaced;  // how far apart grid points are there [m]: the same from both sides where tiles meet, as what it makes out
 
+const vec2 ON_RIM = vec2(2.0, 4.0);  // how far off a rim grid points lie on the terrain's own samples, and no more, in cells
+
+// How far off a place counts as: at rims, from which grass stands out against the sky, as nearer than it is.
+float far_off(vec2 at, float from_rim) {
+    float away = distance(at, eye.xz), at_rim = (NEARER * away + from_rim) / (1.0 + NEARER);
+    return tile.w < 0.0 ? at_rim : min(away, at_rim);
+}
+
+// The nearest place on the terrain's samples, where that is near enough for the next grid point to reach all others.
+vec2 on_samples(vec2 at) {
+    vec2 sample_at = terrain_origin + terrain_cell * floor((at - terrain_origin) / terrain_cell + 0.5), off = sample_at - at;
+    return at + off * vec2(lessThanEqual(abs(off), vec2(0.5 * spaced)));
+}
+
 vec2 on_mesh() {
     vec2 at = tile.xy + corner * tile.z;
-    float slide = clamp((distance(at, eye.xz) / tile.w - SLIDES) / (1.0 - SLIDES), 0.0, 1.0);
+    float from_rim = textureLod(rims, (at - terrain_origin) / terrain_size, 0.0).r;
+    float slide = clamp((far_off(at, from_rim) / abs(tile.w) - SLIDES) / (1.0 - SLIDES), 0.0, 1.0);
     spaced = tile.z * (1.0 + slide);
-    return clamp(at - fract(corner * 0.5) * 2.0 * tile.z * slide, mesh_low, mesh_high);
+    at -= fract(corner * 0.5) * 2.0 * tile.z * slide;
+    if (from_rim < ON_RIM.y * terrain_cell) {
+        from_rim = textureLod(rims, (at - terrain_origin) / terrain_size, 0.0).r;
+        at = mix(on_samples(at), at, smoothstep(ON_RIM.x, ON_RIM.y, from_rim / terrain_cell));
+    }
+    return clamp(at, mesh_low, mesh_high);
 }
 
 vec3 on_ground(vec2 at) {

@@ -41,6 +41,7 @@ from .ground import (
     within,
 )
 from .pool import CarpetKept
+from .rims import Rims
 from .textures import bent_texture, carpet_texture
 
 TilesSeen = tuple[NDArray[np.void], Mask, Mask]
@@ -59,6 +60,7 @@ class CarpetPainter(RepresentationPainter):
         self._units = canvas.units
         self._around, self._seen = Remembered[Tiles](), Remembered[TilesSeen]()
         self._edges, self._tallest = Edges(), 0.0
+        self._rims, self._rims_sent = Rims(ground.terrain), -1
         self._laid = Remembered[Floats]()
         self.images, self.bents = carpet_texture(canvas.ctx, growths), bent_texture(canvas.ctx, growths)
         self.air = Air(canvas, side)
@@ -70,6 +72,8 @@ class CarpetPainter(RepresentationPainter):
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Draw on this ground from now on."""
         del record
+        if grown.ground.terrain is not self._rims.terrain:
+            self._rims, self._rims_sent = Rims(grown.ground.terrain), -1
         self._ground, self._tallest = grown.ground, grown.tallest
         self._spacing = finest_spacing(grown.ground.terrain, grown.ground.patch)
 
@@ -112,12 +116,23 @@ class CarpetPainter(RepresentationPainter):
         a game has taken the grass away there is none.
         """
         patches, viewer = outlook.patches, outlook.viewer
+        self._follow_rims()
         bare_to = self._bare_to(patches, cover)
         asked = outlook.noted(Asked, Asked())
         goes_on, self._deep = "beyond" in asked.parts, asked.is_deep
         mown = outlook.noted(Mown, None)
         changes = 0 if mown is None else mown.strokes, self._ground.density.sown.count
-        made_of = self._ground, viewer.eye, viewer.cone, viewer.centre, cover is None, bare_to, goes_on, changes
+        made_of = (
+            self._ground,
+            viewer.eye,
+            viewer.cone,
+            viewer.centre,
+            cover is None,
+            bare_to,
+            goes_on,
+            changes,
+            self._rims.version,
+        )
         tiles, is_new = self._seen.of(
             viewer.name,
             made_of,
@@ -149,8 +164,15 @@ class CarpetPainter(RepresentationPainter):
         """Return the tiles all around: the same as long as the eye stays about where it is."""
         step, terrain = STEP * self._spacing * GRID, self._ground.terrain
         place = round(viewer.eye[0] / step) * step, round(viewer.eye[2] / step) * step
-        make = partial(tiles_around, terrain, place, spacing=self._spacing, about=step * HALF_DIAGONAL)
-        return self._around.of(viewer.name, (self._ground, place), make)[0]
+        rims = self._rims if self._rims.any else None
+        make = partial(tiles_around, terrain, place, spacing=self._spacing, about=step * HALF_DIAGONAL, rims=rims)
+        return self._around.of(viewer.name, (self._ground, place, self._rims.version), make)[0]
+
+    def _follow_rims(self) -> None:
+        self._rims.follow()
+        if self._rims_sent != self._rims.version:
+            self._rims_sent = self._rims.version
+            self.ground.write_rims(self._rims.far)
 
     def _bare_to(self, patches: PatchTable, cover: Floats | None) -> int:
         """Return the discrete distance up to which there is no carpet: it is nearer than always while ranges are."""
@@ -162,7 +184,8 @@ class CarpetPainter(RepresentationPainter):
 
     def lay_everywhere(self, outlook: Outlook, /, *, height: float) -> None:
         """Send a carpet that lies everywhere, at this part of the height of the grass."""
-        tiles = ground_tiles(self._ground.terrain, outlook.viewer.eye, outlook.viewer.cone, spacing=self._spacing)
+        viewer, rims = outlook.viewer, self._rims if self._rims.any else None
+        tiles = ground_tiles(self._ground.terrain, viewer.eye, viewer.cone, spacing=self._spacing, rims=rims)
         self.ground.write(tiles, np.ones(len(tiles), np.bool_), np.zeros(len(tiles), np.bool_))
         self._seen.lose()
         self._laid.lose()
@@ -187,6 +210,7 @@ class CarpetPainter(RepresentationPainter):
         """Draw the carpet; return the number of draw calls."""
         target.depth_mask = True
         self.images.use(self._units["images"])
+        self.ground.use()
         self.air.use()
         self.bents.use(self._units["bents"])
         if not self._deep:

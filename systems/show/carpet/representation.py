@@ -28,7 +28,7 @@ class CarpetRepresentation(Representation):
     name: ClassVar[str] = "carpet"
     label: ClassVar[str] = "2D carpet"
     color: ClassVar[Color] = (0.72, 0.45, 0.95)
-    samplers: ClassVar[tuple[str, ...]] = ("images", "bents", "shares", "mean_air", "earth")
+    samplers: ClassVar[tuple[str, ...]] = ("images", "bents", "shares", "mean_air", "earth", "rims")
     asked: ClassVar[tuple[str, ...]] = ("air",)
     record: ClassVar[type | None] = Carpet
 

@@ -1,0 +1,94 @@
+"""Rims of cliffs: how far the ground is from the next one, so that its mesh is finer there."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....components.arrays import Doubles, Floats, Mask
+from ....engine.terrain.part import Part
+from ....engine.terrain.record import Terrain
+
+SHARP = 0.7
+"""By how much the slope falls off at a rim, from a cell of the terrain to the next [m/m]."""
+
+MOST = 256
+"""Squares along a side of the terrain at most in which rims are told apart."""
+
+NOWHERE = 1e6
+"""How far off a rim is where there is none [m]."""
+
+NEARER = 0.3
+"""What a metre from the eye counts at a rim, for how fine the mesh is there."""
+
+GLSL = {"NEARER": NEARER}
+
+
+class Rims:
+    """How far places are from the next rim of a terrain. Changes are followed: a rim that goes still counts."""
+
+    def __init__(self, terrain: Terrain) -> None:
+        self.terrain, self._changes = terrain, terrain.changes.count
+        rows, columns = terrain.heights.shape
+        each = -(-max(rows, columns) // MOST)
+        self._each, self._side = each, each * terrain.cell
+        self.far: Floats = np.full((1, 1), NOWHERE, np.float32)
+        """How far the middle of each square is from the next one at least [m], row 0 at the far edge (-z)."""
+        self.version = 0
+        """A number that is another one whenever that has changed."""
+        self._look(Part(0, 0, rows, columns))
+
+    def follow(self) -> None:
+        """Look where heights have changed."""
+        changes = self.terrain.changes
+        if self._changes == changes.count:
+            return
+        parts = changes.since(self._changes)
+        for part in [Part(0, 0, *self.terrain.heights.shape)] if parts is None else parts:
+            self._look(part)
+        self._changes = changes.count
+
+    def _look(self, part: Part) -> None:
+        rows, columns = self.terrain.heights.shape
+        top, left = max(part.row - 2, 0), max(part.column - 2, 0)
+        window = self.terrain.heights[top : part.row + part.rows + 2, left : part.column + part.columns + 2]
+        row, column = np.nonzero(_sharp(window, self.terrain.cell))
+        if not len(row):
+            return
+        squares = np.unique(np.column_stack([(row + top) // self._each, (column + left) // self._each]), axis=0)
+        if self.far.shape == (1, 1):
+            self.far = np.full((-(-rows // self._each), -(-columns // self._each)), NOWHERE, np.float32)
+        self.far = np.minimum(self.far, _far_from(squares, self.far.shape, self._side))
+        self.version += 1
+
+    @property
+    def any(self) -> bool:
+        """Whether there are any."""
+        return self.version > 0
+
+    def near_to(self, places: Doubles, eye: Doubles, /) -> Doubles:
+        """Return how far off places (n, 2) count as, seen from an eye (2,), for the mesh of rims (n,) [m]."""
+        rows, columns = self.far.shape
+        extent = self._side if (rows, columns) != (1, 1) else NOWHERE
+        at = np.clip((places - self.terrain.origin) / extent, 0.0, (columns - 1, rows - 1)).astype(np.intp)
+        away = np.linalg.norm(places - eye, axis=1)
+        return np.asarray((NEARER * away + self.far[at[:, 1], at[:, 0]] - self._side) / (1.0 + NEARER), np.float64)
+
+
+def _sharp(heights: Floats, cell: float) -> Mask:
+    found = np.zeros(heights.shape, np.bool_)
+    inner = np.s_[1:-1], np.s_[:, 1:-1]
+    for axis in (0, 1):
+        if heights.shape[axis] > 2:
+            found[inner[axis]] |= np.diff(heights, n=2, axis=axis) < np.float32(-SHARP * cell)
+    return found
+
+
+def _far_from(squares: NDArray[np.intp], shape: tuple[int, ...], side: float) -> Floats:
+    """Return how far squares (rows, columns) of a side [m] are from the nearest of some (n, 2) at least."""
+    rows, columns = (np.arange(count) for count in shape)
+    across = np.full(shape, np.inf, np.float32)
+    for row in np.unique(squares[:, 0]):
+        own = squares[squares[:, 0] == row, 1]
+        across[row] = np.abs(columns[:, None] - own).min(axis=1)
+    down = (rows[:, None] - rows).astype(np.float32) ** 2
+    square = np.stack([(across**2 + down[row][:, None]).min(axis=0) for row in rows])
+    return np.asarray(np.maximum(np.sqrt(square) - 1.5, 0.0) * side, np.float32)
