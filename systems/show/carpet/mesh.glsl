@@ -14,6 +14,12 @@ float spaced;  // how far apart grid points are there [m]: the same from both si
 
 const vec2 ON_RIM = vec2(2.0, 4.0);  // how far off a rim grid points lie on the terrain's own samples, and no more, in cells
 
+// How far off a rim is; beyond the terrain, at least as far as that is.
+float rim_at(vec2 at) {
+    vec2 inside = clamp(at, terrain_origin, terrain_origin + terrain_size);
+    return max(textureLod(rims, (inside - terrain_origin) / terrain_size, 0.0).r, distance(at, inside));
+}
+
 // How far off a place counts as: at rims, from which grass stands out against the sky, as nearer than it is.
 float far_off(vec2 at, float from_rim) {
     float away = distance(at, eye.xz), at_rim = (NEARER * away + from_rim) / (1.0 + NEARER);
@@ -28,12 +34,12 @@ vec2 on_samples(vec2 at) {
 
 vec2 on_mesh() {
     vec2 at = tile.xy + corner * tile.z;
-    float from_rim = textureLod(rims, (at - terrain_origin) / terrain_size, 0.0).r;
+    float from_rim = rim_at(at);
     float slide = clamp((far_off(at, from_rim) / abs(tile.w) - SLIDES) / (1.0 - SLIDES), 0.0, 1.0);
     spaced = tile.z * (1.0 + slide);
     at -= fract(corner * 0.5) * 2.0 * tile.z * slide;
     if (from_rim < ON_RIM.y * terrain_cell) {
-        from_rim = textureLod(rims, (at - terrain_origin) / terrain_size, 0.0).r;
+        from_rim = rim_at(at);
         at = mix(on_samples(at), at, smoothstep(ON_RIM.x, ON_RIM.y, from_rim / terrain_cell));
     }
     return clamp(at, mesh_low, mesh_high);

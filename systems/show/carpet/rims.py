@@ -29,7 +29,7 @@ class Rims:
         self.terrain, self._changes = terrain, terrain.changes.count
         rows, columns = terrain.heights.shape
         each = -(-max(rows, columns) // MOST)
-        self._each, self._side = each, each * terrain.cell
+        self._each = each
         self.far: Floats = np.full((1, 1), NOWHERE, np.float32)
         """How far the middle of each square is from the next one at least [m], row 0 at the far edge (-z)."""
         self.version = 0
@@ -56,7 +56,7 @@ class Rims:
         squares = np.unique(np.column_stack([(row + top) // self._each, (column + left) // self._each]), axis=0)
         if self.far.shape == (1, 1):
             self.far = np.full((-(-rows // self._each), -(-columns // self._each)), NOWHERE, np.float32)
-        self.far = np.minimum(self.far, _far_from(squares, self.far.shape, self._side))
+        self.far = np.minimum(self.far, _far_from(squares, self.far.shape, self._each * self.terrain.cell))
         self.version += 1
 
     @property
@@ -66,11 +66,14 @@ class Rims:
 
     def near_to(self, places: Doubles, eye: Doubles, /) -> Doubles:
         """Return how far off places (n, 2) count as, seen from an eye (2,), for the mesh of rims (n,) [m]."""
+        low = np.array(self.terrain.origin)
+        inside = np.clip(places, low, low + self.terrain.size)
         rows, columns = self.far.shape
-        extent = self._side if (rows, columns) != (1, 1) else NOWHERE
-        at = np.clip((places - self.terrain.origin) / extent, 0.0, (columns - 1, rows - 1)).astype(np.intp)
+        side = np.divide(self.terrain.size, (columns, rows))
+        column, row = np.minimum((inside - low) / side, (columns - 1, rows - 1)).astype(np.intp).T
         away = np.linalg.norm(places - eye, axis=1)
-        return np.asarray((NEARER * away + self.far[at[:, 1], at[:, 0]] - self._side) / (1.0 + NEARER), np.float64)
+        far = np.maximum(self.far[row, column] - side.max(), np.linalg.norm(places - inside, axis=1))
+        return np.asarray((NEARER * away + far) / (1.0 + NEARER), np.float64)
 
 
 def _sharp(heights: Floats, cell: float) -> Mask:
@@ -91,4 +94,4 @@ def _far_from(squares: NDArray[np.intp], shape: tuple[int, ...], side: float) ->
         across[row] = np.abs(columns[:, None] - own).min(axis=1)
     down = (rows[:, None] - rows).astype(np.float32) ** 2
     square = np.stack([(across**2 + down[row][:, None]).min(axis=0) for row in rows])
-    return np.asarray(np.maximum(np.sqrt(square) - 1.5, 0.0) * side, np.float32)
+    return np.asarray(np.maximum(np.sqrt(square) - 2.0, 0.0) * side, np.float32)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from tallgrass.engine.gl.shaders import program
 from tallgrass.engine.gl.stream import release_all
+from tallgrass.engine.terrain.part import Part
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.systems.frame.block import FrameBlock
@@ -27,6 +28,7 @@ from tallgrass.systems.show.carpet.ground import (
     tiles_seen,
     within,
 )
+from tallgrass.systems.show.carpet.rims import NOWHERE, Rims
 from tallgrass.systems.site import Site
 
 Laid = Callable[..., Site]
@@ -134,13 +136,20 @@ def corners(ctx: moderngl.Context, laid: Laid, record_of: RecordOf) -> Iterator[
         "heights": height_texture(ctx, site.ground.terrain),
         "lie": laid_over(ctx, np.full((4, 4, 4), 128, np.uint8)),
         "density": density_texture(ctx, site.ground.density),
+        "rims": ctx.texture((1, 1), 1, np.full(1, NOWHERE, np.float32).tobytes(), dtype="f4"),
     }
     made, block = program(ctx, "systems/show/carpet/ground.vert", None, varyings=("place",)), FrameBlock(ctx)
     block.join(made)
     line = np.arange(GRID + 1, dtype=np.float32)
     grid = ctx.buffer(np.stack(np.meshgrid(line, line), -1).reshape(-1, 2))
 
-    def place(tiles: NDArray[np.void], eye: tuple[float, float, float]) -> NDArray[np.float32]:
+    def place(
+        tiles: NDArray[np.void], eye: tuple[float, float, float], rims: Rims | None = None
+    ) -> NDArray[np.float32]:
+        if rims is not None:
+            textures["rims"].release()
+            textures["rims"] = ctx.texture(rims.far.shape[::-1], 1, rims.far.tobytes(), dtype="f4")
+            textures["rims"].repeat_x = textures["rims"].repeat_y = False
         record["eye"] = eye
         block.write(record)
         for unit, (name, texture) in enumerate(textures.items()):
@@ -187,6 +196,52 @@ def test_t1_tiles_of_different_fineness_meet_without_cracks_for_all_who_stand_ab
             assert all(np.abs(mine - place).min() < 3e-3 for place in theirs)
             checked += len(theirs)
     assert checked > 3000
+
+
+@pytest.fixture(scope="module")
+def cliff(hills: Terrain) -> Rims:
+    """As if a rim went across the hills."""
+    x, z = ((np.arange(60) + 0.5) * side / 60 - side / 2 for side in hills.size)
+    rims = Rims(hills)
+    rims.far = np.maximum(np.abs(z[:, None] - 0.3 * x - 4.0) / 1.05 - 1.0, 0.0).astype(np.float32)
+    rims.version = 1
+    return rims
+
+
+@pytest.mark.parametrize("eye", [(0.3, 3.0, 0.7), (-31.0, 3.0, 17.0), (7.77, 3.0, -22.2)])
+def test_t1_tiles_meet_without_cracks_at_rims_of_cliffs_where_they_are_finer(
+    corners: Corners, hills: Terrain, cliff: Rims, eye: tuple[float, float, float]
+) -> None:
+    spacing = 2.5
+    tiles = ground_tiles(hills, eye, ALL_ROUND, spacing=spacing, rims=cliff)
+    assert tiles["tile"][:, 2].min() <= hills.cell < spacing
+    assert len(tiles) < 4 * len(ground_tiles(hills, eye, ALL_ROUND, spacing=spacing))
+    ways: dict[tuple[tuple[float, ...], ...], int] = {}
+    for tile in corners(tiles, eye, cliff):
+        for edge in borders(tile):
+            at = np.round(edge[:, ::2].astype(float), 2) + 0.0
+            for one, other in zip(map(tuple, at), map(tuple, at[1:]), strict=False):
+                if one != other:
+                    way = (min(one, other), max(one, other))
+                    ways[way] = ways.get(way, 0) + 1
+    inside = [count for way, count in ways.items() if np.abs(np.array(way)).max() < hills.size[0] / 2]
+    assert len(inside) > 500
+    assert set(inside) == {2}, "each stretch of a border is one of both tiles"
+
+
+def test_rims_are_found_where_the_ground_breaks_off_and_nowhere_else() -> None:
+    z, x = np.meshgrid(np.arange(101.0), np.arange(101.0), indexing="ij")
+    for heights, found in ((5.0 * np.sin(z / 15.0), False), (np.clip(60.0 - z, 0.0, 12.0) + 0.0 * x, True)):
+        rims = Rims(Terrain(heights.astype(np.float32), 1.0))
+        assert rims.any == found
+    away = rims.near_to(np.array([(0.0, z - 50.0) for z in (48.0, 60.0, 90.0)]), np.zeros(2))
+    assert away[0] < 2.0
+    assert away[2] > away[1] > away[0]
+    terrain = Terrain(np.zeros((101, 101), np.float32), 1.0)
+    flat = Rims(terrain)
+    terrain.put(Part(40, 40, 10, 10), np.full((10, 10), 5.0, np.float32))
+    flat.follow()
+    assert flat.any
 
 
 def test_t1_the_points_of_the_ground_lie_on_the_terrain_and_beyond_it_as_high_as_its_edge(
