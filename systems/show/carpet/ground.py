@@ -330,7 +330,7 @@ class GroundPainter:
 
     def draw_carpet(self, part: int = WHOLE) -> int:
         """Draw the carpet, or a part of it: its outlines let through what is behind; return the draw calls."""
-        self._use()
+        self.use()
         even = self.carpet[2 if self._is_lamplit or self.is_trodden else self._is_cut]
         for carpet in (even, self.edged[2]):
             carpet.program["part"] = part
