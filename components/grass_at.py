@@ -19,10 +19,10 @@ class GrassAt:
     """Its name; empty where nothing grows, n of them."""
 
     density: Floats
-    """Density in [0, 1] of each kind, as the scene declares it, shape (n, kinds)."""
+    """Density in [0, 1] of each kind, as the scene has it or as it was sown, shape (n, kinds)."""
 
     height: Floats
     """How high grass stands over the ground [m], cut, trodden and blown as it is; 0 where none does, shape (n,)."""
 
     cleared: Mask
-    """Whether a game has taken the grass of the patch away, shape (n,)."""
+    """Whether a game has taken all grass away that would grow there: by `clear`, or with the patch, shape (n,)."""

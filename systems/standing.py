@@ -6,7 +6,7 @@ import numpy as np
 
 from ..components.arrays import Floats
 from ..components.grass_at import GrassAt
-from ..engine.terrain.sample import density_at
+from ..engine.terrain.sample import density_at, painted_at
 from .around.clearing import Clearings
 from .grow.record import Postures
 from .mow.mown import Mown
@@ -27,15 +27,17 @@ def grass_at(site: Site, clearings: Clearings, mown: Mown, felt: Felt, place: Fl
     density = density_at(site.ground.density, place)
     grows = density >= PRESENT
     kind = np.where(grows.any(axis=0), density.argmax(axis=0), -1)
-    cleared = ~clearings.spare(cell_of(place, patch=site.ground.patch))
+    taken = ~clearings.spare(cell_of(place, patch=site.ground.patch))
     left, height = mown.at(place), np.zeros(len(place), np.float32)
     for number, growth in enumerate(site.growths):
-        here = np.flatnonzero(grows[number] & ~cleared)
+        here = np.flatnonzero(grows[number] & ~taken)
         if len(here):
             up = upright(growth.postures, np.hypot(*felt(place[here], number).T))
             height[here] = np.maximum(height[here], np.minimum(site.canopy[number], left[here]) * up)
+    bare = np.flatnonzero(~grows.any(axis=0))
+    taken[bare] |= (painted_at(site.ground.density, place[bare]) >= PRESENT).any(axis=0)
     names = [*site.scene.grass, ""]
-    return GrassAt(kind, tuple(names[number] for number in kind), np.ascontiguousarray(density.T), height, cleared)
+    return GrassAt(kind, tuple(names[number] for number in kind), np.ascontiguousarray(density.T), height, taken)
 
 
 def upright(postures: Postures, message: Floats, /) -> Floats:

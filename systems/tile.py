@@ -136,14 +136,17 @@ class Tile:
         outlook.heights = terrain.changes.count
 
     def _sow(self, outlook: Outlook) -> None:
-        sown, patches, patch = self.ground.density.sown, outlook.patches, self.ground.patch
+        sown, cells, patch = self.ground.density.sown, outlook.patches.cell, self.ground.patch
         changed = sown.since(outlook.sown)
-        squares = np.array([(patches.cell.min(axis=0), patches.cell.max(axis=0))])
         if changed is not None:
             ends = np.array([ends_of(part) for part in changed])
-            squares = np.unique(cell_of(ends + np.array([[-CELL], [CELL]], np.float32), patch=patch), axis=0)
-        for first, last in squares:
-            for kept in outlook.kept.values():
-                kept.planted += 1
-                kept.sow_on(first, last)
+            ends = cell_of(ends + np.array([[-CELL], [CELL]], np.float32), patch=patch)
+            low, high = cells.min(axis=0), cells.max(axis=0)
+            near = np.clip(ends[((ends[:, 1] >= low) & (ends[:, 0] <= high)).all(axis=1)], low, high)
+            squares = {(*first, *last) for first, last in near.tolist()}
+            found = {(i, j) for a, b, c, d in squares for i in range(a, c + 1) for j in range(b, d + 1)}
+            cells = np.array(sorted(found), np.int32).reshape(-1, 2)
+        for kept in outlook.kept.values():
+            kept.planted += 1
+            kept.sow_on(cells)
         outlook.sown = sown.count

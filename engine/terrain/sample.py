@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Floats, Mask
+from ...components.arrays import Floats
 from .plots import CELL
 from .record import Density, Terrain
 
@@ -77,36 +77,24 @@ def own_density_at(density: Density, kind: NDArray[np.intp], place: Floats, /) -
 
     It is what `density_at` says of that kind, and takes no longer where kinds are many.
     """
+    if not density.sown.any:
+        return _own_painted_at(density, kind, place)
+    on = density.sown.on(_inward(density, place))
+    result, rest = np.empty(len(place), np.float32), np.ones(len(place), np.bool_)
+    rest[on.which] = False
+    result[on.which] = density.sown.between(on, kind[on.which]) * _WHOLE
+    result[rest] = _own_painted_at(density, kind[rest], place[rest])
+    return result
+
+
+def _own_painted_at(density: Density, kind: NDArray[np.intp], place: Floats) -> Floats:
     flat, each = density.maps.reshape(-1), density.maps[0].size
     result = np.empty(len(place), np.float32)
     for block in _blocks(len(place)):
         at = _within_maps(density, place[block])
         far, near = _rows(flat, at._replace(corner=at.corner + kind[block] * each))
         result[block] = far + at.down * (near - far)
-    if density.sown.any:
-        on = density.sown.on(_inward(density, place))
-        result[on.which] = density.sown.between(on, kind[on.which]) * _WHOLE
     return result
-
-
-def sown_between(density: Density, low: Floats, high: Floats, /) -> tuple[Mask, Floats, Floats]:
-    """Return in which squares (n,) of the ground a game has sown or cleared anything, and the ends of densities there.
-
-    Squares lie between corners `low` and `high` (x, z) [m], (n, 2). The least and the greatest density that each kind
-    has are of shape (n, kinds); they hold where anything was sown.
-    """
-    count, kinds = len(low), len(density.maps)
-    touched, least, most = np.zeros(count, np.bool_), np.ones((count, kinds), np.float32), np.zeros((count, kinds))
-    if not density.sown.any:
-        return touched, least, most.astype(np.float32)
-    corners = np.stack([low, high, np.stack([low[:, 0], high[:, 1]], 1), np.stack([high[:, 0], low[:, 1]], 1)])
-    touched[np.unique(density.sown.on(corners.reshape(-1, 2)).which % count)] = True
-    for number in np.flatnonzero(touched).tolist():
-        for values in density.sown.within(low[number], high[number]):
-            if values is not None:
-                least[number] = np.minimum(least[number], values.min(axis=(0, 1)) * _WHOLE)
-                most[number] = np.maximum(most[number], values.max(axis=(0, 1)) * _WHOLE)
-    return touched, least, most.astype(np.float32)
 
 
 def painted_at(density: Density, place: Floats, /) -> Floats:

@@ -33,8 +33,8 @@ class Kept:
         `span` has its lowest and its highest height [m].
         """
 
-    def sow_on(self, first: Ints, last: Ints, /) -> None:
-        """Take note that something else grows on the cells from `first` to `last`, each (i, j)."""
+    def sow_on(self, cells: Ints, /) -> None:
+        """Take note that something else grows on these cells (n, 2)."""
 
     def lose(self) -> None:
         """Take note that all entities are gone."""

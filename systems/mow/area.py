@@ -1,6 +1,6 @@
 """Areas of the ground: how far places are from a footprint or a road, and how much of a cell lies under it."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from itertools import pairwise
 
@@ -25,6 +25,9 @@ Change = Callable[[Values, Floats], Values]
 
 Stretches = Sequence[int] | None
 """The numbers of some stretches of a road, from one place of its line to the next; None are all."""
+
+_FEW = 12
+"""Plots whose cells are asked for at once."""
 
 _WITHIN = -1e9
 """How far outside cells count that lie well within an area [m]."""
@@ -71,10 +74,12 @@ def stroke(
 
     Where all well within it become `alike` whatever they were, (1, 1, ...), it is faster to be told.
     """
-    for part, near in _reached(plots, area, pose, max(beyond, least)):
-        low, high = ends_of(part)
-        half = float(np.hypot(*(high - low))) / 2.0
-        off = float(beside(area, pose, ((low + high) / 2.0)[None], least=least, near=near)[0])
+    reached = _reached(plots, area, pose, max(beyond, least))
+    if isinstance(area, Footprint) and 1 < len(reached) <= _FEW:
+        _few(plots, area, pose, change, untouched, [part for part, _ in reached], beyond, least)
+        return
+    for (part, near), off in zip(reached, _off(area, pose, reached, least), strict=True):
+        half = np.hypot(part.rows, part.columns) * (CELL / 2.0)
         if off - half > beyond:
             continue
         if off + half < -CELL:
@@ -88,39 +93,65 @@ def stroke(
         plots.put(part, partial(_changed, change, away), untouched)
 
 
+def _few(
+    plots: Plots, area: Footprint, pose: Pose, change: Change, untouched: Untouched, parts: list[Part],
+    beyond: float, least: float,
+) -> None:  # fmt: skip
+    """Do what `stroke` does on parts of few plots: to ask for all of their cells at once is faster."""
+    first, last = parts[0], parts[-1]
+    rows, columns = last.row + last.rows - first.row, last.column + last.columns - first.column
+    place = middles(Part(first.row, first.column, rows, columns)).reshape(-1, 2)
+    away = beside(area, pose, place, least=least).reshape(rows, columns)
+    for part in parts:
+        own = away[Part(part.row - first.row, part.column - first.column, part.rows, part.columns).slices]
+        if own.min() <= beyond:
+            plots.put(part, partial(_changed, change, own), untouched)
+
+
+def _off(area: Area, pose: Pose, reached: list[tuple[Part, Stretches]], least: float) -> list[float]:
+    """Return how far the middles of parts lie outside of an area [m]."""
+    middle = np.array([np.add(*ends_of(part)) / 2.0 for part, _ in reached], np.float32).reshape(-1, 2)
+    if isinstance(area, Footprint):
+        return [float(off) for off in beside(area, pose, middle, least=least)]
+    return [
+        float(beside(area, pose, here[None], least=least, near=near)[0])
+        for here, (_, near) in zip(middle, reached, strict=True)
+    ]
+
+
 def _changed(change: Change, away: Floats, before: Values) -> Values:
     return change(before, away)
 
 
-def _reached(plots: Plots, area: Area, pose: Pose, beyond: float) -> Iterator[tuple[Part, Stretches]]:
-    """Yield the cells that an area may reach, plot by plot, and which stretches of a road reach them."""
+def _reached(plots: Plots, area: Area, pose: Pose, beyond: float) -> list[tuple[Part, Stretches]]:
+    """Return the cells that an area may reach, plot by plot, and which stretches of a road reach them."""
     here = np.array([pose.x, pose.z], np.float32)
     if isinstance(area, Footprint):
         round_one = ((-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0))
         reach = area.radius + area.length / 2.0
         corners = area.corners or tuple((reach * x, reach * z) for x, z in round_one)
         places = pose.outside(np.array(corners, np.float32)) + here
-        for part in plots.parts(places.min(axis=0) - beyond, places.max(axis=0) + beyond):
-            yield part, None
-        return
+        return [(part, None) for part in plots.parts(places.min(axis=0) - beyond, places.max(axis=0) + beyond)]
     found, reach = dict[Part, set[int]](), area.width / 2.0 + beyond
     places = pose.outside(np.array(area.line, np.float32)) + here
     for number, (first, last) in enumerate(pairwise(places)):
         for part in plots.parts(np.minimum(first, last) - reach, np.maximum(first, last) + reach):
             row, column = part.row // CELLS * CELLS, part.column // CELLS * CELLS
             found.setdefault(Part(row, column, CELLS, CELLS), set()).add(number)
+    kept = list[tuple[Part, Stretches]]()
     for part, numbers in found.items():
         middle, half = np.add(ends_of(part)[0], SIDE / 2.0)[None], SIDE / np.sqrt(2.0)
         near = [n for n in sorted(numbers) if _from_line(places[n : n + 2], middle)[0] <= reach + half]
         if near:
-            yield part, near
+            kept.append((part, near))
+    return kept
 
 
 def _from_line(line: Floats, place: Floats, near: Stretches = None) -> Floats:
     """Return how far places (n, 2) are from the nearest of some stretches between places (m, 2) of a line, (n,)."""
     least = np.full(len(place), np.inf, np.float32)
     for number in range(len(line) - 1) if near is None else near:
-        to, way = place - line[number], line[number + 1] - line[number]
-        along = np.clip((to @ way) / max(float(way @ way), 1e-12), 0.0, 1.0)
-        np.minimum(least, np.hypot(to[:, 0] - along * way[0], to[:, 1] - along * way[1]), out=least)
-    return least
+        (x, z), (dx, dz) = (place - line[number]).T, line[number + 1] - line[number]
+        along = np.clip((x * dx + z * dz) / np.float32(max(float(dx * dx + dz * dz), 1e-12)), 0.0, 1.0)
+        np.minimum(least, (x - along * dx) ** 2 + (z - along * dz) ** 2, out=least)
+    return np.asarray(np.sqrt(least), np.float32)

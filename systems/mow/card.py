@@ -195,7 +195,8 @@ class PlotsPart(Part):
                 continue
             columns = 2 * plots.half[0]
             if changed is None:
-                which = np.arange(plots.index.size)
+                self._index[:, 2 * number : 2 * number + 2], which = 0, np.flatnonzero(plots.index >= 0)
+                touched = np.append(touched, (0, len(self._index) - 1))
             else:
                 each = ((part.row // CELLS + plots.half[1]) * columns + part.column // CELLS for part in changed)
                 which = np.unique(np.fromiter(each, np.intp) + plots.half[0])
@@ -233,10 +234,13 @@ class PlotsPart(Part):
 
 def _as_densities(pages: Bytes) -> list[Bytes]:
     """Return densities four kinds to a page."""
-    each = -(-pages.shape[-1] // 4)
-    texels = np.zeros((*pages.shape[:3], 4 * each), np.uint8)
-    texels[..., : pages.shape[-1]] = pages
-    made = [np.moveaxis(texels.reshape(*pages.shape[:3], each, 4), 3, 1).reshape(-1, CELLS, CELLS, 4)]
-    while len(made) < _LEVELS:
-        made.append(halved(made[-1]))
-    return [level.reshape(len(pages), each, *level.shape[1:]) for level in made]
+    each, made, level = -(-pages.shape[-1] // 4), list[Bytes](), pages
+    for number in range(_LEVELS):
+        if number:
+            level = halved(level)
+        texels = np.zeros((len(pages), each, *level.shape[1:3], 4), np.uint8)
+        for group in range(each):
+            own = level[..., 4 * group : 4 * group + 4]
+            texels[:, group, ..., : own.shape[-1]] = own
+        made.append(texels)
+    return made

@@ -40,6 +40,11 @@ def first_cut(prairie: Prairie) -> list[int]:
     return []
 
 
+def first_clear(prairie: Prairie) -> list[int]:
+    prairie.clear(Footprint(radius=4.0), pose=Pose(0.0, 10.0))
+    return []
+
+
 def first_presser(prairie: Prairie) -> list[int]:
     del prairie
     return [esper.create_entity(Presser(radius=0.5), Pose(0.0, 10.0))]
@@ -50,7 +55,7 @@ def first_shadow(prairie: Prairie) -> list[int]:
     return [esper.create_entity(Shade((0.0, 3.0, 10.0), 1.0))]
 
 
-@pytest.mark.parametrize("happens", [first_cut, first_presser, first_shadow])
+@pytest.mark.parametrize("happens", [first_cut, first_clear, first_presser, first_shadow])
 def test_nothing_that_happens_to_grass_for_the_first_time_makes_a_program(
     made: list[str], load: Load, stage: Stage, camera: Aim, happens: Callable[[Prairie], list[int]]
 ) -> None:

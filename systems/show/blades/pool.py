@@ -9,7 +9,7 @@ from ....components.arrays import Floats, Ints
 from ...around.kept import Kept
 from ...around.patches import NOWHERE
 from ...around.receivers import Receiving
-from ...space.window import between
+from ...space.window import between, window_rows
 
 BLADE = np.dtype(
     [
@@ -115,6 +115,7 @@ class BladesKept(Kept):
         on = between(stamp, first, last)
         ground[on] = np.stack([np.minimum(ground[on, 0], span[0]), np.maximum(ground[on, 1], span[1])], axis=1)
 
-    def sow_on(self, first: Ints, last: Ints, /) -> None:
+    def sow_on(self, cells: Ints, /) -> None:
         """Let the blades of these cells be reckoned anew once they are shown."""
-        self.pool.sown[between(self.pool.stamp, first, last), 0] += 1
+        slots = window_rows(cells, side=self.pool.side)
+        self.pool.sown[slots[(self.pool.stamp[slots] == cells).all(axis=1)], 0] += 1

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....components.arrays import Floats, Ints
-from ....engine.terrain.sample import own_density_at, sown_between
+from ....engine.terrain.sample import own_density_at
 from ...space.ground import PRESENT, Ground
 from .pool import StripPool
 
@@ -27,10 +27,6 @@ def plant_strips(
     own = own_density_at(ground.density, kind, np.tile(place.reshape(-1, 2), (len(kinds), 1)))
     dense = own.reshape(len(kinds), len(slots), -1)
     least, most = dense.min(axis=2).T, dense.max(axis=2).T
-    corner = cell.astype(np.float32) * np.float32(ground.patch)
-    sown, least_sown, most_sown = sown_between(ground.density, corner, corner + np.float32(ground.patch))
-    least[sown] = np.minimum(least[sown], least_sown[sown])
-    most[sown] = np.maximum(most[sown], most_sown[sown])
     grows = most > PRESENT
     pool.present[slots] = grows
     pool.least[slots] = np.where(grows, least, np.float32(1.0)).min(axis=1)

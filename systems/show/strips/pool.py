@@ -9,7 +9,7 @@ from ....components.arrays import Floats, Ints
 from ...around.kept import Kept
 from ...around.patches import NOWHERE
 from ...around.receivers import Receiving
-from ...space.window import between
+from ...space.window import window_rows
 from .grow import Strips
 from .stand import strip_edges
 
@@ -99,7 +99,9 @@ class StripsKept(Kept):
         super().__init__([Receiving(pool, name) for pool in pools])
         self.pools = pools
 
-    def sow_on(self, first: Ints, last: Ints, /) -> None:
+    def sow_on(self, cells: Ints, /) -> None:
         """Plant strips anew of patches on these cells."""
         for pool in self.pools:
-            pool.stamp[between(pool.stamp[:, :2], first, last), :2] = NOWHERE
+            rows = window_rows(cells, side=pool.side)
+            for slots in (rows, rows + pool.side * pool.side):
+                pool.stamp[slots[(pool.stamp[slots, :2] == cells).all(axis=1)], :2] = NOWHERE

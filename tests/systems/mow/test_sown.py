@@ -1,0 +1,184 @@
+"""Sowing and clearing: densities that a game changes, in cells of 0.2 m on a terrain of any size (F4)."""
+
+from math import inf, pi
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tallgrass.components.arrays import Floats
+from tallgrass.components.footprint import Footprint, Road
+from tallgrass.components.pose import HERE, Pose
+from tallgrass.engine.terrain.plots import CELL, CELLS, SIDE
+from tallgrass.engine.terrain.record import Density
+from tallgrass.engine.terrain.sample import density_at, own_density_at, painted_at
+from tallgrass.systems.mow.area import Area, beside
+from tallgrass.systems.mow.sown import carry_over, clear, sow
+
+PAINTED = np.random.default_rng(4).random((3, 6, 8)).astype(np.float32)
+PAINTED[:2] /= PAINTED[:2].sum(axis=0)
+AMONG = False, False, True
+"""Two kinds of grass that fill the ground between them, and flowers among both."""
+
+BOX = Footprint(corners=((-4.0, -3.0), (4.0, -3.0), (4.0, 3.0), (-4.0, 3.0)))
+BEND = Road(((-20.0, 0.0), (0.0, 0.0), (12.0, 16.0)), 3.0)
+AREAS = st.sampled_from([BOX, BEND, Footprint(radius=2.5), Footprint(radius=1.0, length=9.0)])
+POSES = st.builds(Pose, st.floats(-15.0, 15.0), st.floats(-15.0, 15.0), st.floats(-pi, pi))
+PLACES = np.random.default_rng(2).uniform(-40.0, 40.0, (4000, 2)).astype(np.float32)
+STEP = 1.0 / 255.0
+
+
+def meadow(size: float = 100.0) -> Density:
+    return Density(PAINTED, (size, size))
+
+
+def by_hand(area: Area, pose: Pose, place: Floats) -> Floats:
+    """How far places lie outside of an area, by points along its outline."""
+    own = pose.inside(place)
+    if isinstance(area, Road):
+        line = np.concatenate([np.linspace(a, b, 400) for a, b in zip(area.line[:-1], area.line[1:], strict=True)])
+        return np.hypot(*(own[:, None] - line[None]).transpose(2, 0, 1)).min(axis=1) - area.width / 2.0
+    off = np.abs(own) - (4.0, 3.0)
+    return np.asarray(np.hypot(*np.maximum(off, 0.0).T) + np.minimum(off.max(axis=1), 0.0), np.float32)
+
+
+@pytest.mark.parametrize("area", [BOX, BEND])
+def test_f4_how_far_off_an_area_is_a_road_bends_and_a_house_has_corners(area: Area) -> None:
+    pose = Pose(2.0, -3.0, 0.7)
+    np.testing.assert_allclose(beside(area, pose, PLACES), by_hand(area, pose, PLACES), atol=0.04)
+
+
+@settings(deadline=None, max_examples=25)
+@given(AREAS, POSES, st.floats(0.0, 4.0))
+def test_f4_what_is_cleared_is_bare_and_thins_out_over_its_verge(area: Area, pose: Pose, soft: float) -> None:
+    density = meadow()
+    before = density_at(density, PLACES)
+    clear(density, area, pose, soft=soft)
+    after, away = density_at(density, PLACES), beside(area, pose, PLACES)
+    due = np.clip(away / max(soft, 1e-3), 0.0, 1.0) * before
+    assert (after[:, away < -1.5 * CELL] == 0.0).all()
+    np.testing.assert_allclose(after[:, away > soft + 1.5 * CELL], before[:, away > soft + 1.5 * CELL], atol=0.02)
+    assert np.abs(after - due).max() < 2.0 * STEP + 1.5 * CELL / max(soft, 1.5 * CELL)
+
+
+@settings(deadline=None, max_examples=25)
+@given(
+    st.lists(
+        st.tuples(st.sampled_from([-1, 0, 1, 2]), AREAS, POSES, st.floats(0.0, 1.0), st.floats(0.0, 2.0)), max_size=5
+    )
+)
+def test_f4_kinds_of_grass_never_come_to_more_than_all_of_the_ground(
+    strokes: list[tuple[int, Area, Pose, float, float]],
+) -> None:
+    density = meadow()
+    for kind, area, pose, dense, soft in strokes:
+        if kind < 0:
+            clear(density, area, pose, soft=soft)
+        else:
+            sow(density, kind, AMONG, area, dense, pose, soft=soft)
+    found = density_at(density, PLACES)
+    assert found.min() >= 0.0
+    assert found[:2].sum(axis=0).max() <= 1.0 + 3.0 * STEP
+    kinds = np.arange(len(PLACES)) % 3
+    np.testing.assert_array_equal(own_density_at(density, kinds, PLACES), found[kinds, np.arange(len(PLACES))])
+
+
+def test_f4_what_is_sown_makes_others_give_way_and_flowers_take_no_ground() -> None:
+    density, inside = meadow(), np.abs(PLACES).max(axis=1) < 2.5
+    before = density_at(density, PLACES[inside])
+    sow(density, 0, AMONG, BOX, 0.75, HERE, soft=0.0)
+    found = density_at(density, PLACES[inside])
+    np.testing.assert_allclose(found[0], 0.75, atol=STEP)
+    np.testing.assert_allclose(found[1], np.minimum(before[1], 0.25), atol=2 * STEP)
+    np.testing.assert_allclose(found[2], before[2], atol=STEP)
+    sow(density, 2, AMONG, BOX, 1.0, HERE, soft=0.0)
+    np.testing.assert_allclose(density_at(density, PLACES[inside])[:2], found[:2], atol=STEP)
+
+
+def test_f4_on_10_km_only_plots_that_are_touched_take_room_and_those_all_alike_share_one_page() -> None:
+    density, there = meadow(10_000.0), Pose(-3000.0, 4100.0)
+    clear(density, Footprint(radius=300.0), there, soft=0.0)
+    plots = density.sown
+    touched = (plots.index >= 0).sum()
+    assert touched * SIDE**2 == pytest.approx(pi * 300.0**2, rel=0.1)
+    assert len(plots.written) < 0.25 * touched
+    place = np.array([(-3000.0, 4100.0), (-3299.0, 4100.0), (-3301.0, 4100.0)], np.float32)
+    assert (density_at(density, place).sum(axis=0) > 0.0).tolist() == [False, False, True]
+    pages = len(plots.written)
+    sow(density, 1, AMONG, Footprint(radius=1.0), 0.5, there, soft=0.0)
+    assert len(plots.written) == pages + len(plots.since(plots.count - 1) or ()), (
+        "a page that many have is not written on"
+    )
+
+
+def test_f4_a_stroke_tells_only_what_it_has_changed() -> None:
+    density = meadow()
+    clear(density, BOX, HERE, soft=0.0)
+    count = density.sown.count
+    clear(density, Footprint(radius=2.0), HERE, soft=0.0)
+    assert density.sown.count == count, "nothing grows there"
+    sow(density, 0, AMONG, Footprint(radius=1.0), 1.0, Pose(1.5, 1.5), soft=0.0)
+    (part,) = density.sown.since(count) or []
+    assert max(part.rows, part.columns) * CELL < 2.9
+
+
+def test_f4_what_was_sown_stays_where_all_else_is_painted_anew() -> None:
+    density = meadow()
+    clear(density, BEND, HERE, soft=1.0)
+    other = Density(PAINTED[[1, 0, 2]], (60.0, 40.0))
+    painted = painted_at(other, PLACES)
+    carry_over(density, other)
+    on = (np.abs(PLACES) < (29.0, 19.0)).all(axis=1)
+    away = beside(BEND, HERE, PLACES)
+    found = density_at(other, PLACES)
+    assert (found[:, on & (away < -1.5 * CELL)] == 0.0).all()
+    free = on & (away > 1.0 + 1.5 * CELL)
+    np.testing.assert_allclose(
+        found[:, free], painted[:, free], atol=0.02
+    )  # a plot's outermost cells go on to its edge
+
+
+def test_f4_a_map_is_saved_and_brought_back_to_the_bit() -> None:
+    one, other = meadow(), meadow()
+    clear(one, Footprint(radius=30.0), HERE, soft=3.0)
+    sow(one, 1, AMONG, BEND, 0.4, HERE, soft=0.0)
+    clear(other, BOX, Pose(20.0, 20.0), soft=0.0)
+    other.sown.resume(*one.sown.saved())
+    np.testing.assert_array_equal(density_at(other, PLACES), density_at(one, PLACES))
+    for each in (one, other):
+        sow(each, 0, AMONG, Footprint(radius=9.0), 0.3, Pose(4.0, 4.0), soft=1.0)
+    np.testing.assert_array_equal(density_at(other, PLACES), density_at(one, PLACES))
+    other.sown.resume(*meadow().sown.saved())
+    np.testing.assert_array_equal(density_at(other, PLACES), density_at(meadow(), PLACES))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error", "told"),
+    [
+        ((0.5, 0.5, HERE), TypeError, r"^grass is sown under a Footprint or a Road, not under 0\.5$"),
+        ((BOX, 1.5, HERE), ValueError, r"^grass is sown with a density from 0 to 1, not 1\.5$"),
+        ((BOX, "much", HERE), TypeError, r"^grass is sown with a density from 0 to 1, not 'much'$"),
+        ((BOX, 0.5, (0, 0)), TypeError, r"^a footprint lies at a Pose, not at \(0, 0\)$"),
+        ((BOX, 0.5, Pose(inf)), ValueError, "^a footprint lies at a pose of finite numbers"),
+    ],
+)
+def test_f4_what_cannot_be_sown_is_told_in_a_sentence(arguments: tuple[object, ...], error: type, told: str) -> None:
+    density = meadow()
+    with pytest.raises(error, match=told):
+        sow(density, 0, AMONG, *arguments, soft=0.0)  # type: ignore[misc, arg-type]
+    with pytest.raises(ValueError, match=r"^a verge is from 0 to 1000 m wide, not -1\.0$"):
+        clear(density, BOX, HERE, soft=-1.0)
+    assert not density.sown.any
+
+
+@pytest.mark.parametrize("line", [[(0.0, 0.0)], [], [(0.0, 0.0), (1.0, inf)], [(0.0, 0.0), (1e5, 0.0)]])
+def test_f4_what_is_no_road_is_told_in_a_sentence(line: list[tuple[float, float]]) -> None:
+    with pytest.raises(ValueError, match=r"^a road goes through 2 or more places \(x, z\) within 20000 m$"):
+        Road(tuple(line))
+    with pytest.raises(ValueError, match=r"^a road's width is from 0\.05 to 1000 m, not 0$"):
+        Road(((0.0, 0.0), (1.0, 0.0)), 0)
+
+
+def test_a_plot_ends_where_its_mip_maps_do() -> None:
+    assert CELLS & (CELLS - 1) == 0
