@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 from tallgrass import Footprint, Pose, Road
+from tallgrass.components.arrays import Bytes
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.mow.card import PlotsPart
 from tallgrass.systems.prairie import Prairie
@@ -65,13 +66,18 @@ def test_f4_where_all_is_cleared_stands_nothing(stage: Stage, load: Load, camera
 def test_f4_only_plots_that_were_touched_are_sent(
     stage: Stage, load: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    prairie, aim, sent = load(FLAT), camera(0.0, 7.0, 20.0, pitch=-22), []
+    prairie, aim, sent = load(FLAT), camera(0.0, 7.0, 20.0, pitch=-22), list[tuple[int, tuple[int, ...]]]()
     build(prairie)
     stage.shot(prairie, aim)
     assert prairie.painter is not None
     part = prairie.painter.part(PlotsPart)
     write = PlotsPart._write  # noqa: SLF001 - every rectangle goes through it
-    monkeypatch.setattr(PlotsPart, "_write", lambda *given: (sent.append(given[2:]), write(*given)))
+
+    def noted(part: PlotsPart, texels: Bytes, level: int, viewport: tuple[int, int, int, int]) -> None:
+        sent.append((level, viewport))
+        write(part, texels, level, viewport)
+
+    monkeypatch.setattr(PlotsPart, "_write", noted)
     prairie.clear(Footprint(radius=0.5), pose=Pose(6.0, 6.0))
     stage.shot(prairie, aim)
     assert [(level, across * down) for level, (_, _, across, down) in sent] == [
@@ -89,9 +95,10 @@ def test_f4_nobody_pays_for_sowing_where_nothing_was_sown(stage: Stage, load: Lo
     assert prairie.painter is not None
     assert prairie.painter.part(PlotsPart).texture.size == (1, 1)
     prairie.release()
-    for stroke in (lambda: prairie.sow("tall", ALL, 1.0), lambda: prairie.clear(ALL)):
-        with pytest.raises(RuntimeError, match="this prairie has been released"):
-            stroke()
+    with pytest.raises(RuntimeError, match="this prairie has been released"):
+        prairie.sow("tall", ALL, 1.0)
+    with pytest.raises(RuntimeError, match="this prairie has been released"):
+        prairie.clear(ALL)
 
 
 def test_f4_a_scene_read_again_keeps_what_was_sown(stage: Stage, load: Load, camera: Aim) -> None:
@@ -112,7 +119,7 @@ def test_n5_a_village_a_crater_and_a_field_are_loaded_in_another_process_to_the_
     program, pictures = Path(__file__).with_name("village_program.py"), []
     for how in ("make", "load"):
         picture = tmp_path / f"{how}.npy"
-        command = [sys.executable, "-W", "error", program, tmp_path / "state", picture, how]
+        command = [sys.executable, "-W", "error", str(program), str(tmp_path / "state"), str(picture), how]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stderr
         pictures.append(np.load(picture))

@@ -166,7 +166,7 @@ def test_f4_a_map_is_saved_and_brought_back_to_the_bit() -> None:
 def test_f4_what_cannot_be_sown_is_told_in_a_sentence(arguments: tuple[object, ...], error: type, told: str) -> None:
     density = meadow()
     with pytest.raises(error, match=told):
-        sow(density, 0, AMONG, *arguments, soft=0.0)  # type: ignore[misc, arg-type]
+        sow(density, 0, AMONG, *arguments, soft=0.0)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match=r"^a verge is from 0 to 1000 m wide, not -1\.0$"):
         clear(density, BOX, HERE, soft=-1.0)
     assert not density.sown.any
