@@ -38,7 +38,8 @@ def by_hand(area: Area, pose: Pose, place: Floats) -> Floats:
     own = pose.inside(place)
     if isinstance(area, Road):
         line = np.concatenate([np.linspace(a, b, 400) for a, b in zip(area.line[:-1], area.line[1:], strict=True)])
-        return np.hypot(*(own[:, None] - line[None]).transpose(2, 0, 1)).min(axis=1) - area.width / 2.0
+        away = np.hypot(*(own[:, None] - line[None]).transpose(2, 0, 1)).min(axis=1) - area.width / 2.0
+        return np.asarray(away, np.float32)
     off = np.abs(own) - (4.0, 3.0)
     return np.asarray(np.hypot(*np.maximum(off, 0.0).T) + np.minimum(off.max(axis=1), 0.0), np.float32)
 
