@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....components.arrays import Floats, Ints
+from ....engine.terrain.plots import CELL
 from ....engine.terrain.sample import own_density_at
 from ...space.ground import PRESENT, Ground
 from .pool import StripPool
@@ -36,10 +37,12 @@ def plant_strips(
 def _spread(cell: Ints, ground: Ground, margin: float) -> Floats:
     """Return places (x, z) all over cells (m, 2), and as far beyond as strips reach, shape (m, n, 2) [m].
 
-    They lie about as close as the samples of what is painted, so that no way across a patch is missed.
+    They lie about as close as the samples of what is painted, or the cells of what is sown, so that no way across a patch is missed.
     """
     _, rows, columns = ground.density.maps.shape
     finest = min(ground.density.size[0] / columns, ground.density.size[1] / rows)
+    if ground.density.sown.any:
+        finest = min(finest, CELL)
     count = int(np.clip(np.ceil((ground.patch + 2.0 * margin) / finest), 1, MOST_PLACES - 1)) + 1
     line = np.linspace(-margin, ground.patch + margin, count, dtype=np.float32)
     square = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2)
