@@ -65,10 +65,13 @@ def density_at(density: Density, place: Floats, /) -> Floats:
 
     It is what a game has sown or cleared there, and else what is painted.
     """
-    result = painted_at(density, place)
-    if density.sown.any:
-        on = density.sown.on(_inward(density, place))
-        result[:, on.which] = density.sown.between(on).T * _WHOLE
+    if not density.sown.any:
+        return painted_at(density, place)
+    on = density.sown.on(_inward(density, place))
+    result, rest = np.empty((len(density.maps), len(place)), np.float32), np.ones(len(place), np.bool_)
+    rest[on.which] = False
+    result[:, on.which] = density.sown.between(on).T * _WHOLE
+    result[:, rest] = painted_at(density, place[rest])
     return result
 
 

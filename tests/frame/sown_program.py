@@ -32,14 +32,17 @@ def main() -> None:
     random = np.random.default_rng(0)
     with headless_context() as ctx, stage(ctx) as drawn:
         prairie = Prairie.load(scene, ctx=ctx)
-        aim = drawn.matrices(looking(0.0, 2.0, 0.0, pitch=-5))
         drawn.begin()
-        prairie.draw(*aim)
-        prairie.prepare()
+        walked = 0.0
 
         def frame() -> None:
+            nonlocal walked
+            walked += 1.5 / 60.0
             prairie.advance(1.0 / 60.0)
-            prairie.draw(*aim)
+            prairie.draw(*drawn.matrices(looking(walked, 2.0, 0.0, pitch=-5)))
+
+        frame()
+        prairie.prepare()
 
         for number in range(-WARM, 3 * TIMES):
             start = process_time()

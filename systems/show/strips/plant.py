@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from ....components.arrays import Floats, Ints
 from ....engine.terrain.plots import CELL
-from ....engine.terrain.sample import own_density_at
+from ....engine.terrain.sample import density_at
 from ...space.ground import PRESENT, Ground
 from .pool import StripPool
 
@@ -23,10 +23,7 @@ def plant_strips(
     pool.stamp[slots, :2], pool.stamp[slots, 2] = cell, along
     pool.stand[slots] = np.column_stack([model, turn])
     place = _spread(cell, ground, pool.strips[0].margin)
-    kinds = range(len(pool.strips))
-    kind = np.repeat(np.array(kinds), place.shape[0] * place.shape[1])
-    own = own_density_at(ground.density, kind, np.tile(place.reshape(-1, 2), (len(kinds), 1)))
-    dense = own.reshape(len(kinds), len(slots), -1)
+    dense = density_at(ground.density, place.reshape(-1, 2)).reshape(len(pool.strips), len(slots), -1)
     least, most = dense.min(axis=2).T, dense.max(axis=2).T
     grows = most > PRESENT
     pool.present[slots] = grows
@@ -37,7 +34,8 @@ def plant_strips(
 def _spread(cell: Ints, ground: Ground, margin: float) -> Floats:
     """Return places (x, z) all over cells (m, 2), and as far beyond as strips reach, shape (m, n, 2) [m].
 
-    They lie about as close as the samples of what is painted, or the cells of what is sown, so that no way across a patch is missed.
+    They lie about as close as the samples of what is painted, or the cells of what is sown, so that no way across a
+    patch is missed.
     """
     _, rows, columns = ground.density.maps.shape
     finest = min(ground.density.size[0] / columns, ground.density.size[1] / rows)
