@@ -49,12 +49,14 @@ def carry_over(before: Density, after: Density, /) -> None:
     where, pages = before.sown.saved()
     if not len(where) or len(before.maps) != len(after.maps):
         return
-    made = []
-    for row, column, page in where.tolist():
+    made, numbers = list[Values](), dict[bytes, int]()
+    for number, (row, column, page) in enumerate(where.tolist()):
         plot = Part(row * CELLS, column * CELLS, CELLS, CELLS)
         old, new = _painted(before, plot), _painted(after, plot)
-        made.append(np.where((pages[page] == old).all(axis=2, keepdims=True), new, pages[page]))
-    where[:, 2] = np.arange(len(where))
+        values = np.where((pages[page] == old).all(axis=2, keepdims=True), new, pages[page])
+        where[number, 2] = numbers.setdefault(values.tobytes(), len(made))
+        if where[number, 2] == len(made):
+            made.append(values)
     after.sown.resume(where, np.stack(made))
 
 
