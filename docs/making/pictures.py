@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
+PLAYS = ROOT / "docs" / "making" / "played.py"
 PAGES = sorted((ROOT / "docs").glob("*.md"))
-SOURCES = ("app", "components", "engine", "scenes", "systems")
+SOURCES = ("app", "components", "engine", "examples", "scenes", "systems")
 NAMED = re.compile(r"^`(?P<file>[^`\n]+)`:\n\n```\w+\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
 FIGURE = re.compile(r"\(pictures/figure-(\d+)\.png\)")
 
@@ -24,6 +25,9 @@ class Picture:
 
 
 IN_FLOWER = ("poppies", "dandelions", "heather")
+
+PLAYED = ("lake", "night_drive", "planet", "split_screen", "farm")
+"""Examples whose picture is their own."""
 
 PICTURES = (
     Picture("meadow.png", ("shot", "meadow", "--size", "960x540", "--time", "3")),
@@ -58,6 +62,7 @@ PICTURES = (
     Picture("lawn.png", ("python", "lawn.py"), "mowing.md"),
     Picture("top-down.png", ("python", "top_down.py"), "cameras.md"),
     Picture("music.webp", ("python", "music.py"), "music.md"),
+    *(Picture(f"{name}.png", ("played", name)) for name in PLAYED),
     Picture("storm.png", ("shot", "storm", "--size", "960x540", "--time", "12", "--overlay", "masks,arrows")),
 )
 
@@ -78,7 +83,10 @@ def make_pictures(folder: Path, /) -> None:
         if picture.page is not None:
             for name, text in named_blocks(ROOT / "docs" / picture.page).items():
                 folder.joinpath(name).write_text(text, "utf-8")
-        if picture.command[0] == "python":
+        if picture.command[0] == "played":
+            program = ROOT / "examples" / f"{picture.command[1]}.py"
+            subprocess.run([sys.executable, PLAYS, program, picture.file, "3"], cwd=folder, check=True)
+        elif picture.command[0] == "python":
             subprocess.run([sys.executable, *picture.command[1:]], cwd=folder, check=True)
         else:
             _run(*picture.command, "-o", picture.file, folder=folder)

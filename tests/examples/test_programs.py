@@ -15,7 +15,11 @@ import numpy as np
 import pyglet
 from tallgrass.engine.declared.quality import PRESETS
 
-flip, seen = pyglet.window.Window.flip, []
+flip, begin, seen = pyglet.window.Window.flip, pyglet.window.Window.__init__, []
+
+
+def small(window, width, height, **more):
+    begin(window, width // 2, height // 2, **more)
 
 
 def look(window):
@@ -25,11 +29,11 @@ def look(window):
     flip(window)
 
 
-pyglet.window.Window.flip = look
+pyglet.window.Window.flip, pyglet.window.Window.__init__ = look, small
 PRESETS["medium"] = PRESETS["low"]
 atexit.register(lambda: print(*seen))
 """
-"""Tells how many colours the lower third of each picture has, of grass that is grown soon."""
+"""Tells how many colours the lower third of each picture has: small ones, of grass that is grown soon."""
 
 
 @pytest.mark.window
@@ -50,10 +54,10 @@ def test_d6_the_example_runs_and_draws_grass(
     told = python(tmp_path, str(program), "--frames", "3", place=place, before=LOOK)
     colors = [int(number) for number in told.split()]
     assert len(colors) == 3
-    assert min(colors) > (500 if headless else 1000), "the lower third of the picture has hardly any colours"
+    assert min(colors) > 400, "the lower third of the picture has hardly any colours"
 
 
 def test_d6_no_example_is_longer_than_a_reader_will_read() -> None:
-    assert len(EXAMPLES) >= 4
+    assert len(EXAMPLES) >= 11
     lines = {program.stem: len(program.read_text("utf-8").splitlines()) for program in EXAMPLES}
-    assert {name: count for name, count in lines.items() if count > 120} == {}
+    assert {name: count for name, count in lines.items() if count > 160} == {}
