@@ -219,7 +219,8 @@ class Painter:
         drawn, across and up; none at all where it is `hidden`.
         """
         ctx = self.ctx
-        with guest(ctx) as host, self.smaller.instead_of(host, scale) as target:
+        is_whole = "sky" in asked.parts
+        with guest(ctx) as host, self.smaller.instead_of(host, scale, is_whole=is_whole) as target:
             if hidden:
                 target.scissor = 0, 0, 0, 0
             self._tell(view, target, asked)

@@ -84,12 +84,15 @@ class Smaller:
         self._told: set[str] = set()
 
     @contextmanager
-    def instead_of(self, host: moderngl.Framebuffer, scale: float) -> Iterator[moderngl.Framebuffer]:
+    def instead_of(
+        self, host: moderngl.Framebuffer, scale: float, *, is_whole: bool = True
+    ) -> Iterator[moderngl.Framebuffer]:
         """Give a framebuffer with `scale` times as many pixels, across and up, in which the host's depth stands.
 
         In the end, what was drawn there lies over the host's picture, and the host's depth is that of what is nearer.
         The host's framebuffer must be bound as `guest` binds it. It is given itself where `scale` is 1, and where
-        another one cannot stand in for it, which is told once.
+        another one cannot stand in for it, which is told once. One that `is_whole` is opaque where the host has drawn
+        nothing; any other lets through what is behind it there too.
         """
         if scale >= 1.0 or self._is_obstructed(host):
             yield host
@@ -106,8 +109,9 @@ class Smaller:
             yield buffers.target
         buffers.use()
         host.depth_mask = False
-        self._do("enlarge")
-        self._do("fit", blending=(moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA))
+        if is_whole:
+            self._do("enlarge")
+        self._do("fit", blending=(moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA), everywhere=not is_whole)
         host.depth_mask = True
         self._do("deepen", blending=(moderngl.ZERO, moderngl.ONE))
 
@@ -115,10 +119,11 @@ class Smaller:
         """Give everything back."""
         release_all(*self._passes.values(), *self._programs.values(), *self._buffers.values())
 
-    def _do(self, name: str, *, blending: tuple[int, int] | None = None) -> None:
-        """Do one of the passes."""
+    def _do(self, name: str, *, blending: tuple[int, int] | None = None, everywhere: bool = False) -> None:
+        """Do one of the passes, where its test of depth says or `everywhere`."""
         ctx = self._ctx
-        ctx.enable_only(moderngl.DEPTH_TEST if blending is None else moderngl.DEPTH_TEST | moderngl.BLEND)
+        tested = moderngl.NOTHING if everywhere else moderngl.DEPTH_TEST
+        ctx.enable_only(tested if blending is None else tested | moderngl.BLEND)
         ctx.blend_func = blending or (moderngl.ONE, moderngl.ZERO)
         ctx.depth_func = PASSES[name]
         self._passes[name].render(moderngl.TRIANGLES, 3)

@@ -9,8 +9,9 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass import Footprint
-from tallgrass.engine.camera import Camera
+from tallgrass.engine.camera import Camera, view_of
 from tallgrass.engine.schedule import Phase
+from tallgrass.systems.around.asked import Asked
 from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import LITTLE
 
@@ -196,6 +197,8 @@ def test_parts_that_are_none_are_told_before_anything_is_drawn(
     stage.begin()
     with pytest.raises(error, match=said):
         prairie.draw(*stage.matrices(camera(0.0, 1.7, 20.0)), parts=parts)
+    with pytest.raises(error, match=said):
+        prairie.group(None, lambda: stage.matrices(camera(0.0, 1.7, 20.0)), parts=parts)  # type: ignore[arg-type]
     assert not stage.read().any()
     assert prairie.painter is None
 
@@ -233,3 +236,18 @@ def test_haze_without_a_colour_is_refused_in_a_sentence(load: Load, haze: Any) -
     with pytest.raises(ValueError, match=r"^haze has a colour"):
         prairie.haze = haze
     assert prairie.haze is None
+
+
+def test_outlines_are_no_broader_where_fewer_pixels_are_drawn_and_no_sky(stage: Stage, load: Load, camera: Aim) -> None:
+    prairie, aim, parts = load(STILL), camera(0.0, 1.0, 20.0, pitch=6), frozenset({"ground", "grass", "beyond"})
+    drawn(stage, prairie, aim, parts)
+    assert prairie.painter is not None
+    view, shares = view_of(*stage.matrices(aim)), []
+    for scale in (1.0, 0.5):
+        stage.target.use()
+        stage.target.clear(1.0, 0.0, 1.0, depth=1.0)
+        prairie.painter.draw(view, Asked(parts), scale=scale)
+        seen = stage.read()
+        shares.append(np.clip((0.5 * (seen[..., 0] + seen[..., 2]) - seen[..., 1]) / 255.0, 0.0, 1.0).mean())
+    assert 0.2 < shares[0] < 0.9
+    assert shares[1] == pytest.approx(shares[0], rel=0.02)
