@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from tallgrass import Footprint
 from tallgrass.engine.camera import Camera, view_of
+from tallgrass.engine.declared.parts import as_parts
 from tallgrass.engine.schedule import Phase
 from tallgrass.systems.around.asked import Asked
 from tallgrass.systems.prairie import Prairie
@@ -239,8 +240,8 @@ def test_haze_without_a_colour_is_refused_in_a_sentence(load: Load, haze: Any) -
 
 
 def test_outlines_are_no_broader_where_fewer_pixels_are_drawn_and_no_sky(stage: Stage, load: Load, camera: Aim) -> None:
-    prairie, aim, parts = load(STILL), camera(0.0, 1.0, 20.0, pitch=6), frozenset({"ground", "grass", "beyond"})
-    drawn(stage, prairie, aim, parts)
+    prairie, aim, parts = load(STILL), camera(0.0, 1.0, 20.0, pitch=6), as_parts(["ground", "grass", "beyond"])
+    drawn(stage, prairie, aim, list(parts))
     assert prairie.painter is not None
     view, shares = view_of(*stage.matrices(aim)), []
     for scale in (1.0, 0.5):
