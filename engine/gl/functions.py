@@ -45,7 +45,8 @@ NUMBERS = {
 
 ASKS = {
     "glIsEnabled": (c_int,), "glIsEnabledi": (c_int,) * 2, "glIsProgram": (c_int,), "glIsBuffer": (c_int,),
-    "glIsVertexArray": (c_int,), "glIsTexture": (c_int,),
+    "glIsVertexArray": (c_int,), "glIsTexture": (c_int,), "glIsSampler": (c_int,), "glIsFramebuffer": (c_int,),
+    "glIsRenderbuffer": (c_int,),
 }  # fmt: skip
 """The functions that answer yes or no, and what each takes."""
 
@@ -102,6 +103,10 @@ class Functions:
         found = convention(ANSWERS[name], *TAKES[name])(self._address(name))
         setattr(self, name, found)
         return found
+
+    def living(self, sort: str, number: int, /) -> int:
+        """Return an object's number, 0 where it is there no more: to bind it again would be an error."""
+        return number if number and getattr(self, f"glIs{sort}")(number) else 0
 
 
 @lru_cache(maxsize=16)

@@ -222,8 +222,8 @@ class State:
         gl, value = self.gl, self._value
         for name, switch in WORDS.switches:
             (gl.glEnable if name in self._on else gl.glDisable)(switch)
-        gl.glBindFramebuffer(NUMBERS["DRAW_FRAMEBUFFER"], self.framebuffer)
-        gl.glBindFramebuffer(NUMBERS["READ_FRAMEBUFFER"], *value["READ_FRAMEBUFFER_BINDING"])
+        for target in ("DRAW_FRAMEBUFFER", "READ_FRAMEBUFFER"):
+            gl.glBindFramebuffer(NUMBERS[target], gl.living("Framebuffer", *value[f"{target}_BINDING"]))
         gl.glViewport(*value["VIEWPORT"])
         gl.glScissor(*value["SCISSOR_BOX"])
         gl.glPolygonMode(NUMBERS["FRONT_AND_BACK"], value["POLYGON_MODE"][0])
@@ -246,21 +246,18 @@ class State:
         gl, value = self.gl, self._value
         for name, store in WORDS.stores:
             gl.glPixelStorei(store, *value[name])
-        program = value["CURRENT_PROGRAM"][0]
-        # One that the host deleted while it was in use is gone by now.
-        gl.glUseProgram(program if program and gl.glIsProgram(program) else 0)
-        gl.glBindVertexArray(*value["VERTEX_ARRAY_BINDING"])
+        gl.glUseProgram(gl.living("Program", *value["CURRENT_PROGRAM"]))
+        gl.glBindVertexArray(gl.living("VertexArray", *value["VERTEX_ARRAY_BINDING"]))
         buffer, start, size = self._feedback
+        buffer = gl.living("Buffer", buffer)
         # What was bound as a whole has no size. Either call binds the target itself too, so it comes before the others.
-        if size:
+        if buffer and size:
             gl.glBindBufferRange(NUMBERS[FEEDBACK], 0, buffer, start, size)
         else:
             gl.glBindBufferBase(NUMBERS[FEEDBACK], 0, buffer)
         for name, target in WORDS.targets:
-            bound = value[name][0]
-            # One that was given back meanwhile, with a painter that is gone, is no buffer any more.
-            gl.glBindBuffer(target, bound if bound and gl.glIsBuffer(bound) else 0)
-        gl.glBindRenderbuffer(NUMBERS["RENDERBUFFER"], *value["RENDERBUFFER_BINDING"])
+            gl.glBindBuffer(target, gl.living("Buffer", *value[name]))
+        gl.glBindRenderbuffer(NUMBERS["RENDERBUFFER"], gl.living("Renderbuffer", *value["RENDERBUFFER_BINDING"]))
         self._units.restore()
         gl.glActiveTexture(*value["ACTIVE_TEXTURE"])
 

@@ -42,10 +42,10 @@ class Units:
     def restore(self) -> None:
         """Bring the host's back."""
         for unit, sampler in self._samplers.items():
-            self._gl.glBindSampler(unit, sampler)
+            self._gl.glBindSampler(unit, self._gl.living("Sampler", sampler))
         self._activate(self._scratch)
         for target, texture in self._textures.items():
-            self._gl.glBindTexture(NUMBERS[target], texture)
+            self._gl.glBindTexture(NUMBERS[target], self._gl.living("Texture", texture))
 
     def _bound(self) -> dict[int, int]:
         """Return the sampler objects, by unit."""

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import pyglet
 import pytest
+import pytest.__main__
 
 from tallgrass.app.cli import run as tallgrass
 from tallgrass.engine.declared.grass import GrassKind
@@ -70,8 +71,8 @@ pyglet.window.Window.flip = shown
 HERE = re.compile(r"(tallgrass (shot|film|check) (?!.*--on)[^|>&]*\n)+")
 """Commands that are run in this process; most of the time that others take goes into starting one for each."""
 
-PROGRAM = re.compile(r"python (\w+\.py)\n")
-"""A command that runs a page's own program."""
+PROGRAM = re.compile(r"(?:python|pytest -q) (\w+\.py)\n")
+"""A command that runs a page's own program, or its own test."""
 
 COARSE = {
     r"^tallgrass (shot|film)": r"\g<0> --preset low",
@@ -80,6 +81,8 @@ COARSE = {
     r"--seconds \d+": "--seconds 1",
     r"--fps \d+": "--fps 4",
     r"--on local:\d+": "--on local:1",
+    r'preset="medium"': 'preset="low"',
+    r"stage\(ctx, \(\d+, \d+\)\)": "stage(ctx, (160, 90))",
 }
 """What is drawn coarsely here: growing fine grass takes longer than everything else on these pages."""
 
@@ -130,7 +133,7 @@ def follow(page: str, folder: Path, python: Python, display: str = "") -> None:
         name = folder / (block["file"] or "block.py")
         if block["file"] or language == "python":
             name.parent.mkdir(parents=True, exist_ok=True)
-            name.write_text(text, "utf-8")
+            name.write_text(coarser(text) if language == "python" else text, "utf-8")
         if block["reason"] or (language == "python" and block["file"] and "pyglet.app.run()" not in text):
             continue
         if language == "python":
@@ -143,14 +146,23 @@ def follow(page: str, folder: Path, python: Python, display: str = "") -> None:
         told = ""
         if language == "sh":
             if program := PROGRAM.fullmatch(text):
-                told = python(folder, program[1], place={})
+                tested = text.startswith("pytest")
+                words = (pytest.__main__.__file__, "-q", program[1]) if tested else (program[1],)
+                told = python(folder, *words, place={})
             else:
                 told = (run_here if HERE.fullmatch(text) else run)(coarser(text), folder)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="the pages are written for a POSIX shell")
 @pytest.mark.usefixtures("ctx")
-@pytest.mark.parametrize("page", [name for name in FOLLOWED if not opens_a_window(name)])
+@pytest.mark.parametrize(
+    "page",
+    [
+        pytest.param(name, marks=pytest.mark.slow if name == "gallery.md" else ())
+        for name in FOLLOWED
+        if not opens_a_window(name)
+    ],
+)
 def test_what_a_page_tells_to_do_works(page: str, tmp_path: Path, python: Python) -> None:
     follow(page, tmp_path, python)
 

@@ -4,6 +4,7 @@ import sys
 from collections.abc import Callable, Iterator
 from ctypes import addressof, c_int, c_int64
 from types import SimpleNamespace
+from typing import Any
 
 import moderngl
 import numpy as np
@@ -314,6 +315,24 @@ def test_d6_where_the_host_captures_outputs_to_is_bound_again_after_a_guest_has_
     gl.glBindBufferBase(target, 0, 0)
     for thing in (array, program, goal, bound, other):
         thing.release()
+
+
+@pytest.mark.parametrize("sort", ["buffer", "array", "captured", "texture", "sampler", "renderbuffer"])
+def test_d6_what_was_bound_and_is_deleted_while_a_guest_draws_is_no_error(ctx: moderngl.Context, sort: str) -> None:
+    program = ctx.program(vertex_shader="#version 330\nout float seen; void main() { seen = 1.0; }", varyings=("seen",))
+    array, buffer = ctx.vertex_array(program, []), ctx.buffer(reserve=16)
+    array.transform(buffer, moderngl.POINTS, vertices=1)
+    things: dict[str, Callable[[], Any]] = {
+        "buffer": lambda: ctx.buffer(reserve=16), "array": lambda: array, "captured": lambda: buffer,
+        "texture": lambda: ctx.texture((2, 2), 4), "sampler": ctx.sampler,
+        "renderbuffer": lambda: ctx.depth_renderbuffer((2, 2)),
+    }  # fmt: skip
+    thing = things[sort]()
+    if sort == "sampler":
+        thing.use(FIRST_UNIT)
+    with guest(ctx):
+        thing.release()
+    assert ctx.error == "GL_NO_ERROR"
 
 
 def test_a_context_that_is_given_is_taken(ctx: moderngl.Context) -> None:
