@@ -115,19 +115,19 @@ class Pressers(Feature):
     def note(self, time: float) -> Trodden:
         """Take note of where all pressers are at `time` [s], and return what has been trodden."""
         self._go(time)
-        found, rows = self._standing()
+        found = self._world.both(Presser, Pose)
         if not found and not self._scenes.who and not self._games.who and not self.trodden:
             return self.trodden
-        is_scenes = np.array([entity in self._declared for entity, _ in found], np.bool_)
-        games, scenes = ([found[number] for number in np.flatnonzero(which)] for which in (~is_scenes, is_scenes))
+        who, rows = self._standing(found)
+        is_scenes = np.array([entity in self._declared for entity, _ in who], np.bool_)
+        games, scenes = ([who[number] for number in np.flatnonzero(which)] for which in (~is_scenes, is_scenes))
         is_new = self._games.come(games, rows[~is_scenes], time)
         if self._come(scenes, rows[is_scenes], time) or is_new:
             self.trodden = self._memory.at(time)
         return self.trodden
 
-    def _standing(self) -> tuple[list[Who], Doubles]:
-        """Return who presses anywhere, and where they are and look (x, z, yaw), shape (n, 3)."""
-        found = self._world.both(Presser, Pose)
+    def _standing(self, found: list[tuple[int, Presser, Pose]]) -> tuple[list[Who], Doubles]:
+        """Return who of those that press is anywhere, and where they are and look (x, z, yaw), shape (n, 3)."""
         rows = as_places_of(pose for _, _, pose in found)
         if rows is None:
             found = [row for row in found if self._world.stands(row[0], row[2], "the presser")]

@@ -1,13 +1,17 @@
 """Reading scenes: by path, by the name of a bundled one, or from a program's values."""
 
 import os
+from atexit import register
 from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from functools import cache
 from importlib.resources import files
 from pathlib import Path
 from reprlib import repr as shortened
+from shutil import rmtree
 from stat import S_ISDIR, S_ISREG
+from tempfile import mkdtemp
 from typing import Any
 
 import numpy as np
@@ -73,8 +77,22 @@ class LoadedScene:
 
 def bundled_scenes() -> dict[str, Path]:
     """Return the bundled scenes: name and file."""
-    folder = Path(str(files(scenes)))
-    return {path.stem: path for path in sorted(folder.glob("*.yaml"))}
+    return {path.stem: path for path in sorted(_bundle().glob("*.yaml"))}
+
+
+@cache
+def _bundle() -> Path:
+    """Return the folder of the bundled scenes; those in a zip file are unpacked for as long as the program runs."""
+    found = files(scenes)
+    folder = Path(str(found))
+    if folder.is_dir():
+        return folder
+    unpacked = Path(mkdtemp(prefix="tallgrass-scenes-"))
+    register(rmtree, unpacked, ignore_errors=True)
+    for each in found.iterdir():
+        if each.is_file():
+            (unpacked / each.name).write_bytes(each.read_bytes())
+    return unpacked
 
 
 def read_scene(scene: SceneLike, /) -> LoadedScene:

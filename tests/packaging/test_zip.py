@@ -1,0 +1,35 @@
+"""A program in a single zip file (`python -m zipapp`) finds scenes, their maps, shaders and winds in it (D6)."""
+
+import subprocess
+import sys
+from pathlib import Path
+from zipfile import ZipFile
+
+ROOT = Path(__file__).parents[2]
+MAIN = """
+import tallgrass
+from tallgrass.engine.plugins import wind_kinds
+from tallgrass.engine.scene import bundled_scenes
+from tallgrass.systems.wind.twin import twin_of
+prairie = tallgrass.Prairie.load("meadow", preset="low")
+folder = bundled_scenes()["meadow"].parent
+print(".pyz" in tallgrass.__file__, len(prairie.site.scene.grass), len(twin_of(tallgrass.Gust).text) > 10)
+print(*wind_kinds().names(), folder)
+"""
+
+
+def test_d6_in_a_zip_file_scenes_and_winds_are_found_and_nothing_is_left_behind(tmp_path: Path) -> None:
+    packed = tmp_path / "game.pyz"
+    with ZipFile(packed, "w") as made:
+        made.writestr("__main__.py", MAIN)
+        made.write(ROOT / "__init__.py", "tallgrass/__init__.py")
+        for part in ("components", "engine", "systems", "scenes"):
+            for file in (ROOT / part).rglob("*.*"):
+                if "__pycache__" not in file.parts:
+                    made.write(file, Path("tallgrass", file.relative_to(ROOT)))
+    done = subprocess.run([sys.executable, packed], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    found, (*kinds, folder) = done.stdout.splitlines()[0], done.stdout.splitlines()[1].split()
+    assert found == "True 2 True"
+    assert {"blast", "breeze", "gust"} <= set(kinds)
+    assert not Path(folder).exists()
