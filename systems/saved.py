@@ -186,7 +186,8 @@ def mark_of(site: Site, ground: str, /) -> str:
 def ground_mark(ground: Ground, /) -> str:
     """Return what tells a ground from others, as it was loaded."""
     digest = blake2b(digest_size=_DIGEST)
-    for array in (*as_loaded(ground.terrain), ground.density.maps):
+    holes = ground.terrain.holes
+    for array in (*as_loaded(ground.terrain), ground.density.maps, *(() if holes is None else (holes,))):
         digest.update(np.ascontiguousarray(array).data)
     return digest.hexdigest()
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..components.arrays import Floats
 from ..components.grass_at import GrassAt
-from ..engine.terrain.sample import density_at, painted_at
+from ..engine.terrain.sample import density_at, natural_at
 from .around.clearing import Clearings
 from .grow.record import Postures
 from .mow.mown import Mown
@@ -35,7 +35,7 @@ def grass_at(site: Site, clearings: Clearings, mown: Mown, felt: Felt, place: Fl
             up = upright(growth.postures, np.hypot(*felt(place[here], number).T))
             height[here] = np.maximum(height[here], np.minimum(site.canopy[number], left[here]) * up)
     bare = np.flatnonzero(~grows.any(axis=0))
-    taken[bare] |= (painted_at(site.ground.density, place[bare]) >= PRESENT).any(axis=0)
+    taken[bare] |= (natural_at(site.ground.density, place[bare]) >= PRESENT).any(axis=0)
     names = [*site.scene.grass, ""]
     return GrassAt(kind, tuple(names[number] for number in kind), np.ascontiguousarray(density.T), height, taken)
 

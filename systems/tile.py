@@ -133,6 +133,8 @@ class Tile:
             for kept in outlook.kept.values():
                 kept.planted += 1
                 kept.stand_on(first, last, (float(heights.min()), float(heights.max())))
+            if self.ground.density.slopes:
+                self._sow_on(outlook, patches.cell[on])
         outlook.heights = terrain.changes.count
 
     def _sow(self, outlook: Outlook) -> None:
@@ -146,7 +148,10 @@ class Tile:
             squares = {(*first, *last) for first, last in near.tolist()}
             found = {(i, j) for a, b, c, d in squares for i in range(a, c + 1) for j in range(b, d + 1)}
             cells = np.array(sorted(found), np.int32).reshape(-1, 2)
+        self._sow_on(outlook, cells)
+        outlook.sown = sown.count
+
+    def _sow_on(self, outlook: Outlook, cells: Ints) -> None:
         for kept in outlook.kept.values():
             kept.planted += 1
             kept.sow_on(cells)
-        outlook.sown = sown.count

@@ -22,7 +22,7 @@ class MapArray:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, MapArray) or self.values.dtype != other.values.dtype:
             return False
-        return self is other or np.array_equal(self.values, other.values)
+        return self is other or np.array_equal(self.values, other.values, equal_nan=self.values.dtype.kind == "f")
 
     def __hash__(self) -> int:
         return hash((self.values.shape, self.values.dtype.str))

@@ -126,6 +126,9 @@ class GrassKind(Declaration):
     place: Place | None = None
     """Where it grows; without it, everywhere. Kinds share the ground, but flowers stand among the others."""
 
+    slope: float | None = Field(default=None, ge=0.0, le=90.0)
+    """Steepest slope that it grows on [degrees]; it thins out over the 8 degrees before. Without it, on any."""
+
     @model_validator(mode="before")
     @classmethod
     def _as_its_plant(cls, data: Any) -> Any:

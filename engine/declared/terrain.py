@@ -5,7 +5,7 @@ from typing import Literal
 from pydantic import Field, field_validator, model_validator
 
 from ...components.declaration import Declaration, DeclarationError, Pair
-from .array import FileOrArray
+from .array import FileOrArray, PictureOrArray
 
 
 class TerrainSource(Declaration):
@@ -19,6 +19,12 @@ class TerrainSource(Declaration):
 
     Cells longer than 2.5 m are divided by a smooth surface; a map wider than 10240 m is cut to its middle. What says
     how noise looks, `seed` and `feature`, may stay beside it and has no effect."""
+
+    holes: PictureOrArray | None = None
+    """Picture or array laid over the whole terrain: where its first channel is above half there is no ground.
+
+    Mouths of caves, cellars, wells: neither ground nor grass is drawn there. NaN in `heights` (.npy or an array) is
+    a hole as well. Heights in holes are as smooth as those around them suggest."""
 
     noise: Literal["flat", "rolling", "hills", "ridges"] | None = None
     """A landscape made from noise instead of a file; without either, the ground is flat."""

@@ -1,5 +1,7 @@
 """Loading the maps that a scene names, with problems at the keys that name them."""
 
+from collections.abc import Sequence
+
 from ..declared.array import MapArray
 from ..terrain.density import load_density
 from ..terrain.errors import MapError
@@ -40,7 +42,7 @@ def _kept_terrain(loaded: LoadedScene, before: tuple[LoadedScene, Maps] | None) 
         return None
     old, (terrain, _) = before
     source = loaded.scene.terrain
-    same = source == old.scene.terrain and _same_files(loaded, old, [source.heights])
+    same = source == old.scene.terrain and _same_files(loaded, old, [source.heights, source.holes])
     return terrain if same else None
 
 
@@ -50,11 +52,15 @@ def _kept_density(loaded: LoadedScene, terrain: Terrain, before: tuple[LoadedSce
     old, (_, density) = before
     places = [kind.place for kind in loaded.scene.grass.values()]
     same = terrain.size == density.size and places == [kind.place for kind in old.scene.grass.values()]
+    steep = [kind.slope for kind in loaded.scene.grass.values()]
+    bare = terrain.holes is not None or any(slope is not None for slope in steep)
+    same = same and steep == [kind.slope for kind in old.scene.grass.values()]
+    same = same and density.land is (terrain if bare else None)
     maps = [None if place is None else place.map for place in places]
     return density if same and _same_files(loaded, old, maps) else None
 
 
-def _same_files(loaded: LoadedScene, old: LoadedScene, maps: list[str | MapArray | None]) -> bool:
+def _same_files(loaded: LoadedScene, old: LoadedScene, maps: Sequence[str | MapArray | None]) -> bool:
     same_folder = loaded.folder == old.folder
     return all(not isinstance(name, str) or (same_folder and _same_file(loaded, old, name)) for name in maps)
 

@@ -219,6 +219,9 @@ def _named_files(values: object) -> Iterator[tuple[Where, str]]:
         case {"terrain": {"heights": str(name)}} if name:
             yield ("terrain", "heights"), name
     match values:
+        case {"terrain": {"holes": str(name)}} if name:
+            yield ("terrain", "holes"), name
+    match values:
         case {"grass": dict(kinds)}:
             for kind, declared in kinds.items():
                 match declared:

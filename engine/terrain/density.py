@@ -11,6 +11,7 @@ from PIL import Image
 from ...components.arrays import Floats
 from ..declared.array import MapArray
 from ..declared.grass import GrassKind, Place
+from ..declared.terrain import TerrainSource
 from .elevation import check_finite, reading
 from .errors import MapError
 from .record import Density, Terrain
@@ -57,7 +58,23 @@ def load_density(
     densities[placed] /= np.maximum(densities[placed].sum(axis=0), np.float32(1.0))
     if others.any():
         densities[others] = np.maximum(1.0 - densities[placed].sum(axis=0), 0.0) / np.float32(others.sum())
-    return Density(densities, terrain.size)
+    slopes = tuple(kind.slope for kind in kinds.values())
+    limits = slopes if any(slope is not None for slope in slopes) else ()
+    return Density(densities, terrain.size, terrain if limits or terrain.holes is not None else None, limits)
+
+
+def load_holes(source: TerrainSource, folder: Path, /) -> Floats | None:
+    """Return the map (rows, columns) of where a scene says that there is no ground, if it does; raises `MapError`."""
+    return None if source.holes is None else _channels_in(source.holes, folder, NONE)[CHANNELS[0]]
+
+
+def stretched(values: Floats, rows: int, columns: int, /) -> Floats:
+    """Return a map (rows, columns) over the samples of a terrain, the outermost of which stand on its edges."""
+    for axis, count in enumerate((rows, columns)):
+        own = values.shape[axis]
+        place = np.linspace(0.0, own, count) - 0.5
+        values = values.take(np.clip(np.rint(place), 0, own - 1).astype(np.intp), axis)
+    return values
 
 
 def _channel(folder: Path, place: Place, pictures: Mapping[str | MapArray, Channels]) -> Floats:

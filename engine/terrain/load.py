@@ -1,14 +1,16 @@
 """Terrains from elevation maps and from noise."""
 
+from dataclasses import replace
 from logging import getLogger
 from math import ceil
 from pathlib import Path
 
 import numpy as np
 
-from ...components.arrays import Doubles, Floats
+from ...components.arrays import Doubles, Floats, Mask
 from ..declared.array import MapArray
 from ..declared.terrain import TerrainSource
+from .density import load_holes, stretched
 from .elevation import Elevation, check_finite
 from .errors import MapError
 from .noise import LANDSCAPES, landscape
@@ -45,6 +47,10 @@ def load_terrain(source: TerrainSource, folder: Path, /) -> Terrain:
     size, or than 10240 m, is cut to its middle. Voids that an elevation model marks are filled from around them.
     Raises `MapError` where the map cannot be used.
     """
+    return _with_holes(_loaded(source, folder), source, folder)
+
+
+def _loaded(source: TerrainSource, folder: Path) -> Terrain:
     if source.heights is None:
         return _noise(source)
     if isinstance(source.heights, MapArray):
@@ -52,15 +58,37 @@ def load_terrain(source: TerrainSource, folder: Path, /) -> Terrain:
     else:
         path = folder / source.heights
         elevation = read_elevation(path, source)
-    heights = _metres(path, elevation, source)
+    open_ = _holes_in(path, elevation)
+    heights = _metres(path, elevation, source, open_)
     if source.flip:
-        heights = heights[::-1]
-    return _spread(path, heights, elevation.cell or (source.cell, source.cell), source.size)
+        heights, open_ = heights[::-1], None if open_ is None else open_[::-1]
+    return _spread(path, heights, elevation.cell or (source.cell, source.cell), source.size, open_)
 
 
-def _metres(path: Path | None, elevation: Elevation, source: TerrainSource) -> Floats:
-    """Return an elevation map's heights [m], with its voids filled."""
-    values, void = elevation.values, elevation.void
+def _holes_in(path: Path | None, elevation: Elevation) -> Mask | None:
+    """Return where heights are NaN without being marked as voids, if any are."""
+    if elevation.void is not None or elevation.values.dtype.kind != "f":
+        return None
+    found: Mask = np.isnan(elevation.values)
+    if found.all():
+        raise MapError(path, "none of it has a height")
+    return found if found.any() else None
+
+
+def _with_holes(terrain: Terrain, source: TerrainSource, folder: Path) -> Terrain:
+    """Return a terrain with the holes that its scene declares besides those that it has."""
+    declared = load_holes(source, folder)
+    if declared is None:
+        return terrain
+    holes = stretched(declared, *terrain.heights.shape) > 0.5
+    if terrain.holes is not None:
+        holes |= terrain.holes
+    return replace(terrain, holes=holes) if holes.any() else terrain
+
+
+def _metres(path: Path | None, elevation: Elevation, source: TerrainSource, open_: Mask | None) -> Floats:
+    """Return an elevation map's heights [m], with its voids and its holes filled."""
+    values, void = elevation.values, elevation.void if open_ is None else open_
     check_finite(path, values, "height", "heights", void)
     if elevation.whole is None:
         factor = 1.0 if source.scale is None else source.scale
@@ -71,7 +99,7 @@ def _metres(path: Path | None, elevation: Elevation, source: TerrainSource) -> F
         heights *= np.float32(factor)
         heights += np.float32(source.offset)
     if void is not None and void.any():
-        if void.mean() > 0.5:
+        if open_ is None and void.mean() > 0.5:
             raise MapError(path, f"{void.mean():.0%} of it has no height; at most half may be filled from around")
         heights = fill_voids(heights, void)
     low, high = float(heights.min()), float(heights.max())
@@ -80,7 +108,9 @@ def _metres(path: Path | None, elevation: Elevation, source: TerrainSource) -> F
     return heights
 
 
-def _spread(path: Path | None, heights: Floats, cells: tuple[float, float], wanted: list[float] | None) -> Terrain:
+def _spread(
+    path: Path | None, heights: Floats, cells: tuple[float, float], wanted: list[float] | None, holes: Mask | None
+) -> Terrain:
     """Return the terrain of `heights` whose cells are `cells` long in x and z [m], or its middle of a `wanted` size."""
     counts = heights.shape[::-1]
     size = [(count - 1) * cell for count, cell in zip(counts, cells, strict=True)]
@@ -96,8 +126,11 @@ def _spread(path: Path | None, heights: Floats, cells: tuple[float, float], want
         _places(side, cell) / own + (count - 1) / 2 for side, own, count in zip(sides, cells, counts, strict=True)
     )
     if cells == (cell, cell) and (len(rows), len(columns)) == heights.shape:
-        return Terrain(np.ascontiguousarray(heights), cell)
-    return Terrain(_resample_part(heights, rows, columns), cell)
+        return Terrain(np.ascontiguousarray(heights), cell, None if holes is None else np.ascontiguousarray(holes))
+    if holes is not None:
+        near_rows, near_columns = (np.rint(each).astype(np.intp) for each in (rows, columns))
+        holes = holes[np.ix_(np.clip(near_rows, 0, counts[1] - 1), np.clip(near_columns, 0, counts[0] - 1))]
+    return Terrain(_resample_part(heights, rows, columns), cell, holes)
 
 
 def _resample_part(heights: Floats, rows: Doubles, columns: Doubles) -> Floats:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Floats
+from ...components.arrays import Floats, Mask
 from .part import MOST, Part
 from .plots import Plots
 
@@ -47,6 +47,9 @@ class Terrain:
 
     cell: float
     """Metres per cell."""
+
+    holes: Mask | None = None
+    """Samples at which there is no ground, shape (rows, columns); None where there is ground everywhere."""
 
     changes: Changes = field(init=False, default_factory=Changes)
 
@@ -93,6 +96,12 @@ class Density:
 
     size: tuple[float, float]
     """Width (x) and depth (z) of the terrain that the maps are laid over, centred on the origin [m]."""
+
+    land: Terrain | None = None
+    """The terrain, where it says anything of where kinds grow; None where they grow on all of it."""
+
+    slopes: tuple[float | None, ...] = ()
+    """The steepest slope that each kind grows on [degrees], if there is one; none at all where no kind has one."""
 
     sown: Plots = field(init=False)
     """What a game has sown and cleared: densities of all kinds in bytes, in place of those of the maps."""

@@ -1,14 +1,17 @@
 """Heights, slopes and densities at any place, bilinear between the samples of a map."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Floats
+from ...components.arrays import Floats, Mask
 from .plots import CELL
 from .record import Density, Terrain
+
+_THINS = 8.0
+"""Over how many degrees before its steepest slope a kind thins out."""
 
 _WHOLE = np.float32(1.0 / 255.0)
 """What a byte of full density is multiplied by."""
@@ -66,12 +69,50 @@ def density_at(density: Density, place: Floats, /) -> Floats:
     It is what a game has sown or cleared there, and else what is painted.
     """
     if not density.sown.any:
-        return painted_at(density, place)
+        return natural_at(density, place)
     on = density.sown.on(_inward(density, place))
     result, rest = np.empty((len(density.maps), len(place)), np.float32), np.ones(len(place), np.bool_)
     rest[on.which] = False
     result[:, on.which] = density.sown.between(on).T * _WHOLE
     result[:, rest] = painted_at(density, place[rest])
+    return _limited(density, result, place)
+
+
+def natural_at(density: Density, place: Floats, /) -> Floats:
+    """Return each kind's density as it would be had a game neither sown nor cleared anything, as `density_at` does."""
+    return _limited(density, painted_at(density, place), place)
+
+
+def hole_at(terrain: Terrain, place: Floats, /) -> Mask:
+    """Return whether there is a hole at ground positions (x, z) [m] of shape (n, 2), shape (n,).
+
+    Holes begin half-way between samples with ground and without.
+    """
+    if terrain.holes is None:
+        return np.zeros(len(place), np.bool_)
+    at = _within_terrain(terrain, place)
+    far, near = _rows(terrain.holes.reshape(-1).astype(np.float32), at)
+    return np.asarray(far + at.down * (near - far) > 0.5)
+
+
+def bareness(slopes: Sequence[float | None], /) -> Floats:
+    """Return how fast the ground rises where each kind ends, and how much it thins out by such a rise, (kinds, 2)."""
+    ends = np.array([89.9 if slope is None else min(slope, 89.9) for slope in slopes])
+    rise, whole = (np.tan(np.radians(np.maximum(ends - before, 0.0))) for before in (0.0, _THINS))
+    thins = np.where([slope is None for slope in slopes], 1e9, 1.0 / np.maximum(rise - whole, 1e-6))
+    return np.stack([rise, thins], axis=1).astype(np.float32)
+
+
+def _limited(density: Density, result: Floats, place: Floats, kind: NDArray[np.intp] | None = None) -> Floats:
+    """Return densities (kinds, n), or of a kind each (n,), where the ground is not too steep and there is any."""
+    if density.land is None:
+        return result
+    if density.slopes:
+        rise = np.hypot(*slope_at(density.land, place).T)
+        ends = bareness(density.slopes)
+        ends = ends[:, None] if kind is None else ends[kind]
+        result = result * np.clip((ends[..., 0] - rise) * ends[..., 1], 0.0, 1.0)
+    result[..., hole_at(density.land, place)] = 0.0
     return result
 
 
@@ -81,13 +122,13 @@ def own_density_at(density: Density, kind: NDArray[np.intp], place: Floats, /) -
     It is what `density_at` says of that kind, and takes no longer where kinds are many.
     """
     if not density.sown.any:
-        return _own_painted_at(density, kind, place)
+        return _limited(density, _own_painted_at(density, kind, place), place, kind)
     on = density.sown.on(_inward(density, place))
     result, rest = np.empty(len(place), np.float32), np.ones(len(place), np.bool_)
     rest[on.which] = False
     result[on.which] = density.sown.between(on, kind[on.which]) * _WHOLE
     result[rest] = _own_painted_at(density, kind[rest], place[rest])
-    return result
+    return _limited(density, result, place, kind)
 
 
 def _own_painted_at(density: Density, kind: NDArray[np.intp], place: Floats) -> Floats:

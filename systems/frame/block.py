@@ -75,6 +75,8 @@ FRAME = np.dtype(
         ("lying", f"({GROUPS},4)f4"),  # leaf area seen from above, of that from the side
         ("understorey", f"({GROUPS},4)f4"),  # how much of the ground low leaves cover, of what they cover at most
         ("undertone", f"({GROUPS},4)f4"),  # how much of the colour of tips low leaves have
+        ("steepest", f"({GROUPS},4)f4"),  # how fast the ground rises where a kind ends
+        ("thins", f"({GROUPS},4)f4"),  # how much it thins out by such a rise
         ("kinds", KIND, (MOST_KINDS,)),
         ("shades", SHADE, (SHADES,)),
         # By four kinds, by length of a message, evenly from 0 to 1: posture index that it bends the kinds to.

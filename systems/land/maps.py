@@ -3,6 +3,7 @@
 import moderngl
 import numpy as np
 
+from ...components.arrays import Floats
 from ...engine.terrain.part import Part
 from ...engine.terrain.record import Density, Terrain
 from ..grow.record import Growth
@@ -25,7 +26,8 @@ def posture_texture(ctx: moderngl.Context, growths: list[Growth]) -> moderngl.Te
 def height_texture(ctx: moderngl.Context, terrain: Terrain) -> moderngl.Texture:
     """Return the elevation map, for exact fetches."""
     rows, columns = terrain.heights.shape
-    texture = ctx.texture((columns, rows), 1, np.ascontiguousarray(terrain.heights).tobytes(), dtype="f4")
+    texels = _heights_of(terrain, Part(0, 0, rows, columns))
+    texture = ctx.texture((columns, rows), texels.shape[2], texels.tobytes(), dtype="f4")
     texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
     return texture
 
@@ -35,8 +37,15 @@ def send_heights(texture: moderngl.Texture, terrain: Terrain, /, *, since: int) 
     rows, columns = terrain.heights.shape
     changed = terrain.changes.since(since)
     for part in [Part(0, 0, rows, columns)] if changed is None else changed:
-        heights = np.ascontiguousarray(terrain.heights[part.slices])
-        texture.write(heights.tobytes(), viewport=(part.column, part.row, part.columns, part.rows))
+        texture.write(_heights_of(terrain, part).tobytes(), viewport=(part.column, part.row, part.columns, part.rows))
+
+
+def _heights_of(terrain: Terrain, part: Part) -> Floats:
+    """Return the heights of a part, and whether there is a hole if there are any, shape (rows, columns, n)."""
+    each = [terrain.heights[part.slices]]
+    if terrain.holes is not None:
+        each.append(terrain.holes[part.slices].astype(np.float32))
+    return np.ascontiguousarray(np.stack(each, axis=-1))
 
 
 def density_texture(ctx: moderngl.Context, density: Density) -> moderngl.TextureArray:

@@ -55,7 +55,9 @@ class LandPart(Part):
             self._put("postures", posture_texture(self.ctx, grown.growths))
         write_land(record, grown)
         folds = any(kind.profile == "fold" for kind in grown.scene.grass.values())
-        self._kinds = {"KINDS": len(grown.growths), **({"FOLDS": 1} if folds else {})}
+        ground = grown.ground
+        special = {"FOLDS": folds, "HOLES": ground.terrain.holes is not None, "SLOPED": bool(ground.density.slopes)}
+        self._kinds = {"KINDS": len(grown.growths), **{name: 1 for name, is_so in special.items() if is_so}}
 
     def defines(self) -> Mapping[str, str | int]:
         """Return how many kinds there are, and whether blades of any are folded."""

@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.declared.grass import GrassKind
+from ...engine.terrain.sample import bareness
 from ..frame.block import GROUPS
 from ..grow.record import GIVES, Growth
 from ..grow.section import SECTIONS
@@ -11,7 +12,7 @@ from ..light.materials import bloom, leaves_of, let_through, pigment, understore
 from ..space.canopy import canopy_height
 from ..space.grown import Grown
 
-BY_KIND = "crown", "leaf", "lying", "understorey", "undertone", "give"
+BY_KIND = "crown", "leaf", "lying", "understorey", "undertone", "steepest", "thins", "give"
 """The fields of the frame's record that have a figure for each kind."""
 
 OF_KIND = "root", "gloss", "tip", "taper", "through", "bloom", "narrowed"
@@ -32,6 +33,9 @@ def write_land(record: NDArray[np.void], grown: Grown, /) -> None:
         row["kinds"][name] = 0.0
     crown, leaf, lying = (row[name].reshape(-1) for name in ("crown", "leaf", "lying"))
     low, tipped = (row[name].reshape(-1) for name in ("understorey", "undertone"))
+    steepest, thins = (row[name].reshape(-1) for name in ("steepest", "thins"))
+    if grown.ground.density.slopes:
+        steepest[: len(growths)], thins[: len(growths)] = bareness(grown.ground.density.slopes).T
     give = row["give"].reshape(GROUPS, GIVES, 4)
     for index, (kind, growth) in enumerate(zip(grown.scene.grass.values(), growths, strict=True)):
         _write_kind(row["kinds"][index], kind, growth)

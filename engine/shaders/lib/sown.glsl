@@ -1,6 +1,7 @@
 // How densely each kind grows, and what leaf area that is.
 #include "lib/lie.glsl"
 #include "lib/plots.glsl"
+#include "lib/terrain.glsl"
 
 uniform sampler2DArray density;  // over the terrain, four kinds in each layer: how densely each is painted to grow
 
@@ -17,6 +18,15 @@ Plot plot_on(vec2 at) {
     return plot_at(terrain_origin + clamp(at * terrain_size, vec2(HALF_CELL), terrain_size - HALF_CELL));
 }
 
+// How much of what would grow there the ground leaves to four kinds: it may be too steep, or there may be none.
+vec4 left_by_ground(vec2 place, int group) {
+    vec4 left = vec4(1.0);
+#ifdef SLOPED
+    left = clamp((steepest[group] - length(rise_at(place))) * thins[group], 0.0, 1.0);
+#endif
+    return is_hole(place) ? vec4(0.0) : left;
+}
+
 // How densely each kind grows at a place, in the mean over squares of `side` [m] where a game has sown or cleared.
 ByKind grows_about(vec2 place, float side) {
     vec2 at = on_map(place);
@@ -28,6 +38,10 @@ ByKind grows_about(vec2 place, float side) {
         if (plot.sown > 0) for (int group = 0; group < GROUPS; group++)
             grows[group] = on_page(plot.sown + group, plot.cell, page_level(side));
     }
+#if defined(SLOPED) || defined(HOLES)
+    for (int group = 0; group < GROUPS; group++)
+        grows[group] *= left_by_ground(place, group);
+#endif
     return grows;
 }
 
@@ -37,6 +51,9 @@ ByKind grows_at(vec2 place) {
 
 // How densely one does.
 float grows_at(vec2 place, int kind) {
+#if defined(SLOPED) || defined(HOLES)
+    return OF(grows_at(place), kind);
+#endif
     vec2 at = on_map(place);
     if (anything_is_sown()) {
         Plot plot = plot_on(at);

@@ -37,8 +37,9 @@ class Edges:
         """
         density = ground.density
         if self._maps is not density.maps:
-            self._maps = density.maps
-            self._painted = [each for values in density.maps for each in _painted_edges(values, ground)]
+            self._maps, holes = density.maps, ground.terrain.holes
+            maps = [*density.maps, *([] if holes is None else [holes.astype(np.float32)])]
+            self._painted = [each for values in maps for each in _painted_edges(values, ground)]
         found = [each.touch(squares) for each in self._painted]
         found.append(self._sown.touch(density.sown, squares))
         if mown is not None:

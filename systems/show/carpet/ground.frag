@@ -30,4 +30,6 @@ void main() {
     if (any_lamps())
         ground += lamps_on_soil(place, left);
     pixel = vec4(shown_of(ground * pigment * pigment + haze), 1.0);
+    if (is_hole(place.xz))
+        discard;
 }
