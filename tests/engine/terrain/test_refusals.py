@@ -86,7 +86,7 @@ def test_arrays_that_are_no_map_are_refused(values: NDArray[Any], words: str, tm
     assert refusal(tmp_path / "map.npy") == words
 
 
-@pytest.mark.parametrize("wrong", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("wrong", [np.inf, -np.inf])
 def test_heights_that_are_no_numbers_are_refused_with_their_count_and_first_place(wrong: float, tmp_path: Path) -> None:
     values = np.zeros((9, 12), np.float32)
     values[4, 7] = wrong
