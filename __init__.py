@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from .components.presser import Presser
     from .components.receivers import Receivers
     from .components.shade import Shade
+    from .components.shadow_map import ShadowMap
     from .components.sun import Sun
     from .components.viewer import Viewer
     from .components.wind import Extent, Grass, TwinValues, WindPrimitive, WindSource
@@ -56,6 +57,7 @@ __all__ = [
     "Scene",
     "SceneError",
     "Shade",
+    "ShadowMap",
     "Shape",
     "Sun",
     "Turbulence",
@@ -92,6 +94,7 @@ _HOMES = {
     "Scene": ".engine.declared.scene",
     "SceneError": ".engine.scene",
     "Shade": ".components.shade",
+    "ShadowMap": ".components.shadow_map",
     "Shape": ".systems.wind.blast",
     "Sun": ".components.sun",
     "Turbulence": ".systems.wind.turbulence",

@@ -13,19 +13,26 @@ from .light.feature import Lighting
 from .light.given import GivenHaze
 from .mow.feature import Mowing
 from .pressers import Pressers
+from .shadows.feature import UNITS as BORROWED
+from .shadows.feature import Shadows
 from .show.registry import REPRESENTATIONS
 from .winds import Winds
 
-FEATURES: tuple[type[Feature], ...] = (Winds, Pressers, Land, Earth, Lighting, GivenHaze, Mowing, Lamps, Bodies)
+FEATURES: tuple[type[Feature], ...] = (
+    Winds, Pressers, Land, Earth, Lighting, GivenHaze, Mowing, Lamps, Shadows, Bodies,
+)  # fmt: skip
 """In the order in which they are made, told of a scene read again, and drawn."""
 
-UNITS = dealt(
-    ["received", *(name for each in FEATURES for name in each.samplers)],
-    [name for each in FEATURES for name in each.asked],
-    {
-        **{each.__name__: ((), each.own) for each in FEATURES},
-        **{each.name: (each.asked, each.samplers) for each in REPRESENTATIONS},
-    },
+UNITS = (
+    dealt(
+        ["received", *(name for each in FEATURES for name in each.samplers)],
+        [name for each in FEATURES for name in each.asked],
+        {
+            **{each.__name__: ((), each.own) for each in FEATURES},
+            **{each.name: (each.asked, each.samplers) for each in REPRESENTATIONS},
+        },
+    )
+    | BORROWED
 )
 """The texture unit of each sampler."""
 

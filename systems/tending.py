@@ -1,10 +1,13 @@
-"""What a game does to a prairie: winds, cuts, what it sows and clears, other ground, and another light."""
+"""What a game does to a prairie: winds, cuts, what it sows and clears, other ground, another light, and shadows."""
+
+from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..components.footprint import Footprint, Road
 from ..components.pose import HERE, Pose
+from ..components.shadow_map import ShadowMap
 from ..components.wind import WindPrimitive
 from ..engine.scene.change import changed
 from ..engine.terrain.change import set_heights
@@ -12,12 +15,14 @@ from .answering import Answering
 from .features import one
 from .land.earth import Earth
 from .mow.sown import clear, sow
+from .shadows.feature import Shadows
 
 
 class Tending(Answering):
     """What can be changed of what stands on a site, until it is released."""
 
     _released = False
+    _origin = 0.0, 0.0, 0.0
 
     def add(self, primitive: WindPrimitive, *, pose: Pose | None = None, name: str | None = None) -> int:
         """Add a wind and return its entity, a handle that `move` and `remove` take.
@@ -127,6 +132,16 @@ class Tending(Answering):
         """
         self._must_be_there("change its ground")
         one(Earth, self.features).hand_in(texture, side, linear=linear)
+
+    def shadows(self, maps: Iterable[ShadowMap]) -> None:
+        """Let a game's shadow maps darken ground and grass from the next frame on, in place of those before.
+
+        Of up to four, the first counts that a place lies in: give the finest first. They stay until others are handed
+        in, so their textures may be drawn anew for each frame; an empty list ends them. Raises TypeError for what are
+        no shadow maps, ValueError for more than four, RuntimeError after `release`.
+        """
+        self._must_be_there("hand in shadow maps")
+        one(Shadows, self.features).hand_in(maps, self._origin)
 
     def _must_be_there(self, purpose: str) -> None:
         if self._released:

@@ -4,7 +4,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 import moderngl
+import numpy as np
 
+from ...components.arrays import Doubles
 from ..camera import View
 from .current import current_functions, is_own, own_context
 from .functions import functions_of
@@ -64,6 +66,17 @@ def unturned(seen: View) -> View:
     """Return a view for clip space as OpenGL has it, in which a guest draws, from the host's (`glClipControl`)."""
     clip = _kept[-1].clip
     return seen if clip is None else View(seen.view, clip @ seen.projection)
+
+
+def unturned_clip(matrix: Doubles, /) -> Doubles:
+    """Return a matrix to clip space as OpenGL has it, from one to the host's, (4, 4)."""
+    clip = _kept[-1].clip
+    return matrix if clip is None else np.asarray(clip @ matrix, np.float64)
+
+
+def borrow(unit: int, texture: int, /) -> None:
+    """Bind a 2D texture to a unit before `FIRST_UNIT`, until the host's state is brought back."""
+    _kept[-1].borrow(unit, texture)
 
 
 def arrive(ctx: moderngl.Context) -> None:

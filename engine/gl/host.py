@@ -212,6 +212,10 @@ class State:
         if self._clip != AS_EVER:
             gl.glClipControl(*AS_EVER)
 
+    def borrow(self, unit: int, texture: int) -> None:
+        """Bind a 2D texture to a unit of the host's own, until it is brought back."""
+        self._units.borrow(unit, texture)
+
     def narrow(self) -> None:
         """Let colour through where the host lets it: to its first output, in the colours that its mask has."""
         self._outputs.narrow()

@@ -10,6 +10,9 @@ FIRST_UNIT = 32
 UNITS = range(FIRST_UNIT, 48)
 """All that are used."""
 
+BORROWED = range(28, 32)
+"""Those that a host's own textures are bound to for a frame, and given back after it."""
+
 SCRATCH_UNIT = 15
 """Where textures are loaded that no host's own moderngl context loads: every OpenGL has it, and it is kept."""
 
@@ -25,7 +28,8 @@ _FOUND_AT = addressof(_FOUND)
 class Units:
     """A host's sampler objects on the units that are used, and its textures on `scratch`, where textures are loaded.
 
-    `clear` takes the samplers off, and `restore` brings all of it back. Either leaves another unit active.
+    `clear` takes the samplers off, `borrow` takes a unit that is not among them, and `restore` brings all of it back.
+    Each leaves another unit active.
     """
 
     def __init__(self, gl: Functions, scratch: int) -> None:
@@ -33,6 +37,14 @@ class Units:
         self._activate(scratch)
         self._textures = {target: self._number(name) for target, name in LOADED.items()}
         self._samplers = self._bound()
+        self._borrowed: dict[int, tuple[int, int]] = {}
+
+    def borrow(self, unit: int, texture: int) -> None:
+        """Bind a 2D texture to a unit that the host has something else on, until all is brought back."""
+        self._activate(unit)
+        if unit not in self._borrowed:
+            self._borrowed[unit] = self._number("TEXTURE_BINDING_2D"), self._number("SAMPLER_BINDING")
+        self._gl.glBindTexture(NUMBERS["TEXTURE_2D"], texture)
 
     def clear(self) -> None:
         """Let textures be read as they say themselves."""
@@ -42,6 +54,10 @@ class Units:
     def restore(self) -> None:
         """Bring the host's back."""
         for unit, sampler in self._samplers.items():
+            self._gl.glBindSampler(unit, self._gl.living("Sampler", sampler))
+        for unit, (texture, sampler) in self._borrowed.items():
+            self._activate(unit)
+            self._gl.glBindTexture(NUMBERS["TEXTURE_2D"], self._gl.living("Texture", texture))
             self._gl.glBindSampler(unit, self._gl.living("Sampler", sampler))
         self._activate(self._scratch)
         for target, texture in self._textures.items():

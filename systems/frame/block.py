@@ -18,6 +18,9 @@ from ..grow.record import GIVES
 SHADES = 8
 """How many bodies cast shadows at most."""
 
+MAPS = 4
+"""How many shadow maps of a game's count at most."""
+
 GROUPS = -(-MOST_KINDS // 4)
 """Vectors of four that a figure takes for each kind that there can be."""
 
@@ -27,6 +30,9 @@ EVERYWHERE = 1e9
 SHADE = np.dtype([("middle", "3f4"), ("radius", "f4"), ("axis", "3f4"), ("pressed", "f4")])
 """A body that casts a shadow: middle, radius [m], 0 where there is none; its axis, a unit vector, and how much longer
 it would have to be along that to be a ball."""
+
+MAP = np.dtype([("clip_of", "16f4"), ("bias", "f4"), ("apart", "V12")])
+"""A shadow map: world to its clip space; how much nearer to the sun places are taken than they are [m]."""
 
 KIND = np.dtype(
     [
@@ -79,11 +85,18 @@ FRAME = np.dtype(
         ("thins", f"({GROUPS},4)f4"),  # how much it thins out by such a rise
         ("kinds", KIND, (MOST_KINDS,)),
         ("shades", SHADE, (SHADES,)),
+        ("maps", MAP, (MAPS,)), ("maps_shown", "f4"), ("pad_maps", "V12"),  # how many of them there are
         # By four kinds, by length of a message, evenly from 0 to 1: posture index that it bends the kinds to.
         ("give", f"({GROUPS * GIVES},4)f4"),
     ]
 )  # fmt: skip
 """The block's fields, as std140 lays them out; shaders have them by the same names."""
+
+
+def plain(record: NDArray[np.void], /) -> bool:
+    """Return whether neither lamps nor shadow maps are in a frame."""
+    return not (record["lamps_grid"][0, 3] or record["maps_shown"][0])
+
 
 GLSL = emitted({"SHADES": SHADES}) + block("Frame", FRAME)
 

@@ -11,7 +11,20 @@ import moderngl
 import numpy as np
 import pytest
 
-from tallgrass import Blast, Breeze, Footprint, Gust, Pose, Presser, Shade, Turbulence, Whirlwind, WindPrimitive
+from tallgrass import (
+    Blast,
+    Breeze,
+    Footprint,
+    Gust,
+    Lamp,
+    Pose,
+    Presser,
+    Shade,
+    ShadowMap,
+    Turbulence,
+    Whirlwind,
+    WindPrimitive,
+)
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.plugins import wind_kinds
 from tallgrass.systems.prairie import Prairie
@@ -88,7 +101,7 @@ def plugin(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[list[Win
 def test_nothing_is_made_on_a_frame_after_a_game_has_prepared(
     stage: Stage, load: Load, camera: Aim, made: list[str], plugin: list[WindPrimitive]
 ) -> None:
-    prairie = load(LITTLE)
+    prairie, shadows = load(LITTLE), stage.ctx.depth_texture((8, 8))
     prairie.prepare()
     near, far = camera(0.0, 2.0, 20.0, pitch=-10), camera(0.0, 2.0, 20.0, pitch=-4, view=6.0)
 
@@ -116,6 +129,8 @@ def test_nothing_is_made_on_a_frame_after_a_game_has_prepared(
         "shade": lambda: esper.create_entity(Shade((0.0, 5.0, 8.0), 1.0)),
         "saucer": lambda: prairie.add(Blast(body="saucer"), pose=Pose(0, 5)),
         "cut": lambda: prairie.cut(Footprint(radius=1.0), 0.05, pose=Pose(0, 8)),
+        "lamp": lambda: esper.create_entity(Lamp(), Pose(1.0, 8.0, y=3.0)),
+        "shadow map": lambda: prairie.shadows([ShadowMap(shadows, np.diag([0.02, 0.02, 0.02, 1.0]))]),
         "light": lambda: prairie.shine(hour=19.0, clouds=0.5),
     }
     try:

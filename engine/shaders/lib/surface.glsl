@@ -5,6 +5,7 @@
 //    to the eye, as a `Sender`, and give it to `light_at`, the one list of all lights; `light_on` does both for leaves. Lights
 //    may be summed over kinds with `plus`. Last, `veiled` puts the haze before it.
 //    `bundled` and `unbundled` bring a light through stages, as a mat4 with three numbers of one's own beside it.
+//    Where it is asked for coarsely, a shader that defines PIXELS_ASK leaves lamps and shadow maps to whoever asks more finely.
 // 2. Once a fragment: fill a `Surface` and ask `shade`, which gives radiance; `shown_of` of lib/tone.glsl is the last step.
 // A new light is a term of `light_at`, a new shadow one of `sun_seen` (lib/shadows.glsl), what lies on surfaces (snow, water)
 // a change of the `Surface` at the head of `shade`: all representations get it.
@@ -111,6 +112,20 @@ vec4 lamps_at(vec3 place, Sender sender) {
     return vec4(sum, ways / max(brightness(sum), DARKEST));
 }
 
+// The light at a place with that of lamps; `suns` is the sun's part of it.
+Light add_lamps(Light light, vec3 place, Sender sender, out float suns) {
+    Light sum = with_lamps(light, lamps_at(place, sender));
+    suns = brightness(light.sun) / max(brightness(sum.sun), DARKEST);
+    return sum;
+}
+
+// A light where so much of the sun is seen past what casts shadows; `suns` is the sun's part of it, beside that of lamps.
+Light shaded(Light light, float seen, float suns) {
+    light.sun *= seen * suns + (1.0 - suns);
+    light.gloss *= seen;
+    return light;
+}
+
 // The light at a place that a surface sends to the eye, where the sun's elevation has the sine `high` and so much of it is
 // seen. This is the list of all lights.
 Light light_at(vec3 place, Sender sender, float high, float seen) {
@@ -118,7 +133,7 @@ Light light_at(vec3 place, Sender sender, float high, float seen) {
     vec3 from_sun = sunlight * response.sun * seen;
     vec3 from_sky = skylight * response.sky;
     Light light = Light(from_sun, from_sky, vec3(0.0), response.gloss * seen, sun_way(max(sender.kind, 0), high), vec2(0.0));
-#ifndef LAMPS_LATER  // where pixels ask for them
+#ifndef PIXELS_ASK  // or whoever asks for light adds them
     if (any_lamps())
         light = with_lamps(light, lamps_at(place, sender));
 #endif

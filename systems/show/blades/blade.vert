@@ -1,5 +1,6 @@
 // One vertex is one blade: all about it that is the same along its ribbon. With STORED it is looked up by the number of
 // its receiver; with MORPH it is on its way between its own place and its painted place on a moving strip (paper, 4.2).
+#define PIXELS_ASK  // or rather ribbons, for shadow maps
 #include "lib/light.glsl"
 #include "lib/posture.glsl"
 #include "systems/show/blades/organs.glsl"
@@ -48,11 +49,12 @@ out vec4 low;    // pigment at the root; row of the posture table
 out vec4 high;   // pigment at the tip; taper
 out mat4 lit;    // light on it, bundled; beside it the relative change of pigment to its sides
 out vec4 stands; // where its foot is in the canopy, and how much of it is its length; organ, plus the part that is cut off; cover
-out vec4 joints; // sub-level, and slide to those of the next; coverage from which on it hides what is behind; kind; ring of strips, or teeth seen
+out vec4 joints; // sub-level, and slide to those of the next; coverage from which on it hides what is behind; kind, plus the part of the light that is lamps'; ring of strips, or teeth seen
 
 const float MOST_CUT = 0.999;  // part of a blade that is cut off at most
 const float PARTED = 0.5;  // coverage from which on a blade hides what is behind it, near by
 const float NEARLY = 0.8;  // from which part of the distance on, up to which blades do so, that begins to change
+const float ALL_LAMPS = 0.99;  // what is told beside a kind where no light is the sun's
 const float NEVER = 2.0;  // coverage that no blade has
 
 // A blade that is drawn: it roots at a place of the world, and hears this message.
@@ -174,7 +176,13 @@ void main() {
 
     Lie lies = lie_at(blade.root.xz);
     ByKind grows = grows_at(blade.root.xz);
-    Light light = veiled(light_on(k, blown, blade.root, lies, grows), blade.root);
+    Light light = light_on(k, blown, blade.root, lies, grows);
+    if (any_lamps()) {
+        float suns;
+        light = add_lamps(light, blade.root, Sender(k, blown, lies.normal, 1.0), suns);
+        joints.z += ALL_LAMPS * (1.0 - suns);
+    }
+    light = veiled(light, blade.root);
     vec3 tilt = dye(blade, across, has_section, is_round, lies.slow);
     float canopy_height = OF(crown, k) * lodged(blown);
     stands.xyz = vec3(up.y / canopy_height, blade.height / canopy_height, blade.organ);

@@ -1,6 +1,7 @@
 // One instance is one blade, as blade.vert has made it out: a ribbon of SEGMENTS quads. With SOFT it is drawn half a pixel
 // wider on either side, and the fragments say how much of each pixel it covers; so a blade thinner than a pixel is faint,
 // and not a row of dots. With MORPH it is on its way to its painted place on a moving strip (paper, section 4.2).
+#define PIXELS_ASK  // lamps are in its light already
 #include "lib/light.glsl"
 #include "lib/posture.glsl"
 #include "systems/grow/bend.py"
@@ -124,7 +125,14 @@ vec3 painted_light(int k, float t, vec2 face, Painted target) {
     vec3 pigment = pigment_at(k, t) * stretch(lies.slow) * grain_at(k, doubled(face));
     pigment *= faced(k, normalize(target.run.xz), target.middle, target.top);
     ByKind grows = grows_at(target.middle.xz);
-    Light light = veiled(light_on(k, target.bend, target.middle, lies, grows), target.middle);
+    Light light = light_on(k, target.bend, target.middle, lies, grows);
+    if (any_maps())
+        light = shaded(light, past_maps(target.place), 1.0);
+    if (any_lamps()) {
+        float suns;
+        light = add_lamps(light, target.middle, Sender(k, target.bend, lies.normal, 1.0), suns);
+    }
+    light = veiled(light, target.middle);
     if (anything_is_cut())
         light = mown_to(left_at(target.place.xz), light, k, areas(grows));
     return shade(leaf_at(pigment, target.h), light);
@@ -210,6 +218,8 @@ void main() {
 #endif
     float high_up = stands.x + spine.place.y * stands.y;
     Light reaches = unbundled(lit);
+    if (any_maps())
+        reaches = shaded(reaches, past_maps(point.place), 1.0 - fract(joints.z));
     vec3 pigment = mix(low.rgb, high.rgb, t), light = shade(leaf_at(pigment * (1.0 + side * lit[3].xyz), high_up), reaches);
 #ifdef FOLDS
     bool is_folded = is_blade(int(stands.z)) && kinds[k].apart > 0.0 && kinds[k].narrowed > 0.0;

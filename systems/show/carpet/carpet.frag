@@ -1,5 +1,5 @@
 // The carpet: what is seen of its grass, and of the ground between. With EDGED, grass ends or has been cut there.
-#define LAMPS_LATER
+#define PIXELS_ASK
 #include "lib/light.glsl"
 #include "systems/show/carpet/litter.glsl"
 
@@ -59,7 +59,7 @@ void work_out(float slope) {
     ByKind grows = grows_at(place.xz);
     strips_before = 1.0;
     lush = understorey_of(lies, grows);
-    if (anything_is_cut()) {
+    if (anything_is_cut() || any_maps()) {
         Soil soil = soil_lit(place, lies, grows, 1.0 - haze_at(place));
         sunlit = soil.sunlit;
         skylit = soil.skylit;
@@ -159,9 +159,10 @@ void main() {
     work_out(slope);
 #endif
     vec3 pigment = pigment_lying(place.xz, through_leaves(dense / max(slope, LOWEST)), lush);
-    vec3 soil_light = soil_between(Soil(soil_seen, sunlit, skylit, soil_way), place.xz, left);
+    vec3 ground = met_at(0.0, slope);
+    vec3 soil_light = soil_between(Soil(soil_seen, sunlit, skylit, soil_way), ground, left);
     if (any_lamps())
-        soil_light += lamps_on_soil(vec3(place.x, place.y - carpet * tall, place.z), left);
+        soil_light += lamps_on_soil(ground, left);
     vec3 color = shown_of(soil_light * pigment * pigment + lit[2].rgb);
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / patch_side))) : 0.0, cover = 0.0;
     if (over_hosts > 0.0)

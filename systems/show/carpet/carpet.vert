@@ -1,6 +1,6 @@
 // The carpet: what is the same over a few pixels is made out at the corners of the mesh. With EDGED, grass ends or has been
 // cut there: pixels make out themselves what is BROUGHT along otherwise.
-#define LAMPS_LATER  // pixels ask for them: pools of light are smaller than the mesh
+#define PIXELS_ASK  // pools of light and shadows are smaller than the mesh
 #include "lib/light.glsl"
 #include "systems/show/carpet/laid.glsl"
 #include "systems/show/carpet/met.glsl"

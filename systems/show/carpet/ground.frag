@@ -1,4 +1,5 @@
 // Ground that no carpet lies on. With EDGED, grass ends or has been cut on it, and pixels make out themselves what light gets there.
+#define PIXELS_ASK
 #include "lib/light.glsl"
 #include "systems/show/carpet/litter.glsl"
 #include "systems/show/carpet/stubble.glsl"
@@ -26,7 +27,7 @@ void main() {
 #endif
     vec3 pigment = pigment_lying(place.xz, 1.0, lush);
     float left = left_seen(place.xz);
-    vec3 ground = soil_between(soil, place.xz, left);
+    vec3 ground = soil_between(soil, place, left);
     if (any_lamps())
         ground += lamps_on_soil(place, left);
     pixel = vec4(shown_of(ground * pigment * pigment + haze), 1.0);

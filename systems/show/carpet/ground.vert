@@ -1,5 +1,5 @@
 // Ground that no carpet lies on.
-#define LAMPS_LATER  // pixels ask for them: pools of light are smaller than the mesh
+#define PIXELS_ASK  // pools of light and shadows are smaller than the mesh
 #include "lib/light.glsl"
 #include "systems/show/carpet/mesh.glsl"
 #include "systems/show/carpet/floor.glsl"

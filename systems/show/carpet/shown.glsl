@@ -49,6 +49,12 @@ void cut_down(int kind, inout Texel texel, inout Light light, View view, float u
     light = mown_to(view.left, light, kind, view.area);
 }
 
+// Where a line of sight of this slope comes through the carpet so high over the ground [m].
+vec3 met_at(float height, float slope) {
+    float on = (carpet * tall - height) / max(slope, LOWEST);
+    return gone_on(place, heading_to(place.xz) * clamp(on, -FARTHEST_SEEN, FARTHEST_SEEN));
+}
+
 // The light on a kind with that of lamps, where leaves are that are seen.
 Light lamplit(int kind, Light light, Sight sight) {
     vec3 there = seen_at(place, sight.slope, tall, dense);
@@ -64,11 +70,13 @@ Light lamplit(int kind, Light light, Sight sight) {
 vec4 kind_seen(int kind, Patch own, Reading read, Sight sight, float grain, View view, out float taller) {
     Texel texel = texel_of(kind, own, read, sight.on_level, grain);
     Light light = view.light;
-    if (any_lamps())
-        light = lamplit(kind, light, sight);
     float usual_height = texel.height / (1.0 + texel.taller) * OF(tops, kind);
     taller = texel.taller;
     place_leaves(kind, texel, view);
+    if (any_maps())
+        light = shaded(light, past_maps(met_at(texel.height * OF(crown, kind), sight.slope)), 1.0);
+    if (any_lamps())
+        light = lamplit(kind, light, sight);
     float bent = max(1.0 - (1.0 - texel.covers) * through_leaves(view.bent.x), 0.0);
 #ifdef HEADS
     float ripe = OF(riper, kind);

@@ -73,6 +73,12 @@ float along_ground(float slope, float tall) {
     return tall / max(slope, LOWEST);
 }
 
+// Where a line of sight through a place is that has gone on so far over the ground [m].
+vec3 gone_on(vec3 place, vec2 way) {
+    vec3 ray = place - eye;
+    return place + vec3(way.x, ray.y * dot(way, ray.xz) / max(dot(ray.xz, ray.xz), TINY), way.y);
+}
+
 // Where leaves are that are seen: the less densely they grow, the farther behind where a line of sight comes to the carpet.
 vec3 seen_at(vec3 place, float slope, float tall, float dense) {
     float behind = (sqrt(max(slope, LOWEST) / max(dense, THINNEST)) - BEFORE) * along_ground(slope, tall);

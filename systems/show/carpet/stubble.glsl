@@ -11,11 +11,12 @@ float left_seen(vec2 at) {
 }
 
 // The radiance of the soil where grass is left to stand so high [m].
-vec3 soil_between(Soil soil, vec2 at, float left) {
-    if (!anything_is_cut())
+vec3 soil_between(Soil soil, vec3 at, float left) {
+    if (!anything_is_cut() && !any_maps())
         return soil.seen;
-    vec2 through = through_leaves(vec2(soil.way, OPEN_SKY) * weighed(areas(grows_at(at)), leaves_left(left)));
-    return soil.sunlit * through.x + soil.skylit * through.y;
+    float seen = any_maps() ? past_maps(at) : 1.0;
+    vec2 through = through_leaves(vec2(soil.way, OPEN_SKY) * weighed(areas(grows_at(at.xz)), leaves_left(left)));
+    return soil.sunlit * (through.x * seen) + soil.skylit * through.y;
 }
 
 // The radiance of the soil in the light of lamps alone, where grass is left to stand so high [m].

@@ -7,6 +7,7 @@ flat PASSED vec4 grain_cos; // change of pigment with the cosine of twice the no
 flat PASSED vec4 grain_sin; // the same with the sine; with THIN, start
 flat PASSED mat4 lit;       // light on it, bundled; beside it layer of the texture, level of its mip-maps, factor on coverage
 #ifdef SHADED
+PASSED vec4 spot;           // place (x, y, z) [m]; the sun's part of the light that is not the sky's
 flat PASSED vec4 shadow;    // of a body: the square of how near the sun's ray comes to it, by powers of `on.z`; how soft its edge is
 #endif
 #ifdef DEEP

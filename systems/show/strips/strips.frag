@@ -1,6 +1,6 @@
-// With THIN, blades are drawn by rank, and with EDGED density has edges. With SHADED bodies cast shadows, and with CUT some grass
-// is cut: those are programs of their own, as fragments would pay half as much again for what is rare. With DEEP, only depth is
-// written.
+// With THIN, blades are drawn by rank, and with EDGED density has edges. With SHADED bodies and shadow maps cast shadows, and
+// with CUT some grass is cut: those are programs of their own, as fragments would pay half as much again for what is rare. With
+// DEEP, only depth is written.
 #include "lib/layered.glsl"
 #include "lib/light.glsl"
 
@@ -58,8 +58,9 @@ void main() {
     Light light = unbundled(lit);
 #ifdef SHADED
     float seen = past_body(sqrt(max(shadow.x + on.z * (shadow.y + on.z * shadow.z), 0.0)), shadow.w);
-    light.sun *= seen;
-    light.gloss *= seen;
+    if (any_maps())
+        seen *= past_maps(spot.xyz);
+    light = shaded(light, seen, spot.w);
 #endif
 #ifdef CUT
     if (cut.w > 0.5) {

@@ -1,4 +1,5 @@
 // One instance is one polygon strip between two vertical edges, as many quads high as its ring asks for.
+#define PIXELS_ASK  // for shadow maps
 #include "lib/light.glsl"
 #include "lib/posture.glsl"
 #include "lib/received.glsl"
@@ -231,7 +232,14 @@ void main() {
     roots = vec4(mix(a.rooted.xz, b.rooted.xz, corner.x), corner.y * OF(tall, k), float(k));
     cut = cut_about(column, rooted.xz, middle, pixels, 2.0 * distance(a.foot.xz, b.foot.xz));
 #endif
-    Light light = veiled(light_on(k, bend, rooted, lies, grows, seen), middle);
+    Light light = light_on(k, bend, rooted, lies, grows, seen);
+    float suns = 1.0;
+    if (any_lamps())
+        light = add_lamps(light, rooted, Sender(k, bend, lies.normal, 1.0), suns);
+    light = veiled(light, middle);
+#ifdef SHADED
+    spot = vec4(point.xyz, suns);
+#endif
     float texels = picture.y * ATLAS / (OF(tall, k) * apart_at(middle, run, top + vec3(back.x, 0.0, back.y)));
     lit = bundled(light, vec3(float(column.layer), log2(texels) - SHARPER, boosted(k, run, middle, top, back)));
     dye(column, run, middle, top, 1.0 - lodged(bend), lies.slow);

@@ -1,0 +1,1 @@
+"""Shadows that a game throws on the prairie, by its shadow maps."""

@@ -1,0 +1,95 @@
+"""The shadow maps of a game: which there are, and binding them."""
+
+import logging
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from reprlib import repr as shortened
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.shadow_map import ShadowMap, texture_number
+from ...engine.gl.functions import functions_of
+from ...engine.gl.guest import borrow, unturned_clip
+from ...engine.gl.units import BORROWED
+from ..around.outlook import Outlook
+from ..frame.block import MAPS, FrameBlock
+from ..frame.feature import Feature, Part
+
+log = logging.getLogger("tallgrass")
+
+UNITS = {f"map_{number}": unit for number, unit in enumerate(BORROWED)}
+"""The texture unit of each map: they are a host's, and given back in the end."""
+
+
+class Shadows(Feature):
+    """What a game has handed in."""
+
+    def __init__(self) -> None:
+        self.maps: tuple[ShadowMap, ...] = ()
+
+    def hand_in(self, maps: Iterable[ShadowMap], origin: tuple[float, float, float], /) -> None:
+        """Let these count from the next frame on; raises TypeError for other things, ValueError for too many.
+
+        Their matrices are of a world in which the scene's origin is at `origin`.
+        """
+        try:
+            handed = tuple(maps)
+        except TypeError:
+            raise TypeError(f"shadow maps come in a list, as [ShadowMap(...)], not as {shortened(maps)}") from None
+        for each in handed:
+            if not isinstance(each, ShadowMap):
+                raise TypeError(f"shadow maps are made as ShadowMap(texture, matrix), unlike {shortened(each)}")
+        if len(handed) > MAPS:
+            raise ValueError(f"there is room for {MAPS} shadow maps, not for {len(handed)}")
+        moved = np.eye(4)
+        moved[:3, 3] = origin
+        self.maps = tuple(replace(each, matrix=each.matrix @ moved) for each in handed)
+
+    def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> "ShadowPart":
+        """Return what binds them."""
+        del block, units
+        return ShadowPart(ctx, self)
+
+
+class ShadowPart(Part):
+    """Binds the maps, each read as a sampler of its own says, so that a texture's own state does not count."""
+
+    def __init__(self, ctx: moderngl.Context, shadows: Shadows) -> None:
+        self._ctx, self._shadows, self._gl = ctx, shadows, functions_of(ctx)
+        self._sampler = ctx.sampler(
+            repeat_x=False, repeat_y=False, filter=(moderngl.LINEAR, moderngl.LINEAR), compare_func="<="
+        )
+        self._bound: list[ShadowMap] = []
+        self._told: set[int] = set()
+
+    def rehearse(self, record: NDArray[np.void], /) -> None:
+        """Pretend that there is one."""
+        record["maps_shown"] = 1.0
+
+    def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
+        """Write where the maps lie, of those whose textures are there."""
+        del outlook
+        self._bound = [each for each in self._shadows.maps if self._is_there(each)]
+        record["maps_shown"] = len(self._bound)
+        for into, each in zip(record["maps"][0], self._bound, strict=False):
+            into["clip_of"], into["bias"] = unturned_clip(each.matrix).T.reshape(16), each.bias
+
+    def _is_there(self, given: ShadowMap) -> bool:
+        texture, number = given.texture, texture_number(given.texture)
+        is_gone = isinstance(getattr(texture, "mglo", None), moderngl.InvalidObject) or not self._gl.glIsTexture(number)
+        if is_gone and number not in self._told:
+            self._told.add(number)
+            log.warning("texture %d of a shadow map has been released: the prairie is drawn without it", number)
+        return not is_gone
+
+    def use(self) -> None:
+        """Bind them for this frame."""
+        for unit, each in zip(BORROWED, self._bound, strict=False):
+            borrow(unit, texture_number(each.texture))
+            self._sampler.use(unit)
+
+    def release(self) -> None:
+        """Give the sampler back."""
+        self._sampler.release()

@@ -1,0 +1,266 @@
+"""Shadow maps of a game's: its shadows lie on the grass where rays to the sun meet what throws them (F5, N12)."""
+
+import logging
+from collections.abc import Callable, Iterator
+from ctypes import c_int
+from typing import Any
+
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass import ShadowMap
+from tallgrass.engine.camera import Camera, view_of
+from tallgrass.engine.gl.functions import NUMBERS, functions_of
+from tallgrass.engine.gl.units import BORROWED
+from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.reference import EveryBlade, cells_in_picture, cells_within
+from tallgrass.systems.space.cone import view_cone
+from tallgrass.testing import LITTLE, Stage
+
+Array = NDArray[np.float64]
+Rows = NDArray[np.int64]
+Load = Callable[..., Prairie]
+Aim = Callable[..., Camera]
+
+WIDTH = 0.035
+"""How broad a blade is [m]."""
+
+SCENE: dict[str, Any] = {
+    "tallgrass": 2,
+    "terrain": {"size": [120, 120]},
+    "grass": {"turf": {"height": [0.4, 0.6], "width": WIDTH, "blades": 800, "variety": 0}},
+    "light": {"azimuth": 160.0, "elevation": 40.0, "haze": 1e6},
+    "quality": {
+        "models": 1,
+        "blade_rings": [{"to": 2, "segments": 5}],
+        "strip_rings": [{"to": 6, "strips": 6, "texel": 0.015}],
+        "carpet_to": 16,
+        "carpet": 64,
+    },
+}
+CAMERA = Camera((0.0, 9.0, 9.0), 0.0, -0.8, np.radians(34.0))
+SIZE = (128, 96)
+LOW, HIGH = np.array([-1.6, 1.2, -2.2]), np.array([1.4, 2.6, 0.4])
+"""Corners of a box above the grass [m]."""
+
+HALF, DEEP = 12.0, 60.0
+"""Half the side of the map, and half of how deep it is [m]."""
+
+
+def to_sun(azimuth: float = 160.0, elevation: float = 40.0) -> Array:
+    a, e = np.radians((azimuth, elevation))
+    return np.array([np.cos(e) * np.sin(a), np.sin(e), -np.cos(e) * np.cos(a)])
+
+
+def seen_from_sun(sun: Array) -> Array:
+    """World to the clip space of a map that looks from the sun, (4, 4)."""
+    right = np.cross(-sun, (0.0, 1.0, 0.0))
+    right /= np.linalg.norm(right)
+    turned = np.eye(4)
+    turned[:3, :3] = right, np.cross(right, -sun), sun
+    return np.asarray(np.diag([1.0 / HALF, 1.0 / HALF, -1.0 / DEEP, 1.0]) @ turned)
+
+
+def met(start: Array, way: Array) -> Array:
+    """How far rays go (..., 3) until they meet the box, infinitely far where they do not."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        one, other = (LOW - start) / way, (HIGH - start) / way
+    near, far = np.minimum(one, other).max(axis=-1), np.maximum(one, other).min(axis=-1)
+    return np.asarray(np.where((near <= far) & (far > 0.0), near, np.inf))
+
+
+def box_texture(ctx: moderngl.Context, matrix: Array, sun: Array, side: int = 1024) -> moderngl.Texture:
+    """A depth texture that has the box as the sun sees it."""
+    line = (np.arange(side) + 0.5) / side * 2.0 - 1.0
+    x, y = np.meshgrid(line, line)
+    start = np.stack([x, y, np.full_like(x, -1.0), np.ones_like(x)], axis=-1) @ np.linalg.inv(matrix).T
+    depth = np.minimum(met(start[..., :3], -sun) / (2.0 * DEEP), 1.0)
+    texture = ctx.depth_texture((side, side))
+    texture.write(depth.astype(np.float32).tobytes())
+    return texture
+
+
+@pytest.fixture(scope="module")
+def stage(ctx: moderngl.Context) -> Stage:
+    return Stage(ctx, SIZE)
+
+
+@pytest.fixture(scope="module")
+def prairies(ctx: moderngl.Context) -> Iterator[dict[str, Prairie]]:
+    """One prairie a representation, which shows nothing else."""
+    made = {lod: Prairie.load(SCENE, ctx=ctx, lod=lod, live=False) for lod in ("blades", "strips", "carpet")}
+    yield made
+    for prairie in made.values():
+        prairie.release()
+
+
+@pytest.fixture
+def box(ctx: moderngl.Context) -> Iterator[ShadowMap]:
+    matrix = seen_from_sun(to_sun())
+    texture = box_texture(ctx, matrix, to_sun())
+    yield ShadowMap(texture, matrix, bias=0.0)
+    texture.release()
+
+
+@pytest.fixture
+def night(ctx: moderngl.Context) -> Iterator[ShadowMap]:
+    """One in which all lies in shadow."""
+    texture = ctx.depth_texture((8, 8))
+    texture.write(np.zeros((8, 8), np.float32).tobytes())
+    yield ShadowMap(texture, seen_from_sun(to_sun()))
+    texture.release()
+
+
+def shadow_of(prairie: Prairie, stage: Stage, box: ShadowMap, night: ShadowMap, rows: Rows) -> Array:
+    """How much of each column of some rows lies in the shadow of a box, of how dark they are in shadow altogether."""
+    pictures = []
+    for maps in ([], [box], [night]):
+        prairie.shadows(maps)
+        pictures.append(stage.shot(prairie, CAMERA)[rows].mean(axis=(0, 2)))
+    prairie.shadows([])
+    lit, part, dark = pictures
+    return np.asarray((lit - part) / (lit - dark))
+
+
+def traced(prairie: Prairie, ctx: moderngl.Context, fine: int = 3) -> Array:
+    """How much of each pixel lies in the shadow of the box by rays from what is seen of every blade."""
+    large = Stage(ctx, (SIZE[0] * fine, SIZE[1] * fine))
+    large.shot(prairie, CAMERA)
+    view, projection = large.matrices(CAMERA)
+    seen, every = view_of(view, projection), EveryBlade(prairie)
+    cells = cells_within(prairie.site.ground, CAMERA.position, view_cone(seen), sway=prairie.site.sway)
+    large.begin()
+    every.draw(seen, cells_in_picture(prairie, cells, seen))
+    every.release()
+    height, width = large.size[::-1]
+    x, y = np.meshgrid((np.arange(width) + 0.5) / width * 2 - 1, 1 - (np.arange(height) + 0.5) / height * 2)
+    clip = np.stack([x, y, large.depth() * 2.0 - 1.0, np.ones_like(x)], axis=-1) @ seen.unclip.T
+    shaded = np.isfinite(met(clip[..., :3] / clip[..., 3:], to_sun()))
+    return np.asarray(shaded.reshape(SIZE[1], fine, SIZE[0], fine).mean(axis=(1, 3)))
+
+
+def test_n12_the_shadow_of_a_box_lies_where_rays_are_stopped_on_all_representations(
+    ctx: moderngl.Context, stage: Stage, prairies: dict[str, Prairie], box: ShadowMap, night: ShadowMap
+) -> None:
+    due = traced(prairies["blades"], ctx)
+    ground = stage.ground(CAMERA, 0.35)
+    rows = np.flatnonzero((due.max(axis=1) > 0.98) & (due[:, :8].max(axis=1) < 0.02) & (due[:, -8:].max(axis=1) < 0.02))
+    assert len(rows) > 15
+    across = float(np.linalg.norm(np.diff(ground[rows], axis=1), axis=-1).mean())
+    whole = due[rows].mean(axis=0)
+
+    def edges(shadow: Array) -> Array:
+        """How far the shadow reaches to the left and to the right [m]."""
+        return across * np.array([shadow[: whole.argmax()].sum(), shadow[whole.argmax() :].sum()])
+
+    found = {lod: edges(shadow_of(each, stage, box, night, rows)) - edges(whole) for lod, each in prairies.items()}
+    assert max(np.abs(off).max() for off in found.values()) < WIDTH, found
+
+
+@pytest.mark.parametrize("compares", ["", "<=", ">"])
+def test_a_texture_is_read_as_a_shadow_map_whatever_its_own_state_says_and_keeps_it(
+    stage: Stage, prairies: dict[str, Prairie], box: ShadowMap, compares: str
+) -> None:
+    prairie = prairies["strips"]
+    due, texture = stage.shot(prairie, CAMERA), box.texture
+    prairie.shadows([box])
+    shaded = stage.shot(prairie, CAMERA)
+    texture.compare_func, texture.filter = compares, (moderngl.NEAREST, moderngl.NEAREST)
+    own = texture.compare_func, texture.filter
+    assert (stage.shot(prairie, CAMERA) == shaded).all()
+    assert (texture.compare_func, texture.filter) == own
+    prairie.shadows([])
+    assert (stage.shot(prairie, CAMERA) == due).all()
+    assert (due - shaded).max() > 20.0
+
+
+def test_maps_are_bound_where_a_host_has_textures_of_its_own_and_these_are_there_again(
+    ctx: moderngl.Context, stage: Stage, prairies: dict[str, Prairie], box: ShadowMap
+) -> None:
+    gl, found = functions_of(ctx), (c_int * 1)()
+    own = ctx.texture((2, 2), 4)
+    try:
+        for unit in BORROWED:
+            own.use(unit)
+        prairies["strips"].shadows([box, box])
+        stage.shot(prairies["strips"], CAMERA)
+        for unit in BORROWED:
+            gl.glActiveTexture(NUMBERS["TEXTURE0"] + unit)
+            for name, due in (("TEXTURE_BINDING_2D", own.glo), ("SAMPLER_BINDING", 0)):
+                gl.glGetIntegerv(NUMBERS[name], found)
+                assert found[0] == due
+    finally:
+        prairies["strips"].shadows([])
+        own.release()
+
+
+def test_of_several_maps_the_first_counts_that_a_place_lies_in(
+    ctx: moderngl.Context, stage: Stage, prairies: dict[str, Prairie], box: ShadowMap, night: ShadowMap
+) -> None:
+    prairie = prairies["carpet"]
+    lit = stage.shot(prairie, CAMERA)
+    clear = ctx.depth_texture((8, 8))
+    clear.write(np.ones((8, 8), np.float32).tobytes())
+    prairie.shadows([ShadowMap(clear, night.matrix), night])
+    assert np.abs(stage.shot(prairie, CAMERA) - lit).max() <= 1.0
+    aside = np.eye(4)
+    aside[0, 3] = 10.0
+    prairie.shadows([ShadowMap(clear, aside @ night.matrix), box])
+    second = stage.shot(prairie, CAMERA)
+    prairie.shadows([box])
+    assert (stage.shot(prairie, CAMERA) == second).all()
+    prairie.shadows([])
+    clear.release()
+
+
+def test_a_map_whose_texture_was_released_is_named_once_and_drawn_without(
+    ctx: moderngl.Context, stage: Stage, load: Load, camera: Aim, caplog: pytest.LogCaptureFixture
+) -> None:
+    prairie, aim = load(LITTLE), camera(0.0, 2.0, 20.0, pitch=-10)
+    due = stage.shot(prairie, aim)
+    texture = ctx.depth_texture((8, 8))
+    texture.write(np.zeros((8, 8), np.float32).tobytes())
+    number = texture.glo
+    prairie.shadows([ShadowMap(texture, seen_from_sun(to_sun()))])
+    assert (stage.shot(prairie, aim) != due).any()
+    texture.release()
+    with caplog.at_level(logging.WARNING, "tallgrass"):
+        for _ in range(2):
+            assert (stage.shot(prairie, aim) == due).all()
+    (said,) = [record.getMessage() for record in caplog.records]
+    assert said == f"texture {number} of a shadow map has been released: the prairie is drawn without it"
+
+
+@pytest.mark.parametrize(
+    ("maps", "error", "why"),
+    [
+        (lambda t: ShadowMap(t, np.eye(3)), ValueError, r"a shadow map's matrix is 4x4, not array"),
+        (lambda t: ShadowMap(t, np.full((4, 4), np.nan)), ValueError, r"a shadow map's matrix is finite numbers, not"),
+        (lambda t: ShadowMap(t, "sun"), ValueError, r"a shadow map's matrix is 4x4, not 'sun'"),
+        (
+            lambda t: ShadowMap(t, np.eye(4), bias=-1.0),
+            ValueError,
+            r"a shadow map's bias is from 0 to 100 m, not -1\.0",
+        ),
+        (lambda _: ShadowMap("map.png", np.eye(4)), TypeError, r"a shadow map's texture is a depth texture of "),
+        (lambda _: ShadowMap(None, np.eye(4)), TypeError, r"a shadow map's texture is a depth texture of "),
+        (
+            lambda t: t.ctx.texture((2, 2), 1),
+            TypeError,
+            r"shadow maps come in a list, as \[ShadowMap\(\.\.\.\)\], not ",
+        ),
+        (lambda t: [t], TypeError, r"shadow maps are made as ShadowMap\(texture, matrix\), unlike "),
+        (lambda t: [ShadowMap(t, np.eye(4))] * 5, ValueError, r"there is room for 4 shadow maps, not for 5"),
+    ],
+)
+def test_what_is_no_shadow_map_is_refused_in_a_sentence(
+    ctx: moderngl.Context, load: Load, maps: Callable[[moderngl.Texture], Any], error: type[Exception], why: str
+) -> None:
+    prairie, texture = load(LITTLE), ctx.depth_texture((2, 2))
+    with pytest.raises(error, match=f"^{why}"):
+        prairie.shadows(maps(texture))
+    with pytest.raises(TypeError, match=r"^a shadow map's texture is a 2D depth texture, not one of colours or layers"):
+        ShadowMap(ctx.texture((2, 2), 1), np.eye(4))
+    texture.release()
