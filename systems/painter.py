@@ -235,6 +235,29 @@ class Painter:
                 ctx.enable_only(moderngl.DEPTH_TEST)
                 self.draw_calls += sum(painter.draw() for painter in blades)
 
+    def cast(self, view: View, outlook: Outlook) -> None:
+        """Write the depth of what a viewer was shown last into what the host has bound, as it is seen from a light.
+
+        Grass is made out as that sees it: strips hide as much as their blades do.
+        """
+        self.write(outlook)
+        with guest(self.ctx) as target:
+            self._tell(view, target, WHOLE)
+            self.draw_calls = self._hear(target, WHOLE)
+            self.record["eye"] = outlook.viewer.eye  # the mesh lies as the viewer has it
+            self.block.write(self.record)
+            self.ctx.enable_only(moderngl.DEPTH_TEST)
+            with colourless(target):
+                light = light_from(view, outlook.viewer.eye)
+                self.draw_calls += sum(painter.cast(light) for painter in self.painters.values())
+            self.record["eye"] = light
+            self.block.write(self.record)
+            with aside(self.ctx, target):
+                self.draw_calls += sum(painter.look_anew() for painter in self.painters.values())
+            self.ctx.enable_only(moderngl.DEPTH_TEST)
+            with colourless(target):
+                self.draw_calls += sum(painter.draw_deep() for painter in self.painters.values())
+
     def hear(self, view: View) -> int:
         """Let all receivers that the last frame showed hear the winds once more; return the number of draw calls.
 
@@ -298,6 +321,18 @@ class Painter:
         """Give everything back to the context."""
         release_all(*self.painters.values(), *self.parts, self.air, self.received, self.block)
         release_all(self.smaller, self.stopwatch)
+
+
+FAR_OFF = 2e4
+"""How far a light is taken to be whose rays are parallel [m]: as far as single precision parts centimetres there."""
+
+
+def light_from(view: View, place: tuple[float, float, float], /) -> tuple[float, float, float]:
+    """Return where a light is that sees this view, [m]; for parallel rays, far away from a place."""
+    if view.projection[3, :3].any():
+        return view.eye
+    x, y, z = (float(at + FAR_OFF * part) for at, part in zip(place, view.view[2, :3], strict=True))
+    return x, y, z
 
 
 def _is_other_grass(site: Site, before: Site) -> bool:

@@ -173,6 +173,26 @@ class Prairie(Tending):
             if "grass" in chosen:
                 outlook.settle()
 
+    def draw_depth(self, view: object, projection: object, *, viewer: str = "main") -> None:
+        """Draw grass into a shadow map: the depth of what a viewer was shown last, seen from the sun by these matrices.
+
+        The framebuffer that is bound is that of the map, and nothing but depth is written in it: that of blades and
+        strips where they cover at least half a pixel, thinner ones in as many pixels as they cover, and of the carpet
+        that at which its grass stops light. Neither ground nor what a viewer does not see is in it. Matrices and errors
+        are those of `draw`; nothing happens for a viewer that has not been drawn.
+        """
+        self._must_be_there("draw its depth")
+        must_be_viewer(viewer)
+        seen = view_of(view, projection, self._origin)
+        if viewer not in self.viewers:
+            return
+        outlook = self.viewers[viewer]
+        if outlook.frame is None or outlook.frame.grown is not self.site:
+            return
+        with self._assembly.screen.opened(self.site) as painter:
+            if painter is not None:
+                painter.cast(unturned(seen), outlook)
+
     @property
     def haze(self) -> Haze | None:
         """What ground and grass fade into far off, where a game has a sky of its own; None: the scene's horizon.

@@ -127,7 +127,7 @@ def colourless(target: moderngl.Framebuffer) -> Iterator[None]:
     try:
         yield
     finally:
-        target.color_mask = (True, True, True, True)
+        state.gl.glColorMaski(0, 1, 1, 1, 1)
         if target.glo == state.framebuffer:
             state.narrow()
 

@@ -181,7 +181,7 @@ class BladesPainter(RepresentationPainter):
         self.standing.texture.use(self._units["standing"])
         return self._received.ask(self.hearing.array(), first=self._first, count=self._asked)
 
-    def _make_out(self) -> int:
+    def look_anew(self) -> int:
         """Make out all about each blade that is the same along its ribbon; return the number of draw calls."""
         self.store.blades.texture.use(self._units["blades"])
         self.standing.texture.use(self._units["standing"])
@@ -196,7 +196,7 @@ class BladesPainter(RepresentationPainter):
 
     def draw(self, target: moderngl.Framebuffer, /) -> int:
         """Draw all blades; return the number of draw calls."""
-        calls = self._make_out()
+        calls = self.look_anew()
         self.store.targets.use(self._units["targets"])
         calls += self.morph.draw()
         near, *far = self.groups

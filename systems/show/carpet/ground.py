@@ -248,6 +248,8 @@ class GroundPainter:
             layer("carpet", {**known, "EDGED": 1, "TRODDEN": 1}, 4),
         )
         """What is drawn where grass ends or is cut: ground, what lies under the carpet, and the carpet."""
+        self.casting = layer("cast", {}, 2), layer("cast", {}, 4)
+        """The carpet in shadow maps: where it is even, and where grass ends or is cut."""
         self.is_trodden = False
         """Whether anybody treads the grass, or has: then pixels of the carpet ask for that, which costs."""
         for each in self._layers:
@@ -258,7 +260,7 @@ class GroundPainter:
 
     @property
     def _layers(self) -> tuple[_Layer, ...]:
-        return *self.bare, *self.under, *self.carpet, *self.edged
+        return *self.bare, *self.under, *self.carpet, *self.edged, *self.casting
 
     def _tell(self, name: str, value: object) -> None:
         for layer in self._layers:
@@ -335,6 +337,13 @@ class GroundPainter:
         for carpet in (even, self.edged[2]):
             carpet.program["part"] = part
         return even.draw() + self.edged[2].draw()
+
+    def cast(self, light: tuple[float, float, float], /) -> int:
+        """Write the depth at which grass of the carpet stops light from a place [m]; return the draw calls."""
+        self.shares.use(self.units["shares"])
+        for layer in self.casting:
+            layer.program["light"] = light
+        return sum(layer.draw() for layer in self.casting)
 
     def release(self) -> None:
         """Give everything back."""

@@ -145,6 +145,10 @@ class CarpetPainter(RepresentationPainter):
         if is_new:
             self.ground.write_shares(shares, viewer.centre, beyond=float(cover is not None))
 
+    def cast(self, light: tuple[float, float, float], /) -> int:
+        """Write the depth at which grass stops light from a place [m]; return the number of draw calls."""
+        return self.ground.cast(light)
+
     def _tiles(self, viewer: Viewer, bare_to: int | None, mown: Mown | None, *, goes_on: bool) -> TilesSeen:
         """Return the tiles that a viewer sees (n,), on which of them carpet may lie, and on which grass ends or is cut.
 

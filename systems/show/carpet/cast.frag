@@ -1,0 +1,25 @@
+// Light is stopped in the grass by chance (Beer, 1852), and leaf area falls off linearly with height. So each pixel draws a lot.
+#include "lib/frame.glsl"
+#include "lib/random.glsl"
+
+uniform vec3 light;
+
+in vec3 place;
+in float carpet;
+in float high;
+in float stops;
+
+const float LEVEL = 0.02;  // sine of the elevation of light that counts at least
+
+float lot(int number) {
+    return unit(hash3(int(gl_FragCoord.x), int(gl_FragCoord.y), number));
+}
+
+void main() {
+    float met = -log(max(1.0 - lot(0), 1e-6));  // leaves that it meets before it is stopped
+    if (met > stops || lot(1) > carpet)
+        discard;
+    vec3 from = normalize(light - place);
+    vec4 there = clip * vec4(place - from * (high * sqrt(met / stops) / max(from.y, LEVEL)), 1.0);
+    gl_FragDepth = 0.5 + 0.5 * there.z / there.w;
+}
