@@ -133,10 +133,12 @@ Light light_at(vec3 place, Sender sender, float high, float seen) {
     vec3 from_sun = sunlight * response.sun * seen;
     vec3 from_sky = skylight * response.sky;
     Light light = Light(from_sun, from_sky, vec3(0.0), response.gloss * seen, sun_way(max(sender.kind, 0), high), vec2(0.0));
-#ifndef PIXELS_ASK  // or whoever asks for light adds them
+#ifdef PIXELS_ASK  // of leaves, whoever asks for light adds them
+    if (sender.kind != FACE)
+        return light;
+#endif
     if (any_lamps())
         light = with_lamps(light, lamps_at(place, sender));
-#endif
     return light;
 }
 

@@ -109,7 +109,8 @@ vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
     canopy.bent.yz *= higher(sight.on_level, dense);
 #endif
     float shallow = shallower(deep, sight.on_level, sight.share, crest, stands, dense);
-    View view = View(canopy.light, canopy.bent, among, shallow, left, stubble, area, stretch(slow));
+    vec4 sent = any_lamps() ? lamps_seen(sight) : vec4(0.0);
+    View view = View(canopy.light, canopy.bent, among, shallow, left, stubble, area, sent, stretch(slow));
     Reading read = reading(own, sight, place.xz, tall, dense);
     float taller, grain = grain_of(read, sight, tall, stands, own.blown.z);
     vec4 sum = kinds_seen(own, read, sight, grain, view, taller);
@@ -161,8 +162,6 @@ void main() {
     vec3 pigment = pigment_lying(place.xz, through_leaves(dense / max(slope, LOWEST)), lush);
     vec3 ground = met_at(0.0, slope);
     vec3 soil_light = soil_between(Soil(soil_seen, sunlit, skylit, soil_way), ground, left);
-    if (any_lamps())
-        soil_light += lamps_on_soil(ground, left);
     vec3 color = shown_of(soil_light * pigment * pigment + lit[2].rgb);
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / patch_side))) : 0.0, cover = 0.0;
     if (over_hosts > 0.0)

@@ -17,5 +17,10 @@ Soil soil_lit(vec3 place, Lie lies, ByKind grows, float clear) {
     vec3 both = shade(surface, light);
     light.sun = vec3(0.0);
     vec3 sky = shade(surface, light);
+    if (any_lamps()) {  // theirs counts with the sky's
+        light.sun = sunlight * (SOIL_SENDS * lies.high * sun_seen(place, lies.past));
+        light.sky = vec3(0.0);
+        sky = both - shade(surface, light);
+    }
     return Soil(seen * clear, (both - sky) * clear, sky * clear, light.way);
 }

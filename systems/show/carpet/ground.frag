@@ -28,8 +28,6 @@ void main() {
     vec3 pigment = pigment_lying(place.xz, 1.0, lush);
     float left = left_seen(place.xz);
     vec3 ground = soil_between(soil, place, left);
-    if (any_lamps())
-        ground += lamps_on_soil(place, left);
     pixel = vec4(shown_of(ground * pigment * pigment + haze), 1.0);
     if (is_hole(place.xz))
         discard;

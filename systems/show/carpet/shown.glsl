@@ -23,6 +23,7 @@ struct View {
     float left;     // up to which height it is left to stand [m]
     float stubble;  // how much of the ground is hidden by what is left
     ByKind area;    // leaf area of each kind, of the ground's, where anything is cut
+    vec4 lamps;     // what lamps send, of lamps_at
     vec3 fresh;     // drier and fresher stretches: a factor of the pigment
 };
 
@@ -55,15 +56,18 @@ vec3 met_at(float height, float slope) {
     return gone_on(place, heading_to(place.xz) * clamp(on, -FARTHEST_SEEN, FARTHEST_SEEN));
 }
 
-// The light on a kind with that of lamps, where leaves are that are seen.
-Light lamplit(int kind, Light light, Sight sight) {
+// What lamps send to leaves that are seen, and how many leaves that meets: of the kind that is met most, for all of them.
+vec4 lamps_seen(Sight sight) {
+    int kind = 0;
+    for (int other = 1; other < KINDS; other++)
+        kind = OF(met, other) > OF(met, kind) ? other : kind;
     vec3 there = seen_at(place, sight.slope, tall, dense);
     vec2 bend = bending(kind, message_at(place.xz));
     there.y -= sight.share * tall;
     vec3 turned = turned_to(kind, leaning(bend), vec3(sight.heading, (there.y - eye.y) / max(distance(there.xz, eye.xz), TINY)).xzy);
     vec4 sent = lamps_at(there, Sender(kind, bend, lie_at(there.xz).normal, 1.0));
     sent.rgb *= turned * turned * (1.0 - haze_at(place));
-    return with_lamps(light, sent);
+    return sent;
 }
 
 // The display colour of a kind, and its coverage; `taller` is how much higher what is seen is than the mean, of that.
@@ -76,7 +80,7 @@ vec4 kind_seen(int kind, Patch own, Reading read, Sight sight, float grain, View
     if (any_maps())
         light = shaded(light, past_maps(met_at(texel.height * OF(crown, kind), sight.slope)), 1.0);
     if (any_lamps())
-        light = lamplit(kind, light, sight);
+        light = with_lamps(light, view.lamps);
     float bent = max(1.0 - (1.0 - texel.covers) * through_leaves(view.bent.x), 0.0);
 #ifdef HEADS
     float ripe = OF(riper, kind);

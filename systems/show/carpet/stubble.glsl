@@ -18,13 +18,3 @@ vec3 soil_between(Soil soil, vec3 at, float left) {
     vec2 through = through_leaves(vec2(soil.way, OPEN_SKY) * weighed(areas(grows_at(at.xz)), leaves_left(left)));
     return soil.sunlit * (through.x * seen) + soil.skylit * through.y;
 }
-
-// The radiance of the soil in the light of lamps alone, where grass is left to stand so high [m].
-vec3 lamps_on_soil(vec3 at, float left) {
-    Lie lies = lie_at(at.xz);
-    ByKind grows = grows_at(at.xz);
-    vec4 sent = lamps_at(at, Sender(FACE, vec2(0.0), lies.normal, SOIL_SENDS));
-    float leaves = weighed(areas(grows), leaves_left(left));
-    Light light = Light(sent.rgb * (1.0 - haze_at(at)), vec3(0.0), vec3(0.0), 0.0, sent.w, vec2(leaves, 0.0));
-    return shade(soil_at(lies, grows), light);
-}
