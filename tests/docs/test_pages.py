@@ -158,7 +158,7 @@ def follow(page: str, folder: Path, python: Python, display: str = "") -> None:
 @pytest.mark.parametrize(
     "page",
     [
-        pytest.param(name, marks=pytest.mark.slow if name == "gallery.md" else ())
+        pytest.param(name, marks=pytest.mark.slow if name in {"farm.md", "gallery.md"} else ())
         for name in FOLLOWED
         if not opens_a_window(name)
     ],

@@ -118,6 +118,7 @@ def periodic(picture: Doubles, along: Doubles, spacing: float) -> float:
     return power
 
 
+@pytest.mark.slow
 def test_f2_a_plain_from_twelve_metres_up_shows_neither_rows_of_strips_nor_where_they_end(
     ctx: moderngl.Context, plain: Prairie
 ) -> None:

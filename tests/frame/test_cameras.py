@@ -39,7 +39,19 @@ LOW_CONTRAST = 0.7
 ROOM = {"luminance": 0.003, "hue": 0.2, "contrast": 0.01, "flip": 0.001}
 """What drivers differ by."""
 
-SLOW = {"above-60", "clouds", "crest-low", "diagonal", "gale", "heath", "sun-behind", "two-kinds", "walk-medium"}
+SLOW = {
+    "above-60",
+    "clouds",
+    "crest-low",
+    "diagonal",
+    "gale",
+    "heath",
+    "lane",
+    "level",
+    "sun-behind",
+    "two-kinds",
+    "walk-medium",
+}
 """Those that others are like, and those whose grass takes longest to grow."""
 
 Figures = dict[str, float]
