@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ....components.arrays import Floats, Ints
+from ....components.arrays import Floats, Ints, Mask
 from ....engine.terrain.plots import CELL
 from ....engine.terrain.sample import density_at
 from ...space.ground import PRESENT, Ground
@@ -13,7 +13,10 @@ MOST_PLACES = 13
 """Places along a side of a patch that are asked how densely grass grows there at most."""
 
 STEP_OF_DENSITY = 0.35
-"""By how much a kind's density changes on a patch where pixels make out themselves how densely it grows."""
+"""By how much a kind's density changes at an edge, where pixels make out themselves how densely it grows."""
+
+WITHIN = 1.0 / 3.0
+"""An edge is a step within this part of a patch's side."""
 
 
 def plant_strips(
@@ -28,7 +31,17 @@ def plant_strips(
     grows = most > PRESENT
     pool.present[slots] = grows
     pool.least[slots] = np.where(grows, least, np.float32(1.0)).min(axis=1)
-    pool.edged[slots] = (most - least > STEP_OF_DENSITY).any(axis=1)
+    pool.edged[slots] = _steps(dense, place, ground.patch)
+
+
+def _steps(dense: Floats, place: Floats, patch: float) -> Mask:
+    """Return on which patches the density (kinds, m, n) of any kind, at places (m, n, 2), has an edge, shape (m,)."""
+    line = round(place.shape[1] ** 0.5)
+    spacing = float(place[0, 1, 0] - place[0, 0, 0])
+    apart = min(max(int(patch * WITHIN / spacing), 1), line - 1)
+    square, step = dense.reshape(*dense.shape[:2], line, line), STEP_OF_DENSITY * max(spacing / (patch * WITHIN), 1.0)
+    down, across = square[:, :, apart:] - square[:, :, :-apart], square[..., apart:] - square[..., :-apart]
+    return np.asarray((np.abs(down) > step).any(axis=(0, 2, 3)) | (np.abs(across) > step).any(axis=(0, 2, 3)))
 
 
 def _spread(cell: Ints, ground: Ground, margin: float) -> Floats:
