@@ -174,7 +174,8 @@ void main() {
 #ifdef EDGED
     if (hidden < NOTHING || share <= 0.0)
         discard;
-    gl_FragDepth = gl_FragCoord.z + depth_of(place) - depth_of(over);
+    vec3 before = over_hosts > 0.0 ? before_hosts(place, carpet * tall, slope) : place;
+    gl_FragDepth = gl_FragCoord.z + depth_of(before) - depth_of(over);
 #endif
     if (share > 0.0) {
         float on_level = level_slope(slope, crest, share, tall, stands);

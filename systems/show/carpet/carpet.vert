@@ -51,20 +51,6 @@ float uneven(vec2 at) {
     return UNEVENNESS * sin(UNEVEN_WAVES.x * at.x + UNEVEN_WAVES.w) * sin(UNEVEN_WAVES.y * at.y + UNEVEN_WAVES.z * at.x);
 }
 
-// How far the ground that a game draws may be off this one's, up and down, and how far before its own place the carpet is taken
-// to be for it at most [m].
-const float HOSTS_OFF = 0.1, NEAREST_HOSTS = 1.2, MOST_NEARER = 25.0;
-
-// The depth of a place at which no ground hides it that a game draws about as high: where its line of sight, of this slope to
-// the ground, is so high above that.
-float nearer(vec4 from, vec3 place, float slope) {
-    float off = max(NEAREST_HOSTS * HOSTS_OFF - (place.y - height_at(place.xz)), 0.0), along = distance(place, eye);
-    float over = max(slope, TINY) * distance(place.xz, eye.xz);  // how high the eye is above the ground there, as it rises
-    float part = min(off / max(over, off), min(MOST_NEARER / along, 0.5));
-    vec4 to = clip * vec4(place + (eye - place) * part, 1.0);
-    return to.z * from.w / to.w;
-}
-
 void hand_on(Laid laid) {
     carpet = laid.share;
     rise = laid.rise;
@@ -121,6 +107,10 @@ void main() {
     soil_way = soil.way;
     lush = understorey_of(lies, grows);
     gl_Position = clip * vec4(place, 1.0);
-    if (over_hosts > 0.0)
-        gl_Position.z = nearer(gl_Position, place, slope);
+#ifndef EDGED  // where pixels make out how far off grass is
+    if (over_hosts > 0.0) {
+        vec4 before = clip * vec4(before_hosts(place, place.y - height_at(place.xz), slope), 1.0);
+        gl_Position.z = before.z * gl_Position.w / before.w;
+    }
+#endif
 }

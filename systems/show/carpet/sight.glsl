@@ -85,3 +85,15 @@ vec3 seen_at(vec3 place, float slope, float tall, float dense) {
     vec2 on = heading_to(place.xz) * clamp(behind, -FARTHEST_SEEN, FARTHEST_SEEN);
     return vec3(place.x + on.x, place.y, place.z + on.y);
 }
+
+// How far the ground that a game draws may be off this one's, up and down, and how far before its own place the carpet is taken
+// to be for it at most [m].
+const float HOSTS_OFF = 0.1, NEAREST_HOSTS = 1.2, MOST_NEARER = 25.0;
+
+// Where a place so `high` over the ground is taken to be, before itself, for no ground to hide it that a game draws about as
+// high as this one: where its line of sight, of this slope to the ground, is so high above that.
+vec3 before_hosts(vec3 place, float high, float slope) {
+    float off = max(NEAREST_HOSTS * HOSTS_OFF - high, 0.0);
+    float over = max(slope, TINY) * distance(place.xz, eye.xz);  // how high the eye is above the ground there, as it rises
+    return place + (eye - place) * min(off / max(over, off), min(MOST_NEARER / distance(place, eye), 0.5));
+}
