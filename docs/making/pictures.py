@@ -26,7 +26,7 @@ class Picture:
 
 IN_FLOWER = ("poppies", "dandelions", "heather")
 
-PLAYED = ("lake", "night_drive", "planet", "split_screen", "farm")
+PLAYED = ("village", "lake", "night_drive", "planet", "split_screen", "farm")
 """Examples whose picture is their own."""
 
 PICTURES = (

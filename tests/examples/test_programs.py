@@ -60,4 +60,4 @@ def test_d6_the_example_runs_and_draws_grass(
 def test_d6_no_example_is_longer_than_a_reader_will_read() -> None:
     assert len(EXAMPLES) >= 11
     lines = {program.stem: len(program.read_text("utf-8").splitlines()) for program in EXAMPLES}
-    assert {name: count for name, count in lines.items() if count > 160} == {}
+    assert {name: count for name, count in lines.items() if count > 220} == {}
