@@ -1,6 +1,7 @@
 """Drawing a whole frame: ground, sky and carpet, then strips and blades from far to near."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import TypeVar
 
@@ -38,6 +39,9 @@ READY_ROWS = 512
 OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
 
 WHOLE = Asked()
+
+REHEARSED = 0.75
+"""Part of the pixels, across and up, with which a frame that is held to its time is rehearsed: any below 1 will do."""
 
 
 class Painter:
@@ -85,8 +89,11 @@ class Painter:
         for _ in self._settling(site):
             pass
 
-    def preparing(self, site: Site, winds: Sequence[WindPrimitive], /) -> Iterator[None]:
-        """Make all that a game may come to need, `steps` of them, with winds of the kinds of these."""
+    def preparing(self, site: Site, winds: Sequence[WindPrimitive], look: Callable[[], None], /) -> Iterator[None]:
+        """Make all that a game may come to need, `steps` of them, with winds of the kinds of these.
+
+        `look` lets somebody look where nobody has looked yet: what is drawn then is rehearsed.
+        """
         for part in self.parts:
             part.settle(site, self.record)
             part.make_ready(site)
@@ -99,26 +106,31 @@ class Painter:
         yield from self._settling(site)
         if before is self.painters:
             yield from self._making_ready(site)
+        if self._outlook is None:
+            look()
+            yield
         yield from self._rehearsing()
 
     def _rehearsing(self) -> Iterator[None]:
-        """Draw the last frame where no pixel is, as if there were more in it: each thing alone, and then all."""
-        view = None if self._outlook is None else self._outlook.view
+        """Draw the last frame where no pixel is, part by part, as if there were more in it, and as `hold` draws it."""
         every = [*self.parts, *self.painters.values()]
         alone = [[each] for each in every if type(each).rehearse is not Part.rehearse]
-        if view is None:
-            return
-        for some in [*alone, every]:
+        whole = Asked(is_deep=True)
+        plain = [replace(whole, parts=frozenset({part})) for part in ("sky", "ground", "grass")]
+        more = [*((some, whole, 1.0) for some in (*alone, every)), (every, whole, REHEARSED)]
+        assert self._outlook is not None
+        assert self._outlook.view is not None
+        for some, asked, scale in [*(([], part, 1.0) for part in (*plain, WHOLE, whole)), *more]:
             before = self.record.copy()
             for each in some:
                 each.rehearse(self.record)
-            self.draw(view, Asked(is_deep=True), hidden=True)
+            self.draw(self._outlook.view, asked, scale=scale, hidden=True)
             self.record[:] = before
             yield
 
     def steps(self, site: Site) -> int:
         """Return how many steps `preparing` takes at most."""
-        return len(self.parts) + 6 + 2 * len(site.representations)
+        return 2 * len(self.parts) + 10 + 3 * len(site.representations)
 
     def _making_ready(self, site: Site) -> Iterator[None]:
         """Make room and programs for whatever winds will blow."""
@@ -218,22 +230,28 @@ class Painter:
         With `blades`, these alone stand on the ground and the carpet. Of the host's pixels, `scale` times as many are
         drawn, across and up; none at all where it is `hidden`.
         """
-        ctx = self.ctx
-        is_whole = "sky" in asked.parts
-        with guest(ctx) as host, self.smaller.instead_of(host, scale, is_whole=is_whole) as target:
+        with guest(self.ctx) as host:
             if hidden:
-                target.scissor = 0, 0, 0, 0
-            self._tell(view, target, asked)
-            self.draw_calls = self._hear(target, asked) if blades is None else 0
-            self._draw_land(target, asked)
-            if "grass" in asked.parts:
-                self._draw_carpet(target, view)
-            self._hand_over()
-            if "grass" in asked.parts and blades is None:
-                self._draw_grass(target, is_deep=asked.is_deep)
-            elif blades is not None:
-                ctx.enable_only(moderngl.DEPTH_TEST)
-                self.draw_calls += sum(painter.draw() for painter in blades)
+                host.scissor = 0, 0, 0, 0
+            with self.smaller.instead_of(host, scale, is_whole="sky" in asked.parts) as target:
+                if hidden:
+                    target.scissor = 0, 0, 0, 0
+                self._draw(view, target, asked, blades)
+
+    def _draw(
+        self, view: View, target: moderngl.Framebuffer, asked: Asked, blades: Iterable[BladePainter] | None
+    ) -> None:
+        self._tell(view, target, asked)
+        self.draw_calls = self._hear(target, asked) if blades is None else 0
+        self._draw_land(target, asked)
+        if "grass" in asked.parts:
+            self._draw_carpet(target, view)
+        self._hand_over()
+        if "grass" in asked.parts and blades is None:
+            self._draw_grass(target, is_deep=asked.is_deep)
+        elif blades is not None:
+            self.ctx.enable_only(moderngl.DEPTH_TEST)
+            self.draw_calls += sum(painter.draw() for painter in blades)
 
     def cast(self, view: View, outlook: Outlook) -> None:
         """Write the depth of what a viewer was shown last into what the host has bound, as it is seen from a light.

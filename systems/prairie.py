@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, get_args
 
 import moderngl
 
-from ..engine.camera import View, as_origin, view_of
+from ..engine.camera import View, as_origin, camera_at, projection_matrix, view_matrix, view_of
 from ..engine.declared.parts import DEPTHS, as_parts
 from ..engine.declared.quality import PRESETS, LodName
 from ..engine.gl.guest import unturned
@@ -36,6 +36,9 @@ if TYPE_CHECKING:
 
     from ..engine.gl.batch import DrawingGroup
 
+
+AHEAD = "tallgrass is prepared"
+"""What the viewer is called whom a frame is rehearsed for before anybody has looked."""
 
 LEAP = 2.0
 """A viewer who moves more than this in one frame has jumped [patch sides]."""
@@ -228,7 +231,7 @@ class Prairie(Tending):
         GL state is the host's own at each step, and the same context must be current. It raises the errors of `draw`.
         """
         self._must_be_there("prepare it")
-        return self._assembly.screen.preparing(self.site, self.winds.samples())
+        return self._assembly.screen.preparing(self.site, self.winds.samples(), self._look_ahead)
 
     def prepare(self, *, on_progress: Callable[[int, int], object] | None = None) -> None:
         """Upload and compile in the current context all that the scene and a game may need, so that no frame does.
@@ -335,6 +338,18 @@ class Prairie(Tending):
         self.world.release()
         self.systems.clear()
         self._built.clear()
+
+    def _look_ahead(self) -> None:
+        """Gather for a frame what is seen from the scene's own camera; nobody is there any more afterwards."""
+        camera = camera_at(self.scene.camera, None, self.height_at)
+        seen = view_of(view_matrix(camera), projection_matrix(camera.view, 1.0))
+        for feature in self.features:
+            feature.step(AHEAD, time=self.time)
+        self._look(seen, AHEAD)
+        for _, name, system in self._built:
+            if name != "draw":
+                system.run()
+        self.viewers.forget(AHEAD)
 
     def _look(self, seen: View, viewer: str, *, goes_on: bool = False) -> Outlook:
         outlook = self.viewers.looking(viewer, partial(outlook_on, self.site))

@@ -56,16 +56,19 @@ class Screen:
                 painter.settle(site)
             yield painter
 
-    def preparing(self, site: Site, winds: Sequence[WindPrimitive]) -> Iterator[tuple[int, int]]:
+    def preparing(
+        self, site: Site, winds: Sequence[WindPrimitive], look: Callable[[], None]
+    ) -> Iterator[tuple[int, int]]:
         """Make all that may come to be needed in the context that is current, and give how many steps of all are done.
 
+        `look` lets somebody look whom a frame can be rehearsed for, where nobody has looked.
         The host's GL state is its own between steps. Where the viewport has no pixels, there is no step. Raises
         RuntimeError as `opened` does, and where another context has become current.
         """
         with self._entered() as painter:
             if painter is None:
                 return
-            steps, of = painter.preparing(site, winds), painter.steps(site)
+            steps, of = painter.preparing(site, winds, look), painter.steps(site)
         yield 0, of
         for done in range(1, of):
             with self._entered() as here:

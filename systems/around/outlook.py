@@ -190,6 +190,7 @@ class Outlooks:
     def forget(self, name: str, /) -> None:
         """Forget a viewer, and delete the entities that were its own."""
         gone = self._all.pop(name, None)
+        self._looking = None if self._looking is gone else self._looking
         if gone is None or gone.generation != self._world.check():
             return  # what the whole world was cleared of: its numbers may be others' by now
         for entity in (*gone.patches.entity[gone.patches.entity != 0].tolist(), *gone.left):

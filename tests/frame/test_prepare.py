@@ -25,7 +25,7 @@ from tallgrass import (
     Whirlwind,
     WindPrimitive,
 )
-from tallgrass.engine.camera import Camera
+from tallgrass.engine.camera import Camera, View
 from tallgrass.engine.plugins import wind_kinds
 from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import LITTLE
@@ -219,11 +219,13 @@ def test_a_prairie_that_was_released_is_not_prepared(load: Load) -> None:
         prairie.prepare()
 
 
-def test_where_a_frame_was_drawn_it_is_rehearsed_with_all_that_may_come_and_no_pixel_changes(
-    stage: Stage, load: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("was_drawn", [True, False])
+def test_a_frame_is_rehearsed_with_all_that_may_come_and_no_pixel_changes(
+    stage: Stage, load: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch, *, was_drawn: bool
 ) -> None:
     prairie, aim = load(LITTLE), camera(0.0, 2.0, 20.0, pitch=-10)
-    before = stage.shot(prairie, aim)
+    if was_drawn:
+        stage.shot(prairie, aim)
     rendered: set[int] = set()
     render = moderngl.VertexArray.render
 
@@ -238,8 +240,15 @@ def test_where_a_frame_was_drawn_it_is_rehearsed_with_all_that_may_come_and_no_p
     np.testing.assert_array_equal(stage.read(), empty)
     rendered_before = set(rendered)
     assert prairie.painter is not None
+    assert list(prairie.viewers.values()) == list(prairie.viewers)
+    before = stage.shot(prairie, aim)
     prairie.cut(Footprint(radius=4.0), 0.05, pose=Pose(0, 10))
     prairie.add(Blast(body="saucer"), pose=Pose(0, 5))
     changed = stage.shot(prairie, aim)
     assert (changed != before).any()
+    stage.begin()
+    with prairie._assembly.screen.opened(prairie.site) as painter:  # noqa: SLF001
+        assert painter is not None
+        painter.draw(View(*stage.matrices(aim)), scale=0.5)
+    assert (stage.read() != empty).any()
     assert rendered <= rendered_before

@@ -290,6 +290,13 @@ class GroundPainter:
             self.rims.repeat_x = self.rims.repeat_y = False
         self.rims.write(np.ascontiguousarray(far))
 
+    def rehearse(self) -> None:
+        """Have something to draw for each program."""
+        self.is_trodden = True
+        for stream in self.streams[3:]:
+            if not stream.count:
+                stream.write(np.zeros(1, TILE))
+
     def raise_carpet(self, part: float, *, outline: float = 0.0) -> None:
         """Lay the carpet at this part of the height of the grass, and along outlines at that of `outline`, if any."""
         self._tell("outline", outline / part)

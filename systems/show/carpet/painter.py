@@ -83,9 +83,10 @@ class CarpetPainter(RepresentationPainter):
         self.air.hearing.make_ready()
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
-        """Pretend that somebody treads it."""
+        """Pretend that somebody treads it, and that grass ends somewhere."""
         del record
-        self.ground.is_trodden = True
+        self.ground.rehearse()
+        self._seen.lose()
 
     def receivers(self, outlook: Outlook, /) -> list[int]:
         """Return how many patches there are."""
