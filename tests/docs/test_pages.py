@@ -86,6 +86,13 @@ COARSE = {
 }
 """What is drawn coarsely here: growing fine grass takes longer than everything else on these pages."""
 
+SMALL = {
+    r'preset="medium"': 'preset="low"',
+    r"stage\(ctx, \(\d+, \d+\)\)": "stage(ctx, (160, 90))",
+    r"Window\(\d+, \d+": "Window(160, 90",
+}
+"""The same in programs."""
+
 
 def blocks(page: str) -> list[re.Match[str]]:
     return list(BLOCK.finditer(written(page)))
@@ -118,9 +125,9 @@ def run_here(text: str, folder: Path) -> str:
     return printed.getvalue()
 
 
-def coarser(text: str) -> str:
+def coarser(text: str, how: dict[str, str] = COARSE) -> str:
     """The same commands with small, coarse and few pictures, which take a tenth of the time."""
-    for whole, coarse in COARSE.items():
+    for whole, coarse in how.items():
         text = re.sub(whole, coarse, text, flags=re.MULTILINE)
     return text
 
@@ -133,7 +140,7 @@ def follow(page: str, folder: Path, python: Python, display: str = "") -> None:
         name = folder / (block["file"] or "block.py")
         if block["file"] or language == "python":
             name.parent.mkdir(parents=True, exist_ok=True)
-            name.write_text(coarser(text) if language == "python" else text, "utf-8")
+            name.write_text(coarser(text, SMALL) if language == "python" else text, "utf-8")
         if block["reason"] or (language == "python" and block["file"] and "pyglet.app.run()" not in text):
             continue
         if language == "python":
