@@ -93,11 +93,6 @@ FRAME = np.dtype(
 """The block's fields, as std140 lays them out; shaders have them by the same names."""
 
 
-def plain(record: NDArray[np.void], /) -> bool:
-    """Return whether neither lamps nor shadow maps are in a frame."""
-    return not (record["lamps_grid"][0, 3] or record["maps_shown"][0])
-
-
 GLSL = emitted({"SHADES": SHADES}) + block("Frame", FRAME)
 
 

@@ -13,9 +13,9 @@ struct Shine {
     vec3 from;   // the direction that it comes from
 };
 
-// Whether there are any, anywhere: else nobody need look. Programs that are made for none are told so by PLAIN.
+// Whether there are any, anywhere: else nobody need look. Programs that are made for none are told so by LAMPLESS.
 bool any_lamps() {
-#ifdef PLAIN
+#ifdef LAMPLESS
     return false;
 #else
     return lamps_grid.w > 0.0;

@@ -12,7 +12,7 @@ from ....engine.gl.mipmaps import stack_for
 from ....engine.gl.rasteriser import anisotropy
 from ....engine.gl.stream import Stream, release_all
 from ....engine.terrain.record import Terrain
-from ...frame.block import FrameBlock, by_kind, joined, plain
+from ...frame.block import FrameBlock, by_kind, joined
 from ...grow.record import Growth
 from ...space.canopy import canopy_height
 from ...space.cone import HALF_DIAGONAL, beyond_cone
@@ -241,7 +241,7 @@ class GroundPainter:
         self.covered = tuple(_Layer(each.program, self.streams[1], *self.grid) for each in self.bare)
         """The same, where carpet may lie."""
         self.under = both("under", heads, 1)
-        self.carpet = *both("carpet", known | usual, 2), layer("carpet", {**known, "TRODDEN": 1}, 2)
+        self.carpet = *both("carpet", known | usual | {"LAMPLESS": 1}, 2), layer("carpet", {**known, "TRODDEN": 1}, 2)
         self.edged = (
             layer("ground", {**litter, "EDGED": 1}, 3),
             layer("under", {**heads, "EDGED": 1}, 4),
@@ -273,8 +273,13 @@ class GroundPainter:
 
     @property
     def _is_rare(self) -> bool:
-        """Whether there are lamps, shadow maps or a ground of a game's own: then pixels ask for these."""
-        return not plain(self._block.record) or bool(self._block.earth)
+        """Whether there are shadow maps or a ground of a game's own: then pixels ask for these."""
+        return bool(self._block.record["maps_shown"][0]) or bool(self._block.earth)
+
+    @property
+    def _is_lamplit(self) -> bool:
+        """Whether lamps shine: then pixels of the carpet ask for their light."""
+        return bool(self._block.record["lamps_grid"][0, 3])
 
     def write(self, tiles: NDArray[np.void], laid: Mask, edged: Mask) -> None:
         """Send the tiles (n,), on which of them carpet may lie, and on which grass ends or is cut."""
@@ -340,7 +345,7 @@ class GroundPainter:
     def draw_carpet(self, part: int = WHOLE) -> int:
         """Draw the carpet, or a part of it: its outlines let through what is behind; return the draw calls."""
         self.use()
-        even = self.carpet[2 if self._is_rare or self.is_trodden else self._is_cut]
+        even = self.carpet[2 if self._is_rare or self._is_lamplit or self.is_trodden else self._is_cut]
         for carpet in (even, self.edged[2]):
             carpet.program["part"] = part
         return even.draw() + self.edged[2].draw()
