@@ -1,7 +1,7 @@
 """A village at dusk: the game's own ground and houses, shadows of both on each other and on the grass, and lamps.
 
 The game draws its ground and houses first; the prairie then lays its grass over them (`parts` without "ground"). What
-the sun sees is drawn into a depth texture for the game's own; a `Shade` for each house darkens the grass. Run it with
+the sun sees is drawn into a depth texture, which the game's own things and the grass ask. Run it with
 `python village.py`.
 """
 
@@ -19,7 +19,7 @@ from pyglet.graphics.shader import Shader, ShaderProgram
 from pyglet.image.buffer import Framebuffer
 from pyglet.math import Mat4, Vec3
 
-from tallgrass import Footprint, Lamp, Pose, Prairie, Road, Shade
+from tallgrass import Footprint, Lamp, Pose, Prairie, Road, ShadowMap
 
 SIZE, MAP, UP = (960, 540), 2048, Vec3(0.0, 1.0, 0.0)
 LANE = ((1.0, 48.0), (-1.0, 26.0), (3.0, 8.0), (-2.0, -10.0), (-12.0, -26.0), (-26.0, -38.0))
@@ -135,8 +135,6 @@ class Game:
             w, d = width / 2.0, depth / 2.0
             self.prairie.clear(Footprint(corners=((-w, -d), (w, -d), (w, d), (-w, d))), pose=Pose(x, z, yaw))
             parts += [self.put(part, x, z, yaw) for part in house(width, depth, height)]
-            middle = (x, float(self.prairie.height_at([(x, z)])[0]) + 0.5 * height, z)
-            esper.create_entity(Shade(middle, 0.5 * max(width, depth), 1.6 * height))
         for x, z in LAMPS:
             lamp = box(0.05, 0.0, POST, 0.05, IRON), box(0.14, POST - 0.15, POST + 0.2, 0.14, PANE)
             parts += [self.put(part, x, z) for part in lamp]
@@ -177,6 +175,7 @@ class Game:
         target.unbind()
         gl.glViewport(0, 0, *self.window.get_framebuffer_size())
         self.program["seen_by_sun"] = projection @ view
+        self.prairie.shadows([ShadowMap(shades, projection @ view, bias=0.2)])
         return shades
 
     def on_draw(self) -> None:
