@@ -15,11 +15,12 @@ def main(program: str, picture: str, frames: str) -> None:
     """Play a program for some frames of 1/60 s, and write what its window showed last."""
     from pyglet.window import Window
 
+    config: Any = pyglet.gl.Config
     begin, flip = Window.__init__, Window.flip
 
     def in_full_colour(window: Window, *args: Any, **keys: Any) -> None:
         # Without a window pyglet takes the first configuration that comes, which has 5 bits of red
-        begin(window, *args, **{"config": pyglet.gl.Config(**BITS)} | keys)
+        begin(window, *args, **{"config": config(**BITS)} | keys)
 
     def keep(window: Window) -> None:
         pyglet.image.get_buffer_manager().get_color_buffer().save(picture)
