@@ -44,6 +44,9 @@ class Answering:
         self.winds, self.pressers = one(Winds, self.features), one(Pressers, self.features)
         self._mown, self._shining = one(Mowing, self.features).mown, one(Lighting, self.features).shining
         self._clock = 0.0
+        # Systems keep these two, and must not keep the prairie by them
+        self._entities = partial(_entities_on, world, self.clearings, self.viewers)
+        self._felt = partial(_felt_of, self.winds, self.pressers)
 
     @property
     def scene(self) -> Scene:
@@ -144,15 +147,17 @@ class Answering:
             return np.zeros(len(cells), np.int64)
         return self._entities(self.site).at(self.viewers[viewer], cells)
 
-    def _entities(self, site: Site, /) -> PatchEntities:
-        """Return what keeps the entities of patches on a site."""
-        return PatchEntities(self.world, self.clearings, site.representations, self.viewers.values)
-
-    def _felt(self, receivers: ReceiverArrays, /, *, time: float) -> Floats:
-        """Return what receivers feel at `time` [s] of the winds and of those who walk there, shape (n, 2)."""
-        return self.pressers.over(self.winds.heard(receivers, time=time), receivers)
-
     def _felt_at(self, place: Floats, kind: int | None, /, *, time: float) -> Floats:
         """Return what grass of a kind, or of the densest, feels at places (n, 2) [m] once all have come, (n, 2)."""
         self.pressers.note(time)
         return self._felt(self.winds.standing(place, kind=kind), time=time)
+
+
+def _entities_on(world: World, clearings: Clearings, viewers: Outlooks, site: Site, /) -> PatchEntities:
+    """Return what keeps the entities of patches on a site."""
+    return PatchEntities(world, clearings, site.representations, viewers.values)
+
+
+def _felt_of(winds: Winds, pressers: Pressers, receivers: ReceiverArrays, /, *, time: float) -> Floats:
+    """Return what receivers feel at `time` [s] of the winds and of those who walk there, shape (n, 2)."""
+    return pressers.over(winds.heard(receivers, time=time), receivers)

@@ -88,11 +88,11 @@ def test_only_what_is_touched_is_sent(
     aim, prairie = camera(0.0, 6.0, 34.0, pitch=-12), Prairie.load(scene(before()), ctx=ctx)
     stage.shot(prairie, aim)
     monkeypatch.setattr(moderngl.Texture, "write", count)
-    for _ in range(2):
+    for rims in ([4 * SIDE * SIDE], []):  # how far it is to the next rim is sent whole where there is a new one
         dig(prairie)
         stage.shot(prairie, aim)
         stage.shot(prairie, aim)
-        assert sorted(size for _, size in sent) == [4 * 8 * 8, 4 * 25 * 21]
+        assert sorted(size for _, size in sent) == [4 * 8 * 8, 4 * 25 * 21, *rims]
         sent.clear()
     prairie.release()
 
@@ -146,7 +146,7 @@ def test_far_shadows_follow_and_are_right_in_the_end(stage: Stage, ctx: moderngl
         prairie.release()
     (early, late), (_, due) = pictures
     np.testing.assert_array_equal(late, due)
-    assert np.abs(early - due).max() > 20.0
+    assert np.abs(early - due).max() > 15.0
 
 
 @pytest.mark.slow

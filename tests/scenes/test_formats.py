@@ -65,7 +65,8 @@ def test_the_scene_of_todays_format_uses_every_key() -> None:
     for part in ("camera", "light", "quality"):
         assert values[part].keys() == fields(type(getattr(scene, part)))
     assert values["terrain"].keys() == fields(type(scene.terrain)) - {"heights", "holes"}
-    assert values["pressers"][0].keys() == fields(type(scene.pressers[0]))
+    for part in ("pressers", "lamps"):
+        assert values[part][0].keys() == fields(type(getattr(scene, part)[0]))
     assert values["grass"]["tall"].keys() | values["grass"]["poppy"].keys() == fields(type(scene.grass["tall"]))
     assert values["grass"]["poppy"]["head"].keys() == fields(Head)
     used = {declared["kind"]: declared.keys() for declared in reversed(values["wind"])}

@@ -42,7 +42,7 @@ def test_d2_a_pose_that_is_nowhere_leaves_out_its_entity_until_it_has_another_an
         watch(prairie)
         np.testing.assert_array_equal(prairie.wind_at(where), calm)
         np.testing.assert_array_equal(prairie.bent_at(where), calm)
-    due = f"is left out while it has {pose}: x, z [m] and yaw [rad] are finite numbers"
+    due = f"is left out while it has {pose}: x, y, z [m] and yaw [rad] are finite numbers"
     both = (f"presser of entity {presser}", f"wind of entity {wind}")
     assert sorted(caplog.messages) == [f"the {what} {due}" for what in both]
     esper.add_component(wind, Pose())

@@ -32,6 +32,7 @@ class Rims:
         self._each = each
         self.far: Floats = np.full((1, 1), NOWHERE, np.float32)
         """How far the middle of each square is from the next one at least [m], row 0 at the far edge (-z)."""
+        self._known: Mask = np.zeros((-(-rows // each), -(-columns // each)), np.bool_)
         self.version = 0
         """A number that is another one whenever that has changed."""
         self._look(Part(0, 0, rows, columns))
@@ -54,8 +55,12 @@ class Rims:
         if not len(row):
             return
         squares = np.unique(np.column_stack([(row + top) // self._each, (column + left) // self._each]), axis=0)
+        squares = squares[~self._known[squares[:, 0], squares[:, 1]]]
+        if not len(squares):
+            return
+        self._known[squares[:, 0], squares[:, 1]] = True
         if self.far.shape == (1, 1):
-            self.far = np.full((-(-rows // self._each), -(-columns // self._each)), NOWHERE, np.float32)
+            self.far = np.full(self._known.shape, NOWHERE, np.float32)
         self.far = np.minimum(self.far, _far_from(squares, self.far.shape, self._each * self.terrain.cell))
         self.version += 1
 
@@ -87,11 +92,9 @@ def _sharp(heights: Floats, cell: float) -> Mask:
 
 def _far_from(squares: NDArray[np.intp], shape: tuple[int, ...], side: float) -> Floats:
     """Return how far squares (rows, columns) of a side [m] are from the nearest of some (n, 2) at least."""
-    rows, columns = (np.arange(count) for count in shape)
-    across = np.full(shape, np.inf, np.float32)
-    for row in np.unique(squares[:, 0]):
-        own = squares[squares[:, 0] == row, 1]
-        across[row] = np.abs(columns[:, None] - own).min(axis=1)
-    down = (rows[:, None] - rows).astype(np.float32) ** 2
-    square = np.stack([(across**2 + down[row][:, None]).min(axis=0) for row in rows])
+    rows, columns = (np.arange(count, dtype=np.float32) for count in shape)
+    theirs = np.unique(squares[:, 0])
+    own = [squares[squares[:, 0] == row, 1] for row in theirs]
+    across = np.stack([np.abs(columns[:, None] - each).min(axis=1) for each in own]) ** 2
+    square = np.stack([(across + ((row - theirs) ** 2)[:, None]).min(axis=0) for row in rows])
     return np.asarray(np.maximum(np.sqrt(square) - 2.0, 0.0) * side, np.float32)
