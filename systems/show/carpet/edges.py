@@ -100,10 +100,14 @@ class _OnPlots:
         self._step = step
         self._of: tuple[Plots | None, int, float] = None, -1, 0.0
         self._uneven, self._seen = np.zeros(0, np.bool_), np.zeros(0, np.int64)
+        self._level: Floats = np.zeros((0, 1), np.float32)
         self._blocks: _Blocks | None = None
 
     def touch(self, plots: Plots, squares: Doubles, *, most: float = np.inf) -> Mask:
-        """Return which squares (n, 3) touch an uneven plot, shape (n,); values are told apart up to `most`."""
+        """Return which squares (n, 3) touch an uneven plot, shape (n,).
+
+        Values are told apart up to `most`, and where there is no plot it is as if they were all that.
+        """
         if self._of != (plots, plots.count, most):
             if self._of[::2] != (plots, most):
                 self._seen = np.zeros(0, np.int64)
@@ -120,23 +124,33 @@ class _OnPlots:
         stale = np.flatnonzero(plots.written != np.append(self._seen, np.full(count - known, -1)))
         pages = np.minimum(plots.pages[stale].astype(np.float32), np.float32(min(most, FARTHEST)))
         self._uneven[stale] = (np.ptp(pages, axis=(1, 2)) > self._step).reshape(len(stale), -1).any(axis=1)
+        even = pages[:, 0, 0].reshape(len(stale), -1)
+        level = np.empty((count, even.shape[1]), np.float32)
+        level[:known], level[stale] = self._level[:known], even
+        self._level = level
         self._seen = plots.written.copy()
         rows, columns = (np.flatnonzero((plots.index >= 0).any(axis=axis)) for axis in (1, 0))
         if not len(rows):
             return
         first = np.array([rows[0], columns[0]]) - 1
         page = np.pad(plots.index, 1, constant_values=-1)[rows[0] : rows[-1] + 3, columns[0] : columns[-1] + 3]
+        none = np.full((1, level.shape[1]), most if most < np.inf else np.nan, np.float32)
+        levels = np.append(level, none, axis=0)[page]  # -1 finds the last one
         corner = (first[::-1] - plots.half) * SIDE
-        self._blocks = _Blocks(_uneven_plots(page, self._uneven), corner, np.array([SIDE, SIDE]))
+        self._blocks = _Blocks(_uneven_plots(page, self._uneven, levels, self._step), corner, np.array([SIDE, SIDE]))
 
 
-def _uneven_plots(page: Ints, uneven: Mask) -> Mask:
-    """Return which plots (rows, columns) have an edge, by the page of each, -1 for none, and which pages have (n,)."""
+def _uneven_plots(page: Ints, uneven: Mask, levels: Floats, step: float) -> Mask:
+    """Return which plots (rows, columns) have an edge, in them or towards the plot beside them.
+
+    Told are the page of each, -1 for none, which pages have an edge (n,), and what even plots have (rows, columns, m).
+    """
     own = (page >= 0) & uneven[np.maximum(page, 0)]
     found = own.copy()
     for axis in (0, 1):
         one, other = (np.s_[:-1], np.s_[1:]) if axis == 0 else (np.s_[:, :-1], np.s_[:, 1:])
-        differs = (page[one] != page[other]) & ~own[one] & ~own[other]
+        steps = ~(np.abs(levels[one] - levels[other]) <= step).all(axis=-1)
+        differs = steps & (page[one] != page[other]) & ~own[one] & ~own[other]
         found[one] |= differs
         found[other] |= differs
     return found
