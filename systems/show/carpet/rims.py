@@ -48,7 +48,6 @@ class Rims:
         self._changes = changes.count
 
     def _look(self, part: Part) -> None:
-        rows, columns = self.terrain.heights.shape
         top, left = max(part.row - 2, 0), max(part.column - 2, 0)
         window = self.terrain.heights[top : part.row + part.rows + 2, left : part.column + part.columns + 2]
         row, column = np.nonzero(_sharp(window, self.terrain.cell))
