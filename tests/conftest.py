@@ -95,6 +95,7 @@ def pytest_collection_finish() -> None:
     """Let the collector of garbage go through what tests make, and not through all of them."""
     gc.collect()
     gc.freeze()
+    gc.collect()  # how much it found last decides when it goes through all again
 
 
 @pytest.hookimpl(tryfirst=True)
