@@ -125,8 +125,11 @@ def test_a_scene_declares_lamps_at_heights_above_the_ground(stage: Stage, load: 
     scene = LITTLE.rstrip() + "\nlamps: [{ position: [2, 8], height: 4, candela: 1000000 }]\n"
     declared = stage.shot(load(scene), aim)
     prairie = load(LITTLE)
-    esper.create_entity(Lamp(candela=1e6), Pose(2.0, 8.0, y=4.0 + float(prairie.height_at([(2.0, 8.0)])[0])))
-    assert np.abs(stage.shot(prairie, aim) - declared).max() <= 1.0
+    height = 4.0 + float(prairie.height_at([(2.0, 8.0)])[0])
+    entity = esper.create_entity(Lamp(candela=1e6), Pose(2.0, 8.0, y=height))
+    shown = stage.shot(prairie, aim)
+    esper.delete_entity(entity, immediate=True)
+    assert np.abs(shown - declared).max() <= 1.0
 
 
 def test_of_more_lamps_than_there_is_room_for_the_brightest_count(stage: Stage, camera: Aim) -> None:

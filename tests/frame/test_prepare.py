@@ -139,7 +139,7 @@ def test_nothing_is_made_on_a_frame_after_a_game_has_prepared(
             assert frames(near) == [], name
         assert frames(far) == [], "a lens that zooms"
     finally:
-        for entity in [entity for kind in (Presser, Shade) for entity, _ in esper.get_component(kind)]:
+        for entity in [entity for kind in (Presser, Shade, Lamp) for entity, _ in esper.get_component(kind)]:
             esper.delete_entity(entity, immediate=True)
 
 
