@@ -122,6 +122,32 @@ def test_f4_no_depth_is_written_above_the_ground_where_grass_was_cut(
     np.testing.assert_allclose(deep[bare], due, atol=2e-5)
 
 
+HILLS = (
+    "\n".join(line for line in LITTLE.splitlines() if not line.startswith("  short"))
+    .replace("blades: 60", "blades: 300")
+    .replace("scale: 4", "scale: 3")
+    .replace("[60, 60]", "[160, 160]")
+)
+"""Rolling ground with crests near and far."""
+
+
+def test_x5_even_grass_looks_the_same_where_pixels_look_for_its_edges(
+    room: Stage, load: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pictures = []
+    for looks in (False, True):
+        if looks:
+            monkeypatch.setattr(Edges, "at", lambda *told: np.ones(len(told[-1]), np.bool_))
+        prairie = load(HILLS)
+        prairie.cut(Footprint(radius=150.0), np.inf)  # which cuts nothing
+        for x, z, eye, pitch in ((0.0, 40.0, 1.5, 0), (10.0, 60.0, 2.5, 0), (0.0, 70.0, 9.0, -8)):
+            high = float(prairie.height_at([(x, z)])[0])
+            pictures.append(room.shot(prairie, camera(x, high + eye, z, pitch=pitch, view=30)))
+    for even, other in zip(pictures[:3], pictures[3:], strict=True):
+        assert (np.abs(other - even).max(axis=2) > 12.0).mean() < 4e-4
+        assert np.abs(other - even).mean() < 0.06
+
+
 def squares(*places: tuple[float, float]) -> NDArray[np.float64]:
     return np.array([(x - 1.0, z - 1.0, 2.0) for x, z in places])
 

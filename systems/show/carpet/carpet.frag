@@ -124,7 +124,7 @@ vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
 #ifdef EDGED
 // Where the line of sight comes to grass, from the mesh on, is the place of the pixel; how much that hides of what is behind.
 float comes_to_grass() {
-    Way way = Way(over.xz, heading_to(over.xz), lies_over, raises, viewing_slope(rise, over), crest);
+    Way way = way_from(over, lies_over, raises, viewing_slope(rise, over), crest);
     bool aside;
     float at = enters(way, aside);
     place = farther(over, max(at, 0.0));

@@ -2,11 +2,14 @@
 // where whole grass would be, and pixels look along the line of sight for where it comes to what stands.
 #include "lib/mown.glsl"
 #include "lib/canopy.glsl"
+#include "lib/terrain.glsl"
 #include "systems/show/carpet/sight.glsl"
 
 uniform ByKind raised; // by kind: height of the carpet above the ground [m]
 
-const float STEPS = 16.0;      // places looked at on the way to the ground at most
+const float STEPS = 16.0;      // places looked at on the way to level ground at most
+const float MOST_STEPS = 32.0, LONGER = 1.12;  // where ground falls away from it: how many at most, and by how much each is longer then
+const float OUT_OF_IT = 1.5;   // so high above the mesh it has come out of the grass over a crest, of the mesh's height
 const float SHORTEST_STEP = 0.08;  // way over the ground between two of them at least [m]
 const int HALVINGS = 3;        // of the last step, to the edge
 const float FARTHEST_ENTERED = 40.0;  // way over the ground that is looked along at most [m]
@@ -27,33 +30,52 @@ float left_here(vec2 place) {
 
 // A line of sight from the mesh on, over the ground.
 struct Way {
-    vec2 from;
+    vec3 from;
     vec2 heading;
+    float falls;   // by how much it goes down a metre [m/m]
+    float ground;  // how high it begins over a ground that is by as much higher than the terrain as the mesh is there [m]
     float high;    // how high the mesh lies over the ground [m]
     float raises;  // and of how high the carpet is on level ground
     float slope;   // of the line of sight to the ground
     float crest;   // how fast the rise of the ground falls off along it [1/m]
 };
 
-float falls(Way way, float at) {
-    return at * (way.slope - 0.5 * way.crest * at);
+Way way_from(vec3 place, float high, float raises, float slope, float crest) {
+    vec3 ray = place - eye;
+    return Way(place, heading_to(place.xz), -ray.y / max(length(ray.xz), TINY), high - place.y + height_at(place.xz), high, raises, slope, crest);
+}
+
+// How far over the ground it goes on until it comes to that, or is past where it comes nearest to it over a crest [m].
+float to_ground(Way way) {
+    float slope = max(way.slope, FLATTEST), turns = slope * slope - 2.0 * way.crest * way.high;
+    return 2.0 * way.high / (slope + sqrt(max(turns, 0.0)));
+}
+
+// How high it is over the ground, so far on [m].
+float over_ground(Way way, float at) {
+    vec2 there = way.from.xz + way.heading * at;
+    return way.from.y - way.falls * at - height_at(there) + way.ground;
 }
 
 // How far it is below the top of the grass, so far over the ground [m]; below 0 over it, and where none stands.
 float below_top(Way way, float at) {
-    vec2 there = way.from + way.heading * at;
+    vec2 there = way.from.xz + way.heading * at;
     float stands = way.raises * carpet_high(grows_at(there), left_here(there));
-    return stands > NO_GRASS ? stands - way.high * (1.0 - ROUNDED) + falls(way, at) : -1.0;
+    return stands > NO_GRASS ? stands - over_ground(way, at) + ROUNDED * way.high : -1.0;
 }
 
 // How far over the ground it goes on until it comes to grass [m], below 0 where it comes to none; whether it does so from the side.
 float enters(Way way, out bool aside) {
-    float most = min(way.high / max(way.slope, FLATTEST), FARTHEST_ENTERED);
-    float steps = clamp(ceil(most / SHORTEST_STEP), 1.0, STEPS), step = most / steps, at = 0.0, below = -1.0, number = 0.0;
-    do {
-        at = step * number;
+    float most = min(to_ground(way), FARTHEST_ENTERED), step = most / clamp(ceil(most / SHORTEST_STEP), 1.0, STEPS);
+    float at = 0.0, below = below_top(way, 0.0), number = 0.0, high = way.high;
+    while (below < 0.0 && ++number <= MOST_STEPS && at < FARTHEST_ENTERED && high > 0.0 && high < OUT_OF_IT * way.high) {
+        step *= number > STEPS ? LONGER : 1.0;
+        at += step;
+        high = over_ground(way, at);
         below = below_top(way, at);
-    } while (below < 0.0 && ++number <= steps);
+    }
+    if (below < 0.0)
+        return -1.0;
     aside = false;
     if (below < 0.0)
         return -1.0;
@@ -77,14 +99,15 @@ const float LEAVES_ENOUGH = 3.0;  // leaves that a line of sight meets until not
 // How much is hidden of what lies behind grass that a line of sight has come to: less where it comes out again before it is
 // stopped. It has met the leaves above the height where it comes out, of those that are left.
 float hidden_behind(Way way, float at, bool aside, ByKind area, float left) {
-    float slope = max(way.slope, FLATTEST), enters_at = way.high - falls(way, at), none = leaves_above(left, area);
+    float slope = max(way.slope, FLATTEST), enters_at = over_ground(way, at), none = leaves_above(left, area);
     float before = aside ? leaves_above(min(enters_at, left), area) : none, step = enters_at / (slope * PARTS + TINY);
     for (float part = 1.0; part <= PARTS; part += 1.0) {
-        float there = at + step * (part - 0.5), met = (leaves_above(min(way.high - falls(way, there), left), area) - before) / slope;
+        float there = at + step * (part - 0.5), met = (leaves_above(min(over_ground(way, there), left), area) - before) / slope;
         if (met > LEAVES_ENOUGH)
             return 1.0;
-        if (below_top(way, there + 0.49 * step) < 0.0)
-            return 1.0 - through_leaves(max(met, 0.0));
+        there += 0.49 * step;
+        if (below_top(way, there) < 0.0)  // over a crest, outlines say how much is hidden
+            return over_ground(way, there) > way.high ? 1.0 : 1.0 - through_leaves(max(met, 0.0));
     }
     return 1.0;
 }

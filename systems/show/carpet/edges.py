@@ -123,8 +123,9 @@ class _OnPlots:
         self._uneven = np.append(self._uneven[:known], np.zeros(count - known, np.bool_))
         stale = np.flatnonzero(plots.written != np.append(self._seen, np.full(count - known, -1)))
         pages = np.minimum(plots.pages[stale].astype(np.float32), np.float32(min(most, FARTHEST)))
-        self._uneven[stale] = (np.ptp(pages, axis=(1, 2)) > self._step).reshape(len(stale), -1).any(axis=1)
-        even = pages[:, 0, 0].reshape(len(stale), -1)
+        pages = pages.reshape(*pages.shape[:3], int(np.prod(pages.shape[3:])))
+        self._uneven[stale] = (np.ptp(pages, axis=(1, 2)) > self._step).any(axis=1)
+        even = pages[:, 0, 0]
         level = np.empty((count, even.shape[1]), np.float32)
         level[:known], level[stale] = self._level[:known], even
         self._level = level

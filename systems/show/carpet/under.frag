@@ -16,7 +16,7 @@ out vec4 pixel;
 void main() {
 #ifdef EDGED
     bool aside;
-    float way = enters(Way(over.xz, heading_to(over.xz), lies_over, raises, slope, crest), aside);
+    float way = enters(way_from(over, lies_over, raises, slope, crest), aside);
     if (way < 0.0)
         discard;
     gl_FragDepth = gl_FragCoord.z + depth_of(farther(over, way)) - depth_of(over);
