@@ -117,7 +117,7 @@ class Painter:
         alone = [[each] for each in every if type(each).rehearse is not Part.rehearse]
         whole = Asked(is_deep=True)
         plain = [replace(whole, parts=frozenset({part})) for part in ("sky", "ground", "grass")]
-        more = [*((some, whole, 1.0) for some in (*alone, every)), (every, whole, REHEARSED)]
+        more = [*((some, whole, 1.0) for some in (*alone, every)), *((some, whole, REHEARSED) for some in ([], every))]
         assert self._outlook is not None
         assert self._outlook.view is not None
         for some, asked, scale in [*(([], part, 1.0) for part in (*plain, WHOLE, whole)), *more]:
@@ -130,7 +130,7 @@ class Painter:
 
     def steps(self, site: Site) -> int:
         """Return how many steps `preparing` takes at most."""
-        return 2 * len(self.parts) + 10 + 3 * len(site.representations)
+        return 2 * len(self.parts) + 11 + 3 * len(site.representations)
 
     def _making_ready(self, site: Site) -> Iterator[None]:
         """Make room and programs for whatever winds will blow."""

@@ -236,7 +236,9 @@ class Prairie(Tending):
     def prepare(self, *, on_progress: Callable[[int, int], object] | None = None) -> None:
         """Upload and compile in the current context all that the scene and a game may need, so that no frame does.
 
-        That is for winds of all kinds that are installed or blow already, for pressers, cuts, bodies and `hold`.
+        That is for winds of all kinds that are installed or blow already, for pressers, cuts, bodies and `hold`. Bind
+        the framebuffer that it is to be drawn into, and hand shadow maps in before: some drivers make programs anew for
+        others.
         `on_progress` is called with how many steps are done, and of how many. It raises the errors of `draw`.
         """
         for done, of in self.preparing():

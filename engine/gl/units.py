@@ -10,8 +10,9 @@ FIRST_UNIT = 32
 UNITS = range(FIRST_UNIT, 48)
 """All that are used."""
 
-BORROWED = range(28, 32)
-"""Those that a host's own textures are bound to for a frame, and given back after it."""
+BORROWED = range(27, 31)
+"""Those that a host's own textures are bound to for a frame, and given back after it. The one above them is where
+moderngl loads textures on most cards: what it leaves there would be read, and drivers make a program anew for that."""
 
 SCRATCH_UNIT = 15
 """Where textures are loaded that no host's own moderngl context loads: every OpenGL has it, and it is kept."""

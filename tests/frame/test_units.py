@@ -10,7 +10,7 @@ import pytest
 from tallgrass import Footprint, Pose, Presser
 from tallgrass.components.body import Body
 from tallgrass.engine.camera import Camera
-from tallgrass.engine.gl.units import BORROWED, FIRST_UNIT
+from tallgrass.engine.gl.units import BORROWED, FIRST_UNIT, SCRATCH_UNIT
 from tallgrass.systems.frame.units import STAGE, dealt
 from tallgrass.systems.prairie import Prairie
 
@@ -52,6 +52,11 @@ def test_d6_every_program_of_a_scene_reads_few_textures_from_units_that_every_ca
         assert len(units) == len(set(units))
         assert len(set(units) - set(BORROWED)) <= STAGE
         assert all(unit in BORROWED or FIRST_UNIT <= unit < COMBINED for unit in units)
+
+
+def test_no_shadow_map_is_read_where_textures_are_loaded(ctx: moderngl.Context) -> None:
+    """What is left there is no depth, and drivers make programs anew for it: that was a stall at the first cut."""
+    assert not {SCRATCH_UNIT, ctx.default_texture_unit} & set(BORROWED)
 
 
 def test_each_of_those_that_draw_has_the_same_units_for_its_own_textures_and_they_meet_no_others() -> None:
