@@ -101,6 +101,16 @@ def pytest_collection_finish() -> None:
 @pytest.hookimpl(tryfirst=True)
 def pytest_runtest_setup(item: pytest.Item) -> None:
     """Make the shared context and its framebuffer current again: an earlier test may have left others."""
+    _come_home(item)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_teardown(item: pytest.Item) -> None:
+    """Make them current for what fixtures give back, too: elsewhere it would not be given back at all."""
+    _come_home(item)
+
+
+def _come_home(item: pytest.Item) -> None:
     if _HOME in item.config.stash and "ctx" in getattr(item, "fixturenames", ()):
         home = item.config.stash[_HOME]
         home.ctx.__enter__()  # type: ignore[no-untyped-call]
@@ -137,6 +147,8 @@ def _own_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
             patch.delenv("PYTHONDONTWRITEBYTECODE", raising=False)
             patch.setenv("PYTHONPYCACHEPREFIX", str(folder / "bytecode"))
         yield
+    if sys.pycache_prefix is not None:  # what is compiled of our own folder is of no use to anybody after it
+        shutil.rmtree(Path(sys.pycache_prefix, *folder.parts[1:]), ignore_errors=True)
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -177,9 +189,7 @@ def ctx(pytestconfig: pytest.Config) -> Iterator[moderngl.Context]:
 def _gl_is_left_without_errors(request: pytest.FixtureRequest) -> Iterator[None]:
     yield
     if "ctx" in request.fixturenames:
-        context = request.getfixturevalue("ctx")
-        with context:
-            assert context.error == "GL_NO_ERROR"
+        assert request.getfixturevalue("ctx").error == "GL_NO_ERROR"
 
 
 @pytest.fixture(scope="session")

@@ -8,6 +8,7 @@ import pytest
 
 from tallgrass import testing
 from tallgrass.engine.camera import Camera
+from tallgrass.engine.gl import homes
 from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import LITTLE, Stage, looking
 
@@ -39,6 +40,7 @@ def load(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) -> Ite
     yield scene
     for prairie in loaded:
         prairie.release()
+    assert not homes._left, "what is released in no context, or in another one, keeps hundreds of megabytes"  # noqa: SLF001
 
 
 @pytest.fixture(scope="session")
