@@ -189,7 +189,9 @@ def ctx(pytestconfig: pytest.Config) -> Iterator[moderngl.Context]:
 def _gl_is_left_without_errors(request: pytest.FixtureRequest) -> Iterator[None]:
     yield
     if "ctx" in request.fixturenames:
-        assert request.getfixturevalue("ctx").error == "GL_NO_ERROR"
+        context = request.getfixturevalue("ctx")
+        context.__enter__()  # and never leave it: none would be current for what modules give back
+        assert context.error == "GL_NO_ERROR"
 
 
 @pytest.fixture(scope="session")
@@ -275,6 +277,12 @@ def _windows_have_a_display(request: pytest.FixtureRequest) -> None:
     if request.node.get_closest_marker("window") is not None:
         request.getfixturevalue("display")
         _let_the_headless_context_go()
+
+
+@pytest.fixture
+def no_context() -> None:
+    """Leave this thread without a GL context, whatever ran before."""
+    _let_the_headless_context_go()
 
 
 def _let_the_headless_context_go() -> None:

@@ -351,6 +351,7 @@ def test_drawing_without_a_window_that_is_current_is_refused_in_a_sentence(monke
         host_context(None)
 
 
+@pytest.mark.usefixtures("no_context")
 def test_drawing_without_any_context_is_refused_in_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
     def none() -> moderngl.Context:
         raise RuntimeError("Cannot detect window with OpenGL support")
