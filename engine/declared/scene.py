@@ -1,13 +1,23 @@
 """A whole scene, as a file declares it."""
 
 from collections.abc import Callable
+from math import isqrt
 from pathlib import Path
 from typing import Annotated, Any, Literal, NotRequired, TypedDict
 
-from pydantic import Discriminator, Field, SerializeAsAny, Tag, ValidationError, ValidationInfo, WrapValidator
+from pydantic import (
+    Discriminator,
+    Field,
+    SerializeAsAny,
+    Tag,
+    ValidationError,
+    ValidationInfo,
+    WrapValidator,
+    model_validator,
+)
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
-from ...components.declaration import Declaration
+from ...components.declaration import Declaration, DeclarationError
 from ...components.wind import Mixing, WindPrimitive
 from ..handed import must_be_known
 from .camera import CameraSource
@@ -76,6 +86,11 @@ def _quality_form(value: Any) -> str:
     return "numbers" if isinstance(value, dict | Quality) else "preset"
 
 
+MOST_BLADES = 1 << 23
+"""Blades around a viewer, at most: half of the texels of a texture as large as cards have them, 1,024 by 16,384, in
+which each hears the winds. Edges of strips have the other half."""
+
+
 class Scene(Declaration):
     """A prairie: grass kinds, terrain, winds, camera, light and quality."""
 
@@ -116,6 +131,17 @@ class Scene(Declaration):
         Annotated[PresetName, Tag("preset")] | Annotated[Quality, Tag("numbers")], Discriminator(_quality_form)
     ] = "high"
     """A preset, or its numbers."""
+
+    @model_validator(mode="after")
+    def _has_room_for_its_blades(self) -> "Scene":
+        quality = self.numbers()
+        blades = max(kind.blades or quality.blades for kind in self.grass.values())
+        most = (isqrt(MOST_BLADES // blades) - 1) // 2
+        for number, ring in enumerate(quality.blade_rings):
+            if ring.to > most:
+                why = f"with {blades} blades a patch: around a viewer there is room for {MOST_BLADES:,}"
+                raise DeclarationError(f"to must be at most {most} {why}", "quality", "blade_rings", number, "to")
+        return self
 
     def numbers(self, preset: str | None = None) -> Quality:
         """Return the numbers of `preset`, or else of the scene's own quality."""

@@ -394,6 +394,44 @@ def test_a_resized_window_is_filled(walk: "Walk") -> None:
     assert walk.camera.view == pytest.approx(radians(40.0))
 
 
+def test_where_a_window_has_more_pixels_than_points_all_of_them_are_drawn(
+    walk: "Walk", monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As on a screen of high density, where libraries count in points."""
+    press(walk, "F12")
+    monkeypatch.setattr(type(walk.window), "get_size", lambda _: (SIZE[0] // 2, SIZE[1] // 2))
+    monkeypatch.setattr(type(walk.window), "get_framebuffer_size", lambda _: SIZE)
+    press(walk, "F12")
+    assert seen(walk)[SIZE[1] // 3 : SIZE[1] // 2, SIZE[0] // 2 :].std() > 2.0
+    first, other = (np.asarray(Image.open(path)) for path in sorted(Path.cwd().glob("*.png"))[-2:])
+    np.testing.assert_array_equal(first, other)
+
+
+def test_a_window_over_the_whole_screen_is_filled_and_may_be_left(scene: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from tallgrass.app.display import need_display
+
+    monkeypatch.chdir(scene.parent)
+    need_display()
+    from tallgrass.app.window import Walk, open_window
+
+    window = open_window(SIZE, fullscreen=True)
+    walk = Walk(window, Prairie.load(scene), Take(str(scene), window.get_size()))
+    try:
+        assert window.get_size() == (window.screen.width, window.screen.height)
+        for _ in range(2):
+            walk.window.dispatch_events()
+            walk.frame(1 / 60)
+        width = seen(walk).shape[1]
+        assert seen(walk)[:, width - width // 8 :].std() > 2.0
+        window.set_fullscreen(False, width=SIZE[0], height=SIZE[1])
+        for _ in range(3):
+            walk.window.dispatch_events()
+            walk.frame(1 / 60)
+        assert seen(walk).shape[1] < width
+    finally:
+        walk.close()
+
+
 def test_walk_opens_a_window_and_closes_by_itself(tallgrass: Tallgrass, scene: Path) -> None:
     done = tallgrass("walk", scene, "--size", "160x90", "--preset", "low", "--seconds", 0.5)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")

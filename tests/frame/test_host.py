@@ -243,6 +243,17 @@ def test_d6_with_fewer_layers_than_there_are_pictures_a_prairie_looks_the_same(
     assert (np.abs(found - expected).max(axis=-1) > 8.0).mean() < 0.003
 
 
+def test_d6_gl_is_asked_for_nothing_that_an_old_driver_does_not_know(
+    stage: Stage, load: Load, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As moderngl's `info` is: in a context of 3.3 to 4.0 it leaves an error, which the host finds at its next call."""
+    monkeypatch.setattr(moderngl.Context, "info", property(lambda _: pytest.fail("what moderngl knows was asked for")))
+    prairie = load(hold=0.1)
+    prairie.prepare()
+    assert stage.shot(prairie).std() > 1.0
+    assert stage.ctx.error == "GL_NO_ERROR"
+
+
 def test_a_framebuffer_without_depth_is_told_of_once(
     ctx: moderngl.Context, stage: Stage, load: Load, caplog: pytest.LogCaptureFixture
 ) -> None:

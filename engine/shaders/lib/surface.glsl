@@ -66,7 +66,7 @@ const vec2 SPINE = vec2(1.3, 0.7);  // a spine's mean slope leans by so much, an
 // has the sine `high`.
 Response leaf_response(int kind, vec2 bend, vec3 place, vec3 from, float high) {
     vec3 ray = normalize(place - eye);
-    float facing = dot(ray, from);
+    float facing = clamp(dot(ray, from), -1.0, 1.0);  // rounding goes beyond it, and roots are taken
     // Leaves that face all ways send back what the eye sees lit, and let through what it sees against the light.
     float back = 0.5 - 0.5 * facing, against = 1.0 - back;
     vec3 phase = back * sqrt(back) + against * sqrt(against) * kinds[kind].through;

@@ -9,7 +9,7 @@ const float TOPS = 0.85;  // height up to which the leaf area falls off linearly
 // How high strips stand where the carpet has this share, of their full height: they rise first, and then it sinks. The share is a
 // smooth step; this is where it is on its way.
 float grown_by(float share) {
-    float sunk = 0.5 - sin(asin(2.0 * share - 1.0) / THIRDS);  // the inverse of a smooth step, x^2 (3 - 2 x)
+    float sunk = 0.5 - sin(asin(clamp(2.0 * share - 1.0, -1.0, 1.0)) / THIRDS);  // the inverse of a smooth step, x^2 (3 - 2 x)
     return smoothstep(0.0, 1.0, (SINKS + (1.0 - SINKS) * sunk) / GROWN);
 }
 

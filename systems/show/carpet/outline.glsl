@@ -21,8 +21,8 @@ float outline_cover(float slope, float crest, float tall, float stands, float de
 // How steeply the carpet rises along the line of sight where taller grass begins: there it is seen, though the ground falls
 // away behind a crest.
 float rises_ahead(vec2 at, float tall) {
-    vec2 dx = dFdx(at), dy = dFdy(at), to = heading_to(at);
-    vec2 way = dot(dx, dx) > dot(dy, dy) ? vec2(dot(dx, to), dFdx(tall)) : vec2(dot(dy, to), dFdy(tall));
+    vec2 dx = dFdx(at), dy = dFdy(at), to = heading_to(at), rises = vec2(dFdx(tall), dFdy(tall));
+    vec2 way = dot(dx, dx) > dot(dy, dy) ? vec2(dot(dx, to), rises.x) : vec2(dot(dy, to), rises.y);
     return max(way.y * sign(way.x) / max(abs(way.x), TINY), 0.0);
 }
 

@@ -1,5 +1,7 @@
 """A guest's manners: the host's framebuffer, and the host's state as it was (D6)."""
 
+import ctypes
+import importlib.util
 import sys
 from collections.abc import Callable, Iterator
 from ctypes import addressof, c_int, c_int64
@@ -11,7 +13,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass.engine.gl.functions import NUMBERS, Functions, functions_of
+from tallgrass.engine.gl import functions
+from tallgrass.engine.gl.functions import NUMBERS, Functions, functions_of, functions_of_loader
 from tallgrass.engine.gl.guest import guest, host_context
 from tallgrass.engine.gl.host import LAYOUTS
 from tallgrass.engine.gl.limits import limits_of
@@ -381,3 +384,31 @@ def test_an_opengl_that_is_too_old_is_refused_with_what_to_ask_for(version: byte
     gl.__dict__["glGetString"] = lambda _: version
     with pytest.raises(RuntimeError, match=f"context has {found}: ask for version 3.3 and a core profile when the"):
         limits_of(gl)
+
+
+def test_d6_each_context_has_functions_of_its_own_as_windows_gives_them() -> None:
+    asked: dict[str, list[str]] = {"one": [], "other": []}
+
+    def loader(name: str) -> SimpleNamespace:
+        return SimpleNamespace(load=lambda function: asked[name].append(function) or ctypes.addressof(c_int()))
+
+    class Loader(SimpleNamespace):
+        __hash__ = object.__hash__  # type: ignore[assignment]
+
+    one, other = (functions_of_loader(Loader(**vars(loader(name)))) for name in asked)
+    assert one.glFlush is one.glFlush
+    assert one.glFlush is not other.glFlush
+    assert asked == {"one": ["glFlush"], "other": ["glFlush"]}
+
+
+def test_d6_on_windows_gl_is_called_by_its_own_convention(monkeypatch: pytest.MonkeyPatch) -> None:
+    def stdcall(answers: Any, *takes: Any) -> Any:
+        return lambda address: ("stdcall", answers, takes, address)
+
+    monkeypatch.setattr(ctypes, "WINFUNCTYPE", stdcall, raising=False)
+    spec = importlib.util.spec_from_file_location("functions_on_windows", functions.__file__)
+    assert spec is not None
+    assert spec.loader is not None
+    there = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(there)
+    assert there.Functions(SimpleNamespace(load=lambda _: 7)).glFlush == ("stdcall", None, (), 7)

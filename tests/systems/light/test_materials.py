@@ -146,3 +146,24 @@ def test_f3_grass_has_all_of_its_tip_and_a_flower_as_much_as_its_petals_show() -
 def test_f3_the_canopy_of_flowers_is_as_high_as_its_heads_and_not_as_its_leaves() -> None:
     flower = GrassKind(plant="flower", height=[0.5, 0.6], leaves=20, leaf=[0.05, 0.1])
     assert 0.5 <= canopy_height(grow(flower, FEW, seed=3)) <= 0.6
+
+
+STRAIGHT = """#define PIXELS_ASK
+#include "lib/surface.glsl"
+in vec4 row;
+out vec4 told;
+void main() {
+    Response sent = leaf_response(0, vec2(row.w, 0.0), eye + 7.0 * row.xyz, row.xyz, max(row.y, 0.0));
+    told = vec4(sent.sun.r, sent.sky.r, sent.gloss, 1.0);
+}"""
+
+
+def test_d6_a_leaf_that_stands_straight_before_the_sun_sends_light_that_is_a_number(probe: Probe) -> None:
+    """There is nothing half way from the sun to the eye: GLSL leaves open what the unit vector of nothing is."""
+    record, rows = np.zeros(1, FRAME), np.zeros((6, 4), np.float32)
+    record["eye"], record["kinds"]["gloss"], record["kinds"]["through"] = (3.0, 1.7, 5.0), 0.4, 0.5
+    rows[:, :3] = [(0, 0, -1), (0, 1, 0), (1, 0, 0), (0.6, 0.8, 0), (0, 0.6, -0.8), (0.48, 0.6, 0.64)]
+    rows[3:, 3] = 0.5
+    sent = probe(STRAIGHT, rows, record, {}, 4)
+    assert np.isfinite(sent).all()
+    assert (sent[:, :2] > 0.0).all()
