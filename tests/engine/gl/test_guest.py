@@ -387,18 +387,19 @@ def test_an_opengl_that_is_too_old_is_refused_with_what_to_ask_for(version: byte
 
 
 def test_d6_each_context_has_functions_of_its_own_as_windows_gives_them() -> None:
-    asked: dict[str, list[str]] = {"one": [], "other": []}
+    class Loader:
+        def __init__(self) -> None:
+            self.asked: list[str] = []
 
-    def loader(name: str) -> SimpleNamespace:
-        return SimpleNamespace(load=lambda function: asked[name].append(function) or ctypes.addressof(c_int()))
+        def load(self, name: str) -> int:
+            self.asked.append(name)
+            return ctypes.addressof(c_int())
 
-    class Loader(SimpleNamespace):
-        __hash__ = object.__hash__  # type: ignore[assignment]
-
-    one, other = (functions_of_loader(Loader(**vars(loader(name)))) for name in asked)
+    loaders = Loader(), Loader()
+    one, other = map(functions_of_loader, loaders)
     assert one.glFlush is one.glFlush
     assert one.glFlush is not other.glFlush
-    assert asked == {"one": ["glFlush"], "other": ["glFlush"]}
+    assert [each.asked for each in loaders] == [["glFlush"], ["glFlush"]]
 
 
 def test_d6_on_windows_gl_is_called_by_its_own_convention(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -79,15 +79,17 @@ def blow(prairie: Prairie, ramp: Callable[[float], WindPrimitive], *, to: float,
 def test_w7_a_wind_that_a_game_changes_goes_on_from_where_it_is_an_hour_into_the_game(
     prairie: Prairie, what: str
 ) -> None:
+    """Grass changes as fast as in a wind that blows all the time as this one does in the mean, and no faster."""
     prairie.advance(HOUR)
+    ways: list[Callable[[float], WindPrimitive]] = [lambda _: RAMPS[what](0.5), RAMPS[what]]
     changes = []
-    for to in (0.0, 1.0):
-        entity = esper.create_entity(WindSource(RAMPS[what](0.0), "wind"))
-        felt = blow(prairie, RAMPS[what], to=to, entity=entity)
+    for way in ways:
+        entity = esper.create_entity(WindSource(way(0.0), "wind"))
+        felt = blow(prairie, way, to=1.0, entity=entity)
         changes.append(float(np.linalg.norm(np.diff(felt, axis=0), axis=2).mean()))
         esper.delete_entity(entity, immediate=True)
     assert changes[0] > 1e-4
-    assert changes[1] < 1.35 * changes[0]
+    assert changes[1] < (1.05 if "turbulence" in what else 1.25) * changes[0]  # few of its waves come in 10 s
 
 
 @pytest.mark.parametrize("what", RAMPS)
