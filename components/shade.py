@@ -13,34 +13,61 @@ _LARGEST = float_info.max
 class Shade:
     """Something that stands between the sun and the grass: the component of a game's own entity.
 
-    It is taken as a ball; with a `height`, as one stretched or pressed flat along `up`: a disc, an egg, a trunk. The
-    farther its shadow falls, the softer is its edge. A prairie in the same world draws it; of many, those eight count
-    that are nearest to the eye. Raises ValueError for a place that is nowhere, for an `up` that leads nowhere, and for
-    a radius or height that is no length.
+    With a `radius` it is a ball; with a `height` too, one stretched or pressed flat along `up`: a disc, an egg, a crown
+    of leaves; and with `capsule`, a rod with round ends: a person, a trunk. With a `size` it is a box: a house, a wall, a
+    car. The farther its shadow falls, the softer is its edge. A prairie in the same world draws it; there may be as many
+    as a game likes, of which those 256 count that are nearest to the eye among all that shade what is seen. Raises
+    ValueError for a place that is nowhere, for an `up` that leads nowhere, for what is no length, and for a shape that is
+    both round and a box, or neither.
     """
 
     place: tuple[float, float, float]
     """Where its middle is (x, y, z) [m]."""
 
-    radius: float
-    """How large it is about `up`, above 0 [m]."""
+    radius: float | None = None
+    """How large it is about `up`, above 0 [m]; a box has none."""
 
     height: float | None = None
     """How high it is from end to end along `up`, above 0 [m]; without it, twice the radius, which is a ball."""
 
     up: tuple[float, float, float] = (0.0, 1.0, 0.0)
-    """The direction of the axis that it is round about; its length does not count."""
+    """The direction of the axis that it is round about, or that a box stands along; its length does not count."""
+
+    capsule: bool = False
+    """Whether it is a rod with round ends instead of an egg: then its `height` is at least twice its radius."""
+
+    size: tuple[float, float, float] | None = None
+    """How large a box is from side to side: to its right, along `up`, and ahead, each above 0 [m]."""
+
+    yaw: float = 0.0
+    """Heading of a box, as a `Pose` has it: 0 is -z, positive turns right [rad]."""
 
     def __post_init__(self) -> None:
         """Raise ValueError for what cannot cast a shadow."""
         if not _is_place(self.place):
             raise ValueError(f"a shade's place is three finite numbers (x, y, z), not {self.place!r}")
+        if not _is_place(self.up) or hypot(*self.up) < 1e-6:
+            raise ValueError(f"a shade's up is a direction (x, y, z), not {self.up!r}")
+        if self.size is None:
+            self._must_be_round()
+        else:
+            self._must_be_a_box()
+
+    def _must_be_round(self) -> None:
         if not _is_length(self.radius):
             raise ValueError(f"a shade's radius is above 0 m, not {self.radius!r}")
         if self.height is not None and not _is_length(self.height):
             raise ValueError(f"a shade's height is above 0 m, not {self.height!r}")
-        if not _is_place(self.up) or hypot(*self.up) < 1e-6:
-            raise ValueError(f"a shade's up is a direction (x, y, z), not {self.up!r}")
+        if self.capsule and (self.height is None or self.height < 2.0 * self.radius):  # type: ignore[operator]
+            raise ValueError(f"a capsule's height is at least twice its radius, {self.radius!r}, not {self.height!r}")
+
+    def _must_be_a_box(self) -> None:
+        if not _is_place(self.size) or not all(map(_is_length, self.size)):  # type: ignore[arg-type]
+            raise ValueError(f"a shade's size is three lengths above 0 m, not {self.size!r}")
+        if self.radius is not None or self.height is not None or self.capsule:
+            raise ValueError("a shade with a size is a box: it has no radius, no height, and is no capsule")
+        if not is_between(-_LARGEST, self.yaw, _LARGEST):
+            raise ValueError(f"a shade's yaw is finite, not {self.yaw!r}")
 
 
 def _is_place(thing: object) -> bool:

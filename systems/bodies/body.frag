@@ -94,7 +94,7 @@ vec3 fitted(vec3 plate, Marks marks) {
 // What light reaches a face, but for the haze before it: the sky's from above, and grass's from below.
 Light light_on_body(vec3 normal) {
     float open = 0.5 + 0.5 * normal.y;
-    Light light = light_at(seen_at, Sender(FACE, vec2(0.0), normal, FULL_SUN), max(dot(normal, sun), 0.0), any_maps() ? past_maps(seen_at) : 1.0);
+    Light light = light_at(seen_at, Sender(FACE, vec2(0.0), normal, FULL_SUN), max(dot(normal, sun), 0.0), any_casters() ? past_casters(seen_at) : 1.0);
     light.sky = light.sky * open + meadow(BLADES_SEEN.y) * (FROM_LAWN * (1.0 - open));
     return light;
 }

@@ -1,4 +1,4 @@
-"""Bodies: what flies over a prairie, and what stands there and casts shadows."""
+"""Bodies: what flies over a prairie."""
 
 from collections.abc import Mapping
 from typing import Self
@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.body import Body
-from ...components.shade import Shade
 from ...engine.world import World
 from ..around.outlook import Outlook
 from ..frame.block import FrameBlock
@@ -21,7 +20,7 @@ from .fly import flying
 
 
 class Bodies(Feature):
-    """The entities of one world that have a `Body` or a `Shade`, and what hovers over its winds."""
+    """The entities of one world that have a `Body`, and what hovers over its winds."""
 
     def __init__(self, world: World, grown: Grown, quarantine: Quarantine) -> None:
         self._world, self._grown, self._quarantine = world, grown, quarantine
@@ -39,10 +38,6 @@ class Bodies(Feature):
     def flying(self, time: float, /) -> list[Body]:
         """Return what is in the air at a time [s]."""
         return flying(self._world, self._grown.top_at, self._quarantine, time=time)
-
-    def shades(self) -> list[Shade]:
-        """Return what else casts shadows."""
-        return [shade for _, shade in self._world.all(Shade)]
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> "BodiesPart":
         """Return what draws them."""
@@ -75,7 +70,7 @@ class BodiesPart(Part):
     def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
         """Send what is in the air, and write what casts shadows."""
         flies = self._bodies.flying(outlook.viewer.time)
-        cast(record, nearest([*map(shade_of, flies), *self._bodies.shades()], outlook.viewer.eye))
+        cast(record, nearest([*map(shade_of, flies)], outlook.viewer.eye))
         if flies:
             self._make()
         if self.painter is not None:

@@ -15,8 +15,8 @@ from ...engine.gl.shaders import program
 from ..around.asked import Asked
 from ..grow.record import GIVES
 
-SHADES = 8
-"""How many bodies cast shadows at most."""
+BODIES = 8
+"""How many flying bodies cast shadows at most."""
 
 MAPS = 4
 """How many shadow maps of a game's count at most."""
@@ -27,7 +27,7 @@ GROUPS = -(-MOST_KINDS // 4)
 EVERYWHERE = 1e9
 """Farther than any ground is [m]."""
 
-SHADE = np.dtype([("middle", "3f4"), ("radius", "f4"), ("axis", "3f4"), ("pressed", "f4")])
+BODY = np.dtype([("middle", "3f4"), ("radius", "f4"), ("axis", "3f4"), ("pressed", "f4")])
 """A body that casts a shadow: middle, radius [m], 0 where there is none; its axis, a unit vector, and how much longer
 it would have to be along that to be a ball."""
 
@@ -73,6 +73,7 @@ FRAME = np.dtype(
         ("padding", "V4"),
         ("mesh_low", "2f4"), ("mesh_high", "2f4"),  # x, z [m]: no ground is drawn beyond
         ("lamps_grid", "4f4"),  # cells that lamps shine on: corner (x, z) [m]; cells a metre; along a side, 0 for none
+        ("shades_grid", "4f4"),  # the same, of cells that lie in the shadow of shades
         ("plots_half", "2f4"),  # plots of the terrain that there may be, from its middle to its edges
         ("earth_side", "f4"), ("earth_power", "f4"),  # how often a game's ground comes again [m]; its texels' pigment
         ("haze_given", "(5,4)f4"),  # a game's own, radiance by 1, x, z, x^2, xz of the direction; 1 where there is one
@@ -84,7 +85,7 @@ FRAME = np.dtype(
         ("steepest", f"({GROUPS},4)f4"),  # how fast the ground rises where a kind ends
         ("thins", f"({GROUPS},4)f4"),  # how much it thins out by such a rise
         ("kinds", KIND, (MOST_KINDS,)),
-        ("shades", SHADE, (SHADES,)),
+        ("bodies", BODY, (BODIES,)),
         ("maps", MAP, (MAPS,)), ("maps_shown", "f4"), ("pad_maps", "V12"),  # how many of them there are
         # By four kinds, by length of a message, evenly from 0 to 1: posture index that it bends the kinds to.
         ("give", f"({GROUPS * GIVES},4)f4"),
@@ -93,7 +94,7 @@ FRAME = np.dtype(
 """The block's fields, as std140 lays them out; shaders have them by the same names."""
 
 
-GLSL = emitted({"SHADES": SHADES}) + block("Frame", FRAME)
+GLSL = emitted({"BODIES": BODIES}) + block("Frame", FRAME)
 
 
 def rays(view: View, /) -> Doubles:

@@ -1,4 +1,4 @@
-"""The lamps of a prairie: whose entities they are, and which of them shine."""
+"""The lamps and shades of a prairie: whose entities they are, and which of them shine."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -9,6 +9,7 @@ import numpy as np
 
 from ...components.lamp import Lamp
 from ...components.pose import Pose
+from ...components.shade import Shade
 from ...engine.declared.lamp import LampOnPath
 from ...engine.terrain.sample import height_at
 from ...engine.world import World
@@ -19,9 +20,9 @@ from .card import LampPart, Lit
 
 
 class Lamps(Feature):
-    """The entities of one world that have a `Lamp` and a `Pose`, and those that a scene declares."""
+    """The entities of one world that have a `Lamp` and a `Pose`, or a `Shade`, and lamps that a scene declares."""
 
-    samplers = ("lamps",)
+    samplers = ("listed",)
 
     def __init__(self, world: World, grown: Grown) -> None:
         self._world, self._grown = world, grown
@@ -61,7 +62,12 @@ class Lamps(Feature):
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> LampPart:
         """Return what shaders are told of them."""
         del block
-        return LampPart(ctx, units["lamps"], lambda: self.shining)
+        return LampPart(ctx, units["listed"], lambda: self.shining, self._shades)
+
+    def _shades(self) -> tuple[list[Shade], float]:
+        """Return what a game has between sun and grass, and the height of the lowest ground [m]."""
+        shades = [shade for _, shade in self._world.all(Shade)]
+        return shades, self._grown.ground.terrain.span[0] if shades else 0.0
 
 
 def _placed(who: int, pose: Pose | None) -> Pose:

@@ -1,4 +1,4 @@
-"""Which lamps shine on which cells of the ground: so a place need look at few of them."""
+"""What reaches which cells of the ground, lamps and shades: so a place need look at few of them."""
 
 from dataclasses import dataclass
 
@@ -7,10 +7,10 @@ import numpy as np
 from ...components.arrays import Doubles, Floats, Rows
 
 SIDE = 64
-"""Cells along a side of the square that lamps shine on, at most."""
+"""Cells along a side of the square that they reach, at most."""
 
 ROOM = 2**15
-"""Numbers of lamps that the lists have room for: where more would be in them, cells are larger."""
+"""Numbers of things that the lists have room for: where more would be in them, cells are larger."""
 
 SMALLEST = 1.0
 """Side of a cell at least [m]."""
@@ -18,7 +18,7 @@ SMALLEST = 1.0
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Listed:
-    """Square cells of the ground, row by row, and the lamps that shine on each."""
+    """Square cells of the ground, row by row, and what reaches each."""
 
     corner: tuple[float, float]
     """Of the first cell (x, z) [m]."""
@@ -35,33 +35,33 @@ class Listed:
     count: Rows
     """How long it is, (side * side,)."""
 
-    lamps: Rows
-    """The lists, one after another: numbers of lamps."""
+    things: Rows
+    """The lists, one after another: numbers of things."""
 
 
-def listed(place: Floats, reach: Floats, /) -> Listed:
-    """Return the cells that lamps shine on which stand over places (n, 2) [m] and reach so far (n,) [m]."""
-    middle, far = place.astype(np.float64), reach.astype(np.float64)
-    low = (middle - far[:, None]).min(axis=0)
-    extent = float(((middle + far[:, None]).max(axis=0) - low).max())
+def listed(low: Floats | Doubles, high: Floats | Doubles, reach: Floats | Doubles, /) -> Listed:
+    """Return the cells that things reach which lie over rectangles (n, 2), (n, 2) [m] and reach so far beyond (n,) [m]."""
+    lowest, highest, far = low.astype(np.float64), high.astype(np.float64), reach.astype(np.float64)[:, None]
+    corner = (lowest - far).min(axis=0)
+    extent = float(((highest + far).max(axis=0) - corner).max())
     cell = max(extent / SIDE, SMALLEST)
-    while np.sum((2.0 * far / cell + 2.0) ** 2) > ROOM and cell < extent:
+    while np.sum(np.prod((highest - lowest + 2.0 * far) / cell + 2.0, axis=1)) > ROOM and cell < extent:
         cell *= 1.25
     side = max(int(np.ceil(extent / cell)), 1)
-    lamps, cells = _meeting(middle - low, far, cell, side)
+    things, cells = _meeting(lowest - corner, highest - corner, far, cell, side)
     count = np.bincount(cells, minlength=side * side)
     order = np.argsort(cells, kind="stable")
-    return Listed((float(low[0]), float(low[1])), cell, side, np.cumsum(count) - count, count, lamps[order])
+    return Listed((float(corner[0]), float(corner[1])), cell, side, np.cumsum(count) - count, count, things[order])
 
 
-def _meeting(middle: Doubles, reach: Doubles, cell: float, side: int) -> tuple[Rows, Rows]:
-    """Return each lamp and each cell that it shines on, (m,) and (m,); `middle` is from the first cell's corner."""
-    first = np.clip(np.floor((middle - reach[:, None]) / cell).astype(np.int64), 0, side - 1)
-    last = np.clip(np.floor((middle + reach[:, None]) / cell).astype(np.int64), 0, side - 1)
+def _meeting(low: Doubles, high: Doubles, reach: Doubles, cell: float, side: int) -> tuple[Rows, Rows]:
+    """Return each thing and each cell that it reaches, (m,) and (m,); places are from the first cell's corner."""
+    first = np.clip(np.floor((low - reach) / cell).astype(np.int64), 0, side - 1)
+    last = np.clip(np.floor((high + reach) / cell).astype(np.int64), 0, side - 1)
     wide, deep = (last - first + 1).T
-    lamp = np.repeat(np.arange(len(reach)), wide * deep)
-    number = np.arange(len(lamp)) - np.repeat(np.cumsum(wide * deep) - wide * deep, wide * deep)
-    at = first[lamp] + np.stack([number % wide[lamp], number // wide[lamp]], axis=1)
-    near = np.clip(middle[lamp], at * cell, (at + 1) * cell)
-    meets = np.square(near - middle[lamp]).sum(axis=1) < np.square(reach[lamp])
-    return lamp[meets], (at[:, 1] * side + at[:, 0])[meets]
+    thing = np.repeat(np.arange(len(reach)), wide * deep)
+    number = np.arange(len(thing)) - np.repeat(np.cumsum(wide * deep) - wide * deep, wide * deep)
+    at = first[thing] + np.stack([number % wide[thing], number // wide[thing]], axis=1)
+    apart = np.maximum(np.maximum(at * cell - high[thing], low[thing] - (at + 1) * cell), 0.0)
+    meets = np.square(apart).sum(axis=1) < np.square(reach[thing, 0])
+    return thing[meets], (at[:, 1] * side + at[:, 0])[meets]

@@ -1,7 +1,7 @@
 """Clouds: a layer of them that drifts, higher the denser its map is; how they look, and what they leave of light.
 
-They are seen in slices, one above another. Each hides what is behind it the more, the denser it is, and has the sun's
-light as far as the cloud lets it through on the way there. `sky.frag` draws what this module means.
+They are seen in slices, one above another. Each hides what is behind it the more, the denser it is, and is lit the less,
+the denser the map is there and a little way toward the sun. `sky.frag` draws what this module means.
 """
 
 from dataclasses import dataclass
@@ -14,21 +14,27 @@ from ...components.arrays import Doubles
 CLOUDS_AT = 450.0
 """How high above the eye their undersides are [m]."""
 
-SLICES, RISE = 3, 60.0
+BENT = 0.12
+"""How they bend down: at this sine of elevation a level layer of them would be half as far off as without."""
+
+SLICES, RISE = 2, 90.0
 """Slices that they are seen in, and how far one is above another [m]."""
 
 STEP = 0.12
 """How much denser the map is where a cloud is a slice higher, of its range from 0 to 1."""
 
-HIDES = 0.3
-"""How much denser the map is than at the edge of a slice where that hides all; as x grows to it, (1 - x / HIDES)^4 of
-what is behind is seen, which is near enough to exp(-4 x / HIDES), and costs a graphics card less."""
+HIDES = 0.22
+"""How much denser the map is than at the edge of a slice where that hides all; as x grows to it, (1 - (x / HIDES)^2)^2
+of what is behind is seen: so edges begin softly."""
 
-SHADES = 0.9
-"""How much denser it is, a little way toward the sun, where none of its light comes to a slice: it falls by the
-fourth power too."""
+SOFT = 0.05
+"""How much thinner the map may be at an edge than where clouds would begin if edges were hard."""
 
-SUNLIT, SILVER = 0.7, 0.8
+LIT, SHADES, DEEPER = 0.8, 1.1, 0.5
+"""How much of the sun's light comes to a slice is the square of the first, less the second for each 1 that the map is
+denser than its edge a little way toward the sun, and less the third for each 1 that it is denser there."""
+
+SUNLIT, SILVER = 0.95, 0.8
 """What a slice sends of the sun's light that comes to it; and of what goes through it, straight ahead of the sun."""
 
 UNDER = 0.27, 0.3
@@ -37,6 +43,9 @@ UNDER = 0.27, 0.3
 HIGHER = 0.5
 """How much more of that each slice sends than the one below it."""
 
+PALE, DARK = 1.3, 0.6
+"""How much of that it sends where the map is 0, and how much less where it is 1: thick clouds are darker beneath."""
+
 SENDS = 0.35
 """What a lone cloud that hides the sun sends on of its light; where there are more, it is in the sky's."""
 
@@ -44,8 +53,9 @@ OVERCAST, SOON = 0.35, 8.0
 """How dense the thinnest place of an overcast is, and by which power of the cover that comes."""
 
 GLSL = {
-    "CLOUDS_AT": CLOUDS_AT, "CLOUD_RISE": RISE, "CLOUD_STEP": STEP, "CLOUD_HIDES": HIDES, "CLOUD_SHADES": SHADES,
-    "CLOUD_SUNLIT": SUNLIT, "CLOUD_SILVER": SILVER, "CLOUD_HIGHER": HIGHER, "CLOUD_SENDS": SENDS,
+    "CLOUDS_AT": CLOUDS_AT, "CLOUDS_BENT": BENT, "CLOUD_RISE": RISE / CLOUDS_AT, "CLOUD_STEP": STEP,
+    "CLOUD_HIDES": HIDES, "CLOUD_LIT": LIT, "CLOUD_SHADES": SHADES, "CLOUD_DEEPER": DEEPER, "CLOUD_SUNLIT": SUNLIT,
+    "CLOUD_SILVER": SILVER, "CLOUD_HIGHER": HIGHER, "CLOUD_PALE": PALE, "CLOUD_DARK": DARK, "CLOUD_SENDS": SENDS,
 }  # fmt: skip
 
 _RANKS = (np.arange(256) + 0.5) / 256.0
@@ -82,13 +92,13 @@ def clouds_of(cover: float, /) -> Clouds:
     """Return the mean of clouds that cover a part of the sky: the values of their map are evenly spread."""
     if cover <= 0.0:
         return Clouds(2.0, 0.0, 0.0, 0.0, 1.0)
-    edge = 1.0 - cover - OVERCAST * cover**SOON
+    edge = 1.0 - cover - min(SOFT, cover) - OVERCAST * cover**SOON
     least = SENDS * max(edge, 0.0)
     above = _RANKS - edge - STEP * _HEIGHTS
-    open_ = np.clip(1.0 - above / HIDES, 0.0, 1.0)
-    before = np.cumprod(np.vstack([np.ones_like(_RANKS), open_**4]), axis=0)
-    shows = before[:-1] * (1.0 - open_**4)
-    sunlit = SUNLIT * (0.5 + 0.5 * open_) * np.clip(1.0 - above / SHADES, 0.0, 1.0) ** 4
-    shaded = 1.0 + HIGHER * _HEIGHTS
+    open_ = (1.0 - np.clip(above / HIDES, 0.0, 1.0) ** 2) ** 2
+    before = np.cumprod(np.vstack([np.ones_like(_RANKS), open_]), axis=0)
+    shows = before[:-1] * (1.0 - open_)
+    sunlit = SUNLIT * np.clip(LIT - (SHADES + DEEPER) * above, 0.0, 1.0) ** 2
+    shaded = (1.0 + HIGHER * _HEIGHTS) * (PALE - DARK * _RANKS)
     hides, sun, sky = (float(each.sum(axis=0).mean()) for each in (shows, shows * sunlit, shows * shaded))
-    return Clouds(edge, hides, sun, sky, least + (1.0 - least) * float(before[2].mean()))
+    return Clouds(edge, hides, sun, sky, least + (1.0 - least) * float(before[-1].mean()))

@@ -38,7 +38,7 @@ LITTER_ONE = 128
 _REMEMBERED = 4
 """Seeds whose maps are remembered, less than a megabyte each: a scene read again has the seed that it had."""
 
-CLOUDS_SIDE = 900.0
+CLOUDS_SIDE = 1300.0
 """Side of the square that repeats [m]."""
 
 GLSL = {"CLOUDS_SIDE": CLOUDS_SIDE, "LITTER_SIDE": LITTER_SIDE, "LITTER_ONE": LITTER_ONE}

@@ -14,44 +14,41 @@ const vec3 GRIT = vec3(0.06711056, 0.00583715, 52.9829189);  // interleaved grad
 #include "lib/clouds.glsl"
 
 in vec3 clouding;
+flat in vec2 sunward;
 
-const float LOWEST_SEEN = 0.02;  // sine of the elevation below which no cloud comes out of the haze
-const float SUNWARD = 70.0, BLUR = 3.0;  // how far toward the sun shade is looked for [m]; levels coarser
-const float STEEPEST = 0.35;  // sine of the sun's elevation that counts at least for that
-const vec3 SLICE = vec3(0.0, 1.0, 2.0);
+const vec2 SLICE = vec2(0.0, 1.0);
+const float BLUR = 2.0;  // by how many levels coarser shade is looked for
 
-// Clouds before the sky's light, and how much of the sun is seen past them: low down, that in the mean.
-vec3 clouded(vec3 light, vec3 toward, out float past) {
-    float level = clouding.z;
-    vec2 along = toward.xz * (1.0 / (max(toward.y, LOWEST_SEEN) * CLOUDS_SIDE));
-    vec2 at = eye.xz / CLOUDS_SIDE - clouds_drift + along * CLOUDS_AT, rise = along * CLOUD_RISE;
-    vec2 sunward = at + sun.xz * (SUNWARD / (CLOUDS_SIDE * max(sun.y, STEEPEST)));
-    vec3 dense = vec3(textureLod(repeating, at, level).r, textureLod(repeating, at + rise, level).r,
-        textureLod(repeating, at + 2.0 * rise, level).r);
-    vec3 edge = cloud_edge + CLOUD_STEP * SLICE, thin = clamp(1.0 + (edge - dense) / CLOUD_HIDES, 0.0, 1.0);
-    vec3 sunny = clamp(1.0 + (edge - textureLod(repeating, sunward, level + BLUR).r) / CLOUD_SHADES, 0.0, 1.0);
-    vec3 through = thin * thin, shows;
-    sunny *= sunny;
-    through *= through;
-    float lower = through.x * through.y, left = lower * through.z;
-    shows = vec3(1.0, through.x, lower) * (1.0 - through);
-    vec3 lit = CLOUD_SUNLIT * sunny * sunny * (0.5 + 0.5 * thin) + CLOUD_SILVER * clouding.x * through;
-    vec3 clouds = sunlight * dot(shows, lit) + cloudlight * dot(shows, 1.0 + CLOUD_HIGHER * SLICE);
-    past = mix(clamp(cloud_edge, 0.0, 1.0), left, clouding.y);
-    return light * mix(1.0, left, clouding.y) + clouds * clouding.y;
+// Clouds in a direction: how much is seen past them, and what they send of the sun's light, and of light in full shade.
+vec3 clouds_in(vec3 toward) {
+    vec2 along = clouds_toward(toward), at = clouds_over(eye.xz) + along;
+    float level = clouding.z, shade = textureLod(repeating, at + sunward, level + BLUR).r;
+    vec2 dense = vec2(textureLod(repeating, at, level).r, textureLod(repeating, at + along * CLOUD_RISE, level).r);
+    vec2 edge = cloud_edge + CLOUD_STEP * SLICE, deep = dense - edge, through = past_slice(deep);
+    vec2 sunny = clamp(CLOUD_LIT + CLOUD_SHADES * (edge - shade) - CLOUD_DEEPER * deep, 0.0, 1.0);
+    vec2 shows = vec2(1.0, through.x) * (clouding.y - clouding.y * through);
+    float lit = dot(shows, CLOUD_SUNLIT * sunny * sunny + CLOUD_SILVER * clouding.x * through);
+    float shaded = dot(shows, 1.0 + CLOUD_HIGHER * SLICE) * (CLOUD_PALE - CLOUD_DARK * dense.x);
+    return vec3(1.0 - shows.x - shows.y, lit, shaded);
 }
 #endif
 
+// What the sun itself and the air about it send, of its light, by the cosine of the angle to it.
+float glow(float cosine) {
+    float aside = cosine > 0.0 ? 1.0 - cosine * cosine : 1.0, aureole = 1.0 / (1.0 + AUREOLE.y * aside);
+    return DISC - DISC * smoothstep(LIMB.x * LIMB.x, LIMB.y * LIMB.y, aside) + AUREOLE.x * aureole * aureole;
+}
+
 void main() {
-    float past = 1.0;
-    vec3 seen = light, off = cross(ray, sun);
-    float aside = dot(ray, sun) > 0.0 ? dot(off, off) / dot(ray, ray) : 1.0;  // squared sine of the angle to the sun
+    vec3 toward = ray * inversesqrt(dot(ray, ray)), seen = light;
+    float sunny = toward.y > 0.0 ? glow(dot(toward, sun)) : 0.0;
 #ifdef CLOUDS
-    seen = clouded(seen, normalize(ray), past);
+    vec3 clouds = clouds_in(toward);
+    seen = seen * clouds.x + cloudlight * clouds.z;
+    // Low down, the sun is seen past them as in the mean.
+    sunny = clouds.y + sunny * (clouds.x - (1.0 - clamp(cloud_edge, 0.0, 1.0)) * (1.0 - clouding.y));
 #endif
-    float aureole = 1.0 / (1.0 + AUREOLE.y * aside), disc = 1.0 - smoothstep(LIMB.x * LIMB.x, LIMB.y * LIMB.y, aside);
-    if (ray.y > 0.0)
-        seen += past * sunlight * (DISC * disc + AUREOLE.x * aureole * aureole);
+    seen += sunlight * sunny;
     float grit = fract(GRIT.z * fract(dot(gl_FragCoord.xy, GRIT.xy))) - 0.5;
     pixel = vec4(shown_of(seen) + (writes_raw > 0.5 ? 0.0 : grit / GREYS), 1.0);
 }

@@ -71,6 +71,30 @@ def test_a_shade_that_is_nowhere_is_refused(wrong: object) -> None:
         Shade((0.0, 0.0, 0.0), 1.0, 1.0, (0.0, 0.0, 0.0))
 
 
+@pytest.mark.parametrize(
+    ("keys", "why"),
+    [
+        ({}, "a shade's radius is above 0 m, not None"),
+        ({"radius": 1.0, "capsule": True}, "a capsule's height is at least twice its radius, 1.0, not None"),
+        (
+            {"radius": 1.0, "height": 1.9, "capsule": True},
+            "a capsule's height is at least twice its radius, 1.0, not 1.9",
+        ),
+        ({"size": (1.0, 0.0, 1.0)}, "a shade's size is three lengths above 0 m, not (1.0, 0.0, 1.0)"),
+        ({"size": 2.0}, "a shade's size is three lengths above 0 m, not 2.0"),
+        (
+            {"size": (1.0, 1.0, 1.0), "radius": 1.0},
+            "a shade with a size is a box: it has no radius, no height, and is no capsule",
+        ),
+        ({"size": (1.0, 1.0, 1.0), "yaw": float("inf")}, "a shade's yaw is finite, not inf"),
+    ],
+)
+def test_a_shade_of_no_shape_is_refused(keys: dict[str, object], why: str) -> None:
+    with pytest.raises(ValueError, match="shade|capsule") as caught:
+        Shade((0.0, 0.0, 0.0), **keys)  # type: ignore[arg-type]
+    assert str(caught.value) == why
+
+
 FLAT, ROUND, TALL = 0.3, 3.0, 6.0
 """Heights of shades, each of radius 1.5 [m]."""
 
@@ -100,14 +124,19 @@ def test_a_shade_as_high_as_it_is_wide_is_a_ball_whichever_way_it_stands(room: S
     np.testing.assert_allclose(pictures[1:], pictures[:1] * 2, atol=1.0)
 
 
-def test_of_many_shades_the_nearest_count(room: Stage, load: Load) -> None:
+def test_of_many_shades_all_count_whose_shadows_are_seen(room: Stage, load: Load) -> None:
     prairie = load(SCENE + NOON)
     before = bright(room.shot(prairie, CAMERA))
-    far = [prairie.world.create(Shade((200.0 + number, 400.0, 0.0), 1.0)) for number in range(9)]
-    near = prairie.world.create(Shade((2.3, 4.0, 0.0), 1.5))
-    assert bright(room.shot(prairie, CAMERA)).min() < before.min()
-    for entity in (*far, near):
+    far = [prairie.world.create(Shade((0.0, 4.0, 400.0 + number), 1.0)) for number in range(300)]
+    assert (bright(room.shot(prairie, CAMERA)) == before).all()
+    near = [prairie.world.create(Shade((x, 4.0, z), 0.5)) for x in range(-4, 7) for z in range(-8, 4)]
+    after = bright(room.shot(prairie, CAMERA))
+    for entity in (*far, *near):
         prairie.world.delete(entity)
+    ground = room.ground(CAMERA, level=0.2) + (4.0 / np.tan(np.radians(60.0)), 0.0)
+    shaded = np.abs(ground - np.rint(ground)).max(axis=-1) < 0.2
+    inside = (np.abs(ground[..., 0] - 1.0) < 4.0) & (np.abs(ground[..., 1] + 2.0) < 5.0)
+    assert (after[shaded & inside] < 0.8 * before[shaded & inside]).mean() > 0.95
 
 
 def test_a_ridge_casts_its_shadow_behind_it_and_light_comes_back_with_distance(
@@ -163,7 +192,7 @@ def test_f5_an_overcast_sky_is_grey_all_over_down_to_the_horizon(room: Stage, lo
     for up in (0.45, 1.3):
         sky, clear = sky_over(room, load, 1.0, up=up), sky_over(room, load, 0.0, up=up)
         assert np.ptp(sky, axis=1).max() < 0.35 * np.ptp(clear, axis=1).max()
-        assert np.ptp(bright(sky[None])) < 30.0
+        assert np.ptp(bright(sky[None])) < 70.0
 
 
 def test_f5_under_an_overcast_sky_nothing_casts_a_shadow(room: Stage, load: Load) -> None:

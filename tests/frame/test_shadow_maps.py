@@ -1,16 +1,17 @@
-"""Shadow maps of a game's: its shadows lie on the grass where rays to the sun meet what throws them (F5, N12)."""
+"""Shadow maps and shades of a game's: its shadows lie on the grass where rays to the sun meet what throws them (F5, N12)."""
 
 import logging
 from collections.abc import Callable, Iterator
 from ctypes import c_int
 from typing import Any
 
+import esper
 import moderngl
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass import ShadowMap
+from tallgrass import Shade, ShadowMap
 from tallgrass.engine.camera import Camera, view_of
 from tallgrass.engine.gl.functions import NUMBERS, functions_of
 from tallgrass.engine.gl.units import BORROWED
@@ -20,7 +21,6 @@ from tallgrass.systems.space.cone import view_cone
 from tallgrass.testing import LITTLE, Stage
 
 Array = NDArray[np.float64]
-Rows = NDArray[np.int64]
 Load = Callable[..., Prairie]
 Aim = Callable[..., Camera]
 
@@ -44,6 +44,15 @@ CAMERA = Camera((0.0, 9.0, 9.0), 0.0, -0.8, np.radians(34.0))
 SIZE = (128, 96)
 LOW, HIGH = np.array([-1.6, 1.2, -2.2]), np.array([1.4, 2.6, 0.4])
 """Corners of a box above the grass [m]."""
+
+MIDDLE, UP, YAW = (LOW + HIGH) / 2.0, (0.2, 1.0, -0.15), 0.7
+"""The box's middle [m]; where it stands along and heads for when it is turned [rad]."""
+
+ROD, THICK = 3.4, 0.8
+"""How long a capsule is there, and half of how thick [m]."""
+
+FINE = 3
+"""How many rays go through a pixel across and up."""
 
 HALF, DEEP = 12.0, 60.0
 """Half the side of the map, and half of how deep it is [m]."""
@@ -113,20 +122,10 @@ def night(ctx: moderngl.Context) -> Iterator[ShadowMap]:
     texture.release()
 
 
-def shadow_of(prairie: Prairie, stage: Stage, box: ShadowMap, night: ShadowMap, rows: Rows) -> Array:
-    """How much of each column of some rows lies in the shadow of a box, of how dark they are in shadow altogether."""
-    pictures = []
-    for maps in ([], [box], [night]):
-        prairie.shadows(maps)
-        pictures.append(stage.shot(prairie, CAMERA)[rows].mean(axis=(0, 2)))
-    prairie.shadows([])
-    lit, part, dark = pictures
-    return np.asarray((lit - part) / (lit - dark))
-
-
-def traced(prairie: Prairie, ctx: moderngl.Context, fine: int = 3) -> Array:
-    """How much of each pixel lies in the shadow of the box by rays from what is seen of every blade."""
-    large = Stage(ctx, (SIZE[0] * fine, SIZE[1] * fine))
+@pytest.fixture(scope="module")
+def places(ctx: moderngl.Context, prairies: dict[str, Prairie]) -> Array:
+    """What is seen of every blade, three times as fine as the picture (height, width, 3) [m]."""
+    prairie, large = prairies["blades"], Stage(ctx, (SIZE[0] * FINE, SIZE[1] * FINE))
     large.shot(prairie, CAMERA)
     view, projection = large.matrices(CAMERA)
     seen, every = view_of(view, projection), EveryBlade(prairie)
@@ -137,26 +136,71 @@ def traced(prairie: Prairie, ctx: moderngl.Context, fine: int = 3) -> Array:
     height, width = large.size[::-1]
     x, y = np.meshgrid((np.arange(width) + 0.5) / width * 2 - 1, 1 - (np.arange(height) + 0.5) / height * 2)
     clip = np.stack([x, y, large.depth() * 2.0 - 1.0, np.ones_like(x)], axis=-1) @ seen.unclip.T
-    shaded = np.isfinite(met(clip[..., :3] / clip[..., 3:], to_sun()))
-    return np.asarray(shaded.reshape(SIZE[1], fine, SIZE[0], fine).mean(axis=(1, 3)))
+    return np.asarray(clip[..., :3] / clip[..., 3:])
 
 
-def test_n12_the_shadow_of_a_box_lies_where_rays_are_stopped_on_all_representations(
-    ctx: moderngl.Context, stage: Stage, prairies: dict[str, Prairie], box: ShadowMap, night: ShadowMap
+def edges(shadow: Array, middle: int, across: float) -> Array:
+    """How far a shadow reaches to the left and to the right [m]."""
+    return across * np.array([shadow[:middle].sum(), shadow[middle:].sum()])
+
+
+def in_box(places: Array) -> NDArray[np.bool_]:
+    """Whether the box stands between the sun and places."""
+    return np.isfinite(met(places, to_sun()))
+
+
+def in_turned(places: Array) -> NDArray[np.bool_]:
+    """The same of the box when it is turned about its middle."""
+    up = np.divide(UP, np.linalg.norm(UP))
+    right = np.cross((np.sin(YAW), 0.0, -np.cos(YAW)), up)
+    right /= np.linalg.norm(right)
+    axes = np.stack([right, up, np.cross(right, up)])
+    return np.isfinite(met((places - MIDDLE) @ axes.T + MIDDLE, to_sun() @ axes.T))
+
+
+def in_capsule(places: Array) -> NDArray[np.bool_]:
+    """The same of a row of balls."""
+    along = np.linspace(-ROD / 2.0 + THICK, ROD / 2.0 - THICK, 120)[:, None] * np.divide(UP, np.linalg.norm(UP))
+    shaded = np.zeros(places.shape[:-1], bool)
+    for ball in MIDDLE + along:
+        shaded |= np.linalg.norm(np.cross(ball - places, to_sun()), axis=-1) < THICK
+    return shaded
+
+
+CASTERS: dict[str, tuple[Shade | None, Callable[[Array], NDArray[np.bool_]]]] = {
+    "map": (None, in_box),
+    "box": (Shade(tuple(MIDDLE), size=tuple(HIGH - LOW)), in_box),
+    "turned": (Shade(tuple(MIDDLE), size=tuple(HIGH - LOW), up=UP, yaw=YAW), in_turned),
+    "capsule": (Shade(tuple(MIDDLE), THICK, ROD, UP, capsule=True), in_capsule),
+}
+"""What throws a shadow, without a shade the map; and where its shadow is."""
+
+
+@pytest.mark.parametrize("caster", CASTERS)
+def test_n12_a_shadow_lies_where_rays_are_stopped_on_all_representations(
+    stage: Stage, prairies: dict[str, Prairie], box: ShadowMap, night: ShadowMap, places: Array, caster: str
 ) -> None:
-    due = traced(prairies["blades"], ctx)
+    shade, stopped = CASTERS[caster]
+    due = stopped(places).reshape(SIZE[1], FINE, SIZE[0], FINE).mean(axis=(1, 3))
     ground = stage.ground(CAMERA, 0.35)
     rows = np.flatnonzero((due.max(axis=1) > 0.98) & (due[:, :8].max(axis=1) < 0.02) & (due[:, -8:].max(axis=1) < 0.02))
     assert len(rows) > 15
     across = float(np.linalg.norm(np.diff(ground[rows], axis=1), axis=-1).mean())
     whole = due[rows].mean(axis=0)
-
-    def edges(shadow: Array) -> Array:
-        """How far the shadow reaches to the left and to the right [m]."""
-        return across * np.array([shadow[: whole.argmax()].sum(), shadow[whole.argmax() :].sum()])
-
-    found = {lod: edges(shadow_of(each, stage, box, night, rows)) - edges(whole) for lod, each in prairies.items()}
-    assert max(np.abs(off).max() for off in found.values()) < WIDTH, found
+    middle, off = int(whole.argmax()), {}
+    for lod, prairie in prairies.items():
+        lit = stage.shot(prairie, CAMERA)
+        prairie.shadows([night])
+        dark = stage.shot(prairie, CAMERA)
+        prairie.shadows([] if shade else [box])
+        entity = esper.create_entity(*filter(None, [shade]))
+        part = stage.shot(prairie, CAMERA)
+        esper.delete_entity(entity, immediate=True)
+        prairie.shadows([])
+        assert (stage.shot(prairie, CAMERA) == lit).all()
+        lit, part, dark = (each[rows].mean(axis=(0, 2)) for each in (lit, part, dark))
+        off[lod] = edges((lit - part) / (lit - dark), middle, across) - edges(whole, middle, across)
+    assert max(np.abs(each).max() for each in off.values()) < WIDTH, off
 
 
 @pytest.mark.parametrize("compares", ["", "<=", ">"])

@@ -3,13 +3,25 @@
 #include "lib/repeating.glsl"
 #include "systems/light/clouds.py"
 
-const float LOWEST_RAY = 0.1;  // sine of the sun's elevation that counts at least, for where its ray meets the clouds
+// How far off one sees the clouds in a direction, in sides of their square: they come down to the horizon, as on a globe.
+vec2 clouds_toward(vec3 direction) {
+    return direction.xz * (CLOUDS_AT / CLOUDS_SIDE / (max(direction.y, 0.0) + CLOUDS_BENT));
+}
 
-// How much of the sun's light comes past the clouds to a place: two slices hide it, which stand for all.
+// Where clouds stand over a place of the ground, in the same.
+vec2 clouds_over(vec2 place) {
+    return place / CLOUDS_SIDE - clouds_drift;
+}
+
+// How much is seen past slices, by how much denser they are there than at their edges.
+vec2 past_slice(vec2 denser) {
+    vec2 thick = clamp(denser / CLOUD_HIDES, 0.0, 1.0), open = 1.0 - thick * thick;
+    return open * open;
+}
+
+// How much of the sun's light comes past the clouds to a place.
 float past_clouds(vec3 place) {
-    vec2 at = (place.xz + sun.xz * (CLOUDS_AT / max(sun.y, LOWEST_RAY))) / CLOUDS_SIDE - clouds_drift;
-    float dense = textureLod(repeating, at, 0.0).r - cloud_edge;
-    vec2 open = clamp(1.0 - vec2(dense, dense - CLOUD_STEP) / CLOUD_HIDES, 0.0, 1.0);
-    open *= open;
-    return mix(CLOUD_SENDS * clamp(cloud_edge, 0.0, 1.0), 1.0, open.x * open.x * open.y * open.y);
+    float dense = textureLod(repeating, clouds_over(place.xz) + clouds_toward(sun), 0.0).r - cloud_edge;
+    vec2 open = past_slice(vec2(dense, dense - CLOUD_STEP));
+    return mix(CLOUD_SENDS * clamp(cloud_edge, 0.0, 1.0), 1.0, open.x * open.y);
 }

@@ -1,22 +1,22 @@
 // How much of the sun is seen from a place: past the terrain, clouds, bodies and what a game's shadow maps have. A shadow of
 // another sort joins `sun_seen`.
 #include "lib/clouds.glsl"
+#include "lib/listed.glsl"
+#include "systems/shadows/shades.py"
 
 const float FAR_OFF = 1e3;  // how far off a body's middle a ray goes that does not come by it, in radii
-const float SHADOW_EDGE = 0.12;  // half the width of a body's shadow's edge, of its radius, where it is at the body
-const float SHADOW_SOFTER = 0.01;  // how much more that is for each radius that the shadow falls
 
 uniform sampler2DShadow map_0;  // a game's shadow maps, the first that a place lies in counts
 uniform sampler2DShadow map_1;
 uniform sampler2DShadow map_2;
 uniform sampler2DShadow map_3;
 
-// Whether there are any: else nobody need look. Programs that are made for none are told so by PLAIN.
-bool any_maps() {
+// Whether a game has any, or shades: else nobody need look. Programs that are made for none are told so by PLAIN.
+bool any_casters() {
 #ifdef PLAIN
     return false;
 #else
-    return maps_shown > 0.0;
+    return maps_shown + shades_grid.w > 0.0;
 #endif
 }
 
@@ -54,12 +54,9 @@ float past_maps(vec3 place) {
     return 1.0;
 }
 
-// How the sun's ray past a place comes by a body: from its middle, in radii, and how soft the shadow's edge is; far off where
-// the body stands behind. A body is a ball that is stretched or pressed flat along an axis: it is drawn out until it is one,
-// and the ray with it.
-vec4 ray_by(int body, vec3 place) {
-    vec3 apart = shades[body].middle - place, axis = shades[body].axis;
-    float pressed = shades[body].pressed, radius = shades[body].radius;
+// How the sun's ray past a place comes by a ball that is stretched or pressed flat along an axis: from its middle, in radii, and
+// how soft the shadow's edge is; far off where the ball stands behind. It is drawn out until it is a ball, and the ray with it.
+vec4 ray_by(vec3 apart, vec3 axis, float pressed, float radius) {
     vec3 way = apart + axis * (pressed * dot(axis, apart)), ray = sun + axis * (pressed * dot(axis, sun));
     float before = dot(way, ray) / dot(ray, ray), along = dot(apart, sun);
     vec3 by = (way - ray * before) / radius;
@@ -68,15 +65,68 @@ vec4 ray_by(int body, vec3 place) {
     return vec4(before > 0.0 ? by : vec3(FAR_OFF), soft);
 }
 
+vec4 ray_by(int body, vec3 place) {
+    return ray_by(bodies[body].middle - place, bodies[body].axis, bodies[body].pressed, bodies[body].radius);
+}
+
 // How much of the sun is seen past a body, where its ray comes so near to the middle, in radii.
 float past_body(float near, float soft) {
     return 1.0 - (1.0 - smoothstep(1.0 - soft, 1.0 + soft, near)) / max(soft * soft, 1.0);
 }
 
+// How much of it is seen past a capsule: so far away, along an axis as long as `reach` to either end.
+float past_capsule(vec3 apart, vec3 axis, float reach, float radius) {
+    float lean = dot(axis, sun), aside = dot(axis, apart), before = dot(apart, sun);
+    float at = clamp((lean * before - aside) / max(1.0 - lean * lean, 1e-6), -reach, reach);
+    float along = max(before + at * lean, 0.0);
+    at = clamp(along * lean - aside, -reach, reach);
+    return past_body(length(apart + at * axis - along * sun) / radius, (SHADOW_CRISP + SHADOW_SOFTER * along) / radius);
+}
+
+const vec2 SQUARE_ON = vec2(1e-4, 1e-3);  // what an edge seen from its end is left out by: sine that counts at least; [m]
+
+// How much of it is seen past a box: so far away, and the sun's direction, along its axes.
+float past_box(vec3 apart, vec3 toward, vec3 size) {
+    vec3 steep = mix(vec3(-1e-6), vec3(1e-6), greaterThanEqual(toward, vec3(0.0)));
+    steep = mix(toward, steep, lessThan(abs(toward), vec3(1e-6)));
+    vec3 enters = (apart - sign(steep) * size) / steep, leaves = (apart + sign(steep) * size) / steep;
+    if (min(min(leaves.x, leaves.y), leaves.z) <= 0.0)
+        return 1.0;
+    // How far the ray goes by the outline, which has edges along each of the axes [m].
+    vec3 wide = size.yzx * abs(toward.zxy) + size.zxy * abs(toward.yzx);
+    vec3 by = (abs(cross(toward, apart)) - wide - SQUARE_ON.y) / sqrt(max(1.0 - toward * toward, SQUARE_ON.x * SQUARE_ON.x));
+    float soft = SHADOW_CRISP + SHADOW_SOFTER * max(max(max(enters.x, enters.y), enters.z), 0.0);
+    float part = soft / min(min(size.x, size.y), size.z);
+    return 1.0 - (1.0 - smoothstep(-soft, soft, max(max(by.x, by.y), by.z))) / max(part * part, 1.0);
+}
+
+// How much of it is seen past a shade; told as `told_of` does.
+float past_shade(mat3x4 told, vec3 place) {
+    vec3 apart = told[0].xyz - place, axis = told[1].xyz;
+    float deep = told[0].w, reach = told[1].w, radius = told[2].w;
+    if (deep < 0.0)
+        return past_capsule(apart, axis, reach, radius);
+    if (deep == 0.0) {
+        vec4 by = ray_by(apart, axis, reach, radius);
+        return past_body(length(by.xyz), by.w);
+    }
+    mat3 axes = mat3(axis, told[2].xyz, cross(axis, told[2].xyz));
+    return past_box(apart * axes, sun * axes, vec3(reach, radius, deep));
+}
+
+// How much of it is seen past what a game has that casts shadows: its shades and shadow maps.
+float past_casters(vec3 place) {
+    float seen = 1.0;
+    ivec2 listed_here = shades_grid.w > 0.0 ? listed_about(shades_grid, SHADES_FROM, place.xz) : ivec2(0);
+    for (int number = listed_here.x; number < listed_here.y; number++)
+        seen *= past_shade(listed_at(SHADES_FROM, number), place);
+    return maps_shown > 0.0 ? seen * past_maps(place) : seen;
+}
+
 // How much of it is seen from a place past all bodies but one.
 float past_bodies(vec3 place, int but) {
     float seen = 1.0;
-    for (int body = 0; body < SHADES && shades[body].radius > 0.0; body++) {
+    for (int body = 0; body < BODIES && bodies[body].radius > 0.0; body++) {
         vec4 by = ray_by(body, place);
         seen *= body == but ? 1.0 : past_body(length(by.xyz), by.w);
     }
@@ -88,12 +138,12 @@ float sun_past(vec3 place, float past) {
     return cloud_edge < 1.0 ? past * past_clouds(place) : past;
 }
 
-// How much of it is seen past these too; past shadow maps where pixels do not ask for that.
+// How much of it is seen past these too; past what a game has that casts shadows where pixels do not ask for that.
 float sun_seen(vec3 place, float past) {
-    float seen = sun_past(place, past) * (shades[0].radius > 0.0 ? past_bodies(place, -1) : 1.0);
+    float seen = sun_past(place, past) * (bodies[0].radius > 0.0 ? past_bodies(place, -1) : 1.0);
 #ifndef PIXELS_ASK
-    if (any_maps())
-        seen *= past_maps(place);
+    if (any_casters())
+        seen *= past_casters(place);
 #endif
     return seen;
 }

@@ -126,8 +126,8 @@ vec3 painted_light(int k, float t, vec2 face, Painted target) {
     pigment *= faced(k, normalize(target.run.xz), target.middle, target.top);
     ByKind grows = grows_at(target.middle.xz);
     Light light = light_on(k, target.bend, target.middle, lies, grows);
-    if (any_maps())
-        light = shaded(light, past_maps(target.place), 1.0);
+    if (any_casters())
+        light = shaded(light, past_casters(target.place), 1.0);
     if (any_lamps()) {
         float suns;
         light = add_lamps(light, target.middle, Sender(k, target.bend, lies.normal, 1.0), suns);
@@ -218,8 +218,8 @@ void main() {
 #endif
     float high_up = stands.x + spine.place.y * stands.y;
     Light reaches = unbundled(lit);
-    if (any_maps())
-        reaches = shaded(reaches, past_maps(point.place), 1.0 - fract(joints.z));
+    if (any_casters())
+        reaches = shaded(reaches, past_casters(point.place), 1.0 - fract(joints.z));
     vec3 pigment = mix(low.rgb, high.rgb, t), light = shade(leaf_at(pigment * (1.0 + side * lit[3].xyz), high_up), reaches);
 #ifdef FOLDS
     bool is_folded = is_blade(int(stands.z)) && kinds[k].apart > 0.0 && kinds[k].narrowed > 0.0;

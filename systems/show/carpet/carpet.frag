@@ -59,7 +59,7 @@ void work_out(float slope) {
     ByKind grows = grows_at(place.xz);
     strips_before = 1.0;
     lush = understorey_of(lies, grows);
-    if (anything_is_cut() || any_maps()) {
+    if (anything_is_cut() || any_casters()) {
         Soil soil = soil_lit(place, lies, grows, 1.0 - haze_at(place));
         sunlit = soil.sunlit;
         skylit = soil.skylit;

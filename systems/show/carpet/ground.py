@@ -273,8 +273,9 @@ class GroundPainter:
 
     @property
     def _is_rare(self) -> bool:
-        """Whether there are shadow maps or a ground of a game's own: then pixels ask for these."""
-        return bool(self._block.record["maps_shown"][0]) or bool(self._block.earth)
+        """Whether there are shadow maps, shades or a ground of a game's own: then pixels ask for these."""
+        record = self._block.record[0]
+        return bool(record["maps_shown"] or record["shades_grid"][3] or self._block.earth)
 
     @property
     def _is_lamplit(self) -> bool:

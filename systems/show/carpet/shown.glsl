@@ -77,8 +77,8 @@ vec4 kind_seen(int kind, Patch own, Reading read, Sight sight, float grain, View
     float usual_height = texel.height / (1.0 + texel.taller) * OF(tops, kind);
     taller = texel.taller;
     place_leaves(kind, texel, view);
-    if (any_maps())
-        light = shaded(light, past_maps(met_at(texel.height * OF(crown, kind), sight.slope)), 1.0);
+    if (any_casters())
+        light = shaded(light, past_casters(met_at(texel.height * OF(crown, kind), sight.slope)), 1.0);
     if (any_lamps())
         light = with_lamps(light, view.lamps);
     float bent = max(1.0 - (1.0 - texel.covers) * through_leaves(view.bent.x), 0.0);

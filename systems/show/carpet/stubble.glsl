@@ -12,9 +12,9 @@ float left_seen(vec2 at) {
 
 // The radiance of the soil where grass is left to stand so high [m].
 vec3 soil_between(Soil soil, vec3 at, float left) {
-    if (!anything_is_cut() && !any_maps())
+    if (!anything_is_cut() && !any_casters())
         return soil.seen;
-    float seen = any_maps() ? past_maps(at) : 1.0;
+    float seen = any_casters() ? past_casters(at) : 1.0;
     vec2 through = through_leaves(vec2(soil.way, OPEN_SKY) * weighed(areas(grows_at(at.xz)), leaves_left(left)));
     return soil.sunlit * (through.x * seen) + soil.skylit * through.y;
 }

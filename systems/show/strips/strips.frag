@@ -58,8 +58,8 @@ void main() {
     Light light = unbundled(lit);
 #ifdef SHADED
     float seen = past_body(sqrt(max(shadow.x + on.z * (shadow.y + on.z * shadow.z), 0.0)), shadow.w);
-    if (any_maps())
-        seen *= past_maps(spot.xyz);
+    if (any_casters())
+        seen *= past_casters(spot.xyz);
     light = shaded(light, seen, spot.w);
 #endif
 #ifdef CUT

@@ -153,7 +153,7 @@ int shading(vec3 a, vec3 b) {
     int nearest = -1;
     float least = UNSHADED;
     shadow = vec4(least, 0.0, 0.0, 1.0);
-    for (int body = 0; body < SHADES && shades[body].radius > 0.0; body++) {
+    for (int body = 0; body < BODIES && bodies[body].radius > 0.0; body++) {
         vec4 from = ray_by(body, a), to = ray_by(body, b);
         vec3 way = to.xyz - from.xyz, near = vec3(dot(from.xyz, from.xyz), 2.0 * dot(from.xyz, way), dot(way, way));
         float at = clamp(-0.5 * near.y / max(near.z, 1e-6), 0.0, 1.0), nearness = near.x + at * (near.y + at * near.z);

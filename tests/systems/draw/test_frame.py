@@ -13,7 +13,7 @@ from tallgrass.engine.camera import Camera, View, projection_matrix, view_matrix
 from tallgrass.engine.gl import emit
 from tallgrass.engine.gl.records import Records
 from tallgrass.systems.features import UNITS
-from tallgrass.systems.frame.block import FRAME, KIND, SHADE, FrameBlock, aim, by_kind, rays
+from tallgrass.systems.frame.block import FRAME, KIND, BODY, FrameBlock, aim, by_kind, rays
 from tallgrass.systems.show.blades.draw import MESSAGE, BladePainter
 from tallgrass.systems.show.blades.pool import BLADE, ORGAN
 from tallgrass.systems.show.blades.store import STANDING
@@ -50,7 +50,7 @@ PLAIN = [name for name in FRAME.names or () if FRAME[name].base == np.float32 an
 FIELDS = {
     **{name: FRAME[name] for name in PLAIN},
     **{f"kinds[int(row.x)].{name}": KIND[name] for name in KIND.names or ()},
-    **{f"shades[int(row.x)].{name}": SHADE[name] for name in SHADE.names or ()},
+    **{f"bodies[int(row.x)].{name}": BODY[name] for name in BODY.names or ()},
 }
 
 

@@ -1,4 +1,4 @@
-"""Which lamps shine on which cells (F5)."""
+"""Which lamps and shades reach which cells (F5)."""
 
 import numpy as np
 import pytest
@@ -10,22 +10,24 @@ from tallgrass.systems.lamps.listed import ROOM, SIDE, listed
 
 
 @given(st.integers(1, 256), st.floats(0.1, 900.0), st.floats(0.0, 3000.0), st.integers(0, 2**32 - 1))
-def test_every_lamp_that_reaches_a_place_is_in_its_cells_list(count: int, far: float, apart: float, seed: int) -> None:
+def test_everything_that_reaches_a_place_is_in_its_cells_list(count: int, far: float, apart: float, seed: int) -> None:
     random = np.random.default_rng(seed)
     place = (random.random((count, 2)) * apart).astype(np.float32)
     reach = (far * (0.2 + 0.8 * random.random(count))).astype(np.float32)
-    lists = listed(place, reach)
+    long = (apart * 0.3 * random.random((count, 2)) ** 4).astype(np.float32)
+    lists = listed(place, place + long, reach)
     assert len(lists.first) == lists.side**2 <= SIDE**2
-    assert lists.count.sum() == len(lists.lamps) <= ROOM
+    assert lists.count.sum() == len(lists.things) <= ROOM
     asked = place[random.integers(count, size=40)] + (random.random((40, 2)) - 0.5) * 2.2 * far
     for x, z in asked:
-        near = np.hypot(*(place.astype(np.float64) - (x, z)).T) < reach * (1.0 - 1e-6)
+        nearest = np.clip((x, z), place.astype(np.float64), (place + long).astype(np.float64))
+        near = np.hypot(*(nearest - (x, z)).T) < reach * (1.0 - 1e-6)
         cell = np.floor((np.array((x, z)) - lists.corner) / lists.cell).astype(int)
         if (cell < 0).any() or (cell >= lists.side).any():
             assert not near.any()
             continue
         number = cell[1] * lists.side + cell[0]
-        those = lists.lamps[lists.first[number] : lists.first[number] + lists.count[number]]
+        those = lists.things[lists.first[number] : lists.first[number] + lists.count[number]]
         assert set(np.flatnonzero(near)) <= set(those.tolist())
 
 
