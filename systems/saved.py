@@ -5,20 +5,21 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from hashlib import blake2b
 from io import BytesIO
-from typing import Any, NoReturn
+from typing import Annotated, Any, NoReturn
 from zlib import compress, decompressobj
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, ValidationError
 
-from ..components.declaration import Declaration, Triple
+from ..components.declaration import Declaration, Number
 from ..engine.declared.light import Light
 from ..engine.terrain.change import as_loaded
 from .site import Site
 from .space.ground import Ground
+from .thing import Kind
 
-FORMAT = 2
+FORMAT = 3
 """Version of what a state holds."""
 
 MAGIC = b"tallgrass state\n"
@@ -30,6 +31,9 @@ _MOST = 2**28
 
 Arrays = Mapping[str, NDArray[Any]]
 """What a state holds of arrays, by name."""
+
+Standing = Annotated[list[Number], Field(min_length=3, max_length=4)]
+"""A `Pose`: x, z [m], yaw [rad], and a height [m] where it has one."""
 
 
 class SavedCourse(Declaration):
@@ -53,21 +57,22 @@ class SavedWind(Declaration):
     kind: str
     name: str
     values: dict[str, Any]
-    pose: Triple | None
-    """x, z [m] and yaw [rad], where its entity has a `Pose`."""
+    pose: Standing | None
+    """Where its entity has a `Pose`."""
 
     course: SavedCourse | None
 
 
-class SavedPresser(Declaration):
-    """An entity of a game's that presses."""
+class SavedThing(Declaration):
+    """An entity of a game's with one of its components: one that has several comes several times."""
 
     entity: int
-    shape: dict[str, Any]
-    """The fields of its `Presser`."""
+    kind: Kind
+    fields: dict[str, Any]
+    """Of that component."""
 
-    pose: Triple
-    """x, z [m] and yaw [rad]."""
+    pose: Standing | None
+    """Where its entity has a `Pose`."""
 
 
 class SavedWalk(Declaration):
@@ -120,7 +125,9 @@ class State(Declaration):
     winds: list[SavedWind]
     """Entities of a game's that are winds."""
 
-    pressers: list[SavedPresser]
+    things: list[SavedThing]
+    """What else a game's entities have of ours."""
+
     treading: SavedTreading
 
 

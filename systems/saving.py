@@ -1,10 +1,9 @@
 """Saving and restoring what a game has done to a prairie."""
 
 import json
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
-from numbers import Real
-from typing import Any
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, cast
 
 import numpy as np
 
@@ -33,7 +32,7 @@ from .saved import (
     Arrays,
     Saved,
     SavedCourse,
-    SavedPresser,
+    SavedThing,
     SavedTreading,
     SavedWalk,
     SavedWind,
@@ -48,6 +47,7 @@ from .saved import (
 )  # fmt: skip
 from .site import Site
 from .space.ground import Ground
+from .thing import THINGS, Thing, component_of, fields_of
 from .winds import Winds
 
 WALKS = ("scenes", "games")
@@ -87,10 +87,7 @@ class Saving:
             declared=self._winds(self.winds.declared),
             added=[*filter(None, self._winds(self.winds.added))],
             winds=[*filter(None, self._winds([each for each, _ in self.world.all(WindSource) if each not in own]))],
-            pressers=[
-                SavedPresser(entity=entity, shape=_shape(presser), pose=_numbers(pose))
-                for entity, presser, pose in self.pressers.games()
-            ],
+            things=[*self._things()],
             treading=treading,
         )
         cleared = np.array(sorted(self.clearings.cells), np.int32).reshape(-1, 2)
@@ -116,7 +113,7 @@ class Saving:
         made = _Made(
             {wind.entity: WindSource(_made(wind.kind, wind.values, kinds), wind.name) for wind in winds},
             {wind.entity: _run(wind, wind.course, kinds) for wind in winds if wind.course is not None},
-            {each.entity: _presser(each.shape) for each in state.pressers},
+            [component_of(each.kind, each.fields) for each in state.things],
             _checked(state.treading, saved.arrays),
             _mown(saved.arrays, self.mown.plots),
             _sown(saved.arrays, site.ground.density.sown),
@@ -129,6 +126,16 @@ class Saving:
         site.ground.density.sown.resume(*made.sown)
         return state.time, self._bring(state, made)
 
+    def _things(self) -> Iterator[SavedThing]:
+        """Yield what else a game's entities have of ours; none that is nowhere."""
+        own = {entity for entity, _, _ in self.pressers.games()}
+        for kind, sort in THINGS.items():
+            for entity, component in self.world.all(sort):
+                pose = self.world.find(entity, Pose)
+                if (kind != "presser" or entity in own) and (pose is None or is_somewhere(pose)):
+                    standing = None if pose is None else _numbers(pose)
+                    yield SavedThing(entity=entity, kind=kind, fields=fields_of(component), pose=standing)
+
     def _mark(self, site: Site) -> str:
         if self._marked is None or self._marked[0] is not site.ground:
             self._marked = site.ground, ground_mark(site.ground)
@@ -137,10 +144,10 @@ class Saving:
     def _bring(self, state: State, made: "_Made") -> dict[int, int]:
         self.winds.pass_to(state.time)
         entities = self._bring_winds(state, made)
-        there = {entity for entity, _, _ in self.pressers.games()}
-        for each in state.pressers:
-            entity = entities.get(each.entity, each.entity if each.entity in there else None)
-            parts = made.pressers[each.entity], Pose(*each.pose)
+        there = {(each.entity, each.kind) for each in self._things()}
+        for each, component in zip(state.things, made.things, strict=True):
+            entity = entities.get(each.entity, each.entity if (each.entity, each.kind) in there else None)
+            parts = component, *([] if each.pose is None else [Pose(*each.pose)])
             if entity is None:
                 entity = self.world.create(*parts)
             else:
@@ -208,8 +215,8 @@ class _Made:
     runs: Mapping[int, WindPrimitive]
     """Those whose phases have run on a course of their own, likewise."""
 
-    pressers: Mapping[int, Presser]
-    """Those of a game's, likewise."""
+    things: Sequence[Thing]
+    """The components of a game's entities, in the state's order."""
 
     treading: Treading
     mown: tuple[Ints, Floats]
@@ -268,31 +275,22 @@ def _run(wind: SavedWind, saved: SavedCourse, kinds: Reading) -> WindPrimitive:
 
 
 def _numbers(pose: Pose) -> list[float]:
-    return [float(number) for number in (pose.x, pose.z, pose.yaw)]
+    return [float(number) for number in (pose.x, pose.z, pose.yaw, pose.y) if number is not None]
 
 
-def _shape(presser: Presser) -> dict[str, Any]:
-    """Return the fields of a presser, as JSON has them."""
-    return {name: float(value) if isinstance(value, Real) else value for name, value in asdict(presser).items()}
-
-
-def _presser(shape: Mapping[str, Any]) -> Presser:
-    """Return the presser of these fields; raises ValueError for what is none."""
-    try:
-        return Presser(**shape)
-    except TypeError as error:
-        raise ValueError(f"what presses is no presser: {error}") from error
+def _presser(fields: Mapping[str, Any]) -> Presser:
+    return cast(Presser, component_of("presser", fields))
 
 
 def _treading(treading: Treading) -> tuple[SavedTreading, Arrays]:
     """Return what pressers have done as it is saved."""
     walks, arrays = list[SavedWalk](), {"kept": treading.kept}
     for name, stand in zip(WALKS, treading.walks, strict=True):
-        who = [(entity, _shape(presser)) for entity, presser in stand.who]
+        who = [(entity, fields_of(presser)) for entity, presser in stand.who]
         walks.append(SavedWalk(time=stand.time, begun=stand.begun, who=who))
         parts = {"pose": stand.pose, "open": stand.open, "way": stand.way, "closed": stand.closed}
         arrays |= {f"{name}_{part}": array for part, array in parts.items()}
-    declared = [None if presser is None else _shape(presser) for presser in treading.declared]
+    declared = [None if presser is None else fields_of(presser) for presser in treading.declared]
     saved = SavedTreading(
         walks=walks, since=treading.since, trodden=treading.trodden, anew=treading.anew, declared=declared
     )

@@ -40,7 +40,10 @@ class Listed:
 
 
 def listed(low: Floats | Doubles, high: Floats | Doubles, reach: Floats | Doubles, /) -> Listed:
-    """Return the cells that things reach which lie over rectangles (n, 2), (n, 2) [m] and reach so far beyond (n,) [m]."""
+    """Return the cells that things reach.
+
+    They lie over rectangles from corners (n, 2) to corners (n, 2) [m], and reach so far beyond (n,) [m].
+    """
     lowest, highest, far = low.astype(np.float64), high.astype(np.float64), reach.astype(np.float64)[:, None]
     corner = (lowest - far).min(axis=0)
     extent = float(((highest + far).max(axis=0) - corner).max())

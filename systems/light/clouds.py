@@ -1,7 +1,7 @@
 """Clouds: a layer of them that drifts, higher the denser its map is; how they look, and what they leave of light.
 
-They are seen in slices, one above another. Each hides what is behind it the more, the denser it is, and is lit the less,
-the denser the map is there and a little way toward the sun. `sky.frag` draws what this module means.
+They are seen in slices, one above another. Each hides what is behind it the more, the denser it is, and is lit the
+less, the denser the map is there and a little way toward the sun. `sky.frag` draws what this module means.
 """
 
 from dataclasses import dataclass

@@ -37,8 +37,8 @@ def round_of(shade: Shade, /) -> tuple[Doubles, float, float]:
 def told_of(shades: Sequence[Shade], /) -> Floats:
     """Return what shaders are told of shades, shape (n, 3, 4).
 
-    That is the middle [m], and half the depth of a box, or what else it is; an axis, and half the length along it, or of
-    a ball how much longer it had to be; of a box another axis, and the radius, or half the length along that [m].
+    That is the middle [m], and half the depth of a box, or what else it is; an axis, and half the length along it, or
+    of a ball how much longer it had to be; of a box another axis, and the radius, or half the length along that [m].
     """
     told = np.zeros((len(shades), 3, 4), np.float32)
     for row, shade in zip(told, shades, strict=True):

@@ -90,7 +90,7 @@ def test_a_shade_that_is_nowhere_is_refused(wrong: object) -> None:
     ],
 )
 def test_a_shade_of_no_shape_is_refused(keys: dict[str, object], why: str) -> None:
-    with pytest.raises(ValueError, match="shade|capsule") as caught:
+    with pytest.raises(ValueError, match=r"shade|capsule") as caught:
         Shade((0.0, 0.0, 0.0), **keys)  # type: ignore[arg-type]
     assert str(caught.value) == why
 
@@ -133,7 +133,7 @@ def test_of_many_shades_all_count_whose_shadows_are_seen(room: Stage, load: Load
     after = bright(room.shot(prairie, CAMERA))
     for entity in (*far, *near):
         prairie.world.delete(entity)
-    ground = room.ground(CAMERA, level=0.2) + (4.0 / np.tan(np.radians(60.0)), 0.0)
+    ground = np.add(room.ground(CAMERA, level=0.2), (4.0 / np.tan(np.radians(60.0)), 0.0))
     shaded = np.abs(ground - np.rint(ground)).max(axis=-1) < 0.2
     inside = (np.abs(ground[..., 0] - 1.0) < 4.0) & (np.abs(ground[..., 1] + 2.0) < 5.0)
     assert (after[shaded & inside] < 0.8 * before[shaded & inside]).mean() > 0.95

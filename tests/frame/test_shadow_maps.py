@@ -1,4 +1,4 @@
-"""Shadow maps and shades of a game's: its shadows lie on the grass where rays to the sun meet what throws them (F5, N12)."""
+"""Shadow maps and shades of a game's: shadows lie where rays to the sun meet what throws them (F5, N12)."""
 
 import logging
 from collections.abc import Callable, Iterator

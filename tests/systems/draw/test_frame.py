@@ -13,7 +13,7 @@ from tallgrass.engine.camera import Camera, View, projection_matrix, view_matrix
 from tallgrass.engine.gl import emit
 from tallgrass.engine.gl.records import Records
 from tallgrass.systems.features import UNITS
-from tallgrass.systems.frame.block import FRAME, KIND, BODY, FrameBlock, aim, by_kind, rays
+from tallgrass.systems.frame.block import BODY, FRAME, KIND, FrameBlock, aim, by_kind, rays
 from tallgrass.systems.show.blades.draw import MESSAGE, BladePainter
 from tallgrass.systems.show.blades.pool import BLADE, ORGAN
 from tallgrass.systems.show.blades.store import STANDING

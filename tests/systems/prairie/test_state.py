@@ -13,6 +13,7 @@ import esper
 import numpy as np
 import pytest
 
+from tallgrass import Lamp, Shade
 from tallgrass.components.arrays import Floats
 from tallgrass.components.footprint import Footprint, Road
 from tallgrass.components.patch import Patch
@@ -57,6 +58,9 @@ def played(world: World) -> Iterator[Prairie]:
     esper.create_entity(
         WindSource(Breeze(strength=0.5, priority=3, weight=0.5, start=2.0, stop=40.0), "mine"), Pose(2.0, 3.0)
     )
+    car = Presser(radius=0.9), Lamp(candela=20_000.0, cone=0.3), Shade((8.0, 1.0, 2.0), size=(1.8, 1.4, 4.2), yaw=0.4)
+    esper.create_entity(*car, Pose(8.0, 2.0, 0.4, y=0.7))
+    esper.create_entity(Shade((3.0, 2.0, 1.0), 0.3, 1.8, capsule=True))
     made.add(Gust(position=[-20.0, 5.0], start=4.0), name="storm")
     gone = made.add(Gust())
     moved = made.add(Blast(strength=0.6), pose=Pose(5.0, 5.0))
@@ -99,18 +103,26 @@ def told(prairie: Prairie, *, on: float = 0.0) -> Told:
     return found
 
 
+def belongings() -> set[tuple[object, ...]]:
+    """What a game's entities have of ours, and where: of those that have any lamp or shade."""
+    kinds = Presser, Lamp, Shade, Pose
+    found = {entity for kind in (Lamp, Shade) for entity, _ in esper.get_component(kind)}
+    return {tuple(esper.try_component(entity, kind) for kind in kinds) for entity in found}
+
+
 def assert_same(one: Told, other: Told) -> None:
     for name, due in one.items():
         np.testing.assert_array_equal(other[name], due, err_msg=name)
 
 
 def test_n5_a_state_brings_everything_back_to_the_bit_in_another_world(played: Prairie, world: World) -> None:
-    state, due = played.state(), told(played, on=2.5)
+    state, due, had = played.state(), told(played, on=2.5), belongings()
     played.release()
     esper.switch_world("another")
     other = Prairie.load(SCENE)
     entities = other.restore(state)
-    assert len(entities) == 5
+    assert len(entities) == 7
+    assert belongings() == had
     assert_same(due, told(other, on=2.5))
     assert played.clearings.cells == other.clearings.cells != frozenset()
     other.release()
@@ -228,7 +240,7 @@ def test_what_is_no_state_of_this_release_is_refused_in_a_sentence(played: Prair
     refused(
         played,
         signed(b"\x00\x01" + state[HEAD + 22 :]),
-        r"^this state is of format 1, and this release reads format 2$",
+        r"^this state is of format 1, and this release reads format 3$",
     )
     with pytest.raises(TypeError, match=r"^a state is the bytes that state\(\) returned, not str$"):
         played.restore("state")  # type: ignore[arg-type]
