@@ -143,11 +143,9 @@ class Tile:
         if changed is not None:
             ends = np.array([ends_of(part) for part in changed])
             ends = cell_of(ends + np.array([[-CELL], [CELL]], np.float32), patch=patch)
-            low, high = cells.min(axis=0), cells.max(axis=0)
-            near = np.clip(ends[((ends[:, 1] >= low) & (ends[:, 0] <= high)).all(axis=1)], low, high)
-            squares = {(*first, *last) for first, last in near.tolist()}
-            found = {(i, j) for a, b, c, d in squares for i in range(a, c + 1) for j in range(b, d + 1)}
-            cells = np.array(sorted(found), np.int32).reshape(-1, 2)
+            cells = cells[between(cells, ends[:, 0].min(axis=0), ends[:, 1].max(axis=0))]  # they are few, mostly
+            squares = {tuple(each) for each in ends.reshape(-1, 4).tolist()}
+            cells = cells[np.any([between(cells, np.array(each[:2]), np.array(each[2:])) for each in squares], axis=0)]
         self._sow_on(outlook, cells)
         outlook.sown = sown.count
 

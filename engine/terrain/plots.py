@@ -63,6 +63,13 @@ class Plots:
         self._free: list[int] = []
         self._alike: dict[bytes, int] = {}
         self._last: deque[Part] = deque(maxlen=MOST)
+        self._ends = [self.half[1], self.half[0], -self.half[1], -self.half[0]]
+
+    @property
+    def ends(self) -> tuple[int, int, int, int]:
+        """The first row and column of `index` that have had a page, and the last."""
+        top, left, bottom, right = self._ends
+        return top + self.half[1], left + self.half[0], bottom + self.half[1], right + self.half[0]
 
     @property
     def index(self) -> Ints:
@@ -93,6 +100,16 @@ class Plots:
         there = page >= 0
         which = within[there]
         return On(which, page[there], ((at[which] - plot[which]) * CELLS).astype(np.float32))
+
+    def on_lines(self, x: Floats, z: Floats, /) -> tuple[Ints, Ints, Ints]:
+        """Return the page that each cell of squares is on, -1 for none, its row and its column, for (m, n, n).
+
+        The squares are where lines of `x` (m, n) and of `z` (m, n) meet [m], all of them on the map.
+        """
+        column, row = (np.floor(each / np.float32(CELL)).astype(np.int32) for each in (x, z))
+        which = row // CELLS + self.half[1], column // CELLS + self.half[0]
+        page = self.index[which[0][:, :, None], which[1][:, None, :]]
+        return page, (row % CELLS)[:, :, None], (column % CELLS)[:, None, :]
 
     def nearest(self, on: On, /) -> Values:
         """Return what the cells have that places lie in, shape (m, ...)."""
@@ -190,6 +207,7 @@ class Plots:
         if before == page:
             return
         self.index[plot] = page
+        self._reach(plot[0], plot[0], plot[1], plot[1])
         self._uses[page] += 1
         if before >= 0:
             self._uses[before] -= 1
@@ -197,6 +215,11 @@ class Plots:
                 if self._is_alike(before):
                     del self._alike[self.pages[before, :1, :1].tobytes()]
                 self._free.append(before)
+
+    def _reach(self, top: int, bottom: int, left: int, right: int) -> None:
+        ends, (columns, rows) = self._ends, self.half
+        ends[:2] = min(ends[0], top - rows), min(ends[1], left - columns)
+        ends[2:] = max(ends[2], bottom - rows), max(ends[3], right - columns)
 
     def _claim(self) -> int:
         """Return the number of a page that nothing is on."""
@@ -231,6 +254,8 @@ class Plots:
         self._uses = np.bincount(where[kept, 2], minlength=len(pages)).astype(np.int64)
         if kept.any():
             self.index[at[kept, 0], at[kept, 1]] = where[kept, 2]
+            (top, left), (bottom, right) = at[kept].min(axis=0).tolist(), at[kept].max(axis=0).tolist()
+            self._reach(top, bottom, left, right)
         same = (pages == pages[:, :1, :1]).all(axis=tuple(range(1, pages.ndim)))
         self._alike = {pages[page, :1, :1].tobytes(): page for page in np.flatnonzero(same).tolist()}
         self._last.clear()

@@ -78,6 +78,27 @@ def density_at(density: Density, place: Floats, /) -> Floats:
     return _limited(density, result, place)
 
 
+def density_on_lines(density: Density, x: Floats, z: Floats, /) -> Floats:
+    """Return each kind's density where lines of `x` (m, n) and of `z` (m, n) meet [m], shape (kinds, m, n, n), z first.
+
+    Of what is sown it is that of the cells which places lie in: that takes less time than `density_at`.
+    """
+    shape = *x.shape, x.shape[1]
+    place = np.stack([np.broadcast_to(x[:, None, :], shape), np.broadcast_to(z[:, :, None], shape)], -1).reshape(-1, 2)
+    if not density.sown.any:
+        return natural_at(density, place).reshape(-1, *shape)
+    most = (np.array(density.size) - CELL) / 2.0
+    page, row, column = density.sown.on_lines(np.clip(x, -most[0], most[0]), np.clip(z, -most[1], most[1]))
+    if (page < 0).all():
+        return natural_at(density, place).reshape(-1, *shape)
+    found = density.sown.pages[page, row, column].reshape(-1, len(density.maps))
+    result = np.ascontiguousarray(found.T) * _WHOLE
+    rest = np.flatnonzero(page < 0)
+    if len(rest):
+        result[:, rest] = painted_at(density, place[rest])
+    return _limited(density, result, place).reshape(-1, *shape)
+
+
 def natural_at(density: Density, place: Floats, /) -> Floats:
     """Return each kind's density as it would be had a game neither sown nor cleared anything, as `density_at` does."""
     return _limited(density, painted_at(density, place), place)

@@ -150,8 +150,12 @@ def _reached(plots: Plots, area: Area, pose: Pose, beyond: float) -> list[tuple[
 def _from_line(line: Floats, place: Floats, near: Stretches = None) -> Floats:
     """Return how far places (n, 2) are from the nearest of some stretches between places (m, 2) of a line, (n,)."""
     least = np.full(len(place), np.inf, np.float32)
+    right, ahead = np.ascontiguousarray(place.T)
     for number in range(len(line) - 1) if near is None else near:
-        (x, z), (dx, dz) = (place - line[number]).T, line[number + 1] - line[number]
-        along = np.clip((x * dx + z * dz) / np.float32(max(float(dx * dx + dz * dz), 1e-12)), 0.0, 1.0)
-        np.minimum(least, (x - along * dx) ** 2 + (z - along * dz) ** 2, out=least)
+        x, z, (dx, dz) = right - line[number, 0], ahead - line[number, 1], line[number + 1] - line[number]
+        along = (x * dx + z * dz) / np.float32(max(float(dx * dx + dz * dz), 1e-12))
+        np.clip(along, 0.0, 1.0, out=along)
+        x -= along * dx
+        z -= along * dz
+        np.minimum(least, x * x + z * z, out=least)
     return np.asarray(np.sqrt(least), np.float32)

@@ -10,10 +10,13 @@ def in_polygon(place: Doubles | Floats, corners: Doubles | Floats, /) -> Mask:
 
     Its corners are (n, 2), in either direction round; it may be concave.
     """
-    holds = np.zeros(place.shape[:-1], np.bool_)
+    x, z = (np.ascontiguousarray(place[..., axis]) for axis in (0, 1))
+    holds = np.zeros(x.shape, np.bool_)
     for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        edge, to = b - a, place - a
-        crosses = (a[1] > place[..., 1]) != (b[1] > place[..., 1])
-        before = to[..., 0] * edge[1] - edge[0] * to[..., 1]
+        if a[1] == b[1]:
+            continue
+        edge = b - a
+        crosses = (a[1] > z) != (b[1] > z)
+        before = (x - a[0]) * edge[1] - edge[0] * (z - a[1])
         holds ^= crosses & ((before < 0.0) == (edge[1] > 0.0))
     return holds

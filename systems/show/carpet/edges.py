@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from ....components.arrays import Doubles, Floats, Ints, Mask
 from ....engine.handed import FARTHEST
-from ....engine.terrain.plots import SIDE, Plots, Values
+from ....engine.terrain.plots import CELLS, SIDE, Plots, Values
 from ...mow.mown import Mown
 from ...space.ground import Ground
 
@@ -122,19 +122,23 @@ class _OnPlots:
         known, count = len(self._seen), len(plots.written)
         self._uneven = np.append(self._uneven[:known], np.zeros(count - known, np.bool_))
         stale = np.flatnonzero(plots.written != np.append(self._seen, np.full(count - known, -1)))
-        pages = np.minimum(plots.pages[stale].astype(np.float32), np.float32(min(most, FARTHEST)))
-        pages = pages.reshape(*pages.shape[:3], int(np.prod(pages.shape[3:])))
-        self._uneven[stale] = (np.ptp(pages, axis=(1, 2)) > self._step).any(axis=1)
-        even = pages[:, 0, 0]
-        level = np.empty((count, even.shape[1]), np.float32)
-        level[:known], level[stale] = self._level[:known], even
+        pages = plots.pages[stale].reshape(len(stale), CELLS * CELLS, int(np.prod(plots.pages.shape[3:])))
+        level = np.empty((count, pages.shape[2]), np.float32)
+        level[:known] = self._level[:known]
+        uneven, highest = np.zeros(len(stale), np.bool_), np.float32(min(most, FARTHEST))
+        for channel in range(pages.shape[2]):
+            own = np.ascontiguousarray(pages[..., channel])
+            ends = np.stack([own.min(axis=1), own.max(axis=1), own[:, 0]])
+            low, high, level[stale, channel] = np.minimum(ends.astype(np.float32), highest)
+            uneven |= high - low > self._step
+        self._uneven[stale] = uneven
         self._level = level
         self._seen = plots.written.copy()
-        rows, columns = (np.flatnonzero((plots.index >= 0).any(axis=axis)) for axis in (1, 0))
-        if not len(rows):
+        top, left, bottom, right = plots.ends
+        if bottom < top:
             return
-        first = np.array([rows[0], columns[0]]) - 1
-        page = np.pad(plots.index, 1, constant_values=-1)[rows[0] : rows[-1] + 3, columns[0] : columns[-1] + 3]
+        first = np.array([top, left]) - 1
+        page = np.pad(plots.index[top : bottom + 1, left : right + 1], 1, constant_values=-1)
         none = np.full((1, level.shape[1]), most if most < np.inf else np.nan, np.float32)
         levels = np.append(level, none, axis=0)[page]  # -1 finds the last one
         corner = (first[::-1] - plots.half) * SIDE
