@@ -9,10 +9,11 @@ import pytest
 from tallgrass.app.bench.contrast import relative_contrast
 from tallgrass.components.pose import Pose
 from tallgrass.engine.camera import Camera
+from tallgrass.systems.light.repeating import LITTER_SIDE
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import draw_truth, patch_distances
 from tallgrass.systems.wind.breeze import Breeze
-from tallgrass.testing import Stage
+from tallgrass.testing import LITTLE, Stage
 
 Load = Callable[..., Prairie]
 
@@ -58,3 +59,14 @@ def test_g4_grass_has_about_as_much_contrast_as_all_its_blades(
     assert flat > 0.65
     assert 0.85 < usual < 1.2
     assert rough < 1.6
+
+
+def test_the_ground_shows_no_lattice_from_above(room: Stage, load: Load) -> None:
+    prairie = load(LITTLE.replace("noise: rolling", "noise: flat").replace("blades: 60", "blades: 20"))
+    picture = room.shot(prairie, Camera((0.0, 40.0, 0.0), 0.0, np.radians(-90.0), np.radians(12.0))).mean(axis=2)
+    picture -= picture.mean()
+    metre = room.size[1] / (80.0 * np.tan(np.radians(6.0)))
+    alike = np.fft.irfft2(np.abs(np.fft.rfft2(picture)) ** 2)
+    again = round(LITTER_SIDE * metre)
+    assert alike[0, again - 1 : again + 2].max() < 0.3 * alike[0, 0]
+    assert alike[again - 1 : again + 2, 0].max() < 0.3 * alike[0, 0]

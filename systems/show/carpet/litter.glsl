@@ -1,13 +1,29 @@
 // What lies on the ground between plants, litter and low leaves, in the mean over a pixel.
+#include "lib/random.glsl"
 #include "lib/soil.glsl"
 #include "systems/show/carpet/footprint.glsl"
 
 const float LITTER_SHARPER = 0.4;  // how much finer texels are than what is read, in levels: filtering takes grain away
+const int HALF_OF_BITS = 65536;
+const vec2 WAVES = vec2(0.83, 2.9);  // of the borders between what is taken from elsewhere [1/m]: straight ones would be seen
+const vec2 WAVING = vec2(0.6, 0.3);  // and how far they go, in squares
+
+// Where in the square that repeats a place of the ground is taken from: each piece of ground about as large has its own, as
+// squares side by side would show as a lattice from above.
+vec2 taken_from(vec2 at) {
+    vec2 waves = WAVING.x * abs(fract(WAVES.x * at.yx) - 0.5) + WAVING.y * abs(fract(WAVES.y * at.yx) - 0.5);
+    ivec2 piece = ivec2(floor(at / LITTER_SIDE + waves));
+    uint drawn = scramble(uint(HALF_OF_BITS * piece.x + piece.y));
+    return at / LITTER_SIDE + vec2(drawn % uint(HALF_OF_BITS), drawn / uint(HALF_OF_BITS)) / float(HALF_OF_BITS);
+}
+
 #ifdef ANISOTROPIC
+const float SHARPENED = exp2(-LITTER_SHARPER) / LITTER_SIDE;
 
 // From a low angle a pixel is a long stripe of ground: the sampler is anisotropic.
 vec2 lying_seen(vec2 at, float bare) {
-    return texture(repeating, at / LITTER_SIDE, -LITTER_SHARPER).gb;
+    vec2 dx = dFdx(at), dy = dFdy(at);
+    return textureGrad(repeating, taken_from(at), dx * SHARPENED, dy * SHARPENED).gb;
 }
 #else
 const float LITTER_PARTS = 4.0;  // a long stripe is taken in so many parts at most, one behind the other
@@ -23,10 +39,10 @@ vec2 lying_seen(vec2 at, float bare) {
     float count = max(ceil(parts - ONE_PART), 2.0);
     float level = log2(length(along) * float(textureSize(repeating, 0).x) / (LITTER_SIDE * parts)) - LITTER_SHARPER;
     float apart = max(2.0 - parts, 0.0) / count;  // levels from a part to the next
-    vec2 step = along * (1.0 - 1.0 / parts) / (count - 1.0), first = at - 0.5 * (count - 1.0) * step;
+    vec2 step = along * ((1.0 - 1.0 / parts) / ((count - 1.0) * LITTER_SIDE)), first = taken_from(at) - 0.5 * (count - 1.0) * step;
     float part = 0.0;
     do  // a rasteriser in software goes through the body once more where a loop asks first
-        sum += textureLod(repeating, (first + part * step) / LITTER_SIDE, level + (part - 0.5 * count + 0.5) * apart).gb;
+        sum += textureLod(repeating, first + part * step, level + (part - 0.5 * count + 0.5) * apart).gb;
     while (++part < count);
     return sum / count;
 }
