@@ -6,7 +6,6 @@ from functools import partial
 from typing import TypeVar
 
 import moderngl
-import numpy as np
 
 from ..components.wind import WindPrimitive
 from ..engine.camera import View, is_mirrored
@@ -19,7 +18,7 @@ from .around.asked import Asked
 from .around.outlook import Outlook
 from .blow import Blown, receivers_shown
 from .features import UNITS
-from .frame.block import FRAME, FrameBlock, aim, confine
+from .frame.block import FrameBlock, aim, confine
 from .frame.feature import Feature, Part
 from .receive.ask import numbers_of, write_messages
 from .receive.received import ROW, Received
@@ -57,7 +56,7 @@ class Painter:
     ) -> None:
         self.ctx, self.quarantine = ctx, quarantine
         self.block, self.received = FrameBlock(ctx), Received(ctx)
-        self.record = np.zeros(1, FRAME)
+        self.record = self.block.record
         self.record["writes_raw"] = linear
         self.parts = [each.part(ctx, self.block, UNITS) for each in features]
         self.painters: dict[str, RepresentationPainter] = {}

@@ -115,11 +115,21 @@ def program(
     """
     sources = {name: compose(name, defines, made) for name in (vertex, fragment) if name is not None}
     try:
-        return ctx.program(
+        compiled = ctx.program(
             vertex_shader=sources[vertex][0],
             fragment_shader=None if fragment is None else sources[fragment][0],
             varyings=varyings,
         )
+        compiled.extra = {}  # what it was told last
     except moderngl.Error as error:
         stage = fragment if fragment is not None and "fragment_shader" in str(error) else vertex
         raise ShaderError(locate(str(error), sources[stage][1])) from error
+    return compiled
+
+
+def tell(program: moderngl.Program, name: str, *value: float) -> None:
+    """Tell a program a number or a vector, if it asks for it and was not told the same before."""
+    if program.extra.get(name) != value:
+        program.extra[name] = value
+        if name in program:
+            program[name] = value if len(value) > 1 else value[0]

@@ -74,6 +74,8 @@ FRAME = np.dtype(
         ("mesh_low", "2f4"), ("mesh_high", "2f4"),  # x, z [m]: no ground is drawn beyond
         ("lamps_grid", "4f4"),  # cells that lamps shine on: corner (x, z) [m]; cells a metre; along a side, 0 for none
         ("shades_grid", "4f4"),  # the same, of cells that lie in the shadow of shades
+        # Where the carpet's shares are told: the viewer's cell; half the window's side; how much it shows beyond that.
+        ("carpet_window", "4f4"),
         ("plots_half", "2f4"),  # plots of the terrain that there may be, from its middle to its edges
         ("earth_side", "f4"), ("earth_power", "f4"),  # how often a game's ground comes again [m]; its texels' pigment
         ("haze_given", "(5,4)f4"),  # a game's own, radiance by 1, x, z, x^2, xz of the direction; 1 where there is one

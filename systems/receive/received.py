@@ -6,6 +6,7 @@ import moderngl
 import numpy as np
 
 from ...components.arrays import Floats
+from ...engine.gl.shaders import tell
 
 ROW = 1024
 """Receivers in a row of the texture."""
@@ -45,7 +46,7 @@ class Received:
         """Ask `count` receivers from the `first` on with the program of a vertex array; return the number of draws."""
         if not count:
             return 0
-        array.program["pool"] = first // ROW, count
+        tell(array.program, "pool", first // ROW, count)
         self._target.viewport = 0, first // ROW, ROW, -(-count // ROW)
         self._target.use()
         array.render(moderngl.TRIANGLES, vertices=3)

@@ -4,6 +4,7 @@ from collections import Counter
 from collections.abc import Callable
 from typing import Any
 
+import moderngl
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -53,3 +54,28 @@ def test_n11_viewers_in_turn_have_made_what_they_see_once_and_see_what_they_woul
     assert not made
     seen(stage, prairie, camera(0.3, 1.7, 11.0, pitch=-8), "left")
     assert made["gather_blades"] > 0
+
+
+def test_n11_who_draws_what_is_there_already_tells_shaders_nothing_again(
+    stage: Stage, load: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Uniforms are told one by one, which is dear; what changes by viewer is in the block of the frame."""
+    prairie, told = load(), Counter[str]()
+    aims = {"left": camera(0.3, 1.7, 12.0, pitch=-8), "right": camera(7.3, 2.5, 9.0, yaw=40, pitch=-12)}
+    for _ in range(3):
+        for viewer, aim in aims.items():
+            seen(stage, prairie, aim, viewer)
+    plain = moderngl.Program.__setitem__
+
+    def noted(program: moderngl.Program, name: str, value: object) -> None:
+        told[name] += 1
+        plain(program, name, value)
+
+    monkeypatch.setattr(moderngl.Program, "__setitem__", noted)
+    for viewer, aim in aims.items():
+        seen(stage, prairie, aim, viewer)
+    assert told.total() <= 24
+    assert not {"outline", "raised", "window"} & set(told)
+    told.clear()
+    seen(stage, prairie, aims["right"], "right")
+    assert told.total() <= 6  # a program that draws several rings, or two parts, is told which

@@ -7,6 +7,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ....engine.gl.shaders import tell
 from ....engine.gl.stream import Stream, release_all
 from ...frame.block import FrameBlock, joined
 from .organs import organ_defines
@@ -117,7 +118,7 @@ class Ribbons:
         if not self.stream.count:
             return 0
         if part is not None:
-            self.program["part"] = part
+            tell(self.program, "part", part)
         return self._draw(self.array)
 
     def draw_deep(self) -> int:

@@ -13,6 +13,7 @@ from ....components.arrays import Floats
 from ....engine.declared.quality import Quality
 from ....engine.gl.records import Records
 from ....engine.gl.remembered import Remembered
+from ....engine.gl.shaders import tell
 from ....engine.gl.stream import Stream, release_all
 from ...around.appearance import handed_over
 from ...around.outlook import Outlook
@@ -42,11 +43,19 @@ NUMBER = np.dtype([("number", "u4")])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class _Gathered:
+    """The numbers of blades, group after group, and how many each has."""
+
+    numbers: Numbers
+    counts: list[int]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class _Told:
-    """What is sent of a frame: the patches, and the numbers of the blades, group by group."""
+    """What is sent of a frame: the patches, and the numbers of the blades."""
 
     standing: NDArray[np.void]
-    numbers: list[Numbers]
+    numbers: "_Gathered"
 
 
 class BladesPainter(RepresentationPainter):
@@ -79,8 +88,8 @@ class BladesPainter(RepresentationPainter):
         self.morph = Ribbons(ctx, block, segments[-1:], units, soft=True, record=PAINTED, defines={**laid, "MORPH": 1})
         self._tell(self.morph.program)
         self._counts: list[int] = []
-        self._gathered, self._told = Remembered[list[Numbers]](), Remembered[_Told]()
-        self._numbers: list[Numbers] | None = None
+        self._gathered, self._told = Remembered[_Gathered](), Remembered[_Told]()
+        self._numbers: _Gathered | None = None
         """The numbers that were sent last."""
         self._first = self._asked = 0
 
@@ -127,10 +136,10 @@ class BladesPainter(RepresentationPainter):
         told, is_new = self._told.of(outlook.viewer.name, made_of, partial(self._tell_of, outlook, first))
         if is_new:
             self.standing.write(told.standing)
-            self._counts = [len(each) for each in told.numbers]
+            self._counts = [*told.numbers.counts]
         if told.numbers is not self._numbers:
             self._numbers = told.numbers
-            self.numbers.write(np.concatenate(told.numbers).view(NUMBER))
+            self.numbers.write(told.numbers.numbers.view(NUMBER))
         (self._asked,), (self._first,) = self.receivers(outlook), first["blades"]
         return sum(self._counts)
 
@@ -147,8 +156,8 @@ class BladesPainter(RepresentationPainter):
         numbers, _ = self._gathered.of(viewer.name, made_of, gather)
         return _Told(self._standing(outlook, shown, left, first["strips"]), numbers)
 
-    def _gather(self, outlook: Outlook, pool: BladePool, shown: BladesShown, left: Floats) -> list[Numbers]:
-        """Return the numbers of the blades that are on their way, and of those that stand, group by group."""
+    def _gather(self, outlook: Outlook, pool: BladePool, shown: BladesShown, left: Floats) -> _Gathered:
+        """Return the numbers of the blades that are on their way, and of those that stand, group after group."""
         eye, moving = (outlook.viewer.eye[0], outlook.viewer.eye[2]), shown.morphing
         away = distances(pool, moving.slots, eye)
         home = at_home(outlook, moving, away)
@@ -156,10 +165,11 @@ class BladesPainter(RepresentationPainter):
         stand = [may_be_seen(pool, each.slots, outlook.viewer.sides, reach=self._reach) for each in groups]
         if home.any():
             groups[-1], stand[-1] = together([groups[-1], moving]), np.concatenate([stand[-1], home])
-        return [
+        found = [
             gather_morph(outlook, pool, self._strips, moving, away=away, left=left, home=home),
             *(gather_blades(pool, each, eye=eye, stand=those) for each, those in zip(groups, stand, strict=True)),
         ]
+        return _Gathered(np.concatenate(found), [len(each) for each in found])
 
     def _grouped(self, rings: list[Standing]) -> list[list[Standing]]:
         """Return the rings whose blades depth parts, and the others: in each group, blades come from far to near."""
@@ -194,7 +204,7 @@ class BladesPainter(RepresentationPainter):
         self.standing.texture.use(self._units["standing"])
         self.store.slices.use(self._units["slices"])
         for made in self.passes:
-            made["blades_from"] = self._first
+            tell(made, "blades_from", self._first)
         calls = first = 0
         for ribbons, count in zip((self.morph, *self.groups), self._counts, strict=True):
             calls += ribbons.fill(self.arrays[ribbons is self.morph], count, first=first)

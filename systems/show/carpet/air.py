@@ -4,7 +4,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ....engine.gl.shaders import program
+from ....engine.gl.shaders import program, tell
 from ....engine.gl.stream import release_all
 from ..hearing import VERTEX, Hearing
 from ..representation import Canvas
@@ -29,8 +29,7 @@ class Air:
         `first` is the number of the first of them among all receivers.
         """
         array = self.hearing.array()
-        if "around" in array.program:  # where nothing blows, it does not matter where one is
-            array.program["around"] = int(centre[0]), int(centre[1]), self.side, first
+        tell(array.program, "around", int(centre[0]), int(centre[1]), self.side, first)
         self._target.use()
         array.render(moderngl.TRIANGLES, vertices=3)
         return 1

@@ -6,10 +6,11 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ....components.arrays import Floats, Mask
+from ....components.arrays import Bytes, Floats, Mask
 from ....engine.gl.functions import NUMBERS, functions_of
 from ....engine.gl.mipmaps import stack_for
 from ....engine.gl.rasteriser import anisotropy
+from ....engine.gl.shaders import tell
 from ....engine.gl.stream import Stream, release_all
 from ....engine.terrain.record import Terrain
 from ...frame.block import FrameBlock, by_kind, joined
@@ -163,6 +164,15 @@ def _grid() -> tuple[NDArray[np.float32], NDArray[np.int32]]:
     return corners, (first + quad).astype(np.int32)
 
 
+def by_layer(tiles: NDArray[np.void], laid: Mask, edged: Mask, /) -> list[NDArray[np.void]]:
+    """Return which tiles (n,) each layer draws, by where carpet may lie and where grass ends or is cut, (n,) each.
+
+    These are bare ground, ground under the carpet, the carpet, and of edged tiles all ground, and the carpet.
+    """
+    even = laid & ~edged
+    return [tiles[chosen] for chosen in (~(laid | edged), even, even, edged, laid & edged)]
+
+
 class _Layer:
     """A program that draws tiles of the ground, with the tiles it draws."""
 
@@ -282,11 +292,10 @@ class GroundPainter:
         """Whether lamps shine: then pixels of the carpet ask for their light."""
         return bool(self._block.record["lamps_grid"][0, 3])
 
-    def write(self, tiles: NDArray[np.void], laid: Mask, edged: Mask) -> None:
-        """Send the tiles (n,), on which of them carpet may lie, and on which grass ends or is cut."""
-        even = laid & ~edged
-        for stream, chosen in zip(self.streams, (~(laid | edged), even, even, edged, laid & edged), strict=True):
-            stream.write(tiles[chosen])
+    def write(self, tiles: Sequence[NDArray[np.void]]) -> None:
+        """Send the tiles, as `by_layer` parts them."""
+        for stream, some in zip(self.streams, tiles, strict=True):
+            stream.write(some)
 
     def write_rims(self, far: Floats) -> None:
         """Send how far the ground is from the next rim of a cliff (rows, columns) [m]."""
@@ -308,14 +317,13 @@ class GroundPainter:
         self._tell("outline", outline / part)
         self._tell("raised", by_kind([part * carpet_of(growth.models[0]).height for growth in self.growths]))
 
-    def write_shares(self, shares: NDArray[np.float32], centre: NDArray[np.int32], *, beyond: float) -> None:
-        """Send how much the carpet shows on each row of the patch table (rows,) around the viewer's cell.
+    def write_shares(self, shares: Bytes, centre: NDArray[np.int32], *, beyond: float) -> None:
+        """Send how much the carpet shows, of 255, on each row of the patch table (rows,) around the viewer's cell.
 
         `beyond` is how much on the rest of the terrain.
         """
-        self.shares.write(np.round(shares * 255.0).astype(np.uint8))
-        self._tell("beyond", beyond)
-        self._tell("window", (int(centre[0]), int(centre[1]), self.shares.width // 2))
+        self.shares.write(shares)
+        self._block.record["carpet_window"] = *centre, self.shares.width // 2, beyond
 
     def use(self) -> None:
         """Bind what all of it reads."""
@@ -348,7 +356,7 @@ class GroundPainter:
         self.use()
         even = self.carpet[2 if self._is_rare or self._is_lamplit or self.is_trodden else self._is_cut]
         for carpet in (even, self.edged[2]):
-            carpet.program["part"] = part
+            tell(carpet.program, "part", part)
         return even.draw() + self.edged[2].draw()
 
     def cast(self, light: tuple[float, float, float], /) -> int:

@@ -7,7 +7,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ....components.arrays import Floats, Mask
+from ....components.arrays import Bytes, Floats
 from ....components.viewer import Viewer
 from ....engine.gl.remembered import Remembered
 from ....engine.gl.stream import release_all
@@ -32,6 +32,7 @@ from .ground import (
     THIN,
     GroundPainter,
     Tiles,
+    by_layer,
     finest_spacing,
     ground_tiles,
     meets_terrain,
@@ -44,8 +45,8 @@ from .pool import CarpetKept
 from .rims import Rims
 from .textures import bent_texture, carpet_texture
 
-TilesSeen = tuple[NDArray[np.void], Mask, Mask]
-"""Tiles, on which of them carpet may lie, and on which grass ends or is cut."""
+TilesSeen = list[NDArray[np.void]]
+"""Tiles by the layer that draws them, as `by_layer` has them."""
 
 STEP = 0.4
 """How far the eye goes before tiles are chosen anew, in sides of the finest."""
@@ -61,7 +62,7 @@ class CarpetPainter(RepresentationPainter):
         self._around, self._seen = Remembered[Tiles](), Remembered[TilesSeen]()
         self._edges, self._tallest = Edges(), 0.0
         self._rims, self._rims_sent = Rims(ground.terrain), -1
-        self._laid = Remembered[Floats]()
+        self._laid = Remembered[Bytes]()
         self.images, self.bents = carpet_texture(canvas.ctx, growths), bent_texture(canvas.ctx, growths)
         self.air = Air(canvas, side)
         self._deep = False
@@ -140,7 +141,7 @@ class CarpetPainter(RepresentationPainter):
             partial(self._tiles, viewer, None if cover is None else bare_to, mown, goes_on=goes_on),
         )
         if is_new:
-            self.ground.write(*tiles)
+            self.ground.write(tiles)
         laid = cover, patches.alive, patches.grows, viewer.centre
         shares, is_new = self._laid.of(viewer.name, laid, partial(_shares, patches, cover))
         if is_new:
@@ -151,7 +152,7 @@ class CarpetPainter(RepresentationPainter):
         return self.ground.cast(light)
 
     def _tiles(self, viewer: Viewer, bare_to: int | None, mown: Mown | None, *, goes_on: bool) -> TilesSeen:
-        """Return the tiles that a viewer sees (n,), on which of them carpet may lie, and on which grass ends or is cut.
+        """Return the tiles that a viewer sees, by layer.
 
         Up to the discrete distance `bare_to` there is no carpet on the terrain; None is everywhere. Tiles beyond the
         terrain are left out unless ground `goes_on` there.
@@ -163,7 +164,7 @@ class CarpetPainter(RepresentationPainter):
         if bare_to is not None:
             bare &= within(tiles, viewer.centre, patch=self._ground.patch, reach=bare_to)
         squares = tiles["tile"][:, :3] * (1.0, 1.0, GRID)
-        return tiles, ~bare, self._edges.at(self._ground, mown, self._tallest, squares)
+        return by_layer(tiles, ~bare, self._edges.at(self._ground, mown, self._tallest, squares))
 
     def _tiles_around(self, viewer: Viewer) -> Tiles:
         """Return the tiles all around: the same as long as the eye stays about where it is."""
@@ -191,10 +192,11 @@ class CarpetPainter(RepresentationPainter):
         """Send a carpet that lies everywhere, at this part of the height of the grass."""
         viewer, rims = outlook.viewer, self._rims if self._rims.any else None
         tiles = ground_tiles(self._ground.terrain, viewer.eye, viewer.cone, spacing=self._spacing, rims=rims)
-        self.ground.write(tiles, np.ones(len(tiles), np.bool_), np.zeros(len(tiles), np.bool_))
+        self.ground.write(by_layer(tiles, np.ones(len(tiles), np.bool_), np.zeros(len(tiles), np.bool_)))
         self._seen.lose()
         self._laid.lose()
-        self.ground.write_shares(np.ones(len(outlook.patches.progress), np.float32), outlook.viewer.centre, beyond=1.0)
+        everywhere = np.full(len(outlook.patches.progress), 255, np.uint8)
+        self.ground.write_shares(everywhere, outlook.viewer.centre, beyond=1.0)
         self.ground.raise_carpet(height)
 
     def lay_as_always(self) -> None:
@@ -235,7 +237,7 @@ class CarpetPainter(RepresentationPainter):
         release_all(self.ground, self.air, self.images, self.bents)
 
 
-def _shares(patches: PatchTable, cover: Floats | None) -> Floats:
-    """Return how much carpet lies on each row of the patch table, shape (rows,)."""
+def _shares(patches: PatchTable, cover: Floats | None) -> Bytes:
+    """Return how much carpet lies on each row of the patch table, of 255, shape (rows,)."""
     whole = np.where(patches.alive, np.float32(0.0) if cover is None else cover, np.float32(1.0))
-    return np.where(patches.grows, whole, np.float32(0.0))
+    return np.round(255.0 * np.where(patches.grows, whole, np.float32(0.0))).astype(np.uint8)

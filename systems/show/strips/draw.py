@@ -10,6 +10,7 @@ from ....engine.declared.quality import StripRing
 from ....engine.gl.emit import emitted, looked_up
 from ....engine.gl.mipmaps import stack_for
 from ....engine.gl.records import Records
+from ....engine.gl.shaders import tell
 from ....engine.gl.stream import release_all
 from ...frame.block import by_kind, joined
 from ..hearing import Hearing
@@ -125,7 +126,7 @@ class StripPainter:
             return 0
         self.stood.texture.use(self.units["stood"])
         array = self.hearing.array()
-        array.program["of_ring"] = ring, patch
+        tell(array.program, "of_ring", ring, patch)
         return self.received.ask(array, first=first, count=count)
 
     def draw(self, first: int, count: int, *, thin: int, deep: bool = False) -> int:
@@ -146,7 +147,7 @@ class StripPainter:
         is_shaded = bool(frame["bodies"]["radius"].any() or frame["maps_shown"] > 0.0 or frame["shades_grid"][3] > 0.0)
         rare = is_cut if deep else 2 if is_cut else int(is_shaded)
         array = arrays[2 * rare + thin if thin < 2 else -1]
-        array.program["first"] = first
+        tell(array.program, "first", first)
         array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.sections + 2, instances=count)
         return 1
 
