@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from .components.shade import Shade
     from .components.shadow_map import ShadowMap
     from .components.sun import Sun
+    from .components.tree import Tree
     from .components.viewer import Viewer
     from .components.wind import Extent, Grass, TwinValues, WindPrimitive, WindSource
     from .engine.declared.scene import Scene
@@ -60,6 +61,7 @@ __all__ = [
     "ShadowMap",
     "Shape",
     "Sun",
+    "Tree",
     "Turbulence",
     "TwinValues",
     "Viewer",
@@ -97,6 +99,7 @@ _HOMES = {
     "ShadowMap": ".components.shadow_map",
     "Shape": ".systems.wind.blast",
     "Sun": ".components.sun",
+    "Tree": ".components.tree",
     "Turbulence": ".systems.wind.turbulence",
     "TwinValues": ".components.wind",
     "Viewer": ".components.viewer",

@@ -136,6 +136,14 @@ class World:
         found = [row for row in esper.get_component(kind) if self._owner(row[0]) in mine]
         return sorted(found, key=lambda row: row[0])
 
+    def rows(self, kind: type[Component]) -> list[tuple[int, Component]]:
+        """Return every entity with a component of exactly this type, in any order and whosever it is.
+
+        It is quick: who keeps it sees by comparing it whether any of them has become another.
+        """
+        self._must_be_current()
+        return esper.get_component(kind)
+
     def both(self, kind: type[Component], other: type[Other]) -> list[tuple[int, Component, Other]]:
         """Return every entity with components of exactly these two types, in the order and as far as `all` does."""
         self._must_be_current()

@@ -16,10 +16,12 @@ from .pressers import Pressers
 from .shadows.feature import UNITS as BORROWED
 from .shadows.feature import Shadows
 from .show.registry import REPRESENTATIONS
+from .trees.feature import Trees
+from .trees.shade import UNIT as TREE_SHADE
 from .winds import Winds
 
 FEATURES: tuple[type[Feature], ...] = (
-    Winds, Pressers, Land, Earth, Lighting, GivenHaze, Mowing, Lamps, Shadows, Bodies,
+    Winds, Pressers, Land, Earth, Lighting, GivenHaze, Mowing, Lamps, Shadows, Bodies, Trees,
 )  # fmt: skip
 """In the order in which they are made, told of a scene read again, and drawn."""
 
@@ -33,6 +35,7 @@ UNITS = (
         },
     )
     | BORROWED
+    | {"tree_shade": TREE_SHADE}
 )
 """The texture unit of each sampler."""
 

@@ -30,6 +30,7 @@ from .screen import Screen
 from .site import Site, found_again, found_site, outlook_on, settle_on
 from .statistics import Statistics
 from .tending import Tending
+from .trees.feature import Trees
 
 if TYPE_CHECKING:
     from pyglet.graphics import Batch, Group
@@ -78,7 +79,9 @@ class Prairie(Tending):
         self.statistics, self.governor = Statistics(blades_field=site.blades), Governor(hold)
         self.systems = Schedule(live=live)
         screen = Screen(ctx, self.features, self.winds.quarantine, linear=linear)
-        self._saving = Saving(self.world, self.winds, self.pressers, self._mown, self.clearings, self._shining)
+        self._saving = Saving(
+            self.world, self.winds, self.pressers, self._mown, self.clearings, self._shining, one(Trees, self.features)
+        )
         self._assembly = Assembly(
             self.viewers, self.winds, self.pressers, screen, self.governor, self._entities, self._felt
         )

@@ -23,6 +23,7 @@ from .space.frustum import beyond, beyond_sides, picture_sides
 from .space.ground import Ground
 from .space.window import cell_of
 from .tile import cells_on, patch_models
+from .trees.draw import TreePart
 from .wind.blow import places_alone
 from .wind.grass import grass_of
 
@@ -118,7 +119,7 @@ def carpet_painter(painter: Painter, /) -> CarpetPainter:
 
 
 class EveryBlade:
-    """Draws a prairie with every blade in 3D at the finest level; shares the prairie's painter.
+    """Draws a prairie with every blade in 3D at the finest level, and every leaf; shares the prairie's painter.
 
     The prairie must have been drawn once, so that it knows where it is looked at from.
     """
@@ -144,7 +145,12 @@ class EveryBlade:
             cells = cells[discrete_distance(cells, self.outlook.viewer.centre) <= reach]
         cells = cells[self.prairie.clearings.spare(cells)]
         carpet_painter(self.painter).lay(self.outlook, cover)
-        self.painter.draw(view, blades=self._chunks(cells, view))
+        trees = self.painter.part(TreePart)
+        trees.every_leaf = True
+        try:
+            self.painter.draw(view, blades=self._chunks(cells, view))
+        finally:
+            trees.every_leaf = False
 
     def _chunks(self, cells: Ints, seen: View) -> Iterator[BladePainter]:
         for start in range(0, len(cells), CHUNK):

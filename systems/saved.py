@@ -129,6 +129,8 @@ class State(Declaration):
     """What else a game's entities have of ours."""
 
     treading: SavedTreading
+    felled: list[int] = Field(default=[])
+    """Which of the scene's own trees are gone, by their numbers."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -186,6 +188,8 @@ def mark_of(site: Site, ground: str, /) -> str:
     `ground` is the mark of its ground.
     """
     told = json.loads(site.scene.model_dump_json(exclude={"camera", "light", "quality"}))
+    if not told["trees"]:  # states of scenes that could not have any are of these
+        del told["trees"]
     text = json.dumps([told, site.quality.patch, ground], sort_keys=True)
     return blake2b(text.encode(), digest_size=_DIGEST).hexdigest()
 

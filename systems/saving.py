@@ -48,6 +48,7 @@ from .saved import (
 from .site import Site
 from .space.ground import Ground
 from .thing import THINGS, Thing, component_of, fields_of
+from .trees.feature import Trees
 from .winds import Winds
 
 WALKS = ("scenes", "games")
@@ -70,6 +71,7 @@ class Saving:
     mown: Mown
     clearings: Clearings
     shining: Shining
+    trees: Trees
     _marked: tuple[Ground, str] | None = None
     """The ground that was marked last, and its mark: it takes a while."""
 
@@ -89,6 +91,7 @@ class Saving:
             winds=[*filter(None, self._winds([each for each, _ in self.world.all(WindSource) if each not in own]))],
             things=[*self._things()],
             treading=treading,
+            felled=self.trees.felled(),
         )
         cleared = np.array(sorted(self.clearings.cells), np.int32).reshape(-1, 2)
         (mown, left), (sown, dense) = self.mown.plots.saved(), site.ground.density.sown.saved()
@@ -108,6 +111,8 @@ class Saving:
             raise ValueError("this state is of another scene, or of this one before its ground, grass or winds changed")
         if len(state.declared) != len(site.scene.wind) or len(state.treading.declared) != len(site.scene.pressers):
             refuse("it has other winds or pressers than its scene")
+        if not all(0 <= number < len(self.trees.entities) for number in state.felled):
+            refuse("it has other trees than its scene")
         kinds = Reading(wind=wind_kinds().find, folder=loaded.folder)
         winds = [*filter(None, state.declared), *state.added, *state.winds]
         made = _Made(
@@ -128,11 +133,15 @@ class Saving:
 
     def _things(self) -> Iterator[SavedThing]:
         """Yield what else a game's entities have of ours; none that is nowhere."""
-        own = {entity for entity, _, _ in self.pressers.games()}
+        own, planted = {entity for entity, _, _ in self.pressers.games()}, set(self.trees.entities)
         for kind, sort in THINGS.items():
             for entity, component in self.world.all(sort):
                 pose = self.world.find(entity, Pose)
-                if (kind != "presser" or entity in own) and (pose is None or is_somewhere(pose)):
+                if (
+                    (kind != "presser" or entity in own)
+                    and entity not in planted
+                    and (pose is None or is_somewhere(pose))
+                ):
                     standing = None if pose is None else _numbers(pose)
                     yield SavedThing(entity=entity, kind=kind, fields=fields_of(component), pose=standing)
 
@@ -156,6 +165,7 @@ class Saving:
             entities[each.entity] = entity
         self.pressers.resume(made.treading, entities)
         self.clearings.resume(made.cleared)
+        self.trees.fell(state.felled)
         self.shining.resume(state.light, since=state.light_since, time=state.time)
         return entities
 

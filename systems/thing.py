@@ -9,11 +9,12 @@ from typing import Any, Literal
 from ..components.lamp import Lamp
 from ..components.presser import Presser
 from ..components.shade import Shade
+from ..components.tree import Tree
 
-Kind = Literal["presser", "lamp", "shade"]
-Thing = Presser | Lamp | Shade
+Kind = Literal["presser", "lamp", "shade", "tree"]
+Thing = Presser | Lamp | Shade | Tree
 
-THINGS: Mapping[Kind, type[Thing]] = {"presser": Presser, "lamp": Lamp, "shade": Shade}
+THINGS: Mapping[Kind, type[Thing]] = {"presser": Presser, "lamp": Lamp, "shade": Shade, "tree": Tree}
 """Components that are saved, by what a state calls them."""
 
 

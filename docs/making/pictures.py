@@ -48,6 +48,7 @@ PICTURES = (
             ("dusk", "3"),
         )
     ),
+    Picture("grove.png", ("shot", "grove", "--size", "960x540")),
     *(Picture(f"{name}.png", ("shot", name, "--size", "960x540", "--time", "2")) for name in IN_FLOWER),
     Picture("above.png", ("shot", "poppies", "--size", "960x540", "--time", "3", "--camera=-30,26,60,20,-24")),
     Picture("reeds.png", ("shot", "reeds", "--size", "960x540", "--time", "3")),

@@ -130,9 +130,8 @@ def _takes(declared: Schema, titles: dict[str, str]) -> str:
         case {"type": "array", "items": items}:
             return _list(declared, items, titles)
         case {"type": "object", "additionalProperties": dict(inner)}:
-            return (
-                f"{declared['minProperties']} to {declared['maxProperties']} names, each with {_takes(inner, titles)}"
-            )
+            least, most = declared.get("minProperties", 0), declared["maxProperties"]
+            return f"{least} to {most} names, each with {_takes(inner, titles)}"
     return _word(declared)
 
 

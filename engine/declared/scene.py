@@ -1,6 +1,7 @@
 """A whole scene, as a file declares it."""
 
 from collections.abc import Callable
+from difflib import get_close_matches
 from math import isqrt
 from pathlib import Path
 from typing import Annotated, Any, Literal, NotRequired, TypedDict
@@ -28,6 +29,10 @@ from .parts import PARTS, PartName
 from .presser import PresserOnPath
 from .quality import PRESETS, PresetName, Quality
 from .terrain import TerrainSource
+from .tree import TreeKind
+
+MOST_TREES = 16
+"""Kinds of trees in a scene at most."""
 
 FORMAT = 2
 """Version of the scene format that this release writes."""
@@ -124,6 +129,9 @@ class Scene(Declaration):
     lamps: list[LampOnPath] = Field(default=[], max_length=256)
     """What shines beside them."""
 
+    trees: dict[str, TreeKind] = Field(default={}, max_length=MOST_TREES)
+    """Kinds of trees and bushes by name."""
+
     parts: list[PartName] = Field(default=list(PARTS), max_length=len(PARTS))
     """What of the prairie is drawn where a game asks for nothing else: a part that is left out, it draws itself."""
 
@@ -141,6 +149,15 @@ class Scene(Declaration):
             if ring.to > most:
                 why = f"with {blades} blades a patch: around a viewer there is room for {MOST_BLADES:,}"
                 raise DeclarationError(f"to must be at most {most} {why}", "quality", "blade_rings", number, "to")
+        return self
+
+    @model_validator(mode="after")
+    def _trees_grow_on_its_grass(self) -> "Scene":
+        for name, kind in self.trees.items():
+            if kind.among is not None and kind.among not in self.grass:
+                near = get_close_matches(kind.among, self.grass, n=1)
+                guess = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(self.grass)}"
+                raise DeclarationError(f"no kind of grass is called '{kind.among}'; {guess}", "trees", name, "among")
         return self
 
     def numbers(self, preset: str | None = None) -> Quality:

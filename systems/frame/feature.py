@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import ClassVar, Protocol, Self
 
 import moderngl
 import numpy as np
@@ -26,6 +26,13 @@ class Start:
     """Whether somebody watches while pictures are drawn."""
 
 
+class Heard(Protocol):
+    """What patches around a viewer have heard of the wind, as textures: of each, wrapping round, and their mean."""
+
+    texture: moderngl.Texture
+    mean: moderngl.Texture
+
+
 class Part:
     """What one GL context holds of a feature, and the drawing of it; a frame calls its methods in this order."""
 
@@ -47,6 +54,11 @@ class Part:
 
     def use(self) -> None:
         """Bind what programs read throughout the frame."""
+
+    def breathe(self, air: "Heard", /) -> int:
+        """Take up what the patches around the viewer have heard of the wind; return the number of draw calls."""
+        del air
+        return 0
 
     def prepare(self) -> int:
         """Draw what is read in this frame, into framebuffers of its own; return the number of draw calls."""

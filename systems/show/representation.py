@@ -17,7 +17,7 @@ from ..around.outlook import Outlook
 from ..around.patches import PatchTable
 from ..around.transitions import Transitions
 from ..frame.block import FrameBlock
-from ..frame.feature import Part
+from ..frame.feature import Heard, Part
 from ..grow.record import Blades, Growth, Postures
 from ..receive.received import Received
 from ..space.ground import Ground
@@ -87,6 +87,10 @@ class RepresentationPainter(Part, ABC):
     @abstractmethod
     def hear(self) -> int:
         """Let its receivers hear the wind; return the number of draw calls."""
+
+    def heard(self) -> Heard:
+        """Return what the patches around the viewer have heard, of the one that lies on the ground."""
+        raise NotImplementedError
 
     def draw_ground(self, *, alone: bool) -> int:  # noqa: ARG002 - for the one that lies on the ground
         """Draw the bare ground, where it comes `alone` that of the grass too; return the number of draw calls."""

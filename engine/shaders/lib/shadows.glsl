@@ -2,6 +2,7 @@
 // another sort joins `sun_seen`.
 #include "lib/clouds.glsl"
 #include "lib/listed.glsl"
+#include "lib/trees.glsl"
 #include "systems/shadows/shades.py"
 
 const float FAR_OFF = 1e3;  // how far off a body's middle a ray goes that does not come by it, in radii
@@ -11,9 +12,11 @@ uniform sampler2DShadow map_1;
 uniform sampler2DShadow map_2;
 uniform sampler2DShadow map_3;
 
-// Whether a game has any, or shades: else nobody need look. Programs that are made for none are told so by PLAIN.
+// Whether a game has any, shades or trees: else nobody need look. Programs that are made for none are told so by PLAIN.
 bool any_casters() {
-#ifdef PLAIN
+#ifdef TREES
+    return true;
+#elif defined(PLAIN)
     return false;
 #else
     return maps_shown + shades_grid.w > 0.0;
@@ -114,9 +117,12 @@ float past_shade(mat3x4 told, vec3 place) {
     return past_box(apart * axes, sun * axes, vec3(reach, radius, deep));
 }
 
-// How much of it is seen past what a game has that casts shadows: its shades and shadow maps.
+// How much of it is seen past what a game has that casts shadows, its shades and shadow maps, and past trees.
 float past_casters(vec3 place) {
     float seen = 1.0;
+#if defined(TREES) && !defined(OF_TREES)  // those ask for others by themselves
+    seen = past_trees(place);
+#endif
     ivec2 listed_here = shades_grid.w > 0.0 ? listed_about(shades_grid, SHADES_FROM, place.xz) : ivec2(0);
     for (int number = listed_here.x; number < listed_here.y; number++)
         seen *= past_shade(listed_at(SHADES_FROM, number), place);

@@ -132,6 +132,9 @@ Light light_at(vec3 place, Sender sender, float high, float seen) {
     Response response = response_of(sender, place, sun, high);
     vec3 from_sun = sunlight * response.sun * seen;
     vec3 from_sky = skylight * response.sky;
+#if defined(TREES) && !defined(OF_TREES)
+    from_sky *= sky_past_trees(place);
+#endif
     Light light = Light(from_sun, from_sky, vec3(0.0), response.gloss * seen, sun_way(max(sender.kind, 0), high), vec2(0.0));
 #ifdef PIXELS_ASK  // of leaves, whoever asks for light adds them
     if (sender.kind != FACE)

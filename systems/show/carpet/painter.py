@@ -111,6 +111,10 @@ class CarpetPainter(RepresentationPainter):
             self.air.write(row, message[0])
         return calls + self.air.sum_up()
 
+    def heard(self) -> Air:
+        """Return what the patches around the viewer have heard."""
+        return self.air
+
     def lay(self, outlook: Outlook, cover: Floats | None, /) -> None:
         """Send the tiles of the ground, and how much carpet lies on each patch.
 

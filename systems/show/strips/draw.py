@@ -144,7 +144,8 @@ class StripPainter:
         self.strips.texture.use(self.units["strips"])
         frame = self._block.record[0]
         is_cut, arrays = bool(frame["anything_cut"]), self.deep if deep else self.arrays
-        is_shaded = bool(frame["bodies"]["radius"].any() or frame["maps_shown"] > 0.0 or frame["shades_grid"][3] > 0.0)
+        casts = frame["maps_shown"] > 0.0 or frame["shades_grid"][3] > 0.0 or "TREES" in self._block.defines
+        is_shaded = bool(frame["bodies"]["radius"].any() or casts)
         rare = is_cut if deep else 2 if is_cut else int(is_shaded)
         array = arrays[2 * rare + thin if thin < 2 else -1]
         tell(array.program, "first", first)

@@ -1,0 +1,37 @@
+"""Trees and bushes of a prairie."""
+
+from dataclasses import dataclass
+from reprlib import repr as shortened
+
+from .footprint import is_between
+
+LOWEST, HIGHEST = 0.5, 60.0
+"""How high one may be at least and at most [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tree:
+    """A tree or bush: the component of an entity whose `Pose` says where it stands and how it is turned.
+
+    Those of a scene are entities of the prairie's; a game may make more, of any kind that the scene's `trees:` has.
+    To delete the entity fells it, at once and with its shadow. Raises ValueError for what is no tree, TypeError for a
+    kind that is no name.
+    """
+
+    kind: str
+    """Which of the scene's `trees:` it is of."""
+
+    height: float = 10.0
+    """How high it stands, 0.5 to 60 [m]: a tree that grows is given another."""
+
+    foliage: float = 1.0
+    """How many of its leaves it has, from 0 to 1; without any, it is bare."""
+
+    def __post_init__(self) -> None:
+        """Raise ValueError and TypeError for what is no tree."""
+        if not isinstance(self.kind, str):
+            raise TypeError(f"a tree's kind is a name of the scene's trees, not {shortened(self.kind)}")
+        if not is_between(LOWEST, self.height, HIGHEST):
+            raise ValueError(f"a tree is {LOWEST:g} to {HIGHEST:g} m high, not {shortened(self.height)}")
+        if not is_between(0.0, self.foliage, 1.0):
+            raise ValueError(f"a tree's foliage is from 0 to 1, not {shortened(self.foliage)}")

@@ -1,0 +1,109 @@
+"""Drawing what trees are drawn with: a twig on its card, and a whole tree from all around."""
+
+from collections.abc import Callable
+
+import moderngl
+import numpy as np
+
+from ...components.arrays import Bytes, Doubles, Floats
+from ...engine.gl.mipmaps import mipmapped
+from ...engine.gl.stream import release_all
+from .far import COLUMNS, EACH_ROW, FINER, FIRST_ROW, ROWS, SIDE
+
+CARD = 256
+"""Pixels of a twig's card across and up."""
+
+LEVELS = 5
+"""Sizes of a picture that are kept, each half the one before: coarser ones would mix neighbours."""
+
+EDGE = 0.45
+"""Coverage at which shaders take the edge of what is drawn to be."""
+
+Draw = Callable[[int], None]
+"""Draws the picture of a number into the viewport that is set."""
+
+
+def pictures(ctx: moderngl.Context, columns: int, rows: int, side: int, draw: Draw, /) -> moderngl.TextureArray:
+    """Return pictures drawn side by side in rows, of `side` pixels each, with what two outputs have as two layers."""
+    fine = side * FINER
+    size, before = (columns * fine, rows * fine), ctx.fbo
+    colors = [ctx.texture(size, 4) for _ in range(2)]
+    depth = ctx.depth_renderbuffer(size)
+    target = ctx.framebuffer(colors, depth)
+    try:
+        target.use()
+        target.clear()
+        ctx.enable_only(moderngl.DEPTH_TEST)
+        for number in range(columns * rows):
+            target.viewport = number % columns * fine, number // columns * fine, fine, fine
+            draw(number)
+        ctx.enable_only(moderngl.NOTHING)
+        texels = np.stack([np.frombuffer(each.read(), np.uint8).reshape(size[1], size[0], 4) for each in colors])
+    finally:
+        before.use()  # what is bound when it is released is bound again later
+        release_all(target, depth, *colors)
+    texture = mipmapped(ctx, smaller(texels))
+    texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
+    texture.repeat_x = texture.repeat_y = False
+    return texture
+
+
+def smaller(texels: Bytes, /) -> list[Bytes]:
+    """Return two layers (2, rows, columns, 4) of what was drawn, `FINER` times too large, at `LEVELS` sizes.
+
+    Texels are premultiplied by the last channel of the first layer, the coverage. Means of what is thin would fall
+    below the coverage at which its edge is taken to be: they are raised until as much lies above it as at first
+    (Castaño, Computing Alpha Mipmaps, 2010).
+    """
+    values = texels.astype(np.float32)
+    values[1] *= np.float32(1.0 / 255.0) * values[0, ..., 3:]
+    for _ in range(FINER.bit_length() - 1):
+        values = _halved(values)
+    whole = float((values[0, ..., 3] > 255.0 * EDGE).mean())
+    found = []
+    for _ in range(LEVELS):
+        found.append(_raised(values, whole))
+        values = _halved(values)
+    return found
+
+
+def _halved(values: Floats) -> Floats:
+    quarter = np.float32(0.25)
+    return np.asarray(
+        quarter * (values[:, ::2, ::2] + values[:, 1::2, ::2] + values[:, ::2, 1::2] + values[:, 1::2, 1::2]),
+        np.float32,
+    )
+
+
+def _raised(values: Floats, whole: float) -> Bytes:
+    cover = values[0, ..., 3]
+    there = np.sort(cover.reshape(-1))
+    at = there[min(int(len(there) * (1.0 - whole)), len(there) - 1)]
+    factor = np.clip(255.0 * EDGE / max(float(at), 1.0), 1.0, 12.0)
+    raised = np.minimum(cover * factor, 255.0) / np.maximum(cover, 1e-3)
+    return np.ascontiguousarray(np.round(np.minimum(values * raised[None, ..., None], 255.0)).astype(np.uint8))
+
+
+def from_around(number: int, middle: float, half: float, /) -> Doubles:
+    """Return the matrix (4, 4) that shows a tree from one of its sides: a square of half a side about a height [m]."""
+    azimuth, up = 2.0 * np.pi * (number % COLUMNS) / COLUMNS, FIRST_ROW + EACH_ROW * (number // COLUMNS)
+    to = np.array([np.cos(up) * np.sin(azimuth), np.sin(up), np.cos(up) * np.cos(azimuth)])
+    across = np.array([np.cos(azimuth), 0.0, -np.sin(azimuth)])
+    shown = np.eye(4)
+    shown[:3, :3] = np.stack([across, np.cross(to, across), -to]) / half
+    shown[2, :3] /= 4.0
+    shown[:3, 3] = -shown[:3, :3] @ (0.0, middle, 0.0)
+    return shown
+
+
+def on_card(reach: tuple[float, float, float], usual: float, /) -> Doubles:
+    """Return the matrix (4, 4) that shows a twig on its card, which reaches so far aside, back and on [its lengths]."""
+    wide, back, on = reach
+    shown = np.eye(4)
+    shown[0, 0] = 1.0 / (wide * usual)
+    shown[1, 1], shown[1, 3] = 2.0 / ((on - back) * usual), -1.0 - 2.0 * back / (on - back)
+    shown[2, 2] = -0.5 / usual
+    return shown
+
+
+PICTURES = COLUMNS, ROWS, SIDE

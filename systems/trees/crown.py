@@ -1,0 +1,63 @@
+"""The crown as a medium: how much leaf light meets on its way to each twig, from any side."""
+
+import numpy as np
+
+from ...components.arrays import Doubles, Floats
+from .grow import Tree, Twigs
+from .habit import Leaf
+
+CELLS = 24
+"""Cells of leaf area across a crown's longest side."""
+
+STEPS = 14
+"""Steps of a ray through the crown."""
+
+SHARE = 0.5
+"""Of leaf area that faces all ways, so much is seen from any side (Ross, The Radiation Regime of Plants, 1981)."""
+
+CLUMPED = 0.4
+"""Leaves stand in clumps, with gaps between: they hide as much as so many that were strewn (Nilson, A Theoretical
+Analysis of the Frequency of Gaps in Plant Stands, 1971)."""
+
+
+def leaf_area(twigs: Twigs, leaf: Leaf, usual: float, /) -> Doubles:
+    """Return the leaf area of each twig, one side of its leaves [m²], shape (n,); `usual` is a twig's length [m]."""
+    own = leaf.count * leaf.length * leaf.width * leaf.area
+    return np.asarray(own * (twigs.length.astype(np.float64) / usual) ** 2)
+
+
+def shading(tree: Tree, area: Doubles, place: Doubles, /) -> Floats:
+    """Return how many leaves light meets before it comes to places (n, 3): by the direction to it (x, y, z), and 1.
+
+    `area` is each twig's leaf area [m²]. Shape (n, 4): the sum of products with those is the number of leaves, of what
+    one hides (Beer). It is the linear part of what is met along rays to all sides.
+    """
+    middle = tree.twigs.foot.astype(np.float64) + 0.5 * tree.twigs.length[:, None] * tree.twigs.along
+    low, high = middle.min(axis=0) - 0.3, middle.max(axis=0) + 0.3
+    cell = float((high - low).max()) / CELLS
+    size = np.maximum(np.ceil((high - low) / cell).astype(np.intp), 1)
+    dense = np.zeros(size)
+    at = np.minimum(((middle - low) / cell).astype(np.intp), size - 1)
+    np.add.at(dense, tuple(at.T), area * SHARE * CLUMPED / cell**3)
+    ways = _ways()
+    met = np.stack([_met(dense, (place - low) / cell, way, cell) for way in ways], axis=1)
+    terms = np.column_stack([ways, np.ones(len(ways))])
+    return np.asarray(np.linalg.lstsq(terms, met.T, rcond=None)[0].T, np.float32)
+
+
+def _ways() -> Doubles:
+    """Return directions evenly to all sides, unit vectors (n, 3)."""
+    number = np.arange(20) + 0.5
+    up, around = 1.0 - number / 10.0, number * np.pi * (3.0 - np.sqrt(5.0))
+    flat = np.sqrt(1.0 - up * up)
+    return np.stack([flat * np.cos(around), up, flat * np.sin(around)], axis=1)
+
+
+def _met(dense: Doubles, place: Doubles, way: Doubles, cell: float) -> Doubles:
+    """Return the leaf area that rays from places (n, 3) [cells] meet on a way, of the area across it, shape (n,)."""
+    ends = (np.arange(STEPS + 1) / STEPS) ** 2 * float(max(dense.shape)) * 1.1  # finer near by
+    along, length = 0.5 * (ends[1:] + ends[:-1]), np.diff(ends) * cell
+    at = (place[:, None] + along[None, :, None] * way).astype(np.intp)
+    inside = ((at >= 0) & (at < dense.shape)).all(axis=-1)
+    at = np.clip(at, 0, np.array(dense.shape) - 1)
+    return np.asarray((dense[at[..., 0], at[..., 1], at[..., 2]] * inside) @ length)

@@ -1,0 +1,208 @@
+"""Drawing trees: what of each is shown, and in what order; and the maps of what they leave of the light."""
+
+from collections.abc import Callable, Mapping, Sequence
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ...engine.gl.stream import release_all
+from ..around.outlook import Outlook
+from ..frame.block import FrameBlock
+from ..frame.feature import Heard, Part
+from ..space.frustum import beyond
+from ..space.grown import Grown
+from .card import FAR, GROUPS, LEAVES, NEAR, THICK, WOOD, ModelOnCard
+from .kind import KindOnCard
+from .motion import PERIOD
+from .programs import Programs
+from .shade import ShadeMap
+from .standing import Standing, shown
+from .twig import LEAF_PIXELS
+
+EVERY_LEAF = -2.0, -1.0
+"""What is told in place of `LEAF_PIXELS` where all twigs are drawn leaf by leaf."""
+
+CARDS = tuple(f"{NEAR}{number}" for number in range(GROUPS))
+
+
+class TreePart(Part):
+    """Draws trees; in scenes that have no kind of them it makes nothing at all."""
+
+    def __init__(
+        self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], standing: Callable[[], Standing]
+    ) -> None:
+        self._ctx, self._block, self._units, self._standing = ctx, block, units, standing
+        self._kinds: list[KindOnCard] = []
+        self._made_of: object = None
+        self._programs: Programs | None = None
+        self._shade: ShadeMap | None = None
+        self._outlook: Outlook | None = None
+        self._numbers: dict[str, object] = {}
+        self._chosen = False
+        self._air: Heard | None = None
+        self.every_leaf = False
+        """Whether all trees are drawn leaf by leaf, as a reference has them."""
+
+    def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
+        """Let other kinds of trees grow."""
+        del record
+        scene = grown.scene
+        made_of = tuple(scene.trees.values()), scene.seed
+        if made_of == self._made_of:
+            return
+        release_all(*self._kinds)
+        self._made_of = made_of
+        self._kinds = [
+            KindOnCard(self._ctx, self._units, kind, seed=scene.seed + number)
+            for number, kind in enumerate(scene.trees.values())
+        ]
+        self._forget()
+        if self._kinds and self._shade is None:
+            self._shade = ShadeMap(self._ctx)
+
+    def _forget(self) -> None:
+        if self._programs is not None:
+            self._programs.release()
+            self._programs = None
+        if self._shade is not None:
+            self._shade.lose()
+
+    def defines(self) -> Mapping[str, str | int]:
+        """Tell all programs whether there are any kinds."""
+        return {"TREES": 1} if self._kinds else {}
+
+    def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
+        """Write where the maps lie for a viewer."""
+        self._outlook = outlook
+        if self._shade is not None and self._kinds:
+            self._shade.follow(outlook.viewer.eye, self._standing(), record)
+
+    def use(self) -> None:
+        """Bind the map."""
+        if self._shade is not None and self._kinds:
+            self._shade.use()
+
+    def prepare(self) -> int:
+        """Choose what is drawn of each tree, and draw the maps where they are due; return the number of draw calls."""
+        if not self._kinds or self._outlook is None:
+            return 0
+        programs = self._ready()
+        viewer = self._outlook.viewer
+        patch = float(self._block.record["patch_side"][0])
+        self._numbers = {
+            "leaf_pixels": EVERY_LEAF if self.every_leaf else LEAF_PIXELS,
+            "moment": viewer.time % PERIOD,
+            "middle": tuple(((viewer.centre + 0.5) * patch).tolist()),
+        }
+        assert self._shade is not None
+        calls = self._shade.prepare(self._kinds, programs, self._standing(), self._numbers)
+        self._chosen = self.every_leaf
+        self._choose(self._standing(), self._outlook)
+        return calls
+
+    def _ready(self) -> Programs:
+        """Return the programs, made and with all kinds baked."""
+        if self._programs is not None and self._programs.made_of != self._block.defines:
+            self._forget()
+        if self._programs is None:
+            self._programs = Programs(self._ctx, self._block, self._units)
+        for kind in self._kinds:
+            if kind.card is None:
+                kind.bake(self._programs)
+        return self._programs
+
+    def _choose(self, standing: Standing, outlook: Outlook) -> None:
+        """Send what is drawn of each tree."""
+        rows, record = standing.rows, self._block.record[0]
+        clip = record["clip"].reshape(4, 4).T.astype(np.float64)
+        focal = float(record["half_screen"][1] * np.linalg.norm(clip[1, :3]))
+        for kind_number, kind in enumerate(self._kinds):
+            for model_number, model in enumerate(kind.models):
+                own = rows[(rows["kind"] == kind_number) & (rows["model"] == model_number)]
+                self._choose_of(kind, model, own, focal, outlook)
+
+    def _choose_of(
+        self, kind: KindOnCard, model: ModelOnCard, rows: NDArray[np.void], focal: float, outlook: Outlook
+    ) -> None:
+        grown, eye = model.model, np.array(outlook.viewer.eye)
+        scale = rows["height"].astype(np.float64) / grown.height
+        middle = rows["root"].astype(np.float64)
+        middle[:, 1] += scale * grown.middle
+        seen = beyond(middle, outlook.viewer.sides) <= 1.1 * np.hypot(grown.half, grown.radius) * scale
+        rows, scale, middle = rows[seen], scale[seen], middle[seen]
+        off = np.linalg.norm(middle - eye, axis=1)
+        order = np.argsort(off)
+        rows, scale, off = rows[order], scale[order], off[order]
+        pixels = focal * rows["height"] / np.maximum(off, 0.1)
+        told = shown(rows, np.full(len(rows), 1e6) if self.every_leaf else pixels, grown.height, kind.declared.variety)
+        near, far = told["gone"] < 1.0, told["gone"] > 0.0
+        nearest = np.maximum(off - scale * np.hypot(grown.half, grown.radius), 0.1)
+        leafy = focal * scale * kind.habit.leaf.length / nearest > LEAF_PIXELS[0]
+        model.write(told[near], (leafy | self.every_leaf)[near], told[far][::-1])
+
+    def breathe(self, air: Heard, /) -> int:
+        """Make out of each tree what is the same all over it; return the number of draw calls."""
+        programs, calls, self._air = self._programs, 0, air
+        if not self._kinds or programs is None:
+            return 0
+        air.texture.use(self._units["tree_air"])
+        air.mean.use(self._units["tree_mean"])
+        for kind in self._kinds:
+            for model in kind.models:
+                for stream in model.streams.values():
+                    if stream.count:
+                        array, told = programs.stand(stream), model.told[id(stream)]
+                        told.room(stream.count)
+                        kind.tell(array.program, model, self._numbers)
+                        array.transform(told.buffer, moderngl.POINTS, vertices=stream.count)
+                        calls += 1
+        return calls
+
+    def draw_solid(self) -> int:
+        """Draw all that covers pixels wholly."""
+        if self._kinds and self._air is not None and self._chosen != self.every_leaf:
+            self.prepare()
+            self.breathe(self._air)
+        return self._draw(soft=False)
+
+    def draw_soft(self) -> int:
+        """Draw their soft edges."""
+        if not self._kinds:
+            return 0
+        target = self._ctx.fbo
+        target.depth_mask = False
+        calls = self._draw(soft=True)
+        target.depth_mask = True
+        return calls
+
+    def _draw(self, *, soft: bool) -> int:
+        if not self._kinds or self._programs is None:
+            return 0
+        return sum(self._draw_model(kind, model, soft=soft) for kind in self._kinds for model in kind.models)
+
+    def _draw_model(self, kind: KindOnCard, model: ModelOnCard, *, soft: bool) -> int:
+        assert self._programs is not None
+        calls, leaves = 0, kind.habit.leaf.count + kind.habit.leaf.shoots
+        sorts: Sequence[tuple[str, str, int]] = (
+            (WOOD, WOOD, -1),
+            (WOOD, THICK, 3 * model.model.thick),
+            (LEAVES, LEAVES, 6 * leaves * model.most[LEAVES]),
+            *((NEAR, name, 6 * model.most[name]) for name in CARDS),
+            (FAR, FAR, 6),
+        )
+        for sort, name, vertices in sorts:
+            stream = model.streams[name]
+            if stream.count:
+                array = self._programs.array(sort, stream, model, soft=soft)
+                kind.tell(array.program, model, self._numbers)
+                array.render(moderngl.TRIANGLES, vertices=vertices, instances=stream.count)
+                calls += 1
+        return calls
+
+    def release(self) -> None:
+        """Give everything back."""
+        self._forget()
+        release_all(*self._kinds)
+        if self._shade is not None:
+            self._shade.release()

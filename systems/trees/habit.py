@@ -1,0 +1,147 @@
+"""Habits: the proportions by which trees of a sort grow, after Weber and Penn."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ...engine.declared.tree import HabitName
+
+
+@dataclass(frozen=True, slots=True)
+class Shoots:
+    """How stems of a level stand on those that bear them (Weber and Penn, 1995, their parameters of a level)."""
+
+    each: float
+    """Stems on each metre of what bears them; of limbs, on the whole trunk."""
+
+    length: float
+    """Of the longest one: of the tree's height for limbs, of the limb's length for branches, [m] for twigs."""
+
+    down: tuple[float, float]
+    """Angle from what bears them, at its foot and at its tip [rad]."""
+
+    lift: float
+    """How much a stem turns upwards on its way, below 0 downwards: the share of "up" added to its direction."""
+
+    crook: float
+    """How much it turns any way, likewise."""
+
+
+@dataclass(frozen=True, slots=True)
+class Leaf:
+    """The leaves of a twig."""
+
+    form: int
+    """Which outline `leaf.glsl` draws."""
+
+    length: float
+    """Of a blade, without its stalk; of a pine, of its needles [m]."""
+
+    width: float
+    """Where it is broadest [m]."""
+
+    count: int
+    """On a twig."""
+
+    shoots: int
+    """Shoots of a twig that they stand on: itself and those on its sides."""
+
+    angle: float
+    """From the twig [rad]."""
+
+    area: float
+    """Of the quad that it is drawn in, so much is leaf."""
+
+
+@dataclass(frozen=True, slots=True)
+class Habit:
+    """How trees of a sort grow."""
+
+    slender: float
+    """The trunk's diameter near the ground, of the height."""
+
+    bare: float
+    """Part of the trunk that bears no limbs."""
+
+    crown: tuple[float, ...]
+    """Length of limbs from the lowest to the highest, of the longest, evenly along the crown."""
+
+    straight: float
+    """How straight the trunk is: 1 goes up like a pole."""
+
+    whorled: int
+    """Limbs that stand together around the trunk; 1 stand one after another by the golden angle."""
+
+    limbs: Shoots
+    branches: Shoots
+    twigs: Shoots
+    leaf: Leaf
+    bark: str
+    """Colour (sRGB)."""
+
+    rough: float
+    """How deeply the bark is furrowed, 0 to 1; below 0 it is smooth with dark bands across, as of birches."""
+
+    leaves: tuple[str, str]
+    """Colour of leaves, dark and bright (sRGB)."""
+
+    height: tuple[float, float]
+    """Of grown ones [m]."""
+
+
+OVATE, LOBED, LANCE, NEEDLES, DELTOID = range(5)
+"""Outlines of leaves."""
+
+GLSL = {"OVATE": OVATE, "LOBED": LOBED, "LANCE": LANCE, "NEEDLES": NEEDLES, "DELTOID": DELTOID}
+
+HABITS: Mapping[HabitName, Habit] = {
+    "oak": Habit(
+        slender=0.055, bare=0.14, crown=(0.75, 1.0, 1.0, 0.9, 0.72, 0.5), straight=0.55, whorled=1,
+        limbs=Shoots(24.0, 0.74, (1.4, 0.5), 0.03, 0.19),
+        branches=Shoots(3.6, 0.52, (0.95, 0.7), 0.04, 0.2),
+        twigs=Shoots(5.2, 0.72, (0.9, 0.7), 0.03, 0.1),
+        leaf=Leaf(LOBED, 0.125, 0.075, 35, 5, 0.9, 0.62), bark="#5d5346", rough=0.9,
+        leaves=("#3d5623", "#84a044"), height=(11.0, 16.0),
+    ),
+    "birch": Habit(
+        slender=0.022, bare=0.2, crown=(0.62, 0.95, 1.0, 0.86, 0.62, 0.36), straight=0.9, whorled=1,
+        limbs=Shoots(38.0, 0.28, (1.0, 0.5), 0.03, 0.06),
+        branches=Shoots(4.4, 0.46, (0.85, 0.7), -0.06, 0.08),
+        twigs=Shoots(9.0, 0.55, (0.8, 0.6), -0.25, 0.05),
+        leaf=Leaf(OVATE, 0.06, 0.05, 33, 3, 0.95, 0.64), bark="#d8d3c8", rough=-1.0,
+        leaves=("#4d6e28", "#9ab44e"), height=(10.0, 16.0),
+    ),
+    "pine": Habit(
+        slender=0.026, bare=0.42, crown=(0.72, 1.0, 0.98, 0.86, 0.68, 0.36), straight=0.88, whorled=4,
+        limbs=Shoots(40.0, 0.29, (1.5, 0.75), 0.045, 0.09),
+        branches=Shoots(4.6, 0.42, (0.95, 0.8), 0.07, 0.08),
+        twigs=Shoots(7.0, 0.42, (0.75, 0.5), 0.12, 0.05),
+        leaf=Leaf(NEEDLES, 0.085, 0.085, 48, 4, 0.75, 0.24), bark="#8a5b41", rough=0.7,
+        leaves=("#283f2a", "#55703f"), height=(12.0, 18.0),
+    ),
+    "poplar": Habit(
+        slender=0.026, bare=0.05, crown=(0.72, 1.0, 1.0, 0.92, 0.8, 0.62), straight=0.97, whorled=1,
+        limbs=Shoots(62.0, 0.21, (0.56, 0.3), 0.085, 0.05),
+        branches=Shoots(4.6, 0.42, (0.65, 0.5), 0.09, 0.06),
+        twigs=Shoots(6.0, 0.5, (0.7, 0.55), 0.06, 0.05),
+        leaf=Leaf(DELTOID, 0.068, 0.064, 24, 3, 0.9, 0.58), bark="#6f6a5e", rough=0.6,
+        leaves=("#3c5a22", "#85a046"), height=(15.0, 22.0),
+    ),
+    "willow": Habit(
+        slender=0.055, bare=0.16, crown=(0.72, 0.95, 1.0, 0.96, 0.8, 0.6), straight=0.6, whorled=1,
+        limbs=Shoots(20.0, 0.58, (1.05, 0.4), 0.05, 0.12),
+        branches=Shoots(4.2, 0.62, (0.9, 0.7), -0.24, 0.08),
+        twigs=Shoots(7.0, 0.95, (0.8, 0.5), -0.6, 0.04),
+        leaf=Leaf(LANCE, 0.13, 0.028, 40, 1, 0.55, 0.6), bark="#6b6152", rough=0.85,
+        leaves=("#55703a", "#a5b478"), height=(9.0, 13.0),
+    ),
+    "hawthorn": Habit(
+        slender=0.035, bare=0.04, crown=(0.85, 1.0, 1.0, 0.95, 0.82, 0.6), straight=0.35, whorled=1,
+        limbs=Shoots(26.0, 0.66, (1.25, 0.45), 0.04, 0.16),
+        branches=Shoots(7.0, 0.5, (0.95, 0.75), 0.03, 0.18),
+        twigs=Shoots(11.0, 0.36, (0.9, 0.7), 0.03, 0.14),
+        leaf=Leaf(LOBED, 0.055, 0.046, 30, 5, 0.9, 0.6), bark="#5c5347", rough=0.6,
+        leaves=("#3c5a24", "#7f9c42"), height=(3.0, 4.6),
+    ),
+}  # fmt: skip
+"""By the names that scenes have. Proportions are read off grown trees that stand free; leaves are those of *Quercus
+robur*, *Betula pendula*, *Pinus sylvestris*, *Populus nigra*, *Salix alba* and *Crataegus monogyna*."""

@@ -1,0 +1,97 @@
+"""A kind of tree as one GL context holds it: its twig's card, and its models with their pictures from all around."""
+
+from collections.abc import Mapping
+
+import moderngl
+import numpy as np
+
+from ...components.arrays import Doubles
+from ...engine.declared.tree import TreeKind
+from ...engine.gl.stream import release_all
+from ..light.materials import pigment
+from .bake import CARD, PICTURES, from_around, on_card, pictures
+from .card import FEWER, LEAVES, NEAR, WOOD, ModelOnCard
+from .habit import HABITS
+from .model import models_of
+from .programs import Programs
+from .twig import SHOOTS_LONG
+
+
+class KindOnCard:
+    """What is drawn of a kind of tree."""
+
+    def __init__(self, ctx: moderngl.Context, units: Mapping[str, int], declared: TreeKind, *, seed: int) -> None:
+        self.ctx, self.units, self.declared = ctx, units, declared
+        self.habit = HABITS[declared.habit]
+        self.models = [ModelOnCard(ctx, each) for each in models_of(declared.habit, seed)]
+        self.card: moderngl.TextureArray | None = None
+        leaf, usual = self.habit.leaf, self.habit.twigs.length
+        wide = 0.95 * leaf.length * (np.sin(leaf.angle) + 0.25)
+        wide += SHOOTS_LONG * usual * 0.7 if leaf.shoots > 1 else 0.0
+        self.reach = wide / usual, -0.3 * leaf.length / usual, 1.0 + 1.2 * leaf.length / usual
+
+    def bake(self, programs: Programs) -> None:
+        """Draw its twig, and then its models from all around; a depth test is set meanwhile."""
+        twig = programs.array(LEAVES, self.models[0].bare, baked=True)
+        matrix = on_card(self.reach, self.habit.twigs.length)
+
+        def draw_twig(number: int) -> None:
+            del number
+            self._tell(twig.program, self.models[0])
+            _matrix(twig.program, matrix)
+            twig.render(moderngl.TRIANGLES, vertices=6 * (self.habit.leaf.count + self.habit.leaf.shoots), instances=1)
+
+        self.card = pictures(self.ctx, 1, 1, CARD, draw_twig)
+        for model in self.models:
+            self._bake_model(programs, model)
+
+    def _bake_model(self, programs: Programs, model: ModelOnCard) -> None:
+        wood, cards = (programs.array(sort, model.bare, model, baked=True) for sort in (WOOD, NEAR))
+
+        def draw_tree(number: int) -> None:
+            matrix = from_around(number, model.model.middle, model.model.half)
+            for array, count in ((wood, -1), (cards, round(6 * FEWER * len(model.model.twigs)))):
+                self._tell(array.program, model)
+                _matrix(array.program, matrix)
+                array.render(moderngl.TRIANGLES, vertices=count, instances=1)
+
+        model.far = pictures(self.ctx, *PICTURES, draw_tree)
+
+    def tell(self, program: moderngl.Program, model: ModelOnCard, numbers: Mapping[str, object]) -> None:
+        """Tell a program of the kind and one of its models, and what else it is to know; bind what it reads."""
+        self._tell(program, model)
+        for name, value in numbers.items():
+            if name in program:
+                program[name] = value
+
+    def _tell(self, program: moderngl.Program, model: ModelOnCard) -> None:
+        habit, grown = self.habit, model.model
+        leaf, usual = habit.leaf, habit.twigs.length
+        dark, bright = habit.leaves if self.declared.leaf is None else (self.declared.leaf, self.declared.leaf)
+        shaded = 0.62 if self.declared.leaf is not None else 1.0
+        numbers: dict[str, object] = {
+            "tall": grown.height, "trunk_hertz": grown.hertz, "twigs": len(grown.twigs), "usual": usual,
+            "card": (*self.reach, 0.0), "leaf_count": leaf.count, "shoots": leaf.shoots, "form": leaf.form,
+            "leaf_shape": (leaf.length / usual, 0.5 * leaf.width / usual, leaf.angle),
+            "dark": tuple(shaded * pigment(dark)), "bright": tuple(pigment(bright)),
+            "bark": tuple(pigment(self.declared.bark or habit.bark)), "rough": habit.rough,
+            "ball": (grown.middle, grown.half), "crown_at": grown.middle,
+        }  # fmt: skip
+        for name, value in numbers.items():
+            if name in program:
+                program[name] = value
+        model.twigs.texture.use(self.units["tree_twigs"])
+        if self.card is not None:
+            self.card.use(self.units["tree_cards"])
+        if model.far is not None:
+            model.far.use(self.units["tree_far"])
+
+    def release(self) -> None:
+        """Give everything back."""
+        release_all(*self.models)
+        if self.card is not None:
+            self.card.release()
+
+
+def _matrix(program: moderngl.Program, matrix: Doubles) -> None:
+    program["baked"].write(np.ascontiguousarray(matrix.T, np.float32))  # type: ignore[union-attr]

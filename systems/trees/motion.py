@@ -1,0 +1,59 @@
+"""How trees move in the wind: a trunk, limbs on it, and leaves on those, each with a frequency of its own."""
+
+from math import sqrt
+
+PERIOD = 1000.0
+"""After which all motion begins again [s]: then frames of a long game are as exact as its first."""
+
+TRUNK_LEANS, TRUNK_SWINGS = 0.035, 0.022
+"""How far the top of a trunk is blown aside by a message of 1, of its height; and how far it swings about that."""
+
+LIMB_LEANS, LIMB_SWINGS = 0.09, 0.05
+"""The same of a limb, of its length."""
+
+LIMB_STIFF = 1.6
+"""Length at which a limb gives way half as much as a long one does [m]."""
+
+LEAF_TURNS = 0.5
+"""Angle that leaves turn to either side in a message of 1 [rad]."""
+
+AIR_FADES = 0.38, 0.48
+"""How far from the viewer what patches hear gives way to its mean, of the side of all patches around."""
+
+TRUNK_HERTZ, LIMB_HERTZ, LEAF_HERTZ = (0.2, 0.5), (1.0, 3.0), (3.0, 10.0)
+"""Between which frequencies trunks, limbs and leaves swing [Hz]."""
+
+SKY_FROM = 0.5
+"""Mean sine of the elevation that the sky's light comes from."""
+
+SKY_MEETS_LESS = 0.65
+"""How many leaves the light of the sky meets, of those that stand before it: much of it goes on from leaf to leaf."""
+
+OWN_CROWN = 0.6
+"""How far towards the sun a tree's own crown goes on at most, of its height: up to there, it counts by itself."""
+
+GLSL = {
+    "PERIOD": PERIOD,
+    "TRUNK_LEANS": TRUNK_LEANS, "TRUNK_SWINGS": TRUNK_SWINGS,
+    "LIMB_LEANS": LIMB_LEANS, "LIMB_SWINGS": LIMB_SWINGS, "LIMB_STIFF": LIMB_STIFF,
+    "LEAF_TURNS": LEAF_TURNS, "LEAF_HERTZ": LEAF_HERTZ, "AIR_FADES": AIR_FADES,
+    "SKY_FROM": SKY_FROM, "SKY_MEETS_LESS": SKY_MEETS_LESS, "OWN_CROWN": OWN_CROWN,
+}  # fmt: skip
+
+
+def trunk_hertz(height: float, diameter: float, /) -> float:
+    """Return the frequency at which a tree of a height [m] and a diameter [m] swings [Hz].
+
+    It is that of 602 trees of eight species (Moore and Maguire, Natural Sway Frequencies and Damping Ratios of Trees,
+    2004), within `TRUNK_HERTZ`, as crowns of trees that stand free are heavier than those.
+    """
+    return min(max(0.0948 + 3.4063 * (100.0 * diameter) / height**2, TRUNK_HERTZ[0]), TRUNK_HERTZ[1])
+
+
+def limb_hertz(length: float, /) -> float:
+    """Return that of a limb of a length [m], from 2 Hz at 2 m [Hz].
+
+    Stems are as thick as the power 3/2 of their length, so they swing as its root has it the other way (McMahon and
+    Kronauer, Tree Structures: Deducing the Principle of Mechanical Design, 1976).
+    """
+    return min(max(2.0 * sqrt(2.0 / max(length, 0.1)), LIMB_HERTZ[0]), LIMB_HERTZ[1])

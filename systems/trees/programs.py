@@ -1,0 +1,95 @@
+"""The programs that trees are drawn with, each made when it is first asked for."""
+
+from collections.abc import Mapping
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ...engine.gl.stream import Stream, release_all
+from ..frame.block import FrameBlock, joined
+from .card import ModelOnCard
+from .grow import MOST_TWIGS
+
+SORTS: Mapping[str, tuple[str, str, Mapping[str, str | int]]] = {
+    "near": ("twig", "twig", {"STANDS": 1}),
+    "leaves": ("twig", "twig", {"LEAVES": 1, "STANDS": 1}),
+    "wood": ("wood", "wood", {"STANDS": 1}),
+    "far": ("far", "far", {"STANDS": 1}),
+    "cast": ("far", "far", {"CAST": 1}),
+}
+"""By what is drawn: vertex and fragment shader, and what they are told."""
+
+
+MOST_QUADS = MOST_TWIGS * 64
+"""Quads that a tree is drawn with at most: of twigs leaf by leaf."""
+
+
+class Programs:
+    """Programs and vertex arrays of one GL context, for trees in scenes that are told the same."""
+
+    def __init__(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int]) -> None:
+        self._ctx, self._block, self._units = ctx, block, units
+        self.made_of = dict(block.defines)
+        self._programs: dict[tuple[str, bool, bool], moderngl.Program] = {}
+        self._arrays: dict[tuple[int, str, bool, bool], moderngl.VertexArray] = {}
+        self._quads = ctx.buffer(_quads())
+        self._stand: moderngl.Program | None = None
+
+    def array(
+        self, sort: str, stream: Stream, model: ModelOnCard | None = None, /, *, soft: bool = False, baked: bool = False
+    ) -> moderngl.VertexArray:  # fmt: skip
+        """Return what draws trees of a stream: solid parts or soft edges, or as they are baked; `wood` is a model's."""
+        key = id(stream), sort, soft, baked
+        if key not in self._arrays:
+            program, indices = self._program(sort, soft=soft, baked=baked), self._quads
+            contents = [stream.binding(program)]
+            if model is not None:
+                if not baked and (told := model.told.get(id(stream))) is not None:
+                    contents.append(told.binding(program))
+                if sort == "wood":
+                    contents.insert(0, _kept(program, *model.bark))
+                    indices = model.triangles
+            whole = [each for each in contents if len(each) > 2]
+            self._arrays[key] = self._ctx.vertex_array(program, whole, index_buffer=indices)
+        return self._arrays[key]
+
+    def stand(self, stream: Stream) -> moderngl.VertexArray:
+        """Return what makes out of each tree of a stream what is the same all over it."""
+        key = id(stream), "stand", False, False
+        if key not in self._arrays:
+            if self._stand is None:
+                made, varyings = "systems/trees/stand.vert", ("told", "open", "veil")
+                self._stand = joined(self._ctx, self._block, self._units, made, None, {}, varyings=varyings)
+            self._arrays[key] = self._ctx.vertex_array(self._stand, [stream.binding(self._stand, each="/v")])
+        return self._arrays[key]
+
+    def _program(self, sort: str, *, soft: bool, baked: bool) -> moderngl.Program:
+        key = sort, soft, baked
+        if key not in self._programs:
+            vertex, fragment, told = SORTS[sort]
+            more: dict[str, str | int] = {"SOFT": 1} if soft else {}
+            told = {**told, **more} if not baked else {**{k: v for k, v in told.items() if k != "STANDS"}, "BAKED": 1}
+            names = f"systems/trees/{vertex}.vert", f"systems/trees/{fragment}.frag"
+            self._programs[key] = joined(self._ctx, self._block, self._units, *names, told)
+        return self._programs[key]
+
+    def release(self) -> None:
+        """Give everything back."""
+        release_all(*self._arrays.values(), *self._programs.values(), self._quads)
+        if self._stand is not None:
+            self._stand.release()
+
+
+def _quads() -> NDArray[np.uint32]:
+    """Return the corners of quads, four each, as two triangles each."""
+    return (np.arange(MOST_QUADS, dtype=np.uint32)[:, None] * 4 + np.array([0, 1, 2, 2, 1, 3], np.uint32)).reshape(-1)
+
+
+def _kept(
+    program: moderngl.Program, buffer: moderngl.Buffer, form: str, names: list[str]
+) -> tuple[moderngl.Buffer | str, ...]:
+    """Return a vertex buffer's contents, with what a program does without skipped over."""
+    parts = form.split()
+    kept = [part if name in program else f"{int(part[:-1]) * 4}x" for part, name in zip(parts, names, strict=True)]
+    return buffer, " ".join(kept), *(name for name in names if name in program)

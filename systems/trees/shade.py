@@ -1,0 +1,123 @@
+"""Maps of what trees leave of the light: of the sun's near by and far off, and of the sky's from above."""
+
+from collections.abc import Mapping, Sequence
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.arrays import Doubles
+from ...engine.gl.guest import borrow
+from ...engine.gl.stream import Stream, release_all
+from ...engine.gl.units import BORROWED
+from .kind import KindOnCard
+from .programs import Programs
+from .standing import SHOWN, Standing, shown
+
+UNIT = BORROWED[0] - 1
+"""The texture unit that the map is bound to: a host's, and given back in the end."""
+
+SIDE = 1024
+"""Texels of each of the three maps, across and up."""
+
+SIDES = 96.0, 800.0, 260.0
+"""How far each reaches from edge to edge [m]."""
+
+STEPS = 8.0, 64.0, 32.0
+"""How far a viewer goes before one is drawn anew about another place [m]."""
+
+STEADY = 0.999995
+"""Cosine of how far the sun goes before they are drawn anew: 0.2 degrees."""
+
+Place = tuple[float, float, float]
+
+
+class ShadeMap:
+    """The three maps side by side, drawn anew when the sun, the trees or the viewer have moved."""
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self._ctx = ctx
+        self._texture = ctx.texture((3 * SIDE, SIDE), 2, dtype="f2")
+        self._texture.repeat_x = self._texture.repeat_y = False
+        self._target = ctx.framebuffer([self._texture])
+        self._sampler = ctx.sampler(repeat_x=False, repeat_y=False, filter=(moderngl.LINEAR, moderngl.LINEAR))
+        self._streams: dict[int, Stream] = {}
+        self._sun: Doubles = np.zeros(3)
+        self._axes: Doubles = np.zeros((2, 3))
+        self._drawn: list[object] = [None, None, None]
+        self._due: list[tuple[object, tuple[float, float]]] = []
+        self._standing: Standing | None = None
+
+    def lose(self) -> None:
+        """Draw all anew."""
+        self._drawn = [None, None, None]
+        release_all(*self._streams.values())
+        self._streams = {}
+
+    def follow(self, eye: Place, standing: Standing, record: NDArray[np.void], /) -> None:
+        """Write where the maps lie for an eye, and note which of them are due."""
+        row, sun = record[0], record["sun"][0].astype(np.float64)
+        if float(sun @ self._sun) < STEADY:
+            self._sun = sun
+            across = np.array([sun[2], 0.0, -sun[0]])
+            across = across / np.linalg.norm(across) if np.linalg.norm(across) > 1e-3 else np.array([1.0, 0.0, 0.0])
+            self._axes = np.stack([across, np.cross(sun, across)])
+        low = float(np.median(standing.rows["root"][:, 1])) if len(standing.rows) else 0.0
+        self._due = []
+        for step in STEPS:
+            middle = np.array([round(eye[0] / step) * step, low, round(eye[2] / step) * step])
+            at = self._axes @ middle if step != STEPS[2] else middle[::2]
+            self._due.append(((standing, tuple(middle), tuple(self._sun)), (float(at[0]), float(at[1]))))
+        row["trees_across"], row["trees_up"] = self._axes
+        row["trees_middle"] = *self._due[0][1], *self._due[1][1]
+        row["trees_sky"], row["trees_sides"] = (*self._due[2][1], SIDES[2]), SIDES[:2]
+
+    def use(self) -> None:
+        """Bind them for this frame."""
+        borrow(UNIT, self._texture.glo)
+        self._sampler.use(UNIT)
+
+    def prepare(
+        self, kinds: Sequence[KindOnCard], programs: Programs, standing: Standing, numbers: Mapping[str, object], /
+    ) -> int:
+        """Draw those that are due; return the number of draw calls."""
+        due = [number for number, (made_of, _) in enumerate(self._due) if self._drawn[number] != made_of]
+        if not due:
+            return 0
+        self._send(kinds, standing)
+        ctx = self._ctx
+        calls = 0
+        for number in due:
+            self._drawn[number], at = self._due[number]
+            self._target.viewport = self._target.scissor = number * SIDE, 0, SIDE, SIDE
+            self._target.use()
+            self._target.clear()
+            ctx.enable_only(moderngl.BLEND)
+            ctx.blend_func = moderngl.ONE, moderngl.ONE
+            tile = *at, SIDES[number] / 2.0, float(number)
+            for kind in kinds:
+                for model in kind.models:
+                    stream = self._streams.get(id(model))
+                    if stream is None or not stream.count:
+                        continue
+                    array = programs.array("cast", stream)
+                    kind.tell(array.program, model, {**numbers, "tile": tile})
+                    array.render(moderngl.TRIANGLES, vertices=6, instances=stream.count)
+                    calls += 1
+            ctx.enable_only(moderngl.NOTHING)
+        return calls
+
+    def _send(self, kinds: Sequence[KindOnCard], standing: Standing) -> None:
+        if self._standing is standing and self._streams:
+            return
+        self._standing = standing
+        rows = standing.rows
+        for kind_number, kind in enumerate(kinds):
+            for model_number, model in enumerate(kind.models):
+                own = rows[(rows["kind"] == kind_number) & (rows["model"] == model_number)]
+                stream = self._streams.setdefault(id(model), Stream(self._ctx, SHOWN))
+                stream.write(shown(own, np.zeros(len(own)), model.model.height, 0.0))
+
+    def release(self) -> None:
+        """Give everything back."""
+        release_all(*self._streams.values(), self._target, self._texture, self._sampler)

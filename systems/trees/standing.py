@@ -1,0 +1,73 @@
+"""Trees as they stand in a frame, and what of each is drawn."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.arrays import Doubles
+from ...engine.random import hash3, stream, unit
+from .model import MODELS
+
+STANDING = np.dtype(
+    [
+        ("root", "3f4"), ("height", "f4"), ("yaw", "f4"), ("foliage", "f4"), ("kind", "i4"),
+        ("model", "i4"), ("phase", "f4"), ("tint", "f4"),
+    ]
+)  # fmt: skip
+"""A tree: where it stands [m], height [m], heading [rad], how many of its leaves it has, number of its kind; which of
+the kind's models it is; what sets it apart from others in the wind, 0 to 1, and in brightness, -1 to 1."""
+
+SHOWN = np.dtype(
+    [
+        ("root", "3f4"), ("scale", "f4"), ("turn", "2f4"), ("phase", "f4"), ("tint", "f4"),
+        ("keep", "f4"), ("gone", "f4"), ("foliage", "f4"),
+    ]
+)  # fmt: skip
+"""What shaders are told of a tree, as `tree.glsl` has it."""
+
+TOLD = np.dtype([("message", "2f4"), ("past", "f4"), ("misty", "4f4")])
+"""What they make out of it once a tree: `stand.vert` writes it."""
+
+WHOLE = 600.0
+"""Height from which on all twigs of a tree are drawn, as many fewer of lower ones [pixels].
+
+Those that are left are larger, so that they hide as much (Cook and others, Stochastic Simplification of Aggregate
+Detail, 2007)."""
+
+FEWEST = 0.16
+"""Share of them that is drawn at least."""
+
+GONE, BEGINS = 80.0, 125.0
+"""Height at which a tree is all drawn as it is far off, and below which it begins to be [pixels]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Standing:
+    """All trees of a frame; another frame has another object only where any is another."""
+
+    rows: NDArray[np.void]
+    """Records of `STANDING`, shape (n,)."""
+
+
+def tell_apart(rows: NDArray[np.void], /) -> None:
+    """Write what each tree has of its own, by where it stands."""
+    x, z = (np.ascontiguousarray(rows["root"][:, axis]).view(np.int32) for axis in (0, 2))
+    own = hash3(42, x, z)
+    rows["model"] = np.minimum(unit(stream(own, 1)) * MODELS, MODELS - 1)
+    rows["phase"], rows["tint"] = unit(stream(own, 2)), 2.0 * unit(stream(own, 3)) - 1.0
+
+
+def shown(rows: NDArray[np.void], pixels: Doubles, height: float, variety: float, /) -> NDArray[np.void]:
+    """Return what shaders are told of trees of one model, whose own height is so much [m], records of `SHOWN`.
+
+    `pixels` are how high each stands in the picture, shape (n,); `variety` is how far they differ in brightness.
+    """
+    told = np.zeros(len(rows), SHOWN)
+    told["root"], told["scale"] = rows["root"], rows["height"] / np.float32(height)
+    told["turn"] = np.stack([np.cos(rows["yaw"]), np.sin(rows["yaw"])], axis=1)
+    told["phase"], told["foliage"] = rows["phase"], rows["foliage"]
+    told["tint"] = 1.0 + variety * rows["tint"]
+    told["keep"] = np.clip(pixels / WHOLE, FEWEST, 1.0)
+    told["gone"] = np.clip((BEGINS - pixels) / (BEGINS - GONE), 0.0, 1.0)
+    return told

@@ -1,0 +1,113 @@
+// What is the same of all that is drawn of a tree: where it stands, how the wind sways it, and what light comes to it.
+#define OF_TREES
+#include "lib/light.glsl"
+#include "systems/trees/motion.py"
+
+in vec3 root;     // where it stands [m]
+in float scale;   // how much larger it is than its model
+in vec2 turn;     // cosine and sine of the angle that it is turned by
+in float phase;   // what sets it apart from others, 0 to 1
+in float tint;    // how much brighter it is than its kind, as a factor
+in float keep;    // share of its twigs that are drawn, each as much larger as to hide as much together
+in float gone;    // share of those that are left to what is drawn of it far off
+in float foliage; // how many of its leaves it has
+#ifdef STANDS
+// What is made out of them once a tree.
+in vec2 message;  // what the wind tells it
+in float past;    // how much of the sun is seen past all but trees
+in vec4 misty;    // radiance of the haze before it, and how much that hides
+#else
+const vec2 message = vec2(0.0);
+const float past = 0.0;
+const vec4 misty = vec4(0.0);
+#endif
+
+uniform float tall;         // of its model [m]
+uniform float trunk_hertz;  // of its model
+uniform float moment;       // time, within PERIOD [s]
+
+const float AROUND = 6.2831853;  // [rad]
+
+// A swing of a lightly damped stem in gusty air, -1 to 1: a narrow band about its own frequency (Crandall and Mark, Random
+// Vibration in Mechanical Systems, 1963), here of two tones that beat. Frequencies are whole parts of PERIOD, so that it closes.
+float swing(float hertz, float own) {
+    vec2 tones = floor(hertz * vec2(0.92, 1.1) * PERIOD + 0.5) / PERIOD;
+    vec2 waves = sin(AROUND * (fract(tones * moment) + own * vec2(1.0, 1.7)));
+    return 0.5 * (waves.x + waves.y);
+}
+
+// Pixels up the picture that a metre takes a metre off.
+float pixels_a_metre() {
+    return half_screen.y * length(vec3(clip[0].y, clip[1].y, clip[2].y));
+}
+
+vec3 turned(vec3 own) {
+    return vec3(turn.x * own.x - turn.y * own.z, own.y, turn.y * own.x + turn.x * own.z);
+}
+
+vec3 turned_back(vec3 world) {
+    return vec3(turn.x * world.x + turn.y * world.z, world.y, turn.x * world.z - turn.y * world.x);
+}
+
+// How far the trunk's top is blown aside, of its height.
+vec2 trunk_sways(vec2 message) {
+    float hertz = trunk_hertz * inversesqrt(scale), much = length(message);
+    vec2 aside = vec2(-message.y, message.x);
+    return message * (TRUNK_LEANS + TRUNK_SWINGS * swing(hertz, phase)) + aside * (0.5 * TRUNK_SWINGS * swing(hertz * 1.06, phase + 0.37));
+}
+
+// Where a point of its model is, with the trunk bent as a cantilever is, and a limb swung about its foot on that.
+vec3 swayed(vec3 own, vec3 pivot, float limb, float hertz, vec2 message) {
+    vec3 at = turned(own);
+    float high = clamp(own.y / tall, 0.0, 1.2);
+    vec2 bent = trunk_sways(message) * (0.5 * tall * high * high * (3.0 - high));
+    float out_by = distance(own, pivot), loose = out_by * out_by / (out_by + LIMB_STIFF);
+    vec3 to = vec3(message, 0.0).xzy;
+    float first = swing(hertz, limb + phase), second = swing(hertz * 1.13, limb * 1.7 + phase);
+    vec3 limb_sways = to * (LIMB_LEANS + LIMB_SWINGS * first) + vec3(-to.z, 0.0, to.x) * (0.7 * LIMB_SWINGS * second);
+    limb_sways.y += LIMB_SWINGS * length(message) * second;
+    at += limb_sways * loose;
+    at.xz += bent;
+    at.y -= dot(bent, bent) / max(2.0 * own.y, 0.5);
+    return root + scale * at;
+}
+
+// How much of the sun comes through its own crown, where so many leaves are met: by the direction to it, and a constant.
+float through_crown(vec4 shading) {
+    return through_leaves(foliage * max(dot(shading, vec4(turned_back(sun), 1.0)), 0.0));
+}
+
+// How much of the sky is seen from there, which lies above all round.
+float sky_through(vec4 shading) {
+    return through_leaves(SKY_MEETS_LESS * foliage * max(shading.w + SKY_FROM * shading.y, 0.0));
+}
+
+const vec2 LAWN = vec2(0.5, 0.55);  // what grass sends up of the sun's light on it and of the sky's, with its gaps
+const float LAWN_AT = 0.7;  // the part of its blades whose pigment is seen from above
+const float LOWEST_LIGHT = 0.12;  // sine of the sun's elevation that counts at least for it
+
+// The light that the grass about a tree sends up, as radiance of a white face that looks down.
+vec3 from_below() {
+    vec3 grass = pigment_at(0, LAWN_AT);
+    return grass * grass * (LAWN.x * sunlight * max(sun.y, LOWEST_LIGHT) + LAWN.y * skylight);
+}
+
+const float FAINTEST_SUN = 0.02;  // part of the sun's light that others' shade makes no difference to
+
+// The light at a place in its crown before a face is asked how it lies: the sun's and lamps', the sky's and the lawn's, the haze.
+Light light_in_crown(vec3 place, vec4 shading, float up) {
+#ifdef BAKED
+    return Light(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, vec2(0.0));
+#else
+    float seen = past * through_crown(shading);
+    if (seen > FAINTEST_SUN)
+        seen *= past_others(place, OWN_CROWN * tall * scale);
+    Light light = light_at(place, Sender(FACE, vec2(0.0), vec3(0.0, 1.0, 0.0), 1.0), 1.0, seen);
+    float open = sky_through(shading);
+    light.sky = light.sky * open * (0.5 + 0.5 * up) + from_below() * (mix(0.4, 1.0, open) * (0.5 - 0.5 * up));
+    light.sun *= tint * (1.0 - misty.a);
+    light.sky *= tint * (1.0 - misty.a);
+    light.haze = misty.rgb * misty.a;
+    return light;
+#endif
+}

@@ -1,0 +1,37 @@
+"""What shaders are told of each twig of a model, and how they find it."""
+
+import numpy as np
+
+from ...engine.gl.emit import emitted, looked_up
+
+TWIG = np.dtype(
+    [
+        ("foot", "3f4"), ("length", "f4"),  # [m]
+        ("along", "3f4"), ("limb", "f4"),  # what sets its limb apart from others, 0 to 1
+        ("face", "3f4"), ("hertz", "f4"),  # frequency of its limb
+        ("pivot", "3f4"), ("spare", "f4"),  # foot of its limb [m]
+        ("shading", "4f4"),  # how many leaves light meets on its way, by direction and in the mean
+    ]
+)  # fmt: skip
+
+ROW = 64
+"""Records in a row of their texture."""
+
+RANKS = 12.0
+"""How steeply a twig dwindles by its rank before it is left out: 1 would be over all ranks."""
+
+LEAST_KEPT = 0.04
+"""Share of twigs that is drawn at least."""
+
+LEAF_PIXELS = 4.0, 8.0
+"""Length of a leaf from which on twigs begin to be drawn leaf by leaf, and from which all are [pixels]."""
+
+SHOOTS_OFF, SHOOTS_LONG = 0.85, 0.62
+"""Angle of side shoots from their twig [rad]; length of the longest, of the twig's."""
+
+GLSL = looked_up("Twig", TWIG, "tree_twigs", ROW) + emitted(
+    {
+        "RANKS": RANKS, "LEAST_KEPT": LEAST_KEPT,
+        "SHOOTS_OFF": SHOOTS_OFF, "SHOOTS_LONG": SHOOTS_LONG,
+    }
+)  # fmt: skip

@@ -1,0 +1,174 @@
+// The twigs of trees. Each is a card that shows it, or with LEAVES all of its leaves; what is not a vertex buffer's is made out
+// from the vertex's number. With BAKED one is drawn as it will be read from a texture.
+#include "lib/random.glsl"
+#include "systems/trees/tree.glsl"
+#include "systems/trees/habit.py"
+#include "systems/trees/twig.py"
+
+uniform int form;         // of its leaves
+
+uniform int twigs;        // of its model
+uniform vec4 card;        // how far it reaches: left and right, from its foot back, and along [of a twig's usual length]
+uniform float usual;      // usual length of a twig [m]
+uniform int leaf_count;   // leaves of a twig
+uniform int shoots;       // of a twig: itself, and those on its sides
+uniform vec3 leaf_shape;  // length, half the greatest width, angle from the twig [of a twig's usual length; rad]
+#ifdef BAKED
+uniform mat4 baked;
+#endif
+
+out vec2 on;
+out vec3 facing;
+out vec3 seen_at;
+out vec3 sunlit;
+out vec3 skylit;
+out vec3 hazy;
+out vec4 inside;  // what leaves meet of light; or tone, and how far along
+flat out vec4 across_card; // which way the card's own x goes, in the world; its tone
+flat out vec3 along_card;
+
+const float GOLDEN = 2.3999632;  // angle from a leaf to the next around a twig [rad]
+const float STEM = 0.006;  // half the width of a shoot, of its twig's length
+const float STALK = 0.1;  // where the first leaf of a twig stands, of its length
+const float NODS = 0.35, TILTED = 0.6;  // how far leaves hang; how far they are turned about their stalks
+
+// Four numbers from 0 to 1 that a leaf of a twig has.
+vec4 random(int twig, int leaf, int number) {
+    uint one = hash3(twig, leaf, number);
+    return vec4(one & 255u, one >> 8u & 255u, one >> 16u & 255u, one >> 24u) / 255.0;
+}
+
+// A side shoot of a twig: sine and cosine of its angle; where it stands, and how long it is. The first is the twig itself.
+vec4 shoot_at(int twig, int shoot) {
+    if (shoot == 0)
+        return vec4(0.0, 1.0, 0.0, 1.0);
+    float part = float(shoot) / float(shoots), angle = (shoot % 2 == 0 ? -1.0 : 1.0) * SHOOTS_OFF * (0.8 + 0.4 * random(twig, shoot, 1).x);
+    return vec4(sin(angle), cos(angle), 0.62 * part, SHOOTS_LONG * (1.0 - 0.5 * part));
+}
+
+// A corner of one of a twig's leaves, in the axes of the twig: across, along and out of its face [of its usual length].
+vec3 leaf_corner(int twig, int leaf, vec2 corner, out vec3 normal) {
+    int shoot = leaf % shoots, order = leaf / shoots;
+    float part = (float(order) + 0.5) / float(max(leaf_count / shoots, 1)), side = order % 2 == 0 ? -1.0 : 1.0, around;
+    vec4 own = random(twig, leaf, 2);
+    around = form == NEEDLES ? GOLDEN * float(leaf) : (own.x - 0.5) * 1.4 + (side > 0.0 ? 0.0 : 3.1416);
+    float angle = leaf_shape.z * mix(1.1, 0.55, part) * (0.8 + 0.4 * own.y);
+    vec3 out_to = vec3(cos(around), 0.0, sin(around));
+    vec3 along = normalize(vec3(0.0, cos(angle), 0.0) + sin(angle) * out_to - vec3(0.0, 0.0, NODS * own.z));
+    vec3 flat_to = normalize(cross(along, vec3(0.0, 0.0, 1.0) + TILTED * (own.w - 0.5) * out_to.zyx));
+    if (form == NEEDLES)
+        flat_to = normalize(cross(along, out_to.zyx + 0.01));
+    normal = normalize(cross(flat_to, along));
+    if (normal.z < 0.0)
+        normal = -normal;
+    float size = 0.75 + 0.45 * fract(own.x + own.w);
+    // Side shoots of a twig stand on it to the left and right in turn, and their leaves on those.
+    vec4 stands = shoot_at(twig, shoot);
+    mat3 turned_aside = mat3(stands.y, -stands.x, 0.0, stands.x, stands.y, 0.0, 0.0, 0.0, 1.0);
+    along = turned_aside * along;
+    flat_to = turned_aside * flat_to;
+    vec3 foot = vec3(0.0, stands.z, 0.0) + turned_aside * vec3(0.0, stands.w * (STALK + (1.0 - STALK) * part), 0.0);
+    normal = turned_aside * normal;
+    return foot + size * (leaf_shape.x * (corner.y + 0.12) * along + leaf_shape.y * corner.x * flat_to);
+}
+
+// A corner of the stem of one of its shoots.
+vec3 stem_corner(int twig, int shoot, vec2 corner) {
+    vec4 stands = shoot_at(twig, shoot);
+    vec2 own = vec2(corner.x * STEM * (1.0 - 0.6 * corner.y) * (shoot == 0 ? 1.6 : 1.0), stands.w * corner.y);
+    return vec3(stands.y * own.x + stands.x * own.y, stands.z + stands.y * own.y - stands.x * own.x, 0.0);
+}
+
+void leave_out() {
+    gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+    on = vec2(0.0);
+    facing = seen_at = sunlit = skylit = hazy = along_card = vec3(0.0);
+    inside = across_card = vec4(0.0);
+}
+
+vec2 corner_of(int vertex) {
+    return vec2(vertex % 2 == 1 ? 1.0 : -1.0, vertex % 4 > 1 ? 1.0 : 0.0);
+}
+
+// How large a twig is drawn: 0 where it is left out.
+float size_of(float rank) {
+    float shown = min(keep * (1.0 - gone), 1.0) * foliage;
+    return clamp((shown - rank) * RANKS + 0.5, 0.0, 1.0) * inversesqrt(max(keep, LEAST_KEPT));
+}
+
+#ifndef BAKED
+uniform vec2 leaf_pixels; // length of a leaf from which on twigs begin to be drawn leaf by leaf, and from which all are [pixels]
+
+// The share of twigs at a place of its model whose leaves are drawn each by itself: where they are large enough.
+float leaf_by_leaf(vec3 own) {
+    float off = max(distance(eye, root + scale * turned(own)), 0.1);
+    float pixels = scale * usual * leaf_shape.x * pixels_a_metre() / off;
+    return clamp((pixels - leaf_pixels.x) / (leaf_pixels.y - leaf_pixels.x), 0.0, 1.0);
+}
+#endif
+
+void main() {
+    int number = gl_VertexID / 4, each = 1;
+#ifdef LEAVES
+    each = leaf_count + shoots;
+#endif
+    int twig = number / each, leaf = number % each;
+    Twig one = twig_of(twig);
+    vec4 chance = random(twig, 0, 3);
+    float rank = (float(twig) + 0.5) / float(twigs), size = size_of(rank);
+#ifdef BAKED
+#ifdef LEAVES
+    size = 1.0;
+    one = Twig(vec3(0.0), usual, vec3(0.0, 1.0, 0.0), 0.0, vec3(0.0, 0.0, 1.0), 1.0, vec3(0.0), 0.0, vec4(0.0));
+#endif
+#endif
+#ifdef BAKED
+    bool is_left = false;
+#elif defined(LEAVES)
+    bool is_left = chance.w >= leaf_by_leaf(one.foot);
+#else
+    bool is_left = chance.w < leaf_by_leaf(one.foot);
+#endif
+    if (size <= 0.0 || is_left) {
+        leave_out();
+        return;
+    }
+    vec2 corner = corner_of(gl_VertexID);
+    vec3 normal = vec3(0.0, 0.0, 1.0), shape;
+#ifdef LEAVES
+    bool is_stem = leaf >= leaf_count;
+    shape = is_stem ? stem_corner(twig, leaf - leaf_count, corner) : leaf_corner(twig, leaf, corner, normal);
+#else
+    shape = vec3(corner.x * card.x, mix(card.y, card.z, corner.y), 0.0);
+#endif
+    on = vec2(corner.x, corner.y);
+    vec3 aside = cross(one.along, one.face);
+    float length_of = size * one.length;
+    vec3 own = length_of * (shape.x * aside + shape.y * one.along + shape.z * one.face);
+    facing = normal.x * aside + normal.y * one.along + normal.z * one.face;
+#ifdef BAKED
+    seen_at = one.foot + own;
+    gl_Position = baked * vec4(seen_at, 1.0);
+    sunlit = skylit = hazy = vec3(0.0);
+#else
+    float hertz = mix(LEAF_HERTZ.x, LEAF_HERTZ.y, chance.x), turns = LEAF_TURNS * min(length(message), 1.0);
+    turns *= swing(hertz, chance.y + phase);
+    own += turns * shape.y * length_of * (0.4 * one.face + 0.25 * aside);
+    facing = normalize(turned(facing + turns * (aside + 0.5 * one.along)));
+    vec3 foot = swayed(one.foot, one.pivot, one.limb, one.hertz, message);
+    seen_at = foot + scale * turned(own);
+    Light light = light_in_crown(seen_at, one.shading, facing.y * sign(dot(facing, eye - seen_at)));
+    sunlit = light.sun;
+    skylit = light.sky;
+    hazy = light.haze;
+    gl_Position = clip * vec4(seen_at, 1.0);
+#endif
+    float fresh = 0.25 + 0.75 * random(twig, leaf, 4).x;
+#ifdef LEAVES
+    inside = vec4(fresh, is_stem ? 1.0 : 0.0, 0.0, 0.0);
+#else
+    inside = one.shading;
+#endif
+    along_card = turned(one.along);
+    across_card = vec4(turned(aside), 0.7 + 0.6 * chance.z);
+}

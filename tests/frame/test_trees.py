@@ -1,0 +1,153 @@
+"""Trees in the picture: near and far, in the wind, in the light, and gone when they are felled (F3, F5, F10)."""
+
+from collections.abc import Callable, Iterator
+
+import esper
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass import Pose, Prairie, Tree
+from tallgrass.engine.camera import Camera
+from tallgrass.systems.trees import standing
+from tallgrass.systems.trees.draw import TreePart
+from tallgrass.testing import Stage, little_prairie, looking, private_world
+
+SCENE = """\
+tallgrass: 2
+seed: 5
+terrain: { noise: flat, size: [80, 80] }
+grass: { turf: { height: [0.2, 0.3], width: 0.02, blades: 60 } }
+trees: { ash: { habit: birch, height: [9, 9] } }
+wind: [{ kind: breeze, strength: 0.5, speed: 4 }]
+light: { azimuth: 90, elevation: 40, haze: 1e6 }
+quality:
+  models: 1
+  blade_rings: [{ to: 1, segments: 2 }]
+  strip_rings: [{ to: 3, strips: 2, columns: 1, sections: 1, texel: 0.03 }]
+  carpet_to: 12
+  carpet: 32
+"""
+AHEAD = looking(0.0, 1.7, 12.0, pitch=14.0, view=57.0)
+DOWN = looking(0.0, 14.0, 14.0, pitch=-43.0, view=52.0)
+Picture = NDArray[np.float64]
+
+
+@pytest.fixture(scope="module")
+def stage(ctx: moderngl.Context) -> Stage:
+    return Stage(ctx, (160, 120))
+
+
+@pytest.fixture(scope="module")
+def prairie(ctx: moderngl.Context) -> Iterator[Prairie]:
+    with private_world(), little_prairie(scene=SCENE, ctx=ctx) as made:
+        yield made
+
+
+@pytest.fixture
+def plant(prairie: Prairie) -> Iterator[Callable[..., int]]:
+    """Plant a tree until the test is over."""
+    planted: list[int] = []
+
+    def one(x: float, z: float, **keys: float) -> int:
+        planted.append(esper.create_entity(Tree("ash", **{"height": 9.0, **keys}), Pose(x, z)))
+        return planted[-1]
+
+    del prairie
+    yield one
+    for entity in planted:
+        if esper.entity_exists(entity):
+            esper.delete_entity(entity, immediate=True)
+
+
+def shot(stage: Stage, prairie: Prairie, camera: Camera, viewer: str = "main") -> Picture:
+    stage.begin()
+    prairie.draw(*stage.matrices(camera), viewer=viewer)
+    return stage.read()
+
+
+def changed(one: Picture, other: Picture) -> float:
+    return float((np.abs(one - other).max(axis=-1) > 12.0).mean())
+
+
+def test_a_tree_stands_before_the_sky_and_is_gone_to_the_bit_once_it_is_felled(
+    stage: Stage, prairie: Prairie, plant: Callable[..., int]
+) -> None:
+    bare = shot(stage, prairie, AHEAD)
+    tree = plant(0.0, 0.0)
+    with_tree = shot(stage, prairie, AHEAD)
+    assert 0.05 < changed(bare, with_tree) < 0.6
+    sky, crown = bare[20:60, 60:100].mean(axis=(0, 1)), with_tree[20:60, 60:100].mean(axis=(0, 1))
+    assert crown[1] - crown[2] > sky[1] - sky[2] + 40.0  # green, where it was blue
+    esper.delete_entity(tree, immediate=True)
+    assert np.array_equal(shot(stage, prairie, AHEAD), bare)
+
+
+def test_it_writes_depth_where_it_hides_what_is_behind(
+    stage: Stage, prairie: Prairie, plant: Callable[..., int]
+) -> None:
+    plant(0.0, 0.0)
+    shot(stage, prairie, AHEAD)
+    near = stage.depth()[20:60, 60:100] < 1.0
+    assert near.mean() > 0.2
+
+
+def test_its_shadow_falls_away_from_the_sun_and_the_grass_below_is_darker(
+    stage: Stage, prairie: Prairie, plant: Callable[..., int]
+) -> None:
+    bare = shot(stage, prairie, DOWN)
+    plant(14.0, 0.0, height=12.0)  # to the right of the picture, where the sun stands
+    below = shot(stage, prairie, DOWN)
+    left, right = below[60:, :80].mean() / bare[60:, :80].mean(), below[60:, 80:].mean() / bare[60:, 80:].mean()
+    dark = (below / np.maximum(bare, 1.0)).mean(axis=-1)
+    assert (dark < 0.75).mean() > 0.02
+    assert min(left, right) < 0.99
+    assert (dark > 1.15).mean() < 0.01
+
+
+def test_far_off_it_looks_as_it_does_near_by(
+    stage: Stage, prairie: Prairie, plant: Callable[..., int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bare = shot(stage, prairie, AHEAD)
+    plant(0.0, 0.0)
+    seen = []
+    for gone in (1.0, 1e5):
+        monkeypatch.setattr(standing, "GONE", gone)
+        monkeypatch.setattr(standing, "BEGINS", 2.0 * gone)
+        seen.append(shot(stage, prairie, AHEAD))
+    near, far = seen
+    assert changed(near, far) > 0.01  # it is another representation
+    covers = [np.abs(each - bare).max(axis=-1) > 12.0 for each in (near, far)]
+    assert covers[1].mean() == pytest.approx(covers[0].mean(), rel=0.25)
+    both = covers[0] & covers[1]
+    light = [each[both].mean() for each in (near, far)]
+    assert light[1] == pytest.approx(light[0], rel=0.2)
+
+
+def test_it_sways_in_the_wind_and_stands_still_where_time_does(
+    stage: Stage, prairie: Prairie, plant: Callable[..., int]
+) -> None:
+    plant(0.0, 0.0)
+    before = shot(stage, prairie, AHEAD)
+    assert np.array_equal(shot(stage, prairie, AHEAD), before)
+    prairie.advance(0.4)
+    assert changed(before[:60], shot(stage, prairie, AHEAD)[:60]) > 0.01
+
+
+def test_bare_trees_have_bark_alone(stage: Stage, prairie: Prairie, plant: Callable[..., int]) -> None:
+    bare = shot(stage, prairie, AHEAD)
+    tree = plant(0.0, 0.0)
+    leafy = changed(bare, shot(stage, prairie, AHEAD))
+    esper.add_component(tree, Tree("ash", 9.0, foliage=0.0))
+    assert 0.0 < changed(bare, shot(stage, prairie, AHEAD)) < 0.6 * leafy
+
+
+def test_nothing_of_trees_is_made_in_a_scene_without_any(ctx: moderngl.Context, stage: Stage) -> None:
+    none = "\n".join(line for line in SCENE.splitlines() if not line.startswith("trees"))
+    with private_world(), little_prairie(scene=none, ctx=ctx) as without:
+        shot(stage, without, AHEAD)
+        assert without.painter is not None
+        assert "TREES" not in without.painter.block.defines
+        made = vars(without.painter.part(TreePart))
+        assert (made["_programs"], made["_shade"], made["_kinds"]) == (None, None, [])

@@ -1,0 +1,135 @@
+"""Where trees stand, and that they are entities (F3, S2)."""
+
+from collections.abc import Iterator
+
+import esper
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass import Pose, Prairie, Tree
+from tallgrass.engine.declared.tree import TreeKind
+from tallgrass.engine.terrain.record import Terrain
+from tallgrass.systems.features import one
+from tallgrass.systems.trees.feature import Trees
+from tallgrass.systems.trees.place import placed
+from tallgrass.testing import LITTLE, little_prairie, private_world
+
+FLAT = Terrain(np.zeros((201, 201), np.float32), 1.0)
+NOBODY = np.zeros((0, 2), np.float32)
+WOOD = LITTLE + "trees: { oak: { habit: oak, positions: [[0, 0], [9, 0], [0, 12]] } }\n"
+
+
+@pytest.fixture(autouse=True)
+def _world() -> Iterator[None]:
+    with private_world():
+        yield
+
+
+def nearest(place: NDArray[np.float32]) -> float:
+    apart = np.hypot(*(place[:, None] - place[None]).transpose(2, 0, 1))
+    np.fill_diagonal(apart, np.inf)
+    return float(apart.min())
+
+
+def kind(**keys: object) -> TreeKind:
+    return TreeKind.model_validate({"habit": "birch", **keys})
+
+
+def test_density_brings_about_as_many_as_it_says_and_none_too_near_to_another() -> None:
+    place = placed(kind(density=60.0, spacing=5.0), FLAT, None, NOBODY, seed=1)
+    assert 150 < len(place) < 260
+    assert nearest(place) >= 5.0
+    assert np.array_equal(place, placed(kind(density=60.0, spacing=5.0), FLAT, None, NOBODY, seed=1))
+    assert not np.array_equal(place[:5], placed(kind(density=60.0, spacing=5.0), FLAT, None, NOBODY, seed=2)[:5])
+
+
+def test_groves_leave_open_ground_between_them() -> None:
+    def empty(groves: float) -> int:
+        place = placed(kind(density=100.0, groves=groves, spacing=2.0), FLAT, None, NOBODY, seed=3)
+        cells = ((place + 100.0) / 20.0).astype(int)
+        return 100 - len({*map(tuple, cells.tolist())})
+
+    assert empty(1.0) > empty(0.0) + 15
+
+
+def test_a_row_has_trees_from_end_to_end_so_far_apart() -> None:
+    place = placed(kind(rows=[[[-40.0, 0.0], [40.0, 0.0]]], spacing=8.0), FLAT, None, NOBODY, seed=1)
+    assert place.tolist() == [[x, 0.0] for x in np.linspace(-40.0, 40.0, 11)]
+
+
+def test_nothing_stands_off_the_terrain_in_another_tree_on_cliffs_or_where_its_grass_does_not_grow() -> None:
+    outside = kind(positions=[[0.0, 0.0], [0.1, 0.0], [300.0, 0.0]])
+    assert placed(outside, FLAT, None, NOBODY, seed=1).tolist() == [[0.0, 0.0]]
+    sown = kind(density=60.0, spacing=4.0)
+    assert (placed(sown, FLAT, lambda at: (at[:, 0] > 0.0).astype(np.float32), NOBODY, seed=1)[:, 0] > 0.0).all()
+    steep = Terrain(np.tile(np.maximum(np.arange(201) - 100.0, 0.0), (201, 1)).astype(np.float32), 1.0)
+    assert (placed(sown, steep, None, NOBODY, seed=1)[:, 0] < 1.0).all()
+    taken = np.array([[20.0, 20.0]], np.float32)
+    assert np.hypot(*(placed(sown, FLAT, None, taken, seed=1) - taken).T).min() >= 2.0
+
+
+def standing(prairie: Prairie) -> list[list[float]]:
+    trees = one(Trees, prairie.features)
+    trees.step("main", time=0.0)
+    return sorted(np.round(trees.standing.rows["root"][:, ::2], 3).tolist())
+
+
+def test_trees_are_entities_that_a_game_reads_fells_moves_and_plants() -> None:
+    with little_prairie(scene=WOOD) as prairie:
+        found = {(pose.x, pose.z): entity for entity, (_, pose) in esper.get_components(Tree, Pose)}
+        assert standing(prairie) == [[0.0, 0.0], [0.0, 12.0], [9.0, 0.0]]
+        esper.delete_entity(found[9.0, 0.0], immediate=True)
+        esper.add_component(found[0.0, 0.0], Pose(2.0, 0.0))
+        esper.create_entity(Tree("oak", height=6.0), Pose(-9.0, 3.0))
+        assert standing(prairie) == [[-9.0, 3.0], [0.0, 12.0], [2.0, 0.0]]
+
+
+def test_a_state_says_which_are_felled_and_brings_others_back() -> None:
+    with little_prairie(scene=WOOD) as prairie:
+        whole = prairie.state()
+        (first, _), *_ = esper.get_component(Tree)
+        esper.delete_entity(first, immediate=True)
+        felled = prairie.state()
+        prairie.restore(whole)
+        assert len(standing(prairie)) == 3
+        prairie.restore(felled)
+        assert len(standing(prairie)) == 2
+        sapling = esper.create_entity(Tree("oak", height=2.0), Pose(5.0, 5.0))
+        planted = prairie.state()
+        esper.delete_entity(sapling, immediate=True)
+        prairie.restore(planted)
+        assert [5.0, 5.0] in standing(prairie)
+
+
+def test_a_scene_read_again_keeps_its_trees_unless_they_are_others() -> None:
+    with little_prairie(scene=WOOD) as prairie:
+        (first, _), *_ = esper.get_component(Tree)
+        esper.delete_entity(first, immediate=True)
+        values = prairie.scene.model_dump(mode="json")
+        prairie.reload(values | {"mixing": "weight"})
+        assert len(standing(prairie)) == 2
+        prairie.reload(values | {"trees": {"oak": {"habit": "oak", "positions": [[5.0, 5.0]]}}})
+        assert standing(prairie) == [[5.0, 5.0]]
+
+
+@pytest.mark.parametrize(
+    ("keys", "why"),
+    [
+        ({"height": 200.0}, "a tree is 0.5 to 60 m high, not 200.0"),
+        ({"height": float("nan")}, "a tree is 0.5 to 60 m high, not nan"),
+        ({"foliage": 2.0}, "a tree's foliage is from 0 to 1, not 2.0"),
+    ],
+)
+def test_what_is_no_tree_is_refused_in_a_sentence(keys: dict[str, float], why: str) -> None:
+    with pytest.raises(ValueError, match="a tree") as caught:
+        Tree("oak", **keys)
+    assert str(caught.value) == why
+
+
+@pytest.mark.parametrize(("scene", "why"), [(WOOD, "unknown tree 'fir'; there are oak"), (LITTLE, "declare it under")])
+def test_a_tree_of_no_kind_of_the_scene_is_refused_in_a_sentence(scene: str, why: str) -> None:
+    with little_prairie(scene=scene) as prairie:
+        esper.create_entity(Tree("fir"), Pose())
+        with pytest.raises(ValueError, match=why):
+            standing(prairie)
