@@ -139,8 +139,8 @@ class LampPart(Part):
         self._told: tuple[Sequence[Shade], Floats] = (), told_of(())
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
-        """Pretend that there are some."""
-        record["lamps_grid"] = record["shades_grid"] = 0.0, 0.0, 1.0, 1.0
+        """Pretend that there are lamps: what draws for shades is what draws for shadow maps."""
+        record["lamps_grid"] = 0.0, 0.0, 1.0, 1.0
 
     def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
         """Send those that reach what a viewer sees, lamps as bright as the picture is exposed."""

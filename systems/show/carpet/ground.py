@@ -251,7 +251,12 @@ class GroundPainter:
         self.covered = tuple(_Layer(each.program, self.streams[1], *self.grid) for each in self.bare)
         """The same, where carpet may lie."""
         self.under = both("under", heads, 1)
-        self.carpet = *both("carpet", known | usual | {"LAMPLESS": 1}, 2), layer("carpet", {**known, "TRODDEN": 1}, 2)
+        self.carpet = (
+            *both("carpet", known | usual | {"LAMPLESS": 1}, 2),
+            layer("carpet", known | usual, 2),
+            layer("carpet", {**known, "TRODDEN": 1}, 2),
+        )
+        """For what is usual, uncut and cut; for lamps beside that; and for all that there may be."""
         self.edged = (
             layer("ground", {**litter, "EDGED": 1}, 3),
             layer("under", {**heads, "EDGED": 1}, 4),
@@ -355,7 +360,7 @@ class GroundPainter:
     def draw_carpet(self, part: int = WHOLE) -> int:
         """Draw the carpet, or a part of it: its outlines let through what is behind; return the draw calls."""
         self.use()
-        even = self.carpet[2 if self._is_rare or self._is_lamplit or self.is_trodden else self._is_cut]
+        even = self.carpet[3 if self._is_rare or self.is_trodden else 2 if self._is_lamplit else self._is_cut]
         for carpet in (even, self.edged[2]):
             tell(carpet.program, "part", part)
         return even.draw() + self.edged[2].draw()
