@@ -15,3 +15,8 @@ class Sun:
 
     sky: tuple[float, float, float]
     """Radiance of a white, dull face that looks up, by the whole sky without the sun."""
+
+    candela: float
+    """Radiance of a white, dull face that is square to the light of a lamp of 1 cd and 1 m away [1/cd].
+
+    A `Lamp` gives a game's own things its candela times that, over the square of the distance."""

@@ -29,6 +29,7 @@ HOUSES = (  # x, z, yaw, width, depth, height
     (-27.0, -20.0, 0.8, 8.0, 6.0, 3.0), (-10.0, -42.0, -0.6, 7.0, 7.0, 3.2),
 )  # fmt: skip
 LAMPS, POST = ((3.6, 35.0), (-3.6, 17.0), (6.2, 8.0), (-5.0, -6.0), (-8.0, -27.0)), 3.4
+LANTERN, WARM = Lamp("#ffc98a", candela=120_000.0, range=24.0), np.array((1.5, 0.95, 0.5))
 WALL, ROOF, PANE, IRON, SAND, TURF = (
     np.array(color) for color in (
         (0.6, 0.54, 0.46), (0.22, 0.1, 0.07), (2.0, 1.2, 0.45), (0.05, 0.05, 0.06), (0.38, 0.31, 0.21),
@@ -49,7 +50,7 @@ in vec3 world, facing, paint;
 out vec4 pixel;
 uniform sampler2D shades;
 uniform mat4 seen_by_sun;
-uniform vec3 sun, sunlight, skylight, lamps[5];
+uniform vec3 sun, sunlight, skylight, lamplight, lamps[5];
 void main() {
     vec3 at = 0.5 + 0.5 * (seen_by_sun * vec4(world, 1.0)).xyz, light = skylight * (0.7 + 0.3 * facing.y);
     float lit = 0.0;
@@ -58,7 +59,7 @@ void main() {
     light += sunlight * lit * max(dot(facing, sun), 0.0);
     for (int lamp = 0; lamp < 5; lamp++) {
         vec3 way = lamps[lamp] - world;
-        light += vec3(1.0, 0.6, 0.28) * 4.0 * max(dot(facing, normalize(way)), 0.0) / (1.0 + dot(way, way));
+        light += lamplight * max(dot(facing, normalize(way)), 0.0) / (1.0 + dot(way, way));
     }
     pixel = vec4(sqrt(paint.r > 1.0 ? paint : paint * light), 1.0);
 }"""
@@ -112,7 +113,7 @@ class Game:
         x, z = np.meshgrid(np.linspace(-100.0, 100.0, 101), np.linspace(-100.0, 100.0, 101))
         grass = {"height": (0.3, 0.65), "width": 0.014, "root": "#46562a", "tip": "#b9b06a"}
         hollow = 0.5 * np.sin(0.06 * x) - 4.0 * np.cos(np.pi * np.clip(np.hypot(x, z) / 40.0 - 1.1, 0.0, 1.0))
-        light = {"azimuth": -75.0, "elevation": 5.0, "clouds": 0.35, "exposure": -0.8}
+        light = {"azimuth": -75.0, "elevation": 3.8, "clouds": 0.35, "exposure": -0.8}
         self.prairie = Prairie.load(
             {"tallgrass": 2, "terrain": {"heights": hollow, "cell": 2.0}, "grass": {"meadow": grass}, "light": light},
             preset="medium",
@@ -139,10 +140,11 @@ class Game:
             lamp = box(0.05, 0.0, POST, 0.05, IRON), box(0.14, POST - 0.15, POST + 0.2, 0.14, PANE)
             parts += [self.put(part, x, z) for part in lamp]
             bulbs.append((x, float(self.prairie.height_at([(x, z)])[0]) + POST, z))
-            esper.create_entity(Lamp("#ffc98a", candela=300.0, range=22.0), Pose(x, z, y=bulbs[-1][1]))
+            esper.create_entity(LANTERN, Pose(x, z, y=bulbs[-1][1]))
         sun = self.prairie.sun
         self.program["lamps"], self.program["sun"] = bulbs, sun.direction
         self.program["sunlight"], self.program["skylight"] = sun.colour, sun.sky
+        self.program["lamplight"] = tuple(WARM * LANTERN.candela * sun.candela)
         faces, colors = (np.concatenate(each) for each in zip(*parts, strict=True))
         normal = np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0])
         normal /= np.linalg.norm(normal, axis=1)[:, None]

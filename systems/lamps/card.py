@@ -1,7 +1,7 @@
 """Lamps and shades on the graphics card: the texture that `lib/listed.glsl` reads."""
 
 from collections.abc import Callable, Sequence
-from math import cos, pi, sin
+from math import cos, sin
 
 import moderngl
 import numpy as np
@@ -14,8 +14,7 @@ from ...components.shade import Shade
 from ..around.outlook import Outlook
 from ..frame.feature import Part
 from ..light.color import linear, luminance
-from ..light.daylight import LEAF
-from ..light.sky import SUN
+from ..light.daylight import LEAF, LUX
 from ..shadows.shades import fallen, told_of
 from ..space.frustum import beyond
 from .listed import ROOM, SIDE, Listed, listed
@@ -40,12 +39,6 @@ GLSL = {"LISTED_ROW": ROW, "CELLS_FROM": CELLS_FROM, "LISTS_FROM": LISTS_FROM, "
 AROUND = 1000.0
 """How far from the eye shadows of shades count, along x and z [m]."""
 
-SUNLIT = 133_300.0
-"""Illuminance that the sun gives before the air (Darula, Kittler and Gueymard, 2005) [lx]."""
-
-RADIANCE = SUN / pi * LEAF / SUNLIT
-"""Radiance of a white leaf that faces all ways, for each lux [1/lx]."""
-
 FADES = 2.0 / 3.0
 """The part of a cone's half angle from which on its light fades towards the edge."""
 
@@ -66,7 +59,7 @@ def stand(lamps: Sequence[Lit], /) -> Floats:
         slope = 0.0 if lamp.cone is None else 1.0 / max(inner - outer, 1e-6)
         flat = cos(lamp.pitch)
         row[0] = pose.x, pose.y, pose.z, lamp.range**-2
-        row[1, :3] = colour / max(float(luminance(colour)), 1e-3) * (lamp.candela * RADIANCE)
+        row[1, :3] = colour / max(float(luminance(colour)), 1e-3) * (lamp.candela * LUX * LEAF)
         row[1, 3] = slope
         row[2] = flat * sin(pose.yaw), sin(lamp.pitch), -flat * cos(pose.yaw), 1.0 - slope * inner
     return told

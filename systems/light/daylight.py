@@ -31,6 +31,12 @@ BOUNCED = 0.05
 LEAF = 0.80
 """What a leaf gets of the sun's light, on the mean over all that face it or not, of one square to it."""
 
+SUNLIT = 133_300.0
+"""Illuminance that the sun gives before the air (Darula, Kittler and Gueymard, 2005) [lx]."""
+
+LUX = SUN / pi / SUNLIT
+"""Radiance of a white, dull face for each lux, before the picture is exposed [1/lx]."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Daylight:

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from ...components.arrays import Doubles
 from ...components.sun import Sun
 from ...engine.declared.light import Light
-from .daylight import LEAF, Daylight, daylight_under
+from .daylight import LEAF, LUX, Daylight, daylight_under
 from .sky import PIECES, clear_air, clear_air_in_pieces
 from .sun import sun_at
 
@@ -43,7 +43,7 @@ class Shining:
         light = self.at(time)
         shines = self.daylight if light == self.light else daylight_under(light, self._clear)
         (red, green, blue), sky = (shines.sun / LEAF).tolist(), shines.down.tolist()
-        return Sun(shines.direction, (red, green, blue), (sky[0], sky[1], sky[2]))
+        return Sun(shines.direction, (red, green, blue), (sky[0], sky[1], sky[2]), LUX * shines.lamplight)
 
     def told_at(self, time: float, /) -> Light:
         """Return what is asked for at a time [s], with the sun where it stands, also where it follows from an hour."""

@@ -9,6 +9,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Doubles
 from ...components.shadow_map import ShadowMap, texture_number
 from ...engine.gl.functions import functions_of
 from ...engine.gl.guest import borrow, unturned_clip
@@ -58,10 +59,12 @@ class ShadowPart(Part):
 
     def __init__(self, ctx: moderngl.Context, shadows: Shadows) -> None:
         self._ctx, self._shadows, self._gl = ctx, shadows, functions_of(ctx)
-        self._sampler = ctx.sampler(
-            repeat_x=False, repeat_y=False, filter=(moderngl.LINEAR, moderngl.LINEAR), compare_func="<="
-        )
-        self._bound: list[ShadowMap] = []
+        self._samplers = [
+            ctx.sampler(repeat_x=False, repeat_y=False, filter=(moderngl.LINEAR, moderngl.LINEAR), compare_func=passes)
+            for passes in ("<=", ">=")
+        ]
+        self._bound: list[tuple[ShadowMap, bool]] = []
+        """Each with whether its depth is reversed."""
         self._told: set[int] = set()
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
@@ -71,9 +74,10 @@ class ShadowPart(Part):
     def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
         """Write where the maps lie, of those whose textures are there."""
         del outlook
-        self._bound = [each for each in self._shadows.maps if self._is_there(each)]
+        sun = np.asarray(record["sun"][0], np.float64)
+        self._bound = [(each, nears(each.matrix, sun)) for each in self._shadows.maps if self._is_there(each)]
         record["maps_shown"] = len(self._bound)
-        for into, each in zip(record["maps"][0], self._bound, strict=False):
+        for into, (each, _) in zip(record["maps"][0], self._bound, strict=False):
             into["clip_of"], into["bias"] = unturned_clip(each.matrix).T.reshape(16), each.bias
 
     def _is_there(self, given: ShadowMap) -> bool:
@@ -86,10 +90,18 @@ class ShadowPart(Part):
 
     def use(self) -> None:
         """Bind them for this frame."""
-        for unit, each in zip(BORROWED, self._bound, strict=False):
+        for unit, (each, is_reversed) in zip(BORROWED, self._bound, strict=False):
             borrow(unit, texture_number(each.texture))
-            self._sampler.use(unit)
+            self._samplers[is_reversed].use(unit)
 
     def release(self) -> None:
-        """Give the sampler back."""
-        self._sampler.release()
+        """Give the samplers back."""
+        for each in self._samplers:
+            each.release()
+
+
+def nears(matrix: Doubles, sun: Doubles, /) -> bool:
+    """Return whether depth grows toward the sun in a map of this matrix: so it does where depth is reversed."""
+    depth, far = matrix[2, :3] @ sun, matrix[3, :3] @ sun
+    middle = np.linalg.lstsq(matrix, np.array((0.0, 0.0, 0.5, 1.0)))[0] if far else np.array((0.0, 0.0, 0.0, 1.0))
+    return bool(depth * (matrix[3] @ middle) > far * (matrix[2] @ middle))

@@ -220,6 +220,21 @@ def test_a_texture_is_read_as_a_shadow_map_whatever_its_own_state_says_and_keeps
     assert (due - shaded).max() > 20.0
 
 
+def test_a_map_whose_depth_is_reversed_casts_the_same_shadow(
+    ctx: moderngl.Context, stage: Stage, prairies: dict[str, Prairie], box: ShadowMap
+) -> None:
+    prairie, turned = prairies["carpet"], np.diag([1.0, 1.0, -1.0, 1.0]) @ box.matrix
+    prairie.shadows([box])
+    due = stage.shot(prairie, CAMERA)
+    texture = ctx.depth_texture(box.texture.size)
+    texture.write((1.0 - np.frombuffer(box.texture.read(), np.float32)).tobytes())
+    prairie.shadows([ShadowMap(texture, turned, bias=0.0)])
+    assert np.abs(stage.shot(prairie, CAMERA) - due).max() <= 1.0
+    prairie.shadows([])
+    assert (stage.shot(prairie, CAMERA) != due).any()
+    texture.release()
+
+
 def test_maps_are_bound_where_a_host_has_textures_of_its_own_and_these_are_there_again(
     ctx: moderngl.Context, stage: Stage, prairies: dict[str, Prairie], box: ShadowMap
 ) -> None:
