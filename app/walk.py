@@ -1,5 +1,6 @@
 """`tallgrass walk`: a window to walk in, with a panel or without."""
 
+from ..engine.scene.read import read_scene
 from ..systems.prairie import Prairie
 from .display import need_display
 from .studio.progress import busy
@@ -17,15 +18,18 @@ def walk_in(
 ) -> None:
     """Open a window on a scene and return when it is closed: by the user, or after `seconds` by itself.
 
-    So many frames a second as `hold` says are held; with None what suits the machine, with 0 none. With `edit`, a panel
-    changes the scene. Raises `SceneError` where the scene is wrong, MachineError where no window can be opened, or no
-    panel.
+    So many frames a second as `hold` says are held; with None what suits the machine, with 0 none. Without a graphics
+    card a preset is `low` unless the take asks for another. With `edit`, a panel changes the scene. Raises `SceneError`
+    where the scene is wrong, MachineError where no window can be opened, or no panel.
     """
     if edit:
         from .edit.need import need_panel
 
         need_panel()
     need_display()
+    import moderngl
+
+    from .suited import suited_preset
     from .window import Walk, open_window
 
     kind = Walk
@@ -33,8 +37,13 @@ def walk_in(
         from .edit.window import EditWalk
 
         kind = EditWalk
+    scene = read_scene(take.scene).scene  # what is wrong with it is told before a window opens
+    window = open_window(take.size, fullscreen=fullscreen)
+    suited = None if edit or take.preset else suited_preset(scene, moderngl.create_context(require=330))
     with busy("growing the prairie"):
-        prairie = Prairie.load(take.scene, preset=take.preset)
-    walk = kind(open_window(take.size, fullscreen=fullscreen), prairie, take)
+        prairie = Prairie.load(take.scene, preset=take.preset or suited)
+    walk = kind(window, prairie, take)
+    if suited:
+        walk.tell(["F1 shows the keys", f"no graphics card draws: quality {suited}, unless --preset says another"])
     walk.hold(hold)
     walk.run(seconds)

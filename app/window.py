@@ -13,7 +13,6 @@ from pyglet.window import key
 
 from ..components.arrays import Floats
 from ..engine.camera import Camera, camera_at, projection_matrix, view_matrix
-from ..engine.gl.rasteriser import draws_in_software
 from ..engine.scene import SceneError
 from ..systems.overlay.layers import LAYERS, Layer
 from ..systems.overlay.overlay import Overlay
@@ -27,6 +26,7 @@ from .studio.offscreen import Offscreen
 from .studio.studio import about, written
 from .studio.take import Take
 from .studio.walker import Ground, Move, moved, settled, start, toggled, turned
+from .suited import suited_rate
 from .watch import Watch
 from .weather import Weather
 
@@ -54,9 +54,6 @@ LONGEST_STEP = 0.1
 
 RATE = 120
 """Most frames per second, where the display does not set the pace."""
-
-CARD_RATE, SOFTWARE_RATE = 60.0, 20.0
-"""Frames per second that are held, with a graphics card and without one."""
 
 OURS = 0.9
 """Part of a frame's time that the prairie may take; the rest is the window's."""
@@ -128,8 +125,7 @@ class Walk:
 
     def hold(self, rate: float | None = None) -> None:
         """Hold so many frames a second by drawing less; with None what suits the machine, with 0 none at all."""
-        suits = SOFTWARE_RATE if draws_in_software(self.ctx) else CARD_RATE
-        chosen = suits if rate is None else rate
+        chosen = suited_rate(self.ctx) if rate is None else rate
         self.prairie.governor.hold = OURS / chosen if chosen else None
 
     def run(self, seconds: float | None = None) -> None:

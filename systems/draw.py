@@ -25,4 +25,6 @@ class Draw:
             assert outlook.view is not None
             painter = self.painter()
             with self.governor.watching(painter, outlook.viewer.name) as fineness:
-                painter.draw(outlook.view, outlook.noted(Asked, Asked()), scale=fineness.scale)
+                assert painter.site is not None
+                scale = fineness.scale * painter.site.quality.pixels
+                painter.draw(outlook.view, outlook.noted(Asked, Asked()), scale=scale)

@@ -20,7 +20,7 @@ RUNG = log(2.0) / 6.0
 """How much less a rung takes than the one above it, as a logarithm, at most: as pixels are left out, two of whose
 sides shrink by a twelfth of an octave."""
 
-LADDER = ((12, 0), (12, 12), (18, 12))
+LADDER = ((8, 0), (8, 12), (18, 12))
 """How many twelfths of an octave of pixels are left out, and of distances, one by one from each pair to
 the next: pixels first, for they come and go at once, but not so many that grass is a blur before it is drawn in."""
 

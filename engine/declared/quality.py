@@ -66,6 +66,9 @@ class Quality(Declaration):
     carpet: int = Field(default=128, ge=8, le=1024)
     """Texels along a side of a carpet image."""
 
+    pixels: float = Field(default=1.0, ge=0.25, le=1.0)
+    """Pixels that are drawn, across and up, of those of the picture."""
+
     @model_validator(mode="after")
     def _rising_rings(self) -> "Quality":
         limits: list[tuple[int, tuple[str | int, ...]]] = [
@@ -82,7 +85,12 @@ class Quality(Declaration):
 
 
 def _quality(
-    blades: int, blade_rings: list[tuple[int, int]], strip_rings: list[tuple[int, int, int, int, float]], carpet_to: int
+    blades: int,
+    blade_rings: list[tuple[int, int]],
+    strip_rings: list[tuple[int, int, int, int, float]],
+    carpet_to: int,
+    *,
+    pixels: float = 1.0,
 ) -> Quality:
     return Quality(
         blades=blades,
@@ -92,13 +100,18 @@ def _quality(
             for to, strips, columns, sections, texel in strip_rings
         ],
         carpet_to=carpet_to,
+        pixels=pixels,
     )
 
 
+_LOW = 160, [(1, 3), (5, 3)], [(5, 7, 1, 2, 0.016), (5, 5, 1, 2, 0.01), (7, 5, 2, 2, 0.008), (12, 2, 1, 1, 0.01)], 32
+
+HALF = 0.7
+"""Part of the pixels, across and up, of which there are half as many."""
+
 PRESETS: dict[str, Quality] = {
-    "low": _quality(
-        160, [(1, 3), (5, 3)], [(5, 7, 1, 2, 0.016), (5, 5, 1, 2, 0.01), (7, 5, 2, 2, 0.008), (12, 2, 1, 1, 0.01)], 32
-    ),
+    "minimal": _quality(*_LOW, pixels=HALF),
+    "low": _quality(*_LOW),
     "medium": _quality(
         320, [(1, 4), (5, 4)], [(5, 9, 1, 2, 0.01), (5, 6, 1, 2, 0.008), (8, 4, 2, 3, 0.008), (16, 2, 1, 2, 0.012)], 36
     ),

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from tallgrass import testing
 from tallgrass.engine.camera import camera_at
+from tallgrass.engine.declared.quality import PRESETS
 from tallgrass.engine.gl.functions import Functions
 from tallgrass.engine.gl.stream import release_all
 from tallgrass.systems import govern
@@ -108,6 +109,16 @@ def test_n11_with_fewer_pixels_colours_and_depth_are_the_same_but_for_their_deta
     assert np.abs(held.mean(axis=1) - whole.mean(axis=1)).mean() < 3.0  # row by row, from sky to ground
     assert np.median(np.abs(depth - deep)) < 1e-3
     assert ((depth < 1.0) == (deep < 1.0)).mean() > 0.97
+
+
+def test_minimal_shows_what_low_does_with_half_the_pixels(stage: Stage, load: Load, at: At) -> None:
+    at(PRESETS["minimal"].pixels, 1.0)
+    held = shown(stage, load(preset="low"))[0]
+    at(1.0, 1.0)
+    whole, minimal = (shown(stage, load(preset=name))[0] for name in ("low", "minimal"))
+    np.testing.assert_array_equal(minimal, held)
+    assert np.abs(minimal - whole).max() > 0.0
+    assert PRESETS["minimal"].pixels ** 2 == pytest.approx(0.5, abs=0.02)
 
 
 @pytest.mark.parametrize("scale", [0.75, 0.5, 0.36])
