@@ -10,6 +10,7 @@ from pathlib import Path
 from tempfile import gettempdir
 from typing import Any
 
+import esper
 import numpy as np
 import pyglet
 from pyglet import gl
@@ -18,7 +19,7 @@ from pyglet.math import Mat4, Vec3
 from pyglet.model import MaterialGroup
 from pyglet.window import key
 
-from tallgrass import Footprint, Pose, Prairie
+from tallgrass import Footprint, Pose, Prairie, Shade
 
 SIZE, SAVED, UP = (960, 540), Path(gettempdir()) / "tallgrass-farm.bin", Vec3(0.0, 1.0, 0.0)
 FIELD, WIDTH, STUBBLE = 26.0, 2.4, 0.09  # half the field's side; how wide the mower cuts, and how high [m]
@@ -55,13 +56,14 @@ class Game:
         self.batch = pyglet.graphics.Batch()
         cube: Any = pyglet.model.Cube  # pyglet declares no types of its arguments
         self.parts = [cube(*size, color=color, batch=self.batch, program=shader) for _, size, color in PARTS]
-        self.pose = Pose(-FIELD + 5 * WIDTH, 8.0)
+        self.pose, self.shadow = Pose(-FIELD + 5 * WIDTH, 8.0), esper.create_entity()
         self.text = pyglet.text.Label("Up, left, right; P, S, L", 20, 20, font_size=14)
         self.keys = key.KeyStateHandler()
         self.window.push_handlers(self.keys, self.on_draw, self.on_key_press)
         for row in range(5):  # what has been mown in the morning
             x = -FIELD + row * WIDTH
-            self.prairie.cut(Footprint(radius=WIDTH / 2.0, length=2.0 * FIELD), STUBBLE, pose=Pose(x, 0.0))
+            height = STUBBLE * (1.0 + row % 2)  # every other swath stands higher: so one sees how it was mown
+            self.prairie.cut(Footprint(radius=WIDTH / 2.0, length=2.0 * FIELD), height, pose=Pose(x, 0.0))
         for place in range(-24, 7, 3):
             self.prairie.sow("poppy", Footprint(radius=1.5), 0.9, soft=1.0, pose=Pose(-8.0, float(place)))
 
@@ -72,6 +74,9 @@ class Game:
         way = 3.0 * dt * self.keys[key.UP]
         self.pose = Pose(self.pose.x + way * sin(yaw), self.pose.z - way * cos(yaw), yaw)
         self.prairie.cut(Footprint(radius=WIDTH / 2.0), STUBBLE, pose=self.pose)
+        middle = float(self.prairie.height_at([(self.pose.x, self.pose.z)])[0]) + 1.1
+        shade = Shade((self.pose.x, middle, self.pose.z), size=(1.7, 1.8, 2.6), yaw=self.pose.yaw)
+        esper.add_component(self.shadow, shade)
 
     def on_key_press(self, symbol: int, modifiers: int) -> None:
         """Sow, save or load."""
