@@ -275,6 +275,7 @@ class Painter:
             self.ctx.enable_only(moderngl.DEPTH_TEST)
             with colourless(target):
                 self.draw_calls += sum(painter.draw_deep() for painter in self.painters.values())
+                self.draw_calls += sum(part.cast(light) for part in self.parts)
 
     def hear(self, view: View) -> int:
         """Let all receivers that the last frame showed hear the winds once more; return the number of draw calls.

@@ -64,6 +64,11 @@ class Part:
         """Draw what is read in this frame, into framebuffers of its own; return the number of draw calls."""
         return 0
 
+    def cast(self, light: tuple[float, float, float], /) -> int:
+        """Write the depth of what stops light from a place [m] into a shadow map; return the number of draw calls."""
+        del light
+        return 0
+
     def draw_solid(self) -> int:
         """Draw what is opaque and writes depth; return the number of draw calls."""
         return 0

@@ -32,11 +32,11 @@ class ModelOnCard:
         self.vertices = ctx.buffer(model.vertices)
         self.triangles = ctx.buffer(np.ascontiguousarray(model.triangles))
         self.bare = Stream(ctx, SHOWN)
-        alone = np.zeros(1, SHOWN)
-        alone["keep"] = FEWER
-        alone["scale"] = alone["foliage"] = alone["tint"] = 1.0
-        alone["turn"] = 1.0, 0.0
-        self.bare.write(alone)
+        self._alone = np.zeros(1, SHOWN)
+        self._alone["keep"] = FEWER
+        self._alone["scale"] = self._alone["foliage"] = self._alone["tint"] = 1.0
+        self._alone["turn"] = 1.0, 0.0
+        self.bare.write(self._alone)
         self.streams = {
             name: Stream(ctx, SHOWN) for name in (WOOD, THICK, LEAVES, FAR, *(f"{NEAR}{n}" for n in range(GROUPS)))
         }
@@ -67,6 +67,13 @@ class ModelOnCard:
         self.streams[name].write(rows)
         share = float((rows["keep"] * (1.0 - rows["gone"]) * rows["foliage"]).max(initial=0.0))
         self.most[name] = min(int(len(self.model.twigs) * (share + 0.05)) + 1, len(self.model.twigs))
+
+    def rehearse(self) -> None:
+        """Have a tree to draw in every way that there is."""
+        for name, stream in self.streams.items():
+            if not stream.count:
+                stream.write(self._alone)
+                self.most[name] = 1
 
     def release(self) -> None:
         """Give everything back."""

@@ -39,7 +39,7 @@ class TreePart(Part):
         self._shade: ShadeMap | None = None
         self._outlook: Outlook | None = None
         self._numbers: dict[str, object] = {}
-        self._chosen = False
+        self._chosen = self._rehearses = False
         self._air: Heard | None = None
         self.every_leaf = False
         """Whether all trees are drawn leaf by leaf, as a reference has them."""
@@ -60,6 +60,11 @@ class TreePart(Part):
         self._forget()
         if self._kinds and self._shade is None:
             self._shade = ShadeMap(self._ctx)
+
+    def rehearse(self, record: NDArray[np.void], /) -> None:
+        """Pretend until the next frame that a tree of each model is drawn in every way that there is."""
+        del record
+        self._rehearses = True
 
     def _forget(self) -> None:
         if self._programs is not None:
@@ -99,6 +104,12 @@ class TreePart(Part):
         calls = self._shade.prepare(self._kinds, programs, self._standing(), self._numbers)
         self._chosen = self.every_leaf
         self._choose(self._standing(), self._outlook)
+        if self._rehearses:
+            self._rehearses = False
+            for kind in self._kinds:
+                for model in kind.models:
+                    model.rehearse()
+                    programs.array("cast", model.bare)
         return calls
 
     def _ready(self) -> Programs:
@@ -164,6 +175,11 @@ class TreePart(Part):
         if self._kinds and self._air is not None and self._chosen != self.every_leaf:
             self.prepare()
             self.breathe(self._air)
+        return self._draw(soft=False)
+
+    def cast(self, light: tuple[float, float, float], /) -> int:
+        """Write the depth of all that covers texels of a shadow map wholly."""
+        del light
         return self._draw(soft=False)
 
     def draw_soft(self) -> int:

@@ -93,6 +93,29 @@ def test_it_writes_depth_where_it_hides_what_is_behind(
     assert near.mean() > 0.2
 
 
+def test_it_is_in_a_games_own_shadow_map(stage: Stage, prairie: Prairie, plant: Callable[..., int]) -> None:
+    plant(0.0, 0.0)
+    shot(stage, prairie, AHEAD)
+    stage.begin()
+    prairie.draw_depth(*stage.matrices(looking(0.0, 30.0, 0.1, pitch=-89.0, view=40.0)))
+    over, beside = stage.depth()[50:70, 70:90], stage.depth()[:, :20]
+    assert over.min() < beside.min()
+
+
+def test_nothing_is_made_on_a_frame_once_a_game_has_prepared(ctx: moderngl.Context, stage: Stage) -> None:
+    with private_world(), little_prairie(scene=SCENE, ctx=ctx) as prepared:
+        stage.begin()
+        prepared.prepare()
+        assert prepared.painter is not None
+        programs = vars(prepared.painter.part(TreePart))["_programs"]
+        made = dict(vars(programs)["_programs"])
+        esper.create_entity(Tree("ash", height=9.0), Pose(0.0, 0.0))
+        esper.create_entity(Tree("ash", height=9.0), Pose(2.0, 10.0))
+        shot(stage, prepared, AHEAD)
+        assert vars(prepared.painter.part(TreePart))["_programs"] is programs
+        assert vars(programs)["_programs"] == made
+
+
 def test_its_shadow_falls_away_from_the_sun_and_the_grass_below_is_darker(
     stage: Stage, prairie: Prairie, plant: Callable[..., int]
 ) -> None:
