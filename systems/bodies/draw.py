@@ -1,6 +1,7 @@
 """Drawing what flies over the prairie: opaque, with a soft border along the outline."""
 
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from math import cos, sin
 
 import moderngl
@@ -13,6 +14,8 @@ from ...engine.gl.stream import Stream, attributes, release_all
 from ..frame.block import FrameBlock, joined
 from ..light.color import linear
 from .saucer import RADIUS, THICK, borders, saucer
+
+Axis = tuple[float, float, float]
 
 PLACED = np.dtype([("middle", "3f4"), ("right", "3f4"), ("up", "3f4"), ("back", "3f4")])
 """Where a body is [m], and its own axes in the world."""
@@ -32,17 +35,20 @@ def placed(bodies: Sequence[Body], /) -> NDArray[np.void]:
 
 def shade_of(body: Body, /) -> Shade:
     """Return what a body is to the sun."""
-    _, up, _ = axes(body)
-    return Shade(body.place, RADIUS, THICK, (float(up[0]), float(up[1]), float(up[2])))
+    return Shade(body.place, RADIUS, THICK, axes(body)[1])
 
 
-def axes(body: Body, /) -> NDArray[np.float64]:
-    """Return a body's right, up and back in the world, unit vectors, shape (3, 3)."""
+@lru_cache(maxsize=64)
+def axes(body: Body, /) -> tuple[Axis, Axis, Axis]:
+    """Return a body's right, up and back in the world, unit vectors."""
     c, s = cos(body.yaw), sin(body.yaw)
-    right, ahead, up = np.array([c, 0.0, s]), np.array([s, 0.0, -c]), np.array([0.0, 1.0, 0.0])
-    ahead, up = cos(body.nose) * ahead + sin(body.nose) * up, cos(body.nose) * up - sin(body.nose) * ahead
-    right, up = cos(body.bank) * right - sin(body.bank) * up, cos(body.bank) * up + sin(body.bank) * right
-    return np.stack([right, up, -ahead])
+    level, lifts, flat, tips = cos(body.nose), sin(body.nose), cos(body.bank), sin(body.bank)
+    up = -lifts * s, level, lifts * c  # before it banks
+    return (
+        (flat * c - tips * up[0], -tips * up[1], flat * s - tips * up[2]),
+        (flat * up[0] + tips * c, flat * up[1], flat * up[2] + tips * s),
+        (-level * s, -lifts, level * c),
+    )
 
 
 class _Layer:

@@ -60,7 +60,7 @@ def test_r4_the_jet_leaves_a_saucer_along_its_own_axis(yaw: float, nose: float, 
 
 @given(yaw=angles, nose=tilts, bank=tilts)
 def test_a_bodys_axes_are_right_handed_and_turn_as_their_angles_say(yaw: float, nose: float, bank: float) -> None:
-    turned = axes(Body((0.0, 0.0, 0.0), yaw, nose, bank))
+    turned = np.array(axes(Body((0.0, 0.0, 0.0), yaw, nose, bank)))
     np.testing.assert_allclose(turned @ turned.T, np.eye(3), atol=1e-12)
     np.testing.assert_allclose(np.cross(turned[0], turned[1]), turned[2], atol=1e-12)
     level_ahead = np.array([math.sin(yaw), 0.0, -math.cos(yaw)])
