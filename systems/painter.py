@@ -129,7 +129,7 @@ class Painter:
 
     def steps(self, site: Site) -> int:
         """Return how many steps `preparing` takes at most."""
-        return 2 * len(self.parts) + 11 + 3 * len(site.representations)
+        return 2 * len(self.parts) + 11 + sum(3 + each.programs for each in site.representations)
 
     def _making_ready(self, site: Site) -> Iterator[None]:
         """Make room and programs for whatever winds will blow."""
@@ -174,8 +174,9 @@ class Painter:
         )  # fmt: skip
         self.painters = {}
         for each in site.representations:
-            self.painters[each.name] = each.painter(canvas)
+            self.painters[each.name] = made = each.painter(canvas)
             yield
+            yield from made.making()
 
     def blade_painter(self, segments: int) -> BladePainter:
         """Return a painter of opaque blades with this many segments, in any order."""

@@ -1,7 +1,7 @@
 """What a representation of the grass is to everything that does not draw it itself."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Self
 
@@ -73,6 +73,10 @@ class Canvas:
 class RepresentationPainter(Part, ABC):
     """Everything that one GL context holds of a representation, and the drawing of it."""
 
+    def making(self) -> Iterator[None]:
+        """Make its programs, one at a time as drivers take long over each, before it draws."""
+        yield from ()
+
     @abstractmethod
     def receivers(self, outlook: Outlook, /) -> list[int]:
         """Return how many of its receivers are to hear the wind, pool by pool."""
@@ -130,6 +134,9 @@ class Representation(ABC):
 
     label: ClassVar[str]
     """What people call it."""
+
+    programs: ClassVar[int] = 0
+    """How many programs its painter makes one at a time."""
 
     color: ClassVar[Color]
     """What the overlay shows it in: a display colour of [0, 1]."""

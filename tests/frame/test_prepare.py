@@ -183,6 +183,17 @@ def test_it_may_come_before_the_first_frame_between_frames_and_twice(
     assert made == []
 
 
+def test_large_programs_are_made_one_a_step_for_a_loading_screen_to_go_on_between(load: Load, made: list[str]) -> None:
+    steps = []
+    made.clear()
+    for _ in load(LITTLE).preparing():
+        steps.append(made.count("program"))
+        made.clear()
+    assert sum(steps) > 50
+    assert steps.count(1) >= 20
+    assert max(steps) <= 12
+
+
 def test_a_scene_read_again_is_as_ready_as_before(stage: Stage, load: Load, camera: Aim, made: list[str]) -> None:
     prairie, aim = load(LITTLE), camera(0.0, 2.0, 20.0, pitch=-10)
     prairie.prepare()

@@ -1,6 +1,6 @@
 """Drawing the ground, and on it the 2D carpet: square tiles that grow coarser with distance."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import moderngl
 import numpy as np
@@ -232,43 +232,51 @@ class GroundPainter:
         corners, indices = _grid()
         self.grid = ctx.buffer(corners), ctx.buffer(indices)
         self.streams = tuple(Stream(ctx, TILE) for _ in range(5))
+        self.bare: list[_Layer] = []
+        self.covered: list[_Layer] = []
+        """The same, where carpet may lie."""
+        self.under: list[_Layer] = []
+        self.carpet: list[_Layer] = []
+        """For what is usual, uncut and cut; for lamps beside that; and for all that there may be."""
+        self.edged: list[_Layer] = []
+        """What is drawn where grass ends or is cut: ground, what lies under the carpet, and the carpet."""
+        self.casting: list[_Layer] = []
+        """The carpet in shadow maps: where it is even, and where grass ends or is cut."""
+        self.is_trodden = False
+        """Whether anybody treads the grass, or has: then pixels of the carpet ask for that, which costs."""
+        self._seed = seed
+
+    def making(self) -> Iterator[None]:
+        """Make its programs, one at a time, before it draws."""
+        ctx, growths = self._ctx, self.growths
         heads: Defines = {"HEADS": 1} if any_heads(growths) else {}
         litter: Defines = {"ANISOTROPIC": 1} if anisotropy(ctx) > 1.0 else {}
         stack = stack_for(ctx, image_count(growths))
         stacked: Defines = {"STACK": stack, "REPEATED": 1} if stack > 1 else {}
 
-        def layer(name: str, defines: Defines, stream: int) -> _Layer:
-            vertex, fragment = f"systems/show/carpet/{name}.vert", f"systems/show/carpet/{name}.frag"
-            made = joined(ctx, block, units, vertex, fragment, defines)
-            return _Layer(made, self.streams[stream], *self.grid)
-
-        def both(name: str, defines: Defines, stream: int) -> tuple[_Layer, _Layer]:
-            return layer(name, {**defines, "CUT": 0}, stream), layer(name, {**defines, "CUT": 1}, stream)
-
+        whole: Defines = {"CUT": 0}
+        cut: Defines = {"CUT": 1}
         usual: Defines = {"PLAIN": 1}
         known = heads | stacked | litter
-        self.bare = *both("ground", litter | usual, 0), layer("ground", litter, 0)
-        self.covered = tuple(_Layer(each.program, self.streams[1], *self.grid) for each in self.bare)
-        """The same, where carpet may lie."""
-        self.under = both("under", heads, 1)
-        self.carpet = (
-            *both("carpet", known | usual | {"LAMPLESS": 1}, 2),
-            layer("carpet", known | usual, 2),
-            layer("carpet", {**known, "TRODDEN": 1}, 2),
-        )
-        """For what is usual, uncut and cut; for lamps beside that; and for all that there may be."""
-        self.edged = (
-            layer("ground", {**litter, "EDGED": 1}, 3),
-            layer("under", {**heads, "EDGED": 1}, 4),
-            layer("carpet", {**known, "EDGED": 1, "TRODDEN": 1}, 4),
-        )
-        """What is drawn where grass ends or is cut: ground, what lies under the carpet, and the carpet."""
-        self.casting = layer("cast", {}, 2), layer("cast", {}, 4)
-        """The carpet in shadow maps: where it is even, and where grass ends or is cut."""
-        self.is_trodden = False
-        """Whether anybody treads the grass, or has: then pixels of the carpet ask for that, which costs."""
+        plain = known | usual | {"LAMPLESS": 1}
+        wanted: list[tuple[list[_Layer], int, str, Defines]] = [
+            *((self.bare, 0, "ground", litter | each) for each in (usual | whole, usual | cut, {})),
+            *((self.under, 1, "under", heads | each) for each in (whole, cut)),
+            *((self.carpet, 2, "carpet", each) for each in (plain | whole, plain | cut)),
+            *((self.carpet, 2, "carpet", known | each) for each in (usual, {"TRODDEN": 1})),
+            (self.edged, 3, "ground", litter | {"EDGED": 1}),
+            (self.edged, 4, "under", heads | {"EDGED": 1}),
+            (self.edged, 4, "carpet", known | {"EDGED": 1, "TRODDEN": 1}),
+            *((self.casting, stream, "cast", {}) for stream in (2, 4)),
+        ]
+        for among, stream, name, defines in wanted:
+            vertex, fragment = f"systems/show/carpet/{name}.vert", f"systems/show/carpet/{name}.frag"
+            made = joined(ctx, self._block, self.units, vertex, fragment, defines)
+            among.append(_Layer(made, self.streams[stream], *self.grid))
+            yield
+        self.covered += [_Layer(each.program, self.streams[1], *self.grid) for each in self.bare]
         for each in self._layers:
-            _tell(each, _of_images(growths, seed))
+            _tell(each, _of_images(growths, self._seed))
         if heads:
             self._tell("profile", np.concatenate([profile_of(growth) for growth in growths]).tolist())
         self.raise_carpet(RAISED, outline=OUTLINE)

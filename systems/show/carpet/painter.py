@@ -1,6 +1,6 @@
 """Painting the carpet, and the ground under everything."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 
 import moderngl
@@ -69,6 +69,10 @@ class CarpetPainter(RepresentationPainter):
         """Whether it writes depth only where it covers at least half a pixel."""
         self._heard: tuple[NDArray[np.int32], int, CarpetKept] | None = None
         self.ground = GroundPainter(canvas.ctx, canvas.block, growths, canvas.units, side=side, seed=canvas.seed)
+
+    def making(self) -> Iterator[None]:
+        """Make the programs of ground and carpet, one at a time."""
+        return self.ground.making()
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Draw on this ground from now on."""

@@ -1,6 +1,6 @@
 """Drawing 2.5D strips, back to front: those of all rings together."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import moderngl
 import numpy as np
@@ -63,9 +63,15 @@ class StripPainter:
         if stack > 1:
             whole["STACK"] = stack
         self._canvas, self._whole = canvas, whole
-        self.arrays = self._made(*_sorts({}, {"SHADED": 1}, {"SHADED": 1, "CUT": 1}), EDGED)
+        self.arrays: list[moderngl.VertexArray] = []
         self._deep: list[moderngl.VertexArray] = []
         """Those that write depth alone, once they are asked for."""
+
+    def making(self) -> Iterator[None]:
+        """Make its programs, one at a time, before it draws."""
+        for defines in (*_sorts({}, {"SHADED": 1}, {"SHADED": 1, "CUT": 1}), EDGED):
+            self.arrays += self._made(defines)
+            yield
 
     def _made(self, *special: dict[str, str | int]) -> list[moderngl.VertexArray]:
         """Return what draws strips as programs of these sorts do."""

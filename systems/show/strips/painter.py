@@ -1,6 +1,6 @@
 """Painting strips: all rings in one far-to-near order."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import accumulate
@@ -57,6 +57,10 @@ class StripsPainter(RepresentationPainter):
         self._gathered, self._ordered = Remembered[_Sent](), Remembered[Order]()
         self._strips: NDArray[np.uint32] | None = None
         """The strips that were sent last."""
+
+    def making(self) -> Iterator[None]:
+        """Make the programs of all sorts, one at a time."""
+        return self.strips.making()
 
     def make_ready(self, grown: Grown, /) -> None:
         """Make all that strips may come to need."""
