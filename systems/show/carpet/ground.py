@@ -253,7 +253,6 @@ class GroundPainter:
         litter: Defines = {"ANISOTROPIC": 1} if anisotropy(ctx) > 1.0 else {}
         stack = stack_for(ctx, image_count(growths))
         stacked: Defines = {"STACK": stack, "REPEATED": 1} if stack > 1 else {}
-
         whole: Defines = {"CUT": 0}
         cut: Defines = {"CUT": 1}
         usual: Defines = {"PLAIN": 1}
@@ -263,7 +262,8 @@ class GroundPainter:
             *((self.bare, 0, "ground", litter | each) for each in (usual | whole, usual | cut, {})),
             *((self.under, 1, "under", heads | each) for each in (whole, cut)),
             *((self.carpet, 2, "carpet", each) for each in (plain | whole, plain | cut)),
-            *((self.carpet, 2, "carpet", known | each) for each in (usual, {"TRODDEN": 1})),
+            (self.carpet, 2, "carpet", known | usual),
+            (self.carpet, 2, "carpet", known | {"TRODDEN": 1}),
             (self.edged, 3, "ground", litter | {"EDGED": 1}),
             (self.edged, 4, "under", heads | {"EDGED": 1}),
             (self.edged, 4, "carpet", known | {"EDGED": 1, "TRODDEN": 1}),
