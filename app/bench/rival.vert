@@ -16,6 +16,12 @@ out vec3 color;
 const float WAVE = 0.45;   // of the breeze [rad/m]
 const float CURL = 2.5;    // angle that a blade flat on the ground turns by [rad]
 const float ROUNDED = 0.35;
+const vec2 DRIFTS = vec2(0.6, 0.4);  // shares of two waves in how unevenly the breeze blows
+const vec2 SKEWED = vec2(0.2, -0.5);  // how much of each comes from the side
+const float SHORTER = 1.7;  // the second wave, of the first
+const vec2 BEAT = vec2(8.0, 6.0);  // of a blade's own swing, along x and z [rad/s]
+const vec2 APART_X = vec2(7.0, 0.0), APART_Z = vec2(3.0, 9.0);  // how fast that changes over the ground [rad/m]
+const float OWN = 0.25;  // how far it goes, of the breeze
 
 vec4 texel(sampler2D from, int number) {
     return texelFetch(from, ivec2(number % WIDTH, number / WIDTH), 0);
@@ -23,9 +29,9 @@ vec4 texel(sampler2D from, int number) {
 
 vec2 swayed(vec2 place) {
     float along = WAVE * (dot(place, breeze.xy) - speed * now), aside = dot(place, vec2(-breeze.y, breeze.x));
-    float drift = 0.6 * sin(along + 0.2 * aside) + 0.4 * sin(1.7 * along - 0.5 * aside);
-    vec2 own = vec2(sin(8.0 * now + 7.0 * place.x + 3.0 * place.y), sin(6.0 * now + 9.0 * place.y));
-    return (breeze.xy * (1.0 + breeze.w * drift) + 0.25 * own) * breeze.z;
+    float drift = dot(DRIFTS, sin(along * vec2(1.0, SHORTER) + aside * SKEWED));
+    vec2 own = sin(BEAT * now + APART_X * place.x + APART_Z * place.y);
+    return (breeze.xy * (1.0 + breeze.w * drift) + OWN * own) * breeze.z;
 }
 
 vec3 light(int k, float t, vec2 normal, vec3 place, float h, vec2 bent) {

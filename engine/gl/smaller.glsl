@@ -13,11 +13,13 @@ vec2 middle_of(vec2 place) {
     return (floor(place * size) + 0.5) * unit;
 }
 
-// Filtered up: by Catmull-Rom's cubic across, in 3 samples of 2 texels, and evenly up. Grass is lines that stand upright.
+const float CUBIC = 1.5;  // what Catmull-Rom's cubic is steepest by
+
+// Filtered up: by that cubic across, in 3 samples of 2 texels, and evenly up. Grass is lines that stand upright.
 vec4 sharp(vec2 place) {
     float middle = floor(place.x * size.x - 0.5) + 0.5, part = place.x * size.x - middle;
     float first = part * (-0.5 + part * (1.0 - 0.5 * part)), fourth = part * part * (-0.5 + 0.5 * part);
-    float third = part * (0.5 + part * (2.0 - 1.5 * part)), inner = 1.0 - first - fourth;
+    float third = part * (0.5 + part * (2.0 - CUBIC * part)), inner = 1.0 - first - fourth;
     vec3 across = vec3(middle - 1.0, middle + third / inner, middle + 2.0) * unit.x;
     vec4 sum = texture(picture, vec2(across.x, place.y)) * first
         + texture(picture, vec2(across.y, place.y)) * inner

@@ -11,8 +11,8 @@ from ...components.wind import Grass, TwinValues
 from ...engine.noise import PERIOD, noise_table, smooth_noise
 from .mean import MeanWind
 
-WAVE = 7.0
-"""Distance between the waves that travel over the field [m]."""
+WAVE, VEERS = 7.0, 0.7
+"""Distance between the waves that travel over the field [m]; how far they turn the wind at a gustiness of 1 [rad]."""
 
 
 class Breeze(MeanWind):
@@ -33,7 +33,7 @@ class Breeze(MeanWind):
         wave = smooth_noise(noise_table(seed, 0), place / np.float32(WAVE), shift=(-x / WAVE, -z / WAVE))
         drift = np.float32(self.gustiness) * (wave[:, 0] + np.float32(0.5) * wave[:, 1])
         index = np.clip(np.float32(self.strength) * (1 + drift), 0.0, 1.0)
-        angle = np.float32(heading) + np.float32(0.7 * self.gustiness) * wave[:, 2]
+        angle = np.float32(heading) + np.float32(VEERS * self.gustiness) * wave[:, 2]
         return np.stack([np.sin(angle) * index, -np.cos(angle) * index], axis=1).astype(np.float32)
 
     def twin_values(self, *, time: float, seed: int) -> TwinValues:

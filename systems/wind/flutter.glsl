@@ -1,6 +1,7 @@
 // Small oscillations of random direction and strength: the twin of systems/wind/flutter.py.
 
 const float RIPPLE = 0.45, APART = 1.5 * 3.14159265358979;
+const float LEAST_BEAT = 0.6;  // of a beat
 const int FLUTTER = 5;  // numbers that the frame's row has of it
 
 // The oscillations at a ground position, for a swing of 1.
@@ -9,5 +10,5 @@ vec2 flutter(vec2 place, Wind frame) {
     vec2 carried = vec2(value(frame, 3), value(frame, 4));
     vec4 ripple = smooth_noise(frame, 0, place / RIPPLE + carried);
     vec3 beat = sin(APART * ripple.xyz + turned);
-    return (0.6 + 0.4 * ripple.w) * vec2(beat.x + 0.5 * beat.z, beat.y);
+    return mix(LEAST_BEAT, 1.0, ripple.w) * vec2(beat.x + 0.5 * beat.z, beat.y);
 }

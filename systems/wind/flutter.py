@@ -20,6 +20,9 @@ No two have a common beat. What is carried along makes them 1.3, 0.8 and 2.1 tur
 APART = 1.5
 """Most half turns that a blade is ahead or behind: so many that the grass as a whole does not sway in step."""
 
+LEAST_BEAT = 0.6
+"""How strongly a blade swings where the noise is 0, and as much stronger or weaker as it lacks to 1."""
+
 CARRIED = 0.5
 """How fast the mean wind carries the oscillations along, as slow as air is among blades [m/s]."""
 
@@ -36,7 +39,7 @@ def flutter(place: Floats, /, *, time: float, seed: int, to: float = 0.0) -> Flo
     turn, carried = _turned(time), _carried(time, seed, to)
     ripple = smooth_noise(noise_table(seed, 1), place / np.float32(RIPPLE), shift=carried)
     beat = np.sin(np.float32(APART * np.pi) * ripple[:, :3] + np.array(turn, np.float32))
-    own = np.float32(0.6) + np.float32(0.4) * ripple[:, 3]
+    own = np.float32(LEAST_BEAT) + np.float32(1.0 - LEAST_BEAT) * ripple[:, 3]
     return np.stack([own * (beat[:, 0] + np.float32(0.5) * beat[:, 2]), own * beat[:, 1]], axis=1)
 
 

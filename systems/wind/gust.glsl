@@ -5,9 +5,12 @@ float mask(vec2 place, Gust gust) {
     return rim(place.x, -0.5 * gust.width, 0.5 * gust.width, gust.side) * rim(place.y, along.x, along.y, gust.end);
 }
 
+const vec2 BENDS = vec2(4.1, 1.7);  // of the front, from wave to wave [m], the second one lower
+const float LOWER = 0.6;
+
 float lag(float across, Gust gust) {
-    float wave = sin(across / 4.1 + gust.waves.x) + sin(across / 1.7 + gust.waves.y) * 0.6;
-    return gust.ragged * (0.5 + wave / 3.2);
+    float wave = dot(sin(across / BENDS + gust.waves), vec2(1.0, LOWER));
+    return gust.ragged * (0.5 + 0.5 * wave / (1.0 + LOWER));
 }
 
 vec2 action(vec2 place, Gust gust) {

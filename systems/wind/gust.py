@@ -19,6 +19,9 @@ from .shape import rim, rim_width
 LATEST = 36000.0
 """Repetitions come again after so long, and somewhat more [s]."""
 
+BENDS, LOWER = np.float32((4.1, 1.7)), np.float32(0.6)
+"""Of the ragged front: from wave to wave, of two [m], and how high the second is, of the first."""
+
 MOST_KEPT = 64
 """How many of a gust's repetitions are kept."""
 
@@ -171,8 +174,10 @@ class Gust(WindPrimitive):
     def _lag(self, across: Floats, seed: int) -> Floats:
         """Return how far parts of the front are behind, from 0 to `ragged` [m], shape (n,)."""
         first, second = (np.float32(phase) for phase in _phases(seed))
-        wave = np.sin(across / np.float32(4.1) + first) + np.sin(across / np.float32(1.7) + second) * np.float32(0.6)
-        return np.asarray(np.float32(self.ragged) * (np.float32(0.5) + wave / np.float32(3.2)), np.float32)
+        wave = np.sin(across / BENDS[0] + first) + np.sin(across / BENDS[1] + second) * LOWER
+        return np.asarray(
+            np.float32(self.ragged) * (np.float32(0.5) + np.float32(0.5) * wave / (np.float32(1.0) + LOWER)), np.float32
+        )
 
 
 @by_identity(most=256)

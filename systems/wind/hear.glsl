@@ -5,6 +5,8 @@ uniform sampler2DArray wind_sheets;  // tables that winds read
 uniform sampler2D wind_curves;       // a row for each kind of grass: index after a wind starts, after it stops; step [s]
 uniform sampler2D wind_told;         // what winds without a twin tell each receiver: message, weight
 
+const float FARTHEST_SENT = 1e12;  // square of the longest message that counts
+const float INSIDE = 0.001;  // of a step before the end of a curve, so that two of its places can be read
 const int HEAD = 4;  // texels before a row's numbers
 
 struct Wind {
@@ -26,7 +28,7 @@ vec4 sheet(Wind wind, int number, ivec2 at) {
 vec2 curve_at(Wind wind, float elapsed) {
     int last = textureSize(wind_curves, 0).x - 1;
     float stride = texelFetch(wind_curves, ivec2(0, wind.grass), 0).b;
-    float at = clamp(elapsed / stride, 0.0, float(last) - 0.001);
+    float at = clamp(elapsed / stride, 0.0, float(last) - INSIDE);
     vec2 low = texelFetch(wind_curves, ivec2(int(at), wind.grass), 0).rg;
     return mix(low, texelFetch(wind_curves, ivec2(int(at) + 1, wind.grass), 0).rg, fract(at));
 }
@@ -87,7 +89,7 @@ void lay(inout Claims claims, vec4 how, vec2 message, float share) {
 
 void lay_sent(inout Claims claims, Asked one, float weight, vec2 message) {
     // What is no number counts for nothing, as what is not above 0.
-    bool sent = one.held && weight > 0.0 && dot(message, message) < 1e12;
+    bool sent = one.held && weight > 0.0 && dot(message, message) < FARTHEST_SENT;
     float share = sent ? (claims.weighs ? min(weight, 1.0) : 1.0) * one.how.x : 0.0;
     float c = one.pose.z, s = one.pose.w;
     vec2 turned = vec2(c * message.x - s * message.y, s * message.x + c * message.y);

@@ -6,7 +6,7 @@ const int PERIOD = 128;
 // Shifts are reduced by the side before they come here.
 vec4 smooth_noise(Wind wind, int number, vec2 place, int side) {
     vec2 low = floor(place), part = place - low;
-    part = part * part * (3.0 - 2.0 * part);
+    part = smoothstep(0.0, 1.0, part);
     ivec2 corner = ivec2(low) & (side - 1), next = (corner + 1) & (side - 1);
     vec4 far = mix(sheet(wind, number, corner), sheet(wind, number, ivec2(next.x, corner.y)), part.x);
     vec4 near = mix(sheet(wind, number, ivec2(corner.x, next.y)), sheet(wind, number, next), part.x);

@@ -2,8 +2,7 @@
 
 // 0 below 0, 1 above 1, and a smooth step between.
 float eased(float value) {
-    float t = clamp(value, 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
+    return smoothstep(0.0, 1.0, value);
 }
 
 // 1 between two bounds, falling to 0 at each over `width` [m].

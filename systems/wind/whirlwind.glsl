@@ -1,6 +1,6 @@
 // The twin of systems/wind/whirlwind.py.
 
-const float EYE = 0.3, UNEVEN = 0.18;
+const float EYE = 0.3, UNEVEN = 0.18, FALLS = 0.85;
 
 float mask(vec2 place, Whirlwind whirl) {
     return rim(length(place), -whirl.radius, whirl.radius, whirl.side);
@@ -12,6 +12,6 @@ vec2 action(vec2 place, Whirlwind whirl) {
     // The cosine of twice the angle around, less the phase, whose cosine and sine come along.
     vec2 twice = vec2(out_there.x * out_there.x - out_there.y * out_there.y, 2.0 * out_there.x * out_there.y);
     float uneven = 1.0 - UNEVEN + UNEVEN * dot(twice, whirl.turned);
-    float index = whirl.strength * (1.0 - part * part * 0.85) * uneven * eased(away / EYE);
+    float index = whirl.strength * (1.0 - part * part * FALLS) * uneven * eased(away / EYE);
     return whirl.sign * index * vec2(-out_there.y, out_there.x);
 }

@@ -14,8 +14,8 @@ from .shape import rim, rim_width, smooth
 EYE = 0.3
 """Radius of the calm in the middle, where no direction is along a circle [m]."""
 
-LOBES, UNEVEN = 2, 0.18
-"""In how many places around its middle it is stronger, and by how much."""
+LOBES, UNEVEN, FALLS = 2, 0.18, 0.85
+"""In how many places around its middle it is stronger, by how much, and by how much it is weaker at its rim."""
 
 
 class Whirlwind(PlacedWind):
@@ -63,7 +63,7 @@ class Whirlwind(PlacedWind):
         x, z = place[:, 0], place[:, 1]
         away = np.asarray(np.maximum(np.sqrt(x * x + z * z), np.float32(1e-6)), np.float32)
         part = np.minimum(away / np.float32(self.radius), np.float32(1.0))
-        fall = np.float32(1.0) - part * part * np.float32(0.85)
+        fall = np.float32(1.0) - part * part * np.float32(FALLS)
         sign = np.float32(-1.0 if self.spin == "left" else 1.0)
         around = np.arctan2(z, x) * np.float32(LOBES) - np.float32(self._turned(time))
         uneven = np.float32(1.0 - UNEVEN) + np.float32(UNEVEN) * np.cos(around)

@@ -19,7 +19,7 @@ flip, begin, seen = pyglet.window.Window.flip, pyglet.window.Window.__init__, []
 
 
 def small(window, width, height, **more):
-    begin(window, width // 2, height // 2, **more)
+    begin(window, width // 4, height // 4, **more)
 
 
 def look(window):

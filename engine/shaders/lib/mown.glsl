@@ -21,7 +21,7 @@ float left_about(vec2 place, float side) {
     Plot plot = plot_at(place);
     if (plot.mown == 0 || !can_be_mown(place))
         return tallest_grass;
-    return tallest_grass * (255.0 / 65535.0) * dot(on_page(plot.mown, plot.cell, page_level(side)).rg, vec2(256.0, 1.0));
+    return tallest_grass * number_in(on_page(plot.mown, plot.cell, page_level(side)).rg) / TWO_BYTES;
 }
 
 float left_at(vec2 place) {

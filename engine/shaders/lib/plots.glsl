@@ -11,8 +11,16 @@ struct Plot {
     int sown;   // its first page of densities, four kinds on each; 0 where they are as painted
 };
 
+const float BYTE = 255.0;
+const float TWO_BYTES = BYTE * (BYTE + 2.0);  // the largest number in them
+
+// The number that two channels hold together, the upper byte first.
+float number_in(vec2 bytes) {
+    return BYTE * dot(bytes, vec2(BYTE + 1.0, 1.0));
+}
+
 int page_number(vec2 bytes) {
-    return int(255.0 * (256.0 * bytes.x + bytes.y) + 0.5);
+    return int(number_in(bytes) + 0.5);
 }
 
 Plot plot_at(vec2 place) {

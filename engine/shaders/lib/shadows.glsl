@@ -23,6 +23,7 @@ bool any_casters() {
 #endif
 }
 
+const int TAPS = 4;  // places where a map is read, at the corners of a square
 const float TAPS_APART = 0.75;  // how far from the middle a map is read, in its texels, across and up: so edges are soft
 const float MAP_EDGE = 2.0;  // texels along a map's edges that do not count: taps would go beyond
 
@@ -30,9 +31,9 @@ const float MAP_EDGE = 2.0;  // texels along a map's edges that do not count: ta
 float past_map(sampler2DShadow map, vec3 at) {
     vec2 apart = TAPS_APART / vec2(textureSize(map, 0));
     float seen = 0.0;
-    for (int tap = 0; tap < 4; tap++)
+    for (int tap = 0; tap < TAPS; tap++)
         seen += textureLod(map, vec3(at.xy + apart * vec2(tap % 2 * 2 - 1, tap / 2 * 2 - 1), at.z), 0.0);
-    return 0.25 * seen;
+    return seen / float(TAPS);
 }
 
 bool lies_in(sampler2DShadow map, vec3 at) {

@@ -179,13 +179,17 @@ Light plus(Light light, Light other, float part) {
                  light.gloss + part * other.gloss, light.way + part * other.way, light.leaves + part * other.leaves);
 }
 
-// A light as it goes from stage to stage, with three numbers beside it in `[3].xyz`.
-mat4 bundled(Light light, vec3 beside) {
-    return mat4(vec4(light.sun, light.leaves.x), vec4(light.sky, light.leaves.y), vec4(light.haze, light.gloss), vec4(beside, light.way));
+// A light as it goes from stage to stage, with three numbers beside it.
+mat4 bundled(Light light, vec3 more) {
+    return mat4(vec4(light.sun, light.leaves.x), vec4(light.sky, light.leaves.y), vec4(light.haze, light.gloss), vec4(more, light.way));
 }
 
 Light unbundled(mat4 light) {
     return Light(light[0].rgb, light[1].rgb, light[2].rgb, light[2].w, light[3].w, vec2(light[0].w, light[1].w));
+}
+
+vec3 told_beside(mat4 light) {
+    return light[3].xyz;
 }
 
 // The radiance that a surface sends to the eye in some light.

@@ -58,7 +58,7 @@ float profile(float t, float taper, float segments) {
     float narrower = kinds[int(joints.z)].narrowed;
     if (t > AT_TIP) {
         float blunt = pow(segments, -taper) * max((1.0 - taper) / (1.0 + taper), 0.0);
-        return narrower < 0.0 ? blunt : min(blunt, POINTED * distance(foot.xyz, eye) / max(length(lie_of.zw), 1e-5));
+        return narrower < 0.0 ? blunt : min(blunt, POINTED * distance(foot.xyz, eye) / max(length(lie_of.zw), 1e-6));
     }
     float waist = max(narrower, 0.0) * min(WIDENS * segments, 1.0);
     return pow(max(1.0 - t, 0.0), taper) * (1.0 - waist * max(1.0 - t / WIDENS, 0.0));
@@ -218,9 +218,15 @@ void main() {
 #endif
     float high_up = stands.x + spine.place.y * stands.y;
     Light reaches = unbundled(lit);
+<<<<<<< HEAD
     if (any_casters())
         reaches = shaded(reaches, past_casters(point.place), 1.0 - fract(joints.z));
     vec3 pigment = mix(low.rgb, high.rgb, t), light = shade(leaf_at(pigment * (1.0 + side * lit[3].xyz), high_up), reaches);
+=======
+    if (any_maps())
+        reaches = shaded(reaches, past_maps(point.place), 1.0 - fract(joints.z));
+    vec3 pigment = mix(low.rgb, high.rgb, t), light = shade(leaf_at(pigment * (1.0 + side * told_beside(lit)), high_up), reaches);
+>>>>>>> 8ff85f60 (Name the shaders' numbers, and hold that they have names)
 #ifdef FOLDS
     bool is_folded = is_blade(int(stands.z)) && kinds[k].apart > 0.0 && kinds[k].narrowed > 0.0;
     keel = is_folded ? side * (shown_of(light) - shown_of(shade(leaf_at(pigment, high_up), reaches))) : vec3(0.0);

@@ -74,7 +74,7 @@ void work_out(float slope) {}
 
 // The light on what is met, and how that is bent: as the mesh has it, or as it is trodden.
 Canopy canopy_here(Sight sight) {
-    Canopy canopy = Canopy(unbundled(lit), lit[3].xyz, vec2(0.0));
+    Canopy canopy = Canopy(unbundled(lit), told_beside(lit), vec2(0.0));
 #ifdef EDGED
     ByKind grows = grows_at(place.xz);
     canopy.light.leaves = vec2(0.0);

@@ -93,6 +93,7 @@ float enters(Way way, out bool aside) {
     return at;
 }
 
+const float NEARLY_HALF = 0.49;  // of a step: so the last place looked at is still above the ground
 const float PARTS = 6.0;  // places looked at on the way through grass, up to where it comes out
 const float LEAVES_ENOUGH = 3.0;  // leaves that a line of sight meets until nothing is seen behind them
 
@@ -105,7 +106,7 @@ float hidden_behind(Way way, float at, bool aside, ByKind area, float left) {
         float there = at + step * (part - 0.5), met = (leaves_above(min(over_ground(way, there), left), area) - before) / slope;
         if (met > LEAVES_ENOUGH)
             return 1.0;
-        there += 0.49 * step;
+        there += NEARLY_HALF * step;
         if (below_top(way, there) < 0.0)  // over a crest, outlines say how much is hidden
             return over_ground(way, there) > way.high ? 1.0 : 1.0 - through_leaves(max(met, 0.0));
     }

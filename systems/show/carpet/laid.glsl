@@ -58,10 +58,12 @@ vec2 rising_at(vec2 at) {
 }
 
 #ifdef EDGED
+const int ABOUT = 5;  // a corner of the mesh, and halfway to its neighbours before, behind and beside it
+
 // The grass of a corner of the mesh, where pixels see how much of it there is: the densest about.
 ByKind densest_about(vec2 place) {
     ByKind densest = all_kinds(0.0);
-    for (int number = 0; number < 5; number++) {
+    for (int number = 0; number < ABOUT; number++) {
         vec2 way = number == 0 ? vec2(0.0) : number < 3 ? vec2(0.0, spaced) : vec2(spaced, 0.0);
         ByKind grows = grows_at(place + (number % 2 == 0 ? way : -way));
         if (total(grows) > total(densest))

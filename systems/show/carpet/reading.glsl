@@ -34,6 +34,8 @@ struct Patch {
     vec3 blown;  // how far its leaves are moved that the wind bends [m], and how high they stand, of their height at rest
 };
 
+const uint UPPER_HALF = 16u;  // of what is drawn: where the lower one draws the model, it draws the heading
+
 // It is one wind for all of a patch: images that are sheared here and there otherwise would curl.
 vec3 blown_on(ivec2 cell, ByKind met) {
     vec2 message = message_at((vec2(cell) + 0.5) * patch_side);
@@ -48,7 +50,7 @@ vec3 blown_on(ivec2 cell, ByKind met) {
 Patch patch_at(vec2 at, ByKind met) {
     ivec2 cell = ivec2(floor(at / patch_side));
     uint drawn = hash3(stock.y, cell.x, cell.y);
-    return Patch(cell, int(drawn % uint(stock.x)), int(drawn >> 16u) & (HEADINGS - 1), blown_on(cell, met));
+    return Patch(cell, int(drawn % uint(stock.x)), int(drawn >> UPPER_HALF) & (HEADINGS - 1), blown_on(cell, met));
 }
 
 // The rotation that turns the line of sight into the heading of the images that are taken: of four headings, one on each

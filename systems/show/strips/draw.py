@@ -15,7 +15,7 @@ from ....engine.gl.stream import release_all
 from ...frame.block import by_kind, joined
 from ..hearing import Hearing
 from ..representation import Canvas
-from .gather import STOOD
+from .gather import LIES_AHEAD, OF_RING, RUNS_ALONG, STOOD
 from .grow import Strips
 from .textures import Atlas, extent_texture, strip_texture
 
@@ -25,7 +25,9 @@ STOOD_ROW, STRIPS_ROW = 64, 1024
 READY_ROWS = 256
 """Rows of both that there is room for once a game has prepared."""
 
-GLSL = looked_up("Stood", STOOD, "stood", STOOD_ROW) + emitted({"STRIPS_ROW": STRIPS_ROW})
+GLSL = looked_up("Stood", STOOD, "stood", STOOD_ROW) + emitted(
+    {"STRIPS_ROW": STRIPS_ROW, "RUNS_ALONG": RUNS_ALONG, "LIES_AHEAD": LIES_AHEAD, "OF_RING": OF_RING}
+)
 
 EDGED: dict[str, str | int] = {"SHADED": 1, "CUT": 1, "THIN": 1, "EDGED": 1}
 """What the program is told that draws grass whose density has edges, whatever else there is: it is the last."""

@@ -9,6 +9,10 @@ from ...around.appearance import Appearance, handed_over
 from ...around.patches import PatchTable
 from .shown import StripsOfRing
 
+RUNS_ALONG, LIES_AHEAD, OF_RING = 4, 8, 16
+"""What `stand` of a record has besides the patch's quarter turns: where strips run along z, where the patch lies
+ahead of the viewer along the axis that they are stacked on, and for each ring."""
+
 MOST_DRAWS = 8
 """Draws of strips in a frame at most."""
 
@@ -26,9 +30,9 @@ STOOD = np.dtype(
 """A patch with strips: its cell and model, how its strips stand, how much they show, and how high they are, of their
 full height; which of their blades show, and its first receiver.
 
-`stand` is the patch's quarter turns, plus 4 where strips run along z, plus 8 where the patch lies ahead of the viewer
-along the axis that they are stacked on, plus 16 times the ring. The blades that show are those whose rank is below
-`ranks`, or where that is negative those whose rank is not below -`ranks`. The shader reads two texels."""
+`stand` is the patch's quarter turns, with `RUNS_ALONG`, `LIES_AHEAD` and `OF_RING`. The blades that show are those
+whose rank is below `ranks`, or where that is negative those whose rank is not below -`ranks`. The shader reads two
+texels."""
 
 
 def lies_ahead(cell: NDArray[np.int32], centre: NDArray[np.int32], along: NDArray[np.int32], /) -> NDArray[np.bool_]:
@@ -59,8 +63,8 @@ def gather_strips(
     cell = patches.cell.take(rows, axis=0)
     stood = np.zeros(len(rows), STOOD)
     stood["cell"], stood["model"] = cell, patches.model.take(rows)
-    stand = np.repeat(16 * np.arange(len(rings), dtype=np.int32), counts)
-    stand += patches.turn.take(rows) + 4 * along + 8 * lies_ahead(cell, centre, along)
+    stand = np.repeat(OF_RING * np.arange(len(rings), dtype=np.int32), counts)
+    stand += patches.turn.take(rows) + RUNS_ALONG * along + LIES_AHEAD * lies_ahead(cell, centre, along)
     stood["stand"] = stand
     stood["fade"] = fades * handed_over(appears.handed.take(rows), fade=fade)[1]
     stood["growth"] = appears.growth.take(rows)
@@ -89,7 +93,7 @@ def polygon_strips(
     """
     kinds = present.shape[1]
     stand = stood["stand"][patch].astype(np.int64)
-    strips, columns = np.array(fineness, np.int64).take(stand >> 4, axis=0).T
+    strips, columns = np.array(fineness, np.int64).take(stand // OF_RING, axis=0).T
     amount = strips * columns * kinds
     start = np.cumsum(amount) - amount
     numbers = np.arange(amount.sum(), dtype=np.uint32)
@@ -99,7 +103,7 @@ def polygon_strips(
     index = np.repeat(np.arange(len(patch)), amount)
     own = numbers - patch[index] * most
     strip, turn = np.divmod(own // columns[index], kinds)
-    ahead = stand[index] // 8 % 2 == 1
+    ahead = stand[index] // LIES_AHEAD % 2 == 1
     drawn = present[index, (turn + np.where(ahead, strips[index] - 1 - strip, strip)) % kinds]
     return numbers[drawn], np.bincount(index[drawn], minlength=len(patch))
 

@@ -14,7 +14,7 @@ void main() {
         return;
     }
     Stood stood = stood_of(of_ring.y + number / (KINDS * count * edges));
-    int stand = int(stood.stand), turn = stand % 4, along = stand / 4 % 2, own = (along + turn) % 2;
+    int stand = int(stood.stand), turn = stand % 4, along = stand / RUNS_ALONG % 2, own = (along + turn) % 2;
     int k = number / (count * edges) % KINDS, plane = stacked(number / edges % count, count, own, along, turn);
     told = told_at(edge_foot(stood.cell, turn, own, plane, count, number % edges, edges - 1, OF(margin, k)), k, number);
 }

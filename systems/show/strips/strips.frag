@@ -43,8 +43,9 @@ float left_of(float top) {
 #endif
 
 void main() {
-    vec4 texel = layer_at(atlas, vec3(on.xy, lit[3].x), lit[3].y);
-    float covered = foot.a * min(texel.a * lit[3].z, 1.0);
+    float layer = told_beside(lit).x, level = told_beside(lit).y, boosts = told_beside(lit).z;
+    vec4 texel = layer_at(atlas, vec3(on.xy, layer), level);
+    float covered = foot.a * min(texel.a * boosts, 1.0);
     if (covered < FAINT) {
 #ifdef DEEP
         discard;
@@ -75,7 +76,7 @@ void main() {
     vec3 grass = shown_of(shade(leaf_at(pigment, on.w), light));
 #endif
 #ifdef THIN
-    float rank = layer_at(ranks, vec3(on.xy, lit[3].x), lit[3].y).r / max(texel.a, LEAST_PAINT);
+    float rank = layer_at(ranks, vec3(on.xy, layer), level).r / max(texel.a, LEAST_PAINT);
 #ifdef EDGED
     covered *= grown(rank);
 #else
@@ -84,7 +85,7 @@ void main() {
     covered *= clamp(grain_cos.a * rank + grain_sin.a, 0.0, 1.0);
 #endif
 #ifdef DEEP
-    if (covered < least_cover(number, clamp(lit[3].y - WHOLE_TEXELS, 0.0, 1.0)))
+    if (covered < least_cover(number, clamp(level - WHOLE_TEXELS, 0.0, 1.0)))
         discard;
 #endif
     pixel = vec4(grass, 1.0) * (covered < FAINT ? 0.0 : covered);

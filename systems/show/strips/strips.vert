@@ -57,10 +57,10 @@ struct Edge {
 Column column_of(int number) {
     Column column;
     column.stood = stood_of(number / most);
-    int stand = int(column.stood.stand), along = stand / 4 % 2;
-    bool is_ahead = stand / 8 % 2 == 1;
+    int stand = int(column.stood.stand), along = stand / RUNS_ALONG % 2;
+    bool is_ahead = stand / LIES_AHEAD % 2 == 1;
     column.turn = stand % 4;
-    column.ring = stand / 16;
+    column.ring = stand / OF_RING;
     column.own = (along + column.turn) % 2;
     ivec4 fine = stacks[column.ring];
     int own_number = number % most, walked = own_number / fine.x / KINDS, count = fine.z;

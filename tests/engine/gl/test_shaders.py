@@ -1,5 +1,6 @@
 """Programs composed from shader files, and messages that lead back to them."""
 
+import re
 import sys
 from collections.abc import Iterator
 from importlib.resources import files
@@ -172,3 +173,41 @@ def test_lines_that_are_handed_in_stand_in_place_of_a_file(library: dict[str, li
     source, lines = compose("plain.vert", made={"a.glsl": [("mine.glsl", 7, "float b = 2.0;")]})
     assert "float a" not in source
     assert locate("0:2: error: x", lines) == "mine.glsl:7: error: x"
+
+
+PLAIN_NUMBER = re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+|\d+)(?:e[-+]?\d+)?u?(?![\w.])")
+OWN_TABLE = "engine/shaders/lib/random.glsl"
+"""Its numbers are those of the hash, and tests hold them bit for bit against `engine/random.py`."""
+
+SHADERS = [
+    path.relative_to(ROOT).as_posix()
+    for folder in ("app", "engine", "systems")
+    for ending in ("glsl", "vert", "frag")
+    for path in sorted((ROOT / folder).rglob(f"*.{ending}"))
+]
+
+
+def unnamed(line: str) -> list[str]:
+    """Which numbers of a line have no name and would need one.
+
+    0, 1, 2 and a half need none, nor up to 4 what counts components of vectors, nor what keeps a divisor from 0.
+    """
+    code = line.partition("//")[0]
+    if re.match(r"\s*(const\b|#|layout)", code):
+        return []
+    guards = {"1e-3", "1e-4", "1e-6", "1e-9"}
+    numbers = PLAIN_NUMBER.findall(code)
+    plain = {"0.0", "0.5", "1.0", "2.0", "0", "1", "2", "3", "4", "0u", "1u"}
+    return [number for number in numbers if number not in plain | guards]
+
+
+@pytest.mark.parametrize("name", [name for name in SHADERS if name != OWN_TABLE])
+def test_every_number_of_a_shader_has_a_name(name: str) -> None:
+    lines = (ROOT / name).read_text("utf-8").splitlines()
+    assert {number: found for number, line in enumerate(lines, 1) if (found := unnamed(line))} == {}
+
+
+def test_a_number_without_a_name_is_found() -> None:
+    assert unnamed("    float left = 0.35 * right + max(far, 1e-6) + side[3].x; // 0.7") == ["0.35"]
+    assert unnamed("    int upper = number >> 16 & 255;") == ["16", "255"]
+    assert unnamed("const float SOFT = 0.35;") == unnamed("    vec3 color_12 = 0.5 * shade;") == []
