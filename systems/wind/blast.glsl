@@ -1,6 +1,6 @@
 // The twin of systems/wind/blast.py; its sheet is the field of systems/wind/outline.py.
 
-const float PULSE = 0.14, RINGS = 1.5, SOFT = 0.45, TURN = 6.28318530717959;
+const float PULSE = 0.14, AT_ONCE = 1.5, SOFT_RIM = 0.45, TURN = 6.28318530717959;
 
 // Depth inside the outline [m], and the direction outwards.
 vec3 outline_at(vec2 place, Blast blast) {
@@ -22,6 +22,6 @@ float mask(vec2 place, Blast blast) {
 vec2 action(vec2 place, Blast blast) {
     vec3 found = outline_at(place, blast);
     float outer = 1.0 - clamp(found.x / blast.deepest, 0.0, 1.0);
-    float pulse = sin(TURN * (RINGS * outer - blast.turn));
-    return found.yz * blast.mean * (1.0 + PULSE * pulse) * eased((1.0 - outer) / SOFT);
+    float pulse = sin(TURN * (AT_ONCE * outer - blast.turn));
+    return found.yz * blast.mean * (1.0 + PULSE * pulse) * eased((1.0 - outer) / SOFT_RIM);
 }

@@ -18,10 +18,10 @@ from .outline import FINE, Outline, outline_of_picture, outline_of_polygon, poly
 from .placed import PlacedWind
 from .shape import smooth
 
-BEAT, PULSE, RINGS = 2.2, 0.14, 1.5
+BEAT, PULSE, AT_ONCE = 2.2, 0.14, 1.5
 """How often rings run outwards through a blast [1/s], by how much they change its index, how many there are at once."""
 
-SOFT = 0.45
+SOFT_RIM = 0.45
 """The part of the way in from its outline over which it grows to its strength."""
 
 
@@ -123,9 +123,9 @@ class Blast(PlacedWind):
         depth, outward = outline.at(place)
         out = np.float32(1.0) - np.clip(depth / np.float32(outline.deepest), 0.0, 1.0)
         turn = np.float32(np.mod(BEAT * time, 1.0))
-        pulse = np.sin(np.float32(2.0 * np.pi) * (np.float32(RINGS) * out - turn))
+        pulse = np.sin(np.float32(2.0 * np.pi) * (np.float32(AT_ONCE) * out - turn))
         index = np.float32(self.strength / (1.0 + PULSE)) * (1 + np.float32(PULSE) * pulse)
-        index *= smooth((1 - out) / np.float32(SOFT))
+        index *= smooth((1 - out) / np.float32(SOFT_RIM))
         return np.asarray(outward * index[:, None], np.float32)
 
     def twin_values(self, *, time: float, seed: int) -> TwinValues:
