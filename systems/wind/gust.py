@@ -19,7 +19,7 @@ from .shape import rim, rim_width
 LATEST = 36000.0
 """Repetitions come again after so long, and somewhat more [s]."""
 
-BENDS, LOWER = np.float32((4.1, 1.7)), np.float32(0.6)
+BENDS, LOWER = np.array((4.1, 1.7), np.float32), np.float32(0.6)
 """Of the ragged front: from wave to wave, of two [m], and how high the second is, of the first."""
 
 MOST_KEPT = 64
