@@ -34,7 +34,16 @@ LISTS_FROM = CELLS_FROM + SIDE * SIDE // (4 * ROW)
 ROWS = LISTS_FROM + ROOM // (16 * ROW)
 """Its rows for lamps; shades have as many below."""
 
-GLSL = {"LISTED_ROW": ROW, "CELLS_FROM": CELLS_FROM, "LISTS_FROM": LISTS_FROM, "SHADES_FROM": ROWS}
+COUNT_BITS = 9
+"""Bits of a cell's word that count its list; those above tell where it begins."""
+
+GLSL = {
+    "COUNT_BITS": COUNT_BITS,
+    "LISTED_ROW": ROW,
+    "CELLS_FROM": CELLS_FROM,
+    "LISTS_FROM": LISTS_FROM,
+    "SHADES_FROM": ROWS,
+}
 
 AROUND = 1000.0
 """How far from the eye shadows of shades count, along x and z [m]."""
@@ -110,7 +119,7 @@ def texels(told: Floats, lists: Listed, /) -> NDArray[np.uint32]:
     used = LISTS_FROM + -(-len(lists.things) // (16 * ROW))
     rows = np.zeros((used, ROW, 4), np.uint32)
     rows[:CELLS_FROM, : len(told)] = told.transpose(1, 0, 2).view(np.uint32)
-    rows[CELLS_FROM:LISTS_FROM].reshape(-1)[: len(lists.first)] = lists.first << 9 | lists.count
+    rows[CELLS_FROM:LISTS_FROM].reshape(-1)[: len(lists.first)] = lists.first << COUNT_BITS | lists.count
     rows[LISTS_FROM:].reshape(-1).view(np.uint8)[: len(lists.things)] = lists.things
     return rows
 
