@@ -218,15 +218,9 @@ void main() {
 #endif
     float high_up = stands.x + spine.place.y * stands.y;
     Light reaches = unbundled(lit);
-<<<<<<< HEAD
     if (any_casters())
         reaches = shaded(reaches, past_casters(point.place), 1.0 - fract(joints.z));
-    vec3 pigment = mix(low.rgb, high.rgb, t), light = shade(leaf_at(pigment * (1.0 + side * lit[3].xyz), high_up), reaches);
-=======
-    if (any_maps())
-        reaches = shaded(reaches, past_maps(point.place), 1.0 - fract(joints.z));
     vec3 pigment = mix(low.rgb, high.rgb, t), light = shade(leaf_at(pigment * (1.0 + side * told_beside(lit)), high_up), reaches);
->>>>>>> 8ff85f60 (Name the shaders' numbers, and hold that they have names)
 #ifdef FOLDS
     bool is_folded = is_blade(int(stands.z)) && kinds[k].apart > 0.0 && kinds[k].narrowed > 0.0;
     keel = is_folded ? side * (shown_of(light) - shown_of(shade(leaf_at(pigment, high_up), reaches))) : vec3(0.0);
