@@ -23,7 +23,7 @@ RANKS = 12.0
 LEAST_KEPT = 0.04
 """Share of twigs that is drawn at least."""
 
-LEAF_PIXELS = 4.0, 8.0
+LEAF_PIXELS = 9.0, 14.0
 """Length of a leaf from which on twigs begin to be drawn leaf by leaf, and from which all are [pixels]."""
 
 SHOOTS_OFF, SHOOTS_LONG = 0.85, 0.62
