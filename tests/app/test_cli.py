@@ -70,7 +70,7 @@ def test_the_version_is_told(capsys: pytest.CaptureFixture[str]) -> None:
         ("shot -o a.png --time nan", "'--time'"),
         ("shot -o a.png --time inf", "'--time'"),
         ("shot -o a.png --time soon", "'--time'"),
-        ("shot -o a.png --preset best", "'best' is not one of 'low', 'medium', 'high'"),
+        ("shot -o a.png --preset best", "'best' is not one of 'minimal', 'low', 'medium', 'high'"),
         ("shot -o a.png --lod grass", "'grass' is not one of 'auto', 'blades'"),
         ("shot -o a.png --overlay mask", "--overlay: 'mask' is no part of the overlay; there are masks, arrows,"),
         ("shot -o a.png --overlay all --reference", "--overlay: a reference has no levels of detail"),
