@@ -49,7 +49,7 @@ def test_a_bad_time_is_refused_in_a_sentence_and_no_wind_is_blamed_for_it(prairi
 @pytest.mark.parametrize(
     ("option", "sentence"),
     [
-        ({"preset": "hgih"}, r"^unknown preset 'hgih'; there are low, medium, high, "),
+        ({"preset": "hgih"}, r"^unknown preset 'hgih'; there are minimal, low, medium, high, "),
         ({"lod": "voxels"}, r"^unknown representation 'voxels'; there are auto, blades, strips, carpet$"),
     ],
 )
