@@ -197,9 +197,6 @@ def test_d2_released_the_world_is_empty_again_and_the_games_own_entities_are_the
     assert sorted(esper.get_entities()) == theirs
 
 
-# ---- A few entities at a time --------------------------------------------------------------------
-
-
 def test_d2_in_one_frame_at_most_a_batch_of_patches_become_entities_the_nearest_first(world: World) -> None:
     tiled = Tiled(world, side=33)
     patches, made = tiled.patches, []
