@@ -24,6 +24,13 @@ Aim = Callable[..., Camera]
 FLAT = LITTLE.replace("scale: 4", "scale: 0")
 LAWN = FLAT.replace("short: { height: [0.2, 0.4]", "short: { height: [0.5, 0.9]").replace("blades: 60", "blades: 400")
 
+MEADOW = """\
+tallgrass: 2
+terrain: { noise: flat, size: [100, 100] }
+grass: { lawn: { height: [0.25, 0.5] } }
+light: { azimuth: 130, elevation: 40 }
+quality: low
+"""
 ALL = Footprint(radius=90.0)
 KEPT = ["blades", "strips", "carpet", "auto"]
 
@@ -53,6 +60,30 @@ def test_f4_only_what_lies_under_the_footprint_is_cut(stage: Stage, load: Load, 
     away = np.hypot(*np.moveaxis(stage.ground(aim) - (2.0, 0.0), -1, 0))
     assert changed[away < 1.5].mean() > 0.4
     assert changed[away > 4.0].mean() < 6e-4, "but for single pixels in which strips are as near as the carpet"
+
+
+def test_f4_cuts_and_ways_in_low_grass_show_from_above(stage: Stage, load: Load, camera: Aim) -> None:
+    prairie, aim = load(MEADOW), camera(0.0, 14.0, 0.0, pitch=-90, view=40)
+    before = stage.shot(prairie, aim)
+    prairie.cut(Footprint(radius=1.5), 0.05, pose=Pose(-2.5, 0.0))
+    entity = esper.create_entity(Presser(radius=1.0, length=3.0), Pose(2.5, 0.0))
+    prairie.advance(0.5)
+    changed = (stage.shot(prairie, aim) - before).mean(axis=2)
+    esper.delete_entity(entity, immediate=True)
+    place = stage.ground(aim)
+    cut, way = (np.hypot(*np.moveaxis(place - (x, 0.0), -1, 0)) < 0.7 for x in (-2.5, 2.5))
+    assert changed[cut].mean() > 7.0
+    assert changed[way].mean() < -5.0
+    prairie.release()
+
+
+def test_g2_without_low_leaves_the_ground_is_what_the_scene_says(stage: Stage, load: Load, camera: Aim) -> None:
+    prairie, aim = load(MEADOW.replace("0.5] }", "0.5], understorey: 0 }")), camera(0.0, 6.0, 0.0, pitch=-60)
+    prairie.cut(ALL, 0.0)
+    cut = stage.shot(prairie, aim)
+    prairie.clear(ALL)
+    np.testing.assert_allclose(cut.mean(axis=(0, 1)), stage.shot(prairie, aim).mean(axis=(0, 1)), atol=2.0)
+    prairie.release()
 
 
 @pytest.mark.parametrize("height", [0.08, 0.3])

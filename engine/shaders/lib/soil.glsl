@@ -4,6 +4,7 @@
 const float LITTER_MEAN = 255.0 / float(LITTER_ONE);  // what stands for ground as bright as its mean
 const float FALLEN_TIPPED = 0.3;  // how much of the colour of tips what has fallen has, of a kind that shows it as grass does
 const float LITTER = 0.75;  // how much of the ground under dense grass is covered by what has fallen
+const float LITTER_FROM = 4.0;  // where low leaves cover less than a part of it, what has fallen does so, too: with none, the ground is bare
 const float BLACKEST = 0.02;  // pigment that counts at least, for what is told of another by it
 const float COARSEST = 16.0;  // level at which a texture is its mean, or its last
 
@@ -15,10 +16,12 @@ vec3 soil_pigment(Lie lies, ByKind grows) {
         return vec3(1.0);
 #endif
     ByKind tipped;
-    for (int kind = 0; kind < KINDS; kind++)
+    float covers = 0.0;
+    for (int kind = 0; kind < KINDS; kind++) {
         OF(tipped, kind) = FALLEN_TIPPED * kinds[kind].bloom * kinds[kind].bloom;
-    vec3 fallen = low_pigment(grows, tipped);
-    return mix(soil, mix(soil, fallen, LITTER), min(total(grows), 1.0)) * stretch(lies.slow);
+        covers += OF(grows, kind) * min(OF(understorey, kind) * LITTER_FROM, 1.0);
+    }
+    return mix(soil, low_pigment(grows, tipped), LITTER * min(covers, 1.0)) * stretch(lies.slow);
 }
 
 // The pigment of the understorey's leaves, of that of the ground between; 1 where there are none.

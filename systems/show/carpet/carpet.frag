@@ -159,7 +159,7 @@ void main() {
     float slope = viewing_slope(rise, place), left = left_seen(place.xz), ahead = rises_ahead(place.xz, tall);
     work_out(slope);
 #endif
-    vec3 pigment = pigment_lying(place.xz, through_leaves(dense / max(slope, LOWEST)), lush);
+    vec3 pigment = pigment_lying(place.xz, through_leaves(dense / max(slope, LOWEST)), lush, left);
     vec3 ground = met_at(0.0, slope);
     vec3 soil_light = soil_between(Soil(soil_seen, sunlit, skylit, soil_way), ground, left);
     vec3 color = shown_of(soil_light * pigment * pigment + lit[2].rgb);

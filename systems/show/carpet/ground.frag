@@ -25,8 +25,8 @@ void main() {
 #else
     Soil soil = Soil(soil_seen, sunlit, skylit, soil_way);
 #endif
-    vec3 pigment = pigment_lying(place.xz, 1.0, lush);
     float left = left_seen(place.xz);
+    vec3 pigment = pigment_lying(place.xz, 1.0, lush, left);
     vec3 ground = soil_between(soil, place, left);
     pixel = vec4(shown_of(ground * pigment * pigment + haze), 1.0);
     if (is_hole(place.xz))

@@ -256,17 +256,18 @@ class GroundPainter:
         whole: Defines = {"CUT": 0}
         cut: Defines = {"CUT": 1}
         usual: Defines = {"PLAIN": 1}
+        trodden: Defines = {"TRODDEN": 1}
         known = heads | stacked | litter
         plain = known | usual | {"LAMPLESS": 1}
         wanted: list[tuple[list[_Layer], int, str, Defines]] = [
-            *((self.bare, 0, "ground", litter | each) for each in (usual | whole, usual | cut, {})),
+            *((self.bare, 0, "ground", litter | each) for each in (usual | whole, usual | cut, trodden)),
             *((self.under, 1, "under", heads | each) for each in (whole, cut)),
             *((self.carpet, 2, "carpet", each) for each in (plain | whole, plain | cut)),
             (self.carpet, 2, "carpet", known | usual),
-            (self.carpet, 2, "carpet", known | {"TRODDEN": 1}),
-            (self.edged, 3, "ground", litter | {"EDGED": 1}),
+            (self.carpet, 2, "carpet", known | trodden),
+            (self.edged, 3, "ground", litter | trodden | {"EDGED": 1}),
             (self.edged, 4, "under", heads | {"EDGED": 1}),
-            (self.edged, 4, "carpet", known | {"EDGED": 1, "TRODDEN": 1}),
+            (self.edged, 4, "carpet", known | trodden | {"EDGED": 1}),
             *((self.casting, stream, "cast", {}) for stream in (2, 4)),
         ]
         for among, stream, name, defines in wanted:
@@ -351,7 +352,7 @@ class GroundPainter:
     def draw_bare(self, *, alone: bool) -> int:
         """Draw the bare ground, where it comes `alone` that of the carpet too; return the number of draw calls."""
         self.use()
-        rare = 2 if self._is_rare else self._is_cut
+        rare = 2 if self._is_rare or self.is_trodden else self._is_cut
         calls = self.bare[rare].draw() + self.edged[0].draw()
         if alone:
             covered = self.covered[rare]

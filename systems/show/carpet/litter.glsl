@@ -2,6 +2,9 @@
 #include "lib/random.glsl"
 #include "lib/soil.glsl"
 #include "systems/show/carpet/footprint.glsl"
+#ifdef TRODDEN
+#include "systems/press/press.glsl"
+#endif
 
 const float LITTER_SHARPER = 0.4;  // how much finer texels are than what is read, in levels: filtering takes grain away
 const int HALF_OF_BITS = 65536;
@@ -48,11 +51,34 @@ vec2 lying_seen(vec2 at, float bare) {
 }
 #endif
 
-// The pigment of what lies there, of that of the ground between low leaves; or that of a game's own ground.
-vec3 pigment_lying(vec2 at, float bare, vec3 lush) {
+const float LOW_LEAVES = 0.08;  // height that low leaves come to [m]: what is cut lower takes of them, too
+const float TRODDEN_AWAY = 0.8;  // how many of them are hidden where grass lies flat: the ground between comes out
+const float STUBS_FROM = 0.25;  // height [m] below which what a cut leaves shows more of the stubs, which are pale
+const float PALER = 0.3;  // how much brighter their pigment is
+
+// How far grass lies there that is trodden, of the posture index: the most of any kind.
+float lies_at(vec2 at) {
+    float most = 0.0;
+#ifdef TRODDEN
+    if (trodden_at(at)) for (int kind = 0; kind < KINDS; kind++)
+        most = max(most, length(pressing(at, kind)));
+#endif
+    return min(most, 1.0);
+}
+
+// What becomes of what lies there where grass is left to stand so high [m] and is trodden: how bright its pigment is, of what
+// it was, and how much is left of low leaves.
+vec2 after(float left, vec2 at) {
+    float low = min(left / LOW_LEAVES, 1.0);
+    return vec2(1.0 + PALER * low * max(1.0 - left / STUBS_FROM, 0.0), low * (1.0 - TRODDEN_AWAY * lies_at(at)));
+}
+
+// The pigment of what lies there, of that of the ground between low leaves, where grass is left to stand so high [m]; or that of
+// a game's own ground.
+vec3 pigment_lying(vec2 at, float bare, vec3 lush, float left) {
 #ifndef PLAIN
     if (earth_side != 0.0)
         return earth_pigment(texture(earth, on_earth(at)));
 #endif
-    return lying_pigment(lying_seen(at, bare), lush);
+    return lying_pigment(lying_seen(at, bare) * after(left, at), lush);
 }
