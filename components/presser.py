@@ -19,8 +19,14 @@ class Presser(Footprint):
     strength: float = 1.0
     """The length of the message in its middle, in [0, 1]: 1 lays grass of stiffness 1 flat."""
 
+    wear: float = 0.0
+    """How much of the grass it wears off where it goes, each time, in [0, 1]: a few hundredths, and a path comes out
+    where many walk. At least 1/255 of it goes where it is not 0. What is worn off stays so until it is sown again."""
+
     def __post_init__(self) -> None:
         """Raise ValueError for what is no footprint."""
         Footprint.__post_init__(self)  # a class with slots is made twice, and `super()` means the first one
         if not is_between(0.0, self.strength, 1.0):
             raise ValueError(f"a presser's strength is from 0 to 1, not {self.strength!r}")
+        if not is_between(0.0, self.wear, 1.0):
+            raise ValueError(f"a presser's wear is from 0 to 1, not {self.wear!r}")

@@ -15,6 +15,7 @@ from ..engine.declared.presser import PresserOnPath
 from ..engine.declared.scene import Scene
 from ..engine.declared.way import Waypoint
 from ..engine.handed import as_places_of, is_somewhere
+from ..engine.terrain.record import Density
 from ..engine.world import World
 from .around.outlook import Outlook
 from .frame.block import FrameBlock
@@ -25,6 +26,7 @@ from .press.lie import laid_over, pressed, recoveries, touches
 from .press.marks import UNTRODDEN, Memory, Trodden
 from .press.trail import SCENES, Stretches, Trail
 from .press.walk import Stand, Walk, Who, staying
+from .press.wear import Wearing
 from .space.grown import Grown
 from .wind.blow import ReceiverArrays
 
@@ -70,8 +72,8 @@ class Pressers(Feature):
 
     samplers = ("pressed",)
 
-    def __init__(self, world: World, scene: Scene, growths: Sequence[Growth]) -> None:
-        self._world = world
+    def __init__(self, world: World, scene: Scene, growths: Sequence[Growth], density: Density) -> None:
+        self._world, self._density, self._wearing = world, density, Wearing()
         self._generation = world.generation
         self._declared: dict[int, PresserOnPath] = {}
         self._scenes, self._games = Walk(Trail(begun=SCENES, every=EVERY)), Walk(Trail())
@@ -87,11 +89,12 @@ class Pressers(Feature):
     @classmethod
     def begin(cls, start: Start, /) -> Self:
         """Return those of a prairie's world."""
-        return cls(start.world, start.grown.scene, start.grown.growths)
+        return cls(start.world, start.grown.scene, start.grown.growths, start.grown.ground.density)
 
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
         """Take over a scene that was read again."""
         del before, time
+        self._density = grown.ground.density
         self.change(grown.scene, grown.growths)
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> PressPart:
@@ -118,6 +121,7 @@ class Pressers(Feature):
         found = self._world.both(Presser, Pose)
         if not found and not self._scenes.who and not self._games.who and not self.trodden:
             return self.trodden
+        self._wearing.go([row for row in found if row[0] not in self._declared and is_somewhere(row[2])], self._density)
         who, rows = self._standing(found)
         is_scenes = np.array([entity in self._declared for entity, _ in who], np.bool_)
         games, scenes = ([who[number] for number in np.flatnonzero(which)] for which in (~is_scenes, is_scenes))
@@ -136,7 +140,7 @@ class Pressers(Feature):
 
     def go_back(self) -> None:
         """Forget what has been trodden, as time goes back: those that the scene declares tread it anew."""
-        self._games, self.trodden = Walk(Trail()), UNTRODDEN
+        self._games, self.trodden, self._wearing = Walk(Trail()), UNTRODDEN, Wearing()
         self._memory = Memory([self._scenes.trail, self._games.trail], self._memory.lasts)
         self._begin_anew()
 
@@ -163,6 +167,7 @@ class Pressers(Feature):
 
     def resume(self, treading: Treading, entities: Mapping[int, int]) -> None:
         """Go on from what was done in a prairie of the same scene; `entities` are the game's own, by what they were."""
+        self._wearing = Wearing()
         self._go(0.0)  # what the scene declares are entities, though the world was cleared
         declared = dict[int, PresserOnPath]()
         for (entity, path), presser in zip(self._declared.items(), treading.declared, strict=True):

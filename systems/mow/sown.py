@@ -44,6 +44,11 @@ def clear(density: Density, area: Area, pose: Pose, /, *, soft: float) -> None:
     _stroke(density, area, pose, _cleared, soft, np.zeros((1, 1, len(density.maps)), np.uint8))
 
 
+def wear(density: Density, area: Area, pose: Pose, part: float, /) -> None:
+    """Let a part of what grows under an area be gone, of each kind at least a 255th."""
+    _stroke(density, area, pose, partial(_worn, part=np.float32(part)), 0.0, None)
+
+
 def carry_over(before: Density, after: Density, /) -> None:
     """Let what was sown and cleared be so where the same kinds are painted in another way, or on another terrain."""
     where, pages = before.sown.saved()
@@ -84,6 +89,10 @@ def _sown(before: Floats, *, kind: int, dense: float, apart: Mask) -> Floats:
         due[..., others] *= np.minimum(left / np.maximum(crowd, np.float32(1e-6)), 1.0)
     due[..., kind] = 255.0 * dense
     return due
+
+
+def _worn(before: Floats, *, part: np.float32) -> Floats:
+    return np.asarray(np.maximum(np.minimum(before - before * part, before - 1.0), 0.0), np.float32)
 
 
 def _cleared(before: Floats) -> Floats:

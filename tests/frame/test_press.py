@@ -123,3 +123,32 @@ def test_n5_a_film_that_begins_in_the_middle_shows_the_same_trodden_grass(
         pictures.append(picture)
         prairie.release()
     np.testing.assert_array_equal(*pictures)
+
+
+def test_f4_where_many_walk_who_wear_grass_off_earth_comes_out_and_a_state_keeps_it(
+    stage: Stage, load: Load, camera: Aim
+) -> None:
+    prairie, aim = load(), camera(0.0, 14.0, 0.0, pitch=-90)
+    before = prairie.state()
+    entity, dense, pictures = esper.create_entity(Presser(radius=0.5, wear=0.05), Pose(-4.0, 0.0)), [], []
+    for walked in range(30):
+        for step in range(9):
+            esper.add_component(entity, Pose((step - 4.0) * (1 if walked % 2 else -1), 0.0))
+            prairie.advance(0.1)
+            prairie.bent_at([(0.0, 0.0)])
+        if walked in (0, 29):
+            dense.append(prairie.grass_at([(0.0, 0.0), (0.0, 3.0)]).density.sum(axis=1))
+    esper.delete_entity(entity, immediate=True)
+    prairie.advance(60.0)
+    pictures.append(stage.shot(prairie, aim))
+    worn = prairie.state()
+    prairie.restore(before)
+    pictures.append(stage.shot(prairie, aim))
+    prairie.restore(worn)
+    np.testing.assert_allclose(prairie.grass_at([(0.0, 0.0)]).density.sum(axis=1), dense[1][:1])
+    assert dense[0][0] > 0.85
+    assert dense[1][0] < 0.4
+    np.testing.assert_allclose(dense[1][1], 1.0, atol=0.01)
+    place = stage.ground(aim)
+    way = (np.abs(place[..., 0]) < 3.0) & (np.abs(place[..., 1]) < 0.3)
+    assert np.abs(pictures[0] - pictures[1])[way].mean() > 5.0
