@@ -8,15 +8,13 @@
 
 const float LITTER_SHARPER = 0.4;  // how much finer texels are than what is read, in levels: filtering takes grain away
 const int HALF_OF_BITS = 65536;
-const vec2 WAVES = vec2(0.83, 2.9);  // of the borders between what is taken from elsewhere [1/m]: straight ones would be seen
-const vec2 WAVING = vec2(0.6, 0.3);  // and how far they go, in squares
+const vec2 WAVES = vec2(2.9, 0.15);  // of the squares' borders, which would be seen if they were straight [1/m]; as parts of a side
 
-// Where in the square that repeats a place of the ground is taken from: each piece of ground about as large has its own, as
-// squares side by side would show as a lattice from above.
+// Where in the square that repeats a place of the ground is taken from, in its sides: squares side by side would show as a lattice
+// from above. So each is shifted by its own way, and has almost all of it.
 vec2 taken_from(vec2 at) {
-    vec2 waves = WAVING.x * abs(fract(WAVES.x * at.yx) - 0.5) + WAVING.y * abs(fract(WAVES.y * at.yx) - 0.5);
-    ivec2 piece = ivec2(floor(at / LITTER_SIDE + waves));
-    uint drawn = scramble(uint(HALF_OF_BITS * piece.x + piece.y));
+    ivec2 square = ivec2(floor(at / LITTER_SIDE + WAVES.y * abs(fract(WAVES.x * at.yx) - 0.5)));
+    uint drawn = scramble(uint(HALF_OF_BITS * square.x + square.y));
     return at / LITTER_SIDE + vec2(drawn % uint(HALF_OF_BITS), drawn / uint(HALF_OF_BITS)) / float(HALF_OF_BITS);
 }
 
@@ -69,8 +67,8 @@ float lies_at(vec2 at) {
 // What becomes of what lies there where grass is left to stand so high [m] and is trodden: how bright its pigment is, of what
 // it was, and how much is left of low leaves.
 vec2 after(float left, vec2 at) {
-    float low = min(left / LOW_LEAVES, 1.0);
-    return vec2(1.0 + PALER * low * max(1.0 - left / STUBS_FROM, 0.0), low * (1.0 - TRODDEN_AWAY * lies_at(at)));
+    float stubs_from = min(STUBS_FROM, tallest_grass), low = min(left / min(LOW_LEAVES, tallest_grass), 1.0);
+    return vec2(1.0 + PALER * low * max(1.0 - left / stubs_from, 0.0), low * (1.0 - TRODDEN_AWAY * lies_at(at)));
 }
 
 // The pigment of what lies there, of that of the ground between low leaves, where grass is left to stand so high [m]; or that of
