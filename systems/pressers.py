@@ -121,7 +121,8 @@ class Pressers(Feature):
         found = self._world.both(Presser, Pose)
         if not found and not self._scenes.who and not self._games.who and not self.trodden:
             return self.trodden
-        self._wearing.go([row for row in found if row[0] not in self._declared and is_somewhere(row[2])], self._density)
+        wearing = [row for row in found if row[1].wear and row[0] not in self._declared and is_somewhere(row[2])]
+        self._wearing.go(wearing, self._density)
         who, rows = self._standing(found)
         is_scenes = np.array([entity in self._declared for entity, _ in who], np.bool_)
         games, scenes = ([who[number] for number in np.flatnonzero(which)] for which in (~is_scenes, is_scenes))

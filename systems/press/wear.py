@@ -24,11 +24,9 @@ class Wearing:
         """Up to where, (x, z) [m], by entity."""
 
     def go(self, pressers: Iterable[tuple[int, Presser, Pose]], density: Density, /) -> None:
-        """Wear off what lies on the ways that pressers have gone since they were seen last."""
+        """Wear off what lies on the ways that these, all who do, have gone since they were seen last."""
         there = dict[int, tuple[float, float]]()
         for entity, presser, pose in pressers:
-            if not presser.wear:
-                continue
             x, z = self._worn.get(entity, (pose.x, pose.z))
             half = max(abs(x) for x, _ in presser.corners) if presser.corners else presser.radius
             step, far = STEP * half, hypot(pose.x - x, pose.z - z)
