@@ -26,8 +26,8 @@ from .press.lie import laid_over, pressed, recoveries, touches
 from .press.marks import UNTRODDEN, Memory, Trodden
 from .press.trail import SCENES, Stretches, Trail
 from .press.walk import Stand, Walk, Who, staying
-from .press.wear import Wearing
 from .space.grown import Grown
+from .wearing import Wearing
 from .wind.blow import ReceiverArrays
 
 REMEMBERED = 2.0

@@ -3,11 +3,11 @@
 from collections.abc import Iterable
 from math import atan2, hypot
 
-from ...components.footprint import Footprint
-from ...components.pose import Pose
-from ...components.presser import Presser
-from ...engine.terrain.record import Density
-from ..mow.sown import wear
+from ..components.footprint import Footprint
+from ..components.pose import Pose
+from ..components.presser import Presser
+from ..engine.terrain.record import Density
+from .mow.sown import wear
 
 STEP = 1.0
 """How far somebody goes until what lies under that way is worn, in radii."""
