@@ -57,8 +57,8 @@ void main() {
     texel *= mix(sun_own.w, 1.0, wood);  // of few leaves, those are left that stand densest
     float edge = mix(1.0, 0.42, clamp(sunlit.a * 1.5, 0.0, 1.0));
     float cover = clamp((texel.a - edge) / max(fwidth(texel.a), 0.04) + 0.5, 0.0, 1.0);
-    must_cover(cover);
     vec4 met = mixed_texel(at, 1.0) / max(texel.a, 0.01);
+    must_cover(cover);
     vec4 shading = vec4((2.0 * met.xyz - 1.0) * SHADING.x, met.w * SHADING.y);
     float seen = through_leaves(sun_own.w * max(dot(shading, vec4(sun_own.xyz, 1.0)), 0.0));
     float open = through_leaves(SKY_MEETS_LESS * sun_own.w * max(shading.w + SKY_FROM * shading.y, 0.0));

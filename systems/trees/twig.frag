@@ -35,8 +35,9 @@ void main() {
     vec3 normal = normalize(facing);
 #ifdef LEAVES
     wood = inside.y;
-    cover = wood > 0.5 ? 1.0 : leaf_cover(on);
-    tone = inside.x * mix(1.0, RIBBED, smoothstep(VEIN, 0.0, abs(on.x)));
+    float leaf = leaf_cover(on);
+    cover = wood > 0.5 ? 1.0 : leaf;
+    tone = inside.x * mix(1.0, RIBBED, 1.0 - smoothstep(0.0, VEIN, abs(on.x)));
 #else
     vec2 at = vec2(0.5 + 0.5 * on.x, on.y);
     vec4 texel = texture(tree_cards, vec3(at, 0.0)), lie = texture(tree_cards, vec3(at, 1.0));

@@ -36,7 +36,7 @@ float noise(vec2 at) {
 float bark_at(vec2 on, float fades) {
     if (rough < 0.0) {
         float band = smoothstep(0.62, 0.8, noise(on * BANDS) * (0.7 + 0.5 * noise(on * 1.7)));
-        float foot = smoothstep(1.2, 0.1, on.y) * smoothstep(0.3, 0.65, noise(on * vec2(9.0, 5.0)));
+        float foot = (1.0 - smoothstep(0.1, 1.2, on.y)) * smoothstep(0.3, 0.65, noise(on * vec2(9.0, 5.0)));
         return mix(1.0, 0.42, fades * max(band, foot));
     }
     float deep = noise(on * FURROWS + 2.0 * noise(on * 6.0)), fine = noise(on * FURROWS * 3.1);
@@ -48,9 +48,9 @@ void main() {
     pixel = vec4(0.5, 1.0, 0.0, 1.0);
     second = clamp(vec4(0.5 + 0.5 * inside.xyz / SHADING.x, inside.w / SHADING.y), 0.0, 1.0);
 #else
+    float fades = clamp(1.5 - 18.0 * max(fwidth(on_skin.x), fwidth(on_skin.y)), 0.0, 1.0);
     must_cover(thick);
     vec3 normal = normalize(facing), ray = normalize(seen_at - eye);
-    float fades = clamp(1.5 - 18.0 * max(fwidth(on_skin.x), fwidth(on_skin.y)), 0.0, 1.0);
     Light light = Light(sunlit * (BARK_SENDS * max(dot(normal, sun), 0.0)), skylit, hazy, 0.0, 0.0, vec2(0.0));
     pixel = drawn(shade(Surface(bark * bark_at(on_skin, fades), 1.0, 0.0), light), thick);
 #endif

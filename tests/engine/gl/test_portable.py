@@ -19,8 +19,8 @@ PIXELS = [name for name in STAGES if name.endswith(".frag")]
 DIFFERENCE = re.compile(r"\b(?:dFdx|dFdy|fwidth|texture)\(")
 """What a pixel finds out from its neighbours: they must have come to the same line."""
 
-SAME = re.compile(r"anything_is_cut\(\)|any_maps\(\)|earth_side|over_hosts")
-"""What is the same for all pixels of a draw: a condition on these parts none from its neighbours."""
+SAME = re.compile(r"anything_is_cut\(\)|any_maps\(\)|earth_side|over_hosts|\bform ==|\bmixed\.")
+"""What is the same for all pixels of a draw, or of a flat card: a condition on these parts none from its neighbours."""
 
 FUNCTION = re.compile(r"^[a-z]\w*\s+(\w+)\([^;]*\)\s*\{")
 CONSTANT = re.compile(r"const (?:float|vec[234]) ([^;]+);")
@@ -106,7 +106,7 @@ def parted(body: list[tuple[str, str]], enders: set[str], asks: re.Pattern[str])
         depth -= text.lstrip().startswith("}")
         parts = re.search(r"\b(?:if|for|while|else|do)\b", text) and not SAME.search(text)
         asked = asks.search(text)
-        if asked and (depth or is_narrow or are_gone or "?" in text[: asked.start()]):
+        if asked and (depth or is_narrow or are_gone or ("?" in text[: asked.start()] and not SAME.search(text))):
             found.append(place)
         goes = re.search(r"\b(?:return|discard)\b", text) or any(f"{each}(" in text for each in enders)
         are_gone = are_gone or bool(goes and (depth or is_narrow or any(f"{each}(" in text for each in enders)))
