@@ -101,17 +101,20 @@ def functions(name: str) -> Iterator[tuple[str, list[tuple[str, str]]]]:
 
 def parted(body: list[tuple[str, str]], enders: set[str], asks: re.Pattern[str]) -> list[str]:
     """Where a function asks what some pixels of four do not come to."""
-    found, depth, is_narrow, are_gone = list[str](), 0, False, False
+    found, inside, is_narrow, are_gone = list[str](), list[bool](), False, False
     for place, text in body:
-        depth -= text.lstrip().startswith("}")
-        parts = re.search(r"\b(?:if|for|while|else|do)\b", text) and not SAME.search(text)
-        asked = asks.search(text)
-        if asked and (depth or is_narrow or are_gone or ("?" in text[: asked.start()] and not SAME.search(text))):
+        if text.lstrip().startswith("}"):
+            inside.pop()
+        parts = bool(re.search(r"\b(?:if|for|while|else|do)\b", text)) and not SAME.search(text)
+        asked, is_apart = asks.search(text), any(inside) or is_narrow
+        before = text[: asked.start()] if asked else ""
+        if asked and (is_apart or are_gone or ("?" in before and not SAME.search(before))):
             found.append(place)
-        goes = re.search(r"\b(?:return|discard)\b", text) or any(f"{each}(" in text for each in enders)
-        are_gone = are_gone or bool(goes and (depth or is_narrow or any(f"{each}(" in text for each in enders)))
-        is_narrow = bool(parts) and not text.endswith(("{", ";"))
-        depth += text.endswith("{") and bool(parts or depth)
+        are_gone = are_gone or any(f"{each}(" in text for each in enders)
+        are_gone = are_gone or bool(is_apart and re.search(r"\b(?:return|discard)\b", text))
+        is_narrow = parts and not text.endswith(("{", ";"))
+        if text.endswith("{"):
+            inside.append(parts)
     return found
 
 
