@@ -47,8 +47,14 @@ class Offscreen:
         data = self._target.read(components=3, alignment=1)
         return np.ascontiguousarray(np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1])
 
+    def make_current(self) -> None:
+        """Make an own context current: what is deleted in another would be that one's, by the same numbers."""
+        if self._host is None:
+            self.ctx.__enter__()  # type: ignore[no-untyped-call]
+
     def release(self) -> None:
         """Give the framebuffer back, and the context if it is an own one."""
+        self.make_current()
         if self._host is not None:
             self._host.use()
         for item in (self._target, self._color, self._depth):

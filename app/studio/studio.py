@@ -40,6 +40,7 @@ class Studio:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        self._offscreen.make_current()
         self.overlay.release()
         self.prairie.release()
         self._offscreen.release()

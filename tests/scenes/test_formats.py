@@ -14,6 +14,7 @@ from pydantic import BaseModel
 
 from tallgrass.engine.declared.plant import Head
 from tallgrass.engine.declared.scene import FORMAT, Scene
+from tallgrass.engine.declared.tree import TreeKind
 from tallgrass.engine.plugins import wind_kinds
 from tallgrass.engine.scene import parse_scene
 from tallgrass.engine.scene.compose import read_document
@@ -67,6 +68,7 @@ def test_the_scene_of_todays_format_uses_every_key() -> None:
     assert values["terrain"].keys() == fields(type(scene.terrain)) - {"heights", "holes"}
     for part in ("pressers", "lamps"):
         assert values[part][0].keys() == fields(type(getattr(scene, part)[0]))
+    assert values["trees"]["ash"].keys() == fields(TreeKind)
     assert values["grass"]["tall"].keys() | values["grass"]["poppy"].keys() == fields(type(scene.grass["tall"]))
     assert values["grass"]["poppy"]["head"].keys() == fields(Head)
     used = {declared["kind"]: declared.keys() for declared in reversed(values["wind"])}

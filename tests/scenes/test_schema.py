@@ -22,7 +22,7 @@ BROKEN = sorted((Path(__file__).parent / "broken").glob("*.yaml"))
 FULL = Path(__file__).parent / "format-2" / "full.yaml"
 BEYOND = {
     "camera-off-the-terrain", "folder-for-a-map", "map-is-no-image", "no-alpha-channel", "no-density-file",
-    "no-elevation-file", "not-a-number", "two-bad-maps", "blast-picture-missing",
+    "no-elevation-file", "not-a-number", "blades-without-room", "two-bad-maps", "blast-picture-missing",
     "heights-and-noise", "heights-swapped", "path-goes-back-in-time", "path-off-the-terrain", "quality-rings-fall",
     "wind-stops-before-it-starts", "wind-path-goes-back-in-time", "gust-intervals-fall", "blast-outline-twice",
     "blast-ellipse-flat", "blast-outline-empty", "version-not-first", "presser-corners-in-a-line",
