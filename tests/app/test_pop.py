@@ -32,7 +32,7 @@ tallgrass: 2
 seed: 2
 terrain: { noise: flat, size: [60, 60] }
 grass:
-  tall: { height: [0.5, 0.9], width: 0.03, root: "#5a5a2c", tip: "#dcc98f", understorey: 0 }
+  tall: { height: [0.5, 0.9], width: 0.03, root: "#5a5a2c", tip: "#dcc98f" }
 wind: [{ kind: breeze, strength: 0.2 }]
 camera: { position: [0, 20], yaw: 20, view: 35 }
 quality:
