@@ -12,7 +12,7 @@ uniform sampler2DShadow map_1;
 uniform sampler2DShadow map_2;
 uniform sampler2DShadow map_3;
 
-// Whether a game has any, shades or trees: else nobody need look. Programs that are made for none are told so by PLAIN.
+// Whether a game has any, shades or trees: else nobody need look. Programs that are made for none but trees are told so by PLAIN.
 bool any_casters() {
 #ifdef TREES
     return true;
@@ -124,10 +124,13 @@ float past_casters(vec3 place) {
 #if defined(TREES) && !defined(OF_TREES)  // those ask for others by themselves
     seen = past_trees(place);
 #endif
+#ifndef PLAIN
     ivec2 listed_here = shades_grid.w > 0.0 ? listed_about(shades_grid, SHADES_FROM, place.xz) : ivec2(0);
     for (int number = listed_here.x; number < listed_here.y; number++)
         seen *= past_shade(listed_at(SHADES_FROM, number), place);
-    return maps_shown > 0.0 ? seen * past_maps(place) : seen;
+    seen *= maps_shown > 0.0 ? past_maps(place) : 1.0;
+#endif
+    return seen;
 }
 
 // How much of it is seen from a place past all bodies but one.

@@ -297,10 +297,9 @@ class GroundPainter:
 
     @property
     def _is_rare(self) -> bool:
-        """Whether there are shadow maps, shades, trees or a ground of a game's own: then pixels ask for these."""
+        """Whether there are shadow maps, shades or a ground of a game's own: then pixels ask for these."""
         record = self._block.record[0]
-        casts = record["maps_shown"] or record["shades_grid"][3] or "TREES" in self._block.defines
-        return bool(casts or self._block.earth)
+        return bool(record["maps_shown"] or record["shades_grid"][3] or self._block.earth)
 
     @property
     def _is_lamplit(self) -> bool:
