@@ -23,6 +23,9 @@ SIDE = 1024
 SIDES = 96.0, 800.0, 260.0
 """How far each reaches from edge to edge [m]."""
 
+LEVELS = 3
+"""How many coarser ones each has, twice as coarse from one to the next: the sky's is read in the last."""
+
 STEPS = 8.0, 64.0, 32.0
 """How far a viewer goes before one is drawn anew about another place [m]."""
 
@@ -40,7 +43,9 @@ class ShadeMap:
         self._texture = ctx.texture((3 * SIDE, SIDE), 2, dtype="f2")
         self._texture.repeat_x = self._texture.repeat_y = False
         self._target = ctx.framebuffer([self._texture])
-        self._sampler = ctx.sampler(repeat_x=False, repeat_y=False, filter=(moderngl.LINEAR, moderngl.LINEAR))
+        self._sampler = ctx.sampler(
+            repeat_x=False, repeat_y=False, filter=(moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
+        )
         self._streams: dict[int, Stream] = {}
         self._sun: Doubles = np.zeros(3)
         self._axes: Doubles = np.zeros((2, 3))
@@ -105,16 +110,16 @@ class ShadeMap:
                     array.render(moderngl.TRIANGLES, vertices=6, instances=stream.count)
                     calls += 1
             ctx.enable_only(moderngl.NOTHING)
+        self._texture.build_mipmaps(0, LEVELS)
         return calls
 
     def _send(self, kinds: Sequence[KindOnCard], standing: Standing) -> None:
         if self._standing is standing and self._streams:
             return
         self._standing = standing
-        rows = standing.rows
         for kind_number, kind in enumerate(kinds):
             for model_number, model in enumerate(kind.models):
-                own = rows[(rows["kind"] == kind_number) & (rows["model"] == model_number)]
+                own = standing.of(kind_number, model_number)
                 stream = self._streams.setdefault(id(model), Stream(self._ctx, SHOWN))
                 stream.write(shown(own, np.zeros(len(own)), model.model.height, 0.0))
 

@@ -1,11 +1,12 @@
 """Trees as they stand in a frame, and what of each is drawn."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
+from ...engine.declared.scene import MOST_TREES
 from ...engine.random import hash3, stream, unit
 from .model import MODELS
 
@@ -48,6 +49,17 @@ class Standing:
 
     rows: NDArray[np.void]
     """Records of `STANDING`, shape (n,)."""
+
+    _sorted: list[NDArray[np.void]] = field(default_factory=list, init=False)
+
+    def of(self, kind: int, model: int, /) -> NDArray[np.void]:
+        """Return those of a model of a kind, by their numbers, records of `STANDING`."""
+        if not self._sorted:
+            number = self.rows["kind"] * MODELS + self.rows["model"]
+            order = np.argsort(number, kind="stable")
+            ends = np.searchsorted(number[order], np.arange(1, MOST_TREES * MODELS))
+            self._sorted.extend(np.split(self.rows[order], ends))
+        return self._sorted[kind * MODELS + model]
 
 
 def tell_apart(rows: NDArray[np.void], /) -> None:
