@@ -4,22 +4,28 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Doubles, Mask
 from ...engine.gl.records import Records
-from ...engine.gl.stream import Stream, attributes, release_all
-from .model import Model
+from ...engine.gl.stream import Stream, release_all
+from .model import SENT, Model, sent
 from .standing import SHOWN, TOLD
 from .twig import ROW, TWIG
+from .wood import Parts, parts
 
-NEAR, FAR, LEAVES, WOOD, THICK = "near", "far", "leaves", "wood", "thick"
+NEAR, FAR, LEAVES, WOOD = "near", "far", "leaves", "wood"
 
 FEWER = 0.5
 """Share of its twigs that a tree's pictures show, as much larger: in so few pixels, more would look the same."""
 
-SMALL = 0.35
-"""Share of twigs below which a tree's thin branches are left out: they are less than half a pixel thick."""
-
 GROUPS = 3
 """Draws that the cards of a model's trees take: each for those of which about as many twigs are drawn."""
+
+RUNS = 0.006, 0.011, 0.015, 0.02, 0.027
+"""Radius of a stem that is a pixel wide, of the model [m]: trees between two have their wood drawn together."""
+
+CARDS = tuple(f"{NEAR}{number}" for number in range(GROUPS))
+WOODS = tuple(f"{WOOD}{number}" for number in range(len(RUNS) + 1))
+"""The streams of those."""
 
 
 class ModelOnCard:
@@ -29,7 +35,7 @@ class ModelOnCard:
         self.model = model
         self.twigs = Records(ctx, TWIG, ROW, rows=-(-len(model.twigs) // ROW))
         self.twigs.write(model.twigs)
-        self.vertices = ctx.buffer(model.vertices)
+        self.vertices = ctx.buffer(sent(model.vertices))
         self.triangles = ctx.buffer(np.ascontiguousarray(model.triangles))
         self.bare = Stream(ctx, SHOWN)
         self._alone = np.zeros(1, SHOWN)
@@ -37,31 +43,42 @@ class ModelOnCard:
         self._alone["scale"] = self._alone["foliage"] = self._alone["tint"] = 1.0
         self._alone["turn"] = 1.0, 0.0
         self.bare.write(self._alone)
-        self.streams = {
-            name: Stream(ctx, SHOWN) for name in (WOOD, THICK, LEAVES, FAR, *(f"{NEAR}{n}" for n in range(GROUPS)))
-        }
+        self.streams = {name: Stream(ctx, SHOWN) for name in (*WOODS, LEAVES, FAR, *CARDS)}
         self.told = {id(each): Stream(ctx, TOLD) for each in self.streams.values()}
         """What is made out of the trees of each stream once a tree, by the stream's id."""
         self.most = dict.fromkeys(self.streams, 0)
         """Twigs that any tree of a stream draws."""
+        self.wood = dict.fromkeys(WOODS, Parts(0, 0, 0))
+        """Triangles that the trees of a stream of wood draw."""
         self.far: moderngl.TextureArray | None = None
 
-    @property
-    def bark(self) -> tuple[moderngl.Buffer, str, list[str]]:
-        """The vertices of its wood, as a vertex array takes them."""
-        return (self.vertices, *attributes(self.model.vertices.dtype))
+    def bark(self, program: moderngl.Program) -> tuple[moderngl.Buffer | str, ...]:
+        """Return the vertices of its wood, as a vertex array takes them: those fields that a program has."""
+        names, forms = list(SENT.names or ()), ("4f", "3f1 1x", "4f2", "3f2 2x", "4f2")
+        ends = [*(SENT.fields[name][1] for name in names), SENT.itemsize] if SENT.fields else []
+        kept = [
+            form if name in program else f"{end - start}x"
+            for name, form, start, end in zip(names, forms, ends, ends[1:], strict=False)
+        ]
+        return self.vertices, " ".join(kept), *(name for name in names if name in program)
 
-    def write(self, near: NDArray[np.void], leafy: NDArray[np.bool_], far: NDArray[np.void]) -> None:
-        """Send the trees that are drawn near by, which of those leaf by leaf too, and those far off."""
-        small = near["keep"] < SMALL
-        self.streams[WOOD].write(near[~small])
-        self.streams[THICK].write(near[small])
+    def write(self, near: NDArray[np.void], wide: Doubles, leafy: Mask, far: NDArray[np.void]) -> None:
+        """Send trees that are drawn near by, the nearest first, which of them leaf by leaf too, and those far off.
+
+        `wide` is the radius of a stem of the model that is a pixel wide, where each is nearest and farthest off.
+        """
+        run = np.searchsorted(RUNS, wide[:, 0])
+        for number, name in enumerate(WOODS):
+            rows = near[run == number]
+            self.streams[name].write(rows)
+            if len(rows):
+                self.wood[name] = parts(self.model.radii, wide[run == number], rows)
         self.streams[FAR].write(far)
         self._write(LEAVES, near[leafy])
         drawn = near["keep"] * (1.0 - near["gone"])
         group = np.minimum(((1.0 - drawn) * GROUPS).astype(np.intp), GROUPS - 1)
         for number in range(GROUPS):
-            self._write(f"{NEAR}{number}", near[group == number])
+            self._write(CARDS[number], near[group == number])
 
     def _write(self, name: str, rows: NDArray[np.void]) -> None:
         self.streams[name].write(rows)
@@ -74,6 +91,7 @@ class ModelOnCard:
             if not stream.count:
                 stream.write(self._alone)
                 self.most[name] = 1
+                self.wood[name] = Parts(1, 0, 1)
 
     def release(self) -> None:
         """Give everything back."""

@@ -1,29 +1,31 @@
 """Drawing trees: what of each is shown, and in what order; and the maps of what they leave of the light."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Doubles
+from ...components.viewer import Viewer
 from ...engine.gl.stream import release_all
 from ..around.outlook import Outlook
 from ..frame.block import FrameBlock
 from ..frame.feature import Heard, Part
 from ..space.frustum import beyond
 from ..space.grown import Grown
-from .card import FAR, GROUPS, LEAVES, NEAR, THICK, WOOD, ModelOnCard
+from .card import CARDS, FAR, LEAVES, NEAR, WOOD, WOODS, ModelOnCard
 from .kind import KindOnCard
+from .model import Model
 from .motion import PERIOD
 from .programs import Programs
 from .shade import ShadeMap
 from .standing import Standing, shown
 from .twig import LEAF_PIXELS
+from .wood import AWAY, SWAYS, THINNEST
 
 EVERY_LEAF = -2.0, -1.0
 """What is told in place of `LEAF_PIXELS` where all twigs are drawn leaf by leaf."""
-
-CARDS = tuple(f"{NEAR}{number}" for number in range(GROUPS))
 
 
 class TreePart(Part):
@@ -40,6 +42,7 @@ class TreePart(Part):
         self._outlook: Outlook | None = None
         self._numbers: dict[str, object] = {}
         self._chosen = self._rehearses = False
+        self._chosen_by: object = None
         self._air: Heard | None = None
         self.every_leaf = False
         """Whether all trees are drawn leaf by leaf, as a reference has them."""
@@ -67,6 +70,7 @@ class TreePart(Part):
         self._rehearses = True
 
     def _forget(self) -> None:
+        self._chosen_by = None
         if self._programs is not None:
             self._programs.release()
             self._programs = None
@@ -105,7 +109,7 @@ class TreePart(Part):
         self._chosen = self.every_leaf
         self._choose(self._standing(), self._outlook)
         if self._rehearses:
-            self._rehearses = False
+            self._rehearses, self._chosen_by = False, None
             for kind in self._kinds:
                 for model in kind.models:
                     model.rehearse()
@@ -124,17 +128,28 @@ class TreePart(Part):
         return self._programs
 
     def _choose(self, standing: Standing, outlook: Outlook) -> None:
-        """Send what is drawn of each tree."""
-        rows, record = standing.rows, self._block.record[0]
+        """Send what is drawn of each tree, unless that is what was sent last."""
+        record, viewer = self._block.record[0], outlook.viewer
+        seen = record["clip"].tobytes(), float(record["half_screen"][1]), viewer.eye, viewer.sides.tobytes()
+        if self._chosen_by == (standing, *seen, self.every_leaf):
+            return
+        self._chosen_by = standing, *seen, self.every_leaf
         clip = record["clip"].reshape(4, 4).T.astype(np.float64)
         focal = float(record["half_screen"][1] * np.linalg.norm(clip[1, :3]))
         for kind_number, kind in enumerate(self._kinds):
             for model_number, model in enumerate(kind.models):
-                own = rows[(rows["kind"] == kind_number) & (rows["model"] == model_number)]
-                self._choose_of(kind, model, own, focal, outlook)
+                own = standing.of(kind_number, model_number)
+                if len(own) or any(stream.count for stream in model.streams.values()):
+                    self._choose_of(kind, model, own, clip, focal, outlook)
 
     def _choose_of(
-        self, kind: KindOnCard, model: ModelOnCard, rows: NDArray[np.void], focal: float, outlook: Outlook
+        self,
+        kind: KindOnCard,
+        model: ModelOnCard,
+        rows: NDArray[np.void],
+        clip: Doubles,
+        focal: float,
+        outlook: Outlook,
     ) -> None:
         grown, eye = model.model, np.array(outlook.viewer.eye)
         scale = rows["height"].astype(np.float64) / grown.height
@@ -144,13 +159,18 @@ class TreePart(Part):
         rows, scale, middle = rows[seen], scale[seen], middle[seen]
         off = np.linalg.norm(middle - eye, axis=1)
         order = np.argsort(off)
-        rows, scale, off = rows[order], scale[order], off[order]
+        rows, scale, middle, off = rows[order], scale[order], middle[order], off[order]
         pixels = focal * rows["height"] / np.maximum(off, 0.1)
         told = shown(rows, np.full(len(rows), 1e6) if self.every_leaf else pixels, grown.height, kind.declared.variety)
         near, far = told["gone"] < 1.0, told["gone"] > 0.0
-        nearest = np.maximum(off - scale * np.hypot(grown.half, grown.radius), 0.1)
-        leafy = focal * scale * kind.habit.leaf.length / nearest > LEAF_PIXELS[0]
-        model.write(told[near], (leafy | self.every_leaf)[near], told[far][::-1])
+        large = focal * scale * kind.habit.leaf.length / LEAF_PIXELS[0]
+        leafy = large > off - scale * np.hypot(grown.half, grown.radius)
+        for number in np.flatnonzero(leafy):
+            leafy[number] = _any_leafy(grown, told[number], outlook.viewer, large[number])
+        reach = (1.0 + SWAYS) * np.hypot(grown.half, grown.radius) * scale * np.linalg.norm(clip[3, :3])
+        ahead = (middle @ clip[3, :3] + clip[3, 3])[:, None] + reach[:, None] * (-1.0, 1.0)
+        wide = THINNEST * np.maximum(ahead, AWAY) / (focal * scale[:, None])
+        model.write(told[near], wide[near], (leafy | self.every_leaf)[near], told[far][::-1])
 
     def breathe(self, air: Heard, /) -> int:
         """Make out of each tree what is the same all over it; return the number of draw calls."""
@@ -180,7 +200,7 @@ class TreePart(Part):
     def cast(self, light: tuple[float, float, float], /) -> int:
         """Write the depth of all that covers texels of a shadow map wholly."""
         del light
-        return self._draw(soft=False)
+        return self._draw(soft=False, all_wood=True)
 
     def draw_soft(self) -> int:
         """Draw their soft edges."""
@@ -192,27 +212,30 @@ class TreePart(Part):
         target.depth_mask = True
         return calls
 
-    def _draw(self, *, soft: bool) -> int:
+    def _draw(self, *, soft: bool, all_wood: bool = False) -> int:
         if not self._kinds or self._programs is None:
             return 0
-        return sum(self._draw_model(kind, model, soft=soft) for kind in self._kinds for model in kind.models)
-
-    def _draw_model(self, kind: KindOnCard, model: ModelOnCard, *, soft: bool) -> int:
-        assert self._programs is not None
-        calls, leaves = 0, kind.habit.leaf.count + kind.habit.leaf.shoots
-        sorts: Sequence[tuple[str, str, int]] = (
-            (WOOD, WOOD, -1),
-            (WOOD, THICK, 3 * model.model.thick),
-            (LEAVES, LEAVES, 6 * leaves * model.most[LEAVES]),
-            *((NEAR, name, 6 * model.most[name]) for name in CARDS),
-            (FAR, FAR, 6),
+        return sum(
+            self._draw_model(kind, model, soft=soft, all_wood=all_wood) for kind in self._kinds for model in kind.models
         )
-        for sort, name, vertices in sorts:
+
+    def _draw_model(self, kind: KindOnCard, model: ModelOnCard, *, soft: bool, all_wood: bool) -> int:
+        assert self._programs is not None
+        calls, told, leaves = 0, None, kind.habit.leaf.count + kind.habit.leaf.shoots
+        sorts = (
+            *((WOOD, name, *_wood(model, name, soft=soft, whole=all_wood)) for name in WOODS),
+            (LEAVES, LEAVES, 0, 6 * leaves * model.most[LEAVES]),
+            *((NEAR, name, 0, 6 * model.most[name]) for name in CARDS),
+            (FAR, FAR, 0, 6),
+        )
+        for sort, name, first, vertices in sorts:
             stream = model.streams[name]
-            if stream.count:
+            if stream.count and vertices > 0:
                 array = self._programs.array(sort, stream, model, soft=soft)
-                kind.tell(array.program, model, self._numbers)
-                array.render(moderngl.TRIANGLES, vertices=vertices, instances=stream.count)
+                if told is not array.program:
+                    told = array.program
+                    kind.tell(told, model, self._numbers)
+                array.render(moderngl.TRIANGLES, first=first, vertices=vertices, instances=stream.count)
                 calls += 1
         return calls
 
@@ -222,3 +245,20 @@ class TreePart(Part):
         release_all(*self._kinds)
         if self._shade is not None:
             self._shade.release()
+
+
+def _any_leafy(model: Model, told: np.void, viewer: Viewer, within: float) -> bool:
+    """Return whether any twig of a tree, a record of `SHOWN`, is so near [m], and in the picture."""
+    (cosine, sine), scale = told["turn"].tolist(), float(told["scale"])
+    x, y, z = model.twigs["foot"].astype(np.float64).T
+    foot = scale * np.stack([cosine * x - sine * z, y, sine * x + cosine * z], axis=1) + told["root"]
+    near = np.linalg.norm(foot - viewer.eye, axis=1) < within
+    reach = scale * (2.0 * model.habit.twigs.length + SWAYS * model.height)
+    return bool(near.any()) and bool((beyond(foot[near], viewer.sides) <= reach).any())
+
+
+def _wood(model: ModelOnCard, name: str, *, soft: bool, whole: bool) -> tuple[int, int]:
+    """Return from which vertex on, and how many, are drawn of the wood of a stream's trees."""
+    drawn, count = model.wood[name], len(model.model.triangles)
+    first, end = (0, count) if whole else (drawn.soft, drawn.end) if soft else (0, min(drawn.solid, drawn.end))
+    return 3 * first, 3 * (end - first)

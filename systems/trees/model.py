@@ -20,8 +20,21 @@ MODELS = 2
 WOOD = np.dtype([("stem", "4f4"), ("side", "3f4"), ("own", "4f4"), ("pivot", "3f4"), ("shading", "4f4")])
 """A vertex of bark, as `wood.vert` reads it."""
 
-THICK = 0.4
-"""Share of branches that trees have which are drawn small."""
+SENT = np.dtype(
+    {
+        "names": list(WOOD.names or ()),
+        "formats": ["4f4", "3u1", "4f2", "3f2", "4f2"],
+        "offsets": [0, 16, 20, 28, 36],
+        "itemsize": 44,
+    }
+)
+"""The same as it is sent, in fewer bytes."""
+
+SIDE_ONE = 127.5
+"""What `side` is times and plus as it is sent."""
+
+ALIKE = 1.3
+"""How many times as thick another stem may be that counts as thick as one."""
 
 SIDES = 12, 6, 3
 """Flat sides of a stem of each level."""
@@ -42,10 +55,10 @@ class Model:
     """Records of `WOOD`, shape (n,)."""
 
     triangles: NDArray[np.uint32]
-    """Shape (n, 3)."""
+    """Shape (n, 3), the thickest first."""
 
-    thick: int
-    """Of those, the first ones are of all that is thick."""
+    radii: Doubles
+    """The least and the greatest radius of the stem that they are of, shape (n, 2) [m]."""
 
     middle: float
     """Height of the middle of its pictures from all around [m]."""
@@ -75,12 +88,12 @@ def _model(habit: Habit, height: float, *, seed: int) -> Model:
     tree = grown(habit, height, seed=seed)
     area = leaf_area(tree.twigs, habit.leaf, habit.twigs.length)
     twigs = _twig_records(tree, area, seed)
-    vertices, triangles, thick = _wood(tree, area, seed)
+    vertices, triangles, radii = _wood(tree, area, seed)
     ends = tree.twigs.foot + tree.twigs.length[:, None] * tree.twigs.along
     radius = float(np.hypot(ends[:, 0], ends[:, 2]).max())
     top = float(ends[:, 1].max())
     return Model(
-        habit, height, twigs, vertices, triangles, thick, 0.5 * top, 1.04 * max(0.5 * top, radius), radius,
+        habit, height, twigs, vertices, triangles, radii, 0.5 * top, 1.04 * max(0.5 * top, radius), radius,
         trunk_hertz(height, habit.slender * height), float(area.sum()),
     )  # fmt: skip
 
@@ -89,7 +102,9 @@ def _limbs(tree: Tree, seed: int) -> tuple[Doubles, Doubles]:
     """Return each limb's foot (n, 3), and what sets it apart and its frequency (n, 2)."""
     limbs = tree.levels[1]
     own = np.random.default_rng((seed, 43)).uniform(0.0, 1.0, len(limbs.at))
-    return limbs.spine[:, 0], np.stack([own, [limb_hertz(each) for each in limbs.length]], axis=1)
+    numbers = np.stack([own, [limb_hertz(each) for each in limbs.length]], axis=1)
+    foot, numbers = (each.astype(np.float16).astype(np.float64) for each in (limbs.spine[:, 0], numbers))
+    return foot, numbers  # as vertices have them
 
 
 def _twig_records(tree: Tree, area: Doubles, seed: int) -> NDArray[np.void]:
@@ -103,8 +118,8 @@ def _twig_records(tree: Tree, area: Doubles, seed: int) -> NDArray[np.void]:
     return records
 
 
-def _wood(tree: Tree, area: Doubles, seed: int) -> tuple[NDArray[np.void], NDArray[np.uint32], int]:
-    """Return the bark of all stems, and its triangles, of which the first so many are of those that are thick."""
+def _wood(tree: Tree, area: Doubles, seed: int) -> tuple[NDArray[np.void], NDArray[np.uint32], Doubles]:
+    """Return the bark of all stems, its triangles, the thickest first, and between which radii each is."""
     pivot, limb = _limbs(tree, seed)
     every = np.concatenate([stems.spine.reshape(-1, 3) for stems in tree.levels])
     shades = np.split(shading(tree, area, every), np.cumsum([stems.spine[..., 0].size for stems in tree.levels])[:-1])
@@ -118,11 +133,14 @@ def _wood(tree: Tree, area: Doubles, seed: int) -> tuple[NDArray[np.void], NDArr
         else:
             vertices["pivot"], vertices["own"][..., 2:] = pivot[owner][:, None, None], limb[owner][:, None, None]
         parts.append(vertices.reshape(-1))
-        found = _faces(*vertices.shape)[np.argsort(-stems.radius[:, 0], kind="stable")]
-        faces.append(found.reshape(-1, 3) + first)
+        faces.append(_faces(*vertices.shape).reshape(-1, 3) + first)
         first += vertices.size
-    thick = len(faces[0]) + len(faces[1]) + int(THICK * len(faces[2]))
-    return np.concatenate(parts), np.concatenate(faces).astype(np.uint32), thick
+    bark, triangles = np.concatenate(parts), np.concatenate(faces).astype(np.uint32)
+    around = bark["stem"][:, 3].astype(np.float64)[triangles]
+    radii = np.stack([around.min(axis=1), around.max(axis=1)], axis=1)
+    about = np.round(np.log(radii.sum(axis=1)) / np.log(ALIKE))  # of one stem stay together: they share vertices
+    order = np.argsort(-about, kind="stable")
+    return bark, triangles[order], radii[order]
 
 
 def _tubes(stems: Stems, sides: int) -> NDArray[np.void]:
@@ -152,3 +170,12 @@ def _faces(stems: int, points: int, around: int) -> NDArray[np.intp]:
     number = np.arange(stems * points * around).reshape(stems, points, around)
     a, b, c, d = number[:, :-1, :-1], number[:, :-1, 1:], number[:, 1:, :-1], number[:, 1:, 1:]
     return np.stack([a, c, b, b, c, d], axis=-1).reshape(stems, -1, 3)
+
+
+def sent(vertices: NDArray[np.void], /) -> NDArray[np.void]:
+    """Return vertices of bark as records of `SENT`."""
+    told = np.zeros(len(vertices), SENT)
+    for name in ("stem", "own", "pivot", "shading"):
+        told[name] = vertices[name]
+    told["side"] = np.round(SIDE_ONE + SIDE_ONE * vertices["side"].clip(-1.0, 1.0))
+    return told

@@ -48,7 +48,7 @@ class Programs:
                 if not baked and (told := model.told.get(id(stream))) is not None:
                     contents.append(told.binding(program))
                 if sort == "wood":
-                    contents.insert(0, _kept(program, *model.bark))
+                    contents.insert(0, model.bark(program))
                     indices = model.triangles
             whole = [each for each in contents if len(each) > 2]
             self._arrays[key] = self._ctx.vertex_array(program, whole, index_buffer=indices)
@@ -84,12 +84,3 @@ class Programs:
 def _quads() -> NDArray[np.uint32]:
     """Return the corners of quads, four each, as two triangles each."""
     return (np.arange(MOST_QUADS, dtype=np.uint32)[:, None] * 4 + np.array([0, 1, 2, 2, 1, 3], np.uint32)).reshape(-1)
-
-
-def _kept(
-    program: moderngl.Program, buffer: moderngl.Buffer, form: str, names: list[str]
-) -> tuple[moderngl.Buffer | str, ...]:
-    """Return a vertex buffer's contents, with what a program does without skipped over."""
-    parts = form.split()
-    kept = [part if name in program else f"{int(part[:-1]) * 4}x" for part, name in zip(parts, names, strict=True)]
-    return buffer, " ".join(kept), *(name for name in names if name in program)

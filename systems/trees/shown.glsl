@@ -1,8 +1,7 @@
 // The two ways in which what covers a pixel in part is drawn: opaque where it covers nearly all of it, and blended over that
 // and all else where it covers less.
 
-const float OPAQUE = 0.8;  // coverage from which on it is
-const float FAINTEST = 0.02;  // and that is left out
+#include "systems/trees/wood.py"
 
 // Leaves out what the other way draws.
 void must_cover(float cover) {

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from tallgrass import Pose, Prairie, Tree
 from tallgrass.engine.camera import Camera
-from tallgrass.systems.trees import standing
+from tallgrass.systems.trees import card, standing
 from tallgrass.systems.trees.draw import TreePart
+from tallgrass.systems.trees.wood import Parts
 from tallgrass.testing import Stage, little_prairie, looking, private_world
 
 SCENE = """\
@@ -133,12 +134,13 @@ def test_far_off_it_looks_as_it_does_near_by(
     stage: Stage, prairie: Prairie, plant: Callable[..., int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     bare = shot(stage, prairie, AHEAD)
-    plant(0.0, 0.0)
     seen = []
     for gone in (1.0, 1e5):
         monkeypatch.setattr(standing, "GONE", gone)
         monkeypatch.setattr(standing, "BEGINS", 2.0 * gone)
+        tree = plant(0.0, 0.0)
         seen.append(shot(stage, prairie, AHEAD))
+        esper.delete_entity(tree, immediate=True)
     near, far = seen
     assert changed(near, far) > 0.01  # it is another representation
     covers = [np.abs(each - bare).max(axis=-1) > 12.0 for each in (near, far)]
@@ -146,6 +148,20 @@ def test_far_off_it_looks_as_it_does_near_by(
     both = covers[0] & covers[1]
     light = [each[both].mean() for each in (near, far)]
     assert light[1] == pytest.approx(light[0], rel=0.2)
+
+
+@pytest.mark.parametrize("away", [0.0, -45.0])
+def test_wood_that_is_left_out_of_a_pass_would_cover_no_pixel_in_it(
+    stage: Stage, prairie: Prairie, plant: Callable[..., int], monkeypatch: pytest.MonkeyPatch, away: float
+) -> None:
+    seen = []
+    for whole in (False, True):
+        if whole:
+            monkeypatch.setattr(card, "parts", lambda radii, *_: Parts(len(radii), 0, len(radii)))
+        tree = plant(0.0, away)
+        seen.append(shot(stage, prairie, AHEAD))
+        esper.delete_entity(tree, immediate=True)
+    assert np.array_equal(seen[0], seen[1])
 
 
 def test_it_sways_in_the_wind_and_stands_still_where_time_does(
