@@ -58,7 +58,7 @@ class Model:
     """Shape (n, 3), the thickest first."""
 
     radii: Doubles
-    """The least and the greatest radius of the stem that they are of, shape (n, 2) [m]."""
+    """From the last of them to the first: the least radius of any up to it, the greatest from it on, (2, n) [m]."""
 
     middle: float
     """Height of the middle of its pictures from all around [m]."""
@@ -119,7 +119,7 @@ def _twig_records(tree: Tree, area: Doubles, seed: int) -> NDArray[np.void]:
 
 
 def _wood(tree: Tree, area: Doubles, seed: int) -> tuple[NDArray[np.void], NDArray[np.uint32], Doubles]:
-    """Return the bark of all stems, its triangles, the thickest first, and between which radii each is."""
+    """Return the bark of all stems, its triangles, the thickest first, and between which radii they are."""
     pivot, limb = _limbs(tree, seed)
     every = np.concatenate([stems.spine.reshape(-1, 3) for stems in tree.levels])
     shades = np.split(shading(tree, area, every), np.cumsum([stems.spine[..., 0].size for stems in tree.levels])[:-1])
@@ -140,7 +140,8 @@ def _wood(tree: Tree, area: Doubles, seed: int) -> tuple[NDArray[np.void], NDArr
     radii = np.stack([around.min(axis=1), around.max(axis=1)], axis=1)
     about = np.round(np.log(radii.sum(axis=1)) / np.log(ALIKE))  # of one stem stay together: they share vertices
     order = np.argsort(-about, kind="stable")
-    return bark, triangles[order], radii[order]
+    least, most = np.minimum.accumulate(radii[order, 0])[::-1], np.maximum.accumulate(radii[order[::-1], 1])
+    return bark, triangles[order], np.stack([least, most])
 
 
 def _tubes(stems: Stems, sides: int) -> NDArray[np.void]:

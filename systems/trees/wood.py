@@ -53,7 +53,7 @@ def parts(radii: Doubles, wide: Doubles, rows: NDArray[np.void], /) -> Parts:
     where each tree is nearest and farthest off, shape (n, 2) [m of the model].
     """
     nearest, farthest = float(wide[:, 0].min()), float(wide[:, 1].max())
-    most, least = np.maximum.accumulate(radii[::-1, 1]), np.minimum.accumulate(radii[:, 0])[::-1]
+    least, most = radii
 
     def so_thick(rising: Doubles, radius: float) -> int:
         return len(rising) - int(np.searchsorted(rising, radius))
@@ -62,5 +62,5 @@ def parts(radii: Doubles, wide: Doubles, rows: NDArray[np.void], /) -> Parts:
     return Parts(
         so_thick(most, OPAQUE * nearest),
         0 if goes else so_thick(least, OPAQUE * farthest),
-        so_thick(most, THINS[0] * nearest) if leafy else len(radii),
+        so_thick(most, THINS[0] * nearest) if leafy else len(most),
     )

@@ -159,7 +159,7 @@ def test_wood_that_is_left_out_of_a_pass_would_cover_no_pixel_in_it(
     seen = []
     for whole in (False, True):
         if whole:
-            monkeypatch.setattr(card, "parts", lambda radii, *_: Parts(len(radii), 0, len(radii)))
+            monkeypatch.setattr(card, "parts", lambda radii, *_: Parts(radii.shape[1], 0, radii.shape[1]))
         tree = plant(0.0, away)
         seen.append(shot(stage, prairie, AHEAD))
         esper.delete_entity(tree, immediate=True)
