@@ -83,6 +83,7 @@ def _compares_rivals(told: dict[str, Any]) -> None:
         assert 0.0 < row["flip"] < 0.3
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("ctx", "few_frames")
 def test_n6_the_frame_benchmark_tells_every_key_of_the_contract_and_what_the_cpu_and_rivals_take(
     scene: Path, capsys: pytest.CaptureFixture[str]

@@ -83,6 +83,7 @@ def film(scene: Path, python: Callable[..., str]) -> Film:
     return made
 
 
+@pytest.mark.slow
 def test_n5_a_film_on_a_busy_machine_and_with_a_slow_wind_is_the_film_and_a_line_tells_of_the_wind(film: Film) -> None:
     alone, nothing = film("alone", seconds=0.0)
     assert len(set(alone)) == 3

@@ -119,6 +119,7 @@ class _Late:
     names: tuple[str, ...]
 
 
+@pytest.mark.slow
 def test_n3_a_jump_at_the_end_of_a_change_is_named_as_flicker(
     sound: Told, measure: Callable[[], Told], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -243,6 +243,7 @@ def test_d6_with_fewer_layers_than_there_are_pictures_a_prairie_looks_the_same(
     assert (np.abs(found - expected).max(axis=-1) > 8.0).mean() < 0.003
 
 
+@pytest.mark.slow
 def test_d6_gl_is_asked_for_nothing_that_an_old_driver_does_not_know(
     stage: Stage, load: Load, monkeypatch: pytest.MonkeyPatch
 ) -> None:

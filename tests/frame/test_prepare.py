@@ -98,6 +98,7 @@ def plugin(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[list[Win
     del sys.modules["prepared_front"]
 
 
+@pytest.mark.slow
 def test_nothing_is_made_on_a_frame_after_a_game_has_prepared(
     stage: Stage, load: Load, camera: Aim, made: list[str], plugin: list[WindPrimitive]
 ) -> None:

@@ -96,6 +96,7 @@ def test_the_two_faces_of_a_fold_are_lit_apart_with_an_edge_between_them(room: S
     assert steps[1] > 1.1 * steps[0]
 
 
+@pytest.mark.slow
 def test_g1_a_kind_may_have_segments_of_its_own_and_then_all_its_blades_are_drawn_with_them(
     stage: Stage, load: Load
 ) -> None:

@@ -127,6 +127,7 @@ def test_n5_a_village_a_crater_and_a_field_are_loaded_in_another_process_to_the_
     assert pictures[0].std(axis=(0, 1)).min() > 10.0
 
 
+@pytest.mark.slow
 def test_a_thousand_strokes_take_a_second_and_a_frame_that_sows_400_square_metres_is_no_standstill(
     ctx: moderngl.Context,
 ) -> None:
