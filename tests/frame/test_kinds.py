@@ -31,7 +31,7 @@ ALL = Footprint(radius=30.0)
 
 PLANTS = [
     *(f"height: [0.3, 0.5], width: 0.03, stiffness: {0.5 + 0.5 * kind}" for kind in range(6)),
-    "plant: flower, plants: 90, understorey: 1, height: [0.3, 0.5], width: 0.03, head: { petals: 5, size: [0.07, 0.1] }",
+    "plant: flower, plants: 90, understorey: 1, height: [0.3, 0.5], head: { petals: 5, size: [0.07, 0.1] }",
     "plant: forb, plants: 60, understorey: 1, height: [0.2, 0.4]",
     "plant: shrub, plants: 20, height: [0.2, 0.4]",
 ]

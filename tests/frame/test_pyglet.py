@@ -28,7 +28,10 @@ pytestmark = [pytest.mark.window, pytest.mark.gl]
 
 @pytest.mark.parametrize(
     ("headless", "version"),
-    [pytest.param(False, "3.3", id="display-3.3"), pytest.param(True, "4.1", id="headless-4.1", marks=pytest.mark.slow)],
+    [
+        pytest.param(False, "3.3", id="display-3.3"),
+        pytest.param(True, "4.1", id="headless-4.1", marks=pytest.mark.slow),
+    ],
 )
 def test_d6_a_game_and_its_prairie_leave_each_other_alone(headless: bool, version: str, tmp_path: Path) -> None:  # noqa: FBT001
     (tmp_path / "scene.yaml").write_text(SCENE, "utf-8")
