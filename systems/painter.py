@@ -212,7 +212,8 @@ class Painter:
             calls = sum(part.prepare() for part in self.parts)
             air.use()
             calls += sum(painter.hear() for painter in self.painters.values())
-            calls += sum(part.breathe(self.coarsest.heard()) for part in self.parts)
+            heard = self.coarsest.heard()
+            calls += sum(part.breathe(heard) for part in self.parts)
             write_messages(self.received, outlook, self._first, site.ground)
             self.received.texture.use(UNITS["received"])
         return calls

@@ -131,5 +131,6 @@ def tell(program: moderngl.Program, name: str, *value: float) -> None:
     """Tell a program a number or a vector, if it asks for it and was not told the same before."""
     if program.extra.get(name) != value:
         program.extra[name] = value
-        if name in program:
-            program[name] = value if len(value) > 1 else value[0]
+        asked = program.get(name, None)  # `in` would go through all of its names
+        if isinstance(asked, moderngl.Uniform):
+            asked.value = value if len(value) > 1 else value[0]

@@ -1,5 +1,7 @@
 """A tree that has grown, as one GL context holds it, and the streams of those that are drawn as it is."""
 
+from collections.abc import Mapping
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +13,9 @@ from .model import SENT, Model, sent
 from .standing import SHOWN, TOLD
 from .twig import ROW, TWIG
 from .wood import Parts, parts
+
+Numbers = Mapping[str, tuple[float, ...]]
+"""What programs are told, by name."""
 
 NEAR, FAR, LEAVES, WOOD = "near", "far", "leaves", "wood"
 
@@ -33,6 +38,11 @@ class ModelOnCard:
 
     def __init__(self, ctx: moderngl.Context, model: Model) -> None:
         self.model = model
+        self.numbers: Numbers = {
+            "tall": (model.height,), "trunk_hertz": (model.hertz,), "twigs": (len(model.twigs),),
+            "ball": (model.middle, model.half), "crown_at": (model.middle,),
+        }  # fmt: skip
+        """What programs are told of it."""
         self.twigs = Records(ctx, TWIG, ROW, rows=-(-len(model.twigs) // ROW))
         self.twigs.write(model.twigs)
         self.vertices = ctx.buffer(sent(model.vertices))

@@ -14,7 +14,7 @@ from ..frame.block import FrameBlock
 from ..frame.feature import Heard, Part
 from ..space.frustum import beyond
 from ..space.grown import Grown
-from .card import CARDS, FAR, LEAVES, NEAR, WOOD, WOODS, ModelOnCard
+from .card import CARDS, FAR, LEAVES, NEAR, WOOD, WOODS, ModelOnCard, Numbers
 from .kind import KindOnCard
 from .model import Model
 from .motion import PERIOD
@@ -40,7 +40,7 @@ class TreePart(Part):
         self._programs: Programs | None = None
         self._shade: ShadeMap | None = None
         self._outlook: Outlook | None = None
-        self._numbers: dict[str, object] = {}
+        self._numbers: Numbers = {}
         self._chosen = self._rehearses = False
         self._chosen_by: object = None
         self._air: Heard | None = None
@@ -101,7 +101,7 @@ class TreePart(Part):
         patch = float(self._block.record["patch_side"][0])
         self._numbers = {
             "leaf_pixels": EVERY_LEAF if self.every_leaf else LEAF_PIXELS,
-            "moment": viewer.time % PERIOD,
+            "moment": (viewer.time % PERIOD,),
             "middle": tuple(((viewer.centre + 0.5) * patch).tolist()),
         }
         assert self._shade is not None

@@ -7,10 +7,11 @@ import numpy as np
 
 from ...components.arrays import Doubles
 from ...engine.declared.tree import TreeKind
+from ...engine.gl.shaders import tell
 from ...engine.gl.stream import release_all
 from ..light.materials import pigment
 from .bake import CARD, PICTURES, from_around, on_card, pictures
-from .card import FEWER, LEAVES, NEAR, WOOD, ModelOnCard
+from .card import FEWER, LEAVES, NEAR, WOOD, ModelOnCard, Numbers
 from .habit import HABITS
 from .model import models_of
 from .programs import Programs
@@ -29,6 +30,7 @@ class KindOnCard:
         wide = 0.95 * leaf.length * (np.sin(leaf.angle) + 0.25)
         wide += SHOOTS_LONG * usual * 0.7 if leaf.shoots > 1 else 0.0
         self.reach = wide / usual, -0.3 * leaf.length / usual, 1.0 + 1.2 * leaf.length / usual
+        self._numbers = self._told()
 
     def bake(self, programs: Programs) -> None:
         """Draw its twig, and then its models from all around; a depth test is set meanwhile."""
@@ -37,7 +39,7 @@ class KindOnCard:
 
         def draw_twig(number: int) -> None:
             del number
-            self._tell(twig.program, self.models[0])
+            self.tell(twig.program, self.models[0], {})
             _matrix(twig.program, matrix)
             twig.render(moderngl.TRIANGLES, vertices=6 * (self.habit.leaf.count + self.habit.leaf.shoots), instances=1)
 
@@ -51,35 +53,29 @@ class KindOnCard:
         def draw_tree(number: int) -> None:
             matrix = from_around(number, model.model.middle, model.model.half)
             for array, count in ((wood, -1), (cards, round(6 * FEWER * len(model.model.twigs)))):
-                self._tell(array.program, model)
+                self.tell(array.program, model, {})
                 _matrix(array.program, matrix)
                 array.render(moderngl.TRIANGLES, vertices=count, instances=1)
 
         model.far = pictures(self.ctx, *PICTURES, draw_tree)
 
-    def tell(self, program: moderngl.Program, model: ModelOnCard, numbers: Mapping[str, object]) -> None:
-        """Tell a program of the kind and one of its models, and what else it is to know; bind what it reads."""
-        self._tell(program, model)
-        for name, value in numbers.items():
-            if name in program:
-                program[name] = value
-
-    def _tell(self, program: moderngl.Program, model: ModelOnCard) -> None:
-        habit, grown = self.habit, model.model
+    def _told(self) -> Numbers:
+        """Return what programs are told of the kind, whichever of its models they draw."""
+        habit, declared = self.habit, self.declared
         leaf, usual = habit.leaf, habit.twigs.length
-        dark, bright = habit.leaves if self.declared.leaf is None else (self.declared.leaf, self.declared.leaf)
-        shaded = 0.62 if self.declared.leaf is not None else 1.0
-        numbers: dict[str, object] = {
-            "tall": grown.height, "trunk_hertz": grown.hertz, "twigs": len(grown.twigs), "usual": usual,
-            "card": (*self.reach, 0.0), "leaf_count": leaf.count, "shoots": leaf.shoots, "form": leaf.form,
-            "leaf_shape": (leaf.length / usual, 0.5 * leaf.width / usual, leaf.angle),
-            "dark": tuple(shaded * pigment(dark)), "bright": tuple(pigment(bright)),
-            "bark": tuple(pigment(self.declared.bark or habit.bark)), "rough": habit.rough,
-            "ball": (grown.middle, grown.half), "crown_at": grown.middle,
+        dark, bright = habit.leaves if declared.leaf is None else (declared.leaf, declared.leaf)
+        shaded = 0.62 if declared.leaf is not None else 1.0
+        return {
+            "usual": (usual,), "card": (*self.reach, 0.0), "leaf_count": (leaf.count,), "shoots": (leaf.shoots,),
+            "form": (leaf.form,), "leaf_shape": (leaf.length / usual, 0.5 * leaf.width / usual, leaf.angle),
+            "dark": tuple((shaded * pigment(dark)).tolist()), "bright": tuple(pigment(bright).tolist()),
+            "bark": tuple(pigment(declared.bark or habit.bark).tolist()), "rough": (habit.rough,),
         }  # fmt: skip
-        for name, value in numbers.items():
-            if name in program:
-                program[name] = value
+
+    def tell(self, program: moderngl.Program, model: ModelOnCard, numbers: Numbers) -> None:
+        """Tell a program of the kind and one of its models, and what else it is to know; bind what it reads."""
+        for name, value in {**self._numbers, **model.numbers, **numbers}.items():
+            tell(program, name, *value)
         model.twigs.texture.use(self.units["tree_twigs"])
         if self.card is not None:
             self.card.use(self.units["tree_cards"])

@@ -1,6 +1,6 @@
 """Maps of what trees leave of the light: of the sun's near by and far off, and of the sky's from above."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import moderngl
 import numpy as np
@@ -10,6 +10,7 @@ from ...components.arrays import Doubles
 from ...engine.gl.guest import borrow
 from ...engine.gl.stream import Stream, release_all
 from ...engine.gl.units import BORROWED
+from .card import Numbers
 from .kind import KindOnCard
 from .programs import Programs
 from .standing import SHOWN, Standing, shown
@@ -82,9 +83,7 @@ class ShadeMap:
         borrow(UNIT, self._texture.glo)
         self._sampler.use(UNIT)
 
-    def prepare(
-        self, kinds: Sequence[KindOnCard], programs: Programs, standing: Standing, numbers: Mapping[str, object], /
-    ) -> int:
+    def prepare(self, kinds: Sequence[KindOnCard], programs: Programs, standing: Standing, numbers: Numbers, /) -> int:
         """Draw those that are due; return the number of draw calls."""
         due = [number for number, (made_of, _) in enumerate(self._due) if self._drawn[number] != made_of]
         if not due:
