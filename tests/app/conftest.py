@@ -2,12 +2,20 @@
 
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
+from tallgrass.app.studio.take import Take
 from tallgrass.engine.declared.quality import PRESETS, BladeRing, Quality, StripRing
+from tallgrass.systems.prairie import Prairie
+
+from .walking import SIZE
+
+if TYPE_CHECKING:
+    from tallgrass.app.window import Walk
 
 SCENE = """\
 tallgrass: 2
@@ -65,3 +73,21 @@ def _coarse(monkeypatch: pytest.MonkeyPatch) -> None:
         count = 60 if "high" in name else 30
         coarse = Quality(blades=count, models=1, blade_rings=blades, strip_rings=rings, carpet_to=12, carpet=8)
         monkeypatch.setitem(PRESETS, name, coarse)
+
+
+@pytest.fixture
+def walk(scene: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator["Walk"]:
+    """A walk through the small scene, drawn once; pyglet checks every GL call."""
+    monkeypatch.setenv("PYGLET_DEBUG_GL", "1")
+    monkeypatch.chdir(scene.parent)
+    from tallgrass.app.display import need_display  # noqa: PLC0415 - there has to be a display first
+
+    need_display()
+    from tallgrass.app.window import Walk, open_window  # noqa: PLC0415
+
+    started = Walk(open_window(SIZE), Prairie.load(scene), Take(str(scene), SIZE))
+    started.frame(1 / 60)
+    yield started
+    if not started.closed:
+        assert started.ctx.error == "GL_NO_ERROR"
+    started.close()

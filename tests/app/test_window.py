@@ -5,9 +5,8 @@ What opens windows is imported inside the tests: there has to be a display first
 
 # ruff: noqa: PLC0415
 
-import ctypes
 import subprocess
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from math import radians
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -21,70 +20,13 @@ from tallgrass.app.studio.take import Take
 from tallgrass.systems.bodies.feature import BodiesPart
 from tallgrass.systems.prairie import Prairie
 
+from .walking import SIZE, click, let_go, press, seen, strike, winds
+
 if TYPE_CHECKING:
     from tallgrass.app.window import Walk
 
 Tallgrass = Callable[..., subprocess.CompletedProcess[str]]
 pytestmark = [pytest.mark.window, pytest.mark.gl]
-SIZE = (160, 90)
-
-
-@pytest.fixture
-def walk(scene: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator["Walk"]:
-    """A walk through the small scene, drawn once; pyglet checks every GL call."""
-    monkeypatch.setenv("PYGLET_DEBUG_GL", "1")
-    monkeypatch.chdir(scene.parent)
-    from tallgrass.app.display import need_display
-
-    need_display()
-    from tallgrass.app.window import Walk, open_window
-
-    started = Walk(open_window(SIZE), Prairie.load(scene), Take(str(scene), SIZE))
-    started.frame(1 / 60)
-    yield started
-    if not started.closed:
-        assert started.ctx.error == "GL_NO_ERROR"
-    started.close()
-
-
-def press(walk: "Walk", *names: str) -> None:
-    from pyglet.window import key
-
-    for name in names:
-        walk.window.dispatch_event("on_key_press", getattr(key, name), 0)
-        walk.window.dispatch_events()
-
-
-def let_go(walk: "Walk", name: str) -> None:
-    from pyglet.window import key
-
-    walk.window.dispatch_event("on_key_release", getattr(key, name), 0)
-    walk.window.dispatch_events()
-
-
-def strike(walk: "Walk", digit: str) -> None:
-    walk.window.dispatch_event("on_key_press", ord(digit), 0)
-    walk.window.dispatch_events()
-
-
-def click(walk: "Walk") -> None:
-    walk.window.dispatch_event("on_mouse_press", 5, 5, 1, 0)
-    walk.window.dispatch_events()
-
-
-def seen(walk: "Walk") -> NDArray[np.uint8]:
-    """Draw the window once more without moving, and return what is in it."""
-    from pyglet import gl
-
-    walk.window.switch_to()
-    walk.on_draw()
-    width, height = walk.window.get_framebuffer_size()
-    data = (ctypes.c_ubyte * (3 * width * height))()
-    gl.glReadBuffer(gl.GL_BACK)
-    gl.glPixelStorei(gl.GL_PACK_ALIGNMENT, 1)
-    gl.glReadPixels(0, 0, width, height, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, data)
-    walk.window.flip()
-    return np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1]
 
 
 def test_r4_keys_walk_over_the_ground_and_the_picture_changes(walk: "Walk") -> None:
@@ -221,10 +163,6 @@ def test_f_takes_off_and_lands(walk: "Walk") -> None:
     assert walk.walker.position[1] == pytest.approx(ground + 1.7, abs=0.05)
 
 
-def winds(walk: "Walk") -> set[str]:
-    return {source.primitive.kind for source in walk.prairie.winds.sources()}
-
-
 def test_r4_g_boards_a_saucer_that_keys_fly_and_leaves_it(walk: "Walk") -> None:
     before, plain, walker = winds(walk), seen(walk), walk.walker
     press(walk, "G")
@@ -288,88 +226,6 @@ def test_n8_digits_set_off_winds_that_end_by_themselves(walk: "Walk", digit: str
     walk.prairie.advance(60.0)
     walk.frame(0.05)
     assert (winds(walk), len(walk.weather)) == (before, 0)
-
-
-def test_n7_the_saucer_flies_on_over_a_scene_that_is_read_again(walk: "Walk", scene: Path) -> None:
-    press(walk, "G")
-    strike(walk, "2")
-    walk.frame(0.1)
-    assert walk.flight is not None
-    place = walk.flight.saucer.place
-    scene.write_text(scene.read_text().replace("seed: 5", "seed: 6"))
-    press(walk, "F5")
-    assert walk.flight.saucer.place == pytest.approx(place, abs=0.05), "other blades have grown, about as high"
-    assert winds(walk) == {"breeze", "blast", "whirlwind"}
-    press(walk, "W")
-    walk.frame(0.1)
-    walk.frame(0.1)
-    assert walk.flight.saucer.place[2] < place[2]
-
-
-def test_n7_reading_the_scene_again_keeps_time_and_place(walk: "Walk", scene: Path) -> None:
-    for _ in range(5):
-        walk.frame(0.1)
-    seen(walk)
-    time, place, patches = walk.prairie.time, walk.walker, walk.prairie.viewers["main"].patches
-    scene.write_text(scene.read_text().replace("strength: 0.5", "strength: 0.2"))
-    press(walk, "F5")
-    assert walk.prairie.viewers["main"].patches is patches
-    scene.write_text(scene.read_text().replace("seed: 5", "seed: 6"))
-    press(walk, "F5")
-    assert walk.prairie.scene.seed == 6
-    assert walk.prairie.time == pytest.approx(time)
-    assert walk.walker.position == pytest.approx(place.position)
-    walk.frame(1 / 60)
-
-
-def test_n7_a_scene_is_read_again_by_itself_within_a_second(walk: "Walk", scene: Path) -> None:
-    scene.write_text(scene.read_text().replace("strength: 0.5", "strength: 0.25"))
-    for _ in range(10):
-        walk.frame(0.1)
-    (breeze,) = walk.prairie.scene.wind
-    assert breeze.model_dump()["strength"] == 0.25
-
-
-def test_n7_winds_that_were_set_off_blow_on_through_a_reading(walk: "Walk", scene: Path) -> None:
-    strike(walk, "1")
-    strike(walk, "2")
-    scene.write_text(scene.read_text().replace("strength: 0.5", "strength: 0.25"))
-    press(walk, "F5")
-    assert winds(walk) == {"breeze", "gust", "whirlwind"}
-    for _ in range(200):
-        walk.step(0.1)
-    assert winds(walk) == {"breeze"}
-
-
-def test_n7_a_broken_scene_is_told_until_it_is_right_and_the_old_one_goes_on(walk: "Walk", scene: Path) -> None:
-    right, old = scene.read_text(), walk.prairie.scene
-    scene.write_text(right.replace("eye: 1.7", "eye: low"))
-    for _ in range(120):
-        walk.step(0.1)
-    assert walk.prairie.scene is old
-    assert walk.prairie.time > 11.0
-    told = seen(walk)
-    walk.tell([])
-    assert (told != seen(walk)).any(axis=2).mean() > 0.1
-    scene.write_text(right.replace("eye: 1.7", "eye: 1.8"))
-    for _ in range(10):
-        walk.step(0.1)
-    assert walk.prairie.scene.camera.eye == 1.8
-    for _ in range(100):
-        walk.step(0.1)
-    silent = seen(walk)
-    walk.tell([])
-    assert (silent == seen(walk)).all()
-
-
-def test_n7_of_many_problems_some_are_shown(walk: "Walk", scene: Path) -> None:
-    shown: list[list[str]] = []
-    walk.tell = lambda lines, **_: shown.append(lines)  # type: ignore[method-assign]
-    scene.write_text(scene.read_text() + "".join(f"key{k}: 1\n" for k in range(9)))
-    press(walk, "F5")
-    (lines,) = shown
-    assert [line for line in lines if "unknown key" in line] == [line for line in lines[::3] if ":" in line][:4]
-    assert lines[-1] == "and 5 more problems"
 
 
 def test_another_window_in_front_lets_go_of_keys_and_mouse(walk: "Walk") -> None:

@@ -25,6 +25,16 @@ def stage(ctx: moderngl.Context) -> Iterator[Stage]:
 
 
 @pytest.fixture(scope="module")
+def prairies(request: pytest.FixtureRequest, ctx: moderngl.Context) -> Iterator[dict[str, Prairie]]:
+    """One prairie a representation, which shows nothing else of the module's `SCENE`."""
+    scene = request.module.SCENE
+    made = {lod: Prairie.load(scene, ctx=ctx, lod=lod, live=False) for lod in ("blades", "strips", "carpet")}
+    yield made
+    for prairie in made.values():
+        prairie.release()
+
+
+@pytest.fixture(scope="module")
 def _loaded() -> Iterator[list[Prairie]]:
     """What has been loaded and not yet released."""
     loaded: list[Prairie] = []

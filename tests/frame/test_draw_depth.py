@@ -1,6 +1,6 @@
 """Shadows of grass, in a game's own shadow map: as dark as those of every blade (N12)."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import moderngl
@@ -41,15 +41,6 @@ WALL = 2.0
 @pytest.fixture(scope="module")
 def stage(ctx: moderngl.Context) -> Stage:
     return Stage(ctx, (96, 64))
-
-
-@pytest.fixture(scope="module")
-def prairies(ctx: moderngl.Context) -> Iterator[dict[str, Prairie]]:
-    """One prairie a representation, which shows nothing else."""
-    made = {lod: Prairie.load(SCENE, ctx=ctx, lod=lod, live=False) for lod in ("blades", "strips", "carpet")}
-    yield made
-    for prairie in made.values():
-        prairie.release()
 
 
 def from_sun(elevation: float = 25.0) -> tuple[Array, Array]:

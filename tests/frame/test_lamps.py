@@ -1,6 +1,6 @@
 """Lamps: the same light on all representations, falling off as it does in the world (F5, N12)."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import partial
 from itertools import pairwise
 from typing import Any
@@ -51,15 +51,6 @@ LAMPS = {
 @pytest.fixture(scope="module")
 def stage(ctx: moderngl.Context) -> Stage:
     return Stage(ctx, SIZE)
-
-
-@pytest.fixture(scope="module")
-def prairies(ctx: moderngl.Context) -> Iterator[dict[str, Prairie]]:
-    """One prairie a representation, which shows nothing else."""
-    made = {lod: Prairie.load(SCENE, ctx=ctx, lod=lod, live=False) for lod in ("blades", "strips", "carpet")}
-    yield made
-    for prairie in made.values():
-        prairie.release()
 
 
 def lamplight(shot: Callable[[], Picture], lamp: Lamp, pose: Pose) -> Picture:

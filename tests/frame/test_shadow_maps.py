@@ -96,15 +96,6 @@ def stage(ctx: moderngl.Context) -> Stage:
     return Stage(ctx, SIZE)
 
 
-@pytest.fixture(scope="module")
-def prairies(ctx: moderngl.Context) -> Iterator[dict[str, Prairie]]:
-    """One prairie a representation, which shows nothing else."""
-    made = {lod: Prairie.load(SCENE, ctx=ctx, lod=lod, live=False) for lod in ("blades", "strips", "carpet")}
-    yield made
-    for prairie in made.values():
-        prairie.release()
-
-
 @pytest.fixture
 def box(ctx: moderngl.Context) -> Iterator[ShadowMap]:
     matrix = seen_from_sun(to_sun())
