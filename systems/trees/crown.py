@@ -4,7 +4,7 @@ import numpy as np
 
 from ...components.arrays import Doubles, Floats
 from .grow import Tree, Twigs
-from .habit import Leaf
+from .habit import GOLDEN, Leaf
 
 CELLS = 24
 """Cells of leaf area across a crown's longest side."""
@@ -48,7 +48,7 @@ def shading(tree: Tree, area: Doubles, place: Doubles, /) -> Floats:
 def _ways() -> Doubles:
     """Return directions evenly to all sides, unit vectors (n, 3)."""
     number = np.arange(20) + 0.5
-    up, around = 1.0 - number / 10.0, number * np.pi * (3.0 - np.sqrt(5.0))
+    up, around = 1.0 - number / 10.0, number * GOLDEN
     flat = np.sqrt(1.0 - up * up)
     return np.stack([flat * np.cos(around), up, flat * np.sin(around)], axis=1)
 

@@ -1,9 +1,10 @@
 #define OF_TREES
 #include "lib/light.glsl"
-#include "systems/trees/leaf.glsl"
-#include "systems/trees/shown.glsl"
+#include "systems/trees/crown.glsl"
 #include "systems/trees/far.py"
+#include "systems/trees/leaf.glsl"
 #include "systems/trees/motion.py"
+#include "systems/trees/shown.glsl"
 
 uniform sampler2DArray tree_far;  // tone, wood, nothing, cover; then by how many leaves light has met, by direction and in all
 uniform float moment;
@@ -22,8 +23,15 @@ flat in vec2 sways;
 
 out vec4 pixel;
 
-const vec2 SHADING = vec2(3.0, 6.0);  // as of twigs
-const float SHIMMERS = 5.0;  // how often limbs' swing changes over a crown
+const vec2 SHIMMER_HERTZ = vec2(1.7, 1.3);  // how fast limbs swing, along and across a picture [Hz]
+const float SHIMMER_TURNS = 15.0;  // how much their swing changes over a crown [rad]
+const float SHIMMER = 0.12;  // how far they seem to swing, of how far they do, of a picture
+const float HIDES_MOST = 0.96;  // of the sun's light, where leaves cover a texel wholly
+const float FAR_EDGE = 0.42;  // coverage at which a tree's edge lies
+const float COMES = 1.5;  // how much sooner it is all there than twigs are left to it
+const float LEAST_SLOPE = 0.04;  // coverage that changes at least from pixel to pixel, at an edge
+const float WOOD_SENDS = 0.6;  // what white wood sends to an eye that has the sun behind it, of what a leaf facing all ways does
+const float FACES_UP = 0.5;  // how far up what is seen of a crown looks, -1 to 1
 
 vec2 tile_at(vec2 number, vec2 at) {
     return (number + at) / vec2(COLUMNS, ROWS);
@@ -44,29 +52,26 @@ vec4 mixed_texel(vec2 at, float layer) {
 void main() {
     vec2 at = 0.5 + 0.5 * on;
 #ifndef CAST
-    vec2 waves = sin(6.2831853 * (vec2(1.7, 1.3) * moment + lit_by) + SHIMMERS * at.yx * 3.0 + vec2(0.0, 1.0));
-    at += 0.12 * sways.y * waves * at.y;
+    vec2 waves = sin(AROUND * (SHIMMER_HERTZ * moment + lit_by) + SHIMMER_TURNS * at.yx + vec2(0.0, 1.0));
+    at += SHIMMER * sways.y * waves * at.y;
 #endif
     at = clamp(at, TILE_EDGE, 1.0 - TILE_EDGE);
     vec4 texel = mixed_texel(at, 0.0);
 #ifdef CAST
-    float leaves = -log(max(1.0 - 0.96 * texel.a, 0.02)) * mix(1.0, sun_own.w, 1.0 - texel.g);
+    float leaves = -log(1.0 - HIDES_MOST * texel.a) * mix(1.0, sun_own.w, 1.0 - texel.g);
     pixel = vec4(leaves, leaves * dot(seen_at, sun), 0.0, 0.0);
 #else
-    float wood = texel.g / max(texel.a, 0.01);
+    float wood = texel.g / max(texel.a, LEAST_COVER);
     texel *= mix(sun_own.w, 1.0, wood);  // of few leaves, those are left that stand densest
-    float edge = mix(1.0, 0.42, clamp(sunlit.a * 1.5, 0.0, 1.0));
-    float cover = clamp((texel.a - edge) / max(fwidth(texel.a), 0.04) + 0.5, 0.0, 1.0);
-    vec4 met = mixed_texel(at, 1.0) / max(texel.a, 0.01);
+    float cover = sharpened(texel.a, mix(1.0, FAR_EDGE, clamp(sunlit.a * COMES, 0.0, 1.0)), LEAST_SLOPE);
+    vec4 shading = unpacked_shading(mixed_texel(at, 1.0) / max(texel.a, LEAST_COVER));
     must_cover(cover);
-    vec4 shading = vec4((2.0 * met.xyz - 1.0) * SHADING.x, met.w * SHADING.y);
-    float seen = through_leaves(sun_own.w * max(dot(shading, vec4(sun_own.xyz, 1.0)), 0.0));
-    float open = through_leaves(SKY_MEETS_LESS * sun_own.w * max(shading.w + SKY_FROM * shading.y, 0.0));
+    float seen = through_crown(shading, sun_own.xyz, sun_own.w);
     vec3 ray = normalize(seen_at - eye);
-    float facing = dot(ray, sun), back = 0.5 - 0.5 * facing, against = 1.0 - back;
-    vec3 sends = mix(back * sqrt(back) + against * sqrt(against) * LEAF_THROUGH, vec3(0.6 * back), wood);
-    vec3 sky = skylit * open * 0.75 + below * (0.25 * mix(0.4, 1.0, open));
+    vec3 sends = mix(strewn_send(ray), vec3(WOOD_SENDS * (0.5 - 0.5 * dot(ray, sun))), wood);
+    vec3 sky = sky_on(skylit, below, sky_through(shading, sun_own.w), FACES_UP);
     Light light = Light(sunlit.rgb * (seen * sends), sky, hazy, 0.0, 0.0, vec2(0.0));
-    pixel = drawn(shade(Surface(pigment_of(texel.r / max(texel.a, 0.01), wood), 1.0, AMONG_LEAVES), light), cover);
+    vec3 pigment = pigment_of(texel.r / max(texel.a, LEAST_COVER), wood);
+    pixel = drawn(shade(Surface(pigment, 1.0, AMONG_LEAVES), light), cover);
 #endif
 }

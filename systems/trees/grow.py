@@ -6,12 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles, Floats
-from .habit import Habit, Shoots
+from .habit import GOLDEN, Habit, Shoots
 
 Rows = NDArray[np.intp]
-
-GOLDEN = np.pi * (3.0 - np.sqrt(5.0))
-"""Angle around a stem from one shoot to the next [rad]."""
 
 POINTS = 14, 9, 4
 """Points along a stem of each level."""

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import pi, sqrt
 
 from ...engine.declared.tree import HabitName
 
@@ -88,10 +89,16 @@ class Habit:
     """Of grown ones [m]."""
 
 
+GOLDEN = pi * (3.0 - sqrt(5.0))
+"""Angle around a stem from what stands on it to the next: it is cut in the golden ratio [rad]."""
+
 OVATE, LOBED, LANCE, NEEDLES, DELTOID = range(5)
 """Outlines of leaves."""
 
-GLSL = {"OVATE": OVATE, "LOBED": LOBED, "LANCE": LANCE, "NEEDLES": NEEDLES, "DELTOID": DELTOID}
+GLSL = {
+    "PI": pi, "GOLDEN": GOLDEN,
+    "OVATE": OVATE, "LOBED": LOBED, "LANCE": LANCE, "NEEDLES": NEEDLES, "DELTOID": DELTOID,
+}  # fmt: skip
 
 HABITS: Mapping[HabitName, Habit] = {
     "oak": Habit(

@@ -1,5 +1,6 @@
 // Leaves: their outlines, and how they send light.
 #include "systems/trees/habit.py"
+#include "systems/trees/shown.glsl"
 
 uniform int form;
 uniform vec3 dark;   // pigments: of leaves, and of bark
@@ -7,39 +8,64 @@ uniform vec3 bright;
 uniform vec3 bark;
 uniform float rough; // how deeply bark is furrowed; below 0 it has bands across
 
-// Half the width of a leaf at a part of its length, of its greatest.
+// Outlines: powers of the way from the foot and of that from the tip; how broad a leaf is, of its quad.
+const vec3 OVATE_OUTLINE = vec3(0.55, 0.8, 1.95), LOBED_OUTLINE = vec3(0.55, 0.35, 1.38);
+const vec2 LOBES = vec2(0.2, 26.0);  // how deeply lobes are cut; how fast they follow one another [rad]
+const vec2 DELTOID_FOOT = vec2(-0.02, 0.2), DELTOID_TIP = vec2(0.85, 1.12);  // where it widens; as of outlines, without the foot
+const float LANCE_FOOT = 0.8;  // a sine, over this power of the way
+
+float outline(float along, vec3 shape) {
+    return shape.z * pow(along, shape.x) * pow(1.0 - along, shape.y);
+}
+
+// Half the width of a leaf at a part of its length, of its quad's.
 float half_width(float along) {
     if (form == LANCE)
-        return sin(3.1416 * pow(along, 0.8));
+        return sin(PI * pow(along, LANCE_FOOT));
     if (form == DELTOID)
-        return smoothstep(-0.02, 0.2, along) * pow(1.0 - along, 0.85) * 1.12;
+        return smoothstep(DELTOID_FOOT.x, DELTOID_FOOT.y, along) * pow(1.0 - along, DELTOID_TIP.x) * DELTOID_TIP.y;
     if (form == LOBED)
-        return pow(along, 0.55) * pow(1.0 - along, 0.35) * 1.38 * (0.8 + 0.2 * cos(along * 26.0));
-    return 1.95 * pow(along, 0.55) * pow(1.0 - along, 0.8);
+        return outline(along, LOBED_OUTLINE) * (1.0 - LOBES.x + LOBES.x * cos(along * LOBES.y));
+    return outline(along, OVATE_OUTLINE);
+}
+
+const float TUFT_NEEDLES = 3.5;  // to either side of the middle of a tuft
+const float TUFT_FOOT = 0.25;  // how broad it is at its foot, of its tip
+const float TUFT_ROUNDED = 0.18;  // how much shorter its outermost needles are
+const float NEEDLE_TAPERS = 0.2;  // how much narrower they are at their tip, of the way from one to the next
+const vec2 NEEDLES_BLUR = vec2(0.8, 0.45);  // pixel from which on they blur, of the way from one to its gap; coverage of such
+
+// How much of a pixel is needles, which part from their foot.
+float needles_cover(vec2 on) {
+    float fan = on.x / (TUFT_FOOT + (1.0 - TUFT_FOOT) * on.y), each = abs(fract(fan * TUFT_NEEDLES) - 0.5) * 2.0;
+    float needle = each - 0.5 - NEEDLE_TAPERS * on.y, soft = max(fwidth(fan) * (2.0 * TUFT_NEEDLES), 1e-4);
+    float ends = clamp((1.0 - TUFT_ROUNDED * abs(fan) - on.y) / max(fwidth(on.y), 1e-4) + 0.5, 0.0, 1.0);
+    float cover = mix(clamp(needle / soft + 0.5, 0.0, 1.0), NEEDLES_BLUR.y, clamp(soft - NEEDLES_BLUR.x, 0.0, 1.0));
+    return cover * ends * step(abs(fan), 1.0);
 }
 
 // How much of a pixel is leaf, at a place on its quad: across from -1 to 1, and along from 0 to 1.
 float leaf_cover(vec2 on) {
-    if (form == NEEDLES) {  // pairs of needles that part from their foot
-        float fan = on.x / (0.25 + 0.75 * on.y), each = abs(fract(fan * 3.5) - 0.5) * 2.0;
-        float needle = each - 0.5 - 0.2 * on.y, soft = max(fwidth(fan) * 7.0, 1e-4);
-        float ends = clamp((1.0 - 0.18 * abs(fan) - on.y) / max(fwidth(on.y), 1e-4) + 0.5, 0.0, 1.0);
-        return mix(clamp(needle / soft + 0.5, 0.0, 1.0), 0.45, clamp(soft - 0.8, 0.0, 1.0)) * ends * step(abs(fan), 1.0);
-    }
-    float inside = half_width(clamp(on.y, 0.001, 0.999)) - abs(on.x);
-    return clamp(inside / max(fwidth(inside), 1e-4) + 0.5, 0.0, 1.0);
+    if (form == NEEDLES)
+        return needles_cover(on);
+    return sharpened(half_width(clamp(on.y, 1e-3, 1.0 - 1e-3)) - abs(on.x), 0.0, 1e-4);
 }
 
 const vec3 LEAF_THROUGH = vec3(0.92, 1.08, 0.42);  // light that leaves let through, of what they send back: more yellow
 const float SENDS = 1.25;  // what a white face sends of the sun's light from straight ahead, of what a leaf facing all ways does
 const float STREWN = 0.45;  // of a twig's leaves that face all ways, whatever its face is
 
+// What leaves that face all ways send to the eye of the sun's light.
+vec3 strewn_send(vec3 ray) {
+    float back = 0.5 - 0.5 * dot(ray, sun), against = 1.0 - back;
+    return back * sqrt(back) + against * sqrt(against) * LEAF_THROUGH;
+}
+
 // What leaves with this face send to the eye of the sun's light.
 vec3 leaf_sends(vec3 normal, vec3 ray) {
-    float lit = dot(normal, sun) * -sign(dot(normal, ray)), facing = dot(ray, sun);
+    float lit = dot(normal, sun) * -sign(dot(normal, ray));
     vec3 one = SENDS * (max(lit, 0.0) + max(-lit, 0.0) * LEAF_THROUGH);
-    float back = 0.5 - 0.5 * facing, against = 1.0 - back;
-    return mix(one, back * sqrt(back) + against * sqrt(against) * LEAF_THROUGH, STREWN);
+    return mix(one, strewn_send(ray), STREWN);
 }
 
 // The pigment of leaves, dark to bright, or of bark.

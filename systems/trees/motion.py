@@ -1,6 +1,6 @@
 """How trees move in the wind: a trunk, limbs on it, and leaves on those, each with a frequency of its own."""
 
-from math import sqrt
+from math import sqrt, tau
 
 PERIOD = 1000.0
 """After which all motion begins again [s]: then frames of a long game are as exact as its first."""
@@ -33,7 +33,7 @@ OWN_CROWN = 0.6
 """How far towards the sun a tree's own crown goes on at most, of its height: up to there, it counts by itself."""
 
 GLSL = {
-    "PERIOD": PERIOD,
+    "AROUND": tau, "PERIOD": PERIOD,
     "TRUNK_LEANS": TRUNK_LEANS, "TRUNK_SWINGS": TRUNK_SWINGS,
     "LIMB_LEANS": LIMB_LEANS, "LIMB_SWINGS": LIMB_SWINGS, "LIMB_STIFF": LIMB_STIFF,
     "LEAF_TURNS": LEAF_TURNS, "LEAF_HERTZ": LEAF_HERTZ, "AIR_FADES": AIR_FADES,

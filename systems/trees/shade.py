@@ -25,7 +25,10 @@ SIDES = 96.0, 800.0, 260.0
 """How far each reaches from edge to edge [m]."""
 
 LEVELS = 3
-"""How many coarser ones each has, twice as coarse from one to the next: the sky's is read in the last."""
+"""How many coarser ones each has, twice as coarse from one to the next. The sky's is read in the last, whose texels are
+2 m: so broad is the sky that a place sees."""
+
+GLSL = {"SHADE_MAPS": float(len(SIDES)), "SKY_LEVEL": float(LEVELS)}
 
 STEPS = 8.0, 64.0, 32.0
 """How far a viewer goes before one is drawn anew about another place [m]."""
@@ -41,7 +44,7 @@ class ShadeMap:
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self._ctx = ctx
-        self._texture = ctx.texture((3 * SIDE, SIDE), 2, dtype="f2")
+        self._texture = ctx.texture((len(SIDES) * SIDE, SIDE), 2, dtype="f2")
         self._texture.repeat_x = self._texture.repeat_y = False
         self._target = ctx.framebuffer([self._texture])
         self._sampler = ctx.sampler(

@@ -1,7 +1,24 @@
-// The two ways in which what covers a pixel in part is drawn: opaque where it covers nearly all of it, and blended over that
-// and all else where it covers less.
+// How much of a pixel a tree covers, and the two ways in which what covers it in part is drawn: opaque where it covers nearly all
+// of it, and blended over that and all else where it covers less.
 
 #include "systems/trees/wood.py"
+
+const float LEAST_COVER = 0.01;  // coverage that divides what is multiplied by it at least
+const vec2 SHADING = vec2(3.0, 6.0);  // by how much of light's way in the crown textures' bytes count, to either side and in all
+
+// The coverage of what lies within an edge, which is a pixel wide however large it is; `least` is how fast it changes at least.
+float sharpened(float cover, float edge, float least) {
+    return clamp((cover - edge) / max(fwidth(cover), least) + 0.5, 0.0, 1.0);
+}
+
+// How many leaves light meets, as pictures have it.
+vec4 packed_shading(vec4 shading) {
+    return clamp(vec4(0.5 + 0.5 * shading.xyz / SHADING.x, shading.w / SHADING.y), 0.0, 1.0);
+}
+
+vec4 unpacked_shading(vec4 texel) {
+    return vec4((2.0 * texel.xyz - 1.0) * SHADING.x, texel.w * SHADING.y);
+}
 
 // Leaves out what the other way draws.
 void must_cover(float cover) {

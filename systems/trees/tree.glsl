@@ -1,6 +1,7 @@
 // What is the same of all that is drawn of a tree: where it stands, how the wind sways it, and what light comes to it.
 #define OF_TREES
 #include "lib/light.glsl"
+#include "systems/trees/crown.glsl"
 #include "systems/trees/motion.py"
 
 in vec3 root;     // where it stands [m]
@@ -26,13 +27,19 @@ uniform float tall;         // of its model [m]
 uniform float trunk_hertz;  // of its model
 uniform float moment;       // time, within PERIOD [s]
 
-const float AROUND = 6.2831853;  // [rad]
+const vec2 TONES = vec2(0.92, 1.1);  // frequencies of the two tones of a swing, of its own
+const vec2 TONES_APART = vec2(1.0, 1.7);  // by how much of a turn they differ from one that swings to another
+const vec3 TRUNK_ASIDE = vec3(0.5, 1.06, 0.37);  // across the wind: how far it swings and how fast, of along it; turns apart
+const vec3 LIMB_ASIDE = vec3(0.7, 1.13, 1.7);  // the same of limbs; how many times as far they are apart
+const float LOAD_AT_END = 3.0;  // of a cantilever, whose line is (3 x² - x³) / 2
+const float OVER_TOP = 1.2;  // height up to which a tree bends, of its model's: twigs and pictures go beyond that
+const float LOWEST_ARC = 0.5;  // twice the height that counts at least, for how far down what is bent aside comes [m]
 
 // A swing of a lightly damped stem in gusty air, -1 to 1: a narrow band about its own frequency (Crandall and Mark, Random
 // Vibration in Mechanical Systems, 1963), here of two tones that beat. Frequencies are whole parts of PERIOD, so that it closes.
 float swing(float hertz, float own) {
-    vec2 tones = floor(hertz * vec2(0.92, 1.1) * PERIOD + 0.5) / PERIOD;
-    vec2 waves = sin(AROUND * (fract(tones * moment) + own * vec2(1.0, 1.7)));
+    vec2 tones = floor(hertz * TONES * PERIOD + 0.5) / PERIOD;
+    vec2 waves = sin(AROUND * (fract(tones * moment) + own * TONES_APART));
     return 0.5 * (waves.x + waves.y);
 }
 
@@ -51,35 +58,31 @@ vec3 turned_back(vec3 world) {
 
 // How far the trunk's top is blown aside, of its height.
 vec2 trunk_sways(vec2 message) {
-    float hertz = trunk_hertz * inversesqrt(scale), much = length(message);
+    float hertz = trunk_hertz * inversesqrt(scale);
     vec2 aside = vec2(-message.y, message.x);
-    return message * (TRUNK_LEANS + TRUNK_SWINGS * swing(hertz, phase)) + aside * (0.5 * TRUNK_SWINGS * swing(hertz * 1.06, phase + 0.37));
+    float across = swing(hertz * TRUNK_ASIDE.y, phase + TRUNK_ASIDE.z);
+    return message * (TRUNK_LEANS + TRUNK_SWINGS * swing(hertz, phase)) + aside * (TRUNK_ASIDE.x * TRUNK_SWINGS * across);
 }
 
-// Where a point of its model is, with the trunk bent as a cantilever is, and a limb swung about its foot on that.
+// How far a trunk of a length [m] is blown aside at a part of it: it bends as a cantilever does [m].
+vec2 trunk_bends(float high, float of, vec2 message) {
+    high = clamp(high, 0.0, OVER_TOP);
+    return trunk_sways(message) * (0.5 * of * high * high * (LOAD_AT_END - high));
+}
+
+// Where a point of its model is, with the trunk bent, and a limb swung about its foot on that.
 vec3 swayed(vec3 own, vec3 pivot, float limb, float hertz, vec2 message) {
     vec3 at = turned(own);
-    float high = clamp(own.y / tall, 0.0, 1.2);
-    vec2 bent = trunk_sways(message) * (0.5 * tall * high * high * (3.0 - high));
+    vec2 bent = trunk_bends(own.y / tall, tall, message);
     float out_by = distance(own, pivot), loose = out_by * out_by / (out_by + LIMB_STIFF);
     vec3 to = vec3(message, 0.0).xzy;
-    float first = swing(hertz, limb + phase), second = swing(hertz * 1.13, limb * 1.7 + phase);
-    vec3 limb_sways = to * (LIMB_LEANS + LIMB_SWINGS * first) + vec3(-to.z, 0.0, to.x) * (0.7 * LIMB_SWINGS * second);
+    float first = swing(hertz, limb + phase), second = swing(hertz * LIMB_ASIDE.y, limb * LIMB_ASIDE.z + phase);
+    vec3 limb_sways = to * (LIMB_LEANS + LIMB_SWINGS * first) + vec3(-to.z, 0.0, to.x) * (LIMB_ASIDE.x * LIMB_SWINGS * second);
     limb_sways.y += LIMB_SWINGS * length(message) * second;
     at += limb_sways * loose;
     at.xz += bent;
-    at.y -= dot(bent, bent) / max(2.0 * own.y, 0.5);
+    at.y -= dot(bent, bent) / max(2.0 * own.y, LOWEST_ARC);
     return root + scale * at;
-}
-
-// How much of the sun comes through its own crown, where so many leaves are met: by the direction to it, and a constant.
-float through_crown(vec4 shading) {
-    return through_leaves(foliage * max(dot(shading, vec4(turned_back(sun), 1.0)), 0.0));
-}
-
-// How much of the sky is seen from there, which lies above all round.
-float sky_through(vec4 shading) {
-    return through_leaves(SKY_MEETS_LESS * foliage * max(shading.w + SKY_FROM * shading.y, 0.0));
 }
 
 const vec2 LAWN = vec2(0.5, 0.55);  // what grass sends up of the sun's light on it and of the sky's, with its gaps
@@ -99,12 +102,11 @@ Light light_in_crown(vec3 place, vec4 shading, float up) {
 #ifdef BAKED
     return Light(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, vec2(0.0));
 #else
-    float seen = past * through_crown(shading);
+    float seen = past * through_crown(shading, turned_back(sun), foliage);
     if (seen > FAINTEST_SUN)
-        seen *= past_others(place, OWN_CROWN * tall * scale);
+        seen *= past_trees(place, OWN_CROWN * tall * scale);
     Light light = light_at(place, Sender(FACE, vec2(0.0), vec3(0.0, 1.0, 0.0), 1.0), 1.0, seen);
-    float open = sky_through(shading);
-    light.sky = light.sky * open * (0.5 + 0.5 * up) + from_below() * (mix(0.4, 1.0, open) * (0.5 - 0.5 * up));
+    light.sky = sky_on(light.sky, from_below(), sky_through(shading, foliage), up);
     light.sun *= tint * (1.0 - misty.a);
     light.sky *= tint * (1.0 - misty.a);
     light.haze = misty.rgb * misty.a;

@@ -21,14 +21,9 @@ layout(location = 1) out vec4 second;
 out vec4 pixel;
 #endif
 
-const float SHARP = 0.5;  // coverage at which a card's edge lies
+const float CARD_EDGE = 0.5;  // coverage at which a card's edge lies
+const float LEAST_SLOPE = 0.02;  // coverage that changes at least from pixel to pixel there
 const float VEIN = 0.05, RIBBED = 0.8;  // how broad a leaf's midrib is, and how much of its tone others have
-const vec2 SHADING = vec2(3.0, 6.0);  // by how much of light's way in the crown textures' bytes count, to either side and in all
-
-// The coverage of a card or an impostor, with an edge that is a pixel wide however large it is.
-float sharpened(float cover) {
-    return clamp((cover - SHARP) / max(fwidth(cover), 0.02) + 0.5, 0.0, 1.0);
-}
 
 void main() {
     float tone, wood = 0.0, cover;
@@ -41,10 +36,10 @@ void main() {
 #else
     vec2 at = vec2(0.5 + 0.5 * on.x, on.y);
     vec4 texel = texture(tree_cards, vec3(at, 0.0)), lie = texture(tree_cards, vec3(at, 1.0));
-    cover = sharpened(texel.a);
-    tone = texel.r / max(texel.a, 0.01) * across_card.w;
-    wood = texel.g / max(texel.a, 0.01);
-    vec3 turned_by = 2.0 * lie.rgb / max(lie.a, 0.01) - 1.0;
+    cover = sharpened(texel.a, CARD_EDGE, LEAST_SLOPE);
+    tone = texel.r / max(texel.a, LEAST_COVER) * across_card.w;
+    wood = texel.g / max(texel.a, LEAST_COVER);
+    vec3 turned_by = 2.0 * lie.rgb / max(lie.a, LEAST_COVER) - 1.0;
     normal = normalize(turned_by.x * across_card.xyz + turned_by.y * along_card + turned_by.z * normal);
 #endif
 #ifdef BAKED
@@ -54,7 +49,7 @@ void main() {
 #ifdef LEAVES
     second = vec4(0.5 + 0.5 * normal, 1.0);
 #else
-    second = clamp(vec4(0.5 + 0.5 * inside.xyz / SHADING.x, inside.w / SHADING.y), 0.0, 1.0);
+    second = packed_shading(inside);
 #endif
 #else
     must_cover(cover);

@@ -27,23 +27,34 @@ out vec4 inside;  // what leaves meet of light; or tone, and how far along
 flat out vec4 across_card; // which way the card's own x goes, in the world; its tone
 flat out vec3 along_card;
 
-const float GOLDEN = 2.3999632;  // angle from a leaf to the next around a twig [rad]
-const float STEM = 0.006;  // half the width of a shoot, of its twig's length
-const float STALK = 0.1;  // where the first leaf of a twig stands, of its length
+const uvec4 BYTES_AT = uvec4(0u, 8u, 16u, 24u);  // bits before the bytes of a number
+const float STEM = 0.006;  // half the width of a side shoot at its foot, of its twig's length
+const float STEM_TAPERS = 0.6, STEM_OF_TWIG = 1.6;  // how much narrower its tip is; how many times as wide the twig itself is
+const float SHOOTS_UP_TO = 0.62, SHOOTS_SHORTEN = 0.5;  // where the last side shoot of a twig stands; how much shorter it is
+const vec2 ANGLES = vec2(0.8, 0.4);  // the least angle of shoots and leaves, of what is usual, and how much more it may be
+const vec2 LEAF_ANGLES = vec2(1.1, 0.55);  // what is usual of leaves, at the foot and at the tip of a shoot, of the kind's
+const float FIRST_LEAF = 0.1;  // where the first leaf of a shoot stands, of its length
+const float LEAVES_AROUND = 1.4;  // how far around it leaves are from its left and right [rad]
 const float NODS = 0.35, TILTED = 0.6;  // how far leaves hang; how far they are turned about their stalks
+const float ASKEW = 0.01;  // keeps two directions from being one
+const vec2 LEAF_SIZES = vec2(0.75, 0.45);  // the least size of a leaf, of its kind's, and how much more it may be
+const float STALK = 0.12;  // of a leaf, of its length
+const vec2 FLUTTERS = vec2(0.4, 0.25);  // how far what hangs on a twig is moved out of its face and aside, of how far leaves turn
+const vec2 LEAF_TONES = vec2(0.25, 0.75), CARD_TONES = vec2(0.7, 0.6);  // the least tone, and how much more it may be
+const float NEAREST_TWIG = 0.1;  // how far off a twig counts as at least [m]
 
 // Four numbers from 0 to 1 that a leaf of a twig has.
 vec4 random(int twig, int leaf, int number) {
-    uint one = hash3(twig, leaf, number);
-    return vec4(one & 255u, one >> 8u & 255u, one >> 16u & 255u, one >> 24u) / 255.0;
+    return vec4(uvec4(hash3(twig, leaf, number)) >> BYTES_AT & uint(BYTE)) / BYTE;
 }
 
 // A side shoot of a twig: sine and cosine of its angle; where it stands, and how long it is. The first is the twig itself.
 vec4 shoot_at(int twig, int shoot) {
     if (shoot == 0)
         return vec4(0.0, 1.0, 0.0, 1.0);
-    float part = float(shoot) / float(shoots), angle = (shoot % 2 == 0 ? -1.0 : 1.0) * SHOOTS_OFF * (0.8 + 0.4 * random(twig, shoot, 1).x);
-    return vec4(sin(angle), cos(angle), 0.62 * part, SHOOTS_LONG * (1.0 - 0.5 * part));
+    float part = float(shoot) / float(shoots), side = shoot % 2 == 0 ? -1.0 : 1.0;
+    float angle = side * SHOOTS_OFF * (ANGLES.x + ANGLES.y * random(twig, shoot, 1).x);
+    return vec4(sin(angle), cos(angle), SHOOTS_UP_TO * part, SHOOTS_LONG * (1.0 - SHOOTS_SHORTEN * part));
 }
 
 // A corner of one of a twig's leaves, in the axes of the twig: across, along and out of its face [of its usual length].
@@ -51,31 +62,32 @@ vec3 leaf_corner(int twig, int leaf, vec2 corner, out vec3 normal) {
     int shoot = leaf % shoots, order = leaf / shoots;
     float part = (float(order) + 0.5) / float(max(leaf_count / shoots, 1)), side = order % 2 == 0 ? -1.0 : 1.0, around;
     vec4 own = random(twig, leaf, 2);
-    around = form == NEEDLES ? GOLDEN * float(leaf) : (own.x - 0.5) * 1.4 + (side > 0.0 ? 0.0 : 3.1416);
-    float angle = leaf_shape.z * mix(1.1, 0.55, part) * (0.8 + 0.4 * own.y);
+    around = form == NEEDLES ? GOLDEN * float(leaf) : (own.x - 0.5) * LEAVES_AROUND + (side > 0.0 ? 0.0 : PI);
+    float angle = leaf_shape.z * mix(LEAF_ANGLES.x, LEAF_ANGLES.y, part) * (ANGLES.x + ANGLES.y * own.y);
     vec3 out_to = vec3(cos(around), 0.0, sin(around));
     vec3 along = normalize(vec3(0.0, cos(angle), 0.0) + sin(angle) * out_to - vec3(0.0, 0.0, NODS * own.z));
     vec3 flat_to = normalize(cross(along, vec3(0.0, 0.0, 1.0) + TILTED * (own.w - 0.5) * out_to.zyx));
     if (form == NEEDLES)
-        flat_to = normalize(cross(along, out_to.zyx + 0.01));
+        flat_to = normalize(cross(along, out_to.zyx + ASKEW));
     normal = normalize(cross(flat_to, along));
     if (normal.z < 0.0)
         normal = -normal;
-    float size = 0.75 + 0.45 * fract(own.x + own.w);
+    float size = LEAF_SIZES.x + LEAF_SIZES.y * fract(own.x + own.w);
     // Side shoots of a twig stand on it to the left and right in turn, and their leaves on those.
     vec4 stands = shoot_at(twig, shoot);
     mat3 turned_aside = mat3(stands.y, -stands.x, 0.0, stands.x, stands.y, 0.0, 0.0, 0.0, 1.0);
     along = turned_aside * along;
     flat_to = turned_aside * flat_to;
-    vec3 foot = vec3(0.0, stands.z, 0.0) + turned_aside * vec3(0.0, stands.w * (STALK + (1.0 - STALK) * part), 0.0);
+    vec3 foot = vec3(0.0, stands.z, 0.0) + turned_aside * vec3(0.0, stands.w * (FIRST_LEAF + (1.0 - FIRST_LEAF) * part), 0.0);
     normal = turned_aside * normal;
-    return foot + size * (leaf_shape.x * (corner.y + 0.12) * along + leaf_shape.y * corner.x * flat_to);
+    return foot + size * (leaf_shape.x * (corner.y + STALK) * along + leaf_shape.y * corner.x * flat_to);
 }
 
 // A corner of the stem of one of its shoots.
 vec3 stem_corner(int twig, int shoot, vec2 corner) {
     vec4 stands = shoot_at(twig, shoot);
-    vec2 own = vec2(corner.x * STEM * (1.0 - 0.6 * corner.y) * (shoot == 0 ? 1.6 : 1.0), stands.w * corner.y);
+    float wide = STEM * (1.0 - STEM_TAPERS * corner.y) * (shoot == 0 ? STEM_OF_TWIG : 1.0);
+    vec2 own = vec2(corner.x * wide, stands.w * corner.y);
     return vec3(stands.y * own.x + stands.x * own.y, stands.z + stands.y * own.y - stands.x * own.x, 0.0);
 }
 
@@ -101,7 +113,7 @@ uniform vec2 leaf_pixels; // length of a leaf from which on twigs begin to be dr
 
 // The share of twigs at a place of its model whose leaves are drawn each by itself: where they are large enough.
 float leaf_by_leaf(vec3 own) {
-    float off = max(distance(eye, root + scale * turned(own)), 0.1);
+    float off = max(distance(eye, root + scale * turned(own)), NEAREST_TWIG);
     float pixels = scale * usual * leaf_shape.x * pixels_a_metre() / off;
     return clamp((pixels - leaf_pixels.x) / (leaf_pixels.y - leaf_pixels.x), 0.0, 1.0);
 }
@@ -153,7 +165,7 @@ void main() {
 #else
     float hertz = mix(LEAF_HERTZ.x, LEAF_HERTZ.y, chance.x), turns = LEAF_TURNS * min(length(message), 1.0);
     turns *= swing(hertz, chance.y + phase);
-    own += turns * shape.y * length_of * (0.4 * one.face + 0.25 * aside);
+    own += turns * shape.y * length_of * (FLUTTERS.x * one.face + FLUTTERS.y * aside);
     facing = normalize(turned(facing + turns * (aside + 0.5 * one.along)));
     vec3 foot = swayed(one.foot, one.pivot, one.limb, one.hertz, message);
     seen_at = foot + scale * turned(own);
@@ -163,12 +175,12 @@ void main() {
     hazy = light.haze;
     gl_Position = clip * vec4(seen_at, 1.0);
 #endif
-    float fresh = 0.25 + 0.75 * random(twig, leaf, 4).x;
+    float fresh = LEAF_TONES.x + LEAF_TONES.y * random(twig, leaf, 4).x;
 #ifdef LEAVES
     inside = vec4(fresh, is_stem ? 1.0 : 0.0, 0.0, 0.0);
 #else
     inside = one.shading;
 #endif
     along_card = turned(one.along);
-    across_card = vec4(turned(aside), 0.7 + 0.6 * chance.z);
+    across_card = vec4(turned(aside), CARD_TONES.x + CARD_TONES.y * chance.z);
 }

@@ -19,39 +19,49 @@ layout(location = 1) out vec4 second;
 out vec4 pixel;
 #endif
 
-const vec2 SHADING = vec2(3.0, 6.0);  // as of twigs
-const float BARK_SENDS = 1.25;  // what a white face sends of the sun's light from straight ahead, of what a leaf does
+const int BARK_SEED = 7;  // of its noise
 const vec2 FURROWS = vec2(26.0, 4.0), BANDS = vec2(5.0, 26.0);  // how many there are on a metre around and along a stem
+const float WINDINGS = 6.0;  // how many bends furrows have on a metre
+const float FINER = 3.1;  // how many more cracks than furrows there are
+const float DEEP = 0.7;  // part of furrows in how bright bark is, beside cracks
+const vec2 RIDGES = vec2(0.55, 0.75);  // how bright the ground of a furrow is, of the bark, and how much brighter a ridge
+const vec2 BAND = vec2(0.62, 0.8);  // noise between which a band begins: it is where there is more
+const vec3 BANDED = vec3(0.7, 0.5, 1.7);  // of that noise, its part all over, and its part in spots; how many of these on a metre
+const vec2 FOOT = vec2(0.1, 1.2);  // between which ways along a stem its foot ends, which is dark in spots [m]
+const vec2 SPOTS = vec2(9.0, 5.0);  // how many of these there are on a metre around and along it
+const vec2 SPOT = vec2(0.3, 0.65);  // noise between which a spot begins
+const float BAND_TONE = 0.42;  // how bright bands and spots are, of the bark
+const vec2 FINEST_BARK = vec2(1.5, 18.0);  // all this is seen where a pixel is under 1/36 m of bark, and none of it over 1/12
 
 float noise(vec2 at) {
     vec2 low = floor(at), part = at - low;
-    part *= part * (3.0 - 2.0 * part);
+    part = smoothstep(0.0, 1.0, part);
     ivec2 cell = ivec2(low);
-    float a = unit(hash3(7, cell.x, cell.y)), b = unit(hash3(7, cell.x + 1, cell.y));
-    float c = unit(hash3(7, cell.x, cell.y + 1)), d = unit(hash3(7, cell.x + 1, cell.y + 1));
+    float a = unit(hash3(BARK_SEED, cell.x, cell.y)), b = unit(hash3(BARK_SEED, cell.x + 1, cell.y));
+    float c = unit(hash3(BARK_SEED, cell.x, cell.y + 1)), d = unit(hash3(BARK_SEED, cell.x + 1, cell.y + 1));
     return mix(mix(a, b, part.x), mix(c, d, part.x), part.y);
 }
 
 // The bark's pigment there, of its own: furrows along the stem, or dark bands across it.
 float bark_at(vec2 on, float fades) {
     if (rough < 0.0) {
-        float band = smoothstep(0.62, 0.8, noise(on * BANDS) * (0.7 + 0.5 * noise(on * 1.7)));
-        float foot = (1.0 - smoothstep(0.1, 1.2, on.y)) * smoothstep(0.3, 0.65, noise(on * vec2(9.0, 5.0)));
-        return mix(1.0, 0.42, fades * max(band, foot));
+        float band = smoothstep(BAND.x, BAND.y, noise(on * BANDS) * (BANDED.x + BANDED.y * noise(on * BANDED.z)));
+        float foot = (1.0 - smoothstep(FOOT.x, FOOT.y, on.y)) * smoothstep(SPOT.x, SPOT.y, noise(on * SPOTS));
+        return mix(1.0, BAND_TONE, fades * max(band, foot));
     }
-    float deep = noise(on * FURROWS + 2.0 * noise(on * 6.0)), fine = noise(on * FURROWS * 3.1);
-    return mix(1.0, 0.55 + 0.75 * (0.7 * deep + 0.3 * fine), fades * rough);
+    float deep = noise(on * FURROWS + 2.0 * noise(on * WINDINGS)), fine = noise(on * FURROWS * FINER);
+    return mix(1.0, RIDGES.x + RIDGES.y * (DEEP * deep + (1.0 - DEEP) * fine), fades * rough);
 }
 
 void main() {
 #ifdef BAKED
     pixel = vec4(0.5, 1.0, 0.0, 1.0);
-    second = clamp(vec4(0.5 + 0.5 * inside.xyz / SHADING.x, inside.w / SHADING.y), 0.0, 1.0);
+    second = packed_shading(inside);
 #else
-    float fades = clamp(1.5 - 18.0 * max(fwidth(on_skin.x), fwidth(on_skin.y)), 0.0, 1.0);
+    float fades = clamp(FINEST_BARK.x - FINEST_BARK.y * max(fwidth(on_skin.x), fwidth(on_skin.y)), 0.0, 1.0);
     must_cover(thick);
     vec3 normal = normalize(facing), ray = normalize(seen_at - eye);
-    Light light = Light(sunlit * (BARK_SENDS * max(dot(normal, sun), 0.0)), skylit, hazy, 0.0, 0.0, vec2(0.0));
+    Light light = Light(sunlit * (SENDS * max(dot(normal, sun), 0.0)), skylit, hazy, 0.0, 0.0, vec2(0.0));
     pixel = drawn(shade(Surface(bark * bark_at(on_skin, fades), 1.0, 0.0), light), thick);
 #endif
 }

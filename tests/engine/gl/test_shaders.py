@@ -179,9 +179,6 @@ PLAIN_NUMBER = re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+|\d+)(?:e[-+]?\d+)?u?(?![
 OWN_TABLE = "engine/shaders/lib/random.glsl"
 """Its numbers are those of the hash, and tests hold them bit for bit against `engine/random.py`."""
 
-NOT_YET = "trees"
-"""The folder and the part whose shaders do not keep to this yet."""
-
 SHADERS = [
     path.relative_to(ROOT).as_posix()
     for folder in ("app", "engine", "systems")
@@ -204,7 +201,7 @@ def unnamed(line: str) -> list[str]:
     return [number for number in numbers if number not in plain | guards]
 
 
-@pytest.mark.parametrize("name", [name for name in SHADERS if name != OWN_TABLE and NOT_YET not in name])
+@pytest.mark.parametrize("name", [name for name in SHADERS if name != OWN_TABLE])
 def test_every_number_of_a_shader_has_a_name(name: str) -> None:
     lines = (ROOT / name).read_text("utf-8").splitlines()
     assert {number: found for number, line in enumerate(lines, 1) if (found := unnamed(line))} == {}
