@@ -17,7 +17,16 @@ LEVELS = 5
 """Sizes of a picture that are kept, each half the one before: coarser ones would mix neighbours."""
 
 EDGE = 0.45
-"""Coverage at which shaders take the edge of what is drawn to be."""
+"""Coverage that lies over as much of a picture at all its sizes: between `CARD_EDGE` and `FAR_EDGE` of the shaders."""
+
+MOST_RAISED = 12.0
+"""By how much coverage is raised at most: what hardly covers anything is left faint."""
+
+DEPTHS = 4.0, 2.0
+"""How far the pictures of a tree and of a twig go to the front and back: half sides, and usual lengths."""
+
+PICTURES = COLUMNS, ROWS, SIDE
+"""Of a tree from all around: side by side, in rows, and pixels of one across and up."""
 
 Draw = Callable[[int], None]
 """Draws the picture of a number into the viewport that is set."""
@@ -52,7 +61,7 @@ def smaller(texels: Bytes, /) -> list[Bytes]:
     """Return two layers (2, rows, columns, 4) of what was drawn, `FINER` times too large, at `LEVELS` sizes.
 
     Texels are premultiplied by the last channel of the first layer, the coverage. Means of what is thin would fall
-    below the coverage at which its edge is taken to be: they are raised until as much lies above it as at first
+    below `EDGE`: they are raised until as much lies above it as at first
     (Castaño, Computing Alpha Mipmaps, 2010).
     """
     values = texels.astype(np.float32)
@@ -79,7 +88,7 @@ def _raised(values: Floats, whole: float) -> Bytes:
     cover = values[0, ..., 3]
     there = np.sort(cover.reshape(-1))
     at = there[min(int(len(there) * (1.0 - whole)), len(there) - 1)]
-    factor = np.clip(255.0 * EDGE / max(float(at), 1.0), 1.0, 12.0)
+    factor = np.clip(255.0 * EDGE / max(float(at), 1.0), 1.0, MOST_RAISED)
     raised = np.minimum(cover * factor, 255.0) / np.maximum(cover, 1e-3)
     return np.ascontiguousarray(np.round(np.minimum(values * raised[None, ..., None], 255.0)).astype(np.uint8))
 
@@ -91,7 +100,7 @@ def from_around(number: int, middle: float, half: float, /) -> Doubles:
     across = np.array([np.cos(azimuth), 0.0, -np.sin(azimuth)])
     shown = np.eye(4)
     shown[:3, :3] = np.stack([across, np.cross(to, across), -to]) / half
-    shown[2, :3] /= 4.0
+    shown[2, :3] /= DEPTHS[0]
     shown[:3, 3] = -shown[:3, :3] @ (0.0, middle, 0.0)
     return shown
 
@@ -102,8 +111,5 @@ def on_card(reach: tuple[float, float, float], usual: float, /) -> Doubles:
     shown = np.eye(4)
     shown[0, 0] = 1.0 / (wide * usual)
     shown[1, 1], shown[1, 3] = 2.0 / ((on - back) * usual), -1.0 - 2.0 * back / (on - back)
-    shown[2, 2] = -0.5 / usual
+    shown[2, 2] = -1.0 / (DEPTHS[1] * usual)
     return shown
-
-
-PICTURES = COLUMNS, ROWS, SIDE

@@ -11,13 +11,17 @@ from ...engine.gl.records import Records
 from ...engine.gl.stream import Stream, release_all
 from .model import SENT, Model, sent
 from .standing import SHOWN, TOLD
-from .twig import ROW, TWIG
+from .twig import RANKS, ROW, TWIG
 from .wood import Parts, parts
 
 Numbers = Mapping[str, tuple[float, ...]]
 """What programs are told, by name."""
 
-NEAR, FAR, LEAVES, WOOD = "near", "far", "leaves", "wood"
+NEAR, FAR, LEAVES, WOOD, CAST = "near", "far", "leaves", "wood", "cast"
+"""What is drawn of trees: twigs on their cards, pictures far off, leaf by leaf, wood; and into maps of their shade."""
+
+QUAD = 6
+"""Vertices of a quad, as two triangles."""
 
 FEWER = 0.5
 """Share of its twigs that a tree's pictures show, as much larger: in so few pixels, more would look the same."""
@@ -93,7 +97,8 @@ class ModelOnCard:
     def _write(self, name: str, rows: NDArray[np.void]) -> None:
         self.streams[name].write(rows)
         share = float((rows["keep"] * (1.0 - rows["gone"]) * rows["foliage"]).max(initial=0.0))
-        self.most[name] = min(int(len(self.model.twigs) * (share + 0.05)) + 1, len(self.model.twigs))
+        dwindling = 0.5 / RANKS  # as `size_of` of twig.vert has it
+        self.most[name] = min(int(len(self.model.twigs) * (share + dwindling)) + 1, len(self.model.twigs))
 
     def rehearse(self) -> None:
         """Have a tree to draw in every way that there is."""

@@ -12,6 +12,15 @@ CELLS = 24
 STEPS = 14
 """Steps of a ray through the crown."""
 
+FARTHEST = 1.1
+"""How far such a ray goes, of that side."""
+
+WAYS = 20
+"""Rays from a place, evenly to all sides."""
+
+AROUND = 0.3
+"""How far the cells go beyond the middles of all twigs [m]."""
+
 SHARE = 0.5
 """Of leaf area that faces all ways, so much is seen from any side (Ross, The Radiation Regime of Plants, 1981)."""
 
@@ -33,7 +42,7 @@ def shading(tree: Tree, area: Doubles, place: Doubles, /) -> Floats:
     one hides (Beer). It is the linear part of what is met along rays to all sides.
     """
     middle = tree.twigs.foot.astype(np.float64) + 0.5 * tree.twigs.length[:, None] * tree.twigs.along
-    low, high = middle.min(axis=0) - 0.3, middle.max(axis=0) + 0.3
+    low, high = middle.min(axis=0) - AROUND, middle.max(axis=0) + AROUND
     cell = float((high - low).max()) / CELLS
     size = np.maximum(np.ceil((high - low) / cell).astype(np.intp), 1)
     dense = np.zeros(size)
@@ -47,15 +56,15 @@ def shading(tree: Tree, area: Doubles, place: Doubles, /) -> Floats:
 
 def _ways() -> Doubles:
     """Return directions evenly to all sides, unit vectors (n, 3)."""
-    number = np.arange(20) + 0.5
-    up, around = 1.0 - number / 10.0, number * GOLDEN
+    number = np.arange(WAYS) + 0.5
+    up, around = 1.0 - 2.0 * number / WAYS, number * GOLDEN
     flat = np.sqrt(1.0 - up * up)
     return np.stack([flat * np.cos(around), up, flat * np.sin(around)], axis=1)
 
 
 def _met(dense: Doubles, place: Doubles, way: Doubles, cell: float) -> Doubles:
     """Return the leaf area that rays from places (n, 3) [cells] meet on a way, of the area across it, shape (n,)."""
-    ends = (np.arange(STEPS + 1) / STEPS) ** 2 * float(max(dense.shape)) * 1.1  # finer near by
+    ends = (np.arange(STEPS + 1) / STEPS) ** 2 * float(max(dense.shape)) * FARTHEST  # finer near by
     along, length = 0.5 * (ends[1:] + ends[:-1]), np.diff(ends) * cell
     at = (place[:, None] + along[None, :, None] * way).astype(np.intp)
     inside = ((at >= 0) & (at < dense.shape)).all(axis=-1)

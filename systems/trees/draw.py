@@ -14,7 +14,7 @@ from ..frame.block import FrameBlock
 from ..frame.feature import Heard, Part
 from ..space.frustum import beyond
 from ..space.grown import Grown
-from .card import CARDS, FAR, LEAVES, NEAR, WOOD, WOODS, ModelOnCard, Numbers
+from .card import CARDS, CAST, FAR, LEAVES, NEAR, QUAD, WOOD, WOODS, ModelOnCard, Numbers
 from .kind import KindOnCard
 from .model import Model
 from .motion import PERIOD
@@ -26,6 +26,12 @@ from .wood import AWAY, SWAYS, THINNEST
 
 EVERY_LEAF = -2.0, -1.0
 """What is told in place of `LEAF_PIXELS` where all twigs are drawn leaf by leaf."""
+
+NEAREST = 0.1
+"""How far off a tree's middle counts as at least [m]."""
+
+ANY_HEIGHT = 1e6
+"""Height in the picture at which a tree is drawn with all that it has [pixels]."""
 
 
 class TreePart(Part):
@@ -113,7 +119,7 @@ class TreePart(Part):
             for kind in self._kinds:
                 for model in kind.models:
                     model.rehearse()
-                    programs.array("cast", model.bare)
+                    programs.array(CAST, model.bare)
         return calls
 
     def _ready(self) -> Programs:
@@ -152,22 +158,25 @@ class TreePart(Part):
         outlook: Outlook,
     ) -> None:
         grown, eye = model.model, np.array(outlook.viewer.eye)
+        ball = np.hypot(grown.half, grown.radius)
         scale = rows["height"].astype(np.float64) / grown.height
         middle = rows["root"].astype(np.float64)
         middle[:, 1] += scale * grown.middle
-        seen = beyond(middle, outlook.viewer.sides) <= 1.1 * np.hypot(grown.half, grown.radius) * scale
+        seen = beyond(middle, outlook.viewer.sides) <= (1.0 + SWAYS) * ball * scale
         rows, scale, middle = rows[seen], scale[seen], middle[seen]
         off = np.linalg.norm(middle - eye, axis=1)
         order = np.argsort(off)
         rows, scale, middle, off = rows[order], scale[order], middle[order], off[order]
-        pixels = focal * rows["height"] / np.maximum(off, 0.1)
-        told = shown(rows, np.full(len(rows), 1e6) if self.every_leaf else pixels, grown.height, kind.declared.variety)
+        pixels = focal * rows["height"] / np.maximum(off, NEAREST)
+        if self.every_leaf:
+            pixels = np.full(len(rows), ANY_HEIGHT)
+        told = shown(rows, pixels, grown.height, kind.declared.variety)
         near, far = told["gone"] < 1.0, told["gone"] > 0.0
         large = focal * scale * kind.habit.leaf.length / LEAF_PIXELS[0]
-        leafy = large > off - scale * np.hypot(grown.half, grown.radius)
+        leafy = large > off - scale * ball
         for number in np.flatnonzero(leafy):
             leafy[number] = _any_leafy(grown, told[number], outlook.viewer, large[number])
-        reach = (1.0 + SWAYS) * np.hypot(grown.half, grown.radius) * scale * np.linalg.norm(clip[3, :3])
+        reach = (1.0 + SWAYS) * ball * scale * np.linalg.norm(clip[3, :3])
         ahead = (middle @ clip[3, :3] + clip[3, 3])[:, None] + reach[:, None] * (-1.0, 1.0)
         wide = THINNEST * np.maximum(ahead, AWAY) / (focal * scale[:, None])
         model.write(told[near], wide[near], (leafy | self.every_leaf)[near], told[far][::-1])
@@ -221,12 +230,12 @@ class TreePart(Part):
 
     def _draw_model(self, kind: KindOnCard, model: ModelOnCard, *, soft: bool, all_wood: bool) -> int:
         assert self._programs is not None
-        calls, told, leaves = 0, None, kind.habit.leaf.count + kind.habit.leaf.shoots
+        calls, told = 0, None
         sorts = (
             *((WOOD, name, *_wood(model, name, soft=soft, whole=all_wood)) for name in WOODS),
-            (LEAVES, LEAVES, 0, 6 * leaves * model.most[LEAVES]),
-            *((NEAR, name, 0, 6 * model.most[name]) for name in CARDS),
-            (FAR, FAR, 0, 6),
+            (LEAVES, LEAVES, 0, QUAD * kind.habit.leaf.quads * model.most[LEAVES]),
+            *((NEAR, name, 0, QUAD * model.most[name]) for name in CARDS),
+            (FAR, FAR, 0, QUAD),
         )
         for sort, name, first, vertices in sorts:
             stream = model.streams[name]

@@ -103,7 +103,7 @@ def _limbs(habit: Habit, trunk: Stems, height: float, draw: np.random.Generator)
     order = np.arange(count) // habit.whorled * habit.whorled if habit.whorled > 1 else np.arange(count)
     place = (order + draw.uniform(0.0, 0.4, count)) / count
     at = habit.bare + (0.985 - habit.bare) * place
-    around = np.arange(count) * (GOLDEN if habit.whorled == 1 else 2.0 * np.pi / habit.whorled)
+    around: Doubles = np.arange(float(count)) * (GOLDEN if habit.whorled == 1 else 2.0 * np.pi / habit.whorled)
     around = around + order * 0.7 + draw.normal(0.0, 0.25, count)
     profile = np.interp(place, np.linspace(0.0, 1.0, len(habit.crown)), habit.crown)
     length = height * shoots.length * profile * draw.uniform(0.78, 1.08, count)

@@ -52,6 +52,11 @@ class Leaf:
     area: float
     """Of the quad that it is drawn in, so much is leaf."""
 
+    @property
+    def quads(self) -> int:
+        """Quads that a twig is drawn with, leaf by leaf: of its leaves, and of its shoots' stems."""
+        return self.count + self.shoots
+
 
 @dataclass(frozen=True, slots=True)
 class Habit:

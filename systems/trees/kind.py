@@ -11,11 +11,21 @@ from ...engine.gl.shaders import tell
 from ...engine.gl.stream import release_all
 from ..light.materials import pigment
 from .bake import CARD, PICTURES, from_around, on_card, pictures
-from .card import FEWER, LEAVES, NEAR, WOOD, ModelOnCard, Numbers
+from .card import FEWER, LEAVES, NEAR, QUAD, WOOD, ModelOnCard, Numbers
 from .habit import HABITS
 from .model import models_of
 from .programs import Programs
 from .twig import SHOOTS_LONG
+
+ASIDE, TURNED, BACK, ON = 0.95, 0.25, 0.3, 1.2
+"""How far leaves reach from their twig, of their length: aside, by the sine of their angle and so much more, as that
+differs; back from its foot, and on from its tip."""
+
+SHOOTS_ASIDE = 0.7
+"""How far side shoots reach aside, of the length of the longest."""
+
+DARKER = 0.62
+"""Pigment of a kind's darkest leaves, of its brightest, where a scene has one colour for both."""
 
 
 class KindOnCard:
@@ -27,9 +37,9 @@ class KindOnCard:
         self.models = [ModelOnCard(ctx, each) for each in models_of(declared.habit, seed)]
         self.card: moderngl.TextureArray | None = None
         leaf, usual = self.habit.leaf, self.habit.twigs.length
-        wide = 0.95 * leaf.length * (np.sin(leaf.angle) + 0.25)
-        wide += SHOOTS_LONG * usual * 0.7 if leaf.shoots > 1 else 0.0
-        self.reach = wide / usual, -0.3 * leaf.length / usual, 1.0 + 1.2 * leaf.length / usual
+        wide = ASIDE * leaf.length * (np.sin(leaf.angle) + TURNED)
+        wide += SHOOTS_LONG * usual * SHOOTS_ASIDE if leaf.shoots > 1 else 0.0
+        self.reach = wide / usual, -BACK * leaf.length / usual, 1.0 + ON * leaf.length / usual
         self._numbers = self._told()
 
     def bake(self, programs: Programs) -> None:
@@ -41,7 +51,7 @@ class KindOnCard:
             del number
             self.tell(twig.program, self.models[0], {})
             _matrix(twig.program, matrix)
-            twig.render(moderngl.TRIANGLES, vertices=6 * (self.habit.leaf.count + self.habit.leaf.shoots), instances=1)
+            twig.render(moderngl.TRIANGLES, vertices=QUAD * self.habit.leaf.quads, instances=1)
 
         self.card = pictures(self.ctx, 1, 1, CARD, draw_twig)
         for model in self.models:
@@ -52,7 +62,7 @@ class KindOnCard:
 
         def draw_tree(number: int) -> None:
             matrix = from_around(number, model.model.middle, model.model.half)
-            for array, count in ((wood, -1), (cards, round(6 * FEWER * len(model.model.twigs)))):
+            for array, count in ((wood, -1), (cards, round(QUAD * FEWER * len(model.model.twigs)))):
                 self.tell(array.program, model, {})
                 _matrix(array.program, matrix)
                 array.render(moderngl.TRIANGLES, vertices=count, instances=1)
@@ -64,11 +74,11 @@ class KindOnCard:
         habit, declared = self.habit, self.declared
         leaf, usual = habit.leaf, habit.twigs.length
         dark, bright = habit.leaves if declared.leaf is None else (declared.leaf, declared.leaf)
-        shaded = 0.62 if declared.leaf is not None else 1.0
+        darker = DARKER if declared.leaf is not None else 1.0
         return {
             "usual": (usual,), "card": (*self.reach, 0.0), "leaf_count": (leaf.count,), "shoots": (leaf.shoots,),
             "form": (leaf.form,), "leaf_shape": (leaf.length / usual, 0.5 * leaf.width / usual, leaf.angle),
-            "dark": tuple((shaded * pigment(dark)).tolist()), "bright": tuple(pigment(bright).tolist()),
+            "dark": tuple((darker * pigment(dark)).tolist()), "bright": tuple(pigment(bright).tolist()),
             "bark": tuple(pigment(declared.bark or habit.bark).tolist()), "rough": (habit.rough,),
         }  # fmt: skip
 

@@ -33,6 +33,9 @@ SENT = np.dtype(
 SIDE_ONE = 127.5
 """What `side` is times and plus as it is sent."""
 
+MARGIN = 1.04
+"""Half the side of a tree's pictures, of how far its twigs reach: leaves go beyond those."""
+
 ALIKE = 1.3
 """How many times as thick another stem may be that counts as thick as one."""
 
@@ -93,7 +96,7 @@ def _model(habit: Habit, height: float, *, seed: int) -> Model:
     radius = float(np.hypot(ends[:, 0], ends[:, 2]).max())
     top = float(ends[:, 1].max())
     return Model(
-        habit, height, twigs, vertices, triangles, radii, 0.5 * top, 1.04 * max(0.5 * top, radius), radius,
+        habit, height, twigs, vertices, triangles, radii, 0.5 * top, MARGIN * max(0.5 * top, radius), radius,
         trunk_hertz(height, habit.slender * height), float(area.sum()),
     )  # fmt: skip
 

@@ -18,6 +18,15 @@ HECTARE = 1e4
 GROVE = 45.0
 """How far it is from grove to grove, about [m]."""
 
+FINER, FINER_PART = 2.7, 0.4
+"""How many times as close together what makes groves uneven is, and how much it adds to them."""
+
+STEEP = 3.0
+"""How fast groves grow dense from their edge inwards, by their noise of -1 to 1: all over a third of it."""
+
+STEEPEST = 89.9
+"""Slope on which trees grow at most [degrees]: its tangent is a number."""
+
 TRIES = 4
 """Places that are tried for each tree that density brings."""
 
@@ -64,15 +73,15 @@ def _sown(kind: TreeKind, terrain: Terrain, dense: Dense | None, draw: np.random
     if kind.groves > 0.0 and count:
         lattice = (place / np.float32(GROVE)).astype(np.float32)
         wave, finer = (
-            smooth_noise(noise_table(seed, 45 + n), lattice * np.float32(f))[:, 0] for n, f in ((0, 1), (1, 2.7))
+            smooth_noise(noise_table(seed, 45 + n), lattice * np.float32(f))[:, 0] for n, f in ((0, 1.0), (1, FINER))
         )
-        wave = wave + 0.4 * finer
-        share = np.clip(1.0 - kind.groves * (1.0 - np.clip(3.0 * wave, 0.0, 1.0)), 0.0, 1.0)
+        wave = wave + FINER_PART * finer
+        share = np.clip(1.0 - kind.groves * (1.0 - np.clip(STEEP * wave, 0.0, 1.0)), 0.0, 1.0)
     if dense is not None:
         share = share * dense(place)
     grows = draw.uniform(0.0, 1.0, count) < share / TRIES * (TRIES if kind.groves > 0.0 else 1.0)
     grows &= _stands(terrain, place)
-    grows &= np.hypot(*slope_at(terrain, place).T) <= np.tan(np.radians(min(kind.slope, 89.9)))
+    grows &= np.hypot(*slope_at(terrain, place).T) <= np.tan(np.radians(min(kind.slope, STEEPEST)))
     return np.asarray(place[grows], np.float32)
 
 

@@ -8,20 +8,20 @@ from numpy.typing import NDArray
 
 from ...engine.gl.stream import Stream, release_all
 from ..frame.block import FrameBlock, joined
-from .card import ModelOnCard
+from .card import CAST, FAR, LEAVES, NEAR, WOOD, ModelOnCard
 from .grow import MOST_TWIGS
+from .habit import HABITS
 
 SORTS: Mapping[str, tuple[str, str, Mapping[str, str | int]]] = {
-    "near": ("twig", "twig", {"STANDS": 1}),
-    "leaves": ("twig", "twig", {"LEAVES": 1, "STANDS": 1}),
-    "wood": ("wood", "wood", {"STANDS": 1}),
-    "far": ("far", "far", {"STANDS": 1}),
-    "cast": ("far", "far", {"CAST": 1}),
+    NEAR: ("twig", "twig", {"STANDS": 1}),
+    LEAVES: ("twig", "twig", {"LEAVES": 1, "STANDS": 1}),
+    WOOD: ("wood", "wood", {"STANDS": 1}),
+    FAR: ("far", "far", {"STANDS": 1}),
+    CAST: ("far", "far", {"CAST": 1}),
 }
 """By what is drawn: vertex and fragment shader, and what they are told."""
 
-
-MOST_QUADS = MOST_TWIGS * 64
+MOST_QUADS = MOST_TWIGS * max(habit.leaf.quads for habit in HABITS.values())
 """Quads that a tree is drawn with at most: of twigs leaf by leaf."""
 
 
@@ -39,7 +39,7 @@ class Programs:
     def array(
         self, sort: str, stream: Stream, model: ModelOnCard | None = None, /, *, soft: bool = False, baked: bool = False
     ) -> moderngl.VertexArray:  # fmt: skip
-        """Return what draws trees of a stream: solid parts or soft edges, or as they are baked; `wood` is a model's."""
+        """Return what draws trees of a stream: solid parts or soft edges, or as they are baked; `WOOD` is a model's."""
         key = id(stream), sort, soft, baked
         if key not in self._arrays:
             program, indices = self._program(sort, soft=soft, baked=baked), self._quads
@@ -47,7 +47,7 @@ class Programs:
             if model is not None:
                 if not baked and (told := model.told.get(id(stream))) is not None:
                     contents.append(told.binding(program))
-                if sort == "wood":
+                if sort == WOOD:
                     contents.insert(0, model.bark(program))
                     indices = model.triangles
             whole = [each for each in contents if len(each) > 2]

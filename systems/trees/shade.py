@@ -10,7 +10,7 @@ from ...components.arrays import Doubles
 from ...engine.gl.guest import borrow
 from ...engine.gl.stream import Stream, release_all
 from ...engine.gl.units import BORROWED
-from .card import Numbers
+from .card import CAST, QUAD, Numbers
 from .kind import KindOnCard
 from .programs import Programs
 from .standing import SHOWN, Standing, shown
@@ -107,9 +107,9 @@ class ShadeMap:
                     stream = self._streams.get(id(model))
                     if stream is None or not stream.count:
                         continue
-                    array = programs.array("cast", stream)
+                    array = programs.array(CAST, stream)
                     kind.tell(array.program, model, {**numbers, "tile": tile})
-                    array.render(moderngl.TRIANGLES, vertices=6, instances=stream.count)
+                    array.render(moderngl.TRIANGLES, vertices=QUAD, instances=stream.count)
                     calls += 1
             ctx.enable_only(moderngl.NOTHING)
         self._texture.build_mipmaps(0, LEVELS)

@@ -26,7 +26,7 @@ GOES = 0.75
 """Share of its twigs left to what is drawn of it far off from which on its wood goes."""
 
 SWAYS = 0.1
-"""How much nearer or farther off the wind sways wood, of the tree's reach."""
+"""How much nearer or farther off the wind sways what is a tree's, of its reach."""
 
 GLSL = {
     "OPAQUE": OPAQUE, "FAINTEST": FAINTEST, "THINNEST": THINNEST, "AWAY": AWAY, "THINS": THINS, "GOES": GOES,
