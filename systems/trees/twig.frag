@@ -29,9 +29,8 @@ void main() {
     float tone, wood = 0.0, cover;
     vec3 normal = normalize(facing);
 #ifdef LEAVES
-    wood = inside.y;
-    float leaf = leaf_cover(on);
-    cover = wood > 0.5 ? 1.0 : leaf;
+    float leaf = leaf_cover(on);  // asked by all pixels: it looks at their neighbours
+    cover = inside.y > 0.5 ? inside.z : leaf;  // stems are green, as the darkest of leaves
     tone = inside.x * mix(1.0, RIBBED, 1.0 - smoothstep(0.0, VEIN, abs(on.x)));
 #else
     vec2 at = vec2(0.5 + 0.5 * on.x, on.y);

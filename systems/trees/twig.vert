@@ -23,7 +23,7 @@ out vec3 seen_at;
 out vec3 sunlit;
 out vec3 skylit;
 out vec3 hazy;
-out vec4 inside;  // what leaves meet of light; or tone, and how far along
+out vec4 inside;  // what leaves meet of light; or tone, 1 on a stem, and what that covers
 flat out vec4 across_card; // which way the card's own x goes, in the world; its tone
 flat out vec3 along_card;
 
@@ -83,10 +83,14 @@ vec3 leaf_corner(int twig, int leaf, vec2 corner, out vec3 normal) {
     return foot + size * (leaf_shape.x * (corner.y + STALK) * along + leaf_shape.y * corner.x * flat_to);
 }
 
-// A corner of the stem of one of its shoots.
-vec3 stem_corner(int twig, int shoot, vec2 corner) {
+// Half the width of the stem of one of its shoots, at a part of its length [of the twig's usual length].
+float stem_width(int shoot, float along) {
+    return STEM * (1.0 - STEM_TAPERS * along) * (shoot == 0 ? STEM_OF_TWIG : 1.0);
+}
+
+// A corner of such a stem, so wide.
+vec3 stem_corner(int twig, int shoot, vec2 corner, float wide) {
     vec4 stands = shoot_at(twig, shoot);
-    float wide = STEM * (1.0 - STEM_TAPERS * corner.y) * (shoot == 0 ? STEM_OF_TWIG : 1.0);
     vec2 own = vec2(corner.x * wide, stands.w * corner.y);
     return vec3(stands.y * own.x + stands.x * own.y, stands.z + stands.y * own.y - stands.x * own.x, 0.0);
 }
@@ -110,6 +114,11 @@ float size_of(float rank) {
 
 #ifndef BAKED
 uniform vec2 leaf_pixels; // length of a leaf from which on twigs begin to be drawn leaf by leaf, and from which all are [pixels]
+
+// Half a pixel at a twig, of its length: narrower stems are drawn so wide, and cover less.
+float half_pixel(Twig twig) {
+    return 0.5 * distance(eye, root + scale * turned(twig.foot)) / (pixels_a_metre() * scale * twig.length);
+}
 
 // The share of twigs at a place of its model whose leaves are drawn each by itself: where they are large enough.
 float leaf_by_leaf(vec3 own) {
@@ -149,7 +158,11 @@ void main() {
     vec3 normal = vec3(0.0, 0.0, 1.0), shape;
 #ifdef LEAVES
     bool is_stem = leaf >= leaf_count;
-    shape = is_stem ? stem_corner(twig, leaf - leaf_count, corner) : leaf_corner(twig, leaf, corner, normal);
+    float wide = stem_width(leaf - leaf_count, corner.y), widened = wide;
+#ifndef BAKED
+    widened = max(wide, half_pixel(one) / size);
+#endif
+    shape = is_stem ? stem_corner(twig, leaf - leaf_count, corner, widened) : leaf_corner(twig, leaf, corner, normal);
 #else
     shape = vec3(corner.x * card.x, mix(card.y, card.z, corner.y), 0.0);
 #endif
@@ -177,7 +190,7 @@ void main() {
 #endif
     float fresh = LEAF_TONES.x + LEAF_TONES.y * random(twig, leaf, 4).x;
 #ifdef LEAVES
-    inside = vec4(fresh, is_stem ? 1.0 : 0.0, 0.0, 0.0);
+    inside = is_stem ? vec4(0.0, 1.0, wide / widened, 0.0) : vec4(fresh, 0.0, 1.0, 0.0);
 #else
     inside = one.shading;
 #endif
