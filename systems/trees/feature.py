@@ -1,5 +1,6 @@
 """The trees of a prairie: whose entities they are, and which of them stand."""
 
+import logging
 from collections.abc import Mapping
 from functools import partial
 from typing import Self
@@ -12,7 +13,6 @@ from ...components.arrays import Floats
 from ...components.pose import Pose
 from ...components.tree import HIGHEST, LOWEST, Tree
 from ...engine.declared.tree import TreeKind
-from ...engine.handed import must_be_known
 from ...engine.terrain.sample import height_at, natural_at
 from ...engine.world import World
 from ..frame.block import FrameBlock
@@ -24,6 +24,8 @@ from .place import placed
 from .standing import STANDING, Standing, tell_apart
 
 Found = list[tuple[int, Tree, Pose]]
+
+log = logging.getLogger("tallgrass")
 
 
 class Trees(Feature):
@@ -39,6 +41,8 @@ class Trees(Feature):
         """Of the scene's own trees, in the order in which they were planted; some may have been felled."""
         self._seen: tuple[list[tuple[int, Tree]], list[tuple[int, Pose]]] = [], []
         self._heights = -1
+        self._unknown: set[str] = set()
+        """Kinds of which it was said that the scene does not have them."""
         self.standing = Standing(np.zeros(0, STANDING))
         """Those of this frame."""
         self._plant()
@@ -61,6 +65,7 @@ class Trees(Feature):
         """Make an entity for each tree that the scene has."""
         scene, terrain = self._grown.scene, self._grown.ground.terrain
         self._seedlings, self._heights = [], -1
+        self._unknown.clear()
         taken = np.zeros((0, 2), np.float32)
         for number, (name, kind) in enumerate(scene.trees.items()):
             dense = None if kind.among is None else partial(self._dense, list(scene.grass).index(kind.among))
@@ -73,18 +78,29 @@ class Trees(Feature):
         return np.asarray(natural_at(self._grown.ground.density, place)[number], np.float32)
 
     def step(self, viewer: str, /, *, time: float) -> None:
-        """Look which trees stand where; raises ValueError for one of a kind that the scene does not have."""
+        """Look which trees stand where; one of a kind that the scene does not have is named once, and left out."""
         del viewer, time
         changes = self._grown.ground.terrain.changes.count
         seen = (trees := self._world.rows(Tree)), self._world.rows(Pose) if trees else []
         if seen == self._seen and changes == self._heights:
             return
-        found = self._world.both(Tree, Pose)
-        for _, tree, _ in found:
-            _must_be_kind(tree, self._grown.scene.trees)
         self._seen, self._heights = seen, changes
+        found = [each for each in self._world.both(Tree, Pose) if self._knows(each[1])]
         there = [each for each in found if self._world.stands(each[0], each[2], "the tree")]
         self.standing = Standing(_rows(there, self._grown))
+
+    def _knows(self, tree: Tree) -> bool:
+        """Return whether the scene has a tree's kind; say once where it does not."""
+        kinds = self._grown.scene.trees
+        if tree.kind in kinds:
+            return True
+        if tree.kind not in self._unknown:
+            self._unknown.add(tree.kind)
+            there = f"there are {', '.join(kinds)}" if kinds else "it has none"
+            log.warning(
+                "trees of kind '%s' are not shown: this scene does not declare it under 'trees:', %s", tree.kind, there
+            )
+        return False
 
     def felled(self) -> list[int]:
         """Return which of the scene's own trees are gone, by their numbers."""
@@ -114,15 +130,6 @@ def _seedlings(name: str, kind: TreeKind, place: Floats, *, seed: int) -> list[t
         (Tree(name, height, kind.foliage), Pose(x, z, yaw))
         for (x, z), height, yaw in zip(place.tolist(), heights, turns, strict=True)
     ]
-
-
-def _must_be_kind(tree: Tree, kinds: Mapping[str, TreeKind]) -> None:
-    """Raise ValueError for a tree of a kind that the scene does not have."""
-    if not kinds:
-        raise ValueError(
-            f"there is a tree of kind '{tree.kind}', and this scene has no trees: declare it under 'trees:'"
-        )
-    must_be_known("tree", tree.kind, kinds)
 
 
 def _made_of(grown: Grown) -> tuple[object, ...]:

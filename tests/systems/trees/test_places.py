@@ -127,9 +127,25 @@ def test_what_is_no_tree_is_refused_in_a_sentence(keys: dict[str, float], why: s
     assert str(caught.value) == why
 
 
-@pytest.mark.parametrize(("scene", "why"), [(WOOD, "unknown tree 'fir'; there are oak"), (LITTLE, "declare it under")])
-def test_a_tree_of_no_kind_of_the_scene_is_refused_in_a_sentence(scene: str, why: str) -> None:
+@pytest.mark.parametrize(("scene", "why"), [(WOOD, "there are oak"), (LITTLE, "it has none")])
+def test_a_tree_of_no_kind_of_the_scene_is_named_once_and_left_standing_unseen(
+    scene: str, why: str, caplog: pytest.LogCaptureFixture
+) -> None:
     with little_prairie(scene=scene) as prairie:
-        esper.create_entity(Tree("fir"), Pose())
-        with pytest.raises(ValueError, match=why):
-            standing(prairie)
+        before = standing(prairie)
+        for x in (5.0, 25.0):
+            entity = esper.create_entity(Tree("fir"), Pose(x, 30.0))
+            assert standing(prairie) == before
+        assert esper.entity_exists(entity)
+    said = [record.getMessage() for record in caplog.records if "'fir'" in record.getMessage()]
+    assert len(said) == 1
+    assert why in said[0]
+
+
+def test_a_games_own_tree_outlives_its_prairie_and_shows_where_its_kind_is_known() -> None:
+    with little_prairie(scene=WOOD):
+        esper.create_entity(Tree("oak", height=6.0), Pose(-9.0, 3.0))
+    with little_prairie(scene=LITTLE) as bare:
+        assert standing(bare) == []
+        bare.reload(bare.scene.model_dump(mode="json") | {"trees": {"oak": {"habit": "oak"}}})
+        assert [-9.0, 3.0] in standing(bare)
