@@ -144,7 +144,7 @@ class Painter:
         before = self.site
         for part in self.parts:
             part.settle(site, self.record)
-        if site is not before:
+        if before is None or _are_other_kinds(site, before):
             self._special = {name: told for each in site.representations for name, told in each.defines(site).items()}
         defines = dict(self._special)
         for part in self.parts:
@@ -354,6 +354,11 @@ def light_from(view: View, place: tuple[float, float, float], /) -> tuple[float,
         return view.eye
     x, y, z = (float(at + FAR_OFF * part) for at, part in zip(place, view.view[2, :3], strict=True))
     return x, y, z
+
+
+def _are_other_kinds(site: Site, before: Site) -> bool:
+    """Return whether what is special about any kind may be something else."""
+    return site.growths is not before.growths or site.own_segments != before.own_segments
 
 
 def _is_other_grass(site: Site, before: Site) -> bool:

@@ -27,6 +27,7 @@ from .light.given import GivenHaze, Haze
 from .painter import Painter
 from .saving import Saving
 from .screen import Screen
+from .seasons import Seasons
 from .site import Site, found_again, found_site, outlook_on, settle_on
 from .statistics import Statistics
 from .tending import Tending
@@ -75,13 +76,15 @@ class Prairie(Tending):
         site = found_site(loaded, preset=preset, lod=lod, transitions=transitions)
         super().__init__(site, World(self.advance), live=live)
         self.loaded, self.preset, self._origin = loaded, preset, (0.0, 0.0, 0.0)
+        self._seasons = Seasons(loaded.scene)
         self.lod: LodName = lod
         self.statistics, self.governor = Statistics(blades_field=site.blades), Governor(hold)
         self.systems = Schedule(live=live)
         screen = Screen(ctx, self.features, self.winds.quarantine, linear=linear)
         self._saving = Saving(
-            self.world, self.winds, self.pressers, self._mown, self.clearings, self._shining, one(Trees, self.features)
-        )
+            self.world, self.winds, self.pressers, self._mown, self.clearings, self._shining, one(Trees, self.features),
+            self._seasons,
+        )  # fmt: skip
         self._assembly = Assembly(
             self.viewers, self.winds, self.pressers, screen, self.governor, self._entities, self._felt
         )
@@ -159,6 +162,7 @@ class Prairie(Tending):
         must_be_known("depth", depth, DEPTHS)
         chosen = as_parts(self.scene.parts if parts is None else parts)
         seen = view_of(view, projection, self._origin)
+        self._turn()
         before = self.viewers[viewer].frame if viewer in self.viewers else None
         frame, asked, goes_on = Frame(seen, self.time, self.site, chosen).after(before, is_deep=depth == "all")
         if not goes_on:
@@ -258,6 +262,7 @@ class Prairie(Tending):
         self._must_be_there("follow a viewer")
         must_be_viewer(viewer)
         seen = view_of(view, projection, self._origin)
+        self._turn()
         for feature in self.features:
             feature.step(viewer, time=self.time)
         self._look(seen, viewer)
@@ -300,14 +305,9 @@ class Prairie(Tending):
             must_be_a(Site, site, "site is what finding(...)() returned")
         self.winds.sources()
         loaded = read_again(self.loaded, scene)
-        before, self.site = self.site, self.finding(loaded)() if site is None else site
-        for outlook in self.viewers.values():
-            settle_on(outlook, self.site, before, self.world)
-        self._built, built = self._assembly.on(self.site), self._built
-        settle_in(self.systems, self._built, built)
-        for feature in self.features:
-            feature.settle(self.site, before, time=self.time)
-        self.loaded, self.statistics.blades_field = loaded, self.site.blades
+        self._move_to(self.finding(loaded)() if site is None else site)
+        self.loaded = loaded
+        self._seasons.begin(loaded.scene)
 
     def finding(self, loaded: LoadedScene) -> Callable[[], Site]:
         """Return what finds the site that another reading of the scene becomes, for `reload`; it changes nothing.
@@ -330,6 +330,7 @@ class Prairie(Tending):
         self._must_be_there("restore a state")
         self._clock, entities = self._saving.restore(state, self.site, self.loaded)
         self.viewers.begin_anew()
+        self._turn()
         return entities
 
     def release(self) -> None:
@@ -343,6 +344,30 @@ class Prairie(Tending):
         self.world.release()
         self.systems.clear()
         self._built.clear()
+
+    def _turn(self) -> None:
+        """Come to the kinds of grass that there are by now."""
+        due = self._seasons.to_grow
+        if due:
+            self._seasons.standing |= due
+            grass = {name: self._seasons.kind_at(name, self.time) for name in self.scene.grass}
+            loaded = replace(self.loaded, scene=self.scene.model_copy(update={"grass": grass}))
+            self._move_to(self.finding(loaded)())
+            return
+        scene = self._seasons.scene_at(self.scene, self.time)
+        if scene is not self.scene:
+            self.site = replace(self.site, scene=scene)
+
+    def _move_to(self, site: Site) -> None:
+        """Go on with another site; what has not changed stays."""
+        before, self.site = self.site, site
+        for outlook in self.viewers.values():
+            settle_on(outlook, self.site, before, self.world)
+        self._built, built = self._assembly.on(self.site), self._built
+        settle_in(self.systems, self._built, built)
+        for feature in self.features:
+            feature.settle(self.site, before, time=self.time)
+        self.statistics.blades_field = self.site.blades
 
     def _look_ahead(self) -> None:
         """Gather for a frame what is seen from the scene's own camera; nobody is there any more afterwards."""

@@ -107,6 +107,27 @@ class SavedTreading(Declaration):
     """What those press with that the scene declares; None of one that a game has deleted."""
 
 
+class SavedEase(Declaration):
+    """One value of a kind of grass on its way."""
+
+    key: str
+    before: str | float
+    after: str | float
+    since: float = Field(ge=0.0, le=1e9)
+    over: float = Field(ge=0.0, le=1e9)
+    """Both [s]."""
+
+
+class SavedSeason(Declaration):
+    """A kind of grass that a game has changed."""
+
+    name: str
+    due: dict[str, Any]
+    """All that it says but where it grows: what it comes to in the end."""
+
+    eases: list[SavedEase]
+
+
 class State(Declaration):
     """All of a state but its arrays."""
 
@@ -131,6 +152,7 @@ class State(Declaration):
     treading: SavedTreading
     felled: list[int] = Field(default=[])
     """Which of the scene's own trees are gone, by their numbers."""
+    seasons: list[SavedSeason] = Field(default=[])
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, cast
 
 import numpy as np
@@ -13,6 +13,7 @@ from ..components.patch import Cell
 from ..components.pose import Pose
 from ..components.presser import Presser
 from ..components.wind import WindPrimitive, WindSource, with_course
+from ..engine.declared.grass import GrassKind
 from ..engine.declared.scene import Reading
 from ..engine.handed import is_somewhere
 from ..engine.plugins import wind_kinds
@@ -45,6 +46,7 @@ from .saved import (
     refuse,
     unpacked,
 )  # fmt: skip
+from .seasons import Ease, Seasons
 from .site import Site
 from .space.ground import Ground
 from .thing import THINGS, Thing, component_of, fields_of
@@ -72,6 +74,7 @@ class Saving:
     clearings: Clearings
     shining: Shining
     trees: Trees
+    seasons: Seasons
     _marked: tuple[Ground, str] | None = None
     """The ground that was marked last, and its mark: it takes a while."""
 
@@ -92,6 +95,7 @@ class Saving:
             things=[*self._things()],
             treading=treading,
             felled=self.trees.felled(),
+            seasons=self.seasons.saved(),
         )
         cleared = np.array(sorted(self.clearings.cells), np.int32).reshape(-1, 2)
         (mown, left), (sown, dense) = self.mown.plots.saved(), site.ground.density.sown.saved()
@@ -124,11 +128,13 @@ class Saving:
             _sown(saved.arrays, site.ground.density.sown),
             _cells(saved.arrays),
             _ground(saved.arrays, site.ground.terrain),
+            self.seasons.read(state.seasons),
         )
         self.winds.sources()  # raises where another esper world is current
         restore_squares(site.ground.terrain, made.ground)
         self.mown.plots.resume(*made.mown)
         site.ground.density.sown.resume(*made.sown)
+        self.seasons.resume(*made.kinds)
         return state.time, self._bring(state, made)
 
     def _things(self) -> Iterator[SavedThing]:
@@ -148,7 +154,7 @@ class Saving:
     def _mark(self, site: Site) -> str:
         if self._marked is None or self._marked[0] is not site.ground:
             self._marked = site.ground, ground_mark(site.ground)
-        return mark_of(site, self._marked[1])
+        return mark_of(replace(site, scene=self.seasons.declared), self._marked[1])
 
     def _bring(self, state: State, made: "_Made") -> dict[int, int]:
         self.winds.pass_to(state.time)
@@ -233,6 +239,7 @@ class _Made:
     sown: tuple[Ints, Bytes]
     cleared: list[Cell]
     ground: Squares
+    kinds: tuple[dict[str, GrassKind], dict[str, dict[str, Ease]]]
 
 
 def _wind(entity: int, source: WindSource, pose: Pose | None, run: WindPrimitive | None) -> SavedWind | None:

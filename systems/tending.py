@@ -15,6 +15,7 @@ from .answering import Answering
 from .features import one
 from .land.earth import Earth
 from .mow.sown import clear, sow
+from .seasons import Seasons
 from .shadows.feature import Shadows
 
 
@@ -23,6 +24,7 @@ class Tending(Answering):
 
     _released = False
     _origin = 0.0, 0.0, 0.0
+    _seasons: Seasons
 
     def add(self, primitive: WindPrimitive, *, pose: Pose | None = None, name: str | None = None) -> int:
         """Add a wind and return its entity, a handle that `move` and `remove` take.
@@ -121,6 +123,19 @@ class Tending(Answering):
             self._shining.resume(light, since=self.time, time=self.time)
         else:
             self._shining.ask(light, time=self.time)
+
+    def change_kind(self, name: str, *, over: float = 0.0, **keys: object) -> None:
+        """Let a kind of grass come to other values, by keys of `grass:` in a scene: `change_kind("lawn", gloss=0.2)`.
+
+        It takes `over` seconds of the prairie's time, and no frame waits for it. Colours, `variety`, `translucency`,
+        `gloss` and `understorey` go from what they are to what they come to. Keys of a `head` join those that it has.
+        Raises ValueError for an unknown kind and for what is no time, SceneError with a sentence for each key that is
+        unknown or out of range, TypeError for what is no name, RuntimeError after `release`.
+        """
+        self._must_be_there("change a kind")
+        if self.scene.number_of(name) is None:
+            raise TypeError(f"what changes is the name of a kind, not {name!r}")
+        self._seasons.change(name, keys, over=over, time=self.time)
 
     def ground_texture(self, texture: object, *, side: float | None = None, linear: bool = False) -> None:
         """Let a game's own texture lie as the ground from the next frame on, between plants and where none grow.

@@ -5,7 +5,12 @@ from typing import TypeVar
 
 from pydantic import BaseModel, ValidationError
 
+from ..declared.grass import GrassKind
+from ..declared.scene import Scene
+from ..plugins import wind_kinds
 from .fields import Field, declared
+from .validate import validate
+from .values import values_document
 from .words import sentence
 
 Part = TypeVar("Part", bound=BaseModel)
@@ -23,3 +28,18 @@ def changed(part: Part, values: Mapping[str, object], /, *, name: str) -> Part:
         places = [(each, str(each["loc"][0])) for each in error.errors(include_url=False)]
         told = [sentence(each, declared(key, fields[key]) if key in fields else whole) for each, key in places]
         raise ValueError("; ".join(told)) from error
+
+
+def changed_kind(scene: Scene, name: str, values: Mapping[str, object], /) -> GrassKind:
+    """Return a kind of a scene's grass with other values; those of its `head` join those that it has.
+
+    Raises SceneError with a sentence for each that cannot be, by the path of its key.
+    """
+    kind = scene.grass[name]
+    said = {key: getattr(kind, key) for key in GrassKind.model_fields if key in kind.model_fields_set}
+    head = values.get("head")
+    if isinstance(head, Mapping) and kind.head is not None:
+        said["head"] = {key: getattr(kind.head, key) for key in kind.head.model_fields_set} | dict(head)
+        values = {key: value for key, value in values.items() if key != "head"}
+    whole = {"tallgrass": scene.tallgrass, "grass": {name: said | dict(values)}, "quality": scene.quality}
+    return validate(values_document(whole), find=wind_kinds().find).grass[name]

@@ -1,5 +1,8 @@
 """What every program knows of the land: its terrain, and its kinds of grass."""
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -8,9 +11,12 @@ from ...engine.terrain.sample import bareness
 from ..frame.block import GROUPS
 from ..grow.record import GIVES, Growth
 from ..grow.section import SECTIONS
-from ..light.materials import bloom, leaves_of, let_through, pigment, understorey, undertone
+from ..light.materials import Leaves, bloom, leaves_of, let_through, pigment, understorey, undertone
 from ..space.canopy import canopy_height
 from ..space.grown import Grown
+
+OF_FORM = "taper", "profile"
+"""The keys of a kind that `figures_of` reads beside what was grown."""
 
 BY_KIND = "crown", "leaf", "lying", "understorey", "undertone", "steepest", "thins", "give"
 """The fields of the frame's record that have a figure for each kind."""
@@ -19,8 +25,24 @@ OF_KIND = "root", "gloss", "tip", "taper", "through", "bloom", "narrowed"
 """What is written here of each of its kinds."""
 
 
-def write_land(record: NDArray[np.void], grown: Grown, /) -> None:
-    """Write into the frame's record (1,) what the ground is, and what its kinds of grass are."""
+@dataclass(frozen=True, slots=True, eq=False)
+class Figures:
+    """What takes a while to find out about what was grown of a kind."""
+
+    crown: float
+    """Height of the canopy [m]."""
+
+    leaves: Leaves
+    bloom: float
+
+
+def figures_of(kind: GrassKind, growth: Growth, patch: float, /) -> Figures:
+    """Return what there is to be told of what was grown of a kind; `patch` is a patch's side [m]."""
+    return Figures(canopy_height(growth), leaves_of(kind, growth, patch), bloom(kind, growth))
+
+
+def write_land(record: NDArray[np.void], grown: Grown, figures: Sequence[Figures], /) -> None:
+    """Write into the frame's record (1,) what the ground is, and what its kinds of grass are, with figures of each."""
     row, patch, growths = record[0], grown.ground.patch, grown.growths
     terrain, postures = grown.ground.terrain, growths[0].postures.shape
     row["patch_side"], row["tallest_grass"] = patch, grown.tallest
@@ -37,19 +59,18 @@ def write_land(record: NDArray[np.void], grown: Grown, /) -> None:
     if grown.ground.density.slopes:
         steepest[: len(growths)], thins[: len(growths)] = bareness(grown.ground.density.slopes).T
     give = row["give"].reshape(GROUPS, GIVES, 4)
-    for index, (kind, growth) in enumerate(zip(grown.scene.grass.values(), growths, strict=True)):
-        _write_kind(row["kinds"][index], kind, growth)
-        leaves = leaves_of(kind, growth, patch)
-        crown[index], leaf[index] = canopy_height(growth), leaves.side
-        lying[index] = leaves.above / leaves.side
-        low[index] = understorey(kind, crown[index])
-        tipped[index] = undertone(kind, bloom(kind, growth))
+    for index, (kind, growth, own) in enumerate(zip(grown.scene.grass.values(), growths, figures, strict=True)):
+        _write_kind(row["kinds"][index], kind, own.bloom)
+        crown[index], leaf[index] = own.crown, own.leaves.side
+        lying[index] = own.leaves.above / own.leaves.side
+        low[index] = understorey(kind, own.crown)
+        tipped[index] = undertone(kind, own.bloom)
         give[index // 4, :, index % 4] = growth.postures.give
 
 
-def _write_kind(row: np.void, kind: GrassKind, growth: Growth) -> None:
+def _write_kind(row: np.void, kind: GrassKind, blooms: float) -> None:
     row["root"], row["gloss"] = pigment(kind.root), kind.gloss
     row["tip"], row["taper"] = pigment(kind.tip), kind.taper
-    row["through"], row["bloom"] = let_through(kind), bloom(kind, growth)
+    row["through"], row["bloom"] = let_through(kind), blooms
     section = SECTIONS[kind.profile]
     row["narrowed"] = -1.0 if section.is_round else 1.0 - section.waist

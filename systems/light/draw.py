@@ -56,8 +56,9 @@ class LightPart(Part):
             self.lie.leap()
         if now.daylight is not self._lit or before is not grown:
             shine(record, light, now.daylight, list(grown.scene.grass.values()))
-            self._sky.write(now.daylight.sky.map.astype(np.float32))
             self._toward, self._cloudy = toward_sun(light), light.clouds > 0.0
+        if now.daylight is not self._lit:
+            self._sky.write(now.daylight.sky.map.astype(np.float32))
         self._leaps, self._lit = now.leaps, now.daylight
 
     def _lay(self, terrain: Terrain, *, seed: int) -> None:

@@ -1,0 +1,151 @@
+"""Seasons: what a game changes of kinds of grass while it looks at them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import inf
+from reprlib import repr as shortened
+
+import numpy as np
+from pydantic import ValidationError
+
+from ..engine.declared.grass import GrassKind
+from ..engine.declared.scene import Scene
+from ..engine.handed import NUMBERS
+from ..engine.scene.change import changed_kind
+from .saved import SavedEase, SavedSeason, refuse
+
+EASED = "root", "tip", "variety", "translucency", "gloss", "understorey"
+"""What is only told to shaders of a kind: it goes from one value to another by and by, and nothing is grown."""
+
+ELSEWHERE = {
+    "place": "where a kind grows is changed by sow and clear",
+    "slope": "up to which slope a kind grows is changed by reading the scene again",
+    "plant": "a kind that becomes another plant is changed by reading the scene again",
+    "segments": "how finely a kind is drawn is changed by reading the scene again",
+}
+"""Keys of a kind that do not change by seasons, and why."""
+
+Value = str | float
+
+
+@dataclass(frozen=True, slots=True)
+class Ease:
+    """One value of a kind on its way from before to after."""
+
+    before: Value
+    after: Value
+    since: float
+    """When it began [s]."""
+
+    over: float
+    """How long it takes [s]."""
+
+    def at(self, time: float, /) -> Value:
+        """Return the value at a time [s]."""
+        return between(self.before, self.after, part_of(time, self.since, self.over))
+
+
+def part_of(time: float, since: float, over: float, /) -> float:
+    """Return how much of what began then and takes so long has happened at a time [s], from 0 to 1."""
+    if time < since:
+        return 0.0
+    return min((time - since) / over, 1.0) if over > 0.0 else 1.0
+
+
+def between(before: Value, after: Value, part: float, /) -> Value:
+    """Return the value at a part of the way from one to another: of colours, each of red, green and blue."""
+    if isinstance(before, str) or isinstance(after, str):
+        one, other = (np.array([int(str(text)[i : i + 2], 16) for i in (1, 3, 5)]) for text in (before, after))
+        mixed = np.rint(one + part * (other - one)).astype(int)
+        return "#" + "".join(f"{value:02x}" for value in mixed.tolist())
+    return before + part * (after - before)
+
+
+class Seasons:
+    """The kinds of a scene as a game has changed them."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.begin(scene)
+
+    def begin(self, scene: Scene) -> None:
+        """Begin anew with the kinds that a scene declares."""
+        self.declared = scene
+        self.due: dict[str, GrassKind] = dict(scene.grass)
+        """What each kind comes to in the end."""
+        self.standing: dict[str, GrassKind] = dict(scene.grass)
+        """Each kind as it has grown."""
+        self.eases: dict[str, dict[str, Ease]] = {}
+        """By kind and key, those that have begun."""
+
+    def change(self, name: str, keys: Mapping[str, object], /, *, over: float, time: float) -> None:
+        """Let a kind come to other values from a time [s] on; raises ValueError for what cannot be."""
+        if not isinstance(over, NUMBERS) or not 0.0 <= over < inf:
+            raise ValueError(f"a kind changes over so many seconds, 0 or more, not {shortened(over)}")
+        for key, why in ELSEWHERE.items():
+            if key in keys:
+                raise ValueError(f"grass.{name}.{key}: {why}")
+        scene = self.declared.model_copy(update={"grass": self.due})
+        kind, before = changed_kind(scene, name, keys), self.kind_at(name, time)
+        for key in EASED:
+            now = getattr(before, key)
+            if getattr(kind, key) != getattr(self.due[name], key):
+                self.eases.setdefault(name, {})[key] = Ease(now, getattr(kind, key), time, float(over))
+        self.due[name] = kind
+
+    @property
+    def to_grow(self) -> dict[str, GrassKind]:
+        """The kinds that stand otherwise than they are to, by name."""
+        return {name: kind for name, kind in self.due.items() if _grown(kind) != _grown(self.standing[name])}
+
+    def kind_at(self, name: str, time: float, /) -> GrassKind:
+        """Return a kind as it is at a time [s]."""
+        eases, kind = self.eases.get(name), self.standing[name]
+        return kind.model_copy(update={key: ease.at(time) for key, ease in eases.items()}) if eases else kind
+
+    def saved(self) -> list[SavedSeason]:
+        """Return the kinds that are others than the scene declares."""
+        changed = [name for name, kind in self.due.items() if kind != self.declared.grass[name] or name in self.eases]
+        return [
+            SavedSeason(
+                name=name,
+                due=self.due[name].model_dump(mode="json", exclude_unset=True, exclude={"place"}),
+                eases=[
+                    SavedEase(key=key, before=ease.before, after=ease.after, since=ease.since, over=ease.over)
+                    for key, ease in self.eases.get(name, {}).items()
+                ],
+            )
+            for name in changed
+        ]
+
+    def read(self, saved: Sequence[SavedSeason], /) -> tuple[dict[str, GrassKind], dict[str, dict[str, Ease]]]:
+        """Return the kinds and what is on its way as they were saved; raises ValueError for what cannot be."""
+        due, eases = dict(self.declared.grass), dict[str, dict[str, Ease]]()
+        for each in saved:
+            if each.name not in due or any(ease.key not in EASED for ease in each.eases):
+                refuse("it has other kinds of grass than its scene")
+            told = {"place": due[each.name].place} if due[each.name].place else {}
+            try:
+                due[each.name] = GrassKind.model_validate(each.due | told)
+                for ease in each.eases:
+                    for value in (ease.before, ease.after):
+                        GrassKind.model_validate(each.due | told | {ease.key: value})
+            except ValidationError as error:
+                refuse(str(error.errors(include_url=False)[0]["msg"]))
+            eases[each.name] = {ease.key: Ease(ease.before, ease.after, ease.since, ease.over) for ease in each.eases}
+        return due, eases
+
+    def resume(self, due: dict[str, GrassKind], eases: dict[str, dict[str, Ease]], /) -> None:
+        """Go on with what `read` returned."""
+        self.due, self.eases = due, {name: own for name, own in eases.items() if own}
+
+    def scene_at(self, scene: Scene, time: float, /) -> Scene:
+        """Return a scene with its kinds as they are at a time [s]: the same where none is another."""
+        if not self.eases and self.standing == scene.grass:
+            return scene
+        kinds = {name: self.kind_at(name, time) for name in scene.grass}
+        return scene if kinds == scene.grass else scene.model_copy(update={"grass": kinds})
+
+
+def _grown(kind: GrassKind) -> dict[str, object]:
+    """Return all of a kind that is not eased."""
+    return {name: getattr(kind, name) for name in GrassKind.model_fields if name not in EASED}
