@@ -27,7 +27,7 @@ SOURCES = ("app", "components", "engine", "systems", "testing")
 GIVEN = {"Clock", "GrassAt", "Heard", "Lod", "Patch", "Prairie", "Receivers", "Stage", "Viewer"}
 """Classes that programs are given and do not make: their constructors are not public."""
 
-KEYS = {"bench": "performance.md", "film": "farm.md"}
+KEYS = {"bench": "measures.md", "film": "farm.md"}
 """The pages whose tables name the keys of JSON, by the command that prints it."""
 
 
