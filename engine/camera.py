@@ -109,6 +109,13 @@ def is_mirrored(view: View, /) -> bool | None:
     return turn > 0.0 if turn else None
 
 
+def is_reversed(view: View, /) -> bool:
+    """Return whether a view has less depth farther off, as a projection for `GL_GREATER` does."""
+    (a, b), (c, d) = view.projection[2:, 2:].tolist()
+    rises = a * d - b * c  # how depth changes behind the eye, or with perspective as `w` does
+    return bool(rises * c < 0.0 if c else rises > 0.0)
+
+
 def view_matrix(camera: Camera, /) -> Floats:
     """Return the matrix from the world to the eye, shape (4, 4), for column vectors."""
     ahead = np.array(forward(camera.yaw, camera.pitch))

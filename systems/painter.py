@@ -9,7 +9,7 @@ import moderngl
 
 from ..components.wind import WindPrimitive
 from ..engine.camera import View, is_mirrored
-from ..engine.gl.guest import aside, colourless, guest
+from ..engine.gl.guest import aside, colourless, depth_ends, guest
 from ..engine.gl.rasteriser import handing_over
 from ..engine.gl.smaller import Smaller
 from ..engine.gl.stopwatch import Stopwatch
@@ -232,7 +232,7 @@ class Painter:
         With `blades`, these alone stand on the ground and the carpet. Of the host's pixels, `scale` times as many are
         drawn, across and up; none at all where it is `hidden`.
         """
-        with guest(self.ctx) as host:
+        with guest(self.ctx, view) as host:
             if hidden:
                 host.scissor = 0, 0, 0, 0
             with self.smaller.instead_of(host, scale, is_whole="sky" in asked.parts) as target:
@@ -261,7 +261,7 @@ class Painter:
         Grass is made out as that sees it: strips hide as much as their blades do.
         """
         self.write(outlook)
-        with guest(self.ctx) as target:
+        with guest(self.ctx, view) as target:
             self._tell(view, target, WHOLE)
             self.draw_calls = self._hear(target, WHOLE)
             self.record["eye"] = outlook.viewer.eye  # the mesh lies as the viewer has it
@@ -290,7 +290,7 @@ class Painter:
 
     def _tell(self, view: View, target: moderngl.Framebuffer, asked: Asked) -> None:
         """Tell all shaders of the frame."""
-        aim(self.record, view, target.viewport[2:])
+        aim(self.record, view, target.viewport[2:], ends=depth_ends())
         confine(self.record, asked)
         self.block.write(self.record)
         for part in self.parts:

@@ -6,7 +6,7 @@ out vec4 pixel;
 
 void main() {
     float drawn = texture(deep, at).r;
-    if (drawn >= texture(before, middle_of(at)).r) {
+    if (behind(drawn, texture(before, middle_of(at)).r) >= 0.0) {
         discard;
     }
     pixel = vec4(0.0);

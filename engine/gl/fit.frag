@@ -18,7 +18,7 @@ void main() {
         least = min(least, apart);
         most = max(most, apart);
     }
-    float edge = APART * (1.0 - depth);
-    bool thin = least > edge && texture(deep, alike).r > depth;  // something that the smaller picture lacks
+    float edge = APART * abs(farthest - depth);
+    bool thin = least > edge && behind(texture(deep, alike).r, depth) > 0.0;  // something that the smaller picture lacks
     pixel = most <= edge ? sharp(at) : thin ? vec4(0.0) : texture(picture, alike);
 }

@@ -7,7 +7,7 @@ import moderngl
 import numpy as np
 
 from ...components.arrays import Doubles
-from ..camera import View
+from ..camera import View, is_reversed
 from .current import current_functions, is_own, own_context
 from .functions import functions_of
 from .host import State, has_windows, is_hidden, loaded_gl, pyglet_context
@@ -15,6 +15,9 @@ from .limits import limits_of
 from .units import SCRATCH_UNIT
 
 _kept: list[State] = []
+
+TURNED = {"<": ">", "<=": ">=", ">": "<", "1": "1"}
+"""Tests of depth, and what each is where less is farther off."""
 
 
 def block_binding(ctx: moderngl.Context) -> int:
@@ -63,14 +66,17 @@ def kept(ctx: moderngl.Context | None) -> Iterator[State]:
 
 
 def unturned(seen: View) -> View:
-    """Return a view for clip space as OpenGL has it, in which a guest draws, from the host's (`glClipControl`)."""
-    clip = _kept[-1].clip
+    """Return a view for clip space in which a guest draws, from the host's (`glClipControl`).
+
+    That is OpenGL's own, but for depth that is reversed: it stays as the host has it.
+    """
+    clip = _kept[-1].clip(keeps_depth=is_reversed(seen))
     return seen if clip is None else View(seen.view, clip @ seen.projection)
 
 
 def unturned_clip(matrix: Doubles, /) -> Doubles:
     """Return a matrix to clip space as OpenGL has it, from one to the host's, (4, 4)."""
-    clip = _kept[-1].clip
+    clip = _kept[-1].clip()
     return matrix if clip is None else np.asarray(clip @ matrix, np.float64)
 
 
@@ -89,29 +95,55 @@ def arrive(ctx: moderngl.Context) -> None:
 
 
 @contextmanager
-def guest(ctx: moderngl.Context) -> Iterator[moderngl.Framebuffer]:
+def guest(ctx: moderngl.Context, seen: View | None = None) -> Iterator[moderngl.Framebuffer]:
     """Draw as a guest: yields the framebuffer that the host has bound, whole and with a known state.
 
     Colour goes to the host's first output alone, as far as the host's colour mask lets it; what the others are written
     to stays as it is. Depth is written whatever the host's depth mask says, and where there is no colour, depth alone.
-    On leaving, the host's state is as it was. Never touches uniform binding point 0, nor the texture units before
-    `FIRST_UNIT`.
+    It runs as in `seen`, where that is given. On leaving, the host's state is as it was. Never touches uniform binding
+    point 0, nor the texture units before `FIRST_UNIT`.
     """
     with kept(ctx) as state:
         target = ctx.detect_framebuffer()
         with _remembered(ctx, target, state):
+            state.look(is_reversed=seen is not None and is_reversed(seen))
             _begin(ctx, target, state)
-            yield target
+            try:
+                yield target
+            finally:
+                state.look(is_reversed=False)
+
+
+def let_pass(ctx: moderngl.Context, test: str, /) -> None:
+    """Draw where a test of depth says so: "<" is nearer, however the host's depth runs."""
+    ctx.depth_func = TURNED[test] if _kept[-1].is_turned else test
+
+
+def depth_ends() -> tuple[float, float]:
+    """Return the depths of the near and the far end of the clip space that a guest draws in now."""
+    return _kept[-1].ends
+
+
+def farthest_depth() -> float:
+    """Return the depth that a framebuffer has where nothing has been drawn."""
+    return 0.0 if _kept[-1].is_turned else 1.0
 
 
 @contextmanager
-def aside(ctx: moderngl.Context, target: moderngl.Framebuffer) -> Iterator[None]:
-    """Draw into framebuffers of one's own while a guest in `target`, or into buffers; nothing is blended or hidden."""
-    box, cut = target.viewport, target.scissor
+def aside(ctx: moderngl.Context, target: moderngl.Framebuffer, *, alike: bool = False) -> Iterator[None]:
+    """Draw into framebuffers of one's own while a guest in `target`, or into buffers; nothing is blended or hidden.
+
+    Depth is the usual one there, or as in `target` where it is `alike`.
+    """
+    box, cut, was_reversed = target.viewport, target.scissor, _kept[-1].is_reversed
     ctx.enable_only(moderngl.NOTHING)
+    _kept[-1].look(is_reversed=was_reversed and alike)
+    let_pass(ctx, "<=")
     try:
         yield
     finally:
+        _kept[-1].look(is_reversed=was_reversed)
+        let_pass(ctx, "<=")
         target.use()
         target.viewport = box
         target.scissor = cut if cut != (0, 0, *target.size) else None  # type: ignore[assignment]
@@ -162,7 +194,7 @@ def _begin(ctx: moderngl.Context, target: moderngl.Framebuffer, state: State) ->
     ctx.wireframe = False
     ctx.blend_equation = moderngl.FUNC_ADD, moderngl.FUNC_ADD
     ctx.front_face = "ccw"
-    ctx.depth_func = "<="
+    let_pass(ctx, "<=")
     target.depth_mask = True
     target.use()
     state.narrow()

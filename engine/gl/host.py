@@ -64,7 +64,7 @@ REMEMBERED = (
     ("READ_FRAMEBUFFER_BINDING", 1), ("RENDERBUFFER_BINDING", 1), ("ACTIVE_TEXTURE", 1), ("POLYGON_MODE", 2),
     ("FRONT_FACE", 1), ("CULL_FACE_MODE", 1), ("DEPTH_FUNC", 1), ("DEPTH_WRITEMASK", 1), ("COLOR_WRITEMASK", 4),
     ("BLEND_EQUATION_RGB", 1), ("BLEND_EQUATION_ALPHA", 1), ("VIEWPORT", 4), ("SCISSOR_BOX", 4),
-    ("PRIMITIVE_RESTART_INDEX", 1), ("PROVOKING_VERTEX", 1),
+    ("PRIMITIVE_RESTART_INDEX", 1), ("PROVOKING_VERTEX", 1), ("DEPTH_RANGE", 2),
 )  # fmt: skip
 """What is remembered besides, and how many numbers each is."""
 
@@ -158,6 +158,8 @@ class State:
         self._outputs = Outputs(gl, self.framebuffer, blends="BLEND" in self._on)
         self._viewports = Viewports(gl, limits.viewports)
         self._units = Units(gl, unit)
+        self.is_reversed = False
+        """Whether depth is less farther off in what a guest draws now; `look` says so."""
         gl.glActiveTexture(*self._value["ACTIVE_TEXTURE"])
 
     @property
@@ -182,20 +184,42 @@ class State:
         """What the host has enabled of what moderngl knows, in moderngl's flags."""
         return sum(getattr(moderngl, name) for name in MODERNGLS if name in self._on)
 
-    @property
-    def clip(self) -> Floats | None:
-        """What brings the host's clip space to that of `AS_EVER`, (4, 4); None where it is that.
+    def clip(self, *, keeps_depth: bool = False) -> Floats | None:
+        """Return what brings the host's clip space to that of `AS_EVER`, (4, 4); None where it is that.
 
-        A host may have turned it over, or let depth run from 0 to 1 in it.
+        A host may have turned it over, or let depth run from 0 to 1 in it. That stays so where it `keeps_depth`.
         """
         if self._clip == AS_EVER:
             return None
         found = np.eye(4, dtype=np.float32)
         if self._clip[0] != AS_EVER[0]:
             found[1, 1] = -1.0
-        if self._clip[1] != AS_EVER[1]:
+        if self._from_zero and not keeps_depth:
             found[2, 2:] = 2.0, -1.0
         return found
+
+    def look(self, *, is_reversed: bool) -> None:
+        """Let depth be the host's own where it is reversed, which is finest near 0, and usual otherwise."""
+        self.is_reversed = is_reversed
+        if self._from_zero:
+            self.gl.glClipControl(AS_EVER[0], self._clip[1] if is_reversed else AS_EVER[1])
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Depths of the near and the far end of the clip space that a guest draws in now."""
+        if not self.is_reversed:
+            return -1.0, 1.0
+        return 1.0, 0.0 if self._from_zero else -1.0
+
+    @property
+    def is_turned(self) -> bool:
+        """Whether less is farther off in the depth that a guest writes now: the host may have turned its range, too."""
+        first, last = self._value["DEPTH_RANGE"]
+        return self.is_reversed != (first > last)
+
+    @property
+    def _from_zero(self) -> bool:
+        return self._clip[1] != AS_EVER[1]
 
     def clear(self) -> None:
         """Set back what moderngl leaves and what would change a guest's picture, or the texels it loads and reads."""

@@ -5,12 +5,18 @@ uniform sampler2D picture;  // what was drawn smaller, premultiplied
 uniform sampler2D deep;     // and how deep that is
 uniform vec2 size;          // pixels of the smaller picture
 uniform vec2 unit;          // how large each of them is
+uniform float farthest;     // depth where nothing has been drawn, 1 or 0
 
 in vec2 at;
 
 // The middle of the smaller picture's pixel.
 vec2 middle_of(vec2 place) {
     return (floor(place * size) + 0.5) * unit;
+}
+
+// How much farther off one depth is than another.
+float behind(float one, float other) {
+    return farthest > 0.5 ? one - other : other - one;
 }
 
 const float CUBIC = 1.5;  // what Catmull-Rom's cubic is steepest by

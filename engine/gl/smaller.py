@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import moderngl
 
 from .functions import NUMBERS, functions_of
-from .guest import aside
+from .guest import aside, depth_ends, farthest_depth, let_pass
 from .outputs import has_depth
 from .shaders import program
 from .stream import release_all
@@ -99,7 +99,7 @@ class Smaller:
             return
         x, y, width, height = host.viewport
         buffers = self._room((width, height), smaller_size((width, height), scale))
-        with aside(self._ctx, host):
+        with aside(self._ctx, host, alike=True):
             buffers.use()
             self._gl.glActiveTexture(NUMBERS["TEXTURE0"] + UNITS["before"])
             self._gl.glCopyTexSubImage2D(NUMBERS["TEXTURE_2D"], 0, 0, 0, x, y, width, height)
@@ -125,9 +125,9 @@ class Smaller:
         tested = moderngl.NOTHING if everywhere else moderngl.DEPTH_TEST
         ctx.enable_only(tested if blending is None else tested | moderngl.BLEND)
         ctx.blend_func = blending or (moderngl.ONE, moderngl.ZERO)
-        ctx.depth_func = PASSES[name]
+        let_pass(ctx, PASSES[name])
         self._passes[name].render(moderngl.TRIANGLES, 3)
-        ctx.depth_func = "<="
+        let_pass(ctx, "<=")
 
     def make_ready(self) -> None:
         """Make its programs, unless they are there."""
@@ -158,7 +158,8 @@ class Smaller:
             if len(self._buffers) == MOST_SIZES:
                 self._buffers.pop(next(iter(self._buffers))).release()
             self._buffers[full, small] = Buffers.made(self._ctx, full, small, floats=self._floats)
-        self._tell({"size": small, "unit": (1.0 / small[0], 1.0 / small[1])})
+        ends = {"far_end": depth_ends()[1], "farthest": farthest_depth()}
+        self._tell({"size": small, "unit": (1.0 / small[0], 1.0 / small[1]), **ends})
         return self._buffers[full, small]
 
     def _tell(self, values: Mapping[str, object]) -> None:

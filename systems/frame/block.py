@@ -89,7 +89,8 @@ FRAME = np.dtype(
         # The maps of what trees leave of the light: which way they go across and up; sides of those of the sun [m];
         # their middles, near by and far off; middle of that of the sky, and its side.
         ("trees_across", "3f4"), ("pad_c", "V4"), ("trees_up", "3f4"), ("pad_d", "V4"),
-        ("trees_middle", "4f4"), ("trees_sky", "3f4"), ("pad_e", "V4"), ("trees_sides", "2f4"), ("pad_f", "V8"),
+        ("trees_middle", "4f4"), ("trees_sky", "3f4"), ("pad_e", "V4"), ("trees_sides", "2f4"),
+        ("depth_ends", "2f4"),  # of clip space: how deep its near and its far end is
         ("kinds", KIND, (MOST_KINDS,)),
         ("bodies", BODY, (BODIES,)),
         ("maps", MAP, (MAPS,)), ("maps_shown", "f4"), ("pad_maps", "V12"),  # how many of them there are
@@ -116,13 +117,16 @@ def rays(view: View, /) -> Doubles:
     return np.asarray(made * (-np.sign(ahead) / np.sqrt(made[0] @ made[0])), np.float64)
 
 
-def aim(record: NDArray[np.void], view: View, size: tuple[int, int], /) -> None:
-    """Write the frame's matrices, eye and picture size [pixels] into the block."""
+def aim(
+    record: NDArray[np.void], view: View, size: tuple[int, int], /, *, ends: tuple[float, float] = (-1.0, 1.0)
+) -> None:
+    """Write the frame's matrices, eye and picture size [pixels] into the block, and depth at its near and far end."""
     row = record[0]
     row["clip"] = view.clip.T.reshape(16)
     row["ray_ahead"], row["ray_across"], row["ray_up"] = rays(view)
     row["half_screen"] = size[0] / 2, size[1] / 2
     row["eye"] = view.eye
+    row["depth_ends"] = ends
 
 
 def confine(record: NDArray[np.void], asked: Asked, /) -> None:

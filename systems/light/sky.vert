@@ -37,5 +37,5 @@ void main() {
     silver *= silver;
     clouding = vec3(silver * silver, smoothstep(FADES.x, FADES.y, toward.y), log2(FINEST / clamp(toward.y, FADES.x, FINEST)));
 #endif
-    gl_Position = vec4(corner, 1.0, 1.0);
+    gl_Position = vec4(corner, depth_ends.y, 1.0);
 }

@@ -19,6 +19,7 @@ from tallgrass.engine.camera import (
     forward,
     glide,
     is_mirrored,
+    is_reversed,
     parse_camera,
     projection_matrix,
     view_matrix,
@@ -72,7 +73,24 @@ def test_a_picture_in_a_mirror_is_known(
     view = view_matrix(Camera(place, yaw, pitch, 1.0)) @ np.diag([1.0, -1.0 if water else 1.0, 1.0, 1.0])
     projection = projection_matrix(1.0, 1.5)
     seen = np.diag([1.0, -1.0 if turned else 1.0, -1.0 if reversed_depth else 1.0, 1.0]) @ projection
-    assert is_mirrored(View(view.astype(np.float32), seen.astype(np.float32))) is (water != turned)
+    found = View(view.astype(np.float32), seen.astype(np.float32))
+    assert is_mirrored(found) is (water != turned)
+    assert is_reversed(found) is reversed_depth
+
+
+@pytest.mark.parametrize(
+    ("rows", "due"),
+    [
+        (((-1.0, -0.2), (-1.0, 0.0)), False),  # infinitely far
+        (((0.0, 0.1), (-1.0, 0.0)), True),  # the same, from 1 to 0
+        (((-0.01, -1.0), (0.0, 1.0)), False),  # orthographic
+        (((0.01, 0.5), (0.0, 1.0)), True),
+    ],
+)  # fmt: skip
+def test_depth_that_is_less_farther_off_is_known(rows: tuple[tuple[float, float], ...], *, due: bool) -> None:
+    projection = np.eye(4, dtype=np.float32)
+    projection[2:, 2:] = rows
+    assert is_reversed(View(np.eye(4, dtype=np.float32), projection)) is due
 
 
 def test_without_perspective_nobody_can_tell_whether_it_is_one() -> None:

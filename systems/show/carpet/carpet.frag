@@ -175,7 +175,7 @@ void main() {
     if (hidden < NOTHING || share <= 0.0)
         discard;
     vec3 before = over_hosts > 0.0 ? before_hosts(place, carpet * tall, slope) : place;
-    gl_FragDepth = gl_FragCoord.z + depth_of(before) - depth_of(over);
+    gl_FragDepth = gl_FragCoord.z + deeper(before, over);
 #endif
     if (share > 0.0) {
         float on_level = level_slope(slope, crest, share, tall, stands);

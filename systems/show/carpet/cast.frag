@@ -21,5 +21,5 @@ void main() {
         discard;
     vec3 from = normalize(light - place);
     vec4 there = clip * vec4(place - from * (high * sqrt(met / stops) / max(from.y, LEVEL)), 1.0);
-    gl_FragDepth = 0.5 + 0.5 * there.z / there.w;
+    gl_FragDepth = depth_of(there);
 }

@@ -119,7 +119,7 @@ vec3 farther(vec3 place, float way) {
     return place + ray * (way / max(length(ray.xz), TINY));
 }
 
-float depth_of(vec3 place) {
-    vec4 at = clip * vec4(place, 1.0);
-    return 0.5 * (gl_DepthRange.diff * at.z / at.w + gl_DepthRange.near + gl_DepthRange.far);
+// The depth of one place, by how much it is more than another's.
+float deeper(vec3 place, vec3 other) {
+    return depth_of(clip * vec4(place, 1.0)) - depth_of(clip * vec4(other, 1.0));
 }

@@ -31,5 +31,5 @@ void main() {
     lush = understorey_of(lies, grows);
 #endif
     gl_Position = clip * vec4(place, 1.0);
-    gl_Position.z += pushed * gl_Position.w;
+    gl_Position.z += farther_by(pushed) * gl_Position.w;
 }

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ....components.arrays import Bytes, Floats
 from ....components.viewer import Viewer
+from ....engine.gl.guest import let_pass
 from ....engine.gl.remembered import Remembered
 from ....engine.gl.stream import release_all
 from ...around.appearance import border_of
@@ -235,9 +236,9 @@ class CarpetPainter(RepresentationPainter):
         calls = self.ground.draw_carpet(DENSE)
         target.depth_mask = False
         ctx = self.images.ctx
-        ctx.depth_func = "<"  # where it is dense, it is itself in the way
+        let_pass(ctx, "<")  # where it is dense, it is itself in the way
         calls += self.ground.draw_carpet(THIN)
-        ctx.depth_func = "<="
+        let_pass(ctx, "<=")
         return calls
 
     def release(self) -> None:

@@ -19,7 +19,7 @@ void main() {
     float way = enters(way_from(over, lies_over, raises, slope, crest), aside);
     if (way < 0.0)
         discard;
-    gl_FragDepth = gl_FragCoord.z + depth_of(farther(over, way)) - depth_of(over);
+    gl_FragDepth = gl_FragCoord.z + deeper(farther(over, way), over);
 #endif
     pixel = vec4(shown_of(color), 1.0);
 }

@@ -82,5 +82,5 @@ void main() {
     color = mix(color, color * (1.0 - total(met)) + grass_seen(laid, met, place, sunk), laid.share);
     color = mix(color, haze_light(place), haze_at(place));
     gl_Position = clip * vec4(place, 1.0);
-    gl_Position.z += APART * gl_Position.w;
+    gl_Position.z += farther_by(APART) * gl_Position.w;
 }
