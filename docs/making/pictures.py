@@ -26,6 +26,8 @@ class Picture:
 
 IN_FLOWER = ("poppies", "dandelions", "heather")
 
+WOODED = ("hedgerow", "pines")
+
 PLAYED = ("village", "lake", "night_drive", "planet", "split_screen", "farm")
 """Examples whose picture is their own."""
 
@@ -49,7 +51,7 @@ PICTURES = (
         )
     ),
     Picture("grove.png", ("shot", "grove", "--size", "960x540")),
-    *(Picture(f"{name}.png", ("shot", name, "--size", "960x540", "--time", "2")) for name in IN_FLOWER),
+    *(Picture(f"{name}.png", ("shot", name, "--size", "960x540", "--time", "2")) for name in (*IN_FLOWER, *WOODED)),
     Picture("above.png", ("shot", "poppies", "--size", "960x540", "--time", "3", "--camera=-30,26,60,20,-24")),
     Picture("reeds.png", ("shot", "reeds", "--size", "960x540", "--time", "3")),
     Picture("against.png", ("shot", "sundown", "--size", "960x540", "--time", "3")),

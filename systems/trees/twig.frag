@@ -35,7 +35,8 @@ void main() {
 #else
     vec2 at = vec2(0.5 + 0.5 * on.x, on.y);
     vec4 texel = texture(tree_cards, vec3(at, 0.0)), lie = texture(tree_cards, vec3(at, 1.0));
-    cover = sharpened(texel.a, CARD_EDGE, LEAST_SLOPE);
+    // Of a tuft of needles, each is thinner than a pixel: an edge around all of them would make a leaf of it.
+    cover = form == NEEDLES ? texel.a : sharpened(texel.a, CARD_EDGE, LEAST_SLOPE);
     tone = texel.r / max(texel.a, LEAST_COVER) * across_card.w;
     wood = texel.g / max(texel.a, LEAST_COVER);
     vec3 turned_by = 2.0 * lie.rgb / max(lie.a, LEAST_COVER) - 1.0;
