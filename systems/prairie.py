@@ -5,6 +5,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, get_args
+from weakref import WeakKeyDictionary
 
 import moderngl
 
@@ -76,6 +77,7 @@ class Prairie(Tending):
         site = found_site(loaded, preset=preset, lod=lod, transitions=transitions)
         super().__init__(site, World(self.advance), live=live)
         self.loaded, self.preset, self._origin = loaded, preset, (0.0, 0.0, 0.0)
+        self._readings: WeakKeyDictionary[Site, LoadedScene] = WeakKeyDictionary()
         self._seasons = Seasons(loaded.scene)
         self.lod: LodName = lod
         self.statistics, self.governor = Statistics(blades_field=site.blades), Governor(hold)
@@ -101,13 +103,12 @@ class Prairie(Tending):
     ) -> "Prairie":  # fmt: skip
         """Return the prairie of a scene: a file, a bundled scene by its name, a mapping of keys, or a `Scene`.
 
-        `ctx` is the context to draw in; without it the one that is current at the first draw. `preset` overrides
-        the scene's quality, `lod` shows everything in one representation, `transitions` leaves out parts of what
-        carries a patch from one representation to another. A `live` prairie leaves a plugin's wind out for a while
-        that takes too long; others keep it. With `hold`, as little as is needed is left out of a picture for a draw to
-        take no longer than that [s], pixels first. A `linear` prairie draws linear radiance, for a game that has a
-        framebuffer of floats and a tone curve of its own. Raises `SceneError` with every problem of the scene and its
-        maps, ValueError for an unknown preset or representation, and for a `hold` that is no time.
+        `ctx` is the context to draw in, or else the one that is current at the first draw. `preset` overrides the
+        scene's quality. `lod` shows everything in one representation, and `transitions` leaves out parts of changes, to
+        measure them. A `live` prairie leaves out a plugin's wind that takes too long. With `hold` a draw takes no
+        longer than that [s], and draws less where it must. A `linear` prairie draws linear radiance, for a game with a
+        tone curve of its own. Raises `SceneError` with every problem of the scene and its maps; ValueError for an
+        unknown preset or representation, and for a `hold` that is no time.
         """
         must_be_known("preset", preset, PRESETS)
         must_be_known("representation", str(lod), get_args(LodName))
@@ -146,16 +147,15 @@ class Prairie(Tending):
     ) -> None:  # fmt: skip
         """Draw the prairie into the framebuffer that is bound, and leave the host's GL state as it was.
 
-        Ground, carpet and the nearest blades write depth; strips and other blades only test it. So a game draws its
-        own opaque things before the prairie, and its 2D after it. With a `depth` of "all" in place of "near", all grass
-        writes it where it covers at least half a pixel: for water, smoke or a sky that a game draws after it.
+        Draw your own opaque things before it, and 2D after it: ground, carpet and the nearest blades write depth,
+        strips and other blades only test it. With a `depth` of "all" in place of "near", all grass writes it where it
+        covers at least half a pixel, for water, smoke or a sky that come after.
 
-        Both matrices are 4x4 numpy arrays for column vectors, or `pyglet.math.Mat4`. Of several viewers in a frame,
-        each needs a name of its own. Of `parts`, "sky", "ground", "grass" and "beyond", only those are drawn that are
-        named; without them, those of the scene. Where `ground` has not been drawn in the same frame, of the same view
-        and time, grass is laid over the game's own by how much it covers. Raises ValueError for other matrices, parts
-        and depths, TypeError for a viewer that is no name and parts that are no list of names, and RuntimeError after
-        `release` or without a window. Where the viewport has no pixels, nothing happens at all.
+        Both matrices are 4x4 numpy arrays for column vectors, or `pyglet.math.Mat4`. Give each of several viewers a
+        name. `parts` are some of "sky", "ground", "grass" and "beyond", or else those of the scene. Without `ground` in
+        this frame, grass lies over your own by how much it covers. Raises ValueError for other matrices, parts and
+        depths; TypeError for a viewer that is no name and parts that are no list of names; RuntimeError after `release`
+        or without a window. A viewport without pixels draws nothing.
         """
         self._must_be_there("draw it")
         must_be_viewer(viewer)
@@ -186,10 +186,10 @@ class Prairie(Tending):
     def draw_depth(self, view: object, projection: object, *, viewer: str = "main") -> None:
         """Draw grass into a shadow map: the depth of what a viewer was shown last, seen from the sun by these matrices.
 
-        The framebuffer that is bound is that of the map, and nothing but depth is written in it: that of blades and
-        strips where they cover at least half a pixel, thinner ones in as many pixels as they cover, and of the carpet
-        that at which its grass stops light. Neither ground nor what a viewer does not see is in it. Matrices and errors
-        are those of `draw`; nothing happens for a viewer that has not been drawn.
+        Bind the map's framebuffer before. Blades and strips write depth where they cover at least half a pixel, thinner
+        ones in as many pixels as they cover, and the carpet where its grass stops light. Neither ground nor what the
+        viewer does not see is in it. Matrices and errors are those of `draw`. A viewer that was not drawn yet draws
+        nothing.
         """
         self._must_be_there("draw its depth")
         must_be_viewer(viewer)
@@ -205,12 +205,12 @@ class Prairie(Tending):
 
     @property
     def haze(self) -> Haze | None:
-        """What ground and grass fade into far off, where a game has a sky of its own; None: the scene's horizon.
+        """What ground and grass fade into far off, under a sky of your own; None: the scene's horizon.
 
-        It is a colour, (red, green, blue) as the picture is to show it, or "#a0b0c0"; or a function that is given unit
-        vectors (x, 0, z), shape (n, 3), and returns the colours of the game's sky there, (n, 3). It is asked at once,
-        and kept as smoothly as the sky near the horizon changes around. A `linear` prairie takes radiance. How far one
-        sees stays the scene's `light.haze`. Setting it raises ValueError for what are no colours.
+        It is a colour as the picture shows it, (red, green, blue) or "#a0b0c0". Or it is a function of unit vectors (x,
+        0, z), shape (n, 3), that returns the colours of your sky there, (n, 3): it is asked at once, and again when you
+        set it anew. A `linear` prairie takes radiance. How far one sees stays the scene's `light.haze`. Setting it
+        raises ValueError for what are no colours.
         """
         return one(GivenHaze, self.features).haze
 
@@ -220,10 +220,10 @@ class Prairie(Tending):
 
     @property
     def origin(self) -> tuple[float, float, float]:
-        """Where the scene's origin (0, 0, 0) is in the world that matrices for `draw` are of, (x, y, z) [m].
+        """Where the scene's origin (0, 0, 0) lies in the world of `draw`'s matrices, (x, y, z) [m].
 
-        It is for a game whose own origin moves, or that has the prairie far off; then matrices of float64 keep what
-        float32 would lose. Places that are asked for and handed in stay the scene's own. Setting it raises ValueError
+        Set it when your own origin moves. Where the prairie is far off, give matrices of float64, which keep what
+        float32 would lose. All places that you ask for and hand in stay the scene's own. Setting it raises ValueError
         for what are no three finite numbers up to 1e9 m.
         """
         return self._origin
@@ -233,9 +233,9 @@ class Prairie(Tending):
         self._origin = as_origin(place)
 
     def preparing(self) -> Iterator[tuple[int, int]]:
-        """Do what `prepare` does a step at a time, for a loading screen: gives how many steps are done, of how many.
+        """Do what `prepare` does step by step, for a loading screen: gives how many steps are done, of how many.
 
-        GL state is the host's own at each step, and the same context must be current. It raises the errors of `draw`.
+        Between steps GL state is your own. Keep the same context current. It raises the errors of `draw`.
         """
         self._must_be_there("prepare it")
         return self._assembly.screen.preparing(self.site, self.winds.samples(), self._look_ahead)
@@ -243,10 +243,9 @@ class Prairie(Tending):
     def prepare(self, *, on_progress: Callable[[int, int], object] | None = None) -> None:
         """Upload and compile in the current context all that the scene and a game may need, so that no frame does.
 
-        That is for winds of all kinds that are installed or blow already, for pressers, cuts, bodies and `hold`. Bind
-        the framebuffer that it is to be drawn into, and hand shadow maps in before: some drivers make programs anew for
-        others.
-        `on_progress` is called with how many steps are done, and of how many. It raises the errors of `draw`.
+        That is for all installed winds and those that blow, for pressers, cuts, bodies and `hold`. Bind the framebuffer
+        that you draw into, and hand in shadow maps, before: some drivers make programs anew for others. It calls
+        `on_progress` with how many steps are done, and of how many. It raises the errors of `draw`.
         """
         for done, of in self.preparing():
             if on_progress is not None:
@@ -255,9 +254,8 @@ class Prairie(Tending):
     def follow(self, view: object, projection: object, *, viewer: str = "main") -> None:
         """Follow a viewer for a frame as `draw` does, without drawing it and without any GL.
 
-        Patches come, go and change their representation as they would have, and the light follows the sun, so that a
-        film can start in its middle.
-        The matrices are those of `draw`, and it raises the same errors.
+        Patches come, go and change their representation, and the light follows the sun, so that a film can start in its
+        middle. Matrices and errors are those of `draw`.
         """
         self._must_be_there("follow a viewer")
         must_be_viewer(viewer)
@@ -275,9 +273,9 @@ class Prairie(Tending):
     ) -> "DrawingGroup":  # fmt: skip
         """Put the prairie into a pyglet batch, and return its group.
 
-        Whenever the batch is drawn, `camera` is asked for view and projection, as `draw` takes them, and the prairie is
-        drawn after groups of a lower `order` and before those of a higher one. A batch may have several groups, each of
-        other `parts`. The group's `visible` hides it, its `delete` takes it out of the batch, as `release` does. Raises
+        The batch asks `camera` for view and projection, as `draw` takes them, each time it draws. It draws the prairie
+        after groups of a lower `order` and before those of a higher one. A batch may have several groups, of other
+        `parts` each. The group's `visible` hides it; its `delete`, and `release`, take it out of the batch. Raises
         RuntimeError after `release`, and what `draw` raises for a viewer, parts and depth.
         """
         self._must_be_there("put it into a batch")
@@ -293,29 +291,38 @@ class Prairie(Tending):
     def reload(self, scene: SceneLike | LoadedScene | None = None, *, site: Site | None = None) -> None:
         """Read the scene again, or another one, and go on with it at the same time: what did not change stays.
 
-        Terrain, kinds of grass, textures and receivers are made anew only where what they come from has changed, and
-        winds that have not changed blow on as if nothing had happened; so do those that were added, and the systems
-        that a game has added, replaced or left out. What has been read already is not read again, and what `finding`
-        has made of it is its `site`. Raises `SceneError` with every problem, and then nothing has changed at all;
-        ValueError for a scene without a file where no other is given; TypeError for a `site` that is none; RuntimeError
-        after `release`, and while another esper world is current.
+        Terrain, kinds of grass and textures are made anew only where their values or maps have changed. Winds that have
+        not changed blow on, and so do those that you added; your changes to `systems` stay. A `site` is what `finding`
+        has found: with it nothing grows here, and without a scene the one counts that it was found for. Raises
+        `SceneError` with every problem, and then nothing has changed; ValueError where there is no scene to read;
+        TypeError for a `site` that is none; RuntimeError after `release`, and while another esper world is current.
         """
         self._must_be_there("read it again")
         if site is not None:
             must_be_a(Site, site, "site is what finding(...)() returned")
         self.winds.sources()
-        loaded = read_again(self.loaded, scene)
+        loaded = self._readings.get(site) if scene is None and site is not None else None
+        loaded = read_again(self.loaded, scene) if loaded is None else loaded
         self._move_to(self.finding(loaded)() if site is None else site)
         self.loaded = loaded
         self._seasons.begin(loaded.scene)
 
-    def finding(self, loaded: LoadedScene) -> Callable[[], Site]:
-        """Return what finds the site that another reading of the scene becomes, for `reload`; it changes nothing.
+    def finding(self, scene: SceneLike | LoadedScene | None = None) -> Callable[[], Site]:
+        """Read the scene again, or another one, and return a function that finds the `site` for `reload`.
 
-        As grass takes its time to grow, it may be called on another thread. It raises `SceneError` with every problem
-        of the maps.
+        The function changes nothing. Call it on another thread, as grass takes its time to grow, and hand `reload` what
+        it returns. Raises what `reload` raises for a scene; the function raises `SceneError` with every problem of the
+        maps.
         """
-        return partial(found_again, self.site, self.loaded, loaded, preset=self.preset, lod=self.lod)
+        loaded = read_again(self.loaded, scene)
+        before, shown = self.loaded, self.site
+
+        def find() -> Site:
+            site = found_again(shown, before, loaded, preset=self.preset, lod=self.lod)
+            self._readings[site] = loaded
+            return site
+
+        return find
 
     def state(self) -> bytes:
         """Return all that a game has done, for `restore`. Raises ValueError for a wind of a class not registered."""

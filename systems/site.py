@@ -30,7 +30,7 @@ LAYERS = 2048
 """Layers of a texture that there is room for on graphics cards: the pictures of all kinds' patch models share them."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, weakref_slot=True, eq=False)
 class Site(Grown):
     """A scene with its ground, its grown kinds, and its representations in stock."""
 
