@@ -134,7 +134,7 @@ class Lod:
     def distance(self) -> int:
         """Discrete distance: 0 for the viewer's patch, 1 for its eight neighbours, and so on.
 
-        Of a patch that the viewer has left behind it is more than that of any other.
+        For a patch that the viewer has left behind it is greater than any other.
         """
         return int(self._levels.distance[self._row]) if self._is_there() else len(self._levels.distance)
 
@@ -171,9 +171,8 @@ class Lod:
     def hold(self) -> str | None:
         """The representation that a game holds the patch in, whatever its distance; None leaves the choice to `lod`.
 
-        The patch comes to it through a transition, like to any other. Where there is no room for so fine a one, so far
-        away, it has the finest that there is room for; and where the strips end they give way to the carpet as always.
-        It is held until the viewer has left it behind.
+        The patch comes to it by a transition. Where there is no room for one so fine so far away, it has the finest
+        that there is room for. It is held until the viewer has left it behind.
         """
         return self._name(self._levels.hold)
 

@@ -20,8 +20,8 @@ class Presser(Footprint):
     """The length of the message in its middle, in [0, 1]: 1 lays grass of stiffness 1 flat."""
 
     wear: float = 0.0
-    """How much of the grass it wears off where it goes, each time, in [0, 1]: a few hundredths, and a path comes out
-    where many walk. At least 1/255 of it goes where it is not 0. What is worn off stays so until it is sown again."""
+    """How much grass it wears off each time it goes over it, in [0, 1]. With a few hundredths, a path comes out
+    where many walk. Above 0 it is at least 1/255. Worn ground stays so until it is sown again."""
 
     def __post_init__(self) -> None:
         """Raise ValueError for what is no footprint."""

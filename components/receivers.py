@@ -73,9 +73,8 @@ class Receivers:
     def message(self) -> Floats:
         """Bending directions times posture indices, (x, z), shape (n, 2): an array to be read and written.
 
-        A system after `wind` finds in it what the wind of this frame says, and everyone else what that of the frame
-        before said. What is written is what the next picture shows, for that picture alone; a message longer than 1 is
-        shortened to 1.
+        After the system `wind` it holds the wind of this frame, before it that of the last. What you write shows in the
+        next picture, and in that alone. A message longer than 1 is shortened to 1.
         """
         return self._messages.ask(self._slot)
 

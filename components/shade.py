@@ -11,14 +11,13 @@ _LARGEST = float_info.max
 
 @dataclass(frozen=True, slots=True)
 class Shade:
-    """Something that stands between the sun and the grass: the component of a game's own entity.
+    """A thing that casts a shadow on the prairie: the component of an entity of a game's, in the prairie's world.
 
-    With a `radius` it is a ball; with a `height` too, one stretched or pressed flat along `up`: a disc, an egg, a
-    crown of leaves; and with `capsule`, a rod with round ends: a person, a trunk. With a `size` it is a box: a house,
-    a wall, a car. The farther its shadow falls, the softer is its edge. A prairie in the same world draws it. There
-    may be as many as a game likes; of those that shade what is seen, the 256 count that are nearest to the eye. Raises
-    ValueError for a place that is nowhere, for an `up` that leads nowhere, for what is no length, and for a shape that
-    is both round and a box, or neither.
+    With a `radius` it is a ball. With a `height` too, it is stretched or pressed flat along `up`: a disc, an egg, a
+    crown of leaves. With `capsule` it is a rod with round ends: a person, a trunk. With a `size` it is a box: a house,
+    a wall, a car. The farther its shadow falls, the softer is its edge. There may be any number; the 256 nearest to the
+    eye count, of those whose shadows are in view. Raises ValueError for a place that is nowhere, an `up` that leads
+    nowhere, what is no length, and a shape that is both round and a box, or neither.
     """
 
     place: tuple[float, float, float]

@@ -53,13 +53,12 @@ class Tending(Answering):
         self.winds.remove(handle)
 
     def cut(self, footprint: Footprint | Road, height: float, *, pose: Pose = HERE) -> None:
-        """Cut the grass under a footprint or a road to `height` [m], at once and until it is grown again.
+        """Cut the grass under a footprint or a road to `height` [m], until it is grown again.
 
-        Blades end where they stand so high in calm air; shorter ones stay as they are. The footprint lies at `pose`,
-        without one its corners are places of the world. Heights are kept on a map whose cells are 0.2 m wide, on a
-        terrain of any size; a cell is cut if its middle is under the footprint. Raises TypeError for what is no
-        footprint, height or pose, ValueError for a negative height and a pose that is not finite, and RuntimeError
-        after `release`.
+        Blades end at that height in calm air; shorter ones stay as they are. The footprint lies at `pose`; without one,
+        its corners are places of the world. Heights live on a map with cells of 0.2 m, and a cell is cut if its middle
+        is under the footprint. Raises TypeError for what is no footprint, height or pose; ValueError for a negative
+        height and a pose that is not finite; RuntimeError after `release`.
         """
         self._must_be_there("cut its grass")
         self._mown.cut(footprint, height, pose)
@@ -67,7 +66,7 @@ class Tending(Answering):
     def grow(self, footprint: Footprint | Road, height: float = np.inf, *, pose: Pose = HERE) -> None:
         """Let the grass that was cut under a footprint or a road stand up to `height` [m] again, or as it grows.
 
-        What stands higher than that stays as it is. It raises the errors of `cut`.
+        Higher grass stays as it is. It raises the errors of `cut`.
         """
         self._must_be_there("grow its grass")
         self._mown.grow(footprint, height, pose)
@@ -77,10 +76,10 @@ class Tending(Answering):
     ) -> None:
         """Let a kind grow under a footprint or a road with a density in [0, 1], at once and in every representation.
 
-        Other kinds give way as far as all would come to more than 1 together; flowers take no ground from them. Over
-        `soft` [m] beside it there is ever less of that. Densities are kept on a map whose cells are 0.2 m wide, on a
-        terrain of any size. Raises ValueError for an unknown kind, and for what is no density or width; TypeError for
-        what is no footprint or pose, and RuntimeError after `release`.
+        Other kinds give way as far as the sum would come to more than 1; flowers take no ground from them. Beside it
+        the kind thins out over `soft` [m]. Densities live on a map with cells of 0.2 m. Raises ValueError for an
+        unknown kind, and for what is no density or width; TypeError for what is no footprint or pose; RuntimeError
+        after `release`.
         """
         self._must_be_there("sow on it")
         among = [each.plant == "flower" for each in self.scene.grass.values()]
@@ -90,9 +89,9 @@ class Tending(Answering):
         sow(self.site.ground.density, number, among, footprint, density, pose, soft=soft)
 
     def clear(self, footprint: Footprint | Road, *, soft: float = 0.0, pose: Pose = HERE) -> None:
-        """Let nothing grow under a footprint or a road any more: a house's floor, a way, until it is sown again.
+        """Let nothing grow under a footprint or a road, until it is sown again: a house's floor, a way.
 
-        Over `soft` [m] beside it there is ever more of what grows. It is kept as `sow` does, and raises its errors.
+        Beside it grass thins out over `soft` [m]. It raises the errors of `sow`.
         """
         self._must_be_there("clear it")
         clear(self.site.ground.density, footprint, pose, soft=soft)
@@ -111,11 +110,10 @@ class Tending(Answering):
     def shine(self, *, at_once: bool = False, **changes: object) -> None:
         """Change the light from the next frame on, by keys of `light:` in a scene: `shine(hour=17.5, clouds=0.4)`.
 
-        The rest of it stays. No frame waits for it, so it may be called in every frame. The sun stands there at once;
-        the sky's colours and the terrain's shadows follow within some sixty frames, or before the first frame at once.
-        With `at_once` all of it is there in the next frame, which waits for it: for a cut to another scene of a game's,
-        or a night that is slept through. Raises ValueError for an unknown key and a bad value, RuntimeError after
-        `release`.
+        The other keys stay. No frame waits for it, so call it in every frame if you like. The sun stands there at once;
+        the sky's colours and the terrain's shadows follow within some sixty frames. With `at_once` the next frame waits
+        for all of it: for a cut, or a night that is slept through. Raises ValueError for an unknown key and a bad
+        value, RuntimeError after `release`.
         """
         self._must_be_there("change its light")
         light = changed(self._shining.at(self.time), changes, name="light")

@@ -55,8 +55,8 @@ class Head(Declaration):
     what suits the form."""
 
     petals: int | None = Field(default=None, ge=3, le=48)
-    """Petals, rays or tufts, or the rows of florets of a spike, where the quality has 500 blades a patch; coarser ones
-    have fewer and broader ones. Without it, what suits the form."""
+    """Petals, rays or tufts, or rows of florets, at 500 blades a patch; coarser qualities have fewer and broader
+    ones. Without it, what suits the form."""
 
     open: float = Field(default=0.85, ge=0.0, le=1.0)
     """Share of the heads that are open; the others are in bud. Spikes open from below."""

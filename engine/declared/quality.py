@@ -25,8 +25,8 @@ class StripRing(Declaration):
     """A sub-level of the 2.5D strips."""
 
     to: int = Field(ge=0, le=128)
-    """Largest discrete distance it serves. A ring that reaches no farther than the one before it, or than the blades,
-    serves only patches that are seen from above: the coarser strips would show there as rows."""
+    """Largest discrete distance it serves. A ring that reaches no farther than the one before it, or than the
+    blades, serves patches seen from above, where coarser strips would show as rows."""
 
     strips: int = Field(ge=1, le=32)
     """Strips per patch and orientation."""

@@ -133,7 +133,7 @@ class Scene(Declaration):
     """Kinds of trees and bushes by name."""
 
     parts: list[PartName] = Field(default=list(PARTS), max_length=len(PARTS))
-    """What of the prairie is drawn where a game asks for nothing else: a part that is left out, it draws itself."""
+    """Parts that are drawn unless a game says otherwise. A game draws the others itself."""
 
     quality: Annotated[
         Annotated[PresetName, Tag("preset")] | Annotated[Quality, Tag("numbers")], Discriminator(_quality_form)

@@ -44,9 +44,9 @@ class TerrainSource(Declaration):
     """Metres per cell; a GeoTIFF says so itself where the scene does not."""
 
     scale: float | None = Field(default=None, ge=-100000.0, le=100000.0)
-    """Vertical scale [m]. For a map of unsigned integers the height of their whole range, without it 100; for floats
-    and signed integers, which are metres, a factor, without it 1; for noise the height between the lowest and the
-    highest ground, without it 7 for rolling, 14 for hills, 30 for ridges."""
+    """Vertical scale [m]. For a map of unsigned integers it is the height of their whole range, 100 without it. For
+    floats and signed integers, which are metres, it is a factor, 1 without it. For noise it is the height between
+    the lowest and the highest ground; without it 7 for rolling, 14 for hills, 30 for ridges."""
 
     offset: float = Field(default=0.0, ge=-20000.0, le=20000.0)
     """Height added to every cell [m]."""
