@@ -11,6 +11,7 @@ import moderngl
 from .emit import emitted
 
 _INCLUDE = re.compile(r'\s*#include\s+"([^"]+)"')
+_WORD = re.compile(r"\w+")
 _PLACE = re.compile(r"\b\d+:(\d+)\b|\b\d+\((\d+)\)")
 PACKAGE = "tallgrass"
 _VERSION = "#version 330 core"
@@ -64,6 +65,12 @@ def _parts(name: str, made: frozenset[str]) -> tuple[tuple[str, str, tuple[Line,
     return tuple((place, _text(lines), tuple(lines)) for place, lines in zip(places, stretches, strict=True))
 
 
+@lru_cache(maxsize=256)
+def _words(name: str, made: frozenset[str]) -> frozenset[str]:
+    """Return every word of a shader."""
+    return frozenset(_WORD.findall("".join(text for _, text, _ in _parts(name, made))))
+
+
 def _text(lines: Iterable[Line]) -> str:
     return "".join(text + "\n" for _, _, text in lines)
 
@@ -75,11 +82,14 @@ def compose(
 ) -> tuple[str, list[Line]]:
     """Return a shader's source with every include in place once, and where each of its lines comes from.
 
-    `made` has lines that stand in place of some files, and in which nothing is included.
+    `made` has lines that stand in place of some files, and in which nothing is included. Of `defines` the source has
+    those that it names: the driver knows it again, whatever others there are.
     """
-    head = [_VERSION, *(f"#define {key} {value}" for key, value in (defines or {}).items())]
-    lines: list[Line] = [(name, 0, text) for text in head]
-    source, given = _text(lines), made or {}
+    given = made or {}
+    words = _words(name, frozenset(given)).union(_WORD.findall(_text(line for each in given.values() for line in each)))
+    told = ((key, value) for key, value in (defines or {}).items() if key in words)
+    lines: list[Line] = [(name, 0, text) for text in (_VERSION, *(f"#define {key} {value}" for key, value in told))]
+    source = _text(lines)
     for place, text, stretch in _parts(name, frozenset(given)):
         stands = given.get(place, ())
         source += _text(stands) + text

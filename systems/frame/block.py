@@ -1,6 +1,7 @@
 """What every program knows of a frame, in one uniform block."""
 
 from collections.abc import Mapping, Sequence
+from typing import TypeVar
 
 import moderngl
 import numpy as np
@@ -164,6 +165,22 @@ class FrameBlock:
     def release(self) -> None:
         """Give the buffer back."""
         self.buffer.release()
+
+
+Told = TypeVar("Told")
+
+ROOM = 8
+"""Arrays in shaders have room for a multiple of so many: programs are the same then for most scenes."""
+
+
+def room_for(count: int, /) -> int:
+    """Return how many of something shaders have room for."""
+    return -(-count // ROOM) * ROOM
+
+
+def filled(values: Sequence[Told], count: int, /) -> list[Told]:
+    """Return what an array of a shader is told, which has room for `count`."""
+    return [*values, *[values[-1]] * (count - len(values))]
 
 
 def by_kind(values: Sequence[float], /) -> tuple[float, ...] | list[tuple[float, ...]]:

@@ -10,6 +10,7 @@
 #include "lib/received.glsl"
 
 in uint number;            // of its receiver, among those of blades
+uniform int each;          // blades of a patch model
 uniform int blades_from;   // the first of these receivers among all
 uniform float near;        // distance up to which blades hide one another by depth [m]; beyond it order alone says
 #ifdef MORPH
@@ -66,7 +67,7 @@ struct Drawn {
 #ifdef STORED
 Drawn drawn(Standing patch_of_it, int number_on_it) {
     Drawn one;
-    one.blade = blade_of(int(patch_of_it.row) * EACH + number_on_it);
+    one.blade = blade_of(int(patch_of_it.row) * each + number_on_it);
     vec4 told = received_by(blades_from + int(number));
     one.blade.root = vec3(one.blade.root.xz + patch_of_it.cell * patch_side, told.z).xzy;
     one.message = told.xy;
@@ -138,7 +139,7 @@ vec3 dye(Blade blade, vec2 across, bool has_section, bool is_round, vec2 slow) {
 void paint(Standing patch_of_it, int blade, int k) {
     int ring = int(patch_of_it.ring), model = int(patch_of_it.row) / 4, turn = int(patch_of_it.row) % 4;
     int along = int(patch_of_it.along), own = (along + turn) % 2, count = stacks[ring].z, columns = stacks[ring].x;
-    int row = (model * 2 + own) * EACH + blade, slice = ring * models * 2 * EACH + row;
+    int row = (model * 2 + own) * each + blade, slice = ring * models * 2 * each + row;
     int plane = int(texelFetch(slices, ivec2(slice % SLICES_ROW, slice / SLICES_ROW), 0).r);
     int strip = k * count + stacked(plane, count, own, along, turn);
     vec2 first = edge_foot(patch_of_it.cell, turn, own, plane, count, 0, columns, OF(margin, k));
@@ -152,8 +153,8 @@ void paint(Standing patch_of_it, int blade, int k) {
 
 void main() {
 #ifdef STORED
-    Standing patch_of_it = standing_of(int(number) / EACH);
-    Drawn one = drawn(patch_of_it, int(number) % EACH);
+    Standing patch_of_it = standing_of(int(number) / each);
+    Drawn one = drawn(patch_of_it, int(number) % each);
     float hides = mix(PARTED, NEVER, smoothstep(NEARLY * near, near, distance(one.blade.root.xz, eye.xz)));
     joints = vec4(patch_of_it.slide, hides, one.blade.kind, 0.0);
     stands.w = patch_of_it.fade;
@@ -197,7 +198,7 @@ void main() {
     joints.w = teeth_seen(blade.height, TEETH_OF[int(blade.organ)], foot.xyz);
 #endif
 #ifdef MORPH
-    paint(patch_of_it, int(number) % EACH, k);
+    paint(patch_of_it, int(number) % each, k);
 #endif
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
 }

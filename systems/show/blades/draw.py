@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ....engine.gl.shaders import tell
 from ....engine.gl.stream import Stream, release_all
-from ...frame.block import FrameBlock, joined
+from ...frame.block import FrameBlock, filled, joined, room_for
 from .organs import organ_defines
 from .pool import BLADE
 
@@ -45,22 +45,14 @@ def shader_record(record: np.dtype[np.void], /) -> np.dtype[np.void]:
     return np.dtype([(name if name != "root" else "root_at", record[name]) for name in record.names or ()])
 
 
-def segment_defines(counts: Sequence[int], /, *, own: int = 0) -> dict[str, str | int]:
-    """Return what ribbons are told of their numbers of segments; some kinds have up to `own` of them."""
-    return {"SEGMENTS": max(*counts, own), "COUNTS": len(counts), "SEGMENTS_OF": _ints(counts)}
-
-
 def own_segment_defines(own: Sequence[int | None], /) -> dict[str, str | int]:
     """Return what shaders are told of kinds that say how many segments their blades have at the finest level.
 
     `own` has a number for each kind, None where it says nothing; where none does, there is nothing to tell.
     """
     counts = [count or 0 for count in own]
-    return {"OWN_SEGMENTS": _ints(counts), "MOST_OWN_SEGMENTS": max(counts)} if any(counts) else {}
-
-
-def _ints(values: Sequence[int]) -> str:
-    return f"int[]({', '.join(map(str, values))})"
+    told = f"int[]({', '.join(map(str, counts))})"
+    return {"OWN_SEGMENTS": told, "MOST_OWN_SEGMENTS": max(counts)} if any(counts) else {}
 
 
 class Ribbons:
@@ -86,23 +78,30 @@ class Ribbons:
         own = int(block.defines.get("MOST_OWN_SEGMENTS", 0)) if finest else 0
         self.segments = max(*counts, own)
         whole = {
-            **segment_defines(counts, own=own), **({"SOFT": 1} if soft else {}), **({"PARTED": 1} if parted else {}),
+            "SUBLEVELS": room_for(len(counts)), **({"SOFT": 1} if soft else {}), **({"PARTED": 1} if parted else {}),
             **({"FINEST": 1} if finest else {}), **(defines or {}),
         }  # fmt: skip
         self._make = partial(
             joined, ctx, block, units, "systems/show/blades/ribbon.vert", "systems/show/blades/blades.frag"
         )
         self._deep_defines = {name: value for name, value in whole.items() if name != "PARTED"} | {"DEEP": 1}
-        self.program = self._make(whole)
+        self._counts = counts
+        self.program = self._told(self._make(whole))
         self.stream = Stream(ctx, record)
         self.array = ctx.vertex_array(self.program, [self.stream.binding(self.program)])
         self._deep: moderngl.VertexArray | None = None
         """What writes depth alone, once it is asked for."""
 
+    def _told(self, made: moderngl.Program) -> moderngl.Program:
+        """Tell a program how many segments there are."""
+        made["segments"], made["counts"] = self.segments, len(self._counts)
+        made["segments_of"] = filled(self._counts, room_for(len(self._counts)))
+        return made
+
     def deep(self) -> moderngl.VertexArray:
         """Return what writes depth alone, where a soft ribbon covers at least half a pixel."""
         if self._deep is None:
-            made = self._make(self._deep_defines)
+            made = self._told(self._make(self._deep_defines))
             self._deep = made.ctx.vertex_array(made, [self.stream.binding(made)])
         return self._deep
 

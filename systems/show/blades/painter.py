@@ -17,7 +17,7 @@ from ....engine.gl.shaders import tell
 from ....engine.gl.stream import Stream, release_all
 from ...around.appearance import handed_over
 from ...around.outlook import Outlook
-from ...frame.block import by_kind
+from ...frame.block import by_kind, room_for
 from ...space.grown import Grown
 from ..hearing import Hearing
 from ..representation import Canvas, RepresentationPainter
@@ -69,7 +69,7 @@ class BladesPainter(RepresentationPainter):
         self._fade, self._near = canvas.transitions.fade, PARTED * quality.patch
         self.standing = Records(ctx, STANDING, STANDING_ROW)
         self.numbers = Stream(ctx, NUMBER)
-        laid = {**self.store.defines, "STORED": 1, "RINGS": len(quality.strip_rings)}
+        laid = {**self.store.defines, "STORED": 1, "RINGS": room_for(len(quality.strip_rings))}
         self.hearing = Hearing(canvas, "systems/show/blades/receivers.frag", laid, self._tell)
         self.passes = [
             blade_program(ctx, block, units, record, defines)
@@ -99,6 +99,7 @@ class BladesPainter(RepresentationPainter):
         for name, value in (
             ("near", self._near),
             ("models", self._models),
+            ("each", self.store.count),
             ("margin", by_kind([strips.margin for strips in kinds])),
             ("tall", by_kind([strips.height for strips in kinds])),
         ):

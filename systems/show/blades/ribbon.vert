@@ -64,7 +64,9 @@ float profile(float t, float taper, float segments) {
     return pow(max(1.0 - t, 0.0), taper) * (1.0 - waist * max(1.0 - t / WIDENS, 0.0));
 }
 
-const int segments_of[COUNTS] = SEGMENTS_OF;  // of a blade, sub-level by sub-level
+uniform int segments;                // of a ribbon
+uniform int counts;                  // sub-levels
+uniform int segments_of[SUBLEVELS];  // of a blade, sub-level by sub-level
 #ifdef OWN_SEGMENTS
 const int own_segments[KINDS] = OWN_SEGMENTS;  // of kinds that say how many at the finest level; 0 of the others
 #endif
@@ -184,9 +186,9 @@ void leave_out() {
 
 // The part of the blade that a vertex is at, and how broad the blade is there.
 vec2 along_blade(int k) {
-    int level = min(int(joints.x), COUNTS - 1);
-    int fine = segments_on(level, k), coarse = segments_on(min(level + 1, COUNTS - 1), k);
-    float t = float(gl_VertexID / 2) / float(SEGMENTS), left = 1.0 - fract(stands.z);
+    int level = min(int(joints.x), counts - 1);
+    int fine = segments_on(level, k), coarse = segments_on(min(level + 1, counts - 1), k);
+    float t = float(gl_VertexID / 2) / float(segments), left = 1.0 - fract(stands.z);
     float of_fine = left * joint_at(t, fine), broad = profile(of_fine, high.w, float(fine));
 #ifndef MORPH
     float slide = fract(joints.x), of_coarse = left * joint_at(t, coarse);

@@ -60,7 +60,6 @@ class BladeStore:
         """What shaders are told of how it is laid out."""
         return {
             "POINTS": self.points,
-            "EACH": self.count,
             **self.organs,
         }
 

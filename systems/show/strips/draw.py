@@ -12,7 +12,7 @@ from ....engine.gl.mipmaps import stack_for
 from ....engine.gl.records import Records
 from ....engine.gl.shaders import tell
 from ....engine.gl.stream import release_all
-from ...frame.block import by_kind, joined
+from ...frame.block import by_kind, filled, joined, room_for
 from ..hearing import Hearing
 from ..representation import Canvas
 from .gather import LIES_AHEAD, OF_RING, RUNS_ALONG, STOOD
@@ -59,12 +59,9 @@ class StripPainter:
         self._stock = stock
         self.stood = Records(canvas.ctx, STOOD, STOOD_ROW)
         self.strips = Records(canvas.ctx, NUMBER, STRIPS_ROW)
-        laid: dict[str, str | int] = {"RINGS": len(rings)}
+        laid: dict[str, str | int] = {"RINGS": room_for(len(rings))}
         self.hearing = Hearing(canvas, "systems/show/strips/receivers.frag", laid, self._tell)
-        whole = {**laid, "ATLAS": f"{self._rows}.0"}
-        if stack > 1:
-            whole["STACK"] = stack
-        self._canvas, self._whole = canvas, whole
+        self._canvas, self._whole = canvas, {**laid, "STACK": stack} if stack > 1 else laid
         self.arrays: list[moderngl.VertexArray] = []
         self._deep: list[moderngl.VertexArray] = []
         """Those that write depth alone, once they are asked for."""
@@ -84,8 +81,8 @@ class StripPainter:
                 "systems/show/strips/strips.frag", defines,
             )  # fmt: skip
             self._tell(program)
-            program["most"] = self.most
-            program["pictures"] = pictures if len(pictures) > 1 else pictures[0]
+            program["most"], program["atlas_rows"] = self.most, self._rows
+            program["pictures"] = filled(pictures, room_for(len(self.rings)) * self.kinds)
             made.append(canvas.ctx.vertex_array(program, []))
         return made
 
@@ -175,6 +172,4 @@ def _sorts(*special: dict[str, str | int]) -> list[dict[str, str | int]]:
 
 def tell_stacks(made: moderngl.Program, rings: Sequence[StripRing], /) -> None:
     """Tell a program how many columns, sections and strips each ring has."""
-    stacks = [(ring.columns, ring.sections, ring.strips, 0) for ring in rings]
-    # An array of one is no array to those that tell it to the card.
-    made["stacks"] = stacks if len(stacks) > 1 else stacks[0]
+    made["stacks"] = filled([(ring.columns, ring.sections, ring.strips, 0) for ring in rings], room_for(len(rings)))

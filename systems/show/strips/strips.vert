@@ -10,6 +10,7 @@
 uniform usampler2D strips;  // by place in the queue: the polygon strip that is drawn
 uniform sampler2D extents;  // by column and layer: where paint begins and ends across the column, and up to where
 uniform int first;
+uniform float atlas_rows;   // texels up, of each picture
 uniform int most;           // numbers of polygon strips that are set aside for a patch
 
 uniform ByKind tall;        // by kind: height of the strips [m]
@@ -240,7 +241,7 @@ void main() {
 #ifdef SHADED
     spot = vec4(point.xyz, suns);
 #endif
-    float texels = picture.y * ATLAS / (OF(tall, k) * apart_at(middle, run, top + vec3(back.x, 0.0, back.y)));
+    float texels = picture.y * atlas_rows / (OF(tall, k) * apart_at(middle, run, top + vec3(back.x, 0.0, back.y)));
     lit = bundled(light, vec3(float(column.layer), log2(texels) - SHARPER, boosted(k, run, middle, top, back)));
     dye(column, run, middle, top, 1.0 - lodged(bend), lies.slow);
     foot.a = column.stood.fade;

@@ -83,10 +83,18 @@ def test_parts_that_include_each_other_are_still_included_once(library: dict[str
 
 
 def test_definitions_follow_the_version_line() -> None:
-    source, lines = compose("systems/light/sky.frag", {"SEGMENTS": 3, "ROUND": "0.5"})
-    assert source.splitlines()[:3] == ["#version 330 core", "#define SEGMENTS 3", "#define ROUND 0.5"]
+    source, lines = compose("systems/light/sky.vert", {"UP": 3, "ACROSS": "5"})
+    assert source.splitlines()[:3] == ["#version 330 core", "#define UP 3", "#define ACROSS 5"]
     assert [line for _, line, _ in lines[:3]] == [0, 0, 0]
     assert len(source.splitlines()) == len(lines)
+
+
+def test_what_a_shader_does_not_name_is_not_defined_so_that_drivers_know_it_again() -> None:
+    made = {"systems/wind/twins.glsl": [("twins.glsl", 1, "float x = MANY;")]}
+    told = {"KINDS": 3, "NOBODY": 1}
+    assert compose("systems/light/sky.frag", {"NOBODY": 1}) == compose("systems/light/sky.frag")
+    assert "#define KINDS 3" in compose("systems/show/carpet/carpet.frag", told)[0]
+    assert "#define MANY 2" in compose("systems/wind/hear.vert", {"MANY": 2}, made)[0]
 
 
 def test_a_module_of_python_tells_shaders_its_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -113,7 +121,7 @@ def test_a_missing_file_is_named() -> None:
 
 @given(st.sampled_from(STAGES), st.data())
 def test_any_line_that_a_driver_names_is_put_back_to_its_file(name: str, data: st.DataObject) -> None:
-    _, lines = compose(name, {"A": 1})
+    _, lines = compose(name, {"KINDS": 1})
     number = data.draw(st.integers(1, len(lines)))
     file, line, _ = lines[number - 1]
     mesa, nvidia, apple = f"0:{number}(12): error: x", f"0({number}) : error C1: x", f"ERROR: 0:{number}: x"

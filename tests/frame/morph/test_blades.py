@@ -8,8 +8,9 @@ import numpy as np
 from tallgrass.components.arrays import Doubles
 from tallgrass.engine.gl.stream import Stream, release_all
 from tallgrass.systems.features import UNITS
+from tallgrass.systems.frame.block import room_for
 from tallgrass.systems.land.part import LandPart
-from tallgrass.systems.show.blades.draw import PAINTED, Ribbons, segment_defines
+from tallgrass.systems.show.blades.draw import PAINTED, Ribbons
 from tallgrass.systems.show.blades.gather import distances, gather_blades
 from tallgrass.systems.show.blades.morph import HOME, at_home, gather_morph
 from tallgrass.systems.show.blades.pool import BladesKept
@@ -64,7 +65,7 @@ def in_their_own_places(scene: Any) -> Doubles:
     for name, texture in painter.part(LandPart).textures.items():
         texture.use(UNITS[name])
     ribbons.fill(blades.array, count)
-    defines: Defines = {**segment_defines([segments]), "SOFT": 1}
+    defines: Defines = {"SUBLEVELS": room_for(1), "SOFT": 1}
     data = scene.caught(ribbons.program, RIBBON, ribbons.stream, (2 * segments + 2, count), defines=defines)
     release_all(ribbons, blades)
     return middles(data)
