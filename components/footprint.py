@@ -69,7 +69,7 @@ class Road:
 
 def is_between(least: float, thing: object, most: float) -> bool:
     """Return whether something is a number from `least` to `most`."""
-    return isinstance(thing, Real) and least <= float(thing) <= most
+    return (type(thing) is float or isinstance(thing, Real)) and least <= float(thing) <= most  # it is asked in frames
 
 
 def _pairs(places: Iterable[Iterable[float]], due: str) -> tuple[tuple[float, float], ...]:

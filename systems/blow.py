@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from math import prod
 from typing import Protocol
 
 import numpy as np
@@ -64,7 +63,7 @@ class Blow:
             for receiving in hearing(outlook):
                 receiving.letters.blow(partial(self._tell, receiving, time))
                 if not receiving.still:
-                    heard += len(receiving.slots) * prod(receiving.pool.shape)
+                    heard += len(receiving.slots) * receiving.each
             outlook.note(Blown(winds, time, heard))
 
     def _tell(self, receiving: Receiving, time: float, slots: NDArray[np.int64]) -> Floats:
@@ -88,7 +87,7 @@ def receivers_shown(outlook: Outlook, growths: Sequence[Growth], /, *, patch: fl
     order = hearing(outlook)
     places = [receiving.pool.places(receiving.slots).reshape(-1, 2) for receiving in order]
     rows = np.concatenate([receiving.rows for receiving in order])
-    each = [np.full(len(receiving.slots), prod(receiving.pool.shape)) for receiving in order]
+    each = [np.full(len(receiving.slots), receiving.each) for receiving in order]
     kind = np.concatenate([receiving.pool.kind(receiving.slots) for receiving in order])
     return ReceiverArrays(
         place=np.concatenate(places),

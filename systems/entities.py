@@ -1,8 +1,8 @@
 """The entities of patches: a few are made at a time, and those that a game deletes are noticed."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import zip_longest
+from itertools import chain, zip_longest
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,11 +44,13 @@ class PatchEntities:
         if outlook.generation != self.world.generation:
             outlook.generation = self.world.generation
             patches.entity[:] = 0
+            outlook.peopled += 1
             outlook.left.clear()
             for kept in outlook.kept.values():
                 kept.lose()
         for row in np.flatnonzero(np.isin(patches.entity, lost)).tolist() if lost else ():
             patches.entity[row] = 0
+            outlook.peopled += 1
             self.clearings.clear(_cell(patches, row))
 
     def go_on(self, outlook: Outlook, fresh: NDArray[np.int32], /) -> None:
@@ -61,6 +63,7 @@ class PatchEntities:
             left = patches.entity[fresh]
             outlook.left.extend(left[left != 0].tolist())
             patches.entity[fresh] = 0
+            outlook.peopled += 1
             for kept in outlook.kept.values():
                 kept.leave(fresh)
         if fresh.size or outlook.cleared != self.clearings.version:
@@ -75,21 +78,23 @@ class PatchEntities:
         """
         patches = outlook.patches
         without = (patches.alive & (patches.entity == 0)).nonzero()[0]
+        if not (without.size or outlook.left):
+            return
         rows = without[np.argsort(patches.distance[without], kind="stable")[:BATCH]].tolist()
         left, outlook.left[:] = outlook.left[:BATCH], outlook.left[BATCH:]
-        for row, entity in zip_longest(rows, left):
-            if row is not None:
-                self.make(outlook, row)
+        for _, entity in zip_longest(self._make(outlook, rows), left):
             if entity is not None:
                 self.world.delete(entity)
 
-    def make(self, outlook: Outlook, row: int, /) -> int:
-        """Make the entity of the patch in a row, and return it."""
-        patches, cell = outlook.patches, _cell(outlook.patches, row)
-        patch = Patch(cell, int(patches.model[row]), int(patches.turn[row]), self.clearings)
-        parts = components(outlook, self.representations, row)
-        patches.entity[row] = entity = self.world.create(patch, Lod(patches, row, cell), *parts)
-        return entity
+    def _make(self, outlook: Outlook, rows: list[int]) -> Iterator[int]:
+        """Make the entities of the patches in some rows, one after another, and give each."""
+        patches, outlook.peopled = outlook.patches, outlook.peopled + len(rows)
+        carried = components(outlook, self.representations, rows)
+        stand = zip(patches.cell[rows].tolist(), patches.model[rows].tolist(), patches.turn[rows].tolist(), strict=True)
+        for row, ((i, j), model, turn), parts in zip(rows, stand, carried, strict=True):
+            patch, lod = Patch((i, j), model, turn, self.clearings), Lod(patches, row, (i, j))
+            patches.entity[row] = entity = self.world.create(patch, lod, *parts)
+            yield entity
 
     def at(self, outlook: Outlook, cells: NDArray[np.int32], /) -> NDArray[np.int64]:
         """Return the entity of each cell (n, 2), made where there is none yet, shape (n,); 0 where none can be."""
@@ -98,14 +103,15 @@ class PatchEntities:
         patches = outlook.patches
         rows = window_rows(cells, side=patches.side)
         there = patches.alive[rows] & (patches.cell[rows] == cells).all(axis=1)
-        for row in np.unique(rows[there & (patches.entity[rows] == 0)]).tolist():
-            self.make(outlook, row)
+        for _ in self._make(outlook, np.unique(rows[there & (patches.entity[rows] == 0)]).tolist()):
+            pass
         return np.where(there, patches.entity[rows], 0)
 
 
-def components(outlook: Outlook, representations: Sequence[Representation], row: int, /) -> list[object]:
-    """Return what the representations give the entity of a patch to carry."""
-    return [part for each in representations for part in each.components(outlook, row)]
+def components(outlook: Outlook, representations: Sequence[Representation], rows: list[int], /) -> list[list[object]]:
+    """Return what the representations give the entity of each of some patches to carry."""
+    given = zip(rows, *(each.components(outlook, rows) for each in representations), strict=True)
+    return [[*chain.from_iterable(parts)] for _, *parts in given]
 
 
 def _cell(patches: PatchTable, row: int) -> Cell:

@@ -19,14 +19,14 @@ from .around.outlook import Outlook
 from .blow import Blown, receivers_shown
 from .features import UNITS
 from .frame.block import FrameBlock, aim, confine
-from .frame.feature import Feature, Part
+from .frame.feature import Feature, Part, doing
 from .receive.ask import numbers_of, write_messages
 from .receive.received import ROW, Received
 from .show.blades.draw import BladePainter
 from .show.blades.plant import record_of
 from .show.representation import Canvas, RepresentationPainter
 from .site import Site
-from .wind.blow import mean_yaw
+from .wind.blow import ReceiverArrays, mean_yaw
 from .wind.card import CardWinds
 from .wind.quarantine import Quarantine
 
@@ -38,6 +38,9 @@ READY_ROWS = 512
 OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
 
 WHOLE = Asked()
+
+IN_A_FRAME = "settle", "defines", "send", "use", "prepare", "breathe", "draw_solid", "draw_behind", "draw_soft"
+"""Methods of parts that a frame calls."""
 
 REHEARSED = 0.75
 """Part of the pixels, across and up, with which a frame that is held to its time is rehearsed: any below 1 will do."""
@@ -59,6 +62,7 @@ class Painter:
         self.record = self.block.record
         self.record["writes_raw"] = linear
         self.parts = [each.part(ctx, self.block, UNITS) for each in features]
+        self._doing = {name: doing(Part, name, self.parts) for name in IN_A_FRAME}
         self.painters: dict[str, RepresentationPainter] = {}
         """Those of the representations by their names, from the finest."""
         self.air: CardWinds
@@ -113,7 +117,7 @@ class Painter:
     def _rehearsing(self) -> Iterator[None]:
         """Draw the last frame where no pixel is, part by part, as if there were more in it, and as `hold` draws it."""
         every = [*self.parts, *self.painters.values()]
-        alone = [[each] for each in every if type(each).rehearse is not Part.rehearse]
+        alone = [[each] for each in doing(Part, "rehearse", every)]
         whole = Asked(is_deep=True)
         plain = [replace(whole, parts=frozenset({part})) for part in ("sky", "ground", "grass")]
         more = [*((some, whole, 1.0) for some in (*alone, every)), *((some, whole, REHEARSED) for some in ([], every))]
@@ -142,12 +146,12 @@ class Painter:
     def _settling(self, site: Site) -> Iterator[None]:
         """Do what `settle` does, bit by bit; where that is left off, it begins anew the next time."""
         before = self.site
-        for part in self.parts:
+        for part in self._doing["settle"]:
             part.settle(site, self.record)
         if before is None or _are_other_kinds(site, before):
             self._special = {name: told for each in site.representations for name, told in each.defines(site).items()}
         defines = dict(self._special)
-        for part in self.parts:
+        for part in self._doing["defines"]:
             defines |= part.defines()
         is_other = before is None or defines != self.block.defines or _is_other_grass(site, before)
         if is_other:
@@ -185,7 +189,7 @@ class Painter:
 
     def write(self, outlook: Outlook) -> None:
         """Send what a viewer is shown."""
-        for part in self.parts:
+        for part in self._doing["send"]:
             part.send(outlook, self.record)
         counts = {name: painter.receivers(outlook) for name, painter in self.painters.items()}
         laid = iter(self.received.lay([count for each in counts.values() for count in each]))
@@ -200,20 +204,17 @@ class Painter:
             return 0
         if "grass" not in asked.parts:
             with aside(self.ctx, target):
-                return sum(part.prepare() for part in self.parts)
+                return sum(part.prepare() for part in self._doing["prepare"])
         scene, blown = site.scene, outlook.noted(Blown, Blown())
         to = mean_yaw(scene.wind)
         air.write(blown.winds, time=blown.at, seed=scene.seed, mixing=scene.mixing, to=to)
-        air.tell(
-            partial(receivers_shown, outlook, site.growths, patch=site.ground.patch, margin=site.margin),
-            self.quarantine, numbers=partial(numbers_of, outlook, self._first),
-        )  # fmt: skip
+        air.tell(partial(_receivers, outlook, site), self.quarantine, numbers=partial(numbers_of, outlook, self._first))
         with aside(self.ctx, target):
-            calls = sum(part.prepare() for part in self.parts)
+            calls = sum(part.prepare() for part in self._doing["prepare"])
             air.use()
             calls += sum(painter.hear() for painter in self.painters.values())
             heard = self.coarsest.heard()
-            calls += sum(part.breathe(heard) for part in self.parts)
+            calls += sum(part.breathe(heard) for part in self._doing["breathe"])
             write_messages(self.received, outlook, self._first, site.ground)
             self.received.texture.use(UNITS["received"])
         return calls
@@ -293,7 +294,7 @@ class Painter:
         aim(self.record, view, target.viewport[2:], ends=depth_ends())
         confine(self.record, asked)
         self.block.write(self.record)
-        for part in self.parts:
+        for part in self._doing["use"]:
             part.use()
 
     def _draw_land(self, target: moderngl.Framebuffer, asked: Asked) -> None:
@@ -302,11 +303,12 @@ class Painter:
         if "ground" in asked.parts:
             self.draw_calls += self.coarsest.draw_ground(alone="grass" not in asked.parts)
         if "grass" in asked.parts:
-            solid = self.parts if asked.over_hosts else [*self.painters.values(), *self.parts]
+            solid = self._doing["draw_solid"]
+            solid = solid if asked.over_hosts else [*self.painters.values(), *solid]
             self.draw_calls += sum(each.draw_solid() for each in solid)
         if "sky" in asked.parts:
             target.depth_mask = False
-            self.draw_calls += sum(part.draw_behind() for part in self.parts)
+            self.draw_calls += sum(part.draw_behind() for part in self._doing["draw_behind"])
 
     def _draw_carpet(self, target: moderngl.Framebuffer, view: View) -> None:
         """Draw what lies on the land."""
@@ -319,7 +321,7 @@ class Painter:
         self.draw_calls += self.coarsest.draw(target)
         self.ctx.disable(moderngl.CULL_FACE)
         target.depth_mask = True
-        self.draw_calls += sum(part.draw_soft() for part in self.parts)
+        self.draw_calls += sum(part.draw_soft() for part in self._doing["draw_soft"])
 
     def _draw_grass(self, target: moderngl.Framebuffer, *, is_deep: bool) -> None:
         """Draw what stands on the land, the coarser representations first."""
@@ -342,6 +344,11 @@ class Painter:
         """Give everything back to the context."""
         release_all(*self.painters.values(), *self.parts, self.air, self.received, self.block)
         release_all(self.smaller, self.stopwatch)
+
+
+def _receivers(outlook: Outlook, site: Site) -> ReceiverArrays:
+    """Return all receivers of what a viewer is shown."""
+    return receivers_shown(outlook, site.growths, patch=site.ground.patch, margin=site.margin)
 
 
 FAR_OFF = 2e4

@@ -2,10 +2,19 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from operator import is_
 
 from ..engine.world import World
 from .around.outlook import Outlook
 from .show.representation import Representation
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Planted:
+    """What all was planted for, and had its entities."""
+
+    things: tuple[object, ...] = ()
+    counts: tuple[int, ...] = ()
 
 
 @dataclass(slots=True)
@@ -19,7 +28,23 @@ class Plant:
     def run(self) -> None:
         """Plant for every viewer that looks."""
         for outlook in self.outlooks:
-            for representation in self.representations:
-                representation.plant(outlook)
-            for kept in outlook.kept.values():
-                kept.enlist(self.world, outlook.patches)
+            if not self._is_done(outlook):
+                self._run(outlook)
+
+    def _run(self, outlook: Outlook) -> None:
+        for representation in self.representations:
+            representation.plant(outlook)
+        for kept in outlook.kept.values():
+            kept.enlist(self.world, outlook.patches)
+        is_done = all(kept.is_listed for kept in outlook.kept.values())
+        outlook.note(self._due(outlook) if is_done else _Planted())
+
+    def _is_done(self, outlook: Outlook) -> bool:
+        """Return whether what is shown was planted last, and none of it has come to stand elsewhere since."""
+        last, due = outlook.noted(_Planted, _Planted()), self._due(outlook)
+        return last.counts == due.counts and all(map(is_, last.things, due.things))
+
+    def _due(self, outlook: Outlook) -> _Planted:
+        kept = [*outlook.kept.values()]
+        counts = outlook.peopled, len(kept), len(outlook.shown), *(each.planted for each in kept)
+        return _Planted((self, *kept, *outlook.shown.values()), counts)

@@ -23,6 +23,7 @@ from .around.outlook import Outlook
 from .around.transitions import SEAMLESS, Transitions
 from .assembly import Assembly, settle_in
 from .features import one
+from .frame.feature import Feature, doing
 from .govern import Governor
 from .light.given import GivenHaze, Haze
 from .painter import Painter
@@ -76,6 +77,7 @@ class Prairie(Tending):
             must_be_a(moderngl.Context, ctx, "ctx is a moderngl context")
         site = found_site(loaded, preset=preset, lod=lod, transitions=transitions)
         super().__init__(site, World(self.advance), live=live)
+        self._stepping, self._looking = (doing(Feature, name, self.features) for name in ("step", "look"))
         self.loaded, self.preset, self._origin = loaded, preset, (0.0, 0.0, 0.0)
         self._readings: WeakKeyDictionary[Site, LoadedScene] = WeakKeyDictionary()
         self._seasons = Seasons(loaded.scene)
@@ -164,10 +166,11 @@ class Prairie(Tending):
         seen = view_of(view, projection, self._origin)
         self._turn()
         before = self.viewers[viewer].frame if viewer in self.viewers else None
-        frame, asked, goes_on = Frame(seen, self.time, self.site, chosen).after(before, is_deep=depth == "all")
+        time = self.time
+        frame, asked, goes_on = Frame(seen, time, self.site, chosen).after(before, is_deep=depth == "all")
         if not goes_on:
-            for feature in self.features:
-                feature.step(viewer, time=self.time)
+            for feature in self._stepping:
+                feature.step(viewer, time=time)
         with self._assembly.screen.opened(self.site) as painter:
             if painter is None:
                 return
@@ -380,7 +383,7 @@ class Prairie(Tending):
         """Gather for a frame what is seen from the scene's own camera; nobody is there any more afterwards."""
         camera = camera_at(self.scene.camera, None, self.height_at)
         seen = view_of(view_matrix(camera), projection_matrix(camera.view, 1.0))
-        for feature in self.features:
+        for feature in self._stepping:
             feature.step(AHEAD, time=self.time)
         self._look(seen, AHEAD)
         for _, name, system in self._built:
@@ -392,7 +395,7 @@ class Prairie(Tending):
         outlook = self.viewers.looking(viewer, partial(outlook_on, self.site))
         if goes_on:
             return outlook
-        for feature in self.features:
+        for feature in self._looking:
             feature.look(outlook)
         outlook.look(seen, time=self.time, leap=LEAP * self.site.ground.patch)
         return outlook

@@ -199,6 +199,7 @@ def settle_on(outlook: Outlook, site: Site, before: Site, world: World, /) -> No
         outlook.heights = site.ground.terrain.changes.count
     outlook.sown = site.ground.density.sown.count
     keep_room(outlook, site.representations, site.reach)
-    for row in np.flatnonzero(outlook.patches.entity).tolist():
-        for part in components(outlook, site.representations, row):
+    rows = np.flatnonzero(outlook.patches.entity).tolist()
+    for row, parts in zip(rows, components(outlook, site.representations, rows), strict=True):
+        for part in parts:
             world.add(int(outlook.patches.entity[row]), part)

@@ -47,12 +47,13 @@ class Statistics:
 
     def count(self, outlook: Outlook, site: Site, systems: Schedule, painter: Painter, /) -> None:
         """Count what a viewer was shown in a frame."""
-        shown, names = outlook.patches.shown, outlook.patches.names
-        level = outlook.patches.representation
+        patches = outlook.patches
+        shown = patches.representation[patches.shown] + 1
+        counts = np.bincount(shown, minlength=1 + len(patches.names)).tolist()
         width, depth = site.ground.terrain.size
         share = self.blades_field * site.ground.patch**2 / (width * depth)
-        self.blades_considered = round(share * int(np.count_nonzero(shown)))
-        self.patches = {name: int(np.count_nonzero(shown & (level == number))) for number, name in enumerate(names)}
+        self.blades_considered = round(share * len(shown))
+        self.patches = dict(zip(patches.names, counts[1:], strict=True))
         self.receivers, self.transitions = outlook.noted(Blown, Blown()).heard, outlook.changing
         self.blades_submitted = painter.blades
         self.systems_ms, self.draw_calls = dict(systems.milliseconds), painter.draw_calls

@@ -40,8 +40,9 @@ def pose_on(path: list[Waypoint], position: list[float], yaw: float, /, *, time:
     """Return the pose on a path at `time` [s]; where there is none, that of a position [m] and a yaw [degrees]."""
     if not path:
         return Pose(position[0], position[1], radians(yaw))
-    x, z = _ways(path).place.at(time)
-    return Pose(x, z, _heading(path, time, radians(yaw)))
+    ways = _ways(path)
+    x, z = ways.place.at(time)
+    return Pose(x, z, _heading(ways, time, radians(yaw)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,9 +71,8 @@ def _ways(path: list[Waypoint]) -> _Ways:
     )
 
 
-def _heading(path: list[Waypoint], time: float, first: float) -> float:
+def _heading(ways: _Ways, time: float, first: float) -> float:
     """Return the heading on a path [rad]: what its points declare, or else where it leads, last led, or will lead."""
-    ways = _ways(path)
     if ways.yaw is not None:
         return radians(ways.yaw.at(time)[0])
     if not ways.legs:

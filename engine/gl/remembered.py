@@ -4,7 +4,6 @@ from collections.abc import Callable
 from typing import Generic, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 Made = TypeVar("Made")
 
@@ -25,7 +24,7 @@ class Remembered(Generic[Made]):
         It is not made again if it was made of the same: of arrays of the same bytes, and of other things that are
         equal. With None it is always made.
         """
-        now = None if made_of is None else tuple(map(_compared, made_of))
+        now = made_of and [part.tobytes() if isinstance(part, np.ndarray) else part for part in made_of]
         found = self._made.pop(viewer, None)
         if found is None or now is None or now != found[0]:
             found = now, make()
@@ -38,10 +37,3 @@ class Remembered(Generic[Made]):
     def lose(self) -> None:
         """Take note that something else was sent since."""
         self._sent = None
-
-
-def _compared(part: object) -> object:
-    if not isinstance(part, np.ndarray):
-        return part
-    array: NDArray[np.generic] = part
-    return array.tobytes()

@@ -130,7 +130,7 @@ def program(
             fragment_shader=None if fragment is None else sources[fragment][0],
             varyings=varyings,
         )
-        compiled.extra = {}  # what it was told last
+        compiled.extra = {}  # by name, what it was told last and the uniform
     except moderngl.Error as error:
         stage = fragment if fragment is not None and "fragment_shader" in str(error) else vertex
         raise ShaderError(locate(str(error), sources[stage][1])) from error
@@ -139,8 +139,11 @@ def program(
 
 def tell(program: moderngl.Program, name: str, *value: float) -> None:
     """Tell a program a number or a vector, if it asks for it and was not told the same before."""
-    if program.extra.get(name) != value:
-        program.extra[name] = value
+    told = program.extra.get(name)
+    if told is None:
         asked = program.get(name, None)  # `in` would go through all of its names
-        if isinstance(asked, moderngl.Uniform):
-            asked.value = value if len(value) > 1 else value[0]
+        told = program.extra[name] = [None, asked if isinstance(asked, moderngl.Uniform) else None]
+    if told[0] != value:
+        told[0] = value
+        if told[1] is not None:
+            told[1].value = value if len(value) > 1 else value[0]

@@ -24,6 +24,11 @@ class Kept:
         for receiving in self.receiving:
             receiving.enlist(world, patches)
 
+    @property
+    def is_listed(self) -> bool:
+        """Whether that is done: otherwise some more come in the next frame."""
+        return all(receiving.is_listed for receiving in self.receiving)
+
     def leave(self, rows: NDArray[np.int32], /) -> None:
         """Take note that other patches are in some rows of the patch table now."""
 

@@ -171,6 +171,8 @@ class Receiving:
         self.representation = representation
         self.still = still
         """Whether they take no part in the small oscillations."""
+        self.each = prod(pool.shape)
+        """How many there are of a slot."""
         self.letters = Correspondence(pool)
         self.rows: Rows = np.zeros(0, np.int64)
         """Rows of the patch table of those that hear in this frame, shape (m,)."""
@@ -185,17 +187,20 @@ class Receiving:
         """Let the receivers of these patches hear the wind in this frame."""
         self.rows, self.slots, self.letters.shown = rows, slots, slots
 
+    @property
+    def is_listed(self) -> bool:
+        """Whether those shown were entities, all of them, when that was last seen to."""
+        return self.slots is self._listed[0]
+
     def enlist(self, world: World, patches: PatchTable, /) -> None:
         """Create and delete entities so that they are those of the patches shown now."""
         shown = patches.entity.take(self.rows)
-        if self.slots is self._listed[0] and np.array_equal(shown, self._listed[1]):
+        if self.is_listed and np.array_equal(shown, self._listed[1]):
             return
         owner = np.zeros_like(self._owner)
         owner[self.slots] = shown
         changed = np.flatnonzero(owner != self._owner)
-        if not changed.size:
-            self._listed = self.slots, shown
-            return
+        self._listed = None if changed.size else self.slots, shown
         gone = changed[self._entity[changed] != 0]
         left = self._entity[gone].tolist()
         for slot in gone.tolist():

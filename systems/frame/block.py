@@ -13,6 +13,7 @@ from ...engine.declared.grass import MOST_KINDS
 from ...engine.gl.emit import block, emitted
 from ...engine.gl.guest import block_binding
 from ...engine.gl.shaders import program
+from ...engine.memo import by_identity
 from ..around.asked import Asked
 from ..grow.record import GIVES
 
@@ -105,6 +106,7 @@ FRAME = np.dtype(
 GLSL = emitted({"BODIES": BODIES}) + block("Frame", FRAME)
 
 
+@by_identity(most=16)
 def rays(view: View, /) -> Doubles:
     """Return the line of sight ahead, and what is added to it across and up the picture, each from -1 to 1: (3, 3).
 

@@ -1,8 +1,8 @@
 """Features: what a prairie has beside its grass, and all that painters, reloads and the frame block ask of it."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Protocol, Self
+from typing import ClassVar, Protocol, Self, TypeVar
 
 import moderngl
 import numpy as np
@@ -116,3 +116,11 @@ class Feature:
         """Return what a GL context holds of it."""
         del ctx, block, units
         return Part()
+
+
+Sort = TypeVar("Sort", Part, Feature)
+
+
+def doing(sort: type[Sort], name: str, things: Iterable[Sort], /) -> list[Sort]:
+    """Return those of parts or features that have a method of their own: in a frame, most leave most of them open."""
+    return [each for each in things if getattr(type(each), name) is not getattr(sort, name)]

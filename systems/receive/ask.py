@@ -1,7 +1,6 @@
 """Asking all receivers that are seen: on the graphics card, but for winds and messages that only the CPU knows."""
 
 from collections.abc import Mapping, Sequence
-from math import prod
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,8 +21,7 @@ def numbers_of(outlook: Outlook, first: Mapping[str, Sequence[int]], /) -> NDArr
     parts: list[tuple[bool, NDArray[np.intp]]] = []
     for name, kept in outlook.kept.items():
         for receiving, start in zip(kept.receiving, first[name], strict=True):
-            each = prod(receiving.pool.shape)
-            own = receiving.slots if receiving.still else np.arange(len(receiving.slots) * each)
+            own = receiving.slots if receiving.still else np.arange(len(receiving.slots) * receiving.each)
             parts.append((receiving.still, start + own))
     return np.concatenate([own for _, own in sorted(parts, key=lambda part: part[0])])
 
@@ -32,15 +30,14 @@ def write_messages(received: Received, outlook: Outlook, first: Mapping[str, Seq
     """Send what a game has written into messages of receivers that are shown, in place of what they have heard."""
     for name, kept in outlook.kept.items():
         for receiving, start in zip(kept.receiving, first[name], strict=True):
-            if not receiving.still:
+            if receiving.letters.busy and not receiving.still:
                 _write(received, receiving, start, ground)
 
 
 def _write(received: Received, receiving: Receiving, start: int, ground: Ground) -> None:
-    each = prod(receiving.pool.shape)
     for slot, message in receiving.letters.written():
         for place in np.flatnonzero(receiving.slots == slot).tolist():
-            received.write(start + place * each, _texels(receiving.pool, slot, message, ground))
+            received.write(start + place * receiving.each, _texels(receiving.pool, slot, message, ground))
 
 
 def _texels(pool: Pool, slot: int, message: Floats, ground: Ground) -> Floats:

@@ -24,10 +24,15 @@ class Hearing:
     ) -> None:
         self._canvas, self._fragment, self._defines, self._tell = canvas, fragment, defines, tell
         self._array: moderngl.VertexArray | None = None
+        self._runs: tuple[int, ...] = ()
+        """Those of the winds that it was made for."""
 
     def array(self) -> moderngl.VertexArray:
         """Return what the receivers are asked with, in the winds of now."""
         canvas = self._canvas
+        if self._array is not None and self._runs == canvas.air.runs:
+            return self._array
+        self._runs = canvas.air.runs
         made = canvas.air.program(VERTEX, self._fragment, defines={**canvas.block.defines, **self._defines})
         if self._array is None or self._array.program is not made:
             self.release()

@@ -213,9 +213,9 @@ class Representation(ABC):
         """Return how far its receivers may stand outside of their patch [m]."""
         return 0.0
 
-    def components(self, outlook: Outlook, row: int, /) -> tuple[object, ...]:  # noqa: ARG002 - for those with some
-        """Return what it gives the entity of a patch to carry."""
-        return ()
+    def components(self, outlook: Outlook, rows: list[int], /) -> list[tuple[object, ...]]:  # noqa: ARG002 - for those with some
+        """Return what it gives the entity of each of some patches to carry."""
+        return [()] * len(rows)
 
     def sublevels(self, outlook: Outlook, rows: Rows, held: Levels, /, *, slack: int) -> Levels:  # noqa: ARG002
         """Return which sub-level is due on patches (n,) that have those of `held`, shape (n,).

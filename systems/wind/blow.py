@@ -200,9 +200,11 @@ def _parts(
         if not quarantine.ask(source, "its timeline", partial(is_on, wind, time)):
             return
         parts = quarantine.ask(source, "parts", partial(wind.parts, time=time, seed=own))
-        quarantine.must_be(source, "parts", parts, Sequence)
+        if type(parts) is not tuple:  # these questions are asked of each wind in each frame
+            quarantine.must_be(source, "parts", parts, Sequence)
         for part in parts:
-            quarantine.must_be(source, "parts", part, WindPrimitive)
+            if part is not wind:
+                quarantine.must_be(source, "parts", part, WindPrimitive)
             pose = placed or quarantine.ask(source, "pose", partial(part.pose, time=time))
             extent = quarantine.ask(source, "extent", partial(part.extent, time=time))
             quarantine.must_be(source, "pose", pose, Pose)

@@ -114,6 +114,11 @@ class CardWinds:
         if any(number == TOLD for _, number in known):
             self._told.reserve(READY_TOLD, receivers)
 
+    @property
+    def runs(self) -> tuple[int, ...]:
+        """What programs are made for: of which twin each run of winds is, and how many twins there are."""
+        return *self._order, len(self._twins)
+
     def orders(self) -> Iterator[None]:
         """Take each order of runs in turn that a program may be asked for, and in the end that of now."""
         now = self._order

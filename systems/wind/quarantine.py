@@ -47,6 +47,9 @@ WAIT, LONGEST_WAIT = 5.0, 60.0
 LARGEST = 1e6
 """No number that a mask or an action returns may be this large; both are due to be 1 at most."""
 
+PLAIN = float, int
+"""What numbers are nearly always; all others are looked at twice."""
+
 FARTHEST = 1e12
 """No body may fly as far away as this [m]: well before numbers overflow."""
 
@@ -70,6 +73,9 @@ class Quarantine:
     live: bool = True
     """Whether a wind that takes too long is left out for a while; otherwise it stays, and is told of."""
 
+    _timed: dict[type[WindPrimitive], bool] = field(default_factory=dict)
+    """Of each class of winds, whether what it takes is measured: those of our own are not."""
+
     _now: float = 0.0
     """The prairie's clock [s]."""
 
@@ -87,12 +93,13 @@ class Quarantine:
 
     def ask(self, source: WindSource, what: str, ask: Callable[[], Answer], /, *, receivers: int = 0) -> Answer:
         """Return what a wind answers; raises QuarantinedError where it fails to, or has failed before."""
-        if source in self.reasons:
+        if self.count and source in self.reasons:
             raise QuarantinedError
         if self._back and (called := _called(source)) in self._back:
             self.reasons[source] = self._back[called][1]  # the same wind with other values
             raise QuarantinedError
-        is_timed = not wind_kinds().is_ours(type(source.primitive))
+        kind = type(source.primitive)
+        is_timed = self._timed[kind] if kind in self._timed else self._is_timed(kind)
         begun, start = (perf_counter(), thread_time()) if is_timed else (0.0, 0.0)
         try:
             answer = ask()
@@ -104,6 +111,10 @@ class Quarantine:
             self._judge(source, what, took, receivers)
             self._judge_waiting(source, what, perf_counter() - begun, took)
         return answer
+
+    def _is_timed(self, kind: type[WindPrimitive]) -> bool:
+        self._timed[kind] = found = not wind_kinds().is_ours(kind)
+        return found
 
     def ask_for(self, source: WindSource, what: str, ask: Callable[[], Floats], /, *, shape: tuple[int, ...]) -> Floats:
         """Return the array that a wind answers: of this shape, finite, float32.
@@ -138,13 +149,11 @@ class Quarantine:
     def must_stand(self, source: WindSource, part: WindPrimitive, pose: Pose, extent: Extent | None, /) -> None:
         """Raise QuarantinedError unless what a part says of itself can be reckoned with."""
         self.must_be(source, "parts, of the kind of one,", part.kind, str)
-        told = {
-            "parts, of what one declares,": (part.priority, part.weight, part.swing, part.start, part.ease),
-            "pose": (pose.x, pose.z, pose.yaw),
-            "extent": () if extent is None else (extent.left, extent.right, extent.ahead, extent.behind),
-        }
-        for what, numbers in told.items():
-            self._must_count(source, what, numbers)
+        declared = part.priority, part.weight, part.swing, part.start, part.ease
+        self._must_count(source, "parts, of what one declares,", declared)
+        self._must_count(source, "pose", (pose.x, pose.z, pose.yaw))
+        if extent is not None:
+            self._must_count(source, "extent", (extent.left, extent.right, extent.ahead, extent.behind))
         if extent is not None and (extent.left > extent.right or extent.ahead > extent.behind):
             raise self.leave_out(source, f"extent returned {extent}, which ends before it begins")
 
@@ -157,7 +166,7 @@ class Quarantine:
 
     def _must_count(self, source: WindSource, what: str, numbers: Iterable[float]) -> None:
         for number in numbers:
-            if type(number) is float and -inf < number < inf:
+            if type(number) in PLAIN and -inf < number < inf:
                 continue
             self.must_be(source, what, number, float, int, np.floating, np.integer)
             if isnan(number) or (abs(number) == inf and what != "extent"):

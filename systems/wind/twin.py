@@ -181,7 +181,7 @@ def check_values(twin: Twin, values: TwinValues, /) -> None:
         due = f"{twin.numbers} are read" if len(numbers) < twin.numbers else f"{MOST_NUMBERS} is the most"
         raise TwinError(f"twin_values returned {len(numbers)} numbers where {due}")
     counts = PLAIN.issuperset(map(type, numbers)) or all(isinstance(each, float | int | np.number) for each in numbers)
-    if not (counts and all(-LARGEST < number < LARGEST for number in numbers)):
+    if not (counts and all(map(LARGEST.__gt__, map(float, map(abs, numbers))))):
         raise TwinError("twin_values returned numbers that are not finite")
     if not twin.sheets <= len(sheets) <= MOST_SHEETS:
         due = f"{twin.sheets} are read" if len(sheets) < twin.sheets else f"{MOST_SHEETS} is the most"

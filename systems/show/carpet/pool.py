@@ -51,6 +51,11 @@ class CarpetKept(Kept):
     def enlist(self, world: World, patches: PatchTable, /) -> None:
         """Make no entities: the patches' own are enough."""
 
+    @property
+    def is_listed(self) -> bool:
+        """There is nothing to be done."""
+        return True
+
     def leave(self, rows: NDArray[np.int32], /) -> None:
         """Forget what was asked for in some rows of the patch table."""
         for row in rows.tolist() if self.receiving[0].letters.busy else ():

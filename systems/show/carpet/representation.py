@@ -88,10 +88,10 @@ class CarpetRepresentation(Representation):
         del side
         return CarpetKept(CarpetPool(patches, self.ground), self.name)
 
-    def components(self, outlook: Outlook, row: int, /) -> tuple[object, ...]:
-        """Return the receiver in the middle of a patch: the patch's own entity carries it."""
-        kept = outlook.keeps(CarpetKept)
-        return (kept.receiving[0].component(row, viewer=outlook.viewer.name, patch=0),)
+    def components(self, outlook: Outlook, rows: list[int], /) -> list[tuple[object, ...]]:
+        """Return the receiver in the middle of each of some patches: the patch's own entity carries it."""
+        receiving, viewer = outlook.keeps(CarpetKept).receiving[0], outlook.viewer.name
+        return [(receiving.component(row, viewer=viewer, patch=0),) for row in rows]
 
     def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> Rows:
         """Return the patches whose receivers hear the wind: those in the view cone, and their neighbours."""
