@@ -1,4 +1,4 @@
-"""A frame in which nothing has changed but the time costs the processor little, whatever the machine is busy with (N2)."""
+"""A frame in which nothing has changed but the time costs the processor little: calls are counted (N2)."""
 
 import sys
 from collections.abc import Callable
@@ -38,7 +38,7 @@ FRAMES = 50
 """After which all that came with a viewer is over."""
 
 CALLS = 1600, 2450
-"""What a frame may call in calm air and in a storm, in Python and from there in C: 1488 and 2269 when this was written."""
+"""What a frame may call in calm air and in a storm, in Python and from there in C: they were 1488 and 2269."""
 
 
 def calls(stage: Stage, prairie: Prairie, camera: Camera) -> int:
