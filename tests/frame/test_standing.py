@@ -9,6 +9,7 @@ import esper
 from tallgrass.components.patch import Patch
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.around.outlook import Outlook
+from tallgrass.systems.plant import Plant
 from tallgrass.systems.prairie import Prairie
 
 Stage = Any
@@ -70,14 +71,13 @@ def test_r3_for_a_viewer_who_stands_nothing_is_planted_until_an_entity_goes(
     stage: Stage, load: Load, camera: Aim, monkeypatch: Any
 ) -> None:
     prairie, planted = load(CALM), list[float]()
-    plant = next(system for _, name, system in prairie._built if name == "plant")  # noqa: SLF001
-    run = type(plant)._run  # noqa: SLF001
+    run = Plant._run  # noqa: SLF001
 
-    def noted(system: object, outlook: Outlook) -> None:
+    def noted(system: Plant, outlook: Outlook) -> None:
         planted.append(prairie.time)
-        run(system, outlook)  # type: ignore[arg-type]
+        run(system, outlook)
 
-    monkeypatch.setattr(type(plant), "_run", noted)
+    monkeypatch.setattr(Plant, "_run", noted)
     here = camera(0.0, 4.0, 20.0, pitch=-10)
     calls(stage, prairie, here)
     came = len(planted)
