@@ -167,10 +167,21 @@ def _grid() -> tuple[NDArray[np.float32], NDArray[np.int32]]:
 def by_layer(tiles: NDArray[np.void], laid: Mask, edged: Mask, /) -> list[NDArray[np.void]]:
     """Return which tiles (n,) each layer draws, by where carpet may lie and where grass ends or is cut, (n,) each.
 
-    These are bare ground, ground under the carpet, the carpet, and of edged tiles all ground, and the carpet.
+    These are bare ground, ground under the carpet, the carpet, and of edged tiles all ground, and the carpet. Those
+    that adjoin edged ones have bare ground as well: what lies under their carpet ends above the ground there.
     """
     even = laid & ~edged
-    return [tiles[chosen] for chosen in (~(laid | edged), even, even, edged, laid & edged)]
+    bare = ~(laid | edged) | even & adjoining(tiles, edged)
+    return [tiles[chosen] for chosen in (bare, even, even, edged, laid & edged)]
+
+
+def adjoining(tiles: NDArray[np.void], some: Mask, /) -> Mask:
+    """Return which tiles (n,) have a border with, or a corner of, `some` of them, (n,)."""
+    low, side = tiles["tile"][:, :2], tiles["tile"][:, 2:3] * GRID
+    high, near = low + side + 1e-3, np.zeros(len(tiles), np.bool_)
+    for one, other in zip(low[some], high[some], strict=True):
+        near |= ((low <= other) & (high >= one)).all(axis=1)
+    return near
 
 
 class _Layer:

@@ -1,6 +1,7 @@
 """The ground: tiles that cover what is seen, and meet without cracks (T1, T2)."""
 
 from collections.abc import Callable, Iterator
+from itertools import product
 from math import pi
 
 import moderngl
@@ -22,6 +23,7 @@ from tallgrass.systems.show.carpet.ground import (
     BEYOND,
     GRID,
     TILE,
+    by_layer,
     finest_spacing,
     ground_tiles,
     tiles_around,
@@ -120,6 +122,27 @@ def test_t1_the_ground_near_the_viewer_is_as_fine_as_the_terrain_whatever_the_pa
     assert spacing <= min(1.25, max(1.25 * cell, 0.3))
     assert spacing <= patch / 2
     assert np.log2(patch / spacing) % 1.0 == 0.0
+
+
+def test_t1_beside_ground_whose_grass_ends_there_is_ground_below_all_grass_too() -> None:
+    tiles = ground_tiles(WIDE, (0.0, 1.7, 0.0), ALL_ROUND, spacing=SPACING)
+    low, side = tiles["tile"][:, :2], tiles["tile"][:, 2] * GRID
+    edged = covering_one(tiles, (31.0, 11.0))
+    beside = np.zeros(len(tiles), np.bool_)
+    for x, z in product(np.linspace(-0.55, 0.55, 23), repeat=2):  # a square that is a little larger than that tile
+        beside |= covering_one(tiles, low[edged][0] + side[edged][0] * np.array((0.5 + x, 0.5 + z)))
+    beside &= ~edged
+    bare, under, _, _, carpet = by_layer(tiles, np.ones(len(tiles), np.bool_), edged)
+    assert len(bare) == beside.sum() >= 5
+    assert (bare == tiles[beside]).all()
+    assert len(under) == len(tiles) - 1
+    assert len(carpet) == 1
+
+
+def covering_one(tiles: NDArray[np.void], place: tuple[float, float] | NDArray[np.floating]) -> NDArray[np.bool_]:
+    """Whether each of the tiles (n,) is over a place (x, z)."""
+    low, side = tiles["tile"][:, :2], tiles["tile"][:, 2:3] * GRID
+    return np.asarray(((low <= place) & (low + side > place)).all(axis=1))
 
 
 def test_no_tile_is_within_a_negative_reach() -> None:
