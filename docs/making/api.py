@@ -108,14 +108,20 @@ def _hidden_bases(thing: type) -> Iterator[ast.ClassDef]:
             yield from (each for each in parsed.body if isinstance(each, ast.ClassDef) and each.name == base.__name__)
 
 
+def told_of_bases(thing: type, /) -> set[str]:
+    """Return the members of a class that the entries of its bases tell of."""
+    return {name for base in thing.__mro__[1:] if base.__name__ in tallgrass.__all__ for name in vars(base)}
+
+
 def _members(owner: str, parts: list[ast.ClassDef]) -> Iterator[str]:
     """Yield the paragraphs of a class, in as many parts as it has: fields and properties, and then methods."""
     members = [each for part in parts for each in _parts(part.body) if not isinstance(each[0], ast.ClassDef)]
     values = [_value(each, told) for each, told in members if _is_value(each)]
     if values:
         yield "\n".join(values)
+    inherited = told_of_bases(getattr(tallgrass, owner, object))
     for each, told in members:
-        if isinstance(each, ast.FunctionDef) and not _is_value(each):
+        if isinstance(each, ast.FunctionDef) and not _is_value(each) and each.name not in inherited:
             yield f"#### {owner}.{each.name}"
             yield _signature(each, each.name, method=True)
             yield told

@@ -12,7 +12,7 @@ def example_pages() -> str:
     parts = []
     for name, files in examples().items():
         told = ast.get_docstring(ast.parse(next(file for file in files if _is_module(file)).read_text("utf-8"))) or ""
-        parts += [f"## {name}", told]
+        parts += [f"## {name}", told.partition("\n\n")[0]]
         parts += [f"`{file.relative_to(ROOT)}`:\n\n{fenced(file)}" for file in files]
     return "\n\n".join(parts) + "\n"
 
