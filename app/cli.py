@@ -119,7 +119,9 @@ def shot(
     lod: Annotated[LodName, typer.Option(help="Representation, the same one everywhere unless auto.")] = "auto",
     *,
     reference: Reference = False,
-    camera: Annotated[str | None, typer.Option(metavar="X,Y,Z,YAW,PITCH", help="Metres and degrees.")] = None,
+    camera: Annotated[
+        str | None, typer.Option(metavar="X,Y,Z,YAW,PITCH", help="Metres and degrees; Y is absolute.")
+    ] = None,
     overlay: Laid = None,
 ) -> None:
     """Draw one picture, without a window."""

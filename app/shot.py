@@ -1,9 +1,12 @@
 """One picture, headless."""
 
 import math
+import sys
 from dataclasses import replace
 
-from ..engine.camera import Camera
+import numpy as np
+
+from ..engine.camera import Camera, Heights
 from .studio.encode import picture_writer
 from .studio.progress import busy
 from .studio.studio import Studio, about, written
@@ -21,5 +24,14 @@ def shot(take: Take, output: str, *, time: float = 0.0, camera: Camera | None = 
         studio.prairie.advance(time)
         view = math.radians(studio.prairie.scene.camera.view)
         place = studio.camera(None) if camera is None else replace(camera, view=view)
+        deep = _below(place, studio.prairie.height_at)
+        if deep > 0.0:
+            print(f"the camera is {deep:.1f} m below the ground: y is a height in the scene", file=sys.stderr)
         told = about(studio.prairie.scene, take, time=studio.prairie.time)
         write(studio.picture(place), {**told, "camera": written(place)})
+
+
+def _below(camera: Camera, height_at: Heights) -> float:
+    """Return how far a camera is below the ground [m]."""
+    x, y, z = camera.position
+    return float(height_at(np.array([[x, z]], np.float32))[0]) - y

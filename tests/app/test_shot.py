@@ -57,6 +57,12 @@ def test_a_camera_that_looks_up_sees_the_sky(take: Take) -> None:
     assert up[..., 2].mean() > up[..., 1].mean()
 
 
+def test_one_who_puts_the_camera_under_the_ground_is_told(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    picture = scene.parent / "a.png"
+    assert run(["shot", str(scene), "-o", str(picture), "--size", "32x18", "--camera", "0,-40,0,0,0"]) == 0
+    assert "m below the ground: y is a height in the scene" in capsys.readouterr().err
+
+
 def test_each_representation_can_be_shown_alone(take: Take) -> None:
     pictures = [take("--lod", lod) for lod in ("auto", "blades", "strips", "carpet")]
     apart = [difference(a, b) for i, a in enumerate(pictures) for b in pictures[:i]]
