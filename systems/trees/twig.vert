@@ -128,71 +128,89 @@ float leaf_by_leaf(vec3 own) {
 }
 #endif
 
+#ifdef BAKED
+bool is_left_out(Twig twig, float share) {
+    return false;
+}
+#else
+// Whether a twig is drawn in the other way; `share` says which of those at a place are drawn leaf by leaf.
+bool is_left_out(Twig twig, float share) {
+#ifdef LEAVES
+    return share >= leaf_by_leaf(twig.foot);
+#else
+    return share < leaf_by_leaf(twig.foot);
+#endif
+}
+#endif
+
+// A corner of a leaf or a stem of a twig, or of its card, in its axes [of its usual length]; `inside` and `normal` follow from it.
+vec3 corner_on(Twig twig, int number, int leaf, float size, vec2 corner, out vec3 normal) {
+    normal = vec3(0.0, 0.0, 1.0);
+#ifdef LEAVES
+    if (leaf < leaf_count) {
+        inside = vec4(LEAF_TONES.x + LEAF_TONES.y * random(number, leaf, 4).x, 0.0, 1.0, 0.0);
+        return leaf_corner(number, leaf, corner, normal);
+    }
+    float wide = stem_width(leaf - leaf_count, corner.y), widened = wide;
+#ifndef BAKED
+    widened = max(wide, half_pixel(twig) / size);
+#endif
+    inside = vec4(0.0, 1.0, wide / widened, 0.0);
+    return stem_corner(number, leaf - leaf_count, corner, widened);
+#else
+    inside = twig.shading;
+    return vec3(corner.x * card.x, mix(card.y, card.z, corner.y), 0.0);
+#endif
+}
+
+#ifdef BAKED
+void stand(vec3 place) {
+    seen_at = place;
+    sunlit = skylit = hazy = vec3(0.0);
+    gl_Position = baked * vec4(place, 1.0);
+}
+#else
+// Stand in the wind and in the light; `own` is from the twig's foot, `high_up` how far along it [of its usual length].
+void stand(Twig twig, vec3 own, vec3 aside, float length_of, float high_up, vec4 chance) {
+    float turns = LEAF_TURNS * min(length(message), 1.0);
+    turns *= swing(mix(LEAF_HERTZ.x, LEAF_HERTZ.y, chance.x), chance.y + phase);
+    own += turns * high_up * length_of * (FLUTTERS.x * twig.face + FLUTTERS.y * aside);
+    facing = normalize(turned(facing + turns * (aside + 0.5 * twig.along)));
+    seen_at = swayed(twig.foot, twig.pivot, twig.limb, twig.hertz, message) + scale * turned(own);
+    Light light = light_in_crown(seen_at, twig.shading, facing.y * sign(dot(facing, eye - seen_at)));
+    sunlit = light.sun;
+    skylit = light.sky;
+    hazy = light.haze;
+    gl_Position = clip * vec4(seen_at, 1.0);
+}
+#endif
+
 void main() {
     int number = gl_VertexID / 4, each = 1;
 #ifdef LEAVES
     each = leaf_count + shoots;
 #endif
-    int twig = number / each, leaf = number % each;
+    int twig = number / each;
     Twig one = twig_of(twig);
     vec4 chance = random(twig, 0, 3);
-    float rank = (float(twig) + 0.5) / float(twigs), size = size_of(rank);
-#ifdef BAKED
-#ifdef LEAVES
+    float size = size_of((float(twig) + 0.5) / float(twigs));
+#if defined(BAKED) && defined(LEAVES)
     size = 1.0;
     one = Twig(vec3(0.0), usual, vec3(0.0, 1.0, 0.0), 0.0, vec3(0.0, 0.0, 1.0), 1.0, vec3(0.0), 0.0, vec4(0.0));
 #endif
-#endif
-#ifdef BAKED
-    bool is_left = false;
-#elif defined(LEAVES)
-    bool is_left = chance.w >= leaf_by_leaf(one.foot);
-#else
-    bool is_left = chance.w < leaf_by_leaf(one.foot);
-#endif
-    if (size <= 0.0 || is_left) {
+    if (size <= 0.0 || is_left_out(one, chance.w)) {
         leave_out();
         return;
     }
-    vec2 corner = corner_of(gl_VertexID);
-    vec3 normal = vec3(0.0, 0.0, 1.0), shape;
-#ifdef LEAVES
-    bool is_stem = leaf >= leaf_count;
-    float wide = stem_width(leaf - leaf_count, corner.y), widened = wide;
-#ifndef BAKED
-    widened = max(wide, half_pixel(one) / size);
-#endif
-    shape = is_stem ? stem_corner(twig, leaf - leaf_count, corner, widened) : leaf_corner(twig, leaf, corner, normal);
-#else
-    shape = vec3(corner.x * card.x, mix(card.y, card.z, corner.y), 0.0);
-#endif
-    on = vec2(corner.x, corner.y);
+    vec3 normal, shape = corner_on(one, twig, number % each, size, on = corner_of(gl_VertexID), normal);
     vec3 aside = cross(one.along, one.face);
     float length_of = size * one.length;
     vec3 own = length_of * (shape.x * aside + shape.y * one.along + shape.z * one.face);
     facing = normal.x * aside + normal.y * one.along + normal.z * one.face;
 #ifdef BAKED
-    seen_at = one.foot + own;
-    gl_Position = baked * vec4(seen_at, 1.0);
-    sunlit = skylit = hazy = vec3(0.0);
+    stand(one.foot + own);
 #else
-    float hertz = mix(LEAF_HERTZ.x, LEAF_HERTZ.y, chance.x), turns = LEAF_TURNS * min(length(message), 1.0);
-    turns *= swing(hertz, chance.y + phase);
-    own += turns * shape.y * length_of * (FLUTTERS.x * one.face + FLUTTERS.y * aside);
-    facing = normalize(turned(facing + turns * (aside + 0.5 * one.along)));
-    vec3 foot = swayed(one.foot, one.pivot, one.limb, one.hertz, message);
-    seen_at = foot + scale * turned(own);
-    Light light = light_in_crown(seen_at, one.shading, facing.y * sign(dot(facing, eye - seen_at)));
-    sunlit = light.sun;
-    skylit = light.sky;
-    hazy = light.haze;
-    gl_Position = clip * vec4(seen_at, 1.0);
-#endif
-    float fresh = LEAF_TONES.x + LEAF_TONES.y * random(twig, leaf, 4).x;
-#ifdef LEAVES
-    inside = is_stem ? vec4(0.0, 1.0, wide / widened, 0.0) : vec4(fresh, 0.0, 1.0, 0.0);
-#else
-    inside = one.shading;
+    stand(one, own, aside, length_of, shape.y, chance);
 #endif
     along_card = turned(one.along);
     across_card = vec4(turned(aside), CARD_TONES.x + CARD_TONES.y * chance.z);

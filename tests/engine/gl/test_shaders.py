@@ -219,3 +219,25 @@ def test_a_number_without_a_name_is_found() -> None:
     assert unnamed("    float left = 0.35 * right + max(far, 1e-6) + side[3].x; // 0.7") == ["0.35"]
     assert unnamed("    int upper = number >> 16 & 255;") == ["16", "255"]
     assert unnamed("const float SOFT = 0.35;") == unnamed("    vec3 color_12 = 0.5 * shade;") == []
+
+
+def functions_in(text: str) -> dict[str, int]:
+    """How many lines the longest function of each name takes."""
+    found = re.finditer(r"^\w+ (\w+)\([^;{]*\{$.*?^\}$", text, re.MULTILINE | re.DOTALL)
+    lengths: dict[str, int] = {}
+    for one in found:
+        lengths[one[1]] = max(lengths.get(one[1], 0), one[0].count("\n") + 1)
+    return lengths
+
+
+def test_functions_of_shaders_are_read_at_one_glance() -> None:
+    most = {"main": 60}
+    lengths = {name: functions_in((ROOT / name).read_text("utf-8")) for name in SHADERS}
+    assert sum(map(len, lengths.values())) > 300
+    long = [
+        (name, function, lines)
+        for name, found in lengths.items()
+        for function, lines in found.items()
+        if lines > most.get(function, 50)
+    ]
+    assert long == []
