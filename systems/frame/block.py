@@ -88,6 +88,7 @@ FRAME = np.dtype(
         ("undertone", f"({GROUPS},4)f4"),  # how much of the colour of tips low leaves have
         ("steepest", f"({GROUPS},4)f4"),  # how fast the ground rises where a kind ends
         ("thins", f"({GROUPS},4)f4"),  # how much it thins out by such a rise
+        ("bears", f"({GROUPS},4)f4"),  # 1 where it bears heads
         # The maps of what trees leave of the light: which way they go across and up; sides of those of the sun [m];
         # their middles, near by and far off; middle of that of the sky, and its side.
         ("trees_across", "3f4"), ("pad_c", "V4"), ("trees_up", "3f4"), ("pad_d", "V4"),

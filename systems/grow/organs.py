@@ -1,5 +1,6 @@
 """The organs of plants: how wide each is along itself, where on its kind's ramp of pigment, and how it gives way."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Final
 
@@ -7,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
+from .record import Growth
 
 KNOTS = 5
 """Places along an organ, evenly from root to tip, at which its width is known."""
@@ -73,3 +75,13 @@ def width_along(organ: NDArray[np.int32], place: Doubles, /) -> Doubles:
     low = np.clip(at.astype(np.int64), 0, KNOTS - 2)
     part = at - low
     return np.asarray(WIDTHS[organ][:, low] * (1.0 - part) + WIDTHS[organ][:, low + 1] * part)
+
+
+def bears_heads(growth: Growth, /) -> bool:
+    """Return whether a kind bears heads."""
+    return any(np.isin(model.blades.organ, HEADS).any() for model in growth.models)
+
+
+def any_heads(growths: Iterable[Growth], /) -> bool:
+    """Return whether any kind bears heads."""
+    return any(map(bears_heads, growths))

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from ...engine.declared.grass import GrassKind
 from ...engine.terrain.sample import bareness
 from ..frame.block import GROUPS
+from ..grow.organs import bears_heads
 from ..grow.record import GIVES, Growth
 from ..grow.section import SECTIONS
 from ..light.materials import Leaves, bloom, leaves_of, let_through, pigment, understorey, undertone
@@ -18,7 +19,7 @@ from ..space.grown import Grown
 OF_FORM = "taper", "profile"
 """The keys of a kind that `figures_of` reads beside what was grown."""
 
-BY_KIND = "crown", "leaf", "lying", "understorey", "undertone", "steepest", "thins", "give"
+BY_KIND = "crown", "leaf", "lying", "understorey", "undertone", "steepest", "thins", "bears", "give"
 """The fields of the frame's record that have a figure for each kind."""
 
 OF_KIND = "root", "gloss", "tip", "taper", "through", "bloom", "narrowed"
@@ -34,11 +35,13 @@ class Figures:
 
     leaves: Leaves
     bloom: float
+    bears: bool
+    """Whether it bears heads."""
 
 
 def figures_of(kind: GrassKind, growth: Growth, patch: float, /) -> Figures:
     """Return what there is to be told of what was grown of a kind; `patch` is a patch's side [m]."""
-    return Figures(canopy_height(growth), leaves_of(kind, growth, patch), bloom(kind, growth))
+    return Figures(canopy_height(growth), leaves_of(kind, growth, patch), bloom(kind, growth), bears_heads(growth))
 
 
 def write_land(record: NDArray[np.void], grown: Grown, figures: Sequence[Figures], /) -> None:
@@ -55,7 +58,7 @@ def write_land(record: NDArray[np.void], grown: Grown, figures: Sequence[Figures
         row["kinds"][name] = 0.0
     crown, leaf, lying = (row[name].reshape(-1) for name in ("crown", "leaf", "lying"))
     low, tipped = (row[name].reshape(-1) for name in ("understorey", "undertone"))
-    steepest, thins = (row[name].reshape(-1) for name in ("steepest", "thins"))
+    steepest, thins, bears = (row[name].reshape(-1) for name in ("steepest", "thins", "bears"))
     if grown.ground.density.slopes:
         steepest[: len(growths)], thins[: len(growths)] = bareness(grown.ground.density.slopes).T
     give = row["give"].reshape(GROUPS, GIVES, 4)
@@ -63,6 +66,7 @@ def write_land(record: NDArray[np.void], grown: Grown, figures: Sequence[Figures
         _write_kind(row["kinds"][index], kind, own.bloom)
         crown[index], leaf[index] = own.crown, own.leaves.side
         lying[index] = own.leaves.above / own.leaves.side
+        bears[index] = own.bears
         low[index] = understorey(kind, own.crown)
         tipped[index] = undertone(kind, own.bloom)
         give[index // 4, :, index % 4] = growth.postures.give

@@ -55,6 +55,10 @@ vec2 laid_back(vec2 run, vec3 foot, vec3 top, float height, int strips) {
 const float EDGE_ON = 0.4;  // of the breadth of real blades, what painted ones keep where their strip is seen edge-on
 const float BOOSTED = 0.95;  // how much of the factor is taken: leaves hide leaves
 
+float broader(float whole, float painted) {
+    return mix(1.0, whole / max(max(abs(painted), EDGE_ON * whole), 1e-9), BOOSTED);
+}
+
 // Factor on what blades on a strip cover. They are painted as if all faced the way the strip does, which runs along `run` and
 // leans to `top` and `back`; real ones face all ways and lean to `top`. It is the ratio of both breadths as the eye sees them,
 // a little less, as leaves hide leaves.
@@ -62,7 +66,24 @@ float boosted(int kind, vec2 run, vec3 middle, vec3 top, vec2 back) {
     vec3 ray = normalize(middle - eye), own = cross(top + vec3(back.x, 0.0, back.y), ray);
     vec2 all = cross(top, ray).xz;
     float lies = OF(lying, kind) * top.y * ray.y, whole = sqrt(dot(all, all) + lies * lies);
-    return mix(1.0, whole / max(max(abs(dot(run, own.xz)), EDGE_ON * whole), 1e-9), BOOSTED);
+    return broader(whole, dot(run, own.xz));
+}
+
+// The same of a kind's heads. They are as broad from all sides, so that one that lies is as long as one that stands; on a strip
+// it would come to be as thin as a leaf is, which then lies flat.
+float heads_boosted(int kind, vec2 run, vec3 middle, vec3 top, vec2 back) {
+    float leaves = boosted(kind, run, middle, top, back);
+    if (OF(bears, kind) < 0.5)
+        return leaves;
+    vec3 ray = normalize(middle - eye), own = cross(top + vec3(back.x, 0.0, back.y), ray);
+    return max(leaves, broader(length(cross(top, ray)), dot(run, own.xz)));
+}
+
+const vec2 HEADED = vec2(0.1, 0.6);  // tones of paint: stems and leaves of what bears heads are below, petals and florets above
+
+// How much of what is painted in a tone is of heads.
+float of_heads(float tone) {
+    return smoothstep(HEADED.x, HEADED.y, tone);
 }
 
 // The pigment of what is seen on a strip, of that of what is painted there: of blades that lean to `top`, those are seen most

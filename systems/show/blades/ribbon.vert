@@ -150,6 +150,8 @@ void bring(inout Point point, inout vec3 light, float t, int k) {
     point.place = mix(point.place, target.place, painted.w);
     point.tangent = mix(point.tangent, target.tangent, painted.w);
     float boost = boosted(k, run, target.middle, target.top, target.back);
+    if (OF(bears, k) > 0.5)
+        boost = mix(boost, heads_boosted(k, run, target.middle, target.top, target.back), of_heads(mix(tones.x, tones.y, t)));
     point.across = mix(point.across, run * wide * boost, painted.w);
     light = mix(light, painted_light(k, mix(tones.x, tones.y, t), face, target), painted.w);
 }

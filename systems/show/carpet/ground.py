@@ -14,11 +14,12 @@ from ....engine.gl.shaders import tell
 from ....engine.gl.stream import Stream, release_all
 from ....engine.terrain.record import Terrain
 from ...frame.block import FrameBlock, by_kind, joined
+from ...grow.organs import any_heads
 from ...grow.record import Growth
 from ...space.canopy import canopy_height
 from ...space.cone import HALF_DIAGONAL, beyond_cone
 from .grow import carpet_of
-from .heads import any_heads, bears_heads, profile_of
+from .heads import profile_of
 from .rims import Rims
 from .textures import image_count
 
@@ -212,9 +213,7 @@ def _of_images(growths: Sequence[Growth], seed: int) -> dict[str, object]:
     """Return what the carpet's program is told of the kinds' images, by the names of its uniforms."""
     slopes = carpet_of(growths[0].models[0]).slope
     images = [len(growth.models) * len(slopes) * 4 for growth in growths]
-    bears = {"bears": by_kind([float(bears_heads(growth)) for growth in growths])} if any_heads(growths) else {}
     return {
-        **bears,
         "slopes": slopes.tolist(),
         "tops": by_kind([carpet_of(growth.models[0]).height / canopy_height(growth) for growth in growths]),
         "first": by_kind([sum(images[:index]) for index in range(len(images))]),

@@ -1,6 +1,5 @@
 // How much of each kind lines of sight meet where some kinds bear heads: these stand high, and are met first.
 #include "systems/show/carpet/heads.py"
-#include "systems/show/carpet/bears.glsl"
 
 uniform vec2 profile[KINDS * (HEIGHTS + 1)];  // by kind and height: how much of its leaf area is above that; of heads
 

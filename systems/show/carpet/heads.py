@@ -1,13 +1,11 @@
 """Where the heads of plants are in the canopy: a line of sight along its top meets them before all else."""
 
-from collections.abc import Sequence
-
 import numpy as np
 from numpy.typing import NDArray
 
 from ....components.arrays import Doubles
 from ...grow.bend import ribbon
-from ...grow.organs import HEADS
+from ...grow.organs import HEADS, bears_heads
 from ...grow.raster import rasterise, ribbon_triangles
 from ...grow.record import Blades, Growth
 from ...space.canopy import canopy_height
@@ -54,16 +52,6 @@ def profile_of(growth: Growth, /) -> Doubles:
     above = np.zeros((HEIGHTS + 1, 2))
     above[:-1] = np.cumsum(np.column_stack(parts)[::-1], axis=0)[::-1] / area.sum()
     return above
-
-
-def bears_heads(growth: Growth, /) -> bool:
-    """Return whether a kind bears heads."""
-    return any(np.isin(model.blades.organ, HEADS).any() for model in growth.models)
-
-
-def any_heads(growths: Sequence[Growth], /) -> bool:
-    """Return whether any kind bears heads."""
-    return any(map(bears_heads, growths))
 
 
 def _from_the_side(triangles: Doubles, /) -> Doubles:

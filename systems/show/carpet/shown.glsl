@@ -5,7 +5,6 @@
 #include "systems/show/carpet/stubble.glsl"
 #include "systems/show/carpet/texel.glsl"
 #ifdef HEADS
-#include "systems/show/carpet/bears.glsl"
 const float DARKER = 0.5;  // how far heads, which are no darker deep down, follow the leaves that are
 const float LEAST_USUAL = 0.02;  // mean coverage of heads that what is met of them is parted among at least
 #endif

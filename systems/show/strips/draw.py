@@ -47,6 +47,8 @@ class StripPainter:
         rings: Sequence[StripRing],
         stock: Sequence[list[list[Strips]]],
         atlas: Atlas,
+        *,
+        heads: bool,
     ) -> None:
         self.units, self.rings, self.kinds = canvas.units, rings, len(stock[0])
         self.received, self._block = canvas.received, canvas.block
@@ -61,7 +63,10 @@ class StripPainter:
         self.strips = Records(canvas.ctx, NUMBER, STRIPS_ROW)
         laid: dict[str, str | int] = {"RINGS": room_for(len(rings))}
         self.hearing = Hearing(canvas, "systems/show/strips/receivers.frag", laid, self._tell)
-        self._canvas, self._whole = canvas, {**laid, "STACK": stack} if stack > 1 else laid
+        whole = {**laid, "STACK": stack} if stack > 1 else dict(laid)
+        if heads:
+            whole["HEADS"] = 1
+        self._canvas, self._whole = canvas, whole
         self.arrays: list[moderngl.VertexArray] = []
         self._deep: list[moderngl.VertexArray] = []
         """Those that write depth alone, once they are asked for."""

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ....engine.declared.quality import Quality
 from ....engine.gl.remembered import Remembered
 from ...around.outlook import Outlook
+from ...grow.organs import any_heads
 from ...grow.record import Growth
 from ...space.grown import Grown
 from ..representation import Canvas, RepresentationPainter
@@ -51,7 +52,9 @@ class StripsPainter(RepresentationPainter):
         self._fade = canvas.transitions.fade
         self._fineness = [(ring.strips, ring.columns) for ring in quality.strip_rings]
         stock = strip_stocks(growths)
-        self.strips = StripPainter(canvas, quality.strip_rings, stock, ready or strip_atlas(stock))
+        self.strips = StripPainter(
+            canvas, quality.strip_rings, stock, ready or strip_atlas(stock), heads=any_heads(growths)
+        )
         self.runs: list[tuple[int, int, int]] = []
         self._asked: list[tuple[int, int, int]] = []
         self._gathered, self._ordered = Remembered[_Sent](), Remembered[Order]()

@@ -10,6 +10,9 @@ flat PASSED mat4 lit;       // light on it, bundled; beside it layer of the text
 PASSED vec4 spot;           // place (x, y, z) [m]; the sun's part of the light that is not the sky's
 flat PASSED vec4 shadow;    // of a body: the square of how near the sun's ray comes to it, by powers of `on.z`; how soft its edge is
 #endif
+#ifdef HEADS
+flat PASSED float heads;    // factor on the coverage of heads
+#endif
 #ifdef DEEP
 flat PASSED int number;     // of the column
 #endif

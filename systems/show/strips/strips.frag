@@ -6,6 +6,9 @@
 
 #define PASSED in
 #include "systems/show/strips/passed.glsl"
+#ifdef HEADS
+#include "lib/stack.glsl"
+#endif
 
 uniform sampler2DArray atlas;  // place along the blade, cosine and sine of twice the normal's azimuth, coverage; premultiplied
 #ifdef THIN
@@ -45,6 +48,9 @@ float left_of(float top) {
 void main() {
     float layer = told_beside(lit).x, level = told_beside(lit).y, boosts = told_beside(lit).z;
     vec4 texel = layer_at(atlas, vec3(on.xy, layer), level);
+#ifdef HEADS
+    boosts = mix(boosts, heads, of_heads(texel.r / max(texel.a, LEAST_PAINT)));
+#endif
     float covered = foot.a * min(texel.a * boosts, 1.0);
     if (covered < FAINT) {
 #ifdef DEEP

@@ -140,6 +140,8 @@ void dye(Column column, vec2 run, vec3 middle, vec3 top, float lying, vec2 slow)
     vec3 mean_face = faced(column.kind, run, middle, top), dry = stretch(slow) * mean_face;
     float aside = 1.0 - smoothstep(0.0, 1.0, steep_at(middle)), turned = column.turn % 2 == 0 ? 1.0 : -1.0;
     float arched = 1.0 - ARCHED * inversesqrt(float(stacks[column.ring].y)) * lying * aside;
+    if (OF(bears, column.kind) > 0.5)  // heads are on top, however they lie
+        arched = 1.0;
     foot.rgb = pigment_at(column.kind, 0.0) * dry;
     rise.rgb = (pigment_at(column.kind, 1.0) - pigment_at(column.kind, 0.0)) * dry * arched;
     grain_cos.rgb = turned * kinds[column.kind].grain_c / mean_face;
@@ -242,7 +244,12 @@ void main() {
     spot = vec4(point.xyz, suns);
 #endif
     float texels = picture.y * atlas_rows / (OF(tall, k) * apart_at(middle, run, top + vec3(back.x, 0.0, back.y)));
-    lit = bundled(light, vec3(float(column.layer), log2(texels) - SHARPER, boosted(k, run, middle, top, back)));
+    float boosts = boosted(k, run, middle, top, back), level = log2(texels) - SHARPER;
+#ifdef HEADS
+    heads = heads_boosted(k, run, middle, top, back);
+    level += log2(heads / boosts);  // what covers more than it is painted has to spread
+#endif
+    lit = bundled(light, vec3(float(column.layer), level, boosts));
     dye(column, run, middle, top, 1.0 - lodged(bend), lies.slow);
     foot.a = column.stood.fade;
 #ifdef DEEP

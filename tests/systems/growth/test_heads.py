@@ -7,9 +7,9 @@ from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.engine.declared.plant import Head
 from tallgrass.engine.declared.quality import PRESETS
 from tallgrass.systems.grow.bend import spine
-from tallgrass.systems.grow.organs import HEADS
+from tallgrass.systems.grow.organs import HEADS, any_heads
 from tallgrass.systems.grow.record import Growth
-from tallgrass.systems.show.carpet.heads import HEIGHTS, HIGHEST, any_heads, profile_of
+from tallgrass.systems.show.carpet.heads import HEIGHTS, HIGHEST, profile_of
 from tallgrass.systems.space.canopy import canopy_height
 from tallgrass.systems.stock.models import grow
 

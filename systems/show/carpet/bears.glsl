@@ -1,3 +1,0 @@
-#include "lib/kinds.glsl"
-
-uniform ByKind bears;  // by kind: whether it has any heads
