@@ -79,7 +79,7 @@ class Answering:
 
     @property
     def light(self) -> Light:
-        """The light that shines now: what the scene declares, until `shine` changes it; hours pass in it.
+        """The light that is asked for now: what the scene declares, until `shine` changes it; hours pass in it.
 
         Where there is an hour, azimuth and elevation are those that follow from it; at night the elevation is below 0.
         """
@@ -89,7 +89,7 @@ class Answering:
     def sun(self) -> Sun:
         """Sun and sky as they shine now: direction and linear radiance, for what a game lights itself.
 
-        The sky's colours are as the last frame had them; clouds and shadows are not in it.
+        A sun that is on its way to where `light` has it stands as in the last frame. Clouds and shadows are not in it.
         """
         return self._shining.sun_at(self.time)
 

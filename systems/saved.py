@@ -15,6 +15,7 @@ from pydantic import Field, ValidationError
 from ..components.declaration import Declaration, Number
 from ..engine.declared.light import Light
 from ..engine.terrain.change import as_loaded
+from .light.shining import Way
 from .site import Site
 from .space.ground import Ground
 from .thing import Kind
@@ -138,6 +139,9 @@ class State(Declaration):
     light: Light
     light_since: float = Field(ge=0.0, le=1e9)
     """The instant that the light's hour is that of [s]."""
+
+    light_way: Way | None = Field(default=None)
+    """How far it has come; of a state that does not say, all the way."""
 
     declared: list[SavedWind | None]
     """The winds that the scene declares; None where a game has deleted one."""

@@ -89,6 +89,7 @@ class Saving:
             time=time,
             light=light,
             light_since=since,
+            light_way=self.shining.way,
             declared=self._winds(self.winds.declared),
             added=[*filter(None, self._winds(self.winds.added))],
             winds=[*filter(None, self._winds([each for each, _ in self.world.all(WindSource) if each not in own]))],
@@ -172,7 +173,7 @@ class Saving:
         self.pressers.resume(made.treading, entities)
         self.clearings.resume(made.cleared)
         self.trees.fell(state.felled)
-        self.shining.resume(state.light, since=state.light_since, time=state.time)
+        self.shining.resume(state.light, since=state.light_since, time=state.time, way=state.light_way)
         return entities
 
     def _bring_winds(self, state: State, made: "_Made") -> dict[int, int]:

@@ -110,10 +110,10 @@ class Tending(Answering):
     def shine(self, *, at_once: bool = False, **changes: object) -> None:
         """Change the light from the next frame on, by keys of `light:` in a scene: `shine(hour=17.5, clouds=0.4)`.
 
-        The other keys stay. No frame waits for it, so call it in every frame if you like. The sun stands there at once;
-        the sky's colours and the terrain's shadows follow within some sixty frames. With `at_once` the next frame waits
-        for all of it: for a cut, or a night that is slept through. Raises ValueError for an unknown key and a bad
-        value, RuntimeError after `release`.
+        The other keys stay. No frame waits for it, so call it in every frame if you like. Clouds, haze and colours are
+        there at once. Where the sun moves, its sky is made out first; then sun, sky, exposure and the terrain's shadows
+        pass on together, within some sixty frames. With `at_once` the next frame waits for all of it: for a cut, or a
+        night that is slept through. Raises ValueError for an unknown key and a bad value, RuntimeError after `release`.
         """
         self._must_be_there("change its light")
         light = changed(self._shining.at(self.time), changes, name="light")

@@ -1,7 +1,8 @@
 """Daylight: what a scene's sun and sky send to the grass, in radiance as the picture is exposed."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from math import pi
+from typing import Any
 
 from ...components.arrays import Doubles
 from ...engine.declared.light import Light
@@ -78,6 +79,18 @@ def daylight_under(light: Light, clear: Doubles, /) -> Daylight:
     down = shown.down + BOUNCED * sun * exposure
     night = max(USUAL / max(_level(sun, sky.down), DARKEST), 1.0) ** LIT_NIGHT
     return Daylight(to_sun(light), sun * exposure, down, shown.clouds, shown, exposure, exposure * night)
+
+
+def between(before: Daylight, after: Daylight, part: float, direction: tuple[float, float, float], /) -> Daylight:
+    """Return what a picture passes through from one light to another: radiance as each of both is exposed."""
+
+    def mixed(one: Any, other: Any) -> Any:
+        return one * (1.0 - part) + other * part
+
+    sky = Sky(*(mixed(getattr(before.sky, each.name), getattr(after.sky, each.name)) for each in fields(Sky)))
+    names = "sun", "down", "clouds", "exposure", "lamplight"
+    values = {name: mixed(getattr(before, name), getattr(after, name)) for name in names}
+    return Daylight(direction, sky=sky, **values)
 
 
 def exposure_of(light: Light, sun: Doubles, down: Doubles, /) -> float:

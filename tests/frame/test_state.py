@@ -5,11 +5,13 @@ from typing import Any
 
 import esper
 import numpy as np
+import pytest
 
 from tallgrass.components.footprint import Footprint
 from tallgrass.components.pose import Pose
 from tallgrass.components.presser import Presser
 from tallgrass.engine.camera import Camera
+from tallgrass.systems.light.sky import PIECES
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.testing import LITTLE
@@ -66,3 +68,23 @@ def test_n5_a_restored_prairie_shows_the_same_picture_to_the_bit(stage: Stage, l
     np.testing.assert_array_equal(shown, due)
     assert np.abs(due - before).max() > 40.0
     other.release()
+
+
+@pytest.mark.parametrize("frames", [3, PIECES + 8])
+def test_n5_a_light_that_was_on_its_way_goes_on_from_there(stage: Stage, load: Load, camera: Aim, frames: int) -> None:
+    aim, played = camera(0.0, 4.0, 18.0, pitch=-18), load(LITTLE + "light: { hour: 12, hours_per_minute: 2 }\n")
+    noon = stage.shot(played, aim)
+    played.shine(hour=20.3)
+    for _ in range(frames):
+        played.advance(0.02)
+        stage.shot(played, aim)
+    other = load(LITTLE + "light: { hour: 12, hours_per_minute: 2 }\n")
+    other.restore(played.state())
+    for _ in range(PIECES + 2):
+        due = stage.shot(played, aim)
+        np.testing.assert_array_equal(stage.shot(other, aim), due)
+        for prairie in (played, other):
+            prairie.advance(0.02)
+    assert np.abs(due - noon).max() > 10.0
+    for prairie in (played, other):
+        prairie.release()

@@ -5,7 +5,7 @@ import pytest
 
 from tallgrass.engine.declared.light import Light
 from tallgrass.systems.light.daylight import Daylight, daylight
-from tallgrass.systems.light.shining import Shining
+from tallgrass.systems.light.shining import Shining, Way
 from tallgrass.systems.light.sky import PIECES
 
 MORNING, EVENING = Light(hour=8.0), Light(hour=19.0, clouds=0.4, turbidity=4.0)
@@ -26,18 +26,40 @@ def same(one: Daylight, other: Daylight) -> bool:
     )
 
 
-def test_f5_the_sun_stands_at_once_where_it_is_asked_for_and_the_sky_follows_bit_by_bit() -> None:
-    shining, due = drawn(), daylight(EVENING)
+def test_f5_sun_sky_and_exposure_stay_until_all_is_made_out_and_then_pass_on_together() -> None:
+    shining, due, before = drawn(), daylight(EVENING), daylight(MORNING.model_copy(update={"clouds": 0.4}))
     shining.ask(EVENING, time=0.0)
-    zeniths = []
+    told = []
     for _ in range(2 * PIECES + 1):
         shining.step("main", time=0.0)
-        assert shining.daylight.direction == due.direction
-        zeniths.append(shining.daylight.sky.map[-1, 0, 2])
-    assert same(shining.daylight, due)
-    steps = np.abs(np.diff(zeniths))
-    assert np.all(steps[: PIECES - 1] == 0.0)
-    assert steps.max() < 2.0 / PIECES * abs(zeniths[-1] - zeniths[0])
+        told.append(shining.daylight)
+    assert same(told[PIECES - 1], before)
+    assert same(told[-1], due)
+    for take in (lambda light: light.sun[0], lambda light: light.sky.map[-1, 0, 2], lambda light: light.exposure):
+        start, *rest, end = (take(light) for light in told[PIECES - 1 :])
+        parts = (np.array(rest) - start) / (end - start)
+        np.testing.assert_allclose(parts, np.arange(1, PIECES + 1) / PIECES, atol=1e-9)
+    heights = [light.direction[1] for light in told[PIECES - 1 : -1]]
+    assert (np.diff(heights) < 0.0).all()
+    np.testing.assert_allclose(np.linalg.norm([light.direction for light in told], axis=1), 1.0)
+
+
+@pytest.mark.parametrize("frames", [0, 1, 20, PIECES, PIECES + 9, 2 * PIECES + 5])
+def test_n5_a_light_goes_on_as_it_would_have_from_any_frame(frames: int) -> None:
+    one = drawn(Light(hour=8.0, hours_per_minute=30.0))
+    one.ask(Light(hour=19.0, hours_per_minute=30.0), time=0.0)
+    for frame in range(frames):
+        one.step("main", time=frame / 60.0)
+    asked, since = one.asked
+    other = Shining(MORNING)
+    way = Way.model_validate_json(one.way.model_dump_json())
+    other.resume(asked, since=since, time=max(frames - 1, 0) / 60.0, way=way)
+    for frame in range(frames, frames + PIECES + 3):
+        for shining in (one, other):
+            shining.step("main", time=frame / 60.0)
+        assert one.daylight.direction == other.daylight.direction
+        assert np.array_equal(one.daylight.sky.map, other.daylight.sky.map)
+        assert one.daylight.exposure == other.daylight.exposure
 
 
 def test_f5_a_light_that_has_come_rests() -> None:

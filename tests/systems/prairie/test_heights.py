@@ -78,8 +78,8 @@ def told(prairie: Prairie) -> list[Floats]:
 
 def test_all_that_is_asked_is_told_of_the_new_ground_and_forgets_it_with_another_state(load: Load) -> None:
     changed, loaded, untouched = load(hills()), load(dug()), load(hills())
-    before = changed.state()
     watch(changed)
+    before = changed.state()
     changed.set_heights(CORNER, PIT)
     assert changed.height_at([CORNER]) == PIT[0, 0]
     for one, other in zip(told(changed), told(loaded), strict=True):
