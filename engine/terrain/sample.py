@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Floats, Mask
-from .plots import CELL
+from .plots import CELL, On
 from .record import Density, Terrain
 
 _THINS = 8.0
@@ -66,11 +66,11 @@ def normal_at(terrain: Terrain, place: Floats, /) -> Floats:
 def density_at(density: Density, place: Floats, /) -> Floats:
     """Return each kind's density in [0, 1] at ground positions (x, z) [m] of shape (n, 2), shape (kinds, n).
 
-    It is what a game has sown or cleared there, and else what is painted.
+    It is what a game has sown or cleared there, and else what is painted; so it is beyond the terrain.
     """
     if not density.sown.any:
         return natural_at(density, place)
-    on = density.sown.on(_inward(density, place))
+    on = _sown_on(density, place)
     result, rest = np.empty((len(density.maps), len(place)), np.float32), np.ones(len(place), np.bool_)
     rest[on.which] = False
     result[:, on.which] = density.sown.between(on).T * _WHOLE
@@ -89,6 +89,9 @@ def density_on_lines(density: Density, x: Floats, z: Floats, /) -> Floats:
         return natural_at(density, place).reshape(-1, *shape)
     most = (np.array(density.size) - CELL) / 2.0
     page, row, column = density.sown.on_lines(np.clip(x, -most[0], most[0]), np.clip(z, -most[1], most[1]))
+    beyond = [np.abs(lines) > side / 2.0 for lines, side in zip((x, z), density.size, strict=True)]
+    if beyond[0].any() or beyond[1].any():
+        page = np.where(beyond[0][:, None, :] | beyond[1][:, :, None], -1, page)
     if (page < 0).all():
         return natural_at(density, place).reshape(-1, *shape)
     found = density.sown.pages[page, row, column].reshape(-1, len(density.maps))
@@ -144,7 +147,7 @@ def own_density_at(density: Density, kind: NDArray[np.intp], place: Floats, /) -
     """
     if not density.sown.any:
         return _limited(density, _own_painted_at(density, kind, place), place, kind)
-    on = density.sown.on(_inward(density, place))
+    on = _sown_on(density, place)
     result, rest = np.empty(len(place), np.float32), np.ones(len(place), np.bool_)
     rest[on.which] = False
     result[on.which] = density.sown.between(on, kind[on.which]) * _WHOLE
@@ -177,10 +180,12 @@ def painted_at(density: Density, place: Floats, /) -> Floats:
     return result
 
 
-def _inward(density: Density, place: Floats) -> Floats:
-    """Return the places (n, 2) of the map nearest to others, no nearer to its edge than the middles of cells."""
+def _sown_on(density: Density, place: Floats) -> On:
+    """Return which of some places (n, 2) lie on plots of the terrain: at its edge they are those of the last cells."""
     most = (np.array(density.size) - CELL) / 2.0
-    return place.clip(-most, most).astype(np.float32)
+    on = density.sown.on(place.clip(-most, most).astype(np.float32))
+    within = (np.abs(place[on.which]) <= np.array(density.size) / 2.0).all(axis=1)
+    return on if within.all() else On(on.which[within], on.page[within], on.cell[within])
 
 
 def _blocks(count: int) -> Iterator[slice]:

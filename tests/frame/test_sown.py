@@ -56,11 +56,22 @@ def test_f4_what_is_sown_in_front_of_a_viewer_looks_as_if_it_had_always_been(
 
 @pytest.mark.parametrize("lod", KEPT)
 def test_f4_where_all_is_cleared_stands_nothing(stage: Stage, load: Load, camera: Aim, lod: str) -> None:
-    prairie, aim = load(FLAT, lod=lod), camera(0.0, 0.3, 20.0)
+    prairie, aim = load(FLAT + "parts: [sky, ground, grass]\n", lod=lod), camera(0.0, 0.3, 20.0)
     stage.shot(prairie, aim)
     prairie.clear(ALL)
     above = stage.shot(prairie, aim)[: stage.size[1] // 2]
     assert np.abs(np.diff(above, axis=1)).max() < 8.0, "the sky alone is seen"
+
+
+def test_f4_beyond_the_terrain_lies_what_the_scene_declares_whatever_a_game_does(
+    stage: Stage, load: Load, camera: Aim
+) -> None:
+    prairie, aim = load(FLAT), camera(0.0, 9.0, 0.0, pitch=-14)
+    (_, z), before = np.moveaxis(stage.ground(aim, level=0.0), -1, 0), stage.shot(prairie, aim)
+    prairie.clear(Road(((-30.0, -24.0), (30.0, -24.0)), 6.0))
+    change = np.abs(stage.shot(prairie, aim) - before).max(axis=-1)
+    assert np.median(change[(z > -25.5) & (z < -22.5)]) > 15.0
+    assert change[(z > -38.0) & (z < -34.0)].max() <= 3.0, "a mirror image of it would be seen"
 
 
 def test_f4_only_plots_that_were_touched_are_sent(

@@ -12,10 +12,13 @@ bool anything_is_sown() {
     return anything_sown > 0.5;
 }
 
-// The plot that counts at a place: beyond the terrain it is that of its mirror image, and at its edge that of the last cell.
-Plot plot_on(vec2 at) {
+// The plot that counts at a place, at the terrain's edge that of the last cell: beyond it is what the scene declares.
+Plot plot_on(vec2 place) {
     const float HALF_CELL = 0.5 * PLOT_SIDE / float(PLOT_CELLS);
-    return plot_at(terrain_origin + clamp(at * terrain_size, vec2(HALF_CELL), terrain_size - HALF_CELL));
+    vec2 inside = place - terrain_origin;
+    if (any(lessThan(inside, vec2(0.0))) || any(greaterThan(inside, terrain_size)))
+        return Plot(vec2(0.0), 0, 0);
+    return plot_at(terrain_origin + clamp(inside, vec2(HALF_CELL), terrain_size - HALF_CELL));
 }
 
 // How much of what would grow there the ground leaves to four kinds: it may be too steep, or there may be none.
@@ -34,7 +37,7 @@ ByKind grows_about(vec2 place, float side) {
     for (int group = 0; group < GROUPS; group++)
         grows[group] = textureLod(density, vec3(at, float(group)), 0.0);
     if (anything_is_sown()) {
-        Plot plot = plot_on(at);
+        Plot plot = plot_on(place);
         if (plot.sown > 0) for (int group = 0; group < GROUPS; group++)
             grows[group] = on_page(plot.sown + group, plot.cell, page_level(side));
     }
@@ -56,7 +59,7 @@ float grows_at(vec2 place, int kind) {
 #endif
     vec2 at = on_map(place);
     if (anything_is_sown()) {
-        Plot plot = plot_on(at);
+        Plot plot = plot_on(place);
         if (plot.sown > 0)
             return on_page(plot.sown + GROUP(kind), plot.cell, 0.0)[IN_GROUP(kind)];
     }

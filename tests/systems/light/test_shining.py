@@ -35,8 +35,8 @@ def test_f5_sun_sky_and_exposure_stay_until_all_is_made_out_and_then_pass_on_tog
         told.append(shining.daylight)
     assert same(told[PIECES - 1], before)
     assert same(told[-1], due)
-    for take in (lambda light: light.sun[0], lambda light: light.sky.map[-1, 0, 2], lambda light: light.exposure):
-        start, *rest, end = (take(light) for light in told[PIECES - 1 :])
+    numbers = [(light.sun[0], light.sky.map[-1, 0, 2], light.exposure) for light in told[PIECES - 1 :]]
+    for start, *rest, end in zip(*numbers, strict=True):
         parts = (np.array(rest) - start) / (end - start)
         np.testing.assert_allclose(parts, np.arange(1, PIECES + 1) / PIECES, atol=1e-9)
     heights = [light.direction[1] for light in told[PIECES - 1 : -1]]

@@ -12,7 +12,7 @@ from tallgrass.components.footprint import Footprint, Road
 from tallgrass.components.pose import HERE, Pose
 from tallgrass.engine.terrain.plots import CELL, CELLS, SIDE
 from tallgrass.engine.terrain.record import Density
-from tallgrass.engine.terrain.sample import density_at, own_density_at, painted_at
+from tallgrass.engine.terrain.sample import density_at, density_on_lines, own_density_at, painted_at
 from tallgrass.systems.mow.area import Area, beside
 from tallgrass.systems.mow.sown import carry_over, clear, sow
 
@@ -122,6 +122,21 @@ def test_f4_a_stroke_tells_only_what_it_has_changed() -> None:
     sow(density, 0, AMONG, Footprint(radius=1.0), 1.0, Pose(1.5, 1.5), soft=0.0)
     (part,) = density.sown.since(count) or []
     assert max(part.rows, part.columns) * CELL < 2.9
+
+
+def test_f4_beyond_the_terrain_nothing_is_cleared() -> None:
+    density = meadow()
+    clear(density, Footprint(radius=80.0), HERE, soft=0.0)
+    inside, outside = (
+        np.array([(50.0, 0.0), (0.0, -50.0)], np.float32),
+        np.array([(50.2, 0.0), (0.0, -50.2)], np.float32),
+    )
+    assert (density_at(density, inside) == 0.0).all()
+    np.testing.assert_array_equal(density_at(density, outside), painted_at(density, outside))
+    lines = np.array([[49.0, 51.0]], np.float32)
+    found = density_on_lines(density, lines, np.zeros_like(lines))[:, 0, 0]
+    assert (found[:, 0] == 0.0).all()
+    np.testing.assert_array_equal(found[:, 1:], painted_at(density, np.array([(51.0, 0.0)], np.float32)))
 
 
 def test_f4_what_was_sown_stays_where_all_else_is_painted_anew() -> None:
