@@ -30,7 +30,7 @@ class Cull:
         """Cull for every viewer that looks."""
         for outlook in self.outlooks:
             viewer = outlook.viewer
-            seen = viewer.eye, viewer.cone, viewer.sides.tobytes(), viewer.centre.tobytes()
+            seen = viewer.eye, viewer.cone, viewer.sides.tobytes(), viewer.centre.tobytes(), outlook.heights
             outlook.unless_at_rest(self, seen, partial(self._run, outlook))
 
     def _run(self, outlook: Outlook) -> None:

@@ -76,9 +76,12 @@ class PatchEntities:
 
         Python's collector sets in when many more objects have been made than deleted, and goes through the whole game.
         """
+        if outlook.whole == outlook.peopled:
+            return
         patches = outlook.patches
         without = (patches.alive & (patches.entity == 0)).nonzero()[0]
         if not (without.size or outlook.left):
+            outlook.whole = outlook.peopled
             return
         rows = without[np.argsort(patches.distance[without], kind="stable")[:BATCH]].tolist()
         left, outlook.left[:] = outlook.left[:BATCH], outlook.left[BATCH:]

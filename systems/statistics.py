@@ -45,16 +45,23 @@ class Statistics:
     transitions: int = 0
     """Patches that were seen to change their representation, or to be changing it; a change of sub-level is none."""
 
+    _counted: object = field(default=None, repr=False, compare=False)
+    """What patches appeared as when they were counted last."""
+
     def count(self, outlook: Outlook, site: Site, systems: Schedule, painter: Painter, /) -> None:
         """Count what a viewer was shown in a frame."""
-        patches = outlook.patches
-        shown = patches.representation[patches.shown] + 1
-        counts = np.bincount(shown, minlength=1 + len(patches.names)).tolist()
-        width, depth = site.ground.terrain.size
-        share = self.blades_field * site.ground.patch**2 / (width * depth)
-        self.blades_considered = round(share * len(shown))
-        self.patches = dict(zip(patches.names, counts[1:], strict=True))
+        if self._counted is None or self._counted is not outlook.appearance:
+            self._count_patches(outlook, site)
         self.receivers, self.transitions = outlook.noted(Blown, Blown()).heard, outlook.changing
         self.blades_submitted = painter.blades
         self.systems_ms, self.draw_calls = dict(systems.milliseconds), painter.draw_calls
         self.draw_ms = self.systems_ms.pop("draw", 0.0)
+
+    def _count_patches(self, outlook: Outlook, site: Site) -> None:
+        self._counted, patches = outlook.appearance, outlook.patches
+        level = patches.representation[patches.shown]
+        counts = np.bincount(level + 1, minlength=1 + len(patches.names)).tolist()
+        width, depth = site.ground.terrain.size
+        share = self.blades_field * site.ground.patch**2 / (width * depth)
+        self.blades_considered = round(share * len(level))
+        self.patches = dict(zip(patches.names, counts[1:], strict=True))

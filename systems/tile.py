@@ -54,10 +54,10 @@ def cell_stood_in(eye: tuple[float, float, float], before: Ints, /, *, patch: fl
 
     On its very edge that is still the one: rounding alone must not move a whole line of patches to and fro.
     """
-    at = np.array([eye[0], eye[2]], np.float64) / patch
-    if (np.abs(at - before - 0.5) <= 0.5 + EDGE).all():
+    (x, z), (i, j) = (eye[0] / patch, eye[2] / patch), before.tolist()
+    if abs(x - i - 0.5) <= 0.5 + EDGE and abs(z - j - 0.5) <= 0.5 + EDGE:
         return before
-    return np.floor(at).astype(np.int32)
+    return np.floor(np.array([x, z])).astype(np.int32)
 
 
 def tile(patches: PatchTable, centre: Ints, terrain: Terrain, /, *, patch: float, seed: int, models: int) -> Ints:
@@ -111,7 +111,10 @@ class Tile:
             viewer.centre = cell_stood_in(viewer.eye, viewer.centre, patch=patch)
             self._follow(outlook)
             fresh = tile(patches, viewer.centre, terrain, patch=patch, seed=self.seed, models=self.models)
-            patches.away[:] = seen_from(patches.distance, patches.height, viewer.eye[1], patch=patch)
+            seen = viewer.eye[1], viewer.centre.tobytes(), outlook.heights
+            if fresh.size or outlook.away_for != seen:
+                outlook.away_for = seen
+                patches.away[:] = seen_from(patches.distance, patches.height, viewer.eye[1], patch=patch)
             self.entities.go_on(outlook, fresh)
 
     def _follow(self, outlook: Outlook) -> None:

@@ -70,11 +70,17 @@ class Outlook:
     cleared: int = -1
     """Version of the clearings that the patches stand for."""
 
+    away_for: tuple[object, ...] = ()
+    """Where the viewer was, and what the ground was, for whom the patches' discrete distances are reckoned."""
+
     heights: int = 0
     """Changes of the terrain's heights that the patches stand for."""
 
     peopled: int = 0
     """How often entities of its patches have come or gone."""
+
+    whole: int = -1
+    """What that was when each of its patches had one, and none was left behind."""
 
     sown: int = 0
     """Changes of what is sown and cleared that the patches stand for."""

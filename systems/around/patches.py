@@ -129,7 +129,6 @@ class PatchTable:
         rows, several = side * side, (len(names), side * side)
         columns: dict[str, tuple[type[np.generic], tuple[int, ...], int]] = {
             "alive": (np.bool_, (rows,), 0), "grows": (np.bool_, (rows,), 1),
-            "away": (np.int32, (rows,), 0), "height": (np.float32, (rows,), 0), "slope": (np.float32, (rows, 2), 0),
             "visible": (np.bool_, (rows,), 0), "near": (np.bool_, (rows,), 0), "was_visible": (np.bool_, (rows,), 0),
             "wanted": (np.int8, (rows,), -1), "hold": (np.int8, (rows,), -1),
             "representation": (np.int8, (rows,), -1), "previous": (np.int8, (rows,), -1),
@@ -143,8 +142,11 @@ class PatchTable:
             cell=np.full((rows, 2), NOWHERE, np.int32),
             middle=np.zeros((rows, 2)),
             model=np.zeros(rows, np.int32),
+            height=np.zeros(rows, np.float32),
+            slope=np.zeros((rows, 2), np.float32),
             turn=np.zeros(rows, np.int32),
             distance=np.zeros(rows, np.int32),
+            away=np.zeros(rows, np.int32),
             nearness=np.zeros(rows, np.int16),
             entity=np.zeros(rows, np.int64),
         )  # fmt: skip

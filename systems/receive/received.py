@@ -1,6 +1,7 @@
 """The receivers of a frame as texels on the graphics card, pool after pool."""
 
 from collections.abc import Sequence
+from itertools import accumulate
 
 import moderngl
 import numpy as np
@@ -31,10 +32,10 @@ class Received:
 
     def lay(self, counts: Sequence[int]) -> list[int]:
         """Make room for pools of so many receivers, and return the number of each one's first."""
-        rows = np.cumsum([0, *(-(-count // ROW) for count in counts)])
-        if rows[-1] > self.texture.height:
-            self.reserve(int(rows[-1]) * 3 // 2)
-        return [int(row) * ROW for row in rows[:-1]]
+        *first, rows = accumulate((-(-count // ROW) for count in counts), initial=0)
+        if rows > self.texture.height:
+            self.reserve(rows * 3 // 2)
+        return [row * ROW for row in first]
 
     def reserve(self, rows: int) -> None:
         """Make room for so many rows."""

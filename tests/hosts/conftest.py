@@ -33,6 +33,15 @@ def hosts_python() -> Path:
 
 
 @pytest.fixture(scope="session")
+def next_python() -> Path:
+    """The Python that has pre-releases of pyglet and Arcade: that of `.venv-next`."""
+    found = ROOT / ".venv-next" / "bin" / "python"
+    if not found.exists():
+        pytest.skip("no .venv-next: ./dev hosts makes it")
+    return found
+
+
+@pytest.fixture(scope="session")
 def run() -> Run:
     """Run a command and return what it prints; a test is skipped in one line where a library is not there."""
 

@@ -109,6 +109,44 @@ def arcade(scene: str) -> str:
     return told
 
 
+def pyglet(scene: str) -> str:
+    """pyglet, 2 or 3: a prairie in a batch, between two sprites."""
+    library = needed("pyglet")
+    gl = import_module("pyglet.gl" if library.version.startswith("2") else "pyglet.graphics.api.gl")
+    window, batch, groups = library.window.Window(*SIZE), library.graphics.Batch(), library.graphics.Group
+    square = library.image.SolidColorImagePattern((255, 0, 0, 255)).create_image(40, 30)
+    kept = [library.sprite.Sprite(square, 40 * order, 10, batch=batch, group=groups(order)) for order in (0, 2)]
+    prairie = Prairie.load(scene)
+    camera = camera_at(prairie.scene.camera, None, prairie.height_at)
+    matrices = view_matrix(camera), projection_matrix(camera.view, SIZE[0] / SIZE[1])
+
+    def draw() -> tuple[bytes, int]:
+        window.clear()
+        batch.draw()
+        pixels = (gl.GLubyte * (3 * SIZE[0] * SIZE[1]))()
+        gl.glReadPixels(0, 0, *SIZE, gl.GL_RGB, gl.GL_UNSIGNED_BYTE, pixels)
+        seen = np.frombuffer(pixels, np.uint8).reshape(-1, 3)
+        return seen.tobytes(), int((seen == (255, 0, 0)).all(axis=-1).sum())
+
+    without, red = draw()
+    group = prairie.group(batch, lambda: matrices, order=1)
+    shown, front = draw()
+    group.visible = False
+    hidden, _ = draw()
+    group.visible = True
+    again, _ = draw()
+    group.delete()
+    gone, _ = draw()
+    prairie.release()
+    window.close()
+    wrong = {
+        "the sprites are not there": red != len(kept) * 1200, "it is not between them": front != 1200,
+        "the prairie is not there": len(set(shown)) < 50, "it cannot be hidden": hidden != without,
+        "it is another one": again != shown, "it cannot be taken out": gone != without,
+    }  # fmt: skip
+    return ", ".join(what for what, holds in wrong.items() if holds)
+
+
 def moderngl_window(scene: str) -> str:
     """moderngl-window, on glfw."""
     needed("glfw")
@@ -213,7 +251,10 @@ def pyside(scene: str) -> str:
 
 def main() -> None:
     """Run one of the programs and print what it says."""
-    said = {"arcade": arcade, "moderngl-window": moderngl_window, "pygame-ce": pygame, "glfw": glfw, "PySide6": pyside}
+    said = {
+        "arcade": arcade, "moderngl-window": moderngl_window, "pygame-ce": pygame, "glfw": glfw, "PySide6": pyside,
+        "pyglet": pyglet,
+    }  # fmt: skip
     sys.stdout.write(json.dumps(said[sys.argv[1]](sys.argv[2])) + "\n")
 
 
