@@ -365,6 +365,8 @@ def light_from(view: View, place: tuple[float, float, float], /) -> tuple[float,
 
 def _are_other_kinds(site: Site, before: Site) -> bool:
     """Return whether what is special about any kind may be something else."""
+    if site is before:
+        return False
     return site.growths is not before.growths or site.own_segments != before.own_segments
 
 

@@ -95,7 +95,8 @@ class Seasons:
     @property
     def to_grow(self) -> dict[str, GrassKind]:
         """The kinds that stand otherwise than they are to, by name."""
-        return {name: kind for name, kind in self.due.items() if _grown(kind) != _grown(self.standing[name])}
+        changed = {name: kind for name, kind in self.due.items() if kind is not self.standing[name]}
+        return {name: kind for name, kind in changed.items() if _grown(kind) != _grown(self.standing[name])}
 
     def kind_at(self, name: str, time: float, /) -> GrassKind:
         """Return a kind as it is at a time [s]."""
