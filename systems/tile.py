@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from math import floor
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,7 +58,7 @@ def cell_stood_in(eye: tuple[float, float, float], before: Ints, /, *, patch: fl
     (x, z), (i, j) = (eye[0] / patch, eye[2] / patch), before.tolist()
     if abs(x - i - 0.5) <= 0.5 + EDGE and abs(z - j - 0.5) <= 0.5 + EDGE:
         return before
-    return np.floor(np.array([x, z])).astype(np.int32)
+    return np.array([floor(x), floor(z)], np.int32)
 
 
 def tile(patches: PatchTable, centre: Ints, terrain: Terrain, /, *, patch: float, seed: int, models: int) -> Ints:

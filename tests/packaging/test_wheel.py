@@ -111,3 +111,53 @@ def test_d6_the_type_checker_passes_on_the_examples_and_the_tutorial_against_the
     )
     told = run(sys.executable, "-m", "mypy", *options, *copies, cwd=tmp_path)
     assert f"no issues found in {len(copies)} source files" in told
+
+
+OBEYING = """
+import ctypes, os, sys
+for power in (1, 2, 3):  # what lets root write where nobody may: CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH, CAP_FOWNER
+    ctypes.CDLL(None).prctl(24, power, 0, 0, 0)  # PR_CAPBSET_DROP
+os.execv(sys.executable, [sys.executable, *sys.argv[1:]])
+"""
+LOCKED = """
+from pathlib import Path
+import yaml
+import tallgrass
+from tallgrass import Gust, Prairie
+from tallgrass.testing import LITTLE, headless_context, stage
+try:
+    Path(tallgrass.__file__).with_name("note").touch()
+except OSError:
+    print("locked")
+with headless_context() as ctx, stage(ctx, (64, 36)) as made:
+    prairie = Prairie.load(yaml.safe_load(LITTLE), ctx=ctx)
+    prairie.add(Gust(start=0.0))
+    prairie.advance(2.0)
+    print(made.shot(prairie).std() > 1.0, len(Prairie.load("plain", preset="low").scene.grass))
+"""
+
+
+@pytest.mark.gl
+@pytest.mark.skipif(sys.platform != "linux", reason="root obeys nobody elsewhere")
+def test_d6_where_nothing_can_be_written_and_nobody_has_a_home_one_line_says_so_and_all_works(
+    wheel: Path, tmp_path: Path
+) -> None:
+    place, cache = tmp_path / "place", tmp_path / "cache"
+    pip = (sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index", "--no-compile")
+    run(*pip, "--disable-pip-version-check", "--target", place, wheel, cwd=tmp_path)
+    cache.mkdir()
+    before = sorted(place.rglob("*"))
+    for path in (*before, place, cache):
+        path.chmod(path.stat().st_mode & ~0o222)
+    environment = {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "TALLGRASS"))}
+    environment.pop("HOME", None)
+    environment |= {"PYTHONPATH": str(place), "XDG_CACHE_HOME": str(cache), "MESA_SHADER_CACHE_DISABLE": "true"}
+    done = subprocess.run(
+        [sys.executable, "-c", OBEYING, "-c", LOCKED], env=environment, cwd=tmp_path, capture_output=True, text=True,
+        check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.split() == ["locked", "True", "1"]
+    assert len(done.stderr.splitlines()) == 1
+    assert str(cache) in done.stderr
+    assert sorted(place.rglob("*")) == before
