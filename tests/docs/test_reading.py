@@ -1,4 +1,7 @@
-"""The pages that teach are easy to read: Flesch's reading ease is 60 or more, and no sentence has over 30 words."""
+"""The manual is easy to read: Flesch's reading ease is 60 or more, and sentences are short.
+
+No sentence has over 30 words where a page teaches, and none over 45 elsewhere.
+"""
 
 import re
 from pathlib import Path
@@ -8,8 +11,8 @@ import textstat
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
-EASE, LONGEST = 60.0, 30
-"""Flesch's reading ease of plain English begins at 60; the longest sentence [words]."""
+EASE, LONGEST, ELSEWHERE = 60.0, 30, 45
+"""Plain English begins at an ease of 60 (Flesch); the longest sentence where a page teaches, and elsewhere [words]."""
 
 NOT_PROSE = re.compile(r"(?ms)^```.*?^```$|<!-- generated: .*?end of what is generated -->|<!--.*?-->")
 LINES_OF_NO_PROSE = re.compile(r"^(\||#|!\[|`[^`]+`:$).*$", re.MULTILINE)
@@ -32,11 +35,15 @@ def taught() -> list[str]:
     return ["../README.md", "index.md", *re.findall(r": (\S+\.md)$", "".join(parts), re.MULTILINE)]
 
 
-@pytest.mark.parametrize("page", taught())
-def test_a_page_that_teaches_is_easy_to_read(page: str) -> None:
+TAUGHT = taught()
+OTHERS = sorted({*(page.name for page in DOCS.glob("*.md")), "../PACKAGE.md", "../CHANGELOG.md"} - {*TAUGHT})
+
+
+@pytest.mark.parametrize("page", [*TAUGHT, *OTHERS])
+def test_a_page_is_easy_to_read(page: str) -> None:
     sentences = prose((DOCS / page).read_text("utf-8"))
-    assert len(sentences) >= 5
-    long = [sentence for sentence in sentences if len(sentence.split()) > LONGEST]
+    assert len(sentences) >= 5 or page not in TAUGHT
+    long = [sentence for sentence in sentences if len(sentence.split()) > (LONGEST if page in TAUGHT else ELSEWHERE)]
     assert not long, "\n".join(long)
     ease = textstat.flesch_reading_ease(" ".join(re.sub(r"[:,;]?$", ".", each.rstrip(".")) for each in sentences))
     hard = sorted(sentences, key=textstat.flesch_reading_ease)[:5]
