@@ -53,8 +53,8 @@ void main() {
     vec2 slope = waves(seen.xz) * (0.02 + 0.12 * wind) / (1.0 + 0.05 * far);
     float up = max(toward.y / far + slope.x, 0.0);
     float fresnel = 0.02 + 0.98 * pow(1.0 - up, 5.0);
-    vec2 at = gl_FragCoord.xy / vec2(textureSize(mirrored, 0)) + slope * vec2(0.4, 1.0) * 0.5;
-    pixel = vec4(mix(vec3(0.05, 0.09, 0.07), texture(mirrored, at).rgb, fresnel), 1.0);
+    vec2 at = gl_FragCoord.xy / vec2(textureSize(mirrored, 0)) + vec2(slope.x, abs(slope.y)) * vec2(0.2, 0.5);  // never into the near bank
+    pixel = vec4(mix(vec3(0.05, 0.09, 0.07), texture(mirrored, clamp(at, 0.002, 0.998)).rgb, fresnel), 1.0);
 }"""
 
 
@@ -85,7 +85,7 @@ def land() -> dict[str, object]:
 def cut_off(projection: Mat4, view: Mat4) -> NDArray[np.float64]:
     """Return a projection whose near plane is the water, as a mirrored view has it: what is deeper is left out."""
     made, see = (np.array(matrix).reshape(4, 4).T for matrix in (projection, view))
-    plane = np.array([0.0, 1.0, 0.0, 0.02]) @ np.linalg.inv(see)
+    plane = np.array([0.0, 1.0, 0.0, -0.02]) @ np.linalg.inv(see)
     corner = np.linalg.inv(made) @ [np.sign(plane[0]), np.sign(plane[1]), 1.0, 1.0]
     made[2] = plane * (2.0 / (plane @ corner)) - made[3]
     return made

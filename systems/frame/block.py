@@ -104,7 +104,7 @@ FRAME = np.dtype(
 """The block's fields, as std140 lays them out; shaders have them by the same names."""
 
 
-GLSL = emitted({"BODIES": BODIES}) + block("Frame", FRAME)
+GLSL = emitted({"BODIES": BODIES, "EVERYWHERE": EVERYWHERE}) + block("Frame", FRAME)
 
 
 @by_identity(most=16)

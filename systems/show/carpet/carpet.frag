@@ -122,6 +122,14 @@ vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
     return vec4(sum.rgb + below * (1.0 - cover), standing_out(taller, sight.share));
 }
 
+// Where the ground ends with the terrain, so does the grass: how much of what a line of sight would meet it does.
+float before_rim(float slope) {
+    vec2 way = heading_to(place.xz), rim = abs(mix(mesh_low, mesh_high, step(0.0, way)) - place.xz);
+    float on = min(rim.x / max(abs(way.x), TINY), rim.y / max(abs(way.y), TINY)), leaves = dense / max(slope, LOWEST);
+    float met = 1.0 - through_leaves(dense * on / max(carpet * tall, LOWEST_GRASS));
+    return min(met / max(1.0 - through_leaves(leaves), TINY), 1.0);
+}
+
 #ifdef EDGED
 // Where the line of sight comes to grass, from the mesh on, is the place of the pixel; how much that hides of what is behind.
 float comes_to_grass() {
@@ -189,6 +197,8 @@ void main() {
 #ifdef EDGED
     covered *= hidden;
 #endif
+    if (mesh_high.x < EVERYWHERE)
+        covered *= before_rim(slope);
     pixel = vec4(color, over_hosts > 0.0 ? cover : 1.0) * covered;
     if (over_hosts > 0.0 && pixel.a < NOTHING || part != 0 && pixel.a < HALF == (part == 1))
         discard;
