@@ -21,6 +21,8 @@ from tallgrass import Lamp, Pose, Prairie, Road
 
 SIZE, UP = (960, 540), Vec3(0.0, 1.0, 0.0)
 PAINT, GLASS, TYRE, RED = (0.30, 0.05, 0.05), (0.03, 0.04, 0.05), (0.02, 0.02, 0.02), (3.0, 0.1, 0.05)
+IRON, BULB, POST = (0.05, 0.05, 0.06), (3.0, 1.9, 0.8), 3.2
+Boxes = tuple[tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]], ...]
 CAR = (  # middle and half size of boxes (right, up, ahead) [m], and their colours; above 1 they shine
     ((0.0, 0.62, 0.0), (0.85, 0.27, 2.1), PAINT),
     ((0.0, 1.08, -0.25), (0.70, 0.26, 1.05), GLASS),
@@ -62,7 +64,7 @@ def road(part: float) -> tuple[float, float]:
     return far * sin(turn), -far * cos(turn)
 
 
-def boxes(parts: tuple[tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]], ...]) -> dict[str, Any]:
+def boxes(parts: Boxes) -> dict[str, Any]:
     """Return triangles of boxes, as a vertex list takes them."""
     faces = []
     for axis in range(3):
@@ -94,11 +96,16 @@ class Game:
         self.prairie.clear(Road(tuple(road(part / 160.0) for part in range(161)), width=5.0), soft=0.7)
         self.lights = [(esper.create_entity(HEADLIGHT), x, 0.72, 2.1) for x in (-0.62, 0.62)]
         self.lights.append((esper.create_entity(GLOW), 0.0, 0.72, -2.3))
+        posts: Boxes = ()
         for part in (0.06, 0.19, 0.44, 0.71):
             x, z = (1.06 * each for each in road(part))
-            esper.create_entity(LANTERN, Pose(x, z, y=float(self.prairie.height_at([(x, z)])[0]) + 3.2))
+            y = float(self.prairie.height_at([(x, z)])[0]) + POST
+            esper.create_entity(LANTERN, Pose(x, z, y=y))
+            posts += ((x, y - 0.5 * POST, -z), (0.04, 0.5 * POST, 0.04), IRON), ((x, y, -z), (0.1, 0.12, 0.1), BULB)
         self.program = ShaderProgram(Shader(VERTEX, "vertex"), Shader(FRAGMENT, "fragment"))
-        self.car = self.program.vertex_list(36 * len(CAR), gl.GL_TRIANGLES, **boxes(CAR))
+        self.car, self.posts = (
+            self.program.vertex_list(36 * len(each), gl.GL_TRIANGLES, **boxes(each)) for each in (CAR, posts)
+        )
         self.part, self.speed = 0.0, 14.0
         self.keys = key.KeyStateHandler()
         self.window.push_handlers(self.keys, self.on_draw)
@@ -123,15 +130,17 @@ class Game:
         return Vec3(right * c + ahead * s, 0.0, right * s - ahead * c)
 
     def on_draw(self) -> None:
-        """Draw the car, then the prairie around it, from behind the car."""
+        """Draw posts and car, then the prairie around them, from behind the car."""
         eye = self.at + self.along(0.0, -7.5)
         eye = Vec3(eye.x, max(self.at.y, float(self.prairie.height_at([(eye.x, eye.z)])[0])) + 2.3, eye.z)
         self.window.clear()
         self.window.view = Mat4.look_at(eye, self.at + self.along(0.0, 6.0) + UP * 1.0, UP)
         self.window.projection = Mat4.perspective_projection(self.window.aspect_ratio, 0.1, 2000.0, 50.0)
         self.program.use()
-        self.program["model"] = Mat4.from_translation(self.at) @ Mat4.from_rotation(-self.yaw, UP)
         gl.glEnable(gl.GL_DEPTH_TEST)
+        self.program["model"] = Mat4()
+        self.posts.draw(gl.GL_TRIANGLES)
+        self.program["model"] = Mat4.from_translation(self.at) @ Mat4.from_rotation(-self.yaw, UP)
         self.car.draw(gl.GL_TRIANGLES)
         gl.glDisable(gl.GL_DEPTH_TEST)
         self.prairie.draw(self.window.view, self.window.projection)

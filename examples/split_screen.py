@@ -95,7 +95,7 @@ class Game:
         gl.glClear(gl.GL_DEPTH_BUFFER_BIT)  # that of the halves
         gl.glDisable(gl.GL_SCISSOR_TEST)
         self.window.projection = Mat4.orthogonal_projection(-half, half, -half, half, 1.0, 400.0)
-        self.window.view = Mat4.look_at(middle + UP * 200.0, middle, Vec3(0.0, 0.0, -1.0))
+        self.window.view = Mat4.look_at(middle + UP * 40.0, middle, Vec3(0.0, 0.0, -1.0))
         self.prairie.draw(self.window.view, self.window.projection, viewer="map")
         self.window.view = Mat4()
         self.window.projection = Mat4.orthogonal_projection(-half, half, -half, half, -1.0, 1.0)
