@@ -26,7 +26,7 @@ FIELD, WIDTH, STUBBLE = 26.0, 2.4, 0.09  # half the field's side; how wide the m
 NOWHERE = np.zeros((2, 2))  # a map of where poppies grow, until they are sown
 PARTS = (  # middle and size of boxes (right, up, ahead) [m], and their colours
     ((0.0, 0.85, -0.3), (1.1, 0.7, 1.9), (0.12, 0.35, 0.15, 1.0)),
-    ((0.0, 1.6, -0.8), (1.0, 0.9, 0.9), (0.10, 0.12, 0.14, 1.0)),
+    ((0.0, 1.6, -0.75), (1.0, 0.9, 0.9), (0.10, 0.12, 0.14, 1.0)),
     ((0.0, 0.35, 1.0), (WIDTH, 0.3, 0.8), (0.75, 0.55, 0.1, 1.0)),
     *(((x, 0.55, -0.9), (0.3, 1.1, 1.1), (0.05, 0.05, 0.05, 1.0)) for x in (-0.75, 0.75)),
 )

@@ -53,7 +53,8 @@ void main() {
     vec2 slope = waves(seen.xz) * (0.02 + 0.12 * wind) / (1.0 + 0.05 * far);
     float up = max(toward.y / far + slope.x, 0.0);
     float fresnel = 0.02 + 0.98 * pow(1.0 - up, 5.0);
-    vec2 at = gl_FragCoord.xy / vec2(textureSize(mirrored, 0)) + vec2(slope.x, abs(slope.y)) * vec2(0.2, 0.5);  // never into the near bank
+    vec2 moved = vec2(0.2 * slope.x, 0.5 * abs(slope.y));  // never into the near bank
+    vec2 at = gl_FragCoord.xy / vec2(textureSize(mirrored, 0)) + moved;
     pixel = vec4(mix(vec3(0.05, 0.09, 0.07), texture(mirrored, clamp(at, 0.002, 0.998)).rgb, fresnel), 1.0);
 }"""
 
