@@ -5,6 +5,7 @@ from contextlib import contextmanager
 
 from ..engine.declared.scene import Scene
 from ..engine.scene import read_scene
+from .grow import grow_ahead
 from .manifest import Manifest, Span
 from .studio.encode import Reel, film_writer, is_folder, make_room
 from .studio.errors import InputError
@@ -70,6 +71,7 @@ def _length(scene: Scene) -> float:
 
 @contextmanager
 def _shot_here(take: Take, span: Span, files: Mapping[str, str] | None) -> Iterator[Iterator[Shot]]:
+    grow_ahead(take.scene, preset=take.preset)
     with busy("growing the prairie"):
         shooting = Shooting(take, span.fps)
     with shooting:

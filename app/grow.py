@@ -1,6 +1,8 @@
 """`tallgrass grow`: growing the grass of scenes beforehand, so that they open at once."""
 
-from collections.abc import Iterator
+import sys
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
 
 from ..engine.declared.grass import GrassKind
@@ -23,15 +25,32 @@ def grow(scenes: list[str], *, preset: str | None, on: str | None = None) -> Non
     if folder is None:
         raise MachineError("there is no folder to keep it in; name one: TALLGRASS_CACHE")
     wanted = {scene: _seeds(scene, preset) for scene in scenes}
+    new = _grow(wanted.values(), folder, on)
+    for scene, seeds in wanted.items():
+        print(f"{scene}: kinds {len(seeds)}, grown now {len(seeds.keys() & new)}")
+
+
+def grow_ahead(scene: str, *, preset: str | None) -> None:
+    """Grow what a scene that is about to be loaded lacks, and show on a terminal how far that is.
+
+    In a pipe, and where nothing can be kept, that is left to who loads it.
+    """
+    folder = cache_folder()
+    if folder is not None and sys.stderr.isatty():
+        with suppress(MachineError):
+            _grow([_seeds(scene, preset)], folder, None)
+
+
+def _grow(wanted: Iterable[Mapping[str, Seed]], folder: Path, on: str | None) -> set[str]:
+    """Grow what is not in the cache yet, and return what that was."""
     new: dict[str, Seed] = {}
-    for key, seed in (pair for each in wanted.values() for pair in each.items()):
+    for key, seed in (pair for each in wanted for pair in each.items()):
         kind, quality, number = seed
         if key not in new and not is_kept(kind, quality, seed=number, folder=folder):
             new[key] = seed
     for key, data in zip(new, counted(_grown(list(new.values()), on), total=len(new), doing="growing"), strict=True):
         _keep(data, key, folder)
-    for scene, seeds in wanted.items():
-        print(f"{scene}: kinds {len(seeds)}, grown now {len(seeds.keys() & new.keys())}")
+    return set(new)
 
 
 def _seeds(scene: str, preset: str | None) -> dict[str, Seed]:

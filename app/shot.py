@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..engine.camera import Camera, Heights
+from .grow import grow_ahead
 from .studio.encode import picture_writer
 from .studio.progress import busy
 from .studio.studio import Studio, about, written
@@ -20,6 +21,7 @@ def shot(take: Take, output: str, *, time: float = 0.0, camera: Camera | None = 
     Raises InputError where `output` cannot be written, `SceneError` where the scene is wrong.
     """
     write = picture_writer(output)
+    grow_ahead(take.scene, preset=take.preset)
     with busy("growing the prairie"), Studio(take) as studio:
         studio.prairie.advance(time)
         view = math.radians(studio.prairie.scene.camera.view)

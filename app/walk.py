@@ -3,6 +3,7 @@
 from ..engine.scene.read import read_scene
 from ..systems.prairie import Prairie
 from .display import need_display
+from .grow import grow_ahead
 from .studio.progress import busy
 from .studio.take import Take
 
@@ -40,6 +41,7 @@ def walk_in(
     scene = read_scene(take.scene).scene  # what is wrong with it is told before a window opens
     window = open_window(take.size, fullscreen=fullscreen)
     suited = None if edit or take.preset else suited_preset(scene, moderngl.create_context(require=330))
+    grow_ahead(take.scene, preset=take.preset or suited)
     with busy("growing the prairie"):
         prairie = Prairie.load(take.scene, preset=take.preset or suited)
     walk = kind(window, prairie, take)

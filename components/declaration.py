@@ -3,7 +3,9 @@
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
+
+from .colour import LONG, SHORT, hex_of
 
 
 class Declaration(BaseModel):
@@ -41,8 +43,13 @@ Pair = Annotated[list[Number], BeforeValidator(_listed), Field(min_length=2, max
 Triple = Annotated[list[Number], BeforeValidator(_listed), Field(min_length=3, max_length=3)]
 """Three numbers."""
 
-Color = Annotated[str, Field(pattern=r"^#[0-9a-fA-F]{6}$")]
-"""An sRGB colour written `#rrggbb`."""
+Color = Annotated[
+    str,
+    BeforeValidator(hex_of),
+    Field(pattern=f"^{LONG}$"),
+    WithJsonSchema({"type": "string", "pattern": f"^({LONG}|{SHORT}|[a-zA-Z]+)$"}),
+]
+"""An sRGB colour `#rrggbb`; it may be written `#rgb`, or by its name in CSS."""
 
 
 def rising(what: str, least: float, most: float, /) -> AfterValidator:

@@ -1,10 +1,10 @@
 """What shines beside sun and sky."""
 
-import re
 from dataclasses import dataclass
 from math import pi
 from reprlib import repr as shortened
 
+from .colour import hex_of, is_colour
 from .footprint import is_between
 
 FARTHEST = 1000.0
@@ -12,8 +12,6 @@ FARTHEST = 1000.0
 
 BRIGHTEST = 1e7
 """Candela that one has at most: a lighthouse's."""
-
-_COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +24,7 @@ class Lamp:
     """
 
     colour: str = "#ffd9a6"
-    """Its colour (sRGB), `#rrggbb`; how bright it is, `candela` alone says."""
+    """Its colour (sRGB), such as `#ffd9a6` or `orange`; how bright it is, `candela` alone says."""
 
     candela: float = 400.0
     """How brightly it shines in the middle of its light, 0 to 1e7 [cd]: a street lamp 400, a car's headlight 20 000."""
@@ -42,8 +40,9 @@ class Lamp:
 
     def __post_init__(self) -> None:
         """Raise ValueError for what cannot shine."""
-        if not (isinstance(self.colour, str) and _COLOUR.fullmatch(self.colour)):
-            raise ValueError(f"a lamp's colour is written '#rrggbb', not {shortened(self.colour)}")
+        object.__setattr__(self, "colour", hex_of(self.colour))  # the one way in a frozen record
+        if not is_colour(self.colour):
+            raise ValueError(f"a lamp's colour is one such as '#ffd9a6' or 'orange', not {shortened(self.colour)}")
         if not is_between(0.0, self.candela, BRIGHTEST):
             raise ValueError(f"a lamp's candela is from 0 to {BRIGHTEST:g}, not {shortened(self.candela)}")
         if not (is_between(0.0, self.range, FARTHEST) and self.range > 0.0):

@@ -5,11 +5,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import inf
 from reprlib import repr as shortened
-from typing import ClassVar, Literal, Self, cast
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, cast
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field, PrivateAttr, model_validator
+from pydantic import BaseModel, Field, PrivateAttr, ValidationError, model_validator
 
 from .arrays import Floats
 from .body import Hover
@@ -17,6 +17,7 @@ from .course import Course
 from .declaration import Declaration, DeclarationError
 from .pose import HERE, Pose
 from .presser import Presser
+from .words import told
 
 INTERFACE = 1
 """Version of what winds and tallgrass ask of each other; it changes when winds written for it would break."""
@@ -102,7 +103,21 @@ class TwinValues:
     """
 
 
-class WindPrimitive(Declaration):
+if TYPE_CHECKING:  # what makes instances must not hide their fields from type checkers
+    from pydantic._internal._model_construction import ModelMetaclass as _Making
+else:
+
+    class _Making(type(BaseModel)):
+        """Lets a class say in a plain sentence what is wrong with the values that a program makes an instance of."""
+
+        def __call__(cls, *args: Any, **values: Any) -> Any:
+            try:
+                return super().__call__(*args, **values)
+            except ValidationError as error:
+                raise ValueError(f"{cls.__name__}: {told(error, cls, cls.__name__)}") from None
+
+
+class WindPrimitive(Declaration, metaclass=_Making):
     """A wind as an object on the prairie (paper, section 3.3): a mask on the ground and an action inside it.
 
     A primitive keeps nothing between calls: all its methods are pure functions of places and a time, so that any

@@ -102,7 +102,7 @@ class WindKinds:
         other = self._classes.get(kind, primitive)
         if _address(other) != _address(primitive):
             raise PluginError(f"kind '{kind}' is claimed by both {_address(other)} and {_address(primitive)}")
-        self._classes[kind] = primitive
+        self._classes[kind] = _named(primitive, kind)
 
     def find(self, kind: str) -> type[WindPrimitive]:
         """Return the class of a kind.
@@ -126,7 +126,7 @@ class WindKinds:
             loaded = entries[0].load()
         except (Exception, SystemExit) as error:  # importing a plugin runs its code, which may do anything
             raise PluginError(f"kind '{kind}' of {owners(entries)} cannot be loaded: {said(error)}") from error
-        return _must_be_primitive(loaded, f"kind '{kind}' of {owners(entries)}")
+        return _named(_must_be_primitive(loaded, f"kind '{kind}' of {owners(entries)}"), kind)
 
     def _unknown(self, kind: str) -> str:
         left_out = self._installed.left_out
@@ -165,6 +165,15 @@ def _must_be_primitive(thing: object, what: str) -> type[WindPrimitive]:
     if thing.interface != INTERFACE:
         raise PluginError(f"{what} is written for interface {thing.interface} of winds; this tallgrass has {INTERFACE}")
     return thing
+
+
+def _named(primitive: type[WindPrimitive], kind: str) -> type[WindPrimitive]:
+    """Let winds of a class that does not say its `kind` be of the one that it is registered as; return the class."""
+    field = primitive.model_fields["kind"]
+    if field.is_required():
+        field.default = kind
+        primitive.model_rebuild(force=True)
+    return primitive
 
 
 def _address(primitive: type) -> str:

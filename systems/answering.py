@@ -36,6 +36,8 @@ class Answering:
     viewers: Outlooks
     """What is kept for each viewer, by its name."""
 
+    _released = False
+
     def __init__(self, site: Site, world: World, *, live: bool) -> None:
         self.site: Site = site
         self.world = world
@@ -54,6 +56,11 @@ class Answering:
         return self.site.scene
 
     @property
+    def wind_failures(self) -> dict[str, str]:
+        """One sentence for each wind that is left out now, by its name, as `systems.failures` has them of systems."""
+        return {source.name: why for source, why in self.winds.quarantine.reasons.items()}
+
+    @property
     def time(self) -> float:
         """The scene's time [s], to the nearest microsecond: however it was cut into steps, it is the same instant.
 
@@ -64,6 +71,7 @@ class Answering:
 
     @time.setter
     def time(self, time: float) -> None:
+        self._must_be_there("set its time")
         must_be_time(time, "a prairie's time is set", "to")
         if time < self._clock:
             self.pressers.go_back()
@@ -73,6 +81,7 @@ class Answering:
 
     def advance(self, dt: float) -> None:
         """Move time on by `dt` [s]: ValueError below 0 and above 1e9 s, TypeError for what is no number."""
+        self._must_be_there("move its time on")
         must_be_step(dt)
         self._clock += float(dt)  # in single precision, time would soon stand still
         self.winds.pass_to(self.time)
@@ -95,10 +104,12 @@ class Answering:
 
     def height_at(self, xz: ArrayLike) -> Floats:
         """Return the height of the ground [m], shape (n,), at ground positions (x, z) [m], shape (n, 2)."""
+        self._must_be_there("ask about it")
         return height_at(self.site.ground.terrain, as_places(xz))
 
     def normal_at(self, xz: ArrayLike) -> Floats:
         """Return the ground's normals, unit vectors (x, y, z) of shape (n, 3), at ground positions as `height_at`."""
+        self._must_be_there("ask about it")
         return normal_at(self.site.ground.terrain, as_places(xz))
 
     def pick(self, origin: ArrayLike, direction: ArrayLike) -> Floats:
@@ -107,10 +118,12 @@ class Answering:
         They begin at `origin` [m] and go along `direction`, both of shape (n, 3), or (3,) for one; one origin may serve
         many directions. One that begins below the ground meets it there. Raises ValueError for what are no rays.
         """
+        self._must_be_there("ask about it")
         return pick(self.site.ground.terrain, *as_rays(origin, direction))
 
     def grass_at(self, xz: ArrayLike) -> GrassAt:
         """Return what grows at ground positions (x, z) [m], shape (n, 2), and how high it stands there now."""
+        self._must_be_there("ask about it")
         felt = partial(self._felt_at, time=self.time)
         return grass_at(self.site, self.clearings, self._mown, felt, as_places(xz))
 
@@ -121,6 +134,7 @@ class Answering:
         grass of stiffness 1. They are those of grass of a `kind`, or else of the kind that grows most densely at each
         place. Raises ValueError for an unknown kind and a time that is negative or not finite, TypeError for no time.
         """
+        self._must_be_there("ask about it")
         number, then = self.scene.number_of(kind), self.time if time is None else time
         must_be_time(then)
         return self.winds.at(as_places(xz), time=float(then), kind=number)
@@ -132,6 +146,7 @@ class Answering:
         has walked, they are the same. Every presser has come to where its `Pose` is now. Whether grass is cut, cleared
         or grows there at all makes no difference: `grass_at` tells. Raises ValueError for an unknown kind.
         """
+        self._must_be_there("ask about it")
         return self._felt_at(as_places(xz), self.scene.number_of(kind), time=self.time)
 
     def patch_at(self, xz: ArrayLike, *, viewer: str = "main") -> NDArray[np.int64]:
@@ -141,11 +156,16 @@ class Answering:
         for all before it has looked once. Raises ValueError for places that are no pairs, TypeError for a viewer that
         is no name.
         """
+        self._must_be_there("ask about it")
         must_be_viewer(viewer)
         cells = cell_of(as_places(xz), patch=self.site.ground.patch)
         if viewer not in self.viewers:
             return np.zeros(len(cells), np.int64)
         return self._entities(self.site).at(self.viewers[viewer], cells)
+
+    def _must_be_there(self, purpose: str) -> None:
+        if self._released:
+            raise RuntimeError(f"this prairie has been released: load it again to {purpose}")
 
     def _felt_at(self, place: Floats, kind: int | None, /, *, time: float) -> Floats:
         """Return what grass of a kind, or of the densest, feels at places (n, 2) [m] once all have come, (n, 2)."""

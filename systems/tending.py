@@ -22,7 +22,6 @@ from .shadows.feature import Shadows
 class Tending(Answering):
     """What can be changed of what stands on a site, until it is released."""
 
-    _released = False
     _origin = 0.0, 0.0, 0.0
     _seasons: Seasons
 
@@ -155,7 +154,3 @@ class Tending(Answering):
         """
         self._must_be_there("hand in shadow maps")
         one(Shadows, self.features).hand_in(maps, self._origin)
-
-    def _must_be_there(self, purpose: str) -> None:
-        if self._released:
-            raise RuntimeError(f"this prairie has been released: load it again to {purpose}")

@@ -11,7 +11,8 @@ from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
-from ...engine.scene.fields import Field, declared, inside
+from ...components.colour import LONG
+from ...components.field import Field, declared, inside
 from .values import NOTHING
 from .yaml_text import yaml_text
 
@@ -28,8 +29,6 @@ PULLED, TYPED = 3, 7
 
 EVERYWHERE = 1e6
 """Numbers of lists have this bound at least, which says nothing."""
-
-_COLOR = "#[0-9a-fA-F]{6}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,7 +111,7 @@ def _taken(field: Field) -> dict[str, Any]:
     """Return the form of a field, and what goes with it."""
     origin, limits = get_origin(field.annotation), _limits(field)
     choices = tuple(_literals(field.annotation))
-    if _COLOR in limits.get("pattern", ""):
+    if LONG in limits.get("pattern", ""):
         return {"form": "color"}
     if field.annotation in _PLAIN:
         return {"form": _PLAIN[field.annotation], **_bounds(limits)}

@@ -5,6 +5,7 @@ from typing import Any
 
 from imgui_bundle import imgui
 
+from ...components.colour import hex_of
 from ...engine.declared.scene import FORMAT
 from ...engine.scene import SceneError
 from ...engine.scene.compose import read_document
@@ -93,6 +94,7 @@ def _choice(key: Key, value: Any) -> Any:
 
 
 def _color(key: Key, value: str) -> Any:
+    value = str(hex_of(value))
     parts = [int(value[k : k + 2], 16) / 255.0 for k in (1, 3, 5)]
     changed, new = imgui.color_edit3(f"##{key.name}", parts, imgui.ColorEditFlags_.display_hex)
     found = "#" + "".join(f"{round(255.0 * min(max(part, 0.0), 1.0)):02x}" for part in list(new)[:3])

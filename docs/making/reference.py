@@ -140,7 +140,7 @@ def _word(declared: Schema) -> str:
     if "const" in declared or "enum" in declared:
         return " or ".join(f"`{value}`" for value in declared.get("enum", [declared.get("const")]))
     if "pattern" in declared:
-        return "a colour `#rrggbb`"
+        return "a colour, `#a8b65a` or `red`"
     words = {"integer": "a whole number", "number": "a number", "boolean": "`true` or `false`", "string": "a text"}
     return words[declared["type"]]
 

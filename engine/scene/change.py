@@ -5,13 +5,12 @@ from typing import TypeVar
 
 from pydantic import BaseModel, ValidationError
 
+from ...components.words import told
 from ..declared.grass import GrassKind
 from ..declared.scene import Scene
 from ..plugins import wind_kinds
-from .fields import Field, declared
 from .validate import validate
 from .values import values_document
-from .words import sentence
 
 Part = TypeVar("Part", bound=BaseModel)
 
@@ -24,10 +23,7 @@ def changed(part: Part, values: Mapping[str, object], /, *, name: str) -> Part:
     try:
         return type(part).model_validate(part.model_dump() | dict(values))
     except ValidationError as error:
-        whole, fields = Field(name, model=type(part)), type(part).model_fields
-        places = [(each, str(each["loc"][0])) for each in error.errors(include_url=False)]
-        told = [sentence(each, declared(key, fields[key]) if key in fields else whole) for each, key in places]
-        raise ValueError("; ".join(told)) from error
+        raise ValueError(told(error, type(part), name)) from error
 
 
 def changed_kind(scene: Scene, name: str, values: Mapping[str, object], /) -> GrassKind:

@@ -1,44 +1,16 @@
 """Which declared field a value of a scene file belongs to."""
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
-from types import NoneType, UnionType
-from typing import Annotated, Any, Union, get_args, get_origin
+from collections.abc import Callable
+from dataclasses import replace
+from typing import get_origin
 
-from pydantic import BaseModel
-from pydantic.fields import FieldInfo
-
+from ...components.field import Field, declared, inside
 from ...components.wind import WindPrimitive
 from ..declared.scene import Scene
 from .document import Node, Where
 
 FindKind = Callable[[str], type[WindPrimitive]]
 """Gives the class of a wind's kind, or raises ValueError with a sentence."""
-
-
-@dataclass(frozen=True, slots=True)
-class Field:
-    """A value's name, its declaration, and what may stand below it."""
-
-    name: str
-    """As people call it: `width`, `item 2 of path`."""
-
-    annotation: Any = None
-    """Its declared type, without what `Annotated` adds."""
-
-    limits: tuple[Any, ...] = ()
-    """What is declared of its range and length."""
-
-    description: str = ""
-    """What the field that holds it says of itself."""
-
-    model: type[BaseModel] | None = None
-    """What it declares, if it is a mapping of known keys."""
-
-    @property
-    def keys(self) -> tuple[str, ...]:
-        """The keys known at this value."""
-        return tuple(self.model.model_fields) if self.model else ()
 
 
 def field_at(root: Node, where: Where, /, *, find: FindKind) -> Field:
@@ -58,46 +30,9 @@ def field_at(root: Node, where: Where, /, *, find: FindKind) -> Field:
     return field
 
 
-def declared(name: str, info: FieldInfo, /) -> Field:
-    """Return the field that a model declares."""
-    annotation, more = _bare(info.annotation)
-    limits = (*info.metadata, *more)
-    return Field(name, annotation, limits, info.description or "", _model(annotation))
-
-
-def inside(field: Field, name: str, /) -> Field:
-    """Return the field of an item of a list, or of an entry of a mapping whose keys are free."""
-    inner = get_args(field.annotation)
-    annotation, limits = _bare(inner[-1]) if inner else (field.annotation, ())
-    return Field(name, annotation, limits, field.description, _model(annotation))
-
-
-def _bare(annotation: Any) -> tuple[Any, tuple[Any, ...]]:
-    """Return a type without `None` and without what `Annotated` adds, and the limits that this gives."""
-    others = [one for one in get_args(annotation) if one is not NoneType]
-    if get_origin(annotation) in (Union, UnionType) and len(others) == 1:
-        return _bare(others[0])
-    if get_origin(annotation) is not Annotated:
-        return annotation, ()
-    inner, *added = get_args(annotation)
-    bare, limits = _bare(inner)
-    return bare, (*(limit for one in added for limit in getattr(one, "metadata", ())), *limits)
-
-
 def _kind(node: Node, find: FindKind) -> type[WindPrimitive]:
     kind = node.data.get("kind") if isinstance(node.data, dict) else None
     try:
         return find(kind) if isinstance(kind, str) else WindPrimitive
     except ValueError:
         return WindPrimitive
-
-
-def _model(annotation: Any) -> type[BaseModel] | None:
-    return next(_models(annotation), None)
-
-
-def _models(annotation: Any) -> Iterator[type[BaseModel]]:
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        yield annotation
-    for argument in get_args(annotation):
-        yield from _models(argument)

@@ -13,7 +13,7 @@ _WIDEST = 120
 class Problem:
     """One thing wrong in a scene; its text is `file:line:column: what`, the line, and a caret.
 
-    Of values that a program hands in, it is `grass.meadow.height: what`.
+    Of values that a program hands in, it is `grass.meadow.height: what`; where there is no file, the sentence alone.
     """
 
     file: str
@@ -37,6 +37,8 @@ class Problem:
     def __str__(self) -> str:
         if self.key:
             return f"{printable(self.key)}: {printable(self.message)}"
+        if not self.file:
+            return printable(self.message)
         head = f"{printable(self.file)}:{self.line}:{self.column}: {printable(self.message)}"
         if not self.source_line:
             return head

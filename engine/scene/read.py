@@ -177,22 +177,22 @@ def _path(scene: str | Path) -> Path:
     if is_name and text in bundled:
         return bundled[text]
     if not text:
-        raise _no_file("<scene>", "this is an empty text, and no scene file's name")
+        raise _no_file("this is an empty text, and no scene file's name")
     path = Path(scene)
     mode = _mode(path)
     if S_ISREG(mode):
         return path
     if mode:
-        raise _no_file(text, f"this is {_irregular(mode)}, not a scene file")
+        raise _no_file(f"'{text}' is {_irregular(mode)}, not a scene file")
     if is_name:
         near = get_close_matches(text, bundled, n=1)
         guess = f"; did you mean '{near[0]}'?" if near else ";"
-        raise _no_file(text, f"no scene file '{text}'{guess} bundled: {', '.join(bundled)}")
-    raise _no_file(text, f"no scene file '{text}'{_guess(path)}")
+        raise _no_file(f"no scene file '{text}'{guess} bundled: {', '.join(bundled)}")
+    raise _no_file(f"no scene file '{text}'{_guess(path)}")
 
 
-def _no_file(file: str, message: str) -> SceneError:
-    return SceneError([Problem(file, 1, 1, message)])
+def _no_file(message: str) -> SceneError:
+    return SceneError([Problem("", 1, 1, message)])
 
 
 def _bytes(path: Path) -> bytes:
@@ -200,7 +200,7 @@ def _bytes(path: Path) -> bytes:
         with path.open("rb") as stream:
             return stream.read(MOST_BYTES + 1)
     except OSError as error:
-        raise _no_file(str(path), f"the file cannot be read: {error.strerror}") from error
+        raise _no_file(f"'{path}' cannot be read: {error.strerror}") from error
 
 
 def _missing_files(document: Document, folder: Path, given: Container[str]) -> Iterator[Problem]:

@@ -1,12 +1,17 @@
 """What libyaml finds wrong with a text, in plain words."""
 
+import re
+
 import yaml
+
+from ...components.colour import LONG, SHORT
 
 DEEPEST = 64
 """Most levels of nesting; libyaml's own composer overflows the stack at some ten thousand."""
 
 TOO_DEEP = f"nested more than {DEEPEST} levels deep"
 
+_BARE_COLOUR = re.compile(rf"[:,\[]\s+({LONG}|{SHORT})\b")
 _UNCLOSED = "the quote that opens here is never closed"
 _WORDS: dict[str, str] = {
     "mapping values are not allowed in this context": (
@@ -36,8 +41,21 @@ def explain(error: yaml.MarkedYAMLError, lines: list[str]) -> tuple[int, int, st
         return context.line, context.column, _UNCLOSED
     if problem == "found character that cannot start any token":
         return mark.line, mark.column, _cannot_start(lines, mark.line, mark.column)
+    comment = _comment(lines, context.line, mark.line) if "expected ','" in problem else None
+    if comment is not None:
+        line, column, colour = comment
+        return line, column, f"a colour needs quotes, '{colour}', because # begins a comment"
     words = _WORDS.get(problem, "this is not YAML: " + problem.replace("{", "{{").replace("}", "}}"))
     return mark.line, mark.column, words.format(context=f"{context.line + 1}:{context.column + 1}")
+
+
+def _comment(lines: list[str], first: int, last: int) -> tuple[int, int, str] | None:
+    """Return where a colour without quotes has begun a comment, and the colour; None where none has."""
+    for line in range(first, min(last + 1, len(lines))):
+        found = _BARE_COLOUR.search(lines[line])
+        if found:
+            return line, found.start(1), found[1]
+    return None
 
 
 def _cannot_start(lines: list[str], line: int, column: int) -> str:

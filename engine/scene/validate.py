@@ -8,12 +8,12 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from ...components.declaration import DeclarationError
+from ...components.words import found, sentence
 from ..declared.scene import FORMAT, Reading, Scene
 from .document import Document, Where
 from .fields import FindKind, field_at
 from .problem import MOST_PROBLEMS, Problem, SceneError
 from .version import FIRST, upgrade
-from .words import found, sentence
 
 
 def validate(

@@ -1,6 +1,5 @@
 """Haze that a game gives: the colours of its own sky along the horizon."""
 
-import re
 from collections.abc import Callable, Mapping
 from reprlib import repr as shortened
 
@@ -9,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
+from ...components.colour import hex_of, is_colour
 from ...engine.handed import as_floats
 from ..frame.block import FrameBlock
 from ..frame.feature import Feature, Part
@@ -30,9 +30,10 @@ def colours_around(haze: Haze, /) -> Doubles:
     """Return the colours of a haze all around, shape (`AROUND`, 3); raises ValueError for what are none."""
     due = "haze has a colour, (red, green, blue) of 0 and more or one such as '#a0b0c0'"
     if isinstance(haze, str):
-        if not re.fullmatch("#[0-9a-fA-F]{6}", haze):
+        colour = str(hex_of(haze))
+        if not is_colour(colour):
             raise ValueError(f"{due}, not {shortened(haze)}")
-        return np.tile(srgb(haze), (AROUND, 1))
+        return np.tile(srgb(colour), (AROUND, 1))
     asked = haze(np.stack([_X, np.zeros(AROUND), _Z], axis=1)) if callable(haze) else haze
     found = as_floats(asked, due)
     if found.shape not in {(3,), (AROUND, 3)} or found.min() < 0.0:

@@ -80,6 +80,18 @@ def dust(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> WindKinds:
     return WindKinds(entries)
 
 
+def test_a_wind_that_does_not_say_its_kind_is_of_the_one_that_it_is_registered_as() -> None:
+    @wind("hush")
+    class Hush(Calm):
+        """A wind without a `kind` of its own."""
+
+    assert Hush().kind == "hush"  # type: ignore[call-arg]
+    (made,) = parse_scene("tallgrass: 2\ngrass: { lawn: {} }\nwind: [{ kind: hush }]").wind
+    assert type(made) is Hush
+    with pytest.raises(ValueError, match=r"^Calm: the key 'kind' is missing$"):
+        Calm()  # type: ignore[call-arg]
+
+
 def test_d5_the_built_in_breeze_comes_through_its_entry_point() -> None:
     assert [entry.dist.name for entry in entry_points(group=GROUP) if entry.dist and entry.name == "breeze"] == [
         "tallgrass"

@@ -87,3 +87,7 @@ def test_a_reference_is_drawn_in_all_winds_however_slow_they_are(
     assert len(caplog.messages) == 1
     stage.shot(prairie)
     assert len(prairie.winds.quarantine.reasons) == 1
+    ((name, why),) = prairie.wind_failures.items()
+    assert name == "steady"
+    assert why.startswith("steady: ")
+    assert "takes too long" in why

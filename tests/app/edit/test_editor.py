@@ -103,7 +103,7 @@ def test_of_many_changes_while_grass_grows_the_last_one_is_what_comes(editor: Ed
         (("light", "elevation"), 100.0, "elevation must be between 0 and 90 degrees, found 100"),
         (("grass", "low", "height", 0), 0.5, "height must be [shortest, tallest], rising, between 0.02 and 5 m"),
         (("wind", 1, "kind"), "wirlwind", "did you mean 'whirlwind'?"),
-        (("grass", "low", "tip"), "green", "tip must be a colour such as '#2f4019'"),
+        (("grass", "low", "tip"), "greenish", "tip must be a colour such as '#2f4019'"),
         (("seed",), 1.5, "seed must be a whole number"),
         (("grass", "high", "place", "map"), "hihg.png", "no file 'hihg.png'"),
         (("grass", "high", "place"), {"map": "little.yaml"}, "little.yaml"),

@@ -26,7 +26,11 @@ def test_of_an_endless_line_only_the_surroundings_are_shown() -> None:
 
 
 def test_a_problem_without_a_line_is_one_line() -> None:
-    assert str(Problem("medow", 1, 1, "no scene file 'medow'")) == "medow:1:1: no scene file 'medow'"
+    assert str(Problem("f", 1, 1, "the file is UTF-16")) == "f:1:1: the file is UTF-16"
+
+
+def test_a_problem_without_a_file_is_its_sentence() -> None:
+    assert str(Problem("", 1, 1, "no scene file 'medow'")) == "no scene file 'medow'"
 
 
 def test_an_error_tells_its_problems_in_the_order_of_the_file() -> None:

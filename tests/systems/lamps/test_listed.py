@@ -34,7 +34,7 @@ def test_everything_that_reaches_a_place_is_in_its_cells_list(count: int, far: f
 @pytest.mark.parametrize(
     ("keys", "why"),
     [
-        ({"colour": "red"}, "a lamp's colour is written '#rrggbb', not 'red'"),
+        ({"colour": "reddish"}, "a lamp's colour is one such as '#ffd9a6' or 'orange', not 'reddish'"),
         ({"candela": -1.0}, "a lamp's candela is from 0 to 1e+07, not -1.0"),
         ({"candela": float("nan")}, "a lamp's candela is from 0 to 1e+07, not nan"),
         ({"range": 0.0}, "a lamp's range is above 0 m, at most 1000 m, not 0.0"),
@@ -46,3 +46,10 @@ def test_what_cannot_shine_is_refused_in_a_sentence(keys: dict[str, object], why
     with pytest.raises(ValueError, match="a lamp's") as caught:
         Lamp(**keys)  # type: ignore[arg-type]
     assert str(caught.value) == why
+
+
+@pytest.mark.parametrize("colour", ["orange", "Orange", "#fa0", "#FFA500"])
+def test_a_lamp_takes_a_colour_by_name_and_in_short(colour: str) -> None:
+    lamp = Lamp(colour)
+    assert lamp.colour.lower() in {"#ffa500", "#ffaa00"}
+    assert lamp.colour.startswith("#")

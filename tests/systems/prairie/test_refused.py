@@ -1,6 +1,7 @@
 """What a prairie refuses in a sentence, and what it answers all the same (N4, D5)."""
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -158,6 +159,25 @@ def test_a_place_far_beyond_any_prairie_is_answered_without_a_warning(prairie: P
 
 
 @pytest.mark.parametrize(
+    ("values", "said"),
+    [
+        ({"pos": [0, 0]}, "Gust: unknown key 'pos', did you mean 'position'?"),
+        ({"strength": 3}, "Gust: strength must be between 0 and 1, found 3"),
+        ({"position": [0, "x"]}, "Gust: item 2 of position must be a number, found the text 'x'"),
+        ({"start": 4.0, "stop": 3.0}, "Gust: stop must be later than start, which is 4 s"),
+        (
+            {"hold": "long", "reech": 9},
+            "Gust: hold must be a number, found the text 'long'; unknown key 'reech', did you mean 'reach'?",
+        ),
+    ],
+)
+def test_a_wind_of_bad_values_is_refused_in_the_sentences_that_a_scene_gets(values: dict[str, Any], said: str) -> None:
+    with pytest.raises(ValueError, match=r"^Gust: ") as caught:
+        Gust(**values)
+    assert str(caught.value) == said
+
+
+@pytest.mark.parametrize(
     ("wind", "said"),
     [
         ("gust", "its name 'gust'"),
@@ -270,6 +290,20 @@ def test_a_released_prairie_says_so_when_it_is_asked_for_more(prairie: Prairie) 
         ("put it into a batch", lambda: prairie.group(object(), lambda: (GOOD, GOOD))),  # type: ignore[arg-type]
         ("add a wind", lambda: prairie.add(Gust())),
         ("move a wind", lambda: prairie.move(handle, Pose())),
+        ("move its time on", lambda: prairie.advance(0.1)),
+        ("set its time", lambda: setattr(prairie, "time", 1.0)),
+        *(
+            ("ask about it", partial(ask, [(0.0, 0.0)]))
+            for ask in (
+                prairie.height_at,
+                prairie.normal_at,
+                prairie.grass_at,
+                prairie.wind_at,
+                prairie.bent_at,
+                prairie.patch_at,
+            )
+        ),
+        ("ask about it", lambda: prairie.pick((0.0, 9.0, 0.0), (0.0, -1.0, 0.0))),
     ]
     for purpose, ask in asked:
         with pytest.raises(RuntimeError, match=f"^this prairie has been released: load it again to {purpose}$"):

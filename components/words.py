@@ -9,7 +9,8 @@ import numpy as np
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-from .fields import Field, inside
+from .colour import LONG, nearest
+from .field import Field, declared, inside
 
 _WANTED = {
     "float_type": "a number",
@@ -22,7 +23,6 @@ _WANTED = {
     "model_type": "a mapping of keys",
     "finite_number": "a finite number",
 }
-_COLOR = "#[0-9a-fA-F]{6}"
 _UNIT = re.compile(r"\[([a-z/]{1,12})\]")
 _DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+")
 _WITH_UNIT = re.compile(r"([-+]?[\d.]+)\s*[a-zA-Z°%/]+")
@@ -37,10 +37,25 @@ def sentence(error: ErrorDetails, field: Field, /) -> str:
     return say(error, field) if say else f"{field.name}: {error['msg']}"
 
 
+def told(error: ValidationError, model: type[BaseModel], name: str, /) -> str:
+    """Return what is wrong with the values of a model that is called `name`, a sentence for each of them."""
+    return "; ".join(sentence(each, _field_of(each, model, name)) for each in error.errors(include_url=False))
+
+
+def _field_of(error: ErrorDetails, model: type[BaseModel], name: str) -> Field:
+    key, *steps = error["loc"] or ("",)
+    if key not in model.model_fields:
+        return Field(name, model=model)
+    field = declared(str(key), model.model_fields[str(key)])
+    for step in steps:
+        field = inside(field, f"item {step + 1} of {field.name}") if isinstance(step, int) else field
+    return field
+
+
 def suggestion(word: str, known: Iterable[str], /) -> str:
     """Return what follows an unknown word: the known one it resembles, or else all that are known."""
     words = sorted(known)
-    near = get_close_matches(word, words, n=1)
+    near = get_close_matches(word, words, n=1) or [each for each in words if len(word) > 2 and each.startswith(word)]
     if near:
         return f", did you mean '{near[0]}'?"
     return f"; known: {', '.join(words)}" if words else ""
@@ -101,9 +116,12 @@ def _of_length(error: ErrorDetails, field: Field) -> str:
 
 
 def _of_pattern(error: ErrorDetails, field: Field) -> str:
-    pattern = error["ctx"]["pattern"]
-    wanted = "a colour such as '#2f4019'" if _COLOR in pattern else f"text of the form {pattern}"
-    return f"{field.name} must be {wanted}, found {found(error['input'])}"
+    pattern, text = error["ctx"]["pattern"], str(error["input"])
+    if LONG not in pattern:
+        return f"{field.name} must be text of the form {pattern}, found {found(text)}"
+    near = nearest(text)
+    guess = f", did you mean '{near}'?" if near else ""
+    return f"{field.name} must be a colour such as '#2f4019' or 'orange', found {found(text)}{guess}"
 
 
 def _number(value: float) -> str:
@@ -126,7 +144,7 @@ def _limits(field: Field) -> dict[str, Any]:
 
 
 def _hint(kind: str, value: object, field: Field) -> str:
-    if value is None and kind == "string_type" and _COLOR in _limits(field).get("pattern", ""):
+    if value is None and kind == "string_type" and LONG in _limits(field).get("pattern", ""):
         return "; a colour needs quotes, '#2f4019', because # begins a comment"
     if value is None and kind == "model_type" and _needs_nothing(field.model):
         return "; write {} to leave everything at its default"

@@ -1,0 +1,72 @@
+"""A declared field of a scene: its name, its type, and what may stand below it."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from types import NoneType, UnionType
+from typing import Annotated, Any, Union, get_args, get_origin
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """A value's name, its declaration, and what may stand below it."""
+
+    name: str
+    """As people call it: `width`, `item 2 of path`."""
+
+    annotation: Any = None
+    """Its declared type, without what `Annotated` adds."""
+
+    limits: tuple[Any, ...] = ()
+    """What is declared of its range and length."""
+
+    description: str = ""
+    """What the field that holds it says of itself."""
+
+    model: type[BaseModel] | None = None
+    """What it declares, if it is a mapping of known keys."""
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """The keys known at this value."""
+        return tuple(self.model.model_fields) if self.model else ()
+
+
+def declared(name: str, info: FieldInfo, /) -> Field:
+    """Return the field that a model declares."""
+    annotation, more = _bare(info.annotation)
+    limits = (*info.metadata, *more)
+    return Field(name, annotation, limits, info.description or "", model_of(annotation))
+
+
+def inside(field: Field, name: str, /) -> Field:
+    """Return the field of an item of a list, or of an entry of a mapping whose keys are free."""
+    inner = get_args(field.annotation)
+    annotation, limits = _bare(inner[-1]) if inner else (field.annotation, ())
+    return Field(name, annotation, limits, field.description, model_of(annotation))
+
+
+def _bare(annotation: Any) -> tuple[Any, tuple[Any, ...]]:
+    """Return a type without `None` and without what `Annotated` adds, and the limits that this gives."""
+    others = [one for one in get_args(annotation) if one is not NoneType]
+    if get_origin(annotation) in (Union, UnionType) and len(others) == 1:
+        return _bare(others[0])
+    if get_origin(annotation) is not Annotated:
+        return annotation, ()
+    inner, *added = get_args(annotation)
+    bare, limits = _bare(inner)
+    return bare, (*(limit for one in added for limit in getattr(one, "metadata", ())), *limits)
+
+
+def model_of(annotation: Any, /) -> type[BaseModel] | None:
+    """Return the first model among the parts of a type, if there is any."""
+    return next(_models(annotation), None)
+
+
+def _models(annotation: Any) -> Iterator[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for argument in get_args(annotation):
+        yield from _models(argument)
