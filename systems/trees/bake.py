@@ -16,12 +16,6 @@ CARD = 256
 LEVELS = 5
 """Sizes of a picture that are kept, each half the one before: coarser ones would mix neighbours."""
 
-EDGE = 0.45
-"""Coverage that lies over as much of a picture at all its sizes: between `CARD_EDGE` and `FAR_EDGE` of the shaders."""
-
-MOST_RAISED = 12.0
-"""By how much coverage is raised at most: what hardly covers anything is left faint."""
-
 DEPTHS = 4.0, 2.0
 """How far the pictures of a tree and of a twig go to the front and back: half sides, and usual lengths."""
 
@@ -60,18 +54,15 @@ def pictures(ctx: moderngl.Context, columns: int, rows: int, side: int, draw: Dr
 def smaller(texels: Bytes, /) -> list[Bytes]:
     """Return two layers (2, rows, columns, 4) of what was drawn, `FINER` times too large, at `LEVELS` sizes.
 
-    Texels are premultiplied by the last channel of the first layer, the coverage. Means of what is thin would fall
-    below `EDGE`: they are raised until as much lies above it as at first
-    (Castaño, Computing Alpha Mipmaps, 2010).
+    Texels are premultiplied by the last channel of the first layer, the coverage: each is the mean of what it shows.
     """
     values = texels.astype(np.float32)
     values[1] *= np.float32(1.0 / 255.0) * values[0, ..., 3:]
     for _ in range(FINER.bit_length() - 1):
         values = _halved(values)
-    whole = float((values[0, ..., 3] > 255.0 * EDGE).mean())
     found = []
     for _ in range(LEVELS):
-        found.append(_raised(values, whole))
+        found.append(np.ascontiguousarray(np.round(values).astype(np.uint8)))
         values = _halved(values)
     return found
 
@@ -82,15 +73,6 @@ def _halved(values: Floats) -> Floats:
         quarter * (values[:, ::2, ::2] + values[:, 1::2, ::2] + values[:, ::2, 1::2] + values[:, 1::2, 1::2]),
         np.float32,
     )
-
-
-def _raised(values: Floats, whole: float) -> Bytes:
-    cover = values[0, ..., 3]
-    there = np.sort(cover.reshape(-1))
-    at = there[min(int(len(there) * (1.0 - whole)), len(there) - 1)]
-    factor = np.clip(255.0 * EDGE / max(float(at), 1.0), 1.0, MOST_RAISED)
-    raised = np.minimum(cover * factor, 255.0) / np.maximum(cover, 1e-3)
-    return np.ascontiguousarray(np.round(np.minimum(values * raised[None, ..., None], 255.0)).astype(np.uint8))
 
 
 def from_around(number: int, middle: float, half: float, /) -> Doubles:

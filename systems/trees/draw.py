@@ -22,10 +22,13 @@ from .programs import Programs
 from .shade import ShadeMap
 from .standing import Standing, shown
 from .twig import LEAF_PIXELS
-from .wood import AWAY, SWAYS, THINNEST
+from .wood import AWAY, OPAQUE, SWAYS, THINNEST
 
 EVERY_LEAF = -2.0, -1.0
 """What is told in place of `LEAF_PIXELS` where all twigs are drawn leaf by leaf."""
+
+CASTS = 0.5
+"""Coverage of a shadow map's texel from which on leaves are all of it."""
 
 NEAREST = 0.1
 """How far off a tree's middle counts as at least [m]."""
@@ -207,7 +210,7 @@ class TreePart(Part):
         return self._draw(soft=False)
 
     def cast(self, light: tuple[float, float, float], /) -> int:
-        """Write the depth of all that covers texels of a shadow map wholly."""
+        """Write the depth of all that covers most of a texel of a shadow map."""
         del light
         return self._draw(soft=False, all_wood=True)
 
@@ -231,6 +234,7 @@ class TreePart(Part):
     def _draw_model(self, kind: KindOnCard, model: ModelOnCard, *, soft: bool, all_wood: bool) -> int:
         assert self._programs is not None
         calls, told = 0, None
+        numbers = {**self._numbers, "solid_from": (CASTS if all_wood else OPAQUE,)}
         sorts = (
             *((WOOD, name, *_wood(model, name, soft=soft, whole=all_wood)) for name in WOODS),
             (LEAVES, LEAVES, 0, QUAD * kind.habit.leaf.quads * model.most[LEAVES]),
@@ -243,7 +247,7 @@ class TreePart(Part):
                 array = self._programs.array(sort, stream, model, soft=soft)
                 if told is not array.program:
                     told = array.program
-                    kind.tell(told, model, self._numbers)
+                    kind.tell(told, model, numbers)
                 array.render(moderngl.TRIANGLES, first=first, vertices=vertices, instances=stream.count)
                 calls += 1
         return calls

@@ -27,9 +27,7 @@ const vec2 SHIMMER_HERTZ = vec2(1.7, 1.3);  // how fast limbs swing, along and a
 const float SHIMMER_TURNS = 15.0;  // how much their swing changes over a crown [rad]
 const float SHIMMER = 0.12;  // how far they seem to swing, of how far they do, of a picture
 const float HIDES_MOST = 0.96;  // of the sun's light, where leaves cover a texel wholly
-const float FAR_EDGE = 0.42;  // coverage at which a tree's edge lies
 const float COMES = 1.5;  // how much sooner it is all there than twigs are left to it
-const float LEAST_SLOPE = 0.04;  // coverage that changes at least from pixel to pixel, at an edge
 const float WOOD_SENDS = 0.6;  // what white wood sends to an eye that has the sun behind it, of what a leaf facing all ways does
 const float FACES_UP = 0.5;  // how far up what is seen of a crown looks, -1 to 1
 
@@ -62,8 +60,8 @@ void main() {
     pixel = vec4(leaves, leaves * dot(seen_at, sun), 0.0, 0.0);
 #else
     float wood = texel.g / max(texel.a, LEAST_COVER);
-    texel *= mix(sun_own.w, 1.0, wood);  // of few leaves, those are left that stand densest
-    float cover = sharpened(texel.a, mix(1.0, FAR_EDGE, clamp(sunlit.a * COMES, 0.0, 1.0)), LEAST_SLOPE);
+    texel *= mix(sun_own.w, 1.0, wood);
+    float cover = texel.a * clamp(sunlit.a * COMES, 0.0, 1.0);
     vec4 shading = unpacked_shading(mixed_texel(at, 1.0) / max(texel.a, LEAST_COVER));
     must_cover(cover);
     float seen = through_crown(shading, sun_own.xyz, sun_own.w);

@@ -20,13 +20,17 @@ vec4 unpacked_shading(vec4 texel) {
     return vec4((2.0 * texel.xyz - 1.0) * SHADING.x, texel.w * SHADING.y);
 }
 
+#ifndef SOFT
+uniform float solid_from;  // coverage from which on a pixel is drawn: `OPAQUE` in the picture, half in a shadow map
+#endif
+
 // Leaves out what the other way draws.
 void must_cover(float cover) {
 #ifdef SOFT
     if (cover >= OPAQUE || cover < FAINTEST)
         discard;
 #else
-    if (cover < OPAQUE)
+    if (cover < solid_from)
         discard;
 #endif
 }

@@ -21,9 +21,23 @@ layout(location = 1) out vec4 second;
 out vec4 pixel;
 #endif
 
-const float CARD_EDGE = 0.5;  // coverage at which a card's edge lies
-const float LEAST_SLOPE = 0.02;  // coverage that changes at least from pixel to pixel there
+const float FINER_BY = -0.7;  // level of a card's picture: cards are seen askew, which would blur them
 const float VEIN = 0.05, RIBBED = 0.8;  // how broad a leaf's midrib is, and how much of its tone others have
+
+#ifdef BAKED
+const vec4 BAYER = vec4(0.125, 0.625, 0.875, 0.375);  // thresholds of two by two pixels, which are one in the end
+const float APART = 7.0;  // how many times as much as their tones twigs' thresholds differ
+
+// Coverage from which on a pixel is drawn: those of a texel have different ones, and each twig has its own order of them.
+float threshold() {
+#ifdef LEAVES
+    return 0.5;
+#else
+    ivec2 pixel_at = ivec2(gl_FragCoord.xy) & 1;
+    return fract(BAYER[2 * pixel_at.y + pixel_at.x] + APART * across_card.w);
+#endif
+}
+#endif
 
 void main() {
     float tone, wood = 0.0, cover;
@@ -34,16 +48,15 @@ void main() {
     tone = inside.x * mix(1.0, RIBBED, 1.0 - smoothstep(0.0, VEIN, abs(on.x)));
 #else
     vec2 at = vec2(0.5 + 0.5 * on.x, on.y);
-    vec4 texel = texture(tree_cards, vec3(at, 0.0)), lie = texture(tree_cards, vec3(at, 1.0));
-    // Of a tuft of needles, each is thinner than a pixel: an edge around all of them would make a leaf of it.
-    cover = form == NEEDLES ? texel.a : sharpened(texel.a, CARD_EDGE, LEAST_SLOPE);
+    vec4 texel = texture(tree_cards, vec3(at, 0.0), FINER_BY), lie = texture(tree_cards, vec3(at, 1.0), FINER_BY);
+    cover = texel.a;  // leaves are thinner than a pixel: an edge around them would make one leaf of a twig
     tone = texel.r / max(texel.a, LEAST_COVER) * across_card.w;
     wood = texel.g / max(texel.a, LEAST_COVER);
     vec3 turned_by = 2.0 * lie.rgb / max(lie.a, LEAST_COVER) - 1.0;
     normal = normalize(turned_by.x * across_card.xyz + turned_by.y * along_card + turned_by.z * normal);
 #endif
 #ifdef BAKED
-    if (cover < 0.5)
+    if (cover <= threshold())
         discard;
     pixel = vec4(clamp(tone, 0.0, 1.0), wood, 0.0, 1.0);
 #ifdef LEAVES

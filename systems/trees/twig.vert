@@ -185,6 +185,22 @@ void stand(Twig twig, vec3 own, vec3 aside, float length_of, float high_up, vec4
 }
 #endif
 
+// Which way a twig's card faces: needles stand all around theirs, so that turns to the eye.
+vec3 face_of(Twig twig) {
+#ifdef LEAVES
+    return twig.face;
+#else
+    if (form != NEEDLES)
+        return twig.face;
+#ifdef BAKED
+    vec3 to = -vec3(baked[0].z, baked[1].z, baked[2].z);
+#else
+    vec3 to = turned_back(eye - root) - scale * twig.foot;
+#endif
+    return normalize(to - dot(to, twig.along) * twig.along + ASKEW * twig.face);
+#endif
+}
+
 void main() {
     int number = gl_VertexID / 4, each = 1;
 #ifdef LEAVES
@@ -203,8 +219,10 @@ void main() {
         return;
     }
     vec3 normal, shape = corner_on(one, twig, number % each, size, on = corner_of(gl_VertexID), normal);
+    one.face = face_of(one);
     vec3 aside = cross(one.along, one.face);
     float length_of = size * one.length;
+    one.foot -= 0.5 * max(length_of - one.length, 0.0) * one.along;  // it is larger about its middle: a crown stays as wide
     vec3 own = length_of * (shape.x * aside + shape.y * one.along + shape.z * one.face);
     facing = normal.x * aside + normal.y * one.along + normal.z * one.face;
 #ifdef BAKED
