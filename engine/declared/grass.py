@@ -88,7 +88,7 @@ class GrassKind(Declaration):
     """How many blades of grass are dead: of the colour of tips down to the root, thinner, and bent."""
 
     understorey: float = Field(default=0.9, ge=0.0, le=1.0)
-    """How much of the ground low leaves cover beneath it at full density, of the two thirds that they cover at most."""
+    """How much low leaves cover the ground beneath it: at 1 and full density, two thirds of it."""
 
     root: Color = "#4b6128"
     """Colour at the root."""

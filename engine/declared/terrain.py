@@ -17,14 +17,14 @@ class TerrainSource(Declaration):
     heights: FileOrArray | None = None
     """Elevation map file, relative to the scene file: 16-bit grey .png, .r16 or .raw, .npy, or .tif (GeoTIFF too).
 
-    Cells longer than 2.5 m are divided by a smooth surface; a map wider than 10240 m is cut to its middle. What says
-    how noise looks, `seed` and `feature`, may stay beside it and has no effect."""
+    A smooth surface divides cells longer than 2.5 m. A map wider than 10240 m is cut to its middle. `seed` and
+    `feature`, which are for noise, have no effect beside it."""
 
     holes: PictureOrArray | None = None
-    """Picture or array laid over the whole terrain: where its first channel is above half there is no ground.
+    """Picture or array over the whole terrain: where its first channel is above half there is no ground and no grass.
 
-    Mouths of caves, cellars, wells: neither ground nor grass is drawn there. NaN in `heights` (.npy or an array) is
-    a hole as well. Heights in holes are as smooth as those around them suggest."""
+    It is for mouths of caves, cellars and wells. NaN in `heights` (.npy or an array) is a hole as well. Heights go on
+    smoothly across holes."""
 
     noise: Literal["flat", "rolling", "hills", "ridges"] | None = None
     """A landscape made from noise instead of a file; without either, the ground is flat."""

@@ -20,8 +20,8 @@ MOST = 20_000
 class TreeKind(Declaration):
     """A kind of tree or bush: how it grows, and where.
 
-    It stands at the `positions` that are written, along `rows`, and where its `density` brings it. Where it stands too
-    near to another tree, the later one is left out.
+    Trees stand at `positions`, along `rows`, and by `density`. Where two would stand too near, the later one is left
+    out.
     """
 
     habit: HabitName
@@ -31,7 +31,7 @@ class TreeKind(Declaration):
     """Lowest and highest tree [m]; without it, what suits the habit."""
 
     foliage: float = Field(default=1.0, gt=0.0, le=1.0)
-    """How many of its leaves it has: less is an autumn's or an ailing tree's."""
+    """How many of its leaves it has, as a part of all: fewer in autumn, or where it ails."""
 
     leaf: Color | None = None
     """Colour of leaves in the sun; without it, what suits the habit."""
@@ -43,25 +43,25 @@ class TreeKind(Declaration):
     """How far trees differ in brightness and hue from one another, as a fraction."""
 
     positions: list[Pair] = Field(default=[], max_length=MOST)
-    """Where single ones stand, ground positions (x, z) [m]."""
+    """Where single trees stand, ground positions (x, z) [m]."""
 
     rows: list[Annotated[list[Pair], Field(min_length=2, max_length=1000)]] = Field(default=[], max_length=1000)
-    """Lines of ground positions (x, z) [m] along which they stand, `spacing` apart: avenues and hedges."""
+    """Lines of ground positions (x, z) [m] with trees along them, `spacing` apart: avenues and hedges."""
 
     spacing: float = Field(default=6.0, ge=0.3, le=1000.0)
-    """How far one stands from the next in a row, and at least among those that `density` brings [m]."""
+    """Distance from tree to tree in a row, and the least distance among those of `density` [m]."""
 
     density: float = Field(default=0.0, ge=0.0, le=5000.0)
-    """How many more grow on a hectare, as many as there is room for."""
+    """How many trees a hectare has besides, as far as there is room."""
 
     groves: float = Field(default=0.0, ge=0.0, le=1.0)
-    """How much those stand together in groves: 0 is all over, 1 leaves open ground between dense groves."""
+    """How much trees of `density` stand together: 0 is all over, 1 leaves open ground between dense groves."""
 
     among: str | None = None
-    """Name of a kind of grass: those grow as densely as its map has it; without it, everywhere."""
+    """Name of a kind of grass: trees of `density` stand where its map has it. Without it, everywhere."""
 
     slope: float = Field(default=40.0, ge=0.0, le=90.0)
-    """Steepest slope that those grow on [degrees]."""
+    """Steepest slope that trees of `density` stand on [degrees]."""
 
     @model_validator(mode="after")
     def _stands_apart(self) -> "TreeKind":

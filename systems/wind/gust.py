@@ -78,7 +78,7 @@ class Gust(WindPrimitive):
     """Shortest and longest time after which it comes again, at random; without it, it comes once [s]."""
 
     wander: float = Field(default=0.0, ge=0.0, le=10000.0)
-    """How far to either side the place it sets out from may be when it comes again [m]."""
+    """How far to either side of `position` it may set out when it comes again [m]."""
 
     @model_validator(mode="after")
     def _sensible_intervals(self) -> Self:
