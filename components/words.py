@@ -70,7 +70,7 @@ def found(value: object, /) -> str:
             return str(value).lower()
         case str():
             return f"the text '{value}'" if len(value) <= 40 else f"the text '{value[:40]}...'"
-        case list():
+        case list() | tuple():
             return f"a list of {len(value)}"
         case dict():
             return "a mapping of keys"
@@ -109,7 +109,7 @@ def _out_of_range(error: ErrorDetails, field: Field) -> str:
 
 def _of_length(error: ErrorDetails, field: Field) -> str:
     value, limits = error["input"], _limits(field) | error["ctx"]
-    if isinstance(value, list):
+    if isinstance(value, list | tuple):
         return f"{field.name} must be {_list(field)}, found {len(value)}"
     least, most = limits.get("min_length", 0), limits.get("max_length", "any number of")
     return f"{field.name} must have {least} to {most} entries, found {len(value)}"
