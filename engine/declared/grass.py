@@ -51,7 +51,9 @@ class GrassKind(Declaration):
     """
 
     plant: Plant = "grass"
-    """What kind of plant it is: blades of grass; flowers on stems; forbs with broad leaves along theirs; low shrubs."""
+    """What kind of plant it is: blades of grass; flowers on stems; forbs with broad leaves along theirs; low shrubs.
+
+    Flowers, forbs and shrubs are lower than grass, unless `height` says more."""
 
     height: Annotated[Pair, rising("height must be [shortest, tallest]", 0.02, 5.0)] = Field(default=[0.4, 0.7])
     """Shortest and tallest blade, stem or branch, measured along it [m]."""

@@ -12,7 +12,7 @@ class Light(Declaration):
     """Direction the sun stands in without an `hour`, as a camera's yaw: 0 is -z, 90 is +x [degrees]."""
 
     elevation: float = Field(default=35.0, ge=0.0, le=90.0)
-    """Height of the sun above the horizon without an `hour` [degrees]."""
+    """Height of the sun above the horizon without an `hour` [degrees]; dusk and night, below it, need an `hour`."""
 
     hour: float | None = Field(default=None, ge=0.0, le=24.0)
     """Solar time of day [h], 12 is noon: it gives azimuth and elevation, with the day and the latitude; -z is north.

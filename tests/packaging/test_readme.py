@@ -71,7 +71,7 @@ def test_the_system_that_a_game_adds_bends_the_grass() -> None:
             step(prairie, Phase.BLOW)
         under = receivers_of(prairie).near(0.0, 26.0, within=0.9)
         assert len(under) > 100
-        assert np.allclose(under.message, (0.0, -0.9))
+        assert np.allclose(under.message, (0.9, 0.0))
         prairie.release()
 
 
