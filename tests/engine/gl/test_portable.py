@@ -85,6 +85,14 @@ def test_d6_the_edges_of_smooth_steps_are_in_their_order(name: str) -> None:
                 assert first < worth(high, known, some), f"{place}: {low}, {high}"
 
 
+@pytest.mark.parametrize("name", STAGES)
+def test_d6_angles_are_asked_of_no_sine_above_1(name: str) -> None:
+    for place, text in lines_of(name):
+        for call in re.finditer(r"\ba(?:sin|cos)\(", text):
+            (sine,) = arguments(text[call.end() :])
+            assert re.fullmatch(r"clamp\(.*, -1\.0, 1\.0\)", sine), f"{place}: {sine}"
+
+
 def functions(name: str) -> Iterator[tuple[str, list[tuple[str, str]]]]:
     """The functions of a stage in their order, each with its lines."""
     body: list[tuple[str, str]] | None = None
