@@ -27,8 +27,11 @@ from .wood import AWAY, OPAQUE, SWAYS, THINNEST
 EVERY_LEAF = -2.0, -1.0
 """What is told in place of `LEAF_PIXELS` where all twigs are drawn leaf by leaf."""
 
-CASTS = 0.5
-"""Coverage of a shadow map's texel from which on leaves are all of it."""
+SOLID = 0.5
+"""Coverage from which on twigs on cards are opaque, and all of a tree in a shadow map.
+
+Soft parts are drawn from near to far: fainter ones let little of what is behind come to the front.
+"""
 
 NEAREST = 0.1
 """How far off a tree's middle counts as at least [m]."""
@@ -234,7 +237,6 @@ class TreePart(Part):
     def _draw_model(self, kind: KindOnCard, model: ModelOnCard, *, soft: bool, all_wood: bool) -> int:
         assert self._programs is not None
         calls, told = 0, None
-        numbers = {**self._numbers, "solid_from": (CASTS if all_wood else OPAQUE,)}
         sorts = (
             *((WOOD, name, *_wood(model, name, soft=soft, whole=all_wood)) for name in WOODS),
             (LEAVES, LEAVES, 0, QUAD * kind.habit.leaf.quads * model.most[LEAVES]),
@@ -247,7 +249,8 @@ class TreePart(Part):
                 array = self._programs.array(sort, stream, model, soft=soft)
                 if told is not array.program:
                     told = array.program
-                    kind.tell(told, model, numbers)
+                    solid_from = SOLID if all_wood or sort == NEAR else OPAQUE
+                    kind.tell(told, model, {**self._numbers, "solid_from": (solid_from,)})
                 array.render(moderngl.TRIANGLES, first=first, vertices=vertices, instances=stream.count)
                 calls += 1
         return calls

@@ -20,14 +20,12 @@ vec4 unpacked_shading(vec4 texel) {
     return vec4((2.0 * texel.xyz - 1.0) * SHADING.x, texel.w * SHADING.y);
 }
 
-#ifndef SOFT
-uniform float solid_from;  // coverage from which on a pixel is drawn: `OPAQUE` in the picture, half in a shadow map
-#endif
+uniform float solid_from;  // coverage from which on what is there is opaque
 
 // Leaves out what the other way draws.
 void must_cover(float cover) {
 #ifdef SOFT
-    if (cover >= OPAQUE || cover < FAINTEST)
+    if (cover >= solid_from || cover < FAINTEST)
         discard;
 #else
     if (cover < solid_from)
