@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass import Footprint
+from tallgrass import Footprint, testing
 from tallgrass.engine.camera import Camera, view_of
 from tallgrass.engine.declared.parts import as_parts
 from tallgrass.engine.schedule import Phase
@@ -74,13 +74,20 @@ def drawn(stage: Stage, prairie: Prairie, camera: Camera, *draws: Sequence[str] 
     return np.asarray(stage.read())
 
 
-def over(stage: Stage, prairie: Prairie, camera: Camera, ground: moderngl.VertexArray) -> Picture:
+def over(
+    stage: Stage,
+    prairie: Prairie,
+    camera: Camera,
+    ground: moderngl.VertexArray,
+    sky: tuple[float, float, float] = (0.0, 0.0, 0.0),
+) -> Picture:
     """How much of a game's own ground is seen through the grass, pixel by pixel, 0 to 1; NaN beside it."""
     view, projection = stage.matrices(camera)
     ground.program["clip"] = (projection.astype(float) @ view).T.reshape(16).tolist()
 
     def lay() -> Picture:
-        stage.begin()
+        stage.target.use()
+        stage.target.clear(*sky, depth=1.0)
         stage.ctx.enable_only(moderngl.DEPTH_TEST)
         ground.render()
         return np.asarray(stage.read())
@@ -147,6 +154,36 @@ def test_grass_over_a_games_own_ground_is_neither_cut_by_it_nor_hidden(
         other = over(stage, prairie, aim, mesh(prairie, cell, higher))
         both = ~np.isnan(exact) & ~np.isnan(other)
         assert abs(np.mean(exact[both] - other[both])) < (0.02 if lod == "carpet" else 0.15), (cell, higher)
+
+
+def test_x5_no_sky_shows_between_grass_on_a_crest_and_a_games_own_ground_a_little_lower(
+    ctx: moderngl.Context, load: Load, camera: Aim, mesh: Mesh
+) -> None:
+    prairie = load("hills", preset="low", lod="carpet")
+    x, z = prairie.scene.camera.position
+    aim = camera(x, 1.7 + float(prairie.height_at([(x, z)])[0]), z, pitch=-4)
+    with testing.stage(ctx, (480, 270)) as large:
+        over(large, prairie, aim, mesh(prairie, 1.0, -0.1), sky=(0.0, 1.0, 1.0))
+        red, green, blue = np.moveaxis(large.read(), -1, 0)
+    sky = np.clip((green + blue) / 2.0 - red, 0.0, 255.0) / 255.0
+    above = np.roll(np.maximum.accumulate(sky < 0.3, axis=0), 2, axis=0)
+    above[:3] = False
+    assert (sky == 1.0).mean() > 0.1
+    assert (sky[above] > 0.3).sum() < 12, "three times as many where grass counts on ground as high as its own"
+    assert sky[above].sum() < 15.0
+
+
+def test_the_carpet_thins_out_toward_the_rim_of_ground_that_nothing_is_beyond(stage: Stage, load: Load) -> None:
+    prairie = load(STILL.replace("rolling, seed: 2", "flat").replace(", feature: 30, scale: 4", ""), lod="carpet")
+    aim = Camera((0.0, 8.0, 15.0), 0.0, -0.167, 0.105)
+    stage.target.use()
+    stage.target.clear(0.0, 0.0, 1.0, depth=1.0)
+    prairie.draw(*stage.matrices(aim), parts=("grass",))
+    cover = 1.0 - stage.read()[..., 2].mean(axis=1) / 255.0
+    first = int(np.argmax(cover > 0.002))
+    assert 20 < first < 60
+    assert cover[first + 20 :].min() > 0.08
+    assert np.diff(cover[first - 1 : first + 10]).max() < 0.04
 
 
 def test_no_ground_of_ours_is_seen_where_a_game_draws_its_own(

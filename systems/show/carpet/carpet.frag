@@ -115,7 +115,7 @@ vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
     float taller, grain = grain_of(read, sight, tall, stands, own.blown.z);
     vec4 sum = kinds_seen(own, read, sight, grain, view, taller);
     // Who sees past grass over a crest sees no ground there, but the grass behind. A game's own ground may lie lower.
-    float ground = over_hosts > 0.0 ? 1.0 + HOSTS_OFF / max(tall, LOWEST_GRASS) : 1.0;
+    float ground = over_hosts > 0.0 ? 1.0 + HOSTS_OFF / (ENDS.x * max(tall, LOWEST_GRASS)) : 1.0;
     float ends = smoothstep(ENDS.x * sight.share * ground, ENDS.y * sight.share * ground, deep);
     sum *= among.x * mix(1.0 / max(sum.a, LEAST_COVER), 1.0, ends);
     cover = min(sum.a, 1.0);
