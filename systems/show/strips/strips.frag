@@ -26,15 +26,21 @@ const float FAINT = 0.006; // coverage that is left out: in bytes, layer upon la
 const float LEAST_PAINT = 0.002;  // coverage of a texel that counts at least, for what it shows
 const float SUNKEN = 0.3;  // height of grass from which on strips begin to show, of that below which they would show as rows
 
+#ifdef THIN
+#include "systems/show/strips/thin.glsl"
 #ifdef EDGED
 #include "systems/space/ground.py"
-#include "systems/show/strips/thin.glsl"
 
-// How much of blades of a rank grows where density has edges.
-float grown(float rank) {
+// What is left of a texel where density has edges.
+float grown(float covers, float rank, float level) {
     float dense = grows_at(roots.xy, int(roots.w + 0.5));
-    return dense > PRESENT ? clamp((dense - rank) / span_of(dense, rise.a) + 0.5, 0.0, 1.0) : 0.0;
+    return dense > PRESENT ? thinned(covers, dense, rank, 1.0 / span_of(dense, rise.a), level) : 0.0;
 }
+#else
+float grown(float covers, float rank, float level) {
+    return thinned(covers, roots.w, rank, rise.a, level);
+}
+#endif
 #endif
 
 #ifdef CUT
@@ -51,7 +57,7 @@ void main() {
 #ifdef HEADS
     boosts = mix(boosts, heads, of_heads(texel.r / max(texel.a, LEAST_PAINT)));
 #endif
-    float covered = foot.a * min(texel.a * boosts, 1.0);
+    float painted = min(texel.a * boosts, 1.0), covered = foot.a * painted;
     if (covered < FAINT) {
 #ifdef DEEP
         discard;
@@ -83,11 +89,7 @@ void main() {
 #endif
 #ifdef THIN
     float rank = layer_at(ranks, vec3(on.xy, layer), level).r / max(texel.a, LEAST_PAINT);
-#ifdef EDGED
-    covered *= grown(rank);
-#else
-    covered *= clamp(roots.w - rank * rise.a, 0.0, 1.0);
-#endif
+    covered *= grown(painted, rank, level) / max(painted, LEAST_PAINT);
     covered *= clamp(grain_cos.a * rank + grain_sin.a, 0.0, 1.0);
 #endif
 #ifdef DEEP

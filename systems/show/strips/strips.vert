@@ -195,7 +195,7 @@ void thin(vec2 dense, float at, float below, float texels) {
     rise.a = soft;
 #else
     rise.a = 1.0 / span_of(0.5 * (dense.x + dense.y), soft);
-    roots.w = mix(dense.x, dense.y, at) * rise.a + 0.5;
+    roots.w = mix(dense.x, dense.y, at);
 #endif
     // The span must reach from below all ranks to above them, softness included.
     float span = max(soft, UNHURRIED), edge = mix(-0.5 * span, 1.0 + 0.5 * span, abs(below));
