@@ -156,6 +156,31 @@ def test_w12_each_of_nine_kinds_is_told_on_the_card_what_a_game_is_told(
     assert (bent > 0.5).all()
 
 
+@pytest.mark.parametrize("lod", ["blades", "strips", "carpet", "auto"])
+def test_no_kind_shows_beyond_its_field_which_ends_within_a_patch(
+    ctx: moderngl.Context, stage: Stage, camera: Aim, lod: str
+) -> None:
+    """Neither its leaves nor what lies on the ground beneath them."""
+    across, aim = np.arange(-19.9, 20.0, 0.2), camera(0.0, 14.0, 15.0, pitch=-40, view=75)
+    red = np.tile(across > 0.9, (200, 1)).astype(np.float32)
+    fields: dict[str, Any] = {
+        "red": {"root": "#c01010", "tip": "#e02020", "place": {"map": red}},
+        "green": {"root": "#106010", "tip": "#208020", "place": {"map": 1.0 - red}},
+    }
+    grass = {name: {"height": [0.3, 0.4], "blades": 200} | more for name, more in fields.items()}
+    terrain = {"noise": "flat", "size": [40, 40]}
+    values: Any = {"tallgrass": 2, "terrain": terrain, "grass": grass, "quality": "low"}
+    prairie = Prairie.load(values, ctx=ctx, lod=lod)  # type: ignore[arg-type]
+    picture, (x, z) = stage.shot(prairie, aim), np.moveaxis(stage.ground(aim, 0.15), -1, 0)
+    prairie.release()
+    redder = []
+    for low, high in ((0.4, 1.1), (3.0, 6.0)):
+        beside = (0.9 - x > low) & (0.9 - x < high) & (np.abs(z) < 8.0)
+        assert beside.sum() > 60
+        redder.append(np.divide(*picture[beside].mean(axis=0)[:2]))
+    assert redder[0] < 1.15 * redder[1]
+
+
 def test_kinds_that_grow_nowhere_change_nothing(ctx: moderngl.Context, stage: Stage, tmp_path: Path) -> None:
     Image.new("L", (4, 4)).save(tmp_path / "nowhere.png")
     more = [f"  more-{number}: {{ blades: 1, place: {{ map: nowhere.png }} }}\n" for number in range(3)]

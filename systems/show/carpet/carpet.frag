@@ -12,11 +12,13 @@
 
 #ifdef EDGED
 #define BROUGHT
+#define OF_SOIL
 in vec3 over;
 in float lies_over;
 in float raises;
 #else
 #define BROUGHT in
+#define OF_SOIL FEW
 #endif
 
 BROUGHT vec3 place;
@@ -26,7 +28,7 @@ in float crest;
 BROUGHT float tall;
 BROUGHT float dense;
 BROUGHT ByKind met;
-in vec3 soil_seen;
+BROUGHT vec3 soil_seen;
 in mat4 lit;
 #ifdef HEADS
 BROUGHT ByKind riper;
@@ -34,10 +36,10 @@ BROUGHT ByKind riper;
 FEW float stands;
 FEW float strips_before;
 FEW vec2 slow;
-FEW vec3 sunlit;
-FEW vec3 skylit;
-FEW float soil_way;
-FEW vec3 lush;
+OF_SOIL vec3 sunlit;
+OF_SOIL vec3 skylit;
+OF_SOIL float soil_way;
+OF_SOIL vec3 lush;
 
 out vec4 pixel;
 
@@ -53,24 +55,36 @@ const float HALF = 0.5;
 #include "systems/show/carpet/met.glsl"
 #endif
 
-#if KINDS > 4
-void work_out(float slope) {
+#if KINDS > 4 || defined(EDGED)
+// What lies on the ground is of the kinds that grow there, up to where they end.
+void work_out_soil() {
     Lie lies = lie_at(place.xz);
     ByKind grows = grows_at(place.xz);
-    strips_before = 1.0;
     lush = understorey_of(lies, grows);
-    if (anything_is_cut() || any_casters()) {
-        Soil soil = soil_lit(place, lies, grows, 1.0 - haze_at(place));
-        sunlit = soil.sunlit;
-        skylit = soil.skylit;
-        soil_way = soil.way;
-    }
+#ifndef EDGED
+    if (!anything_is_cut() && !any_casters())
+        return;
+#endif
+    Soil soil = soil_lit(place, lies, grows, 1.0 - haze_at(place));
+#ifdef EDGED
+    soil_seen = soil.seen;
+#endif
+    sunlit = soil.sunlit;
+    skylit = soil.skylit;
+    soil_way = soil.way;
+}
+#endif
+
+void work_out(float slope) {
+#if KINDS > 4 || defined(EDGED)
+    work_out_soil();
+#endif
+#if KINDS > 4
+    strips_before = 1.0;
     slow = slow_seen(seen_at(place, slope, tall, dense), slope, tall);
     stands = lodged(message_at(place.xz));
-}
-#else
-void work_out(float slope) {}
 #endif
+}
 
 // The light on what is met, and how that is bent: as the mesh has it, or as it is trodden.
 Canopy canopy_here(Sight sight) {

@@ -15,11 +15,13 @@
 
 #ifdef EDGED
 #define BROUGHT
+#define OF_SOIL
 out vec3 over;       // place on the mesh, which is raised to the carpet of whole grass,
 out float lies_over;      // how high that is over the ground [m],
 out float raises;      // and of how high the carpet is on level ground
 #else
 #define BROUGHT out
+#define OF_SOIL FEW
 #endif
 
 BROUGHT vec3 place;
@@ -29,7 +31,7 @@ out float crest;     // how fast the rise falls off along the line of sight [1/m
 BROUGHT float tall;     // height of the carpet [m]
 BROUGHT float dense;    // leaf area seen from the side, of the ground's area
 BROUGHT ByKind met;     // by kind: how much of what a line of sight meets
-out vec3 soil_seen;  // radiance of the soil, without haze
+BROUGHT vec3 soil_seen;  // radiance of the soil, without haze
 out mat4 lit;        // the light on leaves of the kinds that are met; beside it, how what is met changes as the wind bends them
 #ifdef HEADS
 BROUGHT ByKind riper;   // by kind: how much more of its heads than an image shows; all the others at 1, none at -1
@@ -37,10 +39,10 @@ BROUGHT ByKind riper;   // by kind: how much more of its heads than an image sho
 FEW float stands;         // how high the grass stands, of its height at rest
 FEW float strips_before;  // how much strips show of what lines of sight come through above the carpet
 FEW vec2 slow;            // slow noises of the pigment, where leaves are seen
-FEW vec3 sunlit;          // radiance of the soil without any grass: of the sun's light,
-FEW vec3 skylit;          // and of the sky's
-FEW float soil_way;       // how many leaves the sun's light meets
-FEW vec3 lush;            // pigment of the understorey, of that of the ground between
+OF_SOIL vec3 sunlit;      // radiance of the soil without any grass: of the sun's light,
+OF_SOIL vec3 skylit;      // and of the sky's
+OF_SOIL float soil_way;   // how many leaves the sun's light meets
+OF_SOIL vec3 lush;        // pigment of the understorey, of that of the ground between
 
 const float UNEVENNESS = 0.4;  // of the grass's height
 const vec4 UNEVEN_WAVES = vec4(5.3, 4.7, 0.2, 0.7);  // [1/m], along x, along z, and across the latter; phase
@@ -74,6 +76,20 @@ void light_up(float slope, float on_level, ByKind grows, vec2 message) {
     slow = slow_seen(there, slope, tall);
 }
 
+#ifndef EDGED
+// The soil that is seen between, and what lies on it.
+void light_soil(vec3 ground, Laid laid) {
+    Lie lies = lie_at(ground.xz);
+    ByKind grows = grown_at(ground.xz, laid);
+    Soil soil = soil_lit(ground, lies, grows, 1.0 - haze_at(place));
+    soil_seen = soil.seen;
+    sunlit = soil.sunlit;
+    skylit = soil.skylit;
+    soil_way = soil.way;
+    lush = understorey_of(lies, grows);
+}
+#endif
+
 void main() {
     place = on_ground(on_mesh());
 #ifdef EDGED
@@ -97,15 +113,9 @@ void main() {
     riper = ripe;
 #endif
     light_up(slope, on_level, laid.grows, laid.message);
-    vec3 ground = seen_behind(place, from_above);
-    Lie lies = lie_at(ground.xz);
-    ByKind grows = grown_at(ground.xz, laid);
-    Soil soil = soil_lit(ground, lies, grows, 1.0 - haze_at(place));
-    soil_seen = soil.seen;
-    sunlit = soil.sunlit;
-    skylit = soil.skylit;
-    soil_way = soil.way;
-    lush = understorey_of(lies, grows);
+#ifndef EDGED
+    light_soil(seen_behind(place, from_above), laid);
+#endif
     gl_Position = clip * vec4(place, 1.0);
 #ifndef EDGED  // where pixels make out how far off grass is
     if (over_hosts > 0.0) {
