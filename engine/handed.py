@@ -21,18 +21,20 @@ LONGEST = 1e9
 """Longest step, and latest instant, that is taken [s]: beyond, time is not exact to the microsecond."""
 
 
-def as_floats(thing: object, due: str, /) -> NDArray[np.float32]:
+def as_floats(thing: object, due: str, /, *, holes: bool = False) -> NDArray[np.float32]:
     """Return what is handed in as numbers, of any shape.
 
-    Raises ValueError where it is nothing of the kind, or not finite. `due` begins the sentence: what it has to be.
+    Raises ValueError where it is nothing of the kind, or not finite, or with `holes` infinite. `due` begins the
+    sentence: what it has to be.
     """
     try:
         with np.errstate(over="ignore"):  # what is too large for single precision is refused as infinity
             array = np.asarray(thing, np.float32)
     except (TypeError, ValueError):
         raise ValueError(f"{due}, not {shortened(thing)}") from None
-    if thing is None or not np.isfinite(array).all():
-        raise ValueError(f"{due}, not {'None' if thing is None else 'NaN or infinity'}")
+    bad = np.isinf(array) if holes else ~np.isfinite(array)
+    if thing is None or bad.any():
+        raise ValueError(f"{due}, not {'None' if thing is None else 'infinity' if holes else 'NaN or infinity'}")
     return array
 
 

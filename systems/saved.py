@@ -223,9 +223,15 @@ def mark_of(site: Site, ground: str, /) -> str:
 def ground_mark(ground: Ground, /) -> str:
     """Return what tells a ground from others, as it was loaded."""
     digest = blake2b(digest_size=_DIGEST)
-    holes = ground.terrain.holes
-    for array in (*as_loaded(ground.terrain), ground.density.maps, *(() if holes is None else (holes,))):
-        digest.update(np.ascontiguousarray(array).data)
+    open_ = blake2b(digest_size=_DIGEST)
+    has_holes = False
+    for heights, holes in as_loaded(ground.terrain):
+        digest.update(np.ascontiguousarray(heights).data)
+        open_.update(np.ascontiguousarray(holes).data)
+        has_holes |= bool(holes.any())
+    digest.update(ground.density.maps.data)
+    if has_holes:
+        digest.update(open_.digest())
     return digest.hexdigest()
 
 

@@ -100,8 +100,10 @@ class Saving:
         )
         cleared = np.array(sorted(self.clearings.cells), np.int32).reshape(-1, 2)
         (mown, left), (sown, dense) = self.mown.plots.saved(), site.ground.density.sown.saved()
-        squares, heights = changed_squares(site.ground.terrain)
+        squares, heights, holes = changed_squares(site.ground.terrain)
         ground: Arrays = {"ground_squares": squares, "ground_heights": planes(heights)}
+        if holes.any():
+            ground = {**ground, "ground_holes": holes}
         plots: Arrays = {"mown": mown, "mown_heights": planes(left), "sown": sown, "sown_densities": dense}
         return packed(Saved(state, {"cleared": cleared, **plots, **ground, **marks}))
 
@@ -386,7 +388,10 @@ def _ground(arrays: Arrays, terrain: Terrain) -> Squares:
     where, found = (arrays.get(name, np.zeros(0)) for name in ("ground_squares", "ground_heights"))
     if where.dtype != np.int32 or where.shape != (len(where), 2) or found.dtype != np.uint8 or found.shape[:-1] != (4,):
         refuse("there is something wrong with its ground")
-    squares = where, from_planes(found, (found.shape[-1],))
+    holes = arrays.get("ground_holes", np.zeros(found.shape[-1], np.bool_))
+    if holes.dtype != np.bool_ or holes.ndim != 1:
+        refuse("there is something wrong with its holes")
+    squares = where, from_planes(found, (found.shape[-1],)), holes
     try:
         must_be_squares(terrain, squares)
     except ValueError as error:

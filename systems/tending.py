@@ -99,9 +99,10 @@ class Tending(Answering):
         """Put other heights [m] into the ground, from its sample at `corner` (x, z) [m] on: a crater, a dike, a field.
 
         `heights` (rows, columns) are samples at the terrain's own cell size, `site.ground.terrain.cell`, with row 0 at
-        the far edge (-z). All that stands, hovers, flies and asks there is on the new ground at once; shadows that it
-        casts far may follow within some sixty frames. Raises ValueError for what are no finite heights, for a corner
-        between samples, and where any lies beyond the terrain; RuntimeError after `release`.
+        the far edge (-z). Where one is NaN there is a hole from now on, as a scene's `holes` are, until there is a
+        height again. All that stands, hovers, flies and asks there is on the new ground at once; shadows that it
+        casts far may follow within some sixty frames. Raises ValueError for what are no heights, for a corner between
+        samples, and where any lies beyond the terrain; RuntimeError after `release`.
         """
         self._must_be_there("change its ground")
         set_heights(self.site.ground.terrain, corner, heights)

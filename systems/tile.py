@@ -137,7 +137,7 @@ class Tile:
             for kept in outlook.kept.values():
                 kept.planted += 1
                 kept.stand_on(first, last, (float(heights.min()), float(heights.max())))
-            if self.ground.density.slopes:
+            if self.ground.density.slopes or terrain.holes is not None:
                 self._sow_on(outlook, patches.cell[on])
         outlook.heights = terrain.changes.count
 

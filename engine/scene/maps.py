@@ -53,11 +53,11 @@ def _kept_density(loaded: LoadedScene, terrain: Terrain, before: tuple[LoadedSce
     places = [kind.place for kind in loaded.scene.grass.values()]
     same = terrain.size == density.size and places == [kind.place for kind in old.scene.grass.values()]
     steep = [kind.slope for kind in loaded.scene.grass.values()]
-    bare = terrain.holes is not None or any(slope is not None for slope in steep)
     same = same and steep == [kind.slope for kind in old.scene.grass.values()]
-    same = same and density.land is (terrain if bare else None)
     maps = [None if place is None else place.map for place in places]
-    return density if same and _same_files(loaded, old, maps) else None
+    if not same or not _same_files(loaded, old, maps):
+        return None
+    return density if density.land is terrain else Density(density.maps, density.size, terrain, density.slopes)
 
 
 def _same_files(loaded: LoadedScene, old: LoadedScene, maps: Sequence[str | MapArray | None]) -> bool:

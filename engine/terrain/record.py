@@ -18,8 +18,9 @@ class Changes:
     count: int = 0
     """How often it has."""
 
-    loaded: dict[tuple[int, int], Floats] = field(default_factory=dict)
-    """The heights as they were loaded, of each square of samples that has been changed since, by its row and column."""
+    loaded: dict[tuple[int, int], tuple[Floats, Mask]] = field(default_factory=dict)
+    """The heights and the holes as they were loaded, of each square of samples that has been changed since, by its row
+    and column."""
 
     _last: deque[Part] = field(default_factory=lambda: deque(maxlen=MOST))
 
@@ -49,7 +50,7 @@ class Terrain:
     """Metres per cell."""
 
     holes: Mask | None = None
-    """Samples at which there is no ground, shape (rows, columns); None where there is ground everywhere."""
+    """Samples at which there is no ground, shape (rows, columns); None where nobody has ever said so of any."""
 
     changes: Changes = field(init=False, default_factory=Changes)
 
@@ -77,9 +78,17 @@ class Terrain:
         width, depth = self.size
         return -width / 2, -depth / 2
 
-    def put(self, part: Part, heights: Floats, /) -> None:
-        """Write other heights (rows, columns) [m] into a part."""
+    def holes_in(self, part: Part, /) -> Mask:
+        """Return at which samples of a part there are holes, shape (rows, columns)."""
+        return np.zeros((part.rows, part.columns), np.bool_) if self.holes is None else self.holes[part.slices].copy()
+
+    def put(self, part: Part, heights: Floats, holes: Mask, /) -> None:
+        """Write other heights (rows, columns) [m] into a part, and at which of its samples there are holes."""
         self.heights[part.slices] = heights
+        if self.holes is None and holes.any():
+            object.__setattr__(self, "holes", np.zeros(self.heights.shape, np.bool_))
+        if self.holes is not None:
+            self.holes[part.slices] = holes
         touched = self.heights[part.slices[0]]
         self._ends[:, part.slices[0]] = touched.min(axis=1), touched.max(axis=1)
         self.changes.note(part)
@@ -98,7 +107,7 @@ class Density:
     """Width (x) and depth (z) of the terrain that the maps are laid over, centred on the origin [m]."""
 
     land: Terrain | None = None
-    """The terrain, where it says anything of where kinds grow; None where they grow on all of it."""
+    """The terrain, which may say more of where kinds grow; without one they grow on all of it."""
 
     slopes: tuple[float | None, ...] = ()
     """The steepest slope that each kind grows on [degrees], if there is one; none at all where no kind has one."""

@@ -115,7 +115,9 @@ def hole_at(terrain: Terrain, place: Floats, /) -> Mask:
     if terrain.holes is None:
         return np.zeros(len(place), np.bool_)
     at = _within_terrain(terrain, place)
-    far, near = _rows(terrain.holes.reshape(-1).astype(np.float32), at)
+    flat = terrain.holes.reshape(-1)
+    a, b, c, d = (flat.take(at.corner + more).astype(np.float32) for more in (0, 1, at.stride, at.stride + 1))
+    far, near = a + at.right * (b - a), c + at.right * (d - c)
     return np.asarray(far + at.down * (near - far) > 0.5)
 
 
@@ -136,7 +138,8 @@ def _limited(density: Density, result: Floats, place: Floats, kind: NDArray[np.i
         ends = bareness(density.slopes)
         ends = ends[:, None] if kind is None else ends[kind]
         result = result * np.clip((ends[..., 0] - rise) * ends[..., 1], 0.0, 1.0)
-    result[..., hole_at(density.land, place)] = 0.0
+    if density.land.holes is not None:
+        result[..., hole_at(density.land, place)] = 0.0
     return result
 
 

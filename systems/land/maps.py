@@ -2,11 +2,16 @@
 
 import moderngl
 import numpy as np
+from numpy.typing import NDArray
 
-from ...components.arrays import Floats
 from ...engine.terrain.part import Part
 from ...engine.terrain.record import Density, Terrain
 from ..grow.record import Growth
+
+HOLE = 1
+"""The bit of a height's that says whether there is a hole: it is worth a few millionths of the height."""
+
+GLSL = {"HOLE": HOLE}
 
 
 def posture_texture(ctx: moderngl.Context, growths: list[Growth]) -> moderngl.TextureArray:
@@ -24,10 +29,9 @@ def posture_texture(ctx: moderngl.Context, growths: list[Growth]) -> moderngl.Te
 
 
 def height_texture(ctx: moderngl.Context, terrain: Terrain) -> moderngl.Texture:
-    """Return the elevation map, for exact fetches."""
+    """Return the elevation map, for exact fetches. The last bit of a height says whether there is a hole."""
     rows, columns = terrain.heights.shape
-    texels = _heights_of(terrain, Part(0, 0, rows, columns))
-    texture = ctx.texture((columns, rows), texels.shape[2], texels.tobytes(), dtype="f4")
+    texture = ctx.texture((columns, rows), 1, _heights_of(terrain, Part(0, 0, rows, columns)), dtype="f4")
     texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
     return texture
 
@@ -37,15 +41,15 @@ def send_heights(texture: moderngl.Texture, terrain: Terrain, /, *, since: int) 
     rows, columns = terrain.heights.shape
     changed = terrain.changes.since(since)
     for part in [Part(0, 0, rows, columns)] if changed is None else changed:
-        texture.write(_heights_of(terrain, part).tobytes(), viewport=(part.column, part.row, part.columns, part.rows))
+        texture.write(_heights_of(terrain, part), viewport=(part.column, part.row, part.columns, part.rows))
 
 
-def _heights_of(terrain: Terrain, part: Part) -> Floats:
-    """Return the heights of a part, and whether there is a hole if there are any, shape (rows, columns, n)."""
-    each = [terrain.heights[part.slices]]
+def _heights_of(terrain: Terrain, part: Part) -> NDArray[np.uint32]:
+    """Return the bits of a part's heights (rows, columns): the last of each is 1 where there is a hole."""
+    bits = np.ascontiguousarray(terrain.heights[part.slices]).view(np.uint32) & ~np.uint32(HOLE)
     if terrain.holes is not None:
-        each.append(terrain.holes[part.slices].astype(np.float32))
-    return np.ascontiguousarray(np.stack(each, axis=-1))
+        bits |= terrain.holes[part.slices]
+    return bits
 
 
 def density_texture(ctx: moderngl.Context, density: Density) -> moderngl.TextureArray:

@@ -52,14 +52,14 @@ class LandPart(Part):
         self._changes = terrain.changes.count
         if before is grown:
             return
-        if before is None or before.ground.density is not grown.ground.density:
+        if before is None or before.ground.density.maps is not grown.ground.density.maps:
             self._put("density", density_texture(self.ctx, grown.ground.density))
         if before is None or before.growths != grown.growths:
             self._put("postures", posture_texture(self.ctx, grown.growths))
         write_land(record, grown, self._reckoned(grown))
         folds = any(kind.profile == "fold" for kind in grown.scene.grass.values())
         ground = grown.ground
-        special = {"FOLDS": folds, "HOLES": ground.terrain.holes is not None, "SLOPED": bool(ground.density.slopes)}
+        special = {"FOLDS": folds, "SLOPED": bool(ground.density.slopes)}
         self._kinds = {"KINDS": len(grown.growths), **{name: 1 for name, is_so in special.items() if is_so}}
 
     def _reckoned(self, grown: Grown) -> list[Figures]:

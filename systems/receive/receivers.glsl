@@ -1,4 +1,5 @@
 // A fragment is a receiver. Who includes this says where receiver `number` stands and of which kind it is.
+#define RECEIVES
 #include "lib/light.glsl"
 #include "lib/terrain.glsl"
 #include "lib/received.glsl"

@@ -44,6 +44,27 @@ def test_f4_a_hole_shows_what_the_game_has_drawn_there(
     prairie.release()
 
 
+@pytest.mark.parametrize("lod", ["blades", "strips", "carpet", "auto"])
+def test_f4_a_hole_that_is_dug_late_is_one_that_was_always_there_until_it_is_filled(
+    stage: Stage, ctx: moderngl.Context, camera: Aim, lod: Any
+) -> None:
+    flat, aim = np.zeros((61, 61), np.float32), camera(0.0, 9.0, 12.0, pitch=-45)
+    dug = flat.copy()
+    dug[25:36, 25:36] = np.nan
+    always, late = (Prairie.load(scene(each), ctx=ctx, lod=lod) for each in (dug, flat))
+    due, before = stage.shot(always, aim), stage.shot(late, aim)
+    programs = set(ctx.objects) if ctx.gc_mode == "context_gc" else None
+    late.set_heights((-10.0, -10.0), dug[20:41, 20:41])
+    np.testing.assert_array_equal(stage.shot(late, aim), due)
+    assert np.abs(due - before).max() > 40.0
+    assert programs is None or programs == set(ctx.objects)
+    assert (late.grass_at([(0.0, 0.0), (0.0, 9.0)]).density.sum(axis=1) > 0.5).tolist() == [False, True]
+    late.set_heights((-5.0, -5.0), np.zeros((11, 11)))
+    np.testing.assert_array_equal(stage.shot(late, aim), before)
+    always.release()
+    late.release()
+
+
 @pytest.mark.parametrize("lod", ["blades", "strips", "carpet"])
 def test_f4_ground_that_is_too_steep_shows_as_ground_without_grass(
     stage: Stage, ctx: moderngl.Context, camera: Aim, lod: Any

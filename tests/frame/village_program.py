@@ -29,13 +29,14 @@ def scene() -> dict[str, object]:
 
 
 def make(prairie: Prairie) -> None:
-    """Build all of it."""
+    """Build all of it, and a well."""
     for x, z, yaw in ((-12.0, 10.0, 0.2), (3.0, 14.0, -0.4), (14.0, 8.0, 0.1)):
         prairie.clear(HOUSE, pose=Pose(x, z, yaw))
     prairie.clear(Road(((-35.0, 18.0), (-4.0, 19.0), (10.0, 16.0), (36.0, 22.0)), 2.5), soft=0.6)
     prairie.sow("wheat", Footprint(radius=5.0), 0.6, soft=2.0, pose=Pose(20.0, -8.0))
     prairie.cut(Footprint(radius=1.0, length=12.0), 0.06, pose=Pose(-2.0, 4.0, 1.2))
     crater = -1.5 * np.outer(np.hanning(13), np.hanning(13))
+    prairie.set_heights((6.0, 20.0), np.full((3, 3), np.nan))
     prairie.set_heights((-12.0, -8.0), prairie.site.ground.terrain.heights[32:45, 28:41] + crater)
 
 

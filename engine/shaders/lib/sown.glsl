@@ -23,11 +23,11 @@ Plot plot_on(vec2 place) {
 
 // How much of what would grow there the ground leaves to four kinds: it may be too steep, or there may be none.
 vec4 left_by_ground(vec2 place, int group) {
-    vec4 left = vec4(1.0);
+    vec4 left = is_hole(place) ? vec4(0.0) : vec4(1.0);
 #ifdef SLOPED
-    left = clamp((steepest[group] - length(rise_at(place))) * thins[group], 0.0, 1.0);
+    left *= clamp((steepest[group] - length(rise_at(place))) * thins[group], 0.0, 1.0);
 #endif
-    return is_hole(place) ? vec4(0.0) : left;
+    return left;
 }
 
 // How densely each kind grows at a place, in the mean over squares of `side` [m] where a game has sown or cleared.
@@ -41,10 +41,8 @@ ByKind grows_about(vec2 place, float side) {
         if (plot.sown > 0) for (int group = 0; group < GROUPS; group++)
             grows[group] = on_page(plot.sown + group, plot.cell, page_level(side));
     }
-#if defined(SLOPED) || defined(HOLES)
     for (int group = 0; group < GROUPS; group++)
         grows[group] *= left_by_ground(place, group);
-#endif
     return grows;
 }
 
@@ -54,16 +52,14 @@ ByKind grows_at(vec2 place) {
 
 // How densely one does.
 float grows_at(vec2 place, int kind) {
-#if defined(SLOPED) || defined(HOLES)
-    return OF(grows_at(place), kind);
-#endif
     vec2 at = on_map(place);
+    float grows = textureLod(density, vec3(at, float(GROUP(kind))), 0.0)[IN_GROUP(kind)];
     if (anything_is_sown()) {
         Plot plot = plot_on(place);
         if (plot.sown > 0)
-            return on_page(plot.sown + GROUP(kind), plot.cell, 0.0)[IN_GROUP(kind)];
+            grows = on_page(plot.sown + GROUP(kind), plot.cell, 0.0)[IN_GROUP(kind)];
     }
-    return textureLod(density, vec3(at, float(GROUP(kind))), 0.0)[IN_GROUP(kind)];
+    return grows * left_by_ground(place, GROUP(kind))[IN_GROUP(kind)];
 }
 
 // The leaf area of each kind, of the ground's.

@@ -1,5 +1,6 @@
 // Heights of the terrain, bilinear as systems sample them; hardware filters are too coarse for that.
 #include "lib/frame.glsl"
+#include "systems/land/maps.py"
 
 uniform sampler2D heights;
 
@@ -13,15 +14,21 @@ float height_at(vec2 place) {
     return mix(mix(a, b, part.x), mix(c, d, part.x), part.y);
 }
 
-// Whether there is no ground at a place.
+// Whether a sample of the terrain is one of a hole: the last bit of its height says so.
+float hole(float height) {
+    return float(floatBitsToUint(height) & uint(HOLE));
+}
+
+// Whether there is no ground at a place. Grass ends there: only programs that know edges, and those that tell receivers how
+// densely grass grows, ask. They have read the same texels for the height.
 bool is_hole(vec2 place) {
-#ifdef HOLES
+#if defined(EDGED) || defined(RECEIVES)
     ivec2 last = textureSize(heights, 0) - 1;
     vec2 cell = clamp((place - terrain_origin) / terrain_cell, vec2(0.0), vec2(last));
     ivec2 low = min(ivec2(cell), last - 1);
     vec2 part = cell - vec2(low);
-    float a = texelFetch(heights, low, 0).g, b = texelFetch(heights, low + ivec2(1, 0), 0).g;
-    float c = texelFetch(heights, low + ivec2(0, 1), 0).g, d = texelFetch(heights, low + ivec2(1, 1), 0).g;
+    float a = hole(texelFetch(heights, low, 0).r), b = hole(texelFetch(heights, low + ivec2(1, 0), 0).r);
+    float c = hole(texelFetch(heights, low + ivec2(0, 1), 0).r), d = hole(texelFetch(heights, low + ivec2(1, 1), 0).r);
     return mix(mix(a, b, part.x), mix(c, d, part.x), part.y) > 0.5;
 #else
     return false;

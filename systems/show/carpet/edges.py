@@ -5,7 +5,9 @@ from numpy.typing import NDArray
 
 from ....components.arrays import Doubles, Floats, Ints, Mask
 from ....engine.handed import FARTHEST
+from ....engine.terrain.part import Part
 from ....engine.terrain.plots import CELLS, SIDE, Plots, Values
+from ....engine.terrain.record import Terrain
 from ...mow.mown import Mown
 from ...space.ground import Ground
 
@@ -28,6 +30,7 @@ class Edges:
     def __init__(self) -> None:
         self._maps: Values | None = None
         self._painted: list[_Blocks] = []
+        self._holes = _Holes()
         self._sown, self._cut = _OnPlots(STEP_OF_DENSITY * 255.0), _OnPlots(STEP_OF_HEIGHT)
 
     def at(self, ground: Ground, mown: Mown | None, tallest: float, squares: Doubles, /) -> Mask:
@@ -37,10 +40,10 @@ class Edges:
         """
         density = ground.density
         if self._maps is not density.maps:
-            self._maps, holes = density.maps, ground.terrain.holes
-            maps = [*density.maps, *([] if holes is None else [holes.astype(np.float32)])]
-            self._painted = [each for values in maps for each in _painted_edges(values, ground)]
+            self._maps = density.maps
+            self._painted = [each for values in density.maps for each in _painted_edges(values, ground)]
         found = [each.touch(squares) for each in self._painted]
+        found.append(self._holes.touch(ground.terrain, squares))
         found.append(self._sown.touch(density.sown, squares))
         if mown is not None:
             found.append(self._cut.touch(mown.plots, squares, most=tallest))
@@ -91,6 +94,54 @@ def _reduced(reach: np.ufunc, values: Floats, axis: int, each: int) -> Floats:
     starts = np.arange(0, count, each)
     found = reach.reduceat(values, starts, axis=axis)
     return np.asarray(reach(found, values.take(np.minimum(starts + each, count - 1), axis=axis)))
+
+
+class _Holes:
+    """The edges of holes: all that is drawn near one knows of it."""
+
+    def __init__(self) -> None:
+        self._of: tuple[Terrain | None, int] = None, -1
+        self._open = np.zeros((0, 0), np.bool_)
+        self._blocks: _Blocks | None = None
+
+    def touch(self, terrain: Terrain, squares: Doubles) -> Mask:
+        """Return which squares (n, 3) touch a block of the terrain with a hole in it, shape (n,)."""
+        if terrain.holes is not None and self._of != (terrain, terrain.changes.count):
+            changed = terrain.changes.since(self._of[1]) if self._of[0] is terrain else None
+            self._look(terrain, terrain.holes, changed)
+            self._of = terrain, terrain.changes.count
+        there = self._blocks is not None and self._of[0] is terrain
+        return self._blocks.touch(squares) if there and self._blocks else np.zeros(len(squares), np.bool_)
+
+    def _look(self, terrain: Terrain, holes: Mask, changed: list[Part] | None) -> None:
+        rows, columns = holes.shape
+        each = -(-max(rows, columns) // MOST_BLOCKS)
+        if changed is None or not self._open.size:
+            changed = [Part(0, 0, rows, columns)]
+            self._open = np.zeros((-(-rows // each), -(-columns // each)), np.bool_)
+        for part in changed:
+            first, last = part.row // each, (part.row + part.rows - 1) // each + 1
+            left, right = part.column // each, (part.column + part.columns - 1) // each + 1
+            within = holes[first * each : last * each, left * each : right * each]
+            starts = [np.arange(0, count, each) for count in within.shape]
+            found = np.logical_or.reduceat(np.logical_or.reduceat(within, starts[0], axis=0), starts[1], axis=1)
+            self._open[first:last, left:right] = found
+        if not self._open.any():
+            self._blocks = None
+            return
+        side = each * terrain.cell  # a hole goes on half a cell beyond its samples
+        self._blocks = _Blocks(_widened(self._open), np.array(terrain.origin), np.array([side, side]))
+
+
+def _widened(mask: Mask) -> Mask:
+    """Return a mask with what is beside it, before and behind it."""
+    wide = mask.copy()
+    for axis in (0, 1):
+        low, high = (np.s_[:-1], np.s_[1:]) if axis == 0 else (np.s_[:, :-1], np.s_[:, 1:])
+        before = wide.copy()
+        wide[low] |= before[high]
+        wide[high] |= before[low]
+    return wide
 
 
 class _OnPlots:

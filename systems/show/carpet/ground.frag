@@ -29,6 +29,8 @@ void main() {
     vec3 pigment = pigment_lying(place.xz, 1.0, lush, left);
     vec3 ground = soil_between(soil, place, left);
     pixel = vec4(shown_of(ground * pigment * pigment + haze), 1.0);
+#ifdef EDGED
     if (is_hole(place.xz))
         discard;
+#endif
 }

@@ -132,7 +132,9 @@ class CarpetPainter(RepresentationPainter):
         asked = outlook.noted(Asked, Asked())
         goes_on, self._deep = "beyond" in asked.parts, asked.is_deep
         mown = outlook.noted(Mown, None)
-        changes = 0 if mown is None else mown.strokes, self._ground.density.sown.count
+        terrain = self._ground.terrain
+        dug = 0 if terrain.holes is None else terrain.changes.count
+        changes = 0 if mown is None else mown.strokes, self._ground.density.sown.count, dug
         made_of = (
             self._ground,
             viewer.eye,

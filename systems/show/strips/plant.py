@@ -54,5 +54,7 @@ def _spread(ground: Ground, margin: float) -> Floats:
     finest = min(ground.density.size[0] / columns, ground.density.size[1] / rows)
     if ground.density.sown.any:
         finest = min(finest, CELL)
+    if ground.terrain.holes is not None:
+        finest = min(finest, ground.terrain.cell)
     count = int(np.clip(np.ceil((ground.patch + 2.0 * margin) / finest), 1, MOST_PLACES - 1)) + 1
     return np.linspace(-margin, ground.patch + margin, count, dtype=np.float32)

@@ -262,7 +262,7 @@ def test_rims_are_found_where_the_ground_breaks_off_and_nowhere_else() -> None:
     assert away[2] > away[1] > away[0]
     terrain = Terrain(np.zeros((101, 101), np.float32), 1.0)
     flat = Rims(terrain)
-    terrain.put(Part(40, 40, 10, 10), np.full((10, 10), 5.0, np.float32))
+    terrain.put(Part(40, 40, 10, 10), np.full((10, 10), 5.0, np.float32), np.zeros((10, 10), np.bool_))
     flat.follow()
     assert flat.any
 

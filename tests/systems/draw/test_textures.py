@@ -113,10 +113,14 @@ def test_g4_carpet_layers_are_kinds_models_slopes_and_directions(ctx: moderngl.C
     texture.release()
 
 
-def test_t1_heights_are_kept_to_the_bit(ctx: moderngl.Context, hills: Terrain) -> None:
-    texture = height_texture(ctx, hills)
-    np.testing.assert_array_equal(np.frombuffer(texture.read(), np.float32), hills.heights.reshape(-1))
-    texture.release()
+def test_t1_heights_are_kept_to_the_last_bit_which_tells_of_holes(ctx: moderngl.Context, hills: Terrain) -> None:
+    holes = np.random.default_rng(0).random(hills.heights.shape) < 0.3
+    for each in (None, holes):
+        texture = height_texture(ctx, Terrain(hills.heights, hills.cell, each))
+        bits = np.frombuffer(texture.read(), np.uint32).reshape(hills.heights.shape)
+        np.testing.assert_array_equal(bits & 1, 0 if each is None else each)
+        np.testing.assert_array_equal(bits >> 1, hills.heights.view(np.uint32) >> 1)
+        texture.release()
 
 
 @pytest.mark.parametrize(("kinds", "layers"), [(3, 1), (4, 1), (9, 3)])

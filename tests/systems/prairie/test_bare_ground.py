@@ -88,6 +88,26 @@ def test_f4_nothing_grows_in_a_hole_and_what_is_asked_there_stays_defined(load: 
     assert prairie.grass_at([within]).density.sum() == 0.0
 
 
+def test_f4_a_hole_that_is_dug_is_asked_for_saved_and_filled(load: Load) -> None:
+    heights = ridge()
+    heights[20, 20] = np.nan
+    prairie, other, place = load(scene(heights)), load(scene(heights)), [(-8.0, 0.0)]
+    before, clean = prairie.grass_at(place).density, prairie.state()
+    prairie.set_heights((-10.0, -2.0), np.full((5, 5), np.nan))
+    assert before.sum() > 0.5
+    assert prairie.grass_at(place).density.sum() == 0.0
+    np.testing.assert_array_equal(prairie.height_at(place), other.height_at(place))
+    other.restore(prairie.state())
+    np.testing.assert_array_equal(other.site.ground.terrain.holes, prairie.site.ground.terrain.holes)
+    assert other.grass_at(place).density.sum() == 0.0
+    other.restore(clean)
+    np.testing.assert_array_equal(other.grass_at(place).density, before)
+    prairie.set_heights((-10.0, -2.0), np.zeros((5, 5)))
+    np.testing.assert_array_equal(prairie.grass_at(place).density, before)
+    assert prairie.site.ground.terrain.holes is not None
+    assert prairie.site.ground.terrain.holes.sum() == 1
+
+
 def test_f4_a_state_of_ground_with_other_holes_is_refused(load: Load) -> None:
     heights = ridge()
     heights[20, 20] = np.nan

@@ -133,15 +133,17 @@ def test_who_has_missed_too_many_changes_takes_over_all(load: Load) -> None:
         np.testing.assert_array_equal(one, other)
 
 
+DUE = "heights are numbers [m] in rows and columns, or NaN where there is no ground"
+
+
 @pytest.mark.parametrize(
     ("corner", "heights", "why"),
     [
-        (CORNER, [[1.0, np.nan]], "heights are finite numbers [m] in rows and columns, not NaN or infinity"),
-        (CORNER, [[1.0, np.inf]], "heights are finite numbers [m] in rows and columns, not NaN or infinity"),
-        (CORNER, [1.0, 2.0], "heights are finite numbers [m] in rows and columns, not an array of shape (2,)"),
-        (CORNER, np.zeros((0, 3)), "heights are finite numbers [m] in rows and columns, not an array of shape (0, 3)"),
-        (CORNER, "deep", "heights are finite numbers [m] in rows and columns, not 'deep'"),
-        (CORNER, None, "heights are finite numbers [m] in rows and columns, not None"),
+        (CORNER, [[np.nan, np.inf]], f"{DUE}, not infinity"),
+        (CORNER, [1.0, 2.0], f"{DUE}, not an array of shape (2,)"),
+        (CORNER, np.zeros((0, 3)), f"{DUE}, not an array of shape (0, 3)"),
+        (CORNER, "deep", f"{DUE}, not 'deep'"),
+        (CORNER, None, f"{DUE}, not None"),
         (CORNER, [[6e4]], "heights lie within 50000 m, and these go from 60000 to 60000 m"),
         ((1.0, 2.0, 3.0), [[1.0]], "the corner of heights is a place (x, z), not (1.0, 2.0, 3.0)"),
         ((np.nan, 2.0), [[1.0]], "the corner of heights is a place (x, z), not NaN or infinity"),
