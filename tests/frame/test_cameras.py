@@ -50,6 +50,7 @@ SLOW = {
     "lane",
     "level",
     "moor",
+    "sparse",
     "sun-behind",
     "two-kinds",
     "walk-medium",
