@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from math import isfinite
 from numbers import Real
 from reprlib import repr as shortened
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +25,11 @@ class Footprint:
 
     corners: tuple[tuple[float, float], ...] = ()
     """Corners (x, z) of a polygon in its own frame, x to the right and -z ahead [m]; in place of the other two."""
+
+    if TYPE_CHECKING:  # places may stand in lists and arrays
+
+        def __init__(self, radius: float = 0.3, length: float = 0.0, corners: Iterable[Iterable[float]] = ()) -> None:
+            """Take what `__post_init__` makes of it."""
 
     def __post_init__(self) -> None:
         """Make pairs of the corners, whatever they stand in; raise ValueError for what is no footprint."""
@@ -56,6 +61,11 @@ class Road:
 
     width: float = 4.0
     """How wide it is [m]."""
+
+    if TYPE_CHECKING:
+
+        def __init__(self, line: Iterable[Iterable[float]], width: float = 4.0) -> None:
+            """Take what `__post_init__` makes of it."""
 
     def __post_init__(self) -> None:
         """Make pairs of the places, whatever they stand in; raise ValueError for what is no road."""

@@ -1,7 +1,8 @@
 """What lies grass down where it goes: people, animals, wheels."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from .footprint import Footprint, is_between
 
@@ -22,6 +23,18 @@ class Presser(Footprint):
     wear: float = 0.0
     """How much grass it wears off each time it goes over it, in [0, 1]. With a few hundredths, a path comes out
     where many walk. Above 0 it is at least 1/255. Worn ground stays so until it is sown again."""
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            radius: float = 0.3,
+            length: float = 0.0,
+            corners: Iterable[Iterable[float]] = (),
+            strength: float = 1.0,
+            wear: float = 0.0,
+        ) -> None:
+            """Take what `Footprint` and `__post_init__` make of it."""
 
     def __post_init__(self) -> None:
         """Raise ValueError for what is no footprint."""

@@ -228,7 +228,7 @@ def test_f4_what_is_no_footprint_is_refused(values: dict[str, object]) -> None:
 def test_f4_corners_may_stand_in_lists_and_in_arrays() -> None:
     square = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
     for corners in ([*map(list, square)], np.array(square), np.array(square, np.float32)):
-        presser = Presser(corners=corners)  # type: ignore[arg-type]
+        presser = Presser(corners=corners)
         assert hash(presser) == hash(Presser(corners=square))
         np.testing.assert_array_equal(discs_of(presser), discs_of(Presser(corners=square)))
 
