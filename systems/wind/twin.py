@@ -200,18 +200,17 @@ def joined_twins(
     """Return the lines that stand in for `PLACE`: winds go by runs, each of one twin's number.
 
     `TOLD` stands for those without one, `ANY` for all. Runs of one twin are loops without a choice, because a software
-    rasteriser goes through every branch of it. What a twin defines has a name of its own here, and no two can clash.
+    rasteriser goes through every branch of it. What a twin defines has a name of its own here: no two can clash, nor one
+    with what the program defines.
     `layouts` says how the record of each lies.
     """
     layouts = layouts or [Layout()] * len(twins)
     lines: list[Line] = []
     for number in range(len(twins)) if ANY in order else sorted(set(order) - {TOLD}):
         twin = twins[number]
-        lines += _head(f"#define {name} {name}_{number}" for name in _own(twin))
-        lines += _head(layouts[number].lines)
-        lines += [(twin.file, at, text) for at, text in enumerate(twin.text, 1)]
-        macros = (_MACRO.match(text) for text in twin.text)
-        lines += _head(f"#undef {name}" for name in [*_own(twin), *(macro[1] for macro in macros if macro)])
+        own = re.compile(rf"(?<![\w.])(?:{'|'.join(_own(twin))})\b")
+        lines += _head(own.sub(rf"\g<0>_{number}", text) for text in layouts[number].lines)
+        lines += [(twin.file, at, own.sub(rf"\g<0>_{number}", text)) for at, text in enumerate(twin.text, 1)]
     runs = chain.from_iterable(_run(run, number, twins) for run, number in enumerate(order))
     lines += _head([_HEAD, "    int row = 1;", *runs, "}"])
     return {PLACE: lines}
@@ -278,8 +277,9 @@ def _sent(number: int, twin: Twin) -> list[str]:
 
 
 def _own(twin: Twin) -> list[str]:
-    """Return what is defined for a twin alone."""
-    return twin.names if twin.record is None else [*twin.names, f"read_{twin.record}"]
+    """Return the names that are a twin's alone, without those of its record's members."""
+    macros = [match[1] for text in twin.text if (match := _MACRO.match(text))]
+    return [*twin.names, *macros] if twin.record is None else [*twin.names, *macros, f"read_{twin.record}"]
 
 
 def _parts(first: int, size: int) -> str:

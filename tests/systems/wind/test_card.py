@@ -296,6 +296,19 @@ def test_twins_that_define_the_same_names_do_not_clash(ear: CardEar, monkeypatch
     assert not ear.card.reasons
 
 
+def test_d5_a_twin_may_call_its_own_what_the_program_calls_something_else(
+    ear: CardEar, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    named = "const float RINGS = 2.0, KINDS = 1.0;\n#define GROUP(x) x\nfloat OF(float x) { return GROUP(x); }\n"
+    monkeypatch.setattr(Draught, "twin_values", lambda self, **_: TwinValues((self.side,)))
+    written(monkeypatch, Draught, named + DRAUGHT)
+    agrees(ear, now_of(Draught()))
+    assert not ear.card.reasons
+    defines = {"KINDS": 2, "RINGS": 8}
+    made = ear.card.program("engine/gl/fill.vert", "systems/show/strips/receivers.frag", defines=defines)
+    assert "stacks" in made
+
+
 def test_a_program_stays_until_a_kind_comes_that_it_has_no_room_for(ear: CardEar) -> None:
     def after(*winds: WindPrimitive) -> moderngl.Program:
         ear.card.write(now_of(*winds), time=TIME, seed=7, mixing="weight")
@@ -355,7 +368,7 @@ def test_only_rows_of_told_messages_that_differ_are_sent(ctx: moderngl.Context) 
 def test_the_lines_of_twins_lead_back_to_their_files() -> None:
     twin = Twin.of("mine.glsl", DRAUGHT.splitlines())
     (lines,) = joined_twins([twin], [0, TOLD]).values()
-    assert ("mine.glsl", 2, "float mask(vec2 place, Wind wind) {") in lines
+    assert ("mine.glsl", 2, "float mask_0(vec2 place, Wind wind) {") in lines
 
 
 @pytest.mark.parametrize(
