@@ -35,6 +35,9 @@ Sort = TypeVar("Sort", bound=Part)
 READY_ROWS = 512
 """Rows of receivers that there is room for once a game has prepared: half a million, in 8 MiB."""
 
+AHEAD = True
+"""Whether a live prairie has all programs before the first frame, so that none keeps a player waiting later."""
+
 OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
 
 WHOLE = Asked()
@@ -140,6 +143,7 @@ class Painter:
         assert self._winds is not None
         self.air.make_ready([*site.scene.wind, *self._winds], receivers=READY_ROWS * ROW)
         for painter in self.painters.values():
+            yield from painter.making()
             painter.make_ready(site)
             yield
 
@@ -180,7 +184,8 @@ class Painter:
         for each in site.representations:
             self.painters[each.name] = made = each.painter(canvas)
             yield
-            yield from made.making()
+            if AHEAD and self.quarantine.live:
+                yield from made.making()
 
     def blade_painter(self, segments: int) -> BladePainter:
         """Return a painter of opaque blades with this many segments, in any order."""

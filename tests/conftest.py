@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.engine.declared.quality import Quality
 from tallgrass.engine.world import World
-from tallgrass.systems import site
+from tallgrass.systems import painter, site
 from tallgrass.systems.around.receivers import Receiving
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.light import repeating
@@ -173,6 +173,20 @@ def _grown_once() -> Iterator[None]:
         yield
 
 
+@pytest.fixture(scope="session", autouse=True)
+def _programs_as_they_are_drawn() -> Iterator[None]:
+    """Make programs as they are drawn, as for films: to compile those of a game takes longer than most tests."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(painter, "AHEAD", False)
+        yield
+
+
+@pytest.fixture
+def ahead(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Have all programs before the first frame, as a game does."""
+    monkeypatch.setattr(painter, "AHEAD", True)
+
+
 @pytest.fixture(scope="session")
 def ctx(pytestconfig: pytest.Config) -> Iterator[moderngl.Context]:
     """A headless GL context that all tests draw in."""
@@ -202,11 +216,11 @@ def on_card() -> Callable[[Prairie], OnCard]:
     """
 
     def read(prairie: Prairie) -> OnCard:
-        painter, outlook = prairie.painter, prairie.viewers["main"]
-        assert painter is not None
-        counts = {name: each.receivers(outlook) for name, each in painter.painters.items()}
-        numbers = iter(painter.received.lay([count for each in counts.values() for count in each]))
-        texels = np.frombuffer(painter.received.texture.read(), np.float32).reshape(-1, 4)
+        drawn_by, outlook = prairie.painter, prairie.viewers["main"]
+        assert drawn_by is not None
+        counts = {name: each.receivers(outlook) for name, each in drawn_by.painters.items()}
+        numbers = iter(drawn_by.received.lay([count for each in counts.values() for count in each]))
+        texels = np.frombuffer(drawn_by.received.texture.read(), np.float32).reshape(-1, 4)
         found: OnCard = []
         for name, each in counts.items():
             for receiving, count, first in zip(outlook.kept[name].receiving, each, numbers, strict=False):

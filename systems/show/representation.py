@@ -74,7 +74,7 @@ class RepresentationPainter(Part, ABC):
     """Everything that one GL context holds of a representation, and the drawing of it."""
 
     def making(self) -> Iterator[None]:
-        """Make its programs, one at a time as drivers take long over each, before it draws."""
+        """Make the programs that are not there yet, one at a time, as drivers take long over each."""
         yield from ()
 
     @abstractmethod

@@ -200,9 +200,8 @@ def joined_twins(
     """Return the lines that stand in for `PLACE`: winds go by runs, each of one twin's number.
 
     `TOLD` stands for those without one, `ANY` for all. Runs of one twin are loops without a choice, because a software
-    rasteriser goes through every branch of it. What a twin defines has a name of its own here: no two can clash, nor one
-    with what the program defines.
-    `layouts` says how the record of each lies.
+    rasteriser goes through every branch of it. What a twin defines has a name of its own here: no two can clash, nor
+    one with what the program defines. `layouts` says how the record of each lies.
     """
     layouts = layouts or [Layout()] * len(twins)
     lines: list[Line] = []

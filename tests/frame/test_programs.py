@@ -55,6 +55,7 @@ def first_shadow(prairie: Prairie) -> list[int]:
     return [esper.create_entity(Shade((0.0, 3.0, 10.0), 1.0))]
 
 
+@pytest.mark.usefixtures("ahead")
 @pytest.mark.parametrize("happens", [first_cut, first_clear, first_presser, first_shadow])
 def test_nothing_that_happens_to_grass_for_the_first_time_makes_a_program(
     made: list[str], load: Load, stage: Stage, camera: Aim, happens: Callable[[Prairie], list[int]]
@@ -70,3 +71,20 @@ def test_nothing_that_happens_to_grass_for_the_first_time_makes_a_program(
         esper.delete_entity(entity, immediate=True)
     assert np.abs(after - before).max() > 20.0
     assert made == []
+
+
+@pytest.mark.usefixtures("ahead")
+def test_where_nobody_waits_for_the_next_frame_programs_are_made_as_they_are_drawn(
+    made: list[str], load: Load, stage: Stage, camera: Aim
+) -> None:
+    film, there = load(CALM, live=False), camera(0.0, 2.0, 18.0)
+    stage.shot(film, there)
+    first = len(made)
+    stage.shot(film, there)
+    assert len(made) == first > 10
+    film.cut(Footprint(radius=4.0), 0.05, pose=Pose(0.0, 10.0))
+    cut = stage.shot(film, there)
+    assert len(made) > first
+    game = load(CALM)
+    game.cut(Footprint(radius=4.0), 0.05, pose=Pose(0.0, 10.0))
+    np.testing.assert_array_equal(stage.shot(game, there), cut)

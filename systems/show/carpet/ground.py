@@ -1,6 +1,7 @@
 """Drawing the ground, and on it the 2D carpet: square tiles that grow coarser with distance."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 
 import moderngl
 import numpy as np
@@ -186,27 +187,40 @@ def adjoining(tiles: NDArray[np.void], some: Mask, /) -> Mask:
 
 
 class _Layer:
-    """A program that draws tiles of the ground, with the tiles it draws."""
+    """A program that draws tiles of the ground, with the tiles it draws; it is made once it is asked for."""
 
     def __init__(
-        self, made: moderngl.Program, stream: Stream, corners: moderngl.Buffer, indices: moderngl.Buffer
+        self, make: Callable[[], moderngl.Program], stream: Stream, corners: moderngl.Buffer, indices: moderngl.Buffer
     ) -> None:
-        self.program = made
-        self.stream = stream
-        contents = [(corners, "2f", "corner"), stream.binding(made)]
-        self.array = made.ctx.vertex_array(made, contents, index_buffer=indices)
+        self._make, self.stream, self._grid = make, stream, (corners, indices)
+        self._told: dict[str, object] = {}
+        self.made: moderngl.VertexArray | None = None
 
-    def draw(self) -> int:
-        """Draw the tiles; return the number of draw calls."""
-        if self.stream.count:
-            self.array.render(moderngl.TRIANGLES, instances=self.stream.count)
-        return int(self.stream.count > 0)
+    @property
+    def array(self) -> moderngl.VertexArray:
+        """What draws a tile."""
+        if self.made is None:
+            program, (corners, indices) = self._make(), self._grid
+            contents = [(corners, "2f", "corner"), self.stream.binding(program)]
+            self.made = program.ctx.vertex_array(program, contents, index_buffer=indices)
+            self.know(self._told)
+        return self.made
 
+    def know(self, told: Mapping[str, object]) -> None:
+        """Tell the program what it asks for of this, now or once it is made."""
+        self._told |= told
+        for name, value in told.items():
+            if self.made is not None and name in self.made.program:
+                self.made.program[name] = value
 
-def _tell(layer: _Layer, told: Mapping[str, object]) -> None:
-    for name, value in told.items():
-        if name in layer.program:
-            layer.program[name] = value
+    def draw(self, **told: float) -> int:
+        """Draw the tiles, if there are any, by a program that is told this; return the number of draw calls."""
+        if not self.stream.count:
+            return 0
+        for name, value in told.items():
+            tell(self.array.program, name, value)
+        self.array.render(moderngl.TRIANGLES, instances=self.stream.count)
+        return 1
 
 
 def _of_images(growths: Sequence[Growth], seed: int) -> dict[str, object]:
@@ -219,6 +233,10 @@ def _of_images(growths: Sequence[Growth], seed: int) -> dict[str, object]:
         "first": by_kind([sum(images[:index]) for index in range(len(images))]),
         "stock": (len(growths[0].models), seed),
     }
+
+
+def _program_of(layer: _Layer) -> moderngl.Program:
+    return layer.array.program
 
 
 class GroundPainter:
@@ -254,10 +272,10 @@ class GroundPainter:
         """The carpet in shadow maps: where it is even, and where grass ends or is cut."""
         self.is_trodden = False
         """Whether anybody treads the grass, or has: then pixels of the carpet ask for that, which costs."""
-        self._seed = seed
+        self._lay_out(seed)
 
-    def making(self) -> Iterator[None]:
-        """Make its programs, one at a time, before it draws."""
+    def _lay_out(self, seed: int) -> None:
+        """Say which programs there are."""
         ctx, growths = self._ctx, self.growths
         heads: Defines = {"HEADS": 1} if any_heads(growths) else {}
         litter: Defines = {"ANISOTROPIC": 1} if anisotropy(ctx) > 1.0 else {}
@@ -282,15 +300,21 @@ class GroundPainter:
         ]
         for among, stream, name, defines in wanted:
             vertex, fragment = f"systems/show/carpet/{name}.vert", f"systems/show/carpet/{name}.frag"
-            made = joined(ctx, self._block, self.units, vertex, fragment, defines)
-            among.append(_Layer(made, self.streams[stream], *self.grid))
-            yield
-        self.covered += [_Layer(each.program, self.streams[1], *self.grid) for each in self.bare]
+            make = partial(joined, ctx, self._block, self.units, vertex, fragment, defines)
+            among.append(_Layer(make, self.streams[stream], *self.grid))
+        self.covered += [_Layer(partial(_program_of, each), self.streams[1], *self.grid) for each in self.bare]
         for each in self._layers:
-            _tell(each, _of_images(growths, self._seed))
+            each.know(_of_images(growths, seed))
         if heads:
             self._tell("profile", np.concatenate([profile_of(growth) for growth in growths]).tolist())
         self.raise_carpet(RAISED, outline=OUTLINE)
+
+    def making(self) -> Iterator[None]:
+        """Make the programs that are not there yet, one at a time."""
+        for each in self._layers:
+            if each.made is None:
+                _ = each.array
+                yield
 
     @property
     def _layers(self) -> tuple[_Layer, ...]:
@@ -298,7 +322,7 @@ class GroundPainter:
 
     def _tell(self, name: str, value: object) -> None:
         for layer in self._layers:
-            _tell(layer, {name: value})
+            layer.know({name: value})
 
     @property
     def _is_cut(self) -> bool:
@@ -362,12 +386,9 @@ class GroundPainter:
         """Draw the bare ground, where it comes `alone` that of the carpet too; return the number of draw calls."""
         self.use()
         rare = 2 if self._is_rare or self.is_trodden else self._is_cut
-        calls = self.bare[rare].draw() + self.edged[0].draw()
+        calls = self.bare[rare].draw(pushed=0.0) + self.edged[0].draw()
         if alone:
-            covered = self.covered[rare]
-            covered.program["pushed"] = PUSHED
-            calls += covered.draw()
-            covered.program["pushed"] = 0.0
+            calls += self.covered[rare].draw(pushed=PUSHED)
         return calls
 
     def draw_under(self) -> int:
@@ -379,19 +400,18 @@ class GroundPainter:
         """Draw the carpet, or a part of it: its outlines let through what is behind; return the draw calls."""
         self.use()
         even = self.carpet[3 if self._is_rare or self.is_trodden else 2 if self._is_lamplit else self._is_cut]
-        for carpet in (even, self.edged[2]):
-            tell(carpet.program, "part", part)
-        return even.draw() + self.edged[2].draw()
+        return even.draw(part=part) + self.edged[2].draw(part=part)
 
     def cast(self, light: tuple[float, float, float], /) -> int:
         """Write the depth at which grass of the carpet stops light from a place [m]; return the draw calls."""
         self.shares.use(self.units["shares"])
         for layer in self.casting:
-            layer.program["light"] = light
+            layer.know({"light": light})
         return sum(layer.draw() for layer in self.casting)
 
     def release(self) -> None:
         """Give everything back."""
-        every = *self._layers, *self.covered
-        release_all(*(layer.array for layer in every), *(layer.program for layer in self._layers))
+        made = [layer.made for layer in self._layers if layer.made is not None]
+        covered = [layer.made for layer in self.covered if layer.made is not None]
+        release_all(*covered, *made, *(array.program for array in made))
         release_all(*self.streams, *self.grid, self.shares, self.rims)

@@ -72,7 +72,7 @@ class CarpetPainter(RepresentationPainter):
         self.ground = GroundPainter(canvas.ctx, canvas.block, growths, canvas.units, side=side, seed=canvas.seed)
 
     def making(self) -> Iterator[None]:
-        """Make the programs of ground and carpet, one at a time."""
+        """Make the programs that are not there yet, one at a time."""
         return self.ground.making()
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:

@@ -29,8 +29,24 @@ GLSL = looked_up("Stood", STOOD, "stood", STOOD_ROW) + emitted(
     {"STRIPS_ROW": STRIPS_ROW, "RUNS_ALONG": RUNS_ALONG, "LIES_AHEAD": LIES_AHEAD, "OF_RING": OF_RING}
 )
 
-EDGED: dict[str, str | int] = {"SHADED": 1, "CUT": 1, "THIN": 1, "EDGED": 1}
+Sort = dict[str, str | int]
+"""What a program is told."""
+
+EDGED: Sort = {"SHADED": 1, "CUT": 1, "THIN": 1, "EDGED": 1}
 """What the program is told that draws grass whose density has edges, whatever else there is: it is the last."""
+
+
+def _sorts(*special: Sort) -> list[Sort]:
+    """Return what programs of some sorts are told, each with all blades and by rank."""
+    thin: Sort = {"THIN": 1}
+    return [{**each, **more} for each in special for more in ({}, thin)]
+
+
+SORTS = [*_sorts({}, {"SHADED": 1}, {"SHADED": 1, "CUT": 1}), EDGED]
+"""The programs that draw strips: of the usual, where shadows fall on it, and where any grass is cut besides."""
+
+DEEP = [*_sorts({"DEEP": 1}, {"DEEP": 1, "CUT": 1}), {"DEEP": 1, **EDGED}]
+"""Those that write depth alone: with all blades and by rank, then where any grass is cut, and with edges."""
 
 NUMBER = np.dtype([("number", "u4")])
 
@@ -67,36 +83,28 @@ class StripPainter:
         if heads:
             whole["HEADS"] = 1
         self._canvas, self._whole = canvas, whole
-        self.arrays: list[moderngl.VertexArray] = []
-        self._deep: list[moderngl.VertexArray] = []
-        """Those that write depth alone, once they are asked for."""
+        self._made: dict[tuple[bool, int], moderngl.VertexArray] = {}
 
     def making(self) -> Iterator[None]:
-        """Make its programs, one at a time, before it draws."""
-        for defines in (*_sorts({}, {"SHADED": 1}, {"SHADED": 1, "CUT": 1}), EDGED):
-            self.arrays += self._made(defines)
-            yield
+        """Make the programs that are not there yet, one at a time."""
+        for number in range(len(SORTS)):
+            if (False, number) not in self._made:
+                self.array(number)
+                yield
 
-    def _made(self, *special: dict[str, str | int]) -> list[moderngl.VertexArray]:
-        """Return what draws strips as programs of these sorts do."""
-        canvas, pictures, made = self._canvas, self._pictures(), []
-        for defines in ({**self._whole, **each} for each in special):
+    def array(self, number: int, *, deep: bool = False) -> moderngl.VertexArray:
+        """Return what draws strips as programs of one of `SORTS` do, or of `DEEP`; it is made when it is asked for."""
+        if (deep, number) not in self._made:
+            canvas = self._canvas
             program = joined(
                 canvas.ctx, canvas.block, canvas.units, "systems/show/strips/strips.vert",
-                "systems/show/strips/strips.frag", defines,
+                "systems/show/strips/strips.frag", {**self._whole, **(DEEP if deep else SORTS)[number]},
             )  # fmt: skip
             self._tell(program)
             program["most"], program["atlas_rows"] = self.most, self._rows
-            program["pictures"] = filled(pictures, room_for(len(self.rings)) * self.kinds)
-            made.append(canvas.ctx.vertex_array(program, []))
-        return made
-
-    @property
-    def deep(self) -> list[moderngl.VertexArray]:
-        """What writes depth alone: with all blades and by rank, then where any grass is cut, and with edges."""
-        if not self._deep:
-            self._deep = self._made(*_sorts({"DEEP": 1}, {"DEEP": 1, "CUT": 1}), {"DEEP": 1, **EDGED})
-        return self._deep
+            program["pictures"] = filled(self._pictures(), room_for(len(self.rings)) * self.kinds)
+            self._made[deep, number] = canvas.ctx.vertex_array(program, [])
+        return self._made[deep, number]
 
     def _tell(self, made: moderngl.Program) -> None:
         """Tell a program how strips stand."""
@@ -120,7 +128,8 @@ class StripPainter:
         self.stood.reserve(READY_ROWS)
         self.strips.reserve(READY_ROWS)
         self.hearing.make_ready()
-        _ = self.deep
+        for number in range(len(DEEP)):
+            self.array(number, deep=True)
 
     def write(self, stood: NDArray[np.void]) -> None:
         """Send the patches, ring after ring."""
@@ -153,11 +162,11 @@ class StripPainter:
         self.extents.use(self.units["extents"])
         self.strips.texture.use(self.units["strips"])
         frame = self._block.record[0]
-        is_cut, arrays = bool(frame["anything_cut"]), self.deep if deep else self.arrays
+        is_cut = bool(frame["anything_cut"])
         casts = frame["maps_shown"] > 0.0 or frame["shades_grid"][3] > 0.0 or "TREES" in self._block.defines
         is_shaded = bool(frame["bodies"]["radius"].any() or casts)
         rare = is_cut if deep else 2 if is_cut else int(is_shaded)
-        array = arrays[2 * rare + thin if thin < 2 else -1]
+        array = self.array(2 * rare + thin if thin < 2 else len(DEEP if deep else SORTS) - 1, deep=deep)
         tell(array.program, "first", first)
         array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.sections + 2, instances=count)
         return 1
@@ -165,14 +174,8 @@ class StripPainter:
     def release(self) -> None:
         """Give everything back."""
         textures = self.atlas, self.ranks, self.extents
-        arrays = *self.arrays, *self._deep
+        arrays = list(self._made.values())
         release_all(*arrays, *(array.program for array in arrays), self.hearing, self.stood, self.strips, *textures)
-
-
-def _sorts(*special: dict[str, str | int]) -> list[dict[str, str | int]]:
-    """Return what programs of some sorts are told, each with all blades and by rank."""
-    thin: dict[str, str | int] = {"THIN": 1}
-    return [{**each, **more} for each in special for more in ({}, thin)]
 
 
 def tell_stacks(made: moderngl.Program, rings: Sequence[StripRing], /) -> None:

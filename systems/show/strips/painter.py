@@ -62,7 +62,7 @@ class StripsPainter(RepresentationPainter):
         """The strips that were sent last."""
 
     def making(self) -> Iterator[None]:
-        """Make the programs of all sorts, one at a time."""
+        """Make the programs that are not there yet, one at a time."""
         return self.strips.making()
 
     def make_ready(self, grown: Grown, /) -> None:

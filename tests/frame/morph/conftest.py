@@ -180,9 +180,9 @@ class Scene:
         everywhere = np.tile(np.array([0, 1, 1, 0], np.float32), (*strips.extents.size[::-1], 1))
         extents = self.painter.ctx.texture(strips.extents.size, 4, everywhere.tobytes(), dtype="f4")
         (extents if whole else strips.extents).use(UNITS["extents"])
-        strips.arrays[0].program["first"] = 0
+        strips.array(0).program["first"] = 0
         size = 2 * strips.sections + 2, len(numbers)
-        data = self.caught(strips.arrays[0].program, STRIP, None, size)
+        data = self.caught(strips.array(0).program, STRIP, None, size)
         extents.release()
         ring = np.repeat(np.arange(len(rings)), [len(each.rows) for each in rings])
         return Drawn(
@@ -196,7 +196,7 @@ class Scene:
     @property
     def first_layers(self) -> NDArray[np.int64]:
         """Where each kind's pictures begin in the atlas, by ring and kind."""
-        pictures = np.array(self.strips.strips.arrays[0].program["pictures"].value)  # type: ignore[union-attr]
+        pictures = np.array(self.strips.strips.array(0).program["pictures"].value)  # type: ignore[union-attr]
         return np.asarray(pictures[:, 2], np.int64)
 
 
@@ -225,6 +225,7 @@ def scene(
     near, representation = prairie.site.representations[:2]
     assert isinstance(blades, BladesPainter)
     assert isinstance(strips, StripsPainter)
+    strips.strips.array(0)
     assert isinstance(near, BladeRepresentation)
     assert isinstance(representation, StripRepresentation)
     numbers = np.frombuffer(blades.numbers.buffer.read(), np.uint32)[: blades.morph.stream.count].astype(np.int64)
