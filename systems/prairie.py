@@ -107,10 +107,11 @@ class Prairie(Tending):
 
         `ctx` is the context to draw in, or else the one that is current at the first draw. `preset` overrides the
         scene's quality. `lod` shows everything in one representation, and `transitions` leaves out parts of changes, to
-        measure them. A `live` prairie leaves out a plugin's wind that takes too long. With `hold` a draw takes no
-        longer than that [s], and draws less where it must. A `linear` prairie draws linear radiance, for a game with a
-        tone curve of its own. Raises `SceneError` with every problem of the scene and its maps; ValueError for an
-        unknown preset or representation, and for a `hold` that is no time.
+        measure them. A `live` prairie leaves out a plugin's wind that takes too long, and compiles all its programs at
+        its first frame; others compile each once they need it. With `hold` a draw takes no longer than that [s], and
+        draws less where it must. A `linear` prairie draws linear radiance, for a game with a tone curve of its own.
+        Raises `SceneError` with every problem of the scene and its maps; ValueError for an unknown preset or
+        representation, and for a `hold` that is no time.
         """
         must_be_known("preset", preset, PRESETS)
         must_be_known("representation", str(lod), get_args(LodName))
