@@ -49,11 +49,16 @@ REMEMBERED, KEPT = 24, 120
 SEEDS = 64
 """Seeds whose ground and clouds are remembered, less than a megabyte each."""
 
+QUICK = "test_drawing_twice_at_the_same_time_gives_the_same_picture"
+SLOW_FOLDERS = "app", "docs", "examples", "hosts", "packaging"
+"""Of what is drawn, all that a quick run has; and the folders of `tests` that it leaves out."""
+
 PARENT = """
 import json, os, runpy, sys
 
-import tallgrass.systems.prairie, tallgrass.testing
+import tallgrass.systems.painter, tallgrass.systems.prairie, tallgrass.testing
 
+tallgrass.systems.painter.AHEAD = False
 for line in sys.stdin:
     told = json.loads(line)
     child = os.fork()
@@ -77,6 +82,18 @@ runpy.run_path(told["program"], run_name="__main__")
 _HOME = pytest.StashKey[moderngl.Framebuffer]()
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Offer a run of less than a minute."""
+    parser.addoption(
+        "--quick", action="store_true", help="only what takes a moment: engine, systems and scenes, and one picture"
+    )
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Leave out folders whose tests start programs, where a run is to be quick."""
+    return True if config.option.quick and collection_path.name in SLOW_FOLDERS else None
+
+
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Mark what draws, and run what opens windows last: a window takes the current GL context away.
 
@@ -88,6 +105,9 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     for item in items:
         if "ctx" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.gl)
+    if config.option.quick:
+        drawn = "gl", "window", "golden"
+        items[:] = [item for item in items if QUICK in item.name or not any(map(item.get_closest_marker, drawn))]
     items.sort(key=lambda item: item.get_closest_marker("window") is not None)
 
 

@@ -22,7 +22,7 @@ class Homed(Releasable, Protocol):
 Thing = TypeVar("Thing", bound=Homed)
 
 MOST_LEFT = 4
-"""Things that wait to be given back, each in a context that was not current when it should have been."""
+"""Contexts whose things wait to be given back, as they were not current when they should have been."""
 
 _tokens = count(0x7A11_0001)
 _left: list["Home[Any]"] = []
@@ -39,7 +39,7 @@ class Home(Generic[Thing]):
     def __init__(self, gl: Functions, thing: Thing) -> None:
         self._gl, self.thing = gl, thing
         self.place = None if thing.ctx.screen is None else pyglet_context()
-        self._handle, self._token = current_handle(), next(_tokens)
+        self.handle, self._token = current_handle(), next(_tokens)
         self._mark, bound = (c_int * 1)(), self._bound()
         gl.glGenVertexArrays(1, self._mark)
         gl.glBindVertexArray(*self._mark)
@@ -61,7 +61,7 @@ class Home(Generic[Thing]):
         """Return whether its context is known to be gone: its window is closed, or another one has its address."""
         if self.place is not None:
             return is_lost(self.place)
-        return bool(self._handle) and current_handle() == self._handle and not self.is_here()
+        return bool(self.handle) and current_handle() == self.handle and not self.is_here()
 
     def release(self) -> bool:
         """Give the thing back in its own context; return whether that could be made current, or need not."""
@@ -123,6 +123,7 @@ class Homes(Generic[Thing]):
         Beside pyglet nobody can make another context current than the one that is. What is in others is given back
         when something is next drawn there.
         """
-        left = [home for home in self._homes if not home.release()]
+        _left.extend([home for home in self._homes if not home.release()])
         self._homes.clear()
-        _left[:] = (_left + left)[-MOST_LEFT:]
+        last = list(dict.fromkeys(home.handle for home in reversed(_left)))[:MOST_LEFT]
+        _left[:] = [home for home in _left if home.handle in last]
