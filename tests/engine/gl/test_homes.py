@@ -1,7 +1,7 @@
 """Things of GL that are released while their context is not current wait until it is."""
 
 from collections.abc import Iterator
-from typing import Any, cast
+from typing import Any
 
 import pytest
 
@@ -26,9 +26,9 @@ def left() -> Iterator[list[Any]]:
     homes._left[:] = before  # noqa: SLF001
 
 
-def release(*away: Away) -> None:
+def release(*away: Any) -> None:
     some: homes.Homes[Any] = homes.Homes()
-    some._homes = cast("list[Any]", [*away])  # noqa: SLF001
+    some._homes = [*away]  # noqa: SLF001
     some.release()
 
 
