@@ -267,7 +267,7 @@ def test_far_ground_fades_into_the_haze_that_a_game_gives(stage: Stage, load: Lo
 
 
 @pytest.mark.parametrize(
-    "haze", ["grey", (0.1, 0.2), (0.1, -1.0, 0.0), lambda toward: toward[:, 0], (np.nan, 0.0, 0.0)]
+    "haze", ["greyish", (0.1, 0.2), (0.1, -1.0, 0.0), lambda toward: toward[:, 0], (np.nan, 0.0, 0.0)]
 )
 def test_haze_without_a_colour_is_refused_in_a_sentence(load: Load, haze: Any) -> None:
     prairie = load(STILL)
