@@ -213,7 +213,7 @@ def test_a_frame_ends_where_a_system_releases_the_prairie(stage: Stage, load: Lo
     assert (len(empty), ran) == (1, ["end"])
     assert caplog.records == []
     with pytest.raises(RuntimeError, match=r"^this prairie has been released: load it again to draw it$"):
-        stage.shot(prairie)
+        stage.shot(prairie, Camera((0.0, 4.0, 20.0), 0.0, 0.0, 1.0))
 
 
 def test_d2_released_a_prairie_leaves_no_entity_behind(stage: Stage, load: Load) -> None:
