@@ -293,3 +293,15 @@ def _matrix(matrix: object, name: str) -> NDArray[np.float32]:
     if array.shape != (4, 4):
         raise ValueError(f"{due}, not {array.shape}")
     return array
+
+
+FAR_OFF = 2e4
+"""How far a light is taken to be whose rays are parallel [m]: as far as single precision parts centimetres there."""
+
+
+def light_from(view: View, place: tuple[float, float, float], /) -> tuple[float, float, float]:
+    """Return where a light is that sees this view, [m]; for parallel rays, far away from a place."""
+    if view.projection[3, :3].any():
+        return view.eye
+    x, y, z = (float(at + FAR_OFF * part) for at, part in zip(place, view.view[2, :3], strict=True))
+    return x, y, z

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from functools import wraps
 from typing import TypeVar
+from weakref import WeakKeyDictionary
 
 Thing = TypeVar("Thing")
 Answer = TypeVar("Answer")
@@ -29,3 +30,17 @@ def by_identity(most: int) -> Callable[[Callable[[Thing], Answer]], Callable[[Th
         return asked
 
     return decorated
+
+
+def while_it_lives(function: Callable[[Thing], Answer]) -> Callable[[Thing], Answer]:
+    """Remember a function's answers for as long as the things that it was asked about are there."""
+    known: WeakKeyDictionary[Thing, Answer] = WeakKeyDictionary()
+
+    @wraps(function)
+    def asked(thing: Thing, /) -> Answer:
+        found = known.get(thing)
+        if found is None:
+            found = known[thing] = function(thing)
+        return found
+
+    return asked

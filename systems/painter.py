@@ -1,6 +1,6 @@
 """Drawing a whole frame: ground, sky and carpet, then strips and blades from far to near."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import TypeVar
@@ -8,7 +8,7 @@ from typing import TypeVar
 import moderngl
 
 from ..components.wind import WindPrimitive
-from ..engine.camera import View, is_mirrored
+from ..engine.camera import View, is_mirrored, light_from
 from ..engine.gl.guest import aside, colourless, depth_ends, guest
 from ..engine.gl.rasteriser import handing_over
 from ..engine.gl.smaller import Smaller
@@ -26,6 +26,7 @@ from .show.blades.draw import BladePainter
 from .show.blades.plant import record_of
 from .show.representation import Canvas, RepresentationPainter
 from .site import Site
+from .staged import Staged, are_alike, are_other_kinds, is_other_grass, special_of
 from .wind.blow import ReceiverArrays, mean_yaw
 from .wind.card import CardWinds
 from .wind.quarantine import Quarantine
@@ -74,6 +75,7 @@ class Painter:
         self.draw_calls = self.blades = 0
         """Of the last frame; and the blades that were sent as geometry."""
         self.site: Site | None = None
+        self._staged: Staged | None = None
         self._outlook: Outlook | None = None
         self._first: dict[str, list[int]] = {}
         self._special: dict[str, str | int] = {}
@@ -138,11 +140,13 @@ class Painter:
         """Return how many steps `preparing` takes at most."""
         return 2 * len(self.parts) + 11 + sum(3 + each.programs for each in site.representations)
 
-    def _making_ready(self, site: Site) -> Iterator[None]:
+    def _making_ready(
+        self, site: Site, air: CardWinds | None = None, painters: Mapping[str, RepresentationPainter] | None = None
+    ) -> Iterator[None]:
         """Make room and programs for whatever winds will blow."""
         assert self._winds is not None
-        self.air.make_ready([*site.scene.wind, *self._winds], receivers=READY_ROWS * ROW)
-        for painter in self.painters.values():
+        (air or self.air).make_ready([*site.scene.wind, *self._winds], receivers=READY_ROWS * ROW)
+        for painter in (self.painters if painters is None else painters).values():
             yield from painter.making()
             painter.make_ready(site)
             yield
@@ -152,23 +156,75 @@ class Painter:
         before = self.site
         for part in self._doing["settle"]:
             part.settle(site, self.record)
-        if before is None or _are_other_kinds(site, before):
-            self._special = {name: told for each in site.representations for name, told in each.defines(site).items()}
+        if before is None or are_other_kinds(site, before):
+            self._special = special_of(site)
         defines = dict(self._special)
         for part in self._doing["defines"]:
             defines |= part.defines()
-        is_other = before is None or defines != self.block.defines or _is_other_grass(site, before)
-        if is_other:
+        is_other = before is None or defines != self.block.defines or is_other_grass(site, before)
+        if not is_other and site is before:
+            return
+        is_made = before is not None and is_other and self._stands_ready(site, before, defines)
+        if is_made:
+            while not self.stage(site):
+                yield
+            self._take(site)
+        elif is_other:
             self.site = None
             yield from self._growing(site, defines)
-        elif site is before:
-            return
         self.site = site
         for painter in self.painters.values():
             painter.settle(site, self.record)
         self.air.meet(site.scene.wind)
-        if is_other and self._winds is not None:
+        if is_other and not is_made and self._winds is not None:
             yield from self._making_ready(site)
+
+    def _fits(self, site: Site, before: Site) -> bool:
+        """Return whether the programs that there are draw the grass of another site too."""
+        return are_alike(site, before) and self._defines_of(site) == self.block.defines and all(
+            each.name in self.painters and self.painters[each.name].fits(each) for each in site.representations
+        )  # fmt: skip
+
+    def _defines_of(self, site: Site) -> dict[str, str | int]:
+        """Return what the programs of another site's grass are told."""
+        return {name: told for name, told in self.block.defines.items() if name not in self._special} | special_of(site)
+
+    def _stands_ready(self, site: Site, before: Site, defines: dict[str, str | int]) -> bool:
+        """Return whether a site's grass is being brought into GL already, or can be beside what there is."""
+        staged = self._staged
+        if staged is not None and staged.representations is site.representations and staged.defines == defines:
+            return True
+        return defines == self.block.defines and self._fits(site, before)
+
+    def stage(self, site: Site, /) -> bool:
+        """Bring a piece of another site's grass into GL beside what is drawn; return whether all of it is there."""
+        if self.site is None:
+            return True  # it is brought there when it is drawn
+        if self._staged is None or self._staged.representations is not site.representations:
+            self._staged = staged = Staged(site.representations, self._defines_of(site))
+            if self._fits(site, self.site):
+                staged.steps = self._staging(site)
+            else:
+                staged.air = air = CardWinds(self.ctx, UNITS, site.growths)
+                ready = None if self._winds is None else partial(self._making_ready, site, air, staged.painters)
+                staged.steps = staged.making(self._canvas(site, air), site.scene.wind, ready)
+        return next(self._staged.steps, "over") == "over"
+
+    def _staging(self, site: Site) -> Iterator[None]:
+        for each in site.representations:
+            yield from self.painters[each.name].staging(site.representations)
+
+    def _take(self, site: Site) -> None:
+        """Draw from now on what was staged of a site."""
+        staged, self._staged = self._staged, None
+        assert staged is not None
+        if staged.air is None:
+            for painter in self.painters.values():
+                painter.restock()
+            self.air.regrow(site.growths)
+            return
+        release_all(*self.painters.values(), self.air)
+        self.block.defines, self.painters, self.air = staged.defines, staged.painters, staged.air
 
     def _growing(self, site: Site, defines: dict[str, str | int]) -> Iterator[None]:
         """Bring the grass into GL, a representation at a time."""
@@ -176,16 +232,19 @@ class Painter:
             release_all(*self.painters.values(), self.air)
         self.block.defines = defines
         self.air = CardWinds(self.ctx, UNITS, site.growths)
-        canvas = Canvas(
-            self.ctx, self.block, UNITS, site.scene.seed, site.transitions, self.air, self.received, site.reach,
-            site.representations,
-        )  # fmt: skip
+        canvas = self._canvas(site, self.air)
         self.painters = {}
         for each in site.representations:
             self.painters[each.name] = made = each.painter(canvas)
             yield
             if AHEAD and self.quarantine.live:
                 yield from made.making()
+
+    def _canvas(self, site: Site, air: CardWinds) -> Canvas:
+        return Canvas(
+            self.ctx, self.block, UNITS, site.scene.seed, site.transitions, air, self.received, site.reach,
+            site.representations,
+        )  # fmt: skip
 
     def blade_painter(self, segments: int) -> BladePainter:
         """Return a painter of opaque blades with this many segments, in any order."""
@@ -348,36 +407,9 @@ class Painter:
     def release(self) -> None:
         """Give everything back to the context."""
         release_all(*self.painters.values(), *self.parts, self.air, self.received, self.block)
-        release_all(self.smaller, self.stopwatch)
+        release_all(self.smaller, self.stopwatch, *([] if self._staged is None else [self._staged]))
 
 
 def _receivers(outlook: Outlook, site: Site) -> ReceiverArrays:
     """Return all receivers of what a viewer is shown."""
     return receivers_shown(outlook, site.growths, patch=site.ground.patch, margin=site.margin)
-
-
-FAR_OFF = 2e4
-"""How far a light is taken to be whose rays are parallel [m]: as far as single precision parts centimetres there."""
-
-
-def light_from(view: View, place: tuple[float, float, float], /) -> tuple[float, float, float]:
-    """Return where a light is that sees this view, [m]; for parallel rays, far away from a place."""
-    if view.projection[3, :3].any():
-        return view.eye
-    x, y, z = (float(at + FAR_OFF * part) for at, part in zip(place, view.view[2, :3], strict=True))
-    return x, y, z
-
-
-def _are_other_kinds(site: Site, before: Site) -> bool:
-    """Return whether what is special about any kind may be something else."""
-    if site is before:
-        return False
-    return site.growths is not before.growths or site.own_segments != before.own_segments
-
-
-def _is_other_grass(site: Site, before: Site) -> bool:
-    """Return whether what representations draw is made of something else."""
-    if site is before:
-        return False
-    same = site.growths == before.growths and site.quality == before.quality and site.reach == before.reach
-    return not (same and site.scene.seed == before.scene.seed)

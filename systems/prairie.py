@@ -27,6 +27,7 @@ from .frame.feature import Feature, doing
 from .govern import Governor
 from .light.given import GivenHaze, Haze
 from .painter import Painter
+from .ripen import Ripening, Stage
 from .saving import Saving
 from .screen import Screen
 from .seasons import Seasons
@@ -81,6 +82,7 @@ class Prairie(Tending):
         self.loaded, self.preset, self._origin = loaded, preset, (0.0, 0.0, 0.0)
         self._readings: WeakKeyDictionary[Site, LoadedScene] = WeakKeyDictionary()
         self._seasons = Seasons(loaded.scene)
+        self._ripening = Ripening(self._seasons, live=live)
         self.lod: LodName = lod
         self.statistics, self.governor = Statistics(blades_field=site.blades), Governor(hold)
         self.systems = Schedule(live=live)
@@ -165,7 +167,7 @@ class Prairie(Tending):
         must_be_known("depth", depth, DEPTHS)
         chosen = as_parts(self.scene.parts if parts is None else parts)
         seen = view_of(view, projection, self._origin)
-        self._turn()
+        self._turn(self._assembly.screen.stage)
         before = self.viewers[viewer].frame if viewer in self.viewers else None
         time = self.time
         frame, asked, goes_on = Frame(seen, time, self.site, chosen).after(before, is_deep=depth == "all")
@@ -310,6 +312,7 @@ class Prairie(Tending):
         self._move_to(self.finding(loaded)() if site is None else site)
         self.loaded = loaded
         self._seasons.begin(loaded.scene)
+        self._ripening.begin()
 
     def finding(self, scene: SceneLike | LoadedScene | None = None) -> Callable[[], Site]:
         """Read the scene again, or another one, and return a function that finds the `site` for `reload`.
@@ -339,9 +342,10 @@ class Prairie(Tending):
         Raises ValueError for another scene's, another format's or an altered state: then nothing has changed.
         """
         self._must_be_there("restore a state")
-        self._clock, entities = self._saving.restore(state, self.site, self.loaded)
+        self._clock, entities, kinds = self._saving.restore(state, self.site, self.loaded)
         self.viewers.begin_anew()
-        self._turn()
+        self._move_to(self._ripening.resume(self.site, kinds))  # after it, as winds of entities stay what they are
+        self._turn(at_once=True)
         return entities
 
     def release(self) -> None:
@@ -351,23 +355,22 @@ class Prairie(Tending):
         system of its own calls this, the frame ends with that system, and nothing of it is drawn.
         """
         self._released = True
+        self._ripening.release()
         self._assembly.screen.release()
         self.world.release()
         self.systems.clear()
         self._built.clear()
 
-    def _turn(self) -> None:
-        """Come to the kinds of grass that there are by now."""
-        due = self._seasons.to_grow
-        if due:
-            self._seasons.standing |= due
-            grass = {name: self._seasons.kind_at(name, self.time) for name in self.scene.grass}
-            loaded = replace(self.loaded, scene=self.scene.model_copy(update={"grass": grass}))
-            self._move_to(self.finding(loaded)())
-            return
-        scene = self._seasons.scene_at(self.scene, self.time)
-        if scene is not self.scene:
-            self.site = replace(self.site, scene=scene)
+    def _turn(self, stage: Stage = lambda _: True, *, at_once: bool = False) -> None:
+        """Come to the kinds of grass that there are by now; `stage` brings what is new into GL."""
+        site = self._ripening.step(self.site, self.time, stage, at_once=at_once)
+        scene = self._seasons.scene_at(site.scene, self.time)
+        if scene is not site.scene:
+            site = replace(site, scene=scene)
+        if site.growths is not self.site.growths:
+            self._move_to(site)
+        else:
+            self.site = site
 
     def _move_to(self, site: Site) -> None:
         """Go on with another site; what has not changed stays."""

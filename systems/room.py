@@ -24,6 +24,16 @@ def keep_room(outlook: Outlook, representations: Sequence[Representation], reach
         outlook.shown[each.name] = each.show(outlook, cover)
 
 
+def keep_on(outlook: Outlook, representations: Sequence[Representation], before: Sequence[Representation], /) -> None:
+    """Let an outlook's stores be those of representations of the same grass, as far as it has not been grown anew."""
+    assert outlook.appearance is not None
+    for each, other, cover in zip(representations, before, outlook.appearance.cover, strict=True):
+        kept = outlook.kept[each.name]
+        each.carry(other, kept, outlook.patches)
+        kept.planted += 1
+        outlook.shown[each.name] = each.show(outlook, cover)
+
+
 def make_room(outlook: Outlook, representations: Sequence[Representation], world: World, /) -> None:
     """Make room for what a long lens brings near, where there is too little: for twice as much of it each time.
 

@@ -124,7 +124,23 @@ class SavedSeason(Declaration):
 
     name: str
     due: dict[str, Any]
-    """All that it says but where it grows: what it comes to in the end."""
+    """What it comes to in the end: all that it says but where it grows."""
+
+    stands: dict[str, Any]
+    """What it has grown to, likewise."""
+
+    over: float | None = Field(ge=0.0, le=1e9)
+    """How long what must be grown takes to come in [s], if anything must."""
+
+    asked: float = Field(ge=0.0, le=1e9)
+    """When that was asked for [s]."""
+
+    comes: dict[str, Any] | None
+    """What it is becoming, if anything."""
+
+    since: float = Field(ge=0.0, le=1e9)
+    lasts: float = Field(ge=0.0, le=1e9)
+    """When that began, and how long it takes [s]."""
 
     eases: list[SavedEase]
 

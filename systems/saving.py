@@ -13,7 +13,6 @@ from ..components.patch import Cell
 from ..components.pose import Pose
 from ..components.presser import Presser
 from ..components.wind import WindPrimitive, WindSource, with_course
-from ..engine.declared.grass import GrassKind
 from ..engine.declared.scene import Reading
 from ..engine.handed import is_somewhere
 from ..engine.plugins import wind_kinds
@@ -46,7 +45,7 @@ from .saved import (
     refuse,
     unpacked,
 )  # fmt: skip
-from .seasons import Ease, Seasons
+from .seasons import Recalled, Seasons
 from .site import Site
 from .space.ground import Ground
 from .thing import THINGS, Thing, component_of, fields_of
@@ -107,8 +106,10 @@ class Saving:
         plots: Arrays = {"mown": mown, "mown_heights": planes(left), "sown": sown, "sown_densities": dense}
         return packed(Saved(state, {"cleared": cleared, **plots, **ground, **marks}))
 
-    def restore(self, data: object, site: Site, loaded: LoadedScene, /) -> tuple[float, dict[int, int]]:
-        """Bring a state back; return its time [s], and which entity each one of a game's that it holds is now.
+    def restore(self, data: object, site: Site, loaded: LoadedScene, /) -> tuple[float, dict[int, int], Recalled]:
+        """Bring a state back but for its kinds of grass; return these, its time [s], and entities.
+
+        The entities are those that each one of a game's that it holds is now.
 
         Raises what `unpacked` raises, and ValueError for a state of another scene: then nothing has changed.
         """
@@ -137,8 +138,7 @@ class Saving:
         restore_squares(site.ground.terrain, made.ground)
         self.mown.plots.resume(*made.mown)
         site.ground.density.sown.resume(*made.sown)
-        self.seasons.resume(*made.kinds)
-        return state.time, self._bring(state, made)
+        return state.time, self._bring(state, made), made.kinds
 
     def _things(self) -> Iterator[SavedThing]:
         """Yield what else a game's entities have of ours; none that is nowhere."""
@@ -242,7 +242,7 @@ class _Made:
     sown: tuple[Ints, Bytes]
     cleared: list[Cell]
     ground: Squares
-    kinds: tuple[dict[str, GrassKind], dict[str, dict[str, Ease]]]
+    kinds: Recalled
 
 
 def _wind(entity: int, source: WindSource, pose: Pose | None, run: WindPrimitive | None) -> SavedWind | None:

@@ -80,6 +80,14 @@ class Screen:
             yield done, of
         yield of, of
 
+    def stage(self, site: Site) -> bool:
+        """Bring a piece of another site into the host's context; return whether all of it is there."""
+        with self._entered() as painter:
+            if painter is None:
+                return False
+            with guest(painter.ctx):
+                return painter.stage(site)
+
     @contextmanager
     def _entered(self) -> Iterator[Painter | None]:
         """Give the painter of the host's context, whatever it has settled on."""

@@ -1,7 +1,7 @@
 """Seasons: what a game changes of kinds of grass while it looks at them."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from math import inf
 from reprlib import repr as shortened
 
@@ -61,6 +61,34 @@ def between(before: Value, after: Value, part: float, /) -> Value:
     return before + part * (after - before)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Batch:
+    """Kinds that become others together."""
+
+    kinds: Mapping[str, GrassKind]
+    since: float
+    """When they begin to [s]."""
+
+    over: Mapping[str, float]
+    """How long each takes [s]."""
+
+    def came(self, names: Iterable[str], time: float, /) -> tuple[float, ...]:
+        """Return how much of each kind of some names has become what it is to be at a time [s]."""
+        return tuple(part_of(time, self.since, self.over[name]) if name in self.kinds else 0.0 for name in names)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Recalled:
+    """The kinds of a scene as they were when they were saved."""
+
+    due: dict[str, GrassKind]
+    standing: dict[str, GrassKind]
+    over: dict[str, float]
+    asked: dict[str, float]
+    eases: dict[str, dict[str, Ease]]
+    batch: Batch | None
+
+
 class Seasons:
     """The kinds of a scene as a game has changed them."""
 
@@ -74,8 +102,14 @@ class Seasons:
         """What each kind comes to in the end."""
         self.standing: dict[str, GrassKind] = dict(scene.grass)
         """Each kind as it has grown."""
+        self.over: dict[str, float] = {}
+        """How long what must be grown of each kind takes to come in [s]."""
+        self.asked: dict[str, float] = {}
+        """When that was asked for [s]."""
         self.eases: dict[str, dict[str, Ease]] = {}
         """By kind and key, those that have begun."""
+        self.batch: Batch | None = None
+        """Those that are becoming what they are to be."""
 
     def change(self, name: str, keys: Mapping[str, object], /, *, over: float, time: float) -> None:
         """Let a kind come to other values from a time [s] on; raises ValueError for what cannot be."""
@@ -90,13 +124,14 @@ class Seasons:
             now = getattr(before, key)
             if getattr(kind, key) != getattr(self.due[name], key):
                 self.eases.setdefault(name, {})[key] = Ease(now, getattr(kind, key), time, float(over))
+        if _grown(kind) != _grown(self.due[name]):
+            self.over[name], self.asked[name] = float(over), time
         self.due[name] = kind
 
     @property
     def to_grow(self) -> dict[str, GrassKind]:
         """The kinds that stand otherwise than they are to, by name."""
-        changed = {name: kind for name, kind in self.due.items() if kind is not self.standing[name]}
-        return {name: kind for name, kind in changed.items() if _grown(kind) != _grown(self.standing[name])}
+        return {name: self.due[name] for name in self.over if _grown(self.due[name]) != _grown(self.standing[name])}
 
     def kind_at(self, name: str, time: float, /) -> GrassKind:
         """Return a kind as it is at a time [s]."""
@@ -104,40 +139,52 @@ class Seasons:
         return kind.model_copy(update={key: ease.at(time) for key, ease in eases.items()}) if eases else kind
 
     def saved(self) -> list[SavedSeason]:
-        """Return the kinds that are others than the scene declares."""
-        changed = [name for name, kind in self.due.items() if kind != self.declared.grass[name] or name in self.eases]
-        return [
-            SavedSeason(
-                name=name,
-                due=self.due[name].model_dump(mode="json", exclude_unset=True, exclude={"place"}),
-                eases=[
-                    SavedEase(key=key, before=ease.before, after=ease.after, since=ease.since, over=ease.over)
-                    for key, ease in self.eases.get(name, {}).items()
-                ],
-            )
-            for name in changed
-        ]
+        """Return the kinds that a game has changed."""
+        return [self._saved(name) for name in self.due if name in self.eases or name in self.over]
 
-    def read(self, saved: Sequence[SavedSeason], /) -> tuple[dict[str, GrassKind], dict[str, dict[str, Ease]]]:
-        """Return the kinds and what is on its way as they were saved; raises ValueError for what cannot be."""
-        due, eases = dict(self.declared.grass), dict[str, dict[str, Ease]]()
+    def _saved(self, name: str) -> SavedSeason:
+        batch = self.batch if self.batch is not None and name in self.batch.kinds else None
+        return SavedSeason(
+            name=name,
+            due=_told(self.due[name]),
+            stands=_told(self.standing[name]),
+            over=self.over.get(name),
+            asked=self.asked.get(name, 0.0),
+            comes=None if batch is None else _told(batch.kinds[name]),
+            since=0.0 if batch is None else batch.since,
+            lasts=0.0 if batch is None else batch.over[name],
+            eases=[
+                SavedEase(key=key, before=ease.before, after=ease.after, since=ease.since, over=ease.over)
+                for key, ease in self.eases.get(name, {}).items()
+            ],
+        )
+
+    def read(self, saved: Sequence[SavedSeason], /) -> Recalled:
+        """Return what was saved of kinds; raises ValueError for what cannot be."""
+        found = Recalled(dict(self.declared.grass), dict(self.declared.grass), {}, {}, {}, None)
+        coming = [each for each in saved if each.comes is not None]
         for each in saved:
-            if each.name not in due or any(ease.key not in EASED for ease in each.eases):
+            if each.name not in found.due or any(ease.key not in EASED for ease in each.eases):
                 refuse("it has other kinds of grass than its scene")
-            told = {"place": due[each.name].place} if due[each.name].place else {}
-            try:
-                due[each.name] = GrassKind.model_validate(each.due | told)
-                for ease in each.eases:
-                    for value in (ease.before, ease.after):
-                        GrassKind.model_validate(each.due | told | {ease.key: value})
-            except ValidationError as error:
-                refuse(str(error.errors(include_url=False)[0]["msg"]))
-            eases[each.name] = {ease.key: Ease(ease.before, ease.after, ease.since, ease.over) for ease in each.eases}
-        return due, eases
+            declared = self.declared.grass[each.name]
+            found.due[each.name] = _read(declared, each.due)
+            found.standing[each.name] = _read(declared, each.stands)
+            if each.over is not None:
+                found.over[each.name], found.asked[each.name] = each.over, each.asked
+            for ease in each.eases:
+                for value in (ease.before, ease.after):
+                    _read(declared, each.due | {ease.key: value})
+                told = Ease(ease.before, ease.after, ease.since, ease.over)
+                found.eases.setdefault(each.name, {})[ease.key] = told
+        if not coming:
+            return found
+        kinds = {each.name: _read(self.declared.grass[each.name], each.comes or {}) for each in coming}
+        return replace(found, batch=Batch(kinds, coming[0].since, {each.name: each.lasts for each in coming}))
 
-    def resume(self, due: dict[str, GrassKind], eases: dict[str, dict[str, Ease]], /) -> None:
+    def resume(self, recalled: Recalled, /) -> None:
         """Go on with what `read` returned."""
-        self.due, self.eases = due, {name: own for name, own in eases.items() if own}
+        self.due, self.standing, self.over = recalled.due, recalled.standing, recalled.over
+        self.asked, self.eases, self.batch = recalled.asked, recalled.eases, recalled.batch
 
     def scene_at(self, scene: Scene, time: float, /) -> Scene:
         """Return a scene with its kinds as they are at a time [s]: the same where none is another."""
@@ -150,3 +197,17 @@ class Seasons:
 def _grown(kind: GrassKind) -> dict[str, object]:
     """Return all of a kind that is not eased."""
     return {name: getattr(kind, name) for name in GrassKind.model_fields if name not in EASED}
+
+
+def _told(kind: GrassKind) -> dict[str, object]:
+    """Return what a kind says as text and numbers, but where it grows, which does not change."""
+    return kind.model_dump(mode="json", exclude_unset=True, exclude={"place"})
+
+
+def _read(declared: GrassKind, told: Mapping[str, object]) -> GrassKind:
+    """Return the kind that says so; it grows where the scene's own does."""
+    place = {} if declared.place is None else {"place": declared.place}
+    try:
+        return GrassKind.model_validate({**told, **place})
+    except ValidationError as error:
+        refuse(str(error.errors(include_url=False)[0]["msg"]))

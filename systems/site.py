@@ -1,6 +1,6 @@
 """A site: what a scene has become before anybody looks at it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import starmap
 
@@ -16,9 +16,10 @@ from .around.outlook import Outlook
 from .around.patches import PatchTable
 from .around.transitions import SEAMLESS, Transitions
 from .entities import components
-from .grow.record import Growth
+from .grow.record import NOTHING, Growth, forms_of
+from .land.record import figures_on
 from .lod import reach_of
-from .room import keep_room
+from .room import keep_on, keep_room
 from .show.registry import NAMES, REPRESENTATIONS
 from .show.representation import Representation
 from .space.canopy import canopy_height
@@ -42,6 +43,16 @@ class Site(Grown):
     """How far grass may reach beyond its patch, leaning and blown [m]."""
 
     transitions: Transitions = SEAMLESS
+
+    crowns: tuple[tuple[float, ...], tuple[float, ...]] = ((), ())
+    """Height of each kind's canopy as it has grown, and as it is to be [m]."""
+
+    def come(self, came: tuple[float, ...], /) -> "Site":
+        """Return the site where `came` of each kind have become what they are to be; empty where none is to."""
+        own, after = self.crowns
+        parts = came or (0.0,) * len(own)
+        canopy = tuple(one + part * (other - one) for one, other, part in zip(own, after, parts, strict=True))
+        return replace(self, came=came, canopy=canopy)
 
     @property
     def finest(self) -> int:
@@ -77,17 +88,21 @@ def lay_out(
     lod: str = "auto",
     transitions: Transitions = SEAMLESS,
     stocked: Sequence[Representation] | None = None,
+    coming: Mapping[int, Growth] = NOTHING,
 ) -> Site:
     """Return the site of a scene whose kinds have grown. `lod` is a representation to stand for all, or `auto`.
 
-    `stocked` are the representations of the same growths, on another ground.
+    `stocked` are the representations of the same growths, on another ground. `coming` gives what some kinds are to
+    become, by their numbers.
     """
     made = (
-        tuple(each.stocked(growths, quality, ground) for each in REPRESENTATIONS)
+        tuple(each.stocked(growths, quality, ground, coming) for each in REPRESENTATIONS)
         if stocked is None
         else tuple(each.on(ground) for each in stocked)
     )
     limits = tuple(each.reach(quality) for each in REPRESENTATIONS)
+    own = tuple(map(canopy_height, growths))
+    forms = [(list(scene.grass.values())[form.kind], form.growth) for form in forms_of(growths, coming)]
     return Site(
         scene=scene,
         quality=quality,
@@ -95,10 +110,12 @@ def lay_out(
         growths=growths,
         representations=made,
         reach=reach_of(limits, None if lod == "auto" else NAMES.index(lod)),
-        sway=max(starmap(farthest_reach, zip(scene.grass.values(), growths, strict=True))),
-        canopy=tuple(map(canopy_height, growths)),
-        tallest=1.05 * max(tallest_tip(growth) for growth in growths),
+        sway=max(starmap(farthest_reach, forms)),
+        canopy=own,
+        tallest=1.05 * max(tallest_tip(growth) for _, growth in forms),
         transitions=transitions,
+        coming=coming,
+        crowns=(own, tuple(canopy_height(coming.get(kind, growth)) for kind, growth in enumerate(growths))),
     )
 
 
@@ -139,11 +156,55 @@ def found_again(site: Site, before: LoadedScene, loaded: LoadedScene, /, *, pres
     same_grass = quality == site.quality and len(growths) == len(site.growths)
     same_grass = same_grass and all(one is other for one, other in zip(growths, site.growths, strict=True))
     same_ground = terrain is old.terrain and density is old.density and quality.patch == old.patch
+    same_grass = same_grass and not site.coming
     if same_grass and same_ground and scene.seed == site.scene.seed:
         return replace(site, scene=scene)
     ground = old if same_ground else Ground(terrain, density, quality.patch)
     stocked = site.representations if same_grass else None
     return lay_out(scene, quality, ground, growths, lod=lod, transitions=site.transitions, stocked=stocked)
+
+
+def is_other(site: Site, name: str, kind: GrassKind, /) -> bool:
+    """Return whether something else must be grown for a kind of this name than what stands of it."""
+    seed = site.scene.seed + list(site.scene.grass).index(name)
+    return growth_key(kind, site.quality, seed=seed) != growth_key(site.scene.grass[name], site.quality, seed=seed)
+
+
+def ripened(
+    site: Site,
+    known: tuple[Mapping[str, GrassKind], Mapping[str, GrassKind]],
+    stands: Mapping[str, GrassKind],
+    comes: Mapping[str, GrassKind],
+    /,
+) -> Site:
+    """Return a site on which other kinds stand, and some come to be what `comes` says of them.
+
+    `known` are the kinds that have grown on the site, and those that are to come there. As grass takes its time to
+    grow, it may be called on another thread.
+    """
+    numbers = {name: number for number, name in enumerate(site.scene.grass)}
+    grown = dict[str, Growth]()
+    for kinds, own in zip(known, (dict(enumerate(site.growths)), site.coming), strict=True):
+        for name, kind in kinds.items():
+            seed = site.scene.seed + numbers[name]
+            grown[growth_key(kind, site.quality, seed=seed)] = own[numbers[name]]
+
+    def growth_of(name: str, kind: GrassKind) -> Growth:
+        seed = site.scene.seed + numbers[name]
+        key = growth_key(kind, site.quality, seed=seed)
+        return grown.get(key) or cached_growth(kind, site.quality, seed=seed)
+
+    scene = site.scene.model_copy(update={"grass": {name: stands[name] for name in numbers}})
+    growths = [growth_of(name, stands[name]) for name in numbers]
+    coming = {numbers[name]: growth_of(name, kind) for name, kind in comes.items()}
+    same = growths == site.growths and coming == dict(site.coming)
+    if same:
+        return replace(site, scene=scene, growths=growths)
+    made = lay_out(scene, site.quality, site.ground, growths, transitions=site.transitions, coming=coming)
+    for each in made.representations:
+        each.prepare()
+    figures_on(made.come((1.0,) * len(growths)))  # they are remembered
+    return replace(made, reach=site.reach)
 
 
 def is_grown(site: Site, scene: Scene, /, *, preset: str | None) -> bool:
@@ -187,6 +248,10 @@ def outlook_on(site: Site, viewer: Viewer, entity: int, /) -> Outlook:
 def settle_on(outlook: Outlook, site: Site, before: Site, world: World, /) -> None:
     """Let a viewer go on with another site, that of a scene read again; what has not changed stays."""
     if site.representations is before.representations:
+        return
+    same = site.scene.seed == before.scene.seed and site.quality == before.quality and site.reach == before.reach
+    if site.ground is before.ground and same:
+        keep_on(outlook, site.representations, before.representations)
         return
     for kept in outlook.kept.values():
         kept.release(world)

@@ -81,9 +81,12 @@ class Winds(Feature):
         return cls(start.world, grown.scene, grown.ground, grown.growths, start.quarantine)
 
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
-        """Take over the winds that a scene declares that was read again."""
-        del before, time
-        self.change(grown.scene, grown.ground, grown.growths)
+        """Take over the winds that a scene declares that was read again; those of one that was not stay as they are."""
+        del time
+        if grown.scene.wind is before.scene.wind and grown.ground is before.ground:
+            self._stand_in(grown.scene, grown.ground, grown.growths)
+        else:
+            self.change(grown.scene, grown.ground, grown.growths)
 
     def change(self, scene: Scene, ground: Ground, growths: Sequence[Growth]) -> None:
         """Take over the winds that a scene declares, at first or when it was read again.
@@ -91,9 +94,7 @@ class Winds(Feature):
         A wind that has not changed stays, and so does what is random about it; one that has changed keeps its name,
         and with it that. Winds that a game added are left alone.
         """
-        self._scene, self._ground, self._growths = scene, ground, growths
-        self._height_at = partial(height_at, ground.terrain)
-        self._canopy = tuple(map(canopy_height, growths))
+        self._stand_in(scene, ground, growths)
         there = dict(self._world.all(WindSource))
         before = {entity: there[entity] for entity in self._declared if entity in there}
         after = matched(list(before.values()), scene.wind)
@@ -101,6 +102,11 @@ class Winds(Feature):
         self._declared = [self._take(source, old, entities) for source, old in after]
         for entity in set(before) - set(self._declared):
             self._world.delete(entity)
+
+    def _stand_in(self, scene: Scene, ground: Ground, growths: Sequence[Growth]) -> None:
+        self._scene, self._ground, self._growths = scene, ground, growths
+        self._height_at = partial(height_at, ground.terrain)
+        self._canopy = tuple(map(canopy_height, growths))
 
     def _take(self, source: WindSource, old: WindSource | None, entities: dict[WindSource, int]) -> int:
         if old is None:

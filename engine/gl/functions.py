@@ -69,6 +69,7 @@ DOES = {
     "glBlendFuncSeparate": (c_int,) * 4, "glBlendEquationSeparate": (c_int,) * 2,
     "glBindTexture": (c_int,) * 2, "glBindSampler": (c_int,) * 2, "glTexImage2D": (*(c_int,) * 8, c_void_p),
     "glTexImage3D": (*(c_int,) * 9, c_void_p), "glTexSubImage2D": (*(c_int,) * 8, c_void_p),
+    "glTexSubImage3D": (*(c_int,) * 10, c_void_p),
     "glTexParameteri": (c_int,) * 3,
     "glProvokingVertex": (c_int,), "glClipControl": (c_int,) * 2,
     "glViewportIndexedf": (c_int, *(c_float,) * 4), "glScissorIndexed": (c_int,) * 5,

@@ -4,7 +4,8 @@ So they are the same with every driver; and a software one would have to compile
 first, which takes longer than the averages do.
 """
 
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
+from typing import TypeVar
 
 import moderngl
 import numpy as np
@@ -12,6 +13,11 @@ import numpy as np
 from ...components.arrays import Bytes
 from .functions import NUMBERS, functions_of
 from .limits import limits_of
+
+Made = TypeVar("Made")
+
+PIECE = 1 << 21
+"""Bytes that are sent at a time where a frame must not wait."""
 
 _FORMATS = {1: ("R8", "RED"), 2: ("RG8", "RG"), 3: ("RGB8", "RGB"), 4: ("RGBA8", "RGBA")}
 
@@ -46,21 +52,45 @@ def mipmapped(ctx: moderngl.Context, made: list[Bytes], /) -> moderngl.TextureAr
 
     There are `stack_for` of them in each layer of the texture; `lib/layered.glsl` reads it.
     """
+    return at_once(mipmapping(ctx, made))
+
+
+def at_once(steps: Generator[None, None, Made]) -> Made:
+    """Do all steps of something, and return what it makes."""
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            made: Made = end.value
+            return made
+
+
+def mipmapping(ctx: moderngl.Context, made: list[Bytes], /) -> Generator[None, None, moderngl.TextureArray]:
+    """Do what `mipmapped` does a piece at a time: no piece is more than `PIECE` bytes, or a layer, after the first."""
     stack = stack_for(ctx, len(made[0]))
     if stack > 1:
         made = stacked(made[0], stack)
     layers, rows, columns, channels = (*made[0].shape, 1)[:4]
-    texture = ctx.texture_array((columns, rows, layers), channels, made[0], alignment=1)
+    texture = ctx.texture_array((columns, rows, layers), channels, alignment=1)
     stored, given = (NUMBERS[name] for name in _FORMATS[channels])
     gl, target = functions_of(ctx), NUMBERS["TEXTURE_2D_ARRAY"]
     gl.glBindTexture(target, texture.glo)
-    gl.glPixelStorei(NUMBERS["UNPACK_ALIGNMENT"], 1)
     for level, texels in enumerate(made[1:], 1):
-        rows, columns = texels.shape[1:3]
-        size = columns, rows, layers
-        gl.glTexImage3D(target, level, stored, *size, 0, given, NUMBERS["UNSIGNED_BYTE"], texels.ctypes.data)
+        size = texels.shape[2], texels.shape[1], layers
+        gl.glTexImage3D(target, level, stored, *size, 0, given, NUMBERS["UNSIGNED_BYTE"], None)
     gl.glTexParameteri(target, NUMBERS["TEXTURE_MAX_LEVEL"], len(made) - 1)
     texture.filter = (moderngl.NEAREST_MIPMAP_NEAREST, moderngl.LINEAR)
+    for level, texels in enumerate(made):
+        each = max(PIECE // texels[0].nbytes, 1)
+        for first in range(0, layers, each):
+            part = texels[first : first + each]
+            size = texels.shape[2], texels.shape[1], len(part)
+            gl.glBindTexture(target, texture.glo)
+            gl.glPixelStorei(NUMBERS["UNPACK_ALIGNMENT"], 1)
+            data = part.ctypes.data
+            gl.glTexSubImage3D(target, level, 0, 0, first, *size, given, NUMBERS["UNSIGNED_BYTE"], data)
+            if level == 0 or first + each < layers:
+                yield
     return texture
 
 

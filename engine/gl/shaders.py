@@ -147,3 +147,11 @@ def tell(program: moderngl.Program, name: str, *value: float) -> None:
         told[0] = value
         if told[1] is not None:
             told[1].value = value if len(value) > 1 else value[0]
+
+
+def tell_all(program: moderngl.Program, name: str, values: Sequence[float] | Sequence[tuple[float, ...]]) -> None:
+    """Tell a program an array of numbers or vectors, as much of it as it asks for: what is never read is left out."""
+    asked = program.get(name, None)
+    if isinstance(asked, moderngl.Uniform):
+        room = asked.array_length
+        asked.value = [*values, *[values[-1]] * room][:room] if room > 1 else values[0]

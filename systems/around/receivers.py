@@ -119,6 +119,12 @@ class Correspondence:
         """Forget that a slot was asked for, because another patch stands there now."""
         self._letters.pop(slot, None)
 
+    def forget_all(self) -> None:
+        """Forget all that was asked for, because there are other receivers now."""
+        self._letters.clear()
+        self._known.clear()
+        self._tell = None
+
     def blow(self, tell: Tell, /) -> None:
         """Let the wind tell something else from now on; what a game has written since the last time stands above it."""
         self._tell = tell

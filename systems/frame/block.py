@@ -87,6 +87,7 @@ FRAME = np.dtype(
         ("understorey", f"({GROUPS},4)f4"),  # how much of the ground low leaves cover, of what they cover at most
         ("undertone", f"({GROUPS},4)f4"),  # how much of the colour of tips low leaves have
         ("steepest", f"({GROUPS},4)f4"),  # how fast the ground rises where a kind ends
+        ("came", f"({GROUPS},4)f4"),  # how many of its plants have become what it is to be, where it is to be another
         ("thins", f"({GROUPS},4)f4"),  # how much it thins out by such a rise
         ("bears", f"({GROUPS},4)f4"),  # 1 where it bears heads
         # The maps of what trees leave of the light: which way they go across and up; sides of those of the sun [m];

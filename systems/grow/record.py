@@ -1,7 +1,8 @@
 """What is grown from a grass kind: postures, response, and patch models."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -101,10 +102,31 @@ class PatchModel:
     """By representation, the records that it has grown, in its own order."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
 class Growth:
     """All that is precomputed for one kind of grass."""
 
     postures: Postures
     response: Response
     models: tuple[PatchModel, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Form:
+    """What one kind of grass has grown to, or is to become."""
+
+    number: int
+    """Which form it is: that of kind k is k, and what it is to become is k plus as many as there are kinds."""
+
+    kind: int
+    growth: Growth
+
+
+NOTHING: Mapping[int, Growth] = MappingProxyType({})
+"""Where no kind is to become anything else."""
+
+
+def forms_of(growths: Sequence[Growth], coming: Mapping[int, Growth] = NOTHING, /) -> tuple[Form, ...]:
+    """Return the forms of all kinds, and after them what some are to become, by kind."""
+    own = [Form(kind, kind, growth) for kind, growth in enumerate(growths)]
+    return *own, *(Form(len(growths) + kind, kind, coming[kind]) for kind in sorted(coming))

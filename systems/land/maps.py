@@ -1,12 +1,14 @@
 """Textures made from what was grown and from the terrain."""
 
+from collections.abc import Mapping, Sequence
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.terrain.part import Part
 from ...engine.terrain.record import Density, Terrain
-from ..grow.record import Growth
+from ..grow.record import NOTHING, Growth
 
 HOLE = 1
 """The bit of a height's that says whether there is a hole: it is worth a few millionths of the height."""
@@ -14,12 +16,15 @@ HOLE = 1
 GLSL = {"HOLE": HOLE}
 
 
-def posture_texture(ctx: moderngl.Context, growths: list[Growth]) -> moderngl.TextureArray:
-    """Return all kinds' posture tables, one layer per kind and variant; columns are points, rows are indices.
+def posture_texture(
+    ctx: moderngl.Context, growths: Sequence[Growth], coming: Mapping[int, Growth] = NOTHING
+) -> moderngl.TextureArray:
+    """Return all kinds' posture tables, one layer per form and variant; columns are points, rows are indices.
 
     A texel holds a point's place and the blade's direction there, each (along the bending direction, up).
     """
-    place = np.concatenate([growth.postures.shape for growth in growths]).astype(np.float32)
+    forms = [*growths, *(coming.get(kind, growth) for kind, growth in enumerate(growths) if coming)]
+    place = np.concatenate([growth.postures.shape for growth in forms]).astype(np.float32)
     table = np.concatenate([place, np.gradient(place, axis=2)], axis=-1).astype(np.float32)
     layers, rows, points, _ = table.shape
     texture = ctx.texture_array((points, rows, layers), 4, table.tobytes(), dtype="f4")

@@ -9,10 +9,9 @@ from numpy.typing import NDArray
 from ...engine.gl.stream import release_all
 from ..frame.block import FrameBlock
 from ..frame.feature import Feature, Part
-from ..grow.record import Growth
 from ..space.grown import Grown
 from .maps import density_texture, height_texture, posture_texture, send_heights
-from .record import OF_FORM, Figures, figures_of, write_land
+from .record import write_land
 
 
 class Land(Feature):
@@ -36,8 +35,6 @@ class LandPart(Part):
         self._changes = 0
         """Changes of the terrain that have been sent."""
         self._kinds: Mapping[str, str | int] = {}
-        self._figures: dict[tuple[Growth, tuple[object, ...]], Figures] = {}
-        """By what was grown of a kind, and what it says of how that is drawn."""
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Send what is another terrain, density or kind, and what has changed of the heights."""
@@ -54,26 +51,13 @@ class LandPart(Part):
             return
         if before is None or before.ground.density.maps is not grown.ground.density.maps:
             self._put("density", density_texture(self.ctx, grown.ground.density))
-        if before is None or before.growths != grown.growths:
-            self._put("postures", posture_texture(self.ctx, grown.growths))
-        write_land(record, grown, self._reckoned(grown))
+        if before is None or (before.growths, before.coming) != (grown.growths, grown.coming):
+            self._put("postures", posture_texture(self.ctx, grown.growths, grown.coming))
+        write_land(record, grown)
         folds = any(kind.profile == "fold" for kind in grown.scene.grass.values())
         ground = grown.ground
         special = {"FOLDS": folds, "SLOPED": bool(ground.density.slopes)}
         self._kinds = {"KINDS": len(grown.growths), **{name: 1 for name, is_so in special.items() if is_so}}
-
-    def _reckoned(self, grown: Grown) -> list[Figures]:
-        """Return the figures of each kind; those that are known are not reckoned again."""
-        kinds, known = list(grown.scene.grass.values()), self._figures
-        keys = [
-            (growth, tuple(getattr(kind, name) for name in OF_FORM))
-            for kind, growth in zip(kinds, grown.growths, strict=True)
-        ]
-        self._figures = {
-            key: known.get(key) or figures_of(kind, key[0], grown.ground.patch)
-            for kind, key in zip(kinds, keys, strict=True)
-        }
-        return [self._figures[key] for key in keys]
 
     def defines(self) -> Mapping[str, str | int]:
         """Return how many kinds there are, and whether blades of any are folded."""

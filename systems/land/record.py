@@ -1,12 +1,14 @@
 """What every program knows of the land: its terrain, and its kinds of grass."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Floats
 from ...engine.declared.grass import GrassKind
+from ...engine.memo import while_it_lives
 from ...engine.terrain.sample import bareness
 from ..frame.block import GROUPS
 from ..grow.organs import bears_heads
@@ -16,10 +18,7 @@ from ..light.materials import Leaves, bloom, leaves_of, let_through, pigment, un
 from ..space.canopy import canopy_height
 from ..space.grown import Grown
 
-OF_FORM = "taper", "profile"
-"""The keys of a kind that `figures_of` reads beside what was grown."""
-
-BY_KIND = "crown", "leaf", "lying", "understorey", "undertone", "steepest", "thins", "bears", "give"
+BY_KIND = "came", "crown", "leaf", "lying", "understorey", "undertone", "steepest", "thins", "bears", "give"
 """The fields of the frame's record that have a figure for each kind."""
 
 OF_KIND = "root", "gloss", "tip", "taper", "through", "bloom", "narrowed"
@@ -38,14 +37,50 @@ class Figures:
     bears: bool
     """Whether it bears heads."""
 
+    give: Floats
+    """How far it gives way, by length of a message."""
+
+    def toward(self, other: Self, part: float, /) -> Self:
+        """Return figures at a part of the way to another's."""
+        one, after = self.leaves, other.leaves
+        return type(self)(
+            self.crown + part * (other.crown - self.crown),
+            Leaves(one.side + part * (after.side - one.side), one.above + part * (after.above - one.above)),
+            self.bloom + part * (other.bloom - self.bloom),
+            self.bears or other.bears,
+            self.give + np.float32(part) * (other.give - self.give),
+        )
+
+
+@while_it_lives
+def _known(growth: Growth, /) -> dict[tuple[object, ...], Figures]:
+    """Return what has been found out about what was grown of a kind, by what the kind says of how it is drawn."""
+    del growth
+    return {}
+
 
 def figures_of(kind: GrassKind, growth: Growth, patch: float, /) -> Figures:
     """Return what there is to be told of what was grown of a kind; `patch` is a patch's side [m]."""
-    return Figures(canopy_height(growth), leaves_of(kind, growth, patch), bloom(kind, growth), bears_heads(growth))
+    known, key = _known(growth), (kind.taper, kind.profile, patch)
+    if key not in known:
+        leaves, blooms = leaves_of(kind, growth, patch), bloom(kind, growth)
+        known[key] = Figures(canopy_height(growth), leaves, blooms, bears_heads(growth), growth.postures.give)
+    return known[key]
 
 
-def write_land(record: NDArray[np.void], grown: Grown, figures: Sequence[Figures], /) -> None:
-    """Write into the frame's record (1,) what the ground is, and what its kinds of grass are, with figures of each."""
+def figures_on(grown: Grown, /) -> list[Figures]:
+    """Return the figures of each kind, as far as it has become what it is to be."""
+    found, patch = list[Figures](), grown.ground.patch
+    for number, (kind, growth) in enumerate(zip(grown.scene.grass.values(), grown.growths, strict=True)):
+        own = figures_of(kind, growth, patch)
+        if number in grown.coming and grown.came:
+            own = own.toward(figures_of(kind, grown.coming[number], patch), grown.came[number])
+        found.append(own)
+    return found
+
+
+def write_land(record: NDArray[np.void], grown: Grown, /) -> None:
+    """Write into the frame's record (1,) what the ground is, and what its kinds of grass are."""
     row, patch, growths = record[0], grown.ground.patch, grown.growths
     terrain, postures = grown.ground.terrain, growths[0].postures.shape
     row["patch_side"], row["tallest_grass"] = patch, grown.tallest
@@ -61,15 +96,16 @@ def write_land(record: NDArray[np.void], grown: Grown, figures: Sequence[Figures
     steepest, thins, bears = (row[name].reshape(-1) for name in ("steepest", "thins", "bears"))
     if grown.ground.density.slopes:
         steepest[: len(growths)], thins[: len(growths)] = bareness(grown.ground.density.slopes).T
+    row["came"].reshape(-1)[: len(grown.came)] = grown.came
     give = row["give"].reshape(GROUPS, GIVES, 4)
-    for index, (kind, growth, own) in enumerate(zip(grown.scene.grass.values(), growths, figures, strict=True)):
+    for index, (kind, own) in enumerate(zip(grown.scene.grass.values(), figures_on(grown), strict=True)):
         _write_kind(row["kinds"][index], kind, own.bloom)
         crown[index], leaf[index] = own.crown, own.leaves.side
         lying[index] = own.leaves.above / own.leaves.side
         bears[index] = own.bears
         low[index] = understorey(kind, own.crown)
         tipped[index] = undertone(kind, own.bloom)
-        give[index // 4, :, index % 4] = growth.postures.give
+        give[index // 4, :, index % 4] = own.give
 
 
 def _write_kind(row: np.void, kind: GrassKind, blooms: float) -> None:

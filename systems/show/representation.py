@@ -18,7 +18,7 @@ from ..around.patches import PatchTable
 from ..around.transitions import Transitions
 from ..frame.block import FrameBlock
 from ..frame.feature import Heard, Part
-from ..grow.record import Blades, Growth, Postures
+from ..grow.record import NOTHING, Blades, Growth, Postures
 from ..receive.received import Received
 from ..space.ground import Ground
 from ..space.grown import Grown
@@ -76,6 +76,18 @@ class RepresentationPainter(Part, ABC):
     def making(self) -> Iterator[None]:
         """Make the programs that are not there yet, one at a time, as drivers take long over each."""
         yield from ()
+
+    def fits(self, representation: Any, /) -> bool:
+        """Return whether its programs draw another stock of the representation too."""
+        raise NotImplementedError
+
+    def staging(self, stocks: "Sequence[Any]", /) -> Iterator[None]:
+        """Bring another stock into GL beside its own, a piece at a time; `stocks` are all representations."""
+        raise NotImplementedError
+
+    def restock(self) -> None:
+        """Draw from now on what was staged."""
+        raise NotImplementedError
 
     @abstractmethod
     def receivers(self, outlook: Outlook, /) -> list[int]:
@@ -183,8 +195,13 @@ class Representation(ABC):
 
     @classmethod
     @abstractmethod
-    def stocked(cls, growths: Sequence[Growth], quality: Quality, ground: Ground, /) -> Self:
-        """Return it with all that was grown of a scene's kinds, ready to be planted on a ground."""
+    def stocked(
+        cls, growths: Sequence[Growth], quality: Quality, ground: Ground, coming: Mapping[int, Growth] = NOTHING, /
+    ) -> Self:
+        """Return it with all that was grown of a scene's kinds, ready to be planted on a ground.
+
+        `coming` gives what some kinds are to become, by their numbers.
+        """
 
     @abstractmethod
     def on(self, ground: Ground, /) -> Self:
@@ -244,6 +261,9 @@ class Representation(ABC):
 
     def plant(self, outlook: Outlook, /) -> None:  # noqa: B027 - for those that stand on the ground
         """Stand what is shown on the ground, where it does not stand yet."""
+
+    def carry(self, before: "Representation", kept: Kept, patches: PatchTable, /) -> None:  # noqa: B027 - for those whose stores know their grass
+        """Let a store that was another's have this grass, where it stands as far as it has not been grown anew."""
 
     @abstractmethod
     def painter(self, canvas: Canvas, /) -> RepresentationPainter:

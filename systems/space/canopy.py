@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...components.arrays import Floats
+from ...engine.memo import while_it_lives
 from ...engine.terrain.sample import density_at, height_at
 from ..grow.record import Blades, Growth
 from .ground import Ground
@@ -21,6 +22,7 @@ def lodged(index: float, /) -> float:
     return 1.0 - LODGED * index * index
 
 
+@while_it_lives
 def canopy_height(growth: Growth, /) -> float:
     """Return the height of a kind's canopy [m]: what nearly all its plants stay below."""
     return float(np.quantile(np.concatenate([_tall(model.blades) for model in growth.models]), 0.9))

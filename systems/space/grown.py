@@ -1,6 +1,7 @@
 """What a scene has become: its ground, and what was grown of its kinds."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from ...engine.declared.quality import Quality
 from ...engine.declared.scene import Scene
@@ -23,6 +24,12 @@ class Grown:
 
     tallest: float
     """Height that no blade comes to [m]."""
+
+    coming: Mapping[int, Growth] = field(default_factory=dict, kw_only=True)
+    """What some kinds are to become, by their numbers."""
+
+    came: tuple[float, ...] = field(default=(), kw_only=True)
+    """How many of its plants each kind has had become that already, from 0 to 1; empty where none is to."""
 
     @property
     def top_at(self) -> Top:

@@ -89,6 +89,11 @@ class CardWinds:
         self._untwinned: list[int] = []
         self._asked: tuple[float, Mixing] = 0.0, "priority"
 
+    def regrow(self, growths: Sequence[Answering], /) -> None:
+        """Ask from now on how other grass answers."""
+        self._curves.release()
+        self._curves = curve_texture(self.ctx, growths)
+
     # ---- Winds -----------------------------------------------------------------------------------
 
     def meet(self, winds: Iterable[WindPrimitive], /) -> None:

@@ -25,7 +25,7 @@ from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.blow import Hear
 from tallgrass.systems.frame.block import FRAME, FrameBlock, confine
 from tallgrass.systems.grow.record import Growth
-from tallgrass.systems.land.record import figures_of, write_land
+from tallgrass.systems.land.record import write_land
 from tallgrass.systems.light.daylight import daylight
 from tallgrass.systems.light.shine import shine
 from tallgrass.systems.site import Site, lay_out, outlook_on
@@ -181,8 +181,7 @@ def record_of() -> RecordOf:
 
     def make(grown: Grown) -> NDArray[np.void]:
         record, light = np.zeros(1, FRAME), grown.scene.light
-        kinds = zip(grown.scene.grass.values(), grown.growths, strict=True)
-        write_land(record, grown, [figures_of(*each, grown.ground.patch) for each in kinds])
+        write_land(record, grown)
         confine(record, Asked())
         shine(record, light, daylight(light), list(grown.scene.grass.values()))
         return record

@@ -5,6 +5,7 @@
 #define KINDS MOST_KINDS  // who is told nothing has room for as many as there can be
 #endif
 #define GROUPS ((KINDS + 3) / 4)
+#define FORMS (2 * KINDS)  // what each kind has grown to, and then what each is to become, if anything
 #define ByKind vec4[GROUPS]
 #if KINDS > 4
 #define GROUP(kind) ((kind) >> 2)

@@ -8,7 +8,7 @@
 
 uniform sampler2D targets;    // (u, v) of POINTS points for each blade
 uniform ivec4 stacks[RINGS];  // by ring: columns of a strip, sections of a column, strips of a kind on a patch
-uniform ByKind tall;          // by kind: height of the strips [m]
+uniform vec2 sizes[FORMS];    // by form: how far strips reach beyond their patch [m], and how high they are
 
 struct Edge {
     vec3 foot;
@@ -28,18 +28,18 @@ struct Painted {
     vec2 back;     // how far those lie back beyond that
 };
 
-Edge edge_at(vec4 base, int receiver, int edge, int kind, int count, float height) {
+Edge edge_at(vec4 base, int receiver, int edge, int kind, int form, int count, float height) {
     vec4 told = received_by(receiver + edge);
     vec2 at = base.xy + base.zw * float(edge), bend = bending(kind, told.xy);
-    vec3 foot = put_nearer(vec3(at.x, told.z, at.y), base.zw, count), top = posture(float(kind) * posture_variants, bend, 1.0).place * height;
+    vec3 foot = put_nearer(vec3(at.x, told.z, at.y), base.zw, count), top = posture(float(form) * posture_variants, bend, 1.0).place * height;
     return Edge(foot, bend, top, laid_back(base.zw, foot, top, height, count));
 }
 
 // The point at `part` of an edge's length, on a strip of this height [m], and its height in the canopy.
-vec4 on_edge(Edge edge, int kind, float part, float height) {
-    vec3 spine = posture(float(kind) * posture_variants, edge.bend, part).place;
+vec4 on_edge(Edge edge, int kind, int form, float part, float height) {
+    vec3 spine = posture(float(form) * posture_variants, edge.bend, part).place;
     vec3 back = vec3(edge.back.x, 0.0, edge.back.y) * part;
-    return vec4(edge.foot + spine * height + back, spine.y * OF(tall, kind) / (OF(crown, kind) * lodged(edge.bend)));
+    return vec4(edge.foot + spine * height + back, spine.y * sizes[form].y / (OF(crown, kind) * lodged(edge.bend)));
 }
 
 vec2 target_at(int number, int point) {
@@ -48,7 +48,7 @@ vec2 target_at(int number, int point) {
 
 // Part `t` of a blade that is painted on a strip of a ring: `base` is the strip's first foot and the way from edge to edge,
 // `receiver` that of its first edge, `blade` its row of the targets.
-Painted painted_at(vec4 base, int receiver, int blade, float height, float t, int kind, int ring) {
+Painted painted_at(vec4 base, int receiver, int blade, float height, float t, int kind, int form, int ring) {
     float along = t * float(POINTS - 1);
     int knot = min(int(along), POINTS - 2);
     vec2 before = target_at(blade, knot), after = target_at(blade, knot + 1);
@@ -60,12 +60,12 @@ Painted painted_at(vec4 base, int receiver, int blade, float height, float t, in
     ivec2 quad = clamp(ivec2(uv), ivec2(0), ivec2(fineness) - 1);
     vec2 part = uv - vec2(quad);
     int count = stacks[ring].z;
-    Edge a = edge_at(base, receiver, quad.x, kind, count, height), b = edge_at(base, receiver, quad.x + 1, kind, count, height);
+    Edge a = edge_at(base, receiver, quad.x, kind, form, count, height), b = edge_at(base, receiver, quad.x + 1, kind, form, count, height);
     float low = float(quad.y) / fineness.y, high = float(quad.y + 1) / fineness.y;
-    vec4 near = on_edge(b, kind, low, height), far = on_edge(a, kind, high, height);
+    vec4 near = on_edge(b, kind, form, low, height), far = on_edge(a, kind, form, high, height);
     // A quad is two triangles, parted from the second edge's foot to the first edge's head.
     bool lower = part.x + part.y <= 1.0;
-    vec4 corner = lower ? on_edge(a, kind, low, height) : on_edge(b, kind, high, height);
+    vec4 corner = lower ? on_edge(a, kind, form, low, height) : on_edge(b, kind, form, high, height);
     vec4 across = lower ? near - corner : corner - far, up = lower ? far - corner : corner - near;
     vec2 from = lower ? part : part - 1.0;
     vec4 at = corner + across * from.x + up * from.y;

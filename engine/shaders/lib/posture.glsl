@@ -8,6 +8,11 @@ struct Spine {
     vec3 tangent;  // towards the tip
 };
 
+// The form of a kind whose postures a row of them is.
+int form_of(float variant) {
+    return int((variant + 0.5) / posture_variants);
+}
+
 // How a message bends grass of a kind, as a vector along it that is as long as the posture index.
 vec2 bending(int kind, vec2 message) {
     int lengths = give.length() / 4;

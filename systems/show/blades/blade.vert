@@ -15,8 +15,7 @@ uniform int blades_from;   // the first of these receivers among all
 uniform float near;        // distance up to which blades hide one another by depth [m]; beyond it order alone says
 #ifdef MORPH
 uniform sampler2D slices;  // by ring, model, orientation and blade: the strip that it is painted on
-uniform ByKind margin;     // by kind: how far strips reach beyond their patch [m]
-uniform ByKind tall;       // by kind: height of the strips [m]
+uniform vec2 sizes[FORMS]; // by form: how far strips reach beyond their patch [m], and how high they are
 uniform ivec4 stacks[RINGS]; // by ring: columns of a strip, sections of a column, strips of a kind on a patch
 uniform int models;
 #include "lib/stack.glsl"
@@ -87,7 +86,8 @@ Drawn drawn() {
 // Where it stands on a stem that leans so, from the foot of the stem.
 vec3 on_stem(Blade blade, vec2 leans) {
 #ifdef ORGANS
-    return blade.stem > 0.0 ? posture(blade.kind * posture_variants, leans, blade.part).place * blade.stem : vec3(0.0);
+    float first = float(form_of(blade.variant)) * posture_variants;
+    return blade.stem > 0.0 ? posture(first, leans, blade.part).place * blade.stem : vec3(0.0);
 #else
     return vec3(0.0);
 #endif
@@ -136,17 +136,17 @@ vec3 dye(Blade blade, vec2 across, bool has_section, bool is_round, vec2 slow) {
 
 #ifdef MORPH
 // Where it is painted.
-void paint(Standing patch_of_it, int blade, int k) {
+void paint(Standing patch_of_it, int blade, int k, int form) {
     int ring = int(patch_of_it.ring), model = int(patch_of_it.row) / 4, turn = int(patch_of_it.row) % 4;
     int along = int(patch_of_it.along), own = (along + turn) % 2, count = stacks[ring].z, columns = stacks[ring].x;
     int row = (model * 2 + own) * each + blade, slice = ring * models * 2 * each + row;
     int plane = int(texelFetch(slices, ivec2(slice % SLICES_ROW, slice / SLICES_ROW), 0).r);
     int strip = k * count + stacked(plane, count, own, along, turn);
-    vec2 first = edge_foot(patch_of_it.cell, turn, own, plane, count, 0, columns, OF(margin, k));
-    vec2 second = edge_foot(patch_of_it.cell, turn, own, plane, count, 1, columns, OF(margin, k));
+    vec2 first = edge_foot(patch_of_it.cell, turn, own, plane, count, 0, columns, sizes[form].x);
+    vec2 second = edge_foot(patch_of_it.cell, turn, own, plane, count, 1, columns, sizes[form].x);
     float receiver = patch_of_it.edges + float(strip * (columns + 1));
     base = vec4(first, second - first);
-    painted = vec4(receiver, float(row), OF(tall, k) * patch_of_it.growth, patch_of_it.morph);
+    painted = vec4(receiver, float(row), sizes[form].y * patch_of_it.growth, patch_of_it.morph);
     joints.yw = vec2(NEVER, patch_of_it.ring);
 }
 #endif
@@ -198,7 +198,7 @@ void main() {
     joints.w = teeth_seen(blade.height, TEETH_OF[int(blade.organ)], foot.xyz);
 #endif
 #ifdef MORPH
-    paint(patch_of_it, int(number) % each, k);
+    paint(patch_of_it, int(number) % each, k, form_of(blade.variant));
 #endif
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
 }

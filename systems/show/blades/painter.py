@@ -1,9 +1,10 @@
 """Painting blades: those on their way first, then all rings from far to near."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from math import prod
+from typing import Any
 
 import moderngl
 import numpy as np
@@ -17,18 +18,18 @@ from ....engine.gl.shaders import tell
 from ....engine.gl.stream import Stream, release_all
 from ...around.appearance import handed_over
 from ...around.outlook import Outlook
-from ...frame.block import by_kind, room_for
+from ...frame.block import room_for
 from ...space.grown import Grown
 from ..hearing import Hearing
 from ..representation import Canvas, RepresentationPainter
-from ..strips.draw import tell_stacks
+from ..strips.draw import tell_sizes, tell_stacks
 from ..strips.pool import StripsKept
 from ..strips.representation import StripRepresentation
 from ..strips.shown import StripsShown
 from .draw import CORES, EDGES, PAINTED, RIBBON, Ribbons, blade_program
 from .gather import Numbers, distances, gather_blades, may_be_seen
 from .morph import at_home, gather_morph
-from .plant import BladeStock
+from .plant import BladeStock, standing_of
 from .pool import BladePool, BladesKept
 from .shown import BladesShown, Standing, together
 from .store import STANDING, STANDING_ROW, BladeStore
@@ -63,9 +64,11 @@ class BladesPainter(RepresentationPainter):
 
     def __init__(self, canvas: Canvas, stock: BladeStock, strips: StripRepresentation, quality: Quality) -> None:
         ctx, block, units, rings = canvas.ctx, canvas.block, canvas.units, quality.blade_rings
-        self.store = BladeStore(ctx, stock, strips.stock)
+        self.ctx, self._stock, self.store = ctx, stock, BladeStore(ctx, stock, strips.stock)
+        self._beside: tuple[BladeStock, StripRepresentation, BladeStore] | None = None
+        """What is brought into GL beside them."""
+        self._came: tuple[float, ...] = ()
         self._strips, self._units, self._received, self._models = strips, units, canvas.received, len(stock.rank)
-        self._reach = stock.reach
         self._fade, self._near = canvas.transitions.fade, PARTED * quality.patch
         self.standing = Records(ctx, STANDING, STANDING_ROW)
         self.numbers = Stream(ctx, NUMBER)
@@ -95,18 +98,38 @@ class BladesPainter(RepresentationPainter):
 
     def _tell(self, made: moderngl.Program) -> None:
         """Tell a program what it has to know of blades and of strips."""
-        kinds = self._strips.stock.strips[0]
-        for name, value in (
-            ("near", self._near),
-            ("models", self._models),
-            ("each", self.store.count),
-            ("margin", by_kind([strips.margin for strips in kinds])),
-            ("tall", by_kind([strips.height for strips in kinds])),
-        ):
+        for name, value in (("near", self._near), ("models", self._models), ("each", self.store.count)):
             if name in made:
                 made[name] = value
+        tell_sizes(made, self._strips.stock.forms)
         if "stacks" in made:
             tell_stacks(made, self._strips.quality.strip_rings)
+
+    def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
+        """Take over how much of each kind has become what it is to be."""
+        del record
+        self._came = grown.came
+
+    def fits(self, representation: Any, /) -> bool:
+        """Return whether blades of another stock are records of the same."""
+        return bool(representation.stock.records.dtype == self._stock.records.dtype)
+
+    def staging(self, stocks: Sequence[Any], /) -> Iterator[None]:
+        """Bring the blades of another stock into GL beside its own."""
+        blades, strips = (next(each for each in stocks if each.name == name) for name in ("blades", "strips"))
+        self._beside = blades.stock, strips, BladeStore(self.ctx, blades.stock, strips.stock)
+        yield
+
+    def restock(self) -> None:
+        """Draw what was staged."""
+        assert self._beside is not None
+        self.store.release()
+        (self._stock, self._strips, self.store), self._beside = self._beside, None
+        self.hearing.release()
+        for made in (*self.passes, self.morph.program):
+            self._tell(made)
+        self._gathered, self._told = Remembered[_Gathered](), Remembered[_Told]()
+        self._numbers = None
 
     def make_ready(self, grown: Grown, /) -> None:
         """Make room for more patches than are usually shown, and programs for whatever winds will blow."""
@@ -132,7 +155,16 @@ class BladesPainter(RepresentationPainter):
     def write(self, outlook: Outlook, first: Mapping[str, list[int]], /) -> int:
         """Send the patches with blades, and the numbers of the blades that are shown; return how many."""
         kept, shown, strips = outlook.keeps(BladesKept), outlook.shows(BladesShown), outlook.shows(StripsShown)
-        stands = outlook.view, shown, strips, outlook.appearance, kept, kept.planted, outlook.keeps(StripsKept)
+        stands = (
+            outlook.view,
+            shown,
+            strips,
+            outlook.appearance,
+            kept,
+            kept.planted,
+            outlook.keeps(StripsKept),
+            self._came,
+        )
         made_of = *stands, *first["strips"], *first["blades"]
         told, is_new = self._told.of(outlook.viewer.name, made_of, partial(self._tell_of, outlook, first))
         if is_new:
@@ -152,7 +184,7 @@ class BladesPainter(RepresentationPainter):
         slots, places = shown.standing.slots, (ring.places.tobytes() for ring in shown.rings)
         pool = kept.pool
         planted = pool, slots, *(each.take(slots, axis=0) for each in (pool.stamp, pool.ground, pool.sown))
-        made_of = None if len(shown.morphing.rows) else (viewer.eye, viewer.sides, *planted, *places)
+        made_of = None if len(shown.morphing.rows) else (viewer.eye, viewer.sides, self._came, *planted, *places)
         gather = partial(self._gather, outlook, kept.pool, shown, left)
         numbers, _ = self._gathered.of(viewer.name, made_of, gather)
         return _Told(self._standing(outlook, shown, left, first["strips"]), numbers)
@@ -163,14 +195,23 @@ class BladesPainter(RepresentationPainter):
         away = distances(pool, moving.slots, eye)
         home = at_home(outlook, moving, away)
         groups = [together(rings) for rings in self._grouped(shown.rings)]
-        stand = [may_be_seen(pool, each.slots, outlook.viewer.sides, reach=self._reach) for each in groups]
+        of_form = partial(self._of_form, outlook)
+        stand = [may_be_seen(pool, each.slots, outlook.viewer.sides, reach=self._stock.reach) for each in groups]
+        if self._came:
+            stand = [seen & of_form(each) for seen, each in zip(stand, groups, strict=True)]
         if home.any():
-            groups[-1], stand[-1] = together([groups[-1], moving]), np.concatenate([stand[-1], home])
+            groups[-1], stand[-1] = together([groups[-1], moving]), np.concatenate([stand[-1], home & of_form(moving)])
         found = [
-            gather_morph(outlook, pool, self._strips, moving, away=away, left=left, home=home),
+            gather_morph(outlook, pool, self._strips, moving, away=away, left=left, home=home | ~of_form(moving)),
             *(gather_blades(pool, each, eye=eye, stand=those) for each, those in zip(groups, stand, strict=True)),
         ]
         return _Gathered(np.concatenate(found), [len(each) for each in found])
+
+    def _of_form(self, outlook: Outlook, shown: Standing) -> NDArray[np.bool_]:
+        """Return which blades of patches are of the form that plants of their rank have by now, shape (m, blades)."""
+        least, most = standing_of(self._stock, self._came)
+        rank = self._stock.rank[outlook.patches.model[shown.rows]]
+        return np.asarray((rank >= least) & (rank < most))
 
     def _grouped(self, rings: list[Standing]) -> list[list[Standing]]:
         """Return the rings whose blades depth parts, and the others: in each group, blades come from far to near."""
@@ -234,7 +275,7 @@ class BladesPainter(RepresentationPainter):
     def release(self) -> None:
         """Give everything back."""
         release_all(*self.groups, self.morph, *self.arrays, *self.passes, self.hearing)
-        release_all(self.store, self.standing, self.numbers)
+        release_all(self.store, self.standing, self.numbers, *([] if self._beside is None else [self._beside[2]]))
 
 
 def _send_away(

@@ -1,6 +1,6 @@
 """Planting blades: a patch model's blades stood on the terrain of one cell (paper, section 2.2)."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -9,8 +9,10 @@ from numpy.typing import NDArray
 
 from ....components.arrays import Floats, Ints
 from ....engine.terrain.sample import height_at, own_density_at
-from ...grow.record import Blades, Growth
+from ...around.patches import NOWHERE, PatchTable
+from ...grow.record import NOTHING, Blades, Form, Growth, forms_of
 from ...space.ground import PRESENT, Ground, quarter_turn, turned
+from ...space.window import window_rows
 from .pool import BLADE, ORGAN, BladePool
 
 
@@ -24,10 +26,20 @@ class BladeStock:
     rank: Floats
     """The blades' ranks, shape (models, n)."""
 
+    forms: tuple[Form, ...]
+    """Whose blades they are, one form after another."""
+
     @cached_property
     def place(self) -> Floats:
         """Where the roots are in a patch, (x, z) [m], shape (models * 4, n, 2)."""
         return np.ascontiguousarray(self.records["root"][..., ::2])
+
+    @cached_property
+    def rows(self) -> Mapping[int, slice]:
+        """The blades of each form, by its number."""
+        counts = [len(form.growth.models[0].blades.height) for form in self.forms]
+        ends = np.cumsum([0, *counts]).tolist()
+        return {form.number: slice(*ends[row : row + 2]) for row, form in enumerate(self.forms)}
 
     @cached_property
     def reach(self) -> float:
@@ -43,18 +55,20 @@ class BladeStock:
 
 
 def blade_records(
-    blades: Blades, turn: int, /, *, patch: float, kind: int, variants: int, record: np.dtype[np.void] = BLADE
-) -> NDArray[np.void]:
+    blades: Blades, turn: int, /, *, patch: float, kind: int, variants: int, form: int | None = None,
+    record: np.dtype[np.void] = BLADE,
+) -> NDArray[np.void]:  # fmt: skip
     """Return the records of a patch model's blades after quarter turns, roots relative to the patch, shape (n,).
 
-    They are of `BLADE`, or of `ORGAN`, without which nothing may stand on a stem.
+    They are of `BLADE`, or of `ORGAN`, without which nothing may stand on a stem. The postures are those of a `form`,
+    without it of the kind's own.
     """
     records = np.zeros(len(blades.height), record)
     spun = turned(blades.root, np.asarray(turn, np.int32), patch=patch)
     records["root"][:, 0], records["root"][:, 2] = spun[:, 0], spun[:, 1]
     records["height"], records["width"], records["kind"] = blades.height, blades.width, kind
     records["organ"] = blades.organ
-    records["variant"] = kind * variants + blades.variant
+    records["variant"] = (kind if form is None else form) * variants + blades.variant
     records["rest"] = _spun(blades.rest, turn)
     if record == ORGAN:
         records["stem"], records["part"], records["sways"] = blades.stem, blades.part, _spun(blades.stem_rest, turn)
@@ -75,24 +89,27 @@ def record_of(growths: Sequence[Growth], /) -> np.dtype[np.void]:
     return ORGAN if any(model.blades.organ.any() for growth in growths for model in growth.models) else BLADE
 
 
-def stock_blades(growths: Sequence[Growth], patch: float, /) -> BladeStock:
-    """Return the blades of all kinds' patch models in all four turns; `patch` is a patch's side [m]."""
-    models, record = range(len(growths[0].models)), record_of(growths)
+def stock_blades(growths: Sequence[Growth], patch: float, coming: Mapping[int, Growth] = NOTHING, /) -> BladeStock:
+    """Return the blades of all kinds' patch models in all four turns, and after them those that are to come.
+
+    `patch` is a patch's side [m]. `coming` gives what some kinds are to become.
+    """
+    forms = forms_of(growths, coming)
+    models, record = range(len(growths[0].models)), record_of([form.growth for form in forms])
     return BladeStock(
-        records=np.stack([_turned(growths, model, turn, patch, record) for model in models for turn in range(4)]),
-        rank=np.stack([np.concatenate([growth.models[model].blades.rank for growth in growths]) for model in models]),
+        records=np.stack([_turned(forms, model, turn, patch, record) for model in models for turn in range(4)]),
+        rank=np.stack([np.concatenate([form.growth.models[model].blades.rank for form in forms]) for model in models]),
+        forms=forms,
     )
 
 
-def _turned(
-    growths: Sequence[Growth], model: int, turn: int, patch: float, record: np.dtype[np.void]
-) -> NDArray[np.void]:
+def _turned(forms: Sequence[Form], model: int, turn: int, patch: float, record: np.dtype[np.void]) -> NDArray[np.void]:
     return np.concatenate([
         blade_records(
-            growth.models[model].blades, turn, patch=patch, kind=kind, variants=growth.postures.shape.shape[0],
-            record=record,
+            form.growth.models[model].blades, turn, patch=patch, kind=form.kind, form=form.number,
+            variants=form.growth.postures.shape.shape[0], record=record,
         )
-        for kind, growth in enumerate(growths)
+        for form in forms
     ])  # fmt: skip
 
 
@@ -109,6 +126,18 @@ def standing_blades(
     place = np.ascontiguousarray(chosen["root"][..., ::2])
     chosen["root"][..., 1] = height_at(ground.terrain, place.reshape(-1, 2)).reshape(chosen.shape)
     return chosen, _grown(stock, place, model, ground)
+
+
+def standing_of(stock: BladeStock, came: Sequence[float], /) -> tuple[Floats, Floats]:
+    """Return between which ranks blades stand where `came` (kinds,) of each kind have become another, (n,) each.
+
+    Of those that have not, these are the higher ones.
+    """
+    least, most = np.full(len(stock.kinds), -1.0, np.float32), np.full(len(stock.kinds), 2.0, np.float32)
+    for form in stock.forms:
+        if form.number != form.kind:
+            most[stock.rows[form.number]] = least[stock.rows[form.kind]] = came[form.kind] if came else 0.0
+    return least, most
 
 
 def plant_blades(
@@ -136,3 +165,45 @@ def _grown(stock: BladeStock, place: Floats, model: Ints, ground: Ground) -> NDA
     kinds = np.tile(stock.kinds, len(place))
     own = own_density_at(ground.density, kinds, place.reshape(-1, 2)).reshape(place.shape[:-1])
     return np.asarray((stock.rank[model] < own) & (own > PRESENT))
+
+
+def carry_blades(
+    pool: BladePool, stock: BladeStock, old: BladePool, before: BladeStock, patches: PatchTable, ground: Ground, /
+) -> None:
+    """Let blades stand in an empty pool where those of another stock did; of forms that are new, they are planted."""
+    pool.stamp[:], pool.ground[:], pool.sown[:] = old.stamp, old.ground, old.sown
+    rows = window_rows(pool.stamp, side=patches.side)
+    slots = np.flatnonzero((patches.cell[rows] == pool.stamp).all(axis=1) & (pool.stamp[:, 0] != NOWHERE))
+    pool.stamp[np.setdiff1d(np.arange(pool.slots), slots)] = NOWHERE
+    model, turn = patches.model[rows[slots]], patches.turn[rows[slots]]
+    for form in stock.forms:
+        here = stock.rows[form.number]
+        there = _alike(stock, here, before, form)
+        if there is not None:
+            for column in ("x", "z", "present"):
+                getattr(pool, column)[:, here] = getattr(old, column)[:, there]
+            continue
+        place = stock.place[model * 4 + turn][:, here] + _corners(pool.stamp[slots], ground)
+        pool.x[slots, here], pool.z[slots, here] = place[..., 0], place[..., 1]
+        own = own_density_at(ground.density, np.full(place.shape[0] * place.shape[1], form.kind), place.reshape(-1, 2))
+        own = own.reshape(place.shape[:-1])
+        pool.present[slots, here] = (stock.rank[model][:, here] < own) & (own > PRESENT)
+
+
+def _corners(cells: Ints, ground: Ground) -> Floats:
+    return np.asarray(cells.astype(np.float32)[:, None] * np.float32(ground.patch), np.float32)
+
+
+def _alike(stock: BladeStock, here: slice, before: BladeStock, form: Form) -> slice | None:
+    """Return the blades of another stock that stand where those of a form do, if any."""
+    for other in before.forms:
+        there = before.rows[other.number]
+        if other.kind != form.kind or there.stop - there.start != here.stop - here.start:
+            continue
+        same = other.growth is form.growth or (
+            np.array_equal(stock.rank[:, here], before.rank[:, there])
+            and np.array_equal(stock.place[:, here], before.place[:, there])
+        )
+        if same:
+            return there
+    return None

@@ -32,7 +32,7 @@ ORGAN = np.dtype(
 """The same where some stand on stems: the stem's length [m], the place along it, and its lean; four texels."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(slots=True, eq=False)
 class BladePool:
     """The blades of all patches near enough to be 3D, one slot per patch; each is a receiver.
 
@@ -108,6 +108,12 @@ class BladesKept(Kept):
     def __init__(self, pool: BladePool, name: str) -> None:
         super().__init__([Receiving(pool, name)])
         self.pool = pool
+
+    def hold(self, pool: BladePool, /) -> None:
+        """Have the blades of another pool in place of its own, for as many slots: they keep their entities."""
+        self.pool.kinds, self.pool.present, self.pool.x, self.pool.z = pool.kinds, pool.present, pool.x, pool.z
+        self.pool.ground, self.pool.stamp, self.pool.sown = pool.ground, pool.stamp, pool.sown
+        self.receiving[0].letters.forget_all()
 
     def stand_on(self, first: Ints, last: Ints, span: tuple[float, float], /) -> None:
         """Let the ground of these cells reach as low and as high: planting all blades again would take far longer."""

@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 
 from ....components.arrays import Levels, Rows
 from ....engine.declared.quality import Quality
+from ...around.kept import Kept
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
-from ...grow.record import Growth
+from ...grow.record import NOTHING, Growth
 from ...space.ground import Ground
 from ...space.grown import Grown
 from ..representation import Canvas, Color, Representation
@@ -19,7 +20,7 @@ from ..strips.representation import StripRepresentation
 from .draw import own_segment_defines
 from .organs import any_teeth
 from .painter import BladesPainter
-from .plant import BladeStock, plant_blades, sow_blades, stock_blades
+from .plant import BladeStock, carry_blades, plant_blades, sow_blades, stock_blades
 from .pool import BladePool, BladesKept
 from .shown import BladesShown, show_blades
 from .sublevel import blade_ring
@@ -46,9 +47,11 @@ class BladeRepresentation(Representation):
         return quality.blade_rings[-1].to
 
     @classmethod
-    def stocked(cls, growths: Sequence[Growth], quality: Quality, ground: Ground, /) -> Self:
+    def stocked(
+        cls, growths: Sequence[Growth], quality: Quality, ground: Ground, coming: Mapping[int, Growth] = NOTHING, /
+    ) -> Self:
         """Return it with all kinds' blades, ready to be planted on a ground."""
-        return cls(stock_blades(growths, quality.patch), quality, ground)
+        return cls(stock_blades(growths, quality.patch, coming), quality, ground)
 
     def on(self, ground: Ground, /) -> Self:
         """Return it with the same blades, on another ground."""
@@ -56,7 +59,8 @@ class BladeRepresentation(Representation):
 
     def defines(self, grown: Grown, /) -> Mapping[str, str | int]:
         """Return which kinds have numbers of segments of their own, and whether any has leaves with teeth."""
-        return {**own_segment_defines(grown.own_segments), **({"TOOTHED": 1} if any_teeth(grown.growths) else {})}
+        toothed = any_teeth([*grown.growths, *grown.coming.values()])
+        return {**own_segment_defines(grown.own_segments), **({"TOOTHED": 1} if toothed else {})}
 
     def rings(self) -> int:
         """Return how many rings it has."""
@@ -96,6 +100,14 @@ class BladeRepresentation(Representation):
             kept.planted += 1
             anew = sown[:, 0] != sown[:, 1]
             sow_blades(pool, shown.slots[anew], patches.model[shown.rows[anew]], self.stock, self.ground)
+
+    def carry(self, before: Representation, kept: Kept, patches: PatchTable, /) -> None:
+        """Let blades stand where the others did; only what is new is planted."""
+        assert isinstance(before, BladeRepresentation)
+        assert isinstance(kept, BladesKept)
+        pool = BladePool.allocate(kept.pool.side, self.stock.kinds)
+        carry_blades(pool, self.stock, kept.pool, before.stock, patches, self.ground)
+        kept.hold(pool)
 
     def painter(self, canvas: Canvas, /) -> BladesPainter:
         """Return a painter of all rings."""

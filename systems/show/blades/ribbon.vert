@@ -142,7 +142,7 @@ vec3 painted_light(int k, float t, vec2 face, Painted target) {
 
 // Bring a point at part `t` of a blade nearer to where it is painted, and its light to what it is there.
 void bring(inout Point point, inout vec3 light, float t, int k) {
-    Painted target = painted_at(base, int(painted.x), int(painted.y), painted.z, t, k, int(joints.w));
+    Painted target = painted_at(base, int(painted.x), int(painted.y), painted.z, t, k, form_of(low.w), int(joints.w));
     vec2 run = normalize(target.run.xz), tones = tones_of(int(stands.z)), face = normalize(vec2(lie_of.w, -lie_of.z));
     float wide = dot(run, point.across);
     if (is_blade(int(stands.z)) && kinds[k].narrowed < 0.0)  // it is round

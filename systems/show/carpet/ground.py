@@ -14,14 +14,10 @@ from ....engine.gl.rasteriser import anisotropy
 from ....engine.gl.shaders import tell
 from ....engine.gl.stream import Stream, release_all
 from ....engine.terrain.record import Terrain
-from ...frame.block import FrameBlock, by_kind, joined
-from ...grow.organs import any_heads
-from ...grow.record import Growth
-from ...space.canopy import canopy_height
+from ...frame.block import FrameBlock, joined
 from ...space.cone import HALF_DIAGONAL, beyond_cone
-from .grow import carpet_of
-from .heads import profile_of
 from .rims import Rims
+from .stock import CarpetStock
 from .textures import image_count
 
 Tiles = NDArray[np.float64]
@@ -223,18 +219,6 @@ class _Layer:
         return 1
 
 
-def _of_images(growths: Sequence[Growth], seed: int) -> dict[str, object]:
-    """Return what the carpet's program is told of the kinds' images, by the names of its uniforms."""
-    slopes = carpet_of(growths[0].models[0]).slope
-    images = [len(growth.models) * len(slopes) * 4 for growth in growths]
-    return {
-        "slopes": slopes.tolist(),
-        "tops": by_kind([carpet_of(growth.models[0]).height / canopy_height(growth) for growth in growths]),
-        "first": by_kind([sum(images[:index]) for index in range(len(images))]),
-        "stock": (len(growths[0].models), seed),
-    }
-
-
 def _program_of(layer: _Layer) -> moderngl.Program:
     return layer.array.program
 
@@ -246,13 +230,15 @@ class GroundPainter:
         self,
         ctx: moderngl.Context,
         block: FrameBlock,
-        growths: Sequence[Growth],
+        stock: CarpetStock,
         units: Mapping[str, int],
         *,
         side: int,
         seed: int,
     ) -> None:
-        self.growths, self._block = growths, block
+        self.stock, self._block = stock, block
+        self._came: tuple[float, ...] = ()
+        self._raised = RAISED, OUTLINE
         self.shares = ctx.texture((side, side), 1, alignment=1)
         self.shares.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self.units = units
@@ -276,10 +262,11 @@ class GroundPainter:
 
     def _lay_out(self, seed: int) -> None:
         """Say which programs there are."""
-        ctx, growths = self._ctx, self.growths
-        heads: Defines = {"HEADS": 1} if any_heads(growths) else {}
+        ctx, stock = self._ctx, self.stock
+        self._seed = seed
+        heads: Defines = {"HEADS": 1} if stock.heads else {}
         litter: Defines = {"ANISOTROPIC": 1} if anisotropy(ctx) > 1.0 else {}
-        stack = stack_for(ctx, image_count(growths))
+        stack = stack_for(ctx, image_count(stock.growths))
         stacked: Defines = {"STACK": stack, "REPEATED": 1} if stack > 1 else {}
         whole: Defines = {"CUT": 0}
         cut: Defines = {"CUT": 1}
@@ -303,11 +290,7 @@ class GroundPainter:
             make = partial(joined, ctx, self._block, self.units, vertex, fragment, defines)
             among.append(_Layer(make, self.streams[stream], *self.grid))
         self.covered += [_Layer(partial(_program_of, each), self.streams[1], *self.grid) for each in self.bare]
-        for each in self._layers:
-            each.know(_of_images(growths, seed))
-        if heads:
-            self._tell("profile", np.concatenate([profile_of(growth) for growth in growths]).tolist())
-        self.raise_carpet(RAISED, outline=OUTLINE)
+        self.restock(stock)
 
     def making(self) -> Iterator[None]:
         """Make the programs that are not there yet, one at a time."""
@@ -362,8 +345,29 @@ class GroundPainter:
 
     def raise_carpet(self, part: float, *, outline: float = 0.0) -> None:
         """Lay the carpet at this part of the height of the grass, and along outlines at that of `outline`, if any."""
+        self._raised = part, outline
         self._tell("outline", outline / part)
-        self._tell("raised", by_kind([part * carpet_of(growth.models[0]).height for growth in self.growths]))
+        self.come(self._came)
+
+    def fits(self, stock: CarpetStock, /) -> bool:
+        """Return whether its programs draw another stock too."""
+        layers = (image_count(each.growths) for each in (stock, self.stock))
+        stacks = {stack_for(self._ctx, count) for count in layers}
+        return stock.heads == self.stock.heads and len(stacks) == 1
+
+    def restock(self, stock: CarpetStock, /) -> None:
+        """Draw the images of a stock."""
+        self.stock = stock
+        for name, value in stock.layers(self._seed).items():
+            self._tell(name, value)
+        part, outline = self._raised
+        self.raise_carpet(part, outline=outline)
+
+    def come(self, came: tuple[float, ...], /) -> None:
+        """Take over how much of each kind has become what it is to be."""
+        self._came = came
+        for name, value in self.stock.told(came, self._raised[0]).items():
+            self._tell(name, value)
 
     def write_shares(self, shares: Bytes, centre: NDArray[np.int32], *, beyond: float) -> None:
         """Send how much the carpet shows, of 255, on each row of the patch table (rows,) around the viewer's cell.

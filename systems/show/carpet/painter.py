@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
+from typing import Any
 
 import moderngl
 import numpy as np
@@ -16,7 +17,6 @@ from ...around.appearance import border_of
 from ...around.asked import Asked
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
-from ...grow.record import Growth
 from ...mow.mown import Mown
 from ...press.marks import UNTRODDEN, Trodden
 from ...space.cone import HALF_DIAGONAL
@@ -44,7 +44,8 @@ from .ground import (
 )
 from .pool import CarpetKept
 from .rims import Rims
-from .textures import bent_texture, carpet_texture
+from .stock import CarpetStock
+from .textures import bent_texture, carpet_texture, sending_carpet
 
 TilesSeen = list[NDArray[np.void]]
 """Tiles by the layer that draws them, as `by_layer` has them."""
@@ -56,7 +57,7 @@ STEP = 0.4
 class CarpetPainter(RepresentationPainter):
     """Draws the ground and the carpet on it."""
 
-    def __init__(self, canvas: Canvas, growths: Sequence[Growth], ground: Ground, side: int) -> None:
+    def __init__(self, canvas: Canvas, stock: CarpetStock, ground: Ground, side: int) -> None:
         self._ground, self._spacing = ground, finest_spacing(ground.terrain, ground.patch)
         self._whole_to = canvas.reach[-2] - int(border_of(canvas.reach[-2])) - 1
         self._units = canvas.units
@@ -64,24 +65,52 @@ class CarpetPainter(RepresentationPainter):
         self._edges, self._tallest = Edges(), 0.0
         self._rims, self._rims_sent = Rims(ground.terrain), -1
         self._laid = Remembered[Bytes]()
-        self.images, self.bents = carpet_texture(canvas.ctx, growths), bent_texture(canvas.ctx, growths)
+        self.images, self.bents = carpet_texture(canvas.ctx, stock.growths), bent_texture(canvas.ctx, stock.bents(()))
+        self._beside: tuple[CarpetStock, moderngl.TextureArray] | None = None
+        """What is brought into GL beside its own."""
+        self._came: tuple[float, ...] = ()
         self.air = Air(canvas, side)
         self._deep = False
         """Whether it writes depth only where it covers at least half a pixel."""
         self._heard: tuple[NDArray[np.int32], int, CarpetKept] | None = None
-        self.ground = GroundPainter(canvas.ctx, canvas.block, growths, canvas.units, side=side, seed=canvas.seed)
+        self.ground = GroundPainter(canvas.ctx, canvas.block, stock, canvas.units, side=side, seed=canvas.seed)
 
     def making(self) -> Iterator[None]:
         """Make the programs that are not there yet, one at a time."""
         return self.ground.making()
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
-        """Draw on this ground from now on."""
+        """Draw on this ground from now on, with as much of each kind as has become what it is to be."""
         del record
+        if grown.came != self._came:
+            self._come(grown.came)
         if grown.ground.terrain is not self._rims.terrain:
             self._rims, self._rims_sent = Rims(grown.ground.terrain), -1
         self._ground, self._tallest = grown.ground, grown.tallest
         self._spacing = finest_spacing(grown.ground.terrain, grown.ground.patch)
+
+    def fits(self, representation: Any, /) -> bool:
+        """Return whether its programs draw the images of another stock too."""
+        return self.ground.fits(representation.stock)
+
+    def staging(self, stocks: Sequence[Any], /) -> Iterator[None]:
+        """Bring the images of another stock into GL beside its own."""
+        made = next(each for each in stocks if each.name == "carpet")
+        images = yield from sending_carpet(self.images.ctx, made.stock.growths)
+        self._beside = made.stock, images
+
+    def restock(self) -> None:
+        """Draw what was staged."""
+        assert self._beside is not None
+        self.images.release()
+        (stock, self.images), self._beside = self._beside, None
+        self.ground.restock(stock)
+        self._come(())
+
+    def _come(self, came: tuple[float, ...]) -> None:
+        self._came = came
+        self.ground.come(came)
+        self.bents.write(self.ground.stock.bents(came))
 
     def make_ready(self, grown: Grown, /) -> None:
         """Make programs for whatever winds will blow."""
@@ -246,6 +275,8 @@ class CarpetPainter(RepresentationPainter):
     def release(self) -> None:
         """Give everything back."""
         release_all(self.ground, self.air, self.images, self.bents)
+        if self._beside is not None:
+            self._beside[1].release()
 
 
 def _shares(patches: PatchTable, cover: Floats | None) -> Bytes:

@@ -6,6 +6,7 @@
 uniform sampler2DArray images;  // place along the blade, height, twice the azimuth, coverage; premultiplied
 uniform float slopes[SLOPES];   // their viewing slopes
 uniform ByKind first;           // by kind: first layer of the images
+uniform ByKind coming;          // the same of what it is to be
 uniform ivec2 stock;            // patch models; seed
 
 const float SHARP = 0.6;        // size of what is taken from the images for a pixel, of the pixel's own: filtering takes more

@@ -1,6 +1,6 @@
 """2D: a textured carpet on the terrain (paper, sections 2.1 and 4.3)."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Self
 
@@ -12,13 +12,14 @@ from ....engine.declared.grass import GrassKind
 from ....engine.declared.quality import Quality
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
-from ...grow.record import Growth
+from ...grow.record import NOTHING, Growth
 from ...grow.section import SECTIONS
 from ...space.ground import Ground
 from ..representation import Canvas, Color, Representation, Seedling
 from .grow import BENDS, BENT_SLOPES, SLOPES, Carpet, grow_carpet
 from .painter import CarpetPainter
 from .pool import CarpetKept, CarpetPool
+from .stock import CarpetStock
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -33,7 +34,7 @@ class CarpetRepresentation(Representation):
     asked: ClassVar[tuple[str, ...]] = ("air",)
     record: ClassVar[type | None] = Carpet
 
-    growths: Sequence[Growth]
+    stock: CarpetStock
     quality: Quality
     ground: Ground
 
@@ -75,9 +76,11 @@ class CarpetRepresentation(Representation):
         return 4 * len(SLOPES)
 
     @classmethod
-    def stocked(cls, growths: Sequence[Growth], quality: Quality, ground: Ground, /) -> Self:
+    def stocked(
+        cls, growths: Sequence[Growth], quality: Quality, ground: Ground, coming: Mapping[int, Growth] = NOTHING, /
+    ) -> Self:
         """Return it with all kinds' images."""
-        return cls(growths, quality, ground)
+        return cls(CarpetStock.of(growths, coming), quality, ground)
 
     def on(self, ground: Ground, /) -> Self:
         """Return it with the same images, on another ground."""
@@ -103,4 +106,4 @@ class CarpetRepresentation(Representation):
 
     def painter(self, canvas: Canvas, /) -> CarpetPainter:
         """Return a painter of ground and carpet."""
-        return CarpetPainter(canvas, self.growths, self.ground, 2 * canvas.reach[-1] + 1)
+        return CarpetPainter(canvas, self.stock, self.ground, 2 * canvas.reach[-1] + 1)

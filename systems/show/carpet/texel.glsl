@@ -25,10 +25,11 @@ float filled(float steeper, Reading read, float slope, float mean) {
     return (1.0 - pow(max(1.0 - steeper, HIDES_ALL), longer)) / max(mean, LEAST_MEAN);
 }
 
-// The texel of a kind, whose grain is so far from the mean, of how far it is in images.
-Texel texel_of(int kind, Patch own, Reading read, float on_level, float grain) {
+// The texel of images from a layer on, whose grain is so far from the mean, of how far it is in images.
+Texel texel_from(float layer, Patch own, Reading read, float on_level, float grain) {
     int coarsest = int(log2(float(textureSize(images, 0).x)) + 0.5);
-    float layer = OF(first, kind) + float((own.model * SLOPES + read.elevation) * HEADINGS + own.side), next = layer + float(HEADINGS);
+    layer += float((own.model * SLOPES + read.elevation) * HEADINGS + own.side);
+    float next = layer + float(HEADINGS);
     vec4 mean_high = layer_mean(images, int(next), coarsest);
     vec4 mean = mix(layer_mean(images, int(layer), coarsest), mean_high, read.next);
     vec4 low = layer_at(images, vec3(read.low, layer), read.level), high = layer_at(images, vec3(read.high, next), read.level);
@@ -39,4 +40,25 @@ Texel texel_of(int kind, Patch own, Reading read, float on_level, float grain) {
     vec3 shown = image.rgb / max(image.a, LEAST_TEXEL);
     float taller = shown.g * mean.a / max(mean.g, LEAST_TEXEL) - 1.0;
     return Texel(shown.r, shown.g, 2.0 * shown.b - 1.0, image.a, mean.a * fill, taller);
+}
+
+// What a part of one texel's grass and the rest of another's show together.
+Texel together(Texel one, Texel other, float part) {
+    float covers = mix(one.covers, other.covers, part), of_other = part * other.covers / max(covers, LEAST_TEXEL);
+    return Texel(mix(one.place, other.place, of_other), mix(one.height, other.height, of_other), mix(one.twice, other.twice, of_other),
+                 covers, mix(one.usual, other.usual, part), mix(one.taller, other.taller, of_other));
+}
+
+// The texel of a kind, and of what it is to be as far as it has become that.
+Texel texel_of(int kind, Patch own, Reading read, float on_level, float grain) {
+    float part = OF(came, kind);
+    Texel texel = Texel(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    for (int form = part < 1.0 ? 0 : 1; form < (part > 0.0 ? 2 : 1); form++) {
+        Texel one = texel_from(form == 0 ? OF(first, kind) : OF(coming, kind), own, read, on_level, grain);
+        if (form == 1 && part < 1.0)
+            texel = together(texel, one, part);
+        else
+            texel = one;
+    }
+    return texel;
 }

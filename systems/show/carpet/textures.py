@@ -1,18 +1,24 @@
 """The carpet's images, and what becomes of them in the wind, as textures."""
 
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
 
 import moderngl
 import numpy as np
+from numpy.typing import NDArray
 
-from ....components.arrays import Bytes
-from ....engine.gl.mipmaps import mipmapped, stack_for
+from ....components.arrays import Bytes, Floats
+from ....engine.gl.mipmaps import PIECE, at_once, mipmapping, stack_for
 from ...grow.record import Growth
 from .grow import carpet_of
 
 
 def carpet_texture(ctx: moderngl.Context, growths: Sequence[Growth]) -> moderngl.TextureArray:
-    """Return all carpet images; kinds, models, slopes and directions are layers, in this order."""
+    """Return all carpet images; forms, models, slopes and directions are layers, in this order."""
+    return at_once(sending_carpet(ctx, growths))
+
+
+def sending_carpet(ctx: moderngl.Context, growths: Sequence[Growth]) -> Generator[None, None, moderngl.TextureArray]:
+    """Do what `carpet_texture` does a piece at a time."""
     images = np.concatenate(
         [
             carpet_of(model).texels.reshape(-1, *carpet_of(model).texels.shape[2:])
@@ -22,10 +28,15 @@ def carpet_texture(ctx: moderngl.Context, growths: Sequence[Growth]) -> moderngl
     )
     layers, rows, columns, _ = images.shape
     if stack_for(ctx, layers) > 1:
-        texture = mipmapped(ctx, [_whole(images)])
+        texture = yield from mipmapping(ctx, [_whole(images)])
         texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
         return texture
-    texture = ctx.texture_array((columns, rows, layers), 4, np.ascontiguousarray(images).tobytes())
+    texture = ctx.texture_array((columns, rows, layers), 4)
+    each = max(PIECE // images[0].nbytes, 1)
+    for at in range(0, layers, each):
+        part = np.ascontiguousarray(images[at : at + each])
+        texture.write(part, viewport=(0, 0, at, columns, rows, len(part)))
+        yield
     texture.build_mipmaps()
     texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
     return texture
@@ -44,11 +55,15 @@ def _whole(images: Bytes) -> Bytes:
     return np.ascontiguousarray(images[:, nearest][:, :, nearest])
 
 
-def bent_texture(ctx: moderngl.Context, growths: Sequence[Growth]) -> moderngl.TextureArray:
-    """Return `Carpet.bent` of all kinds, a layer each: bends are columns, slopes rows, and models taken in the mean."""
+def bents_of(growths: Sequence[Growth], /) -> Floats:
+    """Return `Carpet.bent` of all kinds, models taken in the mean, (kinds, slopes, bends, 4)."""
     tables = np.stack([np.mean([carpet_of(model).bent for model in growth.models], axis=0) for growth in growths])
-    layers, rows, columns, _ = tables.shape
-    texels = np.pad(tables, ((0, 0), (0, 0), (0, 0), (0, 1))).astype(np.float16)
+    return np.pad(tables, ((0, 0), (0, 0), (0, 0), (0, 1)))
+
+
+def bent_texture(ctx: moderngl.Context, texels: NDArray[np.float16]) -> moderngl.TextureArray:
+    """Return `bents_of` as a texture, a layer for each kind: bends are columns, slopes rows."""
+    layers, rows, columns, _ = texels.shape
     texture = ctx.texture_array((columns, rows, layers), 4, texels.tobytes(), dtype="f2")
     texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
     texture.repeat_x = texture.repeat_y = False

@@ -1,6 +1,8 @@
 """Drawing 2.5D strips, back to front: those of all rings together."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Self
 
 import moderngl
 import numpy as np
@@ -8,16 +10,18 @@ from numpy.typing import NDArray
 
 from ....engine.declared.quality import StripRing
 from ....engine.gl.emit import emitted, looked_up
-from ....engine.gl.mipmaps import stack_for
+from ....engine.gl.mipmaps import at_once, stack_for
 from ....engine.gl.records import Records
-from ....engine.gl.shaders import tell
+from ....engine.gl.shaders import tell, tell_all
 from ....engine.gl.stream import release_all
-from ...frame.block import by_kind, filled, joined, room_for
+from ...frame.block import filled, joined, room_for
+from ...grow.organs import any_heads
+from ...grow.record import Form
 from ..hearing import Hearing
 from ..representation import Canvas
 from .gather import LIES_AHEAD, OF_RING, RUNS_ALONG, STOOD
-from .grow import Strips
-from .textures import Atlas, extent_texture, strip_texture
+from .grow import strips_of
+from .textures import Atlas, extent_texture, sending_strips
 
 STOOD_ROW, STRIPS_ROW = 64, 1024
 """Records in a row of the textures that hold patches, and the numbers of polygon strips."""
@@ -54,35 +58,32 @@ NUMBER = np.dtype([("number", "u4")])
 class StripPainter:
     """Draws the strips of all rings; it owns their textures.
 
-    `stock` gives the strips by ring, kind and model, and `atlas` is what `strip_atlas` makes of them.
+    `forms` are what there is of all kinds, and `atlas` is what `strip_atlas` makes of their strips.
     """
 
     def __init__(
         self,
         canvas: Canvas,
         rings: Sequence[StripRing],
-        stock: Sequence[list[list[Strips]]],
+        forms: Sequence[Form],
         atlas: Atlas,
         *,
         heads: bool,
     ) -> None:
-        self.units, self.rings, self.kinds = canvas.units, rings, len(stock[0])
+        self.units, self.rings = canvas.units, rings
         self.received, self._block = canvas.received, canvas.block
         self.sections = max(ring.sections for ring in rings)
-        self.most = self.kinds * max(ring.strips * ring.columns for ring in rings)
-        self.atlas, self.ranks = (strip_texture(canvas.ctx, made) for made in (atlas.texels, atlas.ranks))
-        stack = stack_for(canvas.ctx, len(atlas.texels[0]))
-        self._rows = self.atlas.height // stack
-        self.extents = extent_texture(canvas.ctx, stock, [ring.columns for ring in rings])
-        self._stock = stock
+        self._canvas = canvas
+        self._held = _Held.of(canvas.ctx, rings, forms, atlas)
+        self._beside: _Held | None = None
+        """What is brought into GL beside it."""
+        self._stack = stack = stack_for(canvas.ctx, len(atlas.texels[0]))
         self.stood = Records(canvas.ctx, STOOD, STOOD_ROW)
         self.strips = Records(canvas.ctx, NUMBER, STRIPS_ROW)
         laid: dict[str, str | int] = {"RINGS": room_for(len(rings))}
         self.hearing = Hearing(canvas, "systems/show/strips/receivers.frag", laid, self._tell)
-        whole = {**laid, "STACK": stack} if stack > 1 else dict(laid)
-        if heads:
-            whole["HEADS"] = 1
-        self._canvas, self._whole = canvas, whole
+        self._heads = heads
+        self._whole = laid | ({"STACK": stack} if stack > 1 else {}) | ({"HEADS": 1} if heads else {})
         self._made: dict[tuple[bool, int], moderngl.VertexArray] = {}
 
     def making(self) -> Iterator[None]:
@@ -91,6 +92,36 @@ class StripPainter:
             if (False, number) not in self._made:
                 self.array(number)
                 yield
+
+    @property
+    def extents(self) -> moderngl.Texture:
+        """Where each layer of the textures is painted."""
+        return self._held.extents
+
+    @property
+    def forms(self) -> Sequence[Form]:
+        """What there is of all kinds."""
+        return self._held.forms
+
+    def fits(self, forms: Sequence[Form], /) -> bool:
+        """Return whether as many layers lie in one of the textures' for other forms."""
+        models = [model for form in forms for model in form.growth.models]
+        layers = sum(2 * len(strips.plane) for model in models for strips in strips_of(model))
+        heads = any_heads(form.growth for form in forms)
+        return heads == self._heads and self._stack == stack_for(self._canvas.ctx, layers)
+
+    def staging(self, forms: Sequence[Form], atlas: Atlas, /) -> Iterator[None]:
+        """Bring other strips into GL beside those that are drawn, a piece at a time."""
+        self._beside = yield from _holding(self._canvas.ctx, self.rings, forms, atlas)
+
+    def restock(self) -> None:
+        """Draw what was staged."""
+        assert self._beside is not None
+        self._held.release()
+        self._held, self._beside = self._beside, None
+        self.hearing.release()
+        for array in self._made.values():
+            self._tell(array.program)
 
     def array(self, number: int, *, deep: bool = False) -> moderngl.VertexArray:
         """Return what draws strips as programs of one of `SORTS` do, or of `DEEP`; it is made when it is asked for."""
@@ -101,27 +132,24 @@ class StripPainter:
                 "systems/show/strips/strips.frag", {**self._whole, **(DEEP if deep else SORTS)[number]},
             )  # fmt: skip
             self._tell(program)
-            program["most"], program["atlas_rows"] = self.most, self._rows
-            program["pictures"] = filled(self._pictures(), room_for(len(self.rings)) * self.kinds)
             self._made[deep, number] = canvas.ctx.vertex_array(program, [])
         return self._made[deep, number]
 
     def _tell(self, made: moderngl.Program) -> None:
         """Tell a program how strips stand."""
-        kinds = [models[0] for models in self._stock[0]]
+        held = self._held
         tell_stacks(made, self.rings)
-        made["margin"] = by_kind([strips.margin for strips in kinds])
-        if "tall" in made:
-            made["tall"] = by_kind([strips.height for strips in kinds])
+        tell_sizes(made, held.forms)
+        tell_all(made, "pictures", held.pictures)
+        rows = float(held.atlas.height // self._stack)
+        for name, value in (("most", self.most), ("turns", held.turns), ("atlas_rows", rows)):
+            if name in made:
+                made[name] = value
 
-    def _pictures(self) -> list[tuple[float, float, float]]:
-        """Return how far each picture reaches across its layer and up, and its first layer, by ring and kind."""
-        found, layer = [], 0
-        for models in (models for kinds in self._stock for models in kinds):
-            rows, columns = models[0].texels.shape[2:4]
-            found.append((columns / self.atlas.width, rows / self._rows, float(layer)))
-            layer += sum(2 * len(strips.plane) for strips in models)
-        return found
+    @property
+    def most(self) -> int:
+        """Numbers of polygon strips that are set aside for a patch."""
+        return self._held.turns * max(ring.strips * ring.columns for ring in self.rings)
 
     def make_ready(self) -> None:
         """Make room for more than is usually shown, and programs for whatever winds will blow."""
@@ -156,10 +184,10 @@ class StripPainter:
         """
         if not count:
             return 0
-        self.atlas.use(self.units["atlas"])
-        self.ranks.use(self.units["ranks"])
+        self._held.atlas.use(self.units["atlas"])
+        self._held.ranks.use(self.units["ranks"])
         self.stood.texture.use(self.units["stood"])
-        self.extents.use(self.units["extents"])
+        self._held.extents.use(self.units["extents"])
         self.strips.texture.use(self.units["strips"])
         frame = self._block.record[0]
         is_cut = bool(frame["anything_cut"])
@@ -173,11 +201,69 @@ class StripPainter:
 
     def release(self) -> None:
         """Give everything back."""
-        textures = self.atlas, self.ranks, self.extents
         arrays = list(self._made.values())
-        release_all(*arrays, *(array.program for array in arrays), self.hearing, self.stood, self.strips, *textures)
+        beside = [] if self._beside is None else [self._beside]
+        release_all(*arrays, *(array.program for array in arrays), self.hearing, self.stood, self.strips)
+        release_all(self._held, *beside)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Held:
+    """The strips of all forms in GL."""
+
+    forms: Sequence[Form]
+    rings: Sequence[StripRing]
+    atlas: moderngl.TextureArray
+    ranks: moderngl.TextureArray
+    extents: moderngl.Texture
+
+    @classmethod
+    def of(cls, ctx: moderngl.Context, rings: Sequence[StripRing], forms: Sequence[Form], atlas: Atlas, /) -> Self:
+        """Return them at once."""
+        held = at_once(_holding(ctx, rings, forms, atlas))
+        assert isinstance(held, cls)
+        return held
+
+    @property
+    def turns(self) -> int:
+        """How many strips may stand in one place: of each kind, and where any is to become another, as many again."""
+        kinds = sum(form.number == form.kind for form in self.forms)
+        return kinds if len(self.forms) == kinds else 2 * kinds
+
+    @property
+    def pictures(self) -> list[int]:
+        """The first layer of each form's pictures, by ring and form; there is room for two forms of each kind."""
+        most = 2 * sum(form.number == form.kind for form in self.forms)
+        found, layer = [0] * (most * len(self.rings)), 0
+        for ring in range(len(self.rings)):
+            for form in self.forms:
+                found[ring * most + form.number] = layer
+                layer += sum(2 * len(strips_of(model)[ring].plane) for model in form.growth.models)
+        return found
+
+    def release(self) -> None:
+        """Give everything back."""
+        release_all(self.atlas, self.ranks, self.extents)
+
+
+def _holding(
+    ctx: moderngl.Context, rings: Sequence[StripRing], forms: Sequence[Form], atlas: Atlas, /
+) -> Generator[None, None, _Held]:
+    """Bring the strips of all forms into GL a piece at a time."""
+    texels = yield from sending_strips(ctx, atlas.texels)
+    ranks = yield from sending_strips(ctx, atlas.ranks)
+    return _Held(forms, rings, texels, ranks, extent_texture(ctx, atlas.extents))
 
 
 def tell_stacks(made: moderngl.Program, rings: Sequence[StripRing], /) -> None:
     """Tell a program how many columns, sections and strips each ring has."""
     made["stacks"] = filled([(ring.columns, ring.sections, ring.strips, 0) for ring in rings], room_for(len(rings)))
+
+
+def tell_sizes(made: moderngl.Program, forms: Sequence[Form], /) -> None:
+    """Tell a program how far strips of each form reach beyond their patch, and how high they are [m], if it asks."""
+    sizes = [(0.0, 1.0)] * (2 * sum(form.number == form.kind for form in forms))
+    for form in forms:
+        strips = strips_of(form.growth.models[0])[0]
+        sizes[form.number] = strips.margin, strips.height
+    tell_all(made, "sizes", sizes)

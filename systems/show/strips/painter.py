@@ -5,23 +5,25 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import accumulate
 from math import prod
+from typing import Any
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Mask
 from ....engine.declared.quality import Quality
 from ....engine.gl.remembered import Remembered
 from ...around.outlook import Outlook
 from ...grow.organs import any_heads
-from ...grow.record import Growth
 from ...space.grown import Grown
 from ..representation import Canvas, RepresentationPainter
 from .draw import StripPainter
 from .gather import gather_strips, polygon_strips, runs
 from .pool import StripPool, StripsKept
 from .shown import StripsOfRing, StripsShown
-from .textures import Atlas, strip_atlas, strip_stocks
+from .stock import StripStock
+from .textures import Atlas
 
 WHOLE = 0.995
 """Density from which on no blade of a kind is missing."""
@@ -48,13 +50,12 @@ class _Sent:
 class StripsPainter(RepresentationPainter):
     """Draws the strips of all rings from far to near."""
 
-    def __init__(self, canvas: Canvas, growths: Sequence[Growth], quality: Quality, ready: Atlas | None = None) -> None:
+    def __init__(self, canvas: Canvas, stock: StripStock, quality: Quality, atlas: Atlas) -> None:
         self._fade = canvas.transitions.fade
         self._fineness = [(ring.strips, ring.columns) for ring in quality.strip_rings]
-        stock = strip_stocks(growths)
-        self.strips = StripPainter(
-            canvas, quality.strip_rings, stock, ready or strip_atlas(stock), heads=any_heads(growths)
-        )
+        heads = any_heads(form.growth for form in stock.forms)
+        self.strips = StripPainter(canvas, quality.strip_rings, stock.forms, atlas, heads=heads)
+        self._came: tuple[float, ...] = ()
         self.runs: list[tuple[int, int, int]] = []
         self._asked: list[tuple[int, int, int]] = []
         self._gathered, self._ordered = Remembered[_Sent](), Remembered[Order]()
@@ -72,6 +73,26 @@ class StripsPainter(RepresentationPainter):
         self._gathered.lose()
         self._strips = None
 
+    def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
+        """Take over how much of each kind has become what it is to be."""
+        del record
+        self._came = grown.came
+
+    def fits(self, representation: Any, /) -> bool:
+        """Return whether the pictures of another stock stand in textures as those of this one do."""
+        return self.strips.fits(representation.stock.forms)
+
+    def staging(self, stocks: Sequence[Any], /) -> Iterator[None]:
+        """Bring the pictures of another stock into GL beside its own."""
+        made = next(each for each in stocks if each.name == "strips")
+        yield from self.strips.staging(made.stock.forms, made.atlas())
+
+    def restock(self) -> None:
+        """Draw what was staged."""
+        self.strips.restock()
+        self._gathered, self._ordered = Remembered[_Sent](), Remembered[Order]()
+        self._strips = None
+
     def rehearse(self, record: NDArray[np.void], /) -> None:
         """Pretend that some are whole, others drawn by rank, and that grass ends somewhere."""
         del record
@@ -85,7 +106,7 @@ class StripsPainter(RepresentationPainter):
     def write(self, outlook: Outlook, first: Mapping[str, list[int]], /) -> int:
         """Send the patches with strips, and the strips that are shown; they are no blades."""
         kept, shown, centre = outlook.keeps(StripsKept), outlook.shows(StripsShown), outlook.viewer.centre
-        made_of = shown, outlook.appearance, kept, kept.planted, centre, *first["strips"]
+        made_of = shown, outlook.appearance, kept, kept.planted, centre, self._came, *first["strips"]
         sent, is_new = self._gathered.of(outlook.viewer.name, made_of, partial(self._gather, outlook, first))
         if is_new:
             self._send(sent)
@@ -109,9 +130,23 @@ class StripsPainter(RepresentationPainter):
         queue = np.argsort(np.concatenate([ring.queue for ring in shown]), kind="stable")
         patch = queue[stood["fade"].take(queue) > 0.0]
         present = np.concatenate([pool.present.take(ring.slots, axis=0) for pool, ring in rings]).take(patch, axis=0)
+        present = self._of_forms(present)
         order = partial(polygon_strips, stood, patch, present, self._fineness, most=self.strips.most)
         (strips, amount), _ = self._ordered.of(outlook.viewer.name, (stood["stand"], patch, present), order)
-        return _Sent(stood, strips, runs(_ranked(rings).take(patch), amount), asked)
+        return _Sent(stood, strips, runs(_ranked(rings, changes=self._changes).take(patch), amount), asked)
+
+    @property
+    def _changes(self) -> bool:
+        """Whether any kind is becoming another."""
+        return any(0.0 < came < 1.0 for came in self._came)
+
+    def _of_forms(self, present: Mask) -> Mask:
+        """Return which forms stand on patches of which it is known which kinds grow there, (m, kinds)."""
+        if not self._came:
+            return present
+        came, coming = np.array(self._came), np.zeros(present.shape[1], np.bool_)
+        coming[[form.kind for form in self.strips.forms if form.number != form.kind]] = True
+        return np.concatenate([present & (came < 1.0), present & coming & (came > 0.0)], axis=1)
 
     def hear(self) -> int:
         """Let all edges hear the wind; return the number of draw calls."""
@@ -139,13 +174,14 @@ def _rings(outlook: Outlook) -> list[tuple[StripPool, StripsOfRing]]:
     return list(zip(outlook.keeps(StripsKept).pools, outlook.shows(StripsShown).rings, strict=True))
 
 
-def _ranked(rings: list[tuple[StripPool, StripsOfRing]]) -> NDArray[np.int8]:
+def _ranked(rings: list[tuple[StripPool, StripsOfRing]], *, changes: bool) -> NDArray[np.int8]:
     """Return which patches, ring after ring, have to be drawn by rank, 1: some of their blades do not show.
 
-    Where grass is thin anywhere in a ring, all of the ring is. Where its density has edges anywhere, that is 2.
+    Where grass is thin anywhere in a ring, all of the ring is, and everywhere while any kind `changes`. Where its
+    density has edges anywhere, that is 2.
     """
     ranked = []
     for pool, ring in rings:
-        is_thin = (pool.least.take(ring.slots) < WHOLE).any() | (ring.most < 1.0) | (ring.least > 0.0)
+        is_thin = (pool.least.take(ring.slots) < WHOLE).any() | (ring.most < 1.0) | (ring.least > 0.0) | changes
         ranked.append(np.full(len(ring.slots), 2) if pool.edged.take(ring.slots).any() else is_thin)
     return np.concatenate(ranked).astype(np.int8)

@@ -13,6 +13,9 @@ flat PASSED vec4 shadow;    // of a body: the square of how near the sun's ray c
 #ifdef HEADS
 flat PASSED float heads;    // factor on the coverage of heads
 #endif
+#ifdef THIN
+flat PASSED vec2 aged;      // what shows by rank where a kind becomes another: slope, start
+#endif
 #ifdef DEEP
 flat PASSED int number;     // of the column
 #endif

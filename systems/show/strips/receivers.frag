@@ -3,7 +3,7 @@
 #include "lib/stack.glsl"
 #include "systems/show/strips/draw.py"
 
-uniform ByKind margin;       // by kind: how far strips reach beyond their patch [m]
+uniform vec2 sizes[FORMS];   // by form: how far strips reach beyond their patch [m], and how high they are
 uniform ivec4 stacks[RINGS]; // by ring: columns of a strip, sections of a column, strips of a kind on a patch
 uniform ivec2 of_ring;       // the ring that is asked; its first patch
 
@@ -16,5 +16,5 @@ void main() {
     Stood stood = stood_of(of_ring.y + number / (KINDS * count * edges));
     int stand = int(stood.stand), turn = stand % 4, along = stand / RUNS_ALONG % 2, own = (along + turn) % 2;
     int k = number / (count * edges) % KINDS, plane = stacked(number / edges % count, count, own, along, turn);
-    told = told_at(edge_foot(stood.cell, turn, own, plane, count, number % edges, edges - 1, OF(margin, k)), k, number);
+    told = told_at(edge_foot(stood.cell, turn, own, plane, count, number % edges, edges - 1, sizes[k].x), k, number);
 }

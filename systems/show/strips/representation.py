@@ -1,6 +1,6 @@
 """2.5D: vertical strips with the blades painted on them (paper, section 2.1)."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar, Self
 
@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from ....components.arrays import Floats, Levels, Mask, Rows
 from ....engine.declared.grass import GrassKind
 from ....engine.declared.quality import Quality, StripRing
+from ...around.kept import Kept
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
-from ...grow.record import Growth
+from ...grow.record import NOTHING, Growth
 from ...grow.section import SECTIONS
 from ...grow.simulate import LINKS
 from ...mow.mown import Mown
@@ -109,9 +110,11 @@ class StripRepresentation(Representation):
         return 2 * sum(ring.strips for ring in quality.strip_rings)
 
     @classmethod
-    def stocked(cls, growths: Sequence[Growth], quality: Quality, ground: Ground, /) -> Self:
+    def stocked(
+        cls, growths: Sequence[Growth], quality: Quality, ground: Ground, coming: Mapping[int, Growth] = NOTHING, /
+    ) -> Self:
         """Return it with all kinds' strips, ready to be planted on a ground."""
-        return cls(stock_strips(growths), quality, ground, growths)
+        return cls(stock_strips(growths, coming), quality, ground, growths)
 
     def on(self, ground: Ground, /) -> Self:
         """Return it with the same strips, on another ground."""
@@ -119,7 +122,12 @@ class StripRepresentation(Representation):
 
     def prepare(self) -> None:
         """Make the atlas for the next painter."""
-        self.ready[:] = [strip_atlas(strip_stocks(self.growths))]
+        self.ready[:] = [
+            strip_atlas(
+                strip_stocks([form.growth for form in self.stock.forms]),
+                [ring.columns for ring in self.quality.strip_rings],
+            )
+        ]
 
     def rings(self) -> int:
         """Return how many rings it has."""
@@ -134,7 +142,7 @@ class StripRepresentation(Representation):
         del patches
         pools = [
             StripPool(side, strips, ring.columns, self.quality.patch)
-            for strips, ring in zip(self.stock.strips, self.quality.strip_rings, strict=True)
+            for strips, ring in zip(self.stock.own, self.quality.strip_rings, strict=True)
         ]
         return StripsKept(pools, self.name)
 
@@ -194,7 +202,7 @@ class StripRepresentation(Representation):
         """Return the height of the lowest kind's strips [m]; a wind that is stronger than usual bends them."""
         index = (max(float(growth.postures.bent_by(outlook.bent)), USUAL) for growth in self.growths)
         stand = (lodged(each) / lodged(USUAL) for each in index)
-        return min(strips.height * each for strips, each in zip(self.stock.strips[0], stand, strict=True))
+        return min(strips.height * each for strips, each in zip(self.stock.own[0], stand, strict=True))
 
     def ring_and_axis(self, outlook: Outlook, rows: Rows, /) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
         """Return the ring that patches (n,) are in, and the axis that their strips run along, shape (n,) each."""
@@ -228,8 +236,20 @@ class StripRepresentation(Representation):
 
     def painter(self, canvas: Canvas, /) -> StripsPainter:
         """Return a painter of all rings."""
-        ready = self.ready.pop() if self.ready else None
-        return StripsPainter(canvas, self.growths, self.quality, ready)
+        return StripsPainter(canvas, self.stock, self.quality, self.atlas())
+
+    def atlas(self) -> Atlas:
+        """Return the atlas, as it was made beforehand if it was."""
+        if not self.ready:
+            self.prepare()
+        return self.ready.pop()
+
+    def carry(self, before: Representation, kept: Kept, patches: PatchTable, /) -> None:
+        """Let these strips stand where the others did: it is the same kinds that grow there."""
+        del before, patches
+        assert isinstance(kept, StripsKept)
+        for pool, strips in zip(kept.pools, self.stock.own, strict=True):
+            pool.strips[:] = strips
 
 
 def _from_far(ring: StripRing, quality: Quality, /) -> bool:

@@ -90,7 +90,7 @@ void main() {
 #ifdef THIN
     float rank = layer_at(ranks, vec3(on.xy, layer), level).r / max(texel.a, LEAST_PAINT);
     covered *= grown(painted, rank, level) / max(painted, LEAST_PAINT);
-    covered *= clamp(grain_cos.a * rank + grain_sin.a, 0.0, 1.0);
+    covered *= clamp(grain_cos.a * rank + grain_sin.a, 0.0, 1.0) * clamp(aged.x * rank + aged.y, 0.0, 1.0);
 #endif
 #ifdef DEEP
     if (covered < least_cover(number, clamp(level - WHOLE_TEXELS, 0.0, 1.0)))

@@ -8,14 +8,15 @@
 #include "systems/show/strips/sublevel.py"
 
 uniform usampler2D strips;  // by place in the queue: the polygon strip that is drawn
-uniform sampler2D extents;  // by column and layer: where paint begins and ends across the column, and up to where
+uniform sampler2D extents;  // by column and layer: where paint begins and ends across the column, and up to where; in the
+                            // last one how far the picture reaches across its layer, and how many texels up
 uniform int first;
-uniform float atlas_rows;   // texels up, of each picture
+uniform float atlas_rows;   // texels up, of each layer of the texture
 uniform int most;           // numbers of polygon strips that are set aside for a patch
 
-uniform ByKind tall;        // by kind: height of the strips [m]
-uniform ByKind margin;      // by kind: how far strips reach beyond their patch [m]
-uniform vec3 pictures[RINGS * KINDS];    // how far each reaches across its layer of the texture, and up; the first layer
+uniform int turns;          // strips that may stand in one place
+uniform vec2 sizes[FORMS];  // by form: how far strips reach beyond their patch [m], and how high they are
+uniform int pictures[RINGS * FORMS];     // by ring and form: its first layer
 uniform ivec4 stacks[RINGS];             // by ring: columns of a strip, sections of a column, strips of a kind on a patch
 
 #ifdef DEEP
@@ -38,7 +39,7 @@ const float NEAREST = 0.1;  // distance from the eye that counts at least, for h
 // A column of a strip: which it is, and where it stands.
 struct Column {
     Stood stood;   // its patch
-    int kind, ring, turn, own;
+    int form, kind, ring, turn, own;
     int number;    // in its strip
     int plane;     // the strip's, of the patch's model
     int receiver;  // of its first edge
@@ -64,14 +65,15 @@ Column column_of(int number) {
     column.ring = stand / OF_RING;
     column.own = (along + column.turn) % 2;
     ivec4 fine = stacks[column.ring];
-    int own_number = number % most, walked = own_number / fine.x / KINDS, count = fine.z;
+    int own_number = number % most, walked = own_number / fine.x / turns, count = fine.z;
     int stack = is_ahead ? count - 1 - walked : walked;
     column.number = own_number % fine.x;
     // Strips of several kinds share a plane: each kind comes to lie in front as often as behind.
-    column.kind = (own_number / fine.x + stack) % KINDS;
+    column.form = (own_number / fine.x + stack) % turns;
+    column.kind = column.form % KINDS;
     column.plane = stacked(stack, count, column.own, along, column.turn);
     column.receiver = int(column.stood.receiver) + (column.kind * count + stack) * (fine.x + 1) + column.number;
-    int picture = int(pictures[column.ring * KINDS + column.kind].z);
+    int picture = pictures[column.ring * FORMS + column.form];
     column.layer = picture + (int(column.stood.model) * 2 + column.own) * count + column.plane;
     return column;
 }
@@ -79,19 +81,19 @@ Column column_of(int number) {
 vec2 foot_of(Column column, int side) {
     ivec4 fine = stacks[column.ring];
     return edge_foot(column.stood.cell, column.turn, column.own, column.plane, fine.z, column.number + side, fine.x,
-                     OF(margin, column.kind));
+                     sizes[column.form].x);
 }
 
 // An edge of a column: its first or its second side, where `way` leads from the one to the other.
 Edge edge_of(Column column, int side, vec2 at, vec2 way) {
     vec4 told = received_by(column.receiver + side);
     int count = stacks[column.ring].z;
-    float height = OF(tall, column.kind) * column.stood.growth;
+    float height = sizes[column.form].y * column.stood.growth;
     Edge edge;
     edge.rooted = vec3(at.x, told.z, at.y);
     edge.foot = put_nearer(edge.rooted, way, count);
     edge.bend = bending(column.kind, told.xy);
-    edge.top = posture(float(column.kind) * posture_variants, edge.bend, 1.0).place * height;
+    edge.top = posture(float(column.form) * posture_variants, edge.bend, 1.0).place * height;
     edge.back = laid_back(way, edge.foot, edge.top, height, count);
     edge.dense = told.w;
     return edge;
@@ -119,18 +121,19 @@ float apart_at(vec3 middle, vec2 run, vec3 stem) {
 }
 
 // Where a point of an edge is, `t` of the way up its section's quads, and its height in the canopy.
-vec4 on_edge(Edge edge, float t, int kind, float sections, float growth) {
-    float low = min(floor(t * sections), sections - 1.0), variant = float(kind) * posture_variants;
+vec4 on_edge(Column column, Edge edge, float t, float sections) {
+    float low = min(floor(t * sections), sections - 1.0), variant = float(column.form) * posture_variants;
     vec3 from = posture(variant, edge.bend, low / sections).place, to = posture(variant, edge.bend, (low + 1.0) / sections).place;
-    vec3 spine = mix(from, to, t * sections - low) * OF(tall, kind);
-    return vec4(edge.foot + spine * growth + t * vec3(edge.back.x, 0.0, edge.back.y), spine.y / (OF(crown, kind) * lodged(edge.bend)));
+    vec3 spine = mix(from, to, t * sections - low) * sizes[column.form].y;
+    vec3 there = edge.foot + spine * column.stood.growth + t * vec3(edge.back.x, 0.0, edge.back.y);
+    return vec4(there, spine.y / (OF(crown, column.kind) * lodged(edge.bend)));
 }
 
 // Where a vertex is on its column, across and up: nothing is drawn where nothing is painted, and a strip ends a pixel beyond its
 // paint. A metre is so many pixels long there, and the column so many metres broad.
 vec2 corner_of(Column column, float pixels, float broad) {
     vec4 extent = texelFetch(extents, ivec2(column.number, column.layer), 0);
-    float beside = 1.0 / (pixels * broad), above = 1.0 / (pixels * OF(tall, column.kind));
+    float beside = 1.0 / (pixels * broad), above = 1.0 / (pixels * sizes[column.form].y);
     float across = (gl_VertexID & 1) == 1 ? min(extent.y + beside, 1.0) : max(extent.x - beside, 0.0);
     return vec2(across, min(float(gl_VertexID / 2) / float(stacks[column.ring].y), min(extent.z + above, 1.0)));
 }
@@ -187,9 +190,18 @@ const float UNHURRIED = 0.15;  // part of all ranks that change their sub-level 
 const float SOFTER = 0.35;  // how much wider the span of ranks is that go, of all, each time that texels are half as large
 const float SHARPEST = 0.06;  // the narrowest
 
+// What shows by rank of a form while its kind becomes another: the lower ranks of what comes, the higher of what goes.
+vec2 aged_by(Column column, float soft) {
+    float part = OF(came, column.kind);
+    if (part <= 0.0)
+        return vec2(0.0, 1.0);
+    vec2 comes = vec2(-1.0, mix(-0.5 * soft, 1.0 + 0.5 * soft, part)) / soft + vec2(0.0, 0.5);
+    return column.form == column.kind ? vec2(0.0, 1.0) - comes : comes;
+}
+
 // How much of a texel stays where its kind grows so densely at the column's edges, and where only blades of some ranks show: the
 // others go, over a span of ranks that is narrow where a texel is one blade, and wide where a pixel is the mean of many.
-void thin(vec2 dense, float at, float below, float texels) {
+void thin(Column column, vec2 dense, float at, float texels) {
     float soft = clamp(SOFTER * log2(max(texels, 1.0)), SHARPEST, 1.0);
 #ifdef EDGED
     rise.a = soft;
@@ -198,12 +210,13 @@ void thin(vec2 dense, float at, float below, float texels) {
     roots.w = mix(dense.x, dense.y, at);
 #endif
     // The span must reach from below all ranks to above them, softness included.
-    float span = max(soft, UNHURRIED), edge = mix(-0.5 * span, 1.0 + 0.5 * span, abs(below));
+    float below = column.stood.ranks, span = max(soft, UNHURRIED), edge = mix(-0.5 * span, 1.0 + 0.5 * span, abs(below));
     vec2 stays = vec2(-1.0, edge) / span + vec2(0.0, 0.5);
     if (below < 0.0)
         stays = vec2(0.0, 1.0) - stays;
     grain_cos.a = stays.x;
     grain_sin.a = stays.y;
+    aged = aged_by(column, soft);
 }
 #endif
 
@@ -219,11 +232,11 @@ void main() {
 
     float pixels = pixels_at(middle);
     vec2 corner = corner_of(column, pixels, distance(a.foot.xz, b.foot.xz));
-    float sections = float(fine.y), growth = column.stood.growth;
-    vec4 point = mix(on_edge(a, corner.y, k, sections, growth), on_edge(b, corner.y, k, sections, growth), corner.x);
+    float sections = float(fine.y), tall = sizes[column.form].y;
+    vec4 point = mix(on_edge(column, a, corner.y, sections), on_edge(column, b, corner.y, sections), corner.x);
     gl_Position = clip * vec4(point.xyz, 1.0);
-    vec2 picture = pictures[column.ring * KINDS + k].xy;
-    on = vec4(vec2((float(column.number) + corner.x) / float(fine.x), corner.y) * picture, corner.x, point.w);
+    vec2 picture = texelFetch(extents, ivec2(textureSize(extents, 0).x - 1, column.layer), 0).xy;
+    on = vec4(vec2((float(column.number) + corner.x) / float(fine.x), corner.y) * vec2(picture.x, picture.y / atlas_rows), corner.x, point.w);
 
     Lie lies = lie_at(rooted.xz);
     ByKind grows = grows_at(rooted.xz);
@@ -232,7 +245,7 @@ void main() {
     seen *= past_bodies(rooted, shading(a.rooted, b.rooted));
 #endif
 #ifdef CUT
-    roots = vec4(mix(a.rooted.xz, b.rooted.xz, corner.x), corner.y * OF(tall, k), float(k));
+    roots = vec4(mix(a.rooted.xz, b.rooted.xz, corner.x), corner.y * tall, float(k));
     cut = cut_about(column, rooted.xz, middle, pixels, 2.0 * distance(a.foot.xz, b.foot.xz));
 #endif
     Light light = light_on(k, bend, rooted, lies, grows, seen);
@@ -243,7 +256,7 @@ void main() {
 #ifdef SHADED
     spot = vec4(point.xyz, suns);
 #endif
-    float texels = picture.y * atlas_rows / (OF(tall, k) * apart_at(middle, run, top + vec3(back.x, 0.0, back.y)));
+    float texels = picture.y / (tall * apart_at(middle, run, top + vec3(back.x, 0.0, back.y)));
     float boosts = boosted(k, run, middle, top, back), level = log2(texels) - SHARPER;
 #ifdef HEADS
     heads = heads_boosted(k, run, middle, top, back);
@@ -256,6 +269,6 @@ void main() {
     number = number_at(rooted.xz);
 #endif
 #ifdef THIN
-    thin(vec2(a.dense, b.dense), corner.x, column.stood.ranks, 0.5 * texels);
+    thin(column, vec2(a.dense, b.dense), corner.x, 0.5 * texels);
 #endif
 }

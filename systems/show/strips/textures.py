@@ -1,6 +1,6 @@
 """The strips of all rings as textures."""
 
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import dataclass
 
 import moderngl
@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....components.arrays import Bytes, Mask
-from ....engine.gl.mipmaps import levels, mipmapped
+from ....engine.gl.mipmaps import at_once, levels, mipmapping
 from ...grow.record import Growth
 from .grow import Strips, strips_of
 
@@ -26,6 +26,11 @@ class Atlas:
     ranks: list[Bytes]
     """Their ranks, each (layers, rows, columns): asked for only where some blades do not show."""
 
+    extents: NDArray[np.float32]
+    """Where each layer is painted, by column, (layers, columns + 1, 4): from and to, across the column, and up to, in
+    [0, 1]. A texel more on every side is taken for painted. In the last column is how far the picture reaches across
+    its layer, in [0, 1], and how many texels up."""
+
 
 def strip_stock(growths: Sequence[Growth], ring: int) -> list[list[Strips]]:
     """Return a ring's strips by kind and model."""
@@ -37,38 +42,48 @@ def strip_stocks(growths: Sequence[Growth]) -> list[list[list[Strips]]]:
     return [strip_stock(growths, ring) for ring in range(len(strips_of(growths[0].models[0])))]
 
 
-def strip_atlas(stock: Sequence[list[list[Strips]]]) -> Atlas:
-    """Return the atlas of all strips: each in the lower left corner of a layer that is large enough for all of them."""
+def strip_atlas(stock: Sequence[list[list[Strips]]], columns: Sequence[int]) -> Atlas:
+    """Return the atlas of all strips: each in the lower left corner of a layer that is large enough for all of them.
+
+    `columns` are those of each ring's strips.
+    """
     every = _each(stock)
     largest = np.max([strips.texels.shape[2:4] for strips in every], axis=0)
     size = -(-largest // _WHOLE) * _WHOLE
     return Atlas(
         texels=levels(np.concatenate([_padded(strips.texels, size) for strips in every])),
         ranks=levels(np.concatenate([_padded(strips.ranks, size) for strips in every])),
+        extents=_extents(stock, columns, width=int(size[1])),
     )
 
 
 def strip_texture(ctx: moderngl.Context, made: list[Bytes]) -> moderngl.TextureArray:
     """Return the texels or the ranks of an atlas as a texture."""
-    texture = mipmapped(ctx, made)
+    return at_once(sending_strips(ctx, made))
+
+
+def sending_strips(ctx: moderngl.Context, made: list[Bytes]) -> Generator[None, None, moderngl.TextureArray]:
+    """Do what `strip_texture` does a piece at a time."""
+    texture = yield from mipmapping(ctx, made)
     texture.repeat_x = texture.repeat_y = False
     return texture
 
 
-def extent_texture(
-    ctx: moderngl.Context, stock: Sequence[list[list[Strips]]], columns: Sequence[int]
-) -> moderngl.Texture:
-    """Return where each layer of the atlas is painted, by column: from and to, across the column, and up to, in [0, 1].
-
-    A texel more on every side is taken for painted; `columns` are those of each ring's strips.
-    """
-    extents = np.zeros((sum(_layers(strips) for strips in _each(stock)), max(columns), 4), np.float32)
+def _extents(stock: Sequence[list[list[Strips]]], columns: Sequence[int], *, width: int) -> NDArray[np.float32]:
+    extents = np.zeros((sum(_layers(strips) for strips in _each(stock)), max(columns) + 1, 4), np.float32)
     layer = 0
     for ring, count in zip(stock, columns, strict=True):
         for strips in _each([ring]):
-            extents[layer : layer + _layers(strips), :count, :3] = painted_extents(strips, count)
+            own = slice(layer, layer + _layers(strips))
+            extents[own, :count, :3] = painted_extents(strips, count)
+            extents[own, -1, :2] = strips.texels.shape[3] / width, strips.texels.shape[2]
             layer += _layers(strips)
-    texture = ctx.texture((max(columns), len(extents)), 4, extents.tobytes(), dtype="f4")
+    return extents
+
+
+def extent_texture(ctx: moderngl.Context, extents: NDArray[np.float32]) -> moderngl.Texture:
+    """Return the extents of an atlas as a texture."""
+    texture = ctx.texture((extents.shape[1], len(extents)), 4, extents.tobytes(), dtype="f4")
     texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
     return texture
 

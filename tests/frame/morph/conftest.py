@@ -177,7 +177,8 @@ class Scene:
         strips.write_strips(numbers)
         strips.stood.texture.use(UNITS["stood"])
         strips.strips.texture.use(UNITS["strips"])
-        everywhere = np.tile(np.array([0, 1, 1, 0], np.float32), (*strips.extents.size[::-1], 1))
+        everywhere = np.frombuffer(strips.extents.read(), np.float32).reshape(*strips.extents.size[::-1], 4).copy()
+        everywhere[:, :-1] = 0, 1, 1, 0  # but for what pictures are like
         extents = self.painter.ctx.texture(strips.extents.size, 4, everywhere.tobytes(), dtype="f4")
         (extents if whole else strips.extents).use(UNITS["extents"])
         strips.array(0).program["first"] = 0

@@ -29,7 +29,7 @@ def test_g1_each_layer_is_the_strip_that_planting_reckons_with(
     ctx: moderngl.Context, growths: list[Growth], ring: int
 ) -> None:
     every = [strip_stock(growths, number) for number in (0, 1)]
-    made = strip_atlas(every)
+    made = strip_atlas(every, [2, 1])
     atlas, ranks = (strip_texture(ctx, levels) for levels in (made.texels, made.ranks))
     before = sum(2 * len(strips.plane) for kinds in every[:ring] for models in kinds for strips in models)
     width, height, layers = atlas.size
@@ -79,12 +79,14 @@ def test_an_empty_column_has_no_extents(growths: list[Growth]) -> None:
 
 def test_extents_stand_by_layer_of_the_atlas(ctx: moderngl.Context, growths: list[Growth]) -> None:
     every = [strip_stock(growths, number) for number in (0, 1)]
-    texture = extent_texture(ctx, every, [2, 1])
-    read = np.frombuffer(texture.read(), np.float32).reshape(texture.height, 2, 4)
+    texture = extent_texture(ctx, strip_atlas(every, [2, 1]).extents)
+    read = np.frombuffer(texture.read(), np.float32).reshape(texture.height, 3, 4)
     fine = [painted_extents(strips, 2) for models in every[0] for strips in models]
     np.testing.assert_array_equal(read[: sum(map(len, fine)), :, :3], np.concatenate(fine))
     coarse = [painted_extents(strips, 1) for models in every[1] for strips in models]
     np.testing.assert_array_equal(read[sum(map(len, fine)) :, :1, :3], np.concatenate(coarse))
+    width, (rows, columns) = strip_atlas(every, [2, 1]).texels[0].shape[2], every[0][0][0].texels.shape[2:4]
+    np.testing.assert_allclose(read[0, 2, :2], (columns / width, rows))
     texture.release()
 
 
