@@ -1,5 +1,6 @@
-"""Arrays that a program hands in where a scene file names a file."""
+"""Arrays and functions that a program hands in where a scene file names a file."""
 
+from collections.abc import Callable
 from typing import Annotated, Any
 
 import numpy as np
@@ -31,6 +32,36 @@ class MapArray:
         return f"<array of shape {self.values.shape}, {self.values.dtype}>"
 
 
+class HeightFunction:
+    """A program's function that says how high the ground is. Two are equal where they are the same function."""
+
+    __slots__ = ("function",)
+
+    def __init__(self, function: Callable[..., Any], /) -> None:
+        self.function = function
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, HeightFunction) and self.function == other.function
+
+    def __hash__(self) -> int:
+        return hash(self.function)
+
+    def __repr__(self) -> str:
+        return f"<function {self.name}>"
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+        return str(getattr(self.function, "__qualname__", type(self.function).__qualname__))
+
+
+def _asked(value: Any, as_text: core_schema.ValidatorFunctionWrapHandler) -> Any:
+    if isinstance(value, HeightFunction):
+        return value
+    is_function = callable(value) and not isinstance(value, type | MapArray)
+    return HeightFunction(value) if is_function else _taken(value, as_text)
+
+
 def _taken(value: Any, as_text: core_schema.ValidatorFunctionWrapHandler) -> Any:
     if isinstance(value, np.ma.MaskedArray):
         raise DeclarationError("the mask of a masked array is not read; hand in what its filled() returns")
@@ -39,20 +70,23 @@ def _taken(value: Any, as_text: core_schema.ValidatorFunctionWrapHandler) -> Any
     return MapArray(value) if isinstance(value, np.ndarray) else as_text(value)
 
 
-def _or_array(text: Any, /) -> GetPydanticSchema:
-    """Return the schema of a file's name, or of an array in its place; to editors it is the name alone."""
+def _or_array(text: Any, /, take: Callable[..., Any] = _taken) -> GetPydanticSchema:
+    """Return the schema of a file's name, or of what `take` takes in its place; to editors it is the name alone."""
 
     def made(_: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         shown = core_schema.plain_serializer_function_ser_schema(
-            lambda value: repr(value) if isinstance(value, MapArray) else value, when_used="json"
+            lambda value: repr(value) if isinstance(value, MapArray | HeightFunction) else value, when_used="json"
         )
-        return core_schema.no_info_wrap_validator_function(_taken, handler(text), serialization=shown)
+        return core_schema.no_info_wrap_validator_function(take, handler(text), serialization=shown)
 
     return GetPydanticSchema(made)
 
 
 FileOrArray = Annotated[str | MapArray, _or_array(str)]
 """The name of a map's file, or the map itself."""
+
+HeightsSource = Annotated[str | MapArray | HeightFunction, _or_array(str, _asked)]
+"""The name of a map's file, the map itself, or a function of places."""
 
 PictureOrArray = Annotated[str | MapArray, _or_array(Annotated[str, Field(min_length=1)])]
 """The name of a picture, or its numbers."""

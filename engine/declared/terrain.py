@@ -5,7 +5,7 @@ from typing import Literal
 from pydantic import Field, field_validator, model_validator
 
 from ...components.declaration import Declaration, DeclarationError, Pair
-from .array import FileOrArray, PictureOrArray
+from .array import HeightFunction, HeightsSource, PictureOrArray
 
 
 class TerrainSource(Declaration):
@@ -14,11 +14,12 @@ class TerrainSource(Declaration):
     It is centred on the origin; row 0 of the map is the far edge (-z), column 0 the left edge (-x).
     """
 
-    heights: FileOrArray | None = None
+    heights: HeightsSource | None = None
     """Elevation map file, relative to the scene file: 16-bit grey .png, .r16 or .raw, .npy, or .tif (GeoTIFF too).
 
     A smooth surface divides cells longer than 2.5 m. A map wider than 10240 m is cut to its middle. `seed` and
-    `feature`, which are for noise, have no effect beside it."""
+    `feature`, which are for noise, have no effect beside it. A program may hand in an array. Or it hands in a function
+    `heights(x, z)`, which takes places [m] in two arrays of one shape, and returns their heights [m]."""
 
     holes: PictureOrArray | None = None
     """Picture or array over the whole terrain: where its first channel is above half there is no ground and no grass.
@@ -71,6 +72,8 @@ class TerrainSource(Declaration):
     def _one_source(self) -> "TerrainSource":
         if self.heights is not None and self.noise is not None:
             raise DeclarationError("give either heights (a file) or noise, not both", "noise")
+        if isinstance(self.heights, HeightFunction) and self.flip:
+            raise DeclarationError("a function says itself where the far edge is", "flip")
         finest = max(self.size or [200.0]) / 1024
         if self.feature is not None and self.heights is None and self.feature < finest:
             raise DeclarationError(f"feature must be at least {finest:.3g} m on ground this wide", "feature")

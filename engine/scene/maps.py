@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from ..declared.array import MapArray
+from ..declared.array import HeightFunction, MapArray
 from ..terrain.density import load_density
 from ..terrain.errors import MapError
 from ..terrain.load import load_terrain
@@ -60,7 +60,7 @@ def _kept_density(loaded: LoadedScene, terrain: Terrain, before: tuple[LoadedSce
     return density if density.land is terrain else Density(density.maps, density.size, terrain, density.slopes)
 
 
-def _same_files(loaded: LoadedScene, old: LoadedScene, maps: Sequence[str | MapArray | None]) -> bool:
+def _same_files(loaded: LoadedScene, old: LoadedScene, maps: Sequence[str | MapArray | HeightFunction | None]) -> bool:
     same_folder = loaded.folder == old.folder
     return all(not isinstance(name, str) or (same_folder and _same_file(loaded, old, name)) for name in maps)
 

@@ -8,8 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from ...components.arrays import Doubles, Floats, Mask
-from ..declared.array import MapArray
+from ..declared.array import HeightFunction, MapArray
 from ..declared.terrain import TerrainSource
+from .ask import ask_heights
 from .density import load_holes, stretched
 from .elevation import Elevation, check_finite
 from .errors import MapError
@@ -34,6 +35,9 @@ SIDE = 4097
 HIGHEST = 50_000.0
 """Height beyond which a map is taken to be wrong, to either side of 0 [m]."""
 
+UNLESS_TOLD = [200.0, 200.0]
+"""Width and depth of a terrain that nothing says of how large it is [m]."""
+
 RANGE = 100.0
 """Height of a whole 16-bit range, where a scene gives none [m]."""
 
@@ -53,6 +57,8 @@ def load_terrain(source: TerrainSource, folder: Path, /) -> Terrain:
 def _loaded(source: TerrainSource, folder: Path) -> Terrain:
     if source.heights is None:
         return _noise(source)
+    if isinstance(source.heights, HeightFunction):
+        return _of_function(source.heights, source)
     if isinstance(source.heights, MapArray):
         path, elevation = None, elevation_of(source.heights.values)
     else:
@@ -63,6 +69,17 @@ def _loaded(source: TerrainSource, folder: Path) -> Terrain:
     if source.flip:
         heights, open_ = heights[::-1], None if open_ is None else open_[::-1]
     return _spread(path, heights, elevation.cell or (source.cell, source.cell), source.size, open_)
+
+
+def _of_function(asked: HeightFunction, source: TerrainSource) -> Terrain:
+    """Return the terrain that a program's function describes, over the scene's size."""
+    size = source.size or UNLESS_TOLD
+    cell = max(min(source.cell, SMOOTH), max(size) / (SIDE - 1))
+    x, z = (_places(side, cell) for side in size)
+    given = ask_heights(asked, x, z)
+    elevation = Elevation(given, None)
+    open_ = _holes_in(None, elevation)
+    return Terrain(_metres(None, elevation, source, open_), cell, open_)
 
 
 def _holes_in(path: Path | None, elevation: Elevation) -> Mask | None:
@@ -148,7 +165,7 @@ def _places(side: float, cell: float) -> Doubles:
 
 
 def _noise(source: TerrainSource) -> Terrain:
-    size = source.size or [200.0, 200.0]
+    size = source.size or UNLESS_TOLD
     kind = LANDSCAPES.get(source.noise or "flat")
     feature = source.feature or (kind.feature if kind else WIDEST)
     cell = min(source.cell, SMOOTH, feature / 8) if kind else max(source.cell, max(size) / 1024)

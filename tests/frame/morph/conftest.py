@@ -198,7 +198,9 @@ class Scene:
     def first_layers(self) -> NDArray[np.int64]:
         """Where each kind's pictures begin in the atlas, by ring and kind."""
         pictures = np.array(self.strips.strips.array(0).program["pictures"].value)  # type: ignore[union-attr]
-        return np.asarray(pictures[:, 2], np.int64)
+        kinds = len(self.representation.stock.own[0])
+        rings = len(self.representation.quality.strip_rings)
+        return np.asarray(pictures[: rings * 2 * kinds].reshape(rings, 2 * kinds)[:, :kinds].reshape(-1), np.int64)
 
 
 @pytest.fixture(scope="module", params=[0, 90], ids=["strips along x", "strips along z"])
