@@ -72,12 +72,12 @@ def test_f4_a_value_that_is_changed_again_goes_on_from_where_it_is(prairie: Prai
 
 
 def test_f4_a_state_keeps_a_kind_on_its_way(load: Load) -> None:
-    played = load()
+    played = load(live=False)
     played.advance(1.0)
     played.change_kind("green", tip="#ff0000", over=8.0)
     played.change_kind("green", understorey=0.2, height=[0.4, 0.7])
     played.advance(2.0)
-    state, other = played.state(), load()
+    state, other = played.state(), load(live=False)
     other.restore(state)
     assert other.grass_at([(0.0, 0.0)]).height[0] > 0.5
     for _ in range(3):
@@ -87,7 +87,7 @@ def test_f4_a_state_keeps_a_kind_on_its_way(load: Load) -> None:
         played.advance(3.0)
         other.advance(3.0)
     assert other.scene.grass["green"].tip == "#ff0000"
-    again = load()
+    again = load(live=False)
     again.restore(other.state())
     assert again.scene.grass == other.scene.grass
 
