@@ -1,19 +1,24 @@
 """Colours as people write them."""
 
 import re
+from collections.abc import Collection
 from difflib import get_close_matches
-
-from PIL import ImageColor
 
 LONG, SHORT = "#[0-9a-fA-F]{6}", "#[0-9a-fA-F]{3}"
 
 
 def hex_of(colour: object, /) -> object:
     """Return a colour by its name in CSS, such as `orange`, or written `#rgb`, as `#rrggbb`; anything else as it is."""
-    if isinstance(colour, str) and (colour.lower() in ImageColor.colormap or re.fullmatch(SHORT, colour)):
-        red, green, blue = ImageColor.getrgb(colour)[:3]
-        return f"#{red:02x}{green:02x}{blue:02x}"
-    return colour
+    if not isinstance(colour, str) or is_colour(colour):
+        return colour
+    if re.fullmatch(SHORT, colour):
+        return "#" + "".join(2 * digit for digit in colour[1:])
+    if colour.lower() not in _names():
+        return colour
+    from PIL import ImageColor  # noqa: PLC0415 - as below
+
+    red, green, blue = ImageColor.getrgb(colour)[:3]
+    return f"#{red:02x}{green:02x}{blue:02x}"
 
 
 def is_colour(colour: object, /) -> bool:
@@ -25,4 +30,10 @@ def nearest(text: str, /) -> str | None:
     """Return the colour that a text was perhaps meant to be."""
     if is_colour(f"#{text}"):
         return f"#{text}"
-    return next(iter(get_close_matches(text.lower(), ImageColor.colormap, n=1)), None)
+    return next(iter(get_close_matches(text.lower(), _names(), n=1)), None)
+
+
+def _names() -> Collection[str]:
+    from PIL import ImageColor  # noqa: PLC0415 - who only asks for help is not to wait for it
+
+    return ImageColor.colormap.keys()
