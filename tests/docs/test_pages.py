@@ -189,7 +189,7 @@ def test_every_block_of_a_page_is_of_a_language_that_is_run(page: str) -> None:
 
 def test_blocks_that_are_not_run_are_few_and_say_why() -> None:
     reasons = [block["reason"] for page in FOLLOWED for block in blocks(page) if block["reason"]]
-    assert len(reasons) <= 4
+    assert len(reasons) <= 5
     text = "".join(map(written, FOLLOWED))
     assert text.count("<!-- not run") == len(reasons), "a reason stands right above a block"
 
