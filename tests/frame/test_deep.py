@@ -150,7 +150,7 @@ def test_a_games_sky_goes_in_underneath_by_what_the_prairie_covers(
         only_sky = (first == (255, 0, 153)).all(axis=-1)
         assert 0.2 < only_sky.mean() < 0.9
         assert (last[only_sky] == (255, 0, 153)).all()
-        assert np.abs(first - last).max() <= 4  # layer upon layer, each rounded to bytes
+        assert np.abs(first - last).max() <= 5  # layer upon layer, each rounded to bytes
     finally:
         ctx.enable_only(moderngl.NOTHING)
         for each in (target, color, deep):
