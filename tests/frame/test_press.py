@@ -86,6 +86,7 @@ def test_f4_a_way_shows_on_every_representation_where_it_is_and_nowhere_else(
     stage: Stage, load: Load, camera: Aim, runners: list[int], lod: str
 ) -> None:
     aim, pictures = camera(0.0, 9.0, 12.0, pitch=-50), []
+    ground = np.array([(0.0, 4.0), (0.0, 6.5)])
     for walks in (False, True):
         prairie = load(LITTLE, lod=lod)
         for entity in runners:
@@ -96,10 +97,10 @@ def test_f4_a_way_shows_on_every_representation_where_it_is_and_nowhere_else(
             prairie.bent_at([(0.0, 4.0)])
             prairie.advance(0.3)
         pictures.append(stage.shot(prairie, aim))
+        high = prairie.height_at(ground)
         prairie.release()
     changed = np.abs(pictures[1] - pictures[0]).max(axis=2)
-    ground = np.array([(0.0, 4.0), (0.0, 6.5)])
-    feet = np.column_stack([ground[:, 0], prairie.height_at(ground), ground[:, 1]])
+    feet = np.column_stack([ground[:, 0], high, ground[:, 1]])
     (_, row), (_, below) = stage.project(aim, feet)
     near = changed[int(row) - 8 : int(row) + 3]
     assert (near > 0.02 * pictures[0].max()).mean() > 0.02
