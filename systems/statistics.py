@@ -1,15 +1,20 @@
 """Statistics: what a frame took and held."""
 
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 
+from ..engine.gl.remembered import Remembered
 from ..engine.schedule import Schedule
 from .around.outlook import Outlook
 from .blow import Blown
 from .govern import Fineness
 from .painter import Painter
 from .site import Site
+
+Counts = tuple[int, dict[str, int]]
+"""Blades that are considered, and visible patches by representation."""
 
 
 @dataclass(slots=True)
@@ -45,23 +50,24 @@ class Statistics:
     transitions: int = 0
     """Patches that were seen to change their representation, or to be changing it; a change of sub-level is none."""
 
-    _counted: object = field(default=None, repr=False, compare=False)
-    """What patches appeared as when they were counted last."""
+    _counts: Remembered[Counts] = field(default_factory=Remembered, repr=False, compare=False)
 
     def count(self, outlook: Outlook, site: Site, systems: Schedule, painter: Painter, /) -> None:
         """Count what a viewer was shown in a frame."""
-        if self._counted is None or self._counted is not outlook.appearance:
-            self._count_patches(outlook, site)
+        appears = outlook.appearance
+        made_of = None if appears is None else (appears, site)
+        made, _ = self._counts.of(outlook.viewer.name, made_of, partial(_counts_of, outlook, site, self.blades_field))
+        self.blades_considered, self.patches = made[0], dict(made[1])
         self.receivers, self.transitions = outlook.noted(Blown, Blown()).heard, outlook.changing
         self.blades_submitted = painter.blades
         self.systems_ms, self.draw_calls = dict(systems.milliseconds), painter.draw_calls
         self.draw_ms = self.systems_ms.pop("draw", 0.0)
 
-    def _count_patches(self, outlook: Outlook, site: Site) -> None:
-        self._counted, patches = outlook.appearance, outlook.patches
-        level = patches.representation[patches.shown]
-        counts = np.bincount(level + 1, minlength=1 + len(patches.names)).tolist()
-        width, depth = site.ground.terrain.size
-        share = self.blades_field * site.ground.patch**2 / (width * depth)
-        self.blades_considered = round(share * len(level))
-        self.patches = dict(zip(patches.names, counts[1:], strict=True))
+
+def _counts_of(outlook: Outlook, site: Site, blades: int) -> Counts:
+    patches, ground = outlook.patches, site.ground
+    level = patches.representation[patches.shown]
+    counts = np.bincount(level + 1, minlength=1 + len(patches.names)).tolist()
+    width, depth = ground.terrain.size
+    share = blades * ground.patch**2 / (width * depth)
+    return round(share * len(level)), dict(zip(patches.names, counts[1:], strict=True))
