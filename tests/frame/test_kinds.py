@@ -109,7 +109,10 @@ def must_be_each_in_its_place(found: Doubles) -> None:
     assert np.abs(off - np.round(off)).max() < 0.4 / NINE
 
 
-@pytest.mark.parametrize("lod", ["blades", "strips", "carpet", "auto"])
+ALONE = [pytest.param(lod, marks=pytest.mark.slow) for lod in ("blades", "strips", "carpet")]
+
+
+@pytest.mark.parametrize("lod", [*ALONE, "auto"])
 def test_each_of_nine_kinds_shows_its_color_where_it_grows_mown_or_not(
     stage: Stage, load: Callable[[str], Prairie], camera: Aim, lod: str
 ) -> None:
@@ -181,6 +184,7 @@ def test_no_kind_shows_beyond_its_field_which_ends_within_a_patch(
     assert redder[0] < 1.15 * redder[1]
 
 
+@pytest.mark.slow
 def test_kinds_that_grow_nowhere_change_nothing(ctx: moderngl.Context, stage: Stage, tmp_path: Path) -> None:
     Image.new("L", (4, 4)).save(tmp_path / "nowhere.png")
     more = [f"  more-{number}: {{ blades: 1, place: {{ map: nowhere.png }} }}\n" for number in range(3)]

@@ -104,6 +104,7 @@ def test_it_is_in_a_games_own_shadow_map(stage: Stage, prairie: Prairie, plant: 
     assert (over < beside.min()).mean() > 0.1  # its crown, whose leaves hardly cover a texel wholly
 
 
+@pytest.mark.slow
 def test_nothing_is_made_on_a_frame_once_a_game_has_prepared(ctx: moderngl.Context, stage: Stage) -> None:
     with private_world(), little_prairie(scene=SCENE, ctx=ctx) as prepared:
         stage.begin()
