@@ -18,6 +18,8 @@ class Records:
         self.texels, self.channels = max(record.itemsize // 16, 1), min(record.itemsize // 4, 4)
         self.kind = "u4" if self.channels == 1 else "f4"
         self.texture = self._room(rows)
+        self._padded = np.zeros(0, record)
+        """Whole rows of what is written, kept from one time to the next."""
 
     def write(self, records: NDArray[np.void]) -> None:
         """Replace the contents by `records`, shape (n,)."""
@@ -25,9 +27,11 @@ class Records:
         if rows > self.texture.height:
             self.reserve(rows * 3 // 2)
         if rows:
-            padded = np.zeros(rows * self.per_row, self.record)
-            padded[: len(records)] = records
-            self.texture.write(padded, viewport=(0, 0, self.texels * self.per_row, rows))
+            if rows * self.per_row > len(self._padded):
+                self._padded = np.zeros(rows * self.per_row, self.record)
+            self._padded[: len(records)] = records
+            whole = self._padded[: rows * self.per_row]  # what comes after them is read by nobody
+            self.texture.write(whole, viewport=(0, 0, self.texels * self.per_row, rows))
 
     def reserve(self, rows: int) -> None:
         """Make room for so many rows; where there is too little, what was written is lost."""
