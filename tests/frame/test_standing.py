@@ -38,26 +38,30 @@ STORM = GRASS + (
 FRAMES = 50
 """After which all that came with a viewer is over."""
 
-CALLS = 1600, 2450
-"""What a frame may call in calm air and in a storm, in Python and from there in C: they were 1488 and 2269."""
+CALLS = 1650, 2500
+"""What a frame may call in calm air and in a storm, in Python and from there in C: they were 1550 and 2331."""
+
+
+LAST = 5
+"""Of which so many are counted, and the least counts: in any one, Python may tidy up after others."""
 
 
 def calls(stage: Stage, prairie: Prairie, camera: Camera) -> int:
     """Return how many calls a frame makes once all that came with the viewer is over."""
-    count = 0
+    counts: list[int] = []
 
     def noted(_frame: object, event: str, _argument: object) -> None:
-        nonlocal count
-        count += event in ("call", "c_call")
+        counts[-1] += event in ("call", "c_call")
 
     for frame in range(FRAMES):
         prairie.advance(1 / 60)
         stage.begin()
         matrices = stage.matrices(camera)
-        sys.setprofile(noted if frame == FRAMES - 1 else None)
+        counts.append(0)
+        sys.setprofile(noted if frame >= FRAMES - LAST else None)
         prairie.draw(*matrices)
         sys.setprofile(None)
-    return count
+    return min(counts[-LAST:])
 
 
 def test_n2_a_frame_of_a_viewer_who_stands_calls_little(stage: Stage, load: Load, camera: Aim) -> None:
