@@ -86,9 +86,9 @@ vec3 seen_at(vec3 place, float slope, float tall, float dense) {
     return vec3(place.x + on.x, place.y, place.z + on.y);
 }
 
-// How far the ground that a game draws may be off this one's, up and down, and how far before its own place the carpet is taken
-// to be for it at most [m].
-const float HOSTS_OFF = 0.1, NEAREST_HOSTS = 1.2, MOST_NEARER = 25.0;
+// How far the ground that a game draws may be off this one's, up and down: 0.1 m, and 0.05 m by which cells of 4 m sag on a
+// hilltop of 40 m radius. How many times that the carpet is taken to be above it, and how far before its own place at most [m].
+const float HOSTS_OFF = 0.15, NEAREST_HOSTS = 1.2, MOST_NEARER = 25.0;
 
 // Where a place so `high` over the ground is taken to be, before itself, for no ground to hide it that a game draws about as
 // high as this one: where its line of sight, of this slope to the ground, is so high above that.
