@@ -1,6 +1,6 @@
 """The command `tallgrass`, run as `python -m tallgrass`."""
 
-from .app.cli import main
+from .app.entry import main
 
 if __name__ == "__main__":
     main()

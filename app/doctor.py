@@ -29,7 +29,7 @@ _NEWER_DRIVER = "update the graphics driver"
 _OR_SOFTWARE = f"{_NEWER_DRIVER}, or draw in software: LIBGL_ALWAYS_SOFTWARE=1"
 
 _OTHER_CURES = (
-    (r"externally-managed-environment", "python3 -m venv .venv && .venv/bin/pip install ."),
+    (r"externally-managed-environment", "python3 -m venv .venv && .venv/bin/pip install '.[commands]'"),
     (r"eglCreateContext failed|Could not create GL context|OpenGL version", _OR_SOFTWARE),
 )
 

@@ -43,6 +43,13 @@ def test_python_runs_the_package_like_the_command(tmp_path: Path) -> None:
         assert done.stderr.count("\n") == (status > 0)
 
 
+def test_without_what_commands_are_made_with_it_is_said_what_installs_it(tmp_path: Path) -> None:
+    words = "import sys; sys.modules['typer'] = None; from tallgrass.app.entry import main; main()"
+    done = subprocess.run([sys.executable, "-c", words], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr == "commands are made with typer and rich: pip install 'tallgrass[commands]'\n"
+
+
 def test_without_what_draws_the_panel_it_is_said_what_installs_it(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -58,7 +58,9 @@ def test_a_driver_that_is_too_old_is_not_cured_by_a_display() -> None:
 
 
 def test_a_managed_python_is_cured_by_an_environment_of_ones_own() -> None:
-    assert cure("error: externally-managed-environment") == "python3 -m venv .venv && .venv/bin/pip install ."
+    assert (
+        cure("error: externally-managed-environment") == "python3 -m venv .venv && .venv/bin/pip install '.[commands]'"
+    )
 
 
 def test_an_unknown_complaint_has_no_cure() -> None:
