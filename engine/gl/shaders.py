@@ -5,6 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 from importlib import import_module
 from importlib.resources import files
+from typing import Any
 
 import moderngl
 
@@ -139,19 +140,23 @@ def program(
 
 def tell(program: moderngl.Program, name: str, *value: float) -> None:
     """Tell a program a number or a vector, if it asks for it and was not told the same before."""
-    told = program.extra.get(name)
-    if told is None:
-        asked = program.get(name, None)  # `in` would go through all of its names
-        told = program.extra[name] = [None, asked if isinstance(asked, moderngl.Uniform) else None]
+    told = program.extra.get(name) or _asked(program, name)
     if told[0] != value:
         told[0] = value
         if told[1] is not None:
             told[1].value = value if len(value) > 1 else value[0]
 
 
+def _asked(program: moderngl.Program, name: str) -> list[Any]:
+    """Return what a program was told last by a name, nothing yet, and what takes it, if it asks."""
+    asked = program.get(name, None)  # `in` would go through all of its names
+    program.extra[name] = found = [None, asked if isinstance(asked, moderngl.Uniform) else None]
+    return found
+
+
 def tell_all(program: moderngl.Program, name: str, values: Sequence[float] | Sequence[tuple[float, ...]]) -> None:
     """Tell a program an array of numbers or vectors, as much of it as it asks for: what is never read is left out."""
-    asked = program.get(name, None)
-    if isinstance(asked, moderngl.Uniform):
-        room = asked.array_length
-        asked.value = [*values, *[values[-1]] * room][:room] if room > 1 else values[0]
+    told = program.extra.get(name) or _asked(program, name)
+    if told[1] is not None and told[0] != values:
+        told[0], room = values, told[1].array_length
+        told[1].value = [*values, *[values[-1]] * room][:room] if room > 1 else values[0]

@@ -124,12 +124,13 @@ class Outlook:
         has not `settled`, the next frame may be another one though it finds the same.
         """
         rest = self._rests.setdefault(type(system), Rest())
-        if rest.system is not system or rest.seen != seen:
-            rest.system, rest.seen, rest.table = system, seen, bytearray()
+        is_same, rest.system = rest.system is system, system
+        if rest.seen != seen:
+            rest.seen, rest.table = seen, bytearray()
             run()
             return
         table = self.patches.changing.data
-        if rest.table == table and made() is rest.made:
+        if is_same and rest.table == table and made() is rest.made:
             return
         found = bytearray(table)
         run()

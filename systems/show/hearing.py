@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 
 import moderngl
 
+from ...engine.gl.shaders import tell
 from .representation import Canvas
 
 VERTEX = "engine/gl/fill.vert"
@@ -37,11 +38,15 @@ class Hearing:
         if self._array is None or self._array.program is not made:
             self.release()
             for name, unit in canvas.units.items():
-                if name in made:
-                    made[name] = unit
+                tell(made, name, unit)
             self._tell(made)
             self._array = canvas.ctx.vertex_array(made, [])
         return self._array
+
+    def tell_again(self) -> None:
+        """Tell what it has to know, which is something else now."""
+        if self._array is not None:
+            self._tell(self._array.program)
 
     def make_ready(self) -> None:
         """Have a program for whatever winds will blow."""

@@ -99,11 +99,9 @@ class BladesPainter(RepresentationPainter):
     def _tell(self, made: moderngl.Program) -> None:
         """Tell a program what it has to know of blades and of strips."""
         for name, value in (("near", self._near), ("models", self._models), ("each", self.store.count)):
-            if name in made:
-                made[name] = value
+            tell(made, name, value)
         tell_sizes(made, self._strips.stock.forms)
-        if "stacks" in made:
-            tell_stacks(made, self._strips.quality.strip_rings)
+        tell_stacks(made, self._strips.quality.strip_rings)
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Take over how much of each kind has become what it is to be."""
@@ -117,15 +115,15 @@ class BladesPainter(RepresentationPainter):
     def staging(self, stocks: Sequence[Any], /) -> Iterator[None]:
         """Bring the blades of another stock into GL beside its own."""
         blades, strips = (next(each for each in stocks if each.name == name) for name in ("blades", "strips"))
-        self._beside = blades.stock, strips, BladeStore(self.ctx, blades.stock, strips.stock)
-        yield
+        store = yield from BladeStore.beside(self.ctx, blades.stock, strips.stock)
+        self._beside = blades.stock, strips, store
 
     def restock(self) -> None:
         """Draw what was staged."""
         assert self._beside is not None
         self.store.release()
         (self._stock, self._strips, self.store), self._beside = self._beside, None
-        self.hearing.release()
+        self.hearing.tell_again()
         for made in (*self.passes, self.morph.program):
             self._tell(made)
         self._gathered, self._told = Remembered[_Gathered](), Remembered[_Told]()

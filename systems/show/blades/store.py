@@ -1,10 +1,13 @@
 """The blades of all patch models on the graphics card, and what is told of the patches that they stand on."""
 
+from collections.abc import Generator
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from ....engine.gl.emit import emitted, looked_up
+from ....engine.gl.mipmaps import at_once
 from ....engine.gl.records import Records
 from ....engine.gl.stream import release_all
 from ..strips.stock import StripStock
@@ -47,12 +50,27 @@ class BladeStore:
     """What of all patch models' blades never changes."""
 
     def __init__(self, ctx: moderngl.Context, blades: BladeStock, strips: StripStock) -> None:
+        at_once(self.sending(ctx, blades, strips))
+
+    @classmethod
+    def beside(
+        cls, ctx: moderngl.Context, blades: BladeStock, strips: StripStock, /
+    ) -> Generator[None, None, "BladeStore"]:
+        """Make one a piece at a time."""
+        made = cls.__new__(cls)
+        yield from made.sending(ctx, blades, strips)
+        return made
+
+    def sending(self, ctx: moderngl.Context, blades: BladeStock, strips: StripStock) -> Generator[None, None, None]:
+        """Bring all into GL, a piece at a time."""
         self.count = blades.records.shape[1]
         self.organs = organ_defines(blades.records.dtype)
         self.blades = Records(ctx, blades.records.dtype, BLADES_ROW, rows=-(-blades.records.size // BLADES_ROW))
         self.blades.write(blades.records.reshape(-1))
+        yield
         self.points = strips.targets.shape[3]
         self.slices = _texture(ctx, strips.slices.reshape(-1, 1, 1), SLICES_ROW)
+        yield
         self.targets = _texture(ctx, strips.targets.reshape(-1, self.points, 2), TARGETS_ROW)
 
     @property

@@ -190,6 +190,8 @@ class _Layer:
     ) -> None:
         self._make, self.stream, self._grid = make, stream, (corners, indices)
         self._told: dict[str, object] = {}
+        self._untold: dict[str, object] = {}
+        """Of that, what the program is told before it draws next: of many, a frame draws with a few."""
         self.made: moderngl.VertexArray | None = None
 
     @property
@@ -199,15 +201,19 @@ class _Layer:
             program, (corners, indices) = self._make(), self._grid
             contents = [(corners, "2f", "corner"), self.stream.binding(program)]
             self.made = program.ctx.vertex_array(program, contents, index_buffer=indices)
-            self.know(self._told)
+        if self._untold:
+            for name, value in self._untold.items():
+                asked = self.made.program.get(name, None)
+                if isinstance(asked, moderngl.Uniform):
+                    asked.value = value
+            self._untold = {}
         return self.made
 
     def know(self, told: Mapping[str, object]) -> None:
-        """Tell the program what it asks for of this, now or once it is made."""
-        self._told |= told
-        for name, value in told.items():
-            if self.made is not None and name in self.made.program:
-                self.made.program[name] = value
+        """Tell the program what it asks for of this once it draws."""
+        fresh = {name: value for name, value in told.items() if self._told.get(name) != value}
+        self._told |= fresh
+        self._untold |= fresh
 
     def draw(self, **told: float) -> int:
         """Draw the tiles, if there are any, by a program that is told this; return the number of draw calls."""
@@ -304,7 +310,7 @@ class GroundPainter:
         return *self.bare, *self.under, *self.carpet, *self.edged, *self.casting
 
     def _tell(self, name: str, value: object) -> None:
-        for layer in self._layers:
+        for layer in (*self._layers, *self.covered):
             layer.know({name: value})
 
     @property

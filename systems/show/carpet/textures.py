@@ -19,24 +19,21 @@ def carpet_texture(ctx: moderngl.Context, growths: Sequence[Growth]) -> moderngl
 
 def sending_carpet(ctx: moderngl.Context, growths: Sequence[Growth]) -> Generator[None, None, moderngl.TextureArray]:
     """Do what `carpet_texture` does a piece at a time."""
-    images = np.concatenate(
-        [
-            carpet_of(model).texels.reshape(-1, *carpet_of(model).texels.shape[2:])
-            for growth in growths
-            for model in growth.models
-        ]
-    )
-    layers, rows, columns, _ = images.shape
+    every = [carpet_of(model).texels for growth in growths for model in growth.models]
+    images = [texels.reshape(-1, *texels.shape[2:]) for texels in every]
+    layers, (rows, columns) = image_count(growths), images[0].shape[1:3]
     if stack_for(ctx, layers) > 1:
-        texture = yield from mipmapping(ctx, [_whole(images)])
+        texture = yield from mipmapping(ctx, [_whole(np.concatenate(images))])
         texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
         return texture
     texture = ctx.texture_array((columns, rows, layers), 4)
-    each = max(PIECE // images[0].nbytes, 1)
-    for at in range(0, layers, each):
-        part = np.ascontiguousarray(images[at : at + each])
-        texture.write(part, viewport=(0, 0, at, columns, rows, len(part)))
-        yield
+    each, at = max(PIECE // images[0][0].nbytes, 1), 0
+    for of_model in images:
+        for first in range(0, len(of_model), each):
+            part = np.ascontiguousarray(of_model[first : first + each])
+            texture.write(part, viewport=(0, 0, at, columns, rows, len(part)))
+            at += len(part)
+            yield
     texture.build_mipmaps()
     texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
     return texture

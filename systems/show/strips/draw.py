@@ -85,6 +85,8 @@ class StripPainter:
         self._heads = heads
         self._whole = laid | ({"STACK": stack} if stack > 1 else {}) | ({"HEADS": 1} if heads else {})
         self._made: dict[tuple[bool, int], moderngl.VertexArray] = {}
+        self._untold: set[tuple[bool, int]] = set()
+        """Those of them that have to be told how strips stand before they draw: of many, a frame draws with a few."""
 
     def making(self) -> Iterator[None]:
         """Make the programs that are not there yet, one at a time."""
@@ -119,9 +121,8 @@ class StripPainter:
         assert self._beside is not None
         self._held.release()
         self._held, self._beside = self._beside, None
-        self.hearing.release()
-        for array in self._made.values():
-            self._tell(array.program)
+        self.hearing.tell_again()
+        self._untold = {*self._made}
 
     def array(self, number: int, *, deep: bool = False) -> moderngl.VertexArray:
         """Return what draws strips as programs of one of `SORTS` do, or of `DEEP`; it is made when it is asked for."""
@@ -133,7 +134,11 @@ class StripPainter:
             )  # fmt: skip
             self._tell(program)
             self._made[deep, number] = canvas.ctx.vertex_array(program, [])
-        return self._made[deep, number]
+        array = self._made[deep, number]
+        if (deep, number) in self._untold:
+            self._untold.remove((deep, number))
+            self._tell(array.program)
+        return array
 
     def _tell(self, made: moderngl.Program) -> None:
         """Tell a program how strips stand."""
@@ -143,8 +148,7 @@ class StripPainter:
         tell_all(made, "pictures", held.pictures)
         rows = float(held.atlas.height // self._stack)
         for name, value in (("most", self.most), ("turns", held.turns), ("atlas_rows", rows)):
-            if name in made:
-                made[name] = value
+            tell(made, name, value)
 
     @property
     def most(self) -> int:
@@ -257,7 +261,8 @@ def _holding(
 
 def tell_stacks(made: moderngl.Program, rings: Sequence[StripRing], /) -> None:
     """Tell a program how many columns, sections and strips each ring has."""
-    made["stacks"] = filled([(ring.columns, ring.sections, ring.strips, 0) for ring in rings], room_for(len(rings)))
+    stacks = [(ring.columns, ring.sections, ring.strips, 0) for ring in rings]
+    tell_all(made, "stacks", filled(stacks, room_for(len(rings))))
 
 
 def tell_sizes(made: moderngl.Program, forms: Sequence[Form], /) -> None:
