@@ -11,7 +11,7 @@ import moderngl
 
 from ..engine.camera import View, as_origin, camera_at, projection_matrix, view_matrix, view_of
 from ..engine.declared.parts import DEPTHS, as_parts
-from ..engine.declared.quality import PRESETS, LodName
+from ..engine.declared.quality import LodName
 from ..engine.gl.guest import unturned
 from ..engine.handed import must_be_a, must_be_known, must_be_viewer
 from ..engine.plugged import bring_systems
@@ -62,7 +62,7 @@ class Prairie(Tending):
     """The scene, and where it comes from."""
 
     preset: str | None
-    """The preset that comes before the scene's own quality."""
+    """The preset that comes before the scene's own quality. Set another one, and the next `reload` brings it."""
 
     governor: Governor
     """What holds the time of a draw, if anything does; its `hold` may be changed at any time."""
@@ -115,7 +115,6 @@ class Prairie(Tending):
         Raises `SceneError` with every problem of the scene and its maps; ValueError for an unknown preset or
         representation, and for a `hold` that is no time.
         """
-        must_be_known("preset", preset, PRESETS)
         must_be_known("representation", str(lod), get_args(LodName))
         return cls(
             read_scene(scene), ctx=ctx, preset=preset, lod=lod, transitions=transitions, live=live, hold=hold,

@@ -9,6 +9,7 @@ from tallgrass.engine.declared.plant import PETALS, SIZES, USUAL
 from tallgrass.engine.declared.quality import PRESETS, Quality
 from tallgrass.engine.installed import OURS
 from tallgrass.engine.plugins import wind_kinds
+from tallgrass.engine.scene import bundled_scenes
 from tallgrass.engine.scene.schema import scene_schema
 
 Schema = dict[str, Any]
@@ -47,7 +48,16 @@ def scene_reference() -> str:
             parts += ["", "Other plants have these in place of its defaults:", "", _plants()]
         if name == "Head":
             parts += ["", "What suits a form:", "", _forms()]
+    parts += ["", "## Bundled scenes", "", _scenes()]
     return "\n".join(parts) + "\n"
+
+
+def _scenes() -> str:
+    """Return what each bundled scene says of itself in its first line."""
+    rows = []
+    for name, path in bundled_scenes().items():
+        rows.append(f"| `{name}` | {path.read_text('utf-8').splitlines()[0].removeprefix('# ')} |")
+    return "\n".join(["| scene | shows |", "|---|---|", *rows])
 
 
 def _ours() -> dict[str, type[WindPrimitive]]:

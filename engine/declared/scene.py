@@ -161,7 +161,8 @@ class Scene(Declaration):
         return self
 
     def numbers(self, preset: str | None = None) -> Quality:
-        """Return the numbers of `preset`, or else of the scene's own quality."""
+        """Return the numbers of `preset`, or of the scene's own quality. Raises ValueError for an unknown preset."""
+        must_be_known("preset", preset, PRESETS)
         chosen = preset or self.quality
         return PRESETS[chosen] if isinstance(chosen, str) else chosen
 

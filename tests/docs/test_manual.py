@@ -125,6 +125,17 @@ def test_every_picture_of_the_pages_is_made_and_every_picture_that_is_made_is_sh
             assert picture.command[1] in pictures.named_blocks(DOCS / picture.page)
 
 
+def test_every_link_leads_to_a_heading_that_is_there() -> None:
+    pages = [*DOCS.glob("*.md"), *(DOCS.parent / name for name in ("README.md", "CONVENTIONS.md"))]
+    texts = {page.resolve(): re.sub(r"(?ms)^```.*?^```$", "", page.read_text("utf-8")) for page in pages}
+    anchor = making("reference").anchor
+    headings = {page: {*map(anchor, re.findall(r"^#+ (.+)$", text, re.MULTILINE))} for page, text in texts.items()}
+    for page, text in texts.items():
+        for name, heading in re.findall(r"\]\(([\w./-]*)#([^)]+)\)", text):
+            at = (page.parent / name).resolve() if name else page
+            assert heading in headings[at], f"{page.name}: {name}#{heading}"
+
+
 def test_every_example_is_on_the_page_of_examples() -> None:
     examples = making("examples")
     page = examples.example_pages()

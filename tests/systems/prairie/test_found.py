@@ -3,6 +3,10 @@
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
+import pytest
+
+from tallgrass.components.footprint import Footprint
+from tallgrass.engine.declared.quality import PRESETS
 from tallgrass.systems.prairie import Prairie
 
 
@@ -21,3 +25,21 @@ def test_a_site_that_another_thread_has_found_comes_with_the_scene_that_it_was_f
     prairie.reload(site=site)
     assert prairie.site is site
     assert prairie.scene.grass["green"].height == [0.2, 0.3]
+
+
+def test_another_preset_comes_with_the_next_reload_and_what_a_game_did_stays(
+    load: Callable[..., Prairie], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    prairie = load()
+    own = prairie.scene.quality
+    monkeypatch.setitem(PRESETS, "low", own.model_copy(update={"blades": 40}))  # type: ignore[union-attr]
+    prairie.cut(Footprint(radius=5.0), 0.1)
+    prairie.advance(1.5)
+    sparse = prairie.statistics.blades_field
+    prairie.preset = "low"
+    prairie.reload(site=prairie.finding()())
+    assert prairie.statistics.blades_field == 2 * sparse
+    assert (prairie.time, prairie.grass_at([(0.0, 0.0)]).height[0] <= 0.1) == (1.5, True)
+    prairie.preset = "lowest"
+    with pytest.raises(ValueError, match="unknown preset 'lowest'; there are minimal, low"):
+        prairie.reload()
