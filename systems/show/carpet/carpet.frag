@@ -25,6 +25,7 @@ BROUGHT vec3 place;
 in float carpet;
 in vec2 rise;
 in float crest;
+in float past;
 BROUGHT float tall;
 BROUGHT float dense;
 BROUGHT ByKind met;
@@ -136,6 +137,13 @@ vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
     return vec4(sum.rgb + below * (1.0 - cover), standing_out(taller, sight.share));
 }
 
+// How much of what is behind an outline the grass hides, that of a crest or of a rim.
+float hides_behind(float slope, float stands_out) {
+    if (past < NO_RIM)
+        return 1.0 - through_leaves(RIM * dense * sqrt(stands_out) * past * past);
+    return outline_cover(slope, crest, tall, stands, dense, stands_out);
+}
+
 // Where the ground ends with the terrain, so does the grass: how much of what a line of sight would meet it does.
 float before_rim(float slope) {
     vec2 way = heading_to(place.xz), rim = abs(mix(mesh_low, mesh_high, step(0.0, way)) - place.xz);
@@ -190,7 +198,7 @@ void main() {
     if (over_hosts > 0.0)
         color = vec3(0.0);  // the game's ground is seen there
     float top = slope + carpet * ahead, hides = min(share / SHOWN_FROM, 1.0);
-    float covered = mix(1.0, outline_cover(top, crest, tall, stands, dense, standing_out(TALLER, 1.0)), hides);
+    float covered = mix(1.0, hides_behind(top, standing_out(TALLER, 1.0)), hides);
     // It writes its depth: where strips still stand on the patch, the thin edge of an outline would hide them.
     if (covered < max(NOTHING, STANDING * (1.0 - share)))
         discard;
@@ -206,7 +214,7 @@ void main() {
         vec4 seen = carpet_seen(sight, left, color, cover);
         color = seen.rgb;
         if (covered < WHOLE)
-            covered = mix(1.0, outline_cover(top, crest, tall, stands, dense, seen.a), hides);
+            covered = mix(1.0, hides_behind(top, seen.a), hides);
     }
 #ifdef EDGED
     covered *= hidden;

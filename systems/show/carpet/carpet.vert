@@ -28,6 +28,7 @@ BROUGHT vec3 place;
 out float carpet;    // how much of what is seen is carpet's
 out vec2 rise;       // of the ground, along x and z
 out float crest;     // how fast the rise falls off along the line of sight [1/m]
+out float past;      // what it meets that passes over a rim, as past_rim has it
 BROUGHT float tall;     // height of the carpet [m]
 BROUGHT float dense;    // leaf area seen from the side, of the ground's area
 BROUGHT ByKind met;     // by kind: how much of what a line of sight meets
@@ -57,6 +58,7 @@ void hand_on(Laid laid) {
     carpet = laid.share;
     rise = laid.rise;
     crest = laid.crest;
+    past = laid.past;
     tall = laid.tall;
     dense = laid.dense;
     stands = laid.stands;

@@ -25,6 +25,7 @@ struct Laid {
     float stands;  // how high the grass stands, of its height at rest
     vec2 message;  // the wind's
     float slope;   // of the line of sight, to the ground
+    float past;    // what a line of sight meets that passes over a rim, as past_rim has it
 };
 
 float lowest_share(vec2 place) {
@@ -92,6 +93,8 @@ void sow(inout Laid laid, vec2 place) {
     laid.dense = weighed(laid.grows, areas(leaves_left(laid.left)));
 }
 
+#include "systems/show/carpet/rim.glsl"
+
 // How grass stands at a place of the ground, which is raised to the carpet.
 Laid laid_on(inout vec3 place) {
     Laid laid;
@@ -103,7 +106,11 @@ Laid laid_on(inout vec3 place) {
     laid.message = message_at(place.xz);
     laid.stands = standing(laid.grows, laid.message);
     float deep = deepest(max(viewing_slope(laid.rise, place), 0.0), laid.crest, laid.tall * laid.stands);
-    place.y += laid.share * laid.tall * (lifted(deep, laid.crest, laid.stands) - 1.0);
+    float high = lifted(deep, laid.crest, laid.stands);
+    float at_rim = lifted(0.0, BULGES, laid.stands);
+    laid.past = past_rim(place + vec3(0.0, laid.share * laid.tall * (at_rim - 1.0), 0.0), laid.tall * laid.stands / RAISED);
+    high = laid.past < NO_RIM ? at_rim : high;
+    place.y += laid.share * laid.tall * (high - 1.0);
     laid.slope = viewing_slope(laid.rise, place);
     return laid;
 }

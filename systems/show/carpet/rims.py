@@ -7,7 +7,7 @@ from ....components.arrays import Doubles, Floats, Mask
 from ....engine.terrain.part import Part
 from ....engine.terrain.record import Terrain
 
-SHARP = 0.7
+SHARP = 0.4
 """By how much the slope falls off at a rim, from a cell of the terrain to the next [m/m]."""
 
 MOST = 256

@@ -5,6 +5,7 @@
 
 const float TINY = 1e-4;  // what no divisor is below [m], or [m/m]
 const float CREST = 3.6;  // optical depth of a way over a crest, of a level one's as deep: as the reference shows it
+const float RIM = 1.25;  // the same of a way over a rim
 const float FARTHEST_SEEN = 15.0;  // how far behind where it enters the grass what it meets lies at most [m]
 const float BULGES = 5e-4;  // curvature from which on ground counts as a crest [1/m]
 const float EVEN = 1e-5;  // curvature that ground has at least [1/m]
@@ -17,6 +18,8 @@ const float THINNEST_LAYER = 1e-6;  // leaf area that a layer of it has at least
 const float LEAST_MET = 0.004;  // of a kind, as a part of all that is: of less, nothing is seen
 const float LEAST_HEADS = 1e-3;  // part of what is met of a kind that counts as heads at least, and as other leaves
 const float LOWEST_GRASS = 0.01;  // how tall grass is at least [m]
+
+const float NO_RIM = 500.0;  // what a line of sight meets, as past_rim has it, from which on it passes over no rim
 
 uniform float outline;  // how high the carpet lies along an outline, of how high it lies elsewhere; 0 where that is the same
 
