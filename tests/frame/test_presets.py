@@ -99,7 +99,7 @@ def counted(prairie: Prairie) -> dict[str, int]:
     [
         pytest.param("meadow", "## What it takes here", ("low", "medium", "high"), marks=pytest.mark.slow),
         ("wide plain", "## The paper's instances", tuple(PAPER)),
-        ("plain", "on the 100 m that come along", tuple(PAPER)),
+        ("plain", "on the bundled 100 m", tuple(PAPER)),
     ],
     ids=["meadow", "wide plain", "plain"],
 )
