@@ -36,6 +36,10 @@ from tallgrass.testing import NoContextError, headless_context, private_world
 os.environ.setdefault("MESA_GL_VERSION_OVERRIDE", "3.3FC")
 os.environ.setdefault("MESA_GLSL_VERSION_OVERRIDE", "330")
 
+# A test's pictures are small: to compile a program well takes Mesa's software rasteriser longer than to draw with it as
+# it is. Pixels are the same.
+os.environ.setdefault("GALLIVM_PERF", "nopt")
+
 # The same examples on every machine, however slow it is.
 settings.register_profile("tallgrass", deadline=None, derandomize=True, max_examples=50)
 settings.load_profile("tallgrass")
