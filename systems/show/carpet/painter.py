@@ -25,13 +25,13 @@ from ...space.grown import Grown
 from ..representation import Canvas, RepresentationPainter
 from .air import Air
 from .edges import Edges
-from .ground import (
-    DENSE,
+from .ground import DENSE, OUTLINE, RAISED, THIN, GroundPainter
+from .pool import CarpetKept
+from .rims import Rims
+from .stock import CarpetStock
+from .textures import bent_texture, carpet_texture, sending_carpet
+from .tiles import (
     GRID,
-    OUTLINE,
-    RAISED,
-    THIN,
-    GroundPainter,
     Tiles,
     by_layer,
     finest_spacing,
@@ -42,10 +42,6 @@ from .ground import (
     tiles_seen,
     within,
 )
-from .pool import CarpetKept
-from .rims import Rims
-from .stock import CarpetStock
-from .textures import bent_texture, carpet_texture, sending_carpet
 
 TilesSeen = list[NDArray[np.void]]
 """Tiles by the layer that draws them, as `by_layer` has them."""

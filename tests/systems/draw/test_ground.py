@@ -19,7 +19,8 @@ from tallgrass.engine.terrain.sample import height_at
 from tallgrass.systems.frame.block import FrameBlock
 from tallgrass.systems.land.maps import density_texture, height_texture
 from tallgrass.systems.light.slow import laid_over
-from tallgrass.systems.show.carpet.ground import (
+from tallgrass.systems.show.carpet.rims import NOWHERE, Rims
+from tallgrass.systems.show.carpet.tiles import (
     BEYOND,
     GRID,
     TILE,
@@ -30,7 +31,6 @@ from tallgrass.systems.show.carpet.ground import (
     tiles_seen,
     within,
 )
-from tallgrass.systems.show.carpet.rims import NOWHERE, Rims
 from tallgrass.systems.site import Site
 
 Laid = Callable[..., Site]

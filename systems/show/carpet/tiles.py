@@ -1,0 +1,150 @@
+"""Square tiles of the ground, coarser with distance: which there are, are seen, and are drawn by each layer."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....components.arrays import Mask
+from ....engine.terrain.record import Terrain
+from ...space.cone import HALF_DIAGONAL, beyond_cone
+from .rims import Rims
+
+Tiles = NDArray[np.float64]
+
+TILE = np.dtype([("tile", "4f4")])
+GRID = 8
+"""Quads along a side of a tile."""
+
+FINE, COARSENESS = 1.25, 0.3
+"""Largest distance between grid points near the viewer: on cells of 1 m and more, and on the smallest cells [m]."""
+
+BEYOND = 600.0
+"""How far the ground goes on beyond the terrain's edge [m]: a walker's horizon lies two pixels higher."""
+
+SPREAD = 6.0
+"""Distance at which a spacing gives way to the next, in tile sides: the farthest corner of a tile of twice the side
+that is split must lie inside it."""
+
+
+def tiles_around(
+    terrain: Terrain, place: tuple[float, float], /, *, spacing: float, about: float = 0.0, rims: Rims | None = None
+) -> Tiles:
+    """Return the tiles that cover a terrain and what lies `BEYOND`, for who is near a place (x, z) [m], shape (n, 4).
+
+    "Near" is at most `about` [m] away, which may be a third of the finest tiles' side. A tile of `GRID` quads is split
+    in four while it is nearer than `SPREAD` sides of its quarters, down to `spacing` [m] between grid points. At `rims`
+    tiles count as nearer, and are split as often as it takes for each cell of the terrain. A row is what `TILE` says.
+    """
+    more = 0 if rims is None else max(int(np.ceil(np.log2(spacing / terrain.cell))), 0)
+    side = spacing * GRID
+    edge, size = np.asarray(terrain.origin) - BEYOND, np.asarray(terrain.size) + 2.0 * BEYOND
+    levels = max(0, int(np.ceil(np.log2(max(size) / side))))
+    side *= 2.0**levels
+    low = np.floor(edge / side) * side
+    counts = np.ceil((edge + size - low) / side).astype(int)
+    corners = low + side * np.stack(np.meshgrid(*map(np.arange, counts)), -1).reshape(-1, 2)
+    done: list[Tiles] = []
+    for level in range(levels, -1 - more, -1):
+        corners = corners[((corners < edge + size) & (corners + side > edge)).all(axis=1)]
+        near = _nearest(corners, side, place) - about if level > 0 else np.full(len(corners), np.inf)
+        if rims is not None:
+            reach = HALF_DIAGONAL * side + about
+            near = np.minimum(near, rims.near_to(corners + 0.5 * side, np.array(place)) - reach)
+        split = (near < SPREAD * side / 2) if level > -more else np.zeros(len(corners), np.bool_)
+        kept, far = corners[~split], SPREAD * side * (1.0 if level >= 0 else -1.0)
+        done.append(np.column_stack([kept, np.full(len(kept), side / GRID), np.full(len(kept), far)]))
+        side /= 2.0
+        corners = (corners[split][:, None, :] + side * np.array([[0, 0], [1, 0], [0, 1], [1, 1]])).reshape(-1, 2)
+    return np.concatenate(done)
+
+
+def tiles_seen(tiles: Tiles, eye: tuple[float, float, float], cone: tuple[float, float], /) -> NDArray[np.void]:
+    """Return those of `tiles_around` (n, 4) that may be seen, records of `TILE`, far to near."""
+    side = tiles[:, 2] * GRID
+    x, z = tiles[:, 0] + 0.5 * side, tiles[:, 1] + 0.5 * side
+    seen = (beyond_cone(x, z, apex=(eye[0], eye[2]), cone=cone) <= 0.75 * side).nonzero()[0]
+    across, along = x.take(seen) - eye[0], z.take(seen) - eye[2]
+    order = seen.take(np.argsort(-(across * across + along * along)))
+    found = np.zeros(len(order), TILE)
+    found["tile"] = tiles.take(order, axis=0)
+    return found
+
+
+def ground_tiles(
+    terrain: Terrain,
+    eye: tuple[float, float, float],
+    cone: tuple[float, float],
+    /,
+    *,
+    spacing: float,
+    rims: Rims | None = None,
+) -> NDArray[np.void]:
+    """Return the tiles that cover what is seen of the ground, records of `TILE`, far to near."""
+    return tiles_seen(tiles_around(terrain, (eye[0], eye[2]), spacing=spacing, rims=rims), eye, cone)
+
+
+def finest_spacing(terrain: Terrain, patch: float, /) -> float:
+    """Return the distance between grid points near the viewer [m], a whole fraction of a patch's side.
+
+    It is fine enough for the terrain's own cells, so that no root stands in the air or in the ground.
+    """
+    enough = min(FINE, max(FINE * terrain.cell, COARSENESS))
+    return float(patch / 2.0 ** max(1, int(np.ceil(np.log2(patch / enough)))))
+
+
+def within(tiles: NDArray[np.void], centre: NDArray[np.int32], /, *, patch: float, reach: int) -> NDArray[np.bool_]:
+    """Return which tiles (n,) lie wholly within the discrete distance `reach` of the viewer's cell, shape (n,)."""
+    low, high = (centre - reach) * patch, (centre + reach + 1) * patch
+    corner, side = tiles["tile"][:, :2], tiles["tile"][:, 2:3] * GRID
+    inside: NDArray[np.bool_] = ((corner >= low - 1e-3) & (corner + side <= high + 1e-3)).all(axis=1)
+    return inside
+
+
+def on_terrain(tiles: NDArray[np.void], terrain: Terrain, /) -> NDArray[np.bool_]:
+    """Return which tiles (n,) lie wholly on the terrain, shape (n,)."""
+    low = np.asarray(terrain.origin)
+    corner, side = tiles["tile"][:, :2], tiles["tile"][:, 2:3] * GRID
+    inside: NDArray[np.bool_] = ((corner >= low - 1e-3) & (corner + side <= low + terrain.size + 1e-3)).all(axis=1)
+    return inside
+
+
+def meets_terrain(tiles: NDArray[np.void], terrain: Terrain, /) -> NDArray[np.bool_]:
+    """Return which tiles (n,) lie on the terrain at least in part, shape (n,)."""
+    low = np.asarray(terrain.origin)
+    corner, side = tiles["tile"][:, :2], tiles["tile"][:, 2:3] * GRID
+    meets: NDArray[np.bool_] = ((corner < low + terrain.size) & (corner + side > low)).all(axis=1)
+    return meets
+
+
+def _nearest(corners: Tiles, side: float, place: tuple[float, float]) -> Tiles:
+    here = np.array(place)
+    away: Tiles = np.linalg.norm(here - np.clip(here, corners, corners + side), axis=1)
+    return away
+
+
+def tile_grid() -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+    """Return a tile's grid points (n, 2), and the corners of its triangles among them, (m, 6)."""
+    line = np.arange(GRID + 1)
+    corners = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2).astype(np.float32)
+    first = (np.arange(GRID)[:, None] * (GRID + 1) + np.arange(GRID)).reshape(-1, 1)
+    quad = np.array([0, GRID + 1, 1, 1, GRID + 1, GRID + 2])
+    return corners, (first + quad).astype(np.int32)
+
+
+def by_layer(tiles: NDArray[np.void], laid: Mask, edged: Mask, /) -> list[NDArray[np.void]]:
+    """Return which tiles (n,) each layer draws, by where carpet may lie and where grass ends or is cut, (n,) each.
+
+    These are bare ground, ground under the carpet, the carpet, and of edged tiles all ground, and the carpet. Those
+    that adjoin edged ones have bare ground as well: what lies under their carpet ends above the ground there.
+    """
+    even = laid & ~edged
+    bare = ~(laid | edged) | even & adjoining(tiles, edged)
+    return [tiles[chosen] for chosen in (bare, even, even, edged, laid & edged)]
+
+
+def adjoining(tiles: NDArray[np.void], some: Mask, /) -> Mask:
+    """Return which tiles (n,) have a border with, or a corner of, `some` of them, (n,)."""
+    low, side = tiles["tile"][:, :2], tiles["tile"][:, 2:3] * GRID
+    high, near = low + side + 1e-3, np.zeros(len(tiles), np.bool_)
+    for one, other in zip(low[some], high[some], strict=True):
+        near |= ((low <= other) & (high >= one)).all(axis=1)
+    return near
