@@ -1,9 +1,8 @@
 """Drawing a whole frame: ground, sky and carpet, then strips and blades from far to near."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import TypeVar
 
 import moderngl
 
@@ -18,40 +17,26 @@ from .around.asked import Asked
 from .around.outlook import Outlook
 from .blow import Blown, receivers_shown
 from .features import UNITS
-from .frame.block import FrameBlock, aim, confine
+from .frame.block import aim, confine
 from .frame.feature import Feature, Part, doing
+from .holding import READY_ROWS, Holding
 from .receive.ask import numbers_of, write_messages
-from .receive.received import ROW, Received
 from .show.blades.draw import BladePainter
 from .show.blades.plant import record_of
-from .show.representation import Canvas, RepresentationPainter
 from .site import Site
-from .staged import Staged, are_alike, are_other_kinds, is_other_grass, special_of
 from .wind.blow import ReceiverArrays, mean_yaw
-from .wind.card import CardWinds
 from .wind.quarantine import Quarantine
-
-Sort = TypeVar("Sort", bound=Part)
-
-READY_ROWS = 512
-"""Rows of receivers that there is room for once a game has prepared: half a million, in 8 MiB."""
-
-AHEAD = True
-"""Whether a live prairie has all programs before the first frame, so that none keeps a player waiting later."""
 
 OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
 
 WHOLE = Asked()
 
-IN_A_FRAME = "settle", "defines", "send", "use", "prepare", "breathe", "draw_solid", "draw_behind", "draw_soft"
-"""Methods of parts that a frame calls."""
-
 REHEARSED = 0.75
 """Part of the pixels, across and up, with which a frame that is held to its time is rehearsed: any below 1 will do."""
 
 
-class Painter:
-    """Everything that one GL context holds of a site, and the drawing of it."""
+class Painter(Holding):
+    """Draws what one GL context holds of a site."""
 
     def __init__(
         self,
@@ -61,41 +46,13 @@ class Painter:
         *,
         linear: bool = False,
     ) -> None:
-        self.ctx, self.quarantine = ctx, quarantine
-        self.block, self.received = FrameBlock(ctx), Received(ctx)
-        self.record = self.block.record
-        self.record["writes_raw"] = linear
-        self.parts = [each.part(ctx, self.block, UNITS) for each in features]
-        self._doing = {name: doing(Part, name, self.parts) for name in IN_A_FRAME}
-        self.painters: dict[str, RepresentationPainter] = {}
-        """Those of the representations by their names, from the finest."""
-        self.air: CardWinds
+        super().__init__(ctx, features, quarantine, linear=linear)
         self.smaller, self.stopwatch = Smaller(ctx, floats=linear), Stopwatch(ctx)
         self._hand_over = handing_over(ctx)
         self.draw_calls = self.blades = 0
         """Of the last frame; and the blades that were sent as geometry."""
-        self.site: Site | None = None
-        self._staged: Staged | None = None
         self._outlook: Outlook | None = None
         self._first: dict[str, list[int]] = {}
-        self._special: dict[str, str | int] = {}
-        """What shaders are told of what is special about any kind of grass."""
-        self._winds: Sequence[WindPrimitive] | None = None
-        """One of each kind that it is ready for; None where no game has prepared."""
-
-    @property
-    def coarsest(self) -> RepresentationPainter:
-        """The painter of the coarsest representation, which lies on the land."""
-        return list(self.painters.values())[-1]
-
-    def part(self, kind: type[Sort], /) -> Sort:
-        """Return what is held of the feature whose parts are of a class."""
-        return next(each for each in self.parts if isinstance(each, kind))
-
-    def settle(self, site: Site) -> None:
-        """Take over a site, and what has changed since the frame before; what has not stays in GL as it is."""
-        for _ in self._settling(site):
-            pass
 
     def preparing(self, site: Site, winds: Sequence[WindPrimitive], look: Callable[[], None], /) -> Iterator[None]:
         """Make all that a game may come to need, `steps` of them, with winds of the kinds of these.
@@ -135,116 +92,6 @@ class Painter:
             self.draw(self._outlook.view, asked, scale=scale, hidden=True)
             self.record[:] = before
             yield
-
-    def steps(self, site: Site) -> int:
-        """Return how many steps `preparing` takes at most."""
-        return 2 * len(self.parts) + 11 + sum(3 + each.programs for each in site.representations)
-
-    def _making_ready(
-        self, site: Site, air: CardWinds | None = None, painters: Mapping[str, RepresentationPainter] | None = None
-    ) -> Iterator[None]:
-        """Make room and programs for whatever winds will blow."""
-        assert self._winds is not None
-        (air or self.air).make_ready([*site.scene.wind, *self._winds], receivers=READY_ROWS * ROW)
-        for painter in (self.painters if painters is None else painters).values():
-            yield from painter.making()
-            painter.make_ready(site)
-            yield
-
-    def _settling(self, site: Site) -> Iterator[None]:
-        """Do what `settle` does, bit by bit; where that is left off, it begins anew the next time."""
-        before = self.site
-        for part in self._doing["settle"]:
-            part.settle(site, self.record)
-        if before is None or are_other_kinds(site, before):
-            self._special = special_of(site)
-        defines = dict(self._special)
-        for part in self._doing["defines"]:
-            defines |= part.defines()
-        is_other = before is None or defines != self.block.defines or is_other_grass(site, before)
-        if not is_other and site is before:
-            return
-        is_made = before is not None and is_other and self._stands_ready(site, before, defines)
-        if is_made:
-            while not self.stage(site):
-                yield
-            self._take(site)
-        elif is_other:
-            self.site = None
-            yield from self._growing(site, defines)
-        self.site = site
-        for painter in self.painters.values():
-            painter.settle(site, self.record)
-        self.air.meet(site.scene.wind)
-        if is_other and not is_made and self._winds is not None:
-            yield from self._making_ready(site)
-
-    def _fits(self, site: Site, before: Site) -> bool:
-        """Return whether the programs that there are draw the grass of another site too."""
-        return are_alike(site, before) and self._defines_of(site) == self.block.defines and all(
-            each.name in self.painters and self.painters[each.name].fits(each) for each in site.representations
-        )  # fmt: skip
-
-    def _defines_of(self, site: Site) -> dict[str, str | int]:
-        """Return what the programs of another site's grass are told."""
-        return {name: told for name, told in self.block.defines.items() if name not in self._special} | special_of(site)
-
-    def _stands_ready(self, site: Site, before: Site, defines: dict[str, str | int]) -> bool:
-        """Return whether a site's grass is being brought into GL already, or can be beside what there is."""
-        staged = self._staged
-        if staged is not None and staged.representations is site.representations and staged.defines == defines:
-            return True
-        return defines == self.block.defines and self._fits(site, before)
-
-    def stage(self, site: Site, /) -> bool:
-        """Bring a piece of another site's grass into GL beside what is drawn; return whether all of it is there."""
-        if self.site is None:
-            return True  # it is brought there when it is drawn
-        if self._staged is None or self._staged.representations is not site.representations:
-            self._staged = staged = Staged(site.representations, self._defines_of(site))
-            if self._fits(site, self.site):
-                staged.steps = self._staging(site)
-            else:
-                staged.air = air = CardWinds(self.ctx, UNITS, site.growths)
-                ready = None if self._winds is None else partial(self._making_ready, site, air, staged.painters)
-                staged.steps = staged.making(self._canvas(site, air), site.scene.wind, ready)
-        return next(self._staged.steps, "over") == "over"
-
-    def _staging(self, site: Site) -> Iterator[None]:
-        for each in site.representations:
-            yield from self.painters[each.name].staging(site.representations)
-
-    def _take(self, site: Site) -> None:
-        """Draw from now on what was staged of a site."""
-        staged, self._staged = self._staged, None
-        assert staged is not None
-        if staged.air is None:
-            for painter in self.painters.values():
-                painter.restock()
-            self.air.regrow(site.growths)
-            return
-        release_all(*self.painters.values(), self.air)
-        self.block.defines, self.painters, self.air = staged.defines, staged.painters, staged.air
-
-    def _growing(self, site: Site, defines: dict[str, str | int]) -> Iterator[None]:
-        """Bring the grass into GL, a representation at a time."""
-        if self.painters:
-            release_all(*self.painters.values(), self.air)
-        self.block.defines = defines
-        self.air = CardWinds(self.ctx, UNITS, site.growths)
-        canvas = self._canvas(site, self.air)
-        self.painters = {}
-        for each in site.representations:
-            self.painters[each.name] = made = each.painter(canvas)
-            yield
-            if AHEAD and self.quarantine.live:
-                yield from made.making()
-
-    def _canvas(self, site: Site, air: CardWinds) -> Canvas:
-        return Canvas(
-            self.ctx, self.block, UNITS, site.scene.seed, site.transitions, air, self.received, site.reach,
-            site.representations,
-        )  # fmt: skip
 
     def blade_painter(self, segments: int) -> BladePainter:
         """Return a painter of opaque blades with this many segments, in any order."""
@@ -406,8 +253,8 @@ class Painter:
 
     def release(self) -> None:
         """Give everything back to the context."""
-        release_all(*self.painters.values(), *self.parts, self.air, self.received, self.block)
-        release_all(self.smaller, self.stopwatch, *([] if self._staged is None else [self._staged]))
+        super().release()
+        release_all(self.smaller, self.stopwatch)
 
 
 def _receivers(outlook: Outlook, site: Site) -> ReceiverArrays:

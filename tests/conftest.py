@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.engine.declared.quality import Quality
 from tallgrass.engine.world import World
-from tallgrass.systems import painter, site
+from tallgrass.systems import holding, site
 from tallgrass.systems.around.receivers import Receiving
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.light import repeating
@@ -60,9 +60,9 @@ SLOW_FOLDERS = "app", "docs", "examples", "hosts", "packaging"
 PARENT = """
 import json, os, runpy, sys
 
-import tallgrass.systems.painter, tallgrass.systems.prairie, tallgrass.testing
+import tallgrass.systems.holding, tallgrass.systems.prairie, tallgrass.testing
 
-tallgrass.systems.painter.AHEAD = False
+tallgrass.systems.holding.AHEAD = False
 for line in sys.stdin:
     told = json.loads(line)
     child = os.fork()
@@ -201,14 +201,14 @@ def _grown_once() -> Iterator[None]:
 def _programs_as_they_are_drawn() -> Iterator[None]:
     """Make programs as they are drawn, as for films: to compile those of a game takes longer than most tests."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(painter, "AHEAD", False)
+        patch.setattr(holding, "AHEAD", False)
         yield
 
 
 @pytest.fixture
 def ahead(monkeypatch: pytest.MonkeyPatch) -> None:
     """Have all programs before the first frame, as a game does."""
-    monkeypatch.setattr(painter, "AHEAD", True)
+    monkeypatch.setattr(holding, "AHEAD", True)
 
 
 @pytest.fixture(scope="session")
