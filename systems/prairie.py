@@ -25,7 +25,6 @@ from .assembly import Assembly, settle_in
 from .features import one
 from .frame.feature import Feature, doing
 from .govern import Governor
-from .light.given import GivenHaze, Haze
 from .painter import Painter
 from .ripen import Ripening, Stage
 from .saving import Saving
@@ -207,21 +206,6 @@ class Prairie(Tending):
         with self._assembly.screen.opened(self.site) as painter:
             if painter is not None:
                 painter.cast(unturned(seen), outlook)
-
-    @property
-    def haze(self) -> Haze | None:
-        """What ground and grass fade into far off, under a sky of your own; None: the scene's horizon.
-
-        It is a colour as the picture shows it, (red, green, blue) or "#a0b0c0". Or it is a function of unit vectors (x,
-        0, z), shape (n, 3), that returns the colours of your sky there, (n, 3): it is asked at once, and again when you
-        set it anew. A `linear` prairie takes radiance. How far one sees stays the scene's `light.haze`. Setting it
-        raises ValueError for what are no colours.
-        """
-        return one(GivenHaze, self.features).haze
-
-    @haze.setter
-    def haze(self, haze: Haze | None) -> None:
-        one(GivenHaze, self.features).give(haze)
 
     @property
     def origin(self) -> tuple[float, float, float]:

@@ -14,6 +14,7 @@ from ..engine.terrain.change import set_heights
 from .answering import Answering
 from .features import one
 from .land.earth import Earth
+from .light.given import GivenHaze, Haze
 from .mow.sown import clear, sow
 from .seasons import Seasons
 from .shadows.feature import Shadows
@@ -155,3 +156,18 @@ class Tending(Answering):
         """
         self._must_be_there("hand in shadow maps")
         one(Shadows, self.features).hand_in(maps, self._origin)
+
+    @property
+    def haze(self) -> Haze | None:
+        """What ground and grass fade into far off, under a sky of your own; None: the scene's horizon.
+
+        It is a colour as the picture shows it, (red, green, blue) or "#a0b0c0". Or it is a function of unit vectors (x,
+        0, z), shape (n, 3), that returns the colours of your sky there, (n, 3): it is asked at once, and again when you
+        set it anew. A `linear` prairie takes radiance. How far one sees stays the scene's `light.haze`. Setting it
+        raises ValueError for what are no colours.
+        """
+        return one(GivenHaze, self.features).haze
+
+    @haze.setter
+    def haze(self, haze: Haze | None) -> None:
+        one(GivenHaze, self.features).give(haze)

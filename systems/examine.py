@@ -1,0 +1,140 @@
+"""Examining a saved state's arrays: what is trodden, cut, sown, cleared and dug, or a sentence on what cannot be."""
+
+from collections.abc import Mapping
+from typing import Any, cast
+
+import numpy as np
+
+from ..components.arrays import Bytes, Doubles, Floats, Ints
+from ..components.patch import Cell
+from ..components.presser import Presser
+from ..engine.terrain.change import Squares, must_be_squares
+from ..engine.terrain.plots import CELLS, Plots
+from ..engine.terrain.record import Terrain
+from .press.footprint import discs_of
+from .press.trail import BEGUN, FIRST, LAST, LEFT, NUMBERS, REACH, Stretches
+from .press.walk import Stand
+from .pressers import Treading
+from .saved import Arrays, SavedTreading, SavedWalk, from_planes, refuse
+from .thing import component_of, fields_of
+
+WALKS = ("scenes", "games")
+"""How arrays of a state are called: of those that the scene declares, and of a game's own."""
+
+FARTHEST, WIDEST, LONGEST = 2e6, 31.0, 40.0
+"""What marks keep within: places, reaches, and the lengths of stretches [m]."""
+
+LATEST = 1e9
+"""Nor are they later than that, to either side of 0 [s]."""
+
+
+def _presser(fields: Mapping[str, Any]) -> Presser:
+    return cast(Presser, component_of("presser", fields))
+
+
+def treading_saved(treading: Treading, /) -> tuple[SavedTreading, Arrays]:
+    """Return what pressers have done as it is saved."""
+    walks, arrays = list[SavedWalk](), {"kept": treading.kept}
+    for name, stand in zip(WALKS, treading.walks, strict=True):
+        who = [(entity, fields_of(presser)) for entity, presser in stand.who]
+        walks.append(SavedWalk(time=stand.time, begun=stand.begun, who=who))
+        parts = {"pose": stand.pose, "open": stand.open, "way": stand.way, "closed": stand.closed}
+        arrays |= {f"{name}_{part}": array for part, array in parts.items()}
+    declared = [None if presser is None else fields_of(presser) for presser in treading.declared]
+    saved = SavedTreading(
+        walks=walks, since=treading.since, trodden=treading.trodden, anew=treading.anew, declared=declared
+    )
+    return saved, arrays
+
+
+def treading_of(saved: SavedTreading, arrays: Arrays, /) -> Treading:
+    """Return what pressers have done; raises ValueError for what cannot be."""
+    stands = []
+    for name, walk in zip(WALKS, saved.walks, strict=True):
+        who = [(entity, _presser(shape)) for entity, shape in walk.who]
+        discs = sum(len(discs_of(presser)) for _, presser in who)
+        opened, way = _stretches(arrays, f"{name}_open", discs), _doubles(arrays, f"{name}_way", (discs,))
+        pose, closed = _doubles(arrays, f"{name}_pose", (len(who), 3)), _stretches(arrays, f"{name}_closed")
+        stands.append(Stand(who, pose, walk.time, opened, way, closed, walk.begun))
+    declared = [None if shape is None else _presser(shape) for shape in saved.declared]
+    if not all(-len(declared) <= number < 0 for number, _ in stands[0].who):
+        refuse("others walk in it than its scene declares")
+    kept = _stretches(arrays, "kept")
+    return Treading((stands[0], stands[1]), kept, saved.since, saved.trodden, saved.anew, declared)
+
+
+def _doubles(arrays: Arrays, name: str, shape: tuple[int, ...]) -> Doubles:
+    """Return an array of this name and shape, -1 for any number; raises ValueError for another."""
+    array = arrays.get(name, np.zeros(()))
+    fits = array.ndim == len(shape) and all(due in (-1, n) for due, n in zip(shape, array.shape, strict=True))
+    if array.dtype != np.float64 or not fits or not np.isfinite(array).all():
+        refuse(f"there is something wrong with its {name}")
+    return array
+
+
+def _stretches(arrays: Arrays, name: str, count: int = -1) -> Stretches:
+    found = _doubles(arrays, name, (count, NUMBERS))
+    long = np.hypot(*(found[:, LAST] - found[:, FIRST]).T)
+    right = (np.abs(found[:, : LAST.stop]) <= FARTHEST).all() and (long <= LONGEST).all()
+    right = right and ((found[:, REACH] > 0.0) & (found[:, REACH] <= WIDEST)).all()
+    if not right or (np.abs(found[:, BEGUN : LEFT + 1]) > LATEST).any():
+        refuse(f"there is something wrong with its {name}")
+    return found
+
+
+def mown_of(arrays: Arrays, plots: Plots, /) -> tuple[Ints, Floats]:
+    """Return which plots are cut, (n, 3), and the heights of their pages [m]; raises ValueError for what cannot be."""
+    found = arrays.get("mown_heights", np.zeros(0))
+    if found.dtype != np.uint8 or found.shape[:-1] != (4,) or found.shape[-1] % CELLS**2:
+        refuse("there is something wrong with what is cut")
+    heights = from_planes(found, (found.shape[-1] // CELLS**2, CELLS, CELLS))
+    if not (heights >= 0.0).all():
+        refuse("something is cut to no height")
+    return _plots(arrays, "mown", plots, len(heights)), heights
+
+
+def sown_of(arrays: Arrays, plots: Plots, /) -> tuple[Ints, Bytes]:
+    """Return which plots are sown, (n, 3), and the densities of their pages; raises ValueError for what cannot be."""
+    found = arrays.get("sown_densities", np.zeros(0))
+    if found.dtype != np.uint8 or found.shape[1:] != plots.pages.shape[1:]:
+        refuse("what is sown are no densities of its scene's kinds")
+    return _plots(arrays, "sown", plots, len(found)), found
+
+
+def _plots(arrays: Arrays, name: str, plots: Plots, pages: int) -> Ints:
+    """Return which plots have which of so many pages; raises ValueError for plots that are not there."""
+    where = arrays.get(name, np.zeros(0))
+    if (
+        where.dtype != np.int32
+        or where.shape != (len(where), 3)
+        or len({*map(tuple, where[:, :2].tolist())}) != len(where)
+    ):
+        refuse(f"there is something wrong with what is {name}")
+    across, along = plots.half
+    if not ((where >= (-along, -across, 0)) & (where < (along, across, pages))).all():
+        refuse(f"something is {name} that is not there")
+    return where
+
+
+def ground_of(arrays: Arrays, terrain: Terrain, /) -> Squares:
+    """Return the squares of ground that have changed; raises ValueError for what cannot be."""
+    where, found = (arrays.get(name, np.zeros(0)) for name in ("ground_squares", "ground_heights"))
+    if where.dtype != np.int32 or where.shape != (len(where), 2) or found.dtype != np.uint8 or found.shape[:-1] != (4,):
+        refuse("there is something wrong with its ground")
+    holes = arrays.get("ground_holes", np.zeros(found.shape[-1], np.bool_))
+    if holes.dtype != np.bool_ or holes.ndim != 1:
+        refuse("there is something wrong with its holes")
+    squares = where, from_planes(found, (found.shape[-1],)), holes
+    try:
+        must_be_squares(terrain, squares)
+    except ValueError as error:
+        refuse(str(error))
+    return squares
+
+
+def cells_of(arrays: Arrays, /) -> list[Cell]:
+    """Return the cells that are cleared; raises ValueError for what are none."""
+    found = arrays.get("cleared", np.zeros(0))
+    if found.dtype != np.int32 or found.ndim != 2 or found.shape[1] != 2:
+        refuse("there is something wrong with what is cleared")
+    return [(i, j) for i, j in found.tolist()]
