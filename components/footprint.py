@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, ClassVar
 class Footprint:
     """A disc; with a `length` a capsule; with `corners` a polygon, which may be hollow but does not cross itself.
 
-    A `Pose` says where it lies. Raises ValueError for what is no footprint.
+    A `Pose` says where it lies. Raises ValueError for an impossible footprint.
     """
 
     _largest: ClassVar[float] = 1000.0
@@ -51,7 +51,7 @@ class Footprint:
 class Road:
     """A way of one width along a line of places, round at its ends and bends; a `Pose` says where its frame lies.
 
-    Raises ValueError for what is no road.
+    Raises ValueError for an impossible road.
     """
 
     _farthest: ClassVar[float] = 20_000.0

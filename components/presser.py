@@ -12,7 +12,7 @@ class Presser(Footprint):
     """A footprint that presses grass down: the component of a game's own entity, whose `Pose` says where it is.
 
     It is a disc; with a `length` a capsule; with `corners` a polygon. Grass under it lies down away from it, grass
-    beside it bends aside. Raises ValueError for what is no footprint, or reaches farther than 20 m.
+    beside it bends aside. Raises ValueError for an impossible footprint, and for one that reaches farther than 20 m.
     """
 
     _largest: ClassVar[float] = 20.0

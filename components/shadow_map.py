@@ -17,8 +17,7 @@ FARTHEST_BIAS = 100.0
 class ShadowMap:
     """A shadow map of a game's: what is nearest to the sun, in a depth texture that the game draws.
 
-    Raises TypeError for what is no depth texture, ValueError for a matrix that is none or not finite, and for a bias
-    that is no length.
+    Raises TypeError for anything but a depth texture, ValueError for a bad matrix or bias.
     """
 
     texture: Any

@@ -13,9 +13,9 @@ LOWEST, HIGHEST = 0.5, 60.0
 class Tree:
     """A tree or bush: the component of an entity whose `Pose` says where it stands and how it is turned.
 
-    Those of a scene are entities of the prairie's; a game may make more, of any kind that the scene's `trees:` has.
-    To delete the entity fells it, at once and with its shadow. Raises ValueError for what is no tree, TypeError for a
-    kind that is no name.
+    A scene's trees are entities of the prairie; a game may make more, of any kind that the scene's `trees:` has. Delete
+    the entity to fell it, with its shadow. Raises ValueError for an impossible tree, TypeError for a kind that is not a
+    text.
     """
 
     kind: str

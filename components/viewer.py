@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 class Viewer:
     """Somebody who looks at the prairie; an entity for each name that `Prairie.draw` was given.
 
-    It is written anew whenever this viewer looks. Where its entity is deleted, it begins anew when it looks again.
+    It is written whenever this viewer is drawn. If its entity is deleted, the viewer starts afresh when it is next
+    drawn.
     """
 
     name: str = "main"

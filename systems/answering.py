@@ -64,8 +64,8 @@ class Answering:
     def time(self) -> float:
         """The scene's time [s], to the nearest microsecond: however it was cut into steps, it is the same instant.
 
-        It may be set: all that the scene declares is as at that time then. Going back, what a game's own pressers have
-        trodden is forgotten; what is cut stays cut. Raises ValueError and TypeError for what is no time.
+        You may set it: then all that the scene declares is as at that time. If you go back, what your own pressers have
+        trodden is forgotten; what is cut stays cut. Raises ValueError and TypeError for anything but a time.
         """
         return round(self._clock, 6)
 
@@ -80,7 +80,7 @@ class Answering:
         self.viewers.begin_anew()
 
     def advance(self, dt: float) -> None:
-        """Move time on by `dt` [s]: ValueError below 0 and above 1e9 s, TypeError for what is no number."""
+        """Move time on by `dt` [s]: ValueError below 0 and above 1e9 s, TypeError for anything but a number."""
         self._must_be_there("move its time on")
         must_be_step(dt)
         self._clock += float(dt)  # in single precision, time would soon stand still
@@ -116,7 +116,7 @@ class Answering:
         """Return where rays first meet the ground (x, y, z) [m], shape (n, 3), and NaN where they never do.
 
         They begin at `origin` [m] and go along `direction`, both of shape (n, 3), or (3,) for one; one origin may serve
-        many directions. One that begins below the ground meets it there. Raises ValueError for what are no rays.
+        many directions. One that begins below the ground meets it there. Raises ValueError for anything but rays.
         """
         self._must_be_there("ask about it")
         return pick(self.site.ground.terrain, *as_rays(origin, direction))

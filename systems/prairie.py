@@ -213,7 +213,7 @@ class Prairie(Tending):
 
         Set it when your own origin moves. Where the prairie is far off, give matrices of float64, which keep what
         float32 would lose. All places that you ask for and hand in stay the scene's own. Setting it raises ValueError
-        for what are no three finite numbers up to 1e9 m.
+        for anything but three finite numbers up to 1e9 m.
         """
         return self._origin
 
@@ -232,9 +232,9 @@ class Prairie(Tending):
     def prepare(self, *, on_progress: Callable[[int, int], object] | None = None) -> None:
         """Upload and compile in the current context all that the scene and a game may need, so that no frame does.
 
-        That is for all installed winds and those that blow, for pressers, cuts, bodies and `hold`. Bind the framebuffer
-        that you draw into, and hand in shadow maps, before: some drivers make programs anew for others. It calls
-        `on_progress` with how many steps are done, and of how many. It raises the errors of `draw`.
+        That is for all installed winds and those that already blow, for pressers, cuts, bodies and `hold`. Before it,
+        bind the framebuffer that you draw into, and give your shadow maps: some drivers compile programs anew for
+        others. It calls `on_progress` with how many steps are done, and of how many. It raises the errors of `draw`.
         """
         for done, of in self.preparing():
             if on_progress is not None:
@@ -280,11 +280,12 @@ class Prairie(Tending):
     def reload(self, scene: SceneLike | LoadedScene | None = None, *, site: Site | None = None) -> None:
         """Read the scene again, or another one, and go on with it at the same time: what did not change stays.
 
-        Terrain, kinds of grass and textures are made anew only where their values or maps have changed. Winds that have
-        not changed blow on, and so do those that you added; your changes to `systems` stay. A `site` is what `finding`
-        has found: with it nothing grows here, and without a scene the one counts that it was found for. Raises
-        `SceneError` with every problem, and then nothing has changed; ValueError where there is no scene to read;
-        TypeError for a `site` that is none; RuntimeError after `release`, and while another esper world is current.
+        Only terrain, kinds of grass and textures whose values, maps or preset have changed are made anew. Winds that
+        have not changed blow on, and so do those that you added; so do your changes to `systems` and, where terrain and
+        kinds are the same, to ground and grass. Give the `site` that `finding`'s function returned, and nothing has to
+        grow here; then the scene is the one that it was found for. Raises `SceneError` with every problem, and then
+        nothing has changed; ValueError if there is no scene to read; TypeError for another `site`; RuntimeError after
+        `release`, and while another esper world is current.
         """
         self._must_be_there("read it again")
         if site is not None:
@@ -300,7 +301,7 @@ class Prairie(Tending):
     def finding(self, scene: SceneLike | LoadedScene | None = None) -> Callable[[], Site]:
         """Read the scene again, or another one, and return a function that finds the `site` for `reload`.
 
-        The function changes nothing. Call it on another thread, as grass takes its time to grow, and hand `reload` what
+        The function changes nothing. Call it on another thread, as grass takes its time to grow, and give `reload` what
         it returns. Raises what `reload` raises for a scene; the function raises `SceneError` with every problem of the
         maps.
         """
@@ -322,7 +323,7 @@ class Prairie(Tending):
     def restore(self, state: bytes) -> dict[int, int]:
         """Bring back what `state` returned, and return which entity each wind and presser of a game's in it is now.
 
-        Raises ValueError for another scene's, another format's or an altered state: then nothing has changed.
+        Raises ValueError, and changes nothing, for a state of another scene, of another format, or one that is damaged.
         """
         self._must_be_there("restore a state")
         self._clock, entities, kinds = self._saving.restore(state, self.site, self.loaded)
@@ -332,7 +333,7 @@ class Prairie(Tending):
         return entities
 
     def release(self) -> None:
-        """Give back everything: GL objects in every window, places in batches, entities, and what `install` added.
+        """Free all that it holds: GL objects in every window, places in batches, entities, and what `install` added.
 
         The processor of `install` goes with its world's last prairie. This prairie cannot be drawn afterwards; where a
         system of its own calls this, the frame ends with that system, and nothing of it is drawn.

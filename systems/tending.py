@@ -29,42 +29,42 @@ class Tending(Answering):
     def add(self, primitive: WindPrimitive, *, pose: Pose | None = None, name: str | None = None) -> int:
         """Add a wind and return its entity, a handle that `move` and `remove` take.
 
-        With a `pose` the wind is there until it is moved, whatever it says itself; so it follows what a game steers.
-        Winds of one name share what is random about them; without a name it is their kind. Raises TypeError for what is
-        no wind, such as the name or the class of one, and RuntimeError after `release`.
+        With a `pose` the wind stays there until you `move` it, whatever its own position is. Winds of one `name` share
+        what is random about them; without a name it is their kind. Raises TypeError for anything but a wind, such as
+        its name or class, and RuntimeError after `release`.
         """
         self._must_be_there("add a wind")
         return self.winds.add(primitive, name, pose)
 
     def move(self, handle: int, pose: Pose) -> None:
-        """Put a wind elsewhere that `add` returned: it follows what carries it.
+        """Put a wind that `add` returned elsewhere.
 
-        Raises TypeError for what is no handle or no `Pose`, ValueError for a pose that is not finite, and for a wind
-        that is gone: removed, or deleted by the game.
+        Raises TypeError for anything but a handle and a `Pose`, ValueError for a pose that is not finite, and for a
+        wind that was removed or deleted.
         """
         self._must_be_there("move a wind")
         self.winds.move(handle, pose)
 
     def remove(self, handle: int) -> None:
-        """Take a wind away that `add` returned; one that the game has deleted meanwhile is no error.
+        """Remove a wind that `add` returned; it is no error if its entity has been deleted meanwhile.
 
-        Raises TypeError for what is no handle, ValueError for a wind that has been removed before.
+        Raises TypeError for anything but a handle, ValueError for a wind that has been removed before.
         """
         self.winds.remove(handle)
 
     def cut(self, footprint: Footprint | Road, height: float, *, pose: Pose = HERE) -> None:
         """Cut the grass under a footprint or a road to `height` [m], until it is grown again.
 
-        Blades end at that height in calm air; shorter ones stay as they are. The footprint lies at `pose`; without one,
-        its corners are places of the world. Heights live on a map with cells of 0.2 m, and a cell is cut if its middle
-        is under the footprint. Raises TypeError for what is no footprint, height or pose; ValueError for a negative
-        height and a pose that is not finite; RuntimeError after `release`.
+        Blades end at that height in calm air; shorter ones stay as they are. The footprint lies at `pose`, by default
+        the scene's origin. Heights live on a map with cells of 0.2 m, and a cell is cut if its middle is under the
+        footprint. Raises TypeError for anything but a footprint, a height and a pose; ValueError for a negative height
+        and a pose that is not finite; RuntimeError after `release`.
         """
         self._must_be_there("cut its grass")
         self._mown.cut(footprint, height, pose)
 
     def grow(self, footprint: Footprint | Road, height: float = np.inf, *, pose: Pose = HERE) -> None:
-        """Let the grass that was cut under a footprint or a road stand up to `height` [m] again, or as it grows.
+        """Let cut grass under a footprint or a road stand up to `height` [m] again; without one, as high as it grew.
 
         Higher grass stays as it is. It raises the errors of `cut`.
         """
@@ -76,10 +76,10 @@ class Tending(Answering):
     ) -> None:
         """Let a kind grow under a footprint or a road with a density in [0, 1], at once and in every representation.
 
-        Other kinds give way as far as the sum would come to more than 1; flowers take no ground from them. Beside it
+        Densities of all kinds add up to 1 at most, so other kinds give way; flowers do not count. Beside the footprint
         the kind thins out over `soft` [m]. Densities live on a map with cells of 0.2 m. Raises ValueError for an
-        unknown kind, and for what is no density or width; TypeError for what is no footprint or pose; RuntimeError
-        after `release`.
+        unknown kind, and for a density or width out of range; TypeError for anything but a footprint and a pose;
+        RuntimeError after `release`.
         """
         self._must_be_there("sow on it")
         among = [each.plant == "flower" for each in self.scene.grass.values()]
@@ -89,7 +89,7 @@ class Tending(Answering):
         sow(self.site.ground.density, number, among, footprint, density, pose, soft=soft)
 
     def clear(self, footprint: Footprint | Road, *, soft: float = 0.0, pose: Pose = HERE) -> None:
-        """Let nothing grow under a footprint or a road, until it is sown again: a house's floor, a way.
+        """Let nothing grow under a footprint or a road, such as a house's floor, until you sow there again.
 
         Beside it grass thins out over `soft` [m]. It raises the errors of `sow`.
         """
@@ -97,13 +97,12 @@ class Tending(Answering):
         clear(self.site.ground.density, footprint, pose, soft=soft)
 
     def set_heights(self, corner: ArrayLike, heights: ArrayLike) -> None:
-        """Put other heights [m] into the ground, from its sample at `corner` (x, z) [m] on: a crater, a dike, a field.
+        """Change the ground's heights [m], from its sample at `corner` (x, z) [m] on: a crater, a dike, a field.
 
         `heights` (rows, columns) are samples at the terrain's own cell size, `site.ground.terrain.cell`, with row 0 at
-        the far edge (-z). Where one is NaN there is a hole from now on, as a scene's `holes` are, until there is a
-        height again. All that stands, hovers, flies and asks there is on the new ground at once; shadows that it
-        casts far may follow within some sixty frames. Raises ValueError for what are no heights, for a corner between
-        samples, and where any lies beyond the terrain; RuntimeError after `release`.
+        the far edge (-z). NaN makes a hole, as a scene's `holes` are, until there is a height again. Everything follows
+        at once; only long shadows may take some sixty frames. Raises ValueError for anything but heights, for a corner
+        between samples, and for heights beyond the terrain; RuntimeError after `release`.
         """
         self._must_be_there("change its ground")
         set_heights(self.site.ground.terrain, corner, heights)
@@ -111,10 +110,10 @@ class Tending(Answering):
     def shine(self, *, at_once: bool = False, **changes: object) -> None:
         """Change the light from the next frame on, by keys of `light:` in a scene: `shine(hour=17.5, clouds=0.4)`.
 
-        The other keys stay. No frame waits for it, so call it in every frame if you like. Clouds, haze and colours are
-        there at once. Where the sun moves, its sky is made out first; then sun, sky, exposure and the terrain's shadows
-        pass on together, within some sixty frames. With `at_once` the next frame waits for all of it: for a cut, or a
-        night that is slept through. Raises ValueError for an unknown key and a bad value, RuntimeError after `release`.
+        The other keys stay. You may call it in every frame. Clouds, haze and colours change at once. If the sun moves,
+        then sun, sky, exposure and the terrain's shadows follow together, within some sixty frames. With `at_once` the
+        next frame waits for all of it: for a cut, or a night that the player sleeps through. Raises ValueError for an
+        unknown key and a bad value, RuntimeError after `release`.
         """
         self._must_be_there("change its light")
         light = changed(self._shining.at(self.time), changes, name="light")
@@ -124,12 +123,12 @@ class Tending(Answering):
             self._shining.ask(light, time=self.time)
 
     def change_kind(self, name: str, *, over: float = 0.0, **keys: object) -> None:
-        """Let a kind of grass come to other values, by keys of `grass:` in a scene: `change_kind("lawn", gloss=0.2)`.
+        """Change a kind of grass, by keys of `grass:` in a scene: `change_kind("lawn", gloss=0.2)`.
 
         It takes `over` seconds of the prairie's time, and no frame waits for it. Colours, `variety`, `translucency`,
         `gloss` and `understorey` go from what they are to what they come to. Keys of a `head` join those that it has.
-        Raises ValueError for an unknown kind and for what is no time, SceneError with a sentence for each key that is
-        unknown or out of range, TypeError for what is no name, RuntimeError after `release`.
+        Raises ValueError for an unknown kind and a bad time, SceneError with a sentence for each key that is unknown or
+        out of range, TypeError for anything but a name, RuntimeError after `release`.
         """
         self._must_be_there("change a kind")
         if self.scene.number_of(name) is None:
@@ -142,7 +141,8 @@ class Tending(Answering):
         It is a 2D texture of moderngl's or pyglet's, or its number in GL, and is read as it says itself: with mip-maps,
         and repeating. It is laid over the terrain once, its first row at the far edge (-z), or comes again every `side`
         metres. Its texels are colours as sRGB has them, or `linear`. None brings the scene's own ground back. Raises
-        TypeError for what is no such texture, ValueError for a side that is no length, RuntimeError after `release`.
+        TypeError for anything but such a texture, ValueError for a side that is not above 0, RuntimeError after
+        `release`.
         """
         self._must_be_there("change its ground")
         one(Earth, self.features).hand_in(texture, side, linear=linear)
@@ -150,9 +150,9 @@ class Tending(Answering):
     def shadows(self, maps: Iterable[ShadowMap]) -> None:
         """Let a game's shadow maps darken ground and grass from the next frame on, in place of those before.
 
-        Of up to four, the first counts that a place lies in: give the finest first. They stay until others are handed
-        in, so their textures may be drawn anew for each frame; an empty list ends them. Raises TypeError for what are
-        no shadow maps, ValueError for more than four, RuntimeError after `release`.
+        Give up to four, the finest first: at each place the first one counts that it lies in. They stay until you give
+        others, so you may draw into their textures in every frame; an empty list removes them. Raises TypeError for
+        anything but shadow maps, ValueError for more than four, RuntimeError after `release`.
         """
         self._must_be_there("hand in shadow maps")
         one(Shadows, self.features).hand_in(maps, self._origin)
@@ -164,7 +164,7 @@ class Tending(Answering):
         It is a colour as the picture shows it, (red, green, blue) or "#a0b0c0". Or it is a function of unit vectors (x,
         0, z), shape (n, 3), that returns the colours of your sky there, (n, 3): it is asked at once, and again when you
         set it anew. A `linear` prairie takes radiance. How far one sees stays the scene's `light.haze`. Setting it
-        raises ValueError for what are no colours.
+        raises ValueError for anything but colours.
         """
         return one(GivenHaze, self.features).haze
 

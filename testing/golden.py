@@ -26,7 +26,7 @@ def same_picture(picture: ArrayLike, path: str | Path, /, *, tolerance: float, r
 
     What differs is written beside the recorded picture, as `NAME.differs.png`. With `record`, or with
     `TALLGRASS_RECORD=1` in the environment, the picture is recorded and nothing is compared; nothing else records one.
-    Raises ValueError for what is no picture.
+    Raises ValueError for anything but a picture.
     """
     place, drawn = Path(path), _picture(picture)
     beside = place.with_suffix(".differs.png")
