@@ -59,12 +59,12 @@ void main() {
     float t = float(gl_VertexID / 2) / float(SEGMENTS);
     vec2 message = swayed(foot.xz);
     vec2 bend = message + lean.xy * (1.0 - min(length(message), 1.0));
-    float angle = max(CURL * min(length(bend), 1.0), 1e-3);
+    float angle = max(CURL * min(length(bend), 1.0), LEAST_PART);
     vec2 spine = vec2(1.0 - cos(angle * t), sin(angle * t)) / angle * stem.z;
     vec2 across = vec2(-lean.w, lean.z) * (float(gl_VertexID % 2) * 2.0 - 1.0);
     float h = spine.y / (OF(crown, k) * lodged(message));
     color = light(k, t, lean.zw + ROUNDED * across, foot, h, message);
     across *= 0.5 * stem.w / share * pow(1.0 - t, kinds[k].taper);
-    vec2 over = normalize(bend + 1e-6) * spine.x + across;
+    vec2 over = normalize(bend + LEAST_LENGTH) * spine.x + across;
     gl_Position = clip * vec4(foot.x + over.x, foot.y + spine.y, foot.z + over.y, 1.0);
 }

@@ -65,7 +65,7 @@ Marks marks_at(vec2 place) {
     float angle = atan(place.x, -place.y), sector = round(angle / TURN * LAMPS), turn = sector / LAMPS * TURN;
     float middle = length(place), lamp = distance(place, LAMPS_AT * vec2(sin(turn), -cos(turn)));
     float ray = middle * sin(0.5 * TURN / LAMPS - abs(angle - turn));
-    return Marks(sector == 0.0, lamp, middle, ray, max(vec3(fwidth(lamp), fwidth(middle), fwidth(ray)), 1e-4));
+    return Marks(sector == 0.0, lamp, middle, ray, max(vec3(fwidth(lamp), fwidth(middle), fwidth(ray)), LEAST_WIDTH));
 }
 
 // How much of a line of this half width [m] at this distance from its middle a pixel sees.

@@ -40,7 +40,7 @@ void main() {
     }
     vec2 here = gl_Position.xy / gl_Position.w;
     vec2 run = (far.xy / far.w - here) * half_screen;
-    vec2 aside = vec2(-run.y, run.x) / max(length(run), 1e-6);
+    vec2 aside = vec2(-run.y, run.x) / max(length(run), LEAST_LENGTH);
     vec4 away = clip * vec4(axes * (side + beyond), 0.0);
     aside *= sign(dot(aside, (away.xy - here * away.w) * half_screen));
     gl_Position.xy += outside * aside / half_screen * gl_Position.w;

@@ -28,7 +28,7 @@ void main() {
     vec2 corner = cell * vec2(2.0 / float(ACROSS), 2.0 / float(UP)) - 1.0;
     ray = ray_ahead + corner.x * ray_across + corner.y * ray_up;
     vec3 toward = normalize(ray);
-    float c = dot(toward.xz, toward_sun) * inversesqrt(dot(toward.xz, toward.xz) + 1e-6);
+    float c = dot(toward.xz, toward_sun) * inversesqrt(dot(toward.xz, toward.xz) + LEAST_LENGTH);
     vec2 size = vec2(textureSize(sky, 0)), at = vec2(angle_of(clamp(c, -1.0, 1.0)) / PI, sqrt(max(toward.y, 0.0)));
     light = textureLod(sky, (at * (size - 1.0) + 0.5) / size, 0.0).rgb;
 #ifdef CLOUDS

@@ -1,5 +1,7 @@
 // A mark of the overlay: the corner of a triangle; with LINE, one instance is a line as wide as is asked in pixels;
 // with PAPER, four corners are an image.
+#include "lib/least.glsl"
+
 uniform mat4 onto;    // from the marks' space to clip space
 uniform vec2 screen;  // pixels from the middle to the edge, across and up
 uniform float scale;  // pixels for one of a picture 540 high
@@ -46,7 +48,7 @@ void main() {
         to -= whole * ((to.w - NEAR) / whole.w);
     vec2 run = (to.xy / to.w - from.xy / from.w) * screen;
     float far = length(run);
-    vec2 ahead = far > 1e-4 ? run / far : vec2(1.0, 0.0);
+    vec2 ahead = far > LEAST_WIDTH ? run / far : vec2(1.0, 0.0);
     vec2 aside = vec2(-ahead.y, ahead.x) * across + ahead * (2.0 * corner.x - 1.0) * 0.5 * half_width;
     vec4 end = mix(from, to, corner.x);
     gl_Position = end + vec4(aside / screen * end.w, 0.0, 0.0);

@@ -1,5 +1,6 @@
 // What grass feels of those who walk through it: the twin of systems/press/lie.py. `systems/press/card.py` fills the texture.
 #include "lib/kinds.glsl"
+#include "lib/least.glsl"
 #include "systems/press/card.py"
 #include "systems/press/lie.py"
 #include "systems/press/marks.py"
@@ -21,7 +22,7 @@ vec4 texel_of(int number) {
 }
 
 vec2 unit(vec2 vector) {
-    return vector / max(length(vector), 1e-9);
+    return vector / max(length(vector), LEAST_SQUARE);
 }
 
 // The index after a constant wind stopped: 1 before, past 0 and back to 0.
@@ -51,7 +52,7 @@ vec2 left_at(Lying lying, float then, int kind, out vec2 towards) {
 void touch(inout Lying lying, int mark, vec2 place, int kind) {
     vec4 ends = texel_of(mark), times = texel_of(mark + 1), how = texel_of(mark + 2);
     vec2 from_first = place - ends.xy, way = ends.zw - ends.xy;
-    float reach = times.w, size = length(way), small = max(size, 1e-6);
+    float reach = times.w, size = length(way), small = max(size, LEAST_LENGTH);
     vec2 along = way / small;
     float at = dot(from_first, along), aside = from_first.x * along.y - from_first.y * along.x;
     vec2 off = from_first - clamp(at, 0.0, size) * along;
@@ -59,7 +60,7 @@ void touch(inout Lying lying, int mark, vec2 place, int kind) {
     if (far >= reach)
         return;
     // The disc's edge comes and goes: what it holds at the end it holds until it leaves.
-    bool still = size < 1e-6;
+    bool still = size < LEAST_LENGTH;
     float half_way = sqrt(max(reach * reach - aside * aside, 0.0)), took = times.y - times.x;
     float enter = (at - half_way) / small, leave = (at + half_way) / small;
     float begun = times.x + (still ? 0.0 : clamp(enter, 0.0, 1.0) * took);

@@ -7,12 +7,12 @@ const float LAWN_REACHES = 0.4;  // of the light from below, what comes to the d
 // How much of the sun comes through the crown where so many leaves are met, by the direction to it, in the tree's own axes, and a
 // constant; it has so many of its leaves.
 float through_crown(vec4 shading, vec3 to_sun, float foliage) {
-    return through_leaves(foliage * max(dot(shading, vec4(to_sun, 1.0)), 0.0));
+    return comes_through(foliage * max(dot(shading, vec4(to_sun, 1.0)), 0.0));
 }
 
 // How much of the sky is seen from there, which lies above all round.
 float sky_through(vec4 shading, float foliage) {
-    return through_leaves(SKY_MEETS_LESS * foliage * max(shading.w + SKY_FROM * shading.y, 0.0));
+    return comes_through(SKY_MEETS_LESS * foliage * max(shading.w + SKY_FROM * shading.y, 0.0));
 }
 
 // The light of the sky and from below on a face there that looks so far up, -1 to 1.

@@ -31,7 +31,7 @@ vec2 corner_here() {
 void choose(vec3 from) {
     float column = atan(from.x, from.z) / AROUND * float(COLUMNS);
     column = column < 0.0 ? column + float(COLUMNS) : column;
-    float up = asin(clamp(from.y, -1.0, 1.0)), row = clamp((up - FIRST_ROW) / EACH_ROW, 0.0, float(ROWS) - 1.0 - 1e-3);
+    float up = asin(clamp(from.y, -1.0, 1.0)), row = clamp((up - FIRST_ROW) / EACH_ROW, 0.0, float(ROWS) - 1.0 - LEAST_PART);
     vec2 first = floor(vec2(column, row)), part = vec2(column, row) - first;
     rows_of = vec4(mod(first.x, float(COLUMNS)), first.y, mod(first.x + 1.0, float(COLUMNS)), first.y + 1.0);
     mixed = smoothstep(MIXES.x, MIXES.y, part);

@@ -1,4 +1,5 @@
 // Leaves: their outlines, and how they send light.
+#include "lib/least.glsl"
 #include "systems/trees/habit.py"
 #include "systems/trees/shown.glsl"
 
@@ -38,8 +39,8 @@ const vec2 NEEDLES_BLUR = vec2(0.8, 0.45);  // pixel from which on they blur, of
 // How much of a pixel is needles, which part from their foot.
 float needles_cover(vec2 on) {
     float fan = on.x / (TUFT_FOOT + (1.0 - TUFT_FOOT) * on.y), each = abs(fract(fan * TUFT_NEEDLES) - 0.5) * 2.0;
-    float needle = each - 0.5 - NEEDLE_TAPERS * on.y, soft = max(fwidth(fan) * (2.0 * TUFT_NEEDLES), 1e-4);
-    float ends = clamp((1.0 - TUFT_ROUNDED * abs(fan) - on.y) / max(fwidth(on.y), 1e-4) + 0.5, 0.0, 1.0);
+    float needle = each - 0.5 - NEEDLE_TAPERS * on.y, soft = max(fwidth(fan) * (2.0 * TUFT_NEEDLES), LEAST_WIDTH);
+    float ends = clamp((1.0 - TUFT_ROUNDED * abs(fan) - on.y) / max(fwidth(on.y), LEAST_WIDTH) + 0.5, 0.0, 1.0);
     float cover = mix(clamp(needle / soft + 0.5, 0.0, 1.0), NEEDLES_BLUR.y, clamp(soft - NEEDLES_BLUR.x, 0.0, 1.0));
     return cover * ends * step(abs(fan), 1.0);
 }
@@ -48,7 +49,7 @@ float needles_cover(vec2 on) {
 float leaf_cover(vec2 on) {
     if (form == NEEDLES)
         return needles_cover(on);
-    return sharpened(half_width(clamp(on.y, 1e-3, 1.0 - 1e-3)) - abs(on.x), 0.0, 1e-4);
+    return sharpened(half_width(clamp(on.y, LEAST_PART, 1.0 - LEAST_PART)) - abs(on.x), 0.0, LEAST_WIDTH);
 }
 
 const vec3 LEAF_THROUGH = vec3(0.92, 1.08, 0.42);  // light that leaves let through, of what they send back: more yellow

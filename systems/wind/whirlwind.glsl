@@ -1,13 +1,13 @@
 // The twin of systems/wind/whirlwind.py.
 
-const float EYE = 0.3, UNEVEN = 0.18, FALLS = 0.85;
+const float EYE = 0.3, UNEVEN = 0.18, FALLS = 0.85, LEAST_AWAY = 1e-6;
 
 float mask(vec2 place, Whirlwind whirl) {
     return rim(length(place), -whirl.radius, whirl.radius, whirl.side);
 }
 
 vec2 action(vec2 place, Whirlwind whirl) {
-    float away = max(length(place), 1e-6), part = min(away / whirl.radius, 1.0);
+    float away = max(length(place), LEAST_AWAY), part = min(away / whirl.radius, 1.0);
     vec2 out_there = place / away;
     // The cosine of twice the angle around, less the phase, whose cosine and sine come along.
     vec2 twice = vec2(out_there.x * out_there.x - out_there.y * out_there.y, 2.0 * out_there.x * out_there.y);

@@ -1,5 +1,6 @@
 // The canopy as a medium: how high it stands, how much leaf area is above a height, and what light gets through it.
 #include "lib/sown.glsl"
+#include "lib/through.glsl"
 #include "systems/space/canopy.py"
 
 // How high the canopy stands where `bend` bends it, of its height at rest: where all grass lies, its tips are the top.
@@ -39,13 +40,4 @@ const float FLATTEST_SUN = 0.08;  // sine of the sun's elevation over the slope 
 float sun_way(int kind, float high) {
     high = max(high, FLATTEST_SUN);
     return sqrt(1.0 - min(high * high, 1.0)) / high + OF(lying, kind);
-}
-
-// What comes through so many leaves: they hide one another by chance (Beer, 1852; Monsi and Saeki, 1953).
-float through_leaves(float leaves) {
-    return exp(-leaves);
-}
-
-vec2 through_leaves(vec2 leaves) {
-    return exp(-leaves);
 }

@@ -1,6 +1,7 @@
 // What every program knows of a frame, and of the kinds of grass.
 #include "systems/frame/block.py"
 #include "lib/kinds.glsl"
+#include "lib/least.glsl"
 
 // How much is to be added to depth in clip space, of that of the usual one, to lie so much farther off.
 float farther_by(float depth) {

@@ -35,7 +35,7 @@ Shine lamp_at(int number, vec3 place) {
     vec4 stands = told[0], shines = told[1], aims = told[2];
     vec3 way = stands.xyz - place;
     float far = dot(way, way), part = far * stands.w, window = max(1.0 - part * part, 0.0);
-    vec3 from = way * inversesqrt(max(far, 1e-9));
+    vec3 from = way * inversesqrt(max(far, LEAST_SQUARE));
     float within = clamp(aims.w - shines.w * dot(aims.xyz, from), 0.0, 1.0);
     return Shine(shines.rgb * (window * window * within * within / max(far, NEAREST_LAMP * NEAREST_LAMP)), from);
 }

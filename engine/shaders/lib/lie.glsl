@@ -31,7 +31,7 @@ Lie lie_at(vec2 place) {
     vec4 still = textureLod(lie, at, 0.0);
     float before = textureLod(lie, vec2(at.x + 0.5, at.y), 0.0).r;
     float up = sqrt(max(1.0 - dot(still.xy, still.xy), 0.0)), high = dot(sun.xz, still.xy) + sun.y * up;
-    float rise = max(sun.y, LOWEST_SUN) / max(length(sun.xz), 1e-4);
+    float rise = max(sun.y, LOWEST_SUN) / max(length(sun.xz), LEAST_WIDTH);
     return Lie(max(high, 0.0), smoothstep(-PENUMBRA, PENUMBRA, rise - before), still.zw, vec3(still.x, up, still.y));
 }
 

@@ -34,7 +34,7 @@ const float FACING = 0.43;
 vec2 faces_seen(int kind, vec3 lean, vec3 ray) {
     vec2 across = cross(lean, ray).xz;
     float lies = OF(lying, kind) * lean.y * ray.y, all = dot(across, across);
-    return FACING / max(all + lies * lies, 1e-9) * vec2(across.y * across.y - across.x * across.x, -2.0 * across.x * across.y);
+    return FACING / max(all + lies * lies, LEAST_SQUARE) * vec2(across.y * across.y - across.x * across.x, -2.0 * across.x * across.y);
 }
 
 // A mean of what kinds look like near the ground, where each has so much of its tip's colour.
@@ -42,5 +42,5 @@ vec3 low_pigment(ByKind weights, ByKind tipped) {
     vec3 low = vec3(0.0);
     for (int kind = 0; kind < KINDS; kind++)
         low += OF(weights, kind) * pigment_at(kind, OF(tipped, kind));
-    return low / max(total(weights), 1e-3);
+    return low / max(total(weights), LEAST_PART);
 }

@@ -18,13 +18,13 @@ vec2 bending(int kind, vec2 message) {
     int lengths = give.length() / 4;
     float size = length(message), at = min(size, 1.0) * float(lengths - 1);
     int low = min(int(at), lengths - 2), row = GROUP(kind) * lengths + low, own = IN_GROUP(kind);
-    return message / max(size, 1e-9) * mix(give[row][own], give[row + 1][own], at - float(low));
+    return message / max(size, LEAST_SQUARE) * mix(give[row][own], give[row + 1][own], at - float(low));
 }
 
 // The point `t` of a blade of length 1 for a bending vector.
 Spine posture(float variant, vec2 bend, float t) {
     float index = length(bend);
-    vec2 heading = bend / max(index, 1e-6);
+    vec2 heading = bend / max(index, LEAST_LENGTH);
     float column = (t * posture_links + 0.5) / (posture_links + 1.0);
     float row = ((0.5 + 0.5 * min(index, 1.0)) * (posture_rows - 1.0) + 0.5) / posture_rows;
     vec4 at = textureLod(postures, vec3(column, row, variant), 0.0);

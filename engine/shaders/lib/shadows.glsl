@@ -65,7 +65,7 @@ vec4 ray_by(vec3 apart, vec3 axis, float pressed, float radius) {
     float before = dot(way, ray) / dot(ray, ray), along = dot(apart, sun);
     vec3 by = (way - ray * before) / radius;
     // The farther a shadow falls, the softer is its edge.
-    float soft = SHADOW_EDGE + SHADOW_SOFTER * abs(along) * max(length(by), 1e-3) / max(length(apart - sun * along), 1e-3 * radius);
+    float soft = SHADOW_EDGE + SHADOW_SOFTER * abs(along) * max(length(by), LEAST_PART) / max(length(apart - sun * along), LEAST_PART * radius);
     return vec4(before > 0.0 ? by : vec3(FAR_OFF), soft);
 }
 
@@ -81,7 +81,7 @@ float past_body(float near, float soft) {
 // How much of it is seen past a capsule: so far away, along an axis as long as `reach` to either end.
 float past_capsule(vec3 apart, vec3 axis, float reach, float radius) {
     float lean = dot(axis, sun), aside = dot(axis, apart), before = dot(apart, sun);
-    float at = clamp((lean * before - aside) / max(1.0 - lean * lean, 1e-6), -reach, reach);
+    float at = clamp((lean * before - aside) / max(1.0 - lean * lean, LEAST_LENGTH), -reach, reach);
     float along = max(before + at * lean, 0.0);
     at = clamp(along * lean - aside, -reach, reach);
     return past_body(length(apart + at * axis - along * sun) / radius, (SHADOW_CRISP + SHADOW_SOFTER * along) / radius);
@@ -91,8 +91,8 @@ const vec2 SQUARE_ON = vec2(1e-4, 1e-3);  // what an edge seen from its end is l
 
 // How much of it is seen past a box: so far away, and the sun's direction, along its axes.
 float past_box(vec3 apart, vec3 toward, vec3 size) {
-    vec3 steep = mix(vec3(-1e-6), vec3(1e-6), greaterThanEqual(toward, vec3(0.0)));
-    steep = mix(toward, steep, lessThan(abs(toward), vec3(1e-6)));
+    vec3 steep = mix(vec3(-LEAST_LENGTH), vec3(LEAST_LENGTH), greaterThanEqual(toward, vec3(0.0)));
+    steep = mix(toward, steep, lessThan(abs(toward), vec3(LEAST_LENGTH)));
     vec3 enters = (apart - sign(steep) * size) / steep, leaves = (apart + sign(steep) * size) / steep;
     if (min(min(leaves.x, leaves.y), leaves.z) <= 0.0)
         return 1.0;

@@ -56,7 +56,7 @@ const float EDGE_ON = 0.4;  // of the breadth of real blades, what painted ones 
 const float BOOSTED = 0.95;  // how much of the factor is taken: leaves hide leaves
 
 float broader(float whole, float painted) {
-    return mix(1.0, whole / max(max(abs(painted), EDGE_ON * whole), 1e-9), BOOSTED);
+    return mix(1.0, whole / max(max(abs(painted), EDGE_ON * whole), LEAST_SQUARE), BOOSTED);
 }
 
 // Factor on what blades on a strip cover. They are painted as if all faced the way the strip does, which runs along `run` and

@@ -70,10 +70,10 @@ Response leaf_response(int kind, vec2 bend, vec3 place, vec3 from, float high) {
     // Leaves that face all ways send back what the eye sees lit, and let through what it sees against the light.
     float back = 0.5 - 0.5 * facing, against = 1.0 - back;
     vec3 phase = back * sqrt(back) + against * sqrt(against) * kinds[kind].through;
-    float lies = min(dot(bend, bend), 1.0), face = 1.0 + LIES_OPEN * lies + LEANS_AWAY * dot(bend, normalize(ray.xz + 1e-6));
+    float lies = min(dot(bend, bend), 1.0), face = 1.0 + LIES_OPEN * lies + LEANS_AWAY * dot(bend, normalize(ray.xz + LEAST_LENGTH));
     // A blade mirrors light along itself like a thread (Kajiya and Kay, Rendering Fur, 1989).
     vec3 spine = normalize(vec3(SPINE.x * bend, 1.0 - SPINE.y * length(bend)).xzy), half_way = from - ray;
-    float along = dot(spine, half_way), thread = 1.0 - along * along / max(dot(half_way, half_way), 1e-9);
+    float along = dot(spine, half_way), thread = 1.0 - along * along / max(dot(half_way, half_way), LEAST_SQUARE);
     thread *= thread;
     thread *= thread;
     return Response(phase * (face * mix(SIDELONG, 1.0, high)), vec3(face), kinds[kind].gloss * thread * thread);
@@ -196,7 +196,7 @@ vec3 told_beside(mat4 light) {
 vec3 shade(Surface surface, Light light) {
     vec3 albedo = surface.pigment * surface.pigment;
     float over = max(leaves_above(surface.height, light.leaves), 0.0);  // grass that lies flat stands lower than its cut
-    vec2 seen = through_leaves(vec2(light.way, OPEN_SKY) * over);
+    vec2 seen = comes_through(vec2(light.way, OPEN_SKY) * over);
     vec3 received = light.sun * seen.x + light.sky * seen.y + albedo * light.sun * (surface.among * seen.y);
     return albedo * received + sunlight * (light.gloss * seen.x) + light.haze;
 }

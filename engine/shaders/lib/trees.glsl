@@ -1,5 +1,6 @@
 // What trees leave of the light: of the sun's along its rays, and of the sky's from above. Programs of scenes without trees know
 // nothing of them: those of others are told TREES.
+#include "lib/through.glsl"
 #ifdef TREES
 #include "lib/frame.glsl"
 #include "systems/trees/shade.py"
@@ -23,14 +24,14 @@ float leaves_before(vec3 place, float beyond) {
     vec2 near_at = (at - trees_middle.xy) / trees_sides.x, far_at = (at - trees_middle.zw) / trees_sides.y;
     float near_out = max(abs(near_at.x), abs(near_at.y)), far_out = max(abs(far_at.x), abs(far_at.y));
     vec2 met = near_out < MAP_RIM ? shade_in(0.5 + near_at, 0.0, 0.0) : far_out < MAP_RIM ? shade_in(0.5 + far_at, 1.0, 0.0) : vec2(0.0);
-    float mean = met.y / max(met.x, 1e-3), own = dot(place, sun) + beyond;
+    float mean = met.y / max(met.x, LEAST_PART), own = dot(place, sun) + beyond;
     float fades = near_out < MAP_RIM ? 1.0 : 1.0 - smoothstep(MAP_RIM - RIM_FADES, MAP_RIM, far_out);
     return met.x * fades * smoothstep(STANDS_BEFORE.x, STANDS_BEFORE.y, mean - own);
 }
 
 // How much of the sun is seen past trees, but for a crown that the place is in and that goes on so far towards it [m].
 float past_trees(vec3 place, float beyond) {
-    return exp(-leaves_before(place, beyond));
+    return comes_through(leaves_before(place, beyond));
 }
 
 // How much of the sky is left above a place.
@@ -38,6 +39,6 @@ float sky_past_trees(vec3 place) {
     vec2 at = (place.xz - trees_sky.xy) / trees_sky.z;
     if (max(abs(at.x), abs(at.y)) > MAP_RIM)
         return 1.0;
-    return exp(-SKY_MEETS * shade_in(0.5 + at, 2.0, SKY_LEVEL).x);
+    return comes_through(SKY_MEETS * shade_in(0.5 + at, 2.0, SKY_LEVEL).x);
 }
 #endif

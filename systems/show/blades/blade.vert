@@ -171,7 +171,7 @@ void main() {
 
     bool is_itself = is_blade(int(blade.organ));
     bool has_section = is_itself && kinds[k].apart > 0.0, is_round = is_itself && kinds[k].narrowed < 0.0;
-    vec2 across = is_round ? normalize(blade.root.xz - eye.xz + 1e-6) : blade.facing;
+    vec2 across = is_round ? normalize(blade.root.xz - eye.xz + LEAST_LENGTH) : blade.facing;
     across = vec2(-across.y, across.x);
     lie_of = vec4(bent(blown * give_of(int(blade.organ)), blade.rest), 0.5 * blade.width * across);
 

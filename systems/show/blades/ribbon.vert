@@ -58,7 +58,7 @@ float profile(float t, float taper, float segments) {
     float narrower = kinds[int(joints.z)].narrowed;
     if (t > AT_TIP) {
         float blunt = pow(segments, -taper) * max((1.0 - taper) / (1.0 + taper), 0.0);
-        return narrower < 0.0 ? blunt : min(blunt, POINTED * distance(foot.xyz, eye) / max(length(lie_of.zw), 1e-6));
+        return narrower < 0.0 ? blunt : min(blunt, POINTED * distance(foot.xyz, eye) / max(length(lie_of.zw), LEAST_LENGTH));
     }
     float waist = max(narrower, 0.0) * min(WIDENS * segments, 1.0);
     return pow(max(1.0 - t, 0.0), taper) * (1.0 - waist * max(1.0 - t / WIDENS, 0.0));
@@ -112,7 +112,7 @@ vec4 widened(Point point) {
     vec4 ahead = clip * vec4(point.tangent, 0.0);
     vec2 run = (ahead.xy * middle.w - middle.xy * ahead.w) * half_screen;
     vec2 wide = (edge.xy * middle.w - middle.xy * edge.w) * half_screen / (middle.w * middle.w);
-    vec2 normal = vec2(-run.y, run.x) / max(length(run), 1e-9);
+    vec2 normal = vec2(-run.y, run.x) / max(length(run), LEAST_SQUARE);
     half_width = abs(dot(wide, normal));
     aside = (half_width + 0.5) * (gl_VertexID % 2 == 0 ? -1.0 : 1.0);
     middle.xy += normal * aside / half_screen * middle.w;

@@ -118,7 +118,7 @@ vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
     ByKind area = all_kinds(0.0);
     if (anything_is_cut()) {
         area = areas(grows_at(place.xz));
-        stubble -= through_leaves(weighed(area, leaves_left(left)) / max(sight.slope, LOWEST));
+        stubble -= comes_through(weighed(area, leaves_left(left)) / max(sight.slope, LOWEST));
     }
 #ifndef HEADS
     canopy.bent.yz *= higher(sight.on_level, dense);
@@ -140,7 +140,7 @@ vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
 // How much of what is behind an outline the grass hides, that of a crest or of a rim.
 float hides_behind(float slope, float stands_out) {
     if (past < NO_RIM)
-        return 1.0 - through_leaves(RIM * dense * sqrt(stands_out) * past * past);
+        return 1.0 - comes_through(RIM * dense * sqrt(stands_out) * past * past);
     return outline_cover(slope, crest, tall, stands, dense, stands_out);
 }
 
@@ -148,8 +148,8 @@ float hides_behind(float slope, float stands_out) {
 float before_rim(float slope) {
     vec2 way = heading_to(place.xz), rim = abs(mix(mesh_low, mesh_high, step(0.0, way)) - place.xz);
     float on = min(rim.x / max(abs(way.x), TINY), rim.y / max(abs(way.y), TINY)), leaves = dense / max(slope, LOWEST);
-    float met = 1.0 - through_leaves(dense * on / max(carpet * tall, LOWEST_GRASS));
-    return min(met / max(1.0 - through_leaves(leaves), TINY), 1.0);
+    float met = 1.0 - comes_through(dense * on / max(carpet * tall, LOWEST_GRASS));
+    return min(met / max(1.0 - comes_through(leaves), TINY), 1.0);
 }
 
 #ifdef EDGED
@@ -190,7 +190,7 @@ void main() {
     float slope = viewing_slope(rise, place), left = left_seen(place.xz), ahead = rises_ahead(place.xz, tall);
     work_out(slope);
 #endif
-    vec3 pigment = pigment_lying(place.xz, through_leaves(dense / max(slope, LOWEST)), lush, left);
+    vec3 pigment = pigment_lying(place.xz, comes_through(dense / max(slope, LOWEST)), lush, left);
     vec3 ground = met_at(0.0, slope);
     vec3 soil_light = soil_between(Soil(soil_seen, sunlit, skylit, soil_way), ground, left);
     vec3 color = shown_of(soil_light * pigment * pigment + lit[2].rgb);

@@ -16,7 +16,7 @@ float lot(int number) {
 }
 
 void main() {
-    float met = -log(max(1.0 - lot(0), 1e-6));  // leaves that it meets before it is stopped
+    float met = -log(max(1.0 - lot(0), LEAST_LENGTH));  // leaves that it meets before it is stopped
     if (met > stops || lot(1) > carpet)
         discard;
     vec3 from = normalize(light - place);

@@ -108,7 +108,7 @@ float hidden_behind(Way way, float at, bool aside, ByKind area, float left) {
             return 1.0;
         there += NEARLY_HALF * step;
         if (below_top(way, there) < 0.0)  // over a crest, outlines say how much is hidden
-            return over_ground(way, there) > way.high ? 1.0 : 1.0 - through_leaves(max(met, 0.0));
+            return over_ground(way, there) > way.high ? 1.0 : 1.0 - comes_through(max(met, 0.0));
     }
     return 1.0;
 }

@@ -25,11 +25,11 @@ struct Met {
 
 // Take in a layer that has so much leaf of each kind, and such parts of heads, as far as the line of sight is `inside`.
 void take_in(inout Met met, ByKind stop, ByKind heads, ByKind grows, float inside, float slope) {
-    float sum = weighed(stop, grows), image_slope = max(slope, LOWEST), stopped = met.through * (1.0 - through_leaves(inside * sum / slope));
+    float sum = weighed(stop, grows), image_slope = max(slope, LOWEST), stopped = met.through * (1.0 - comes_through(inside * sum / slope));
     for (int group = 0; group < GROUPS; group++) {
         vec4 share = stopped * stop[group] * grows[group] / max(sum, THINNEST_LAYER);
         vec4 alone = met.through_alone[group];
-        alone *= 1.0 - vec4(through_leaves(stop[group].xy / image_slope), through_leaves(stop[group].zw / image_slope));
+        alone *= 1.0 - vec4(comes_through(stop[group].xy / image_slope), comes_through(stop[group].zw / image_slope));
         met.all[group] += share;
         met.heads[group] += share * heads[group];
         met.alone[group] += alone;
@@ -74,5 +74,5 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind 
 
 // How much an image of a kind hides where it grows densely and alone; one with heads is taken in parts of its mean.
 float hidden_by_image(int kind, float slope) {
-    return OF(bears, kind) > 0.0 ? 1.0 : 1.0 - through_leaves(OF(leaf, kind) / slope);
+    return OF(bears, kind) > 0.0 ? 1.0 : 1.0 - comes_through(OF(leaf, kind) / slope);
 }

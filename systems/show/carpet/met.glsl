@@ -24,7 +24,7 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind 
             OF(stop, kind) = OF(grows, kind) * OF(leaf, kind) * 2.0 * max(1.0 - height / canopy_height, 0.0) * top / canopy_height;
         }
         float sum = total(stop);
-        float stopped = through * (1.0 - through_leaves(part * sum / slope));
+        float stopped = through * (1.0 - comes_through(part * sum / slope));
         for (int group = 0; group < GROUPS; group++)
             met[group] += stopped * stop[group] / max(sum, THINNEST_LAYER);
         through -= stopped;
@@ -34,7 +34,7 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind 
 
 // How much an image of a kind hides where it grows densely and alone.
 float hidden_by_image(int kind, float slope) {
-    return 1.0 - through_leaves(OF(leaf, kind) / slope);
+    return 1.0 - comes_through(OF(leaf, kind) / slope);
 }
 #endif
 
@@ -45,7 +45,7 @@ ByKind shared_out(ByKind met, ByKind grows, float slope) {
     float all = max(total(met), THINNEST_LAYER), alone = 0.0;
     for (int kind = 0; kind < KINDS; kind++)
         alone += OF(met, kind) / all * hidden_by_image(kind, slope);
-    float hides = (1.0 - through_leaves(total(areas(grows)) / slope)) / max(alone, TINY);
+    float hides = (1.0 - comes_through(total(areas(grows)) / slope)) / max(alone, TINY);
     for (int group = 0; group < GROUPS; group++)
         met[group] = met[group] / all * hides;
     return met;

@@ -14,7 +14,7 @@ const float WHOLE = 0.999;    // and one that covers more all
 float outline_cover(float slope, float crest, float tall, float stands, float dense, float stands_out) {
     slope = max(slope, TINY);
     float deep = deepest(slope, crest, tall * stands);
-    float hidden = 1.0 - through_leaves(CREST * dense / slope * stands_out * deep * deep);
+    float hidden = 1.0 - comes_through(CREST * dense / slope * stands_out * deep * deep);
     return mix(1.0, hidden, smoothstep(0.0, 2.0 * LOWEST_GRASS, tall));  // bare ground is its own outline
 }
 

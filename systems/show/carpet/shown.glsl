@@ -80,7 +80,7 @@ vec4 kind_seen(int kind, Patch own, Reading read, Sight sight, float grain, View
         light = shaded(light, past_casters(met_at(texel.height * OF(crown, kind), sight.slope)), 1.0);
     if (any_lamps())
         light = with_lamps(light, view.lamps);
-    float bent = max(1.0 - (1.0 - texel.covers) * through_leaves(view.bent.x), 0.0);
+    float bent = max(1.0 - (1.0 - texel.covers) * comes_through(view.bent.x), 0.0);
 #ifdef HEADS
     float ripe = OF(riper, kind);
     texel.place += ripe * (ripe > 0.0 ? 1.0 - texel.place : texel.place);

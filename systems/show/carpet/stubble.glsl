@@ -15,6 +15,6 @@ vec3 soil_between(Soil soil, vec3 at, float left) {
     if (!anything_is_cut() && !any_casters())
         return soil.seen;
     float seen = any_casters() ? past_casters(at) : 1.0;
-    vec2 through = through_leaves(vec2(soil.way, OPEN_SKY) * weighed(areas(grows_at(at.xz)), leaves_left(left)));
+    vec2 through = comes_through(vec2(soil.way, OPEN_SKY) * weighed(areas(grows_at(at.xz)), leaves_left(left)));
     return soil.sunlit * (through.x * seen) + soil.skylit * through.y;
 }

@@ -47,7 +47,7 @@ float grown(float covers, float rank, float level) {
 // How much of a strip is left where grass is cut.
 float left_of(float top) {
     float left = clamp((top - roots.z) * cut.y + 0.5, 0.0, 1.0);
-    return is_mown(top) ? left * smoothstep(SUNKEN * cut.z, max(cut.z, 1e-6), top) : left;
+    return is_mown(top) ? left * smoothstep(SUNKEN * cut.z, max(cut.z, LEAST_LENGTH), top) : left;
 }
 #endif
 

@@ -116,8 +116,8 @@ vec2 on_screen(vec4 from, vec3 way) {
 float apart_at(vec3 middle, vec2 run, vec3 stem) {
     vec4 from = clip * vec4(middle, 1.0);
     vec2 beside = on_screen(from, vec3(run.x, 0.0, run.y)), along = on_screen(from, stem);
-    float between = abs(beside.x * along.y - beside.y * along.x) / max(length(along), 1e-6);
-    return max(max(between, NARROWEST * length(beside)), 1e-3);
+    float between = abs(beside.x * along.y - beside.y * along.x) / max(length(along), LEAST_LENGTH);
+    return max(max(between, NARROWEST * length(beside)), LEAST_PART);
 }
 
 // Where a point of an edge is, `t` of the way up its section's quads, and its height in the canopy.
@@ -162,7 +162,7 @@ int shading(vec3 a, vec3 b) {
     for (int body = 0; body < BODIES && bodies[body].radius > 0.0; body++) {
         vec4 from = ray_by(body, a), to = ray_by(body, b);
         vec3 way = to.xyz - from.xyz, near = vec3(dot(from.xyz, from.xyz), 2.0 * dot(from.xyz, way), dot(way, way));
-        float at = clamp(-0.5 * near.y / max(near.z, 1e-6), 0.0, 1.0), nearness = near.x + at * (near.y + at * near.z);
+        float at = clamp(-0.5 * near.y / max(near.z, LEAST_LENGTH), 0.0, 1.0), nearness = near.x + at * (near.y + at * near.z);
         if (nearness < least) {
             least = nearness;
             nearest = body;

@@ -72,7 +72,7 @@ def met(kind: GrassKind, growth: Growth, elevation: float, height: float, densit
 SEEN = """#include "lib/canopy.glsl"
 in vec4 row;
 out float told;
-void main() { told = through_leaves(sun_way(0, row.x) * leaves_above(row.y, vec2(0.0, row.z))); }"""
+void main() { told = comes_through(sun_way(0, row.x) * leaves_above(row.y, vec2(0.0, row.z))); }"""
 
 
 def closed_form(
