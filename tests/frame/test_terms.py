@@ -26,6 +26,7 @@ Shot = Callable[["Seen"], Picture]
 
 SCENE = """\
 tallgrass: 2
+seed: 39  # a thick cloud stands before the sun there, where the sky has half as many as it can hold
 terrain: {{ heights: {folder}/{ground}.npy, scale: 1 }}
 grass: {{ turf: {{ height: [0.4, 0.6], width: 0.035, blades: 800, variety: 0, {turf} }} }}
 light: {{ azimuth: {azimuth}, elevation: {elevation}, haze: {haze}, {light} }}
@@ -82,7 +83,7 @@ TERMS = {
         Seen(elevation=65.0, light=NIGHT), Seen(elevation=20.0, light=NIGHT), 0.45, missed=0.075
     ),
     "shadow of the terrain": Term(Seen(LEFT, 15.0), Seen(LEFT, 15.0, ground="ridge"), 0.3),
-    "shadow of clouds": Term(Seen(), Seen(light="clouds: 0.75"), 0.14),
+    "shadow of clouds": Term(Seen(), Seen(light="clouds: 0.5"), 0.28),
     "shadow of a body": Term(Seen(), Seen(shade=True), 0.25),
     "haze": Term(Seen(), Seen(haze=30.0), 0.9),
     "gloss": Term(Seen(BEHIND, 20.0, turf="gloss: 0"), Seen(BEHIND, 20.0, turf="gloss: 1"), 0.12, missed=0.3),
