@@ -217,8 +217,8 @@ def _presets() -> str:
         "|---|---|---|---|---|",
     ]
     rows += [_preset(name, quality) for name, quality in PRESETS.items()]
-    fewer = (f"`{name}` {quality.pixels:g}" for name, quality in PRESETS.items() if quality.pixels < 1.0)
-    rows += ["", f"Of the picture's pixels, across and up, all draw 1 but {', '.join(fewer)}."]
+    fewer = (f"{quality.pixels:g} in `{name}`" for name, quality in PRESETS.items() if quality.pixels < 1.0)
+    rows += ["", f"`pixels` is {', '.join(fewer)}, and 1 in all others."]
     return "\n".join(rows)
 
 

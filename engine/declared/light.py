@@ -6,7 +6,7 @@ from ...components.declaration import Color, Declaration
 
 
 class Light(Declaration):
-    """The one light that all three representations, the ground and the sky are drawn in."""
+    """Sun, sky, clouds and haze, which light grass and ground."""
 
     azimuth: float = Field(default=140.0, ge=-360.0, le=360.0)
     """Direction the sun stands in without an `hour`, as a camera's yaw: 0 is -z, 90 is +x [degrees]."""

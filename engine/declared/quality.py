@@ -67,7 +67,7 @@ class Quality(Declaration):
     """Texels along a side of a carpet image."""
 
     pixels: float = Field(default=1.0, ge=0.25, le=1.0)
-    """Pixels that are drawn, across and up, of those of the picture."""
+    """Part of the picture's width and height that is drawn; below 1 it is scaled up afterwards."""
 
     @model_validator(mode="after")
     def _rising_rings(self) -> "Quality":

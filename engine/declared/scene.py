@@ -127,13 +127,13 @@ class Scene(Declaration):
     """Sun, sky and haze."""
 
     lamps: list[LampOnPath] = Field(default=[], max_length=256)
-    """What shines beside them."""
+    """Lamps besides sun and sky."""
 
     trees: dict[str, TreeKind] = Field(default={}, max_length=MOST_TREES)
     """Kinds of trees and bushes by name."""
 
     parts: list[PartName] = Field(default=list(PARTS), max_length=len(PARTS))
-    """Parts that are drawn unless a game says otherwise. A game draws the others itself."""
+    """Parts that are drawn, unless a game asks `draw` for others. A game draws the rest itself."""
 
     quality: Annotated[
         Annotated[PresetName, Tag("preset")] | Annotated[Quality, Tag("numbers")], Discriminator(_quality_form)

@@ -60,7 +60,7 @@ class Gust(WindPrimitive):
     """How far it travels [m]."""
 
     strength: float = Field(default=0.8, ge=0.0, le=1.0)
-    """Posture index that grass comes to in it, past which it first swings."""
+    """Posture index of the grass in it; grass first swings beyond it."""
 
     hold: float = Field(default=1.0, ge=0.0, le=60.0)
     """How long it blows at a place before it lets go [s]."""
@@ -72,13 +72,13 @@ class Gust(WindPrimitive):
     """How far parts of the front lag behind others [m]."""
 
     soft: float = Field(default=4.0, ge=0.0, le=1000.0)
-    """Over what distance from its sides and ends it takes hold, where winds are mixed by weight [m]."""
+    """Over what distance from its sides and ends it sets in, with `mixing: weight` [m]."""
 
     every: Pair | None = None
     """Shortest and longest time after which it comes again, at random; without it, it comes once [s]."""
 
     wander: float = Field(default=0.0, ge=0.0, le=10000.0)
-    """How far to either side of `position` it may set out when it comes again [m]."""
+    """How far to either side of `position` it may start when it comes again [m]."""
 
     @model_validator(mode="after")
     def _sensible_intervals(self) -> Self:

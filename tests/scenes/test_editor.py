@@ -157,6 +157,6 @@ def test_d4_an_editor_shows_the_docstring_over_a_key_and_offers_the_keys_of_a_ki
     assert "How fast it travels" in speed
     assert "m/s" in speed
     assert "Default: 8. Range: above 0.1 and at most 60." in speed
-    assert "The one light that all three representations" in editor.hover(path, 4, 2)
+    assert "Sun, sky, clouds and haze, which light grass" in editor.hover(path, 4, 2)
     assert editor.complete(path, 8, 5) >= {"reach", "tail", "wander"}
     assert not editor.complete(path, 8, 5) & {"radius", "outline", "gustiness"}
