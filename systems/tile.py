@@ -148,8 +148,10 @@ class Tile:
             ends = np.array([ends_of(part) for part in changed])
             ends = cell_of(ends + np.array([[-CELL], [CELL]], np.float32), patch=patch)
             cells = cells[between(cells, ends[:, 0].min(axis=0), ends[:, 1].max(axis=0))]  # they are few, mostly
-            squares = {tuple(each) for each in ends.reshape(-1, 4).tolist()}
-            cells = cells[np.any([between(cells, np.array(each[:2]), np.array(each[2:])) for each in squares], axis=0)]
+            squares = np.array(sorted({tuple(each) for each in ends.reshape(-1, 4).tolist()}))
+            i, j = cells.T[..., None]
+            left, far, right, near = squares.T
+            cells = cells[((i >= left) & (i <= right) & (j >= far) & (j <= near)).any(axis=1)]
         self._sow_on(outlook, cells)
         outlook.sown = sown.count
 

@@ -93,13 +93,14 @@ class Plots:
         if self._index is None:
             return On(np.zeros(0, np.intp), np.zeros(0, np.int32), np.zeros((0, 2), np.float32))
         at = place.astype(np.float64) / SIDE + self.half
-        plot = np.floor(at).astype(np.int64)
+        plot = np.floor(at)
         rows, columns = self._index.shape
-        within = np.flatnonzero(((plot >= 0) & (plot < (columns, rows))).all(axis=1))
-        page = self._index[plot[within, 1], plot[within, 0]]
-        there = page >= 0
-        which = within[there]
-        return On(which, page[there], ((at[which] - plot[which]) * CELLS).astype(np.float32))
+        x, z = plot.T
+        number = (z * columns + x).astype(np.intp)
+        within = (x >= 0) & (x < columns) & (z >= 0) & (z < rows)
+        page = self._index.reshape(-1).take(number if within.all() else np.where(within, number, 0))
+        which = np.flatnonzero((page >= 0) & within)
+        return On(which, page[which], ((at - plot)[which] * CELLS).astype(np.float32))
 
     def on_lines(self, x: Floats, z: Floats, /) -> tuple[Ints, Ints, Ints]:
         """Return the page that each cell of squares is on, -1 for none, its row and its column, for (m, n, n).
@@ -122,22 +123,19 @@ class Plots:
 
         A plot's outermost cells go on to its edge.
         """
-        at = np.clip(on.cell - np.float32(0.5), 0.0, np.float32(CELLS - 1))
+        at = np.clip(on.cell - np.float32(0.5), np.float32(0.0), np.float32(CELLS - 1))
         low = np.minimum(at.astype(np.intp), CELLS - 2)
-        part = at - low
+        part = np.subtract(at, low, dtype=np.float32)
         (column, row), (right, down) = low.T, part.T
+        number, flat, each = (on.page * CELLS + row) * CELLS + column, self.pages.reshape(-1), 1
         if channel is None:
-            right, down = right[:, None], down[:, None]
-        a, b, c, d = (
-            self._texel(on.page, row + j, column + i, channel).astype(np.float32) for j in (0, 1) for i in (0, 1)
-        )
+            right, down, flat = right[:, None], down[:, None], self.pages.reshape(-1, *self.pages.shape[3:])
+        elif self.pages.ndim > 3:
+            each = self.pages.shape[3]
+            number = number * each + channel
+        a, b, c, d = (flat.take(number + each * more, axis=0).astype(np.float32) for more in (0, 1, CELLS, CELLS + 1))
         far, near = a + right * (b - a), c + right * (d - c)
         return np.asarray(far + down * (near - far), np.float32)
-
-    def _texel(
-        self, page: Ints, row: NDArray[np.intp], column: NDArray[np.intp], channel: NDArray[np.intp] | None
-    ) -> Values:
-        return self.pages[page, row, column] if channel is None else self.pages[page, row, column, channel]
 
     def parts(self, low: Floats, high: Floats, /) -> list[Part]:
         """Return the cells between two corners (x, z) [m], plot by plot, of those that the map has at all."""

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Floats, Mask
-from .plots import CELL, On
+from .plots import CELL, CELLS, On
 from .record import Density, Terrain
 
 _THINS = 8.0
@@ -84,22 +84,29 @@ def density_on_lines(density: Density, x: Floats, z: Floats, /) -> Floats:
     Of what is sown it is that of the cells which places lie in: that takes less time than `density_at`.
     """
     shape = *x.shape, x.shape[1]
-    place = np.stack([np.broadcast_to(x[:, None, :], shape), np.broadcast_to(z[:, :, None], shape)], -1).reshape(-1, 2)
     if not density.sown.any:
-        return natural_at(density, place).reshape(-1, *shape)
+        return natural_at(density, _met(x, z)).reshape(-1, *shape)
     most = (np.array(density.size) - CELL) / 2.0
     page, row, column = density.sown.on_lines(np.clip(x, -most[0], most[0]), np.clip(z, -most[1], most[1]))
     beyond = [np.abs(lines) > side / 2.0 for lines, side in zip((x, z), density.size, strict=True)]
     if beyond[0].any() or beyond[1].any():
         page = np.where(beyond[0][:, None, :] | beyond[1][:, :, None], -1, page)
-    if (page < 0).all():
-        return natural_at(density, place).reshape(-1, *shape)
-    found = density.sown.pages[page, row, column].reshape(-1, len(density.maps))
-    result = np.ascontiguousarray(found.T) * _WHOLE
     rest = np.flatnonzero(page < 0)
+    if len(rest) == page.size:
+        return natural_at(density, _met(x, z)).reshape(-1, *shape)
+    found = density.sown.pages.reshape(-1, len(density.maps)).take((page * CELLS + row) * CELLS + column, axis=0)
+    result = np.ascontiguousarray(found.reshape(-1, len(density.maps)).T) * _WHOLE
     if len(rest):
-        result[:, rest] = painted_at(density, place[rest])
-    return _limited(density, result, place).reshape(-1, *shape)
+        result[:, rest] = painted_at(density, _met(x, z)[rest])
+    if density.land is not None:
+        result = _limited(density, result, _met(x, z))
+    return np.asarray(result.reshape(-1, *shape), np.float32)
+
+
+def _met(x: Floats, z: Floats) -> Floats:
+    """Return the places where lines meet, (m * n * n, 2)."""
+    shape = *x.shape, x.shape[1]
+    return np.stack([np.broadcast_to(x[:, None, :], shape), np.broadcast_to(z[:, :, None], shape)], -1).reshape(-1, 2)
 
 
 def natural_at(density: Density, place: Floats, /) -> Floats:
@@ -187,7 +194,8 @@ def _sown_on(density: Density, place: Floats) -> On:
     """Return which of some places (n, 2) lie on plots of the terrain: at its edge they are those of the last cells."""
     most = (np.array(density.size) - CELL) / 2.0
     on = density.sown.on(place.clip(-most, most).astype(np.float32))
-    within = (np.abs(place[on.which]) <= np.array(density.size) / 2.0).all(axis=1)
+    x, z = np.abs(place.T)
+    within = ((x <= density.size[0] / 2.0) & (z <= density.size[1] / 2.0))[on.which]
     return on if within.all() else On(on.which[within], on.page[within], on.cell[within])
 
 

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from ...components.arrays import Bytes, Floats, Ints
 from ...engine.gl.functions import NUMBERS, functions_of
 from ...engine.gl.limits import limits_of
-from ...engine.gl.mipmaps import halved
 from ...engine.terrain.part import Part as Cells
 from ...engine.terrain.plots import CELLS, Plots, Values
 from ..frame.feature import Part
@@ -28,6 +27,9 @@ _MOST_PAGES = 65536
 """Pages that two bytes can tell apart."""
 
 _log = getLogger(__name__)
+
+_TWO, _LOW_BYTES = np.uint64(0x0002_0002_0002_0002), np.uint64(0x00FF_00FF_00FF_00FF)
+"""Of four numbers of two bytes each, side by side."""
 
 _LEVELS = CELLS.bit_length()
 
@@ -58,7 +60,9 @@ class _Sheets:
         Where there is no room up to `most`, pages have no place.
         """
         more = len(self.plots.written) - len(self.sent)
-        place = last + 1 + self.each * np.arange(max(more, 0), dtype=np.int32)
+        if more <= 0:
+            return last
+        place = last + 1 + self.each * np.arange(more, dtype=np.int32)
         fits = place + self.each - 1 <= most
         self.place = np.append(self.place, np.where(fits, place, 0))
         self.sent = np.append(self.sent, np.full(len(place), -1))
@@ -69,8 +73,10 @@ class _Sheets:
         self.sent[:], self.seen = -1, -1
 
     def stale(self) -> NDArray[np.intp]:
-        """Return which pages are to be sent."""
-        return np.flatnonzero((self.sent != self.plots.written) & (self.place > 0))
+        """Return which pages are to be sent, with single ones between them: to part what is sent takes longer."""
+        stale = self.sent != self.plots.written
+        stale[1:-1] |= stale[:-2] & stale[2:]
+        return np.flatnonzero(stale & (self.place > 0))
 
     def changed(self) -> list[Cells] | None:
         """Return the cells whose plots may have another page; None where any may."""
@@ -162,12 +168,12 @@ class PlotsPart(Part):
 
     def _send(self, sheets: _Sheets, encoded: Encoded) -> None:
         stale = sheets.stale()
+        if not len(stale):
+            return
         stale = stale[np.argsort(sheets.place[stale])]
         row = WIDTH // CELLS
         places = (sheets.place[stale, None] + np.arange(sheets.each)).reshape(-1)
         ends = np.flatnonzero((np.diff(places, prepend=-2) != 1) | (places % row == 0))
-        if not len(stale):
-            return
         texels = [each.reshape(-1, *each.shape[2:]) for each in encoded(sheets.plots.pages[stale])]
         for first, last in zip(ends, [*ends[1:], len(places)], strict=True):
             down, across = divmod(int(places[first]), row)
@@ -234,13 +240,14 @@ class PlotsPart(Part):
 
 def _as_densities(pages: Bytes) -> list[Bytes]:
     """Return densities four kinds to a page."""
-    each, made, level = -(-pages.shape[-1] // 4), list[Bytes](), pages
-    for number in range(_LEVELS):
-        if number:
-            level = halved(level)
-        texels = np.zeros((len(pages), each, *level.shape[1:3], 4), np.uint8)
-        for group in range(each):
-            own = level[..., 4 * group : 4 * group + 4]
-            texels[:, group, ..., : own.shape[-1]] = own
-        made.append(texels)
+    each = -(-pages.shape[-1] // 4)
+    texels = np.zeros((len(pages), each, CELLS, CELLS, 4), np.uint8)
+    for group in range(each):
+        own = pages[..., 4 * group : 4 * group + 4]
+        texels[:, group, ..., : own.shape[-1]] = own
+    made, level = [texels], texels.astype(np.uint16).view(np.uint64)[..., 0]  # four numbers at once
+    while level.shape[-1] > 1:
+        level = level[..., ::2, :] + level[..., 1::2, :]
+        level = ((level[..., ::2] + level[..., 1::2] + _TWO) >> np.uint64(2)) & _LOW_BYTES
+        made.append(level[..., None].view(np.uint16).astype(np.uint8))
     return made

@@ -71,9 +71,13 @@ def _stroke(
     verge = max(soft, CELL)
 
     def covered(before: Values, away: Floats) -> Values:
-        part = np.clip(0.5 - (away - np.float32(soft / 2.0)) / np.float32(verge), 0.0, 1.0)[..., None]
-        due = change(before.astype(np.float32))
-        return np.asarray(np.rint(before + part * (due - before)), np.uint8)
+        part = np.float32(0.5 + 0.5 * soft / verge) - away * np.float32(1.0 / verge)
+        np.clip(part, np.float32(0.0), np.float32(1.0), out=part)
+        now = before.astype(np.float32)
+        due = change(now) - now
+        due *= part[..., None]
+        due += now
+        return np.rint(due, out=due).astype(np.uint8)
 
     untouched = partial(_painted, density)
     stroke(density.sown, area, pose, covered, untouched, beyond=0.5 * (soft + verge), alike=alike)

@@ -189,7 +189,8 @@ class _OnPlots:
         if bottom < top:
             return
         first = np.array([top, left]) - 1
-        page = np.pad(plots.index[top : bottom + 1, left : right + 1], 1, constant_values=-1)
+        page = np.full((bottom - top + 3, right - left + 3), -1, np.int32)
+        page[1:-1, 1:-1] = plots.index[top : bottom + 1, left : right + 1]
         none = np.full((1, level.shape[1]), most if most < np.inf else np.nan, np.float32)
         levels = np.append(level, none, axis=0)[page]  # -1 finds the last one
         corner = (first[::-1] - plots.half) * SIDE

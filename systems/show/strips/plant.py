@@ -1,5 +1,7 @@
 """Planting strips: whose strips a slot of a pool holds, and how densely they grow there (paper, section 2.2)."""
 
+from math import ceil
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -41,7 +43,8 @@ def _steps(dense: Floats, spacing: float, patch: float) -> Mask:
     apart = min(max(int(patch * WITHIN / spacing), 1), dense.shape[-1] - 1)
     step = STEP_OF_DENSITY * max(spacing / (patch * WITHIN), 1.0)
     both = dense[:, :, apart:] - dense[:, :, :-apart], dense[..., apart:] - dense[..., :-apart]
-    return np.asarray(np.max([np.abs(each).reshape(*each.shape[:2], -1).max(axis=2) for each in both], (0, 1)) > step)
+    down, across = (np.abs(each, out=each).reshape(*each.shape[:2], -1).max(axis=2) for each in both)
+    return np.asarray(np.maximum(down, across).max(axis=0) > step)
 
 
 def _spread(ground: Ground, margin: float) -> Floats:
@@ -56,5 +59,5 @@ def _spread(ground: Ground, margin: float) -> Floats:
         finest = min(finest, CELL)
     if ground.terrain.holes is not None:
         finest = min(finest, ground.terrain.cell)
-    count = int(np.clip(np.ceil((ground.patch + 2.0 * margin) / finest), 1, MOST_PLACES - 1)) + 1
+    count = min(max(ceil((ground.patch + 2.0 * margin) / finest), 1), MOST_PLACES - 1) + 1
     return np.linspace(-margin, ground.patch + margin, count, dtype=np.float32)
