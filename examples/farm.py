@@ -11,7 +11,6 @@ from tempfile import gettempdir
 from typing import Any
 
 import esper
-import numpy as np
 import pyglet
 from pyglet import gl
 from pyglet.graphics.shader import Shader, ShaderProgram
@@ -23,7 +22,6 @@ from tallgrass import Footprint, Pose, Prairie, Shade
 
 SIZE, SAVED, UP = (960, 540), Path(gettempdir()) / "tallgrass-farm.bin", Vec3(0.0, 1.0, 0.0)
 FIELD, WIDTH, STUBBLE = 26.0, 2.4, 0.09  # half the field's side; how wide the mower cuts, and how high [m]
-NOWHERE = np.zeros((2, 2))  # a map of where poppies grow, until they are sown
 PARTS = (  # middle and size of boxes (right, up, ahead) [m], and their colours
     ((0.0, 0.85, -0.3), (1.1, 0.7, 1.9), (0.12, 0.35, 0.15, 1.0)),
     ((0.0, 1.6, -0.75), (1.0, 0.9, 0.9), (0.10, 0.12, 0.14, 1.0)),
@@ -37,7 +35,7 @@ SCENE = {
         "hay": {"height": (0.45, 0.75), "width": 0.016, "root": "#4c6a2b", "tip": "#cdbb72"},
         "poppy": {
             "plant": "flower", "height": (0.5, 0.8), "tip": "#e0301c", "head": {"size": (0.07, 0.1)}, "plants": 30,
-            "place": {"map": NOWHERE},
+            "place": "none",
         },
     },
     "wind": [{"kind": "breeze", "direction": 60, "strength": 0.3}],

@@ -267,8 +267,8 @@ class Editor:
     def _canvas(self, draft: Draft, kind: str) -> tuple[Draft, str, str, Picture]:
         """Return the draft in which a kind has a map, the map's name, its channel, and what is painted so far."""
         place = self.scene.grass[kind].place
-        if place is not None:
-            name = str(place.map)  # the scene stands in a file, and arrays do not
+        if place is not None and isinstance(place.map, str):  # in a file, an array stands for `none` alone
+            name = place.map
             if name not in self._pictures(draft):
                 self._unpainted[name] = read_picture(self.loaded.folder / name)
                 self.pen.know(name, self._unpainted[name])

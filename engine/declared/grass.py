@@ -2,10 +2,11 @@
 
 from typing import Annotated, Any, Literal
 
+import numpy as np
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from ...components.declaration import Color, Declaration, DeclarationError, Pair, rising
-from .array import PictureOrArray
+from .array import MapArray, PictureOrArray
 from .plant import ON_GRASS, SIZES, USUAL, Head, Plant
 
 MOST_KINDS = 16
@@ -42,6 +43,10 @@ class Place(Declaration):
 
     channel: Literal["red", "green", "blue", "alpha"] = "red"
     """The channel that holds this kind's density."""
+
+
+def _or_none(schema: dict[str, Any]) -> None:
+    schema["anyOf"].insert(1, {"const": "none"})
 
 
 class GrassKind(Declaration):
@@ -125,11 +130,19 @@ class GrassKind(Declaration):
     segments: int | None = Field(default=None, ge=1, le=16)
     """Line segments per blade at the finest level, and the most at any other; without it the quality's numbers."""
 
-    place: Place | None = None
-    """Where it grows; without it, everywhere. Kinds share the ground, but flowers stand among the others."""
+    place: Place | None = Field(default=None, json_schema_extra=_or_none)
+    """Where it grows; without it, everywhere. With `none` it grows nowhere until a game sows it.
+
+    Kinds share the ground, but flowers stand among the others."""
 
     slope: float | None = Field(default=None, ge=0.0, le=90.0)
     """Steepest slope that it grows on [degrees]; it thins out over the 8 degrees before. Without it, on any."""
+
+    @field_validator("place", mode="before")
+    @classmethod
+    def _nowhere(cls, value: Any) -> Any:
+        """Take `none` for a map of nothing."""
+        return Place(map=MapArray(np.zeros((1, 1), np.uint8))) if isinstance(value, str) and value == "none" else value
 
     @model_validator(mode="before")
     @classmethod

@@ -77,7 +77,7 @@ def _stroke(
         due = change(now) - now
         due *= part[..., None]
         due += now
-        return np.rint(due, out=due).astype(np.uint8)
+        return np.asarray(np.rint(due, out=due), np.uint8)
 
     untouched = partial(_painted, density)
     stroke(density.sown, area, pose, covered, untouched, beyond=0.5 * (soft + verge), alike=alike)

@@ -54,6 +54,16 @@ def test_f4_what_is_sown_in_front_of_a_viewer_looks_as_if_it_had_always_been(
     assert np.abs(pictures[0] - untouched).max() > 40.0
 
 
+def test_f4_a_kind_that_is_placed_nowhere_stands_where_it_is_sown(load: Load) -> None:
+    prairie, place = (
+        load(FLAT.replace("tall: {", "tall: { place: none,")),
+        np.array([(0.0, 0.0), (9.0, 9.0)], np.float32),
+    )
+    assert prairie.grass_at(place).density.tolist() == [[0.0, 1.0], [0.0, 1.0]]
+    prairie.sow("tall", Footprint(radius=3.0), 1.0)
+    assert prairie.grass_at(place).density.tolist() == [[1.0, 0.0], [0.0, 1.0]]
+
+
 @pytest.mark.parametrize("lod", KEPT)
 def test_f4_where_all_is_cleared_stands_nothing(stage: Stage, load: Load, camera: Aim, lod: str) -> None:
     prairie, aim = load(FLAT + "parts: [sky, ground, grass]\n", lod=lod), camera(0.0, 0.3, 20.0)
