@@ -1,7 +1,7 @@
 """What casts a shadow on the grass."""
 
 from dataclasses import dataclass
-from math import hypot
+from math import hypot, isfinite
 from sys import float_info
 
 from .footprint import is_between
@@ -70,6 +70,8 @@ class Shade:
 
 
 def _is_place(thing: object) -> bool:
+    if type(thing) is tuple and len(thing) == 3 and {float}.issuperset(map(type, thing)):
+        return all(map(isfinite, thing))  # what it nearly always is, and bodies cast new ones in every frame
     try:
         numbers: tuple[object, ...] = tuple(thing)  # type: ignore[arg-type]
     except TypeError:

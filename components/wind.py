@@ -187,12 +187,20 @@ class WindPrimitive(Declaration, metaclass=_Making):
     @property
     def course(self) -> Course | None:
         """How its phases have run where a game has changed how fast they do; None for most winds."""
-        return self._run and self._run[0]
+        run = self._ran
+        return run and run[0]
 
     @property
     def first(self) -> Self:
         """The same wind as it was before a game first changed how fast its phases run; for most winds itself."""
-        return cast(Self, self._run[1]) if self._run else self
+        run = self._ran
+        return cast(Self, run[1]) if run else self
+
+    @property
+    def _ran(self) -> tuple[Course, "WindPrimitive"] | None:
+        """What `_run` is: pydantic looks for a private attribute ten times as long, and phases are asked for often."""
+        private = self.__pydantic_private__
+        return private["_run"] if private else None
 
     def ends(self) -> float:
         """Return when it is over for good [s]; `inf` is never. A wind that is over costs nothing."""

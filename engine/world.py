@@ -132,9 +132,12 @@ class World:
         so that nothing that follows from it depends on how a set is laid out.
         """
         self._must_be_current()
-        mine = (None, self._mine)  # the game's, and our own
-        found = [row for row in esper.get_component(kind) if self._owner(row[0]) in mine]
-        return sorted(found, key=lambda row: row[0])
+        mine, part_of, found = self._mine, esper.try_component, list[tuple[int, Component]]()
+        for row in esper.get_component(kind):
+            mark = part_of(row[0], Resident)
+            if mark is None or mark.owner is mine:  # the game's, and our own
+                found.append(row)
+        return sorted(found, key=itemgetter(0))
 
     def rows(self, kind: type[Component]) -> list[tuple[int, Component]]:
         """Return every entity with a component of exactly this type, in any order and whosever it is.

@@ -112,9 +112,14 @@ class Density:
     slopes: tuple[float | None, ...] = ()
     """The steepest slope that each kind grows on [degrees], if there is one; none at all where no kind has one."""
 
+    even: Floats | None = field(init=False)
+    """Each kind's density where every map has one alone, as most scenes' have, shape (kinds,)."""
+
     sown: Plots = field(init=False)
     """What a game has sown and cleared: densities of all kinds in bytes, in place of those of the maps."""
 
     def __post_init__(self) -> None:
         """Begin with nothing sown."""
+        flat = self.maps.reshape(len(self.maps), -1)
+        object.__setattr__(self, "even", flat[:, 0].copy() if (flat == flat[:, :1]).all() else None)
         object.__setattr__(self, "sown", Plots(self.size, np.dtype(np.uint8), (len(self.maps),)))

@@ -1,6 +1,7 @@
 """Heights, slopes and densities at any place, bilinear between the samples of a map."""
 
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +16,8 @@ _THINS = 8.0
 
 _WHOLE = np.float32(1.0 / 255.0)
 """What a byte of full density is multiplied by."""
+
+_FIRST = np.float32(0.0)
 
 _BLOCK = 12288
 """Places worked on at a time: few enough that allocators keep the memory at hand, which makes it twice as fast."""
@@ -166,6 +169,8 @@ def own_density_at(density: Density, kind: NDArray[np.intp], place: Floats, /) -
 
 
 def _own_painted_at(density: Density, kind: NDArray[np.intp], place: Floats) -> Floats:
+    if density.even is not None:
+        return density.even[kind]
     flat, each = density.maps.reshape(-1), density.maps[0].size
     result = np.empty(len(place), np.float32)
     for block in _blocks(len(place)):
@@ -182,6 +187,9 @@ def painted_at(density: Density, place: Floats, /) -> Floats:
     of the outermost pixels that value holds.
     """
     result = np.empty((len(density.maps), len(place)), np.float32)
+    if density.even is not None:
+        result[:] = density.even[:, None]
+        return result
     for block in _blocks(len(place)):
         at = _within_maps(density, place[block])
         for kind, values in enumerate(density.maps):
@@ -221,32 +229,54 @@ class _Within(NamedTuple):
 
 def _within_terrain(terrain: Terrain, place: Floats) -> _Within:
     rows, columns = terrain.heights.shape
-    return _within(place, terrain.size, (1.0 / terrain.cell, 1.0 / terrain.cell), (columns, rows), 0.0)
+    return _within(place, _laid(terrain.size, (1.0 / terrain.cell, 1.0 / terrain.cell), (columns, rows), 0.0))
 
 
 def _within_maps(density: Density, place: Floats) -> _Within:
     _, rows, columns = density.maps.shape
     width, depth = density.size
-    return _within(place, (width, depth), (columns / width, rows / depth), (columns, rows), -0.5)
+    return _within(place, _laid((width, depth), (columns / width, rows / depth), (columns, rows), -0.5))
 
 
-def _within(
-    place: Floats, size: tuple[float, float], scale: tuple[float, float], count: tuple[int, int], shift: float
-) -> _Within:
-    cells, parts = [], []
-    for axis in (0, 1):
-        u = place[:, axis] * np.float32(scale[axis])
-        u += np.float32(size[axis] / 2 * scale[axis] + shift)
-        np.maximum(u, np.float32(0.0), out=u)  # quicker than `clip` where places are few
-        np.minimum(u, np.float32(count[axis] - 1), out=u)
-        cell = np.floor(u)
-        np.minimum(cell, np.float32(max(count[axis] - 2, 0)), out=cell)
-        u -= cell
-        cells.append(cell.astype(np.intp))
-        parts.append(u)
-    cells[1] *= count[0]
-    cells[1] += cells[0]
-    return _Within(cells[1], parts[0], parts[1], count[0])
+class _Laid(NamedTuple):
+    """How a map is laid over the ground: its columns along x and its rows along z, arrays of shape (2, 1)."""
+
+    scale: Floats
+    """Samples a metre."""
+
+    origin: Floats
+    """Where the ground's middle is among the samples."""
+
+    last: Floats
+    """The last sample."""
+
+    before: Floats
+    """The last but one, where there are two."""
+
+    stride: int
+    """From a row to the next in the flat map."""
+
+
+@lru_cache(maxsize=64)
+def _laid(size: tuple[float, float], scale: tuple[float, float], count: tuple[int, int], shift: float) -> _Laid:
+    origin = [side / 2 * each + shift for side, each in zip(size, scale, strict=True)]
+    numbers = scale, origin, [each - 1 for each in count], [max(each - 2, 0) for each in count]
+    scales, origins, last, before = np.array(numbers, np.float32)[:, :, None]
+    return _Laid(scales, origins, last, before, count[0])
+
+
+def _within(place: Floats, laid: _Laid) -> _Within:
+    part = np.multiply(place.T, laid.scale, order="C")
+    part += laid.origin
+    np.maximum(part, _FIRST, out=part)  # quicker than `clip` where places are few
+    np.minimum(part, laid.last, out=part)
+    cell = np.floor(part)
+    np.minimum(cell, laid.before, out=cell)
+    part -= cell
+    column, corner = cell.astype(np.intp)
+    corner *= laid.stride
+    corner += column
+    return _Within(corner, part[0], part[1], laid.stride)
 
 
 def _rows(flat: Floats, at: _Within) -> tuple[Floats, Floats]:

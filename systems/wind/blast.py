@@ -14,6 +14,7 @@ from ...components.arrays import Floats
 from ...components.body import Hover, Model
 from ...components.declaration import Declaration, DeclarationError, Pair
 from ...components.wind import Extent, Grass, TwinValues
+from ...engine.memo import by_identity
 from .outline import FINE, Outline, outline_of_picture, outline_of_polygon, polygon_of_ellipse
 from .placed import PlacedWind
 from .shape import smooth
@@ -67,10 +68,7 @@ class Shape(Declaration):
         """Return the outline, sampled. Raises DeclarationError where the picture cannot be read."""
         if self.image is not None:
             return self._loaded or _pictured(self.image, Path(), self.width)
-        if self.polygon is not None:
-            return outline_of_polygon(tuple((x, z) for x, z in self.polygon))
-        across, along = self.ellipse or (self.disc or 1.0, self.disc or 1.0)
-        return outline_of_polygon(polygon_of_ellipse(across, along))
+        return _drawn(self)
 
 
 class Blast(PlacedWind):
@@ -105,7 +103,7 @@ class Blast(PlacedWind):
 
     def hover(self) -> Hover | None:
         """Return the body that it comes from."""
-        return Hover(self.body, self.height) if self.body else None
+        return _hover(self.body, self.height) if self.body else None
 
     def extent(self, *, time: float) -> Extent:
         """Return the rectangle around its outline."""
@@ -146,6 +144,19 @@ class Blast(PlacedWind):
     def _width(self, outline: Outline) -> float:
         """Return over what distance from its outline it takes hold [m]."""
         return max(min(self.soft, outline.deepest), 1e-6)
+
+
+@by_identity(most=256)
+def _drawn(shape: Shape) -> Outline:
+    if shape.polygon is not None:
+        return outline_of_polygon(tuple((x, z) for x, z in shape.polygon))
+    across, along = shape.ellipse or (shape.disc or 1.0, shape.disc or 1.0)
+    return outline_of_polygon(polygon_of_ellipse(across, along))
+
+
+@lru_cache(maxsize=256)
+def _hover(model: Model, height: float) -> Hover:
+    return Hover(model, height)
 
 
 def _pictured(name: str, folder: Path, width: float) -> Outline:

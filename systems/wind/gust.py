@@ -1,12 +1,12 @@
 """The gust: a strip that travels across its long axis, its profile the grass's own response (paper, section 3.3)."""
 
+from bisect import bisect_right
 from collections.abc import Sequence
 from functools import lru_cache
 from math import cos, radians, sin
 from typing import ClassVar, Literal, Self
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from ...components.arrays import Floats
@@ -115,16 +115,14 @@ class Gust(WindPrimitive):
         if self.every is None:
             return (self,) if self.is_on_its_way(time) else ()
         waits, sides = _repetitions(seed, *self.every)
-        once, period = len(waits) - 1, float(waits[-1])
+        once, period = len(waits) - 1, waits[-1]
         first, last = (_set_out(waits, time - self.start - past) for past in (self._longest, 0.0))
         known = _again(self)
         if len(known) > MOST_KEPT:
             known.clear()
         again = (
             known.get((seed, k))
-            or known.setdefault(
-                (seed, k), self._repeated(k // once * period + float(waits[k % once]), float(sides[k % once]))
-            )
+            or known.setdefault((seed, k), self._repeated(k // once * period + waits[k % once], sides[k % once]))
             for k in range(first, last)
         )
         return [each for each in again if each.is_on_its_way(time)]
@@ -193,18 +191,18 @@ def _phases(seed: int) -> tuple[float, float]:
     return first, second
 
 
-def _set_out(waits: NDArray[np.float64], elapsed: float) -> int:
+def _set_out(waits: list[float], elapsed: float) -> int:
     """Return how many gusts have set out `elapsed` [s] after the first: after the last wait they begin anew."""
     if elapsed < 0.0:
         return 0
-    again, rest = divmod(elapsed, float(waits[-1]))
-    return int(again) * (len(waits) - 1) + int(np.searchsorted(waits[:-1], rest, side="right"))
+    again, rest = divmod(elapsed, waits[-1])
+    return int(again) * (len(waits) - 1) + bisect_right(waits, rest, hi=len(waits) - 1)
 
 
 @lru_cache(maxsize=256)
-def _repetitions(seed: int, shortest: float, longest: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _repetitions(seed: int, shortest: float, longest: float) -> tuple[list[float], list[float]]:
     """Return when a gust sets out [s], rising from 0, and how far aside, in [-1, 1]; the first one straight."""
     random = np.random.default_rng((seed, 0x67757374))
     count = int(LATEST / shortest) + 1
     waits = np.concatenate([[0.0], np.cumsum(random.uniform(shortest, longest, count))])
-    return waits, np.concatenate([[0.0], random.uniform(-1.0, 1.0, count)])
+    return waits.tolist(), [0.0, *random.uniform(-1.0, 1.0, count).tolist()]

@@ -15,7 +15,7 @@ from tallgrass.engine.declared.grass import GrassKind, Place
 from tallgrass.engine.terrain.density import load_density
 from tallgrass.engine.terrain.errors import MapError
 from tallgrass.engine.terrain.record import Density, Terrain
-from tallgrass.engine.terrain.sample import density_at
+from tallgrass.engine.terrain.sample import density_at, own_density_at
 
 TERRAIN = Terrain(np.zeros((11, 21), np.float32), 2.0)
 everywhere = GrassKind()
@@ -168,3 +168,16 @@ def test_a_picture_that_is_missing_broken_or_too_large_is_refused(tmp_path: Path
     save(tmp_path / "map.png", np.zeros((2, 4098), np.uint8))
     with pytest.raises(MapError, match=r"^map\.png: it is 4098 by 2 pixels; a density map has at most 4097 a side$"):
         load(tmp_path, a=painted())
+
+
+def test_maps_of_one_value_each_are_read_as_if_they_were_looked_at() -> None:
+    maps = np.stack([np.full((40, 30), value, np.float32) for value in (0.3, 0.7, 1.0 / 3.0)])
+    other = maps.copy()
+    other[:, 0, 0] = 0.0  # far from where they are asked
+    even, uneven = (Density(each, (60.0, 80.0)) for each in (maps, other))
+    place = np.random.default_rng(4).uniform(-20.0, 60.0, (50, 2)).astype(np.float32)
+    kind = np.arange(50) % 3
+    assert even.even is not None
+    assert uneven.even is None
+    assert density_at(even, place).tobytes() == density_at(uneven, place).tobytes()
+    assert own_density_at(even, kind, place).tobytes() == own_density_at(uneven, kind, place).tobytes()
