@@ -67,8 +67,11 @@ float lies_at(vec2 at) {
 // What becomes of what lies there where grass is left to stand so high [m] and is trodden: how bright its pigment is, of what
 // it was, and how much is left of low leaves.
 vec2 after(float left, vec2 at) {
+    float kept = 1.0 - TRODDEN_AWAY * lies_at(at);
+    if (!anything_is_cut())
+        return vec2(1.0, kept);
     float stubs_from = min(STUBS_FROM, tallest_grass), low = min(left / min(LOW_LEAVES, tallest_grass), 1.0);
-    return vec2(1.0 + PALER * low * max(1.0 - left / stubs_from, 0.0), low * (1.0 - TRODDEN_AWAY * lies_at(at)));
+    return vec2(1.0 + PALER * low * max(1.0 - left / stubs_from, 0.0), low * kept);
 }
 
 // The pigment of what lies there, of that of the ground between low leaves, where grass is left to stand so high [m]; or that of

@@ -97,3 +97,12 @@ def test_samplers_are_anisotropic_on_cards_alone(
 ) -> None:
     monkeypatch.setattr(rasteriser, "draws_in_software", lambda _: software)
     assert rasteriser.anisotropy(ctx) == (1.0 if software else min(rasteriser.MOST_SAMPLES, ctx.max_anisotropy))
+
+
+def test_a_rasteriser_may_be_told_to_draw_as_a_card_does(
+    ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(rasteriser.AS_CARD, "1")
+    assert not rasteriser.draws_in_software(ctx)
+    monkeypatch.setenv(rasteriser.AS_CARD, "0")
+    assert rasteriser.draws_in_software(ctx) is is_software(str(ctx.info["GL_RENDERER"]))
