@@ -36,7 +36,10 @@ BROUGHT ByKind riper;
 #endif
 FEW float stands;
 FEW float strips_before;
+FEW float on_strips;
+FEW float sways;
 FEW vec2 slow;
+OF_SOIL float elevation;
 OF_SOIL vec3 sunlit;
 OF_SOIL vec3 skylit;
 OF_SOIL float soil_way;
@@ -83,7 +86,10 @@ void work_out(float slope) {
 #if KINDS > 4
     strips_before = 1.0;
     slow = slow_seen(seen_at(place, slope, tall, dense), slope, tall);
-    stands = lodged(message_at(place.xz));
+    vec2 message = message_at(place.xz);
+    stands = lodged(message);
+    on_strips = come_through(place.xz, max(slope, TINY), carpet, tall, stands).y;
+    sways = sways_by(areas(grows_at(place.xz)), message);
 #endif
 }
 
@@ -106,14 +112,12 @@ Canopy canopy_here(Sight sight) {
 // What the carpet shows: of grass and of the ground between, as much as there is of each, as of blades in front of it; and how
 // much more leaves are met of plants that stand out of it. `cover` is how much of it is grass.
 vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
-    Patch own = patch_at(place.xz, met);
+    Patch own = patch_at(place.xz, sways, stands);
     Canopy canopy = canopy_here(sight);
     own.blown.xy += canopy.sways;
     vec2 among = vec2(1.0);
-    if (min(sight.share, 1.0 - strips_before) < 1.0) {
-        float on_strips = come_through(place.xz, max(sight.slope, TINY), carpet, tall, stands).y;
+    if (min(sight.share, 1.0 - strips_before) < 1.0)
         among = among_strips(on_strips, sight.on_level, carpet, stands, dense);
-    }
     float deep = deepest(sight.slope, crest, tall * stands), stubble = 1.0;
     ByKind area = all_kinds(0.0);
     if (anything_is_cut()) {
@@ -126,7 +130,10 @@ vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
     float shallow = shallower(deep, sight.on_level, sight.share, crest, stands, dense);
     vec4 sent = any_lamps() ? lamps_seen(sight) : vec4(0.0);
     View view = View(canopy.light, canopy.bent, among, shallow, left, stubble, area, sent, stretch(slow));
-    Reading read = reading(own, sight, place.xz, tall, dense);
+#if KINDS > 4 || defined(EDGED)
+    elevation = elevation_seen(sight.on_level, dense);
+#endif
+    Reading read = reading(own, sight, place.xz, tall, elevation);
     float taller, grain = grain_of(read, sight, tall, stands, own.blown.z);
     vec4 sum = kinds_seen(own, read, sight, grain, view, taller);
     // Who sees past grass over a crest sees no ground there, but the grass behind. A game's own ground may lie lower.
@@ -210,7 +217,7 @@ void main() {
 #endif
     if (share > 0.0) {
         float on_level = level_slope(slope, crest, share, tall, stands);
-        Sight sight = Sight(normalize(place.xz - eye.xz), slope, on_level, smoothstep(ABOVE.x, ABOVE.y, slope), share, dx, dy);
+        Sight sight = Sight(heading_to(place.xz), slope, on_level, smoothstep(ABOVE.x, ABOVE.y, slope), share, dx, dy);
         vec4 seen = carpet_seen(sight, left, color, cover);
         color = seen.rgb;
         if (covered < WHOLE)

@@ -4,6 +4,7 @@
 #include "lib/light.glsl"
 #include "systems/show/carpet/laid.glsl"
 #include "systems/show/carpet/met.glsl"
+#include "systems/show/carpet/reading.glsl"
 #include "systems/show/carpet/floor.glsl"
 
 // No more than 60 numbers are sure to come through: with many kinds, pixels work out themselves what FEW kinds bring along.
@@ -39,7 +40,10 @@ BROUGHT ByKind riper;   // by kind: how much more of its heads than an image sho
 #endif
 FEW float stands;         // how high the grass stands, of its height at rest
 FEW float strips_before;  // how much strips show of what lines of sight come through above the carpet
+FEW float on_strips;      // leaf area on strips that lines of sight come through above the carpet, of the grass's
+FEW float sways;          // how far leaves sway, of the wind's message [m]
 FEW vec2 slow;            // slow noises of the pigment, where leaves are seen
+OF_SOIL float elevation;  // of elevation_seen
 OF_SOIL vec3 sunlit;      // radiance of the soil without any grass: of the sun's light,
 OF_SOIL vec3 skylit;      // and of the sky's
 OF_SOIL float soil_way;   // how many leaves the sun's light meets
@@ -108,12 +112,15 @@ void main() {
     float slope = viewing_slope(rise, place), from_above = max(slope, FLATTEST);
     vec2 came = come_through(place.xz, from_above, carpet, tall, stands);
     strips_before = came.x;
+    on_strips = came.y;
     float on_level = max(level_slope(max(slope, 0.0), crest, carpet, tall, stands), FLATTEST);
     ByKind ripe;
     met = shared_out(kinds_met(laid.grows, on_level, laid.left, left_by_strips(1.0 - came.x, carpet), ripe), laid.grows, on_level);
 #ifdef HEADS
     riper = ripe;
 #endif
+    elevation = elevation_seen(on_level, dense);
+    sways = sways_by(met, laid.message);
     light_up(slope, on_level, laid.grows, laid.message);
 #ifndef EDGED
     light_soil(seen_behind(place, from_above), laid);

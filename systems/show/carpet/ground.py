@@ -267,7 +267,8 @@ class GroundPainter:
     def draw_carpet(self, part: int = WHOLE) -> int:
         """Draw the carpet, or a part of it: its outlines let through what is behind; return the draw calls."""
         self.use()
-        even = self.carpet[3 if self._is_rare or self.is_trodden else 2 if self._is_lamplit else self._is_cut]
+        rare = self._is_rare or self.is_trodden or any(self._came)
+        even = self.carpet[3 if rare else 2 if self._is_lamplit else self._is_cut]
         return even.draw(part=part) + self.edged[2].draw(part=part)
 
     def cast(self, light: tuple[float, float, float], /) -> int:

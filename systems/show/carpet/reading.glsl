@@ -37,21 +37,21 @@ struct Patch {
 
 const uint UPPER_HALF = 16u;  // of what is drawn: where the lower one draws the model, it draws the heading
 
-// It is one wind for all of a patch: images that are sheared here and there otherwise would curl.
-vec3 blown_on(ivec2 cell, ByKind met) {
-    vec2 message = message_at((vec2(cell) + 0.5) * patch_side);
-    vec3 sum = vec3(0.0);
-    for (int kind = 0; kind < KINDS; kind++) {
-        vec2 bend = bending(kind, message);
-        sum += OF(met, kind) * vec3(SWAYS * OF(crown, kind) * bend, lodged(bend));
-    }
-    return total(met) > TINY ? sum / total(met) : vec3(0.0, 0.0, 1.0);
+// How far leaves sway that a message moves, in the mean over the kinds that are met: of the message [m].
+float sways_by(ByKind met, vec2 message) {
+    float sum = 0.0;
+    for (int kind = 0; kind < KINDS; kind++)
+        sum += OF(met, kind) * OF(crown, kind) * length(bending(kind, message));
+    return SWAYS * sum / (max(total(met), TINY) * max(length(message), TINY));
 }
 
-Patch patch_at(vec2 at, ByKind met) {
+// The patch of a place whose leaves sway so far, of the wind's message [m], and stand so high, of their height at rest. It is
+// one wind for all of a patch: images that are sheared here and there otherwise would curl.
+Patch patch_at(vec2 at, float sways, float stands) {
     ivec2 cell = ivec2(floor(at / patch_side));
     uint drawn = hash3(stock.y, cell.x, cell.y);
-    return Patch(cell, int(drawn % uint(stock.x)), int(drawn >> UPPER_HALF) & (HEADINGS - 1), blown_on(cell, met));
+    vec2 message = message_at((vec2(cell) + 0.5) * patch_side);
+    return Patch(cell, int(drawn % uint(stock.x)), int(drawn >> UPPER_HALF) & (HEADINGS - 1), vec3(sways * message, stands));
 }
 
 // The rotation that turns the line of sight into the heading of the images that are taken: of four headings, one on each
@@ -98,26 +98,26 @@ struct Reading {
     float across;   // how broad a pixel is across its blades, in patches
 };
 
-// Which of the viewing elevations' images a ray sees: the first of two by number, and how far it is on the way to the next.
+// Which of the viewing elevations' images a ray sees: the number of the first of two, plus how far it is on the way to the next.
 // At a low angle the way is told by how deep in the grass what it meets is in the mean, so that the mean of two images is as
 // deep; from above, where it meets leaves as the reciprocal of its slope, by the slope's logarithm.
-vec2 elevation_seen(float slope, float dense) {
+float elevation_seen(float slope, float dense) {
     const int HIDES = 2;  // so many of the lowest images show grass that hides most of itself
     slope = max(slope, slopes[0]);
     int low = 0;
     for (int next = 1; next < SLOPES - 1; next++)
         low += int(slope > slopes[next]);
     vec3 of = vec3(slope, slopes[low], slopes[low + 1]), at = low < HIDES ? depth_met(max(dense, THINNEST) / of) : log(of);
-    return vec2(float(low), clamp((at.x - at.y) / (at.z - at.y), 0.0, 1.0));
+    return float(low) + clamp((at.x - at.y) / (at.z - at.y), 0.0, 1.0);
 }
 
-// What is read of the images of a patch, turned to the line of sight.
-Reading reading(Patch own, Sight sight, vec2 at, float tall, float dense) {
-    vec2 seen = elevation_seen(sight.on_level, dense), turn = turned(sight.heading, own.side);
+// What is read of the images of a patch, those of an elevation, turned to the line of sight.
+Reading reading(Patch own, Sight sight, vec2 at, float tall, float elevation) {
+    int low = min(int(elevation), SLOPES - 2);
+    vec2 turn = turned(sight.heading, own.side);
     vec2 leans = sheared(own.blown, sight.on_level, tall), beside = vec2(-sight.heading.y, sight.heading.x);
     vec2 here = leant_back((at - own.blown.xy) / patch_side - vec2(own.cell) - 0.5, sight.heading, leans);
     // From the side blades are drawn out along the line of sight as they are seen, and not as at the slopes of the images.
-    int low = int(seen.x);
     vec2 longer = max(sight.on_level, FLATTEST) / vec2(slopes[low], slopes[low + 1]) - 1.0;
     longer *= dot(here, sight.heading) * (1.0 - smoothstep(ROOTS_SEEN.x, ROOTS_SEEN.y, sight.on_level));
     // From a low angle a pixel is a long stripe of ground, but blades are drawn out as far: what counts is how broad it is
@@ -128,7 +128,7 @@ Reading reading(Patch own, Sight sight, vec2 at, float tall, float dense) {
     float finer = SHARP * clamp(sight.slope / sight.on_level, LONGEST.x, LONGEST.y);
     finer *= inversesqrt(max(1.0 + dot(leans, sight.heading), SHORTEST));
     float level = log2(across * finer * float(textureSize(images, 0).x));
-    return Reading(low, seen.y, rotated(here + sight.heading * longer.x, turn) + 0.5,
+    return Reading(low, elevation - float(low), rotated(here + sight.heading * longer.x, turn) + 0.5,
                    rotated(here + sight.heading * longer.y, turn) + 0.5, level, across);
 }
 

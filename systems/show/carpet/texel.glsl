@@ -49,8 +49,11 @@ Texel together(Texel one, Texel other, float part) {
                  covers, mix(one.usual, other.usual, part), mix(one.taller, other.taller, of_other));
 }
 
-// The texel of a kind, and of what it is to be as far as it has become that.
+// The texel of a kind, and of what it is to be as far as it has become that. Programs that are made for none are told so by PLAIN.
 Texel texel_of(int kind, Patch own, Reading read, float on_level, float grain) {
+#ifdef PLAIN
+    return texel_from(OF(first, kind), own, read, on_level, grain);
+#else
     float part = OF(came, kind);
     Texel texel = Texel(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     for (int form = part < 1.0 ? 0 : 1; form < (part > 0.0 ? 2 : 1); form++) {
@@ -61,4 +64,5 @@ Texel texel_of(int kind, Patch own, Reading read, float on_level, float grain) {
             texel = one;
     }
     return texel;
+#endif
 }
