@@ -227,6 +227,7 @@ def test_g1_the_plain_is_truer_than_every_blade_alone_and_its_representations_as
     _are_as_bright_as_blades(told["bands"])
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("ctx")
 def test_g1_in_the_meadow_every_representation_is_as_bright_as_its_blades() -> None:
     with Studio(Take("meadow", NARROW, "high")) as studio:

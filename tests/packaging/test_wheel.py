@@ -84,6 +84,7 @@ def test_the_tests_pass_against_the_wheel_outside_the_checkout(site: Path, tmp_p
     assert " passed" in told.splitlines()[-1]
 
 
+@pytest.mark.slow
 def test_d6_the_type_checker_passes_on_the_examples_and_the_tutorial_against_the_wheel(
     site: Path, tmp_path: Path
 ) -> None:
