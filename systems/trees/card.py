@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from ...components.arrays import Doubles, Mask
 from ...engine.gl.records import Records
 from ...engine.gl.stream import Stream, release_all
-from .model import SENT, Model, sent
+from .bark import RUNS, SENT, sent
+from .model import Model
 from .standing import SHOWN, TOLD
 from .twig import RANKS, ROW, TWIG
 from .wood import Parts, parts
@@ -29,9 +30,6 @@ FEWER = 0.5
 GROUPS = 3
 """Draws that the cards of a model's trees take: each for those of which about as many twigs are drawn."""
 
-RUNS = 0.006, 0.011, 0.015, 0.02, 0.027
-"""Radius of a stem that is a pixel wide, of the model [m]: trees between two have their wood drawn together."""
-
 CARDS = tuple(f"{NEAR}{number}" for number in range(GROUPS))
 WOODS = tuple(f"{WOOD}{number}" for number in range(len(RUNS) + 1))
 """The streams of those."""
@@ -50,7 +48,10 @@ class ModelOnCard:
         self.twigs = Records(ctx, TWIG, ROW, rows=-(-len(model.twigs) // ROW))
         self.twigs.write(model.twigs)
         self.vertices = ctx.buffer(sent(model.vertices))
-        self.triangles = ctx.buffer(np.ascontiguousarray(model.triangles))
+        self.triangles = ctx.buffer(np.concatenate([each.triangles for each in model.wood]))
+        ends = np.cumsum([0, *(len(each.triangles) for each in model.wood)]).tolist()
+        self.first_of = dict(zip(WOODS, ends, strict=False))
+        """The first of those that each stream of wood draws."""
         self.bare = Stream(ctx, SHOWN)
         self._alone = np.zeros(1, SHOWN)
         self._alone["keep"] = FEWER
@@ -68,7 +69,7 @@ class ModelOnCard:
 
     def bark(self, program: moderngl.Program) -> tuple[moderngl.Buffer | str, ...]:
         """Return the vertices of its wood, as a vertex array takes them: those fields that a program has."""
-        names, forms = list(SENT.names or ()), ("4f", "3f1 1x", "4f2", "3f2 2x", "4f2")
+        names, forms = list(SENT.names or ()), ("4f", "4f1", "4f2", "3f2 2x", "4f2")
         ends = [*(SENT.fields[name][1] for name in names), SENT.itemsize] if SENT.fields else []
         kept = [
             form if name in program else f"{end - start}x"
@@ -86,7 +87,7 @@ class ModelOnCard:
             rows = near[run == number]
             self.streams[name].write(rows)
             if len(rows):
-                self.wood[name] = parts(self.model.radii, wide[run == number], rows)
+                self.wood[name] = parts(self.model.wood[number].radii, wide[run == number], rows)
         self.streams[FAR].write(far)
         self._write(LEAVES, near[leafy])
         drawn = near["keep"] * (1.0 - near["gone"])

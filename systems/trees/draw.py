@@ -250,7 +250,7 @@ class TreePart(Part):
                 if told is not array.program:
                     told = array.program
                     solid_from = SOLID if all_wood or sort == NEAR else OPAQUE
-                    kind.tell(told, model, {**self._numbers, "solid_from": (solid_from,)})
+                    kind.tell(told, model, {**self._numbers, "solid_from": (solid_from,)}, wood=sort == WOOD)
                 array.render(moderngl.TRIANGLES, first=first, vertices=vertices, instances=stream.count)
                 calls += 1
         return calls
@@ -275,6 +275,6 @@ def _any_leafy(model: Model, told: np.void, viewer: Viewer, within: float) -> bo
 
 def _wood(model: ModelOnCard, name: str, *, soft: bool, whole: bool) -> tuple[int, int]:
     """Return from which vertex on, and how many, are drawn of the wood of a stream's trees."""
-    drawn, count = model.wood[name], len(model.model.triangles)
+    drawn, count = model.wood[name], len(model.model.wood[WOODS.index(name)].triangles)
     first, end = (0, count) if whole else (drawn.soft, drawn.end) if soft else (0, min(drawn.solid, drawn.end))
-    return 3 * first, 3 * (end - first)
+    return 3 * (model.first_of[name] + first), 3 * (end - first)

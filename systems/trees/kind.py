@@ -7,6 +7,7 @@ import numpy as np
 
 from ...components.arrays import Doubles
 from ...engine.declared.tree import TreeKind
+from ...engine.gl.mipmaps import mipmapped
 from ...engine.gl.shaders import tell
 from ...engine.gl.stream import release_all
 from ..light.materials import pigment
@@ -14,6 +15,7 @@ from .bake import CARD, PICTURES, from_around, on_card, pictures
 from .card import FEWER, LEAVES, NEAR, QUAD, WOOD, ModelOnCard, Numbers
 from .habit import HABITS
 from .model import models_of
+from .noise import bark_noise
 from .programs import Programs
 from .twig import SHOOTS_LONG
 
@@ -36,6 +38,8 @@ class KindOnCard:
         self.habit = HABITS[declared.habit]
         self.models = [ModelOnCard(ctx, each) for each in models_of(declared.habit, seed)]
         self.card: moderngl.TextureArray | None = None
+        self.bark = mipmapped(ctx, bark_noise())
+        self.bark.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
         leaf, usual = self.habit.leaf, self.habit.twigs.length
         wide = ASIDE * leaf.length * (np.sin(leaf.angle) + TURNED)
         wide += SHOOTS_LONG * usual * SHOOTS_ASIDE if leaf.shoots > 1 else 0.0
@@ -62,7 +66,7 @@ class KindOnCard:
 
         def draw_tree(number: int) -> None:
             matrix = from_around(number, model.model.middle, model.model.half)
-            for array, count in ((wood, -1), (cards, round(QUAD * FEWER * len(model.model.twigs)))):
+            for array, count in ((wood, 3 * len(model.model.wood[0].triangles)), (cards, round(QUAD * FEWER * len(model.model.twigs)))):
                 self.tell(array.program, model, {})
                 _matrix(array.program, matrix)
                 array.render(moderngl.TRIANGLES, vertices=count, instances=1)
@@ -82,19 +86,19 @@ class KindOnCard:
             "bark": tuple(pigment(declared.bark or habit.bark).tolist()), "rough": (habit.rough,),
         }  # fmt: skip
 
-    def tell(self, program: moderngl.Program, model: ModelOnCard, numbers: Numbers) -> None:
-        """Tell a program of the kind and one of its models, and what else it is to know; bind what it reads."""
+    def tell(self, program: moderngl.Program, model: ModelOnCard, numbers: Numbers, *, wood: bool = False) -> None:
+        """Tell a program, perhaps that of wood, of the kind and a model, and what else it is to know; bind what it reads."""
         for name, value in {**self._numbers, **model.numbers, **numbers}.items():
             tell(program, name, *value)
         model.twigs.texture.use(self.units["tree_twigs"])
-        if self.card is not None:
-            self.card.use(self.units["tree_cards"])
+        if wood or self.card is not None:
+            (self.bark if wood or self.card is None else self.card).use(self.units["tree_cards"])
         if model.far is not None:
             model.far.use(self.units["tree_far"])
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(*self.models)
+        release_all(*self.models, self.bark)
         if self.card is not None:
             self.card.release()
 

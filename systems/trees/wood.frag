@@ -1,7 +1,9 @@
 #include "lib/light.glsl"
-#include "lib/random.glsl"
 #include "systems/trees/leaf.glsl"
 #include "systems/trees/shown.glsl"
+#include "systems/trees/noise.py"
+
+uniform sampler2DArray tree_cards;  // in place of twigs' cards: noise that repeats
 
 in vec2 on_skin;
 in vec3 facing;
@@ -11,6 +13,7 @@ in vec3 skylit;
 in vec3 hazy;
 in float thick;
 in vec4 inside;
+in float rounds;
 
 #ifdef BAKED
 layout(location = 0) out vec4 pixel;
@@ -19,27 +22,23 @@ layout(location = 1) out vec4 second;
 out vec4 pixel;
 #endif
 
-const int BARK_SEED = 7;  // of its noise
 const vec2 FURROWS = vec2(26.0, 4.0), BANDS = vec2(5.0, 26.0);  // how many there are on a metre around and along a stem
 const float WINDINGS = 6.0;  // how many bends furrows have on a metre
 const float FINER = 3.1;  // how many more cracks than furrows there are
 const float DEEP = 0.7;  // part of furrows in how bright bark is, beside cracks
 const vec2 RIDGES = vec2(0.55, 0.75);  // how bright the ground of a furrow is, of the bark, and how much brighter a ridge
-const vec2 BAND = vec2(0.62, 0.8);  // noise between which a band begins: it is where there is more
+const vec2 BAND = vec2(0.58, 0.74);  // noise between which a band begins: it is where there is more
 const vec3 BANDED = vec3(0.7, 0.5, 1.7);  // of that noise, its part all over, and its part in spots; how many of these on a metre
 const vec2 FOOT = vec2(0.1, 1.2);  // between which ways along a stem its foot ends, which is dark in spots [m]
 const vec2 SPOTS = vec2(9.0, 5.0);  // how many of these there are on a metre around and along it
-const vec2 SPOT = vec2(0.3, 0.65);  // noise between which a spot begins
+const vec2 SPOT = vec2(0.28, 0.5);  // noise between which a spot begins
 const float BAND_TONE = 0.42;  // how bright bands and spots are, of the bark
 const vec2 FINEST_BARK = vec2(1.5, 18.0);  // all this is seen where a pixel is under 1/36 m of bark, and none of it over 1/12
 
+const float SHARPER_BY = -1.5;  // level of noise: bands and furrows are where it is highest, and a mean would have none
+
 float noise(vec2 at) {
-    vec2 low = floor(at), part = at - low;
-    part = smoothstep(0.0, 1.0, part);
-    ivec2 cell = ivec2(low);
-    float a = unit(hash3(BARK_SEED, cell.x, cell.y)), b = unit(hash3(BARK_SEED, cell.x + 1, cell.y));
-    float c = unit(hash3(BARK_SEED, cell.x, cell.y + 1)), d = unit(hash3(BARK_SEED, cell.x + 1, cell.y + 1));
-    return mix(mix(a, b, part.x), mix(c, d, part.x), part.y);
+    return texture(tree_cards, vec3(at * (1.0 / NOISE_CELLS), 0.0), SHARPER_BY).r;
 }
 
 // The bark's pigment there, of its own: furrows along the stem, or dark bands across it.
@@ -60,7 +59,8 @@ void main() {
 #else
     float fades = clamp(FINEST_BARK.x - FINEST_BARK.y * max(fwidth(on_skin.x), fwidth(on_skin.y)), 0.0, 1.0);
     must_cover(thick);
-    vec3 normal = normalize(facing), ray = normalize(seen_at - eye);
+    vec3 ray = normalize(seen_at - eye);
+    vec3 normal = normalize(facing - ray * (rounds * sqrt(max(1.0 - dot(facing, facing), 0.0))));
     Light light = Light(sunlit * (SENDS * max(dot(normal, sun), 0.0)), skylit, hazy, 0.0, 0.0, vec2(0.0));
     pixel = drawn(shade(Surface(bark * bark_at(on_skin, fades), 1.0, 0.0), light), thick);
 #endif

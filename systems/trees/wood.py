@@ -34,7 +34,7 @@ GLSL = {
 
 
 class Parts(NamedTuple):
-    """Which of the triangles of wood are drawn, of those in the order of `Model.triangles`."""
+    """Which of the triangles of wood are drawn, of those of its distance, in their order."""
 
     solid: int
     """So many first ones may cover pixels wholly."""

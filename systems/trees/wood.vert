@@ -3,7 +3,7 @@
 #include "systems/trees/wood.py"
 
 in vec4 stem;     // of the model: the stem's middle; its radius [m]
-in vec3 side;     // which way the vertex lies from that, a unit vector: half of that, from 0.5
+in vec4 side;     // which way the vertex lies from that, a unit vector; or which way a ribbon goes, and -1 or 1 on its edge
 in vec4 own;      // around the stem and along it [m]; what sets its limb apart, and the frequency of that
 in vec3 pivot;    // foot of its limb
 in vec4 shading;  // what light meets on its way
@@ -20,20 +20,31 @@ out vec3 skylit;
 out vec3 hazy;
 out float thick;  // coverage
 out vec4 inside;
+out float rounds; // how much it is a ribbon, which looks as if it were round
+
+const float ON_EDGE = 0.5;  // beyond it, a vertex is on a ribbon's edge: bytes have no 0
+
+// Which way a vertex lies from its stem's middle, which is there.
+vec3 aside_of(vec3 middle_at) {
+    vec4 told = 2.0 * side - 1.0;
+    vec3 way = turned(told.xyz);
+    rounds = step(ON_EDGE, abs(told.w));
+    return rounds > 0.0 ? sign(told.w) * normalize(cross(way, eye - middle_at)) : way;
+}
 
 void main() {
-    vec3 aside = 2.0 * side - 1.0;
     on_skin = own.xy;
     inside = shading;
 #ifdef BAKED
-    facing = aside;
-    seen_at = stem.xyz + stem.w * aside;
+    facing = 2.0 * side.xyz - 1.0;
+    rounds = 0.0;
+    seen_at = stem.xyz + stem.w * facing;
     thick = 1.0;
     sunlit = skylit = hazy = vec3(0.0);
     gl_Position = baked * vec4(seen_at, 1.0);
 #else
-    facing = turned(aside);
     vec3 middle_at = swayed(stem.xyz, pivot, own.z, own.w, message);
+    facing = aside_of(middle_at);
     vec4 projected = clip * vec4(middle_at, 1.0);
     float pixel_at = THINNEST * max(projected.w, AWAY) / pixels_a_metre(), half_width = scale * stem.w;
     thick = min(half_width / pixel_at, 1.0);

@@ -1,0 +1,32 @@
+"""Noise that bark is furrowed and spotted by, over a square that repeats."""
+
+from functools import lru_cache
+
+import numpy as np
+
+from ...components.arrays import Bytes
+from ...engine.gl.mipmaps import levels
+
+NOISE_CELLS = 64
+"""Of a value each, along a side of the square."""
+
+FINER = 4
+"""Texels along a side of one."""
+
+SEED = 7
+
+GLSL = {"NOISE_CELLS": float(NOISE_CELLS)}
+
+
+@lru_cache(maxsize=1)
+def bark_noise() -> list[Bytes]:
+    """Return it at all its levels, a layer (1, rows, columns) each: values of cells, smooth between them."""
+    values = np.random.default_rng(SEED).uniform(0.0, 255.0, (NOISE_CELLS, NOISE_CELLS))
+    at = (np.arange(NOISE_CELLS * FINER) + 0.5) / FINER
+    low = at.astype(np.intp)
+    part = at - low
+    part = part * part * (3.0 - 2.0 * part)
+    for _ in range(2):
+        ahead = np.roll(values, -1, axis=0)
+        values = (values[low] + part[:, None] * (ahead[low] - values[low])).T
+    return levels(np.round(values).astype(np.uint8)[None])
