@@ -26,8 +26,13 @@ Draw = Callable[[int], None]
 """Draws the picture of a number into the viewport that is set."""
 
 
-def pictures(ctx: moderngl.Context, columns: int, rows: int, side: int, draw: Draw, /) -> moderngl.TextureArray:
-    """Return pictures drawn side by side in rows, of `side` pixels each, with what two outputs have as two layers."""
+def pictures(
+    ctx: moderngl.Context, columns: int, rows: int, side: int, draw: Draw, /
+) -> tuple[moderngl.TextureArray, list[Bytes]]:  # fmt: skip
+    """Return pictures drawn side by side in rows, of `side` pixels each, with what two outputs have as two layers.
+
+    Besides, return their texels, as `smaller` has them.
+    """
     fine = side * FINER
     size, before = (columns * fine, rows * fine), ctx.fbo
     colors = [ctx.texture(size, 4) for _ in range(2)]
@@ -45,10 +50,11 @@ def pictures(ctx: moderngl.Context, columns: int, rows: int, side: int, draw: Dr
     finally:
         before.use()  # what is bound when it is released is bound again later
         release_all(target, depth, *colors)
-    texture = mipmapped(ctx, smaller(texels))
+    made = smaller(texels)
+    texture = mipmapped(ctx, made)
     texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
     texture.repeat_x = texture.repeat_y = False
-    return texture
+    return texture, made
 
 
 def smaller(texels: Bytes, /) -> list[Bytes]:

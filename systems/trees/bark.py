@@ -34,6 +34,9 @@ RUNS = 0.003, 0.006, 0.011, 0.017, 0.027
 ROUND = 6.0
 """Width from which on a stem is a tube, and shows that it forks [pixels]."""
 
+STRAIGHT = 0.017
+"""Radius of a stem a pixel wide from which on ribbons have fewer points, of the model: bends are a few pixels [m]."""
+
 ALIKE = 1.3
 """How many times as thick another stem may be that counts as thick as one."""
 
@@ -73,6 +76,9 @@ class _Part(NamedTuple):
     ribbon: bool | None
     """Whether these stand for thin stems alone, or with False for thick ones; None for both."""
 
+    straight: NDArray[np.intp]
+    """The same with every other point left out, or all but the ends of a short stem."""
+
 
 def bark_of(
     tree: Tree, area: Doubles, pivot: Doubles, limb: Doubles, /
@@ -97,8 +103,10 @@ def bark_of(
             else:
                 vertices["pivot"], vertices["own"][..., 2:] = pivot[owner][:, None, None], limb[owner][:, None, None]
             first = sum(len(each) for each in bark)
-            faces = _faces(*vertices.shape) + first
-            parts.append(_Part(faces, stems.radius[:, 0], None if owner is None else bool(ribbon)))
+            fine, straight = (
+                _faces(*vertices.shape, each=each) + first for each in (1, max(vertices.shape[1] // 4, 3))
+            )
+            parts.append(_Part(fine, stems.radius[:, 0], None if owner is None else bool(ribbon), straight))
             bark.append(vertices.reshape(-1))
     whole = np.concatenate(bark)
     radius = whole["stem"][:, 3].astype(np.float64)
@@ -110,7 +118,8 @@ def _wood(parts: list[_Part], radius: Doubles, pixel: float) -> Wood:
     chosen = []
     for part in parts:
         thin = part.thickest < ROUND * pixel
-        kept = part.triangles if part.ribbon is None else part.triangles[thin == part.ribbon]
+        triangles = part.straight if part.ribbon and pixel >= STRAIGHT else part.triangles
+        kept = triangles if part.ribbon is None else triangles[thin == part.ribbon]
         chosen.append(kept.reshape(-1, 3))
     triangles = np.concatenate(chosen).astype(np.uint32)
     around = radius[triangles]
@@ -118,7 +127,7 @@ def _wood(parts: list[_Part], radius: Doubles, pixel: float) -> Wood:
     about = np.round(np.log(radii.sum(axis=1)) / np.log(ALIKE))  # of one stem stay together: they share vertices
     order = np.argsort(-about, kind="stable")
     least, most = np.minimum.accumulate(radii[order, 0])[::-1], np.maximum.accumulate(radii[order[::-1], 1])
-    return Wood(triangles[order], np.stack([least, most]))
+    return Wood(np.asarray(triangles[order], np.uint32), np.stack([least, most]))
 
 
 def _with_foot(trunk: Stems) -> Stems:
@@ -184,9 +193,11 @@ def _on(stems: Stems, around: int) -> NDArray[np.void]:
     return vertices
 
 
-def _faces(stems: int, points: int, around: int) -> NDArray[np.intp]:
-    """Return the triangles between rows of vertices, by the numbers of these, (stems, n, 3)."""
+def _faces(stems: int, points: int, around: int, *, each: int = 1) -> NDArray[np.intp]:
+    """Return the triangles between rows of vertices, by the numbers of these, (stems, n, 3): of each row, or fewer."""
     number = np.arange(stems * points * around).reshape(stems, points, around)
+    if each > 1:
+        number = number[:, np.unique([*range(0, points, each), points - 1])]
     a, b, c, d = number[:, :-1, :-1], number[:, :-1, 1:], number[:, 1:, :-1], number[:, 1:, 1:]
     return np.stack([a, c, b, b, c, d], axis=-1).reshape(stems, -1, 3)
 

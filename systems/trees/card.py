@@ -11,15 +11,16 @@ from ...engine.gl.records import Records
 from ...engine.gl.stream import Stream, release_all
 from .bark import RUNS, SENT, sent
 from .model import Model
-from .standing import SHOWN, TOLD
+from .standing import HUNG, SHOWN, TOLD
 from .twig import RANKS, ROW, TWIG
 from .wood import Parts, parts
 
 Numbers = Mapping[str, tuple[float, ...]]
 """What programs are told, by name."""
 
-NEAR, FAR, LEAVES, WOOD, CAST = "near", "far", "leaves", "wood", "cast"
-"""What is drawn of trees: twigs on their cards, pictures far off, leaf by leaf, wood; and into maps of their shade."""
+NEAR, FAR, LEAVES, WOOD, CAST, PICTURED = "near", "far", "leaves", "wood", "cast", "pictured"
+"""What is drawn of trees: twigs on their cards, pictures far off, leaf by leaf, wood; and into maps of their shade, and
+twigs on their cards into those pictures."""
 
 QUAD = 6
 """Vertices of a quad, as two triangles."""
@@ -61,6 +62,8 @@ class ModelOnCard:
         self.streams = {name: Stream(ctx, SHOWN) for name in (*WOODS, LEAVES, FAR, *CARDS)}
         self.told = {id(each): Stream(ctx, TOLD) for each in self.streams.values()}
         """What is made out of the trees of each stream once a tree, by the stream's id."""
+        self.hung = {name: Stream(ctx, HUNG) for name in CARDS}
+        """What is made out of each twig of their trees once a twig."""
         self.most = dict.fromkeys(self.streams, 0)
         """Twigs that any tree of a stream draws."""
         self.wood = dict.fromkeys(WOODS, Parts(0, 0, 0))
@@ -111,6 +114,7 @@ class ModelOnCard:
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(self.twigs, self.vertices, self.triangles, self.bare, *self.streams.values(), *self.told.values())
+        release_all(self.twigs, self.vertices, self.triangles, self.bare)
+        release_all(*self.streams.values(), *self.told.values(), *self.hung.values())
         if self.far is not None:
             self.far.release()

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
 from ...components.viewer import Viewer
+from ...engine.gl.shaders import tell_all
 from ...engine.gl.stream import release_all
 from ..around.outlook import Outlook
 from ..frame.block import FrameBlock
@@ -198,11 +199,25 @@ class TreePart(Part):
             for model in kind.models:
                 for stream in model.streams.values():
                     if stream.count:
-                        array, told = programs.stand(stream), model.told[id(stream)]
+                        array, told = programs.made("stand", stream), model.told[id(stream)]
                         told.room(stream.count)
                         kind.tell(array.program, model, self._numbers)
                         array.transform(told.buffer, moderngl.POINTS, vertices=stream.count)
                         calls += 1
+                calls += self._hang(kind, model, programs)
+        return calls
+
+    def _hang(self, kind: KindOnCard, model: ModelOnCard, programs: Programs) -> int:
+        """Make out of each twig what is the same all over its card; return the number of draw calls."""
+        calls = 0
+        for name in CARDS:
+            stream, hung, most = model.streams[name], model.hung[name], model.most[name]
+            hung.room(stream.count * most)
+            if hung.count:
+                array = programs.made("hang", stream, model.told[id(stream)])
+                kind.tell(array.program, model, self._numbers)
+                array.transform(hung.buffer, moderngl.POINTS, vertices=most, instances=stream.count)
+                calls += 1
         return calls
 
     def draw_solid(self) -> int:
@@ -240,18 +255,21 @@ class TreePart(Part):
         sorts = (
             *((WOOD, name, *_wood(model, name, soft=soft, whole=all_wood)) for name in WOODS),
             (LEAVES, LEAVES, 0, QUAD * kind.habit.leaf.quads * model.most[LEAVES]),
-            *((NEAR, name, 0, QUAD * model.most[name]) for name in CARDS),
+            *((NEAR, name, 0, len(kind.outlines[name != CARDS[0]])) for name in CARDS),
             (FAR, FAR, 0, QUAD),
         )
         for sort, name, first, vertices in sorts:
-            stream = model.streams[name]
+            stream = model.hung[name] if sort == NEAR else model.streams[name]
             if stream.count and vertices > 0:
                 array = self._programs.array(sort, stream, model, soft=soft)
                 if told is not array.program:
                     told = array.program
                     solid_from = SOLID if all_wood or sort == NEAR else OPAQUE
                     kind.tell(told, model, {**self._numbers, "solid_from": (solid_from,)}, wood=sort == WOOD)
-                array.render(moderngl.TRIANGLES, first=first, vertices=vertices, instances=stream.count)
+                if sort == NEAR:
+                    tell_all(array.program, "corners", kind.outlines[name != CARDS[0]])
+                form = moderngl.TRIANGLE_STRIP if sort == NEAR else moderngl.TRIANGLES
+                array.render(form, first=first, vertices=vertices, instances=stream.count)
                 calls += 1
         return calls
 

@@ -12,10 +12,11 @@ from ...engine.gl.shaders import tell
 from ...engine.gl.stream import release_all
 from ..light.materials import pigment
 from .bake import CARD, PICTURES, from_around, on_card, pictures
-from .card import FEWER, LEAVES, NEAR, QUAD, WOOD, ModelOnCard, Numbers
+from .card import FEWER, LEAVES, PICTURED, QUAD, WOOD, ModelOnCard, Numbers
 from .habit import HABITS
 from .model import models_of
 from .noise import bark_noise
+from .outline import BOX, outline, roughly
 from .programs import Programs
 from .twig import SHOOTS_LONG
 
@@ -38,6 +39,9 @@ class KindOnCard:
         self.habit = HABITS[declared.habit]
         self.models = [ModelOnCard(ctx, each) for each in models_of(declared.habit, seed)]
         self.card: moderngl.TextureArray | None = None
+        self.outlines: list[list[tuple[float, float]]] = []
+        """Corners about what its card shows: of the largest cards, and of others."""
+        self._draw_as(BOX)
         self.bark = mipmapped(ctx, bark_noise())
         self.bark.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
         leaf, usual = self.habit.leaf, self.habit.twigs.length
@@ -57,21 +61,28 @@ class KindOnCard:
             _matrix(twig.program, matrix)
             twig.render(moderngl.TRIANGLES, vertices=QUAD * self.habit.leaf.quads, instances=1)
 
-        self.card = pictures(self.ctx, 1, 1, CARD, draw_twig)
+        self.card, texels = pictures(self.ctx, 1, 1, CARD, draw_twig)
+        self._draw_as(outline(texels[0][0, ..., 3]))
         for model in self.models:
             self._bake_model(programs, model)
 
+    def _draw_as(self, corners: Doubles) -> None:
+        self.outlines = [[(x, y) for x, y in each.tolist()] for each in (corners, roughly(corners))]
+
     def _bake_model(self, programs: Programs, model: ModelOnCard) -> None:
-        wood, cards = (programs.array(sort, model.bare, model, baked=True) for sort in (WOOD, NEAR))
+        wood, cards = (programs.array(sort, model.bare, model, baked=True) for sort in (WOOD, PICTURED))
 
         def draw_tree(number: int) -> None:
             matrix = from_around(number, model.model.middle, model.model.half)
-            for array, count in ((wood, 3 * len(model.model.wood[0].triangles)), (cards, round(QUAD * FEWER * len(model.model.twigs)))):
+            for array, count in (
+                (wood, 3 * len(model.model.wood[0].triangles)),
+                (cards, round(QUAD * FEWER * len(model.model.twigs))),
+            ):
                 self.tell(array.program, model, {})
                 _matrix(array.program, matrix)
                 array.render(moderngl.TRIANGLES, vertices=count, instances=1)
 
-        model.far = pictures(self.ctx, *PICTURES, draw_tree)
+        model.far, _ = pictures(self.ctx, *PICTURES, draw_tree)
 
     def _told(self) -> Numbers:
         """Return what programs are told of the kind, whichever of its models they draw."""
@@ -87,7 +98,7 @@ class KindOnCard:
         }  # fmt: skip
 
     def tell(self, program: moderngl.Program, model: ModelOnCard, numbers: Numbers, *, wood: bool = False) -> None:
-        """Tell a program, perhaps that of wood, of the kind and a model, and what else it is to know; bind what it reads."""
+        """Tell a program of the kind, a model, and what else it is to know; bind what it reads, or what wood does."""
         for name, value in {**self._numbers, **model.numbers, **numbers}.items():
             tell(program, name, *value)
         model.twigs.texture.use(self.units["tree_twigs"])

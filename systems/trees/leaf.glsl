@@ -1,6 +1,7 @@
 // Leaves: their outlines, and how they send light.
 #include "lib/least.glsl"
 #include "systems/trees/habit.py"
+#include "systems/trees/leaf_sends.glsl"
 #include "systems/trees/shown.glsl"
 
 uniform int form;
@@ -50,23 +51,6 @@ float leaf_cover(vec2 on) {
     if (form == NEEDLES)
         return needles_cover(on);
     return sharpened(half_width(clamp(on.y, LEAST_PART, 1.0 - LEAST_PART)) - abs(on.x), 0.0, LEAST_WIDTH);
-}
-
-const vec3 LEAF_THROUGH = vec3(0.92, 1.08, 0.42);  // light that leaves let through, of what they send back: more yellow
-const float SENDS = 1.25;  // what a white face sends of the sun's light from straight ahead, of what a leaf facing all ways does
-const float STREWN = 0.45;  // of a twig's leaves that face all ways, whatever its face is
-
-// What leaves that face all ways send to the eye of the sun's light.
-vec3 strewn_send(vec3 ray) {
-    float back = 0.5 - 0.5 * dot(ray, sun), against = 1.0 - back;
-    return back * sqrt(back) + against * sqrt(against) * LEAF_THROUGH;
-}
-
-// What leaves with this face send to the eye of the sun's light.
-vec3 leaf_sends(vec3 normal, vec3 ray) {
-    float lit = dot(normal, sun) * -sign(dot(normal, ray));
-    vec3 one = SENDS * (max(lit, 0.0) + max(-lit, 0.0) * LEAF_THROUGH);
-    return mix(one, strewn_send(ray), STREWN);
 }
 
 // The pigment of leaves, dark to bright, or of bark.

@@ -8,18 +8,25 @@ from numpy.typing import NDArray
 
 from ...engine.gl.stream import Stream, release_all
 from ..frame.block import FrameBlock, joined
-from .card import CAST, FAR, LEAVES, NEAR, WOOD, ModelOnCard
+from .card import CAST, FAR, LEAVES, NEAR, PICTURED, WOOD, ModelOnCard
 from .grow import MOST_TWIGS
 from .habit import HABITS
 
 SORTS: Mapping[str, tuple[str, str, Mapping[str, str | int]]] = {
-    NEAR: ("twig", "twig", {"STANDS": 1}),
+    NEAR: ("card", "card", {}),
+    PICTURED: ("twig", "twig", {}),
     LEAVES: ("twig", "twig", {"LEAVES": 1, "STANDS": 1}),
     WOOD: ("wood", "wood", {"STANDS": 1}),
     FAR: ("far", "far", {"STANDS": 1}),
     CAST: ("far", "far", {"CAST": 1}),
 }
 """By what is drawn: vertex and fragment shader, and what they are told."""
+
+MADE: Mapping[str, tuple[str, ...]] = {
+    "stand": ("told", "open", "veil"),
+    "hang": ("hung_at", "hung_axes", "hung_light", "hung_haze"),
+}
+"""By what is made out once a tree, or once a twig of it: what is written of it."""
 
 MOST_QUADS = MOST_TWIGS * max(habit.leaf.quads for habit in HABITS.values())
 """Quads that a tree is drawn with at most: of twigs leaf by leaf."""
@@ -32,9 +39,9 @@ class Programs:
         self._ctx, self._block, self._units = ctx, block, units
         self.made_of = dict(block.defines)
         self._programs: dict[tuple[str, bool, bool], moderngl.Program] = {}
+        self._makers: dict[str, moderngl.Program] = {}
         self._arrays: dict[tuple[int, str, bool, bool], moderngl.VertexArray] = {}
         self._quads = ctx.buffer(_quads())
-        self._stand: moderngl.Program | None = None
 
     def array(
         self, sort: str, stream: Stream, model: ModelOnCard | None = None, /, *, soft: bool = False, baked: bool = False
@@ -51,17 +58,22 @@ class Programs:
                     contents.insert(0, model.bark(program))
                     indices = model.triangles
             whole = [each for each in contents if len(each) > 2]
-            self._arrays[key] = self._ctx.vertex_array(program, whole, index_buffer=indices)
+            self._arrays[key] = self._ctx.vertex_array(program, whole, index_buffer=None if sort == NEAR else indices)
         return self._arrays[key]
 
-    def stand(self, stream: Stream) -> moderngl.VertexArray:
-        """Return what makes out of each tree of a stream what is the same all over it."""
-        key = id(stream), "stand", False, False
+    def made(self, what: str, stream: Stream, told: Stream | None = None) -> moderngl.VertexArray:
+        """Return what makes out what `MADE` has of each tree of a stream, or with `told` of each of its twigs."""
+        key = id(stream), what, False, False
         if key not in self._arrays:
-            if self._stand is None:
-                made, varyings = "systems/trees/stand.vert", ("told", "open", "veil")
-                self._stand = joined(self._ctx, self._block, self._units, made, None, {}, varyings=varyings)
-            self._arrays[key] = self._ctx.vertex_array(self._stand, [stream.binding(self._stand, each="/v")])
+            program = self._makers.get(what)
+            if program is None:
+                shader = f"systems/trees/{what}.vert"
+                defines = {} if told is None else {"STANDS": 1}
+                program = joined(self._ctx, self._block, self._units, shader, None, defines, varyings=MADE[what])
+                self._makers[what] = program
+            each = "/v" if told is None else "/i"
+            streams = [one.binding(program, each=each) for one in (stream, told) if one is not None]
+            self._arrays[key] = self._ctx.vertex_array(program, streams)
         return self._arrays[key]
 
     def _program(self, sort: str, *, soft: bool, baked: bool) -> moderngl.Program:
@@ -76,9 +88,7 @@ class Programs:
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(*self._arrays.values(), *self._programs.values(), self._quads)
-        if self._stand is not None:
-            self._stand.release()
+        release_all(*self._arrays.values(), *self._programs.values(), *self._makers.values(), self._quads)
 
 
 def _quads() -> NDArray[np.uint32]:

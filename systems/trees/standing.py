@@ -30,13 +30,16 @@ SHOWN = np.dtype(
 TOLD = np.dtype([("message", "2f4"), ("past", "f4"), ("misty", "4f4")])
 """What they make out of it once a tree: `stand.vert` writes it."""
 
-WHOLE = 600.0
-"""Height from which on all twigs of a tree are drawn, as many fewer of lower ones [pixels].
+HUNG = np.dtype([("hung_at", "4f4"), ("hung_axes", "4u4"), ("hung_light", "4u4"), ("hung_haze", "2u4")])
+"""And once a twig on its card: `hang.vert` writes it."""
+
+WHOLE, FEWER_BY = 600.0, 1.4
+"""Height from which on all twigs of a tree are drawn [pixels], and the power of lower ones' height by which fewer are.
 
 Those that are left are larger, so that they hide as much (Cook and others, Stochastic Simplification of Aggregate
 Detail, 2007)."""
 
-FEWEST = 0.16
+FEWEST = 0.08
 """Share of them that is drawn at least."""
 
 GONE, BEGINS = 80.0, 125.0
@@ -80,6 +83,6 @@ def shown(rows: NDArray[np.void], pixels: Doubles, height: float, variety: float
     told["turn"] = np.stack([np.cos(rows["yaw"]), np.sin(rows["yaw"])], axis=1)
     told["phase"], told["foliage"] = rows["phase"], rows["foliage"]
     told["tint"] = 1.0 + variety * rows["tint"]
-    told["keep"] = np.clip(pixels / WHOLE, FEWEST, 1.0)
+    told["keep"] = np.clip((pixels / WHOLE) ** FEWER_BY, FEWEST, 1.0)
     told["gone"] = np.clip((BEGINS - pixels) / (BEGINS - GONE), 0.0, 1.0)
     return told

@@ -1,8 +1,7 @@
 #include "lib/light.glsl"
 #include "systems/trees/leaf.glsl"
 #include "systems/trees/shown.glsl"
-
-uniform sampler2DArray tree_cards;  // tone, wood, nothing, cover; the normal in the card's own axes, and cover
+#include "systems/trees/pictured.glsl"
 
 in vec2 on;
 in vec3 facing;
@@ -21,7 +20,6 @@ layout(location = 1) out vec4 second;
 out vec4 pixel;
 #endif
 
-const float FINER_BY = -0.7;  // level of a card's picture: cards are seen askew, which would blur them
 const float VEIN = 0.05, RIBBED = 0.8;  // how broad a leaf's midrib is, and how much of its tone others have
 
 #ifdef BAKED
@@ -47,13 +45,11 @@ void main() {
     cover = inside.y > 0.5 ? inside.z : leaf;  // stems are green, as the darkest of leaves
     tone = inside.x * mix(1.0, RIBBED, 1.0 - smoothstep(0.0, VEIN, abs(on.x)));
 #else
-    vec2 at = vec2(0.5 + 0.5 * on.x, on.y);
-    vec4 texel = texture(tree_cards, vec3(at, 0.0), FINER_BY), lie = texture(tree_cards, vec3(at, 1.0), FINER_BY);
-    cover = texel.a;  // leaves are thinner than a pixel: an edge around them would make one leaf of a twig
-    tone = texel.r / max(texel.a, LEAST_COVER) * across_card.w;
-    wood = texel.g / max(texel.a, LEAST_COVER);
-    vec3 turned_by = 2.0 * lie.rgb / max(lie.a, LEAST_COVER) - 1.0;
-    normal = normalize(turned_by.x * across_card.xyz + turned_by.y * along_card + turned_by.z * normal);
+    Pictured leaf = pictured(on);
+    cover = leaf.cover;
+    tone = leaf.tone * across_card.w;
+    wood = leaf.wood;
+    normal = normalize(leaf.lies.x * across_card.xyz + leaf.lies.y * along_card + leaf.lies.z * normal);
 #endif
 #ifdef BAKED
     if (cover <= threshold())

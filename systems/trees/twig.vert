@@ -1,21 +1,9 @@
-// The twigs of trees. Each is a card that shows it, or with LEAVES all of its leaves; what is not a vertex buffer's is made out
-// from the vertex's number. With BAKED one is drawn as it will be read from a texture.
-#include "lib/random.glsl"
-#include "systems/trees/tree.glsl"
-#include "systems/trees/habit.py"
-#include "systems/trees/twig.py"
+// The twigs of trees. With LEAVES each is all of its leaves. With BAKED one is drawn as it will be read from a texture, and else
+// it is the card that shows it. What is not a vertex buffer's is made out from the vertex's number.
+#include "systems/trees/twig.glsl"
 
-uniform int form;         // of its leaves
-
-uniform int twigs;        // of its model
-uniform vec4 card;        // how far it reaches: left and right, from its foot back, and along [of a twig's usual length]
-uniform float usual;      // usual length of a twig [m]
-uniform int leaf_count;   // leaves of a twig
-uniform int shoots;       // of a twig: itself, and those on its sides
-uniform vec3 leaf_shape;  // length, half the greatest width, angle from the twig [of a twig's usual length; rad]
-#ifdef BAKED
-uniform mat4 baked;
-#endif
+uniform int leaf_count;  // leaves of a twig
+uniform int shoots;      // of a twig: itself, and those on its sides
 
 out vec2 on;
 out vec3 facing;
@@ -27,7 +15,6 @@ out vec4 inside;  // what leaves meet of light; or tone, 1 on a stem, and what t
 flat out vec4 across_card; // which way the card's own x goes, in the world; its tone
 flat out vec3 along_card;
 
-const uvec4 BYTES_AT = uvec4(0u, 8u, 16u, 24u);  // bits before the bytes of a number
 const float STEM = 0.006;  // half the width of a side shoot at its foot, of its twig's length
 const float STEM_TAPERS = 0.6, STEM_OF_TWIG = 1.6;  // how much narrower its tip is; how many times as wide the twig itself is
 const float SHOOTS_UP_TO = 0.62, SHOOTS_SHORTEN = 0.5;  // where the last side shoot of a twig stands; how much shorter it is
@@ -36,17 +23,9 @@ const vec2 LEAF_ANGLES = vec2(1.1, 0.55);  // what is usual of leaves, at the fo
 const float FIRST_LEAF = 0.1;  // where the first leaf of a shoot stands, of its length
 const float LEAVES_AROUND = 1.4;  // how far around it leaves are from its left and right [rad]
 const float NODS = 0.35, TILTED = 0.6;  // how far leaves hang; how far they are turned about their stalks
-const float ASKEW = 0.01;  // keeps two directions from being one
 const vec2 LEAF_SIZES = vec2(0.75, 0.45);  // the least size of a leaf, of its kind's, and how much more it may be
 const float STALK = 0.12;  // of a leaf, of its length
-const vec2 FLUTTERS = vec2(0.4, 0.25);  // how far what hangs on a twig is moved out of its face and aside, of how far leaves turn
-const vec2 LEAF_TONES = vec2(0.25, 0.75), CARD_TONES = vec2(0.7, 0.6);  // the least tone, and how much more it may be
-const float NEAREST_TWIG = 0.1;  // how far off a twig counts as at least [m]
-
-// Four numbers from 0 to 1 that a leaf of a twig has.
-vec4 random(int twig, int leaf, int number) {
-    return vec4(uvec4(hash3(twig, leaf, number)) >> BYTES_AT & uint(BYTE)) / BYTE;
-}
+const vec2 LEAF_TONES = vec2(0.25, 0.75);  // the least tone of a leaf, and how much more it may be
 
 // A side shoot of a twig: sine and cosine of its angle; where it stands, and how long it is. The first is the twig itself.
 vec4 shoot_at(int twig, int shoot) {
@@ -95,6 +74,13 @@ vec3 stem_corner(int twig, int shoot, vec2 corner, float wide) {
     return vec3(stands.y * own.x + stands.x * own.y, stands.z + stands.y * own.y - stands.x * own.x, 0.0);
 }
 
+#ifndef BAKED
+// Half a pixel at a twig, of its length: narrower stems are drawn so wide, and cover less.
+float half_pixel(Twig twig) {
+    return 0.5 * distance(eye, root + scale * turned(twig.foot)) / (pixels_a_metre() * scale * twig.length);
+}
+#endif
+
 void leave_out() {
     gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
     on = vec2(0.0);
@@ -105,43 +91,6 @@ void leave_out() {
 vec2 corner_of(int vertex) {
     return vec2(vertex % 2 == 1 ? 1.0 : -1.0, vertex % 4 > 1 ? 1.0 : 0.0);
 }
-
-// How large a twig is drawn: 0 where it is left out.
-float size_of(float rank) {
-    float shown = min(keep * (1.0 - gone), 1.0) * foliage;
-    return clamp((shown - rank) * RANKS + 0.5, 0.0, 1.0) * inversesqrt(max(keep, LEAST_KEPT));
-}
-
-#ifndef BAKED
-uniform vec2 leaf_pixels; // length of a leaf from which on twigs begin to be drawn leaf by leaf, and from which all are [pixels]
-
-// Half a pixel at a twig, of its length: narrower stems are drawn so wide, and cover less.
-float half_pixel(Twig twig) {
-    return 0.5 * distance(eye, root + scale * turned(twig.foot)) / (pixels_a_metre() * scale * twig.length);
-}
-
-// The share of twigs at a place of its model whose leaves are drawn each by itself: where they are large enough.
-float leaf_by_leaf(vec3 own) {
-    float off = max(distance(eye, root + scale * turned(own)), NEAREST_TWIG);
-    float pixels = scale * usual * leaf_shape.x * pixels_a_metre() / off;
-    return clamp((pixels - leaf_pixels.x) / (leaf_pixels.y - leaf_pixels.x), 0.0, 1.0);
-}
-#endif
-
-#ifdef BAKED
-bool is_left_out(Twig twig, float share) {
-    return false;
-}
-#else
-// Whether a twig is drawn in the other way; `share` says which of those at a place are drawn leaf by leaf.
-bool is_left_out(Twig twig, float share) {
-#ifdef LEAVES
-    return share >= leaf_by_leaf(twig.foot);
-#else
-    return share < leaf_by_leaf(twig.foot);
-#endif
-}
-#endif
 
 // A corner of a leaf or a stem of a twig, or of its card, in its axes [of its usual length]; `inside` and `normal` follow from it.
 vec3 corner_on(Twig twig, int number, int leaf, float size, vec2 corner, out vec3 normal) {
@@ -172,10 +121,9 @@ void stand(vec3 place) {
 #else
 // Stand in the wind and in the light; `own` is from the twig's foot, `high_up` how far along it [of its usual length].
 void stand(Twig twig, vec3 own, vec3 aside, float length_of, float high_up, vec4 chance) {
-    float turns = LEAF_TURNS * min(length(message), 1.0);
-    turns *= swing(mix(LEAF_HERTZ.x, LEAF_HERTZ.y, chance.x), chance.y + phase);
-    own += turns * high_up * length_of * (FLUTTERS.x * twig.face + FLUTTERS.y * aside);
-    facing = normalize(turned(facing + turns * (aside + 0.5 * twig.along)));
+    float turns = flutter(chance);
+    own += high_up * length_of * fluttered(twig, aside, turns);
+    facing = turned_by(twig, facing, aside, turns);
     seen_at = swayed(twig.foot, twig.pivot, twig.limb, twig.hertz, message) + scale * turned(own);
     Light light = light_in_crown(seen_at, twig.shading, facing.y * sign(dot(facing, eye - seen_at)));
     sunlit = light.sun;
@@ -184,22 +132,6 @@ void stand(Twig twig, vec3 own, vec3 aside, float length_of, float high_up, vec4
     gl_Position = clip * vec4(seen_at, 1.0);
 }
 #endif
-
-// Which way a twig's card faces: needles stand all around theirs, so that turns to the eye.
-vec3 face_of(Twig twig) {
-#ifdef LEAVES
-    return twig.face;
-#else
-    if (form != NEEDLES)
-        return twig.face;
-#ifdef BAKED
-    vec3 to = -vec3(baked[0].z, baked[1].z, baked[2].z);
-#else
-    vec3 to = turned_back(eye - root) - scale * twig.foot;
-#endif
-    return normalize(to - dot(to, twig.along) * twig.along + ASKEW * twig.face);
-#endif
-}
 
 void main() {
     int number = gl_VertexID / 4, each = 1;
@@ -214,12 +146,18 @@ void main() {
     size = 1.0;
     one = Twig(vec3(0.0), usual, vec3(0.0, 1.0, 0.0), 0.0, vec3(0.0, 0.0, 1.0), 1.0, vec3(0.0), 0.0, vec4(0.0));
 #endif
-    if (size <= 0.0 || is_left_out(one, chance.w)) {
+    bool apart = true;
+#ifndef BAKED
+    apart = chance.w < leaf_by_leaf(one.foot);
+#endif
+    if (size <= 0.0 || !apart) {
         leave_out();
         return;
     }
     vec3 normal, shape = corner_on(one, twig, number % each, size, on = corner_of(gl_VertexID), normal);
+#ifndef LEAVES
     one.face = face_of(one);
+#endif
     vec3 aside = cross(one.along, one.face);
     float length_of = size * one.length;
     one.foot -= 0.5 * max(length_of - one.length, 0.0) * one.along;  // it is larger about its middle: a crown stays as wide

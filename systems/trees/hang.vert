@@ -1,0 +1,39 @@
+// What is the same all over a twig's card: where it hangs in the wind, and what light comes to it.
+#include "systems/trees/twig.glsl"
+#include "systems/trees/hung.glsl"
+
+out vec4 hung_at;        // its foot [m]; how long it is, 0 where it is left out [m]
+flat out uvec4 hung_axes;
+flat out uvec4 hung_light;
+flat out uvec2 hung_haze;
+
+void tell(vec3 along, vec3 aside, vec3 facing, float tone, Light light) {
+    along = packed_axis(along);
+    aside = packed_axis(aside);
+    facing = packed_axis(facing);
+    vec3 from_sun = packed_light(light.sun), from_sky = packed_light(light.sky), haze = packed_light(light.haze);
+    hung_axes = uvec4(two(along.xy), two(vec2(along.z, aside.x)), two(aside.yz), two(facing.xy));
+    hung_light = uvec4(two(vec2(facing.z, 0.5 * tone)), two(from_sun.xy), two(vec2(from_sun.z, from_sky.x)), two(from_sky.yz));
+    hung_haze = uvec2(two(haze.xy), two(vec2(haze.z, 0.0)));
+}
+
+void main() {
+    Twig one = twig_of(gl_VertexID);
+    vec4 chance = random(gl_VertexID, 0, 3);
+    float size = size_of((float(gl_VertexID) + 0.5) / float(twigs));
+    gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
+    hung_at = vec4(root, 0.0);
+    hung_axes = hung_light = uvec4(0u);
+    hung_haze = uvec2(0u);
+    if (size <= 0.0 || chance.w < leaf_by_leaf(one.foot))
+        return;
+    one.face = face_of(one);
+    vec3 aside = cross(one.along, one.face);
+    float turns = flutter(chance), length_of = size * one.length;
+    one.foot -= 0.5 * max(length_of - one.length, 0.0) * one.along;  // it is larger about its middle: a crown stays as wide
+    vec3 facing = turned_by(one, one.face, aside, turns), along = turned(one.along + fluttered(one, aside, turns));
+    hung_at = vec4(swayed(one.foot, one.pivot, one.limb, one.hertz, message), scale * length_of);
+    vec3 middle = hung_at.xyz + 0.5 * hung_at.w * along;
+    Light light = light_in_crown(middle, one.shading, facing.y * sign(dot(facing, eye - middle)));
+    tell(along, turned(aside), facing, CARD_TONES.x + CARD_TONES.y * chance.z, light);
+}

@@ -1,0 +1,111 @@
+"""The outline of a twig's card: less of it is drawn where it has no leaves (Persson, Graphics Gems for Games, 2009)."""
+
+from itertools import combinations
+
+import numpy as np
+
+from ...components.arrays import Bytes, Doubles, Mask
+
+CORNERS = 4
+"""Of an outline to either side, from its foot to its tip."""
+
+FAINTEST = 5
+"""Coverage from which on a texel lies within it, of 255."""
+
+AROUND = 5
+"""Texels about what is covered that lie within it too: coarser pictures spread so far."""
+
+TRIED = 14
+"""Heights of corners that are tried, and how far out they may lie."""
+
+ROWS = 80
+"""Rows of texels that are looked at."""
+
+BOX = np.stack([np.tile([-1.0, 1.0], CORNERS), np.repeat(np.linspace(0.0, 1.0, CORNERS), 2)], axis=1)
+"""The whole of a card."""
+
+GLSL = {"OUTLINE": 2 * CORNERS}
+
+
+def outline(cover: Bytes, /) -> Doubles:
+    """Return the corners about what a picture (n, n) covers, left and right in turn, shape (2 CORNERS, 2).
+
+    They are across from -1 to 1, and up from 0 to 1, with about as little area as they can have.
+    """
+    side, covered = len(cover), cover > FAINTEST
+    if not covered.any():
+        return BOX
+    rows, left, right = _spans(covered)
+    corners = np.stack([_edge(rows, -left), _edge(rows, right)], axis=1)
+    corners[:, 0, 0] *= -1.0
+    corners[..., 0] = corners[..., 0] / side * 2.0 - 1.0
+    corners[..., 1] /= side
+    found = np.clip(corners.reshape(-1, 2), (-1.0, 0.0), 1.0)
+    return found if _goes_round(found) else BOX
+
+
+def roughly(corners: Doubles, /) -> Doubles:
+    """Return four corners about those of an outline, left and right in turn: triangles of small cards are edges."""
+    low, high = corners[:, 1].min(), corners[:, 1].max()
+    sides = []
+    for turned, points in ((-1.0, corners[::2]), (1.0, corners[1::2])):
+        reach, share = turned * points[:, 0], (points[:, 1] - low) / (high - low)
+        feet = np.linspace(reach[0], reach.max(), TRIED)
+        tips = ((reach - feet[:, None] * (1.0 - share)) / np.maximum(share, 1e-3))[:, 1:].max(axis=1)
+        best = int((feet + tips).argmin())
+        sides.append(turned * np.array([feet[best], tips[best]]))
+    return np.asarray(
+        np.clip(np.stack([np.stack(sides, axis=1).reshape(-1), [low, low, high, high]], axis=1), (-1.0, 0.0), 1.0)
+    )
+
+
+def _spans(covered: Mask) -> tuple[Doubles, Doubles, Doubles]:
+    """Return edges of rows about what is covered, and from where to where it goes there [texels]."""
+    side, any_there = len(covered), covered.any(axis=1)
+    first = np.where(any_there, covered.argmax(axis=1), side) - AROUND
+    last = np.where(any_there, side - covered[:, ::-1].argmax(axis=1), 0) + AROUND
+    rows = np.flatnonzero(any_there)
+    edges = np.unique(np.linspace(max(rows[0] - AROUND, 0), min(rows[-1] + 1 + AROUND, side), ROWS).astype(np.intp))
+    near = [slice(max(edge - 2 * AROUND, 0), min(edge + 2 * AROUND, side)) for edge in edges]
+    left = np.array([first[part].min() for part in near], np.float64)
+    right = np.array([last[part].max() for part in near], np.float64)
+    return edges.astype(np.float64), left, right
+
+
+def _edge(rows: Doubles, reach: Doubles) -> Doubles:
+    """Return the corners (CORNERS, 2) of a line nowhere within `reach` of rows: how far out, and how high."""
+    out = np.linspace(reach.min(), reach.max(), TRIED)
+    inner = np.stack(np.meshgrid(out, out, indexing="ij"), axis=-1).reshape(-1, 2)
+    least, best = np.inf, np.zeros((CORNERS, 2))
+    for between in combinations(np.linspace(rows[0], rows[-1], TRIED)[1:-1].tolist(), 2):
+        high = np.array([rows[0], *between, rows[-1]])
+        lines = _lines(rows, reach, high, inner)
+        areas = 0.5 * ((lines[:, 1:] + lines[:, :-1]) * np.diff(high)).sum(axis=1)
+        smallest = int(areas.argmin())
+        if areas[smallest] < least:
+            least, best = float(areas[smallest]), np.stack([lines[smallest], high], axis=1)
+    return best
+
+
+def _lines(rows: Doubles, reach: Doubles, high: Doubles, inner: Doubles) -> Doubles:
+    """Return lines (n, CORNERS) over heights with these two inner corners, infinite where one lies within `reach`."""
+    part = np.clip(np.searchsorted(high, rows, side="right") - 1, 0, CORNERS - 2)
+    share = (rows - high[part]) / np.diff(high)[part]
+    foot, middle, tip = (part == each for each in range(CORNERS - 1))
+
+    def end(chosen: Mask, weight: Doubles, beside: Doubles) -> Doubles:
+        needed = (reach[chosen] - beside[:, None] * (1.0 - weight)) / np.maximum(weight, 1e-3)
+        return np.asarray(np.maximum(needed.max(axis=1, initial=reach.min()), reach.min()))
+
+    first, last = end(foot, 1.0 - share[foot], inner[:, 0]), end(tip, share[tip], inner[:, 1])
+    line = inner[:, :1] * (1.0 - share[middle]) + inner[:, 1:] * share[middle]
+    holds = (line >= reach[middle] - 1e-6).all(axis=1)
+    return np.where(holds[:, None], np.column_stack([first, inner, last]), np.inf)
+
+
+def _goes_round(corners: Doubles) -> bool:
+    """Return whether no triangle of the strip through corners is turned over."""
+    one, two, three = corners[:-2], corners[1:-1], corners[2:]
+    turns = np.where(np.arange(len(one)) % 2 == 0, 1.0, -1.0)
+    (ax, ay), (bx, by) = (two - one).T, (three - one).T
+    return bool((turns * (ax * by - ay * bx) > -1e-9).all())
