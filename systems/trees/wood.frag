@@ -43,13 +43,13 @@ float noise(vec2 at) {
 
 // The bark's pigment there, of its own: furrows along the stem, or dark bands across it.
 float bark_at(vec2 on, float fades) {
-    if (rough < 0.0) {
-        float band = smoothstep(BAND.x, BAND.y, noise(on * BANDS) * (BANDED.x + BANDED.y * noise(on * BANDED.z)));
-        float foot = (1.0 - smoothstep(FOOT.x, FOOT.y, on.y)) * smoothstep(SPOT.x, SPOT.y, noise(on * SPOTS));
-        return mix(1.0, BAND_TONE, fades * max(band, foot));
-    }
-    float deep = noise(on * FURROWS + 2.0 * noise(on * WINDINGS)), fine = noise(on * FURROWS * FINER);
-    return mix(1.0, RIDGES.x + RIDGES.y * (DEEP * deep + (1.0 - DEEP) * fine), fades * rough);
+    bool banded = rough < 0.0;
+    float broad = noise(on * (banded ? vec2(BANDED.z) : vec2(WINDINGS)));
+    float first = noise(banded ? on * BANDS : on * FURROWS + 2.0 * broad), fine = noise(on * (banded ? SPOTS : FURROWS * FINER));
+    float band = smoothstep(BAND.x, BAND.y, first * (BANDED.x + BANDED.y * broad));
+    float foot = (1.0 - smoothstep(FOOT.x, FOOT.y, on.y)) * smoothstep(SPOT.x, SPOT.y, fine);
+    float furrowed = RIDGES.x + RIDGES.y * (DEEP * main + (1.0 - DEEP) * fine);
+    return banded ? mix(1.0, BAND_TONE, fades * max(band, foot)) : mix(1.0, furrowed, fades * rough);
 }
 
 void main() {
@@ -58,10 +58,11 @@ void main() {
     second = packed_shading(inside);
 #else
     float fades = clamp(FINEST_BARK.x - FINEST_BARK.y * max(fwidth(on_skin.x), fwidth(on_skin.y)), 0.0, 1.0);
+    float worn = bark_at(on_skin, fades);
     must_cover(thick);
     vec3 ray = normalize(seen_at - eye);
     vec3 normal = normalize(facing - ray * (rounds * sqrt(max(1.0 - dot(facing, facing), 0.0))));
     Light light = Light(sunlit * (SENDS * max(dot(normal, sun), 0.0)), skylit, hazy, 0.0, 0.0, vec2(0.0));
-    pixel = drawn(shade(Surface(bark * bark_at(on_skin, fades), 1.0, 0.0), light), thick);
+    pixel = drawn(shade(Surface(bark * worn, 1.0, 0.0), light), thick);
 #endif
 }
