@@ -18,7 +18,7 @@ def is_software(renderer: str, /) -> bool:
 
 
 AS_CARD = "TALLGRASS_AS_CARD"
-"""Set to 1 in the environment, all is drawn by the ways of a card, whatever draws: to see and to count what cards do."""
+"""Set to 1 in the environment, all is drawn by the ways of a card: to see and to count what cards do."""
 
 
 def draws_in_software(ctx: moderngl.Context, /) -> bool:
