@@ -8,13 +8,15 @@ ROOT = Path(__file__).parents[2]
 
 
 def example_pages() -> str:
-    """Return every example with its source, as Markdown."""
-    parts = []
+    """Return a list of the examples, and each with its source, as Markdown."""
+    rows, parts = ["| program | shows |", "|---|---|"], []
     for name, files in examples().items():
         told = ast.get_docstring(ast.parse(next(file for file in files if _is_module(file)).read_text("utf-8"))) or ""
-        parts += [f"## {name}", told.partition("\n\n")[0]]
+        told = told.partition("\n\n")[0]
+        rows.append(f"| [{name}](#{name}) | {' '.join(told.split())} |")
+        parts += [f"## {name}", told]
         parts += [f"`{file.relative_to(ROOT)}`:\n\n{fenced(file)}" for file in files]
-    return "\n\n".join(parts) + "\n"
+    return "\n\n".join(["\n".join(rows), *parts]) + "\n"
 
 
 def examples() -> dict[str, list[Path]]:
