@@ -56,7 +56,7 @@ class Statistics:
         """Count what a viewer was shown in a frame."""
         appears = outlook.appearance
         made_of = None if appears is None else (appears, site)
-        made, _ = self._counts.of(outlook.viewer.name, made_of, partial(_counts_of, outlook, site, self.blades_field))
+        made = self._counts.of(outlook.viewer.name, made_of, partial(_counts_of, outlook, site, self.blades_field))
         self.blades_considered, self.patches = made[0], dict(made[1])
         self.receivers, self.transitions = outlook.noted(Blown, Blown()).heard, outlook.changing
         self.blades_submitted = painter.blades

@@ -16,10 +16,9 @@ class Remembered(Generic[Made]):
 
     def __init__(self) -> None:
         self._made: dict[str, tuple[object, Made]] = {}
-        self._sent: object = None
 
-    def of(self, viewer: str, made_of: tuple[object, ...] | None, make: Callable[[], Made], /) -> tuple[Made, bool]:
-        """Return what `make` makes for a viewer, and whether it is still to be sent: it is not what was returned last.
+    def of(self, viewer: str, made_of: tuple[object, ...] | None, make: Callable[[], Made], /) -> Made:
+        """Return what `make` makes for a viewer.
 
         It is not made again if it was made of the same: of arrays of the same bytes, and of other things that are
         equal. With None it is always made.
@@ -31,9 +30,4 @@ class Remembered(Generic[Made]):
         self._made[viewer] = found
         if len(self._made) > MOST_VIEWERS:
             del self._made[next(iter(self._made))]
-        is_sent, self._sent = found is self._sent, found
-        return found[1], not is_sent
-
-    def lose(self) -> None:
-        """Take note that something else was sent since."""
-        self._sent = None
+        return found[1]

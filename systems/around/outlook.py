@@ -23,7 +23,7 @@ Record = TypeVar("Record")
 Other = TypeVar("Other")
 
 
-@dataclass(slots=True, eq=False)
+@dataclass(slots=True, eq=False, weakref_slot=True)
 class Outlook:
     """One viewer, the patches around it, and what it is shown of them."""
 

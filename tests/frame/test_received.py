@@ -243,7 +243,7 @@ def test_w1_each_blade_is_drawn_where_it_stands_with_its_own_message(
     rows = patches.cell[shown.rows], patches.model[shown.rows], patches.turn[shown.rows]
     standing, _ = standing_blades(near.stock, *rows, mapped.site.ground)
     heard = on_card(mapped)[0][0].letters.heard(shown.slots).reshape(*standing.shape, 2)
-    numbers, first = np.frombuffer(painter.numbers.buffer.read(), np.uint32), painter.morph.stream.count
+    numbers, first = np.frombuffer(painter.shelves.now.numbers.buffer.read(), np.uint32), painter.morph.stream.count
     for ribbons in painter.groups:
         count = ribbons.stream.count
         made = np.frombuffer(ribbons.stream.buffer.read(), RIBBON)[:count]

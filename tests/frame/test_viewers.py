@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.show.blades import painter as blades
+from tallgrass.systems.show.blades.painter import BladesPainter
 from tallgrass.systems.show.carpet import painter as carpet
 from tallgrass.systems.show.strips import painter as strips
 
@@ -79,3 +80,47 @@ def test_n11_who_draws_what_is_there_already_tells_shaders_nothing_again(
     told.clear()
     seen(stage, prairie, aims["right"], "right")
     assert told.total() <= 6  # a program that draws several rings, or two parts, is told which
+
+
+def test_n11_what_was_sent_for_a_viewer_who_stands_stays_while_others_look(
+    stage: Stage, load: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Two in turn send what one sends who looks as often: the frame's block, and winds."""
+    prairie, sent = load(), Counter[str]()
+    aims = {"left": camera(0.3, 1.7, 12.0, pitch=-8), "right": camera(7.3, 2.5, 9.0, yaw=40, pitch=-12)}
+
+    def look(*viewers: str) -> Counter[str]:
+        sent.clear()
+        for viewer in viewers:
+            prairie.advance(1 / 60)
+            seen(stage, prairie, aims[viewer], viewer)
+        return Counter(sent)
+
+    for _ in range(60):  # until all that came with them is over
+        look(*aims)
+    for kind in (moderngl.Buffer, moderngl.Texture):
+
+        def noted(thing: Any, data: Any, *given: Any, plain: Any = kind.write, **named: Any) -> None:
+            sent[type(thing).__name__] += memoryview(data).nbytes
+            plain(thing, data, *given, **named)
+
+        monkeypatch.setattr(kind, "write", noted)
+    look("left")
+    alone = look("left", "left")
+    look("right")
+    assert look("left", "right", "left", "right") == look("right", "left", "right", "left") == alone + alone
+
+
+def test_n11_what_was_sent_for_a_viewer_goes_with_it(stage: Stage, load: Load, camera: Aim) -> None:
+    prairie = load()
+    aims = {"main": camera(0.3, 1.7, 12.0, pitch=-8), "mirror": camera(7.3, 2.5, 9.0, yaw=40, pitch=-12)}
+    for viewer, aim in aims.items():
+        seen(stage, prairie, aim, viewer)
+    assert prairie.painter is not None
+    painter = prairie.painter.painters["blades"]
+    assert isinstance(painter, BladesPainter)
+    assert len(list(painter.shelves)) == 2
+    prairie.viewers.forget("mirror")
+    for _ in range(2):
+        seen(stage, prairie, aims["main"], "main")
+    assert list(painter.shelves) == [painter.shelves.now]

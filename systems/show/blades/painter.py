@@ -15,6 +15,7 @@ from ....engine.declared.quality import Quality
 from ....engine.gl.records import Records
 from ....engine.gl.remembered import Remembered
 from ....engine.gl.shaders import tell
+from ....engine.gl.shelf import Shelves
 from ....engine.gl.stream import Stream, release_all
 from ...around.appearance import handed_over
 from ...around.outlook import Outlook
@@ -59,6 +60,34 @@ class _Told:
     numbers: "_Gathered"
 
 
+class _Shelf:
+    """What is sent of one viewer's blades: the patches, in this many rows at first, and the blades' numbers."""
+
+    def __init__(self, ctx: moderngl.Context, passes: Sequence[moderngl.Program], rows: int) -> None:
+        self.standing, self.numbers = Records(ctx, STANDING, STANDING_ROW, rows=rows), Stream(ctx, NUMBER)
+        self.arrays = [ctx.vertex_array(made, [self.numbers.binding(made, each="/v")]) for made in passes]
+        self.counts: list[int] = []
+        self.sent: _Told | None = None
+        self._gathered: _Gathered | None = None
+        """What was sent last, and the numbers among it."""
+
+    def send(self, told: _Told) -> None:
+        """Send what its viewer is shown."""
+        self.standing.write(told.standing)
+        if told.numbers is not self._gathered:
+            self.numbers.write(told.numbers.numbers.view(NUMBER))
+        self.counts, self.sent, self._gathered = [*told.numbers.counts], told, told.numbers
+
+    def reserve(self, rows: int) -> None:
+        """Make room for so many rows of patches; those that were sent are lost."""
+        self.standing.reserve(rows)
+        self.sent = None
+
+    def release(self) -> None:
+        """Give everything back."""
+        release_all(*self.arrays, self.standing, self.numbers)
+
+
 class BladesPainter(RepresentationPainter):
     """Draws the blades of all rings, and those on their way to their strips."""
 
@@ -70,8 +99,6 @@ class BladesPainter(RepresentationPainter):
         self._came: tuple[float, ...] = ()
         self._strips, self._units, self._received, self._models = strips, units, canvas.received, len(stock.rank)
         self._fade, self._near = canvas.transitions.fade, PARTED * quality.patch
-        self.standing = Records(ctx, STANDING, STANDING_ROW)
-        self.numbers = Stream(ctx, NUMBER)
         laid = {**self.store.defines, "STORED": 1, "RINGS": room_for(len(quality.strip_rings))}
         self.hearing = Hearing(canvas, "systems/show/blades/receivers.frag", laid, self._tell)
         self.passes = [
@@ -80,7 +107,8 @@ class BladesPainter(RepresentationPainter):
         ]
         for made in self.passes:
             self._tell(made)
-        self.arrays = [ctx.vertex_array(made, [self.numbers.binding(made, each="/v")]) for made in self.passes]
+        self._rows = 64
+        self.shelves = Shelves(lambda: _Shelf(ctx, self.passes, self._rows))
         segments = [ring.segments for ring in rings]
         self._parted = 1 + sum(ring.to < PARTED for ring in rings[:-1])
         self.groups = [
@@ -90,10 +118,7 @@ class BladesPainter(RepresentationPainter):
         ]
         self.morph = Ribbons(ctx, block, segments[-1:], units, soft=True, record=PAINTED, defines={**laid, "MORPH": 1})
         self._tell(self.morph.program)
-        self._counts: list[int] = []
         self._gathered, self._told = Remembered[_Gathered](), Remembered[_Told]()
-        self._numbers: _Gathered | None = None
-        """The numbers that were sent last."""
         self._first = self._asked = 0
 
     def _tell(self, made: moderngl.Program) -> None:
@@ -127,13 +152,13 @@ class BladesPainter(RepresentationPainter):
         for made in (*self.passes, self.morph.program):
             self._tell(made)
         self._gathered, self._told = Remembered[_Gathered](), Remembered[_Told]()
-        self._numbers = None
 
     def make_ready(self, grown: Grown, /) -> None:
         """Make room for more patches than are usually shown, and programs for whatever winds will blow."""
         del grown
-        self.standing.reserve(READY_ROWS)
-        self._told.lose()
+        self._rows = READY_ROWS
+        for shelf in self.shelves:
+            shelf.reserve(READY_ROWS)
         self.hearing.make_ready()
         for ribbons in (self.morph, *self.groups):
             self._tell(ribbons.deep().program)
@@ -141,9 +166,9 @@ class BladesPainter(RepresentationPainter):
     def rehearse(self, record: NDArray[np.void], /) -> None:
         """Pretend that some are on their way, and that there are others of each ring."""
         del record
-        if sum(self._counts) >= len(self._counts):
-            self._counts = [1] * len(self._counts)
-            self._told.lose()
+        shelf = self.shelves.now
+        if sum(shelf.counts) >= len(shelf.counts):
+            shelf.counts, shelf.sent = [1] * len(shelf.counts), None
 
     def receivers(self, outlook: Outlook, /) -> list[int]:
         """Return how many blades there are on the patches that are shown."""
@@ -164,15 +189,12 @@ class BladesPainter(RepresentationPainter):
             self._came,
         )
         made_of = *stands, *first["strips"], *first["blades"]
-        told, is_new = self._told.of(outlook.viewer.name, made_of, partial(self._tell_of, outlook, first))
-        if is_new:
-            self.standing.write(told.standing)
-            self._counts = [*told.numbers.counts]
-        if told.numbers is not self._numbers:
-            self._numbers = told.numbers
-            self.numbers.write(told.numbers.numbers.view(NUMBER))
+        shelf = self.shelves.of(outlook.viewer.name, outlook)
+        told = self._told.of(outlook.viewer.name, made_of, partial(self._tell_of, outlook, first))
+        if told is not shelf.sent:
+            shelf.send(told)
         (self._asked,), (self._first,) = self.receivers(outlook), first["blades"]
-        return sum(self._counts)
+        return sum(shelf.counts)
 
     def _tell_of(self, outlook: Outlook, first: Mapping[str, list[int]]) -> "_Told":
         """Return what a viewer is shown."""
@@ -184,7 +206,7 @@ class BladesPainter(RepresentationPainter):
         planted = pool, slots, *(each.take(slots, axis=0) for each in (pool.stamp, pool.ground, pool.sown))
         made_of = None if len(shown.morphing.rows) else (viewer.eye, viewer.sides, self._came, *planted, *places)
         gather = partial(self._gather, outlook, kept.pool, shown, left)
-        numbers, _ = self._gathered.of(viewer.name, made_of, gather)
+        numbers = self._gathered.of(viewer.name, made_of, gather)
         return _Told(self._standing(outlook, shown, left, first["strips"]), numbers)
 
     def _gather(self, outlook: Outlook, pool: BladePool, shown: BladesShown, left: Floats) -> _Gathered:
@@ -235,19 +257,20 @@ class BladesPainter(RepresentationPainter):
     def hear(self) -> int:
         """Let all blades hear the wind; return the number of draw calls."""
         self.store.blades.texture.use(self._units["blades"])
-        self.standing.texture.use(self._units["standing"])
+        self.shelves.now.standing.texture.use(self._units["standing"])
         return self._received.ask(self.hearing.array(), first=self._first, count=self._asked)
 
     def look_anew(self) -> int:
         """Make out all about each blade that is the same along its ribbon; return the number of draw calls."""
         self.store.blades.texture.use(self._units["blades"])
-        self.standing.texture.use(self._units["standing"])
+        shelf = self.shelves.now
+        shelf.standing.texture.use(self._units["standing"])
         self.store.slices.use(self._units["slices"])
         for made in self.passes:
             tell(made, "blades_from", self._first)
         calls = first = 0
-        for ribbons, count in zip((self.morph, *self.groups), self._counts, strict=True):
-            calls += ribbons.fill(self.arrays[ribbons is self.morph], count, first=first)
+        for ribbons, count in zip((self.morph, *self.groups), shelf.counts, strict=True):
+            calls += ribbons.fill(shelf.arrays[ribbons is self.morph], count, first=first)
             first += count
         return calls
 
@@ -272,8 +295,8 @@ class BladesPainter(RepresentationPainter):
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(*self.groups, self.morph, *self.arrays, *self.passes, self.hearing)
-        release_all(self.store, self.standing, self.numbers, *([] if self._beside is None else [self._beside[2]]))
+        release_all(*self.groups, self.morph, self.shelves, *self.passes, self.hearing)
+        release_all(self.store, *([] if self._beside is None else [self._beside[2]]))
 
 
 def _send_away(

@@ -1,6 +1,6 @@
 """Drawing the ground, and on it the 2D carpet, tile by tile."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 
 import moderngl
@@ -11,9 +11,10 @@ from ....components.arrays import Bytes, Floats
 from ....engine.gl.functions import NUMBERS, functions_of
 from ....engine.gl.mipmaps import stack_for
 from ....engine.gl.rasteriser import anisotropy
-from ....engine.gl.shaders import tell
-from ....engine.gl.stream import Stream, release_all
+from ....engine.gl.shelf import Shelves
+from ....engine.gl.stream import release_all
 from ...frame.block import FrameBlock, joined
+from .layer import GroundShelf, Layer
 from .stock import CarpetStock
 from .textures import image_count
 from .tiles import TILE, tile_grid
@@ -40,51 +41,8 @@ WHOLE, DENSE, THIN = 0, 1, 2
 GLSL = {"RAISED": RAISED, "APART": APART}
 
 
-class _Layer:
-    """A program that draws tiles of the ground, with the tiles it draws; it is made once it is asked for."""
-
-    def __init__(
-        self, make: Callable[[], moderngl.Program], stream: Stream, corners: moderngl.Buffer, indices: moderngl.Buffer
-    ) -> None:
-        self._make, self.stream, self._grid = make, stream, (corners, indices)
-        self._told: dict[str, object] = {}
-        self._untold: dict[str, object] = {}
-        """Of that, what the program is told before it draws next: of many, a frame draws with a few."""
-        self.made: moderngl.VertexArray | None = None
-
-    @property
-    def array(self) -> moderngl.VertexArray:
-        """What draws a tile."""
-        if self.made is None:
-            program, (corners, indices) = self._make(), self._grid
-            contents = [(corners, "2f", "corner"), self.stream.binding(program)]
-            self.made = program.ctx.vertex_array(program, contents, index_buffer=indices)
-        if self._untold:
-            for name, value in self._untold.items():
-                asked = self.made.program.get(name, None)
-                if isinstance(asked, moderngl.Uniform):
-                    asked.value = value
-            self._untold = {}
-        return self.made
-
-    def know(self, told: Mapping[str, object]) -> None:
-        """Tell the program what it asks for of this once it draws."""
-        fresh = {name: value for name, value in told.items() if self._told.get(name) != value}
-        self._told |= fresh
-        self._untold |= fresh
-
-    def draw(self, **told: float) -> int:
-        """Draw the tiles, if there are any, by a program that is told this; return the number of draw calls."""
-        if not self.stream.count:
-            return 0
-        for name, value in told.items():
-            tell(self.array.program, name, value)
-        self.array.render(moderngl.TRIANGLES, instances=self.stream.count)
-        return 1
-
-
-def _program_of(layer: _Layer) -> moderngl.Program:
-    return layer.array.program
+def _program_of(layer: Layer) -> moderngl.Program:
+    return layer.program
 
 
 class GroundPainter:
@@ -103,22 +61,20 @@ class GroundPainter:
         self.stock, self._block = stock, block
         self._came: tuple[float, ...] = ()
         self._raised = RAISED, OUTLINE
-        self.shares = ctx.texture((side, side), 1, alignment=1)
-        self.shares.filter = (moderngl.NEAREST, moderngl.NEAREST)
-        self.units = units
+        self.units, self._side = units, side
         self._ctx, self.rims = ctx, ctx.texture((1, 1), 1, dtype="f4")
         corners, indices = tile_grid()
         self.grid = ctx.buffer(corners), ctx.buffer(indices)
-        self.streams = tuple(Stream(ctx, TILE) for _ in range(5))
-        self.bare: list[_Layer] = []
-        self.covered: list[_Layer] = []
+        self.shelves = Shelves(partial(GroundShelf, ctx, side))
+        self.bare: list[Layer] = []
+        self.covered: list[Layer] = []
         """The same, where carpet may lie."""
-        self.under: list[_Layer] = []
-        self.carpet: list[_Layer] = []
+        self.under: list[Layer] = []
+        self.carpet: list[Layer] = []
         """For what is usual, uncut and cut; for lamps beside that; and for all that there may be."""
-        self.edged: list[_Layer] = []
+        self.edged: list[Layer] = []
         """What is drawn where grass ends or is cut: ground, what lies under the carpet, and the carpet."""
-        self.casting: list[_Layer] = []
+        self.casting: list[Layer] = []
         """The carpet in shadow maps: where it is even, and where grass ends or is cut."""
         self.is_trodden = False
         """Whether anybody treads the grass, or has: then pixels of the carpet ask for that, which costs."""
@@ -138,7 +94,7 @@ class GroundPainter:
         trodden: Defines = {"TRODDEN": 1}
         known = heads | stacked | litter
         plain = known | usual | {"LAMPLESS": 1}
-        wanted: list[tuple[list[_Layer], int, str, Defines]] = [
+        wanted: list[tuple[list[Layer], int, str, Defines]] = [
             *((self.bare, 0, "ground", litter | each) for each in (usual | whole, usual | cut, trodden)),
             *((self.under, 1, "under", heads | each) for each in (whole, cut)),
             *((self.carpet, 2, "carpet", each) for each in (plain | whole, plain | cut)),
@@ -152,8 +108,8 @@ class GroundPainter:
         for among, stream, name, defines in wanted:
             vertex, fragment = f"systems/show/carpet/{name}.vert", f"systems/show/carpet/{name}.frag"
             make = partial(joined, ctx, self._block, self.units, vertex, fragment, defines)
-            among.append(_Layer(make, self.streams[stream], *self.grid))
-        self.covered += [_Layer(partial(_program_of, each), self.streams[1], *self.grid) for each in self.bare]
+            among.append(Layer(make, self.shelves, stream, self.grid))
+        self.covered += [Layer(partial(_program_of, each), self.shelves, 1, self.grid) for each in self.bare]
         self.restock(stock)
 
     def making(self) -> Iterator[None]:
@@ -164,7 +120,7 @@ class GroundPainter:
                 yield
 
     @property
-    def _layers(self) -> tuple[_Layer, ...]:
+    def _layers(self) -> tuple[Layer, ...]:
         return *self.bare, *self.under, *self.carpet, *self.edged, *self.casting
 
     def _tell(self, name: str, value: object) -> None:
@@ -189,8 +145,10 @@ class GroundPainter:
 
     def write(self, tiles: Sequence[NDArray[np.void]]) -> None:
         """Send the tiles, as `by_layer` parts them."""
-        for stream, some in zip(self.streams, tiles, strict=True):
+        shelf = self.shelves.now
+        for stream, some in zip(shelf.streams, tiles, strict=True):
             stream.write(some)
+        shelf.tiles = tiles
 
     def write_rims(self, far: Floats) -> None:
         """Send how far the ground is from the next rim of a cliff (rows, columns) [m]."""
@@ -202,8 +160,9 @@ class GroundPainter:
 
     def rehearse(self) -> None:
         """Have something to draw for each program."""
-        self.is_trodden = True
-        for stream in self.streams[3:]:
+        self.is_trodden, shelf = True, self.shelves.now
+        shelf.tiles = None
+        for stream in shelf.streams[3:]:
             if not stream.count:
                 stream.write(np.zeros(1, TILE))
 
@@ -233,20 +192,22 @@ class GroundPainter:
         for name, value in self.stock.told(came, self._raised[0]).items():
             self._tell(name, value)
 
-    def write_shares(self, shares: Bytes, centre: NDArray[np.int32], *, beyond: float) -> None:
-        """Send how much the carpet shows, of 255, on each row of the patch table (rows,) around the viewer's cell.
+    def write_shares(self, shares: Bytes) -> None:
+        """Send how much the carpet shows, of 255, on each row of the patch table (rows,) around the viewer's cell."""
+        shelf = self.shelves.now
+        shelf.shares.write(shares)
+        shelf.shown = shares
 
-        `beyond` is how much on the rest of the terrain.
-        """
-        self.shares.write(shares)
-        self._block.record["carpet_window"] = *centre, self.shares.width // 2, beyond
+    def look_from(self, centre: NDArray[np.int32], *, beyond: float) -> None:
+        """Take over the viewer's cell, and how much carpet shows `beyond` the patches around it."""
+        self._block.record["carpet_window"] = *centre, self._side // 2, beyond
 
     def use(self) -> None:
         """Bind what all of it reads."""
-        self.shares.use(self.units["shares"])
+        self.shelves.now.shares.use(self.units["shares"])
         self.rims.use(self.units["rims"])
         if self._block.earth:
-            gl = functions_of(self.shares.ctx)
+            gl = functions_of(self._ctx)
             gl.glActiveTexture(NUMBERS["TEXTURE0"] + self.units["earth"])
             gl.glBindTexture(NUMBERS["TEXTURE_2D"], self._block.earth)
 
@@ -273,14 +234,12 @@ class GroundPainter:
 
     def cast(self, light: tuple[float, float, float], /) -> int:
         """Write the depth at which grass of the carpet stops light from a place [m]; return the draw calls."""
-        self.shares.use(self.units["shares"])
+        self.shelves.now.shares.use(self.units["shares"])
         for layer in self.casting:
             layer.know({"light": light})
         return sum(layer.draw() for layer in self.casting)
 
     def release(self) -> None:
         """Give everything back."""
-        made = [layer.made for layer in self._layers if layer.made is not None]
-        covered = [layer.made for layer in self.covered if layer.made is not None]
-        release_all(*covered, *made, *(array.program for array in made))
-        release_all(*self.streams, *self.grid, self.shares, self.rims)
+        release_all(*(layer.made for layer in self._layers if layer.made is not None))
+        release_all(self.shelves, *self.grid, self.rims)

@@ -117,7 +117,6 @@ class CarpetPainter(RepresentationPainter):
         """Pretend that somebody treads it, and that grass ends somewhere."""
         del record
         self.ground.rehearse()
-        self._seen.lose()
 
     def receivers(self, outlook: Outlook, /) -> list[int]:
         """Return how many patches there are."""
@@ -171,17 +170,19 @@ class CarpetPainter(RepresentationPainter):
             changes,
             self._rims.version,
         )
-        tiles, is_new = self._seen.of(
+        shelf = self.ground.shelves.of(viewer.name, outlook)
+        tiles = self._seen.of(
             viewer.name,
             made_of,
             partial(self._tiles, viewer, None if cover is None else bare_to, mown, goes_on=goes_on),
         )
-        if is_new:
+        if tiles is not shelf.tiles:
             self.ground.write(tiles)
         laid = cover, patches.alive, patches.grows, viewer.centre
-        shares, is_new = self._laid.of(viewer.name, laid, partial(_shares, patches, cover))
-        if is_new:
-            self.ground.write_shares(shares, viewer.centre, beyond=float(cover is not None))
+        shares = self._laid.of(viewer.name, laid, partial(_shares, patches, cover))
+        if shares is not shelf.shown:
+            self.ground.write_shares(shares)
+        self.ground.look_from(viewer.centre, beyond=float(cover is not None))
 
     def cast(self, light: tuple[float, float, float], /) -> int:
         """Write the depth at which grass stops light from a place [m]; return the number of draw calls."""
@@ -208,7 +209,7 @@ class CarpetPainter(RepresentationPainter):
         place = round(viewer.eye[0] / step) * step, round(viewer.eye[2] / step) * step
         rims = self._rims if self._rims.any else None
         make = partial(tiles_around, terrain, place, spacing=self._spacing, about=step * HALF_DIAGONAL, rims=rims)
-        return self._around.of(viewer.name, (self._ground, place, self._rims.version), make)[0]
+        return self._around.of(viewer.name, (self._ground, place, self._rims.version), make)
 
     def _follow_rims(self) -> None:
         self._rims.follow()
@@ -229,10 +230,9 @@ class CarpetPainter(RepresentationPainter):
         viewer, rims = outlook.viewer, self._rims if self._rims.any else None
         tiles = ground_tiles(self._ground.terrain, viewer.eye, viewer.cone, spacing=self._spacing, rims=rims)
         self.ground.write(by_layer(tiles, np.ones(len(tiles), np.bool_), np.zeros(len(tiles), np.bool_)))
-        self._seen.lose()
-        self._laid.lose()
         everywhere = np.full(len(outlook.patches.progress), 255, np.uint8)
-        self.ground.write_shares(everywhere, outlook.viewer.centre, beyond=1.0)
+        self.ground.write_shares(everywhere)
+        self.ground.look_from(outlook.viewer.centre, beyond=1.0)
         self.ground.raise_carpet(height)
 
     def lay_as_always(self) -> None:

@@ -13,6 +13,7 @@ from ....engine.gl.emit import emitted, looked_up
 from ....engine.gl.mipmaps import at_once, stack_for
 from ....engine.gl.records import Records
 from ....engine.gl.shaders import tell, tell_all
+from ....engine.gl.shelf import Shelves
 from ....engine.gl.stream import release_all
 from ...frame.block import filled, joined, room_for
 from ...grow.organs import any_heads
@@ -55,6 +56,26 @@ DEEP = [*_sorts({"DEEP": 1}, {"DEEP": 1, "CUT": 1}), {"DEEP": 1, **EDGED}]
 NUMBER = np.dtype([("number", "u4")])
 
 
+class StripShelf:
+    """What is sent of one viewer's strips: the patches, and the numbers of the strips, in this many rows at first."""
+
+    def __init__(self, ctx: moderngl.Context, rows: int) -> None:
+        self.stood, self.strips = Records(ctx, STOOD, STOOD_ROW, rows=rows), Records(ctx, NUMBER, STRIPS_ROW, rows=rows)
+        self.sent: object = None
+        self.numbers: object = None
+        """What was sent last, and the strips among it."""
+
+    def reserve(self, rows: int) -> None:
+        """Make room for so many rows; what was sent is lost."""
+        self.stood.reserve(rows)
+        self.strips.reserve(rows)
+        self.sent = self.numbers = None
+
+    def release(self) -> None:
+        """Give everything back."""
+        release_all(self.stood, self.strips)
+
+
 class StripPainter:
     """Draws the strips of all rings; it owns their textures.
 
@@ -78,8 +99,8 @@ class StripPainter:
         self._beside: _Held | None = None
         """What is brought into GL beside it."""
         self._stack = stack = stack_for(canvas.ctx, len(atlas.texels[0]))
-        self.stood = Records(canvas.ctx, STOOD, STOOD_ROW)
-        self.strips = Records(canvas.ctx, NUMBER, STRIPS_ROW)
+        self._rows = 64
+        self.shelves = Shelves(lambda: StripShelf(canvas.ctx, self._rows))
         laid: dict[str, str | int] = {"RINGS": room_for(len(rings))}
         self.hearing = Hearing(canvas, "systems/show/strips/receivers.frag", laid, self._tell)
         self._heads = heads
@@ -157,25 +178,26 @@ class StripPainter:
 
     def make_ready(self) -> None:
         """Make room for more than is usually shown, and programs for whatever winds will blow."""
-        self.stood.reserve(READY_ROWS)
-        self.strips.reserve(READY_ROWS)
+        self._rows = READY_ROWS
+        for shelf in self.shelves:
+            shelf.reserve(READY_ROWS)
         self.hearing.make_ready()
         for number in range(len(DEEP)):
             self.array(number, deep=True)
 
     def write(self, stood: NDArray[np.void]) -> None:
         """Send the patches, ring after ring."""
-        self.stood.write(stood)
+        self.shelves.now.stood.write(stood)
 
     def write_strips(self, strips: NDArray[np.uint32]) -> None:
         """Send the numbers of the polygon strips (n,), far to near."""
-        self.strips.write(strips.view(NUMBER))
+        self.shelves.now.strips.write(strips.view(NUMBER))
 
     def hear(self, ring: int, *, patch: int, first: int, count: int) -> int:
         """Ask the receivers of a ring's patches, whose first is number `patch`; return the number of draw calls."""
         if not count:
             return 0
-        self.stood.texture.use(self.units["stood"])
+        self.shelves.now.stood.texture.use(self.units["stood"])
         array = self.hearing.array()
         tell(array.program, "of_ring", ring, patch)
         return self.received.ask(array, first=first, count=count)
@@ -190,9 +212,10 @@ class StripPainter:
             return 0
         self._held.atlas.use(self.units["atlas"])
         self._held.ranks.use(self.units["ranks"])
-        self.stood.texture.use(self.units["stood"])
+        shelf = self.shelves.now
+        shelf.stood.texture.use(self.units["stood"])
         self._held.extents.use(self.units["extents"])
-        self.strips.texture.use(self.units["strips"])
+        shelf.strips.texture.use(self.units["strips"])
         frame = self._block.record[0]
         is_cut = bool(frame["anything_cut"])
         casts = frame["maps_shown"] > 0.0 or frame["shades_grid"][3] > 0.0 or "TREES" in self._block.defines
@@ -207,7 +230,7 @@ class StripPainter:
         """Give everything back."""
         arrays = list(self._made.values())
         beside = [] if self._beside is None else [self._beside]
-        release_all(*arrays, *(array.program for array in arrays), self.hearing, self.stood, self.strips)
+        release_all(*arrays, *(array.program for array in arrays), self.hearing, self.shelves)
         release_all(self._held, *beside)
 
 

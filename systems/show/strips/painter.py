@@ -59,8 +59,6 @@ class StripsPainter(RepresentationPainter):
         self.runs: list[tuple[int, int, int]] = []
         self._asked: list[tuple[int, int, int]] = []
         self._gathered, self._ordered = Remembered[_Sent](), Remembered[Order]()
-        self._strips: NDArray[np.uint32] | None = None
-        """The strips that were sent last."""
 
     def making(self) -> Iterator[None]:
         """Make the programs that are not there yet, one at a time."""
@@ -70,8 +68,6 @@ class StripsPainter(RepresentationPainter):
         """Make all that strips may come to need."""
         del grown
         self.strips.make_ready()
-        self._gathered.lose()
-        self._strips = None
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Take over how much of each kind has become what it is to be."""
@@ -91,13 +87,11 @@ class StripsPainter(RepresentationPainter):
         """Draw what was staged."""
         self.strips.restock()
         self._gathered, self._ordered = Remembered[_Sent](), Remembered[Order]()
-        self._strips = None
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
         """Pretend that some are whole, others drawn by rank, and that grass ends somewhere."""
         del record
         self.runs = [(first, count, thin) for first, count, _ in self.runs[:1] for thin in range(3)]
-        self._gathered.lose()
 
     def receivers(self, outlook: Outlook, /) -> list[int]:
         """Return how many edges each ring has."""
@@ -107,17 +101,15 @@ class StripsPainter(RepresentationPainter):
         """Send the patches with strips, and the strips that are shown; they are no blades."""
         kept, shown, centre = outlook.keeps(StripsKept), outlook.shows(StripsShown), outlook.viewer.centre
         made_of = shown, outlook.appearance, kept, kept.planted, centre, self._came, *first["strips"]
-        sent, is_new = self._gathered.of(outlook.viewer.name, made_of, partial(self._gather, outlook, first))
-        if is_new:
-            self._send(sent)
-        return 0
-
-    def _send(self, sent: "_Sent") -> None:
-        self.strips.write(sent.stood)
-        if sent.strips is not self._strips:
-            self._strips = sent.strips
-            self.strips.write_strips(sent.strips)
+        shelf = self.strips.shelves.of(outlook.viewer.name, outlook)
+        sent = self._gathered.of(outlook.viewer.name, made_of, partial(self._gather, outlook, first))
+        if sent is not shelf.sent:
+            self.strips.write(sent.stood)
+            if sent.strips is not shelf.numbers:
+                self.strips.write_strips(sent.strips)
+            shelf.sent, shelf.numbers = sent, sent.strips
         self.runs, self._asked = sent.runs, sent.asked
+        return 0
 
     def _gather(self, outlook: Outlook, first: Mapping[str, list[int]]) -> "_Sent":
         rings, appears = _rings(outlook), outlook.appearance
@@ -132,7 +124,7 @@ class StripsPainter(RepresentationPainter):
         present = np.concatenate([pool.present.take(ring.slots, axis=0) for pool, ring in rings]).take(patch, axis=0)
         present = self._of_forms(present)
         order = partial(polygon_strips, stood, patch, present, self._fineness, most=self.strips.most)
-        (strips, amount), _ = self._ordered.of(outlook.viewer.name, (stood["stand"], patch, present), order)
+        strips, amount = self._ordered.of(outlook.viewer.name, (stood["stand"], patch, present), order)
         return _Sent(stood, strips, runs(_ranked(rings, changes=self._changes).take(patch), amount), asked)
 
     @property

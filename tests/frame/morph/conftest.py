@@ -175,8 +175,8 @@ class Scene:
         numbers, amount = polygon_strips(stood, np.arange(len(stood)), present, fineness, most=strips.most)
         strips.write(stood)
         strips.write_strips(numbers)
-        strips.stood.texture.use(UNITS["stood"])
-        strips.strips.texture.use(UNITS["strips"])
+        strips.shelves.now.stood.texture.use(UNITS["stood"])
+        strips.shelves.now.strips.texture.use(UNITS["strips"])
         everywhere = np.frombuffer(strips.extents.read(), np.float32).reshape(*strips.extents.size[::-1], 4).copy()
         everywhere[:, :-1] = 0, 1, 1, 0  # but for what pictures are like
         extents = self.painter.ctx.texture(strips.extents.size, 4, everywhere.tobytes(), dtype="f4")
@@ -231,7 +231,8 @@ def scene(
     strips.strips.array(0)
     assert isinstance(near, BladeRepresentation)
     assert isinstance(representation, StripRepresentation)
-    numbers = np.frombuffer(blades.numbers.buffer.read(), np.uint32)[: blades.morph.stream.count].astype(np.int64)
+    sent = np.frombuffer(blades.shelves.now.numbers.buffer.read(), np.uint32)
+    numbers = sent[: blades.morph.stream.count].astype(np.int64)
     (_, texels), patches, rows = on_card(prairie)[0], outlook.patches, outlook.shows(BladesShown).standing.rows
     patch, own = np.divmod(numbers, texels.shape[1])
     standing, _ = standing_blades(

@@ -1,0 +1,84 @@
+"""Layers of the ground: what draws tiles of it, and the tiles that each viewer sees."""
+
+from collections.abc import Callable, Mapping
+
+import moderngl
+
+from ....engine.gl.shaders import tell
+from ....engine.gl.shelf import Shelves
+from ....engine.gl.stream import Stream, release_all
+from .tiles import TILE
+
+
+class GroundShelf:
+    """What is sent of the ground that one viewer sees: tiles by layer, and how much the carpet shows on each patch."""
+
+    def __init__(self, ctx: moderngl.Context, side: int) -> None:
+        self.streams = tuple(Stream(ctx, TILE) for _ in range(5))
+        self.shares = ctx.texture((side, side), 1, alignment=1)
+        self.shares.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        self.arrays: dict[Layer, moderngl.VertexArray] = {}
+        """What draws the tiles of each layer, once it is asked for."""
+        self.tiles: object = None
+        self.shown: object = None
+        """What was sent last."""
+
+    def release(self) -> None:
+        """Give everything back."""
+        release_all(*self.arrays.values(), *self.streams, self.shares)
+
+
+class Layer:
+    """A program that draws tiles of the ground, those of a stream of the shelves; it is made once it is asked for."""
+
+    def __init__(
+        self,
+        make: Callable[[], moderngl.Program],
+        shelves: Shelves[GroundShelf],
+        stream: int,
+        grid: tuple[moderngl.Buffer, moderngl.Buffer],
+    ) -> None:
+        self._make, self._shelves, self._stream, self._grid = make, shelves, stream, grid
+        self._told: dict[str, object] = {}
+        self._untold: dict[str, object] = {}
+        """Of that, what the program is told before it draws next: of many, a frame draws with a few."""
+        self.made: moderngl.Program | None = None
+
+    @property
+    def program(self) -> moderngl.Program:
+        """What draws a tile, told all that it asks for."""
+        if self.made is None:
+            self.made = self._make()
+        if self._untold:
+            for name, value in self._untold.items():
+                asked = self.made.get(name, None)
+                if isinstance(asked, moderngl.Uniform):
+                    asked.value = value
+            self._untold = {}
+        return self.made
+
+    @property
+    def array(self) -> moderngl.VertexArray:
+        """What draws the tiles of the viewer that looks."""
+        shelf, program = self._shelves.now, self.program
+        if self not in shelf.arrays:
+            corners, indices = self._grid
+            contents = [(corners, "2f", "corner"), shelf.streams[self._stream].binding(program)]
+            shelf.arrays[self] = program.ctx.vertex_array(program, contents, index_buffer=indices)
+        return shelf.arrays[self]
+
+    def know(self, told: Mapping[str, object]) -> None:
+        """Tell the program what it asks for of this once it draws."""
+        fresh = {name: value for name, value in told.items() if self._told.get(name) != value}
+        self._told |= fresh
+        self._untold |= fresh
+
+    def draw(self, **told: float) -> int:
+        """Draw the tiles, if there are any, by a program that is told this; return the number of draw calls."""
+        count = self._shelves.now.streams[self._stream].count
+        if not count:
+            return 0
+        for name, value in told.items():
+            tell(self.program, name, value)
+        self.array.render(moderngl.TRIANGLES, instances=count)
+        return 1
