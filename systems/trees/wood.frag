@@ -48,7 +48,7 @@ float bark_at(vec2 on, float fades) {
     float first = noise(banded ? on * BANDS : on * FURROWS + 2.0 * broad), fine = noise(on * (banded ? SPOTS : FURROWS * FINER));
     float band = smoothstep(BAND.x, BAND.y, first * (BANDED.x + BANDED.y * broad));
     float foot = (1.0 - smoothstep(FOOT.x, FOOT.y, on.y)) * smoothstep(SPOT.x, SPOT.y, fine);
-    float furrowed = RIDGES.x + RIDGES.y * (DEEP * main + (1.0 - DEEP) * fine);
+    float furrowed = RIDGES.x + RIDGES.y * (DEEP * first + (1.0 - DEEP) * fine);
     return banded ? mix(1.0, BAND_TONE, fades * max(band, foot)) : mix(1.0, furrowed, fades * rough);
 }
 
