@@ -97,7 +97,7 @@ def gl(name: str, *arguments: object) -> int:
 @contextmanager
 def prairie_of() -> Iterator[Prairie]:
     """A prairie that is told of no context."""
-    prairie = Prairie.load(sys.argv[1])
+    prairie = Prairie.load(sys.argv[1], live=False)
     yield prairie
     prairie.release()
 
@@ -154,7 +154,7 @@ def check_the_hosts_moderngl(screens: Screens) -> str:
     told = "" if moderngl.get_context() is contexts[1] else "the default context is another one; "
     for window, ctx in zip(windows, contexts, strict=True):
         window.switch_to()
-        given = Prairie.load(sys.argv[1], ctx=ctx)
+        given = Prairie.load(sys.argv[1], ctx=ctx, live=False)
         pictures.append(window.picture(given))
         given.release()
     return told + ", ".join(f"picture {k} is another one" for k in range(1, 6) if (pictures[k] != pictures[0]).any())
