@@ -192,7 +192,7 @@ def check_batch(_: Game) -> str:
         sprites[0].group = orders[0]
         group.delete()
         told["taken out"] = different(draw(), without)
-        other, again = Prairie(LOADED), Prairie(LOADED)
+        other, again = Prairie(LOADED, live=False), Prairie(LOADED, live=False)
         for order, extra in ((1, other), (3, again)):
             extra.group(batch, lambda extra=extra: matrices(extra), order=order)  # type: ignore[misc]
         draw()

@@ -158,7 +158,7 @@ def together(**said: str) -> str:
 @contextmanager
 def prairies(count: int = 1) -> Iterator[list[Prairie]]:
     """Prairies of the little scene, released in the end."""
-    made = [Prairie(LOADED) for _ in range(count)]
+    made = [Prairie(LOADED, live=False) for _ in range(count)]
     yield made
     for prairie in made:
         prairie.release()
