@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from importlib.metadata import EntryPoint
 from pathlib import Path
 from typing import Any, ClassVar
@@ -184,16 +185,16 @@ def test_a_new_plugin_passes_the_check_and_its_own_test(tmp_path: Path, kind: st
 
 
 @pytest.mark.window
-def test_a_new_game_passes_its_own_tests_and_draws_in_its_window(tmp_path: Path, display: str) -> None:
+def test_a_new_game_passes_its_own_tests_and_draws_in_its_window(
+    tmp_path: Path, display: str, python: Callable[..., str]
+) -> None:
     """With its prairie in this process's cache of grown grass; the window is closed after three frames."""
     folder = tmp_path / "my-walk"
     scaffold_game("my-walk", folder)
-    place = os.environ | {"DISPLAY": display}
-    for command in (["-m", "pytest", "-q", "-p", "no:cacheprovider", "tests"], ["game.py", "--frames", "3"]):
-        done = subprocess.run(
-            [sys.executable, *command], cwd=folder, env=place, capture_output=True, text=True, check=False
-        )
-        assert done.returncode == 0, done.stdout + done.stderr
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests"]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    python(folder, "game.py", "--frames", "3", place={"DISPLAY": display})
 
 
 def test_what_is_begun_is_clean_by_the_houses_own_rules(tmp_path: Path) -> None:
