@@ -32,6 +32,7 @@ from .screen import Screen
 from .seasons import Seasons
 from .site import Site, found_again, found_site, outlook_on, settle_on
 from .statistics import Statistics
+from .streaming import Streaming
 from .tending import Tending
 from .trees.feature import Trees
 
@@ -81,7 +82,7 @@ class Prairie(Tending):
         self.loaded, self.preset, self._origin = loaded, preset, (0.0, 0.0, 0.0)
         self._readings: WeakKeyDictionary[Site, LoadedScene] = WeakKeyDictionary()
         self._seasons = Seasons(loaded.scene)
-        self._ripening = Ripening(self._seasons, live=live)
+        self._ripening, self._streaming = Ripening(self._seasons, live=live), Streaming(live=live)
         self.lod: LodName = lod
         self.statistics, self.governor = Statistics(blades_field=site.blades), Governor(hold)
         self.systems = Schedule(live=live)
@@ -170,6 +171,7 @@ class Prairie(Tending):
         time = self.time
         frame, asked, goes_on = Frame(seen, time, self.site, chosen).after(before, is_deep=depth == "all")
         if not goes_on:
+            self._go_with(viewer, seen)
             for feature in self._stepping:
                 feature.step(viewer, time=time)
         with self._assembly.screen.opened(self.site) as painter:
@@ -250,6 +252,7 @@ class Prairie(Tending):
         must_be_viewer(viewer)
         seen = view_of(view, projection, self._origin)
         self._turn()
+        self._go_with(viewer, seen)
         for feature in self.features:
             feature.step(viewer, time=self.time)
         self._look(seen, viewer)
@@ -340,6 +343,7 @@ class Prairie(Tending):
         """
         self._released = True
         self._ripening.release()
+        self._streaming.release()
         self._assembly.screen.release()
         self.world.release()
         self.systems.clear()
@@ -371,6 +375,7 @@ class Prairie(Tending):
         """Gather for a frame what is seen from the scene's own camera; nobody is there any more afterwards."""
         camera = camera_at(self.scene.camera, None, self.height_at)
         seen = view_of(view_matrix(camera), projection_matrix(camera.view, 1.0))
+        self._go_with(AHEAD, seen)
         for feature in self._stepping:
             feature.step(AHEAD, time=self.time)
         self._look(seen, AHEAD)
@@ -378,6 +383,11 @@ class Prairie(Tending):
             if name != "draw":
                 system.run()
         self.viewers.forget(AHEAD)
+
+    def _go_with(self, viewer: str, seen: View) -> None:
+        """Let ground that streams go with all viewers, one of whom has come to where it sees from."""
+        others = [outlook.viewer.eye for outlook in self.viewers.values() if outlook.viewer.name != viewer]
+        self._streaming.follow(self.site.ground.terrain, [seen.eye, *others])
 
     def _look(self, seen: View, viewer: str, *, goes_on: bool = False) -> Outlook:
         outlook = self.viewers.looking(viewer, partial(outlook_on, self.site))

@@ -27,7 +27,7 @@ EDGE = 1e-4
 
 def cells_on(terrain: Terrain, cell: Ints, /, *, patch: float) -> NDArray[np.bool_]:
     """Return whether the middle of each cell (n, 2) lies on the terrain, shape (n,)."""
-    half = np.asarray(terrain.size) / 2
+    half = np.asarray(terrain.whole) / 2
     inside: NDArray[np.bool_] = (np.abs((cell + 0.5) * patch) <= half).all(axis=-1)
     return inside
 

@@ -160,6 +160,20 @@ class Scene(Declaration):
                 raise DeclarationError(f"no kind of grass is called '{kind.among}'; {guess}", "trees", name, "among")
         return self
 
+    @model_validator(mode="after")
+    def _has_an_edge_where_it_needs_one(self) -> "Scene":
+        if self.terrain.window is None:
+            return self
+        for name, kind in self.grass.items():
+            if kind.place is not None:
+                why = "a map has no place on ground without an edge, as terrain.window makes it: use slope or sow"
+                raise DeclarationError(why, "grass", name, "place")
+        for name, tree in self.trees.items():
+            if tree.density > 0.0:
+                why = "trees cannot be scattered over ground without an edge: use positions, rows or entities"
+                raise DeclarationError(why, "trees", name, "density")
+        return self
+
     def numbers(self, preset: str | None = None) -> Quality:
         """Return the numbers of `preset`, or of the scene's own quality. Raises ValueError for an unknown preset."""
         must_be_known("preset", preset, PRESETS)

@@ -37,6 +37,10 @@ class TerrainSource(Declaration):
     """Width (x) and depth (z) [m]: of a noise landscape, without it 200 by 200; of a file, whose middle it keeps,
     without it all there is."""
 
+    window: float | None = Field(default=None, ge=512.0, le=8192.0)
+    """For a function in `heights`: it is asked for ground so wide about the viewer [m], and for more as the viewer goes
+    on, up to 16384 m from the origin. Without it, the function is asked for all of the `size` while loading."""
+
     feature: float | None = Field(default=None, ge=2.0, le=5000.0)
     """Distance between neighbouring hills of a noise landscape [m]; without it 60 for rolling, 90 for hills, 160 for
     ridges."""
@@ -74,7 +78,16 @@ class TerrainSource(Declaration):
             raise DeclarationError("give either heights (a file) or noise, not both", "noise")
         if isinstance(self.heights, HeightFunction) and self.flip:
             raise DeclarationError("a function says itself where the far edge is", "flip")
+        if self.window is not None:
+            self._must_stream()
         finest = max(self.size or [200.0]) / 1024
         if self.feature is not None and self.heights is None and self.feature < finest:
             raise DeclarationError(f"feature must be at least {finest:.3g} m on ground this wide", "feature")
         return self
+
+    def _must_stream(self) -> None:
+        if not isinstance(self.heights, HeightFunction):
+            raise DeclarationError("it is for heights that are a function of places", "window")
+        for name in ("size", "holes"):
+            if getattr(self, name) is not None:
+                raise DeclarationError("ground with a window has no edge that this could lie within", name)

@@ -22,7 +22,7 @@ def load_maps(loaded: LoadedScene, /, *, before: tuple[LoadedScene, Maps] | None
     """
     scene, folder, document, pictures = loaded.scene, loaded.folder, loaded.document, loaded.pictures
     try:
-        terrain = _kept_terrain(loaded, before) or load_terrain(scene.terrain, folder)
+        terrain = _kept_terrain(loaded, before) or load_terrain(scene.terrain, folder, about=scene.camera.position)
     except MapError as error:
         problem = bad_terrain(document, scene.terrain, error)
         raise SceneError([problem, *bad_densities(document, scene.grass, NOWHERE, folder, pictures)]) from error
@@ -51,7 +51,7 @@ def _kept_density(loaded: LoadedScene, terrain: Terrain, before: tuple[LoadedSce
         return None
     old, (_, density) = before
     places = [kind.place for kind in loaded.scene.grass.values()]
-    same = terrain.size == density.size and places == [kind.place for kind in old.scene.grass.values()]
+    same = terrain.whole == density.size and places == [kind.place for kind in old.scene.grass.values()]
     steep = [kind.slope for kind in loaded.scene.grass.values()]
     same = same and steep == [kind.slope for kind in old.scene.grass.values()]
     maps = [None if place is None else place.map for place in places]

@@ -47,7 +47,7 @@ def off_terrain(document: Document, camera: CameraSource, terrain: Terrain, /) -
     """Give the problem of every place of the camera that is off the terrain."""
     places: list[tuple[Where, list[float]]] = [(("camera", "position"), camera.position)]
     places += [(("camera", "path", i, "position"), stop.position) for i, stop in enumerate(camera.path)]
-    width, depth = terrain.size
+    width, depth = terrain.whole
     for where, (x, z) in places:
         if abs(x) > width / 2 or abs(z) > depth / 2:
             extent = f"x from {-width / 2:g} to {width / 2:g} and z from {-depth / 2:g} to {depth / 2:g} m"

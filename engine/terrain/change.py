@@ -8,12 +8,11 @@ from numpy.typing import ArrayLike
 
 from ...components.arrays import Floats, Ints, Mask
 from ..handed import as_floats
+from .blocks import SQUARE, Blocks
 from .load import HIGHEST
 from .part import Part
 from .record import Terrain
-
-SQUARE = 16
-"""Samples along a side of the squares that changes are kept by."""
+from .stream import paste
 
 _ON = 0.01
 """How far off its sample a corner may be [cells]: coordinates are rounded."""
@@ -31,9 +30,30 @@ def set_heights(terrain: Terrain, corner: ArrayLike, heights: ArrayLike, /) -> N
     """
     new = _checked(heights)
     part = _part(terrain, corner, new.shape)
+    if terrain.blocks is not None:
+        _put(terrain.blocks, terrain, part, new)
+        return
     _keep(terrain, part)
     holes = np.isnan(new)
     terrain.put(part, np.where(holes, terrain.heights[part.slices], new), holes)
+
+
+def _put(blocks: Blocks, terrain: Terrain, part: Part, new: Floats) -> None:
+    """Put heights into a ground that streams; a part's samples are counted from the origin."""
+    for square in _squares_of(part):
+        (top, left), (heights, holes) = (SQUARE * at for at in square), blocks.square(square)
+        within = part.moved(-top, -left).within(SQUARE, SQUARE)
+        assert within is not None
+        given = new[within.moved(top - part.row, left - part.column).slices]
+        holes[within.slices] = np.isnan(given)
+        heights[within.slices] = np.where(np.isnan(given), heights[within.slices], given)
+        blocks.put(square, (heights, holes))
+        paste(blocks, terrain, square)
+
+
+def _squares_of(part: Part) -> list[tuple[int, int]]:
+    rows, columns = (range(some.start // SQUARE, (some.stop - 1) // SQUARE + 1) for some in part.slices)
+    return [(row, column) for row in rows for column in columns]
 
 
 def _checked(heights: ArrayLike) -> Floats:
@@ -52,10 +72,15 @@ def _part(terrain: Terrain, corner: ArrayLike, shape: tuple[int, ...]) -> Part:
     place = as_floats(corner, "the corner of heights is a place (x, z)").astype(np.float64)
     if place.shape != (2,):
         raise ValueError(f"the corner of heights is a place (x, z), not {shortened(corner)}")
-    at = (place - terrain.origin) / terrain.cell
-    column, row = (int(number) for number in np.round(at))
     (left, far), (width, depth), (rows, columns) = terrain.origin, terrain.size, terrain.heights.shape
-    if row < 0 or column < 0 or row + shape[0] > rows or column + shape[1] > columns:
+    low = 0
+    if terrain.blocks is not None:
+        low, rows, columns = -terrain.blocks.most, terrain.blocks.most + 1, terrain.blocks.most + 1
+        left, far, (width, depth) = 0.0, 0.0, terrain.whole
+    at = (place - (left, far)) / terrain.cell
+    column, row = (int(number) for number in np.round(at))
+    if row < low or column < low or row + shape[0] > rows or column + shape[1] > columns:
+        left, far = -width / 2, -depth / 2
         raise ValueError(
             f"{shape[0]} by {shape[1]} heights from ({place[0]:g}, {place[1]:g}) on do not all lie on the terrain, "
             f"which goes from ({left:g}, {far:g}) to ({left + width:g}, {far + depth:g}), a sample every "
@@ -72,8 +97,7 @@ def _part(terrain: Terrain, corner: ArrayLike, shape: tuple[int, ...]) -> Part:
 
 def _keep(terrain: Terrain, part: Part) -> None:
     """Keep heights and holes as they were loaded of the squares that a part reaches."""
-    rows, columns = (range(some.start // SQUARE, (some.stop - 1) // SQUARE + 1) for some in part.slices)
-    for square in ((row, column) for row in rows for column in columns):
+    for square in _squares_of(part):
         if square not in terrain.changes.loaded:
             within = _within(terrain, square)
             terrain.changes.loaded[square] = terrain.heights[within.slices].copy(), terrain.holes_in(within)
@@ -87,7 +111,11 @@ def _within(terrain: Terrain, square: tuple[int, int]) -> Part:
 
 
 def as_loaded(terrain: Terrain, /) -> Iterator[tuple[Floats, Mask]]:
-    """Yield heights and holes as they were loaded, some rows at a time."""
+    """Yield heights and holes as they were loaded, some rows at a time; of a ground that streams, some squares."""
+    if terrain.blocks is not None:
+        for square in ((0, 0), (-60, 40), (50, -70)):
+            yield terrain.blocks.as_asked(square)
+        return
     touched: dict[int, list[tuple[int, tuple[Floats, Mask]]]] = {}
     for (number, column), before in terrain.changes.loaded.items():
         touched.setdefault(number, []).append((column * SQUARE, before))
@@ -103,10 +131,14 @@ def as_loaded(terrain: Terrain, /) -> Iterator[tuple[Floats, Mask]]:
 
 def changed_squares(terrain: Terrain, /) -> Squares:
     """Return the squares that have been changed, as they are now."""
-    squares = sorted(terrain.changes.loaded)
-    parts = [_within(terrain, each) for each in squares]
-    heights = [terrain.heights[part.slices].ravel() for part in parts]
-    holes = [terrain.holes_in(part).ravel() for part in parts]
+    squares = sorted(terrain.changes.loaded if terrain.blocks is None else terrain.blocks.changed)
+    if terrain.blocks is None:
+        parts = [_within(terrain, each) for each in squares]
+        heights = [terrain.heights[part.slices].ravel() for part in parts]
+        holes = [terrain.holes_in(part).ravel() for part in parts]
+    else:
+        now = [terrain.blocks.changed[each] for each in squares]
+        heights, holes = [each.ravel() for each, _ in now], [each.ravel() for _, each in now]
     where = np.array(squares, np.int32).reshape(-1, 2)
     return where, np.concatenate([np.zeros(0, np.float32), *heights]), np.concatenate([np.zeros(0, np.bool_), *holes])
 
@@ -114,19 +146,37 @@ def changed_squares(terrain: Terrain, /) -> Squares:
 def must_be_squares(terrain: Terrain, squares: Squares, /) -> None:
     """Raise ValueError for squares that cannot be `changed_squares` of a terrain."""
     where, heights, holes = squares
-    counts = np.ceil(np.divide(terrain.heights.shape, SQUARE))
-    if ((where < 0) | (where >= counts)).any() or len({*map(tuple, where.tolist())}) != len(where):
+    streams = terrain.blocks is not None
+    counts = np.ceil(np.divide(terrain.heights.shape if terrain.blocks is None else terrain.blocks.most, SQUARE))
+    if ((where < -counts * streams) | (where >= counts)).any() or len({*map(tuple, where.tolist())}) != len(where):
         raise ValueError("ground has changed that is not there")
     parts = [_within(terrain, (row, column)) for row, column in where.tolist()]
+    if streams:
+        parts = [Part(0, 0, SQUARE, SQUARE)] * len(where)
     due = sum(part.rows * part.columns for part in parts)
     if due != len(heights) or due != len(holes) or not (np.abs(heights) <= HIGHEST).all():
         raise ValueError("ground has come to no height")
+
+
+def _restore_blocks(blocks: Blocks, terrain: Terrain, squares: Squares) -> None:
+    where, heights, holes = squares
+    numbers = [(row, column) for row, column in where.tolist()]
+    for square in {*blocks.changed}.difference(numbers):
+        blocks.put(square, None)
+        paste(blocks, terrain, square)
+    for number, square in enumerate(numbers):
+        own, shape = slice(number * SQUARE**2, (number + 1) * SQUARE**2), (SQUARE, SQUARE)
+        blocks.put(square, (heights[own].reshape(shape).copy(), holes[own].reshape(shape).copy()))
+        paste(blocks, terrain, square)
 
 
 def restore_squares(terrain: Terrain, squares: Squares, /) -> None:
     """Let these squares be as they are given, and all else as it was loaded."""
     where, heights, holes = squares
     kept, at = {(row, column) for row, column in where.tolist()}, 0
+    if terrain.blocks is not None:
+        _restore_blocks(terrain.blocks, terrain, squares)
+        return
     for square in [each for each in terrain.changes.loaded if each not in kept]:
         terrain.put(_within(terrain, square), *terrain.changes.loaded.pop(square))
     for row, column in where.tolist():

@@ -60,7 +60,7 @@ def load_density(
         densities[others] = np.maximum(1.0 - densities[placed].sum(axis=0), 0.0) / np.float32(others.sum())
     slopes = tuple(kind.slope for kind in kinds.values())
     limits = slopes if any(slope is not None for slope in slopes) else ()
-    return Density(densities, terrain.size, terrain, limits)
+    return Density(densities, terrain.whole, terrain, limits)
 
 
 def load_holes(source: TerrainSource, folder: Path, /) -> Floats | None:

@@ -1,5 +1,6 @@
 """Terrains from elevation maps and from noise."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from logging import getLogger
 from math import ceil
@@ -11,6 +12,7 @@ from ...components.arrays import Doubles, Floats, Mask
 from ..declared.array import HeightFunction, MapArray
 from ..declared.terrain import TerrainSource
 from .ask import ask_heights
+from .blocks import BLOCK, PARTS, Blocks
 from .density import load_holes, stretched
 from .elevation import Elevation, check_finite
 from .errors import MapError
@@ -18,6 +20,7 @@ from .noise import LANDSCAPES, landscape
 from .read import elevation_of, read_elevation
 from .record import Terrain
 from .resample import resample
+from .stream import window_of
 from .voids import fill_voids
 
 WIDEST = 10240.0
@@ -44,14 +47,36 @@ RANGE = 100.0
 _log = getLogger(__name__)
 
 
-def load_terrain(source: TerrainSource, folder: Path, /) -> Terrain:
+def load_terrain(source: TerrainSource, folder: Path, /, *, about: Sequence[float] = (0.0, 0.0)) -> Terrain:
     """Return the terrain that a scene declares; its files lie in `folder`.
 
     Cells longer than 2.5 m are divided by a smooth surface through their corners, and a map wider than the scene's
-    size, or than 10240 m, is cut to its middle. Voids that an elevation model marks are filled from around them.
-    Raises `MapError` where the map cannot be used.
+    size, or than 10240 m, is cut to its middle. Voids that an elevation model marks are filled from around them. Of a
+    ground that streams, it is the window `about` a place (x, z) [m]. Raises `MapError` where the map cannot be used.
     """
+    if isinstance(source.heights, HeightFunction) and source.window is not None:
+        return _streamed(source.heights, source, source.window, about)
     return _with_holes(_loaded(source, folder), source, folder)
+
+
+def _streamed(asked: HeightFunction, source: TerrainSource, window: float, about: Sequence[float]) -> Terrain:
+    """Return the window about a place (x, z) [m], at least so wide [m], of the ground that a function describes."""
+    cell = min(source.cell, SMOOTH)
+    steps = max(ceil(window / cell / (PARTS * BLOCK) - 1e-6), 1)
+    if steps * PARTS * BLOCK >= SIDE:
+        raise MapError(None, f"a window of {window:g} m has more than {SIDE - 1} cells of {cell:g} m: enlarge cell")
+
+    def ask(x: Doubles, z: Doubles) -> tuple[Floats, Mask | None]:
+        elevation = Elevation(ask_heights(asked, x, z), None)
+        open_: Mask = np.isnan(elevation.values)
+        if open_.all():
+            return np.full(open_.shape, source.offset, np.float32), open_
+        return _metres(None, elevation, source, open_ if open_.any() else None), open_ if open_.any() else None
+
+    blocks = Blocks(ask, cell, steps * PARTS * BLOCK)
+    made = window_of(blocks, blocks.first_about(about[0], about[1]))
+    blocks.loads = False
+    return made
 
 
 def _loaded(source: TerrainSource, folder: Path) -> Terrain:

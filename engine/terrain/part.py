@@ -18,6 +18,16 @@ class Part(NamedTuple):
     rows: int
     columns: int
 
+    def moved(self, down: int, right: int) -> "Part":
+        """Return the same rectangle so many samples farther down and to the right."""
+        return Part(self.row + down, self.column + right, self.rows, self.columns)
+
+    def within(self, rows: int, columns: int) -> "Part | None":
+        """Return what of it lies among the first rows and columns, if any does."""
+        top, left = max(self.row, 0), max(self.column, 0)
+        bottom, right = min(self.row + self.rows, rows), min(self.column + self.columns, columns)
+        return Part(top, left, bottom - top, right - left) if top < bottom and left < right else None
+
     @property
     def slices(self) -> tuple[slice, slice]:
         """What an array of heights is indexed with."""

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Floats, Mask
+from .blocks import REACH, Blocks
 from .part import MOST, Part
 from .plots import Plots
 
@@ -17,6 +18,12 @@ class Changes:
 
     count: int = 0
     """How often it has."""
+
+    moves: int = 0
+    """How often the samples have become those of another window; all that is counted in samples has moved then."""
+
+    leaps: int = 0
+    """How often of these somebody waits for it."""
 
     loaded: dict[tuple[int, int], tuple[Floats, Mask]] = field(default_factory=dict)
     """The heights and the holes as they were loaded, of each square of samples that has been changed since, by its row
@@ -29,8 +36,19 @@ class Changes:
         self.count += 1
         self._last.append(part)
 
+    def move(self, down: int, right: int, /, *, leaps: bool) -> None:
+        """Note that samples are counted from one on that lies so many farther down and to the right."""
+        self.moves += 1
+        self.leaps += leaps
+        moved = [part.moved(-down, -right) for part in self._last]
+        self._last.clear()
+        self._last.extend(moved)
+
     def since(self, count: int, /) -> list[Part] | None:
-        """Return what has changed since there were `count` changes; None for too many: it may be anything."""
+        """Return what has changed since there were `count` changes; None for too many: it may be anything.
+
+        Of a ground that streams, some of it may lie elsewhere by now.
+        """
         missed = self.count - count
         return None if missed > len(self._last) else list(self._last)[len(self._last) - missed :]
 
@@ -39,8 +57,9 @@ class Changes:
 class Terrain:
     """An elevation map whose samples stand at cell corners; between them heights are bilinear.
 
-    It has at least 2 by 2 samples and is centred on the origin. It is one prairie's own: what a game changes of its
-    heights is written into the array (`change`), and who has made anything of them looks at `changes`.
+    It has at least 2 by 2 samples and is centred on the origin, unless it is the window of a ground without an edge. It
+    is one prairie's own: what a game changes of its heights is written into the array (`change`), and who has made
+    anything of them looks at `changes`.
     """
 
     heights: NDArray[np.float32]
@@ -52,7 +71,16 @@ class Terrain:
     holes: Mask | None = None
     """Samples at which there is no ground, shape (rows, columns); None where nobody has ever said so of any."""
 
+    first: tuple[int, int] | None = None
+    """Row and column of the first sample, counted from the origin; None where the terrain is centred there."""
+
+    blocks: Blocks | None = None
+    """The ground that it is the window of."""
+
     changes: Changes = field(init=False, default_factory=Changes)
+
+    found: object = field(init=False, default=None)
+    """What somebody has made out of the heights beforehand."""
 
     _ends: Floats = field(init=False)
     """The lowest and the highest of each row [m], shape (2, rows)."""
@@ -75,8 +103,28 @@ class Terrain:
     @property
     def origin(self) -> tuple[float, float]:
         """Ground position (x, z) of sample [0, 0] [m]."""
+        if self.first is not None:
+            return self.first[1] * self.cell, self.first[0] * self.cell
         width, depth = self.size
         return -width / 2, -depth / 2
+
+    @property
+    def whole(self) -> tuple[float, float]:
+        """Width (x) and depth (z) of all the ground that there is, centred on the origin [m]."""
+        return self.size if self.blocks is None else (2.0 * REACH, 2.0 * REACH)
+
+    def find(self, found: object, /) -> None:
+        """Keep what somebody has made out of the heights, for as long as they are those of this window."""
+        object.__setattr__(self, "found", found)
+
+    def become(self, other: "Terrain", /, *, leaps: bool = False) -> None:
+        """Be another window of the same ground; `leaps` says that somebody waits for it."""
+        assert self.first is not None
+        assert other.first is not None
+        down, right = (after - before for after, before in zip(other.first, self.first, strict=True))
+        for name in ("heights", "holes", "first", "found", "_ends"):
+            object.__setattr__(self, name, getattr(other, name))
+        self.changes.move(down, right, leaps=leaps)
 
     def holes_in(self, part: Part, /) -> Mask:
         """Return at which samples of a part there are holes, shape (rows, columns)."""
@@ -104,7 +152,7 @@ class Density:
     A pixel's density stands in its middle, as in a texture laid over the terrain."""
 
     size: tuple[float, float]
-    """Width (x) and depth (z) of the terrain that the maps are laid over, centred on the origin [m]."""
+    """Width (x) and depth (z) of all the ground, which the maps are laid over, centred on the origin [m]."""
 
     land: Terrain | None = None
     """The terrain, which may say more of where kinds grow; without one they grow on all of it."""

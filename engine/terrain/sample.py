@@ -1,8 +1,8 @@
 """Heights, slopes and densities at any place, bilinear between the samples of a map."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ...components.arrays import Floats, Mask
 from .plots import CELL, CELLS, On
 from .record import Density, Terrain
+from .stream import tile_of
 
 _THINS = 8.0
 """Over how many degrees before its steepest slope a kind thins out."""
@@ -28,6 +29,9 @@ def height_at(terrain: Terrain, place: Floats, /) -> Floats:
 
     Beyond the terrain the height of its nearest edge holds.
     """
+    far_off = _far_off(terrain, place)
+    if far_off is not None:
+        return _by_block(height_at, terrain, place, far_off)
     flat = terrain.heights.reshape(-1)
     result = np.empty(len(place), np.float32)
     for block in _blocks(len(place)):
@@ -37,12 +41,37 @@ def height_at(terrain: Terrain, place: Floats, /) -> Floats:
     return result
 
 
+def _far_off(terrain: Terrain, place: Floats) -> Mask | None:
+    """Return which places (n, 2) lie beyond the window of a ground that streams, if any do."""
+    if terrain.blocks is None or not len(place):
+        return None
+    low = np.array(terrain.origin)
+    far = np.asarray(((place < low) | (place > low + terrain.size)).any(axis=1))
+    return far if far.any() else None
+
+
+def _by_block(ask: Callable[[Terrain, Floats], Any], terrain: Terrain, place: Floats, far: Mask) -> NDArray[Any]:
+    """Return what `ask` returns for each place; where that is `far` off, its own block is asked."""
+    assert terrain.blocks is not None
+    near = ask(terrain, place[~far])
+    result = np.empty((len(place), *near.shape[1:]), near.dtype)
+    result[~far] = near
+    block = terrain.blocks.at(place)
+    for row, column in np.unique(block[far], axis=0).tolist():
+        here = far & (block == (row, column)).all(axis=1)
+        result[here] = ask(tile_of(terrain.blocks, row, column), place[here])
+    return result
+
+
 def slope_at(terrain: Terrain, place: Floats, /) -> Floats:
     """Return the ground's slope (dh/dx, dh/dz) at ground positions (x, z) [m], both of shape (n, 2).
 
     It is the exact slope of `height_at`, so it changes by a little step from cell to cell. Beyond the terrain the
     slope of its nearest edge holds.
     """
+    far = _far_off(terrain, place)
+    if far is not None:
+        return _by_block(slope_at, terrain, place, far)
     flat = terrain.heights.reshape(-1)
     slope = np.empty((len(place), 2), np.float32)
     for block in _blocks(len(place)):
@@ -122,6 +151,9 @@ def hole_at(terrain: Terrain, place: Floats, /) -> Mask:
 
     Holes begin half-way between samples with ground and without.
     """
+    far_off = _far_off(terrain, place)
+    if far_off is not None:
+        return _by_block(hole_at, terrain, place, far_off)
     if terrain.holes is None:
         return np.zeros(len(place), np.bool_)
     at = _within_terrain(terrain, place)
@@ -148,7 +180,7 @@ def _limited(density: Density, result: Floats, place: Floats, kind: NDArray[np.i
         ends = bareness(density.slopes)
         ends = ends[:, None] if kind is None else ends[kind]
         result = result * np.clip((ends[..., 0] - rise) * ends[..., 1], 0.0, 1.0)
-    if density.land.holes is not None:
+    if density.land.holes is not None or density.land.blocks is not None:
         result[..., hole_at(density.land, place)] = 0.0
     return result
 
@@ -229,13 +261,13 @@ class _Within(NamedTuple):
 
 def _within_terrain(terrain: Terrain, place: Floats) -> _Within:
     rows, columns = terrain.heights.shape
-    return _within(place, _laid(terrain.size, (1.0 / terrain.cell, 1.0 / terrain.cell), (columns, rows), 0.0))
+    return _within(place, _laid(terrain.origin, (1.0 / terrain.cell, 1.0 / terrain.cell), (columns, rows), 0.0))
 
 
 def _within_maps(density: Density, place: Floats) -> _Within:
     _, rows, columns = density.maps.shape
     width, depth = density.size
-    return _within(place, _laid((width, depth), (columns / width, rows / depth), (columns, rows), -0.5))
+    return _within(place, _laid((-width / 2, -depth / 2), (columns / width, rows / depth), (columns, rows), -0.5))
 
 
 class _Laid(NamedTuple):
@@ -258,8 +290,8 @@ class _Laid(NamedTuple):
 
 
 @lru_cache(maxsize=64)
-def _laid(size: tuple[float, float], scale: tuple[float, float], count: tuple[int, int], shift: float) -> _Laid:
-    origin = [side / 2 * each + shift for side, each in zip(size, scale, strict=True)]
+def _laid(low: tuple[float, float], scale: tuple[float, float], count: tuple[int, int], shift: float) -> _Laid:
+    origin = [-end * each + shift for end, each in zip(low, scale, strict=True)]
     numbers = scale, origin, [each - 1 for each in count], [max(each - 2, 0) for each in count]
     scales, origins, last, before = np.array(numbers, np.float32)[:, :, None]
     return _Laid(scales, origins, last, before, count[0])

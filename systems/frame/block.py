@@ -68,12 +68,13 @@ FRAME = np.dtype(
         ("clouds_drift", "2f4"),  # where the clouds have drifted to, in their own sides
         ("toward_sun", "2f4"),  # the sun's azimuth, as a direction (x, z)
         ("terrain_origin", "2f4"), ("terrain_size", "2f4"),  # x, z [m]
+        ("lie_origin", "2f4"),  # where the map of how it lies begins, x, z [m]
         ("half_screen", "2f4"),  # pixels from the middle to the edge, across and up
         ("posture_links", "f4"), ("posture_rows", "f4"), ("posture_variants", "f4"),  # the last of each kind
         ("over_hosts", "f4"),  # 1 where grass is laid over ground that is the game's own
         ("lamplight", "f4"),  # as `exposure`, of what lamps send
         ("padding", "V4"),
-        ("mesh_low", "2f4"), ("mesh_high", "2f4"),  # x, z [m]: no ground is drawn beyond
+        ("mesh_low", "2f4"), ("mesh_high", "2f4"), ("pad_f", "V8"),  # x, z [m]: no ground is drawn beyond
         ("lamps_grid", "4f4"),  # cells that lamps shine on: corner (x, z) [m]; cells a metre; along a side, 0 for none
         ("shades_grid", "4f4"),  # the same, of cells that lie in the shadow of shades
         # Where the carpet's shares are told: the viewer's cell; half the window's side; how much it shows beyond that.

@@ -4,16 +4,9 @@ from collections.abc import Mapping, Sequence
 
 import moderngl
 import numpy as np
-from numpy.typing import NDArray
 
-from ...engine.terrain.part import Part
-from ...engine.terrain.record import Density, Terrain
+from ...engine.terrain.record import Density
 from ..grow.record import NOTHING, Growth
-
-HOLE = 1
-"""The bit of a height's that says whether there is a hole: it is worth a few millionths of the height."""
-
-GLSL = {"HOLE": HOLE}
 
 
 def posture_texture(
@@ -31,30 +24,6 @@ def posture_texture(
     texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
     texture.repeat_x = texture.repeat_y = False
     return texture
-
-
-def height_texture(ctx: moderngl.Context, terrain: Terrain) -> moderngl.Texture:
-    """Return the elevation map, for exact fetches. The last bit of a height says whether there is a hole."""
-    rows, columns = terrain.heights.shape
-    texture = ctx.texture((columns, rows), 1, _heights_of(terrain, Part(0, 0, rows, columns)), dtype="f4")
-    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
-    return texture
-
-
-def send_heights(texture: moderngl.Texture, terrain: Terrain, /, *, since: int) -> None:
-    """Send what has changed of a terrain's heights since there were `since` changes."""
-    rows, columns = terrain.heights.shape
-    changed = terrain.changes.since(since)
-    for part in [Part(0, 0, rows, columns)] if changed is None else changed:
-        texture.write(_heights_of(terrain, part), viewport=(part.column, part.row, part.columns, part.rows))
-
-
-def _heights_of(terrain: Terrain, part: Part) -> NDArray[np.uint32]:
-    """Return the bits of a part's heights (rows, columns): the last of each is 1 where there is a hole."""
-    bits = np.ascontiguousarray(terrain.heights[part.slices]).view(np.uint32) & ~np.uint32(HOLE)
-    if terrain.holes is not None:
-        bits |= terrain.holes[part.slices]
-    return bits
 
 
 def density_texture(ctx: moderngl.Context, density: Density) -> moderngl.TextureArray:

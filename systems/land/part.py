@@ -10,7 +10,8 @@ from ...engine.gl.stream import release_all
 from ..frame.block import FrameBlock
 from ..frame.feature import Feature, Part
 from ..space.grown import Grown
-from .maps import density_texture, height_texture, posture_texture, send_heights
+from .heights import Heights
+from .maps import density_texture, posture_texture
 from .record import write_land
 
 
@@ -32,21 +33,18 @@ class LandPart(Part):
         self.ctx, self._units = ctx, units
         self.textures: dict[str, moderngl.Texture | moderngl.TextureArray] = {}
         self._grown: Grown | None = None
-        self._changes = 0
-        """Changes of the terrain that have been sent."""
+        self._heights: Heights | None = None
         self._kinds: Mapping[str, str | int] = {}
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Send what is another terrain, density or kind, and what has changed of the heights."""
         before, self._grown = self._grown, grown
         terrain = grown.ground.terrain
-        if before is None or before.ground.terrain is not terrain:
-            self._put("heights", height_texture(self.ctx, terrain))
-        elif self._changes != terrain.changes.count:
-            heights = self.textures["heights"]
-            assert isinstance(heights, moderngl.Texture)
-            send_heights(heights, terrain, since=self._changes)
-        self._changes = terrain.changes.count
+        if self._heights is None or self._heights.terrain is not terrain:
+            release_all(*([] if self._heights is None else [self._heights]))
+            self._heights = Heights(self.ctx, terrain)
+        elif self._heights.follow():
+            record["terrain_origin"] = self._heights.origin
         if before is grown:
             return
         if before is None or before.ground.density.maps is not grown.ground.density.maps:
@@ -54,6 +52,7 @@ class LandPart(Part):
         if before is None or (before.growths, before.coming) != (grown.growths, grown.coming):
             self._put("postures", posture_texture(self.ctx, grown.growths, grown.coming))
         write_land(record, grown)
+        record["terrain_origin"] = self._heights.origin
         folds = any(kind.profile == "fold" for kind in grown.scene.grass.values())
         ground = grown.ground
         special = {"FOLDS": folds, "SLOPED": bool(ground.density.slopes)}
@@ -65,6 +64,8 @@ class LandPart(Part):
 
     def use(self) -> None:
         """Bind all of them."""
+        assert self._heights is not None
+        self._heights.texture.use(self._units["heights"])
         for name, texture in self.textures.items():
             texture.use(self._units[name])
 
@@ -75,4 +76,4 @@ class LandPart(Part):
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(*self.textures.values())
+        release_all(*self.textures.values(), *([] if self._heights is None else [self._heights]))

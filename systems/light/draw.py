@@ -6,6 +6,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Floats
 from ...engine.gl.stream import release_all
 from ...engine.terrain.record import Terrain
 from ..around.outlook import Outlook
@@ -51,6 +52,7 @@ class LightPart(Part):
             before and before.ground.terrain is grown.ground.terrain and before.scene.seed == grown.scene.seed
         ):
             self._lay(grown.ground.terrain, seed=grown.scene.seed)
+        record["lie_origin"] = self.lie.follow(_pair(record["terrain_origin"][0]))
         now, light = self._shining, self._shining.light
         if now.leaps != self._leaps:
             self.lie.leap()
@@ -93,6 +95,11 @@ class LightPart(Part):
         release_all(*self._arrays, *self._skies, self._sky, self.lie)
         if self._repeating is not None:
             self._repeating.release()
+
+
+def _pair(place: Floats) -> tuple[float, float]:
+    x, z = place.tolist()
+    return x, z
 
 
 def _sky_texture(ctx: moderngl.Context) -> moderngl.Texture:

@@ -6,11 +6,13 @@
 in vec2 at;
 out vec4 told;
 
+uniform vec2 corner;  // where the map begins, x, z [m]
+
 #ifdef STILL
 uniform sampler2D slow;
 
 void main() {
-    vec2 place = terrain_origin + at * terrain_size, step = vec2(terrain_cell, 0.0);
+    vec2 place = corner + at * terrain_size, step = vec2(terrain_cell, 0.0);
     vec2 rise = vec2(height_at(place + step.xy) - height_at(place - step.xy),
                      height_at(place + step.yx) - height_at(place - step.yx)) / (2.0 * terrain_cell);
     vec3 normal = normalize(vec3(-rise.x, 1.0, -rise.y));
@@ -23,7 +25,7 @@ const float ABOVE = 0.05;  // how high over the ground the sun is looked for [m]
 const float LEVEL = -0.05;  // what stands before the sun over level ground: below any sun
 
 void main() {
-    vec2 place = terrain_origin + at * terrain_size;
+    vec2 place = corner + at * terrain_size;
     float foot = height_at(place) + ABOVE, away = FIRST * terrain_cell, most = LEVEL;
     for (int step = 0; step < STEPS; step++) {
         vec2 there = place + toward_sun * away;

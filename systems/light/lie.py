@@ -1,11 +1,14 @@
 """How the terrain lies to the sun: a map of its slopes, and one of what stands before the sun, drawn bit by bit."""
 
 from collections.abc import Mapping
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
 
 import moderngl
 import numpy as np
 
-from ...components.arrays import Doubles
+from ...components.arrays import Bytes, Doubles
+from ...engine.gl.shaders import tell
 from ...engine.gl.stream import release_all
 from ...engine.terrain.part import Part
 from ...engine.terrain.record import Terrain
@@ -25,14 +28,50 @@ _FARTHEST = GLSL["FIRST"] * GLSL["LONGER"] ** (GLSL["STEPS"] - 1)
 Box = tuple[int, int, int, int]
 """Of the map: the first column and row, and how many there are."""
 
+Place = tuple[float, float]
+
 FILLED, SHADER = "engine/gl/fill.vert", "systems/light/lie.frag"
+
+
+@dataclass(eq=False)
+class _Laid:
+    """A map that lies over a terrain from some place on."""
+
+    lie: moderngl.Texture
+    slow: moderngl.Texture
+    target: moderngl.Framebuffer
+    origin: Place
+    """[m]."""
+
+    row: int = 0
+    """The row that is drawn next."""
+
+    left: int = 0
+    """How many rows are to be drawn of what stands before the sun."""
+
+    def release(self) -> None:
+        release_all(self.target, self.lie, self.slow)
+
+
+@dataclass(eq=False)
+class _Coming:
+    """A map of another window of the terrain, which is drawn beside the one that is read."""
+
+    origin: Place
+    slow: "Future[Bytes]"
+    laid: _Laid | None = None
+    still: int = 0
+    """How many rows are drawn of what never changes."""
+
+    changes: int = 0
+    """Changes of the terrain that are in it."""
 
 
 class LieMap:
     """A texture of two maps over the terrain, side by side: what never changes, and what the sun's azimuth changes.
 
     Whatever the sun's elevation, the second says where it is seen. As its azimuth goes on, rows are drawn again, some
-    in each frame.
+    in each frame. Where the terrain becomes another window of its ground, the map of that is drawn beside, likewise.
     """
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int]) -> None:
@@ -41,23 +80,59 @@ class LieMap:
         self._still = joined(ctx, block, {**units, "slow": self._unit}, FILLED, SHADER, {"STILL": 1})
         self._before = joined(ctx, block, units, FILLED, SHADER, {})
         self._arrays = [ctx.vertex_array(each, []) for each in (self._still, self._before)]
-        self._textures: list[moderngl.Texture] = []
-        self._target: moderngl.Framebuffer
-        self._toward: tuple[float, float] | None = None
-        self._row = self._left = 0
+        self._laid: _Laid | None = None
+        self._coming: _Coming | None = None
+        self._toward: Place | None = None
+        self._hands: ThreadPoolExecutor | None = None
 
     def lay(self, terrain: Terrain, /, *, seed: int) -> None:
         """Take over another terrain, or another seed."""
-        if self._textures:
-            release_all(self._target, *self._textures)
-        rows, columns = map_shape(terrain.size)
-        lie = self.ctx.texture((2 * columns, rows), 4, dtype="f2")
+        self._rows, self._columns = map_shape(terrain.size)
+        self._terrain, self._seed, self._seen, self._leaps = terrain, seed, -1, terrain.changes.leaps
+        self._let_go()
+        self._laid = self._made(terrain.origin, slow_map(terrain.size, terrain.origin, seed=seed))
+        self.leap()
+
+    def _made(self, origin: Place, slow: Bytes) -> _Laid:
+        lie = self.ctx.texture((2 * self._columns, self._rows), 4, dtype="f2")
         lie.filter = (moderngl.LINEAR, moderngl.LINEAR)
         lie.repeat_x = lie.repeat_y = False
-        self._textures = [lie, laid_over(self.ctx, slow_map(terrain, seed=seed))]
-        self._target = self.ctx.framebuffer([lie])
-        self._rows, self._columns, self._terrain, self._seen = rows, columns, terrain, -1
-        self.leap()
+        return _Laid(lie, laid_over(self.ctx, slow), self.ctx.framebuffer([lie]), origin)
+
+    def follow(self, origin: Place, /) -> Place:
+        """Come to lie over the window of the terrain that begins there; return where what is read begins [m]."""
+        assert self._laid is not None
+        if self._terrain.first is None:
+            return self._laid.origin
+        leaps, self._leaps = self._leaps != self._terrain.changes.leaps, self._terrain.changes.leaps
+        coming = self._coming
+        if coming is not None and coming.laid is not None and coming.still == self._rows and not coming.laid.left:
+            self._laid.release()
+            self._laid, self._seen, self._coming = coming.laid, coming.changes, None
+        due = self._laid.origin if self._coming is None else self._coming.origin
+        if not self._is_at(origin, due):
+            self._begin(origin, leaps=leaps)
+        return self._laid.origin
+
+    def _is_at(self, origin: Place, other: Place) -> bool:
+        return max(abs(one - two) for one, two in zip(origin, other, strict=True)) < 0.5 * self._terrain.cell
+
+    def _begin(self, origin: Place, *, leaps: bool) -> None:
+        """Begin a map of another window; where somebody waits for it, it is there with the next frame."""
+        if self._coming is not None and self._coming.laid is not None:
+            self._coming.laid.release()
+        self._coming = None
+        assert self._laid is not None
+        if leaps:
+            made = self._made(origin, slow_map(self._terrain.size, origin, seed=self._seed))
+            self._laid.release()
+            self._laid, self._seen = made, -1
+            self.leap()
+        elif not self._is_at(origin, self._laid.origin):
+            if self._hands is None:
+                self._hands = ThreadPoolExecutor(1, thread_name_prefix="tallgrass")
+            slow = self._hands.submit(slow_map, self._terrain.size, origin, seed=self._seed)
+            self._coming = _Coming(origin, slow)
 
     def leap(self) -> None:
         """Draw all of it with the next frame, however long that takes."""
@@ -65,23 +140,52 @@ class LieMap:
 
     def use(self) -> None:
         """Bind it."""
-        self._textures[0].use(self._unit)
+        assert self._laid is not None
+        self._laid.lie.use(self._unit)
 
-    def prepare(self, toward: tuple[float, float], /) -> int:
+    def prepare(self, toward: Place, /) -> int:
         """Draw what is due for a sun in this direction over the ground (x, z); return the number of draw calls."""
-        rows = max(AT_ONCE // self._columns, 1)
+        laid, each = self._laid, max(AT_ONCE // self._columns, 1)
+        assert laid is not None
+        rows = each
         if toward != self._toward:
             rows = self._rows if self._toward is None else rows
-            self._toward, self._left = toward, self._rows
+            self._toward, laid.left = toward, self._rows
+            if self._coming is not None and self._coming.laid is not None:
+                self._coming.laid.left = self._rows
+        calls = self._bring(each)
         changed = self._seen != self._terrain.changes.count
-        if not (self._left or changed):
-            return 0
-        self._target.use()
-        calls = self._follow(toward) if changed else 0
+        if not (laid.left or changed):
+            return calls
+        laid.target.use()
+        calls += self._follow(laid, toward) if changed else 0
         self.use()
-        return calls + self._draw_rows(min(rows, self._left))
+        return calls + self._draw_rows(laid, min(rows, laid.left))
 
-    def _follow(self, toward: tuple[float, float]) -> int:
+    def _bring(self, rows: int) -> int:
+        """Draw some rows of what comes; return the number of draw calls."""
+        coming = self._coming
+        if coming is None or not coming.slow.done():
+            return 0
+        if coming.laid is None:
+            coming.laid = self._made(coming.origin, coming.slow.result())
+            coming.laid.left, coming.changes = self._rows, self._terrain.changes.count
+        laid = coming.laid
+        if coming.changes != self._terrain.changes.count:
+            coming.changes, coming.still, laid.left = self._terrain.changes.count, 0, self._rows
+        self._before["highest"] = self._terrain.span[1]
+        laid.target.use()
+        if coming.still < self._rows:
+            laid.slow.use(self._unit)
+            some = min(rows, self._rows - coming.still)
+            coming.still += some
+            calls = self._draw(laid, 0, (0, coming.still - some, self._columns, some))
+        else:
+            calls = self._draw_rows(laid, min(rows, laid.left))
+        self.use()
+        return calls
+
+    def _follow(self, laid: _Laid, toward: Place) -> int:
         """Draw what is other since heights have changed; return the number of draw calls.
 
         What they stand before is drawn at once where it is little, and else all of that map in its turn.
@@ -90,51 +194,62 @@ class LieMap:
         changed = None if self._seen < 0 else terrain.changes.since(self._seen)
         self._seen = terrain.changes.count
         self._before["highest"] = terrain.span[1]
-        self._textures[1].use(self._unit)
-        still = [whole] if changed is None else [self._box(part, 2.0) for part in changed]
-        calls = sum(self._draw(0, box) for box in still)
-        if changed is None or self._left == self._rows:
-            self._left = self._rows
+        laid.slow.use(self._unit)
+        still = [whole] if changed is None else [self._box(laid, part, 2.0) for part in changed]
+        calls = sum(self._draw(laid, 0, box) for box in still)
+        if changed is None or laid.left == self._rows:
+            laid.left = self._rows
             return calls
-        before = [self._box(part, 1.0, np.multiply(toward, _FARTHEST)) for part in changed]
+        before = [self._box(laid, part, 1.0, np.multiply(toward, _FARTHEST)) for part in changed]
         if sum(width * height for _, _, width, height in before) > AT_ONCE:
-            self._left = self._rows
+            laid.left = self._rows
             return calls
         self.use()
-        return calls + sum(self._draw(1, box) for box in before)
+        return calls + sum(self._draw(laid, 1, box) for box in before)
 
-    def _box(self, part: Part, around: float, away: Doubles | None = None) -> Box:
+    def _box(self, laid: _Laid, part: Part, around: float, away: Doubles | None = None) -> Box:
         """Return what of the map lies within some cells of a part of the terrain, or looks that way from `away`."""
+        terrain = self._terrain
+        if terrain.first is not None:
+            right, down = np.rint(np.subtract(terrain.origin, laid.origin) / terrain.cell).astype(int).tolist()
+            part = part.moved(down, right)
         first, last = (part.column, part.row), (part.column + part.columns - 1, part.row + part.rows - 1)
         ends = np.array([np.subtract(first, around), np.add(last, around)])
         far = ends if away is None else ends - away
         count = np.array([self._columns, self._rows])
-        scale = count * self._terrain.cell / self._terrain.size
+        scale = count * terrain.cell / terrain.size
         low = np.clip(np.floor(np.minimum(ends[0], far[0]) * scale - 0.5), 0, count - 1).astype(int)
         high = np.clip(np.ceil(np.maximum(ends[1], far[1]) * scale - 0.5) + 1, low + 1, count).astype(int)
         return int(low[0]), int(low[1]), int(high[0] - low[0]), int(high[1] - low[1])
 
-    def _draw_rows(self, rows: int) -> int:
+    def _draw_rows(self, laid: _Laid, rows: int) -> int:
         """Draw the rows that have waited longest; return the number of draw calls."""
         calls = 0
-        self._left -= rows
+        laid.left -= rows
         while rows:
-            some = min(rows, self._rows - self._row)
-            calls += self._draw(1, (0, self._row, self._columns, some))
-            self._row, rows = (self._row + some) % self._rows, rows - some
+            some = min(rows, self._rows - laid.row)
+            calls += self._draw(laid, 1, (0, laid.row, self._columns, some))
+            laid.row, rows = (laid.row + some) % self._rows, rows - some
         return calls
 
-    def _draw(self, half: int, box: Box) -> int:
-        """Draw a box of the first half of the map, or of the second; return the number of draw calls."""
+    def _draw(self, laid: _Laid, half: int, box: Box) -> int:
+        """Draw a box of the first half of a map, or of the second; return the number of draw calls."""
         column, row, width, height = box
         left = half * self._columns
-        self._target.viewport = left, 0, self._columns, self._rows
-        self._target.scissor = left + column, row, width, height
+        laid.target.viewport = left, 0, self._columns, self._rows
+        laid.target.scissor = left + column, row, width, height
+        tell(self._arrays[half].program, "corner", *laid.origin)
         self._arrays[half].render(moderngl.TRIANGLES, vertices=3)
         return 1
+
+    def _let_go(self) -> None:
+        coming = None if self._coming is None else self._coming.laid
+        release_all(*(each for each in (self._laid, coming) if each is not None))
+        self._laid = self._coming = None
 
     def release(self) -> None:
         """Give everything back."""
         release_all(*self._arrays, self._still, self._before)
-        if self._textures:
-            release_all(self._target, *self._textures)
+        self._let_go()
+        if self._hands is not None:
+            self._hands.shutdown(wait=False, cancel_futures=True)

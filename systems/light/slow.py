@@ -6,7 +6,6 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Floats
 from ...engine.noise import noise_grid, noise_table
-from ...engine.terrain.record import Terrain
 
 FINEST_MAP = 1024
 """Samples along a side of the maps laid over the terrain."""
@@ -21,10 +20,13 @@ def map_shape(size: tuple[float, float], /) -> tuple[int, int]:
     return rows, columns
 
 
-def slow_map(terrain: Terrain, *, seed: int) -> NDArray[np.uint8]:
-    """Return two slow noises n over the terrain, each as 0.5 + 0.5 n, shape (rows, columns, 2)."""
-    rows, columns = map_shape(terrain.size)
-    (width, depth), (left, far) = terrain.size, terrain.origin
+def slow_map(size: tuple[float, float], origin: tuple[float, float], /, *, seed: int) -> NDArray[np.uint8]:
+    """Return two slow noises n over a terrain of a size that begins there [m], each as 0.5 + 0.5 n.
+
+    It has shape (rows, columns, 2), and may be called on another thread.
+    """
+    rows, columns = map_shape(size)
+    (width, depth), (left, far) = size, origin
     x = (left + (np.arange(columns) + 0.5) / columns * width).astype(np.float32)
     z = (far + (np.arange(rows) + 0.5) / rows * depth).astype(np.float32)
     packed = np.empty((rows, columns, 2), np.uint8)

@@ -22,7 +22,7 @@ class Mown:
     """How high grass stands at most, over a terrain, in cells of 0.2 m."""
 
     def __init__(self, terrain: Terrain) -> None:
-        self.plots = Plots(terrain.size, np.dtype(np.float32))
+        self.plots = Plots(terrain.whole, np.dtype(np.float32))
         """Up to which height blades are left [m], infinite where nothing is cut."""
         self._tops: dict[tuple[int, int], float] = {}
         self._patch, self._seen = 0.0, 0
@@ -75,7 +75,7 @@ class Mown:
 
     def change(self, terrain: Terrain) -> None:
         """Take over another terrain: what was cut at a place stays cut there."""
-        before, after = self.plots, Plots(terrain.size, np.dtype(np.float32))
+        before, after = self.plots, Plots(terrain.whole, np.dtype(np.float32))
         if before.half == after.half:
             return
         after.count = before.count

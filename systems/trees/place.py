@@ -60,15 +60,15 @@ def _along(row: Sequence[Sequence[float]], spacing: float) -> Floats:
 
 def _stands(terrain: Terrain, place: Floats) -> Mask:
     """Return which places have ground."""
-    beside = np.abs(place - np.array(terrain.origin) - np.array(terrain.size) / 2.0) - np.array(terrain.size) / 2.0
+    beside = np.abs(place) - np.array(terrain.whole) / 2.0
     return np.asarray((beside <= 0.0).all(axis=1) & ~hole_at(terrain, place))
 
 
 def _sown(kind: TreeKind, terrain: Terrain, dense: Dense | None, draw: np.random.Generator, seed: int) -> Floats:
     """Return where density might bring trees, before any is too near to another."""
-    size = np.array(terrain.size)
+    size = np.array(terrain.whole)
     count = min(round(kind.density * size.prod() / HECTARE), MOST) * TRIES
-    place = (np.array(terrain.origin) + draw.uniform(0.0, 1.0, (count, 2)) * size).astype(np.float32)
+    place = (-size / 2.0 + draw.uniform(0.0, 1.0, (count, 2)) * size).astype(np.float32)
     share = np.ones(count)
     if kind.groves > 0.0 and count:
         lattice = (place / np.float32(GROVE)).astype(np.float32)

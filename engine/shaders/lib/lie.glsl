@@ -16,13 +16,17 @@ struct Lie {
 };
 
 // What lies over the terrain at a place, as `lie` has it; beyond the edge that goes on as in a mirror.
+vec2 on_map(vec2 place, vec2 origin) {
+    return 1.0 - abs(1.0 - mod((place - origin) / terrain_size, 2.0));
+}
+
 vec2 on_map(vec2 place) {
-    return 1.0 - abs(1.0 - mod((place - terrain_origin) / terrain_size, 2.0));
+    return on_map(place, terrain_origin);
 }
 
 // Where the left half of `lie` has a place.
 vec2 on_left(vec2 place) {
-    vec2 at = on_map(place), half_texel = 0.5 / vec2(textureSize(lie, 0));
+    vec2 at = on_map(place, lie_origin), half_texel = 0.5 / vec2(textureSize(lie, 0));
     return vec2(clamp(0.5 * at.x, half_texel.x, 0.5 - half_texel.x), at.y);
 }
 

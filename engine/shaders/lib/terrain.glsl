@@ -1,6 +1,6 @@
 // Heights of the terrain, bilinear as systems sample them; hardware filters are too coarse for that.
 #include "lib/frame.glsl"
-#include "systems/land/maps.py"
+#include "systems/land/heights.py"
 
 uniform sampler2D heights;
 

@@ -1,15 +1,14 @@
 """Where grass does not stand evenly: where it ends, or has been cut, more sharply than the mesh of the ground shows."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ....components.arrays import Doubles, Floats, Ints, Mask
 from ....engine.handed import FARTHEST
-from ....engine.terrain.part import Part
 from ....engine.terrain.plots import CELLS, SIDE, Plots, Values
-from ....engine.terrain.record import Terrain
 from ...mow.mown import Mown
 from ...space.ground import Ground
+from .found import Found
+from .holes import MOST_BLOCKS, Blocks, Holes
 
 WITHIN = 1.0 / 3.0
 """An edge is a step within this part of a patch's side: what is softer the mesh shows well enough."""
@@ -20,17 +19,14 @@ STEP_OF_DENSITY = 0.35
 STEP_OF_HEIGHT = 0.05
 """By how much the height changes at least that grass is cut to where there is an edge [m]."""
 
-MOST_BLOCKS = 1024
-"""Blocks along a side of a map at most."""
-
 
 class Edges:
     """Where there are edges in the grass of a terrain; made out anew where that has changed."""
 
     def __init__(self) -> None:
         self._maps: Values | None = None
-        self._painted: list[_Blocks] = []
-        self._holes = _Holes()
+        self._painted: list[Blocks] = []
+        self._holes: Holes | None = None
         self._sown, self._cut = _OnPlots(STEP_OF_DENSITY * 255.0), _OnPlots(STEP_OF_HEIGHT)
 
     def at(self, ground: Ground, mown: Mown | None, tallest: float, squares: Doubles, /) -> Mask:
@@ -43,34 +39,16 @@ class Edges:
             self._maps = density.maps
             self._painted = [each for values in density.maps for each in _painted_edges(values, ground)]
         found = [each.touch(squares) for each in self._painted]
-        found.append(self._holes.touch(ground.terrain, squares))
+        if self._holes is None or not self._holes.are_of(ground.terrain):
+            self._holes = Found.of(ground.terrain).holes
+        found.append(self._holes.touch(squares))
         found.append(self._sown.touch(density.sown, squares))
         if mown is not None:
             found.append(self._cut.touch(mown.plots, squares, most=tallest))
         return np.asarray(np.any(found, axis=0))
 
 
-class _Blocks:
-    """Which blocks of a terrain have an edge, summed up, so that squares of any size are asked alike."""
-
-    def __init__(self, uneven: Mask, corner: Floats | Doubles, side: Floats | Doubles) -> None:
-        """Take blocks (rows, columns), the first of them at a corner (x, z), with sides along x and z [m]."""
-        self._corner, self._side = np.asarray(corner, np.float64), np.asarray(side, np.float64)
-        self._sums: NDArray[np.int32] = np.zeros(np.add(uneven.shape, 1), np.int32)
-        self._sums[1:, 1:] = uneven.cumsum(axis=0, dtype=np.int32).cumsum(axis=1, dtype=np.int32)
-
-    def touch(self, squares: Doubles) -> Mask:
-        """Return which squares (n, 3) touch a block with an edge, shape (n,)."""
-        rows, columns = self._sums.shape
-        low = (squares[:, :2] - self._corner) / self._side
-        high = np.ceil(low + squares[:, 2:3] / self._side).astype(np.int64)
-        low = np.floor(low).astype(np.int64)
-        (left, top), (right, bottom) = (np.clip(each, 0, (columns - 1, rows - 1)).T for each in (low, high))
-        sums = self._sums
-        return np.asarray(sums[bottom, right] - sums[top, right] - sums[bottom, left] + sums[top, left] > 0)
-
-
-def _painted_edges(values: Floats, ground: Ground) -> list[_Blocks]:
+def _painted_edges(values: Floats, ground: Ground) -> list[Blocks]:
     """Return where a kind's density has edges over the terrain, as painted (rows, columns): nothing where nowhere."""
     shape, size = np.array(values.shape), np.array(ground.terrain.size)[::-1]
     within = ground.patch * WITHIN
@@ -85,7 +63,7 @@ def _painted_edges(values: Floats, ground: Ground) -> list[_Blocks]:
     for axis in (0, 1):  # the way to the first sample of the next block goes on into that
         uneven[(slice(None),) * axis + (slice(1, None),)] |= np.diff(uneven.astype(np.int8), axis=axis) < 0
     side = (size / shape * (down, across))[::-1]
-    return [_Blocks(uneven, np.array(ground.terrain.origin), side)]
+    return [Blocks(uneven, np.array(ground.terrain.origin), side)]
 
 
 def _reduced(reach: np.ufunc, values: Floats, axis: int, each: int) -> Floats:
@@ -96,54 +74,6 @@ def _reduced(reach: np.ufunc, values: Floats, axis: int, each: int) -> Floats:
     return np.asarray(reach(found, values.take(np.minimum(starts + each, count - 1), axis=axis)))
 
 
-class _Holes:
-    """The edges of holes: all that is drawn near one knows of it."""
-
-    def __init__(self) -> None:
-        self._of: tuple[Terrain | None, int] = None, -1
-        self._open = np.zeros((0, 0), np.bool_)
-        self._blocks: _Blocks | None = None
-
-    def touch(self, terrain: Terrain, squares: Doubles) -> Mask:
-        """Return which squares (n, 3) touch a block of the terrain with a hole in it, shape (n,)."""
-        if terrain.holes is not None and self._of != (terrain, terrain.changes.count):
-            changed = terrain.changes.since(self._of[1]) if self._of[0] is terrain else None
-            self._look(terrain, terrain.holes, changed)
-            self._of = terrain, terrain.changes.count
-        there = self._blocks is not None and self._of[0] is terrain
-        return self._blocks.touch(squares) if there and self._blocks else np.zeros(len(squares), np.bool_)
-
-    def _look(self, terrain: Terrain, holes: Mask, changed: list[Part] | None) -> None:
-        rows, columns = holes.shape
-        each = -(-max(rows, columns) // MOST_BLOCKS)
-        if changed is None or not self._open.size:
-            changed = [Part(0, 0, rows, columns)]
-            self._open = np.zeros((-(-rows // each), -(-columns // each)), np.bool_)
-        for part in changed:
-            first, last = part.row // each, (part.row + part.rows - 1) // each + 1
-            left, right = part.column // each, (part.column + part.columns - 1) // each + 1
-            within = holes[first * each : last * each, left * each : right * each]
-            starts = [np.arange(0, count, each) for count in within.shape]
-            found = np.logical_or.reduceat(np.logical_or.reduceat(within, starts[0], axis=0), starts[1], axis=1)
-            self._open[first:last, left:right] = found
-        if not self._open.any():
-            self._blocks = None
-            return
-        side = each * terrain.cell  # a hole goes on half a cell beyond its samples
-        self._blocks = _Blocks(_widened(self._open), np.array(terrain.origin), np.array([side, side]))
-
-
-def _widened(mask: Mask) -> Mask:
-    """Return a mask with what is beside it, before and behind it."""
-    wide = mask.copy()
-    for axis in (0, 1):
-        low, high = (np.s_[:-1], np.s_[1:]) if axis == 0 else (np.s_[:, :-1], np.s_[:, 1:])
-        before = wide.copy()
-        wide[low] |= before[high]
-        wide[high] |= before[low]
-    return wide
-
-
 class _OnPlots:
     """The edges of a map that is kept by plots: a plot is uneven that has one, or one towards the plot beside it."""
 
@@ -152,7 +82,7 @@ class _OnPlots:
         self._of: tuple[Plots | None, int, float] = None, -1, 0.0
         self._uneven, self._seen = np.zeros(0, np.bool_), np.zeros(0, np.int64)
         self._level: Floats = np.zeros((0, 1), np.float32)
-        self._blocks: _Blocks | None = None
+        self._blocks: Blocks | None = None
 
     def touch(self, plots: Plots, squares: Doubles, *, most: float = np.inf) -> Mask:
         """Return which squares (n, 3) touch an uneven plot, shape (n,).
@@ -194,7 +124,7 @@ class _OnPlots:
         none = np.full((1, level.shape[1]), most if most < np.inf else np.nan, np.float32)
         levels = np.append(level, none, axis=0)[page]  # -1 finds the last one
         corner = (first[::-1] - plots.half) * SIDE
-        self._blocks = _Blocks(_uneven_plots(page, self._uneven, levels, self._step), corner, np.array([SIDE, SIDE]))
+        self._blocks = Blocks(_uneven_plots(page, self._uneven, levels, self._step), corner, np.array([SIDE, SIDE]))
 
 
 def _uneven_plots(page: Ints, uneven: Mask, levels: Floats, step: float) -> Mask:

@@ -25,9 +25,9 @@ from ...space.grown import Grown
 from ..representation import Canvas, RepresentationPainter
 from .air import Air
 from .edges import Edges
+from .found import Found
 from .ground import DENSE, OUTLINE, RAISED, THIN, GroundPainter
 from .pool import CarpetKept
-from .rims import Rims
 from .stock import CarpetStock
 from .textures import bent_texture, carpet_texture, sending_carpet
 from .tiles import (
@@ -59,7 +59,7 @@ class CarpetPainter(RepresentationPainter):
         self._units = canvas.units
         self._around, self._seen = Remembered[Tiles](), Remembered[TilesSeen]()
         self._edges, self._tallest = Edges(), 0.0
-        self._rims, self._rims_sent = Rims(ground.terrain), -1
+        self._rims, self._rims_sent = Found.of(ground.terrain).rims, -1
         self._laid = Remembered[Bytes]()
         self.images, self.bents = carpet_texture(canvas.ctx, stock.growths), bent_texture(canvas.ctx, stock.bents(()))
         self._beside: tuple[CarpetStock, moderngl.TextureArray] | None = None
@@ -77,11 +77,11 @@ class CarpetPainter(RepresentationPainter):
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Draw on this ground from now on, with as much of each kind as has become what it is to be."""
-        del record
         if grown.came != self._came:
             self._come(grown.came)
-        if grown.ground.terrain is not self._rims.terrain:
-            self._rims, self._rims_sent = Rims(grown.ground.terrain), -1
+        terrain = grown.ground.terrain
+        if terrain is not self._rims.terrain or not self._rims.lie_over(record["terrain_origin"][0]):
+            self._rims, self._rims_sent = Found.of(terrain).rims, -1
         self._ground, self._tallest = grown.ground, grown.tallest
         self._spacing = finest_spacing(grown.ground.terrain, grown.ground.patch)
 
@@ -168,7 +168,7 @@ class CarpetPainter(RepresentationPainter):
             bare_to,
             goes_on,
             changes,
-            self._rims.version,
+            *self._windows,
         )
         shelf = self.ground.shelves.of(viewer.name, outlook)
         tiles = self._seen.of(
@@ -209,7 +209,12 @@ class CarpetPainter(RepresentationPainter):
         place = round(viewer.eye[0] / step) * step, round(viewer.eye[2] / step) * step
         rims = self._rims if self._rims.any else None
         make = partial(tiles_around, terrain, place, spacing=self._spacing, about=step * HALF_DIAGONAL, rims=rims)
-        return self._around.of(viewer.name, (self._ground, place, self._rims.version), make)
+        return self._around.of(viewer.name, (self._ground, place, *self._windows), make)
+
+    @property
+    def _windows(self) -> tuple[object, ...]:
+        """What tells apart which part of a ground is there, and which rims are known of it."""
+        return self._rims, self._rims.version, self._ground.terrain.changes.moves
 
     def _follow_rims(self) -> None:
         self._rims.follow()

@@ -23,10 +23,14 @@ GLSL = {"NEARER": NEARER}
 
 
 class Rims:
-    """How far places are from the next rim of a terrain. Changes are followed: a rim that goes still counts."""
+    """How far places are from the next rim of a terrain. Changes are followed: a rim that goes still counts.
+
+    Where the terrain becomes another window of its ground, they are those of the one that it was.
+    """
 
     def __init__(self, terrain: Terrain) -> None:
         self.terrain, self._changes = terrain, terrain.changes.count
+        self._first, self._low = terrain.first, np.array(terrain.origin)
         rows, columns = terrain.heights.shape
         each = -(-max(rows, columns) // MOST)
         self._each = each
@@ -37,10 +41,18 @@ class Rims:
         """A number that is another one whenever that has changed."""
         self._look(Part(0, 0, rows, columns))
 
+    def belong(self, terrain: Terrain, /) -> None:
+        """Be those of a terrain that has just become what they were made out of."""
+        self.terrain, self._changes = terrain, terrain.changes.count
+
+    def lie_over(self, origin: Floats, /) -> bool:
+        """Return whether they are those of a window that begins at a place (x, z) [m]."""
+        return self._first is None or bool((np.abs(self._low - origin) < 0.5 * self.terrain.cell).all())
+
     def follow(self) -> None:
         """Look where heights have changed."""
         changes = self.terrain.changes
-        if self._changes == changes.count:
+        if self._changes == changes.count or self._first != self.terrain.first:
             return
         parts = changes.since(self._changes)
         for part in [Part(0, 0, *self.terrain.heights.shape)] if parts is None else parts:
@@ -70,7 +82,7 @@ class Rims:
 
     def near_to(self, places: Doubles, eye: Doubles, /) -> Doubles:
         """Return how far off places (n, 2) count as, seen from an eye (2,), for the mesh of rims (n,) [m]."""
-        low = np.array(self.terrain.origin)
+        low = self._low
         inside = np.clip(places, low, low + self.terrain.size)
         rows, columns = self.far.shape
         side = np.divide(self.terrain.size, (columns, rows))

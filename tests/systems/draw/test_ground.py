@@ -17,7 +17,8 @@ from tallgrass.engine.terrain.part import Part
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.systems.frame.block import FrameBlock
-from tallgrass.systems.land.maps import density_texture, height_texture
+from tallgrass.systems.land.heights import Heights
+from tallgrass.systems.land.maps import density_texture
 from tallgrass.systems.light.slow import laid_over
 from tallgrass.systems.show.carpet.rims import NOWHERE, Rims
 from tallgrass.systems.show.carpet.tiles import (
@@ -156,7 +157,7 @@ def corners(ctx: moderngl.Context, laid: Laid, record_of: RecordOf) -> Iterator[
     site = laid()
     record = record_of(site)
     textures: dict[str, moderngl.Texture | moderngl.TextureArray] = {
-        "heights": height_texture(ctx, site.ground.terrain),
+        "heights": Heights(ctx, site.ground.terrain).texture,
         "lie": laid_over(ctx, np.full((4, 4, 4), 128, np.uint8)),
         "density": density_texture(ctx, site.ground.density),
         "rims": ctx.texture((1, 1), 1, np.full(1, NOWHERE, np.float32).tobytes(), dtype="f4"),

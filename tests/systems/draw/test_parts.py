@@ -16,7 +16,8 @@ from tallgrass.systems.grow.give import grow_give
 from tallgrass.systems.grow.postures import grow_postures
 from tallgrass.systems.grow.record import GIVES, Blades, Growth
 from tallgrass.systems.grow.response import grow_response
-from tallgrass.systems.land.maps import height_texture, posture_texture
+from tallgrass.systems.land.heights import Heights
+from tallgrass.systems.land.maps import posture_texture
 from tallgrass.systems.site import Site
 
 Laid = Callable[..., Site]
@@ -145,7 +146,7 @@ def test_w12_each_of_sixteen_kinds_gives_way_as_its_own_numbers_say(
 def test_t1_the_graphics_card_reads_the_same_bilinear_ground(
     ctx: moderngl.Context, probe: Probe, record: NDArray[np.void], hills: Terrain
 ) -> None:
-    texture = height_texture(ctx, hills)
+    texture = Heights(ctx, hills).texture
     place = np.random.default_rng(2).uniform(-50.0, 50.0, (3000, 2)).astype(np.float32)
     there = probe(HEIGHT, place, record, {"heights": texture}, 1)[:, 0]
     np.testing.assert_allclose(there, height_at(hills, place), atol=1e-4)

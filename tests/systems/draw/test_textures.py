@@ -9,7 +9,8 @@ import pytest
 from tallgrass.engine.gl.stream import release_all
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.systems.grow.record import Growth
-from tallgrass.systems.land.maps import density_texture, height_texture, posture_texture
+from tallgrass.systems.land.heights import Heights
+from tallgrass.systems.land.maps import density_texture, posture_texture
 from tallgrass.systems.light.repeating import LITTER_ONE, SIDE, ground_maps, repeating_levels
 from tallgrass.systems.light.slow import slow_map
 from tallgrass.systems.show.carpet.grow import carpet_of
@@ -118,7 +119,7 @@ def test_g4_carpet_layers_are_kinds_models_slopes_and_directions(ctx: moderngl.C
 def test_t1_heights_are_kept_to_the_last_bit_which_tells_of_holes(ctx: moderngl.Context, hills: Terrain) -> None:
     holes = np.random.default_rng(0).random(hills.heights.shape) < 0.3
     for each in (None, holes):
-        texture = height_texture(ctx, Terrain(hills.heights, hills.cell, each))
+        texture = Heights(ctx, Terrain(hills.heights, hills.cell, each)).texture
         bits = np.frombuffer(texture.read(), np.uint32).reshape(hills.heights.shape)
         np.testing.assert_array_equal(bits & 1, 0 if each is None else each)
         np.testing.assert_array_equal(bits >> 1, hills.heights.view(np.uint32) >> 1)
@@ -138,10 +139,10 @@ def test_each_kinds_density_is_a_channel_of_a_layer(ctx: moderngl.Context, kinds
 
 
 def test_what_is_slow_over_the_terrain_are_two_noises_of_the_seed(hills: Terrain) -> None:
-    packed = slow_map(hills, seed=4)
+    packed = slow_map(hills.size, hills.origin, seed=4)
     assert packed.shape == (70, 90, 2)
-    np.testing.assert_array_equal(slow_map(hills, seed=4), packed)
-    assert (slow_map(hills, seed=5) != packed).mean() > 0.9
+    np.testing.assert_array_equal(slow_map(hills.size, hills.origin, seed=4), packed)
+    assert (slow_map(hills.size, hills.origin, seed=5) != packed).mean() > 0.9
     for noise in np.moveaxis(packed / 127.5 - 1.0, -1, 0):
         assert np.abs(np.diff(noise, axis=0)).max() < 0.35
         assert noise.std() > 0.1
