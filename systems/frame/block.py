@@ -96,6 +96,8 @@ FRAME = np.dtype(
         ("trees_across", "3f4"), ("pad_c", "V4"), ("trees_up", "3f4"), ("pad_d", "V4"),
         ("trees_middle", "4f4"), ("trees_sky", "3f4"), ("pad_e", "V4"), ("trees_sides", "2f4"),
         ("depth_ends", "2f4"),  # of clip space: how deep its near and its far end is
+        # How far the mean wind blows the crown of a tree aside (x, z) [m]; where its two tones are, in turns.
+        ("trees_aside", "2f4"), ("trees_tones", "2f4"),
         ("kinds", KIND, (MOST_KINDS,)),
         ("bodies", BODY, (BODIES,)),
         ("maps", MAP, (MAPS,)), ("maps_shown", "f4"), ("pad_maps", "V12"),  # how many of them there are

@@ -15,6 +15,8 @@ from ..frame.block import FrameBlock
 from ..frame.feature import Heard, Part
 from ..space.frustum import beyond
 from ..space.grown import Grown
+from ..wind.blow import mean_wind
+from ..wind.mean import MeanWind
 from .card import CARDS, CAST, FAR, LEAVES, NEAR, QUAD, WOOD, WOODS, ModelOnCard, Numbers
 from .kind import KindOnCard
 from .model import Model
@@ -57,6 +59,7 @@ class TreePart(Part):
         self._chosen = self._rehearses = False
         self._chosen_by: object = None
         self._air: Heard | None = None
+        self._wind: MeanWind | None = None
         self.every_leaf = False
         """Whether all trees are drawn leaf by leaf, as a reference has them."""
 
@@ -64,6 +67,7 @@ class TreePart(Part):
         """Let other kinds of trees grow."""
         del record
         scene = grown.scene
+        self._wind = mean_wind(scene.wind)
         made_of = tuple(scene.trees.values()), scene.seed
         if made_of == self._made_of:
             return
@@ -99,6 +103,7 @@ class TreePart(Part):
         self._outlook = outlook
         if self._shade is not None and self._kinds:
             self._shade.follow(outlook.viewer.eye, self._standing(), record)
+            self._shade.sway(self._standing(), self._wind, record, time=outlook.viewer.time)
 
     def use(self) -> None:
         """Bind the map."""

@@ -32,8 +32,14 @@ SKY_MEETS_LESS = 0.65
 OWN_CROWN = 0.6
 """How far towards the sun a tree's own crown goes on at most, of its height: up to there, it counts by itself."""
 
+TONES, TONES_APART = (0.92, 1.1), (1.0, 1.7)
+"""Frequencies of the two tones of a swing, of its own; by how much of a turn they differ from one that swings to another."""
+
+CROWN_BENDS = 0.5
+"""How far the middle of a crown goes aside, of a tree's top: it is at two thirds of the height of a cantilever."""
+
 GLSL = {
-    "AROUND": tau, "PERIOD": PERIOD,
+    "AROUND": tau, "PERIOD": PERIOD, "TONES": TONES, "TONES_APART": TONES_APART,
     "TRUNK_LEANS": TRUNK_LEANS, "TRUNK_SWINGS": TRUNK_SWINGS,
     "LIMB_LEANS": LIMB_LEANS, "LIMB_SWINGS": LIMB_SWINGS, "LIMB_STIFF": LIMB_STIFF,
     "LEAF_TURNS": LEAF_TURNS, "LEAF_HERTZ": LEAF_HERTZ, "AIR_FADES": AIR_FADES,
@@ -48,6 +54,12 @@ def trunk_hertz(height: float, diameter: float, /) -> float:
     2004), within `TRUNK_HERTZ`, as crowns of trees that stand free are heavier than those.
     """
     return min(max(0.0948 + 3.4063 * (100.0 * diameter) / height**2, TRUNK_HERTZ[0]), TRUNK_HERTZ[1])
+
+
+def tones(hertz: float, time: float, /) -> tuple[float, float]:
+    """Return where the two tones of a swing are at a time [s], in turns, as `swing` of `tree.glsl` has them."""
+    first, second = (round(hertz * tone * PERIOD) / PERIOD * (time % PERIOD) % 1.0 for tone in TONES)
+    return first, second
 
 
 def limb_hertz(length: float, /) -> float:

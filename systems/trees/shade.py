@@ -1,6 +1,7 @@
 """Maps of what trees leave of the light: of the sun's near by and far off, and of the sky's from above."""
 
 from collections.abc import Sequence
+from math import cos, radians, sin, tau
 
 import moderngl
 import numpy as np
@@ -10,8 +11,10 @@ from ...components.arrays import Doubles
 from ...engine.gl.guest import borrow
 from ...engine.gl.stream import Stream, release_all
 from ...engine.gl.units import BORROWED
+from ..wind.mean import MeanWind
 from .card import CAST, QUAD, Numbers
 from .kind import KindOnCard
+from .motion import CROWN_BENDS, TONES_APART, TRUNK_LEANS, TRUNK_SWINGS, tones, trunk_hertz
 from .programs import Programs
 from .standing import SHOWN, Standing, shown
 
@@ -28,10 +31,16 @@ LEVELS = 3
 """How many coarser ones each has, twice as coarse from one to the next. The sky's is read in the last, whose texels are
 2 m: so broad is the sky that a place sees."""
 
-GLSL = {"SHADE_MAPS": float(len(SIDES)), "SKY_LEVEL": float(LEVELS)}
+GLSL = {
+    "SHADE_MAPS": float(len(SIDES)), "SKY_LEVEL": float(LEVELS), "A_TURN": tau,
+    "SHADE_LEANS": TRUNK_LEANS, "SHADE_SWINGS": TRUNK_SWINGS, "SHADE_TONES_APART": TONES_APART,
+}  # fmt: skip
 
 STEPS = 8.0, 64.0, 32.0
 """How far a viewer goes before one is drawn anew about another place [m]."""
+
+USUAL_TRUNK = 0.03
+"""How thick trunks are in the mean, of their height."""
 
 STEADY = 0.999995
 """Cosine of how far the sun goes before they are drawn anew: 0.2 degrees."""
@@ -62,6 +71,13 @@ class ShadeMap:
         self._drawn = [None, None, None]
         release_all(*self._streams.values())
         self._streams = {}
+
+    def sway(self, standing: Standing, wind: MeanWind | None, record: NDArray[np.void], /, *, time: float) -> None:
+        """Write how far the mean wind blows crowns aside just now, which the maps do not have."""
+        row, high = record[0], float(np.median(standing.rows["height"])) if len(standing.rows) else 0.0
+        strength, heading = (wind.strength, radians(wind.direction)) if wind else (0.0, 0.0)
+        row["trees_aside"] = strength * CROWN_BENDS * high * np.array([sin(heading), -cos(heading)])
+        row["trees_tones"] = tones(trunk_hertz(max(high, 1.0), USUAL_TRUNK * high), time)
 
     def follow(self, eye: Place, standing: Standing, record: NDArray[np.void], /) -> None:
         """Write where the maps lie for an eye, and note which of them are due."""

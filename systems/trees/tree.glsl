@@ -27,8 +27,6 @@ uniform float tall;         // of its model [m]
 uniform float trunk_hertz;  // of its model
 uniform float moment;       // time, within PERIOD [s]
 
-const vec2 TONES = vec2(0.92, 1.1);  // frequencies of the two tones of a swing, of its own
-const vec2 TONES_APART = vec2(1.0, 1.7);  // by how much of a turn they differ from one that swings to another
 const vec3 TRUNK_ASIDE = vec3(0.5, 1.06, 0.37);  // across the wind: how far it swings and how fast, of along it; turns apart
 const vec3 LIMB_ASIDE = vec3(0.7, 1.13, 1.7);  // the same of limbs; how many times as far they are apart
 const float LOAD_AT_END = 3.0;  // of a cantilever, whose line is (3 x² - x³) / 2

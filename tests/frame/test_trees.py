@@ -13,6 +13,7 @@ from tallgrass.engine.camera import Camera
 from tallgrass.systems.reference import draw_reference
 from tallgrass.systems.trees import card, standing
 from tallgrass.systems.trees.draw import TreePart
+from tallgrass.systems.trees.shade import ShadeMap
 from tallgrass.systems.trees.wood import Parts
 from tallgrass.testing import Stage, little_prairie, looking, private_world
 
@@ -219,3 +220,29 @@ def test_nothing_of_trees_is_made_in_a_scene_without_any(ctx: moderngl.Context, 
         assert "TREES" not in without.painter.block.defines
         made = vars(without.painter.part(TreePart))
         assert (made["_programs"], made["_shade"], made["_kinds"]) == (None, None, [])
+
+
+def test_its_shadow_sways_with_the_mean_wind_and_its_map_is_not_drawn_for_that(
+    stage: Stage, prairie: Prairie, plant: Callable[..., int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    plant(14.0, 0.0, height=12.0)  # beside the picture: its shadow alone is seen
+    shot(stage, prairie, DOWN)
+    assert prairie.painter is not None
+    shade = vars(prairie.painter.part(TreePart))["_shade"]
+    drawn, told = list(vars(shade)["_drawn"]), []
+    for _ in range(3):
+        prairie.advance(0.7)
+        swayed = shot(stage, prairie, DOWN)
+        told.append(prairie.painter.block.record["trees_tones"].tobytes())
+    assert len(set(told)) == 3
+    assert all(now is before for now, before in zip(vars(shade)["_drawn"], drawn, strict=True))
+
+    def calm(*told: object, time: float) -> None:
+        del time
+        told[-1]["trees_aside"] = 0.0  # type: ignore[index]
+
+    monkeypatch.setattr(ShadeMap, "sway", calm)
+    still = shot(stage, prairie, DOWN)
+    assert 0.0005 < changed(swayed, still) < 0.2
+    monkeypatch.undo()
+    assert np.array_equal(shot(stage, prairie, DOWN), swayed)

@@ -14,13 +14,23 @@ const float MAP_RIM = 0.46;  // how far from the middle a map counts, of its sid
 const float RIM_FADES = 0.06;  // and over which part of it the farther one is faded out
 const float SKY_MEETS = 0.75;  // how many leaves the sky's light meets, which comes from all sides, of those straight above
 
+const vec2 SWINGS_APART = vec2(0.11, 0.07);  // how many turns trees are apart in their swing on a metre of ground
+
+// How far the wind has blown the leaves aside that shade a place [m]: the map has them as they are in calm air.
+vec3 shade_sways(vec3 place) {
+    vec2 waves = sin(A_TURN * (trees_tones + dot(place.xz, SWINGS_APART) * SHADE_TONES_APART));
+    vec2 aside = trees_aside * (SHADE_LEANS + 0.5 * SHADE_SWINGS * (waves.x + waves.y));
+    return vec3(aside.x, 0.0, aside.y);
+}
+
 vec2 shade_in(vec2 at, float tile, float level) {
     return textureLod(tree_shade, vec2((clamp(at.x, TILE_SPAN.x, TILE_SPAN.y) + tile) / SHADE_MAPS, at.y), level).rg;
 }
 
 // Of the leaves on the sun's ray past a place, those that stand before it, farther on than `beyond` [m].
 float leaves_before(vec3 place, float beyond) {
-    vec2 at = vec2(dot(place, trees_across), dot(place, trees_up));
+    vec3 calm = place - shade_sways(place);
+    vec2 at = vec2(dot(calm, trees_across), dot(calm, trees_up));
     vec2 near_at = (at - trees_middle.xy) / trees_sides.x, far_at = (at - trees_middle.zw) / trees_sides.y;
     float near_out = max(abs(near_at.x), abs(near_at.y)), far_out = max(abs(far_at.x), abs(far_at.y));
     vec2 met = near_out < MAP_RIM ? shade_in(0.5 + near_at, 0.0, 0.0) : far_out < MAP_RIM ? shade_in(0.5 + far_at, 1.0, 0.0) : vec2(0.0);
