@@ -7,8 +7,9 @@ from pathlib import Path
 
 from ..engine.declared.grass import GrassKind
 from ..engine.declared.quality import Quality
+from ..engine.kept import cache_folder
 from ..engine.scene import read_scene
-from ..systems.stock.cache import cache_folder, growth_key, is_kept, keep, packed_growth
+from ..systems.stock.cache import growth_key, is_kept, keep, packed_growth
 from .studio.errors import MachineError
 from .studio.progress import counted
 

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.engine.declared.quality import Quality
+from tallgrass.engine.kept import cache_folder
 from tallgrass.engine.world import World
 from tallgrass.systems import holding, site
 from tallgrass.systems.around.receivers import Receiving
@@ -29,7 +30,7 @@ from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.light import repeating
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.stock import cache
-from tallgrass.systems.stock.cache import cache_folder, cached_growth, growth_key
+from tallgrass.systems.stock.cache import cached_growth, growth_key
 from tallgrass.testing import NoContextError, headless_context, private_world
 
 # The floor of what is supported, so that nothing newer is used by accident; only Mesa reads these.

@@ -5,13 +5,13 @@ import zipfile
 from collections.abc import Mapping
 from dataclasses import fields
 from functools import cache
-from hashlib import blake2b
 from typing import Any, TypeVar, get_args, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.declared.quality import Quality
+from ...engine.kept import DIGEST, checksum
 from ..grow.record import GIVES, Blades, Growth, PatchModel, Postures, Response
 from ..grow.response import SAMPLES
 from ..grow.simulate import LINKS
@@ -21,15 +21,13 @@ from .models import ROWS, VARIANTS
 Arrays = dict[str, NDArray[Any]]
 Record = TypeVar("Record")
 
-_DIGEST = 32
-
 
 def pack(growth: Growth, /, *, key: str) -> bytes:
     """Return a growth as bytes that begin with a checksum over the rest and `key`."""
     buffer = io.BytesIO()
     np.savez(buffer, allow_pickle=False, **_flatten(growth, "growth"))
     data = buffer.getvalue()
-    return _checksum(data, key) + data
+    return checksum(data, key) + data
 
 
 def unpack(data: bytes, /, *, key: str, quality: Quality, blades: int) -> Growth | None:
@@ -37,8 +35,8 @@ def unpack(data: bytes, /, *, key: str, quality: Quality, blades: int) -> Growth
 
     Nothing is parsed before the checksum holds, and nothing is ever unpickled.
     """
-    told = memoryview(data)[_DIGEST:]
-    if data[:_DIGEST] != _checksum(told, key):
+    told = memoryview(data)[DIGEST:]
+    if data[:DIGEST] != checksum(told, key):
         return None
     try:
         with np.load(io.BytesIO(told), allow_pickle=False) as archive:
@@ -46,10 +44,6 @@ def unpack(data: bytes, /, *, key: str, quality: Quality, blades: int) -> Growth
     except (OSError, ValueError, KeyError, zipfile.BadZipFile):
         return None
     return growth if _fits(growth, quality, blades) else None
-
-
-def _checksum(data: bytes | memoryview, key: str, /) -> bytes:
-    return blake2b(data, digest_size=_DIGEST, key=key.encode()).digest()
 
 
 def _flatten(record: Any, name: str, /) -> Arrays:

@@ -1,9 +1,6 @@
 """What was grown once, kept on disk under a hash of everything that it depends on."""
 
 import json
-import logging
-import os
-import tempfile
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import asdict
@@ -17,13 +14,12 @@ import numpy as np
 
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
+from ...engine.kept import cache_folder, forget_oldest, mark_used, tell_nothing_is_kept, write_whole
 from ..grow.layout import layout_of
 from ..grow.record import Growth
 from ..show.registry import REPRESENTATIONS
 from .archive import pack, unpack
 from .models import blade_count, grow
-
-log = logging.getLogger("tallgrass")
 
 _SUFFIX = ".growth"
 _MOST = 48
@@ -37,7 +33,7 @@ def cached_growth(kind: GrassKind, quality: Quality, /, *, seed: int, folder: Pa
     """
     folder = cache_folder() if folder is None else folder
     if folder is None:
-        _tell("a cache folder", "there is no home folder")
+        tell_nothing_is_kept("a cache folder", "there is no home folder")
         return grow(kind, quality, seed=seed)
     key = growth_key(kind, quality, seed=seed)
     growth = _kept(kind, quality, key, folder)
@@ -46,17 +42,8 @@ def cached_growth(kind: GrassKind, quality: Quality, /, *, seed: int, folder: Pa
         try:
             keep(pack(growth, key=key), key, folder)
         except OSError as error:
-            _tell(str(folder), error.strerror or "it cannot be written to")
+            tell_nothing_is_kept(str(folder), error.strerror or "it cannot be written to")
     return growth
-
-
-@cache
-def _tell(folder: str, reason: str) -> None:
-    """Say once that nothing is kept."""
-    log.warning(
-        "what has been grown cannot be kept in %s (%s), so it is grown each time: TALLGRASS_CACHE may name a folder",
-        folder, reason,
-    )  # fmt: skip
 
 
 def is_kept(kind: GrassKind, quality: Quality, /, *, seed: int, folder: Path) -> bool:
@@ -71,8 +58,8 @@ def packed_growth(kind: GrassKind, quality: Quality, /, *, seed: int) -> bytes:
 
 def keep(data: bytes, key: str, folder: Path, /) -> None:
     """Keep a packed growth in a folder for `cached_growth`; raises OSError where that cannot be written."""
-    _write(folder / (key + _SUFFIX), data)
-    _forget_oldest(folder)
+    write_whole(folder / (key + _SUFFIX), data)
+    forget_oldest(folder, _SUFFIX, _MOST)
 
 
 def _kept(kind: GrassKind, quality: Quality, key: str, folder: Path) -> Growth | None:
@@ -80,22 +67,9 @@ def _kept(kind: GrassKind, quality: Quality, key: str, folder: Path) -> Growth |
     with suppress(OSError):
         growth = unpack(path.read_bytes(), key=key, quality=quality, blades=blade_count(kind, quality))
         if growth is not None:
-            _mark_used(path)
+            mark_used(path)
             return growth
     return None
-
-
-def cache_folder() -> Path | None:
-    """Return where growth is kept: TALLGRASS_CACHE, or tallgrass in XDG_CACHE_HOME or ~/.cache; None if nowhere."""
-    if chosen := os.environ.get("TALLGRASS_CACHE"):
-        return Path(chosen)
-    base = Path(os.environ.get("XDG_CACHE_HOME", ""))
-    if base.is_absolute():
-        return base / "tallgrass"
-    try:
-        return Path.home() / ".cache" / "tallgrass"
-    except RuntimeError:
-        return None
 
 
 def growth_key(kind: GrassKind, quality: Quality, /, *, seed: int) -> str:
@@ -144,28 +118,3 @@ def _sources(folder: Traversable, path: str = "") -> Iterator[tuple[str, Travers
             yield from _sources(entry, name)
         elif entry.name == "grow.py" or (name.startswith(("/grow/", "/stock/")) and name.endswith(".py")):
             yield name, entry
-
-
-def _mark_used(path: Path, /) -> None:
-    with suppress(OSError):
-        os.utime(path)
-
-
-def _write(path: Path, data: bytes, /) -> None:
-    """Write a file in one step: no reader ever finds half of it."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, suffix=".part")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-        Path(name).replace(path)
-    except OSError:
-        Path(name).unlink(missing_ok=True)
-        raise
-
-
-def _forget_oldest(folder: Path, /) -> None:
-    """Remove what has not been used for longest, so that the folder does not grow for ever."""
-    found = sorted(folder.glob("*" + _SUFFIX), key=lambda path: path.stat().st_mtime)
-    for path in found[:-_MOST]:
-        path.unlink(missing_ok=True)

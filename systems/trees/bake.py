@@ -26,12 +26,10 @@ Draw = Callable[[int], None]
 """Draws the picture of a number into the viewport that is set."""
 
 
-def pictures(
-    ctx: moderngl.Context, columns: int, rows: int, side: int, draw: Draw, /
-) -> tuple[moderngl.TextureArray, list[Bytes]]:  # fmt: skip
-    """Return pictures drawn side by side in rows, of `side` pixels each, with what two outputs have as two layers.
+def pictures(ctx: moderngl.Context, columns: int, rows: int, side: int, draw: Draw, /) -> list[Bytes]:
+    """Return pictures drawn side by side in rows, of `side` pixels each, as `smaller` has them.
 
-    Besides, return their texels, as `smaller` has them.
+    What two outputs have are two layers of them.
     """
     fine = side * FINER
     size, before = (columns * fine, rows * fine), ctx.fbo
@@ -50,11 +48,15 @@ def pictures(
     finally:
         before.use()  # what is bound when it is released is bound again later
         release_all(target, depth, *colors)
-    made = smaller(texels)
+    return smaller(texels)
+
+
+def filtered(ctx: moderngl.Context, made: list[Bytes], /) -> moderngl.TextureArray:
+    """Return a texture of such pictures."""
     texture = mipmapped(ctx, made)
     texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
     texture.repeat_x = texture.repeat_y = False
-    return texture, made
+    return texture
 
 
 def smaller(texels: Bytes, /) -> list[Bytes]:

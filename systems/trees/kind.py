@@ -5,15 +5,16 @@ from collections.abc import Mapping
 import moderngl
 import numpy as np
 
-from ...components.arrays import Doubles
+from ...components.arrays import Bytes, Doubles
 from ...engine.declared.tree import TreeKind
 from ...engine.gl.mipmaps import mipmapped
 from ...engine.gl.shaders import tell
 from ...engine.gl.stream import release_all
 from ..light.materials import pigment
-from .bake import CARD, PICTURES, from_around, on_card, pictures
+from .bake import CARD, PICTURES, filtered, from_around, on_card, pictures
 from .card import FEWER, LEAVES, PICTURED, QUAD, WOOD, ModelOnCard, Numbers
 from .habit import HABITS
+from .kept import keep_pictures, kept_pictures, kind_key
 from .model import models_of
 from .noise import bark_noise
 from .outline import BOX, outline, roughly
@@ -37,6 +38,7 @@ class KindOnCard:
     def __init__(self, ctx: moderngl.Context, units: Mapping[str, int], declared: TreeKind, *, seed: int) -> None:
         self.ctx, self.units, self.declared = ctx, units, declared
         self.habit = HABITS[declared.habit]
+        self._seed = seed
         self.models = [ModelOnCard(ctx, each) for each in models_of(declared.habit, seed)]
         self.card: moderngl.TextureArray | None = None
         self.outlines: list[list[tuple[float, float]]] = []
@@ -51,7 +53,27 @@ class KindOnCard:
         self._numbers = self._told()
 
     def bake(self, programs: Programs) -> None:
-        """Draw its twig, and then its models from all around; a depth test is set meanwhile."""
+        """Draw its twig, and then its models from all around, unless that was done in a run before."""
+        key = kind_key(self.declared.habit, self._seed, self.ctx.info["GL_RENDERER"])
+        found = kept_pictures(key, len(self.models))
+        if found is None:
+            found = [self._twig_picture(programs)]
+            for model in self.models:
+                self._use(found[0])
+                found.append(self._model_picture(programs, model))
+            keep_pictures(key, found)
+        self._use(found[0])
+        for model, picture in zip(self.models, found[1:], strict=True):
+            model.far = filtered(self.ctx, picture)
+
+    def _use(self, twig: list[Bytes]) -> None:
+        """Show twigs as in this picture."""
+        if self.card is None:
+            self.card = filtered(self.ctx, twig)
+            self._draw_as(outline(twig[0][0, ..., 3]))
+
+    def _twig_picture(self, programs: Programs) -> list[Bytes]:
+        """Return the picture of its twig; a depth test is set meanwhile."""
         twig = programs.array(LEAVES, self.models[0].bare, baked=True)
         matrix = on_card(self.reach, self.habit.twigs.length)
 
@@ -61,15 +83,13 @@ class KindOnCard:
             _matrix(twig.program, matrix)
             twig.render(moderngl.TRIANGLES, vertices=QUAD * self.habit.leaf.quads, instances=1)
 
-        self.card, texels = pictures(self.ctx, 1, 1, CARD, draw_twig)
-        self._draw_as(outline(texels[0][0, ..., 3]))
-        for model in self.models:
-            self._bake_model(programs, model)
+        return pictures(self.ctx, 1, 1, CARD, draw_twig)
 
     def _draw_as(self, corners: Doubles) -> None:
         self.outlines = [[(x, y) for x, y in each.tolist()] for each in (corners, roughly(corners))]
 
-    def _bake_model(self, programs: Programs, model: ModelOnCard) -> None:
+    def _model_picture(self, programs: Programs, model: ModelOnCard) -> list[Bytes]:
+        """Return the pictures of a model from all around."""
         wood, cards = (programs.array(sort, model.bare, model, baked=True) for sort in (WOOD, PICTURED))
 
         def draw_tree(number: int) -> None:
@@ -82,7 +102,7 @@ class KindOnCard:
                 _matrix(array.program, matrix)
                 array.render(moderngl.TRIANGLES, vertices=count, instances=1)
 
-        model.far, _ = pictures(self.ctx, *PICTURES, draw_tree)
+        return pictures(self.ctx, *PICTURES, draw_tree)
 
     def _told(self) -> Numbers:
         """Return what programs are told of the kind, whichever of its models they draw."""

@@ -33,7 +33,7 @@ OWN_CROWN = 0.6
 """How far towards the sun a tree's own crown goes on at most, of its height: up to there, it counts by itself."""
 
 TONES, TONES_APART = (0.92, 1.1), (1.0, 1.7)
-"""Frequencies of the two tones of a swing, of its own; by how much of a turn they differ from one that swings to another."""
+"""Frequencies of the two tones of a swing, of its own; how many turns they go on from one that swings to another."""
 
 CROWN_BENDS = 0.5
 """How far the middle of a crown goes aside, of a tree's top: it is at two thirds of the height of a cantilever."""

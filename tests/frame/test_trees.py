@@ -1,6 +1,8 @@
 """Trees in the picture: near and far, in the wind, in the light, and gone when they are felled (F3, F5, F10)."""
 
 from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
 
 import esper
 import moderngl
@@ -9,9 +11,10 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass import Pose, Prairie, Tree
+from tallgrass.components.arrays import Bytes
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.reference import draw_reference
-from tallgrass.systems.trees import card, standing
+from tallgrass.systems.trees import bake, card, kind, standing
 from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.shade import ShadeMap
 from tallgrass.systems.trees.wood import Parts
@@ -246,3 +249,24 @@ def test_its_shadow_sways_with_the_mean_wind_and_its_map_is_not_drawn_for_that(
     assert 0.0005 < changed(swayed, still) < 0.2
     monkeypatch.undo()
     assert np.array_equal(shot(stage, prairie, DOWN), swayed)
+
+
+def test_a_later_run_draws_no_pictures_and_looks_the_same_to_the_bit(
+    ctx: moderngl.Context, stage: Stage, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("TALLGRASS_CACHE", str(tmp_path))
+    made, seen = [0], []
+    pictures = bake.pictures
+
+    def counted(*told: Any) -> list[Bytes]:
+        made[0] += 1
+        return pictures(*told)
+
+    monkeypatch.setattr(kind, "pictures", counted)
+    for _ in range(2):
+        with private_world(), little_prairie(scene=SCENE, ctx=ctx) as run:
+            esper.create_entity(Tree("ash", height=9.0), Pose(-3.0, 0.0))
+            esper.create_entity(Tree("ash", height=9.0), Pose(0.0, -90.0))
+            seen.append(shot(stage, run, AHEAD))
+    assert made == [3]
+    assert np.array_equal(seen[0], seen[1])

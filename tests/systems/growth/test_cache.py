@@ -16,11 +16,12 @@ from numpy.typing import NDArray
 
 from tallgrass.engine.declared.grass import GrassKind, Place
 from tallgrass.engine.declared.quality import BladeRing, Quality, StripRing
+from tallgrass.engine.kept import cache_folder
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.show.strips.grow import strips_of
 from tallgrass.systems.stock import cache
 from tallgrass.systems.stock.archive import pack, unpack
-from tallgrass.systems.stock.cache import cache_folder, cached_growth, growth_key
+from tallgrass.systems.stock.cache import cached_growth, growth_key
 from tallgrass.systems.stock.models import grow
 
 KIND = GrassKind(width=0.03)

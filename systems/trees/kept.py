@@ -1,0 +1,100 @@
+"""Pictures of trees that were drawn once, kept on disk under a hash of everything that they depend on."""
+
+import io
+import json
+import zipfile
+from collections.abc import Iterator
+from contextlib import suppress
+from functools import cache
+from hashlib import blake2b
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+
+import numpy as np
+
+from ...components.arrays import Bytes
+from ...engine.kept import (
+    DIGEST,
+    cache_folder,
+    checksum,
+    forget_oldest,
+    mark_used,
+    tell_nothing_is_kept,
+    write_whole,
+)  # fmt: skip
+from .bake import CARD, LEVELS, PICTURES
+
+SUFFIX = ".trees"
+
+MOST = 24
+"""Files that are kept: a kind of tree each, and some megabytes."""
+
+Picture = list[Bytes]
+"""Two layers (2, rows, columns, 4) at each of their `LEVELS`, the finest first."""
+
+
+def kind_key(habit: str, seed: int, renderer: str, /) -> str:
+    """Return a name for the pictures of a kind as a graphics card draws them, in hexadecimal; colours do not count."""
+    depends = {"version": _version(), "habit": habit, "seed": seed, "renderer": renderer}
+    return blake2b(json.dumps(depends, sort_keys=True).encode(), digest_size=20).hexdigest()
+
+
+def kept_pictures(key: str, models: int, /) -> list[Picture] | None:
+    """Return a twig's picture and those of a kind's models, as they were kept; None where they are not, or broken."""
+    folder = cache_folder()
+    if folder is None:
+        return None
+    path = folder / (key + SUFFIX)
+    with suppress(OSError, ValueError, KeyError, zipfile.BadZipFile):
+        data = path.read_bytes()
+        told = memoryview(data)[DIGEST:]
+        if data[:DIGEST] != checksum(told, key):
+            return None
+        with np.load(io.BytesIO(told), allow_pickle=False) as archive:
+            found = [[archive[f"{one}.{level}"] for level in range(LEVELS)] for one in range(models + 1)]
+        if all(_fits(picture, of_twig=not number) for number, picture in enumerate(found)):
+            mark_used(path)
+            return found
+    return None
+
+
+def keep_pictures(key: str, pictures: list[Picture], /) -> None:
+    """Keep what `kept_pictures` returns; where nothing can be written, that is said once."""
+    folder = cache_folder()
+    if folder is None:
+        tell_nothing_is_kept("a cache folder", "there is no home folder")
+        return
+    buffer = io.BytesIO()
+    texels = {f"{one}.{level}": each for one, levels in enumerate(pictures) for level, each in enumerate(levels)}
+    np.savez_compressed(buffer, allow_pickle=False, **texels)
+    data = buffer.getvalue()
+    try:
+        write_whole(folder / (key + SUFFIX), checksum(data, key) + data)
+        forget_oldest(folder, SUFFIX, MOST)
+    except OSError as error:
+        tell_nothing_is_kept(str(folder), error.strerror or "it cannot be written to")
+
+
+def _fits(picture: Picture, *, of_twig: bool) -> bool:
+    columns, rows, side = (1, 1, CARD) if of_twig else PICTURES
+    return all(
+        each.dtype == np.uint8 and each.shape == (2, rows * side >> level, columns * side >> level, 4)
+        for level, each in enumerate(picture)
+    )
+
+
+@cache
+def _version() -> str:
+    """Return a hash of the code that grows and draws trees, so that nothing drawn by other code counts as its own."""
+    digest = blake2b(np.__version__.encode(), digest_size=16)
+    root = files("tallgrass")
+    for folder in (root / "systems" / "trees", root / "engine" / "shaders" / "lib"):
+        for name, source in sorted(_sources(folder)):
+            digest.update(name.encode() + b"\0" + source.read_bytes())
+    return digest.hexdigest()
+
+
+def _sources(folder: Traversable) -> Iterator[tuple[str, Traversable]]:
+    for entry in folder.iterdir():
+        if entry.is_file() and entry.name.endswith((".py", ".glsl", ".vert", ".frag")):
+            yield entry.name, entry
