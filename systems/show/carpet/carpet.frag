@@ -13,17 +13,19 @@
 #ifdef EDGED
 #define BROUGHT
 #define OF_SOIL
+#define OF_SLOPE in
 in vec3 over;
 in float lies_over;
 in float raises;
 #else
 #define BROUGHT in
 #define OF_SOIL FEW
+#define OF_SLOPE FEW
 #endif
 
 BROUGHT vec3 place;
 in float carpet;
-in vec2 rise;
+OF_SLOPE vec2 rise;
 in float crest;
 in float past;
 BROUGHT float tall;
@@ -194,6 +196,9 @@ void main() {
     meet(slope, left);
 #else
     vec2 dx = dFdx(place.xz), dy = dFdy(place.xz);
+#if KINDS > 4
+    rise = rise_at(place.xz);
+#endif
     float slope = viewing_slope(rise, place), left = left_seen(place.xz), ahead = rises_ahead(place.xz, tall);
     work_out(slope);
 #endif

@@ -17,17 +17,19 @@
 #ifdef EDGED
 #define BROUGHT
 #define OF_SOIL
+#define OF_SLOPE out
 out vec3 over;       // place on the mesh, which is raised to the carpet of whole grass,
 out float lies_over;      // how high that is over the ground [m],
 out float raises;      // and of how high the carpet is on level ground
 #else
 #define BROUGHT out
 #define OF_SOIL FEW
+#define OF_SLOPE FEW
 #endif
 
 BROUGHT vec3 place;
 out float carpet;    // how much of what is seen is carpet's
-out vec2 rise;       // of the ground, along x and z
+OF_SLOPE vec2 rise;  // of the ground, along x and z
 out float crest;     // how fast the rise falls off along the line of sight [1/m]
 out float past;      // what it meets that passes over a rim, as past_rim has it
 BROUGHT float tall;     // height of the carpet [m]
