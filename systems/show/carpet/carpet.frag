@@ -38,7 +38,6 @@ BROUGHT ByKind riper;
 #endif
 FEW float stands;
 FEW float strips_before;
-FEW float on_strips;
 FEW float sways;
 FEW vec2 slow;
 OF_SOIL float elevation;
@@ -90,7 +89,6 @@ void work_out(float slope) {
     slow = slow_seen(seen_at(place, slope, tall, dense), slope, tall);
     vec2 message = message_at(place.xz);
     stands = lodged(message);
-    on_strips = come_through(place.xz, max(slope, TINY), carpet, tall, stands).y;
     sways = sways_by(areas(grows_at(place.xz)), message);
 #endif
 }
@@ -118,8 +116,10 @@ vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
     Canopy canopy = canopy_here(sight);
     own.blown.xy += canopy.sways;
     vec2 among = vec2(1.0);
-    if (min(sight.share, 1.0 - strips_before) < 1.0)
+    if (min(sight.share, 1.0 - strips_before) < 1.0) {  // by pixel: between corners it bends too much
+        float on_strips = come_through(place.xz, max(sight.slope, TINY), carpet, tall, stands).y;
         among = among_strips(on_strips, sight.on_level, carpet, stands, dense);
+    }
     float deep = deepest(sight.slope, crest, tall * stands), stubble = 1.0;
     ByKind area = all_kinds(0.0);
     if (anything_is_cut()) {

@@ -42,7 +42,6 @@ BROUGHT ByKind riper;   // by kind: how much more of its heads than an image sho
 #endif
 FEW float stands;         // how high the grass stands, of its height at rest
 FEW float strips_before;  // how much strips show of what lines of sight come through above the carpet
-FEW float on_strips;      // leaf area on strips that lines of sight come through above the carpet, of the grass's
 FEW float sways;          // how far leaves sway, of the wind's message [m]
 FEW vec2 slow;            // slow noises of the pigment, where leaves are seen
 OF_SOIL float elevation;  // of elevation_seen
@@ -112,12 +111,10 @@ void main() {
 #endif
     hand_on(laid);
     float slope = viewing_slope(rise, place), from_above = max(slope, FLATTEST);
-    vec2 came = come_through(place.xz, from_above, carpet, tall, stands);
-    strips_before = came.x;
-    on_strips = came.y;
+    strips_before = come_through(place.xz, from_above, carpet, tall, stands).x;
     float on_level = max(level_slope(max(slope, 0.0), crest, carpet, tall, stands), FLATTEST);
     ByKind ripe;
-    met = shared_out(kinds_met(laid.grows, on_level, laid.left, left_by_strips(1.0 - came.x, carpet), ripe), laid.grows, on_level);
+    met = shared_out(kinds_met(laid.grows, on_level, laid.left, left_by_strips(1.0 - strips_before, carpet), ripe), laid.grows, on_level);
 #ifdef HEADS
     riper = ripe;
 #endif
