@@ -266,6 +266,6 @@ def test_a_trap_tells_that_pyglets_framebuffers_bring_no_viewport_of_their_own_a
     assert source.count("glBindFramebuffer") == 2
     assert "iewport" not in source
     traps = written("embedding.md").partition("## Traps")[2]
-    (trap,) = re.findall(r"^- \*\*Viewports of your own framebuffers\.\*\*.*\n(?:  .*\n)*", traps, re.MULTILINE)
+    (trap,) = re.findall(r"^- \*\*Viewports\.\*\*.*\n(?:  .*\n)*", traps, re.MULTILINE)
     assert "`Framebuffer.bind`" in trap
     assert "glViewport" in trap
