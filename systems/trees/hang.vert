@@ -29,8 +29,8 @@ void main() {
         return;
     one.face = face_of(one);
     vec3 aside = cross(one.along, one.face);
-    float turns = flutter(chance), length_of = size * one.length;
-    one.foot -= 0.5 * max(length_of - one.length, 0.0) * one.along;  // it is larger about its middle: a crown stays as wide
+    float turns = flutter(chance), length_of = size * one.span;
+    one.foot -= 0.5 * max(length_of - one.span, 0.0) * one.along;  // it is larger about its middle: a crown stays as wide
     vec3 facing = turned_by(one, one.face, aside, turns), along = turned(one.along + fluttered(one, aside, turns));
     hung_at = vec4(swayed(one.foot, one.pivot, one.limb, one.hertz, message), scale * length_of);
     vec3 middle = hung_at.xyz + 0.5 * hung_at.w * along;

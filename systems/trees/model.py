@@ -89,8 +89,9 @@ def _limbs(tree: Tree, seed: int) -> tuple[Doubles, Doubles]:
 def _twig_records(tree: Tree, area: Doubles, seed: int) -> NDArray[np.void]:
     twigs, (pivot, limb) = tree.twigs, _limbs(tree, seed)
     records = np.zeros(len(twigs.foot), TWIG)
-    for name in ("foot", "length", "along", "face"):
+    for name in ("foot", "along", "face"):
         records[name] = getattr(twigs, name)
+    records["span"] = twigs.length  # strict compilers take `length` for a method
     records["pivot"] = pivot[twigs.limb]
     records["limb"], records["hertz"] = limb[twigs.limb].T
     records["shading"] = shading(tree, area, twigs.foot + 0.5 * twigs.length[:, None] * twigs.along.astype(np.float64))

@@ -6,7 +6,7 @@ from ...engine.gl.emit import emitted, looked_up
 
 TWIG = np.dtype(
     [
-        ("foot", "3f4"), ("length", "f4"),  # [m]
+        ("foot", "3f4"), ("span", "f4"),  # [m]
         ("along", "3f4"), ("limb", "f4"),  # what sets its limb apart from others, 0 to 1
         ("face", "3f4"), ("hertz", "f4"),  # frequency of its limb
         ("pivot", "3f4"), ("spare", "f4"),  # foot of its limb [m]

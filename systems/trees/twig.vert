@@ -77,7 +77,7 @@ vec3 stem_corner(int twig, int shoot, vec2 corner, float wide) {
 #ifndef BAKED
 // Half a pixel at a twig, of its length: narrower stems are drawn so wide, and cover less.
 float half_pixel(Twig twig) {
-    return 0.5 * distance(eye, root + scale * turned(twig.foot)) / (pixels_a_metre() * scale * twig.length);
+    return 0.5 * distance(eye, root + scale * turned(twig.foot)) / (pixels_a_metre() * scale * twig.span);
 }
 #endif
 
@@ -159,8 +159,8 @@ void main() {
     one.face = face_of(one);
 #endif
     vec3 aside = cross(one.along, one.face);
-    float length_of = size * one.length;
-    one.foot -= 0.5 * max(length_of - one.length, 0.0) * one.along;  // it is larger about its middle: a crown stays as wide
+    float length_of = size * one.span;
+    one.foot -= 0.5 * max(length_of - one.span, 0.0) * one.along;  // it is larger about its middle: a crown stays as wide
     vec3 own = length_of * (shape.x * aside + shape.y * one.along + shape.z * one.face);
     facing = normal.x * aside + normal.y * one.along + normal.z * one.face;
 #ifdef BAKED
