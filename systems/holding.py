@@ -34,12 +34,7 @@ class Holding:
     """Everything that one GL context holds of a site."""
 
     def __init__(
-        self,
-        ctx: moderngl.Context,
-        features: Sequence[Feature],
-        quarantine: Quarantine,
-        *,
-        linear: bool = False,
+        self, ctx: moderngl.Context, features: Sequence[Feature], quarantine: Quarantine, *, linear: bool = False
     ) -> None:
         self.ctx, self.quarantine = ctx, quarantine
         self.block, self.received = FrameBlock(ctx), Received(ctx)

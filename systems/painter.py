@@ -39,12 +39,7 @@ class Painter(Holding):
     """Draws what one GL context holds of a site."""
 
     def __init__(
-        self,
-        ctx: moderngl.Context,
-        features: Sequence[Feature],
-        quarantine: Quarantine,
-        *,
-        linear: bool = False,
+        self, ctx: moderngl.Context, features: Sequence[Feature], quarantine: Quarantine, *, linear: bool = False
     ) -> None:
         super().__init__(ctx, features, quarantine, linear=linear)
         self.smaller, self.stopwatch = Smaller(ctx, floats=linear), Stopwatch(ctx)
