@@ -50,7 +50,7 @@ class Stream:
         self.count = count
         size = count * self.record.itemsize
         if size > self.buffer.size:
-            self.buffer.orphan(size * 3 // 2)
+            self.buffer.orphan(count * 3 // 2 * self.record.itemsize)  # whole ones: transform feedback asks for that
         elif size:
             self.buffer.orphan()
 
