@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Floats, Ints
+from ...components.arrays import Doubles, Floats, Ints
 from .part import MOST, Part
 
 CELL = 0.2
@@ -230,6 +230,15 @@ class Plots:
             self.pages = more
         self._uses, self.written = np.append(self._uses, 0), np.append(self.written, 0)
         return page
+
+    def touch(self, ends: Doubles, /) -> None:
+        """Count as changed what lies between corners (x, z) [m], (n, 2, 2), for who asks; all, where they are many."""
+        parts = [part for low, high in ends[: MOST + 1] for part in self.parts(low, high)]
+        self.count += max(len(parts), 1)
+        if len(parts) > MOST:
+            self._last.clear()
+        else:
+            self._last.extend(parts)
 
     def saved(self) -> tuple[Ints, Values]:
         """Return row, column and page of each plot that is there, (n, 3), and those pages, numbered from 0 on."""

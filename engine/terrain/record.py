@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Floats, Mask
 from .blocks import REACH, Blocks
+from .crowns import Crowns
 from .part import MOST, Part
 from .plots import Plots
 
@@ -165,6 +166,9 @@ class Density:
 
     sown: Plots = field(init=False)
     """What a game has sown and cleared: densities of all kinds in bytes, in place of those of the maps."""
+
+    crowns: Crowns = field(init=False, default_factory=Crowns)
+    """The trees that take its light."""
 
     def __post_init__(self) -> None:
         """Begin with nothing sown."""

@@ -98,8 +98,19 @@ def normal_at(terrain: Terrain, place: Floats, /) -> Floats:
 def density_at(density: Density, place: Floats, /) -> Floats:
     """Return each kind's density in [0, 1] at ground positions (x, z) [m] of shape (n, 2), shape (kinds, n).
 
-    It is what a game has sown or cleared there, and else what is painted; so it is beyond the terrain.
+    It is what a game has sown or cleared there, and else what is painted; so it is beyond the terrain. Below trees less
+    of it grows.
     """
+    return _below_crowns(density, _on_open_ground(density, place), place)
+
+
+def _below_crowns(density: Density, result: Floats, place: Floats) -> Floats:
+    """Return densities (kinds, n), or (n,), with as much of them as trees leave."""
+    left = density.crowns.left_at(place)
+    return result if left is None else result * left
+
+
+def _on_open_ground(density: Density, place: Floats) -> Floats:
     if not density.sown.any:
         return natural_at(density, place)
     on = _sown_on(density, place)
@@ -111,7 +122,7 @@ def density_at(density: Density, place: Floats, /) -> Floats:
 
 
 def density_on_lines(density: Density, x: Floats, z: Floats, /) -> Floats:
-    """Return each kind's density where lines of `x` (m, n) and of `z` (m, n) meet [m], shape (kinds, m, n, n), z first.
+    """Return each kind's density in the open where lines of `x` (m, n) and `z` meet [m], (kinds, m, n, n), z first.
 
     Of what is sown it is that of the cells which places lie in: that takes less time than `density_at`.
     """
@@ -135,6 +146,12 @@ def density_on_lines(density: Density, x: Floats, z: Floats, /) -> Floats:
     return np.asarray(result.reshape(-1, *shape), np.float32)
 
 
+def left_on_lines(density: Density, x: Floats, z: Floats, /) -> Floats | None:
+    """Return how much of that trees leave, (m, n, n), as `density_on_lines` has them; None: all of it."""
+    left = density.crowns.left_at(_met(x, z)) if len(density.crowns.discs) else None
+    return None if left is None else left.reshape(*x.shape, x.shape[1])
+
+
 def _met(x: Floats, z: Floats) -> Floats:
     """Return the places where lines meet, (m * n * n, 2)."""
     shape = *x.shape, x.shape[1]
@@ -142,7 +159,7 @@ def _met(x: Floats, z: Floats) -> Floats:
 
 
 def natural_at(density: Density, place: Floats, /) -> Floats:
-    """Return each kind's density as it would be had a game neither sown nor cleared anything, as `density_at` does."""
+    """Return each kind's density had a game neither sown nor cleared anything and were there no trees, (kinds, n)."""
     return _limited(density, painted_at(density, place), place)
 
 
@@ -190,6 +207,10 @@ def own_density_at(density: Density, kind: NDArray[np.intp], place: Floats, /) -
 
     It is what `density_at` says of that kind, and takes no longer where kinds are many.
     """
+    return _below_crowns(density, _own_on_open_ground(density, kind, place), place)
+
+
+def _own_on_open_ground(density: Density, kind: NDArray[np.intp], place: Floats) -> Floats:
     if not density.sown.any:
         return _limited(density, _own_painted_at(density, kind, place), place, kind)
     on = _sown_on(density, place)

@@ -11,7 +11,7 @@ from ...engine.gl.records import Records
 from ...engine.gl.stream import Stream, release_all
 from .bark import RUNS, SENT, sent
 from .model import Model
-from .standing import HUNG, SHOWN, TOLD
+from .standing import COLUMN, HUNG, SHOWN, TOLD
 from .twig import RANKS, ROW, TWIG
 from .wood import Parts, parts
 
@@ -43,7 +43,8 @@ class ModelOnCard:
         self.model = model
         self.numbers: Numbers = {
             "tall": (model.height,), "trunk_hertz": (model.hertz,), "twigs": (len(model.twigs),),
-            "ball": (model.middle, model.half), "crown_at": (model.middle,),
+            "ball": (model.middle, model.half), "crown_at": (model.middle,), "lawn_shade": model.shade,
+            "column": (COLUMN * model.radius,),
         }  # fmt: skip
         """What programs are told of it."""
         self.twigs = Records(ctx, TWIG, ROW, rows=-(-len(model.twigs) // ROW))
@@ -56,7 +57,9 @@ class ModelOnCard:
         self.bare = Stream(ctx, SHOWN)
         self._alone = np.zeros(1, SHOWN)
         self._alone["keep"] = FEWER
-        self._alone["scale"] = self._alone["foliage"] = self._alone["tint"] = 1.0
+        self._alone["columns"] = self._alone["shows"] = self._alone["scale"] = self._alone["foliage"] = self._alone[
+            "tint"
+        ] = 1.0
         self._alone["turn"] = 1.0, 0.0
         self.bare.write(self._alone)
         self.streams = {name: Stream(ctx, SHOWN) for name in (*WOODS, LEAVES, FAR, *CARDS)}

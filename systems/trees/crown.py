@@ -29,6 +29,27 @@ CLUMPED = 0.4
 Analysis of the Frequency of Gaps in Plant Stands, 1971)."""
 
 
+LEAST_SHADE = 4.0
+"""How far from its trunk a tree shades the grass at least [m]: the sky is broad."""
+
+SHADE_OF_HEIGHT = 0.35
+"""How far it does so at least, of its height."""
+
+SKY_MEETS = 0.75
+"""How many leaves the sky's light meets, which comes from all sides, of those straight above."""
+
+GLSL = {"LEAST_SHADE": LEAST_SHADE, "SKY_MEETS": SKY_MEETS}
+
+
+def shade_of(area: float, radius: float, height: float, /) -> tuple[float, float]:
+    """Return how far a tree shades the grass [m], and how many leaves the sky's light meets, times area [m²].
+
+    So many are met on the ground in the middle of a disc of that area by its radius squared, and less from there to its
+    edge by the square of 1 - r². `area` is that of its leaves [m²], `radius` that of its crown, `height` its own [m].
+    """
+    return max(radius, SHADE_OF_HEIGHT * height), 3.0 / np.pi * SKY_MEETS * SHARE * CLUMPED * area
+
+
 def leaf_area(twigs: Twigs, leaf: Leaf, usual: float, /) -> Doubles:
     """Return the leaf area of each twig, one side of its leaves [m²], shape (n,); `usual` is a twig's length [m]."""
     own = leaf.count * leaf.length * leaf.width * leaf.area

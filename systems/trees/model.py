@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ...components.arrays import Doubles
 from ...engine.declared.tree import HabitName
 from .bark import Wood, bark_of
-from .crown import leaf_area, shading
+from .crown import leaf_area, shade_of, shading
 from .grow import Tree, grown
 from .habit import HABITS, Habit
 from .motion import limb_hertz, trunk_hertz
@@ -53,6 +53,11 @@ class Model:
 
     leaf_area: float
     """Of all its leaves, one side [m²]."""
+
+    @property
+    def shade(self) -> tuple[float, float]:
+        """How it shades the grass, as `shade_of` has it."""
+        return shade_of(self.leaf_area, self.radius, self.height)
 
 
 @lru_cache(maxsize=32)

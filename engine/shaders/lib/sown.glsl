@@ -2,6 +2,7 @@
 #include "lib/lie.glsl"
 #include "lib/plots.glsl"
 #include "lib/terrain.glsl"
+#include "lib/trees.glsl"
 
 uniform sampler2DArray density;  // over the terrain, four kinds in each layer: how densely each is painted to grow
 
@@ -21,11 +22,14 @@ Plot plot_on(vec2 place) {
     return plot_at(terrain_origin + clamp(inside, vec2(HALF_CELL), terrain_size - HALF_CELL));
 }
 
-// How much of what would grow there the ground leaves to four kinds: it may be too steep, or there may be none.
+// How much of what would grow there the ground leaves to four kinds, which may be too steep, or a hole, or below trees.
 vec4 left_by_ground(vec2 place, int group) {
     vec4 left = is_hole(place) ? vec4(0.0) : vec4(1.0);
 #ifdef SLOPED
     left *= clamp((steepest[group] - length(rise_at(place))) * thins[group], 0.0, 1.0);
+#endif
+#ifdef TREES
+    left *= grass_below_trees(place);
 #endif
     return left;
 }

@@ -3,16 +3,18 @@
 #include "lib/through.glsl"
 #ifdef TREES
 #include "lib/frame.glsl"
+#include "engine/terrain/crowns.py"
+#include "systems/trees/crown.py"
 #include "systems/trees/shade.py"
 
-// Side by side, near by, far off and seen from above: how many leaves a ray meets, and that times how far on it is towards the sun [m].
+// Side by side, near by and far off: how many leaves a ray meets, and that times how far on it is towards the sun [m]. Seen from
+// above: how many leaves the sky's light meets from there, and how many in the mean over all the sky that grass sees.
 uniform sampler2D tree_shade;
 
 const vec2 TILE_SPAN = vec2(0.001, 0.999);  // part of a map that is read, across: beside it, taps would reach another map
 const vec2 STANDS_BEFORE = vec2(-0.5, 2.0);  // how much farther towards the sun leaves begin to shade a place, and all do [m]
 const float MAP_RIM = 0.46;  // how far from the middle a map counts, of its side
 const float RIM_FADES = 0.06;  // and over which part of it the farther one is faded out
-const float SKY_MEETS = 0.75;  // how many leaves the sky's light meets, which comes from all sides, of those straight above
 
 const vec2 SWINGS_APART = vec2(0.11, 0.07);  // how many turns trees are apart in their swing on a metre of ground
 
@@ -44,11 +46,20 @@ float past_trees(vec3 place, float beyond) {
     return comes_through(leaves_before(place, beyond));
 }
 
+// How many leaves are met above a place, straight above and over all the sky that is seen from it.
+vec2 leaves_above(vec2 place) {
+    vec2 at = (place - trees_sky.xy) / trees_sky.z;
+    float out_by = max(abs(at.x), abs(at.y));
+    return out_by < MAP_RIM ? shade_in(0.5 + at, 2.0, SKY_LEVEL) * (1.0 - smoothstep(MAP_RIM - RIM_FADES, MAP_RIM, out_by)) : vec2(0.0);
+}
+
 // How much of the sky is left above a place.
 float sky_past_trees(vec3 place) {
-    vec2 at = (place.xz - trees_sky.xy) / trees_sky.z;
-    if (max(abs(at.x), abs(at.y)) > MAP_RIM)
-        return 1.0;
-    return comes_through(SKY_MEETS * shade_in(0.5 + at, 2.0, SKY_LEVEL).x);
+    return comes_through(SKY_MEETS * leaves_above(place.xz).x);
+}
+
+// How much grass grows there, of that in the open.
+float grass_below_trees(vec2 place) {
+    return mix(1.0, comes_through(leaves_above(place).y), 1.0 - SHADE_KEEPS);
 }
 #endif

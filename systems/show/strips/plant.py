@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from ....components.arrays import Floats, Ints, Mask
 from ....engine.terrain.plots import CELL
-from ....engine.terrain.sample import density_on_lines
+from ....engine.terrain.sample import density_on_lines, left_on_lines
 from ...space.ground import PRESENT, Ground
 from .pool import StripPool
 
@@ -16,6 +16,9 @@ MOST_PLACES = 13
 
 STEP_OF_DENSITY = 0.35
 """By how much a kind's density changes at an edge, where pixels make out themselves how densely it grows."""
+
+SHADE = 1.5
+"""Places that are so near to one another are about as shaded by trees [m]."""
 
 WITHIN = 1.0 / 3.0
 """An edge is a step within this part of a patch's side."""
@@ -30,12 +33,15 @@ def plant_strips(
     line = _spread(ground, pool.strips[0].margin)
     x, z = (cell.T[:, :, None] * np.float32(ground.patch) + line).astype(np.float32)
     dense = density_on_lines(ground.density, x, z)
+    pool.edged[slots] = _steps(dense, float(line[1] - line[0]), ground.patch)
+    left = left_on_lines(ground.density, x, z)
+    if left is not None:
+        dense = dense * left  # trees make no edges
     all_over = dense.reshape(*dense.shape[:2], -1)
     least, most = all_over.min(axis=2).T, all_over.max(axis=2).T
     grows = most > PRESENT
     pool.present[slots] = grows
     pool.least[slots] = np.where(grows, least, np.float32(1.0)).min(axis=1)
-    pool.edged[slots] = _steps(dense, float(line[1] - line[0]), ground.patch)
 
 
 def _steps(dense: Floats, spacing: float, patch: float) -> Mask:
@@ -57,6 +63,8 @@ def _spread(ground: Ground, margin: float) -> Floats:
     finest = min(ground.density.size[0] / columns, ground.density.size[1] / rows)
     if ground.density.sown.any:
         finest = min(finest, CELL)
+    if len(ground.density.crowns.discs):
+        finest = min(finest, SHADE)
     if ground.terrain.holes is not None:
         finest = min(finest, ground.terrain.cell)
     count = min(max(ceil((ground.patch + 2.0 * margin) / finest), 1), MOST_PLACES - 1) + 1

@@ -1,0 +1,91 @@
+"""Grass below trees: it grows as it gets light, in all representations, and again once they are felled (F3, F4)."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import esper
+import moderngl
+import numpy as np
+import pytest
+
+from tallgrass import Pose, Prairie, Tree
+from tallgrass.engine.declared.quality import LodName
+from tallgrass.systems.trees.draw import TreePart
+from tallgrass.systems.trees.shade import SIDE, SIDES
+from tallgrass.testing import Stage, little_prairie, looking, private_world
+
+SCENE = """\
+tallgrass: 2
+seed: 5
+terrain: { noise: flat, size: [80, 80] }
+grass: { turf: { height: [0.2, 0.3], width: 0.02, blades: 1500, root: "#1fa01f", tip: "#1fa01f", understorey: 0.0 } }
+trees: { oak: { habit: oak, height: [12, 12] } }
+wind: [{ kind: breeze, strength: 0.2, speed: 4 }]
+light: { azimuth: 90, elevation: 60, haze: 1e6, ground: "#e01010" }
+"""
+OVER = looking(0.0, 12.0, 14.0, pitch=-40.0, view=20.0)
+
+
+@pytest.fixture(scope="module")
+def stage(ctx: moderngl.Context) -> Stage:
+    return Stage(ctx, (96, 96))
+
+
+@pytest.fixture
+def prairie(ctx: moderngl.Context, request: pytest.FixtureRequest) -> Iterator[Prairie]:
+    lod: LodName = getattr(request, "param", "auto")
+    with private_world(), little_prairie(scene=SCENE, ctx=ctx, lod=lod) as made:
+        yield made
+
+
+def shot(stage: Stage, prairie: Prairie) -> Any:
+    stage.begin()
+    prairie.draw(*stage.matrices(OVER))
+    return stage.read()
+
+
+def dense(prairie: Prairie, x: float, z: float) -> float:
+    return float(prairie.grass_at(np.array([[x, z]], np.float32)).density[0, 0])
+
+
+def test_f3_as_much_grows_below_a_tree_as_it_leaves_of_the_light(stage: Stage, prairie: Prairie) -> None:
+    esper.create_entity(Tree("oak", 12.0), Pose(3.0, 0.0))
+    half_bare = esper.create_entity(Tree("oak", 12.0, foliage=0.5), Pose(-25.0, 0.0))
+    shot(stage, prairie)
+    assert 0.2 < dense(prairie, 3.0, 0.0) < dense(prairie, -25.0, 0.0) < 0.7
+    assert dense(prairie, 3.0, 0.0) < dense(prairie, 8.0, 0.0) < dense(prairie, 3.0, 20.0) == 1.0
+    esper.delete_entity(half_bare, immediate=True)
+    shot(stage, prairie)
+    assert dense(prairie, -25.0, 0.0) == 1.0
+
+
+def test_f3_pixels_know_how_much_grows_as_systems_do(stage: Stage, prairie: Prairie) -> None:
+    for x, height in ((3.0, 12.0), (10.0, 5.0), (-14.0, 2.0)):
+        esper.create_entity(Tree("oak", height), Pose(x, 0.0))
+    shot(stage, prairie)
+    assert prairie.painter is not None
+    texture = vars(vars(prairie.painter.part(TreePart))["_shade"])["_texture"]
+    texels = np.frombuffer(texture.read(), np.float16).reshape(SIDE, 3, SIDE, 2)[:, 2, :, 1].astype(np.float64)
+    middle = (np.arange(SIDE) + 0.5) / SIDE * SIDES[2] - SIDES[2] / 2.0
+    near = np.abs(middle) < 30.0
+    place = np.stack(np.meshgrid(middle[near], middle[near]), axis=-1).reshape(-1, 2).astype(np.float32)
+    left = prairie.site.ground.density.crowns.left_at(place)
+    assert left is not None
+    told = 0.15 + 0.85 * np.exp(-texels[np.ix_(near, near)].ravel())
+    assert left.min() < 0.4
+    np.testing.assert_allclose(told, left, atol=0.01)
+
+
+@pytest.mark.parametrize("prairie", ["blades", "strips", "carpet"], indirect=True)
+def test_f4_more_soil_is_seen_below_a_tree_in_every_representation_and_less_once_it_is_felled(
+    stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(TreePart, "draw_solid", lambda _: 0)
+    monkeypatch.setattr(TreePart, "draw_soft", lambda _: 0)
+    open_ground = shot(stage, prairie)
+    tree = esper.create_entity(Tree("oak", 12.0), Pose(0.0, 0.0))
+    below = shot(stage, prairie)
+    esper.delete_entity(tree, immediate=True)
+    assert np.array_equal(shot(stage, prairie), open_ground)
+    red = [float((each[..., 0] / each[..., :2].sum(axis=-1))[24:72, 24:72].mean()) for each in (open_ground, below)]
+    assert red == pytest.approx([0.66, 0.82], abs=0.025)  # soil is red, and grass green
