@@ -173,7 +173,7 @@ class Prairie(Tending):
         if not goes_on:
             self._go_with(viewer, seen)
             for feature in self._stepping:
-                feature.step(viewer, time=time)
+                feature.step(viewer, seen.eye, time=time)
         with self._assembly.screen.opened(self.site) as painter:
             if painter is None:
                 return
@@ -254,7 +254,7 @@ class Prairie(Tending):
         self._turn()
         self._go_with(viewer, seen)
         for feature in self.features:
-            feature.step(viewer, time=self.time)
+            feature.step(viewer, seen.eye, time=self.time)
         self._look(seen, viewer)
         self.systems.run(last=Phase.SEE)
 
@@ -377,7 +377,7 @@ class Prairie(Tending):
         seen = view_of(view_matrix(camera), projection_matrix(camera.view, 1.0))
         self._go_with(AHEAD, seen)
         for feature in self._stepping:
-            feature.step(AHEAD, time=self.time)
+            feature.step(AHEAD, seen.eye, time=self.time)
         self._look(seen, AHEAD)
         for _, name, system in self._built:
             if name != "draw":

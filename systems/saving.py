@@ -78,6 +78,7 @@ class Saving:
             things=[*self._things()],
             treading=treading,
             felled=self.trees.felled(),
+            wild_felled=[] if self.trees.wild is None else self.trees.wild.felled(),
             seasons=self.seasons.saved(),
         )
         cleared = np.array(sorted(self.clearings.cells), np.int32).reshape(-1, 2)
@@ -125,7 +126,7 @@ class Saving:
 
     def _things(self) -> Iterator[SavedThing]:
         """Yield what else a game's entities have of ours; none that is nowhere."""
-        own, planted = {entity for entity, _, _ in self.pressers.games()}, set(self.trees.entities)
+        own, planted = {entity for entity, _, _ in self.pressers.games()}, self.trees.planted()
         for kind, sort in THINGS.items():
             for entity, component in self.world.all(sort):
                 pose = self.world.find(entity, Pose)
@@ -157,7 +158,7 @@ class Saving:
             entities[each.entity] = entity
         self.pressers.resume(made.treading, entities)
         self.clearings.resume(made.cleared)
-        self.trees.fell(state.felled)
+        self.trees.fell(state.felled, state.wild_felled)
         self.shining.resume(state.light, since=state.light_since, time=state.time, way=state.light_way)
         return entities
 

@@ -21,7 +21,7 @@ class TreeKind(Declaration):
     """A kind of tree or bush: how it grows, and where.
 
     Trees stand at `positions`, along `rows`, and by `density`. Where two would stand too near, the later one is left
-    out.
+    out; those of `density` come last.
     """
 
     habit: HabitName

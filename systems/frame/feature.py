@@ -14,6 +14,8 @@ from ..space.grown import Grown
 from ..wind.quarantine import Quarantine
 from .block import FrameBlock
 
+Eye = tuple[float, float, float]
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Start:
@@ -106,8 +108,8 @@ class Feature:
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
         """Go on at a time [s] with a scene read again; `before` is what the scene was."""
 
-    def step(self, viewer: str, /, *, time: float) -> None:
-        """Come to the next frame that is drawn for a viewer, at a time [s]."""
+    def step(self, viewer: str, eye: Eye, /, *, time: float) -> None:
+        """Come to the next frame that is drawn for a viewer whose eye is at (x, y, z) [m], at a time [s]."""
 
     def look(self, outlook: Outlook, /) -> None:
         """Note what other systems are to know of it in this frame."""

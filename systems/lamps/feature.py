@@ -14,7 +14,7 @@ from ...engine.declared.lamp import LampOnPath
 from ...engine.terrain.sample import height_at
 from ...engine.world import World
 from ..frame.block import FrameBlock
-from ..frame.feature import Feature, Start
+from ..frame.feature import Eye, Feature, Start
 from ..space.grown import Grown
 from .card import LampPart, Lit
 
@@ -39,9 +39,9 @@ class Lamps(Feature):
         del before, time
         self._grown = grown
 
-    def step(self, viewer: str, /, *, time: float) -> None:
+    def step(self, viewer: str, eye: Eye, /, *, time: float) -> None:
         """Look where all of them are at a time [s]; raises ValueError for one without a place."""
-        del viewer
+        del viewer, eye
         declared = self._grown.scene.lamps
         self.shining = self._games() + (self._scenes(declared, time) if declared else [])
 

@@ -6,7 +6,7 @@ from typing import Self
 import moderngl
 
 from ..frame.block import FrameBlock
-from ..frame.feature import Feature, Start
+from ..frame.feature import Eye, Feature, Start
 from ..space.grown import Grown
 from .draw import LightPart
 from .shining import Shining
@@ -31,8 +31,9 @@ class Lighting(Feature):
         if grown.scene.light != before.scene.light:
             self.shining.declare(grown.scene.light, time=time)
 
-    def step(self, viewer: str, /, *, time: float) -> None:
+    def step(self, viewer: str, eye: Eye, /, *, time: float) -> None:
         """Let the light go on."""
+        del eye
         self.shining.step(viewer, time=time)
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> LightPart:

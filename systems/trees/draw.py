@@ -23,7 +23,7 @@ from .model import Model
 from .motion import PERIOD
 from .programs import Programs
 from .shade import ShadeMap
-from .standing import Standing, shown
+from .standing import WIDEST, Standing, columns_of, shown, shows
 from .twig import LEAF_PIXELS
 from .wood import AWAY, OPAQUE, SWAYS, THINNEST
 
@@ -174,7 +174,8 @@ class TreePart(Part):
         scale = rows["height"].astype(np.float64) / grown.height
         middle = rows["root"].astype(np.float64)
         middle[:, 1] += scale * grown.middle
-        seen = beyond(middle, outlook.viewer.sides) <= (1.0 + SWAYS) * ball * scale
+        reach = np.where(rows["ring"] > 1, WIDEST, 0.0) + (1.0 + SWAYS) * ball * scale
+        seen = beyond(middle, outlook.viewer.sides) <= reach
         rows, scale, middle = rows[seen], scale[seen], middle[seen]
         off = np.linalg.norm(middle - eye, axis=1)
         order = np.argsort(off)
@@ -182,7 +183,10 @@ class TreePart(Part):
         pixels = focal * rows["height"] / np.maximum(off, NEAREST)
         if self.every_leaf:
             pixels = np.full(len(rows), ANY_HEIGHT)
+        pixels[rows["ring"] > 1] = 0.0
         told = shown(rows, pixels, grown.height, kind.declared.variety)
+        told["columns"] = columns_of(rows, scale * grown.radius)
+        told["shows"] = shows(rows["ring"], np.hypot(middle[:, 0] - eye[0], middle[:, 2] - eye[2]))
         near, far = told["gone"] < 1.0, told["gone"] > 0.0
         large = focal * scale * kind.habit.leaf.length / LEAF_PIXELS[0]
         leafy = large > off - scale * ball

@@ -20,6 +20,10 @@ flat in vec3 hazy;
 flat in vec3 below;
 flat in float lit_by;
 flat in vec2 sways;
+flat in vec4 row_told;  // as far.vert has it
+#ifdef CAST
+flat in vec3 shades;  // as far.vert has it
+#endif
 
 out vec4 pixel;
 
@@ -35,11 +39,29 @@ vec2 tile_at(vec2 number, vec2 at) {
     return (number + at) / vec2(COLUMNS, ROWS);
 }
 
+// Where many stand side by side, pixels on either side of an edge are far apart on the picture.
+vec4 picture_at(vec3 place) {
+    return row_told.x > 1.0 ? textureLod(tree_far, place, row_told.z) : texture(tree_far, place);
+}
+
 vec4 row_texel(float row, vec2 at, float layer) {
     vec4 texel = vec4(0.0);
     if (mixed.x < 1.0)
-        texel = (1.0 - mixed.x) * texture(tree_far, vec3(tile_at(vec2(rows_of.x, row), at), layer));
-    return mixed.x > 0.0 ? texel + mixed.x * texture(tree_far, vec3(tile_at(vec2(rows_of.z, row), at), layer)) : texel;
+        texel = (1.0 - mixed.x) * picture_at(vec3(tile_at(vec2(rows_of.x, row), at), layer));
+    return mixed.x > 0.0 ? texel + mixed.x * picture_at(vec3(tile_at(vec2(rows_of.z, row), at), layer)) : texel;
+}
+
+const vec3 APART = vec3(0.618, 0.755, 0.57);  // how far trees of a row are apart by their numbers: in height, place, and side
+const vec2 LOWER = vec2(1.0, 0.35);  // how many times as high a picture is as one of its trees, and how much more it may be
+
+// Where a pixel is on the picture of its tree, of those that stand side by side.
+vec2 on_own(vec2 at) {
+    if (row_told.x <= 1.0)
+        return at;
+    float along = at.x * row_told.x, number = floor(along);
+    vec3 own = fract(number * APART + row_told.w * vec3(7.0, 11.0, 13.0));
+    float aside = (fract(along) - 0.5) * row_told.y * (own.z > 0.5 ? 1.0 : -1.0);
+    return vec2(0.5 + aside, at.y * (LOWER.x + LOWER.y * own.x));
 }
 
 vec4 mixed_texel(vec2 at, float layer) {
@@ -48,7 +70,7 @@ vec4 mixed_texel(vec2 at, float layer) {
 }
 
 void main() {
-    vec2 at = 0.5 + 0.5 * on;
+    vec2 at = on_own(0.5 + 0.5 * on);
 #ifndef CAST
     vec2 waves = sin(AROUND * (SHIMMER_HERTZ * moment + lit_by) + SHIMMER_TURNS * at.yx + vec2(0.0, 1.0));
     at += SHIMMER * sways.y * waves * at.y;
@@ -56,8 +78,10 @@ void main() {
     at = clamp(at, TILE_EDGE, 1.0 - TILE_EDGE);
     vec4 texel = mixed_texel(at, 0.0);
 #ifdef CAST
+    texel *= float(max(abs(on.x), abs(on.y)) < 1.0);
     float leaves = -log(1.0 - HIDES_MOST * texel.a) * mix(1.0, sun_own.w, 1.0 - texel.g);
-    pixel = vec4(leaves, leaves * dot(seen_at, sun), 0.0, 0.0);
+    float within = max(1.0 - dot(on, on) / (shades.x * shades.x), 0.0);
+    pixel = vec4(leaves, mix(leaves * dot(seen_at, sun), shades.y * within * within, shades.z), 0.0, 0.0);
 #else
     float wood = texel.g / max(texel.a, LEAST_COVER);
     texel *= mix(sun_own.w, 1.0, wood);

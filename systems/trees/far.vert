@@ -3,9 +3,16 @@
 #include "systems/trees/tree.glsl"
 #include "systems/trees/far.py"
 
+in float columns;   // of a forest far off, how many trees stand side by side in its place
+in float shows;     // how much of it is shown
+
+uniform float column; // of its model: from one of those to the next [m]
 uniform vec2 ball;  // of its model: how high its middle is, and half the side of its pictures [m]
 #ifdef CAST
 uniform vec4 tile;  // of the map: middle (across, up) [m], half the side [m], which one it is
+uniform vec2 lawn_shade; // of its model: how far it shades grass [m]; leaves that light meets, times area [m²]
+
+flat out vec3 shades;  // how far it shades the grass, of the half side; leaves met in the middle; 1 in the map from above
 #endif
 
 out vec2 on;
@@ -19,8 +26,10 @@ flat out vec3 hazy;
 flat out vec3 below;
 flat out float lit_by;
 flat out vec2 sways;
+flat out vec4 row_told; // how many side by side; from one to the next, of a picture; level of its picture; what tells it from others
 
 const vec2 MIXES = vec2(0.3, 0.7);  // between which parts of the way from one picture to the next they are mixed
+const float ASKEW_ROWS = 2.0;  // by how much of an angle rows of trees are turned from one another: else all would be parallel [rad]
 const float OVERHEAD = 0.999;  // sine of the elevation from which on a tree counts as seen from straight above
 
 vec2 corner_here() {
@@ -47,28 +56,41 @@ void main() {
     choose(turned_back(to));
     vec3 across = normalize(abs(to.y) > OVERHEAD ? vec3(turn.x, 0.0, turn.y) : vec3(to.z, 0.0, -to.x)), up = cross(to, across);
     on = corner_here();
-    float half_side = scale * ball.y;
-    seen_at = middle_of + half_side * (on.x * across + on.y * up);
+    if (columns > 1.0) {
+        float askew = ASKEW_ROWS * (phase - 0.5);
+        across = cos(askew) * across + sin(askew) * cross(across, vec3(0.0, 1.0, 0.0));
+    }
+    float half_side = scale * ball.y, half_wide = columns > 1.0 ? 0.5 * columns * column * scale : half_side;
+    seen_at = middle_of + half_wide * on.x * across + half_side * on.y * up;
+    row_told = vec4(columns, 0.5 * column / ball.y, log2(max(float(SIDE) * distance(eye, middle_of) / (2.0 * half_side * pixels_a_metre()), 1.0)), phase);
     sun_own = vec4(turned_back(sun), foliage);
     lit_by = phase;
 #ifdef CAST
     sunlit = vec4(0.0);
     skylit = hazy = below = vec3(0.0);
     sways = vec2(0.0);
+    float reach = max(scale * lawn_shade.x, LEAST_SHADE);
+    shades = vec3(reach / half_side, foliage * lawn_shade.y * scale * scale / (reach * reach), float(from_above));
+    if (from_above) {  // grass is shaded beyond the picture, too
+        on *= max(shades.x, 1.0);
+        seen_at = middle_of + half_side * (on.x * across + on.y * up);
+    }
     vec3 right = from_above ? vec3(1.0, 0.0, 0.0) : trees_across, over = from_above ? vec3(0.0, 0.0, 1.0) : trees_up;
     vec2 at = (vec2(dot(seen_at, right), dot(seen_at, over)) - tile.xy) / tile.z;
     seen_at = middle_of;
     gl_Position = vec4(at, 0.0, 1.0);
 #else
-    if (gone <= 0.0) {
+    if (gone * shows <= 0.0) {
         gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
         return;
     }
+    if (columns > 1.0)
+        seen_at.y += height_at(seen_at.xz) - root.y;  // a row of trees goes up and down with the ground
     seen_at.xz += trunk_bends((seen_at.y - root.y) / (tall * scale), tall * scale, message);
     sways = vec2(dot(message, across.xz), length(message)) * LIMB_SWINGS;
     // The crown is asked for its light in the middle of its sunny side.
     Light light = light_in_crown(middle_of, vec4(0.0), 1.0);
-    sunlit = vec4(light.sun, gone);
+    sunlit = vec4(light.sun, gone * shows);
     skylit = light.sky;
     hazy = light.haze;
     below = from_below() * (1.0 - haze_at(middle_of));

@@ -2,26 +2,32 @@
 
 import logging
 from collections.abc import Mapping
-from functools import partial
 from typing import Self
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Floats
+from ...components.arrays import Doubles, Floats
 from ...components.pose import Pose
 from ...components.tree import HIGHEST, LOWEST, Tree
 from ...engine.declared.tree import TreeKind
-from ...engine.terrain.sample import height_at, natural_at
+from ...engine.terrain.sample import height_at
 from ...engine.world import World
 from ..frame.block import FrameBlock
-from ..frame.feature import Feature, Start
+from ..frame.feature import Eye, Feature, Start
 from ..space.grown import Grown
+from .crown import LEAST_SHADE
 from .draw import TreePart
+from .forest import Forest, Rows
 from .habit import HABITS
+from .model import models_of
 from .place import placed
+from .scatter import SQUARE
 from .standing import STANDING, Standing, tell_apart
+from .wild import Felled, Seedling, Wild, seedlings
+
+NOBODY = np.zeros((0, 2), np.float32)
 
 Found = list[tuple[int, Tree, Pose]]
 
@@ -35,15 +41,18 @@ class Trees(Feature):
 
     def __init__(self, world: World, grown: Grown) -> None:
         self._world, self._grown = world, grown
-        self._seedlings: list[tuple[Tree, Pose]] = []
+        self._seedlings: list[Seedling] = []
         """The scene's own trees, as they are planted."""
         self.entities: list[int] = []
         """Of the scene's own trees, in the order in which they were planted; some may have been felled."""
+        self.wild: Wild | None = None
+        """Those of a forest that is too large for all of them to be entities."""
         self._seen: tuple[list[tuple[int, Tree]], list[tuple[int, Pose]]] = [], []
         self._heights = -1
         self._unknown: set[str] = set()
         """Kinds of which it was said that the scene does not have them."""
-        self.standing = Standing(np.zeros(0, STANDING))
+        self._rows: Rows = np.zeros(0, STANDING)
+        self.standing = Standing(self._rows)
         """Those of this frame."""
         self._plant()
 
@@ -59,35 +68,55 @@ class Trees(Feature):
         if _made_of(grown) != _made_of(before):
             for entity in self.entities:
                 self._world.delete(entity)
+            if self.wild is not None:
+                self.wild.clear()
             self._plant()
 
     def _plant(self) -> None:
-        """Make an entity for each tree that the scene has."""
+        """Make an entity for each tree that the scene has, unless they are too many."""
         scene, terrain = self._grown.scene, self._grown.ground.terrain
-        self._seedlings, self._heights = [], -1
+        self._seedlings, self._heights, self.wild = [], -1, None
         self._unknown.clear()
-        taken = np.zeros((0, 2), np.float32)
-        for number, (name, kind) in enumerate(scene.trees.items()):
-            dense = None if kind.among is None else partial(self._dense, list(scene.grass).index(kind.among))
-            place = placed(kind, terrain, dense, taken, seed=scene.seed + number)
-            taken = np.concatenate([taken, place])
-            self._seedlings += _seedlings(name, kind, place, seed=scene.seed + number)
+        fixed = list[Floats]()
+        for name, kind in scene.trees.items():
+            place = placed(kind, terrain, np.concatenate([NOBODY, *fixed]))
+            fixed.append(place)
+            self._seedlings += _seedlings(name, kind, place, seed=scene.seed + len(fixed) - 1)
+        forest = Forest(self._grown, fixed)
+        if forest.is_large:
+            self.wild = Wild(self._world, forest, list(scene.trees))
+        else:
+            self._seedlings += seedlings(forest.all(), list(scene.trees))
         self.entities = [self._world.create(*each) for each in self._seedlings]
 
-    def _dense(self, number: int, place: Floats) -> Floats:
-        return np.asarray(natural_at(self._grown.ground.density, place)[number], np.float32)
-
-    def step(self, viewer: str, /, *, time: float) -> None:
+    def step(self, viewer: str, eye: Eye, /, *, time: float) -> None:
         """Look which trees stand where; one of a kind that the scene does not have is named once, and left out."""
-        del viewer, time
+        del time
+        if self.wild is not None:
+            self.wild.follow(viewer, eye)
         changes = self._grown.ground.terrain.changes.count
         seen = (trees := self._world.rows(Tree)), self._world.rows(Pose) if trees else []
-        if seen == self._seen and changes == self._heights:
-            return
-        self._seen, self._heights = seen, changes
+        if seen != self._seen or changes != self._heights:
+            self._seen, self._heights = seen, changes
+            self._look()
+        if self.wild is not None:
+            self.standing = self.wild.standing(viewer, eye, self._rows)
+        elif self.standing.rows is not self._rows:
+            self.standing = Standing(self._rows)
+
+    def _look(self) -> None:
+        """Take over which entities stand where."""
         found = [each for each in self._world.both(Tree, Pose) if self._knows(each[1])]
         there = [each for each in found if self._world.stands(each[0], each[2], "the tree")]
-        self.standing = Standing(_rows(there, self._grown))
+        self._rows = _rows(there, self._grown)
+        self._shade_grass()
+
+    def _shade_grass(self) -> None:
+        """Let less grass grow below the trees that stand."""
+        density = self._grown.ground.density
+        changed = density.crowns.stand(_discs(self._rows, self._grown))
+        if len(changed):
+            density.sown.touch(_boxes(changed))
 
     def _knows(self, tree: Tree) -> bool:
         """Return whether the scene has a tree's kind; say once where it does not."""
@@ -102,13 +131,19 @@ class Trees(Feature):
             )
         return False
 
+    def planted(self) -> set[int]:
+        """Return the entities of the scene's own trees."""
+        return {*self.entities, *(self.wild.entities if self.wild is not None else ())}
+
     def felled(self) -> list[int]:
         """Return which of the scene's own trees are gone, by their numbers."""
         there = {entity for entity, _ in self._world.all(Tree)}
         return [number for number, entity in enumerate(self.entities) if entity not in there]
 
-    def fell(self, numbers: list[int], /) -> None:
+    def fell(self, numbers: list[int], wild: list[Felled], /) -> None:
         """Let these be gone of the scene's own, and all others stand where they were planted."""
+        if self.wild is not None:
+            self.wild.fell(wild)
         gone, wanted = set(self.felled()), set(numbers)
         for number in wanted - gone:
             self._world.delete(self.entities[number])
@@ -120,8 +155,8 @@ class Trees(Feature):
         return TreePart(ctx, block, units, lambda: self.standing)
 
 
-def _seedlings(name: str, kind: TreeKind, place: Floats, *, seed: int) -> list[tuple[Tree, Pose]]:
-    """Return the trees of a kind that stand at places (n, 2) [m]."""
+def _seedlings(name: str, kind: TreeKind, place: Floats, *, seed: int) -> list[Seedling]:
+    """Return the single trees of a kind that stand at places (n, 2) [m]."""
     draw = np.random.default_rng((seed, 47))
     low, high = kind.height or HABITS[kind.habit].height
     heights = np.clip(draw.uniform(low, high, len(place)), LOWEST, HIGHEST).tolist()
@@ -134,6 +169,30 @@ def _seedlings(name: str, kind: TreeKind, place: Floats, *, seed: int) -> list[t
 
 def _made_of(grown: Grown) -> tuple[object, ...]:
     return grown.scene.trees, grown.scene.seed, grown.ground.terrain, grown.ground.density
+
+
+def _boxes(discs: Doubles) -> Doubles:
+    """Return corners (x, z) [m] between which discs (n, 4) lie, (m, 2, 2): those near to one another in one."""
+    _, box = np.unique(np.floor(discs[:, :2] / SQUARE), axis=0, return_inverse=True)
+    box, reach = box.reshape(-1), discs[:, 2:3]
+    low, high = np.full((box.max() + 1, 2), np.inf), np.full((box.max() + 1, 2), -np.inf)
+    np.minimum.at(low, box, discs[:, :2] - reach)
+    np.maximum.at(high, box, discs[:, :2] + reach)
+    return np.stack([low, high], axis=1)
+
+
+def _discs(rows: NDArray[np.void], grown: Grown) -> Doubles:
+    """Return how trees, records of `STANDING`, shade the grass, as `Crowns` has it, as shaders do."""
+    discs = np.zeros((len(rows), 4))
+    for number, kind in enumerate(grown.scene.trees.values()):
+        for which, model in enumerate(models_of(kind.habit, grown.scene.seed + number)):
+            own = (rows["kind"] == number) & (rows["model"] == which)
+            scale = rows["height"][own].astype(np.float64) / model.height
+            far, leaves = model.shade
+            reach = np.maximum(scale * far, LEAST_SHADE)
+            discs[own, :2], discs[own, 2] = rows["root"][own][:, ::2], reach
+            discs[own, 3] = rows["foliage"][own] * leaves * (scale / reach) ** 2
+    return discs[discs[:, 3] > 0.0]
 
 
 def _rows(found: Found, grown: Grown) -> NDArray[np.void]:

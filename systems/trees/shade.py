@@ -24,10 +24,10 @@ UNIT = BORROWED[0] - 1
 SIDE = 1024
 """Texels of each of the three maps, across and up."""
 
-SIDES = 96.0, 800.0, 260.0
+SIDES = 96.0, 800.0, 1024.0
 """How far each reaches from edge to edge [m]."""
 
-LEVELS = 3
+LEVELS = 1
 """How many coarser ones each has, twice as coarse from one to the next. The sky's is read in the last, whose texels are
 2 m: so broad is the sky that a place sees."""
 
@@ -138,6 +138,7 @@ class ShadeMap:
         for kind_number, kind in enumerate(kinds):
             for model_number, model in enumerate(kind.models):
                 own = standing.of(kind_number, model_number)
+                own = own[own["ring"] < 2]  # what is farther off shades nothing that is seen to be shaded
                 stream = self._streams.setdefault(id(model), Stream(self._ctx, SHOWN))
                 stream.write(shown(own, np.zeros(len(own)), model.model.height, 0.0))
 

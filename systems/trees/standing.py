@@ -13,16 +13,30 @@ from .model import MODELS
 STANDING = np.dtype(
     [
         ("root", "3f4"), ("height", "f4"), ("yaw", "f4"), ("foliage", "f4"), ("kind", "i4"),
-        ("model", "i4"), ("phase", "f4"), ("tint", "f4"),
+        ("model", "i4"), ("phase", "f4"), ("tint", "f4"), ("ring", "i4"),
     ]
 )  # fmt: skip
 """A tree: where it stands [m], height [m], heading [rad], how many of its leaves it has, number of its kind; which of
-the kind's models it is; what sets it apart from others in the wind, 0 to 1, and in brightness, -1 to 1."""
+the kind's models it is; what sets it apart from others in the wind, 0 to 1, and in brightness, -1 to 1; 0, or in which
+ring about the viewer it is shown, where it stands for four times as many from each to the next."""
+
+WHOLE_TO = 512.0
+"""How far off all trees of a large forest are shown [m]: there one is 15 to 30 pixels high. Each ring goes twice as far
+as the one before."""
+
+RING_FADES = 0.1
+"""Over which part of the way to its end a ring fades out, and the next one in."""
+
+WIDEST = 80.0
+"""How broad the row of trees is at most that one in a ring farther off stands for [m]: ground is uneven."""
+
+COLUMN = 1.2
+"""Distance from tree to tree in it, of a crown's radius."""
 
 SHOWN = np.dtype(
     [
         ("root", "3f4"), ("scale", "f4"), ("turn", "2f4"), ("phase", "f4"), ("tint", "f4"),
-        ("keep", "f4"), ("gone", "f4"), ("foliage", "f4"),
+        ("keep", "f4"), ("gone", "f4"), ("foliage", "f4"), ("columns", "f4"), ("shows", "f4"),
     ]
 )  # fmt: skip
 """What shaders are told of a tree, as `tree.glsl` has it."""
@@ -85,4 +99,19 @@ def shown(rows: NDArray[np.void], pixels: Doubles, height: float, variety: float
     told["tint"] = 1.0 + variety * rows["tint"]
     told["keep"] = np.clip((pixels / WHOLE) ** FEWER_BY, FEWEST, 1.0)
     told["gone"] = np.clip((BEGINS - pixels) / (BEGINS - GONE), 0.0, 1.0)
+    told["columns"] = told["shows"] = 1.0
     return told
+
+
+def shows(ring: NDArray[np.integer], off: Doubles, /) -> Doubles:
+    """Return how much trees of rings (n,) are shown so far off along the ground [m], (n,), in [0, 1]."""
+    end = WHOLE_TO * 2.0 ** (ring - 1.0)
+    out = np.clip((end - off) / (RING_FADES * end), 0.0, 1.0)
+    into = np.clip((off - 0.5 * end) / (RING_FADES * 0.5 * end) + 1.0, 0.0, 1.0)
+    return np.where(ring > 0, out, 1.0) * np.where(ring > 1, into, 1.0)
+
+
+def columns_of(rows: NDArray[np.void], radius: Doubles, /) -> Doubles:
+    """Return how many trees stand side by side in what each shows, (n,), whose crowns have such a radius [m]."""
+    most = 4.0 ** np.maximum(rows["ring"] - 1.0, 0.0)
+    return np.asarray(np.maximum(np.minimum(np.floor(WIDEST / (COLUMN * radius)), most), 1.0))

@@ -1,6 +1,8 @@
 """Where trees stand, and that they are entities (F3, S2)."""
 
 from collections.abc import Iterator
+from types import SimpleNamespace
+from typing import Any
 
 import esper
 import numpy as np
@@ -9,9 +11,10 @@ from numpy.typing import NDArray
 
 from tallgrass import Pose, Prairie, Tree
 from tallgrass.engine.declared.tree import TreeKind
-from tallgrass.engine.terrain.record import Terrain
+from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.systems.features import one
 from tallgrass.systems.trees.feature import Trees
+from tallgrass.systems.trees.forest import Forest
 from tallgrass.systems.trees.place import placed
 from tallgrass.testing import LITTLE, little_prairie, private_world
 
@@ -36,17 +39,29 @@ def kind(**keys: object) -> TreeKind:
     return TreeKind.model_validate({"habit": "birch", **keys})
 
 
-def test_density_brings_about_as_many_as_it_says_and_none_too_near_to_another() -> None:
-    place = placed(kind(density=60.0, spacing=5.0), FLAT, None, NOBODY, seed=1)
-    assert 150 < len(place) < 260
-    assert nearest(place) >= 5.0
-    assert np.array_equal(place, placed(kind(density=60.0, spacing=5.0), FLAT, None, NOBODY, seed=1))
-    assert not np.array_equal(place[:5], placed(kind(density=60.0, spacing=5.0), FLAT, None, NOBODY, seed=2)[:5])
+def grown(terrain: Terrain = FLAT, /, **kinds: TreeKind) -> Any:
+    """A ground with trees, as a prairie has it."""
+    density = Density(np.array([[[0.0, 1.0], [0.0, 1.0]]], np.float32), terrain.whole, terrain)
+    ground = SimpleNamespace(terrain=terrain, density=density)
+    return SimpleNamespace(scene=SimpleNamespace(trees=kinds, grass={"turf": None}, seed=1), ground=ground)
+
+
+def sown(terrain: Terrain = FLAT, fixed: NDArray[np.float32] = NOBODY, **keys: object) -> NDArray[np.float32]:
+    rows = Forest(grown(terrain, birch=kind(**keys)), [fixed]).all()
+    return np.ascontiguousarray(rows["root"][:, ::2])
+
+
+@pytest.mark.parametrize(("density", "spacing"), [(60.0, 5.0), (12.0, 16.0), (120.0, 3.0)])
+def test_density_brings_about_as_many_as_it_says_and_none_too_near_to_another(density: float, spacing: float) -> None:
+    place = sown(density=density, spacing=spacing)
+    assert len(place) == pytest.approx(4.0 * density, rel=0.25)
+    assert nearest(place) >= spacing
+    assert np.array_equal(place, sown(density=density, spacing=spacing))
 
 
 def test_groves_leave_open_ground_between_them() -> None:
     def empty(groves: float) -> int:
-        place = placed(kind(density=100.0, groves=groves, spacing=2.0), FLAT, None, NOBODY, seed=3)
+        place = sown(density=100.0, groves=groves, spacing=2.0)
         cells = ((place + 100.0) / 20.0).astype(int)
         return 100 - len({*map(tuple, cells.tolist())})
 
@@ -54,24 +69,97 @@ def test_groves_leave_open_ground_between_them() -> None:
 
 
 def test_a_row_has_trees_from_end_to_end_so_far_apart() -> None:
-    place = placed(kind(rows=[[[-40.0, 0.0], [40.0, 0.0]]], spacing=8.0), FLAT, None, NOBODY, seed=1)
+    place = placed(kind(rows=[[[-40.0, 0.0], [40.0, 0.0]]], spacing=8.0), FLAT, NOBODY)
     assert place.tolist() == [[x, 0.0] for x in np.linspace(-40.0, 40.0, 11)]
 
 
 def test_nothing_stands_off_the_terrain_in_another_tree_on_cliffs_or_where_its_grass_does_not_grow() -> None:
     outside = kind(positions=[[0.0, 0.0], [0.1, 0.0], [300.0, 0.0]])
-    assert placed(outside, FLAT, None, NOBODY, seed=1).tolist() == [[0.0, 0.0]]
-    sown = kind(density=60.0, spacing=4.0)
-    assert (placed(sown, FLAT, lambda at: (at[:, 0] > 0.0).astype(np.float32), NOBODY, seed=1)[:, 0] > 0.0).all()
+    assert placed(outside, FLAT, NOBODY).tolist() == [[0.0, 0.0]]
+    assert abs(sown(density=60.0, spacing=4.0)).max() <= 100.0
+    assert 0.0 > sown(density=60.0, spacing=4.0, among="turf")[:, 0].min() > -60.0  # its map begins half-way
     steep = Terrain(np.tile(np.maximum(np.arange(201) - 100.0, 0.0), (201, 1)).astype(np.float32), 1.0)
-    assert (placed(sown, steep, None, NOBODY, seed=1)[:, 0] < 1.0).all()
+    assert sown(steep, density=60.0, spacing=4.0)[:, 0].max() < 1.0
     taken = np.array([[20.0, 20.0]], np.float32)
-    assert np.hypot(*(placed(sown, FLAT, None, taken, seed=1) - taken).T).min() >= 2.0
+    assert np.hypot(*(sown(fixed=taken, density=60.0, spacing=4.0) - taken).T).min() >= 4.0
+    both = Forest(
+        grown(birch=kind(density=60.0, spacing=4.0), oak=kind(density=60.0, spacing=9.0)), [NOBODY, NOBODY]
+    ).all()
+    birch, oak = (np.ascontiguousarray(both["root"][both["kind"] == number][:, ::2]) for number in (0, 1))
+    assert np.hypot(*(birch[:, None] - oak[None]).transpose(2, 0, 1)).min() >= 4.5
+
+
+def test_squares_have_the_same_trees_whichever_are_asked_for_and_when() -> None:
+    kinds = {"birch": kind(density=60.0, spacing=4.0, groves=0.5), "oak": kind(density=9.0, spacing=12.0)}
+    whole = Forest(grown(**kinds), [NOBODY, NOBODY]).all()
+    alone = Forest(grown(**kinds), [NOBODY, NOBODY])
+    for square in ((0, 0), (-2, 1), (1, -1)):
+        rows = alone.on([square])[square]
+        own = (np.floor(whole["root"][:, ::2] / 64.0) == square).all(axis=1)
+        assert len(rows) > 5
+        # those whose cell of the lattice reaches over an edge belong to the square of its middle
+        assert len(np.setdiff1d(rows, whole)) == 0
+        assert len(np.setdiff1d(whole[own], rows)) < 0.3 * len(rows)
+
+
+LARGE = LITTLE.replace("size: [60, 60]", "size: [6000, 6000]") + (
+    "trees: { birch: { habit: birch, density: 30 }, oak: { habit: oak, positions: [[0, 0]] } }\n"
+)
+
+
+def test_of_a_large_forest_trees_near_viewers_are_entities_and_those_farther_off_are_fewer_by_rings() -> None:
+    with little_prairie(scene=LARGE) as prairie:
+        trees = one(Trees, prairie.features)
+        trees.step("main", (0.0, 2.0, 0.0), time=0.0)
+        near = {(pose.x, pose.z) for _, (_, pose) in esper.get_components(Tree, Pose)}
+        assert 200 < len(near) < 800
+        assert max(np.hypot(*place) for place in near) < 400.0
+        rows = trees.standing.rows
+        assert len(np.unique(rows[["root"]])) == len(rows)
+        off = np.hypot(rows["root"][:, 0], rows["root"][:, 2])
+        every = (off < 500.0) & (rows["ring"] < 2)
+        assert every.sum() == pytest.approx(30.0 * np.pi * 25.0, rel=0.1)
+        counts = np.bincount(rows["ring"])
+        assert len(rows) < 12_000  # of 108,000
+        assert (counts[2:] < 1.5 * counts[2]).all()
+        trees.step("main", (900.0, 2.0, 0.0), time=0.0)
+        moved = {(pose.x, pose.z) for _, (_, pose) in esper.get_components(Tree, Pose)}
+        assert moved & near == {(0.0, 0.0)}
+        trees.step("main", (0.0, 2.0, 0.0), time=0.0)
+        assert {(pose.x, pose.z) for _, (_, pose) in esper.get_components(Tree, Pose)} == near
+
+
+def test_what_is_felled_and_changed_of_a_large_forest_stays_so_and_states_know_it() -> None:
+    with little_prairie(scene=LARGE) as prairie:
+        trees = one(Trees, prairie.features)
+
+        def look(x: float) -> int:
+            trees.step("main", (x, 2.0, 0.0), time=0.0)
+            return len(esper.get_component(Tree))
+
+        there = look(0.0)
+        whole = prairie.state()
+        first, second, *_ = (entity for entity, tree in esper.get_component(Tree) if tree.kind == "birch")
+        felled, grown_up = esper.component_for_entity(first, Pose), esper.component_for_entity(second, Pose)
+        esper.delete_entity(first, immediate=True)
+        esper.add_component(second, Tree("birch", 2.0))
+        assert look(0.0) == there - 1
+        look(2000.0)  # the one that a game has changed stays its own
+        assert esper.component_for_entity(second, Tree).height == 2.0
+        changed = prairie.state()
+        assert look(0.0) == there - 1
+        prairie.restore(whole)
+        assert look(0.0) == there
+        prairie.restore(changed)
+        assert look(0.0) == there - 1
+        poses = {(pose.x, pose.z): tree.height for _, (tree, pose) in esper.get_components(Tree, Pose)}
+        assert (felled.x, felled.z) not in poses
+        assert poses[grown_up.x, grown_up.z] == 2.0
 
 
 def standing(prairie: Prairie) -> list[list[float]]:
     trees = one(Trees, prairie.features)
-    trees.step("main", time=0.0)
+    trees.step("main", (0.0, 0.0, 0.0), time=0.0)
     return sorted(np.round(trees.standing.rows["root"][:, ::2], 3).tolist())
 
 

@@ -1,0 +1,212 @@
+"""Trees of density: all that a small ground has, and those about a viewer on one of any size."""
+
+from collections.abc import Iterable
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.arrays import Floats, Mask
+from ...components.tree import HIGHEST, LOWEST
+from ...engine.declared.tree import TreeKind
+from ...engine.noise import noise_table, smooth_noise
+from ...engine.random import hash3, stream, unit
+from ...engine.terrain.sample import height_at, natural_at, slope_at
+from ..space.grown import Grown
+from .habit import HABITS
+from .place import stands
+from .scatter import SQUARE, Scatter, Squares, apart
+from .standing import STANDING, WHOLE_TO, tell_apart
+
+MOST_ENTITIES = 20_000
+"""Trees of density that are all entities; of more, those are near viewers."""
+
+LEVELS = 5
+"""How often the trees that are shown are fewer, each time from twice as far off on: up to 8 km."""
+
+HECTARE = 1e4
+"""[m²]."""
+
+GROVE = 45.0
+"""How far it is from grove to grove, about [m]."""
+
+FINER, FINER_PART = 2.7, 0.4
+"""How many times as close together what makes groves uneven is, and how much it adds to them."""
+
+STEEP = 3.0
+"""How fast groves grow dense from their edge inwards, by their noise of -1 to 1: all over a third of it."""
+
+DENSER = 4.0
+"""How many times as densely trees stand in groves as on the whole ground."""
+
+STEEPEST = 89.9
+"""Slope on which trees grow at most [degrees]: its tangent is a number."""
+
+NEAREST = 0.5
+"""How near to another kind's a tree may stand, of its own spacing."""
+
+Square = tuple[int, int]
+Rows = NDArray[np.void]
+
+
+class Forest:
+    """The trees that the kinds' densities bring to a ground; `fixed` are the places (n, 2) of others, by kind."""
+
+    def __init__(self, grown: Grown, fixed: list[Floats]) -> None:
+        self._grown, self._fixed = grown, fixed
+        self._known: dict[tuple[int, int, int], Rows] = {}
+        """What grows on squares, by level and their numbers."""
+        self._heights = -1
+        self.gone: dict[Square, set[int]] = {}
+        """Which of its trees are gone from a square, by their numbers on it."""
+        names = list(grown.scene.grass)
+        self._kinds = [
+            (number, kind, None if kind.among is None else names.index(kind.among), grown.scene.seed + number)
+            for number, kind in enumerate(grown.scene.trees.values())
+            if kind.density > 0.0
+        ]
+
+    @property
+    def is_large(self) -> bool:
+        """Whether there are too many for all to be entities."""
+        hectares = float(np.prod(self._grown.ground.terrain.whole)) / HECTARE
+        return hectares * sum(kind.density for _, kind, _, _ in self._kinds) > MOST_ENTITIES
+
+    def all(self) -> Rows:
+        """Return all trees of a small ground, records of `STANDING`."""
+        half = [int(np.ceil(side / 2.0 / SQUARE)) for side in self._grown.ground.terrain.whole]
+        squares = Squares((-half[0], -half[1]), np.ones((2 * half[0], 2 * half[1]), np.bool_))
+        return self._on(squares, 0)[0] if self._kinds else np.zeros(0, STANDING)
+
+    def on(self, squares: Iterable[Square], /) -> dict[Square, Rows]:
+        """Return the trees on squares whose trees are shown one by one."""
+        wanted = [(0, *square) for square in squares]
+        self._grow(wanted)
+        return {(i, j): self._known[0, i, j] for _, i, j in wanted}
+
+    def around(self, eye: tuple[float, float, float], but: Iterable[Square], /) -> Rows:
+        """Return those about an eye (x, y, z) [m], but those on some squares: fewer and fewer from `WHOLE_TO` on."""
+        left_out = {(0, *square) for square in but}
+        wanted = [each for level in range(LEVELS) for each in self._ring(eye, level) if each not in left_out]
+        self._grow(wanted)
+        self._forget(wanted)
+        self._follow_ground()
+        gone = self.gone
+        return np.concatenate([
+            np.zeros(0, STANDING),
+            *(self._known[each] for each in wanted if each[0] or each[1:] not in gone),
+            *(np.delete(self._known[each], [*gone[each[1:]]]) for each in wanted if not each[0] and each[1:] in gone),
+        ])  # fmt: skip
+
+    @property
+    def version(self) -> int:
+        """How often the ground has changed that it stands on."""
+        return self._grown.ground.terrain.changes.count
+
+    def _ring(self, eye: tuple[float, float, float], level: int) -> list[tuple[int, int, int]]:
+        """Return the squares of a level that are shown about an eye, which is anywhere on its own."""
+        side, outer = SQUARE * 2**level, WHOLE_TO * 2**level
+        own = np.floor(np.array(eye[::2]) / side).astype(int)
+        steps = np.arange(-round(outer / side) - 1, round(outer / side) + 2)
+        i, j = np.meshgrid(steps, steps, indexing="ij")
+        nearest = np.hypot(np.maximum(abs(i) - 1, 0), np.maximum(abs(j) - 1, 0)) * side
+        farthest = np.hypot(abs(i) + 1, abs(j) + 1) * side
+        shown = (nearest <= outer) & ((farthest >= 0.4 * outer) | (level == 0))
+        squares = np.stack([i[shown], j[shown]], axis=1) + own
+        terrain = self._grown.ground.terrain
+        low, high = np.array(terrain.origin), np.array(terrain.origin) + terrain.size
+        corner = squares * side
+        within = (
+            (corner >= low) & (corner + side <= high) if terrain.blocks else (corner + side > low) & (corner < high)
+        )
+        return [(level, *square) for square in squares[within.all(axis=1)].tolist()]
+
+    def _grow(self, wanted: list[tuple[int, int, int]]) -> None:
+        for level in range(LEVELS):
+            missing = np.array([each[1:] for each in wanted if each[0] == level and each not in self._known])
+            if not len(missing):
+                continue
+            low = missing.min(axis=0)
+            mask = np.zeros(missing.max(axis=0) - low + 1, np.bool_)
+            mask[tuple((missing - low).T)] = True
+            rows, square = self._on(Squares((int(low[0]), int(low[1])), mask), level)
+            number = (square[:, 0] - low[0]) * mask.shape[1] + square[:, 1] - low[1]
+            order = np.argsort(number, kind="stable")
+            ends = np.searchsorted(number[order], np.arange(mask.size + 1))
+            rows = rows[order]
+            for i, j in missing.tolist():
+                at = (i - low[0]) * mask.shape[1] + j - low[1]
+                self._known[level, i, j] = rows[ends[at] : ends[at + 1]].copy()
+
+    def _forget(self, wanted: list[tuple[int, int, int]]) -> None:
+        if len(self._known) > 4 * len(wanted) + 100:
+            kept = set(wanted)
+            self._known = {each: rows for each, rows in self._known.items() if each in kept}
+
+    def _follow_ground(self) -> None:
+        """Let all that is known stand on the ground as it is."""
+        terrain = self._grown.ground.terrain
+        if self._heights != terrain.changes.count and self._heights >= 0:
+            for rows in self._known.values():
+                rows["root"][:, 1] = height_at(terrain, np.ascontiguousarray(rows["root"][:, ::2]))
+        self._heights = terrain.changes.count
+
+    def _on(self, squares: Squares, level: int) -> tuple[Rows, NDArray[np.int32]]:
+        """Return the trees on squares, records of `STANDING`, and the numbers (n, 2) of their squares."""
+        found, taken = [], list[Floats]()
+        for order, (number, kind, among, seed) in enumerate(self._kinds):
+            more = len(self._kinds) - 1 - order if level == 0 else 0
+            asked = _wider(squares, more)
+            share = partial(self._share, kind, among, seed)
+            place, square = Scatter(kind, seed, share, DENSER if kind.groves > 0.0 else 1.0, level).within(asked)
+            if level == 0:
+                free = apart(place, self._fixed[number], kind.spacing)
+                for others in (*self._fixed[:number], *self._fixed[number + 1 :], *taken):
+                    free &= apart(place, others, NEAREST * kind.spacing)
+                place, square = place[free], square[free]
+                taken.append(place)
+            at = square - squares.corner
+            own: Mask = np.asarray(((at >= 0) & (at < squares.wanted.shape)).all(axis=1))
+            own[own] = squares.wanted[tuple(at[own].T)]
+            found.append((self._rows(number, kind, seed, place[own], level), square[own]))
+        return np.concatenate([rows for rows, _ in found]), np.concatenate([square for _, square in found])
+
+    def _share(self, kind: TreeKind, among: int | None, seed: int, place: Floats) -> Floats:
+        """Return how many of a kind's trees there are at places (n, 2) [m], of all, shape (n,)."""
+        terrain, share = self._grown.ground.terrain, np.ones(len(place), np.float32)
+        if kind.groves > 0.0:
+            lattice = (place / np.float32(GROVE)).astype(np.float32)
+            wave, finer = (
+                smooth_noise(noise_table(seed, 45 + n), lattice * np.float32(f))[:, 0]
+                for n, f in ((0, 1.0), (1, FINER))
+            )
+            dense = np.clip(STEEP * (wave + FINER_PART * finer), 0.0, 1.0)
+            share = np.clip(1.0 - kind.groves * (1.0 - dense), 0.0, 1.0).astype(np.float32)
+        share *= stands(terrain, place)
+        grows = np.flatnonzero(share > 0.0)
+        if among is not None:
+            share[grows] *= natural_at(self._grown.ground.density, place[grows])[among]
+        rise = np.hypot(*slope_at(terrain, place[grows]).T)
+        share[grows] *= rise <= np.tan(np.radians(min(kind.slope, STEEPEST)))
+        return share
+
+    def _rows(self, number: int, kind: TreeKind, seed: int, place: Floats, level: int) -> Rows:
+        rows = np.zeros(len(place), STANDING)
+        rows["root"][:, 0], rows["root"][:, 2] = place.T
+        rows["root"][:, 1] = height_at(self._grown.ground.terrain, place)
+        own = hash3(seed, *(np.ascontiguousarray(each).view(np.int32) for each in place.T))
+        low, high = kind.height or HABITS[kind.habit].height
+        rows["height"] = np.clip(low + (high - low) * unit(stream(own, 5)), LOWEST, HIGHEST)
+        rows["yaw"] = np.pi * (2.0 * unit(stream(own, 6)) - 1.0)
+        rows["foliage"], rows["kind"], rows["ring"] = kind.foliage, number, level + 1
+        tell_apart(rows)
+        return rows
+
+
+def _wider(squares: Squares, by: int) -> Squares:
+    """Return squares with those up to so many beside them."""
+    wanted = np.pad(squares.wanted, by)
+    for _ in range(by):
+        for axis in (0, 1):
+            wanted = wanted | np.roll(wanted, 1, axis) | np.roll(wanted, -1, axis)
+    return Squares((squares.corner[0] - by, squares.corner[1] - by), wanted)
