@@ -28,6 +28,11 @@ struct Light {
 
 const int FACE = -1;  // in place of a kind
 
+// A kind that a table may be asked for, also where it is FACE: some compilers refuse an index below 0, even where nothing goes.
+int listed_kind(int kind) {
+    return max(kind, 0);
+}
+
 // What sends light to the eye: leaves of a kind that the wind bends so, or a FACE.
 struct Sender {
     int kind;
@@ -82,7 +87,7 @@ Response leaf_response(int kind, vec2 bend, vec3 place, vec3 from, float high) {
 Response response_of(Sender sender, vec3 place, vec3 from, float high) {
     if (sender.kind == FACE)
         return Response(vec3(sender.sends * high), vec3(1.0), 0.0);
-    return leaf_response(sender.kind, sender.bend, place, from, high);
+    return leaf_response(listed_kind(sender.kind), sender.bend, place, from, high);
 }
 
 const float LIT_AT = 0.7;  // where leaves are that send most of a lamp's light to the eye, of the canopy's height
@@ -100,14 +105,14 @@ vec4 lamps_at(vec3 place, Sender sender) {
     vec3 sum = vec3(0.0);
     float ways = 0.0;
     if (sender.kind != FACE)
-        place.y += LIT_AT * OF(crown, sender.kind) * lodged(sender.bend);
+        place.y += LIT_AT * OF(crown, listed_kind(sender.kind)) * lodged(sender.bend);
     ivec2 listed = lamps_about(place.xz);
     for (int number = listed.x; number < listed.y; number++) {
         Shine lamp = lamp_at(number, place);
         float high = max(dot(sender.normal, lamp.from), 0.0);
         vec3 sent = lamp.light * response_of(sender, place, lamp.from, high).sun;
         sum += sent;
-        ways += brightness(sent) * sun_way(max(sender.kind, 0), high);
+        ways += brightness(sent) * sun_way(listed_kind(sender.kind), high);
     }
     return vec4(sum, ways / max(brightness(sum), DARKEST));
 }
@@ -135,7 +140,7 @@ Light light_at(vec3 place, Sender sender, float high, float seen) {
 #if defined(TREES) && !defined(OF_TREES)
     from_sky *= sky_past_trees(place);
 #endif
-    Light light = Light(from_sun, from_sky, vec3(0.0), response.gloss * seen, sun_way(max(sender.kind, 0), high), vec2(0.0));
+    Light light = Light(from_sun, from_sky, vec3(0.0), response.gloss * seen, sun_way(listed_kind(sender.kind), high), vec2(0.0));
 #ifdef PIXELS_ASK  // of leaves, whoever asks for light adds them
     if (sender.kind != FACE)
         return light;
