@@ -1,12 +1,14 @@
 """What one GL context holds of a site, and how it comes to another site piece by piece."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterator, Mapping, Sequence
 from functools import partial
+from itertools import chain
 from typing import TypeVar
 
 import moderngl
 
 from ..components.wind import WindPrimitive
+from ..engine.gl.beside import makes_beside, making_beside, waiting_for
 from ..engine.gl.stream import release_all
 from .features import UNITS
 from .frame.block import FrameBlock
@@ -24,7 +26,7 @@ READY_ROWS = 512
 """Rows of receivers that there is room for once a game has prepared: half a million, in 8 MiB."""
 
 AHEAD = True
-"""Whether a live prairie has all programs before the first frame, so that none keeps a player waiting later."""
+"""Whether a live prairie has all programs before they are needed, so that none keeps a player waiting later."""
 
 IN_A_FRAME = "settle", "defines", "send", "use", "prepare", "breathe", "draw_solid", "draw_behind", "draw_soft"
 """Methods of parts that a frame calls."""
@@ -47,6 +49,8 @@ class Holding:
         self.air: CardWinds
         self.site: Site | None = None
         self._staged: Staged | None = None
+        self._later: Generator[None] = _nothing()
+        """Makes programs that no frame has drawn with yet, a piece a frame."""
         self._special: dict[str, str | int] = {}
         """What shaders are told of what is special about any kind of grass."""
         self._winds: Sequence[WindPrimitive] | None = None
@@ -65,18 +69,22 @@ class Holding:
         """Take over a site, and what has changed since the frame before; what has not stays in GL as it is."""
         for _ in self._settling(site):
             pass
+        next(self._later, None)
 
     def steps(self, site: Site) -> int:
         """Return how many steps `preparing` takes at most."""
-        return 2 * len(self.parts) + 11 + sum(3 + each.programs for each in site.representations)
+        times = 2 if makes_beside(self.ctx) else 1
+        return 2 * len(self.parts) + 11 + sum(3 + times * each.programs for each in site.representations)
 
     def _making_ready(
         self, site: Site, air: CardWinds | None = None, painters: Mapping[str, RepresentationPainter] | None = None
     ) -> Iterator[None]:
         """Make room and programs for whatever winds will blow."""
         assert self._winds is not None
+        painters = self.painters if painters is None else painters
+        yield from waiting_for(self.ctx, chain.from_iterable(painter.texts() for painter in painters.values()))
         (air or self.air).make_ready([*site.scene.wind, *self._winds], receivers=READY_ROWS * ROW)
-        for painter in (self.painters if painters is None else painters).values():
+        for painter in painters.values():
             yield from painter.making()
             painter.make_ready(site)
             yield
@@ -153,22 +161,35 @@ class Holding:
                 painter.restock()
             self.air.regrow(site.growths)
             return
+        self._later.close()
         release_all(*self.painters.values(), self.air)
         self.block.defines, self.painters, self.air = staged.defines, staged.painters, staged.air
 
     def _growing(self, site: Site, defines: dict[str, str | int]) -> Iterator[None]:
         """Bring the grass into GL, a representation at a time."""
+        self._later.close()
         if self.painters:
             release_all(*self.painters.values(), self.air)
         self.block.defines = defines
         self.air = CardWinds(self.ctx, UNITS, site.growths)
         canvas = self._canvas(site, self.air)
+        is_ahead, is_beside = AHEAD and self.quarantine.live, makes_beside(self.ctx)
         self.painters = {}
         for each in site.representations:
             self.painters[each.name] = made = each.painter(canvas)
             yield
-            if AHEAD and self.quarantine.live:
+            if is_ahead and not is_beside:
                 yield from made.making()
+        if is_ahead and is_beside:
+            self._later = self._making_later()
+
+    def _making_later(self) -> Generator[None]:
+        """Have the driver make what no frame has drawn with yet, and then make it, which takes a moment by then."""
+        painters = list(self.painters.values())
+        yield  # what the first frame draws with is made for it
+        yield from making_beside(self.ctx, chain.from_iterable(painter.texts() for painter in painters))
+        for painter in painters:
+            yield from painter.making()
 
     def _canvas(self, site: Site, air: CardWinds) -> Canvas:
         return Canvas(
@@ -178,5 +199,10 @@ class Holding:
 
     def release(self) -> None:
         """Give everything back to the context."""
+        self._later.close()
         release_all(*self.painters.values(), *self.parts, self.air, self.received, self.block)
         release_all(*([] if self._staged is None else [self._staged]))
+
+
+def _nothing() -> Generator[None]:
+    yield from ()

@@ -5,6 +5,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 from ..components.wind import WindPrimitive
+from ..engine.gl.beside import making_beside
 from ..engine.gl.stream import release_all
 from .frame.block import FrameBlock
 from .show.representation import Canvas, Representation, RepresentationPainter
@@ -40,6 +41,7 @@ class Staged:
             with _told(block, self.defines):
                 self.painters[each.name] = painter = each.painter(canvas)
             yield
+            yield from _telling(block, self.defines, making_beside(canvas.ctx, painter.texts()))
             yield from _telling(block, self.defines, painter.making())
         with _told(block, self.defines):
             canvas.air.meet(winds)

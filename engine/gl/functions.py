@@ -40,6 +40,7 @@ NUMBERS = {
     "TEXTURE_BINDING_2D": 0x8069, "TEXTURE_BINDING_2D_ARRAY": 0x8C1D, "SAMPLER_BINDING": 0x8919,
     "CLIP_ORIGIN": 0x935C, "CLIP_DEPTH_MODE": 0x935D, "LOWER_LEFT": 0x8CA1, "UPPER_LEFT": 0x8CA2,
     "NEGATIVE_ONE_TO_ONE": 0x935E, "ZERO_TO_ONE": 0x935F, "PROVOKING_VERTEX": 0x8E4F,
+    "VERTEX_SHADER": 0x8B31, "FRAGMENT_SHADER": 0x8B30, "INTERLEAVED_ATTRIBS": 0x8C8C, "COMPLETION_STATUS": 0x91B1,
     "LAST_VERTEX_CONVENTION": 0x8E4E, "VERTEX_ATTRIB_ARRAY_DIVISOR": 0x88FE,
 }  # fmt: skip
 """What OpenGL calls its constants, without GL_."""
@@ -78,12 +79,20 @@ DOES = {
     "glCopyTexSubImage2D": (c_int,) * 8, "glGenQueries": (c_int, c_void_p), "glDeleteQueries": (c_int, c_void_p),
     "glQueryCounter": (c_int,) * 2, "glGetQueryiv": (c_int, c_int, c_void_p),
     "glGetQueryObjectiv": (c_int, c_int, c_void_p), "glGetQueryObjectui64v": (c_int, c_int, c_void_p),
-    "glFlush": (),
+    "glFlush": (), "glShaderSource": (c_int, c_int, c_void_p, c_void_p), "glCompileShader": (c_int,),
+    "glAttachShader": (c_int,) * 2, "glLinkProgram": (c_int,), "glGetProgramiv": (c_int, c_int, c_void_p),
+    "glTransformFeedbackVaryings": (c_int, c_int, c_void_p, c_int), "glDeleteShader": (c_int,),
+    "glDeleteProgram": (c_int,),
 }  # fmt: skip
 """All others: what a state is read and brought back with, and what moderngl has no word for."""
 
-ANSWERS = {name: kind for names, kind in ((ASKS, c_ubyte), (TELLS, c_char_p), (DOES, None)) for name in names}
-TAKES: dict[str, tuple[Any, ...]] = ASKS | TELLS | DOES
+MAKES = {"glCreateShader": (c_int,), "glCreateProgram": ()}
+"""Those that answer with the number of something new."""
+
+ANSWERS = {
+    name: kind for names, kind in ((ASKS, c_ubyte), (TELLS, c_char_p), (DOES, None), (MAKES, c_uint)) for name in names
+}
+TAKES: dict[str, tuple[Any, ...]] = ASKS | TELLS | DOES | MAKES
 
 convention = getattr(ctypes, "WINFUNCTYPE", ctypes.CFUNCTYPE)
 """How GL is called: on Windows who is called tidies up, elsewhere who calls."""
@@ -94,7 +103,7 @@ ASKED_WITH = tuple(kind * count for kind in (c_int, c_uint, c_float, c_ubyte, c_
 
 
 class Functions:
-    """The functions of `ASKS`, `TELLS` and `DOES` by name; each is looked up when it is first called."""
+    """The functions of `ASKS`, `TELLS`, `DOES` and `MAKES` by name; each is looked up when it is first called."""
 
     def __init__(self, loader: Any) -> None:
         self._address = getattr(loader, "load_opengl_function", None) or loader.load

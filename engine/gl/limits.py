@@ -32,6 +32,9 @@ class Limits:
     clipped: bool
     """Whether the host may have turned clip space over, or its depth from 0 to 1 (`glClipControl`)."""
 
+    beside: bool
+    """Whether the driver makes programs in threads of its own (`GL_KHR_parallel_shader_compile`)."""
+
     viewports: int
     """Viewports and scissors by index, 1 where there are none."""
 
@@ -60,6 +63,7 @@ def limits_of(gl: Functions) -> Limits:
         side=_number(gl, "MAX_TEXTURE_SIZE"),
         timed=bits[0] > 0,
         clipped=version >= (4, 5) or "GL_ARB_clip_control" in extensions,
+        beside=any(f"GL_{by}_parallel_shader_compile" in extensions for by in ("KHR", "ARB")),
         viewports=_number(gl, "MAX_VIEWPORTS") if several else 1,
     )
 

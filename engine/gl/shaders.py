@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 from importlib import import_module
 from importlib.resources import files
-from typing import Any
+from typing import Any, NamedTuple
 
 import moderngl
 
@@ -19,6 +19,14 @@ _VERSION = "#version 330 core"
 
 Line = tuple[str, int, str]
 """File name, line number, text."""
+
+
+class Texts(NamedTuple):
+    """What a driver makes a program of."""
+
+    vertex: str
+    fragment: str | None
+    varyings: tuple[str, ...]
 
 
 class ShaderError(RuntimeError):
@@ -109,6 +117,14 @@ def locate(message: str, lines: list[Line]) -> str:
         return f"{name}:{line}"
 
     return _PLACE.sub(place, message)
+
+
+def texts(
+    vertex: str, fragment: str | None, defines: Mapping[str, str | int], *, varyings: tuple[str, ...] = ()
+) -> Texts:
+    """Return what a driver is given of a program of two shader files."""
+    given = [None if name is None else compose(name, defines)[0] for name in (vertex, fragment)]
+    return Texts(given[0] or "", given[1], varyings)
 
 
 def program(

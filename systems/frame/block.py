@@ -12,7 +12,7 @@ from ...engine.camera import View
 from ...engine.declared.grass import MOST_KINDS
 from ...engine.gl.emit import block, emitted
 from ...engine.gl.guest import block_binding
-from ...engine.gl.shaders import program
+from ...engine.gl.shaders import Texts, program, texts
 from ...engine.memo import by_identity
 from ..around.asked import Asked
 from ..grow.record import GIVES
@@ -158,6 +158,10 @@ class FrameBlock:
         self.binding = block_binding(ctx)
         self.earth = 0
         """The texture of a game's own ground, by its number in GL; 0 for none."""
+
+    def texts(self, vertex: str, fragment: str | None, defines: Mapping[str, str | int]) -> Texts:
+        """Return what a driver is given of a program that knows the block."""
+        return texts(vertex, fragment, {**self.defines, **defines})
 
     def join(self, program: moderngl.Program) -> None:
         """Tell a program where the block is."""

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ...components.arrays import Levels, Mask, Rows
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
+from ...engine.gl.shaders import Texts
 from ..around.kept import Kept
 from ..around.outlook import Outlook
 from ..around.patches import PatchTable
@@ -72,6 +73,10 @@ class Canvas:
 
 class RepresentationPainter(Part, ABC):
     """Everything that one GL context holds of a representation, and the drawing of it."""
+
+    def texts(self) -> Iterator[Texts]:
+        """Return what the programs are made of that `making` would make."""
+        yield from ()
 
     def making(self) -> Iterator[None]:
         """Make the programs that are not there yet, one at a time, as drivers take long over each."""

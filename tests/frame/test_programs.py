@@ -1,6 +1,7 @@
 """Programs are made while a prairie begins, and not when something happens in it for the first time."""
 
 from collections.abc import Callable
+from itertools import count
 from typing import Any
 
 import esper
@@ -11,6 +12,9 @@ import pytest
 from tallgrass import Footprint, Pose, Presser
 from tallgrass.components.shade import Shade
 from tallgrass.engine.camera import Camera
+from tallgrass.engine.gl import beside
+from tallgrass.engine.gl.beside import Beside
+from tallgrass.engine.gl.shaders import Texts
 from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import LITTLE
 
@@ -71,6 +75,51 @@ def test_nothing_that_happens_to_grass_for_the_first_time_makes_a_program(
         esper.delete_entity(entity, immediate=True)
     assert np.abs(after - before).max() > 20.0
     assert made == []
+
+
+@pytest.fixture
+def asked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The vertex shaders of all programs that a driver is asked for, which makes one between two looks."""
+    asked: list[str] = []
+    looks = count()
+
+    def ask(_: Beside, texts: Texts) -> None:
+        asked.append(texts.vertex)
+
+    monkeypatch.setattr(beside, "draws_in_software", lambda ctx: False)
+    monkeypatch.setattr(Beside, "ask", ask)
+    monkeypatch.setattr(Beside, "left", property(lambda _: max(0, len(asked) - next(looks))))
+    return asked
+
+
+@pytest.mark.usefixtures("ahead")
+def test_a_card_makes_beside_the_frames_what_the_first_does_not_draw_with(
+    made: list[str], asked: list[str], load: Load, stage: Stage, camera: Aim
+) -> None:
+    prairie, there = load(CALM), camera(0.0, 2.0, 18.0)
+    first = stage.shot(prairie, there)
+    drawn = len(made)
+    for frame in range(3):  # it is asked for one a frame
+        np.testing.assert_array_equal(stage.shot(prairie, there), first)
+        assert (len(asked), len(made)) == (frame + 1, drawn)
+    while len(made) < drawn + len(asked):
+        before = len(asked), len(made)
+        stage.shot(prairie, there)
+        assert len(asked) + len(made) <= sum(before) + 1
+    assert made[drawn:] == asked
+    assert len(asked) > 5
+    made.clear()
+    first_cut(prairie)
+    assert np.abs(stage.shot(prairie, there) - first).max() > 20.0
+    assert made == []
+
+
+@pytest.mark.usefixtures("ahead")
+def test_a_game_that_prepares_with_a_card_waits_for_each_program_in_a_step(asked: list[str], load: Load) -> None:
+    steps = list(load(CALM).preparing())
+    assert len(asked) > 5
+    assert [done for done, _ in steps] == sorted(done for done, _ in steps)
+    assert steps[-1][0] == steps[-1][1]
 
 
 @pytest.mark.usefixtures("ahead")

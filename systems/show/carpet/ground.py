@@ -11,6 +11,7 @@ from ....components.arrays import Bytes, Floats
 from ....engine.gl.functions import NUMBERS, functions_of
 from ....engine.gl.mipmaps import stack_for
 from ....engine.gl.rasteriser import anisotropy
+from ....engine.gl.shaders import Texts
 from ....engine.gl.shelf import Shelves
 from ....engine.gl.stream import release_all
 from ...frame.block import FrameBlock, joined
@@ -108,9 +109,18 @@ class GroundPainter:
         for among, stream, name, defines in wanted:
             vertex, fragment = f"systems/show/carpet/{name}.vert", f"systems/show/carpet/{name}.frag"
             make = partial(joined, ctx, self._block, self.units, vertex, fragment, defines)
-            among.append(Layer(make, self.shelves, stream, self.grid))
-        self.covered += [Layer(partial(_program_of, each), self.shelves, 1, self.grid) for each in self.bare]
+            texts = partial(self._block.texts, vertex, fragment, defines)
+            among.append(Layer(make, texts, self.shelves, stream, self.grid))
+        self.covered += [
+            Layer(partial(_program_of, each), each.texts, self.shelves, 1, self.grid) for each in self.bare
+        ]
         self.restock(stock)
+
+    def texts(self) -> Iterator[Texts]:
+        """Return what the programs that are not there yet are made of."""
+        for each in self._layers:
+            if each.made is None:
+                yield each.texts()
 
     def making(self) -> Iterator[None]:
         """Make the programs that are not there yet, one at a time."""

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 
 import moderngl
 
-from ....engine.gl.shaders import tell
+from ....engine.gl.shaders import Texts, tell
 from ....engine.gl.shelf import Shelves
 from ....engine.gl.stream import Stream, release_all
 from .tiles import TILE
@@ -34,11 +34,12 @@ class Layer:
     def __init__(
         self,
         make: Callable[[], moderngl.Program],
+        texts: Callable[[], Texts],
         shelves: Shelves[GroundShelf],
         stream: int,
         grid: tuple[moderngl.Buffer, moderngl.Buffer],
     ) -> None:
-        self._make, self._shelves, self._stream, self._grid = make, shelves, stream, grid
+        self._make, self.texts, self._shelves, self._stream, self._grid = make, texts, shelves, stream, grid
         self._told: dict[str, object] = {}
         self._untold: dict[str, object] = {}
         """Of that, what the program is told before it draws next: of many, a frame draws with a few."""

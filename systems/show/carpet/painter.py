@@ -12,6 +12,7 @@ from ....components.arrays import Bytes, Floats
 from ....components.viewer import Viewer
 from ....engine.gl.guest import let_pass
 from ....engine.gl.remembered import Remembered
+from ....engine.gl.shaders import Texts
 from ....engine.gl.stream import release_all
 from ...around.appearance import border_of
 from ...around.asked import Asked
@@ -70,6 +71,10 @@ class CarpetPainter(RepresentationPainter):
         """Whether it writes depth only where it covers at least half a pixel."""
         self._heard: tuple[NDArray[np.int32], int, CarpetKept] | None = None
         self.ground = GroundPainter(canvas.ctx, canvas.block, stock, canvas.units, side=side, seed=canvas.seed)
+
+    def texts(self) -> Iterator[Texts]:
+        """Return what the programs that are not there yet are made of."""
+        return self.ground.texts()
 
     def making(self) -> Iterator[None]:
         """Make the programs that are not there yet, one at a time."""

@@ -12,7 +12,7 @@ from ....engine.declared.quality import StripRing
 from ....engine.gl.emit import emitted, looked_up
 from ....engine.gl.mipmaps import at_once, stack_for
 from ....engine.gl.records import Records
-from ....engine.gl.shaders import tell, tell_all
+from ....engine.gl.shaders import Texts, tell, tell_all
 from ....engine.gl.shelf import Shelves
 from ....engine.gl.stream import release_all
 from ...frame.block import filled, joined, room_for
@@ -52,6 +52,8 @@ SORTS = [*_sorts({}, {"SHADED": 1}, {"SHADED": 1, "CUT": 1}), EDGED]
 
 DEEP = [*_sorts({"DEEP": 1}, {"DEEP": 1, "CUT": 1}), {"DEEP": 1, **EDGED}]
 """Those that write depth alone: with all blades and by rank, then where any grass is cut, and with edges."""
+
+FILES = "systems/show/strips/strips.vert", "systems/show/strips/strips.frag"
 
 NUMBER = np.dtype([("number", "u4")])
 
@@ -109,6 +111,12 @@ class StripPainter:
         self._untold: set[tuple[bool, int]] = set()
         """Those of them that have to be told how strips stand before they draw: of many, a frame draws with a few."""
 
+    def texts(self) -> Iterator[Texts]:
+        """Return what the programs that are not there yet are made of."""
+        for number in range(len(SORTS)):
+            if (False, number) not in self._made:
+                yield self._block.texts(*FILES, self._whole | SORTS[number])
+
     def making(self) -> Iterator[None]:
         """Make the programs that are not there yet, one at a time."""
         for number in range(len(SORTS)):
@@ -150,9 +158,8 @@ class StripPainter:
         if (deep, number) not in self._made:
             canvas = self._canvas
             program = joined(
-                canvas.ctx, canvas.block, canvas.units, "systems/show/strips/strips.vert",
-                "systems/show/strips/strips.frag", {**self._whole, **(DEEP if deep else SORTS)[number]},
-            )  # fmt: skip
+                canvas.ctx, canvas.block, canvas.units, *FILES, self._whole | (DEEP if deep else SORTS)[number]
+            )
             self._tell(program)
             self._made[deep, number] = canvas.ctx.vertex_array(program, [])
         array = self._made[deep, number]

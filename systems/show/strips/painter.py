@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ....components.arrays import Mask
 from ....engine.declared.quality import Quality
 from ....engine.gl.remembered import Remembered
+from ....engine.gl.shaders import Texts
 from ...around.outlook import Outlook
 from ...grow.organs import any_heads
 from ...space.grown import Grown
@@ -59,6 +60,10 @@ class StripsPainter(RepresentationPainter):
         self.runs: list[tuple[int, int, int]] = []
         self._asked: list[tuple[int, int, int]] = []
         self._gathered, self._ordered = Remembered[_Sent](), Remembered[Order]()
+
+    def texts(self) -> Iterator[Texts]:
+        """Return what the programs that are not there yet are made of."""
+        return self.strips.texts()
 
     def making(self) -> Iterator[None]:
         """Make the programs that are not there yet, one at a time."""

@@ -1,0 +1,99 @@
+"""Programs that a driver makes beside the frames, in threads of its own."""
+
+from collections.abc import Iterable, Iterator
+from ctypes import addressof, c_char_p, c_int
+from time import sleep
+
+import moderngl
+
+from .functions import NUMBERS, functions_of
+from .limits import limits_of
+from .rasteriser import draws_in_software
+from .shaders import Texts
+
+
+def makes_beside(ctx: moderngl.Context, /) -> bool:
+    """Return whether the driver makes programs in threads of its own; without a card these would hold the frames up."""
+    return limits_of(functions_of(ctx)).beside and not draws_in_software(ctx)
+
+
+WAITS = 0.002
+"""Time between two looks at whether a program is made [s]."""
+
+
+class Beside:
+    """Lets a driver make programs that will be wanted, while frames go on.
+
+    What it makes is thrown away: drivers keep the outcome by its texts, so that to make the same program soon after, or
+    in another process, takes a moment. Where a driver keeps nothing, no harm is done.
+    """
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self._gl = functions_of(ctx)
+        self._underway: list[int] = []
+
+    def ask(self, texts: Texts, /) -> None:
+        """Let it make one more; whether that can be made is not looked at here."""
+        gl, made = self._gl, self._gl.glCreateProgram()
+        for stage, text in (("VERTEX_SHADER", texts.vertex), ("FRAGMENT_SHADER", texts.fragment)):
+            if text is not None:
+                shader, given = gl.glCreateShader(NUMBERS[stage]), (c_char_p * 1)(text.encode())
+                gl.glShaderSource(shader, 1, addressof(given), None)
+                gl.glCompileShader(shader)
+                gl.glAttachShader(made, shader)
+                gl.glDeleteShader(shader)  # it stays for as long as the program does
+        if texts.varyings:
+            names = (c_char_p * len(texts.varyings))(*[name.encode() for name in texts.varyings])
+            gl.glTransformFeedbackVaryings(made, len(names), addressof(names), NUMBERS["INTERLEAVED_ATTRIBS"])
+        gl.glLinkProgram(made)
+        self._underway.append(made)
+
+    @property
+    def left(self) -> int:
+        """How many of them are not made yet; asking does not wait."""
+        made = [number for number in self._underway if self._is_made(number)]
+        for number in made:
+            self._gl.glDeleteProgram(number)
+        self._underway = [number for number in self._underway if number not in made]
+        return len(self._underway)
+
+    def release(self) -> None:
+        """Give back what is underway."""
+        while self._underway:
+            self._gl.glDeleteProgram(self._underway.pop())
+
+    def _is_made(self, number: int) -> bool:
+        found = (c_int * 1)()
+        self._gl.glGetProgramiv(number, NUMBERS["COMPLETION_STATUS"], addressof(found))
+        return bool(found[0])
+
+
+def making_beside(ctx: moderngl.Context, texts: Iterable[Texts], /) -> Iterator[None]:
+    """Let the driver make programs, one more at a time, and go on until it has; else it ends at once."""
+    if not makes_beside(ctx):
+        return
+    beside = Beside(ctx)
+    try:
+        for each in texts:
+            beside.ask(each)
+            yield
+        while beside.left:
+            yield
+    finally:
+        beside.release()
+
+
+def waiting_for(ctx: moderngl.Context, texts: Iterable[Texts], /) -> Iterator[None]:
+    """Let the driver make programs, all at once, and wait for one after the other; else it ends at once."""
+    if not makes_beside(ctx):
+        return
+    beside = Beside(ctx)
+    try:
+        for each in texts:
+            beside.ask(each)
+        for number in reversed(range(beside.left)):
+            while beside.left > number:
+                sleep(WAITS)
+            yield
+    finally:
+        beside.release()

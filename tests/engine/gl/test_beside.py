@@ -1,0 +1,40 @@
+"""Programs that a driver makes in its own threads are thrown away, and leave nothing behind."""
+
+from time import monotonic, sleep
+
+import moderngl
+
+from tallgrass.engine.gl.beside import Beside, makes_beside
+from tallgrass.engine.gl.functions import functions_of
+from tallgrass.engine.gl.shaders import Texts
+
+VERTEX = "#version 330 core\nout float told;\nvoid main() { told = 2.0; gl_Position = vec4(told); }\n"
+DRAWN = Texts(VERTEX, "#version 330 core\nout vec4 color;\nvoid main() { color = vec4(1.0); }\n", ())
+WRITTEN = Texts(VERTEX, None, ("told",))
+WRONG = Texts(VERTEX, "#version 330 core\nvoid main() { nothing(); }\n", ())
+
+
+def numbers(ctx: moderngl.Context) -> list[int]:
+    return [number for number in range(1, 4096) if functions_of(ctx).glIsProgram(number)]
+
+
+def test_what_a_driver_was_asked_for_is_made_and_given_back_whatever_it_is(ctx: moderngl.Context) -> None:
+    before, beside = numbers(ctx), Beside(ctx)
+    for texts in (DRAWN, WRITTEN, WRONG):
+        beside.ask(texts)
+    assert len(numbers(ctx)) == len(before) + 3
+    start = monotonic()
+    while beside.left and monotonic() - start < 20.0:
+        sleep(0.001)
+    assert (beside.left, numbers(ctx), ctx.error) == (0, before, "GL_NO_ERROR")
+
+
+def test_what_is_underway_is_given_back_with_it(ctx: moderngl.Context) -> None:
+    before, beside = numbers(ctx), Beside(ctx)
+    beside.ask(DRAWN)
+    beside.release()
+    assert numbers(ctx) == before
+
+
+def test_a_rasteriser_makes_nothing_beside_as_its_threads_draw(ctx: moderngl.Context) -> None:
+    assert not makes_beside(ctx)
