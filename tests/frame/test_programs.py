@@ -86,7 +86,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     def ask(_: Beside, texts: Texts) -> None:
         asked.append(texts.vertex)
 
-    monkeypatch.setattr(beside, "draws_in_software", lambda ctx: False)
+    monkeypatch.setattr(beside, "draws_in_software", lambda _: False)
     monkeypatch.setattr(Beside, "ask", ask)
     monkeypatch.setattr(Beside, "left", property(lambda _: max(0, len(asked) - next(looks))))
     return asked
