@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..components.arrays import Ints
 from ..engine.random import hash3
 from ..engine.terrain.part import Part
-from ..engine.terrain.plots import CELL, ends_of
+from ..engine.terrain.plots import CELL
 from ..engine.terrain.record import Terrain
 from ..engine.terrain.sample import height_at, slope_at
 from .around.outlook import Outlook
@@ -145,8 +145,9 @@ class Tile:
         sown, cells, patch = self.ground.density.sown, outlook.patches.cell, self.ground.patch
         changed = sown.since(outlook.sown)
         if changed is not None:
-            ends = np.array([ends_of(part) for part in changed])
-            ends = cell_of(ends + np.array([[-CELL], [CELL]], np.float32), patch=patch)
+            parts = np.array(changed)
+            first, last = parts[:, 1::-1], parts[:, 1::-1] + parts[:, :1:-1]
+            ends = cell_of((np.stack([first - 1, last + 1], axis=1) * CELL).astype(np.float32), patch=patch)
             cells = cells[between(cells, ends[:, 0].min(axis=0), ends[:, 1].max(axis=0))]  # they are few, mostly
             squares = np.array(sorted({tuple(each) for each in ends.reshape(-1, 4).tolist()}))
             i, j = cells.T[..., None]

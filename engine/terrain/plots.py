@@ -149,12 +149,13 @@ class Plots:
 
     def within(self, low: Floats, high: Floats, /) -> list[Values | None]:
         """Return what the cells between two corners (x, z) [m] have, plot by plot; None of plots that are not there."""
-        found = list[Values | None]()
-        for part in self.parts(low, high):
-            page = self.index[part.row // CELLS + self.half[1], part.column // CELLS + self.half[0]]
-            inner = Part(part.row % CELLS, part.column % CELLS, part.rows, part.columns)
-            found.append(self.pages[page][inner.slices] if page >= 0 else None)
-        return found
+        return [self.held(part) for part in self.parts(low, high)]
+
+    def held(self, part: Part, /) -> Values | None:
+        """Return what the cells of a part have, which lies on one plot; None where that is not there."""
+        page = int(self.index[part.row // CELLS + self.half[1], part.column // CELLS + self.half[0]])
+        inner = Part(part.row % CELLS, part.column % CELLS, part.rows, part.columns)
+        return self.pages[page][inner.slices] if page >= 0 else None
 
     def put(self, part: Part, change: Callable[[Values], Values], untouched: Untouched, /) -> None:
         """Change the cells of a part, which lies on one plot; `change` returns what is there then."""
@@ -165,7 +166,7 @@ class Plots:
         whole = untouched(Part(row * CELLS, column * CELLS, CELLS, CELLS)) if page < 0 else self.pages[page]
         before = whole[inner.slices]
         after = change(before)
-        if np.array_equal(before, after):
+        if (before == after).all():
             return
         self.count += 1
         self._last.append(part)

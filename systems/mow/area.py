@@ -1,7 +1,7 @@
 """Areas of the ground: how far places are from a footprint or a road, and how much of a cell lies under it."""
 
 from collections.abc import Callable, Sequence
-from functools import partial
+from functools import lru_cache, partial
 from itertools import pairwise
 
 import numpy as np
@@ -97,15 +97,61 @@ def _few(
     plots: Plots, area: Footprint, pose: Pose, change: Change, untouched: Untouched, parts: list[Part],
     beyond: float, least: float,
 ) -> None:  # fmt: skip
-    """Do what `stroke` does on parts of few plots: to ask for all of their cells at once is faster."""
+    """Do what `stroke` does on parts of few plots: to change all of their cells at once is faster."""
     first, last = parts[0], parts[-1]
-    rows, columns = last.row + last.rows - first.row, last.column + last.columns - first.column
-    place = middles(Part(first.row, first.column, rows, columns)).reshape(-1, 2)
-    away = beside(area, pose, place, least=least).reshape(rows, columns)
-    for part in parts:
-        own = away[Part(part.row - first.row, part.column - first.column, part.rows, part.columns).slices]
-        if own.min() <= beyond:
-            plots.put(part, partial(_changed, change, own), untouched)
+    whole = Part(first.row, first.column, last.row + last.rows - first.row, last.column + last.columns - first.column)
+    away = _beside_cells(area, pose, whole, beyond=beyond, least=least)
+    inner = [Part(part.row - first.row, part.column - first.column, part.rows, part.columns).slices for part in parts]
+    reached = [(part, own) for part, own in zip(parts, inner, strict=True) if away[own].min() <= beyond]
+    before = np.zeros((whole.rows, whole.columns, *plots.pages.shape[3:]), plots.pages.dtype)
+    for part, own in reached:
+        held = plots.held(part)
+        before[own] = untouched(part) if held is None else held
+    after = change(before, away)
+    for part, own in reached:
+        plots.put(part, partial(_given, after[own]), untouched)
+
+
+def _given(values: Values, before: Values) -> Values:
+    del before
+    return values
+
+
+def _beside_cells(area: Footprint, pose: Pose, part: Part, *, beyond: float, least: float) -> Floats:
+    """Return what `beside` says of the middles of a part's cells, (rows, columns); of those `beyond` it, that they are.
+
+    Within a polygon without hollows, the nearest edge is that whose line is nearest.
+    """
+    edges = _around(area)
+    if edges is None:
+        return beside(area, pose, middles(part).reshape(-1, 2), least=least).reshape(part.rows, part.columns)
+    corner, outwards = (pose.outside(each) for each in edges)
+    x = ((part.column + 0.5 + np.arange(part.columns)) * CELL - pose.x).astype(np.float32)
+    z = ((part.row + 0.5 + np.arange(part.rows)) * CELL - pose.z).astype(np.float32)
+    across, along = outwards[:, :1] * (x - corner[:, :1]), outwards[:, 1:] * (z - corner[:, 1:])
+    away: Floats = along[0, :, None] + across[0]
+    for right, down in zip(across[1:], along[1:], strict=True):
+        np.maximum(away, down[:, None] + right, out=away)
+    row, column = np.nonzero((away > 0.0) & (away <= beyond))  # at a corner it is farther than its lines
+    away[row, column] = _from_line(np.concatenate([corner, corner[:1]]), np.stack([x[column], z[row]], axis=1))
+    return away
+
+
+@lru_cache(maxsize=64)
+def _around(area: Footprint) -> tuple[Floats, Floats] | None:
+    """Return where each edge of a polygon without hollows begins, and which way is out of it, (n, 2) each."""
+    if not area.corners:
+        return None
+    corner = np.array(area.corners, np.float32)
+    edge = np.roll(corner, -1, axis=0) - corner
+    length = np.hypot(edge[:, 0], edge[:, 1])
+    corner, edge = corner[length > 0.0], edge[length > 0.0] / length[length > 0.0, None]
+    after = np.roll(edge, -1, axis=0)
+    turns = edge[:, 0] * after[:, 1] - edge[:, 1] * after[:, 0]
+    if turns.min() < 0.0 < turns.max():
+        return None
+    side = np.float32(1.0 if turns.max() > 0.0 else -1.0)
+    return corner, np.stack([side * edge[:, 1], -side * edge[:, 0]], axis=1)
 
 
 def _off(area: Area, pose: Pose, reached: list[tuple[Part, Stretches]], least: float) -> list[float]:

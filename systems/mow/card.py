@@ -157,7 +157,7 @@ class PlotsPart(Part):
             gl.glTexImage2D(target, level, NUMBERS["RGBA8"], *size, 0, NUMBERS["RGBA"], NUMBERS["UNSIGNED_BYTE"], None)
         gl.glTexParameteri(target, NUMBERS["TEXTURE_MAX_LEVEL"], _LEVELS - 1)
         self.texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
-        self.texture.write(self._index.tobytes(), viewport=(0, 0, WIDTH, len(self._index) // WIDTH), alignment=1)
+        self.texture.write(self._index, viewport=(0, 0, WIDTH, len(self._index) // WIDTH), alignment=1)
         for sheets in self._sheets or ():
             sheets.forget()
 
@@ -186,7 +186,7 @@ class PlotsPart(Part):
     def _write(self, texels: Bytes, level: int, viewport: tuple[int, int, int, int]) -> None:
         """Write a rectangle: from column and row on, so many across and down."""
         if level == 0:
-            self.texture.write(texels.tobytes(), viewport=viewport, alignment=1)
+            self.texture.write(texels, viewport=viewport, alignment=1)
             return  # which leaves it bound
         gl, sort = functions_of(self.ctx), (NUMBERS["RGBA"], NUMBERS["UNSIGNED_BYTE"])
         gl.glTexSubImage2D(NUMBERS["TEXTURE_2D"], level, *viewport, *sort, texels.ctypes.data)
@@ -196,6 +196,8 @@ class PlotsPart(Part):
         touched = np.zeros(0, np.intp)
         for number, sheets in enumerate(both):
             plots, changed = sheets.plots, sheets.changed()
+            if sheets.seen == plots.count:
+                continue
             sheets.seen = plots.count
             if not plots.any:
                 continue
@@ -204,8 +206,8 @@ class PlotsPart(Part):
                 self._index[:, 2 * number : 2 * number + 2], which = 0, np.flatnonzero(plots.index >= 0)
                 touched = np.append(touched, (0, len(self._index) - 1))
             else:
-                each = ((part.row // CELLS + plots.half[1]) * columns + part.column // CELLS for part in changed)
-                which = np.unique(np.fromiter(each, np.intp) + plots.half[0])
+                row, column = np.array(changed)[:, :2].T // CELLS
+                which = np.unique((row + plots.half[1]) * columns + column + plots.half[0])
             page = plots.index.reshape(-1)[which]
             place = np.where(page < 0, 0, sheets.place[page])
             self._index[which, 2 * number], self._index[which, 2 * number + 1] = place >> 8, place & 255
@@ -213,7 +215,7 @@ class PlotsPart(Part):
         if len(touched):
             low, high = int(touched.min()) // WIDTH, int(touched.max()) // WIDTH + 1
             rows = self._index[low * WIDTH : high * WIDTH]
-            self.texture.write(rows.tobytes(), viewport=(0, low, WIDTH, high - low), alignment=1)
+            self.texture.write(rows, viewport=(0, low, WIDTH, high - low), alignment=1)
 
     def use(self) -> None:
         """Bind them."""
@@ -240,11 +242,9 @@ class PlotsPart(Part):
 
 def _as_densities(pages: Bytes) -> list[Bytes]:
     """Return densities four kinds to a page."""
-    each = -(-pages.shape[-1] // 4)
-    texels = np.zeros((len(pages), each, CELLS, CELLS, 4), np.uint8)
-    for group in range(each):
-        own = pages[..., 4 * group : 4 * group + 4]
-        texels[:, group, ..., : own.shape[-1]] = own
+    texels = np.zeros((len(pages), -(-pages.shape[-1] // 4), CELLS, CELLS, 4), np.uint8)
+    for kind in range(pages.shape[-1]):  # one by one: numpy is slow where the last axis is short
+        texels[:, kind // 4, ..., kind % 4] = pages[..., kind]
     made, level = [texels], texels.astype(np.uint16).view(np.uint64)[..., 0]  # four numbers at once
     while level.shape[-1] > 1:
         level = level[..., ::2, :] + level[..., 1::2, :]

@@ -73,11 +73,12 @@ def _stroke(
     def covered(before: Values, away: Floats) -> Values:
         part = np.float32(0.5 + 0.5 * soft / verge) - away * np.float32(1.0 / verge)
         np.clip(part, np.float32(0.0), np.float32(1.0), out=part)
-        now = before.astype(np.float32)
-        due = change(now) - now
-        due *= part[..., None]
+        now = np.moveaxis(before, -1, 0).astype(np.float32, order="C")
+        due = change(now)
+        due -= now
+        due *= part
         due += now
-        return np.asarray(np.rint(due, out=due), np.uint8)
+        return np.moveaxis(np.rint(due, out=due).astype(np.uint8), 0, -1)
 
     untouched = partial(_painted, density)
     stroke(density.sown, area, pose, covered, untouched, beyond=0.5 * (soft + verge), alike=alike)
@@ -85,13 +86,11 @@ def _stroke(
 
 def _sown(before: Floats, *, kind: int, dense: float, apart: Mask) -> Floats:
     due = before.copy()
-    if apart[kind]:
-        others = apart.copy()
-        others[kind] = False
+    others = [number for number in np.flatnonzero(apart).tolist() if number != kind] if apart[kind] else []
+    if others:
         left = np.float32(255.0 * (1.0 - dense))
-        crowd = before[..., others].sum(axis=-1, keepdims=True)
-        due[..., others] *= np.minimum(left / np.maximum(crowd, np.float32(1e-6)), 1.0)
-    due[..., kind] = 255.0 * dense
+        due[others] *= np.minimum(left / np.maximum(before[others].sum(axis=0), np.float32(1e-6)), 1.0)
+    due[kind] = 255.0 * dense
     return due
 
 

@@ -20,7 +20,7 @@ from tallgrass.systems.show.blades.plant import (
 )
 from tallgrass.systems.show.blades.pool import BLADE, BladePool
 from tallgrass.systems.show.strips.grow import strips_of
-from tallgrass.systems.show.strips.plant import plant_strips
+from tallgrass.systems.show.strips.plant import growing_on, plant_strips
 from tallgrass.systems.show.strips.pool import StripPool
 from tallgrass.systems.show.strips.stand import falls, strip_edges
 from tallgrass.systems.show.strips.stock import stock_strips
@@ -68,7 +68,8 @@ def stripped(
 ) -> StripPool:
     pool = StripPool(4, stock_strips(growths).strips[ring], 2, PATCH)
     ground = Ground(terrain, Density(maps, terrain.size), PATCH)
-    plant_strips(pool, SLOTS, CELLS, MODELS, TURNS, np.full(8, along, np.int32), ground)
+    growing = growing_on(CELLS, ground, pool.strips[0].margin)
+    plant_strips(pool, SLOTS, CELLS, MODELS, TURNS, np.full(8, along, np.int32), growing)
     return pool
 
 

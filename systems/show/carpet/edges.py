@@ -103,15 +103,14 @@ class _OnPlots:
         known, count = len(self._seen), len(plots.written)
         self._uneven = np.append(self._uneven[:known], np.zeros(count - known, np.bool_))
         stale = np.flatnonzero(plots.written != np.append(self._seen, np.full(count - known, -1)))
-        pages = plots.pages[stale].reshape(len(stale), CELLS * CELLS, int(np.prod(plots.pages.shape[3:])))
-        level = np.empty((count, pages.shape[2]), np.float32)
+        pages, channels = plots.pages[stale], int(np.prod(plots.pages.shape[3:]))
+        level = np.empty((count, channels), np.float32)
         level[:known] = self._level[:known]
-        uneven, highest = np.zeros(len(stale), np.bool_), np.float32(min(most, FARTHEST))
-        for channel in range(pages.shape[2]):
-            own = np.ascontiguousarray(pages[..., channel])
-            ends = np.stack([own.min(axis=1), own.max(axis=1), own[:, 0]])
-            low, high, level[stale, channel] = np.minimum(ends.astype(np.float32), highest)
-            uneven |= high - low > self._step
+        lines, highest = pages.reshape(len(stale), CELLS, CELLS * channels), np.float32(min(most, FARTHEST))
+        low, high = (each.reshape(len(stale), CELLS, channels) for each in (lines.min(axis=1), lines.max(axis=1)))
+        ends = np.stack([low.min(axis=1), high.max(axis=1), lines[:, 0, :channels]])
+        low, high, level[stale] = np.minimum(ends.astype(np.float32), highest)
+        uneven = (high - low > self._step).any(axis=1)
         self._uneven[stale] = uneven
         self._level = level
         self._seen = plots.written.copy()

@@ -1,6 +1,7 @@
 """Planting strips: whose strips a slot of a pool holds, and how densely they grow there (paper, section 2.2)."""
 
 from math import ceil
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,24 +25,45 @@ WITHIN = 1.0 / 3.0
 """An edge is a step within this part of a patch's side."""
 
 
+class Growing(NamedTuple):
+    """How densely grass grows on some patches."""
+
+    present: Mask
+    """Whether each kind grows there at all, shape (m, kinds)."""
+
+    least: Floats
+    """Density where it is thinnest, of the kinds that grow there at all, shape (m,)."""
+
+    edged: Mask
+    """Whether the density of any kind changes much there, shape (m,)."""
+
+    def some(self, first: int, last: int, /) -> "Growing":
+        """Return it of the patches from `first` to before `last`."""
+        return Growing(self.present[first:last], self.least[first:last], self.edged[first:last])
+
+
 def plant_strips(
-    pool: StripPool, slots: NDArray[np.int64], cell: Ints, model: Ints, turn: Ints, along: Ints, ground: Ground, /
+    pool: StripPool, slots: NDArray[np.int64], cell: Ints, model: Ints, turn: Ints, along: Ints, growing: Growing, /
 ) -> None:
     """Stand the strips of each cell (m, 2), running along axis `along` (m,), in its slot of the pool."""
     pool.stamp[slots, :2], pool.stamp[slots, 2] = cell, along
     pool.stand[slots] = np.column_stack([model, turn])
-    line = _spread(ground, pool.strips[0].margin)
+    pool.present[slots], pool.least[slots], pool.edged[slots] = growing.present, growing.least, growing.edged
+
+
+def growing_on(cell: Ints, ground: Ground, margin: float, /) -> Growing:
+    """Return how densely grass grows on each cell (m, 2), and as far beyond as strips reach [m]."""
+    line = _spread(ground, margin)
     x, z = (cell.T[:, :, None] * np.float32(ground.patch) + line).astype(np.float32)
     dense = density_on_lines(ground.density, x, z)
-    pool.edged[slots] = _steps(dense, float(line[1] - line[0]), ground.patch)
+    edged = _steps(dense, float(line[1] - line[0]), ground.patch)
     left = left_on_lines(ground.density, x, z)
     if left is not None:
         dense = dense * left  # trees make no edges
     all_over = dense.reshape(*dense.shape[:2], -1)
     least, most = all_over.min(axis=2).T, all_over.max(axis=2).T
     grows = most > PRESENT
-    pool.present[slots] = grows
-    pool.least[slots] = np.where(grows, least, np.float32(1.0)).min(axis=1)
+    return Growing(grows, np.where(grows, least, np.float32(1.0)).min(axis=1), edged)
 
 
 def _steps(dense: Floats, spacing: float, patch: float) -> Mask:

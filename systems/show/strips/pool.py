@@ -103,5 +103,6 @@ class StripsKept(Kept):
         """Plant strips anew of patches on these cells."""
         for pool in self.pools:
             rows = window_rows(cells, side=pool.side)
-            for slots in (rows, rows + pool.side * pool.side):
-                pool.stamp[slots[(pool.stamp[slots, :2] == cells).all(axis=1)], :2] = NOWHERE
+            stamp = pool.stamp.reshape(2, -1, 3)
+            along, which = np.nonzero((stamp[:, rows, :2] == cells).all(axis=2))
+            stamp[along, rows[which], :2] = NOWHERE

@@ -22,9 +22,9 @@ from ...space.ground import Ground
 from ..representation import Canvas, Color, Representation, Seedling
 from .grow import Strips, grow_strips, texel_of
 from .painter import StripsPainter
-from .plant import plant_strips
+from .plant import growing_on, plant_strips
 from .pool import StripPool, StripsKept
-from .shown import StripsShown, show_strips
+from .shown import StripsOfRing, StripsShown, show_strips
 from .stock import StripStock, stock_strips
 from .sublevel import (
     axis_of,
@@ -221,18 +221,25 @@ class StripRepresentation(Representation):
     def plant(self, outlook: Outlook, /) -> None:
         """Plant the strips of patches whose slot holds another's, or strips that run the other way."""
         patches, kept = outlook.patches, outlook.keeps(StripsKept)
+        stale = list[tuple[StripPool, StripsOfRing, NDArray[np.intp]]]()
         for pool, shown in zip(kept.pools, outlook.shows(StripsShown).rings, strict=True):
             wanted = np.empty((len(shown.rows), 3), np.int32)
             wanted[:, :2], wanted[:, 2] = patches.cell.take(shown.rows, axis=0), shown.along
             differs = pool.stamp.take(shown.slots, axis=0) != wanted
             if differs.any():
-                kept.planted += 1
-                stale = differs.any(axis=1)
-                rows = shown.rows[stale]
-                plant_strips(
-                    pool, shown.slots[stale], patches.cell[rows], patches.model[rows], patches.turn[rows],
-                    shown.along[stale], self.ground,
-                )  # fmt: skip
+                stale.append((pool, shown, np.flatnonzero(differs.any(axis=1))))
+        if not stale:
+            return
+        kept.planted += 1
+        cells = patches.cell[np.concatenate([shown.rows[which] for _, shown, which in stale])]
+        growing, first = growing_on(cells, self.ground, self.margin()), 0  # of all rings at once, that is faster
+        for pool, shown, which in stale:
+            rows, last = shown.rows[which], first + len(which)
+            plant_strips(
+                pool, shown.slots[which], cells[first:last], patches.model[rows], patches.turn[rows],
+                shown.along[which], growing.some(first, last),
+            )  # fmt: skip
+            first = last
 
     def painter(self, canvas: Canvas, /) -> StripsPainter:
         """Return a painter of all rings."""

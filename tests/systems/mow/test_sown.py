@@ -10,10 +10,11 @@ from hypothesis import strategies as st
 from tallgrass.components.arrays import Floats
 from tallgrass.components.footprint import Footprint, Road
 from tallgrass.components.pose import HERE, Pose
-from tallgrass.engine.terrain.plots import CELL, CELLS, SIDE
+from tallgrass.engine.terrain.part import Part
+from tallgrass.engine.terrain.plots import CELL, CELLS, SIDE, Plots, middles
 from tallgrass.engine.terrain.record import Density
 from tallgrass.engine.terrain.sample import density_at, density_on_lines, own_density_at, painted_at
-from tallgrass.systems.mow.area import Area, beside
+from tallgrass.systems.mow.area import Area, beside, stroke
 from tallgrass.systems.mow.sown import carry_over, clear, sow
 
 PAINTED = np.random.default_rng(4).random((3, 6, 8)).astype(np.float32)
@@ -22,11 +23,17 @@ AMONG = False, False, True
 """Two kinds of grass that fill the ground between them, and flowers among both."""
 
 BOX = Footprint(corners=((-4.0, -3.0), (4.0, -3.0), (4.0, 3.0), (-4.0, 3.0)))
+KITE = Footprint(corners=((0.0, -9.0), (4.0, 0.0), (0.0, 3.0), (-4.0, 0.0)))
+HOLLOW = Footprint(corners=((-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (0.0, -2.0), (-5.0, 5.0)))
 BEND = Road(((-20.0, 0.0), (0.0, 0.0), (12.0, 16.0)), 3.0)
 AREAS = st.sampled_from([BOX, BEND, Footprint(radius=2.5), Footprint(radius=1.0, length=9.0)])
 POSES = st.builds(Pose, st.floats(-15.0, 15.0), st.floats(-15.0, 15.0), st.floats(-pi, pi))
 PLACES = np.random.default_rng(2).uniform(-40.0, 40.0, (4000, 2)).astype(np.float32)
 STEP = 1.0 / 255.0
+
+
+def nothing(part: Part) -> Floats:
+    return np.full((part.rows, part.columns), inf, np.float32)
 
 
 def meadow(size: float = 100.0) -> Density:
@@ -48,6 +55,21 @@ def by_hand(area: Area, pose: Pose, place: Floats) -> Floats:
 def test_f4_how_far_off_an_area_is_a_road_bends_and_a_house_has_corners(area: Area) -> None:
     pose = Pose(2.0, -3.0, 0.7)
     np.testing.assert_allclose(beside(area, pose, PLACES), by_hand(area, pose, PLACES), atol=0.04)
+
+
+@settings(deadline=None, max_examples=15)
+@given(
+    st.sampled_from([BOX, KITE, HOLLOW, Footprint(corners=tuple(reversed(KITE.corners)))]), POSES, st.floats(0.1, 4.0)
+)
+def test_f4_a_stroke_is_told_of_each_cell_how_far_off_it_is(area: Footprint, pose: Pose, beyond: float) -> None:
+    plots = Plots((100.0, 100.0), np.dtype(np.float32))
+    stroke(plots, area, pose, lambda before, away: np.where(away <= beyond, away, before), nothing, beyond=beyond)
+    for part in plots.parts(np.float32([-35.0, -35.0]), np.float32([35.0, 35.0])):
+        away = beside(area, pose, middles(part).reshape(-1, 2)).reshape(part.rows, part.columns)
+        held = plots.held(part)
+        told, away = (np.maximum(each, -CELL) for each in (nothing(part) if held is None else held, away))
+        np.testing.assert_allclose(told[away < beyond - 1e-4], away[away < beyond - 1e-4], atol=1e-4)
+        assert (told[away > beyond + 1e-4] == inf).all()
 
 
 @settings(deadline=None, max_examples=25)
