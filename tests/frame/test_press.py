@@ -153,3 +153,37 @@ def test_f4_where_many_walk_who_wear_grass_off_earth_comes_out_and_a_state_keeps
     place = stage.ground(aim)
     way = (np.abs(place[..., 0]) < 3.0) & (np.abs(place[..., 1]) < 0.3)
     assert np.abs(pictures[0] - pictures[1])[way].mean() > 5.0
+
+
+def test_f4_what_a_game_lays_on_trodden_grass_lies_free_on_the_carpet(
+    ctx: moderngl.Context, stage: Stage, load: Load, camera: Aim
+) -> None:
+    meadow = LITTLE.replace("scale: 4", "scale: 0").replace(
+        "short: { height: [0.2, 0.4]", "short: { height: [0.5, 0.9]"
+    )
+    prairie, aim = load(meadow, lod="carpet"), camera(0.0, 6.0, 20.0, pitch=-16)
+    corners = np.array([(-2.0, -2.0), (2.0, -2.0), (-2.0, 2.0), (2.0, 2.0)])
+    mat = np.insert(corners, 1, prairie.height_at(corners) + 0.08, axis=1).astype(np.float32)
+    program = ctx.program(
+        vertex_shader="#version 330\nin vec3 at; uniform mat4 clip; void main() { gl_Position = clip * vec4(at, 1); }",
+        fragment_shader="#version 330\nout vec4 color; void main() { color = vec4(1.0, 0.0, 1.0, 1.0); }",
+    )
+    array = ctx.vertex_array(program, [(ctx.buffer(mat), "3f", "at")])
+    view, projection = stage.matrices(aim)
+    program["clip"] = np.ascontiguousarray((projection.astype(np.float64) @ view).T, np.float32).ravel()
+    seen = []
+    for presses in (False, True):
+        if presses:
+            entity = esper.create_entity(Presser(corners=[(-2.5, -2.5), (2.5, -2.5), (2.5, 2.5), (-2.5, 2.5)]), Pose())
+            prairie.advance(1.0)
+        stage.begin()
+        ctx.enable_only(moderngl.DEPTH_TEST)
+        array.render(moderngl.TRIANGLE_STRIP)
+        due = (stage.read() == (255, 0, 255)).all(axis=2)
+        prairie.draw(view, projection)
+        seen.append((stage.read() == (255, 0, 255)).all(axis=2)[due].mean())
+    esper.delete_entity(entity, immediate=True)
+    release_all(array, program)
+    assert due.sum() > 50
+    assert seen[0] < 0.1
+    assert seen[1] > 0.9

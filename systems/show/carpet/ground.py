@@ -97,12 +97,12 @@ class GroundPainter:
         plain = known | usual | {"LAMPLESS": 1}
         wanted: list[tuple[list[Layer], int, str, Defines]] = [
             *((self.bare, 0, "ground", litter | each) for each in (usual | whole, usual | cut, trodden)),
-            *((self.under, 1, "under", heads | each) for each in (whole, cut)),
+            *((self.under, 1, "under", heads | each) for each in (whole, cut, trodden)),
             *((self.carpet, 2, "carpet", each) for each in (plain | whole, plain | cut)),
             (self.carpet, 2, "carpet", known | usual),
             (self.carpet, 2, "carpet", known | trodden),
             (self.edged, 3, "ground", litter | trodden | {"EDGED": 1}),
-            (self.edged, 4, "under", heads | {"EDGED": 1}),
+            (self.edged, 4, "under", heads | trodden | {"EDGED": 1}),
             (self.edged, 4, "carpet", known | trodden | {"EDGED": 1}),
             *((self.casting, stream, "cast", {}) for stream in (2, 4)),
         ]
@@ -233,7 +233,7 @@ class GroundPainter:
     def draw_under(self) -> int:
         """Draw what lies under the carpet; return the number of draw calls."""
         self.use()
-        return self.under[self._is_cut].draw() + self.edged[1].draw()
+        return self.under[2 if self.is_trodden else self._is_cut].draw() + self.edged[1].draw()
 
     def draw_carpet(self, part: int = WHOLE) -> int:
         """Draw the carpet, or a part of it: its outlines let through what is behind; return the draw calls."""

@@ -4,10 +4,14 @@
 #include "systems/show/carpet/mesh.glsl"
 #include "systems/show/carpet/sight.glsl"
 #include "lib/mown.glsl"
+#ifdef TRODDEN
+#include "systems/press/press.glsl"
+#endif
 
 const float STOPPED = 0.6;  // how deep a line of sight comes in the grass before it is stopped, of its height: about
 const float FARTHEST = 5.0; // how much farther ahead ground is looked at, at most, than close by
 const float NEAR_CELLS = 4.0;  // how far off that is, in cells of the terrain
+const float LIES = 0.05;  // how high the carpet lies where all grass does, of its height
 const float UNCUT = 1e9;      // where all stands: above all grass [m]
 const float SPARSEST = 0.02;  // density of grass that tells a corner what grows about it
 const float EDGE = 0.01;    // a corner counts as on both sides of a patch's edge that is so near [m]
@@ -19,6 +23,7 @@ struct Laid {
     ByKind grows;  // how densely each kind grows
     float left;    // up to which height it is left to stand [m]
     float tall;    // height of the carpet [m]
+    float lies;    // what is left of that where grass is trodden
     float dense;   // leaf area seen from the side, of the ground's area
     vec2 rise;     // of the ground, along x and z
     float crest;   // how fast the rise falls off along the line of sight [1/m]
@@ -58,21 +63,48 @@ vec2 rising_at(vec2 at) {
     return vec2(height_at(at + step.xy) - height_at(at - step.xy), height_at(at + step.yx) - height_at(at - step.yx)) / (2.0 * step.x);
 }
 
-#ifdef EDGED
-const int ABOUT = 5;  // a corner of the mesh, and halfway to its neighbours before, behind and beside it
+const int ABOUT = 5, ALL_ABOUT = 9;  // a corner of the mesh, its neighbours before, behind and beside it, and aslant
 
+vec2 about(vec2 place, int number) {
+    ivec2 aslant = ivec2(number - 5) >> ivec2(0, 1) & 1, straight = ivec2(number > 2, number == 1 || number == 2);
+    vec2 way = number < ABOUT ? vec2(straight) * (number % 2 == 0 ? 1.0 : -1.0) : vec2(aslant) * 2.0 - 1.0;
+    return place + way * spaced;
+}
+
+#ifdef EDGED
 // The grass of a corner of the mesh, where pixels see how much of it there is: the densest about.
 ByKind densest_about(vec2 place) {
     ByKind densest = all_kinds(0.0);
     for (int number = 0; number < ABOUT; number++) {
-        vec2 way = number == 0 ? vec2(0.0) : number < 3 ? vec2(0.0, spaced) : vec2(spaced, 0.0);
-        ByKind grows = grows_at(place + (number % 2 == 0 ? way : -way));
+        ByKind grows = grows_at(about(place, number));
         if (total(grows) > total(densest))
             densest = grows;
     }
     return total(densest) > SPARSEST ? densest : all_kinds(1.0 / float(KINDS));
 }
 #endif
+
+// How high the carpet lies where grass is trodden about a corner of the mesh, of its height: the lowest, so that what a game
+// lays there lies free. Where all of it lies, its top is as low as the ground, but for blades that lie over one another.
+float lies_about(vec2 place, ByKind grows) {
+    float lowest = 1.0;
+#ifdef TRODDEN
+    ByKind area = areas(grows);
+    float all = max(total(area), TINY);
+    for (int number = 0; number < ALL_ABOUT; number++) {
+        vec2 at = about(place, number);
+        if (!trodden_at(at))
+            continue;
+        float stands_up = 0.0;
+        for (int kind = 0; kind < KINDS; kind++) {
+            vec2 bend = bending(kind, pressing(at, kind));
+            stands_up += OF(area, kind) * max(1.0 - dot(bend, bend), 0.0);
+        }
+        lowest = min(lowest, max(stands_up / all, LIES));
+    }
+#endif
+    return lowest;
+}
 
 // How grass grows and stands at a corner of the mesh.
 void sow(inout Laid laid, vec2 place) {
@@ -90,6 +122,7 @@ void sow(inout Laid laid, vec2 place) {
         laid.tall += dot(laid.grows[group], min(raised[group], laid.left));
     laid.tall /= max(total(laid.grows), 1.0);
 #endif
+    laid.lies = lies_about(place, laid.grows);
     laid.dense = weighed(laid.grows, areas(leaves_left(laid.left)));
 }
 
@@ -101,16 +134,16 @@ Laid laid_on(inout vec3 place) {
     laid.share = lowest_share(place.xz);
     sow(laid, place.xz);
     laid.rise = rising_at(place.xz);
-    place.y += laid.share * laid.tall;
+    float high = laid.share * laid.tall * laid.lies;
+    place.y += high;
     laid.crest = curved_at(place.xz, laid.rise, viewing_slope(laid.rise, place), laid.tall);
     laid.message = message_at(place.xz);
     laid.stands = standing(laid.grows, laid.message);
     float deep = deepest(max(viewing_slope(laid.rise, place), 0.0), laid.crest, laid.tall * laid.stands);
-    float high = lifted(deep, laid.crest, laid.stands);
+    float lifts = lifted(deep, laid.crest, laid.stands);
     float at_rim = lifted(0.0, BULGES, laid.stands);
-    laid.past = past_rim(place + vec3(0.0, laid.share * laid.tall * (at_rim - 1.0), 0.0), laid.tall * laid.stands / RAISED);
-    high = laid.past < NO_RIM ? at_rim : high;
-    place.y += laid.share * laid.tall * (high - 1.0);
+    laid.past = past_rim(place + vec3(0.0, high * (at_rim - 1.0), 0.0), laid.tall * laid.stands / RAISED);
+    place.y += high * ((laid.past < NO_RIM ? at_rim : lifts) - 1.0);
     laid.slope = viewing_slope(laid.rise, place);
     return laid;
 }

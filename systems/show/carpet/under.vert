@@ -54,7 +54,7 @@ void main() {
     vec3 place = on_ground(on_mesh());
     Laid laid = laid_on(place);
     float sunk = sunk_by(laid, place);
-    place.y -= laid.share * laid.tall * sunk;
+    place.y -= laid.share * laid.tall * laid.lies * sunk;
     if (laid.past < NO_RIM)  // over a rim grass is seen through down to the ground
         place.y = height_at(place.xz);
     float sight = viewing_slope(laid.rise, place), from_above = max(sight, FLATTEST);
