@@ -11,6 +11,7 @@ const vec2 SINKS_IN = vec2(0.05, 1.0);  // how deep it lies at least, and at mos
 const vec2 BEHIND = vec2(0.01, 0.05);  // slopes at which ground falls away from the eye: hardly, and wholly
 const float WITHIN = 0.25;  // how high the eye is over the layer from which on it is not within the grass [m]
 const float SHADED = 0.6;  // how far down what is seen stands, of how deep is seen into the grass
+const float FLAT_SIGHT = 0.07;  // slope of a line of sight by which grass counts as sparse: a walker's over some 25 m
 const float ON_TOP = 0.9;  // where it stands if nothing is seen into it, of the height of the grass
 
 out vec3 color;  // radiance
@@ -33,13 +34,20 @@ float sunk_by(Laid laid, vec3 place) {
     return max(clamp(max(sunk, over_crest), SINKS_IN.x, SINKS_IN.y), behind);
 }
 
+// How far down what is seen stands, of the height of the grass. Where flat lines of sight come through it, those that meet some
+// of it do not meet tips alone.
+float seen_down(float sunk, float dense) {
+    float flat_way = max(dense, THINNEST) / FLAT_SIGHT;
+    return mix(sunk, max(sunk, depth_met(flat_way)), comes_through(flat_way));
+}
+
 // The radiance of the grass that is seen there.
 vec3 grass_seen(Laid laid, ByKind met, vec3 place, float sunk) {
     Lie lies = lie_at(place.xz);
     vec3 sum = vec3(0.0);
     for (int kind = 0; kind < KINDS; kind++) {
         Light light = light_on(kind, vec2(0.0), place, lies, laid.grows);
-        float high = ON_TOP - SHADED * sunk;
+        float high = ON_TOP - SHADED * seen_down(sunk, laid.dense);
         if (anything_is_cut()) {
             light = mown_to(laid.left, light, kind, areas(laid.grows));
             high *= min(laid.left / max(OF(crown, kind), LOWEST_GRASS), 1.0);
