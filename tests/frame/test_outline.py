@@ -203,3 +203,22 @@ def test_x5_no_light_line_parts_strips_from_the_crest_they_stand_behind(ctx: mod
         prairie.release()
     lightest = lighter[60:200].reshape(140, 20, 10, 3).mean(axis=(2, 3)).max(axis=0)
     assert lightest.mean() < 30.0
+
+
+def test_g4_no_bright_line_lies_along_a_flat_crest_of_sparse_grass(ctx: moderngl.Context, load: Load) -> None:
+    sparse = """\
+tallgrass: 2
+seed: 3
+terrain: { noise: rolling, size: [300, 300] }
+grass: { prairie: { height: [0.4, 0.7], width: 0.014, blades: 40 } }
+wind: [{ kind: breeze, direction: 70, strength: 0.3 }]
+light: { ground: "#d9c48f" }
+camera: { position: [0, 60], eye: 2.0, pitch: -3, view: 30 }
+quality: low
+"""
+    room = Room(ctx, (960, 540))
+    prairie = load(sparse, lod="carpet")
+    seen = room.shot(prairie, camera_at(prairie.scene.camera, None, prairie.height_at))[255:295, 90:180, 1]
+    room.release()
+    lines = seen.mean(axis=1)
+    assert lines.max() - np.median(lines) < 17.0
