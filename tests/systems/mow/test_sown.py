@@ -64,7 +64,7 @@ def test_f4_how_far_off_an_area_is_a_road_bends_and_a_house_has_corners(area: Ar
 def test_f4_a_stroke_is_told_of_each_cell_how_far_off_it_is(area: Footprint, pose: Pose, beyond: float) -> None:
     plots = Plots((100.0, 100.0), np.dtype(np.float32))
     stroke(plots, area, pose, lambda before, away: np.where(away <= beyond, away, before), nothing, beyond=beyond)
-    for part in plots.parts(np.float32([-35.0, -35.0]), np.float32([35.0, 35.0])):
+    for part in plots.parts(np.full(2, -35.0, np.float32), np.full(2, 35.0, np.float32)):
         away = beside(area, pose, middles(part).reshape(-1, 2)).reshape(part.rows, part.columns)
         held = plots.held(part)
         told, away = (np.maximum(each, -CELL) for each in (nothing(part) if held is None else held, away))
