@@ -84,6 +84,23 @@ runpy.run_path(told["program"], run_name="__main__")
 """
 """Has imported all that programs import, and becomes one each time that it is told of one."""
 
+LITTLE_GRASS = """
+from tallgrass.engine.declared.grass import GrassKind
+from tallgrass.engine.declared.quality import PRESETS, StripRing
+from tallgrass.systems.stock import models
+
+
+def _grow_little(bends=models._Bends.of(GrassKind()), postures=models._postures):
+    models._Bends.of, models._postures = lambda _: bends, lambda *_: postures(bends, 0)
+    rings = [StripRing(to=8, strips=2, columns=1, sections=1, texel=0.03)]
+    small = PRESETS["low"].model_copy(update={"blades": 40, "models": 1, "strip_rings": rings, "carpet": 16})
+    PRESETS.update(dict.fromkeys(PRESETS, small))
+
+
+_grow_little()
+"""
+"""What is run first in a program whose grass matters little: all presets are coarse, and all grass bends alike."""
+
 _HOME = pytest.StashKey[moderngl.Framebuffer]()
 
 
@@ -289,6 +306,12 @@ def python(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Python]:
 
         yield run
         parent.stdin.close()
+
+
+@pytest.fixture(scope="session")
+def little_grass() -> str:
+    """What to run `before` a program, so that its grass is grown in a moment."""
+    return LITTLE_GRASS
 
 
 @pytest.fixture(scope="session")

@@ -30,12 +30,15 @@ MODERNGLS = ("BLEND", "CULL_FACE", "DEPTH_TEST", "PROGRAM_POINT_SIZE", "RASTERIZ
 
 SWITCHED_OFF = (
     "COLOR_LOGIC_OP", "DEPTH_CLAMP", "POLYGON_OFFSET_FILL", "SAMPLE_ALPHA_TO_COVERAGE", "SAMPLE_COVERAGE",
-    "CLIP_DISTANCE0", "CLIP_DISTANCE1", "PRIMITIVE_RESTART",
+    "CLIP_DISTANCE0", "CLIP_DISTANCE1", "PRIMITIVE_RESTART", "TEXTURE_CUBE_MAP_SEAMLESS",
 )  # fmt: skip
-"""Those that moderngl leaves as they are, and that would change a guest's picture: they are off while it draws."""
+"""Those that moderngl leaves as they are, and that would change a guest's picture: they are off while it draws.
 
-SWITCHES = (*MODERNGLS, *SWITCHED_OFF, "TEXTURE_CUBE_MAP_SEAMLESS", "SCISSOR_TEST")
-"""All that are brought back: moderngl sets seamless cube maps in new contexts, and a guest keeps to the scissor box.
+No picture of ours is a cube map, but Mesa's software rasteriser compiles every program once for either.
+"""
+
+SWITCHES = (*MODERNGLS, *SWITCHED_OFF, "SCISSOR_TEST")
+"""All that are brought back: a guest keeps to the scissor box.
 
 Stencil test and FRAMEBUFFER_SRGB are the host's own affair: a guest is drawn under them and never sets them.
 """

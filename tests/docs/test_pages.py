@@ -74,6 +74,9 @@ HERE = re.compile(r"(tallgrass (shot|film|check) (?!.*--on)[^|>&]*\n)+")
 PROGRAM = re.compile(r"(?:python|pytest -q) (\w+\.py)\n")
 """A command that runs a page's own program, or its own test."""
 
+MEASURED = {"performance.md"}
+"""Pages that tell how much grass there is."""
+
 COARSE = {
     r"^tallgrass (shot|film)": r"\g<0> --preset low",
     r"--preset (?!low\b)\w+ ": "",
@@ -132,9 +135,9 @@ def coarser(text: str, how: dict[str, str] = COARSE) -> str:
     return text
 
 
-def follow(page: str, folder: Path, python: Python, display: str = "") -> None:
-    """Do what a page tells to do, in a folder."""
-    told = ""
+def follow(page: str, folder: Path, python: Python, little_grass: str, display: str = "") -> None:
+    """Do what a page tells to do, in a folder, with little grass."""
+    told, little = "", "" if page in MEASURED else little_grass
     for block in blocks(page):
         text, language = block["text"], block["language"]
         name = folder / (block["file"] or "block.py")
@@ -145,7 +148,7 @@ def follow(page: str, folder: Path, python: Python, display: str = "") -> None:
             continue
         if language == "python":
             before = GAME if "pyglet.app.run()" in text else ""
-            python(folder, name.name, place={"DISPLAY": display} if display else {}, before=before)
+            python(folder, name.name, place={"DISPLAY": display} if display else {}, before=little + before)
         elif language == "yaml":
             parse_scene(text if "tallgrass:" in text else f"tallgrass: 2\ngrass: {{ lawn: {{}} }}\n{text}")
         elif language == "text":
@@ -155,7 +158,7 @@ def follow(page: str, folder: Path, python: Python, display: str = "") -> None:
             if program := PROGRAM.fullmatch(text):
                 tested = text.startswith("pytest")
                 words = (pytest.__main__.__file__, "-q", program[1]) if tested else (program[1],)
-                told = python(folder, *words, place={})
+                told = python(folder, *words, place={}, before=little)
             else:
                 told = (run_here if HERE.fullmatch(text) else run)(coarser(text), folder)
 
@@ -170,14 +173,16 @@ def follow(page: str, folder: Path, python: Python, display: str = "") -> None:
         if not opens_a_window(name)
     ],
 )
-def test_what_a_page_tells_to_do_works(page: str, tmp_path: Path, python: Python) -> None:
-    follow(page, tmp_path, python)
+def test_what_a_page_tells_to_do_works(page: str, tmp_path: Path, python: Python, little_grass: str) -> None:
+    follow(page, tmp_path, python, little_grass)
 
 
 @pytest.mark.window
 @pytest.mark.parametrize("page", [name for name in FOLLOWED if opens_a_window(name)])
-def test_what_a_page_with_windows_tells_to_do_works(page: str, tmp_path: Path, python: Python, display: str) -> None:
-    follow(page, tmp_path, python, display)
+def test_what_a_page_with_windows_tells_to_do_works(
+    page: str, tmp_path: Path, python: Python, little_grass: str, display: str
+) -> None:
+    follow(page, tmp_path, python, little_grass, display)
 
 
 @pytest.mark.parametrize("page", FOLLOWED)

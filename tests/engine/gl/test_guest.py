@@ -10,8 +10,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from tallgrass.engine.gl import current
+from tallgrass.engine.gl.current import own_context
 from tallgrass.engine.gl.functions import NUMBERS, functions_of
-from tallgrass.engine.gl.guest import guest
+from tallgrass.engine.gl.guest import guest, kept
 from tallgrass.engine.gl.host import LAYOUTS
 from tallgrass.engine.gl.units import FIRST_UNIT
 
@@ -187,6 +189,20 @@ def test_d6_what_the_host_has_enabled_stays_enabled(
     fill(0.2, 0.2, 0.2, 0.2, depth=0.9)
     ctx.blend_func, ctx.depth_func = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA), "<"
     assert (picture(host)[5, 5] == 2 * 51).all()
+
+
+@pytest.mark.parametrize("sets", ["glEnable", "glDisable"])
+def test_d6_a_guest_draws_its_first_frame_under_the_switches_of_all_others(ctx: moderngl.Context, sets: str) -> None:
+    """Else a software rasteriser compiles all programs again for the second one."""
+    gl, switch = functions_of(ctx), NUMBERS["TEXTURE_CUBE_MAP_SEAMLESS"]
+    getattr(gl, sets)(switch)
+    current._made.cache_clear()  # noqa: SLF001
+    for _ in range(2):
+        with kept(None):
+            own_context()
+            assert not gl.glIsEnabled(switch)
+        assert bool(gl.glIsEnabled(switch)) is (sets == "glEnable")
+    gl.glEnable(switch)
 
 
 def test_d6_nothing_stays_enabled_as_pyglets_drawing_expects(
