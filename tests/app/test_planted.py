@@ -82,6 +82,7 @@ def sound(measure: Callable[[], Told]) -> Told:
     return _SOUND[0]
 
 
+@pytest.mark.slow
 def test_n3_whole_changes_are_judged_in_every_frame(sound: Told) -> None:
     assert sound["judged"] == sound["frames"] == 28
     assert {row["change"] for row in sound["changes"]} >= {"carpet to strips", "strips to blades"}

@@ -165,7 +165,7 @@ class Game:
             void main() { one = vec4(0.6, 0.7, 0.8, 0.5); two = gl_FragCoord / 97.0; }""",
         )
         self.triangle = self.ctx.vertex_array(self.program, [])
-        self.prairie = Prairie.load(sys.argv[1], ctx=self.ctx)
+        self.prairie = Prairie.load(sys.argv[1], ctx=self.ctx, live=False)
 
     @contextmanager
     def target(self, colors: int) -> Iterator[moderngl.Framebuffer]:
@@ -352,7 +352,7 @@ def bare() -> str:
         gl.glRenderbufferStorage(0x8D41, kind, *SIZE)
         gl.glFramebufferRenderbuffer(0x8D40, attachment, 0x8D41, name[0])
     gl.hostile()
-    before, prairie, told = gl.values(), Prairie.load(sys.argv[1]), []
+    before, prairie, told = gl.values(), Prairie.load(sys.argv[1], live=False), []
     for number in range(2):
         draw(prairie)
         said = compared(before, gl.values())

@@ -40,22 +40,34 @@ ROOM = {"luminance": 0.003, "hue": 0.2, "contrast": 0.01, "flip": 0.001}
 """What drivers differ by."""
 
 SLOW = {
+    "above-30",
     "above-60",
+    "blast",
     "clouds",
     "crest-low",
     "diagonal",
+    "down",
+    "edge",
     "four-kinds",
     "gale",
+    "haze",
     "heath",
     "lane",
+    "lawn",
     "level",
+    "low-sun",
     "moor",
+    "mouse",
+    "reeds",
+    "slope-down",
     "sparse",
     "sun-behind",
     "two-kinds",
     "walk-medium",
+    "whirlwind",
+    "wide",
 }
-"""Those that others are like, and those whose grass takes longest to grow."""
+"""Those that others are like, that show what has tests of its own, or whose grass takes longest to grow."""
 
 Figures = dict[str, float]
 

@@ -200,6 +200,8 @@ def test_n11_where_representations_have_been_drawn_in_the_carpet_lies(
 
 RUN = """
 import runpy
+from tallgrass.systems import holding
+holding.AHEAD = False
 from tallgrass.systems import govern
 govern.RUNGS = (govern.Fineness(0.5),)
 from host_program import windows

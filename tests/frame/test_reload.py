@@ -120,10 +120,8 @@ def walked(camera: Aim, step: int) -> Camera:
 
 
 NOTHING: dict[str, list[tuple[str, str]]] = {
-    "a comment": [("seed: 5", "seed: 5 # so it was")],
     "the light": [("elevation: 30", "elevation: 60")],
     "a colour": [("#8fae4a", "#ffffff")],
-    "the camera": [("pitch: -12", "pitch: -20")],
     "what is left to its default": [("blades: 60", "blades: 60\n  patch: 2.5")],
 }
 

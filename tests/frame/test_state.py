@@ -70,15 +70,18 @@ def test_n5_a_restored_prairie_shows_the_same_picture_to_the_bit(stage: Stage, l
     other.release()
 
 
+DAY = LITTLE + "light: { hour: 12, hours_per_minute: 2 }\n"
+
+
 @pytest.mark.parametrize("frames", [3, PIECES + 8])
 def test_n5_a_light_that_was_on_its_way_goes_on_from_there(stage: Stage, load: Load, camera: Aim, frames: int) -> None:
-    aim, played = camera(0.0, 4.0, 18.0, pitch=-18), load(LITTLE + "light: { hour: 12, hours_per_minute: 2 }\n")
+    aim, played = camera(0.0, 4.0, 18.0, pitch=-18), load(DAY, lod="carpet")
     noon = stage.shot(played, aim)
     played.shine(hour=20.3)
     for _ in range(frames):
         played.advance(0.02)
         stage.shot(played, aim)
-    other = load(LITTLE + "light: { hour: 12, hours_per_minute: 2 }\n")
+    other = load(DAY, lod="carpet")
     other.restore(played.state())
     for _ in range(PIECES + 2):
         due = stage.shot(played, aim)

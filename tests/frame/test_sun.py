@@ -50,8 +50,10 @@ def ridge(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_f5_a_sun_that_was_moved_shines_as_if_the_scene_had_said_so(room: Stage, load: Load, ridge: Path) -> None:
-    moved = load(SCENE.format(heights=ridge, light="azimuth: 60, elevation: 50"))
-    due = load(SCENE.format(heights=ridge, light="azimuth: -80, elevation: 18, clouds: 0.2, exposure: 0.5"))
+    moved = load(SCENE.format(heights=ridge, light="azimuth: 60, elevation: 50"), lod="carpet")
+    due = load(
+        SCENE.format(heights=ridge, light="azimuth: -80, elevation: 18, clouds: 0.2, exposure: 0.5"), lod="carpet"
+    )
     before = room.shot(moved, CAMERA)
     moved.shine(azimuth=-80.0, elevation=18.0, clouds=0.2, exposure=0.5)
     for _ in range(2 * PIECES + 1):
@@ -70,7 +72,7 @@ def test_f5_a_sun_that_leaps_at_once_brings_sky_and_shadows_along(room: Stage, l
 
 
 def test_f5_light_goes_on_while_a_viewer_is_followed(room: Stage, load: Load, ridge: Path) -> None:
-    drawn, followed = (load(SCENE.format(heights=ridge, light="elevation: 60")) for _ in range(2))
+    drawn, followed = (load(SCENE.format(heights=ridge, light="elevation: 60"), lod="carpet") for _ in range(2))
     for prairie in (drawn, followed):
         room.shot(prairie, CAMERA)
         prairie.shine(elevation=4.0)
@@ -81,7 +83,7 @@ def test_f5_light_goes_on_while_a_viewer_is_followed(room: Stage, load: Load, ri
 
 
 def test_f10_shadows_of_the_terrain_come_row_by_row_and_none_is_forgotten(room: Stage, load: Load, ridge: Path) -> None:
-    prairie = load(SCENE.format(heights=ridge, light="azimuth: 90, elevation: 20"))
+    prairie = load(SCENE.format(heights=ridge, light="azimuth: 90, elevation: 20"), lod="carpet")
     calls = []
     for frame in range(2 * PIECES + 5):
         if frame == 2:

@@ -44,7 +44,7 @@ def main() -> None:
     """Make it and save it, or load it; then draw it."""
     state, picture, how = sys.argv[1:]
     with headless_context() as ctx, stage(ctx) as drawn:
-        prairie = Prairie.load(scene(), ctx=ctx)
+        prairie = Prairie.load(scene(), ctx=ctx, live=False)
         if how == "make":
             make(prairie)
             prairie.advance(3.25)

@@ -131,7 +131,7 @@ try:
 except OSError:
     print("locked")
 with headless_context() as ctx, stage(ctx, (64, 36)) as made:
-    prairie = Prairie.load(yaml.safe_load(LITTLE), ctx=ctx, live=False)
+    prairie = Prairie.load(yaml.safe_load(LITTLE), ctx=ctx, lod="carpet", live=False)
     prairie.add(Gust(start=0.0))
     prairie.advance(2.0)
     print(made.shot(prairie).std() > 1.0, len(Prairie.load("plain", preset="low").scene.grass))
