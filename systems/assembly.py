@@ -16,6 +16,7 @@ from .painter import Painter
 from .plant import Plant
 from .press.marks import UNTRODDEN, Trodden
 from .pressers import Press, Pressers
+from .room import is_ready
 from .screen import Screen
 from .see import See
 from .site import Site
@@ -54,6 +55,13 @@ class Assembly:
             governor=self.governor,
             bent=self.winds.bent,
         )
+
+    def stage(self, site: Site, before: Site, /) -> bool:
+        """Bring a piece of another site into GL, or make a viewer's store ready for it; return whether all is."""
+        if not self.screen.stage(site):
+            return False
+        ready = (is_ready(each, site.representations, before.representations) for each in self.viewers.values())
+        return all(ready)  # it ends with the first that was not
 
 
 def built_in(

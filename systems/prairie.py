@@ -166,7 +166,7 @@ class Prairie(Tending):
         must_be_known("depth", depth, DEPTHS)
         chosen = as_parts(self.scene.parts if parts is None else parts)
         seen = view_of(view, projection, self._origin)
-        self._turn(self._assembly.screen.stage)
+        self._turn(self._assembly.stage)
         before = self.viewers[viewer].frame if viewer in self.viewers else None
         time = self.time
         frame, asked, goes_on = Frame(seen, time, self.site, chosen).after(before, is_deep=depth == "all")
@@ -349,7 +349,7 @@ class Prairie(Tending):
         self.systems.clear()
         self._built.clear()
 
-    def _turn(self, stage: Stage = lambda _: True, *, at_once: bool = False) -> None:
+    def _turn(self, stage: Stage = lambda *_: True, *, at_once: bool = False) -> None:
         """Come to the kinds of grass that there are by now; `stage` brings what is new into GL."""
         site = self._ripening.step(self.site, self.time, stage, at_once=at_once)
         scene = self._seasons.scene_at(site.scene, self.time)

@@ -8,8 +8,8 @@ from ..engine.declared.grass import GrassKind
 from .seasons import Batch, Recalled, Seasons
 from .site import Site, is_other, ripened
 
-Stage = Callable[[Site], bool]
-"""Brings a piece of a site into GL, and says whether all of it is there."""
+Stage = Callable[[Site, Site], bool]
+"""Makes ready for a piece of a site in place of another, and says whether all of it is there."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -101,7 +101,7 @@ class Ripening:
             if not waits and not made.done():
                 return site
             made = made.result()
-        if not waits and not stage(made):
+        if not waits and not stage(made, site):
             return site
         self._seasons.standing, self._seasons.batch = dict(asked.stands), asked.batch
         if asked.batch is not None and not waits:

@@ -24,6 +24,12 @@ def keep_room(outlook: Outlook, representations: Sequence[Representation], reach
         outlook.shown[each.name] = each.show(outlook, cover)
 
 
+def is_ready(outlook: Outlook, representations: Sequence[Representation], before: Sequence[Representation], /) -> bool:
+    """Make a store ready for `keep_on`, in a frame before it, if one is not; return whether all were."""
+    pairs = zip(representations, before, strict=True)
+    return all(each.carry_ahead(other, outlook.kept[each.name], outlook.patches) for each, other in pairs)
+
+
 def keep_on(outlook: Outlook, representations: Sequence[Representation], before: Sequence[Representation], /) -> None:
     """Let an outlook's stores be those of representations of the same grass, as far as it has not been grown anew."""
     assert outlook.appearance is not None

@@ -17,6 +17,7 @@ from .around.patches import PatchTable
 from .around.transitions import SEAMLESS, Transitions
 from .entities import components
 from .grow.record import NOTHING, Growth, forms_of
+from .land.maps import posture_table
 from .land.record import figures_on
 from .lod import reach_of
 from .room import keep_on, keep_room
@@ -203,7 +204,9 @@ def ripened(
     made = lay_out(scene, site.quality, site.ground, growths, transitions=site.transitions, coming=coming)
     for each in made.representations:
         each.prepare()
-    figures_on(made.come((1.0,) * len(growths)))  # they are remembered
+    figures_on(made.come((1.0,) * len(growths)))  # they are remembered, as tables are
+    for growth in (*growths, *coming.values()):
+        posture_table(growth)
     return replace(made, reach=site.reach)
 
 

@@ -5,8 +5,17 @@ from collections.abc import Mapping, Sequence
 import moderngl
 import numpy as np
 
+from ...components.arrays import Floats
+from ...engine.memo import while_it_lives
 from ...engine.terrain.record import Density
 from ..grow.record import NOTHING, Growth
+
+
+@while_it_lives
+def posture_table(growth: Growth, /) -> Floats:
+    """Return what `posture_texture` has of a kind, shape (variants, rows, points, 4)."""
+    place = growth.postures.shape.astype(np.float32)
+    return np.concatenate([place, np.gradient(place, axis=2)], axis=-1, dtype=np.float32)
 
 
 def posture_texture(
@@ -17,8 +26,7 @@ def posture_texture(
     A texel holds a point's place and the blade's direction there, each (along the bending direction, up).
     """
     forms = [*growths, *(coming.get(kind, growth) for kind, growth in enumerate(growths) if coming)]
-    place = np.concatenate([growth.postures.shape for growth in forms]).astype(np.float32)
-    table = np.concatenate([place, np.gradient(place, axis=2)], axis=-1).astype(np.float32)
+    table = np.concatenate([posture_table(growth) for growth in forms])
     layers, rows, points, _ = table.shape
     texture = ctx.texture_array((points, rows, layers), 4, table.tobytes(), dtype="f4")
     texture.filter = (moderngl.LINEAR, moderngl.LINEAR)

@@ -267,6 +267,10 @@ class Representation(ABC):
     def plant(self, outlook: Outlook, /) -> None:  # noqa: B027 - for those that stand on the ground
         """Stand what is shown on the ground, where it does not stand yet."""
 
+    def carry_ahead(self, before: "Representation", kept: Kept, patches: PatchTable, /) -> bool:  # noqa: ARG002 - for those that take long
+        """Make ready for `carry`, in a frame before it; return whether that had been done."""
+        return True
+
     def carry(self, before: "Representation", kept: Kept, patches: PatchTable, /) -> None:  # noqa: B027 - for those whose stores know their grass
         """Let a store that was another's have this grass, where it stands as far as it has not been grown anew."""
 

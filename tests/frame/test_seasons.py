@@ -14,6 +14,8 @@ import pytest
 from tallgrass.engine.camera import Camera
 from tallgrass.systems import ripen
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.show.blades import representation
+from tallgrass.systems.show.blades.plant import carry_blades
 from tallgrass.systems.site import Site, ripened
 from tallgrass.testing import LITTLE
 
@@ -182,3 +184,30 @@ def test_f4_no_frame_waits_for_what_has_to_grow(
     assert frames > 20, "it takes its second, once it is there"
     assert not programs
     assert np.abs(after - before).mean() > 1.5
+
+
+def test_f4_the_frame_that_draws_other_blades_first_finds_them_where_they_stand(
+    stage: Stage, load: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    played, carried = load(LITTLE, lod="blades"), list[object]()
+    carry = carry_blades
+
+    def noted(*args: Any) -> None:
+        carried.append(carry(*args))
+
+    monkeypatch.setattr(representation, "carry_blades", noted)
+    way = [camera(0.0, 4.0, 18.0 - 0.3 * (step % 100), pitch=-12) for step in range(3000)]
+    stage.shot(played, way[0])
+    played.change_kind("tall", **HIGHER)
+    gone = [way[0]]
+    for aim in way:
+        before, count = played.site.representations, len(carried)
+        gone.append(aim)
+        seen = stage.shot(played, aim)
+        if played.site.representations is not before:
+            break
+        sleep(0.01)
+    assert count == len(carried) == 1
+    other = load(of(**HIGHER), lod="blades", live=False)
+    due = [stage.shot(other, aim) for aim in gone]
+    np.testing.assert_array_equal(seen, due[-1])

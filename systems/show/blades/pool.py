@@ -108,12 +108,19 @@ class BladesKept(Kept):
     def __init__(self, pool: BladePool, name: str) -> None:
         super().__init__([Receiving(pool, name)])
         self.pool = pool
+        self.ahead: tuple[object, BladePool, NDArray[np.int64]] | None = None
+        """What it is to hold next: for whose blades, that pool, and what stood in which slots when it was made."""
 
     def hold(self, pool: BladePool, /) -> None:
         """Have the blades of another pool in place of its own, for as many slots: they keep their entities."""
         self.pool.kinds, self.pool.present, self.pool.x, self.pool.z = pool.kinds, pool.present, pool.x, pool.z
         self.pool.ground, self.pool.stamp, self.pool.sown = pool.ground, pool.stamp, pool.sown
+        self.ahead = None
         self.receiving[0].letters.forget_all()
+
+    def planted_with(self) -> NDArray[np.int64]:
+        """Return what tells in which state each slot is, shape (slots, 4)."""
+        return np.concatenate([self.pool.stamp, self.pool.sown], axis=1)
 
     def stand_on(self, first: Ints, last: Ints, span: tuple[float, float], /) -> None:
         """Let the ground of these cells reach as low and as high: planting all blades again would take far longer."""

@@ -11,7 +11,7 @@ from ....components.arrays import Levels, Rows
 from ....engine.declared.quality import Quality
 from ...around.kept import Kept
 from ...around.outlook import Outlook
-from ...around.patches import PatchTable
+from ...around.patches import NOWHERE, PatchTable
 from ...grow.record import NOTHING, Growth
 from ...space.ground import Ground
 from ...space.grown import Grown
@@ -101,13 +101,30 @@ class BladeRepresentation(Representation):
             anew = sown[:, 0] != sown[:, 1]
             sow_blades(pool, shown.slots[anew], patches.model[shown.rows[anew]], self.stock, self.ground)
 
+    def carry_ahead(self, before: Representation, kept: Kept, patches: PatchTable, /) -> bool:
+        """Make the pool that `carry` is to hold, as that takes as long as a frame."""
+        assert isinstance(kept, BladesKept)
+        if kept.ahead is not None and kept.ahead[0] is self:
+            return True
+        kept.ahead = self, self._carried(before, kept, patches), kept.planted_with()
+        return False
+
     def carry(self, before: Representation, kept: Kept, patches: PatchTable, /) -> None:
         """Let blades stand where the others did; only what is new is planted."""
-        assert isinstance(before, BladeRepresentation)
         assert isinstance(kept, BladesKept)
+        if kept.ahead is None or kept.ahead[0] is not self:
+            kept.hold(self._carried(before, kept, patches))
+            return
+        _, pool, had = kept.ahead
+        pool.ground[:] = kept.pool.ground
+        pool.stamp[(kept.planted_with() != had).any(axis=1)] = NOWHERE
+        kept.hold(pool)
+
+    def _carried(self, before: Representation, kept: BladesKept, patches: PatchTable) -> BladePool:
+        assert isinstance(before, BladeRepresentation)
         pool = BladePool.allocate(kept.pool.side, self.stock.kinds)
         carry_blades(pool, self.stock, kept.pool, before.stock, patches, self.ground)
-        kept.hold(pool)
+        return pool
 
     def painter(self, canvas: Canvas, /) -> BladesPainter:
         """Return a painter of all rings."""
