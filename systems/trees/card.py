@@ -6,12 +6,12 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Doubles, Mask
+from ...components.arrays import Doubles
 from ...engine.gl.records import Records
 from ...engine.gl.stream import Stream, release_all
 from .bark import RUNS, SENT, sent
 from .model import Model
-from .standing import COLUMN, HUNG, SHOWN, TOLD
+from .standing import COLUMN, HUNG, LEAFY, SHOWN, TOLD
 from .twig import RANKS, ROW, TWIG
 from .wood import Parts, parts
 
@@ -36,6 +36,12 @@ WOODS = tuple(f"{WOOD}{number}" for number in range(len(RUNS) + 1))
 """The streams of those."""
 
 
+def drawn_of(twigs: int, share: float, /) -> int:
+    """Return how many of a tree's twigs are drawn where such a share of them is to be seen."""
+    dwindling = 0.5 / RANKS  # as `size_of` of twig.glsl has it
+    return min(int(twigs * (share + dwindling)) + 1, twigs)
+
+
 class ModelOnCard:
     """One tree that has grown, and the streams of those that are drawn as it is."""
 
@@ -54,15 +60,16 @@ class ModelOnCard:
         ends = np.cumsum([0, *(len(each.triangles) for each in model.wood)]).tolist()
         self.first_of = dict(zip(WOODS, ends, strict=False))
         """The first of those that each stream of wood draws."""
-        self.bare = Stream(ctx, SHOWN)
-        self._alone = np.zeros(1, SHOWN)
+        self.bare = Stream(ctx, LEAFY)
+        self._alone = np.zeros(1, LEAFY)
         self._alone["keep"] = FEWER
         self._alone["columns"] = self._alone["shows"] = self._alone["scale"] = self._alone["foliage"] = self._alone[
             "tint"
         ] = 1.0
         self._alone["turn"] = 1.0, 0.0
         self.bare.write(self._alone)
-        self.streams = {name: Stream(ctx, SHOWN) for name in (*WOODS, LEAVES, FAR, *CARDS)}
+        self.streams = {name: Stream(ctx, SHOWN) for name in (*WOODS, FAR, *CARDS)}
+        self.streams[LEAVES] = Stream(ctx, LEAFY)
         self.told = {id(each): Stream(ctx, TOLD) for each in self.streams.values()}
         """What is made out of the trees of each stream once a tree, by the stream's id."""
         self.hung = {name: Stream(ctx, HUNG) for name in CARDS}
@@ -83,8 +90,8 @@ class ModelOnCard:
         ]
         return self.vertices, " ".join(kept), *(name for name in names if name in program)
 
-    def write(self, near: NDArray[np.void], wide: Doubles, leafy: Mask, far: NDArray[np.void]) -> None:
-        """Send trees that are drawn near by, the nearest first, which of them leaf by leaf too, and those far off.
+    def write(self, near: NDArray[np.void], wide: Doubles, leafy: NDArray[np.void], far: NDArray[np.void]) -> None:
+        """Send trees that are drawn near by, the nearest first, twigs of them that are leaf by leaf, and those far off.
 
         `wide` is the radius of a stem of the model that is a pixel wide, where each is nearest and farthest off.
         """
@@ -95,7 +102,8 @@ class ModelOnCard:
             if len(rows):
                 self.wood[name] = parts(self.model.wood[number].radii, wide[run == number], rows)
         self.streams[FAR].write(far)
-        self._write(LEAVES, near[leafy])
+        self.streams[LEAVES].write(leafy)
+        self.most[LEAVES] = 1
         drawn = near["keep"] * (1.0 - near["gone"])
         group = np.minimum(((1.0 - drawn) * GROUPS).astype(np.intp), GROUPS - 1)
         for number in range(GROUPS):
@@ -104,14 +112,13 @@ class ModelOnCard:
     def _write(self, name: str, rows: NDArray[np.void]) -> None:
         self.streams[name].write(rows)
         share = float((rows["keep"] * (1.0 - rows["gone"]) * rows["foliage"]).max(initial=0.0))
-        dwindling = 0.5 / RANKS  # as `size_of` of twig.vert has it
-        self.most[name] = min(int(len(self.model.twigs) * (share + dwindling)) + 1, len(self.model.twigs))
+        self.most[name] = drawn_of(len(self.model.twigs), share)
 
     def rehearse(self) -> None:
         """Have a tree to draw in every way that there is."""
         for name, stream in self.streams.items():
             if not stream.count:
-                stream.write(self._alone)
+                stream.write(self._alone if stream.record == LEAFY else self._alone[[*SHOWN.names]].astype(SHOWN))
                 self.most[name] = 1
                 self.wood[name] = Parts(1, 0, 1)
 

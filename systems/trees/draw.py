@@ -17,13 +17,13 @@ from ..space.frustum import beyond
 from ..space.grown import Grown
 from ..wind.blow import mean_wind
 from ..wind.mean import MeanWind
-from .card import CARDS, CAST, FAR, LEAVES, NEAR, QUAD, WOOD, WOODS, ModelOnCard, Numbers
+from .card import CARDS, CAST, FAR, LEAVES, NEAR, QUAD, WOOD, WOODS, ModelOnCard, Numbers, drawn_of
 from .kind import KindOnCard
 from .model import Model
 from .motion import PERIOD
 from .programs import Programs
 from .shade import ShadeMap
-from .standing import WIDEST, Standing, columns_of, shown, shows
+from .standing import LEAFY, SHOWN, WIDEST, Standing, columns_of, shown, shows
 from .twig import LEAF_PIXELS
 from .wood import AWAY, OPAQUE, SWAYS, THINNEST
 
@@ -190,12 +190,19 @@ class TreePart(Part):
         near, far = told["gone"] < 1.0, told["gone"] > 0.0
         large = focal * scale * kind.habit.leaf.length / LEAF_PIXELS[0]
         leafy = large > off - scale * ball
-        for number in np.flatnonzero(leafy):
-            leafy[number] = _any_leafy(grown, told[number], outlook.viewer, large[number])
+        if self.every_leaf:
+            twigs = leaf_by_leaf(told, 0)
+        else:
+            twigs = np.concatenate([
+                np.zeros(0, LEAFY),
+                *(_leafy(grown, told[number], outlook.viewer, large[number]) for number in np.flatnonzero(leafy)),
+            ])  # fmt: skip
         reach = (1.0 + SWAYS) * ball * scale * np.linalg.norm(clip[3, :3])
         ahead = (middle @ clip[3, :3] + clip[3, 3])[:, None] + reach[:, None] * (-1.0, 1.0)
         wide = THINNEST * np.maximum(ahead, AWAY) / (focal * scale[:, None])
-        model.write(told[near], wide[near], (leafy | self.every_leaf)[near], told[far][::-1])
+        model.write(told[near], wide[near], twigs, told[far][::-1])
+        if self.every_leaf:
+            model.most[LEAVES] = len(grown.twigs)
 
     def breathe(self, air: Heard, /) -> int:
         """Make out of each tree what is the same all over it; return the number of draw calls."""
@@ -290,14 +297,24 @@ class TreePart(Part):
             self._shade.release()
 
 
-def _any_leafy(model: Model, told: np.void, viewer: Viewer, within: float) -> bool:
-    """Return whether any twig of a tree, a record of `SHOWN`, is so near [m], and in the picture."""
+def _leafy(model: Model, told: np.void, viewer: Viewer, within: float) -> NDArray[np.void]:
+    """Return the twigs of a tree, a record of `SHOWN`, that are so near [m], and in the picture, records of `LEAFY`."""
     (cosine, sine), scale = told["turn"].tolist(), float(told["scale"])
     x, y, z = model.twigs["foot"].astype(np.float64).T
     foot = scale * np.stack([cosine * x - sine * z, y, sine * x + cosine * z], axis=1) + told["root"]
-    near = np.linalg.norm(foot - viewer.eye, axis=1) < within
+    near = np.flatnonzero(np.linalg.norm(foot - viewer.eye, axis=1) < within)
+    near = near[near < drawn_of(len(model.twigs), float(told["keep"] * (1.0 - told["gone"]) * told["foliage"]))]
     reach = scale * (2.0 * model.habit.twigs.length + SWAYS * model.height)
-    return bool(near.any()) and bool((beyond(foot[near], viewer.sides) <= reach).any())
+    return leaf_by_leaf(told, near[beyond(foot[near], viewer.sides) <= reach])
+
+
+def leaf_by_leaf(trees: NDArray[np.void] | np.void, twigs: NDArray[np.intp] | int) -> NDArray[np.void]:
+    """Return twigs of trees, by their numbers, as records of `LEAFY`."""
+    rows = np.zeros(np.broadcast_shapes(np.shape(trees), np.shape(twigs)), LEAFY)
+    for name in SHOWN.names or ():
+        rows[name] = trees[name]
+    rows["first"] = twigs
+    return rows
 
 
 def _wood(model: ModelOnCard, name: str, *, soft: bool, whole: bool) -> tuple[int, int]:

@@ -41,6 +41,9 @@ SHOWN = np.dtype(
 )  # fmt: skip
 """What shaders are told of a tree, as `tree.glsl` has it."""
 
+LEAFY = np.dtype([*SHOWN.descr, ("first", "f4")])
+"""Of a twig that is drawn leaf by leaf, that of its tree, and the twig's number."""
+
 TOLD = np.dtype([("message", "2f4"), ("past", "f4"), ("misty", "4f4")])
 """What they make out of it once a tree: `stand.vert` writes it."""
 

@@ -4,6 +4,9 @@
 
 uniform int leaf_count;  // leaves of a twig
 uniform int shoots;      // of a twig: itself, and those on its sides
+#ifdef LEAVES
+in float first;          // the twig that is drawn, or the first of those
+#endif
 
 out vec2 on;
 out vec3 facing;
@@ -139,6 +142,9 @@ void main() {
     each = leaf_count + shoots;
 #endif
     int twig = number / each;
+#ifdef LEAVES
+    twig += int(first + 0.5);
+#endif
     Twig one = twig_of(twig);
     vec4 chance = random(twig, 0, 3);
     float size = size_of((float(twig) + 0.5) / float(twigs));
