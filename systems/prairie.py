@@ -344,6 +344,8 @@ class Prairie(Tending):
         self._released = True
         self._ripening.release()
         self._streaming.release()
+        for feature in self.features:
+            feature.release()
         self._assembly.screen.release()
         self.world.release()
         self.systems.clear()

@@ -114,6 +114,9 @@ class Feature:
     def look(self, outlook: Outlook, /) -> None:
         """Note what other systems are to know of it in this frame."""
 
+    def release(self) -> None:
+        """Leave nothing behind where the prairie is released."""
+
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> Part:
         """Return what a GL context holds of it."""
         del ctx, block, units

@@ -118,7 +118,7 @@ class ModelOnCard:
         """Have a tree to draw in every way that there is."""
         for name, stream in self.streams.items():
             if not stream.count:
-                stream.write(self._alone if stream.record == LEAFY else self._alone[[*SHOWN.names]].astype(SHOWN))
+                stream.write(self._alone if name == LEAVES else self._alone[[*(SHOWN.names or ())]].astype(SHOWN))
                 self.most[name] = 1
                 self.wood[name] = Parts(1, 0, 1)
 

@@ -18,12 +18,13 @@ from ..space.grown import Grown
 from ..wind.blow import mean_wind
 from ..wind.mean import MeanWind
 from .card import CARDS, CAST, FAR, LEAVES, NEAR, QUAD, WOOD, WOODS, ModelOnCard, Numbers, drawn_of
+from .group import Group
 from .kind import KindOnCard
 from .model import Model
 from .motion import PERIOD
 from .programs import Programs
 from .shade import ShadeMap
-from .standing import LEAFY, SHOWN, WIDEST, Standing, columns_of, shown, shows
+from .standing import LEAFY, SHOWN, Standing, columns_of, shown, shows
 from .twig import LEAF_PIXELS
 from .wood import AWAY, OPAQUE, SWAYS, THINNEST
 
@@ -58,6 +59,9 @@ class TreePart(Part):
         self._numbers: Numbers = {}
         self._chosen = self._rehearses = False
         self._chosen_by: object = None
+        self._groups: dict[tuple[int, int], Group] = {}
+        self._grouped: Standing | None = None
+        """The trees of each model by its kind's number and its own, and of which frame they are."""
         self._air: Heard | None = None
         self._wind: MeanWind | None = None
         self.every_leaf = False
@@ -87,7 +91,7 @@ class TreePart(Part):
         self._rehearses = True
 
     def _forget(self) -> None:
-        self._chosen_by = None
+        self._chosen_by = self._grouped = None
         if self._programs is not None:
             self._programs.release()
             self._programs = None
@@ -156,30 +160,31 @@ class TreePart(Part):
         focal = float(record["half_screen"][1] * np.linalg.norm(clip[1, :3]))
         for kind_number, kind in enumerate(self._kinds):
             for model_number, model in enumerate(kind.models):
-                own = standing.of(kind_number, model_number)
-                if len(own) or any(stream.count for stream in model.streams.values()):
-                    self._choose_of(kind, model, own, clip, focal, outlook)
+                if self._grouped is not standing:
+                    self._groups, self._grouped = {}, standing
+                number = kind_number, model_number
+                if number not in self._groups:
+                    self._groups[number] = Group(standing.of(*number), model.model)
+                group = self._groups[number]
+                if len(group.rows) or any(stream.count for stream in model.streams.values()):
+                    self._choose_of(kind, model, group, clip, focal, outlook)
 
     def _choose_of(
         self,
         kind: KindOnCard,
         model: ModelOnCard,
-        rows: NDArray[np.void],
+        group: Group,
         clip: Doubles,
         focal: float,
         outlook: Outlook,
     ) -> None:
         grown, eye = model.model, np.array(outlook.viewer.eye)
         ball = np.hypot(grown.half, grown.radius)
-        scale = rows["height"].astype(np.float64) / grown.height
-        middle = rows["root"].astype(np.float64)
-        middle[:, 1] += scale * grown.middle
-        reach = np.where(rows["ring"] > 1, WIDEST, 0.0) + (1.0 + SWAYS) * ball * scale
-        seen = beyond(middle, outlook.viewer.sides) <= reach
-        rows, scale, middle = rows[seen], scale[seen], middle[seen]
-        off = np.linalg.norm(middle - eye, axis=1)
+        seen = group.seen(outlook.viewer.sides)
+        off = np.linalg.norm(group.middle[seen] - eye, axis=1)
         order = np.argsort(off)
-        rows, scale, middle, off = rows[order], scale[order], middle[order], off[order]
+        seen, off = seen[order], off[order]
+        rows, scale, middle = group.rows[seen], group.scale[seen], group.middle[seen]
         pixels = focal * rows["height"] / np.maximum(off, NEAREST)
         if self.every_leaf:
             pixels = np.full(len(rows), ANY_HEIGHT)
@@ -191,7 +196,7 @@ class TreePart(Part):
         large = focal * scale * kind.habit.leaf.length / LEAF_PIXELS[0]
         leafy = large > off - scale * ball
         if self.every_leaf:
-            twigs = leaf_by_leaf(told, 0)
+            twigs = leaf_by_leaf(told[near], 0)
         else:
             twigs = np.concatenate([
                 np.zeros(0, LEAFY),

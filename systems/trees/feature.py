@@ -39,8 +39,8 @@ class Trees(Feature):
 
     own = ("tree_twigs", "tree_cards", "tree_far", "tree_air", "tree_mean")
 
-    def __init__(self, world: World, grown: Grown) -> None:
-        self._world, self._grown = world, grown
+    def __init__(self, world: World, grown: Grown, *, live: bool) -> None:
+        self._world, self._grown, self._live = world, grown, live
         self._seedlings: list[Seedling] = []
         """The scene's own trees, as they are planted."""
         self.entities: list[int] = []
@@ -59,7 +59,7 @@ class Trees(Feature):
     @classmethod
     def begin(cls, start: Start, /) -> Self:
         """Return those of a prairie's world, with its scene's planted."""
-        return cls(start.world, start.grown)
+        return cls(start.world, start.grown, live=start.live)
 
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
         """Go on with a scene read again: where its trees, its ground or its seed are others, all are planted anew."""
@@ -70,6 +70,7 @@ class Trees(Feature):
                 self._world.delete(entity)
             if self.wild is not None:
                 self.wild.clear()
+                self.wild.release()
             self._plant()
 
     def _plant(self) -> None:
@@ -84,7 +85,7 @@ class Trees(Feature):
             self._seedlings += _seedlings(name, kind, place, seed=scene.seed + len(fixed) - 1)
         forest = Forest(self._grown, fixed)
         if forest.is_large:
-            self.wild = Wild(self._world, forest, list(scene.trees))
+            self.wild = Wild(self._world, forest, list(scene.trees), live=self._live)
         else:
             self._seedlings += seedlings(forest.all(), list(scene.trees))
         self.entities = [self._world.create(*each) for each in self._seedlings]
@@ -149,6 +150,11 @@ class Trees(Feature):
             self._world.delete(self.entities[number])
         for number in sorted(gone - wanted):
             self.entities[number] = self._world.create(*self._seedlings[number])
+
+    def release(self) -> None:
+        """Let nothing grow any more."""
+        if self.wild is not None:
+            self.wild.release()
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> TreePart:
         """Return what draws them."""

@@ -89,19 +89,23 @@ class Forest:
         left_out = {(0, *square) for square in but}
         wanted = [each for level in range(LEVELS) for each in self._ring(eye, level) if each not in left_out]
         self._grow(wanted)
-        self._forget(wanted)
+        self._forget([*wanted, *left_out])
         self._follow_ground()
         gone = self.gone
-        return np.concatenate([
-            np.zeros(0, STANDING),
-            *(self._known[each] for each in wanted if each[0] or each[1:] not in gone),
-            *(np.delete(self._known[each], [*gone[each[1:]]]) for each in wanted if not each[0] and each[1:] in gone),
-        ])  # fmt: skip
+        parts = [self._known[each] for each in wanted if each[0] or each[1:] not in gone]
+        parts += [
+            np.delete(self._known[each], [*gone[each[1:]]]) for each in wanted if not each[0] and each[1:] in gone
+        ]
+        return np.frombuffer(bytearray().join(part.tobytes() for part in parts), STANDING)  # much quicker than numpy's
 
     @property
     def version(self) -> int:
         """How often the ground has changed that it stands on."""
         return self._grown.ground.terrain.changes.count
+
+    def grow_about(self, eye: tuple[float, float, float], /) -> None:
+        """Have all grown that `around` returns of an eye (x, y, z) [m], on any thread."""
+        self._grow([each for level in range(LEVELS) for each in self._ring(eye, level)])
 
     def _ring(self, eye: tuple[float, float, float], level: int) -> list[tuple[int, int, int]]:
         """Return the squares of a level that are shown about an eye, which is anywhere on its own."""
@@ -122,10 +126,9 @@ class Forest:
         return [(level, *square) for square in squares[within.all(axis=1)].tolist()]
 
     def _grow(self, wanted: list[tuple[int, int, int]]) -> None:
-        for level in range(LEVELS):
-            missing = np.array([each[1:] for each in wanted if each[0] == level and each not in self._known])
-            if not len(missing):
-                continue
+        unknown = [each for each in wanted if each not in self._known]
+        for level in sorted({each[0] for each in unknown}):
+            missing = np.array([each[1:] for each in unknown if each[0] == level])
             low = missing.min(axis=0)
             mask = np.zeros(missing.max(axis=0) - low + 1, np.bool_)
             mask[tuple((missing - low).T)] = True

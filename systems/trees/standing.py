@@ -50,7 +50,7 @@ TOLD = np.dtype([("message", "2f4"), ("past", "f4"), ("misty", "4f4")])
 HUNG = np.dtype([("hung_at", "4f4"), ("hung_axes", "4u4"), ("hung_light", "4u4"), ("hung_haze", "2u4")])
 """And once a twig on its card: `hang.vert` writes it."""
 
-WHOLE, FEWER_BY = 600.0, 1.4
+WHOLE, FEWER_BY = 750.0, 1.4
 """Height from which on all twigs of a tree are drawn [pixels], and the power of lower ones' height by which fewer are.
 
 Those that are left are larger, so that they hide as much (Cook and others, Stochastic Simplification of Aggregate

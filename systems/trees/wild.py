@@ -1,6 +1,7 @@
 """A forest too large for all of its trees to be entities: those near viewers are, and come and go with them."""
 
 from collections.abc import Iterable
+from concurrent.futures import Future, ThreadPoolExecutor
 
 import numpy as np
 
@@ -25,10 +26,16 @@ Felled = tuple[int, int, int]
 
 
 class Wild:
-    """The entities of a large forest, and what is shown of it about each viewer; `names` are those of its kinds."""
+    """The entities of a large forest, and what is shown of it about each viewer; `names` are those of its kinds.
 
-    def __init__(self, world: World, forest: Forest, names: list[str]) -> None:
+    While somebody watches `live`, what a viewer comes to see far off grows on another thread.
+    """
+
+    def __init__(self, world: World, forest: Forest, names: list[str], *, live: bool) -> None:
         self._world, self._forest, self._names = world, forest, names
+        self._live = live
+        self._hands: ThreadPoolExecutor | None = None
+        self._asked: dict[str, Future[None]] = {}
         self._eyes: dict[str, tuple[int, int]] = {}
         """The square that each viewer is on."""
         self._own: dict[Square, list[tuple[int, Seedling]]] = {}
@@ -36,7 +43,7 @@ class Wild:
         self._changed: dict[int, Felled] = {}
         """Trees that a game has made others, and has of its own now, by their entities."""
         self._people = 0
-        self._shown: dict[str, tuple[object, Standing]] = {}
+        self._shown: dict[str, tuple[tuple[object, ...], Standing]] = {}
 
     @property
     def entities(self) -> set[int]:
@@ -99,11 +106,24 @@ class Wild:
         """Return the trees that a viewer is shown: `rows` are all that are entities."""
         made_of = id(rows), self._eyes.get(viewer), tuple(self._own), self._forest.version
         known = self._shown.get(viewer)
+        if known is not None and known[0][1] != made_of[1] and self._live and self._waits(viewer, eye):
+            return known[1]
         if known is None or known[0] != made_of:
             self._shown = {name: each for name, each in self._shown.items() if name in self._eyes}
             known = made_of, Standing(np.concatenate([rows, self._forest.around(eye, self._own)]))
             self._shown[viewer] = known
         return known[1]
+
+    def _waits(self, viewer: str, eye: Eye) -> bool:
+        """Return whether what a viewer comes to see is still growing; it begins to, where it was not asked for."""
+        if self._hands is None:
+            self._hands = ThreadPoolExecutor(1, thread_name_prefix="tallgrass")
+        if viewer not in self._asked:
+            self._asked[viewer] = self._hands.submit(self._forest.grow_about, eye)
+        if not self._asked[viewer].done():
+            return True
+        self._asked.pop(viewer).result()
+        return False
 
     def felled(self) -> list[Felled]:
         """Return which trees are gone, or have become others."""
@@ -128,6 +148,11 @@ class Wild:
             self._leave(square)
         self._eyes.clear()
         self._shown.clear()
+
+    def release(self) -> None:
+        """Let nothing grow any more."""
+        if self._hands is not None:
+            self._hands.shutdown(wait=False, cancel_futures=True)
 
 
 def seedlings(rows: Rows, names: list[str], /) -> list[Seedling]:
