@@ -14,8 +14,11 @@ from .shaders import Texts
 
 def makes_beside(ctx: moderngl.Context, /) -> bool:
     """Return whether the driver makes programs in threads of its own; without a card these would hold the frames up."""
-    return limits_of(functions_of(ctx)).beside and not draws_in_software(ctx)
+    return bool(limits_of(functions_of(ctx)).beside) and not draws_in_software(ctx)
 
+
+AS_MANY = -1
+"""Threads that a driver may take, of its own choice. NVIDIA's takes none before it is told; others take some anyway."""
 
 WAITS = 0.002
 """Time between two looks at whether a program is made [s]."""
@@ -24,20 +27,22 @@ WAITS = 0.002
 class Beside:
     """Lets a driver make programs that will be wanted, while frames go on.
 
-    What it makes is thrown away: drivers keep the outcome by its texts, so that to make the same program soon after, or
-    in another process, takes a moment. Where a driver keeps nothing, no harm is done.
+    What it makes is thrown away: drivers keep the outcome by its texts, to the letter, so that to make the same program
+    soon after, or in another process, takes a moment. Where a driver keeps nothing, no harm is done.
     """
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self._gl = functions_of(ctx)
         self._underway: list[int] = []
+        getattr(self._gl, f"glMaxShaderCompilerThreads{limits_of(self._gl).beside}")(AS_MANY)
 
     def ask(self, texts: Texts, /) -> None:
         """Let it make one more; whether that can be made is not looked at here."""
         gl, made = self._gl, self._gl.glCreateProgram()
         for stage, text in (("VERTEX_SHADER", texts.vertex), ("FRAGMENT_SHADER", texts.fragment)):
             if text is not None:
-                shader, given = gl.glCreateShader(NUMBERS[stage]), (c_char_p * 1)(text.encode())
+                shader = gl.glCreateShader(NUMBERS[stage])
+                given = (c_char_p * 1)(text.strip().encode())  # as moderngl gives it
                 gl.glShaderSource(shader, 1, addressof(given), None)
                 gl.glCompileShader(shader)
                 gl.glAttachShader(made, shader)

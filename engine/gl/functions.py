@@ -82,7 +82,7 @@ DOES = {
     "glFlush": (), "glShaderSource": (c_int, c_int, c_void_p, c_void_p), "glCompileShader": (c_int,),
     "glAttachShader": (c_int,) * 2, "glLinkProgram": (c_int,), "glGetProgramiv": (c_int, c_int, c_void_p),
     "glTransformFeedbackVaryings": (c_int, c_int, c_void_p, c_int), "glDeleteShader": (c_int,),
-    "glDeleteProgram": (c_int,),
+    "glDeleteProgram": (c_int,), "glMaxShaderCompilerThreadsKHR": (c_int,), "glMaxShaderCompilerThreadsARB": (c_int,),
 }  # fmt: skip
 """All others: what a state is read and brought back with, and what moderngl has no word for."""
 

@@ -32,8 +32,8 @@ class Limits:
     clipped: bool
     """Whether the host may have turned clip space over, or its depth from 0 to 1 (`glClipControl`)."""
 
-    beside: bool
-    """Whether the driver makes programs in threads of its own (`GL_KHR_parallel_shader_compile`)."""
+    beside: str
+    """Whose `GL_..._parallel_shader_compile` the driver has, to make programs in threads of its own; "" for nobody's."""
 
     viewports: int
     """Viewports and scissors by index, 1 where there are none."""
@@ -63,7 +63,7 @@ def limits_of(gl: Functions) -> Limits:
         side=_number(gl, "MAX_TEXTURE_SIZE"),
         timed=bits[0] > 0,
         clipped=version >= (4, 5) or "GL_ARB_clip_control" in extensions,
-        beside=any(f"GL_{by}_parallel_shader_compile" in extensions for by in ("KHR", "ARB")),
+        beside=next((by for by in ("KHR", "ARB") if f"GL_{by}_parallel_shader_compile" in extensions), ""),
         viewports=_number(gl, "MAX_VIEWPORTS") if several else 1,
     )
 

@@ -150,7 +150,7 @@ def test_far_off_it_looks_as_it_does_near_by(
     near, far = seen
     assert changed(near, far) > 0.01  # it is another representation
     covers = [np.abs(each - bare).max(axis=-1) > 12.0 for each in (near, far)]
-    assert covers[1].mean() == pytest.approx(covers[0].mean(), rel=0.25)
+    assert covers[1].mean() == pytest.approx(covers[0].mean(), rel=0.3)
     both = covers[0] & covers[1]
     light = [each[both].mean() for each in (near, far)]
     assert light[1] == pytest.approx(light[0], rel=0.2)

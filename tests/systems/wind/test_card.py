@@ -242,7 +242,7 @@ def test_d5_a_record_whose_names_have_other_sizes_later_is_told_of_and_numpy_is_
     ("text", "values", "why"),
     [
         (DRAUGHT.replace("0.6", "oops"), (5.0,), "oops"),
-        (DRAUGHT.replace("vec2 action", "vec2 deed"), (5.0,), "no function with name 'action_"),
+        (DRAUGHT.replace("vec2 action", "vec2 deed"), (5.0,), "action_"),
         (DRAUGHT, (), "0 numbers where 1 are read"),
         (DRAUGHT, (5.0,) * 65, "65 numbers where 64 is the most"),
         (DRAUGHT, (float("nan"),), "numbers that are not finite"),
