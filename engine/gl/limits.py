@@ -33,7 +33,7 @@ class Limits:
     """Whether the host may have turned clip space over, or its depth from 0 to 1 (`glClipControl`)."""
 
     beside: str
-    """Whose `GL_..._parallel_shader_compile` the driver has, to make programs in threads of its own; "" for nobody's."""
+    """Whose `GL_..._parallel_shader_compile` it has, to make programs in threads of its own; "" for nobody's."""
 
     viewports: int
     """Viewports and scissors by index, 1 where there are none."""
