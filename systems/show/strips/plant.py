@@ -56,23 +56,35 @@ def growing_on(cell: Ints, ground: Ground, margin: float, /) -> Growing:
     line = _spread(ground, margin)
     x, z = (cell.T[:, :, None] * np.float32(ground.patch) + line).astype(np.float32)
     dense = density_on_lines(ground.density, x, z)
-    edged = _steps(dense, float(line[1] - line[0]), ground.patch)
+    least, most = _ends(dense)
+    edged = _steps(dense, (most - least).max(axis=1), float(line[1] - line[0]), ground.patch)
     left = left_on_lines(ground.density, x, z)
-    if left is not None:
-        dense = dense * left  # trees make no edges
-    all_over = dense.reshape(*dense.shape[:2], -1)
-    least, most = all_over.min(axis=2).T, all_over.max(axis=2).T
+    if left is not None:  # trees make no edges
+        least, most = _ends(dense * left)
     grows = most > PRESENT
     return Growing(grows, np.where(grows, least, np.float32(1.0)).min(axis=1), edged)
 
 
-def _steps(dense: Floats, spacing: float, patch: float) -> Mask:
-    """Return on which patches the density (kinds, m, n, n) of any kind, so far apart [m], has an edge, shape (m,)."""
+def _ends(dense: Floats) -> tuple[Floats, Floats]:
+    """Return the least and the greatest density (kinds, m, n, n) of each kind on each patch, (m, kinds) each."""
+    all_over = dense.reshape(*dense.shape[:2], -1)
+    return all_over.min(axis=2).T, all_over.max(axis=2).T
+
+
+def _steps(dense: Floats, within: Floats, spacing: float, patch: float) -> Mask:
+    """Return on which patches the density (kinds, m, n, n) of any kind, so far apart [m], has an edge, shape (m,).
+
+    Told is how much that of any changes `within` each, (m,).
+    """
     apart = min(max(int(patch * WITHIN / spacing), 1), dense.shape[-1] - 1)
     step = STEP_OF_DENSITY * max(spacing / (patch * WITHIN), 1.0)
-    both = dense[:, :, apart:] - dense[:, :, :-apart], dense[..., apart:] - dense[..., :-apart]
-    down, across = (np.abs(each, out=each).reshape(*each.shape[:2], -1).max(axis=2) for each in both)
-    return np.asarray(np.maximum(down, across).max(axis=0) > step)
+    found, some = np.zeros(len(within), np.bool_), np.flatnonzero(within > step)
+    if len(some):
+        dense = dense[:, some]
+        both = dense[:, :, apart:] - dense[:, :, :-apart], dense[..., apart:] - dense[..., :-apart]
+        down, across = (np.abs(each, out=each).reshape(*each.shape[:2], -1).max(axis=2) for each in both)
+        found[some] = np.maximum(down, across).max(axis=0) > step
+    return found
 
 
 def _spread(ground: Ground, margin: float) -> Floats:
