@@ -38,7 +38,7 @@ SHADE_OF_HEIGHT = 0.35
 SKY_MEETS = 0.75
 """How many leaves the sky's light meets, which comes from all sides, of those straight above."""
 
-GLSL = {"LEAST_SHADE": LEAST_SHADE, "SKY_MEETS": SKY_MEETS}
+GLSL = {"LEAST_SHADE": LEAST_SHADE}
 
 
 def shade_of(area: float, radius: float, height: float, /) -> tuple[float, float]:

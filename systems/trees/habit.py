@@ -127,7 +127,7 @@ HABITS: Mapping[HabitName, Habit] = {
         limbs=Shoots(40.0, 0.29, (1.5, 0.75), 0.045, 0.09),
         branches=Shoots(4.6, 0.42, (0.95, 0.8), 0.07, 0.08),
         twigs=Shoots(7.0, 0.42, (0.75, 0.5), 0.12, 0.05),
-        leaf=Leaf(NEEDLES, 0.085, 0.085, 48, 4, 0.75, 0.24), bark="#8a5b41", rough=0.7,
+        leaf=Leaf(NEEDLES, 0.085, 0.085, 48, 4, 0.75, 0.24), bark="#7b6151", rough=0.7,
         leaves=("#283f2a", "#55703f"), height=(12.0, 18.0),
     ),
     "poplar": Habit(

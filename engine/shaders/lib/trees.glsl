@@ -8,7 +8,7 @@
 #include "systems/trees/shade.py"
 
 // Side by side, near by and far off: how many leaves a ray meets, and that times how far on it is towards the sun [m]. Seen from
-// above: how many leaves the sky's light meets from there, and how many in the mean over all the sky that grass sees.
+// above: how many leaves the sky's light meets, in the mean over all the sky that grass sees.
 uniform sampler2D tree_shade;
 
 const vec2 TILE_SPAN = vec2(0.001, 0.999);  // part of a map that is read, across: beside it, taps would reach another map
@@ -46,20 +46,20 @@ float past_trees(vec3 place, float beyond) {
     return comes_through(leaves_before(place, beyond));
 }
 
-// How many leaves are met above a place, straight above and over all the sky that is seen from it.
-vec2 leaves_above(vec2 place) {
+// How many leaves are met above a place of the ground, over all the sky that is seen from it.
+float trees_above(vec2 place) {
     vec2 at = (place - trees_sky.xy) / trees_sky.z;
     float out_by = max(abs(at.x), abs(at.y));
-    return out_by < MAP_RIM ? shade_in(0.5 + at, 2.0, SKY_LEVEL) * (1.0 - smoothstep(MAP_RIM - RIM_FADES, MAP_RIM, out_by)) : vec2(0.0);
+    return out_by < MAP_RIM ? shade_in(0.5 + at, 2.0, SKY_LEVEL).y * (1.0 - smoothstep(MAP_RIM - RIM_FADES, MAP_RIM, out_by)) : 0.0;
 }
 
 // How much of the sky is left above a place.
 float sky_past_trees(vec3 place) {
-    return comes_through(SKY_MEETS * leaves_above(place.xz).x);
+    return comes_through(trees_above(place.xz));
 }
 
 // How much grass grows there, of that in the open.
 float grass_below_trees(vec2 place) {
-    return mix(1.0, comes_through(leaves_above(place).y), 1.0 - SHADE_KEEPS);
+    return mix(1.0, comes_through(trees_above(place)), 1.0 - SHADE_KEEPS);
 }
 #endif
