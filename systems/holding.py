@@ -1,6 +1,6 @@
 """What one GL context holds of a site, and how it comes to another site piece by piece."""
 
-from collections.abc import Generator, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from itertools import chain
 from typing import TypeVar
@@ -8,7 +8,7 @@ from typing import TypeVar
 import moderngl
 
 from ..components.wind import WindPrimitive
-from ..engine.gl.beside import makes_beside, making_beside, waiting_for
+from ..engine.gl.beside import Beside, makes_beside
 from ..engine.gl.stream import release_all
 from .features import UNITS
 from .frame.block import FrameBlock
@@ -49,7 +49,8 @@ class Holding:
         self.air: CardWinds
         self.site: Site | None = None
         self._staged: Staged | None = None
-        self._later: Generator[None] = _nothing()
+        self._beside = Beside(ctx)
+        self._later: Iterator[None] = iter(())
         """Makes programs that no frame has drawn with yet, a piece a frame."""
         self._special: dict[str, str | int] = {}
         """What shaders are told of what is special about any kind of grass."""
@@ -82,7 +83,7 @@ class Holding:
         """Make room and programs for whatever winds will blow."""
         assert self._winds is not None
         painters = self.painters if painters is None else painters
-        yield from waiting_for(self.ctx, chain.from_iterable(painter.texts() for painter in painters.values()))
+        yield from self._beside.waiting(chain.from_iterable(painter.texts() for painter in painters.values()))
         (air or self.air).make_ready([*site.scene.wind, *self._winds], receivers=READY_ROWS * ROW)
         for painter in painters.values():
             yield from painter.making()
@@ -145,7 +146,7 @@ class Holding:
             else:
                 staged.air = air = CardWinds(self.ctx, UNITS, site.growths)
                 ready = None if self._winds is None else partial(self._making_ready, site, air, staged.painters)
-                staged.steps = staged.making(self._canvas(site, air), site.scene.wind, ready)
+                staged.steps = staged.making(self._canvas(site, air), self._beside, site.scene.wind, ready)
         return next(self._staged.steps, "over") == "over"
 
     def _staging(self, site: Site) -> Iterator[None]:
@@ -161,13 +162,13 @@ class Holding:
                 painter.restock()
             self.air.regrow(site.growths)
             return
-        self._later.close()
+        self._give_up()
         release_all(*self.painters.values(), self.air)
         self.block.defines, self.painters, self.air = staged.defines, staged.painters, staged.air
 
     def _growing(self, site: Site, defines: dict[str, str | int]) -> Iterator[None]:
         """Bring the grass into GL, a representation at a time."""
-        self._later.close()
+        self._give_up()
         if self.painters:
             release_all(*self.painters.values(), self.air)
         self.block.defines = defines
@@ -183,11 +184,16 @@ class Holding:
         if is_ahead and is_beside:
             self._later = self._making_later()
 
-    def _making_later(self) -> Generator[None]:
+    def _give_up(self) -> None:
+        """Make no more of what no frame has drawn with."""
+        self._beside.release()
+        self._later = iter(())
+
+    def _making_later(self) -> Iterator[None]:
         """Have the driver make what no frame has drawn with yet, and then make it, which takes a moment by then."""
         painters = list(self.painters.values())
         yield  # what the first frame draws with is made for it
-        yield from making_beside(self.ctx, chain.from_iterable(painter.texts() for painter in painters))
+        yield from self._beside.making(chain.from_iterable(painter.texts() for painter in painters))
         for painter in painters:
             yield from painter.making()
 
@@ -199,10 +205,6 @@ class Holding:
 
     def release(self) -> None:
         """Give everything back to the context."""
-        self._later.close()
+        self._give_up()
         release_all(*self.painters.values(), *self.parts, self.air, self.received, self.block)
         release_all(*([] if self._staged is None else [self._staged]))
-
-
-def _nothing() -> Generator[None]:
-    yield from ()

@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 from ..components.wind import WindPrimitive
-from ..engine.gl.beside import making_beside
+from ..engine.gl.beside import Beside
 from ..engine.gl.stream import release_all
 from .frame.block import FrameBlock
 from .show.representation import Canvas, Representation, RepresentationPainter
@@ -30,9 +30,14 @@ class Staged:
     painters: dict[str, RepresentationPainter] = field(default_factory=dict)
 
     def making(
-        self, canvas: Canvas, winds: Sequence[WindPrimitive], ready: Callable[[], Iterator[None]] | None, /
+        self,
+        canvas: Canvas,
+        beside: Beside,
+        winds: Sequence[WindPrimitive],
+        ready: Callable[[], Iterator[None]] | None,
+        /,
     ) -> Iterator[None]:
-        """Make painters of its own, as it needs other programs: one of these at a time.
+        """Make painters of its own, as it needs other programs: one of these at a time, after the driver has beside.
 
         Then do what `ready` returns, if a game has prepared.
         """
@@ -41,7 +46,7 @@ class Staged:
             with _told(block, self.defines):
                 self.painters[each.name] = painter = each.painter(canvas)
             yield
-            yield from _telling(block, self.defines, making_beside(canvas.ctx, painter.texts()))
+            yield from _telling(block, self.defines, beside.making(painter.texts()))
             yield from _telling(block, self.defines, painter.making())
         with _told(block, self.defines):
             canvas.air.meet(winds)

@@ -32,13 +32,35 @@ class Beside:
     """
 
     def __init__(self, ctx: moderngl.Context) -> None:
-        self._gl = functions_of(ctx)
+        self._ctx, self._gl = ctx, functions_of(ctx)
         self._underway: list[int] = []
-        getattr(self._gl, f"glMaxShaderCompilerThreads{limits_of(self._gl).beside}")(AS_MANY)
+
+    def making(self, texts: Iterable[Texts], /) -> Iterator[None]:
+        """Let it make programs, one more at a time, and go on until it has; without such a driver it ends at once."""
+        if not makes_beside(self._ctx):
+            return
+        for each in texts:
+            self.ask(each)
+            yield
+        while self.left:
+            yield
+
+    def waiting(self, texts: Iterable[Texts], /) -> Iterator[None]:
+        """Let it make programs, all at once, and wait for one after the other; else it ends at once."""
+        if not makes_beside(self._ctx):
+            return
+        for each in texts:
+            self.ask(each)
+        for number in reversed(range(self.left)):
+            while self.left > number:
+                sleep(WAITS)
+            yield
 
     def ask(self, texts: Texts, /) -> None:
         """Let it make one more; whether that can be made is not looked at here."""
-        gl, made = self._gl, self._gl.glCreateProgram()
+        gl = self._gl
+        getattr(gl, f"glMaxShaderCompilerThreads{limits_of(gl).beside}")(AS_MANY)
+        made = gl.glCreateProgram()
         for stage, text in (("VERTEX_SHADER", texts.vertex), ("FRAGMENT_SHADER", texts.fragment)):
             if text is not None:
                 shader = gl.glCreateShader(NUMBERS[stage])
@@ -71,34 +93,3 @@ class Beside:
         found = (c_int * 1)()
         self._gl.glGetProgramiv(number, NUMBERS["COMPLETION_STATUS"], addressof(found))
         return bool(found[0])
-
-
-def making_beside(ctx: moderngl.Context, texts: Iterable[Texts], /) -> Iterator[None]:
-    """Let the driver make programs, one more at a time, and go on until it has; else it ends at once."""
-    if not makes_beside(ctx):
-        return
-    beside = Beside(ctx)
-    try:
-        for each in texts:
-            beside.ask(each)
-            yield
-        while beside.left:
-            yield
-    finally:
-        beside.release()
-
-
-def waiting_for(ctx: moderngl.Context, texts: Iterable[Texts], /) -> Iterator[None]:
-    """Let the driver make programs, all at once, and wait for one after the other; else it ends at once."""
-    if not makes_beside(ctx):
-        return
-    beside = Beside(ctx)
-    try:
-        for each in texts:
-            beside.ask(each)
-        for number in reversed(range(beside.left)):
-            while beside.left > number:
-                sleep(WAITS)
-            yield
-    finally:
-        beside.release()
