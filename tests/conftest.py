@@ -10,9 +10,10 @@ import sys
 from collections import OrderedDict
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
+from copy import copy
 from functools import lru_cache
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import moderngl
 import numpy as np
@@ -50,6 +51,9 @@ OnCard = list[tuple[Receiving, NDArray[np.float32]]]
 
 REMEMBERED, KEPT = 24, 120
 """Growths that are held in memory, of a few megabytes each, and in the cache."""
+
+PROGRAMS = 40
+"""How many that were released are kept for the next prairie: a software rasteriser's take 5 MB each."""
 
 SEEDS = 64
 """Seeds whose ground and clouds are remembered, less than a megabyte each."""
@@ -223,6 +227,45 @@ def _programs_as_they_are_drawn() -> Iterator[None]:
         yield
 
 
+class _Programs:
+    """Programs of the shared context that were released, and are taken again by who asks for the same.
+
+    Each has its uniforms as they were when it was made. To have the driver read one from its cache takes longer than to
+    draw a small picture with it, and each is asked for by tens of prairies, one after the other.
+    """
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self._ctx, self._free = ctx, OrderedDict[tuple[Any, ...], tuple[moderngl.Program, dict[str, Any]]]()
+        self._lent: dict[int, tuple[tuple[Any, ...], dict[str, Any]]] = {}
+        self._make, self._release = moderngl.Context.program, moderngl.Program.release
+
+    def lend(self, ctx: moderngl.Context, *shaders: Any, **how: Any) -> moderngl.Program:
+        """Give one that is there, or make it."""
+        if ctx is not self._ctx or shaders or not how.keys() <= {"vertex_shader", "fragment_shader", "varyings"}:
+            return self._make(ctx, *shaders, **how)
+        key = how["vertex_shader"], how.get("fragment_shader"), tuple(how.get("varyings", ()))
+        if key in self._free:
+            made, values = self._free.pop(key)
+            for name, value in values.items():
+                made[name] = value
+        else:
+            made = self._make(ctx, **how)
+            values = {name: each.value for name in made if isinstance(each := made[name], moderngl.Uniform)}
+        self._lent[id(made)] = key, values
+        return made
+
+    def take_back(self, program: moderngl.Program) -> None:
+        """Keep one that is released, under another name: whoever uses it after that is told so as ever."""
+        key, values = self._lent.pop(id(program), (None, {}))
+        if key is None or key in self._free:
+            self._release(program)
+            return
+        self._free[key] = copy(program), values
+        program.mglo = moderngl.InvalidObject()
+        if len(self._free) > PROGRAMS:
+            self._release(self._free.popitem(last=False)[1][0])
+
+
 @pytest.fixture
 def ahead(monkeypatch: pytest.MonkeyPatch) -> None:
     """Have all programs before the first frame, as a game does."""
@@ -238,6 +281,9 @@ def ctx(pytestconfig: pytest.Config) -> Iterator[moderngl.Context]:
         except NoContextError as error:
             _do_without(str(error))
         pytestconfig.stash[_HOME] = context.fbo
+        programs, patch = _Programs(context), stack.enter_context(pytest.MonkeyPatch.context())
+        patch.setattr(moderngl.Context, "program", lambda *given, **how: programs.lend(*given, **how))  # noqa: PLW0108 - so that it is a method
+        patch.setattr(moderngl.Program, "release", lambda program: programs.take_back(program))  # noqa: PLW0108 - the same
         yield context
 
 

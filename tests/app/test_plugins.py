@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 import pytest
+import pytest.__main__
 
 from tallgrass.app.plugins import check_plugin, list_plugins
 from tallgrass.app.scaffold import new_game, new_wind, scaffold, scaffold_game
@@ -186,15 +187,14 @@ def test_a_new_plugin_passes_the_check_and_its_own_test(tmp_path: Path, kind: st
 
 @pytest.mark.window
 def test_a_new_game_passes_its_own_tests_and_draws_in_its_window(
-    tmp_path: Path, display: str, python: Callable[..., str]
+    tmp_path: Path, display: str, python: Callable[..., str], little_grass: str
 ) -> None:
-    """With its prairie in this process's cache of grown grass; the window is closed after three frames."""
+    """With little grass; the window is closed after three frames."""
     folder = tmp_path / "my-walk"
     scaffold_game("my-walk", folder)
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests"]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
-    python(folder, "game.py", "--frames", "3", place={"DISPLAY": display})
+    command = pytest.__main__.__file__, "-q", "-p", "no:cacheprovider", "tests"
+    assert "passed" in python(folder, *command, place={}, before=little_grass)
+    python(folder, "game.py", "--frames", "3", place={"DISPLAY": display}, before=little_grass)
 
 
 def test_what_is_begun_is_clean_by_the_houses_own_rules(tmp_path: Path) -> None:
