@@ -52,6 +52,7 @@ vec4 row_texel(float row, vec2 at, float layer) {
 }
 
 const vec3 APART = vec3(0.618, 0.755, 0.57);  // how far trees of a row are apart by their numbers: in height, place, and side
+const vec3 ROWS_APART = vec3(7.0, 11.0, 13.0);  // and rows, by what tells them from others
 const vec2 LOWER = vec2(1.0, 0.35);  // how many times as high a picture is as one of its trees, and how much more it may be
 
 // Where a pixel is on the picture of its tree, of those that stand side by side.
@@ -59,7 +60,7 @@ vec2 on_own(vec2 at) {
     if (row_told.x <= 1.0)
         return at;
     float along = at.x * row_told.x, number = floor(along);
-    vec3 own = fract(number * APART + row_told.w * vec3(7.0, 11.0, 13.0));
+    vec3 own = fract(number * APART + row_told.w * ROWS_APART);
     float aside = (fract(along) - 0.5) * row_told.y * (own.z > 0.5 ? 1.0 : -1.0);
     return vec2(0.5 + aside, at.y * (LOWER.x + LOWER.y * own.x));
 }
