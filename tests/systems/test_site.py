@@ -131,7 +131,7 @@ def test_g1_the_blades_of_a_model_are_in_stock_in_all_four_turns(growths: list[G
 
 
 def test_g1_the_layers_of_a_ring_hold_each_kinds_models_orientations_and_strips(growths: list[Growth]) -> None:
-    assert stock_strips(growths).first_layer == [[0, 2 * 2 * 3], [0, 2 * 2 * 2]]
+    assert stock_strips(growths).first_picture == [[0, 2 * 2 * 3], [0, 2 * 2 * 2]]
 
 
 def test_r1_the_blades_of_the_field_are_counted_by_density(laid: Laid, hills: Terrain) -> None:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ....engine.declared.quality import StripRing
 from ....engine.gl.emit import emitted, looked_up
-from ....engine.gl.mipmaps import at_once, stack_for
+from ....engine.gl.mipmaps import at_once
 from ....engine.gl.records import Records
 from ....engine.gl.shaders import Texts, tell, tell_all
 from ....engine.gl.shelf import Shelves
@@ -100,13 +100,12 @@ class StripPainter:
         self._held = _Held.of(canvas.ctx, rings, forms, atlas)
         self._beside: _Held | None = None
         """What is brought into GL beside it."""
-        self._stack = stack = stack_for(canvas.ctx, len(atlas.texels[0]))
         self._rows = 64
         self.shelves = Shelves(lambda: StripShelf(canvas.ctx, self._rows))
         laid: dict[str, str | int] = {"RINGS": room_for(len(rings))}
         self.hearing = Hearing(canvas, "systems/show/strips/receivers.frag", laid, self._tell)
         self._heads = heads
-        self._whole = laid | ({"STACK": stack} if stack > 1 else {}) | ({"HEADS": 1} if heads else {})
+        self._whole = laid | ({"HEADS": 1} if heads else {})
         self._made: dict[tuple[bool, int], moderngl.VertexArray] = {}
         self._untold: set[tuple[bool, int]] = set()
         """Those of them that have to be told how strips stand before they draw: of many, a frame draws with a few."""
@@ -126,7 +125,7 @@ class StripPainter:
 
     @property
     def extents(self) -> moderngl.Texture:
-        """Where each layer of the textures is painted."""
+        """Where each picture is painted."""
         return self._held.extents
 
     @property
@@ -135,11 +134,8 @@ class StripPainter:
         return self._held.forms
 
     def fits(self, forms: Sequence[Form], /) -> bool:
-        """Return whether as many layers lie in one of the textures' for other forms."""
-        models = [model for form in forms for model in form.growth.models]
-        layers = sum(2 * len(strips.plane) for model in models for strips in strips_of(model))
-        heads = any_heads(form.growth for form in forms)
-        return heads == self._heads and self._stack == stack_for(self._canvas.ctx, layers)
+        """Return whether its programs draw the strips of other forms too."""
+        return any_heads(form.growth for form in forms) == self._heads
 
     def staging(self, forms: Sequence[Form], atlas: Atlas, /) -> Iterator[None]:
         """Bring other strips into GL beside those that are drawn, a piece at a time."""
@@ -174,8 +170,7 @@ class StripPainter:
         tell_stacks(made, self.rings)
         tell_sizes(made, held.forms)
         tell_all(made, "pictures", held.pictures)
-        rows = float(held.atlas.height // self._stack)
-        for name, value in (("most", self.most), ("turns", held.turns), ("atlas_rows", rows)):
+        for name, value in (("most", self.most), ("turns", held.turns), ("atlas_rows", float(held.atlas.height))):
             tell(made, name, value)
 
     @property
@@ -266,13 +261,13 @@ class _Held:
 
     @property
     def pictures(self) -> list[int]:
-        """The first layer of each form's pictures, by ring and form; there is room for two forms of each kind."""
+        """The first of each form's pictures, by ring and form; there is room for two forms of each kind."""
         most = 2 * sum(form.number == form.kind for form in self.forms)
-        found, layer = [0] * (most * len(self.rings)), 0
+        found, first = [0] * (most * len(self.rings)), 0
         for ring in range(len(self.rings)):
             for form in self.forms:
-                found[ring * most + form.number] = layer
-                layer += sum(2 * len(strips_of(model)[ring].plane) for model in form.growth.models)
+                found[ring * most + form.number] = first
+                first += sum(2 * len(strips_of(model)[ring].plane) for model in form.growth.models)
         return found
 
     def release(self) -> None:

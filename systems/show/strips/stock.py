@@ -13,7 +13,7 @@ from .grow import Strips, strips_of
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StripStock:
-    """The strips of all kinds' patch models, and where their layers are in each ring's textures."""
+    """The strips of all kinds' patch models, and where their pictures are among each ring's."""
 
     forms: tuple[Form, ...]
     """What kinds have grown to, and after these what some are to become."""
@@ -21,8 +21,8 @@ class StripStock:
     strips: list[list[Strips]]
     """By ring and form: strips whose planes hold for all the form's models."""
 
-    first_layer: list[list[int]]
-    """By ring and form: where the form's layers start in the ring's texture array."""
+    first_picture: list[list[int]]
+    """By ring and form: where the form's pictures begin among the ring's."""
 
     slices: NDArray[np.int32]
     """The plane that each blade is painted on, by ring, model and orientation, shape (rings, models, 2, n): the blades
@@ -49,11 +49,11 @@ def stock_strips(growths: Sequence[Growth], coming: Mapping[int, Growth] = NOTHI
     models = range(len(growths[0].models))
     rings = range(len(strips_of(growths[0].models[0])))
     strips = [[strips_of(form.growth.models[0])[ring] for form in forms] for ring in rings]
-    layers = [[2 * len(models) * len(of_form.plane) for of_form in ring] for ring in strips]
-    first = [[sum(counts[:form]) for form in range(len(counts))] for counts in layers]
+    pictures = [[2 * len(models) * len(of_form.plane) for of_form in ring] for ring in strips]
+    first = [[sum(counts[:form]) for form in range(len(counts))] for counts in pictures]
     each = [[strips_of(form.growth.models[model]) for form in forms] for model in models]
     slices = [
         np.stack([np.concatenate([own[ring].slice for own in of_model], 1) for of_model in each]) for ring in rings
     ]
     targets = [np.concatenate([own[0].targets for own in of_model], 1) for of_model in each]
-    return StripStock(forms, strips, first_layer=first, slices=np.stack(slices), targets=np.stack(targets))
+    return StripStock(forms, strips, first_picture=first, slices=np.stack(slices), targets=np.stack(targets))

@@ -1,7 +1,6 @@
 // With THIN, blades are drawn by rank, and with EDGED density has edges. With SHADED bodies and shadow maps cast shadows, and
 // with CUT some grass is cut: those are programs of their own, as fragments would pay half as much again for what is rare. With
 // DEEP, only depth is written.
-#include "lib/layered.glsl"
 #include "lib/light.glsl"
 
 #define PASSED in
@@ -52,8 +51,8 @@ float left_of(float top) {
 #endif
 
 void main() {
-    float layer = told_beside(lit).x, level = told_beside(lit).y, boosts = told_beside(lit).z;
-    vec4 texel = layer_at(atlas, vec3(on.xy, layer), level);
+    float page = told_beside(lit).x, level = told_beside(lit).y, boosts = told_beside(lit).z;
+    vec4 texel = textureLod(atlas, vec3(on.xy, page), level);
 #ifdef HEADS
     boosts = mix(boosts, heads, of_heads(texel.r / max(texel.a, LEAST_PAINT)));
 #endif
@@ -88,7 +87,7 @@ void main() {
     vec3 grass = shown_of(shade(leaf_at(pigment, on.w), light));
 #endif
 #ifdef THIN
-    float rank = layer_at(ranks, vec3(on.xy, layer), level).r / max(texel.a, LEAST_PAINT);
+    float rank = textureLod(ranks, vec3(on.xy, page), level).r / max(texel.a, LEAST_PAINT);
     covered *= grown(painted, rank, level) / max(painted, LEAST_PAINT);
     covered *= clamp(grain_cos.a * rank + grain_sin.a, 0.0, 1.0) * clamp(aged.x * rank + aged.y, 0.0, 1.0);
 #endif

@@ -8,15 +8,15 @@
 #include "systems/show/strips/sublevel.py"
 
 uniform usampler2D strips;  // by place in the queue: the polygon strip that is drawn
-uniform sampler2D extents;  // by column and layer: where paint begins and ends across the column, and up to where; in the
-                            // last one how far the picture reaches across its layer, and how many texels up
+uniform sampler2D extents;  // by column and picture: where paint begins and ends across the column, and up to where; its page;
+                            // in the last one where the picture begins on its page, across and up, and how far it reaches
 uniform int first;
-uniform float atlas_rows;   // texels up, of each layer of the texture
+uniform float atlas_rows;   // texels up, of each page
 uniform int most;           // numbers of polygon strips that are set aside for a patch
 
 uniform int turns;          // strips that may stand in one place
 uniform vec2 sizes[FORMS];  // by form: how far strips reach beyond their patch [m], and how high they are
-uniform int pictures[RINGS * FORMS];     // by ring and form: its first layer
+uniform int pictures[RINGS * FORMS];     // by ring and form: its first picture
 uniform ivec4 stacks[RINGS];             // by ring: columns of a strip, sections of a column, strips of a kind on a patch
 
 #ifdef DEEP
@@ -43,7 +43,7 @@ struct Column {
     int number;    // in its strip
     int plane;     // the strip's, of the patch's model
     int receiver;  // of its first edge
-    int layer;     // of the texture
+    int picture;   // of the strip
 };
 
 // One of its edges.
@@ -73,8 +73,8 @@ Column column_of(int number) {
     column.kind = column.form % KINDS;
     column.plane = stacked(stack, count, column.own, along, column.turn);
     column.receiver = int(column.stood.receiver) + (column.kind * count + stack) * (fine.x + 1) + column.number;
-    int picture = pictures[column.ring * FORMS + column.form];
-    column.layer = picture + (int(column.stood.model) * 2 + column.own) * count + column.plane;
+    int first_one = pictures[column.ring * FORMS + column.form];
+    column.picture = first_one + (int(column.stood.model) * 2 + column.own) * count + column.plane;
     return column;
 }
 
@@ -131,8 +131,7 @@ vec4 on_edge(Column column, Edge edge, float t, float sections) {
 
 // Where a vertex is on its column, across and up: nothing is drawn where nothing is painted, and a strip ends a pixel beyond its
 // paint. A metre is so many pixels long there, and the column so many metres broad.
-vec2 corner_of(Column column, float pixels, float broad) {
-    vec4 extent = texelFetch(extents, ivec2(column.number, column.layer), 0);
+vec2 corner_of(Column column, vec4 extent, float pixels, float broad) {
     float beside = 1.0 / (pixels * broad), above = 1.0 / (pixels * sizes[column.form].y);
     float across = (gl_VertexID & 1) == 1 ? min(extent.y + beside, 1.0) : max(extent.x - beside, 0.0);
     return vec2(across, min(float(gl_VertexID / 2) / float(stacks[column.ring].y), min(extent.z + above, 1.0)));
@@ -230,13 +229,14 @@ void main() {
     vec3 rooted = 0.5 * (a.rooted + b.rooted), middle = 0.5 * (a.foot + b.foot), top = 0.5 * (a.top + b.top);
     vec2 bend = 0.5 * (a.bend + b.bend), back = 0.5 * (a.back + b.back);
 
-    float pixels = pixels_at(middle);
-    vec2 corner = corner_of(column, pixels, distance(a.foot.xz, b.foot.xz));
-    float sections = float(fine.y), tall = sizes[column.form].y;
+    vec4 extent = texelFetch(extents, ivec2(column.number, column.picture), 0);
+    vec4 picture = texelFetch(extents, ivec2(textureSize(extents, 0).x - 1, column.picture), 0);
+    float pixels = pixels_at(middle), sections = float(fine.y), tall = sizes[column.form].y;
+    vec2 corner = corner_of(column, extent, pixels, distance(a.foot.xz, b.foot.xz));
     vec4 point = mix(on_edge(column, a, corner.y, sections), on_edge(column, b, corner.y, sections), corner.x);
     gl_Position = clip * vec4(point.xyz, 1.0);
-    vec2 picture = texelFetch(extents, ivec2(textureSize(extents, 0).x - 1, column.layer), 0).xy;
-    on = vec4(vec2((float(column.number) + corner.x) / float(fine.x), corner.y) * vec2(picture.x, picture.y / atlas_rows), corner.x, point.w);
+    vec2 at = picture.xy + vec2((float(column.number) + corner.x) / float(fine.x), corner.y) * picture.zw;
+    on = vec4(at, corner.x, point.w);
 
     Lie lies = lie_at(rooted.xz);
     ByKind grows = grows_at(rooted.xz);
@@ -256,13 +256,13 @@ void main() {
 #ifdef SHADED
     spot = vec4(point.xyz, suns);
 #endif
-    float texels = picture.y / (tall * apart_at(middle, run, top + vec3(back.x, 0.0, back.y)));
+    float texels = picture.w * atlas_rows / (tall * apart_at(middle, run, top + vec3(back.x, 0.0, back.y)));
     float boosts = boosted(k, run, middle, top, back), level = log2(texels) - SHARPER;
 #ifdef HEADS
     heads = heads_boosted(k, run, middle, top, back);
     level += log2(heads / boosts);  // what covers more than it is painted has to spread
 #endif
-    lit = bundled(light, vec3(float(column.layer), level, boosts));
+    lit = bundled(light, vec3(extent.w, level, boosts));
     dye(column, run, middle, top, 1.0 - lodged(bend), lies.slow);
     foot.a = column.stood.fade;
 #ifdef DEEP

@@ -11,25 +11,23 @@ from ....components.arrays import Bytes, Mask
 from ....engine.gl.mipmaps import at_once, levels, mipmapping
 from ...grow.record import Growth
 from .grow import Strips, strips_of
-
-_WHOLE = 16
-"""Layers are so many texels wide and high, or twice, three times as many: the finest mip-maps are whole then."""
+from .pages import Pages, packed
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Atlas:
-    """The pictures of all strips, finest level first: rings, kinds, models, orientations and strips are layers."""
+    """The pictures of all strips on pages, finest level first. They stand by ring, kind, model, orientation, strip."""
 
     texels: list[Bytes]
-    """What texels mean, each (layers, rows, columns, 4)."""
+    """What texels mean, each (pages, rows, columns, 4)."""
 
     ranks: list[Bytes]
-    """Their ranks, each (layers, rows, columns): asked for only where some blades do not show."""
+    """Their ranks, each (pages, rows, columns): asked for only where some blades do not show."""
 
     extents: NDArray[np.float32]
-    """Where each layer is painted, by column, (layers, columns + 1, 4): from and to, across the column, and up to, in
-    [0, 1]. A texel more on every side is taken for painted. In the last column is how far the picture reaches across
-    its layer, in [0, 1], and how many texels up."""
+    """Where each picture is painted, by column, (pictures, columns + 1, 4): from and to, across the column, and up to,
+    in [0, 1]; and its page. A texel more on every side is taken for painted. In the last column is where it begins on
+    its page, across and up, and how far it reaches, in [0, 1]."""
 
 
 def strip_stock(growths: Sequence[Growth], ring: int) -> list[list[Strips]]:
@@ -43,18 +41,24 @@ def strip_stocks(growths: Sequence[Growth]) -> list[list[list[Strips]]]:
 
 
 def strip_atlas(stock: Sequence[list[list[Strips]]], columns: Sequence[int]) -> Atlas:
-    """Return the atlas of all strips: each in the lower left corner of a layer that is large enough for all of them.
-
-    `columns` are those of each ring's strips.
-    """
+    """Return the atlas of all strips; `columns` are those of each ring's strips."""
     every = _each(stock)
-    largest = np.max([strips.texels.shape[2:4] for strips in every], axis=0)
-    size = -(-largest // _WHOLE) * _WHOLE
+    sizes = np.array([strips.texels.shape[2:4] for strips in every], np.int64)
+    pages = packed(sizes.repeat([_pictures(strips) for strips in every], axis=0))
     return Atlas(
-        texels=levels(np.concatenate([_padded(strips.texels, size) for strips in every])),
-        ranks=levels(np.concatenate([_padded(strips.ranks, size) for strips in every])),
-        extents=_extents(stock, columns, width=int(size[1])),
+        texels=levels(_laid([strips.texels for strips in every], pages)),
+        ranks=levels(_laid([strips.ranks for strips in every], pages)),
+        extents=_extents(stock, columns, pages),
     )
+
+
+def _laid(pictures: Sequence[Bytes], pages: Pages) -> Bytes:
+    """Return pages with pictures (orientations, strips, rows, columns, ...) on them, nothing between."""
+    laid = np.zeros((*pages.shape, *pictures[0].shape[4:]), np.uint8)
+    each = (picture for some in pictures for picture in some.reshape(-1, *some.shape[2:]))
+    for (page, row, column), picture in zip(pages.places.tolist(), each, strict=True):
+        laid[page, row : row + picture.shape[0], column : column + picture.shape[1]] = picture
+    return laid
 
 
 def strip_texture(ctx: moderngl.Context, made: list[Bytes]) -> moderngl.TextureArray:
@@ -69,15 +73,18 @@ def sending_strips(ctx: moderngl.Context, made: list[Bytes]) -> Generator[None, 
     return texture
 
 
-def _extents(stock: Sequence[list[list[Strips]]], columns: Sequence[int], *, width: int) -> NDArray[np.float32]:
-    extents = np.zeros((sum(_layers(strips) for strips in _each(stock)), max(columns) + 1, 4), np.float32)
-    layer = 0
+def _extents(stock: Sequence[list[list[Strips]]], columns: Sequence[int], pages: Pages) -> NDArray[np.float32]:
+    extents = np.zeros((len(pages.places), max(columns) + 1, 4), np.float32)
+    side = np.array(pages.shape[:0:-1])
+    extents[:, :-1, 3] = pages.places[:, :1]
+    extents[:, -1, :2] = pages.places[:, :0:-1] / side
+    first = 0
     for ring, count in zip(stock, columns, strict=True):
         for strips in _each([ring]):
-            own = slice(layer, layer + _layers(strips))
+            own = slice(first, first + _pictures(strips))
             extents[own, :count, :3] = painted_extents(strips, count)
-            extents[own, -1, :2] = strips.texels.shape[3] / width, strips.texels.shape[2]
-            layer += _layers(strips)
+            extents[own, -1, 2:] = np.array(strips.texels.shape[3:1:-1]) / side
+            first = own.stop
     return extents
 
 
@@ -89,9 +96,9 @@ def extent_texture(ctx: moderngl.Context, extents: NDArray[np.float32]) -> moder
 
 
 def painted_extents(strips: Strips, columns: int, /) -> NDArray[np.float32]:
-    """Return from where to where across each column there is paint, and up to where: shape (layers, columns, 3).
+    """Return from where to where across each column there is paint, and up to where: shape (pictures, columns, 3).
 
-    All are fractions of the column and of the strip's height, with a texel to spare; layers as in the atlas.
+    All are fractions of the column and of the strip's height, with a texel to spare; pictures as in the atlas.
     """
     painted: Mask = np.asarray(strips.texels[..., 3].reshape(-1, *strips.texels.shape[2:4]) > 0)
     width = painted.shape[2]
@@ -117,12 +124,5 @@ def _each(stock: Sequence[list[list[Strips]]]) -> list[Strips]:
     return [strips for kinds in stock for models in kinds for strips in models]
 
 
-def _layers(strips: Strips) -> int:
+def _pictures(strips: Strips) -> int:
     return 2 * len(strips.plane)
-
-
-def _padded(texels: Bytes, size: NDArray[np.int64]) -> Bytes:
-    flat = texels.reshape(-1, *texels.shape[2:])
-    beside = [(0, 0), (0, size[0] - flat.shape[1]), (0, size[1] - flat.shape[2]), (0, 0)]
-    padded: Bytes = np.pad(flat, beside[: flat.ndim])
-    return padded

@@ -96,8 +96,8 @@ class Drawn:
 
     ring: NDArray[np.int64]
     column: NDArray[np.int64]
-    layer: NDArray[np.int64]
-    """Which picture is on it, shape (n,)."""
+    picture: NDArray[np.int64]
+    """Which picture is on it, if it is drawn whole, shape (n,)."""
 
     clip: Doubles
     """Clip coordinates of their vertices, shape (n, 2 * sections + 2, 4)."""
@@ -178,7 +178,8 @@ class Scene:
         strips.shelves.now.stood.texture.use(UNITS["stood"])
         strips.shelves.now.strips.texture.use(UNITS["strips"])
         everywhere = np.frombuffer(strips.extents.read(), np.float32).reshape(*strips.extents.size[::-1], 4).copy()
-        everywhere[:, :-1] = 0, 1, 1, 0  # but for what pictures are like
+        everywhere[:, :-1, :3] = 0, 1, 1  # but for what pictures are like
+        everywhere[:, :-1, 3] = np.arange(len(everywhere))[:, None]  # in place of pages: what is drawn tells of it
         extents = self.painter.ctx.texture(strips.extents.size, 4, everywhere.tobytes(), dtype="f4")
         (extents if whole else strips.extents).use(UNITS["extents"])
         strips.array(0).program["first"] = 0
@@ -190,12 +191,12 @@ class Scene:
             row=np.repeat(np.concatenate([each.rows for each in rings]), amount),
             ring=np.repeat(ring, amount),
             column=numbers % strips.most % np.repeat(np.array(fineness)[ring, 1], amount),
-            layer=data[:, 0, 16].astype(np.int64),
+            picture=data[:, 0, 16].astype(np.int64),
             clip=data[..., :4],
         )
 
     @property
-    def first_layers(self) -> NDArray[np.int64]:
+    def first_pictures(self) -> NDArray[np.int64]:
         """Where each kind's pictures begin in the atlas, by ring and kind."""
         pictures = np.array(self.strips.strips.array(0).program["pictures"].value)  # type: ignore[union-attr]
         kinds = len(self.representation.stock.own[0])

@@ -75,15 +75,15 @@ def painted_places(scene: Any) -> Doubles:
     """Where the strips as they are drawn show each blade's points, from the root to the tip [pixels]."""
     patches, drawn = scene.outlook.patches, scene.strips_drawn()
     stock, rings = scene.representation.stock, scene.representation.quality.strip_rings
-    first, kinds = scene.first_layers, len(stock.strips[0])
+    first, kinds = scene.first_pictures, len(stock.strips[0])
     segments, points = scene.blades.morph.segments, stock.targets.shape[3]
     expected = np.zeros((len(scene.records), segments + 1, 2))
     for index, (blade, row, which) in enumerate(zip(scene.records, scene.row, scene.own, strict=True)):
         model, own = int(patches.model[row]), (scene.along + int(patches.turn[row])) % 2
         number = int(patches.sublevel[1, row]) >> 1
         plane = int(stock.slices[number][model, own, which])
-        layer = first[kinds * number + int(blade["kind"])] + (model * 2 + own) * rings[number].strips + plane
-        here = np.flatnonzero((drawn.layer == layer) & (drawn.row == row))
+        picture = first[kinds * number + int(blade["kind"])] + (model * 2 + own) * rings[number].strips + plane
+        here = np.flatnonzero((drawn.picture == picture) & (drawn.row == row))
         assert len(here) == rings[number].columns
         clip, target = drawn.clip[here, : 2 * rings[number].sections + 2], stock.targets[model, own, which]
         for step in range(segments + 1):

@@ -72,15 +72,15 @@ def rise_of(scene: Any, place: Doubles) -> Doubles:
 def test_w1_a_strip_stands_between_two_edges_on_the_ground_each_bent_as_numpy_says(scene: Any) -> None:
     everything, stock, quality = scene.strips_drawn(), scene.representation.stock, scene.representation.quality
     clip = scene.painter.record[0]["clip"].reshape(4, 4).astype(float)
-    layers, kinds = scene.first_layers, len(stock.strips[0])
+    pictures, kinds = scene.first_pictures, len(stock.strips[0])
     patches, kept = scene.outlook.patches, scene.outlook.kept["strips"].receiving
     for number, (receiving, ring) in enumerate(zip(kept, scene.outlook.shows(StripsShown).rings, strict=True)):
         here, count = everything.ring == number, quality.strip_rings[number].strips
-        first = layers[kinds * number :][:2]
-        layer, column = everything.layer[here], everything.column[here].astype(int)
-        kind = (layer >= first[1]).astype(int)
-        patch = np.repeat(np.arange(len(ring.rows)), len(layer) // len(ring.rows))
-        picture, plane = np.divmod(layer - first[kind], count)
+        first = pictures[kinds * number :][:2]
+        shown, column = everything.picture[here], everything.column[here].astype(int)
+        kind = (shown >= first[1]).astype(int)
+        patch = np.repeat(np.arange(len(ring.rows)), len(shown) // len(ring.rows))
+        picture, plane = np.divmod(shown - first[kind], count)
         turn, along = patches.turn[ring.rows], ring.along
         own = (along + turn) % 2
         np.testing.assert_array_equal(picture, (patches.model[ring.rows] * 2 + own)[patch])
@@ -112,7 +112,7 @@ def test_g3_a_strip_that_ends_where_its_paint_ends_is_a_part_of_the_whole_one(sc
     for number, ring in enumerate(scene.representation.quality.strip_rings):
         here, vertices = everything.ring == number, slice(2 * ring.sections + 2)
         whole, part = everything.clip[here, vertices], ends.clip[here, vertices]
-        top = extents[everything.layer[here], everything.column[here], 2]
+        top = extents[everything.picture[here], everything.column[here], 2]
         below = np.arange(ring.sections) <= ring.sections * top[:, None]
         foot, run = whole[:, :-2:2, None], (whole[:, 1:-2:2] - whole[:, :-2:2])[:, :, None]
         edges = np.stack([part[:, :-2:2], part[:, 1:-2:2]], axis=2)

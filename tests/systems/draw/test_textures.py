@@ -15,6 +15,7 @@ from tallgrass.systems.light.repeating import LITTER_ONE, SIDE, ground_maps, rep
 from tallgrass.systems.light.slow import slow_map
 from tallgrass.systems.show.carpet.grow import carpet_of
 from tallgrass.systems.show.carpet.textures import carpet_texture
+from tallgrass.systems.show.strips.pages import ABOVE, WHOLE, packed
 from tallgrass.systems.show.strips.stock import stock_strips
 from tallgrass.systems.show.strips.textures import (
     extent_texture,
@@ -26,29 +27,46 @@ from tallgrass.systems.show.strips.textures import (
 
 
 @pytest.mark.parametrize("ring", [0, 1])
-def test_g1_each_layer_is_the_strip_that_planting_reckons_with(
+def test_g1_each_picture_of_the_atlas_is_the_strip_that_planting_reckons_with(
     ctx: moderngl.Context, growths: list[Growth], ring: int
 ) -> None:
     every = [strip_stock(growths, number) for number in (0, 1)]
     made = strip_atlas(every, [2, 1])
     atlas, ranks = (strip_texture(ctx, levels) for levels in (made.texels, made.ranks))
     before = sum(2 * len(strips.plane) for kinds in every[:ring] for models in kinds for strips in models)
-    width, height, layers = atlas.size
-    texels = np.frombuffer(atlas.read(), np.uint8).reshape(layers, height, width, 4)
-    ranked = np.frombuffer(ranks.read(alignment=1), np.uint8).reshape(layers, height, width)
-    first = stock_strips(growths).first_layer[ring]
+    width, height, pages = atlas.size
+    texels = np.frombuffer(atlas.read(), np.uint8).reshape(pages, height, width, 4)
+    ranked = np.frombuffer(ranks.read(alignment=1), np.uint8).reshape(pages, height, width)
+    first = stock_strips(growths).first_picture[ring]
     for kind, models in enumerate(every[ring]):
         for model, strips in enumerate(models):
             _, count, h, w, _ = strips.texels.shape
             for orientation in (0, 1):
                 start = before + first[kind] + (model * 2 + orientation) * count
-                mine = slice(start, start + count)
-                np.testing.assert_array_equal(texels[mine, :h, :w], strips.texels[orientation])
-                np.testing.assert_array_equal(ranked[mine, :h, :w], strips.ranks[orientation])
-                assert (texels[mine, h:] == 0).all()
-                assert (texels[mine, :, w:] == 0).all()
-    assert (start + count == layers) == (ring == 1)
+                for number, extents in enumerate(made.extents[start : start + count]):
+                    page, (column, row) = int(extents[0, 3]), np.rint(extents[-1, :2] * (width, height)).astype(int)
+                    np.testing.assert_allclose(extents[-1, 2:] * (width, height), (w, h), rtol=1e-6)
+                    mine = page, slice(row, row + h), slice(column, column + w)
+                    np.testing.assert_array_equal(texels[mine], strips.texels[orientation, number])
+                    np.testing.assert_array_equal(ranked[mine], strips.ranks[orientation, number])
+    assert (start + count == len(made.extents)) == (ring == 1)
     release_all(atlas, ranks)
+
+
+def test_pages_hold_every_picture_apart_and_little_else() -> None:
+    """The sizes of the meadow's pictures at `high`, and of single ones."""
+    rings = [((58, 190), 54), ((50, 274), 54), ((96, 316), 60), ((84, 457), 60), ((48, 158), 18), ((32, 172), 12)]
+    meadow = np.array([size for size, count in rings for _ in range(count)])
+    for sizes, fullest in ((meadow, 0.8), (np.array([(7, 1500)]), 0.4), (np.array([(900, 20), (8, 8)]), 0.0)):
+        pages = packed(sizes)
+        taken = np.zeros(pages.shape, np.int32)
+        for (page, row, column), (high, wide) in zip(pages.places, sizes, strict=True):
+            assert (row % WHOLE, column % WHOLE) == (0, 0)
+            mine = taken[page, row : row + high + ABOVE, column : column + wide]
+            assert mine.shape == (high + ABOVE, wide)
+            mine += 1
+        assert taken.max() == 1
+        assert taken.mean() > fullest
 
 
 @pytest.mark.parametrize("columns", [1, 2, 3])
@@ -78,7 +96,7 @@ def test_an_empty_column_has_no_extents(growths: list[Growth]) -> None:
     assert (extents[:, 1, 2] > 0.5).all()
 
 
-def test_extents_stand_by_layer_of_the_atlas(ctx: moderngl.Context, growths: list[Growth]) -> None:
+def test_extents_stand_by_picture_of_the_atlas(ctx: moderngl.Context, growths: list[Growth]) -> None:
     every = [strip_stock(growths, number) for number in (0, 1)]
     texture = extent_texture(ctx, strip_atlas(every, [2, 1]).extents)
     read = np.frombuffer(texture.read(), np.float32).reshape(texture.height, 3, 4)
@@ -86,8 +104,6 @@ def test_extents_stand_by_layer_of_the_atlas(ctx: moderngl.Context, growths: lis
     np.testing.assert_array_equal(read[: sum(map(len, fine)), :2, :3], np.concatenate(fine))
     coarse = [painted_extents(strips, 1) for models in every[1] for strips in models]
     np.testing.assert_array_equal(read[sum(map(len, fine)) :, :1, :3], np.concatenate(coarse))
-    width, (rows, columns) = strip_atlas(every, [2, 1]).texels[0].shape[2], every[0][0][0].texels.shape[2:4]
-    np.testing.assert_allclose(read[0, 2, :2], (columns / width, rows))
     texture.release()
 
 
