@@ -8,9 +8,6 @@ from numpy.typing import NDArray
 WHOLE = 8
 """Pictures begin at multiples of so many texels, so that texels of the finest mip-maps are of one picture alone."""
 
-ABOVE = 4
-"""Texels above each picture that are empty: the tips of the tallest blades are seen there, and no others' roots."""
-
 ROWS, MOST_PAGES = 512, 256
 """Texels up, of a page: so much is sent to a graphics card at a time. And pages: OpenGL promises no more."""
 
@@ -34,7 +31,7 @@ class Pages:
 
 def packed(sizes: NDArray[np.int64], /) -> Pages:
     """Return pages for pictures of these sizes (n, 2), rows and columns: those of the width that takes least room."""
-    whole = -(-(sizes + np.array([ABOVE, 0])) // WHOLE) * WHOLE
+    whole = -(-sizes // WHOLE) * WHOLE
     widest = int(whole[:, 1].max())
     return min((_packed(whole, max(width, widest)) for width in WIDTHS), key=lambda pages: np.prod(pages.shape))
 

@@ -11,7 +11,10 @@ from ....components.arrays import Bytes, Mask
 from ....engine.gl.mipmaps import at_once, levels, mipmapping
 from ...grow.record import Growth
 from .grow import Strips, strips_of
-from .pages import Pages, packed
+from .pages import WHOLE, Pages, packed
+
+SPARE = 4
+"""Texels around what is painted that are empty: there the edges of blades are seen, and no other picture's."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -26,8 +29,8 @@ class Atlas:
 
     extents: NDArray[np.float32]
     """Where each picture is painted, by column, (pictures, columns + 1, 4): from and to, across the column, and up to,
-    in [0, 1]; and its page. A texel more on every side is taken for painted. In the last column is where it begins on
-    its page, across and up, and how far it reaches, in [0, 1]."""
+    in [0, 1]; and its page. A texel more on every side is taken for painted. In the last column is where all of it
+    would begin on its page, across and up, and how far it would reach, in [0, 1]: what is empty is left out."""
 
 
 def strip_stock(growths: Sequence[Growth], ring: int) -> list[list[Strips]]:
@@ -43,21 +46,33 @@ def strip_stocks(growths: Sequence[Growth]) -> list[list[list[Strips]]]:
 def strip_atlas(stock: Sequence[list[list[Strips]]], columns: Sequence[int]) -> Atlas:
     """Return the atlas of all strips; `columns` are those of each ring's strips."""
     every = _each(stock)
-    sizes = np.array([strips.texels.shape[2:4] for strips in every], np.int64)
-    pages = packed(sizes.repeat([_pictures(strips) for strips in every], axis=0))
+    boxes = np.concatenate([_painted_box(strips) for strips in every])
+    pages = packed(boxes[:, 1] - boxes[:, 0])
     return Atlas(
-        texels=levels(_laid([strips.texels for strips in every], pages)),
-        ranks=levels(_laid([strips.ranks for strips in every], pages)),
-        extents=_extents(stock, columns, pages),
+        texels=levels(_laid([strips.texels for strips in every], boxes, pages)),
+        ranks=levels(_laid([strips.ranks for strips in every], boxes, pages)),
+        extents=_extents(stock, columns, boxes[:, 0], pages),
     )
 
 
-def _laid(pictures: Sequence[Bytes], pages: Pages) -> Bytes:
-    """Return pages with pictures (orientations, strips, rows, columns, ...) on them, nothing between."""
+def _painted_box(strips: Strips) -> NDArray[np.int64]:
+    """Return from where to where each picture is painted, and `SPARE` beyond: row and column, (pictures, 2, 2).
+
+    All begin at the ground, and at a multiple of `WHOLE` columns: mip-maps have the same texels in common as of all.
+    """
+    painted: Mask = np.asarray(strips.texels[..., 3].reshape(-1, *strips.texels.shape[2:4]) > 0)
+    (_, top), (left, right) = (_ends(np.asarray(painted.any(axis=axis))) for axis in (2, 1))
+    box = np.stack([np.column_stack([0 * top, (left - SPARE) // WHOLE * WHOLE]), np.column_stack([top + SPARE, right + SPARE])], axis=1)
+    return np.clip(box, 0, painted.shape[1:])
+
+
+def _laid(pictures: Sequence[Bytes], boxes: NDArray[np.int64], pages: Pages) -> Bytes:
+    """Return pages with parts of pictures (orientations, strips, rows, columns, ...) on them, nothing between."""
     laid = np.zeros((*pages.shape, *pictures[0].shape[4:]), np.uint8)
     each = (picture for some in pictures for picture in some.reshape(-1, *some.shape[2:]))
-    for (page, row, column), picture in zip(pages.places.tolist(), each, strict=True):
-        laid[page, row : row + picture.shape[0], column : column + picture.shape[1]] = picture
+    for (page, row, column), (low, high), picture in zip(pages.places.tolist(), boxes.tolist(), each, strict=True):
+        shown = picture[low[0] : high[0], low[1] : high[1]]
+        laid[page, row : row + shown.shape[0], column : column + shown.shape[1]] = shown
     return laid
 
 
@@ -73,11 +88,13 @@ def sending_strips(ctx: moderngl.Context, made: list[Bytes]) -> Generator[None, 
     return texture
 
 
-def _extents(stock: Sequence[list[list[Strips]]], columns: Sequence[int], pages: Pages) -> NDArray[np.float32]:
+def _extents(
+    stock: Sequence[list[list[Strips]]], columns: Sequence[int], begins: NDArray[np.int64], pages: Pages
+) -> NDArray[np.float32]:
     extents = np.zeros((len(pages.places), max(columns) + 1, 4), np.float32)
     side = np.array(pages.shape[:0:-1])
     extents[:, :-1, 3] = pages.places[:, :1]
-    extents[:, -1, :2] = pages.places[:, :0:-1] / side
+    extents[:, -1, :2] = (pages.places[:, 1:] - begins)[:, ::-1] / side
     first = 0
     for ring, count in zip(stock, columns, strict=True):
         for strips in _each([ring]):

@@ -15,7 +15,7 @@ from tallgrass.systems.light.repeating import LITTER_ONE, SIDE, ground_maps, rep
 from tallgrass.systems.light.slow import slow_map
 from tallgrass.systems.show.carpet.grow import carpet_of
 from tallgrass.systems.show.carpet.textures import carpet_texture
-from tallgrass.systems.show.strips.pages import ABOVE, WHOLE, packed
+from tallgrass.systems.show.strips.pages import WHOLE, packed
 from tallgrass.systems.show.strips.stock import stock_strips
 from tallgrass.systems.show.strips.textures import (
     extent_texture,
@@ -46,9 +46,14 @@ def test_g1_each_picture_of_the_atlas_is_the_strip_that_planting_reckons_with(
                 for number, extents in enumerate(made.extents[start : start + count]):
                     page, (column, row) = int(extents[0, 3]), np.rint(extents[-1, :2] * (width, height)).astype(int)
                     np.testing.assert_allclose(extents[-1, 2:] * (width, height), (w, h), rtol=1e-6)
-                    mine = page, slice(row, row + h), slice(column, column + w)
-                    np.testing.assert_array_equal(texels[mine], strips.texels[orientation, number])
-                    np.testing.assert_array_equal(ranked[mine], strips.ranks[orientation, number])
+                    rows, columns = np.nonzero(strips.texels[orientation, number, ..., 3])
+                    mine = page, row + rows, column + columns
+                    np.testing.assert_array_equal(texels[mine], strips.texels[orientation, number, rows, columns])
+                    np.testing.assert_array_equal(ranked[mine], strips.ranks[orientation, number, rows, columns])
+                    beside = max(column + columns.min() - min(2, columns.min()), 0)
+                    end = column + columns.max() + 1 + min(2, w - 1 - columns.max())
+                    around = texels[page, row : row + min(rows.max() + 3, h), beside:end, 3]
+                    assert np.count_nonzero(around) == len(rows), "no other's is seen"
     assert (start + count == len(made.extents)) == (ring == 1)
     release_all(atlas, ranks)
 
@@ -57,13 +62,13 @@ def test_pages_hold_every_picture_apart_and_little_else() -> None:
     """The sizes of the meadow's pictures at `high`, and of single ones."""
     rings = [((58, 190), 54), ((50, 274), 54), ((96, 316), 60), ((84, 457), 60), ((48, 158), 18), ((32, 172), 12)]
     meadow = np.array([size for size, count in rings for _ in range(count)])
-    for sizes, fullest in ((meadow, 0.8), (np.array([(7, 1500)]), 0.4), (np.array([(900, 20), (8, 8)]), 0.0)):
+    for sizes, fullest in ((meadow, 0.8), (np.array([(7, 1500)]), 0.8), (np.array([(900, 20), (8, 8)]), 0.0)):
         pages = packed(sizes)
         taken = np.zeros(pages.shape, np.int32)
         for (page, row, column), (high, wide) in zip(pages.places, sizes, strict=True):
             assert (row % WHOLE, column % WHOLE) == (0, 0)
-            mine = taken[page, row : row + high + ABOVE, column : column + wide]
-            assert mine.shape == (high + ABOVE, wide)
+            mine = taken[page, row : row + high, column : column + wide]
+            assert mine.shape == (high, wide)
             mine += 1
         assert taken.max() == 1
         assert taken.mean() > fullest
