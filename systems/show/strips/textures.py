@@ -62,8 +62,9 @@ def _painted_box(strips: Strips) -> NDArray[np.int64]:
     """
     painted: Mask = np.asarray(strips.texels[..., 3].reshape(-1, *strips.texels.shape[2:4]) > 0)
     (_, top), (left, right) = (_ends(np.asarray(painted.any(axis=axis))) for axis in (2, 1))
-    box = np.stack([np.column_stack([0 * top, (left - SPARE) // WHOLE * WHOLE]), np.column_stack([top + SPARE, right + SPARE])], axis=1)
-    return np.clip(box, 0, painted.shape[1:])
+    low, high = [0 * top, (left - SPARE) // WHOLE * WHOLE], [top + SPARE, right + SPARE]
+    box: NDArray[np.int64] = np.clip(np.array([low, high]).transpose(2, 0, 1), 0, painted.shape[1:])
+    return box
 
 
 def _laid(pictures: Sequence[Bytes], boxes: NDArray[np.int64], pages: Pages) -> Bytes:
