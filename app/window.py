@@ -340,7 +340,7 @@ class Walk:
         self.window.set_exclusive_mouse(caught)
 
     def _draw_prairie(self, size: tuple[int, int]) -> None:
-        self.prairie.draw(*self.matrices(size))
+        self.prairie.draw(*self.matrices(size), depth="none")
 
     def matrices(self, size: tuple[int, int]) -> tuple[Floats, Floats]:
         """Return view and projection of this instant, (4, 4) each, for a picture of this size [pixels]."""

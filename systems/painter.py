@@ -142,7 +142,8 @@ class Painter(Holding):
         with guest(self.ctx, view) as host:
             if hidden:
                 host.scissor = 0, 0, 0, 0
-            with self.smaller.instead_of(host, scale, is_whole="sky" in asked.parts) as target:
+            is_whole = "sky" in asked.parts
+            with self.smaller.instead_of(host, scale, is_whole=is_whole, is_alone=asked.is_alone) as target:
                 if hidden:
                     target.scissor = 0, 0, 0, 0
                 self._draw(view, target, asked, blades)

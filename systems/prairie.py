@@ -153,7 +153,8 @@ class Prairie(Tending):
 
         Draw your own opaque things before it, and 2D after it: ground, carpet and the nearest blades write depth,
         strips and other blades only test it. With a `depth` of "all" in place of "near", all grass writes it where it
-        covers at least half a pixel, for water, smoke or a sky that come after.
+        covers at least half a pixel, for water, smoke or a sky that come after. Say "none" where nothing else in the
+        picture has depth, and a preset or `hold` with fewer pixels takes less: then yours is neither read nor written.
 
         Both matrices are 4x4 numpy arrays for column vectors, or `pyglet.math.Mat4`. Give each of several viewers a
         name. `parts` are some of "sky", "ground", "grass" and "beyond", or else those of the scene. Without `ground` in
@@ -169,7 +170,7 @@ class Prairie(Tending):
         self._turn(self._assembly.stage)
         before = self.viewers[viewer].frame if viewer in self.viewers else None
         time = self.time
-        frame, asked, goes_on = Frame(seen, time, self.site, chosen).after(before, is_deep=depth == "all")
+        frame, asked, goes_on = Frame(seen, time, self.site, chosen).after(before, depth=depth)
         if not goes_on:
             self._go_with(viewer, seen)
             for feature in self._stepping:

@@ -75,7 +75,7 @@ class Studio:
         """Return what the camera sees at this instant of the prairie."""
         view, projection = self.matrices(camera)
         self.begin()
-        self.prairie.draw(view, projection)
+        self.prairie.draw(view, projection, depth="none")
         if self.take.reference:
             return draw_reference(self.prairie, view, projection, self.take.size, samples=SAMPLES)
         self.overlay.draw(self.prairie, view, projection)

@@ -12,8 +12,9 @@ PARTS: tuple[PartName, ...] = ("sky", "ground", "grass", "beyond")
 
 Bodies come with the grass; `beyond` is whatever is drawn of ground and grass that lies beyond the terrain's edge."""
 
-DEPTHS = "near", "all"
-"""Which grass writes depth: the nearest, or all that covers at least half a pixel."""
+DEPTHS = "near", "all", "none"
+"""Which grass writes depth: the nearest, or all that covers at least half a pixel. With none, nothing but the prairie
+has any in the picture, neither before it nor after it."""
 
 
 def as_parts(names: object, /) -> frozenset[PartName]:

@@ -5,6 +5,6 @@
 out vec4 pixel;
 
 void main() {
-    pixel = vec4(0.0);
+    pixel = vec4(0.0);  // it is not written
     gl_FragDepth = texture(before, middle_of(at)).r;
 }

@@ -25,7 +25,7 @@ NUMBERS = {
     "SCISSOR_BOX": 0x0C10, "PRIMITIVE_RESTART_INDEX": 0x8F9E, "DRAW_BUFFER0": 0x8825, "COLOR_ATTACHMENT1": 0x8CE1,
     "FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE": 0x8CD0, "TEXTURE_2D_ARRAY": 0x8C1A, "UNSIGNED_BYTE": 0x1401, "RED": 0x1903,
     "R8": 0x8229, "RG": 0x8227, "RG8": 0x822B, "RGB": 0x1907, "RGB8": 0x8051, "RGBA": 0x1908, "RGBA8": 0x8058,
-    "SAMPLES": 0x80A9, "DEPTH": 0x1801, "DEPTH_ATTACHMENT": 0x8D00,
+    "SAMPLES": 0x80A9, "DEPTH": 0x1801, "COLOR": 0x1800, "DEPTH_ATTACHMENT": 0x8D00,
     "TEXTURE_2D": 0x0DE1, "TEXTURE0": 0x84C0, "TEXTURE_MAX_LEVEL": 0x813D,
     "UNPACK_SWAP_BYTES": 0x0CF0, "UNPACK_LSB_FIRST": 0x0CF1, "UNPACK_SKIP_ROWS": 0x0CF3, "UNPACK_SKIP_PIXELS": 0x0CF4,
     "UNPACK_SKIP_IMAGES": 0x806D, "UNPACK_IMAGE_HEIGHT": 0x806E, "PACK_SWAP_BYTES": 0x0D00, "PACK_LSB_FIRST": 0x0D01,
@@ -83,6 +83,7 @@ DOES = {
     "glAttachShader": (c_int,) * 2, "glLinkProgram": (c_int,), "glGetProgramiv": (c_int, c_int, c_void_p),
     "glTransformFeedbackVaryings": (c_int, c_int, c_void_p, c_int), "glDeleteShader": (c_int,),
     "glDeleteProgram": (c_int,), "glMaxShaderCompilerThreadsKHR": (c_int,), "glMaxShaderCompilerThreadsARB": (c_int,),
+    "glClearBufferfv": (c_int, c_int, c_void_p),
 }  # fmt: skip
 """All others: what a state is read and brought back with, and what moderngl has no word for."""
 

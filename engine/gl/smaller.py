@@ -3,13 +3,13 @@
 import logging
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from ctypes import c_int
+from ctypes import c_float, c_int
 from dataclasses import dataclass
 
 import moderngl
 
 from .functions import NUMBERS, functions_of
-from .guest import aside, depth_ends, farthest_depth, let_pass
+from .guest import aside, colourless, depth_ends, farthest_depth, let_pass
 from .outputs import has_depth
 from .shaders import program
 from .stream import release_all
@@ -19,15 +19,18 @@ log = logging.getLogger("tallgrass")
 
 Size = tuple[int, int]
 
+OVER = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
+
 MOST_SIZES = 4
 """Sizes whose buffers are kept: a viewer's last and present one, and another viewer's."""
 
 UNITS = {"before": FIRST_UNIT, "picture": FIRST_UNIT + 1, "deep": FIRST_UNIT + 2}
 """Texture units: what stands there is bound anew whenever it is read."""
 
-PASSES = {"bring": "1", "enlarge": "<=", "fit": ">", "deepen": "<"}
+PASSES = {"bring": "1", "enlarge": "<=", "fit": ">", "deepen": "<", "lay": "1"}
 """What is done, and by which test of depth: to bring the host's depth over; to write the picture where the host has
-drawn nothing, and over what it has drawn; and to write its depth. The second and third are as far away as can be."""
+drawn nothing, and over what it has drawn; and to write its depth. The second and third are as far away as can be. Or,
+where nothing else has depth, to lay the picture over all."""
 
 
 def smaller_size(size: Size, scale: float, /) -> Size:
@@ -85,14 +88,15 @@ class Smaller:
 
     @contextmanager
     def instead_of(
-        self, host: moderngl.Framebuffer, scale: float, *, is_whole: bool = True
+        self, host: moderngl.Framebuffer, scale: float, *, is_whole: bool = True, is_alone: bool = False
     ) -> Iterator[moderngl.Framebuffer]:
         """Give a framebuffer with `scale` times as many pixels, across and up, in which the host's depth stands.
 
         In the end, what was drawn there lies over the host's picture, and the host's depth is that of what is nearer.
         The host's framebuffer must be bound as `guest` binds it. It is given itself where `scale` is 1, and where
         another one cannot stand in for it, which is told once. One that `is_whole` is opaque where the host has drawn
-        nothing; any other lets through what is behind it there too.
+        nothing; any other lets through what is behind it there too. Where nothing but this `is_alone` with depth, the
+        host's is neither read nor written.
         """
         if scale >= 1.0 or self._is_obstructed(host):
             yield host
@@ -100,24 +104,37 @@ class Smaller:
         x, y, width, height = host.viewport
         buffers = self._room((width, height), smaller_size((width, height), scale))
         with aside(self._ctx, host, alike=True):
-            buffers.use()
-            self._gl.glActiveTexture(NUMBERS["TEXTURE0"] + UNITS["before"])
-            self._gl.glCopyTexSubImage2D(NUMBERS["TEXTURE_2D"], 0, 0, 0, x, y, width, height)
+            if not is_alone:
+                buffers.use()
+                self._gl.glActiveTexture(NUMBERS["TEXTURE0"] + UNITS["before"])
+                self._gl.glCopyTexSubImage2D(NUMBERS["TEXTURE_2D"], 0, 0, 0, x, y, width, height)
             buffers.target.depth_mask = True
             buffers.target.use()
-            self._do("bring")
+            self._clear()
+            if not is_alone:
+                with colourless(buffers.target):
+                    self._do("bring")
             yield buffers.target
         buffers.use()
         host.depth_mask = False
+        if is_alone:
+            self._do("lay", blending=None if is_whole else OVER, everywhere=True)
+            host.depth_mask = True
+            return
         if is_whole:
             self._do("enlarge")
-        self._do("fit", blending=(moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA), everywhere=not is_whole)
+        self._do("fit", blending=OVER, everywhere=not is_whole)
         host.depth_mask = True
         self._do("deepen", blending=(moderngl.ZERO, moderngl.ONE))
 
     def release(self) -> None:
         """Give everything back."""
         release_all(*self._passes.values(), *self._programs.values(), *self._buffers.values())
+
+    def _clear(self) -> None:
+        """Clear what is drawn into: by calls that leave the values alone which a host clears with."""
+        for what, values in (("COLOR", (0.0,) * 4), ("DEPTH", (farthest_depth(),))):
+            self._gl.glClearBufferfv(NUMBERS[what], 0, (c_float * len(values))(*values))
 
     def _do(self, name: str, *, blending: tuple[int, int] | None = None, everywhere: bool = False) -> None:
         """Do one of the passes, where its test of depth says or `everywhere`."""

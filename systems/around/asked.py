@@ -22,6 +22,9 @@ class Asked:
     is_deep: bool = False
     """Whether all grass writes depth, where it covers at least half a pixel."""
 
+    is_alone: bool = False
+    """Whether nothing else has depth in the picture, before it or after it."""
+
     on_ours: bool = True
     """Whether what the grass stands on has been drawn here, and is not the game's own."""
 
@@ -55,8 +58,9 @@ class Frame:
         )  # fmt: skip
         return not ONCE & self.parts & next_one.parts and all(is_same)
 
-    def after(self, before: Self | None, /, *, is_deep: bool) -> "tuple[Frame, Asked, bool]":
+    def after(self, before: Self | None, /, *, depth: str) -> "tuple[Frame, Asked, bool]":
         """Return the frame as it is once this much is drawn, what that is, and whether it goes on from `before`."""
         is_next = before is None or not before.goes_on(self)
         drawn = self.parts if is_next or before is None else before.parts | self.parts
-        return replace(self, parts=drawn), Asked(self.parts, is_deep, "ground" in drawn), not is_next
+        asked = Asked(self.parts, depth == "all", depth == "none", "ground" in drawn)
+        return replace(self, parts=drawn), asked, not is_next

@@ -132,6 +132,24 @@ def test_n11_what_is_half_transparent_lets_the_hosts_through(
     np.testing.assert_array_equal(host.depths()[left], before[left])
 
 
+@pytest.mark.parametrize("is_whole", [True, False])
+def test_n11_where_nothing_else_has_depth_the_hosts_is_neither_read_nor_written(
+    ctx: moderngl.Context, host: Host, smaller: Smaller, fill: Fill, *, is_whole: bool
+) -> None:
+    fill(GREEN, LEFT, depth=-0.5)
+    before, middle = host.depths(), SIZE[1] // 2
+    with guest(ctx) as target, smaller.instead_of(target, 0.5, is_whole=is_whole, is_alone=True):
+        fill(RED, ALL if is_whole else (-1.0, -1.0, 1.0, 0.0), depth=0.5)
+    upper = host.picture()[middle + 2 :]
+    assert (host.picture()[: middle - 2] == (255, 0, 0, 255)).all()
+    if is_whole:
+        assert (upper == (255, 0, 0, 255)).all()
+    else:
+        assert (upper[:, : SIZE[0] // 2] == (0, 255, 0, 255)).all()
+        assert (upper[:, SIZE[0] // 2 :] == 0).all()
+    np.testing.assert_array_equal(host.depths(), before)
+
+
 def test_n11_it_keeps_to_the_hosts_viewport_scissor_and_colours(
     ctx: moderngl.Context, host: Host, smaller: Smaller, fill: Fill
 ) -> None:
