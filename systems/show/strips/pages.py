@@ -5,8 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-WHOLE = 8
-"""Pictures begin at multiples of so many texels, so that texels of the finest mip-maps are of one picture alone."""
+WHOLE = 16
+"""Pictures begin at multiples of so many texels, so that texels of the finest mip-maps are of one picture alone. Others
+show several, which are of one kind."""
 
 ROWS, MOST_PAGES = 512, 256
 """Texels up, of a page: so much is sent to a graphics card at a time. And pages: OpenGL promises no more."""
@@ -29,15 +30,16 @@ class Pages:
     """How many pages there are; rows and columns of each."""
 
 
-def packed(sizes: NDArray[np.int64], /) -> Pages:
-    """Return pages for pictures of these sizes (n, 2), rows and columns: those of the width that takes least room."""
+def packed(sizes: NDArray[np.int64], kinds: NDArray[np.int64], /) -> Pages:
+    """Return pages for pictures of these sizes (n, 2), rows and columns, and kinds (n,): those that take least room."""
     whole = -(-sizes // WHOLE) * WHOLE
     widest = int(whole[:, 1].max())
-    return min((_packed(whole, max(width, widest)) for width in WIDTHS), key=lambda pages: np.prod(pages.shape))
+    each = (_packed(whole, kinds, max(width, widest)) for width in WIDTHS)
+    return min(each, key=lambda pages: np.prod(pages.shape))
 
 
-def _packed(sizes: NDArray[np.int64], width: int) -> Pages:
-    shelf, column, heights = _shelved(sizes, width)
+def _packed(sizes: NDArray[np.int64], kinds: NDArray[np.int64], width: int) -> Pages:
+    shelf, column, heights = _shelved(sizes, kinds, width)
     count = min(-(-sum(heights) // max(ROWS, *heights)), MOST_PAGES)
     rows = -(-sum(heights) // (count * WHOLE)) * WHOLE
     while (stacks := _stacked(heights, count, rows)) is None:
@@ -46,17 +48,24 @@ def _packed(sizes: NDArray[np.int64], width: int) -> Pages:
     return Pages(places, (count, rows, width))
 
 
-def _shelved(sizes: NDArray[np.int64], width: int) -> tuple[NDArray[np.int64], NDArray[np.int64], list[int]]:
+def _shelved(
+    sizes: NDArray[np.int64], kinds: NDArray[np.int64], width: int
+) -> tuple[NDArray[np.int64], NDArray[np.int64], list[int]]:
     """Return the shelf that each picture stands on, its first column there, and how high each shelf is."""
     shelf, column, heights = np.zeros(len(sizes), np.int64), np.zeros(len(sizes), np.int64), list[int]()
-    ends: list[int] = []
+    ends, owners = list[int](), list[int]()
     for number in np.lexsort((-sizes[:, 1], -sizes[:, 0])):
-        high, wide = sizes[number].tolist()
-        fits = (at for at, end in enumerate(ends) if end + wide <= width and high >= LOWER * heights[at])
+        (high, wide), kind = sizes[number].tolist(), int(kinds[number])
+        fits = (
+            at
+            for at, (end, owner) in enumerate(zip(ends, owners, strict=True))
+            if owner == kind and end + wide <= width and high >= LOWER * heights[at]
+        )
         at = next(fits, len(ends))
         if at == len(ends):
             ends.append(0)
             heights.append(high)
+            owners.append(kind)
         shelf[number], column[number] = at, ends[at]
         ends[at] += wide
     return shelf, column, heights

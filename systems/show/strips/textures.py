@@ -47,7 +47,14 @@ def strip_atlas(stock: Sequence[list[list[Strips]]], columns: Sequence[int]) -> 
     """Return the atlas of all strips; `columns` are those of each ring's strips."""
     every = _each(stock)
     boxes = np.concatenate([_painted_box(strips) for strips in every])
-    pages = packed(boxes[:, 1] - boxes[:, 0])
+    kinds = [
+        kind
+        for ring in stock
+        for kind, models in enumerate(ring)
+        for strips in models
+        for _ in range(_pictures(strips))
+    ]
+    pages = packed(boxes[:, 1] - boxes[:, 0], np.array(kinds))
     return Atlas(
         texels=levels(_laid([strips.texels for strips in every], boxes, pages)),
         ranks=levels(_laid([strips.ranks for strips in every], boxes, pages)),

@@ -62,15 +62,19 @@ def test_pages_hold_every_picture_apart_and_little_else() -> None:
     """The sizes of the meadow's pictures at `high`, and of single ones."""
     rings = [((58, 190), 54), ((50, 274), 54), ((96, 316), 60), ((84, 457), 60), ((48, 158), 18), ((32, 172), 12)]
     meadow = np.array([size for size, count in rings for _ in range(count)])
-    for sizes, fullest in ((meadow, 0.8), (np.array([(7, 1500)]), 0.8), (np.array([(900, 20), (8, 8)]), 0.0)):
-        pages = packed(sizes)
+    for sizes, fullest in ((meadow, 0.8), (np.array([(7, 1500)]), 0.4), (np.array([(900, 20), (8, 8)]), 0.0)):
+        kinds = np.arange(len(sizes)) % 2
+        pages = packed(sizes, kinds)
         taken = np.zeros(pages.shape, np.int32)
-        for (page, row, column), (high, wide) in zip(pages.places, sizes, strict=True):
+        stands = np.zeros((*pages.shape[:2], 2), np.bool_)
+        for number, ((page, row, column), (high, wide)) in enumerate(zip(pages.places, sizes, strict=True)):
             assert (row % WHOLE, column % WHOLE) == (0, 0)
             mine = taken[page, row : row + high, column : column + wide]
             assert mine.shape == (high, wide)
             mine += 1
+            stands[page, row, kinds[number]] = True
         assert taken.max() == 1
+        assert not stands.all(axis=2).any(), "side by side are those of one kind"
         assert taken.mean() > fullest
 
 
