@@ -111,14 +111,14 @@ def test_n11_with_fewer_pixels_colours_and_depth_are_the_same_but_for_their_deta
     assert ((depth < 1.0) == (deep < 1.0)).mean() > 0.97
 
 
-def test_minimal_shows_what_low_does_with_half_the_pixels(stage: Stage, load: Load, at: At) -> None:
+def test_minimal_shows_what_low_does_with_a_quarter_of_the_pixels(stage: Stage, load: Load, at: At) -> None:
     at(PRESETS["minimal"].pixels, 1.0)
     held = shown(stage, load(preset="low"))[0]
     at(1.0, 1.0)
     whole, minimal = (shown(stage, load(preset=name))[0] for name in ("low", "minimal"))
     np.testing.assert_array_equal(minimal, held)
     assert np.abs(minimal - whole).max() > 0.0
-    assert PRESETS["minimal"].pixels ** 2 == pytest.approx(0.5, abs=0.02)
+    assert PRESETS["minimal"].pixels ** 2 == pytest.approx(0.25, abs=0.02)
 
 
 @pytest.mark.parametrize("scale", [0.75, 0.5, 0.36])
