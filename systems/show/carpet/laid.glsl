@@ -66,7 +66,7 @@ vec2 rising_at(vec2 at) {
 const int ABOUT = 5, ALL_ABOUT = 9;  // a corner of the mesh, its neighbours before, behind and beside it, and aslant
 
 vec2 about(vec2 place, int number) {
-    ivec2 aslant = ivec2(number - 5) >> ivec2(0, 1) & 1, straight = ivec2(number > 2, number == 1 || number == 2);
+    ivec2 aslant = ivec2(number - ABOUT) >> ivec2(0, 1) & 1, straight = ivec2(number > 2, number == 1 || number == 2);
     vec2 way = number < ABOUT ? vec2(straight) * (number % 2 == 0 ? 1.0 : -1.0) : vec2(aslant) * 2.0 - 1.0;
     return place + way * spaced;
 }
