@@ -106,16 +106,22 @@ def plain(load: Load) -> Prairie:
     return load("plain")
 
 
+FAINT = 0.05
+"""What rows may swing by, in parts of how much blades differ: fainter ones nobody makes out among these."""
+
+
 def periodic(picture: Doubles, along: Doubles, spacing: float) -> float:
-    """Power with which means of a picture's lines repeat every `spacing`; `along` (lines,) says where they lie."""
-    power, window = 0.0, 40
+    """By how much means of a picture's lines swing every `spacing`; `along` (lines,) says where they lie."""
+    powers, window = list[float](), 40
+    shape = np.hanning(window)
     for start in range(0, len(along) - window + 1, window // 2):
         lines = picture[start : start + window].mean(axis=1)
         level = np.poly1d(np.polyfit(np.arange(window), lines, 3))(np.arange(window))
-        spectrum = np.abs(np.fft.rfft((lines - level) * np.hanning(window))) ** 2
+        spectrum = np.abs(np.fft.rfft((lines - level) * shape)) ** 2
         each = np.fft.rfftfreq(window) * spacing / abs(np.gradient(along)[start + window // 2])
-        power += float(spectrum[(each > 0.8) & (each < 1.2)].sum())
-    return power
+        powers.append(float(spectrum[(each > 0.8) & (each < 1.2)].sum()))
+    # A sine of amplitude 1 has half the window's sum in one frequency, and half of that in the two beside it.
+    return math.sqrt(float(np.mean(powers)) / 1.5) / (0.5 * float(shape.sum()))
 
 
 @pytest.mark.slow
@@ -125,15 +131,19 @@ def test_f2_a_plain_from_twelve_metres_up_shows_neither_rows_of_strips_nor_where
     pitch, view, (width, height) = math.radians(-30.0), math.radians(40.0), (480, 270)
     up = pitch + np.arctan((1.0 - (2.0 * np.arange(height) + 1.0) / height) * math.tan(view / 2.0))
     quality = plain.site.quality
-    away = 12.0 / np.tan(-up) / quality.patch
+    away, spacing = 12.0 / np.tan(-up) / quality.patch, 1.0 / quality.strip_rings[0].strips
     near, far = (away > 6.0) & (away < 10.0), (away > 14.0) & (away < 20.0)
-    rows, lines = np.zeros(2), np.zeros(2)
+    swings, planted, lines = [], [], np.zeros(2)
     with testing.stage(ctx, (width, height)) as stage:
         for x in (-20.0, 0.0, 20.0):
-            for number, picture in enumerate(both(stage, plain, Camera((x, 12.0, 30.0), 0.0, pitch, view))):
-                rows[number] += periodic(picture[near], away[near], 1.0 / quality.strip_rings[0].strips)
-                lines[number] += unevenness(picture[far].mean(axis=1)) ** 2
-    assert rows[0] < 1.5 * rows[1]
+            pictures = both(stage, plain, Camera((x, 12.0, 30.0), 0.0, pitch, view))
+            lines += [unevenness(picture[far].mean(axis=1)) ** 2 for picture in pictures]
+            seen, along = pictures[0][near], away[near]
+            grain = float((seen - seen.mean(axis=1, keepdims=True)).std())
+            swings.append(periodic(seen, along, spacing) / grain)
+            rows = 2.0 * FAINT * grain * np.sin(2.0 * np.pi * along / spacing)
+            planted.append(periodic(seen + rows[:, None], along, spacing) / grain)
+    assert np.mean(swings) < FAINT < 0.8 * np.mean(planted), "rows of twice that are measured"
     assert lines[0] < 1.5 * lines[1]
 
 
