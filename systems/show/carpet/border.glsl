@@ -3,13 +3,13 @@
 #include "systems/around/appearance.py"
 #include "systems/show/carpet/sight.glsl"
 
-const vec2 SMOOTH_ROOT = vec2(1.0 / 3.0, 0.4);  // the inverse of a smooth step near its begin: of powers of the root of a third of it
+const float THIRD = 1.0 / 3.0, SMOOTH_ROOT = 0.4;  // the inverse of a smooth step near its begin, by powers of the root of a third of it
 const float TOPS = 0.85;  // height up to which the leaf area falls off linearly, of the tallest tip's: as strips show it
 
 // How high strips stand where the carpet has this share, of their full height: they rise first, and then it sinks. The share is a
 // smooth step; this is where it is on its way, within 0.001 up to where strips are full grown.
 float grown_by(float share) {
-    float root_of = sqrt((1.0 - share) / 3.0), sunk = root_of * (1.0 + root_of * (SMOOTH_ROOT.x + SMOOTH_ROOT.y * root_of));
+    float root_of = sqrt((1.0 - share) * THIRD), sunk = root_of * (1.0 + root_of * (THIRD + SMOOTH_ROOT * root_of));
     return smoothstep(0.0, 1.0, (SINKS + (1.0 - SINKS) * sunk) / GROWN);
 }
 
