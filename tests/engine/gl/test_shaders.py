@@ -226,6 +226,18 @@ def test_what_comes_through_a_medium_is_worked_out_in_one_place() -> None:
     assert found == {"engine/shaders/lib/through.glsl"}
 
 
+def test_no_table_is_asked_for_a_kind_that_may_be_a_face() -> None:
+    """NVIDIA's compiler refuses `kinds[-1]` even in a branch that nothing takes; Mesa's and glslang do not."""
+    asked = re.compile(r"sender\.kind(?! [!=]= FACE)")
+    found = [
+        line.strip()
+        for name in SHADERS
+        for line in (ROOT / name).read_text("utf-8").splitlines()
+        if asked.search(line.replace("listed_kind(sender.kind)", ""))
+    ]
+    assert found == []
+
+
 def functions_in(text: str) -> dict[str, int]:
     """How many lines the longest function of each name takes."""
     found = re.finditer(r"^\w+ (\w+)\([^;{]*\{$.*?^\}$", text, re.MULTILINE | re.DOTALL)
