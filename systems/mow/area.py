@@ -20,6 +20,9 @@ Area = Footprint | Road
 LEAST = 0.75
 """A footprint counts as at least so wide, in cells: half the diagonal of one, and a little."""
 
+ROUNDED = 1e-6
+"""What float32 rounds corners by, of the polygon's extent."""
+
 Change = Callable[[Values, Floats], Values]
 """Gives what some cells have, (rows, columns, ...), that lie so far outside of an area [m], (rows, columns)."""
 
@@ -139,19 +142,19 @@ def _beside_cells(area: Footprint, pose: Pose, part: Part, *, beyond: float, lea
 
 @lru_cache(maxsize=64)
 def _around(area: Footprint) -> tuple[Floats, Floats] | None:
-    """Return where each edge of a polygon without hollows begins, and which way is out of it, (n, 2) each."""
+    """Return where each edge of a convex polygon begins, and which way is out of it, (n, 2) each; None of any other."""
     if not area.corners:
         return None
     corner = np.array(area.corners, np.float32)
     edge = np.roll(corner, -1, axis=0) - corner
     length = np.hypot(edge[:, 0], edge[:, 1])
     corner, edge = corner[length > 0.0], edge[length > 0.0] / length[length > 0.0, None]
-    after = np.roll(edge, -1, axis=0)
-    turns = edge[:, 0] * after[:, 1] - edge[:, 1] * after[:, 0]
-    if turns.min() < 0.0 < turns.max():
+    left = np.stack([edge[:, 1], -edge[:, 0]], axis=1)
+    beyond = left @ corner.T - (left * corner).sum(axis=1)[:, None]  # each edge's line, of each corner
+    side = np.float32(1.0 if beyond.sum() < 0.0 else -1.0)
+    if (side * beyond).max() > ROUNDED * np.ptp(corner):
         return None
-    side = np.float32(1.0 if turns.max() > 0.0 else -1.0)
-    return corner, np.stack([side * edge[:, 1], -side * edge[:, 0]], axis=1)
+    return corner, side * left
 
 
 def _off(area: Area, pose: Pose, reached: list[tuple[Part, Stretches]], least: float) -> list[float]:

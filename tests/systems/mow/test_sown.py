@@ -25,6 +25,7 @@ AMONG = False, False, True
 BOX = Footprint(corners=((-4.0, -3.0), (4.0, -3.0), (4.0, 3.0), (-4.0, 3.0)))
 KITE = Footprint(corners=((0.0, -9.0), (4.0, 0.0), (0.0, 3.0), (-4.0, 0.0)))
 HOLLOW = Footprint(corners=((-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (0.0, -2.0), (-5.0, 5.0)))
+STAR = Footprint(corners=((0.0, -4.0), (2.4, 3.2), (-3.8, -1.2), (3.8, -1.2), (-2.4, 3.2)))
 BEND = Road(((-20.0, 0.0), (0.0, 0.0), (12.0, 16.0)), 3.0)
 AREAS = st.sampled_from([BOX, BEND, Footprint(radius=2.5), Footprint(radius=1.0, length=9.0)])
 POSES = st.builds(Pose, st.floats(-15.0, 15.0), st.floats(-15.0, 15.0), st.floats(-pi, pi))
@@ -59,7 +60,9 @@ def test_f4_how_far_off_an_area_is_a_road_bends_and_a_house_has_corners(area: Ar
 
 @settings(deadline=None, max_examples=15)
 @given(
-    st.sampled_from([BOX, KITE, HOLLOW, Footprint(corners=tuple(reversed(KITE.corners)))]), POSES, st.floats(0.1, 4.0)
+    st.sampled_from([BOX, KITE, HOLLOW, STAR, Footprint(corners=tuple(reversed(KITE.corners)))]),
+    POSES,
+    st.floats(0.1, 4.0),
 )
 def test_f4_a_stroke_is_told_of_each_cell_how_far_off_it_is(area: Footprint, pose: Pose, beyond: float) -> None:
     plots = Plots((100.0, 100.0), np.dtype(np.float32))
