@@ -62,16 +62,12 @@ class Beside:
         getattr(gl, f"glMaxShaderCompilerThreads{limits_of(gl).beside}")(AS_MANY)
         made = gl.glCreateProgram()
         for stage, text in (("VERTEX_SHADER", texts.vertex), ("FRAGMENT_SHADER", texts.fragment)):
-            if text is not None:
-                shader = gl.glCreateShader(NUMBERS[stage])
-                given = (c_char_p * 1)(text.strip().encode())  # as moderngl gives it
-                gl.glShaderSource(shader, 1, addressof(given), None)
-                gl.glCompileShader(shader)
-                gl.glAttachShader(made, shader)
-                gl.glDeleteShader(shader)  # it stays for as long as the program does
-        if texts.varyings:
-            names = (c_char_p * len(texts.varyings))(*[name.encode() for name in texts.varyings])
-            gl.glTransformFeedbackVaryings(made, len(names), addressof(names), NUMBERS["INTERLEAVED_ATTRIBS"])
+            shader = gl.glCreateShader(NUMBERS[stage])
+            given = (c_char_p * 1)(text.strip().encode())  # as moderngl gives it
+            gl.glShaderSource(shader, 1, addressof(given), None)
+            gl.glCompileShader(shader)
+            gl.glAttachShader(made, shader)
+            gl.glDeleteShader(shader)  # it stays for as long as the program does
         gl.glLinkProgram(made)
         self._underway.append(made)
 

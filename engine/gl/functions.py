@@ -40,7 +40,7 @@ NUMBERS = {
     "TEXTURE_BINDING_2D": 0x8069, "TEXTURE_BINDING_2D_ARRAY": 0x8C1D, "SAMPLER_BINDING": 0x8919,
     "CLIP_ORIGIN": 0x935C, "CLIP_DEPTH_MODE": 0x935D, "LOWER_LEFT": 0x8CA1, "UPPER_LEFT": 0x8CA2,
     "NEGATIVE_ONE_TO_ONE": 0x935E, "ZERO_TO_ONE": 0x935F, "PROVOKING_VERTEX": 0x8E4F,
-    "VERTEX_SHADER": 0x8B31, "FRAGMENT_SHADER": 0x8B30, "INTERLEAVED_ATTRIBS": 0x8C8C, "COMPLETION_STATUS": 0x91B1,
+    "VERTEX_SHADER": 0x8B31, "FRAGMENT_SHADER": 0x8B30, "COMPLETION_STATUS": 0x91B1,
     "LAST_VERTEX_CONVENTION": 0x8E4E, "VERTEX_ATTRIB_ARRAY_DIVISOR": 0x88FE,
 }  # fmt: skip
 """What OpenGL calls its constants, without GL_."""
@@ -81,7 +81,7 @@ DOES = {
     "glGetQueryObjectiv": (c_int, c_int, c_void_p), "glGetQueryObjectui64v": (c_int, c_int, c_void_p),
     "glFlush": (), "glShaderSource": (c_int, c_int, c_void_p, c_void_p), "glCompileShader": (c_int,),
     "glAttachShader": (c_int,) * 2, "glLinkProgram": (c_int,), "glGetProgramiv": (c_int, c_int, c_void_p),
-    "glTransformFeedbackVaryings": (c_int, c_int, c_void_p, c_int), "glDeleteShader": (c_int,),
+    "glDeleteShader": (c_int,),
     "glDeleteProgram": (c_int,), "glMaxShaderCompilerThreadsKHR": (c_int,), "glMaxShaderCompilerThreadsARB": (c_int,),
     "glClearBufferfv": (c_int, c_int, c_void_p),
 }  # fmt: skip

@@ -25,8 +25,7 @@ class Texts(NamedTuple):
     """What a driver makes a program of."""
 
     vertex: str
-    fragment: str | None
-    varyings: tuple[str, ...]
+    fragment: str
 
 
 class ShaderError(RuntimeError):
@@ -119,12 +118,9 @@ def locate(message: str, lines: list[Line]) -> str:
     return _PLACE.sub(place, message)
 
 
-def texts(
-    vertex: str, fragment: str | None, defines: Mapping[str, str | int], *, varyings: tuple[str, ...] = ()
-) -> Texts:
+def texts(vertex: str, fragment: str, defines: Mapping[str, str | int]) -> Texts:
     """Return what a driver is given of a program of two shader files."""
-    given = [None if name is None else compose(name, defines)[0] for name in (vertex, fragment)]
-    return Texts(given[0] or "", given[1], varyings)
+    return Texts(compose(vertex, defines)[0], compose(fragment, defines)[0])
 
 
 def program(

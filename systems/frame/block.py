@@ -159,7 +159,7 @@ class FrameBlock:
         self.earth = 0
         """The texture of a game's own ground, by its number in GL; 0 for none."""
 
-    def texts(self, vertex: str, fragment: str | None, defines: Mapping[str, str | int]) -> Texts:
+    def texts(self, vertex: str, fragment: str, defines: Mapping[str, str | int]) -> Texts:
         """Return what a driver is given of a program that knows the block."""
         return texts(vertex, fragment, {**self.defines, **defines})
 

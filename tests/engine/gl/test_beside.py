@@ -8,10 +8,9 @@ from tallgrass.engine.gl.beside import Beside, makes_beside
 from tallgrass.engine.gl.functions import functions_of
 from tallgrass.engine.gl.shaders import Texts
 
-VERTEX = "#version 330 core\nout float told;\nvoid main() { told = 2.0; gl_Position = vec4(told); }\n"
-DRAWN = Texts(VERTEX, "#version 330 core\nout vec4 color;\nvoid main() { color = vec4(1.0); }\n", ())
-WRITTEN = Texts(VERTEX, None, ("told",))
-WRONG = Texts(VERTEX, "#version 330 core\nvoid main() { nothing(); }\n", ())
+VERTEX = "#version 330 core\nvoid main() { gl_Position = vec4(1.0); }\n"
+DRAWN = Texts(VERTEX, "#version 330 core\nout vec4 color;\nvoid main() { color = vec4(1.0); }\n")
+WRONG = Texts(VERTEX, "#version 330 core\nvoid main() { nothing(); }\n")
 
 
 def numbers(ctx: moderngl.Context) -> list[int]:
@@ -20,9 +19,9 @@ def numbers(ctx: moderngl.Context) -> list[int]:
 
 def test_what_a_driver_was_asked_for_is_made_and_given_back_whatever_it_is(ctx: moderngl.Context) -> None:
     before, beside = numbers(ctx), Beside(ctx)
-    for texts in (DRAWN, WRITTEN, WRONG):
+    for texts in (DRAWN, WRONG):
         beside.ask(texts)
-    assert len(numbers(ctx)) == len(before) + 3
+    assert len(numbers(ctx)) == len(before) + 2
     start = monotonic()
     while beside.left and monotonic() - start < 20.0:
         sleep(0.001)
