@@ -60,17 +60,18 @@ const float HALF = 0.5;
 #include "systems/show/carpet/met.glsl"
 #endif
 
+ByKind grown;  // how densely each kind grows there
+
 #if KINDS > 4 || defined(EDGED)
 // What lies on the ground is of the kinds that grow there, up to where they end.
 void work_out_soil() {
     Lie lies = lie_at(place.xz);
-    ByKind grows = grows_at(place.xz);
-    lush = understorey_of(lies, grows);
+    lush = understorey_of(lies, grown);
 #ifndef EDGED
     if (!anything_is_cut() && !any_casters())
         return;
 #endif
-    Soil soil = soil_lit(place, lies, grows, 1.0 - haze_at(place));
+    Soil soil = soil_lit(place, lies, grown, 1.0 - haze_at(place));
 #ifdef EDGED
     soil_seen = soil.seen;
 #endif
@@ -89,7 +90,7 @@ void work_out(float slope) {
     slow = slow_seen(seen_at(place, slope, tall, dense), slope, tall);
     vec2 message = message_at(place.xz);
     stands = lodged(message);
-    sways = sways_by(areas(grows_at(place.xz)), message);
+    sways = sways_by(areas(grown), message);
 #endif
 }
 
@@ -97,10 +98,9 @@ void work_out(float slope) {
 Canopy canopy_here(Sight sight) {
     Canopy canopy = Canopy(unbundled(lit), told_beside(lit), vec2(0.0));
 #ifdef EDGED
-    ByKind grows = grows_at(place.xz);
     canopy.light.leaves = vec2(0.0);
     for (int kind = 0; kind < KINDS; kind++)
-        canopy.light.leaves += OF(met, kind) / max(total(met), TINY) * leaves_over(grows, kind);
+        canopy.light.leaves += OF(met, kind) / max(total(met), TINY) * leaves_over(grown, kind);
 #endif
 #ifdef TRODDEN
     if (trodden_at(place.xz))
@@ -123,7 +123,7 @@ vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
     float deep = deepest(sight.slope, crest, tall * stands), stubble = 1.0;
     ByKind area = all_kinds(0.0);
     if (anything_is_cut()) {
-        area = areas(grows_at(place.xz));
+        area = areas(grown);
         stubble -= comes_through(weighed(area, leaves_left(left)) / max(sight.slope, LOWEST));
     }
 #ifndef HEADS
@@ -162,25 +162,26 @@ float before_rim(float slope) {
 }
 
 #ifdef EDGED
-// Where the line of sight comes to grass, from the mesh on, is the place of the pixel; how much that hides of what is behind.
-float comes_to_grass() {
+// Where the line of sight comes to grass, from the mesh on, is the place of the pixel; how much that hides of what is behind,
+// and up to where it is left to stand [m].
+float comes_to_grass(out float left) {
     Way way = way_from(over, lies_over, raises, viewing_slope(rise, over), crest);
     bool aside;
     float at = enters(way, aside);
     place = farther(over, max(at, 0.0));
-    ByKind grows = grows_at(place.xz);
-    float left = left_here(place.xz);
-    tall = carpet_high(grows, left);
-    dense = weighed(grows, areas(leaves_left(left)));
-    return at < 0.0 ? 0.0 : hidden_behind(way, at, aside, areas(grows), left);
+    grown = grows_at(place.xz);
+    left = left_here(place.xz);
+    tall = carpet_high(grown, left);
+    dense = weighed(grown, areas(leaves_left(left)));
+    return at < 0.0 ? 0.0 : hidden_behind(way, at, aside, areas(grown), left);
 }
 
 // How much of each kind is met there.
 void meet(float slope, float left) {
-    ByKind grows = grows_at(place.xz), ripe;
+    ByKind ripe;
     float on_level = max(level_slope(max(slope, 0.0), crest, carpet, tall, stands), FLATTEST);
-    met = kinds_met(grows, on_level, left, left_by_strips(1.0 - strips_before, carpet), ripe);
-    met = shared_out(met, grows, on_level);
+    met = kinds_met(grown, on_level, left, left_by_strips(1.0 - strips_before, carpet), ripe);
+    met = shared_out(met, grown, on_level);
 #ifdef HEADS
     riper = ripe;
 #endif
@@ -189,13 +190,15 @@ void meet(float slope, float left) {
 
 void main() {
 #ifdef EDGED
-    float hidden = comes_to_grass();
+    float left, hidden = comes_to_grass(left);
     vec2 dx = dFdx(over.xz), dy = dFdy(over.xz);
-    float slope = viewing_slope(rise, place), left = left_here(place.xz), ahead = 0.0;
+    float slope = viewing_slope(rise, place), ahead = 0.0;
     work_out(slope);
     meet(slope, left);
 #else
     vec2 dx = dFdx(place.xz), dy = dFdy(place.xz);
+    if (KINDS > 4 || anything_is_cut())
+        grown = grows_at(place.xz);
 #if KINDS > 4
     rise = rise_at(place.xz);
 #endif

@@ -67,18 +67,15 @@ float below_top(Way way, float at) {
 // How far over the ground it goes on until it comes to grass [m], below 0 where it comes to none; whether it does so from the side.
 float enters(Way way, out bool aside) {
     float most = min(to_ground(way), FARTHEST_ENTERED), step = most / clamp(ceil(most / SHORTEST_STEP), 1.0, STEPS);
-    float at = 0.0, below = below_top(way, 0.0), number = 0.0, high = way.high;
-    while (below < 0.0 && ++number <= MOST_STEPS && at < FARTHEST_ENTERED && high > 0.0 && high < OUT_OF_IT * way.high) {
+    float at = 0.0, below, number = 0.0, high = way.high;
+    while ((below = below_top(way, at)) < 0.0) {
+        if (++number > MOST_STEPS || at >= FARTHEST_ENTERED || high <= 0.0 || high >= OUT_OF_IT * way.high)
+            return -1.0;
         step *= number > STEPS ? LONGER : 1.0;
         at += step;
         high = over_ground(way, at);
-        below = below_top(way, at);
     }
-    if (below < 0.0)
-        return -1.0;
     aside = false;
-    if (below < 0.0)
-        return -1.0;
     // On even grass it came from above; at an edge it comes in from the side.
     float outside = max(at - step, 0.0), above = clamp(at - below / max(way.slope, FLATTEST), outside, at);
     if (below_top(way, above) >= -ROUNDED * way.high)
