@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from .systems.wind.turbulence import Turbulence
     from .systems.wind.whirlwind import Whirlwind
 
-__version__ = "0.1.0"
+__version__ = "1.0.0"
 
 __all__ = [
     "Blast",
