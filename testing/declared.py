@@ -2,7 +2,8 @@
 
 import re
 from collections.abc import Iterator
-from typing import Any, get_args
+from types import UnionType
+from typing import Any, Union, get_args, get_origin
 
 from pydantic import ValidationError
 from pydantic.fields import FieldInfo
@@ -48,7 +49,8 @@ def _is_number(annotation: Any) -> bool:
 
 
 def _is_list(annotation: Any) -> bool:
-    return isinstance(getattr(annotation, "__origin__", None), type)
+    origin = get_origin(annotation)
+    return isinstance(origin, type) and origin not in {Union, UnionType}  # from Python 3.14 on these are classes
 
 
 def _inner_limits(annotation: Any) -> Iterator[Any]:
