@@ -27,13 +27,14 @@ flat in vec3 shades;  // as far.vert has it
 
 out vec4 pixel;
 
+const float FINER_BY = -0.6;  // level of a picture: it is read between texels, which blurs it
 const vec2 SHIMMER_HERTZ = vec2(1.7, 1.3);  // how fast limbs swing, along and across a picture [Hz]
 const float SHIMMER_TURNS = 15.0;  // how much their swing changes over a crown [rad]
 const float SHIMMER = 0.12;  // how far they seem to swing, of how far they do, of a picture
 const float HIDES_MOST = 0.96;  // of the sun's light, where leaves cover a texel wholly
 const float COMES = 1.5;  // how much sooner it is all there than twigs are left to it
-const float WOOD_SENDS = 0.6;  // what white wood sends to an eye that has the sun behind it, of what a leaf facing all ways does
-const float FACES_UP = 0.5;  // how far up what is seen of a crown looks, -1 to 1
+const float UPRIGHT_SENDS = 0.25;  // what an upright stem sends of level light from behind the eye, of what faces it, over half a turn [1/rad]
+const float FACES_UP = 0.5;  // how far up what is seen of a crown looks, -1 to 1; wood, which is upright, does not
 
 vec2 tile_at(vec2 number, vec2 at) {
     return (number + at) / vec2(COLUMNS, ROWS);
@@ -41,7 +42,7 @@ vec2 tile_at(vec2 number, vec2 at) {
 
 // Where many stand side by side, pixels on either side of an edge are far apart on the picture.
 vec4 picture_at(vec3 place) {
-    return row_told.x > 1.0 ? textureLod(tree_far, place, row_told.z) : texture(tree_far, place);
+    return row_told.x > 1.0 ? textureLod(tree_far, place, row_told.z) : texture(tree_far, place, FINER_BY);
 }
 
 vec4 row_texel(float row, vec2 at, float layer) {
@@ -70,6 +71,12 @@ vec4 mixed_texel(vec2 at, float layer) {
     return mixed.y > 0.0 ? mix(texel, row_texel(rows_of.w, at, layer), mixed.y) : texel;
 }
 
+// What white wood sends to the eye of the sun's light: the mean over the side of an upright stem that is seen.
+float wood_sends(vec3 ray) {
+    float level = length(sun.xz), apart = acos(clamp(-dot(ray.xz, sun.xz) / max(length(ray.xz) * level, LEAST_PART), -1.0, 1.0));
+    return SENDS * level * UPRIGHT_SENDS * (sin(apart) + (PI - apart) * cos(apart));
+}
+
 void main() {
     vec2 at = on_own(0.5 + 0.5 * on);
 #ifndef CAST
@@ -91,8 +98,8 @@ void main() {
     must_cover(cover);
     float seen = through_crown(shading, sun_own.xyz, sun_own.w);
     vec3 ray = normalize(seen_at - eye);
-    vec3 sends = mix(strewn_send(ray), vec3(WOOD_SENDS * (0.5 - 0.5 * dot(ray, sun))), wood);
-    vec3 sky = sky_on(skylit, below, sky_through(shading, sun_own.w), FACES_UP);
+    vec3 sends = mix(strewn_send(ray), vec3(wood_sends(ray)), wood);
+    vec3 sky = sky_on(skylit, below, sky_through(shading, sun_own.w), FACES_UP * (1.0 - wood));
     Light light = Light(sunlit.rgb * (seen * sends), sky, hazy, 0.0, 0.0, vec2(0.0));
     vec3 pigment = pigment_of(texel.r / max(texel.a, LEAST_COVER), wood);
     pixel = drawn(shade(Surface(pigment, 1.0, AMONG_LEAVES), light), cover);

@@ -53,7 +53,13 @@ float leaf_cover(vec2 on) {
     return sharpened(half_width(clamp(on.y, LEAST_PART, 1.0 - LEAST_PART)) - abs(on.x), 0.0, LEAST_WIDTH);
 }
 
+const float FURROWED_MEAN = 0.925, BANDED_MEAN = 0.88;  // how bright bark is with what it has on it, of its ground, in the mean
+
+float bark_mean() {
+    return rough < 0.0 ? BANDED_MEAN : mix(1.0, FURROWED_MEAN, rough);
+}
+
 // The pigment of leaves, dark to bright, or of bark.
 vec3 pigment_of(float tone, float wood) {
-    return mix(mix(dark, bright, tone), bark, wood);
+    return mix(mix(dark, bright, tone), bark * bark_mean(), wood);
 }

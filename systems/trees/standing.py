@@ -59,7 +59,7 @@ Detail, 2007)."""
 FEWEST = 0.08
 """Share of them that is drawn at least."""
 
-GONE, BEGINS = 80.0, 125.0
+GONE, BEGINS = 140.0, 200.0
 """Height at which a tree is all drawn as it is far off, and below which it begins to be [pixels]."""
 
 

@@ -49,7 +49,7 @@ float bark_at(vec2 on, float fades) {
     float band = smoothstep(BAND.x, BAND.y, first * (BANDED.x + BANDED.y * broad));
     float foot = (1.0 - smoothstep(FOOT.x, FOOT.y, on.y)) * smoothstep(SPOT.x, SPOT.y, fine);
     float furrowed = RIDGES.x + RIDGES.y * (DEEP * first + (1.0 - DEEP) * fine);
-    return banded ? mix(1.0, BAND_TONE, fades * max(band, foot)) : mix(1.0, furrowed, fades * rough);
+    return mix(bark_mean(), banded ? mix(1.0, BAND_TONE, max(band, foot)) : mix(1.0, furrowed, rough), fades);
 }
 
 void main() {
