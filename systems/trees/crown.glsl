@@ -2,7 +2,13 @@
 #include "lib/canopy.glsl"
 #include "systems/trees/motion.py"
 
+const float LOAD_AT_END = 3.0;  // of a cantilever, whose line is (3 x² - x³) / 2
 const float LAWN_REACHES = 0.4;  // of the light from below, what comes to the depth of a crown
+
+// How far aside a trunk is at a part of its height, of how far its top is: it bends as a cantilever does.
+float cantilever(float high) {
+    return 0.5 * high * high * (LOAD_AT_END - high);
+}
 
 // How much of the sun comes through the crown where so many leaves are met, by the direction to it, in the tree's own axes, and a
 // constant; it has so many of its leaves.

@@ -20,6 +20,7 @@ flat in vec3 hazy;
 flat in vec3 below;
 flat in float lit_by;
 flat in vec2 sways;
+flat in vec3 bends;
 flat in vec4 row_told;  // as far.vert has it
 #ifdef CAST
 flat in vec3 shades;  // as far.vert has it
@@ -82,6 +83,8 @@ void main() {
 #ifndef CAST
     vec2 waves = sin(AROUND * (SHIMMER_HERTZ * moment + lit_by) + SHIMMER_TURNS * at.yx + vec2(0.0, 1.0));
     at += SHIMMER * sways.y * waves * at.y;
+    float high = clamp((seen_at.y - bends.y) * bends.z, 0.0, 1.0);
+    at.x += bends.x * (high - cantilever(high));
 #endif
     at = clamp(at, TILE_EDGE, 1.0 - TILE_EDGE);
     vec4 texel = mixed_texel(at, 0.0);

@@ -26,6 +26,7 @@ flat out vec3 hazy;
 flat out vec3 below;
 flat out float lit_by;
 flat out vec2 sways;
+flat out vec3 bends; // how far its top is bent aside, of its picture; where its foot is, and one over its height [m]
 flat out vec4 row_told; // how many side by side; from one to the next, of a picture; level of its picture; what tells it from others
 
 const vec2 MIXES = vec2(0.3, 0.7);  // between which parts of the way from one picture to the next they are mixed
@@ -69,6 +70,7 @@ void main() {
     sunlit = vec4(0.0);
     skylit = hazy = below = vec3(0.0);
     sways = vec2(0.0);
+    bends = vec3(0.0);
     float reach = max(scale * lawn_shade.x, LEAST_SHADE);
     shades = vec3(reach / half_side, foliage * lawn_shade.y * scale * scale / (reach * reach), float(from_above));
     if (from_above) {  // grass is shaded beyond the picture, too
@@ -86,7 +88,9 @@ void main() {
     }
     if (columns > 1.0)
         seen_at.y += height_at(seen_at.xz) - root.y;  // a row of trees goes up and down with the ground
-    seen_at.xz += trunk_bends((seen_at.y - root.y) / (tall * scale), tall * scale, message);
+    vec2 aside = trunk_sways(message);
+    bends = vec3(columns > 1.0 ? 0.0 : 0.5 * dot(aside, across.xz) * tall * scale / half_side, root.y, 1.0 / (tall * scale));
+    seen_at.xz += aside * (seen_at.y - root.y);  // its corners go along a line, and pixels from that to the trunk's
     sways = vec2(dot(message, across.xz), length(message)) * LIMB_SWINGS;
     // The crown is asked for its light in the middle of its sunny side.
     Light light = light_in_crown(middle_of, vec4(0.0), 1.0);

@@ -27,9 +27,8 @@ uniform float tall;         // of its model [m]
 uniform float trunk_hertz;  // of its model
 uniform float moment;       // time, within PERIOD [s]
 
-const vec3 TRUNK_ASIDE = vec3(0.5, 1.06, 0.37);  // across the wind: how far it swings and how fast, of along it; turns apart
-const vec3 LIMB_ASIDE = vec3(0.7, 1.13, 1.7);  // the same of limbs; how many times as far they are apart
-const float LOAD_AT_END = 3.0;  // of a cantilever, whose line is (3 x² - x³) / 2
+const vec3 TRUNK_ASIDE = vec3(0.5, TRUNK_ACROSS, 0.37);  // across the wind: how far it swings and how fast, of along it; turns apart
+const vec3 LIMB_ASIDE = vec3(0.7, LIMB_ACROSS, 1.7);  // the same of limbs; how many times as far they are apart
 const float OVER_TOP = 1.2;  // height up to which a tree bends, of its model's: twigs and pictures go beyond that
 const float LOWEST_ARC = 0.5;  // twice the height that counts at least, for how far down what is bent aside comes [m]
 
@@ -62,10 +61,9 @@ vec2 trunk_sways(vec2 message) {
     return message * (TRUNK_LEANS + TRUNK_SWINGS * swing(hertz, phase)) + aside * (TRUNK_ASIDE.x * TRUNK_SWINGS * across);
 }
 
-// How far a trunk of a length [m] is blown aside at a part of it: it bends as a cantilever does [m].
+// How far a trunk of a length [m] is blown aside at a part of it [m].
 vec2 trunk_bends(float high, float of, vec2 message) {
-    high = clamp(high, 0.0, OVER_TOP);
-    return trunk_sways(message) * (0.5 * of * high * high * (LOAD_AT_END - high));
+    return trunk_sways(message) * (of * cantilever(clamp(high, 0.0, OVER_TOP)));
 }
 
 // Where a point of its model is, with the trunk bent, and a limb swung about its foot on that.

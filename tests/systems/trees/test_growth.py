@@ -8,7 +8,15 @@ from tallgrass.engine.declared.tree import HabitName
 from tallgrass.systems.trees.crown import leaf_area, shading
 from tallgrass.systems.trees.grow import MOST_TWIGS, PIPE, Tree, grown
 from tallgrass.systems.trees.habit import HABITS
-from tallgrass.systems.trees.motion import LIMB_HERTZ, TRUNK_HERTZ, limb_hertz, trunk_hertz
+from tallgrass.systems.trees.motion import (
+    LIMB_ACROSS,
+    LIMB_HERTZ,
+    TONES,
+    TRUNK_ACROSS,
+    TRUNK_HERTZ,
+    limb_hertz,
+    trunk_hertz,
+)
 
 EVERY = pytest.mark.parametrize("name", NAMES)
 
@@ -64,10 +72,15 @@ def test_it_has_the_leaves_of_a_tree_and_they_shade_those_below(name: HabitName)
 
 
 def test_trunks_and_limbs_swing_within_their_ranges_and_the_longer_the_slower() -> None:
+    """Each in two tones, and faster across the wind: all of them within 0.2 to 0.5 Hz, and 1 to 3 Hz."""
     for habit in HABITS.values():
         for height in (2.0, *habit.height):
-            assert TRUNK_HERTZ[0] <= trunk_hertz(height, habit.slender * height) <= TRUNK_HERTZ[1]
+            sways = trunk_hertz(height, habit.slender * height)
+            assert TRUNK_HERTZ[0] <= TONES[0] * sways < TONES[1] * TRUNK_ACROSS * sways <= TRUNK_HERTZ[1]
+        low, high = (trunk_hertz(height, habit.slender * height) for height in habit.height)
+        assert high < low
     lengths = [0.3, 1.0, 2.0, 4.0, 9.0]
     found = [limb_hertz(length) for length in lengths]
     assert found == sorted(found, reverse=True)
-    assert LIMB_HERTZ[0] <= found[-1] < found[0] <= LIMB_HERTZ[1]
+    assert LIMB_HERTZ[0] <= TONES[0] * found[-1] + 1e-9
+    assert found[-1] < found[0] <= LIMB_HERTZ[1] / (TONES[1] * LIMB_ACROSS)
