@@ -86,7 +86,7 @@ def both(address: str, scene: Path, monkeypatch: pytest.MonkeyPatch, capsys: pyt
 
 @pytest.mark.gl
 @pytest.mark.usefixtures("ctx")
-@pytest.mark.parametrize("output", ["film/", "film.webp"])
+@pytest.mark.parametrize("output", ["film/", pytest.param("film.webp", marks=pytest.mark.slow)])
 def test_a_film_by_two_workers_is_that_of_one_process_byte_for_byte(both: Both, scene: Path, output: str) -> None:
     films = []
     assert both("film", scene, "-o", f"FOLDER/{output}", "--fps", FPS, "--size", "64x36") == ("", "")
@@ -97,6 +97,7 @@ def test_a_film_by_two_workers_is_that_of_one_process_byte_for_byte(both: Both, 
     assert len(films[0]) == (COUNT + 1 if output == "film/" else 2), "the manifest too"
 
 
+@pytest.mark.slow
 @pytest.mark.gl
 @pytest.mark.usefixtures("ctx")
 def test_pictures_that_workers_compare_have_the_figures_of_one_process(both: Both, scene: Path) -> None:
@@ -113,6 +114,7 @@ def test_pictures_that_workers_compare_have_the_figures_of_one_process(both: Bot
     assert set(pictures[0]) == {"one.png", "other.png"}
 
 
+@pytest.mark.slow
 @pytest.mark.gl
 @pytest.mark.usefixtures("ctx")
 def test_a_walk_by_a_worker_has_the_figures_of_one_process(
@@ -190,6 +192,7 @@ def test_what_a_lost_worker_had_is_drawn_by_another(address: str, alone: Shootin
     assert len(set(told(whole))) == COUNT
 
 
+@pytest.mark.slow
 @pytest.mark.gl
 @pytest.mark.usefixtures("ctx")
 def test_a_worker_draws_ranges_in_any_order_and_leaves_files_to_the_codec_that_is_asked_for(

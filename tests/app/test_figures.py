@@ -196,6 +196,7 @@ def test_g3_the_strip_of_figure_4_is_as_opaque_as_its_texels_are_covered() -> No
     assert (picture[..., 1] > picture[..., 2])[covered].mean() > 0.95, "grass is greener than blue"
 
 
+@pytest.mark.slow
 @pytest.mark.gl
 @pytest.mark.usefixtures("ctx", "_coarse")
 def test_t2_figure_5_colours_the_patches_in_the_view_cone_alone() -> None:
@@ -283,6 +284,7 @@ def test_figure_10_names_every_built_in_wind_and_draws_its_arrows() -> None:
         assert np.hypot(arrows.U, arrows.V).max() <= 1.0 + 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.gl
 @pytest.mark.usefixtures("ctx", "_coarse")
 def test_r1_figure_16_shows_every_preset_with_its_blades_and_its_cost_in_frames_of_high() -> None:
@@ -296,6 +298,7 @@ def test_r1_figure_16_shows_every_preset_with_its_blades_and_its_cost_in_frames_
     assert {name: float(cost) for name, _, cost in found}["high"] == 1.0
 
 
+@pytest.mark.slow
 @pytest.mark.gl
 @pytest.mark.usefixtures("ctx", "_coarse")
 def test_x1_figure_17_shows_a_walk_before_amid_and_after_changes() -> None:

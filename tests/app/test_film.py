@@ -111,14 +111,14 @@ def stormy(scene: Path) -> Path:
 
 
 def test_n5_a_range_of_frames_is_that_of_the_whole_film_byte_for_byte(tallgrass: Tallgrass, stormy: Path) -> None:
-    folder, options = stormy.parent, ("--fps", 8, "--size", "160x90")
+    folder, options = stormy.parent, ("--fps", 4, "--size", "96x54")
     assert tallgrass("film", stormy, "-o", "whole/", *options).returncode == 0
-    for span in ("20:26", "30:"):
+    for span in ("5:8", "14:"):
         done = tallgrass("film", stormy, "-o", f"part-{span}/", "--frames", span, *options)
         assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
     whole = {path.name: path.read_bytes() for path in (folder / "whole").iterdir()}
-    assert len(whole) == len(set(whole.values())) == 32
-    for span, numbers in (("20:26", range(20, 26)), ("30:", range(30, 32))):
+    assert len(whole) == len(set(whole.values())) == 16
+    for span, numbers in (("5:8", range(5, 8)), ("14:", range(14, 16))):
         part = {path.name: path.read_bytes() for path in (folder / f"part-{span}").iterdir()}
         assert part == {name: whole[name] for name in (f"{number:05d}.png" for number in numbers)}
 
@@ -160,7 +160,7 @@ def test_frames_that_a_film_has_not_are_one_line(tallgrass: Tallgrass, scene: Pa
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a process is ended there without being asked")
-@pytest.mark.parametrize("name", ["a.webp", "a.gif", "a/"])
+@pytest.mark.parametrize("name", ["a.webp", pytest.param("a.gif", marks=pytest.mark.slow), "a/"])
 def test_a_film_that_is_asked_to_end_leaves_no_part_of_a_file(scene: Path, name: str) -> None:
     words = [sys.executable, "-m", "tallgrass.app.cli", "film", scene.name, "-o", name, "--seconds", "3600"]
     folder = scene.parent / "a" if name == "a/" else scene.parent

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 import pytest.__main__
 
+from tallgrass.app.cli import run
 from tallgrass.app.plugins import check_plugin, list_plugins
 from tallgrass.app.scaffold import new_game, new_wind, scaffold, scaffold_game
 from tallgrass.app.studio.errors import InputError
@@ -20,6 +21,10 @@ from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Grass, WindPrimitive
 from tallgrass.engine.plugged import SYSTEMS, SystemPlugins
 from tallgrass.engine.plugins import GROUP, WindKinds, wind_kinds
+
+Python = Callable[..., str]
+
+PYTEST = pytest.__main__.__file__, "-q", "-p", "no:cacheprovider"
 
 
 class Loud(WindPrimitive):
@@ -166,35 +171,27 @@ def test_a_kind_that_is_not_there_is_one_line(capsys: pytest.CaptureFixture[str]
 
 
 @pytest.mark.parametrize("kind", ["dust-devil", "placed-wind", "none"])
-def test_a_new_plugin_passes_the_check_and_its_own_test(tmp_path: Path, kind: str) -> None:
+def test_a_new_plugin_passes_the_check_and_its_own_test(tmp_path: Path, kind: str, python: Python) -> None:
     folder = tmp_path / kind
     files = scaffold(kind, folder)
     assert len(files) == 3
     (module,) = folder.glob("*.py")
     assert len(module.read_text("utf-8").splitlines()) <= 40
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-c", str(folder / "pyproject.toml")]
-    done = subprocess.run(
-        [*command, str(folder)],
-        cwd=folder,
-        env={"PYTHONPATH": str(folder)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert "1 passed" in done.stdout
+    here = f"import sys; sys.path.insert(0, {str(folder)!r})"
+    assert "1 passed" in python(folder, *PYTEST, "-c", "pyproject.toml", ".", place={}, before=here)
 
 
+def test_a_new_game_passes_its_own_tests(tmp_path: Path, python: Python, little_grass: str) -> None:
+    scaffold_game("my-walk", tmp_path / "my-walk")
+    assert "passed" in python(tmp_path / "my-walk", *PYTEST, "tests", place={}, before=little_grass)
+
+
+@pytest.mark.slow
 @pytest.mark.window
-def test_a_new_game_passes_its_own_tests_and_draws_in_its_window(
-    tmp_path: Path, display: str, python: Callable[..., str], little_grass: str
-) -> None:
-    """With little grass; the window is closed after three frames."""
-    folder = tmp_path / "my-walk"
-    scaffold_game("my-walk", folder)
-    command = pytest.__main__.__file__, "-q", "-p", "no:cacheprovider", "tests"
-    assert "passed" in python(folder, *command, place={}, before=little_grass)
-    python(folder, "game.py", "--frames", "3", place={"DISPLAY": display}, before=little_grass)
+def test_a_new_game_draws_in_its_window(tmp_path: Path, display: str, python: Python, little_grass: str) -> None:
+    """It is closed after three frames; that it goes on by frames of pyglet's is held by the pages' games."""
+    scaffold_game("my-walk", tmp_path / "my-walk")
+    python(tmp_path / "my-walk", "game.py", "--frames", "3", place={"DISPLAY": display}, before=little_grass)
 
 
 def test_what_is_begun_is_clean_by_the_houses_own_rules(tmp_path: Path) -> None:
@@ -254,12 +251,18 @@ def test_nothing_is_overwritten(tmp_path: Path) -> None:
     assert [path.read_text("utf-8") for path in (full / "mine.py", file)] == ["mine", "mine"]
 
 
-def test_the_command_ends_as_all_others_do(tallgrass: Any) -> None:
-    assert tallgrass("plugins", "new", "breeze").returncode == 2
-    refused = tallgrass("plugins", "new", "Breeze")
-    assert (refused.returncode, refused.stdout, refused.stderr.count("\n")) == (2, "", 1)
-    assert tallgrass("plugins", "new", "eddy", "-o", "new/eddy").returncode == 0
-    assert tallgrass("new", "wind", "eddy", "-o", "again/eddy").returncode == 0
-    assert tallgrass("new", "game", "Walk").returncode == 2
-    assert tallgrass("plugins", "check", "eddy").returncode == 2
-    assert tallgrass("plugins", "list").returncode == 0
+@pytest.mark.usefixtures("kinds")
+def test_the_command_ends_as_all_others_do(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert run(["plugins", "new", "breeze"]) == 2
+    capsys.readouterr()
+    assert run(["plugins", "new", "Breeze"]) == 2
+    out, err = capsys.readouterr()
+    assert (out, err.count("\n")) == ("", 1)
+    assert run(["plugins", "new", "eddy", "-o", "new/eddy"]) == 0
+    assert run(["new", "wind", "eddy", "-o", "again/eddy"]) == 0
+    assert run(["new", "game", "Walk"]) == 2
+    assert run(["plugins", "check", "eddy"]) == 2
+    assert run(["plugins", "list"]) == 0

@@ -65,6 +65,7 @@ def told(record: Record) -> list[tuple[str, int, tuple[int, int], float]]:
     return [(each.step.moment.leg.name, each.step.moment.number, each.corner, each.ratio) for each in record.worst]
 
 
+@pytest.mark.slow
 def test_n3_the_pop_benchmark_tells_every_key_and_sees_a_pop(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder = scene.parent / "worst"
     assert run(["bench", "pop", str(scene), "--size", "192x108", "--parts", "--json", "-o", str(folder)]) == 0

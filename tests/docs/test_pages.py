@@ -77,6 +77,11 @@ PROGRAM = re.compile(r"(?:python|pytest -q) (\w+\.py)\n")
 MEASURED = {"performance.md"}
 """Pages that tell how much grass there is."""
 
+LONG = {
+    "cameras.md", "embedding.md", "farm.md", "gallery.md", "ground.md", "mowing.md", "music.md", "world.md",
+}  # fmt: skip
+"""Pages that take 5 to 17 s. What they call is called by the tests of frames, hosts and examples as well."""
+
 COARSE = {
     r"^tallgrass (shot|film)": r"\g<0> --preset low",
     r"--preset (?!low\b)\w+ ": "",
@@ -168,7 +173,7 @@ def follow(page: str, folder: Path, python: Python, little_grass: str, display: 
 @pytest.mark.parametrize(
     "page",
     [
-        pytest.param(name, marks=pytest.mark.slow if name in {"farm.md", "gallery.md"} else ())
+        pytest.param(name, marks=pytest.mark.slow if name in LONG else ())
         for name in FOLLOWED
         if not opens_a_window(name)
     ],
@@ -178,7 +183,10 @@ def test_what_a_page_tells_to_do_works(page: str, tmp_path: Path, python: Python
 
 
 @pytest.mark.window
-@pytest.mark.parametrize("page", [name for name in FOLLOWED if opens_a_window(name)])
+@pytest.mark.parametrize(
+    "page",
+    [pytest.param(name, marks=pytest.mark.slow if name in LONG else ()) for name in FOLLOWED if opens_a_window(name)],
+)
 def test_what_a_page_with_windows_tells_to_do_works(
     page: str, tmp_path: Path, python: Python, little_grass: str, display: str
 ) -> None:

@@ -5,6 +5,9 @@ from pathlib import Path
 
 import pytest
 
+LONG = {"farm", "lake", "night_drive", "split_screen", "village"}
+"""What takes 5 to 12 s: the others open windows and draw grass in every way that these do."""
+
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.py"))
 Python = Callable[..., str]
 
@@ -38,8 +41,13 @@ atexit.register(lambda: print(*seen))
 @pytest.mark.gl
 @pytest.mark.parametrize(
     ("program", "headless"),
-    [*((program, False) for program in EXAMPLES), (EXAMPLES[0], True)],
-    ids=[*(program.stem for program in EXAMPLES), "headless"],
+    [
+        *(
+            pytest.param(program, False, marks=pytest.mark.slow if program.stem in LONG else (), id=program.stem)
+            for program in EXAMPLES
+        ),
+        pytest.param(EXAMPLES[0], True, id="headless"),
+    ],
 )
 def test_d6_the_example_runs_and_draws_grass(
     program: Path,

@@ -81,6 +81,7 @@ def test_d5_the_same_class_works_by_decorator(run: Run, scene: Path) -> None:
     assert len(run(EXAMPLE, "-c", DECORATED, scene).split()) == 3
 
 
+@pytest.mark.slow
 def test_the_examples_own_tests_pass(run: Run, site: Path) -> None:
     told = run(site, "-m", "pytest", "-q", "-p", "no:cacheprovider", EXAMPLE / "tests")
     assert "4 passed" in told

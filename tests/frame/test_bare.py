@@ -50,7 +50,9 @@ def bare(ctx: moderngl.Context, tmp_path: Path) -> Iterator[Load]:
         yield scene
 
 
-@pytest.mark.parametrize(("preset", "is_card"), [("low", False), ("high", False), ("high", True)])
+@pytest.mark.parametrize(
+    ("preset", "is_card"), [("low", False), pytest.param("high", False, marks=pytest.mark.slow), ("low", True)]
+)
 def test_t1_bare_ground_far_off_is_as_bright_as_in_the_reference(
     small: Stage, bare: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch, preset: str, *, is_card: bool
 ) -> None:

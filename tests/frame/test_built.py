@@ -70,7 +70,7 @@ def cut(prairie: Prairie) -> None:
         )
 
 
-@pytest.fixture(scope="module", params=["cut", "map"])
+@pytest.fixture(scope="module", params=["cut", pytest.param("map", marks=pytest.mark.slow)])
 def built(
     request: pytest.FixtureRequest, load: Load, tmp_path_factory: pytest.TempPathFactory
 ) -> tuple[Prairie, Prairie]:

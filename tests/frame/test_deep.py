@@ -91,7 +91,7 @@ def seen(stage: Stage, prairie: Prairie, host: Host, camera: Camera, depth: str 
     return stage.read()
 
 
-@pytest.mark.parametrize("lod", ["auto", "blades"])
+@pytest.mark.parametrize("lod", ["auto", pytest.param("blades", marks=pytest.mark.slow)])
 def test_as_much_of_a_pond_is_seen_past_reeds_after_them_as_before(
     stage_of_reeds: Stage, load: Load, camera: Aim, host: Host, lod: str
 ) -> None:

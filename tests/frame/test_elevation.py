@@ -62,7 +62,7 @@ def grey(values: NDArray[np.float32]) -> NDArray[np.uint16]:
     ("new", "relief"),
     [
         ("terrain: { heights: dem.tif }", 90.0),
-        ("terrain: { heights: dem.png, cell: 20, scale: 90 }", 90.0),
+        pytest.param("terrain: { heights: dem.png, cell: 20, scale: 90 }", 90.0, marks=pytest.mark.slow),
     ],
 )
 def test_an_elevation_model_stands_in_for_the_meadows_hills(

@@ -111,6 +111,7 @@ def test_n11_with_fewer_pixels_colours_and_depth_are_the_same_but_for_their_deta
     assert ((depth < 1.0) == (deep < 1.0)).mean() > 0.97
 
 
+@pytest.mark.slow
 def test_minimal_shows_what_low_does_with_a_quarter_of_the_pixels(stage: Stage, load: Load, at: At) -> None:
     at(PRESETS["minimal"].pixels, 1.0)
     held = shown(stage, load(preset="low"))[0]
@@ -211,6 +212,7 @@ runpy.run_module("host_program", run_name="__main__")
 """
 
 
+@pytest.mark.slow
 @pytest.mark.window
 @pytest.mark.gl
 def test_n11_a_game_and_a_prairie_with_fewer_pixels_leave_each_other_alone(tmp_path: Path) -> None:

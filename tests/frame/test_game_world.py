@@ -154,6 +154,7 @@ def test_d6_released_a_prairie_needs_no_collector_to_be_gone(
         gc.enable()
 
 
+@pytest.mark.slow
 def test_d6_a_crowd_that_comes_and_goes_every_frame_does_not_slow_the_systems(
     stage: Stage, loaded: LoadedScene, camera: Aim, ctx: moderngl.Context
 ) -> None:

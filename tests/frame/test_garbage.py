@@ -44,6 +44,7 @@ def fly(stage: Stage, prairie: Prairie, camera: Aim, frames: range) -> None:
         prairie.draw(*stage.matrices(camera(0.6, 2.5, 170.0 - SPEED * frame, pitch=-5)))
 
 
+@pytest.mark.slow
 def test_n11_what_a_flight_leaves_behind_goes_at_once_and_makes_no_cycles(
     stage: Stage, prairie: Prairie, camera: Aim
 ) -> None:

@@ -42,7 +42,7 @@ def room(ctx: moderngl.Context) -> Stage:
         pytest.param("strips", NEAR, 0.9, marks=pytest.mark.slow),
         ("carpet", ABOVE, 0.0),
         ("carpet", LOW, 0.8),
-        ("carpet", FAR, 0.0),
+        pytest.param("carpet", FAR, 0.0, marks=pytest.mark.slow),
     ],
     ids=["strips", "strips in a gale", "carpet", "carpet in a gale", "carpet far away"],
 )

@@ -55,7 +55,10 @@ def dig(prairie: Prairie) -> None:
         prairie.set_heights((column * CELL - 40.0, row * CELL - 40.0), part)
 
 
-@pytest.mark.parametrize("lod", ["blades", "strips", "carpet", "auto"])
+ALONE = [pytest.param(lod, marks=pytest.mark.slow) for lod in ("blades", "strips", "carpet")]
+
+
+@pytest.mark.parametrize("lod", [*ALONE, "auto"])
 def test_changed_ground_shows_what_one_shows_that_was_loaded_with_it(
     stage: Stage, ctx: moderngl.Context, camera: Aim, lod: LodName
 ) -> None:
@@ -131,6 +134,7 @@ def test_ground_that_is_raised_keeps_its_blades_in_the_picture(
     np.testing.assert_array_equal(*pictures)
 
 
+@pytest.mark.slow
 def test_far_shadows_follow_and_are_right_in_the_end(stage: Stage, ctx: moderngl.Context, camera: Aim) -> None:
     """Those that reach over too much of the map of what stands before the sun to be drawn at once."""
     flat, ridge = (np.zeros((601, 601), np.float32) for _ in range(2))

@@ -44,7 +44,7 @@ def test_f4_a_hole_shows_what_the_game_has_drawn_there(
     prairie.release()
 
 
-@pytest.mark.parametrize("lod", ["blades", "strips", "carpet", "auto"])
+@pytest.mark.parametrize("lod", ["blades", "carpet"])
 def test_f4_a_hole_that_is_dug_late_is_one_that_was_always_there_until_it_is_filled(
     stage: Stage, ctx: moderngl.Context, camera: Aim, lod: Any
 ) -> None:

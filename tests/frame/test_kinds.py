@@ -109,10 +109,8 @@ def must_be_each_in_its_place(found: Doubles) -> None:
     assert np.abs(off - np.round(off)).max() < 0.4 / NINE
 
 
-ALONE = [pytest.param(lod, marks=pytest.mark.slow) for lod in ("blades", "strips", "carpet")]
-
-
-@pytest.mark.parametrize("lod", [*ALONE, "auto"])
+@pytest.mark.slow
+@pytest.mark.parametrize("lod", ["blades", "strips", "carpet", "auto"])
 def test_each_of_nine_kinds_shows_its_color_where_it_grows_mown_or_not(
     stage: Stage, load: Callable[[str], Prairie], camera: Aim, lod: str
 ) -> None:
@@ -133,6 +131,7 @@ def test_each_of_nine_kinds_shows_its_color_in_the_reference(
     must_be_each_in_its_place(hues(picture.astype(np.float64), stage, aim))
 
 
+@pytest.mark.slow
 def test_w12_each_of_nine_kinds_is_told_on_the_card_what_a_game_is_told(
     stage: Stage, load: Callable[[str], Prairie], camera: Aim, on_card: OnCard
 ) -> None:
@@ -159,7 +158,10 @@ def test_w12_each_of_nine_kinds_is_told_on_the_card_what_a_game_is_told(
     assert (bent > 0.5).all()
 
 
-@pytest.mark.parametrize("lod", ["blades", "strips", "carpet", "auto"])
+ALONE = [pytest.param(lod, marks=pytest.mark.slow) for lod in ("blades", "strips", "carpet")]
+
+
+@pytest.mark.parametrize("lod", [*ALONE, "auto"])
 def test_no_kind_shows_beyond_its_field_which_ends_within_a_patch(
     ctx: moderngl.Context, stage: Stage, camera: Aim, lod: str
 ) -> None:

@@ -28,7 +28,7 @@ def stage(ctx: moderngl.Context) -> Iterator[Stage]:
         yield made
 
 
-@pytest.mark.parametrize("camera", ["telephoto", "saucer", "reeds"])
+@pytest.mark.parametrize("camera", ["telephoto", "saucer", pytest.param("reeds", marks=pytest.mark.slow)])
 def test_g5_grass_keeps_its_grain_however_large_a_lens_or_its_height_makes_it(
     ctx: moderngl.Context, stage: Stage, camera: str
 ) -> None:

@@ -62,6 +62,7 @@ def test_f4_only_what_lies_under_the_footprint_is_cut(stage: Stage, load: Load, 
     assert changed[away > 4.0].mean() < 6e-4, "but for single pixels in which strips are as near as the carpet"
 
 
+@pytest.mark.slow
 def test_f4_cuts_and_ways_in_low_grass_show_from_above(stage: Stage, load: Load, camera: Aim) -> None:
     prairie, aim = load(MEADOW), camera(0.0, 14.0, 0.0, pitch=-90, view=40)
     before = stage.shot(prairie, aim)

@@ -133,6 +133,7 @@ def test_f4_a_scene_read_again_keeps_what_was_sown(stage: Stage, load: Load, cam
     assert np.abs(last - before).max() <= 2.0
 
 
+@pytest.mark.slow
 def test_n5_a_village_a_crater_and_a_field_are_loaded_in_another_process_to_the_byte(
     ctx: moderngl.Context, tmp_path: Path
 ) -> None:

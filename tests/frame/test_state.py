@@ -73,7 +73,7 @@ def test_n5_a_restored_prairie_shows_the_same_picture_to_the_bit(stage: Stage, l
 DAY = LITTLE + "light: { hour: 12, hours_per_minute: 2 }\n"
 
 
-@pytest.mark.parametrize("frames", [3, PIECES + 8])
+@pytest.mark.parametrize("frames", [3, pytest.param(PIECES + 8, marks=pytest.mark.slow)])
 def test_n5_a_light_that_was_on_its_way_goes_on_from_there(stage: Stage, load: Load, camera: Aim, frames: int) -> None:
     aim, played = camera(0.0, 4.0, 18.0, pitch=-18), load(DAY, lod="carpet")
     noon = stage.shot(played, aim)

@@ -78,6 +78,7 @@ def test_x5_what_a_game_has_done_is_there_when_one_comes_back_and_in_states(stag
     assert other.grass_at([(AWAY[0] + 5.0, AWAY[1])]).cleared[0]
 
 
+@pytest.mark.slow
 def test_p5_no_frame_waits_while_ground_ahead_is_made_and_shadows_follow_it(
     stage: Stage, prairies: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:

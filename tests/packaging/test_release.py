@@ -84,6 +84,13 @@ def test_a_dry_run_builds_what_an_index_takes_and_changes_nothing(
     assert [(ROOT / name).read_bytes() for name in ("CHANGELOG.md", "__init__.py")] == before
 
 
+def test_what_takes_long_is_run_as_well(making: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    ran: list[tuple[str, ...]] = []
+    monkeypatch.setattr(making.subprocess, "run", lambda command, **_: ran.append(tuple(command[1:])))
+    making.must_pass()
+    assert ran == [("lint",), ("types",), ("test",), ("test", "-m", "slow")]
+
+
 def test_how_it_is_called_is_told(making: Any, capsys: pytest.CaptureFixture[str]) -> None:
     assert making.main(["--dry-run"]) == 2
     assert capsys.readouterr().err == "./dev release X.Y.Z [--dry-run]\n"

@@ -72,6 +72,7 @@ def test_the_wheel_holds_every_source_and_nothing_else(wheel: Path) -> None:
     assert shipped == wanted | {f"tallgrass/{name}" for name in ("__init__.py", "__main__.py", "py.typed")}
 
 
+@pytest.mark.slow
 def test_the_tests_pass_against_the_wheel_outside_the_checkout(site: Path, tmp_path: Path) -> None:
     tests = tmp_path / "tests"
     for name in INSTALLED:
@@ -138,6 +139,7 @@ with headless_context() as ctx, stage(ctx, (64, 36)) as made:
 """
 
 
+@pytest.mark.slow
 @pytest.mark.gl
 @pytest.mark.skipif(sys.platform != "linux", reason="root obeys nobody elsewhere")
 def test_d6_where_nothing_can_be_written_and_nobody_has_a_home_one_line_says_so_and_all_works(
