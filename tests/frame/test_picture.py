@@ -269,6 +269,7 @@ def test_statistics_tell_what_was_drawn(stage: Stage, load: Load) -> None:
     assert set(told.systems_ms) == {"press", "tile", "cull", "lod", "transition", "see", "plant", "wind", "gather"}
 
 
+@pytest.mark.slow
 def test_t1_ten_kilometres_of_hills_are_drawn_without_speckles(stage: Stage, load: Load, camera: Aim) -> None:
     land = "{ noise: ridges, seed: 4, size: [10240, 10240], scale: 400, feature: 900 }"
     prairie = load(PURPLE.replace("{ noise: flat, size: [60, 60] }", land).replace(', ground: "#ff0000"', ""))

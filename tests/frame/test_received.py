@@ -128,13 +128,13 @@ def walk(stage: Stage, prairie: Prairie, on_card: OnCard, *, instants: int, step
 
 
 def test_n1_in_a_storm_the_card_tells_every_receiver_what_numpy_does(stage: Stage, load: Load, on_card: OnCard) -> None:
-    walk(stage, load("storm", preset="low"), on_card, instants=20, step=1.0)
+    walk(stage, load("storm", preset="low"), on_card, instants=8, step=2.5)
 
 
 def test_n1_on_steep_ground_with_density_maps_the_card_tells_what_numpy_does_in_both_mixings(
     stage: Stage, mapped: Prairie, on_card: OnCard
 ) -> None:
-    walk(stage, mapped, on_card, instants=12, step=0.7)
+    walk(stage, mapped, on_card, instants=6, step=1.4)
 
 
 @pytest.mark.parametrize("kind", [Whirlwind, Untwinned], ids=["with a twin", "without"])

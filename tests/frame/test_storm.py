@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import moderngl
+import pytest
 
 from tallgrass.systems.prairie import Prairie
 
@@ -89,6 +90,7 @@ def played(ctx: moderngl.Context, folder: Path) -> list[Instants]:
     return told
 
 
+@pytest.mark.slow
 def test_n5_the_storm_goes_on_and_is_the_same_bit_for_bit_whatever_steps_led_to_an_instant(
     ctx: moderngl.Context, tmp_path: Path
 ) -> None:

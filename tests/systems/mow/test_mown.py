@@ -149,7 +149,7 @@ def test_f4_what_cannot_be_cut_is_told_in_a_sentence(arguments: tuple[object, ..
     assert not mown.plots.any
 
 
-@settings(max_examples=12)
+@settings(max_examples=5)
 @given(st.lists(st.tuples(st.floats(-22.0, 22.0), st.floats(-12.0, 12.0), st.floats(0.5, 9.0)), max_size=6))
 def test_f4_the_top_of_a_patch_is_the_highest_grass_that_is_left_on_it(
     strokes: list[tuple[float, float, float]],
