@@ -43,7 +43,7 @@ os.environ.setdefault("MESA_GLSL_VERSION_OVERRIDE", "330")
 os.environ.setdefault("GALLIVM_PERF", "nopt")
 
 # The same examples on every machine, however slow it is.
-settings.register_profile("tallgrass", deadline=None, derandomize=True, max_examples=50)
+settings.register_profile("tallgrass", deadline=None, derandomize=True, max_examples=25)
 settings.load_profile("tallgrass")
 
 Python = Callable[..., str]

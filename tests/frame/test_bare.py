@@ -51,7 +51,12 @@ def bare(ctx: moderngl.Context, tmp_path: Path) -> Iterator[Load]:
 
 
 @pytest.mark.parametrize(
-    ("preset", "is_card"), [("low", False), pytest.param("high", False, marks=pytest.mark.slow), ("low", True)]
+    ("preset", "is_card"),
+    [
+        ("low", False),
+        pytest.param("high", False, marks=pytest.mark.slow),
+        pytest.param("low", True, marks=pytest.mark.slow),
+    ],
 )
 def test_t1_bare_ground_far_off_is_as_bright_as_in_the_reference(
     small: Stage, bare: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch, preset: str, *, is_card: bool

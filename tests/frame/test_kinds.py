@@ -121,6 +121,7 @@ def test_each_of_nine_kinds_shows_its_color_where_it_grows_mown_or_not(
     prairie.grow(ALL)
 
 
+@pytest.mark.slow
 def test_each_of_nine_kinds_shows_its_color_in_the_reference(
     stage: Stage, load: Callable[[str], Prairie], camera: Aim
 ) -> None:

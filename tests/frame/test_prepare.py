@@ -144,6 +144,7 @@ def test_nothing_is_made_on_a_frame_after_a_game_has_prepared(
             esper.delete_entity(entity, immediate=True)
 
 
+@pytest.mark.slow
 def test_what_was_prepared_draws_what_is_drawn_without(stage: Stage, load: Load, camera: Aim) -> None:
     plain, ready, aim = load(), load(), camera(0.0, 2.0, 20.0, pitch=-10)
     ready.prepare()

@@ -265,6 +265,7 @@ MANY = (
 )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_w1_more_receivers_than_there_was_room_for_are_all_told(
     stage: Stage, load: Load, camera: Aim, on_card: OnCard
 ) -> None:

@@ -31,10 +31,10 @@ def prairies(ctx: moderngl.Context) -> Iterator[Any]:
     """Load the scene about a place."""
     loaded = list[Prairie]()
 
-    def load(about: tuple[float, float] = (0.0, 0.0), function: Any = dunes, **options: Any) -> Prairie:
+    def load(about: tuple[float, float] = (0.0, 0.0), window: float = 512.0, **options: Any) -> Prairie:
         scene = {
             "tallgrass": 2,
-            "terrain": {"heights": function, "window": 1024.0, "cell": 2.0},
+            "terrain": {"heights": dunes, "window": window, "cell": 2.0},
             "grass": {"tall": {"height": [0.4, 0.8]}, "short": {"height": [0.2, 0.3], "slope": 20}},
             "quality": "low",
             "camera": {"position": [*about]},
@@ -82,7 +82,7 @@ def test_x5_what_a_game_has_done_is_there_when_one_comes_back_and_in_states(stag
 def test_p5_no_frame_waits_while_ground_ahead_is_made_and_shadows_follow_it(
     stage: Stage, prairies: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    walker, goal, may_come = prairies(), (112.0, 0.0), Event()
+    walker, goal, may_come = prairies(window=1024.0), (112.0, 0.0), Event()
     stage.shot(walker, at(walker, (0.0, 0.0), pitch=-25))
     make = stream.window_of
 

@@ -49,6 +49,7 @@ def ridge(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_f5_a_sun_that_was_moved_shines_as_if_the_scene_had_said_so(room: Stage, load: Load, ridge: Path) -> None:
     moved = load(SCENE.format(heights=ridge, light="azimuth: 60, elevation: 50"), lod="carpet")
     due = load(
@@ -71,6 +72,7 @@ def test_f5_a_sun_that_leaps_at_once_brings_sky_and_shadows_along(room: Stage, l
     assert np.abs(room.shot(moved, CAMERA) - room.shot(due, CAMERA)).max() <= 1.0
 
 
+@pytest.mark.slow
 def test_f5_light_goes_on_while_a_viewer_is_followed(room: Stage, load: Load, ridge: Path) -> None:
     drawn, followed = (load(SCENE.format(heights=ridge, light="elevation: 60"), lod="carpet") for _ in range(2))
     for prairie in (drawn, followed):

@@ -59,6 +59,7 @@ def test_what_is_not_committed_or_keeps_no_word_stops_it(making: Any, monkeypatc
         making.must_keep_its_word()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not (ROOT / ".git").exists(), reason="a release is made in a checkout")
 def test_a_dry_run_builds_what_an_index_takes_and_changes_nothing(
     making: Any, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
