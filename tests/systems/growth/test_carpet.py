@@ -98,8 +98,7 @@ def meet(start: NDArray[Any], heading: NDArray[Any], slope: float, carpet: Carpe
     return [weights @ places[triangle], height, 0.5 + 0.5 * np.cos(2.0 * azimuth), 1.0]
 
 
-@pytest.mark.parametrize("direction", range(4))
-@pytest.mark.parametrize("row", range(5))
+@pytest.mark.parametrize(("row", "direction"), [(0, 0), (1, 3), (2, 1), (3, 2), (4, 0)])
 def test_g4_the_carpet_means_what_rays_through_the_field_meet(carpet: Carpet, row: int, direction: int) -> None:
     spots = np.random.default_rng(row).random((40, 2)) * PATCH
     truth = np.array([meet(spot, HEADINGS[direction], float(carpet.slope[row]), carpet) for spot in spots])

@@ -112,7 +112,7 @@ def test_f8_its_spectrum_is_von_karmans(along: Doubles) -> None:
     assert np.abs(np.log(ratio / np.exp(np.log(ratio).mean()))).max() < 0.2
 
 
-@pytest.mark.parametrize("wind", [Turbulence(direction=33.0), Turbulence(direction=-70.0, scale=30.0, speed=9.0)])
+@pytest.mark.parametrize("wind", [Turbulence(direction=-70.0, scale=30.0, speed=9.0)])
 def test_f8_what_grass_feels_in_time_falls_by_five_thirds_over_two_decades(wind: Turbulence) -> None:
     """Of the frequencies from 0.3 to 30, of speed over length scale, its small oscillations included."""
     place = np.random.default_rng(2).uniform(-500.0, 500.0, (64, 2)).astype(np.float32)
