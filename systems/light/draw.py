@@ -34,16 +34,12 @@ class LightPart(Part):
         self._grown: Grown | None = None
         self._lit: Daylight | None = None
         self._leaps = 0
-        self._skies = tuple(
-            joined(ctx, block, units, "systems/light/sky.vert", "systems/light/sky.frag", GRID | clouds)
-            for clouds in ({}, {"CLOUDS": 1})
-        )
-        self._arrays = [ctx.vertex_array(each, []) for each in self._skies]
+        program = joined(ctx, block, units, "systems/light/sky.vert", "systems/light/sky.frag", GRID)
+        self._array = ctx.vertex_array(program, [])
         self._sky = _sky_texture(ctx)
         self._repeating: moderngl.Texture | None = None
         self.lie = LieMap(ctx, block, units)
         self._toward = 0.0, -1.0
-        self._cloudy = False
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Take over another terrain or seed, and the light as it is by now."""
@@ -58,7 +54,7 @@ class LightPart(Part):
             self.lie.leap()
         if now.daylight is not self._lit or before is not grown:
             shine(record, light, now.daylight, list(grown.scene.grass.values()))
-            self._toward, self._cloudy = toward_sun(light), light.clouds > 0.0
+            self._toward = toward_sun(light)
         if now.daylight is not self._lit:
             self._sky.write(now.daylight.sky.map.astype(np.float32))
         self._leaps, self._lit = now.leaps, now.daylight
@@ -87,12 +83,12 @@ class LightPart(Part):
     def draw_behind(self) -> int:
         """Draw the sky behind all that has been drawn; return the number of draw calls."""
         self._sky.use(self._units["sky"])
-        self._arrays[self._cloudy].render(moderngl.TRIANGLE_STRIP, vertices=2 * (ACROSS + 1), instances=UP)
+        self._array.render(moderngl.TRIANGLE_STRIP, vertices=2 * (ACROSS + 1), instances=UP)
         return 1
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(*self._arrays, *self._skies, self._sky, self.lie)
+        release_all(self._array, self._array.program, self._sky, self.lie)
         if self._repeating is not None:
             self._repeating.release()
 

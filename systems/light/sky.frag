@@ -1,3 +1,4 @@
+#include "lib/clouds.glsl"
 #include "lib/light.glsl"
 
 in vec3 ray;
@@ -9,9 +10,6 @@ const float DISC = 12.0;     // radiance of the disc, of a white leaf's in full 
 const vec2 AUREOLE = vec2(0.35, 900.0);  // radiance of the aureole about it, of the same, and how narrow it is
 const float GREYS = 255.0;  // steps that a picture has from black to white
 const vec3 GRIT = vec3(0.06711056, 0.00583715, 52.9829189);  // interleaved gradient noise (Jimenez, Next Generation Post Processing, 2014)
-
-#ifdef CLOUDS
-#include "lib/clouds.glsl"
 
 in vec3 clouding;
 flat in vec2 sunward;
@@ -31,7 +29,6 @@ vec3 clouds_in(vec3 toward) {
     float shaded = dot(shows, 1.0 + CLOUD_HIGHER * SLICE) * (CLOUD_PALE - CLOUD_DARK * dense.x);
     return vec3(1.0 - shows.x - shows.y, lit, shaded);
 }
-#endif
 
 // What the sun itself and the air about it send, of its light, by the cosine of the angle to it.
 float glow(float cosine) {
@@ -42,12 +39,12 @@ float glow(float cosine) {
 void main() {
     vec3 toward = ray * inversesqrt(dot(ray, ray)), seen = light;
     float sunny = toward.y > 0.0 ? glow(dot(toward, sun)) : 0.0;
-#ifdef CLOUDS
-    vec3 clouds = clouds_in(toward);
-    seen = seen * clouds.x + cloudlight * clouds.z;
-    // Low down, the sun is seen past them as in the mean.
-    sunny = clouds.y + sunny * (clouds.x - (1.0 - clamp(cloud_edge, 0.0, 1.0)) * (1.0 - clouding.y));
-#endif
+    if (cloud_edge <= 1.0) {
+        vec3 clouds = clouds_in(toward);
+        seen = seen * clouds.x + cloudlight * clouds.z;
+        // Low down, the sun is seen past them as in the mean.
+        sunny = clouds.y + sunny * (clouds.x - (1.0 - clamp(cloud_edge, 0.0, 1.0)) * (1.0 - clouding.y));
+    }
     seen += sunlight * sunny;
     float grit = fract(GRIT.z * fract(dot(gl_FragCoord.xy, GRIT.xy))) - 0.5;
     pixel = vec4(shown_of(seen) + (writes_raw > 0.5 ? 0.0 : grit / GREYS), 1.0);

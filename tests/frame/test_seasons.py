@@ -54,7 +54,7 @@ def make_rare(prairie: Any) -> None:
     """Make the carpet's program of grass that changes, which a live prairie makes before its first frame."""
     carpet = prairie.painter.painters.get("carpet")
     if carpet is not None:
-        assert carpet.ground.carpet[3].array
+        assert carpet.ground.carpet[3].program
 
 
 @pytest.mark.parametrize("lod", ["blades", "strips", "carpet"])

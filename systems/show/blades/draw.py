@@ -1,13 +1,13 @@
 """Drawing 3D blades: a pass over the blades, then a ribbon for each."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ....engine.gl.shaders import tell
+from ....engine.gl.shaders import Texts, tell
 from ....engine.gl.stream import Stream, release_all
 from ...frame.block import FrameBlock, filled, joined, room_for
 from .organs import organ_defines
@@ -26,6 +26,8 @@ CORES, EDGES = 1, 2
 
 ROUND = "0.35"
 """How far the face normal turns towards a blade's edges, as if it were rounded."""
+
+FILES = "systems/show/blades/ribbon.vert", "systems/show/blades/blades.frag"
 
 Defines = Mapping[str, str | int]
 
@@ -73,6 +75,7 @@ class Ribbons:
         parted: bool = False,
         record: np.dtype[np.void] = RIBBON,
         defines: Defines | None = None,
+        tell: Callable[[moderngl.Program], None] = lambda _: None,
     ) -> None:
         finest = parted or not soft
         own = int(block.defines.get("MOST_OWN_SEGMENTS", 0)) if finest else 0
@@ -81,29 +84,36 @@ class Ribbons:
             "SUBLEVELS": room_for(len(counts)), **({"SOFT": 1} if soft else {}), **({"PARTED": 1} if parted else {}),
             **({"FINEST": 1} if finest else {}), **(defines or {}),
         }  # fmt: skip
-        self._make = partial(
-            joined, ctx, block, units, "systems/show/blades/ribbon.vert", "systems/show/blades/blades.frag"
-        )
-        self._deep_defines = {name: value for name, value in whole.items() if name != "PARTED"} | {"DEEP": 1}
-        self._counts = counts
-        self.program = self._told(self._make(whole))
+        deep = {name: value for name, value in whole.items() if name != "PARTED"} | {"DEEP": 1}
+        self._make, self._defines = partial(joined, ctx, block, units, *FILES), (whole, deep)
+        self._texts, self._tell, self._counts = partial(block.texts, *FILES), tell, counts
         self.stream = Stream(ctx, record)
-        self.array = ctx.vertex_array(self.program, [self.stream.binding(self.program)])
-        self._deep: moderngl.VertexArray | None = None
-        """What writes depth alone, once it is asked for."""
+        self._arrays: dict[bool, moderngl.VertexArray] = {}
 
-    def _told(self, made: moderngl.Program) -> moderngl.Program:
-        """Tell a program how many segments there are."""
-        made["segments"], made["counts"] = self.segments, len(self._counts)
-        made["segments_of"] = filled(self._counts, room_for(len(self._counts)))
-        return made
+    def array(self, *, deep: bool = False) -> moderngl.VertexArray:
+        """Return what draws them, or writes depth where they cover half a pixel at least, made once it is asked for."""
+        if deep not in self._arrays:
+            made = self._make(self._defines[deep])
+            made["segments"], made["counts"] = self.segments, len(self._counts)
+            made["segments_of"] = filled(self._counts, room_for(len(self._counts)))
+            self._tell(made)
+            self._arrays[deep] = made.ctx.vertex_array(made, [self.stream.binding(made)])
+        return self._arrays[deep]
 
-    def deep(self) -> moderngl.VertexArray:
-        """Return what writes depth alone, where a soft ribbon covers at least half a pixel."""
-        if self._deep is None:
-            made = self._told(self._make(self._deep_defines))
-            self._deep = made.ctx.vertex_array(made, [self.stream.binding(made)])
-        return self._deep
+    @property
+    def program(self) -> moderngl.Program:
+        """What draws them."""
+        return self.array().program
+
+    def texts(self) -> Iterator[Texts]:
+        """Return what the program is made of, if it is not there yet."""
+        if False not in self._arrays:
+            yield self._texts(self._defines[False])
+
+    def tell_again(self) -> None:
+        """Tell what is there what it has to know, which is something else now."""
+        for each in self._arrays.values():
+            self._tell(each.program)
 
     def fill(self, blades: moderngl.VertexArray, count: int, *, first: int = 0) -> int:
         """Let the pass over blades make out `count` of them, from the `first` on; return the number of draw calls."""
@@ -118,11 +128,11 @@ class Ribbons:
             return 0
         if part is not None:
             tell(self.program, "part", part)
-        return self._draw(self.array)
+        return self._draw(self.array())
 
     def draw_deep(self) -> int:
         """Write the depth of what was filled in; return the number of draw calls."""
-        return self._draw(self.deep()) if self.stream.count else 0
+        return self._draw(self.array(deep=True)) if self.stream.count else 0
 
     def _draw(self, array: moderngl.VertexArray) -> int:
         array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.segments + 2, instances=self.stream.count)
@@ -130,9 +140,8 @@ class Ribbons:
 
     def release(self) -> None:
         """Give everything back."""
-        if self._deep is not None:
-            release_all(self._deep, self._deep.program)
-        release_all(self.array, self.program, self.stream)
+        arrays = self._arrays.values()
+        release_all(*arrays, *(array.program for array in arrays), self.stream)
 
 
 class BladePainter:

@@ -14,7 +14,7 @@ from ....components.arrays import Floats
 from ....engine.declared.quality import Quality
 from ....engine.gl.records import Records
 from ....engine.gl.remembered import Remembered
-from ....engine.gl.shaders import tell
+from ....engine.gl.shaders import Texts, tell
 from ....engine.gl.shelf import Shelves
 from ....engine.gl.stream import Stream, release_all
 from ...around.appearance import handed_over
@@ -116,8 +116,9 @@ class BladesPainter(RepresentationPainter):
             for parted, counts in ((True, segments[: self._parted + 1]), (False, segments[self._parted :]))
             if counts
         ]
-        self.morph = Ribbons(ctx, block, segments[-1:], units, soft=True, record=PAINTED, defines={**laid, "MORPH": 1})
-        self._tell(self.morph.program)
+        self.morph = Ribbons(
+            ctx, block, segments[-1:], units, soft=True, record=PAINTED, defines={**laid, "MORPH": 1}, tell=self._tell
+        )
         self._gathered, self._told = Remembered[_Gathered](), Remembered[_Told]()
         self._first = self._asked = 0
 
@@ -127,6 +128,18 @@ class BladesPainter(RepresentationPainter):
             tell(made, name, value)
         tell_sizes(made, self._strips.stock.forms)
         tell_stacks(made, self._strips.quality.strip_rings)
+
+    def texts(self) -> Iterator[Texts]:
+        """Return what the programs of ribbons that are not there yet are made of."""
+        for ribbons in (self.morph, *self.groups):
+            yield from ribbons.texts()
+
+    def making(self) -> Iterator[None]:
+        """Make the programs of ribbons that are not there yet, one at a time."""
+        for ribbons in (self.morph, *self.groups):
+            for _ in ribbons.texts():
+                ribbons.array()
+                yield
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Take over how much of each kind has become what it is to be."""
@@ -149,7 +162,8 @@ class BladesPainter(RepresentationPainter):
         self.store.release()
         (self._stock, self._strips, self.store), self._beside = self._beside, None
         self.hearing.tell_again()
-        for made in (*self.passes, self.morph.program):
+        self.morph.tell_again()
+        for made in self.passes:
             self._tell(made)
         self._gathered, self._told = Remembered[_Gathered](), Remembered[_Told]()
 
@@ -161,7 +175,7 @@ class BladesPainter(RepresentationPainter):
             shelf.reserve(READY_ROWS)
         self.hearing.make_ready()
         for ribbons in (self.morph, *self.groups):
-            self._tell(ribbons.deep().program)
+            ribbons.array(deep=True)
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
         """Pretend that some are on their way, and that there are others of each ring."""
@@ -290,7 +304,6 @@ class BladesPainter(RepresentationPainter):
     def draw_deep(self) -> int:
         """Write the depth of all blades; return the number of draw calls."""
         self.store.targets.use(self._units["targets"])
-        self._tell(self.morph.deep().program)
         return sum(ribbons.draw_deep() for ribbons in (self.morph, *self.groups))
 
     def release(self) -> None:

@@ -15,7 +15,7 @@ from ....engine.gl.shaders import Texts
 from ....engine.gl.shelf import Shelves
 from ....engine.gl.stream import release_all
 from ...frame.block import FrameBlock, joined
-from .layer import GroundShelf, Layer
+from .layer import BARE, EDGED, EDGED_CARPET, EVEN, GroundShelf, Layer
 from .stock import CarpetStock
 from .textures import image_count
 from .tiles import TILE, tile_grid
@@ -42,10 +42,6 @@ WHOLE, DENSE, THIN = 0, 1, 2
 GLSL = {"RAISED": RAISED, "APART": APART}
 
 
-def _program_of(layer: Layer) -> moderngl.Program:
-    return layer.program
-
-
 class GroundPainter:
     """Draws ground and carpet."""
 
@@ -68,15 +64,13 @@ class GroundPainter:
         self.grid = ctx.buffer(corners), ctx.buffer(indices)
         self.shelves = Shelves(partial(GroundShelf, ctx, side))
         self.bare: list[Layer] = []
-        self.covered: list[Layer] = []
-        """The same, where carpet may lie."""
         self.under: list[Layer] = []
         self.carpet: list[Layer] = []
         """For what is usual, uncut and cut; for lamps beside that; and for all that there may be."""
         self.edged: list[Layer] = []
         """What is drawn where grass ends or is cut: ground, what lies under the carpet, and the carpet."""
         self.casting: list[Layer] = []
-        """The carpet in shadow maps: where it is even, and where grass ends or is cut."""
+        """The carpet in shadow maps."""
         self.is_trodden = False
         """Whether anybody treads the grass, or has: then pixels of the carpet ask for that, which costs."""
         self._lay_out(seed)
@@ -89,31 +83,25 @@ class GroundPainter:
         litter: Defines = {"ANISOTROPIC": 1} if anisotropy(ctx) > 1.0 else {}
         stack = stack_for(ctx, image_count(stock.growths))
         stacked: Defines = {"STACK": stack, "REPEATED": 1} if stack > 1 else {}
-        whole: Defines = {"CUT": 0}
-        cut: Defines = {"CUT": 1}
         usual: Defines = {"PLAIN": 1}
+        plain: Defines = usual | {"LAMPLESS": 1}
+        cuts: list[Defines] = [{"CUT": 0}, {"CUT": 1}]
         trodden: Defines = {"TRODDEN": 1}
         known = heads | stacked | litter
-        plain = known | usual | {"LAMPLESS": 1}
-        wanted: list[tuple[list[Layer], int, str, Defines]] = [
-            *((self.bare, 0, "ground", litter | each) for each in (usual | whole, usual | cut, trodden)),
-            *((self.under, 1, "under", heads | each) for each in (whole, cut, trodden)),
-            *((self.carpet, 2, "carpet", each) for each in (plain | whole, plain | cut)),
-            (self.carpet, 2, "carpet", known | usual),
-            (self.carpet, 2, "carpet", known | trodden),
-            (self.edged, 3, "ground", litter | trodden | {"EDGED": 1}),
-            (self.edged, 4, "under", heads | trodden | {"EDGED": 1}),
-            (self.edged, 4, "carpet", known | trodden | {"EDGED": 1}),
-            *((self.casting, stream, "cast", {}) for stream in (2, 4)),
+        wanted: list[tuple[list[Layer], str, Defines]] = [
+            *((self.bare, "ground", litter | each) for each in (*(usual | cut for cut in cuts), trodden)),
+            *((self.under, "under", heads | each) for each in ({}, trodden)),
+            *((self.carpet, "carpet", known | each) for each in (*(plain | cut for cut in cuts), usual, trodden)),
+            (self.edged, "ground", litter | trodden | {"EDGED": 1}),
+            (self.edged, "under", heads | trodden | {"EDGED": 1}),
+            (self.edged, "carpet", known | trodden | {"EDGED": 1}),
+            (self.casting, "cast", {}),
         ]
-        for among, stream, name, defines in wanted:
+        for among, name, defines in wanted:
             vertex, fragment = f"systems/show/carpet/{name}.vert", f"systems/show/carpet/{name}.frag"
             make = partial(joined, ctx, self._block, self.units, vertex, fragment, defines)
             texts = partial(self._block.texts, vertex, fragment, defines)
-            among.append(Layer(make, texts, self.shelves, stream, self.grid))
-        self.covered += [
-            Layer(partial(_program_of, each), each.texts, self.shelves, 1, self.grid) for each in self.bare
-        ]
+            among.append(Layer(make, texts, self.shelves, self.grid))
         self.restock(stock)
 
     def texts(self) -> Iterator[Texts]:
@@ -126,7 +114,7 @@ class GroundPainter:
         """Make the programs that are not there yet, one at a time."""
         for each in self._layers:
             if each.made is None:
-                _ = each.array
+                _ = each.program
                 yield
 
     @property
@@ -134,12 +122,12 @@ class GroundPainter:
         return *self.bare, *self.under, *self.carpet, *self.edged, *self.casting
 
     def _tell(self, name: str, value: object) -> None:
-        for layer in (*self._layers, *self.covered):
+        for layer in self._layers:
             layer.know({name: value})
 
     @property
     def _is_cut(self) -> bool:
-        """Whether any grass has been cut: programs that need not ask for that are cheaper."""
+        """Whether any grass has been cut: pixels that need not ask for that are cheaper."""
         return bool(self._block.record["anything_cut"][0])
 
     @property
@@ -172,7 +160,7 @@ class GroundPainter:
         """Have something to draw for each program."""
         self.is_trodden, shelf = True, self.shelves.now
         shelf.tiles = None
-        for stream in shelf.streams[3:]:
+        for stream in shelf.streams[EDGED:]:
             if not stream.count:
                 stream.write(np.zeros(1, TILE))
 
@@ -224,30 +212,30 @@ class GroundPainter:
     def draw_bare(self, *, alone: bool) -> int:
         """Draw the bare ground, where it comes `alone` that of the carpet too; return the number of draw calls."""
         self.use()
-        rare = 2 if self._is_rare or self.is_trodden else self._is_cut
-        calls = self.bare[rare].draw(pushed=0.0) + self.edged[0].draw()
+        bare = self.bare[2 if self._is_rare or self.is_trodden else self._is_cut]
+        calls = bare.draw(BARE, pushed=0.0) + self.edged[0].draw(EDGED)
         if alone:
-            calls += self.covered[rare].draw(pushed=PUSHED)
+            calls += bare.draw(EVEN, pushed=PUSHED)
         return calls
 
     def draw_under(self) -> int:
         """Draw what lies under the carpet; return the number of draw calls."""
         self.use()
-        return self.under[2 if self.is_trodden else self._is_cut].draw() + self.edged[1].draw()
+        return self.under[self.is_trodden].draw(EVEN) + self.edged[1].draw(EDGED_CARPET)
 
     def draw_carpet(self, part: int = WHOLE) -> int:
         """Draw the carpet, or a part of it: its outlines let through what is behind; return the draw calls."""
         self.use()
         rare = self._is_rare or self.is_trodden or any(self._came)
         even = self.carpet[3 if rare else 2 if self._is_lamplit else self._is_cut]
-        return even.draw(part=part) + self.edged[2].draw(part=part)
+        return even.draw(EVEN, part=part) + self.edged[2].draw(EDGED_CARPET, part=part)
 
     def cast(self, light: tuple[float, float, float], /) -> int:
         """Write the depth at which grass of the carpet stops light from a place [m]; return the draw calls."""
         self.shelves.now.shares.use(self.units["shares"])
-        for layer in self.casting:
-            layer.know({"light": light})
-        return sum(layer.draw() for layer in self.casting)
+        (layer,) = self.casting
+        layer.know({"light": light})
+        return layer.draw(EVEN) + layer.draw(EDGED_CARPET)
 
     def release(self) -> None:
         """Give everything back."""

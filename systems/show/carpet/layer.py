@@ -1,4 +1,4 @@
-"""Layers of the ground: what draws tiles of it, and the tiles that each viewer sees."""
+"""What draws tiles of the ground, and the tiles that each viewer sees."""
 
 from collections.abc import Callable, Mapping
 
@@ -9,16 +9,19 @@ from ....engine.gl.shelf import Shelves
 from ....engine.gl.stream import Stream, release_all
 from .tiles import TILE
 
+BARE, EVEN, EDGED, EDGED_CARPET = STREAMS = range(4)
+"""What tiles are parted into, as `by_layer` has them."""
+
 
 class GroundShelf:
     """What is sent of the ground that one viewer sees: tiles by layer, and how much the carpet shows on each patch."""
 
     def __init__(self, ctx: moderngl.Context, side: int) -> None:
-        self.streams = tuple(Stream(ctx, TILE) for _ in range(5))
+        self.streams = tuple(Stream(ctx, TILE) for _ in STREAMS)
         self.shares = ctx.texture((side, side), 1, alignment=1)
         self.shares.filter = (moderngl.NEAREST, moderngl.NEAREST)
-        self.arrays: dict[Layer, moderngl.VertexArray] = {}
-        """What draws the tiles of each layer, once it is asked for."""
+        self.arrays: dict[tuple[Layer, int], moderngl.VertexArray] = {}
+        """What draws the tiles of a stream as a layer does, once it is asked for."""
         self.tiles: object = None
         self.shown: object = None
         """What was sent last."""
@@ -29,17 +32,16 @@ class GroundShelf:
 
 
 class Layer:
-    """A program that draws tiles of the ground, those of a stream of the shelves; it is made once it is asked for."""
+    """A program that draws tiles of the ground, made once it is asked for."""
 
     def __init__(
         self,
         make: Callable[[], moderngl.Program],
         texts: Callable[[], Texts],
         shelves: Shelves[GroundShelf],
-        stream: int,
         grid: tuple[moderngl.Buffer, moderngl.Buffer],
     ) -> None:
-        self._make, self.texts, self._shelves, self._stream, self._grid = make, texts, shelves, stream, grid
+        self._make, self.texts, self._shelves, self._grid = make, texts, shelves, grid
         self._told: dict[str, object] = {}
         self._untold: dict[str, object] = {}
         """Of that, what the program is told before it draws next: of many, a frame draws with a few."""
@@ -58,15 +60,14 @@ class Layer:
             self._untold = {}
         return self.made
 
-    @property
-    def array(self) -> moderngl.VertexArray:
-        """What draws the tiles of the viewer that looks."""
+    def _array(self, stream: int) -> moderngl.VertexArray:
+        """Return what draws those tiles of the viewer that looks."""
         shelf, program = self._shelves.now, self.program
-        if self not in shelf.arrays:
+        if (self, stream) not in shelf.arrays:
             corners, indices = self._grid
-            contents = [(corners, "2f", "corner"), shelf.streams[self._stream].binding(program)]
-            shelf.arrays[self] = program.ctx.vertex_array(program, contents, index_buffer=indices)
-        return shelf.arrays[self]
+            contents = [(corners, "2f", "corner"), shelf.streams[stream].binding(program)]
+            shelf.arrays[self, stream] = program.ctx.vertex_array(program, contents, index_buffer=indices)
+        return shelf.arrays[self, stream]
 
     def know(self, told: Mapping[str, object]) -> None:
         """Tell the program what it asks for of this once it draws."""
@@ -74,12 +75,12 @@ class Layer:
         self._told |= fresh
         self._untold |= fresh
 
-    def draw(self, **told: float) -> int:
-        """Draw the tiles, if there are any, by a program that is told this; return the number of draw calls."""
-        count = self._shelves.now.streams[self._stream].count
+    def draw(self, stream: int, **told: float) -> int:
+        """Draw the tiles of a stream, if there are any, by a program that is told this; return the draw calls."""
+        count = self._shelves.now.streams[stream].count
         if not count:
             return 0
         for name, value in told.items():
             tell(self.program, name, value)
-        self.array.render(moderngl.TRIANGLES, instances=count)
+        self._array(stream).render(moderngl.TRIANGLES, instances=count)
         return 1

@@ -133,12 +133,12 @@ def tile_grid() -> tuple[NDArray[np.float32], NDArray[np.int32]]:
 def by_layer(tiles: NDArray[np.void], laid: Mask, edged: Mask, /) -> list[NDArray[np.void]]:
     """Return which tiles (n,) each layer draws, by where carpet may lie and where grass ends or is cut, (n,) each.
 
-    These are bare ground, ground under the carpet, the carpet, and of edged tiles all ground, and the carpet. Those
+    These are bare ground, the carpet and what is under it, and of edged tiles all ground, and the carpet. Those
     that adjoin edged ones have bare ground as well: what lies under their carpet ends above the ground there.
     """
     even = laid & ~edged
     bare = ~(laid | edged) | even & adjoining(tiles, edged)
-    return [tiles[chosen] for chosen in (bare, even, even, edged, laid & edged)]
+    return [tiles[chosen] for chosen in (bare, even, edged, laid & edged)]
 
 
 def adjoining(tiles: NDArray[np.void], some: Mask, /) -> Mask:

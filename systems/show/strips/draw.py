@@ -50,8 +50,8 @@ def _sorts(*special: Sort) -> list[Sort]:
 SORTS = [*_sorts({}, {"SHADED": 1}, {"SHADED": 1, "CUT": 1}), EDGED]
 """The programs that draw strips: of the usual, where shadows fall on it, and where any grass is cut besides."""
 
-DEEP = [*_sorts({"DEEP": 1}, {"DEEP": 1, "CUT": 1}), {"DEEP": 1, **EDGED}]
-"""Those that write depth alone: with all blades and by rank, then where any grass is cut, and with edges."""
+DEEP = [*_sorts({"DEEP": 1, "CUT": 1}), {"DEEP": 1, **EDGED}]
+"""Those that write depth alone: with all blades, by rank, and with edges."""
 
 FILES = "systems/show/strips/strips.vert", "systems/show/strips/strips.frag"
 
@@ -222,7 +222,7 @@ class StripPainter:
         is_cut = bool(frame["anything_cut"])
         casts = frame["maps_shown"] > 0.0 or frame["shades_grid"][3] > 0.0 or "TREES" in self._block.defines
         is_shaded = bool(frame["bodies"]["radius"].any() or casts)
-        rare = is_cut if deep else 2 if is_cut else int(is_shaded)
+        rare = 0 if deep else 2 if is_cut else int(is_shaded)
         array = self.array(2 * rare + thin if thin < 2 else len(DEEP if deep else SORTS) - 1, deep=deep)
         tell(array.program, "first", first)
         array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.sections + 2, instances=count)

@@ -133,10 +133,10 @@ def test_t1_beside_ground_whose_grass_ends_there_is_ground_below_all_grass_too()
     for x, z in product(np.linspace(-0.55, 0.55, 23), repeat=2):  # a square that is a little larger than that tile
         beside |= covering_one(tiles, low[edged][0] + side[edged][0] * np.array((0.5 + x, 0.5 + z)))
     beside &= ~edged
-    bare, under, _, _, carpet = by_layer(tiles, np.ones(len(tiles), np.bool_), edged)
+    bare, even, _, carpet = by_layer(tiles, np.ones(len(tiles), np.bool_), edged)
     assert len(bare) == beside.sum() >= 5
     assert (bare == tiles[beside]).all()
-    assert len(under) == len(tiles) - 1
+    assert len(even) == len(tiles) - 1
     assert len(carpet) == 1
 
 
