@@ -1,7 +1,8 @@
 """A walk: the frames in which changes of representation show the most, and what patches look like on their way.
 
-Every frame is drawn twice: as it is, and held, that is with every patch shown as in the frame before. The two differ by
-that frame's changes of representation and by nothing else; changes of orientation and of sub-levels are among them.
+Every frame is drawn twice: as it is, and held, that is with every patch and tree shown as in the frame before. The two
+differ by that frame's changes of representation and by nothing else; changes of orientation and of sub-levels are among
+them.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -12,6 +13,7 @@ import numpy as np
 
 from ...systems.around.transitions import SEAMLESS, Transitions
 from ...systems.prairie import Prairie
+from ...systems.trees.draw import TreePart
 from ..studio.encode import Picture
 from ..studio.studio import Studio
 from . import stroll
@@ -190,7 +192,7 @@ def _go(studio: Studio, prairie: Prairie, moment: Moment, *, time: float | None 
 
 @contextmanager
 def held(prairie: Prairie, *, systems: tuple[str, ...] = CHANGING) -> Iterator[None]:
-    """Let every patch be shown as the frame before showed it, though seen from where the viewer is then, in that wind.
+    """Let all patches and trees be shown as the frame before showed them, seen from where the viewer is, in that wind.
 
     What is drawn meanwhile is the next frame without its changes of representation. Afterwards it never was: the next
     frame follows the one before. `systems` are those that rest meanwhile, of what decides what is shown.
@@ -198,7 +200,10 @@ def held(prairie: Prairie, *, systems: tuple[str, ...] = CHANGING) -> Iterator[N
     stopped = [system.name for system in prairie.systems if system.enabled and system.name in systems]
     outlook = prairie.viewers["main"]
     before, eye = outlook.drawn_at, outlook.viewer.eye
+    trees = prairie.painter.part(TreePart) if prairie.painter is not None else None
     prairie.governor.resting = True
+    if trees is not None:
+        trees.held = True
     for name in stopped:
         prairie.systems.disable(name)
     try:
@@ -208,3 +213,5 @@ def held(prairie: Prairie, *, systems: tuple[str, ...] = CHANGING) -> Iterator[N
             prairie.systems.enable(name)
         outlook.drawn_at, outlook.viewer.eye = before, eye
         prairie.governor.resting = False
+        if trees is not None:
+            trees.held = False

@@ -66,6 +66,10 @@ class TreePart(Part):
         self._wind: MeanWind | None = None
         self.every_leaf = False
         """Whether all trees are drawn leaf by leaf, as a reference has them."""
+        self.held = False
+        """Whether as much of each is shown as in the last frame where this was not so, wherever the viewer is."""
+        self._from: Doubles = np.zeros(3)
+        """From where what is shown of each was chosen [m]."""
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Let other kinds of trees grow."""
@@ -153,9 +157,11 @@ class TreePart(Part):
         """Send what is drawn of each tree, unless that is what was sent last."""
         record, viewer = self._block.record[0], outlook.viewer
         seen = record["clip"].tobytes(), float(record["half_screen"][1]), viewer.eye, viewer.sides.tobytes()
-        if self._chosen_by == (standing, *seen, self.every_leaf):
+        if self._chosen_by == (standing, *seen, self.every_leaf, self.held):
             return
-        self._chosen_by = standing, *seen, self.every_leaf
+        self._chosen_by = standing, *seen, self.every_leaf, self.held
+        if not self.held:
+            self._from = np.array(viewer.eye)
         clip = record["clip"].reshape(4, 4).T.astype(np.float64)
         focal = float(record["half_screen"][1] * np.linalg.norm(clip[1, :3]))
         for kind_number, kind in enumerate(self._kinds):
@@ -185,7 +191,8 @@ class TreePart(Part):
         order = np.argsort(off)
         seen, off = seen[order], off[order]
         rows, scale, middle = group.rows[seen], group.scale[seen], group.middle[seen]
-        pixels = focal * rows["height"] / np.maximum(off, NEAREST)
+        chosen = np.linalg.norm(middle - self._from, axis=1) if self.held else off
+        pixels = focal * rows["height"] / np.maximum(chosen, NEAREST)
         if self.every_leaf:
             pixels = np.full(len(rows), ANY_HEIGHT)
         pixels[rows["ring"] > 1] = 0.0

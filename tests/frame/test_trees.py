@@ -11,6 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass import Pose, Prairie, Tree
+from tallgrass.app.bench.steps import held
 from tallgrass.components.arrays import Bytes
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.reference import draw_reference
@@ -179,6 +180,26 @@ def test_however_far_off_it_covers_as_much_of_the_sky_as_with_every_leaf(
     drawn, truth = ((before - now)[sky].mean() for before, now in zip(bare, seen(), strict=True))
     assert truth > 5.0
     assert drawn == pytest.approx(truth, rel=0.06)
+
+
+def test_n3_held_a_tree_is_shown_as_in_the_frame_before_from_wherever_it_is_seen(
+    stage: Stage, prairie: Prairie, plant: Callable[..., int]
+) -> None:
+    def told() -> Any:
+        assert prairie.painter is not None
+        (ash,) = vars(prairie.painter.part(TreePart))["_kinds"]
+        streams = [each.streams[name] for each in ash.models for name in card.CARDS if each.streams[name].count]
+        (one,) = streams
+        return np.frombuffer(one.buffer.read(standing.SHOWN.itemsize), standing.SHOWN)["keep"]
+
+    plant(0.0, 0.0)
+    shot(stage, prairie, looking(0.0, 1.7, 4.6, pitch=14.0, view=57.0))
+    before, nearer = told(), looking(0.0, 1.7, 4.4, pitch=14.0, view=57.0)
+    with held(prairie):
+        shot(stage, prairie, nearer)
+        assert np.array_equal(told(), before)
+    shot(stage, prairie, nearer)
+    assert (told() > before).all()
 
 
 @pytest.mark.parametrize("away", [0.0, -12.0])
