@@ -1,6 +1,7 @@
 """The truth to compare with: every blade in 3D at the finest level, supersampled."""
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import moderngl
@@ -160,6 +161,18 @@ class EveryBlade:
     def release(self) -> None:
         """Give everything back."""
         self.blades.release()
+
+
+@contextmanager
+def without_trees(prairie: Prairie) -> Iterator[None]:
+    """Draw no trees of a prairie that has been drawn once, though their shade."""
+    assert prairie.painter is not None
+    trees = prairie.painter.part(TreePart)
+    trees.hidden = True
+    try:
+        yield
+    finally:
+        trees.hidden = False
 
 
 def patch_distances(prairie: Prairie, view: object, projection: object, size: tuple[int, int]) -> NDArray[np.int32]:

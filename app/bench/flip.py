@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from ...components.arrays import Floats
 from ..studio.encode import Picture
 from ..studio.errors import MachineError
 
@@ -14,10 +15,15 @@ MOMENT = 2.0
 
 def flip(picture: Picture, reference: Picture) -> float:
     """Return the mean FLIP of a picture against a reference, both (height, width, 3) sRGB bytes."""
-    _, mean, _ = evaluator().evaluate(
+    return float(flip_map(picture, reference).mean())
+
+
+def flip_map(picture: Picture, reference: Picture) -> Floats:
+    """Return the FLIP of each pixel, shape (height, width)."""
+    found, _, _ = evaluator().evaluate(
         reference.astype(np.float32) / 255.0, picture.astype(np.float32) / 255.0, "LDR", applyMagma=False
     )
-    return float(mean)
+    return np.asarray(found, np.float32).reshape(*reference.shape[:2], -1)[..., 0]
 
 
 def evaluator() -> Any:

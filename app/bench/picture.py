@@ -10,19 +10,28 @@ from numpy.typing import NDArray
 
 from ...engine.camera import View, view_of
 from ...engine.declared.quality import Quality
-from ...systems.light.color import decoded
-from ...systems.reference import EveryBlade, Truth, draw_reference, draw_truth, patch_distances, seen_cells
+from ...systems.reference import (
+    EveryBlade,
+    Truth,
+    draw_reference,
+    draw_truth,
+    patch_distances,
+    seen_cells,
+    without_trees,
+)
 from ...systems.show.registry import NAMES
 from ..studio.encode import Picture, make_folder, picture_writer
 from ..studio.progress import Course, course
 from ..studio.studio import Studio, about
 from ..studio.take import SAMPLES, Take
+from .color import hue_between, luminance, mean_light
 from .contrast import contrast
 from .flip import MOMENT, evaluator, flip
 from .frame import own_preset
 from .machine import machine
 from .many import Survey, bench_many
 from .multisampled import Multisampled
+from .trees import Behind, trees_told
 
 OTHER_SEED = 7919
 """Added to the scene's seed for unrelated grass of the same look."""
@@ -48,6 +57,9 @@ class Pictures:
     other_seed: Picture
     distance: NDArray[np.int32]
     """Discrete distance, -1 for the sky, shape (height, width)."""
+
+    behind: Behind | None = None
+    """What is behind trees; None in a scene without any."""
 
 
 def bench_picture(
@@ -97,6 +109,7 @@ def _draw(studio: Studio, way: Course) -> Pictures:
     with way.part("the reference"):
         truth = draw_truth(prairie, view, projection, size, samples=SAMPLES)
         distance = patch_distances(prairie, view, projection, size)
+        behind = _behind(studio, view, projection, distance) if prairie.scene.trees else None
     with way.part("unrelated grass"):
         other = prairie.reseeded(prairie.scene.seed + OTHER_SEED)
         other.advance(MOMENT)
@@ -104,7 +117,17 @@ def _draw(studio: Studio, way: Course) -> Pictures:
         other.draw(view, projection)
         unrelated = draw_reference(other, view, projection, size, samples=SAMPLES)
         other.release()
-    return Pictures(lod, all_3d, msaa, truth, unrelated, distance)
+    return Pictures(lod, all_3d, msaa, truth, unrelated, distance, behind)
+
+
+def _behind(studio: Studio, view: object, projection: object, distance: NDArray[np.int32]) -> Behind:
+    """Return what trees hide in a picture that shows things at such discrete distances."""
+    with without_trees(studio.prairie):
+        studio.begin()
+        studio.prairie.draw(view, projection)
+        bare = studio.read()
+        beyond = patch_distances(studio.prairie, view, projection, studio.take.size)
+    return Behind(bare, beyond < 0, distance != beyond)
 
 
 def _every_blade(studio: Studio, view: View) -> tuple[Picture, Picture | None]:
@@ -139,6 +162,7 @@ def compare(pictures: Pictures, quality: Quality) -> dict[str, object]:
         "score_msaa": score(flips, "msaa"),
         "contrast": None if kept is None else round(kept, 4),
         "bands": bands(pictures.lod, pictures.truth.picture, pictures.distance, quality),
+        "trees": None if pictures.behind is None else trees_told(pictures.lod, pictures.truth, pictures.behind),
     }
 
 
@@ -169,7 +193,7 @@ def bands(
     for number, end in enumerate(edges):
         inside = (distance >= start) & (distance <= end)
         if inside.sum() >= FEWEST:
-            drawn, true = (decoded(each[inside].mean(axis=0) / 255.0) for each in (picture, reference))
+            drawn, true = (mean_light(each, inside) for each in (picture, reference))
             rows.append({
                 "distance": [start, end],
                 "representation": _representation(number, quality),
@@ -183,17 +207,6 @@ def bands(
 def _representation(number: int, quality: Quality) -> str:
     blades, strips = len(quality.blade_rings), len(quality.strip_rings)
     return NAMES[(number >= blades) + (number >= blades + strips)]
-
-
-def luminance(light: NDArray[np.float64]) -> float:
-    """Return the relative luminance of linear light (3,)."""
-    return float(light @ np.array([0.2126, 0.7152, 0.0722]))
-
-
-def hue_between(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
-    """Return the angle between the hues of two linear colours (3,), in [0, 180] degrees."""
-    angles = [np.degrees(np.arctan2(np.sqrt(3.0) * (g - bl), 2.0 * r - g - bl)) for r, g, bl in (a, b)]
-    return float(abs((angles[0] - angles[1] + 180.0) % 360.0 - 180.0))
 
 
 def _cells(told: dict[str, Any]) -> dict[str, object]:
@@ -210,5 +223,5 @@ def _cells(told: dict[str, Any]) -> dict[str, object]:
     }
 
 
-SURVEY = Survey(measured, "drawing every blade", _cells, kept=("bands",))
+SURVEY = Survey(measured, "drawing every blade", _cells, kept=("bands", "trees"))
 """Pictures of many scenes."""

@@ -48,9 +48,10 @@ class TreePart(Part):
     """Draws trees; in scenes that have no kind of them it makes nothing at all."""
 
     def __init__(
-        self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], standing: Callable[[], Standing]
-    ) -> None:
-        self._ctx, self._block, self._units, self._standing = ctx, block, units, standing
+        self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], standing: Callable[[], Standing],
+        shading: Callable[[], Standing],
+    ) -> None:  # fmt: skip
+        self._ctx, self._block, self._units, self._standing, self._shading = ctx, block, units, standing, shading
         self._kinds: list[KindOnCard] = []
         self._made_of: object = None
         self._programs: Programs | None = None
@@ -68,6 +69,8 @@ class TreePart(Part):
         """Whether all trees are drawn leaf by leaf, as a reference has them."""
         self.held = False
         """Whether as much of each is shown as in the last frame where this was not so, wherever the viewer is."""
+        self.hidden = False
+        """Whether they are left out, for a picture of what is behind them; their shade stays."""
         self._from: Doubles = np.zeros(3)
         """From where what is shown of each was chosen [m]."""
 
@@ -110,7 +113,7 @@ class TreePart(Part):
         """Write where the maps lie for a viewer."""
         self._outlook = outlook
         if self._shade is not None and self._kinds:
-            self._shade.follow(outlook.viewer.eye, self._standing(), record)
+            self._shade.follow(outlook.viewer.eye, self._shading(), record)
             self._shade.sway(self._standing(), self._wind, record, time=outlook.viewer.time)
 
     def use(self) -> None:
@@ -131,7 +134,7 @@ class TreePart(Part):
             "middle": tuple(((viewer.centre + 0.5) * patch).tolist()),
         }
         assert self._shade is not None
-        calls = self._shade.prepare(self._kinds, programs, self._standing(), self._numbers)
+        calls = self._shade.prepare(self._kinds, programs, self._shading(), self._numbers)
         self._chosen = self.every_leaf
         self._choose(self._standing(), self._outlook)
         if self._rehearses:
@@ -271,7 +274,7 @@ class TreePart(Part):
         return calls
 
     def _draw(self, *, soft: bool, all_wood: bool = False) -> int:
-        if not self._kinds or self._programs is None:
+        if not self._kinds or self._programs is None or self.hidden:
             return 0
         return sum(
             self._draw_model(kind, model, soft=soft, all_wood=all_wood) for kind in self._kinds for model in kind.models

@@ -20,6 +20,7 @@ from ..space.grown import Grown
 from .crown import LEAST_SHADE
 from .draw import TreePart
 from .forest import Forest, Rows
+from .going import Going
 from .habit import HABITS
 from .model import models_of
 from .place import placed
@@ -52,8 +53,12 @@ class Trees(Feature):
         self._unknown: set[str] = set()
         """Kinds of which it was said that the scene does not have them."""
         self._rows: Rows = np.zeros(0, STANDING)
-        self.standing = Standing(self._rows)
-        """Those of this frame."""
+        self.standing = self.shading = Standing(self._rows)
+        """Those of this frame; and with those that were felled just now, what gives shade."""
+        self._there: list[int] = []
+        """The entities of the rows."""
+        self._going = Going()
+        self._shading_of: object = None
         self._plant()
 
     @classmethod
@@ -77,6 +82,8 @@ class Trees(Feature):
         """Make an entity for each tree that the scene has, unless they are too many."""
         scene, terrain = self._grown.scene, self._grown.ground.terrain
         self._seedlings, self._heights, self.wild = [], -1, None
+        self._rows, self._there = self._rows[:0], []  # none of them is felled
+        self._going.forget()
         self._unknown.clear()
         fixed = list[Floats]()
         for name, kind in scene.trees.items():
@@ -92,30 +99,49 @@ class Trees(Feature):
 
     def step(self, viewer: str, eye: Eye, /, *, time: float) -> None:
         """Look which trees stand where; one of a kind that the scene does not have is named once, and left out."""
-        del time
         if self.wild is not None:
             self.wild.follow(viewer, eye)
         changes = self._grown.ground.terrain.changes.count
         seen = (trees := self._world.rows(Tree)), self._world.rows(Pose) if trees else []
         if seen != self._seen or changes != self._heights:
             self._seen, self._heights = seen, changes
-            self._look()
+            self._look(time)
         if self.wild is not None:
             self.standing = self.wild.standing(viewer, eye, self._rows)
         elif self.standing.rows is not self._rows:
             self.standing = Standing(self._rows)
+        if self._going.step(time):
+            self._shade_grass()
+        self._shade(self.standing)
 
-    def _look(self) -> None:
+    def _shade(self, standing: Standing) -> None:
+        """Let these give shade, and what is left of those that were felled."""
+        if not len(self._going):
+            self.shading = standing
+        elif self._shading_of != (standing, self._going.changes):
+            self._shading_of = standing, self._going.changes
+            self.shading = Standing(np.concatenate([standing.rows, self._going.rows()]))
+
+    def _look(self, time: float) -> None:
         """Take over which entities stand where."""
         found = [each for each in self._world.both(Tree, Pose) if self._knows(each[1])]
         there = [each for each in found if self._world.stands(each[0], each[2], "the tree")]
-        self._rows = _rows(there, self._grown)
+        self._let_go({entity for entity, _, _ in found}, time)
+        self._rows, self._there = _rows(there, self._grown), [entity for entity, _, _ in there]
         self._shade_grass()
+
+    def _let_go(self, there: set[int], time: float) -> None:
+        """Let the shade of those that are gone go by and by, but of those that only a viewer's way takes away."""
+        left = self.wild.left if self.wild is not None else set[int]()
+        gone = [number for number, entity in enumerate(self._there) if entity not in there and entity not in left]
+        left.clear()
+        if gone:
+            self._going.fell(self._rows[gone], time=time)
 
     def _shade_grass(self) -> None:
         """Let less grass grow below the trees that stand."""
         density = self._grown.ground.density
-        changed = density.crowns.stand(_discs(self._rows, self._grown))
+        changed = density.crowns.stand(_discs(np.concatenate([self._rows, self._going.rows()]), self._grown))
         if len(changed):
             density.sown.touch(_boxes(changed))
 
@@ -143,6 +169,8 @@ class Trees(Feature):
 
     def fell(self, numbers: list[int], wild: list[Felled], /) -> None:
         """Let these be gone of the scene's own, and all others stand where they were planted."""
+        self._rows, self._there = self._rows[:0], []  # what a saved game has not is not felled now
+        self._going.forget()
         if self.wild is not None:
             self.wild.fell(wild)
         gone, wanted = set(self.felled()), set(numbers)
@@ -158,7 +186,7 @@ class Trees(Feature):
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> TreePart:
         """Return what draws them."""
-        return TreePart(ctx, block, units, lambda: self.standing)
+        return TreePart(ctx, block, units, lambda: self.standing, lambda: self.shading)
 
 
 def _seedlings(name: str, kind: TreeKind, place: Floats, *, seed: int) -> list[Seedling]:

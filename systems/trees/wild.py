@@ -42,6 +42,8 @@ class Wild:
         """The trees of each square near any, entities and as what they were planted."""
         self._changed: dict[int, Felled] = {}
         """Trees that a game has made others, and has of its own now, by their entities."""
+        self.left: set[int] = set()
+        """Entities that were taken away as no viewer is near them any more, until somebody takes note."""
         self._people = 0
         self._shown: dict[str, tuple[tuple[object, ...], Standing]] = {}
 
@@ -86,6 +88,7 @@ class Wild:
         for number, (entity, one) in enumerate(self._own.pop(square)):
             if self._is(entity, one):
                 self._world.delete(entity)
+                self.left.add(entity)
             elif entity >= 0 and self._world.has(entity):
                 self._changed[entity] = *square, number
 

@@ -10,6 +10,7 @@ import pytest
 
 from tallgrass import Pose, Prairie, Tree
 from tallgrass.engine.declared.quality import LodName
+from tallgrass.systems.trees import going
 from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.shade import SIDE, SIDES
 from tallgrass.testing import Stage, little_prairie, looking, private_world
@@ -49,7 +50,10 @@ def dense(prairie: Prairie, x: float, z: float) -> float:
     return float(prairie.grass_at(np.array([[x, z]], np.float32)).density[0, 0])
 
 
-def test_f3_as_much_grows_below_a_tree_as_it_leaves_of_the_light(stage: Stage, prairie: Prairie) -> None:
+def test_f3_as_much_grows_below_a_tree_as_it_leaves_of_the_light(
+    stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(going, "LASTS", 0.0)
     esper.create_entity(Tree("oak", 12.0), Pose(3.0, 0.0))
     half_bare = esper.create_entity(Tree("oak", 12.0, foliage=0.5), Pose(-25.0, 0.0))
     shot(stage, prairie)
@@ -77,10 +81,28 @@ def test_f3_pixels_know_how_much_grows_as_systems_do(stage: Stage, prairie: Prai
     np.testing.assert_allclose(told, left, atol=0.01)
 
 
+def test_f4_below_a_felled_tree_grass_comes_back_into_the_sun_by_and_by(stage: Stage, prairie: Prairie) -> None:
+    tree = esper.create_entity(Tree("oak", 12.0), Pose(0.0, 0.0))
+    shot(stage, prairie)
+    esper.delete_entity(tree, immediate=True)
+    dense_then, light_then = [], []
+    for _ in range(6):
+        light_then.append(shot(stage, prairie)[40:56, 40:56].mean())
+        dense_then.append(dense(prairie, 0.0, 0.0))
+        prairie.advance(going.LASTS / 4.0)
+    assert dense_then[0] < 0.45
+    assert dense_then == sorted(dense_then)
+    assert max(np.diff(dense_then)) < 0.4
+    assert dense_then[4:] == [1.0, 1.0]
+    assert light_then[0] < 0.75 * light_then[4]
+    assert max(np.diff(light_then)) < 0.6 * (light_then[4] - light_then[0])
+
+
 @pytest.mark.parametrize("prairie", ["blades", "strips", "carpet"], indirect=True)
 def test_f4_more_soil_is_seen_below_a_tree_in_every_representation_and_less_once_it_is_felled(
     stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(going, "LASTS", 0.0)
     monkeypatch.setattr(TreePart, "draw_solid", lambda _: 0)
     monkeypatch.setattr(TreePart, "draw_soft", lambda _: 0)
     open_ground = shot(stage, prairie)

@@ -15,7 +15,7 @@ from tallgrass.app.bench.steps import held
 from tallgrass.components.arrays import Bytes
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.reference import draw_reference
-from tallgrass.systems.trees import bake, card, kind, standing
+from tallgrass.systems.trees import bake, card, going, kind, standing
 from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.shade import ShadeMap
 from tallgrass.systems.trees.wood import Parts
@@ -50,6 +50,11 @@ def stage(ctx: moderngl.Context) -> Stage:
 def prairie(ctx: moderngl.Context) -> Iterator[Prairie]:
     with private_world(), little_prairie(scene=SCENE, ctx=ctx) as made:
         yield made
+
+
+@pytest.fixture(autouse=True)
+def _shade_of_what_is_felled_goes_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(going, "LASTS", 0.0)
 
 
 @pytest.fixture
