@@ -3,12 +3,15 @@
 import math
 import sys
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
 from ..engine.camera import Camera, Heights
+from ..engine.scene import LoadedScene, read_scene
 from .grow import grow_ahead
 from .studio.encode import picture_writer
+from .studio.errors import InputError
 from .studio.progress import busy
 from .studio.studio import Studio, about, written
 from .studio.take import Take
@@ -21,6 +24,7 @@ def shot(take: Take, output: str, *, time: float = 0.0, camera: Camera | None = 
     Raises InputError where `output` cannot be written, `SceneError` where the scene is wrong.
     """
     write = picture_writer(output)
+    _spare(output, read_scene(take.scene))
     grow_ahead(take.scene, preset=take.preset)
     with busy("growing the prairie"), Studio(take) as studio:
         studio.prairie.advance(time)
@@ -31,6 +35,13 @@ def shot(take: Take, output: str, *, time: float = 0.0, camera: Camera | None = 
             print(f"the camera is {deep:.1f} m below the ground: y is a height in the scene", file=sys.stderr)
         told = about(studio.prairie.scene, take, time=studio.prairie.time)
         write(studio.picture(place), {**told, "camera": written(place)})
+
+
+def _spare(output: str, loaded: LoadedScene) -> None:
+    """Raise InputError where a picture would take the place of a file that its scene reads."""
+    for name, path in loaded.paths.items():
+        if Path(output).resolve() == path.resolve():
+            raise InputError(f"-o: {output}: the scene reads '{name}': choose another name")
 
 
 def _below(camera: Camera, height_at: Heights) -> float:

@@ -44,7 +44,9 @@ class Footprint:
             and all(isfinite(number) and abs(number) <= most for corner in self.corners for number in corner)
             and _area(self.corners) > 1e-3
         ):
-            raise ValueError(f"a footprint's corners are 3 or more places (x, z) within {most:g} m, not in a line")
+            raise ValueError(
+                f"a footprint's corners are 3 or more places (x, z) within {most:g} m, that enclose an area"
+            )
 
 
 @dataclass(frozen=True, slots=True)

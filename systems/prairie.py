@@ -325,7 +325,9 @@ class Prairie(Tending):
         return self._saving.state(self.site, time=self.time)
 
     def restore(self, state: bytes) -> dict[int, int]:
-        """Bring back what `state` returned, and return which entity each wind and presser of a game's in it is now.
+        """Bring back what `state` returned, and return what entity each of a game's own in it is now.
+
+        These are winds, pressers, lamps, shades and trees.
 
         Raises ValueError, and changes nothing, for a state of another scene, of another format, or one that is damaged.
         """

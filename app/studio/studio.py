@@ -30,9 +30,13 @@ class Studio:
 
     def __init__(self, take: Take) -> None:
         self.take = take
-        self.prairie = Prairie.load(take.scene, preset=take.preset, lod=take.lod, live=False)
+        self._offscreen = Offscreen(take.size)  # first: where it cannot be had, nothing is grown in vain
+        try:
+            self.prairie = Prairie.load(take.scene, preset=take.preset, lod=take.lod, live=False)
+        except BaseException:
+            self._offscreen.release()
+            raise
         self.overlay = Overlay(take.overlay)
-        self._offscreen = Offscreen(take.size)
 
     def __enter__(self) -> Self:
         return self

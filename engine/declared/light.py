@@ -17,6 +17,8 @@ class Light(Declaration):
     hour: float | None = Field(default=None, ge=0.0, le=24.0)
     """Solar time of day [h], 12 is noon: it gives azimuth and elevation, with the day and the latitude; -z is north.
 
+    By default the sun stands 17 degrees high at 6 and 18, 8 degrees at 5 and 19, and sets at 19:55.
+
     Where there is an hour, an own azimuth or elevation has no effect."""
 
     hours_per_minute: float = Field(default=0.0, ge=0.0, le=1440.0)

@@ -84,3 +84,13 @@ def test_n8_an_overlay_is_laid_over_the_picture(take: Take) -> None:
     assert difference(plain, levels) > 5
     assert difference(levels, take("--overlay", "levels,map")) > 1
     np.testing.assert_array_equal(take("--overlay", "map,levels"), take("--overlay", "levels,map"))
+
+
+def test_no_picture_takes_the_place_of_a_map_of_its_scene(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    kept = scene.parent / "map.png"
+    Image.new("L", (2, 2), 255).save(kept)
+    scene.write_text("tallgrass: 2\ngrass: { meadow: { place: { map: map.png } } }\n", "utf-8")
+    before = kept.read_bytes()
+    assert run(["shot", str(scene), "-o", str(scene.parent / "." / "map.png"), "--size", "96x54"]) == 2
+    assert "the scene reads 'map.png': choose another name" in capsys.readouterr().err
+    assert kept.read_bytes() == before
