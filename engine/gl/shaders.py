@@ -150,6 +150,10 @@ def program(
     return compiled
 
 
+ALL = ""
+"""By what a program knows the names of all that it asks for."""
+
+
 def tell(program: moderngl.Program, name: str, *value: float) -> None:
     """Tell a program a number or a vector, if it asks for it and was not told the same before."""
     told = program.extra.get(name) or _asked(program, name)
@@ -157,6 +161,17 @@ def tell(program: moderngl.Program, name: str, *value: float) -> None:
         told[0] = value
         if told[1] is not None:
             told[1].value = value if len(value) > 1 else value[0]
+
+
+def tell_asked(program: moderngl.Program, *numbers: Mapping[str, tuple[float, ...]]) -> None:
+    """Tell a program those of some numbers and vectors, by their names, that it asks for."""
+    asked = program.extra.get(ALL)
+    if asked is None:
+        uniforms = frozenset(name for name in program if isinstance(program[name], moderngl.Uniform))
+        asked = program.extra[ALL] = [uniforms, None]
+    for each in numbers:
+        for name in asked[0] & each.keys():
+            tell(program, name, *each[name])
 
 
 def _asked(program: moderngl.Program, name: str) -> list[Any]:

@@ -8,7 +8,7 @@ import numpy as np
 from ...components.arrays import Bytes, Doubles
 from ...engine.declared.tree import TreeKind
 from ...engine.gl.mipmaps import mipmapped
-from ...engine.gl.shaders import tell
+from ...engine.gl.shaders import tell_asked
 from ...engine.gl.stream import release_all
 from ..light.materials import pigment
 from .bake import CARD, PICTURES, filtered, from_around, on_card, pictures
@@ -117,10 +117,9 @@ class KindOnCard:
             "bark": tuple(pigment(declared.bark or habit.bark).tolist()), "rough": (habit.rough,),
         }  # fmt: skip
 
-    def tell(self, program: moderngl.Program, model: ModelOnCard, numbers: Numbers, *, wood: bool = False) -> None:
+    def tell(self, program: moderngl.Program, model: ModelOnCard, *numbers: Numbers, wood: bool = False) -> None:
         """Tell a program of the kind, a model, and what else it is to know; bind what it reads, or what wood does."""
-        for name, value in {**self._numbers, **model.numbers, **numbers}.items():
-            tell(program, name, *value)
+        tell_asked(program, self._numbers, model.numbers, *numbers)
         model.twigs.texture.use(self.units["tree_twigs"])
         if wood or self.card is not None:
             (self.bark if wood or self.card is None else self.card).use(self.units["tree_cards"])
