@@ -11,7 +11,7 @@ from ...engine.gl.records import Records
 from ...engine.gl.stream import Stream, release_all
 from .bark import RUNS, SENT, sent
 from .model import Model
-from .standing import COLUMN, HUNG, LEAFY, SHOWN, TOLD
+from .standing import COLUMN, HUNG, LEAFY, PLACED, SHOWN, TOLD
 from .twig import RANKS, ROW, TWIG
 from .wood import Parts, parts
 
@@ -28,10 +28,13 @@ QUAD = 6
 FEWER = 0.5
 """Share of its twigs that a tree's pictures show, as much larger: in so few pixels, more would look the same."""
 
-GROUPS = 3
-"""Draws that the cards of a model's trees take: each for those of which about as many twigs are drawn."""
+SHARES = 2 / 3, 1 / 3, 1 / 6
+"""Shares of its twigs between which trees have their cards drawn together: as many of each as of any of them."""
 
-CARDS = tuple(f"{NEAR}{number}" for number in range(GROUPS))
+TOO_FEW = 6
+"""Trees of the smallest share for which no draw of their own pays."""
+
+CARDS = tuple(f"{NEAR}{number}" for number in range(len(SHARES) + 1))
 WOODS = tuple(f"{WOOD}{number}" for number in range(len(RUNS) + 1))
 """The streams of those."""
 
@@ -49,7 +52,7 @@ class ModelOnCard:
         self.model = model
         self.numbers: Numbers = {
             "tall": (model.height,), "trunk_hertz": (model.hertz,), "twigs": (len(model.twigs),),
-            "ball": (model.middle, model.half), "crown_at": (model.middle,), "lawn_shade": model.shade,
+            "ball": (model.middle, model.half), "lawn_shade": model.shade,
             "column": (COLUMN * model.radius,),
         }  # fmt: skip
         """What programs are told of it."""
@@ -72,6 +75,8 @@ class ModelOnCard:
         self.streams[LEAVES] = Stream(ctx, LEAFY)
         self.told = {id(each): Stream(ctx, TOLD) for each in self.streams.values()}
         """What is made out of the trees of each stream once a tree, by the stream's id."""
+        self.placed = {name: np.zeros(0, PLACED) for name in self.streams}
+        """Where the trees of each stream stand."""
         self.hung = {name: Stream(ctx, HUNG) for name in CARDS}
         """What is made out of each twig of their trees once a twig."""
         self.most = dict.fromkeys(self.streams, 0)
@@ -98,19 +103,28 @@ class ModelOnCard:
         run = np.searchsorted(RUNS, wide[:, 0])
         for number, name in enumerate(WOODS):
             rows = near[run == number]
-            self.streams[name].write(rows)
+            self._send(name, rows)
             if len(rows):
                 self.wood[name] = parts(self.model.wood[number].radii, wide[run == number], rows)
-        self.streams[FAR].write(far)
-        self.streams[LEAVES].write(leafy)
+        self._send(FAR, far)
+        self._send(LEAVES, leafy)
         self.most[LEAVES] = 1
         drawn = near["keep"] * (1.0 - near["gone"])
-        group = np.minimum(((1.0 - drawn) * GROUPS).astype(np.intp), GROUPS - 1)
-        for number in range(GROUPS):
-            self._write(CARDS[number], near[group == number])
+        group = (drawn[:, None] < SHARES).sum(axis=1)
+        if (group == len(SHARES)).sum() < TOO_FEW:
+            group = np.minimum(group, len(SHARES) - 1)
+        for number, name in enumerate(CARDS):
+            self._write(name, near[group == number])
+
+    def _send(self, name: str, rows: NDArray[np.void]) -> None:
+        stream = self.streams[name]
+        stream.write(rows)
+        self.told[id(stream)].room(len(rows))
+        self.placed[name] = placed = np.zeros(len(rows), PLACED)
+        placed["root"], placed["crown_at"] = rows["root"], rows["scale"] * np.float32(self.model.middle)
 
     def _write(self, name: str, rows: NDArray[np.void]) -> None:
-        self.streams[name].write(rows)
+        self._send(name, rows)
         share = float((rows["keep"] * (1.0 - rows["gone"]) * rows["foliage"]).max(initial=0.0))
         self.most[name] = drawn_of(len(self.model.twigs), share)
 
@@ -118,7 +132,7 @@ class ModelOnCard:
         """Have a tree to draw in every way that there is."""
         for name, stream in self.streams.items():
             if not stream.count:
-                stream.write(self._alone if name == LEAVES else self._alone[[*(SHOWN.names or ())]].astype(SHOWN))
+                self._send(name, self._alone if name == LEAVES else self._alone[[*(SHOWN.names or ())]].astype(SHOWN))
                 self.most[name] = 1
                 self.wood[name] = Parts(1, 0, 1)
 

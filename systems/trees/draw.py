@@ -1,6 +1,7 @@
 """Drawing trees: what of each is shown, and in what order; and the maps of what they leave of the light."""
 
 from collections.abc import Callable, Mapping
+from typing import NamedTuple
 
 import moderngl
 import numpy as np
@@ -8,8 +9,8 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
 from ...components.viewer import Viewer
-from ...engine.gl.shaders import tell_all
-from ...engine.gl.stream import release_all
+from ...engine.gl.shaders import tell_all, tell_asked
+from ...engine.gl.stream import Stream, release_all
 from ..around.outlook import Outlook
 from ..frame.block import FrameBlock
 from ..frame.feature import Heard, Part
@@ -24,7 +25,7 @@ from .model import Model
 from .motion import PERIOD
 from .programs import Programs
 from .shade import ShadeMap
-from .standing import LEAFY, SHOWN, Standing, columns_of, shown, shows
+from .standing import LEAFY, PLACED, SHOWN, TOLD, Standing, columns_of, shown, shows
 from .twig import LEAF_PIXELS
 from .wood import AWAY, OPAQUE, SWAYS, THINNEST
 
@@ -42,6 +43,22 @@ NEAREST = 0.1
 
 ANY_HEIGHT = 1e6
 """Height in the picture at which a tree is drawn with all that it has [pixels]."""
+
+
+class Call(NamedTuple):
+    """One draw call of trees of a model."""
+
+    nearest: float
+    """How far off its nearest tree is [m]; 0 where it is of soft edges."""
+
+    sort: str
+    of: tuple[KindOnCard, ModelOnCard]
+    array: moderngl.VertexArray
+    first: int
+    vertices: int
+    instances: int
+    corners: list[tuple[float, float]]
+    """Of the outline of cards."""
 
 
 class TreePart(Part):
@@ -63,6 +80,11 @@ class TreePart(Part):
         self._groups: dict[tuple[int, int], Group] = {}
         self._grouped: Standing | None = None
         """The trees of each model by its kind's number and its own, and of which frame they are."""
+        self._calls: dict[tuple[bool, bool], list[Call]] = {}
+        """What is drawn, until something else is chosen: soft edges or not, with all wood or not."""
+        self._placed: Stream | None = None
+        """All trees of all streams, one stream after another; and what is made out of them."""
+        self._stood: Stream | None = None
         self._air: Heard | None = None
         self._wind: MeanWind | None = None
         self.every_leaf = False
@@ -91,6 +113,7 @@ class TreePart(Part):
         self._forget()
         if self._kinds and self._shade is None:
             self._shade = ShadeMap(self._ctx)
+            self._placed, self._stood = Stream(self._ctx, PLACED), Stream(self._ctx, TOLD)
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
         """Pretend until the next frame that a tree of each model is drawn in every way that there is."""
@@ -99,6 +122,7 @@ class TreePart(Part):
 
     def _forget(self) -> None:
         self._chosen_by = self._grouped = None
+        self._calls = {}
         if self._programs is not None:
             self._programs.release()
             self._programs = None
@@ -143,6 +167,7 @@ class TreePart(Part):
                 for model in kind.models:
                     model.rehearse()
                     programs.array(CAST, model.bare)
+            self._place()
         return calls
 
     def _ready(self) -> Programs:
@@ -177,6 +202,23 @@ class TreePart(Part):
                 group = self._groups[number]
                 if len(group.rows) or any(stream.count for stream in model.streams.values()):
                     self._choose_of(kind, model, group, clip, focal, outlook)
+        self._place()
+
+    def _shown(self) -> list[tuple[ModelOnCard, str]]:
+        """Return which streams of which models have trees."""
+        return [
+            (model, name)
+            for kind in self._kinds for model in kind.models for name, stream in model.streams.items() if stream.count
+        ]  # fmt: skip
+
+    def _place(self) -> None:
+        """Send where all trees stand that are drawn."""
+        assert self._placed is not None
+        assert self._stood is not None
+        self._calls = {}
+        parts = [model.placed[name] for model, name in self._shown()]
+        self._placed.write(np.concatenate([np.zeros(0, PLACED), *parts]))
+        self._stood.room(self._placed.count)
 
     def _choose_of(
         self,
@@ -226,15 +268,21 @@ class TreePart(Part):
             return 0
         air.texture.use(self._units["tree_air"])
         air.mean.use(self._units["tree_mean"])
+        assert self._placed is not None
+        assert self._stood is not None
+        if self._placed.count:
+            array = programs.made("stand", self._placed)
+            tell_asked(array.program, self._numbers)
+            array.transform(self._stood.buffer, moderngl.POINTS, vertices=self._placed.count)
+            calls = 1
+        first = 0
+        for model, name in self._shown():
+            told = model.told[id(model.streams[name])]
+            size = told.count * TOLD.itemsize
+            self._ctx.copy_buffer(told.buffer, self._stood.buffer, size, read_offset=first)
+            first += size
         for kind in self._kinds:
             for model in kind.models:
-                for stream in model.streams.values():
-                    if stream.count:
-                        array, told = programs.made("stand", stream), model.told[id(stream)]
-                        told.room(stream.count)
-                        kind.tell(array.program, model, self._numbers)
-                        array.transform(told.buffer, moderngl.POINTS, vertices=stream.count)
-                        calls += 1
                 calls += self._hang(kind, model, programs)
         return calls
 
@@ -276,40 +324,53 @@ class TreePart(Part):
     def _draw(self, *, soft: bool, all_wood: bool = False) -> int:
         if not self._kinds or self._programs is None or self.hidden:
             return 0
-        return sum(
-            self._draw_model(kind, model, soft=soft, all_wood=all_wood) for kind in self._kinds for model in kind.models
-        )
+        key = soft, all_wood
+        if key not in self._calls:
+            self._calls[key] = self._listed(self._programs, soft=soft, all_wood=all_wood)
+        last: tuple[moderngl.Program, ModelOnCard] | None = None
+        for call in self._calls[key]:
+            array, (kind, model) = call.array, call.of
+            if last is None or last[0] is not array.program or last[1] is not model:
+                last = array.program, model
+                solid = {"solid_from": (SOLID if all_wood or call.sort == NEAR else OPAQUE,)}
+                kind.tell(array.program, model, self._numbers, solid, wood=call.sort == WOOD)
+            if call.sort == NEAR:
+                tell_all(array.program, "corners", call.corners)
+            form = moderngl.TRIANGLE_STRIP if call.sort == NEAR else moderngl.TRIANGLES
+            array.render(form, first=call.first, vertices=call.vertices, instances=call.instances)
+        return len(self._calls[key])
 
-    def _draw_model(self, kind: KindOnCard, model: ModelOnCard, *, soft: bool, all_wood: bool) -> int:
-        assert self._programs is not None
-        calls, told = 0, None
-        sorts = (
-            *((WOOD, name, *_wood(model, name, soft=soft, whole=all_wood)) for name in WOODS),
-            (LEAVES, LEAVES, 0, QUAD * kind.habit.leaf.quads * model.most[LEAVES]),
-            *((NEAR, name, 0, len(kind.outlines[name != CARDS[0]])) for name in CARDS),
-            (FAR, FAR, 0, QUAD),
-        )
-        for sort, name, first, vertices in sorts:
-            stream = model.hung[name] if sort == NEAR else model.streams[name]
-            if stream.count and vertices > 0:
-                array = self._programs.array(sort, stream, model, soft=soft)
-                if told is not array.program:
-                    told = array.program
-                    solid_from = SOLID if all_wood or sort == NEAR else OPAQUE
-                    kind.tell(told, model, {**self._numbers, "solid_from": (solid_from,)}, wood=sort == WOOD)
-                if sort == NEAR:
-                    tell_all(array.program, "corners", kind.outlines[name != CARDS[0]])
-                form = moderngl.TRIANGLE_STRIP if sort == NEAR else moderngl.TRIANGLES
-                array.render(form, first=first, vertices=vertices, instances=stream.count)
-                calls += 1
-        return calls
+    def _listed(self, programs: Programs, *, soft: bool, all_wood: bool) -> list[Call]:
+        """Return what is drawn: what is solid from near to far, as it hides what is drawn after it."""
+        calls = list[Call]()
+        for kind in self._kinds:
+            for model in kind.models:
+                for sort, name, first, vertices in (
+                    *((WOOD, name, *_wood(model, name, soft=soft, whole=all_wood)) for name in WOODS),
+                    (LEAVES, LEAVES, 0, QUAD * kind.habit.leaf.quads * model.most[LEAVES]),
+                    *((NEAR, name, 0, len(kind.outlines[_roughly(name)])) for name in CARDS),
+                    (FAR, FAR, 0, QUAD),
+                ):
+                    stream = model.hung[name] if sort == NEAR else model.streams[name]
+                    if stream.count and vertices > 0:
+                        corners = kind.outlines[_roughly(name)] if sort == NEAR else []
+                        array = programs.array(sort, stream, model, soft=soft)
+                        nearest = 0.0 if soft else self._nearest(model.placed[name])
+                        calls.append(Call(nearest, sort, (kind, model), array, first, vertices, stream.count, corners))
+        return sorted(calls, key=lambda call: call.nearest)
+
+    def _nearest(self, placed: NDArray[np.void]) -> float:
+        assert self._outlook is not None
+        middle = placed["root"] + placed["crown_at"][:, None] * np.array([0.0, 1.0, 0.0], np.float32)
+        return float(np.linalg.norm(middle - np.array(self._outlook.viewer.eye), axis=1).min())
 
     def release(self) -> None:
         """Give everything back."""
         self._forget()
         release_all(*self._kinds)
-        if self._shade is not None:
-            self._shade.release()
+        for each in (self._shade, self._placed, self._stood):
+            if each is not None:
+                each.release()
 
 
 def _leafy(model: Model, told: np.void, viewer: Viewer, within: float) -> NDArray[np.void]:
@@ -330,6 +391,11 @@ def leaf_by_leaf(trees: NDArray[np.void] | np.void, twigs: NDArray[np.intp] | in
         rows[name] = trees[name]
     rows["first"] = twigs
     return rows
+
+
+def _roughly(cards: str) -> bool:
+    """Return whether a stream's cards are so small that their outline has four corners."""
+    return cards in CARDS[2:]
 
 
 def _wood(model: ModelOnCard, name: str, *, soft: bool, whole: bool) -> tuple[int, int]:

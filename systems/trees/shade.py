@@ -74,7 +74,7 @@ class ShadeMap:
 
     def sway(self, standing: Standing, wind: MeanWind | None, record: NDArray[np.void], /, *, time: float) -> None:
         """Write how far the mean wind blows crowns aside just now, which the maps do not have."""
-        row, high = record[0], float(np.median(standing.rows["height"])) if len(standing.rows) else 0.0
+        row, (high, _) = record[0], standing.usual
         strength, heading = (wind.strength, radians(wind.direction)) if wind else (0.0, 0.0)
         row["trees_aside"] = strength * CROWN_BENDS * high * np.array([sin(heading), -cos(heading)])
         row["trees_tones"] = tones(trunk_hertz(max(high, 1.0), USUAL_TRUNK * high), time)
@@ -87,8 +87,7 @@ class ShadeMap:
             across = np.array([sun[2], 0.0, -sun[0]])
             across = across / np.linalg.norm(across) if np.linalg.norm(across) > 1e-3 else np.array([1.0, 0.0, 0.0])
             self._axes = np.stack([across, np.cross(sun, across)])
-        low = float(np.median(standing.rows["root"][:, 1])) if len(standing.rows) else 0.0
-        self._due = []
+        (_, low), self._due = standing.usual, []
         for step in STEPS:
             middle = np.array([round(eye[0] / step) * step, low, round(eye[2] / step) * step])
             at = self._axes @ middle if step != STEPS[2] else middle[::2]

@@ -4,7 +4,7 @@
 uniform sampler2D tree_air;   // by patch around the viewer, wrapping round: what the wind tells it
 uniform sampler2D tree_mean;  // their mean
 uniform vec2 middle;          // of the patch that the viewer stands on [m]
-uniform float crown_at;       // height of the crown's middle, of its model [m]
+in float crown_at;            // height of its crown's middle over its root [m]
 
 out vec2 told;
 out float open;
@@ -19,7 +19,7 @@ vec2 message_here() {
 }
 
 void main() {
-    vec3 place = root + vec3(0.0, scale * crown_at, 0.0);
+    vec3 place = root + vec3(0.0, crown_at, 0.0);
     told = message_here();
     open = sun_seen(place, lie_at(root.xz).past);
     veil = vec4(haze_light(place), haze_at(place));

@@ -44,6 +44,9 @@ SHOWN = np.dtype(
 LEAFY = np.dtype([*SHOWN.descr, ("first", "f4")])
 """Of a twig that is drawn leaf by leaf, that of its tree, and the twig's number."""
 
+PLACED = np.dtype([("root", "3f4"), ("crown_at", "f4")])
+"""Where a tree stands, and how high above that the middle of its crown is [m]: what `stand.vert` asks of it."""
+
 TOLD = np.dtype([("message", "2f4"), ("past", "f4"), ("misty", "4f4")])
 """What they make out of it once a tree: `stand.vert` writes it."""
 
@@ -71,6 +74,16 @@ class Standing:
     """Records of `STANDING`, shape (n,)."""
 
     _sorted: list[NDArray[np.void]] = field(default_factory=list, init=False)
+    _usual: list[float] = field(default_factory=list, init=False)
+
+    @property
+    def usual(self) -> tuple[float, float]:
+        """The median of their heights, and of the heights that they stand at [m]; 0 where there are none."""
+        if not self._usual:
+            both = self.rows["height"], self.rows["root"][:, 1]
+            self._usual.extend(float(np.median(each)) if len(each) else 0.0 for each in both)
+        high, low = self._usual
+        return high, low
 
     def of(self, kind: int, model: int, /) -> NDArray[np.void]:
         """Return those of a model of a kind, by their numbers, records of `STANDING`."""
