@@ -173,8 +173,6 @@ class Prairie(Tending):
         frame, asked, goes_on = Frame(seen, time, self.site, chosen).after(before, depth=depth)
         if not goes_on:
             self._go_with(viewer, seen)
-            for feature in self._stepping:
-                feature.step(viewer, seen.eye, time=time)
         with self._assembly.screen.opened(self.site) as painter:
             if painter is None:
                 return
@@ -254,8 +252,6 @@ class Prairie(Tending):
         seen = view_of(view, projection, self._origin)
         self._turn()
         self._go_with(viewer, seen)
-        for feature in self.features:
-            feature.step(viewer, seen.eye, time=self.time)
         self._look(seen, viewer)
         self.systems.run(last=Phase.SEE)
 
@@ -381,8 +377,6 @@ class Prairie(Tending):
         camera = camera_at(self.scene.camera, None, self.height_at)
         seen = view_of(view_matrix(camera), projection_matrix(camera.view, 1.0))
         self._go_with(AHEAD, seen)
-        for feature in self._stepping:
-            feature.step(AHEAD, seen.eye, time=self.time)
         self._look(seen, AHEAD)
         for _, name, system in self._built:
             if name != "draw":
@@ -390,9 +384,11 @@ class Prairie(Tending):
         self.viewers.forget(AHEAD)
 
     def _go_with(self, viewer: str, seen: View) -> None:
-        """Let ground that streams go with all viewers, one of whom has come to where it sees from."""
+        """Let features and ground that streams go with the viewers, one of whom has come to where it sees from."""
         others = [outlook.viewer.eye for outlook in self.viewers.values() if outlook.viewer.name != viewer]
         self._streaming.follow(self.site.ground.terrain, [seen.eye, *others])
+        for feature in self._stepping:
+            feature.step(viewer, seen.eye, time=self.time)
 
     def _look(self, seen: View, viewer: str, *, goes_on: bool = False) -> Outlook:
         outlook = self.viewers.looking(viewer, partial(outlook_on, self.site))

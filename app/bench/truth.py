@@ -1,6 +1,5 @@
 """The reference along a walk: drawn where it is asked for, whole or a tile of it alone."""
 
-from types import TracebackType
 from typing import Self
 
 from ...engine.gl.stream import release_all
@@ -36,9 +35,7 @@ class Truth:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self._prairie.release()
         release_all(self._target, self._color, self._depth)
 

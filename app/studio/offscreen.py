@@ -1,6 +1,5 @@
 """Drawing into memory, without a window and without a display."""
 
-from types import TracebackType
 from typing import Self
 
 import moderngl
@@ -31,9 +30,7 @@ class Offscreen:
         self.begin()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.release()
 
     def begin(self) -> None:

@@ -3,7 +3,6 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from hashlib import sha256
-from types import TracebackType
 from typing import Self
 
 import numpy as np
@@ -40,10 +39,8 @@ class Shooting:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self._studio.__exit__(kind, error, trace)
+    def __exit__(self, *_: object) -> None:
+        self._studio.__exit__()
 
     def shots(self, first: int, end: int, /, *, files: Mapping[str, str] | None = None) -> Iterator[Shot]:
         """Yield the frames from `first` to the one before `end`, drawn as they are asked for.

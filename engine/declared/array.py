@@ -82,9 +82,6 @@ def _or_array(text: Any, /, take: Callable[..., Any] = _taken) -> GetPydanticSch
     return GetPydanticSchema(made)
 
 
-FileOrArray = Annotated[str | MapArray, _or_array(str)]
-"""The name of a map's file, or the map itself."""
-
 HeightsSource = Annotated[str | MapArray | HeightFunction, _or_array(str, _asked)]
 """The name of a map's file, the map itself, or a function of places."""
 

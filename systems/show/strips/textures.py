@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....components.arrays import Bytes, Mask
-from ....engine.gl.mipmaps import at_once, levels, mipmapping
+from ....engine.gl.mipmaps import levels, mipmapping
 from ...grow.record import Growth
 from .grow import Strips, strips_of
 from .pages import WHOLE, Pages, packed
@@ -84,13 +84,8 @@ def _laid(pictures: Sequence[Bytes], boxes: NDArray[np.int64], pages: Pages) -> 
     return laid
 
 
-def strip_texture(ctx: moderngl.Context, made: list[Bytes]) -> moderngl.TextureArray:
-    """Return the texels or the ranks of an atlas as a texture."""
-    return at_once(sending_strips(ctx, made))
-
-
 def sending_strips(ctx: moderngl.Context, made: list[Bytes]) -> Generator[None, None, moderngl.TextureArray]:
-    """Do what `strip_texture` does a piece at a time."""
+    """Return the texels or the ranks of an atlas as a texture, a piece at a time."""
     texture = yield from mipmapping(ctx, made)
     texture.repeat_x = texture.repeat_y = False
     return texture

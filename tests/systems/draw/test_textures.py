@@ -6,6 +6,7 @@ import moderngl
 import numpy as np
 import pytest
 
+from tallgrass.engine.gl.mipmaps import at_once
 from tallgrass.engine.gl.stream import release_all
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.systems.grow.record import Growth
@@ -20,9 +21,9 @@ from tallgrass.systems.show.strips.stock import stock_strips
 from tallgrass.systems.show.strips.textures import (
     extent_texture,
     painted_extents,
+    sending_strips,
     strip_atlas,
     strip_stock,
-    strip_texture,
 )
 
 
@@ -32,7 +33,7 @@ def test_g1_each_picture_of_the_atlas_is_the_strip_that_planting_reckons_with(
 ) -> None:
     every = [strip_stock(growths, number) for number in (0, 1)]
     made = strip_atlas(every, [2, 1])
-    atlas, ranks = (strip_texture(ctx, levels) for levels in (made.texels, made.ranks))
+    atlas, ranks = (at_once(sending_strips(ctx, levels)) for levels in (made.texels, made.ranks))
     before = sum(2 * len(strips.plane) for kinds in every[:ring] for models in kinds for strips in models)
     width, height, pages = atlas.size
     texels = np.frombuffer(atlas.read(), np.uint8).reshape(pages, height, width, 4)
