@@ -99,14 +99,11 @@ void light_soil(vec3 ground, Laid laid) {
 
 void main() {
     place = on_ground(on_mesh());
-#ifdef EDGED
-    lies_over = place.y;
-#endif
     Laid laid = laid_on(place);
     place.y += laid.share * (1.0 - laid.share) * laid.tall * uneven(place.xz);
 #ifdef EDGED
     over = place;
-    lies_over = place.y - lies_over;
+    lies_over = place.y - laid.ground;
     raises = lies_over / max(laid.tall, LOWEST_GRASS);
 #endif
     hand_on(laid);
@@ -122,12 +119,12 @@ void main() {
     sways = sways_by(met, laid.message);
     light_up(slope, on_level, laid.grows, laid.message);
 #ifndef EDGED
-    light_soil(seen_behind(place, from_above), laid);
+    light_soil(seen_behind(place, laid.ground, from_above), laid);
 #endif
     gl_Position = clip * vec4(place, 1.0);
 #ifndef EDGED  // where pixels make out how far off grass is
     if (over_hosts > 0.0) {
-        vec4 before = clip * vec4(before_hosts(place, place.y - height_at(place.xz), slope), 1.0);
+        vec4 before = clip * vec4(before_hosts(place, place.y - laid.ground, slope), 1.0);
         gl_Position.z = before.z * gl_Position.w / before.w;
     }
 #endif

@@ -19,6 +19,7 @@ const float EDGE = 0.01;    // a corner counts as on both sides of a patch's edg
 uniform ByKind raised; // by kind: height of the carpet above the ground [m]
 
 struct Laid {
+    float ground;  // height of the ground [m]
     float share;   // how much of what is seen is carpet's
     ByKind grows;  // how densely each kind grows
     float left;    // up to which height it is left to stand [m]
@@ -48,9 +49,9 @@ float standing(ByKind grows, vec2 message) {
 }
 
 // How fast the rise of the ground falls off along a line of sight of some slope [1/m]: where it is, or where it goes on through
-// the grass, if ground falls away from it there.
-float curved_at(vec2 place, vec2 rise, float slope, float tall) {
-    float near_by = max(NEAR_CELLS * terrain_cell, 2.0 * spaced), here = height_at(place);
+// the grass, if ground falls away from it there. The ground is `here` so high [m].
+float curved_at(vec2 place, float here, vec2 rise, float slope, float tall) {
+    float near_by = max(NEAR_CELLS * terrain_cell, 2.0 * spaced);
     float far = clamp(STOPPED * tall / max(slope, FLATTEST), near_by, FARTHEST * near_by);
     vec2 way = heading_to(place);
     float bulges = (2.0 * here - height_at(place + way * near_by) - height_at(place - way * near_by)) / (near_by * near_by);
@@ -131,18 +132,19 @@ void sow(inout Laid laid, vec2 place) {
 // How grass stands at a place of the ground, which is raised to the carpet.
 Laid laid_on(inout vec3 place) {
     Laid laid;
+    laid.ground = place.y;
     laid.share = lowest_share(place.xz);
     sow(laid, place.xz);
     laid.rise = rising_at(place.xz);
     float high = laid.share * laid.tall * laid.lies;
     place.y += high;
-    laid.crest = curved_at(place.xz, laid.rise, viewing_slope(laid.rise, place), laid.tall);
+    laid.crest = curved_at(place.xz, laid.ground, laid.rise, viewing_slope(laid.rise, place), laid.tall);
     laid.message = message_at(place.xz);
     laid.stands = standing(laid.grows, laid.message);
     float deep = deepest(max(viewing_slope(laid.rise, place), 0.0), laid.crest, laid.tall * laid.stands);
     float lifts = lifted(deep, laid.crest, laid.stands);
     float at_rim = lifted(0.0, BULGES, laid.stands);
-    laid.past = past_rim(place + vec3(0.0, high * (at_rim - 1.0), 0.0), laid.tall * laid.stands / RAISED);
+    laid.past = past_rim(place + vec3(0.0, high * (at_rim - 1.0), 0.0), laid.ground, laid.tall * laid.stands / RAISED);
     place.y += high * ((laid.past < NO_RIM ? at_rim : lifts) - 1.0);
     laid.slope = viewing_slope(laid.rise, place);
     return laid;
@@ -151,8 +153,8 @@ Laid laid_on(inout vec3 place) {
 const vec2 LOW = vec2(0.1, 0.4);  // slopes of lines of sight up to which it counts where they meet the ground, and no more
 
 // The ground that is seen between blades: from a low angle it lies metres behind, where lines of sight come out of the grass.
-vec3 seen_behind(vec3 place, float slope) {
-    float over = max(place.y - height_at(place.xz), 0.0) * (1.0 - smoothstep(LOW.x, LOW.y, slope));
+vec3 seen_behind(vec3 place, float ground, float slope) {
+    float over = max(place.y - ground, 0.0) * (1.0 - smoothstep(LOW.x, LOW.y, slope));
     return on_ground(place.xz + heading_to(place.xz) * min(over / max(slope, LOWEST), FARTHEST_SEEN));
 }
 

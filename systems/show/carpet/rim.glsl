@@ -4,14 +4,14 @@ const int LOOKS = 12;       // places on a line of sight that may be the rim,
 const float APART_BY = 0.5; // half a point of the mesh from one to the next
 const float LEAST_TURN = 0.05;  // slope by which it comes to the ground, or leaves it, at least
 
-// What a line of sight to a place of the raised mesh meets in the grass over a rim, whose top is so high above the ground [m]:
-// how deep it comes below that top, of its height, times the root of its way through grass one metre deep [m]. Leaf area is met
-// by the square of this. It grows evenly along the mesh before the rim. At least NO_RIM where there is none.
-float past_rim(vec3 place, float top) {
+// What a line of sight to a place of the raised mesh meets in the grass over a rim, whose top is so high above the `ground` there
+// [m]: how deep it comes below that top, of its height, times the root of its way through grass one metre deep [m]. Leaf area is
+// met by the square of this. It grows evenly along the mesh before the rim. At least NO_RIM where there is none.
+float past_rim(vec3 place, float ground, float top) {
     if (rim_at(place.xz) > ON_RIM.y * terrain_cell)
         return 2.0 * NO_RIM;
     vec2 way = heading_to(place.xz);
-    float away = distance(place.xz, eye.xz), step = max(terrain_cell, spaced), at = 0.0, high = height_at(place.xz);
+    float away = distance(place.xz, eye.xz), step = max(terrain_cell, spaced), at = 0.0, high = ground;
     float steepest = (high - eye.y) / away;
     for (int look = 1; look <= LOOKS; look++) {
         float on = APART_BY * step * float(look), there = height_at(place.xz + way * on), rises = (there - eye.y) / (away + on);

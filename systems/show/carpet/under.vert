@@ -64,11 +64,11 @@ void main() {
     float sunk = sunk_by(laid, place);
     place.y -= laid.share * laid.tall * laid.lies * sunk;
     if (laid.past < NO_RIM)  // over a rim grass is seen through down to the ground
-        place.y = height_at(place.xz);
+        place.y = laid.ground;
     float sight = viewing_slope(laid.rise, place), from_above = max(sight, FLATTEST);
 #ifdef EDGED
     over = place;
-    lies_over = place.y - height_at(place.xz);
+    lies_over = place.y - laid.ground;
     raises = lies_over / max(laid.tall, LOWEST_GRASS);
     slope = sight;
     crest = laid.crest;
@@ -80,7 +80,7 @@ void main() {
     for (int group = 0; group < GROUPS; group++)
         met[group] *= part;
 
-    vec3 ground = seen_behind(place, from_above);
+    vec3 ground = seen_behind(place, laid.ground, from_above);
     Lie lies = lie_at(ground.xz);
     ByKind grows = grown_at(ground.xz, laid);
     float leaves = weighed(areas(grows), leaves_left(laid.left));
