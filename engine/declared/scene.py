@@ -168,10 +168,6 @@ class Scene(Declaration):
             if kind.place is not None:
                 why = "a map has no place on ground without an edge, as terrain.window makes it: use slope or sow"
                 raise DeclarationError(why, "grass", name, "place")
-        for name, tree in self.trees.items():
-            if tree.density > 0.0:
-                why = "trees cannot be scattered over ground without an edge: use positions, rows or entities"
-                raise DeclarationError(why, "trees", name, "density")
         return self
 
     def numbers(self, preset: str | None = None) -> Quality:
