@@ -276,7 +276,7 @@ def test_without_the_evaluator_the_picture_benchmark_says_what_installs_it(
 
 
 @pytest.mark.usefixtures("ctx")
-def test_r2_the_walk_benchmark_tells_every_key_of_the_contract(
+def test_r2_n6_the_walk_benchmark_tells_every_key_of_the_contract(
     scene: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Where the driver always draws: nothing is told of the CPU alone."""

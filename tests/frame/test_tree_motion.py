@@ -87,6 +87,7 @@ def test_w4_an_oak_in_a_breeze_swings_with_the_frequencies_of_trunks_limbs_and_l
     assert share[(hertz > 2.6) & (hertz < 11.2)].sum() > 0.9
 
 
+@pytest.mark.slow
 def test_w4_near_and_far_it_bends_as_far_and_swings_in_the_same_time(
     ctx: moderngl.Context, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
 ) -> None:
