@@ -131,6 +131,7 @@ HILLS = (
 """Rolling ground with crests near and far."""
 
 
+@pytest.mark.slow
 def test_x5_even_grass_looks_the_same_where_pixels_look_for_its_edges(
     room: Stage, load: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch
 ) -> None:
