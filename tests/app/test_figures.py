@@ -118,6 +118,7 @@ def test_the_paper_figures_are_told_of_in_order_and_once() -> None:
         assert each.made.endswith(".")
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("_narrow")
 def test_some_figures_are_drawn_alone_and_join_what_is_there(tmp_path: Path) -> None:
     assert run(["figures", "-o", str(tmp_path), "--only", " 10, 6"]) == 0

@@ -170,7 +170,7 @@ def test_a_kind_that_is_not_there_is_one_line(capsys: pytest.CaptureFixture[str]
     assert capsys.readouterr().out.startswith("unknown kind 'gst', did you mean 'gust'?")
 
 
-@pytest.mark.parametrize("kind", ["dust-devil", "placed-wind", "none"])
+@pytest.mark.parametrize("kind", ["dust-devil", pytest.param("placed-wind", marks=pytest.mark.slow), "none"])
 def test_a_new_plugin_passes_the_check_and_its_own_test(tmp_path: Path, kind: str, python: Python) -> None:
     folder = tmp_path / kind
     files = scaffold(kind, folder)

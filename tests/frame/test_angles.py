@@ -57,9 +57,8 @@ def unevenness(lines: Doubles) -> float:
     return float((lines - np.convolve(lines, np.ones(9) / 9, "same"))[6:-6].std())
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param("above-30", marks=pytest.mark.slow), "above-60", pytest.param("lawn", marks=pytest.mark.slow)]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["above-30", "above-60", "lawn"])
 def test_g3_no_rows_show_from_twelve_metres_up_or_in_a_lawn(ctx: moderngl.Context, narrow: Stage, name: str) -> None:
     prairie = Prairie.load(CAMERAS / f"{name}.yaml", ctx=ctx, live=False)
     prairie.advance(MOMENT)

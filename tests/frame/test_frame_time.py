@@ -169,6 +169,7 @@ def test_n11_a_system_may_set_the_time_to_hold_in_the_middle_of_a_frame(stage: S
     shown(stage, prairie)
 
 
+@pytest.mark.slow
 def test_n11_representations_are_drawn_in_little_by_little_and_come_back(stage: Stage, load: Load, at: At) -> None:
     prairie = load()
 

@@ -212,7 +212,7 @@ def test_n7_a_scene_may_come_to_have_nine_kinds_and_have_few_again(
     few = scene.with_name("few.yaml")
     two = "\n".join(line for line in whole.splitlines() if not line.startswith("  kind-") or line[7] in "78")
     few.write_text(two, "utf-8")
-    prairie = Prairie.load(few, ctx=ctx)
+    prairie = Prairie.load(few, ctx=ctx, lod="blades")
     before = stage.shot(prairie, aim)
     few.write_text(whole, "utf-8")
     prairie.reload()

@@ -136,7 +136,7 @@ def test_f3_in_every_representation_a_field_of_poppies_has_one_colour(stage: Sta
     ("scene", "key", "part", "pitch", "redder"),
     [
         (MEADOW, "withered", 0.6, -12, 1.053),
-        (LEAFY, "understorey", 1.0, -30, 0.58),
+        pytest.param(LEAFY, "understorey", 1.0, -30, 0.58, marks=pytest.mark.slow),
         (HEATH, "understorey", 1.0, -30, 0.526),
     ],
 )
