@@ -6,6 +6,7 @@ uniform sampler2D deep;     // and how deep that is
 uniform vec2 size;          // pixels of the smaller picture
 uniform vec2 unit;          // how large each of them is
 uniform float farthest;     // depth where nothing has been drawn, 1 or 0
+uniform ivec2 corner;       // of the viewport in the host's framebuffer [pixels]
 
 in vec2 at;
 
@@ -17,6 +18,16 @@ vec2 middle_of(vec2 place) {
 // How much farther off one depth is than another.
 float behind(float one, float other) {
     return farthest > 0.5 ? one - other : other - one;
+}
+
+// How deep the host's pixel was.
+float depth_before() {
+    return texelFetch(before, ivec2(gl_FragCoord.xy) - corner, 0).r;
+}
+
+// Whether the host had drawn something so deep.
+bool has_host(float depth) {
+    return depth != farthest;
 }
 
 const float CUBIC = 1.5;  // what Catmull-Rom's cubic is steepest by

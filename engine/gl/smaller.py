@@ -13,7 +13,7 @@ from .guest import aside, colourless, depth_ends, farthest_depth, let_pass
 from .outputs import has_depth
 from .shaders import program
 from .stream import release_all
-from .units import FIRST_UNIT
+from .units import UNITS
 
 log = logging.getLogger("tallgrass")
 
@@ -24,12 +24,12 @@ OVER = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
 MOST_SIZES = 4
 """Sizes whose buffers are kept: a viewer's last and present one, and another viewer's."""
 
-UNITS = {"before": FIRST_UNIT, "picture": FIRST_UNIT + 1, "deep": FIRST_UNIT + 2}
-"""Texture units: what stands there is bound anew whenever it is read."""
+PLACES = dict(zip(("before", "picture", "deep"), UNITS[-3:], strict=True))
+"""Texture units: the last, as what stands there is bound anew whenever it is read."""
 
-PASSES = {"bring": "1", "enlarge": "<=", "fit": ">", "deepen": "<", "lay": "1"}
-"""What is done, and by which test of depth: to bring the host's depth over; to write the picture where the host has
-drawn nothing, and over what it has drawn; and to write its depth. The second and third are as far away as can be. Or,
+PASSES = {"bring": "1", "fit": ">", "deepen": "<", "enlarge": "<=", "lay": "1"}
+"""What is done, and by which test of depth: to bring the host's depth over; to blend the picture over what the host has
+drawn, and write its depth there; to write both where it has drawn nothing. The second is as far away as can be. Or,
 where nothing else has depth, to lay the picture over all."""
 
 
@@ -64,9 +64,9 @@ class Buffers:
 
     def use(self) -> None:
         """Bind what is read where the passes read it."""
-        self.before.use(UNITS["before"])
-        self.picture.use(UNITS["picture"])
-        self.deep.use(UNITS["deep"])
+        self.before.use(PLACES["before"])
+        self.picture.use(PLACES["picture"])
+        self.deep.use(PLACES["deep"])
 
     def release(self) -> None:
         """Give everything back."""
@@ -105,27 +105,40 @@ class Smaller:
         buffers = self._room((width, height), smaller_size((width, height), scale))
         with aside(self._ctx, host, alike=True):
             if not is_alone:
-                buffers.use()
-                self._gl.glActiveTexture(NUMBERS["TEXTURE0"] + UNITS["before"])
+                self._read(buffers)
+                self._gl.glActiveTexture(NUMBERS["TEXTURE0"] + PLACES["before"])
                 self._gl.glCopyTexSubImage2D(NUMBERS["TEXTURE_2D"], 0, 0, 0, x, y, width, height)
-            buffers.target.depth_mask = True
+            buffers.target.depth_mask, buffers.target.scissor = True, None
             buffers.target.use()
             self._clear()
             if not is_alone:
                 with colourless(buffers.target):
                     self._do("bring")
             yield buffers.target
-        buffers.use()
+        self._enlarge(host, buffers, is_whole=is_whole, is_alone=is_alone)
+
+    def _enlarge(self, host: moderngl.Framebuffer, buffers: Buffers, *, is_whole: bool, is_alone: bool) -> None:
+        """Lay what was drawn over the host's picture."""
+        x, y = host.viewport[:2]
+        self._read(buffers)
         host.depth_mask = False
         if is_alone:
             self._do("lay", blending=None if is_whole else OVER, everywhere=True)
             host.depth_mask = True
             return
-        if is_whole:
-            self._do("enlarge")
+        self._tell({"whole": is_whole, "corner": (x, y)})
         self._do("fit", blending=OVER, everywhere=not is_whole)
         host.depth_mask = True
-        self._do("deepen", blending=(moderngl.ZERO, moderngl.ONE))
+        with colourless(host):
+            self._do("deepen")
+        if is_whole:
+            self._do("enlarge")
+
+    def _read(self, buffers: Buffers) -> None:
+        """Let the passes read these."""
+        buffers.use()
+        small, ends = buffers.target.size, {"far_end": depth_ends()[1], "farthest": farthest_depth()}
+        self._tell({"size": small, "unit": (1.0 / small[0], 1.0 / small[1]), **ends})
 
     def release(self) -> None:
         """Give everything back."""
@@ -151,7 +164,7 @@ class Smaller:
         for name in PASSES.keys() - self._passes.keys():
             self._programs[name] = program(self._ctx, "engine/gl/fill.vert", f"engine/gl/{name}.frag")
             self._passes[name] = self._ctx.vertex_array(self._programs[name], [])
-            self._tell(UNITS)
+            self._tell(PLACES)
 
     def _is_obstructed(self, host: moderngl.Framebuffer) -> bool:
         """Return whether nothing can stand in for the host's framebuffer, and tell it once."""
@@ -171,13 +184,13 @@ class Smaller:
     def _room(self, full: Size, small: Size) -> Buffers:
         """Return buffers for a viewport and a picture of these sizes."""
         self.make_ready()
-        if (full, small) not in self._buffers:
+        found = self._buffers.pop((full, small), None)
+        if found is None:
             if len(self._buffers) == MOST_SIZES:
                 self._buffers.pop(next(iter(self._buffers))).release()
-            self._buffers[full, small] = Buffers.made(self._ctx, full, small, floats=self._floats)
-        ends = {"far_end": depth_ends()[1], "farthest": farthest_depth()}
-        self._tell({"size": small, "unit": (1.0 / small[0], 1.0 / small[1]), **ends})
-        return self._buffers[full, small]
+            found = Buffers.made(self._ctx, full, small, floats=self._floats)
+        self._buffers[full, small] = found
+        return found
 
     def _tell(self, values: Mapping[str, object]) -> None:
         for each in self._programs.values():
