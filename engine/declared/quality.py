@@ -104,7 +104,7 @@ def _quality(
     )
 
 
-_LOW = 160, [(1, 3), (8, 3)], [(8, 3, 1, 2, 0.012), (20, 2, 1, 1, 0.012)], 36
+_LOW = 160, [(1, 3), (8, 3)], [(8, 3, 1, 2, 0.012), (16, 2, 1, 1, 0.012)], 32
 
 HALF = 0.5
 """Part of the pixels, across and up, of `minimal`: a quarter of them all."""
