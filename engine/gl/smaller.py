@@ -108,7 +108,8 @@ class Smaller:
                 self._read(buffers)
                 self._gl.glActiveTexture(NUMBERS["TEXTURE0"] + PLACES["before"])
                 self._gl.glCopyTexSubImage2D(NUMBERS["TEXTURE_2D"], 0, 0, 0, x, y, width, height)
-            buffers.target.depth_mask, buffers.target.scissor = True, None
+            buffers.target.depth_mask = True
+            buffers.target.scissor = None  # type: ignore[assignment]
             buffers.target.use()
             self._clear()
             if not is_alone:
