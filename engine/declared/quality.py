@@ -112,7 +112,7 @@ HALF = 0.5
 PRESETS: dict[str, Quality] = {
     "minimal": _quality(*_LOW, pixels=HALF),
     "low": _quality(*_LOW),
-    "medium": _quality(320, [(1, 4), (6, 4)], [(6, 5, 1, 2, 0.012), (6, 4, 1, 2, 0.01), (20, 2, 1, 1, 0.012)], 36),
+    "medium": _quality(320, [(1, 4), (6, 4)], [(6, 5, 1, 2, 0.012), (6, 4, 1, 2, 0.01), (16, 2, 1, 1, 0.012)], 36),
     "high": _quality(
         500,
         [(1, 8), (6, 5)],
