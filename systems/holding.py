@@ -1,6 +1,6 @@
 """What one GL context holds of a site, and how it comes to another site piece by piece."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import chain
 from typing import TypeVar
@@ -18,7 +18,7 @@ from .show.representation import Canvas, RepresentationPainter
 from .site import Site
 from .staged import Staged, are_alike, are_other_kinds, is_other_grass, special_of
 from .wind.card import CardWinds
-from .wind.quarantine import Quarantine
+from .winds import Winds
 
 Sort = TypeVar("Sort", bound=Part)
 
@@ -36,9 +36,9 @@ class Holding:
     """Everything that one GL context holds of a site."""
 
     def __init__(
-        self, ctx: moderngl.Context, features: Sequence[Feature], quarantine: Quarantine, *, linear: bool = False
+        self, ctx: moderngl.Context, features: Sequence[Feature], winds: Winds, *, linear: bool = False
     ) -> None:
-        self.ctx, self.quarantine = ctx, quarantine
+        self.ctx, self.winds, self.quarantine = ctx, winds, winds.quarantine
         self.block, self.received = FrameBlock(ctx), Received(ctx)
         self.record = self.block.record
         self.record["writes_raw"] = linear
@@ -75,7 +75,7 @@ class Holding:
     def steps(self, site: Site) -> int:
         """Return how many steps `preparing` takes at most."""
         times = 2 if makes_beside(self.ctx) else 1
-        return 2 * len(self.parts) + 11 + sum(3 + times * each.programs for each in site.representations)
+        return 2 * len(self.parts) + 11 + sum(6 + times * each.programs for each in site.representations)
 
     def _making_ready(
         self, site: Site, air: CardWinds | None = None, painters: Mapping[str, RepresentationPainter] | None = None
@@ -84,11 +84,25 @@ class Holding:
         assert self._winds is not None
         painters = self.painters if painters is None else painters
         yield from self._beside.waiting(chain.from_iterable(painter.texts() for painter in painters.values()))
-        (air or self.air).make_ready([*site.scene.wind, *self._winds], receivers=READY_ROWS * ROW)
         for painter in painters.values():
             yield from painter.making()
             painter.make_ready(site)
             yield
+        yield from self._making_for_winds(site, self._winds, air or self.air, painters)
+
+    def _making_for_winds(
+        self,
+        site: Site,
+        winds: Sequence[WindPrimitive],
+        air: CardWinds,
+        painters: Mapping[str, RepresentationPainter],
+    ) -> Iterator[None]:
+        """Make room and programs for winds of the kinds of these, and yield after each program."""
+        expected = [*site.scene.wind, *winds]
+        yield from air.expecting(expected)
+        for painter in painters.values():
+            yield from painter.making_for_winds()
+        air.make_ready(expected, receivers=READY_ROWS * ROW)
 
     def _settling(self, site: Site) -> Iterator[None]:
         """Do what `settle` does, bit by bit; where that is left off, it begins anew the next time."""
@@ -145,7 +159,11 @@ class Holding:
                 staged.steps = self._staging(site)
             else:
                 staged.air = air = CardWinds(self.ctx, UNITS, site.growths)
-                ready = None if self._winds is None else partial(self._making_ready, site, air, staged.painters)
+                ready: Callable[[], Iterator[None]] | None = None
+                if self._winds is not None:
+                    ready = partial(self._making_ready, site, air, staged.painters)
+                elif AHEAD and self.quarantine.live:
+                    ready = partial(self._making_for_winds, site, self.winds.samples(), air, staged.painters)
                 staged.steps = staged.making(self._canvas(site, air), self._beside, site.scene.wind, ready)
         return next(self._staged.steps, "over") == "over"
 
@@ -181,21 +199,26 @@ class Holding:
             yield
             if is_ahead and not is_beside:
                 yield from made.making()
-        if is_ahead and is_beside:
-            self._later = self._making_later()
+        if is_ahead:
+            self._later = self._making_later(site)
 
     def _give_up(self) -> None:
         """Make no more of what no frame has drawn with."""
         self._beside.release()
         self._later = iter(())
 
-    def _making_later(self) -> Iterator[None]:
-        """Have the driver make what no frame has drawn with yet, and then make it, which takes a moment by then."""
+    def _making_later(self, site: Site) -> Iterator[None]:
+        """Have the driver make what no frame has drawn with yet, and then make it, which takes a moment by then.
+
+        In the end make what receivers hear other winds with than there are now.
+        """
         painters = list(self.painters.values())
         yield  # what the first frame draws with is made for it
         yield from self._beside.making(chain.from_iterable(painter.texts() for painter in painters))
         for painter in painters:
             yield from painter.making()
+        if self._winds is None:
+            yield from self._making_for_winds(site, self.winds.samples(), self.air, self.painters)
 
     def _canvas(self, site: Site, air: CardWinds) -> Canvas:
         return Canvas(

@@ -6,7 +6,6 @@ from functools import partial
 
 import moderngl
 
-from ..components.wind import WindPrimitive
 from ..engine.camera import View, is_mirrored, light_from
 from ..engine.gl.guest import aside, colourless, depth_ends, guest
 from ..engine.gl.rasteriser import handing_over
@@ -25,7 +24,7 @@ from .show.blades.draw import BladePainter
 from .show.blades.plant import record_of
 from .site import Site
 from .wind.blow import ReceiverArrays, mean_yaw
-from .wind.quarantine import Quarantine
+from .winds import Winds
 
 OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
 
@@ -39,9 +38,9 @@ class Painter(Holding):
     """Draws what one GL context holds of a site."""
 
     def __init__(
-        self, ctx: moderngl.Context, features: Sequence[Feature], quarantine: Quarantine, *, linear: bool = False
+        self, ctx: moderngl.Context, features: Sequence[Feature], winds: Winds, *, linear: bool = False
     ) -> None:
-        super().__init__(ctx, features, quarantine, linear=linear)
+        super().__init__(ctx, features, winds, linear=linear)
         self.smaller, self.stopwatch = Smaller(ctx, floats=linear), Stopwatch(ctx)
         self._hand_over = handing_over(ctx)
         self.draw_calls = self.blades = 0
@@ -49,8 +48,8 @@ class Painter(Holding):
         self._outlook: Outlook | None = None
         self._first: dict[str, list[int]] = {}
 
-    def preparing(self, site: Site, winds: Sequence[WindPrimitive], look: Callable[[], None], /) -> Iterator[None]:
-        """Make all that a game may come to need, `steps` of them, with winds of the kinds of these.
+    def preparing(self, site: Site, look: Callable[[], None], /) -> Iterator[None]:
+        """Make all that a game may come to need, `steps` of them, with winds of all kinds that there are.
 
         `look` lets somebody look where nobody has looked yet: what is drawn then is rehearsed.
         """
@@ -58,7 +57,7 @@ class Painter(Holding):
             part.settle(site, self.record)
             part.make_ready(site)
             yield
-        self._winds = winds
+        self._winds = self.winds.samples()
         self.smaller.make_ready()
         self.received.reserve(READY_ROWS)
         yield

@@ -86,7 +86,7 @@ class Prairie(Tending):
         self.lod: LodName = lod
         self.statistics, self.governor = Statistics(blades_field=site.blades), Governor(hold)
         self.systems = Schedule(live=live)
-        screen = Screen(ctx, self.features, self.winds.quarantine, linear=linear)
+        screen = Screen(ctx, self.features, self.winds, linear=linear)
         self._saving = Saving(
             self.world, self.winds, self.pressers, self._mown, self.clearings, self._shining, one(Trees, self.features),
             self._seasons,
@@ -228,7 +228,7 @@ class Prairie(Tending):
         Between steps GL state is your own. Keep the same context current. It raises the errors of `draw`.
         """
         self._must_be_there("prepare it")
-        return self._assembly.screen.preparing(self.site, self.winds.samples(), self._look_ahead)
+        return self._assembly.screen.preparing(self.site, self._look_ahead)
 
     def prepare(self, *, on_progress: Callable[[int, int], object] | None = None) -> None:
         """Upload and compile in the current context all that the scene and a game may need, so that no frame does.

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import moderngl
 
-from ..components.wind import WindPrimitive
 from ..engine.gl.guest import arrive, guest, host_context, kept
 from ..engine.gl.homes import Homes
 from ..engine.gl.host import State
@@ -15,7 +14,7 @@ from ..engine.gl.outputs import has_depth
 from .frame.feature import Feature
 from .painter import Painter
 from .site import Site
-from .wind.quarantine import Quarantine
+from .winds import Winds
 
 if TYPE_CHECKING:
     from pyglet.graphics import Batch, Group
@@ -32,12 +31,12 @@ class Screen:
         self,
         ctx: moderngl.Context | None,
         features: Sequence[Feature],
-        quarantine: Quarantine,
+        winds: Winds,
         *,
         linear: bool = False,
     ) -> None:
         self.ctx, self.linear = ctx, linear
-        self._features, self._quarantine = features, quarantine
+        self._features, self._winds = features, winds
         self.painter: Painter | None = None
         """The painter of the context that was drawn in last; None before the first time."""
         self._painters: Homes[Painter] = Homes()
@@ -56,9 +55,7 @@ class Screen:
                 painter.settle(site)
             yield painter
 
-    def preparing(
-        self, site: Site, winds: Sequence[WindPrimitive], look: Callable[[], None]
-    ) -> Iterator[tuple[int, int]]:
+    def preparing(self, site: Site, look: Callable[[], None]) -> Iterator[tuple[int, int]]:
         """Make all that may come to be needed in the context that is current, and give how many steps of all are done.
 
         `look` lets somebody look whom a frame can be rehearsed for, where nobody has looked.
@@ -68,7 +65,7 @@ class Screen:
         with self._entered() as painter:
             if painter is None:
                 return
-            steps, of = painter.preparing(site, winds, look), painter.steps(site)
+            steps, of = painter.preparing(site, look), painter.steps(site)
         yield 0, of
         for done in range(1, of):
             with self._entered() as here:
@@ -115,7 +112,7 @@ class Screen:
         """Return a new painter, in the context that is current."""
         ctx = host_context(self.ctx)
         arrive(ctx)
-        return Painter(ctx, self._features, self._quarantine, linear=self.linear)
+        return Painter(ctx, self._features, self._winds, linear=self.linear)
 
     def current(self) -> Painter:
         """Return the painter of the context that is drawn in."""

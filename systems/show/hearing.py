@@ -1,6 +1,6 @@
 """How the receivers of a representation hear the wind on the graphics card."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 import moderngl
 
@@ -48,10 +48,13 @@ class Hearing:
         if self._array is not None:
             self._tell(self._array.program)
 
-    def make_ready(self) -> None:
-        """Have a program for whatever winds will blow."""
-        for _ in self._canvas.air.orders():
-            self.array()
+    def making(self) -> Iterator[None]:
+        """Make the programs for whatever winds will blow, one at a time."""
+        for order in self._canvas.air.orders:
+            with self._canvas.air.ordered(order):
+                self.array()
+            yield
+        self.array()
 
     def release(self) -> None:
         """Give everything back; the program is that of the winds."""

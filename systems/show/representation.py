@@ -82,6 +82,10 @@ class RepresentationPainter(Part, ABC):
         """Make the programs that are not there yet, one at a time, as drivers take long over each."""
         yield from ()
 
+    def making_for_winds(self) -> Iterator[None]:
+        """Make the programs by which its receivers hear whatever winds will blow, one at a time."""
+        yield from ()
+
     def fits(self, representation: Any, /) -> bool:
         """Return whether its programs draw another stock of the representation too."""
         raise NotImplementedError

@@ -2,6 +2,7 @@
 
 import logging
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from math import cos, sin
 from typing import Protocol
 
@@ -84,6 +85,8 @@ class CardWinds:
         self._order: list[int] = []
         self._ready: list[int] = []
         """The order of runs whose program is there, and beside it one for winds in any order; empty before."""
+        self._coming: list[int] = []
+        """The order of runs whose program is to be there."""
         self._programs: dict[object, moderngl.Program] = {}
         self._winds: list[Blowing] = []
         self._untwinned: list[int] = []
@@ -98,18 +101,27 @@ class CardWinds:
 
     def meet(self, winds: Iterable[WindPrimitive], /) -> None:
         """Make room for winds that may blow later, so that programs change now and not when they do."""
-        order = sorted(winds, key=claim, reverse=True)
-        self._runs([self._number_of(wind, wind.start, 0) for wind in order])
+        self._runs(self._met(winds))
+
+    def _met(self, winds: Iterable[WindPrimitive]) -> list[int]:
+        """Return the twins of winds, the strongest claim first."""
+        return [self._number_of(wind, wind.start, 0) for wind in sorted(winds, key=claim, reverse=True)]
+
+    def expecting(self, winds: Sequence[WindPrimitive], /) -> Iterator[None]:
+        """Meet winds of these kinds, a new one at a time, as each takes a program; then `orders` has one for them."""
+        for wind in winds:
+            if type(wind) not in self._numbers:
+                self._number_of(wind, wind.start, 0)
+                yield
+        self._coming, _ = fitted_few(self._order, self._met(winds))
 
     def make_ready(self, winds: Sequence[WindPrimitive], /, *, receivers: int) -> None:
-        """Make room for winds of these kinds, `receivers` of which are told something where a kind has no twin.
+        """Make room for winds of the kinds of `expecting`, `receivers` of which are told something without a twin.
 
         From now on a program is another one only for a kind that was never met: winds that come in another order than
         their claims share one that asks each wind what it is.
         """
-        self._ready = []
-        self.meet(winds)
-        self._ready = self._order
+        self._ready = self._coming
         self._reserve(READY_ROWS, 0)
         known = [(wind, self._numbers[type(wind)]) for wind in winds]
         tables = [wind.twin_values(time=0.0, seed=0).sheets for wind, number in known if number != TOLD]
@@ -124,12 +136,19 @@ class CardWinds:
         """What programs are made for: of which twin each run of winds is, and how many twins there are."""
         return *self._order, len(self._twins)
 
-    def orders(self) -> Iterator[None]:
-        """Take each order of runs in turn that a program may be asked for, and in the end that of now."""
-        now = self._order
-        for order in (self._ready, [ANY], now):
-            self._order = order
+    @property
+    def orders(self) -> list[list[int]]:
+        """Each order of runs that a program may be asked for once winds that are expected blow."""
+        return [self._coming, [ANY]]
+
+    @contextmanager
+    def ordered(self, order: list[int]) -> Iterator[None]:
+        """Let programs be those of another order of runs meanwhile."""
+        before, self._order = self._order, order
+        try:
             yield
+        finally:
+            self._order = before
 
     def write(
         self, winds: Sequence[Blowing], /, *, time: float, seed: int, mixing: Mixing, to: float = 0.0

@@ -167,13 +167,16 @@ class BladesPainter(RepresentationPainter):
             self._tell(made)
         self._gathered, self._told = Remembered[_Gathered](), Remembered[_Told]()
 
+    def making_for_winds(self) -> Iterator[None]:
+        """Make the programs by which receivers hear whatever winds will blow, one at a time."""
+        return self.hearing.making()
+
     def make_ready(self, grown: Grown, /) -> None:
-        """Make room for more patches than are usually shown, and programs for whatever winds will blow."""
+        """Make room for more patches than are usually shown."""
         del grown
         self._rows = READY_ROWS
         for shelf in self.shelves:
             shelf.reserve(READY_ROWS)
-        self.hearing.make_ready()
         for ribbons in (self.morph, *self.groups):
             ribbons.array(deep=True)
 

@@ -113,10 +113,9 @@ class CarpetPainter(RepresentationPainter):
         self.ground.come(came)
         self.bents.write(self.ground.stock.bents(came))
 
-    def make_ready(self, grown: Grown, /) -> None:
-        """Make programs for whatever winds will blow."""
-        del grown
-        self.air.hearing.make_ready()
+    def making_for_winds(self) -> Iterator[None]:
+        """Make the programs by which receivers hear whatever winds will blow, one at a time."""
+        return self.air.hearing.making()
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
         """Pretend that somebody treads it, and that grass ends somewhere."""

@@ -179,11 +179,10 @@ class StripPainter:
         return self._held.turns * max(ring.strips * ring.columns for ring in self.rings)
 
     def make_ready(self) -> None:
-        """Make room for more than is usually shown, and programs for whatever winds will blow."""
+        """Make room for more than is usually shown."""
         self._rows = READY_ROWS
         for shelf in self.shelves:
             shelf.reserve(READY_ROWS)
-        self.hearing.make_ready()
         for number in range(len(DEEP)):
             self.array(number, deep=True)
 

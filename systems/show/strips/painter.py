@@ -69,6 +69,10 @@ class StripsPainter(RepresentationPainter):
         """Make the programs that are not there yet, one at a time."""
         return self.strips.making()
 
+    def making_for_winds(self) -> Iterator[None]:
+        """Make the programs by which receivers hear whatever winds will blow, one at a time."""
+        return self.strips.hearing.making()
+
     def make_ready(self, grown: Grown, /) -> None:
         """Make all that strips may come to need."""
         del grown
