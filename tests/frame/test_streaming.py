@@ -63,6 +63,7 @@ def test_v11_a_place_looks_alike_for_who_comes_there_and_who_begins_there(stage:
     np.testing.assert_array_equal(stage.shot(gone, at(gone, AWAY)), stage.shot(there, at(there, AWAY)))
 
 
+@pytest.mark.slow
 def test_x5_what_a_game_has_done_is_there_when_one_comes_back_and_in_states(stage: Stage, prairies: Any) -> None:
     played, untouched = prairies(AWAY, live=False), prairies(AWAY, live=False)
     camera = at(played, AWAY)

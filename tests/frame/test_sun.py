@@ -84,6 +84,7 @@ def test_f5_light_goes_on_while_a_viewer_is_followed(room: Stage, load: Load, ri
     assert np.abs(room.shot(followed, CAMERA) - due).max() <= 1.0
 
 
+@pytest.mark.slow
 def test_f10_shadows_of_the_terrain_come_row_by_row_and_none_is_forgotten(room: Stage, load: Load, ridge: Path) -> None:
     prairie = load(SCENE.format(heights=ridge, light="azimuth: 90, elevation: 20"), lod="carpet")
     calls = []
