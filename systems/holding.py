@@ -88,21 +88,18 @@ class Holding:
             yield from painter.making()
             painter.make_ready(site)
             yield
-        yield from self._making_for_winds(site, self._winds, air or self.air, painters)
+        air, winds = air or self.air, [*site.scene.wind, *self._winds]
+        yield from self._making_for_winds(winds, air, painters)
+        air.make_room(winds, receivers=READY_ROWS * ROW)
 
     def _making_for_winds(
-        self,
-        site: Site,
-        winds: Sequence[WindPrimitive],
-        air: CardWinds,
-        painters: Mapping[str, RepresentationPainter],
+        self, winds: Sequence[WindPrimitive], air: CardWinds, painters: Mapping[str, RepresentationPainter]
     ) -> Iterator[None]:
-        """Make room and programs for winds of the kinds of these, and yield after each program."""
-        expected = [*site.scene.wind, *winds]
-        yield from air.expecting(expected)
+        """Make programs for winds of the kinds of these, and yield after each."""
+        yield from air.expecting(winds)
         for painter in painters.values():
             yield from painter.making_for_winds()
-        air.make_ready(expected, receivers=READY_ROWS * ROW)
+        air.stand_ready()
 
     def _settling(self, site: Site) -> Iterator[None]:
         """Do what `settle` does, bit by bit; where that is left off, it begins anew the next time."""
@@ -163,7 +160,7 @@ class Holding:
                 if self._winds is not None:
                     ready = partial(self._making_ready, site, air, staged.painters)
                 elif AHEAD and self.quarantine.live:
-                    ready = partial(self._making_for_winds, site, self.winds.samples(), air, staged.painters)
+                    ready = partial(self._making_for_winds, self._kinds(site), air, staged.painters)
                 staged.steps = staged.making(self._canvas(site, air), self._beside, site.scene.wind, ready)
         return next(self._staged.steps, "over") == "over"
 
@@ -218,7 +215,11 @@ class Holding:
         for painter in painters:
             yield from painter.making()
         if self._winds is None:
-            yield from self._making_for_winds(site, self.winds.samples(), self.air, self.painters)
+            yield from self._making_for_winds(self._kinds(site), self.air, self.painters)
+
+    def _kinds(self, site: Site) -> list[WindPrimitive]:
+        """Return winds of all kinds that there are."""
+        return [*site.scene.wind, *self.winds.samples()]
 
     def _canvas(self, site: Site, air: CardWinds) -> Canvas:
         return Canvas(

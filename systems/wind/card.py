@@ -115,13 +115,16 @@ class CardWinds:
                 yield
         self._coming, _ = fitted_few(self._order, self._met(winds))
 
-    def make_ready(self, winds: Sequence[WindPrimitive], /, *, receivers: int) -> None:
-        """Make room for winds of the kinds of `expecting`, `receivers` of which are told something without a twin.
+    def stand_ready(self) -> None:
+        """Draw from now on with the programs for those that are expected.
 
-        From now on a program is another one only for a kind that was never met: winds that come in another order than
-        their claims share one that asks each wind what it is.
+        A program is another one only for a kind that was never met: winds that come in another order than their claims
+        share one that asks each wind what it is.
         """
         self._ready = self._coming
+
+    def make_room(self, winds: Sequence[WindPrimitive], /, *, receivers: int) -> None:
+        """Make room for winds of these kinds, `receivers` of which are told something where a kind has no twin."""
         self._reserve(READY_ROWS, 0)
         known = [(wind, self._numbers[type(wind)]) for wind in winds]
         tables = [wind.twin_values(time=0.0, seed=0).sheets for wind, number in known if number != TOLD]
