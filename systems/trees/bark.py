@@ -28,6 +28,9 @@ SIDE_ONE = 127.5
 SIDES = 12, 6, 3
 """Flat sides of a stem of each level."""
 
+OUT_MOST = 0.3
+"""How much farther out a stem's corners may be at most than it would be if it were round, of its radius."""
+
 RUNS = 0.003, 0.006, 0.011, 0.017, 0.027
 """Radius of a stem that is a pixel wide, of the model [m]: trees between two have their wood drawn together."""
 
@@ -61,7 +64,7 @@ class Wood(NamedTuple):
     """Shape (n, 3), the thickest first."""
 
     radii: Doubles
-    """From the last of them to the first: the least radius of any up to it, the greatest from it on, (2, n) [m]."""
+    """From the last of them to the first, the greatest radius from it on, (n,) [m]."""
 
 
 class _Part(NamedTuple):
@@ -123,11 +126,11 @@ def _wood(parts: list[_Part], radius: Doubles, pixel: float) -> Wood:
         chosen.append(kept.reshape(-1, 3))
     triangles = np.concatenate(chosen).astype(np.uint32)
     around = radius[triangles]
-    radii = np.stack([around.min(axis=1), around.max(axis=1)], axis=1)
-    about = np.round(np.log(radii.sum(axis=1)) / np.log(ALIKE))  # of one stem stay together: they share vertices
+    most = around.max(axis=1)
+    # Those of one stem stay together: they share vertices.
+    about = np.round(np.log(around.min(axis=1) + most) / np.log(ALIKE))
     order = np.argsort(-about, kind="stable")
-    least, most = np.minimum.accumulate(radii[order, 0])[::-1], np.maximum.accumulate(radii[order[::-1], 1])
-    return Wood(np.asarray(triangles[order], np.uint32), np.stack([least, most]))
+    return Wood(np.asarray(triangles[order], np.uint32), np.maximum.accumulate(most[order[::-1]]))
 
 
 def _with_foot(trunk: Stems) -> Stems:
@@ -171,6 +174,7 @@ def _tubes(stems: Stems, sides: int) -> NDArray[np.void]:
     angle = np.arange(sides + 1) * (2.0 * np.pi / sides)
     vertices = _on(stems, sides + 1)
     vertices["side"][..., :3] = aside[:, :, None] * np.cos(angle)[:, None] + other[:, :, None] * np.sin(angle)[:, None]
+    vertices["side"][..., 3] = min(1.0 / np.cos(np.pi / sides) - 1.0, OUT_MOST)
     vertices["own"][..., 0] = angle * stems.radius[:, :1, None]
     return vertices
 

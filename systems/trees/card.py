@@ -81,7 +81,7 @@ class ModelOnCard:
         """What is made out of each twig of their trees once a twig."""
         self.most = dict.fromkeys(self.streams, 0)
         """Twigs that any tree of a stream draws."""
-        self.wood = dict.fromkeys(WOODS, Parts(0, 0, 0))
+        self.wood = dict.fromkeys(WOODS, Parts(0, 0))
         """Triangles that the trees of a stream of wood draw."""
         self.far: moderngl.TextureArray | None = None
 
@@ -98,9 +98,9 @@ class ModelOnCard:
     def write(self, near: NDArray[np.void], wide: Doubles, leafy: NDArray[np.void], far: NDArray[np.void]) -> None:
         """Send trees that are drawn near by, the nearest first, twigs of them that are leaf by leaf, and those far off.
 
-        `wide` is the radius of a stem of the model that is a pixel wide, where each is nearest and farthest off.
+        `wide` is the radius of a stem of the model that is a pixel wide, where each is nearest, shape (n,).
         """
-        run = np.searchsorted(RUNS, wide[:, 0])
+        run = np.searchsorted(RUNS, wide)
         for number, name in enumerate(WOODS):
             rows = near[run == number]
             self._send(name, rows)
@@ -134,7 +134,7 @@ class ModelOnCard:
             if not stream.count:
                 self._send(name, self._alone if name == LEAVES else self._alone[[*(SHOWN.names or ())]].astype(SHOWN))
                 self.most[name] = 1
-                self.wood[name] = Parts(1, 0, 1)
+                self.wood[name] = Parts(1, 1)
 
     def release(self) -> None:
         """Give everything back."""

@@ -38,16 +38,25 @@ SHADE_OF_HEIGHT = 0.35
 SKY_MEETS = 0.75
 """How many leaves the sky's light meets, which comes from all sides, of those straight above."""
 
-GLSL = {"LEAST_SHADE": LEAST_SHADE}
+FOOT = 1.6
+"""How far about its foot a trunk itself hides the sky from the grass, and leaves it less water [m]: a map that pixels
+read has texels of 1 m."""
+
+FOOT_MEETS, FOOT_MEETS_MOST = 7.0, 1.6
+"""As many leaves as that hides the sky in the middle, for each metre of the trunk's radius; and at most."""
+
+GLSL = {"LEAST_SHADE": LEAST_SHADE, "TRUNK_FOOT": FOOT, "FOOT_MEETS_MOST": FOOT_MEETS_MOST}
 
 
-def shade_of(area: float, radius: float, height: float, /) -> tuple[float, float]:
-    """Return how far a tree shades the grass [m], and how many leaves the sky's light meets, times area [m²].
+def shade_of(area: float, radius: float, height: float, trunk: float, /) -> tuple[float, float, float]:
+    """Return how far a tree shades the grass [m]; leaves that the sky's light meets, times area [m²]; and at its foot.
 
     So many are met on the ground in the middle of a disc of that area by its radius squared, and less from there to its
-    edge by the square of 1 - r². `area` is that of its leaves [m²], `radius` that of its crown, `height` its own [m].
+    edge by the square of 1 - r². `area` is that of its leaves [m²], `radius` that of its crown, `height` its own, and
+    `trunk` the radius of its trunk [m].
     """
-    return max(radius, SHADE_OF_HEIGHT * height), 3.0 / np.pi * SKY_MEETS * SHARE * CLUMPED * area
+    leaves = 3.0 / np.pi * SKY_MEETS * SHARE * CLUMPED * area
+    return max(radius, SHADE_OF_HEIGHT * height), leaves, FOOT_MEETS * trunk
 
 
 def leaf_area(twigs: Twigs, leaf: Leaf, usual: float, /) -> Doubles:

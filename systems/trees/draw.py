@@ -255,8 +255,8 @@ class TreePart(Part):
                 *(_leafy(grown, told[number], outlook.viewer, large[number]) for number in np.flatnonzero(leafy)),
             ])  # fmt: skip
         reach = (1.0 + SWAYS) * ball * scale * np.linalg.norm(clip[3, :3])
-        ahead = (middle @ clip[3, :3] + clip[3, 3])[:, None] + reach[:, None] * (-1.0, 1.0)
-        wide = THINNEST * np.maximum(ahead, AWAY) / (focal * scale[:, None])
+        ahead = middle @ clip[3, :3] + clip[3, 3] - reach
+        wide = THINNEST * np.maximum(ahead, AWAY) / (focal * scale)
         model.write(told[near], wide[near], twigs, told[far][::-1])
         if self.every_leaf:
             model.most[LEAVES] = len(grown.twigs)
@@ -401,5 +401,5 @@ def _roughly(cards: str) -> bool:
 def _wood(model: ModelOnCard, name: str, *, soft: bool, whole: bool) -> tuple[int, int]:
     """Return from which vertex on, and how many, are drawn of the wood of a stream's trees."""
     drawn, count = model.wood[name], len(model.model.wood[WOODS.index(name)].triangles)
-    first, end = (0, count) if whole else (drawn.soft, drawn.end) if soft else (0, min(drawn.solid, drawn.end))
-    return 3 * (model.first_of[name] + first), 3 * (end - first)
+    end = count if whole else drawn.end if soft else min(drawn.solid, drawn.end)
+    return 3 * model.first_of[name], 3 * end

@@ -24,6 +24,7 @@ flat in vec3 bends;
 flat in vec4 row_told;  // as far.vert has it
 #ifdef CAST
 flat in vec3 shades;  // as far.vert has it
+flat in vec2 foot;
 #endif
 
 out vec4 pixel;
@@ -91,8 +92,9 @@ void main() {
 #ifdef CAST
     texel *= float(max(abs(on.x), abs(on.y)) < 1.0);
     float leaves = -log(1.0 - HIDES_MOST * texel.a) * mix(1.0, sun_own.w, 1.0 - texel.g);
-    float within = max(1.0 - dot(on, on) / (shades.x * shades.x), 0.0);
-    pixel = vec4(leaves, mix(leaves * dot(seen_at, sun), shades.y * within * within, shades.z), 0.0, 0.0);
+    vec2 within = max(1.0 - dot(on, on) / vec2(shades.x * shades.x, foot.x * foot.x), 0.0);
+    float above = dot(vec2(shades.y, foot.y), within * within);
+    pixel = vec4(leaves, mix(leaves * dot(seen_at, sun), above, shades.z), 0.0, 0.0);
 #else
     float wood = texel.g / max(texel.a, LEAST_COVER);
     texel *= mix(sun_own.w, 1.0, wood);

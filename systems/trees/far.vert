@@ -10,9 +10,10 @@ uniform float column; // of its model: from one of those to the next [m]
 uniform vec2 ball;  // of its model: how high its middle is, and half the side of its pictures [m]
 #ifdef CAST
 uniform vec4 tile;  // of the map: middle (across, up) [m], half the side [m], which one it is
-uniform vec2 lawn_shade; // of its model: how far it shades grass [m]; leaves that light meets, times area [m²]
+uniform vec3 lawn_shade; // of its model: how far it shades grass [m]; leaves that light meets, times area [m²]; at its foot
 
 flat out vec3 shades;  // how far it shades the grass, of the half side; leaves met in the middle; 1 in the map from above
+flat out vec2 foot;    // how far its foot does; leaves met there
 #endif
 
 out vec2 on;
@@ -73,6 +74,7 @@ void main() {
     bends = vec3(0.0);
     float reach = max(scale * lawn_shade.x, LEAST_SHADE);
     shades = vec3(reach / half_side, foliage * lawn_shade.y * scale * scale / (reach * reach), float(from_above));
+    foot = vec2(TRUNK_FOOT / half_side, foliage * min(lawn_shade.z * scale, FOOT_MEETS_MOST));
     if (from_above) {  // grass is shaded beyond the picture, too
         on *= max(shades.x, 1.0);
         seen_at = middle_of + half_side * (on.x * across + on.y * up);

@@ -17,7 +17,7 @@ from ...engine.world import World
 from ..frame.block import FrameBlock
 from ..frame.feature import Eye, Feature, Start
 from ..space.grown import Grown
-from .crown import LEAST_SHADE
+from .crown import FOOT, FOOT_MEETS_MOST, LEAST_SHADE
 from .draw import TreePart
 from .forest import Forest, Rows
 from .going import Going
@@ -216,16 +216,19 @@ def _boxes(discs: Doubles) -> Doubles:
 
 
 def _discs(rows: NDArray[np.void], grown: Grown) -> Doubles:
-    """Return how trees, records of `STANDING`, shade the grass, as `Crowns` has it, as shaders do."""
-    discs = np.zeros((len(rows), 4))
+    """Return how crowns and trunks of trees, records of `STANDING`, shade the grass, as `Crowns` has it."""
+    discs, feet = np.zeros((2, len(rows), 4))
     for number, kind in enumerate(grown.scene.trees.values()):
         for which, model in enumerate(models_of(kind.habit, grown.scene.seed + number)):
             own = (rows["kind"] == number) & (rows["model"] == which)
             scale = rows["height"][own].astype(np.float64) / model.height
-            far, leaves = model.shade
+            far, leaves, foot = model.shade
             reach = np.maximum(scale * far, LEAST_SHADE)
             discs[own, :2], discs[own, 2] = rows["root"][own][:, ::2], reach
             discs[own, 3] = rows["foliage"][own] * leaves * (scale / reach) ** 2
+            feet[own, :2], feet[own, 2] = discs[own, :2], FOOT
+            feet[own, 3] = rows["foliage"][own] * np.minimum(foot * scale, FOOT_MEETS_MOST)
+    discs = np.concatenate([discs, feet])
     return discs[discs[:, 3] > 0.0]
 
 

@@ -55,9 +55,9 @@ class Model:
     """Of all its leaves, one side [m²]."""
 
     @property
-    def shade(self) -> tuple[float, float]:
+    def shade(self) -> tuple[float, float, float]:
         """How it shades the grass, as `shade_of` has it."""
-        return shade_of(self.leaf_area, self.radius, self.height)
+        return shade_of(self.leaf_area, self.radius, self.height, 0.5 * self.habit.slender * self.height)
 
 
 @lru_cache(maxsize=32)

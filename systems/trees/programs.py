@@ -23,7 +23,7 @@ SORTS: Mapping[str, tuple[str, str, Mapping[str, str | int]]] = {
 """By what is drawn: vertex and fragment shader, and what they are told."""
 
 MADE: Mapping[str, tuple[str, ...]] = {
-    "stand": ("told", "open", "veil"),
+    "stand": ("told", "open", "veil", "stands_in"),
     "hang": ("hung_at", "hung_axes", "hung_light", "hung_haze"),
 }
 """By what is made out once a tree, or once a twig of it: what is written of it."""

@@ -27,12 +27,8 @@ SIDE = 1024
 SIDES = 96.0, 800.0, 1024.0
 """How far each reaches from edge to edge [m]."""
 
-LEVELS = 1
-"""How many coarser ones each has, twice as coarse from one to the next. The sky's is read in the last, whose texels are
-2 m: so broad is the sky that a place sees."""
-
 GLSL = {
-    "SHADE_MAPS": float(len(SIDES)), "SKY_LEVEL": float(LEVELS), "A_TURN": tau,
+    "SHADE_MAPS": float(len(SIDES)), "A_TURN": tau,
     "SHADE_LEANS": TRUNK_LEANS, "SHADE_SWINGS": TRUNK_SWINGS, "SHADE_TONES_APART": TONES_APART,
 }  # fmt: skip
 
@@ -56,9 +52,7 @@ class ShadeMap:
         self._texture = ctx.texture((len(SIDES) * SIDE, SIDE), 2, dtype="f2")
         self._texture.repeat_x = self._texture.repeat_y = False
         self._target = ctx.framebuffer([self._texture])
-        self._sampler = ctx.sampler(
-            repeat_x=False, repeat_y=False, filter=(moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
-        )
+        self._sampler = ctx.sampler(repeat_x=False, repeat_y=False, filter=(moderngl.LINEAR, moderngl.LINEAR))
         self._streams: dict[int, Stream] = {}
         self._sun: Doubles = np.zeros(3)
         self._axes: Doubles = np.zeros((2, 3))
@@ -127,7 +121,6 @@ class ShadeMap:
                     array.render(moderngl.TRIANGLES, vertices=QUAD, instances=stream.count)
                     calls += 1
             ctx.enable_only(moderngl.NOTHING)
-        self._texture.build_mipmaps(0, LEVELS)
         return calls
 
     def _send(self, kinds: Sequence[KindOnCard], standing: Standing) -> None:

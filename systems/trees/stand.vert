@@ -1,4 +1,5 @@
-// What is the same all over a tree: what the wind tells it, how much of the sun is seen past all but trees, the haze before it.
+// What is the same all over a tree: what the wind tells it, how much of the sun is seen past all but trees, the haze before it, the
+// grass that it stands in.
 #include "systems/trees/tree.glsl"
 
 uniform sampler2D tree_air;   // by patch around the viewer, wrapping round: what the wind tells it
@@ -9,6 +10,7 @@ in float crown_at;            // height of its crown's middle over its root [m]
 out vec2 told;
 out float open;
 out vec4 veil;
+out vec2 stands_in;
 
 // What the wind tells the place where it stands, as the carpet is told.
 vec2 message_here() {
@@ -23,5 +25,10 @@ void main() {
     told = message_here();
     open = sun_seen(place, lie_at(root.xz).past);
     veil = vec4(haze_light(place), haze_at(place));
+    ByKind area = areas(grows_at(root.xz));
+    float leaves = total(area), high = 0.0;
+    for (int group = 0; group < GROUPS; group++)
+        high += dot(area[group], crown[group]);
+    stands_in = vec2(max(high / max(leaves, LEAST_PART), LOWEST_CROWN), leaves);
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
 }

@@ -47,7 +47,7 @@ LEAFY = np.dtype([*SHOWN.descr, ("first", "f4")])
 PLACED = np.dtype([("root", "3f4"), ("crown_at", "f4")])
 """Where a tree stands, and how high above that the middle of its crown is [m]: what `stand.vert` asks of it."""
 
-TOLD = np.dtype([("message", "2f4"), ("past", "f4"), ("misty", "4f4")])
+TOLD = np.dtype([("message", "2f4"), ("past", "f4"), ("misty", "4f4"), ("lawn", "2f4")])
 """What they make out of it once a tree: `stand.vert` writes it."""
 
 HUNG = np.dtype([("hung_at", "4f4"), ("hung_axes", "4u4"), ("hung_light", "4u4"), ("hung_haze", "2u4")])

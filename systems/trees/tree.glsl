@@ -17,10 +17,12 @@ in float foliage; // how many of its leaves it has
 in vec2 message;  // what the wind tells it
 in float past;    // how much of the sun is seen past all but trees
 in vec4 misty;    // radiance of the haze before it, and how much that hides
+in vec2 lawn;     // how high the grass stands about its foot [m], and its leaf area
 #else
 const vec2 message = vec2(0.0);
 const float past = 0.0;
 const vec4 misty = vec4(0.0);
+const vec2 lawn = vec2(1.0, 0.0);
 #endif
 
 uniform float tall;         // of its model [m]

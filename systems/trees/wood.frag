@@ -14,6 +14,9 @@ in vec3 hazy;
 in float thick;
 in vec4 inside;
 in float rounds;
+in vec2 fading;
+in float stands;
+flat in vec2 among_grass;
 
 #ifdef BAKED
 layout(location = 0) out vec4 pixel;
@@ -33,6 +36,8 @@ const vec2 FOOT = vec2(0.1, 1.2);  // between which ways along a stem its foot e
 const vec2 SPOTS = vec2(9.0, 5.0);  // how many of these there are on a metre around and along it
 const vec2 SPOT = vec2(0.28, 0.5);  // noise between which a spot begins
 const float BAND_TONE = 0.42;  // how bright bands and spots are, of the bark
+const vec2 SOILED = vec2(0.6, 2.2);  // heights between which soil and moss on bark end, of the grass's, and with noise of it
+const float SOIL_TONE = 0.55;  // how bright bark is below them, of what it is
 const vec2 FINEST_BARK = vec2(1.5, 18.0);  // all this is seen where a pixel is under 1/36 m of bark, and none of it over 1/12
 
 const float SHARPER_BY = -1.5;  // level of noise: bands and furrows are where it is highest, and a mean would have none
@@ -49,7 +54,14 @@ float bark_at(vec2 on, float fades) {
     float band = smoothstep(BAND.x, BAND.y, first * (BANDED.x + BANDED.y * broad));
     float foot = (1.0 - smoothstep(FOOT.x, FOOT.y, on.y)) * smoothstep(SPOT.x, SPOT.y, fine);
     float furrowed = RIDGES.x + RIDGES.y * (DEEP * first + (1.0 - DEEP) * fine);
-    return mix(bark_mean(), banded ? mix(1.0, BAND_TONE, max(band, foot)) : mix(1.0, furrowed, rough), fades);
+    float soiled = mix(SOIL_TONE, 1.0, smoothstep(SOILED.x, SOILED.y, stands + broad - 0.5));
+    return soiled * mix(bark_mean(), banded ? mix(1.0, BAND_TONE, max(band, foot)) : mix(1.0, furrowed, rough), fades);
+}
+
+// How much of a pixel a stem covers that fades out towards its edges: they are as far aside as it is thick.
+float edge_cover(vec3 ray) {
+    float across = fading.y * length(facing - dot(facing, ray) * ray);
+    return mix(1.0, clamp((1.0 - across) / max(fwidth(across), LEAST_WIDTH), 0.0, 1.0), fading.x);
 }
 
 void main() {
@@ -59,10 +71,11 @@ void main() {
 #else
     float fades = clamp(FINEST_BARK.x - FINEST_BARK.y * max(fwidth(on_skin.x), fwidth(on_skin.y)), 0.0, 1.0);
     float worn = bark_at(on_skin, fades);
-    must_cover(thick);
     vec3 ray = normalize(seen_at - eye);
+    float cover = thick * edge_cover(ray);
+    must_cover(cover);
     vec3 normal = normalize(facing - ray * (rounds * sqrt(max(1.0 - dot(facing, facing), 0.0))));
-    Light light = Light(sunlit * (SENDS * max(dot(normal, sun), 0.0)), skylit, hazy, 0.0, 0.0, vec2(0.0));
-    pixel = drawn(shade(Surface(bark * worn, 1.0, 0.0), light), thick);
+    Light light = Light(sunlit * (SENDS * max(dot(normal, sun), 0.0)), skylit, hazy, 0.0, among_grass.y, vec2(0.0, among_grass.x));
+    pixel = drawn(shade(Surface(bark * worn, stands, 0.0), light), cover);
 #endif
 }

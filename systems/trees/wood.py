@@ -39,28 +39,19 @@ class Parts(NamedTuple):
     solid: int
     """So many first ones may cover pixels wholly."""
 
-    soft: int
-    """From this one on, they may cover them in part."""
-
     end: int
-    """From this one on, they are left out."""
+    """From this one on, they are left out; all before it cover some pixels in part, at their edges."""
 
 
 def parts(radii: Doubles, wide: Doubles, rows: NDArray[np.void], /) -> Parts:
     """Return what is drawn of the wood of trees, records of `SHOWN`.
 
-    `radii` are those of the model's triangles, as `Model` has them; `wide` is the radius of one that is a pixel wide,
-    where each tree is nearest and farthest off, shape (n, 2) [m of the model].
+    `radii` are those of the model's triangles, as `Wood` has them; `wide` is the radius of one that is a pixel wide,
+    where each tree is nearest, shape (n,) [m of the model].
     """
-    nearest, farthest = float(wide[:, 0].min()), float(wide[:, 1].max())
-    least, most = radii
 
-    def so_thick(rising: Doubles, radius: float) -> int:
-        return len(rising) - int(np.searchsorted(rising, radius))
+    def so_thick(radius: float) -> int:
+        return len(radii) - int(np.searchsorted(radii, radius))
 
-    leafy, goes = float(rows["foliage"].min()) >= LEAFY, float(rows["gone"].max()) > GOES
-    return Parts(
-        so_thick(most, OPAQUE * nearest),
-        0 if goes else so_thick(least, OPAQUE * farthest),
-        so_thick(most, THINS[0] * nearest) if leafy else len(most),
-    )
+    nearest, leafy = float(wide.min()), float(rows["foliage"].min()) >= LEAFY
+    return Parts(so_thick(OPAQUE * nearest), so_thick(THINS[0] * nearest) if leafy else len(radii))

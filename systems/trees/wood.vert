@@ -1,9 +1,11 @@
-// Trunks, limbs and branches. None is drawn narrower than a pixel: what is thinner covers as much less of that.
+// Trunks, limbs and branches. None is drawn narrower than a pixel: what is thinner covers as much less of that. Others are drawn a
+// pixel broader than they are, over which their edges fade.
 #include "systems/trees/tree.glsl"
 #include "systems/trees/wood.py"
 
 in vec4 stem;     // of the model: the stem's middle; its radius [m]
-in vec4 side;     // which way the vertex lies from that, a unit vector; or which way a ribbon goes, and -1 or 1 on its edge
+in vec4 side;     // which way the vertex lies from that, a unit vector, and how much farther out the corners of what has flat sides
+                  // are than what it stands for; or which way a ribbon goes, and -1 or 1 on its edge
 in vec4 own;      // around the stem and along it [m]; what sets its limb apart, and the frequency of that
 in vec3 pivot;    // foot of its limb
 in vec4 shading;  // what light meets on its way
@@ -21,8 +23,13 @@ out vec3 hazy;
 out float thick;  // coverage
 out vec4 inside;
 out float rounds; // how much it is a ribbon, which looks as if it were round
+out vec2 fading;  // how much its edges fade; how far out they are, of where they would end
+out float stands; // how high over the ground, of the grass there
+flat out vec2 among_grass;  // that grass's leaf area; how many of its leaves the sun's light meets, of those that stand above
 
 const float ON_EDGE = 0.5;  // beyond it, a vertex is on a ribbon's edge: bytes have no 0
+
+const float FADES = 2.0;  // pixels from which on a stem's edges fade
 
 // Which way a vertex lies from its stem's middle, which is there.
 vec3 aside_of(vec3 middle_at) {
@@ -39,7 +46,9 @@ void main() {
     facing = 2.0 * side.xyz - 1.0;
     rounds = 0.0;
     seen_at = stem.xyz + stem.w * facing;
-    thick = 1.0;
+    thick = stands = 1.0;
+    fading = vec2(0.0, 1.0);
+    among_grass = vec2(0.0);
     sunlit = skylit = hazy = vec3(0.0);
     gl_Position = baked * vec4(seen_at, 1.0);
 #else
@@ -49,7 +58,12 @@ void main() {
     float pixel_at = THINNEST * max(projected.w, AWAY) / pixels_a_metre(), half_width = scale * stem.w;
     thick = min(half_width / pixel_at, 1.0);
     thick *= mix(1.0, smoothstep(THINS.x, THINS.y, thick), foliage) * (1.0 - smoothstep(GOES, 1.0, gone));
-    seen_at = middle_at + max(half_width, pixel_at) * facing;
+    fading.x = smoothstep(pixel_at, FADES * pixel_at, half_width);
+    float ends = max(half_width, pixel_at) + fading.x * pixel_at, corners = 1.0 + (1.0 - rounds) * fading.x * (2.0 * side.w - 1.0);
+    fading.y = corners;
+    seen_at = middle_at + ends * corners * facing;
+    stands = (seen_at.y - root.y) / lawn.x;
+    among_grass = vec2(lawn.y, sun_way(0, sun.y));
     Light light = light_in_crown(seen_at, shading, facing.y);
     sunlit = light.sun;
     skylit = light.sky;

@@ -25,8 +25,8 @@ vec3 shade_sways(vec3 place) {
     return vec3(aside.x, 0.0, aside.y);
 }
 
-vec2 shade_in(vec2 at, float tile, float level) {
-    return textureLod(tree_shade, vec2((clamp(at.x, TILE_SPAN.x, TILE_SPAN.y) + tile) / SHADE_MAPS, at.y), level).rg;
+vec2 shade_in(vec2 at, float tile) {
+    return textureLod(tree_shade, vec2((clamp(at.x, TILE_SPAN.x, TILE_SPAN.y) + tile) / SHADE_MAPS, at.y), 0.0).rg;
 }
 
 // Of the leaves on the sun's ray past a place, those that stand before it, farther on than `beyond` [m].
@@ -35,7 +35,7 @@ float leaves_before(vec3 place, float beyond) {
     vec2 at = vec2(dot(calm, trees_across), dot(calm, trees_up));
     vec2 near_at = (at - trees_middle.xy) / trees_sides.x, far_at = (at - trees_middle.zw) / trees_sides.y;
     float near_out = max(abs(near_at.x), abs(near_at.y)), far_out = max(abs(far_at.x), abs(far_at.y));
-    vec2 met = near_out < MAP_RIM ? shade_in(0.5 + near_at, 0.0, 0.0) : far_out < MAP_RIM ? shade_in(0.5 + far_at, 1.0, 0.0) : vec2(0.0);
+    vec2 met = near_out < MAP_RIM ? shade_in(0.5 + near_at, 0.0) : far_out < MAP_RIM ? shade_in(0.5 + far_at, 1.0) : vec2(0.0);
     float mean = met.y / max(met.x, LEAST_PART), own = dot(place, sun) + beyond;
     float fades = near_out < MAP_RIM ? 1.0 : 1.0 - smoothstep(MAP_RIM - RIM_FADES, MAP_RIM, far_out);
     return met.x * fades * smoothstep(STANDS_BEFORE.x, STANDS_BEFORE.y, mean - own);
@@ -50,7 +50,7 @@ float past_trees(vec3 place, float beyond) {
 float trees_above(vec2 place) {
     vec2 at = (place - trees_sky.xy) / trees_sky.z;
     float out_by = max(abs(at.x), abs(at.y));
-    return out_by < MAP_RIM ? shade_in(0.5 + at, 2.0, SKY_LEVEL).y * (1.0 - smoothstep(MAP_RIM - RIM_FADES, MAP_RIM, out_by)) : 0.0;
+    return out_by < MAP_RIM ? shade_in(0.5 + at, 2.0).y * (1.0 - smoothstep(MAP_RIM - RIM_FADES, MAP_RIM, out_by)) : 0.0;
 }
 
 // How much of the sky is left above a place.
