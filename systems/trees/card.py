@@ -126,7 +126,7 @@ class ModelOnCard:
     def _write(self, name: str, rows: NDArray[np.void]) -> None:
         self._send(name, rows)
         share = float((rows["keep"] * (1.0 - rows["gone"]) * rows["foliage"]).max(initial=0.0))
-        self.most[name] = drawn_of(len(self.model.twigs), share)
+        self.most[name] = len(self.model.twigs) if name == CARDS[0] else drawn_of(len(self.model.twigs), share)
 
     def rehearse(self) -> None:
         """Have a tree to draw in every way that there is."""

@@ -2,6 +2,7 @@
 #include "lib/frame.glsl"
 #include "systems/trees/leaf_sends.glsl"
 #include "systems/trees/hung.glsl"
+#include "systems/trees/behind.glsl"
 #include "systems/trees/outline.py"
 
 in vec4 hung_at;      // as hang.vert has it
@@ -34,5 +35,5 @@ void main() {
     from_sun = vec4(own * sun, 2.0 * fifth.y);
     from_eye = own * ray;
     strewn = strewn_send(ray);
-    gl_Position = hung_at.w > 0.0 ? clip * vec4(place, 1.0) : vec4(0.0, 0.0, 2.0, 1.0);
+    gl_Position = hung_at.w > 0.0 ? stood(place) : vec4(0.0, 0.0, 2.0, 1.0);
 }

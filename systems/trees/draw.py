@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
 from ...components.viewer import Viewer
-from ...engine.gl.shaders import tell_all, tell_asked
+from ...engine.gl.shaders import tell, tell_all, tell_asked
 from ...engine.gl.stream import Stream, release_all
 from ..around.outlook import Outlook
 from ..frame.block import FrameBlock
@@ -27,16 +27,10 @@ from .programs import Programs
 from .shade import ShadeMap
 from .standing import LEAFY, PLACED, SHOWN, TOLD, Standing, columns_of, shown, shows
 from .twig import LEAF_PIXELS
-from .wood import AWAY, OPAQUE, SWAYS, THINNEST
+from .wood import AWAY, OPAQUE, SOLID, SWAYS, THINNEST
 
 EVERY_LEAF = -2.0, -1.0
 """What is told in place of `LEAF_PIXELS` where all twigs are drawn leaf by leaf."""
-
-SOLID = 0.5
-"""Coverage from which on twigs on cards are opaque, and all of a tree in a shadow map.
-
-Soft parts are drawn from near to far: fainter ones let little of what is behind come to the front.
-"""
 
 NEAREST = 0.1
 """How far off a tree's middle counts as at least [m]."""
@@ -59,6 +53,9 @@ class Call(NamedTuple):
     instances: int
     corners: list[tuple[float, float]]
     """Of the outline of cards."""
+
+    solid_from: float
+    """Coverage from which on it is opaque."""
 
 
 class TreePart(Part):
@@ -294,7 +291,7 @@ class TreePart(Part):
             hung.room(stream.count * most)
             if hung.count:
                 array = programs.made("hang", stream, model.told[id(stream)])
-                kind.tell(array.program, model, self._numbers)
+                kind.tell(array.program, model, self._numbers, {"whole": (name == CARDS[0],)})
                 array.transform(hung.buffer, moderngl.POINTS, vertices=most, instances=stream.count)
                 calls += 1
         return calls
@@ -332,8 +329,8 @@ class TreePart(Part):
             array, (kind, model) = call.array, call.of
             if last is None or last[0] is not array.program or last[1] is not model:
                 last = array.program, model
-                solid = {"solid_from": (SOLID if all_wood or call.sort == NEAR else OPAQUE,)}
-                kind.tell(array.program, model, self._numbers, solid, wood=call.sort == WOOD)
+                kind.tell(array.program, model, self._numbers, wood=call.sort == WOOD)
+            tell(array.program, "solid_from", call.solid_from)
             if call.sort == NEAR:
                 tell_all(array.program, "corners", call.corners)
             form = moderngl.TRIANGLE_STRIP if call.sort == NEAR else moderngl.TRIANGLES
@@ -356,7 +353,10 @@ class TreePart(Part):
                         corners = kind.outlines[_roughly(name)] if sort == NEAR else []
                         array = programs.array(sort, stream, model, soft=soft)
                         nearest = 0.0 if soft else self._nearest(model.placed[name])
-                        calls.append(Call(nearest, sort, (kind, model), array, first, vertices, stream.count, corners))
+                        hard = all_wood or sort == NEAR or (sort == WOOD and model.wood[name].hard)
+                        solid_from = SOLID if hard else OPAQUE
+                        of = kind, model
+                        calls.append(Call(nearest, sort, of, array, first, vertices, stream.count, corners, solid_from))
         return sorted(calls, key=lambda call: call.nearest)
 
     def _nearest(self, placed: NDArray[np.void]) -> float:
@@ -378,7 +378,8 @@ def _leafy(model: Model, told: np.void, viewer: Viewer, within: float) -> NDArra
     (cosine, sine), scale = told["turn"].tolist(), float(told["scale"])
     x, y, z = model.twigs["foot"].astype(np.float64).T
     foot = scale * np.stack([cosine * x - sine * z, y, sine * x + cosine * z], axis=1) + told["root"]
-    near = np.flatnonzero(np.linalg.norm(foot - viewer.eye, axis=1) < within)
+    off = np.linalg.norm(foot - viewer.eye, axis=1)
+    near = np.argsort(off)[: int((off < within).sum())]
     near = near[near < drawn_of(len(model.twigs), float(told["keep"] * (1.0 - told["gone"]) * told["foliage"]))]
     reach = scale * (2.0 * model.habit.twigs.length + SWAYS * model.height)
     return leaf_by_leaf(told, near[beyond(foot[near], viewer.sides) <= reach])
@@ -401,5 +402,5 @@ def _roughly(cards: str) -> bool:
 def _wood(model: ModelOnCard, name: str, *, soft: bool, whole: bool) -> tuple[int, int]:
     """Return from which vertex on, and how many, are drawn of the wood of a stream's trees."""
     drawn, count = model.wood[name], len(model.model.wood[WOODS.index(name)].triangles)
-    end = count if whole else drawn.end if soft else min(drawn.solid, drawn.end)
+    end = count if whole else drawn.soft if soft else drawn.solid
     return 3 * model.first_of[name], 3 * end

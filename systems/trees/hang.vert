@@ -7,6 +7,19 @@ flat out uvec4 hung_axes;
 flat out uvec4 hung_light;
 flat out uvec2 hung_haze;
 
+uniform bool whole;  // whether all its twigs are drawn: they are told from near to far then, so that they hide one another
+
+// The twig that is the next in its order, or by how far off it is.
+int next_twig() {
+    if (!whole)
+        return gl_VertexID;
+    vec3 to = turned_back(eye - root);
+    bool along_x = abs(to.x) > abs(to.z);
+    int place = (along_x ? to.x : to.z) > 0.0 ? twigs - 1 - gl_VertexID : gl_VertexID;
+    int both = int(twig_of(place).orders);
+    return along_x ? both % ORDERS : both / ORDERS;
+}
+
 void tell(vec3 along, vec3 aside, vec3 facing, float tone, Light light) {
     along = packed_axis(along);
     aside = packed_axis(aside);
@@ -18,9 +31,10 @@ void tell(vec3 along, vec3 aside, vec3 facing, float tone, Light light) {
 }
 
 void main() {
-    Twig one = twig_of(gl_VertexID);
-    vec4 chance = random(gl_VertexID, 0, 3);
-    float size = size_of((float(gl_VertexID) + 0.5) / float(twigs));
+    int number = next_twig();
+    Twig one = twig_of(number);
+    vec4 chance = random(number, 0, 3);
+    float size = size_of((float(number) + 0.5) / float(twigs));
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
     hung_at = vec4(root, 0.0);
     hung_axes = hung_light = uvec4(0u);

@@ -13,7 +13,7 @@ from .crown import leaf_area, shade_of, shading
 from .grow import Tree, grown
 from .habit import HABITS, Habit
 from .motion import limb_hertz, trunk_hertz
-from .twig import TWIG
+from .twig import ORDERS, TWIG
 
 MODELS = 2
 """Trees that are grown of a kind: each stands for many, turned and scaled."""
@@ -99,5 +99,7 @@ def _twig_records(tree: Tree, area: Doubles, seed: int) -> NDArray[np.void]:
     records["span"] = twigs.length  # strict compilers take `length` for a method
     records["pivot"] = pivot[twigs.limb]
     records["limb"], records["hertz"] = limb[twigs.limb].T
-    records["shading"] = shading(tree, area, twigs.foot + 0.5 * twigs.length[:, None] * twigs.along.astype(np.float64))
+    middle = twigs.foot + 0.5 * twigs.length[:, None] * twigs.along.astype(np.float64)
+    records["shading"] = shading(tree, area, middle)
+    records["orders"] = np.argsort(middle[:, 0]) + ORDERS * np.argsort(middle[:, 2])
     return records

@@ -9,10 +9,13 @@ TWIG = np.dtype(
         ("foot", "3f4"), ("span", "f4"),  # [m]
         ("along", "3f4"), ("limb", "f4"),  # what sets its limb apart from others, 0 to 1
         ("face", "3f4"), ("hertz", "f4"),  # frequency of its limb
-        ("pivot", "3f4"), ("spare", "f4"),  # foot of its limb [m]
+        ("pivot", "3f4"), ("orders", "f4"),  # foot of its limb [m]; which twig has this one's number in other orders
         ("shading", "4f4"),  # how many leaves light meets on its way, by direction and in the mean
     ]
 )  # fmt: skip
+
+ORDERS = 4096
+"""More than a tree has twigs: their order along x plus so many times that along z is a number that a float holds."""
 
 ROW = 64
 """Records in a row of their texture."""
@@ -23,7 +26,7 @@ RANKS = 12.0
 LEAST_KEPT = 0.04
 """Share of twigs that is drawn at least."""
 
-LEAF_PIXELS = 9.0, 14.0
+LEAF_PIXELS = 14.0, 22.0
 """Length of a leaf from which on twigs begin to be drawn leaf by leaf, and from which all are [pixels]."""
 
 SHOOTS_OFF, SHOOTS_LONG = 0.85, 0.62
@@ -31,7 +34,7 @@ SHOOTS_OFF, SHOOTS_LONG = 0.85, 0.62
 
 GLSL = looked_up("Twig", TWIG, "tree_twigs", ROW) + emitted(
     {
-        "RANKS": RANKS, "LEAST_KEPT": LEAST_KEPT,
+        "ORDERS": ORDERS, "RANKS": RANKS, "LEAST_KEPT": LEAST_KEPT,
         "SHOOTS_OFF": SHOOTS_OFF, "SHOOTS_LONG": SHOOTS_LONG,
     }
 )  # fmt: skip

@@ -1,6 +1,9 @@
 // The twigs of trees. With LEAVES each is all of its leaves. With BAKED one is drawn as it will be read from a texture, and else
 // it is the card that shows it. What is not a vertex buffer's is made out from the vertex's number.
 #include "systems/trees/twig.glsl"
+#ifndef BAKED
+#include "systems/trees/behind.glsl"
+#endif
 
 uniform int leaf_count;  // leaves of a twig
 uniform int shoots;      // of a twig: itself, and those on its sides
@@ -132,7 +135,7 @@ void stand(Twig twig, vec3 own, vec3 aside, float length_of, float high_up, vec4
     sunlit = light.sun;
     skylit = light.sky;
     hazy = light.haze;
-    gl_Position = clip * vec4(seen_at, 1.0);
+    gl_Position = stood(seen_at);
 }
 #endif
 

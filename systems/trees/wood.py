@@ -10,6 +10,11 @@ from ...components.arrays import Doubles
 OPAQUE, FAINTEST = 0.8, 0.02
 """Coverage of a pixel from which on what is there is opaque, and below which it is left out."""
 
+SOLID = 0.5
+"""Coverage from which on that is so of twigs on cards and of wood among leaves, and of all of a tree in a shadow map.
+
+Soft parts are drawn from near to far: fainter ones let little of what is behind come to the front."""
+
 THINNEST = 0.5
 """Half the width that a stem has at least [pixels]."""
 
@@ -19,8 +24,11 @@ AWAY = 0.15
 THINS = 0.35, 0.65
 """Coverage at which a stem is left out among leaves, and from which on it is drawn in full."""
 
+FADES = 2.0, 4.0
+"""Width from which on a stem's edges begin to fade, and from which on they do so over a whole pixel [pixels]."""
+
 LEAFY = 0.95
-"""Share of its leaves from which on those stems are left out of a tree: what is left is fainter than `FAINTEST`."""
+"""Share of its leaves from which on a tree's thin stems are left out or have hard edges."""
 
 GOES = 0.75
 """Share of its twigs left to what is drawn of it far off from which on its wood goes."""
@@ -30,6 +38,7 @@ SWAYS = 0.1
 
 GLSL = {
     "OPAQUE": OPAQUE, "FAINTEST": FAINTEST, "THINNEST": THINNEST, "AWAY": AWAY, "THINS": THINS, "GOES": GOES,
+    "FADES": FADES,
 }  # fmt: skip
 
 
@@ -39,8 +48,11 @@ class Parts(NamedTuple):
     solid: int
     """So many first ones may cover pixels wholly."""
 
-    end: int
-    """From this one on, they are left out; all before it cover some pixels in part, at their edges."""
+    soft: int
+    """So many first ones cover some pixels in part, at their edges."""
+
+    hard: bool = False
+    """Whether thin ones that cover half of a pixel count as covering all of it: leaves hide their edges."""
 
 
 def parts(radii: Doubles, wide: Doubles, rows: NDArray[np.void], /) -> Parts:
@@ -54,4 +66,6 @@ def parts(radii: Doubles, wide: Doubles, rows: NDArray[np.void], /) -> Parts:
         return len(radii) - int(np.searchsorted(radii, radius))
 
     nearest, leafy = float(wide.min()), float(rows["foliage"].min()) >= LEAFY
-    return Parts(so_thick(OPAQUE * nearest), so_thick(THINS[0] * nearest) if leafy else len(radii))
+    if leafy:
+        return Parts(so_thick(SOLID * nearest), so_thick(FADES[0] * nearest), hard=True)
+    return Parts(so_thick(OPAQUE * nearest), len(radii))

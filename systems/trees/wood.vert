@@ -12,6 +12,8 @@ in vec4 shading;  // what light meets on its way
 
 #ifdef BAKED
 uniform mat4 baked;
+#else
+uniform float solid_from;
 #endif
 
 out vec2 on_skin;
@@ -28,8 +30,6 @@ out float stands; // how high over the ground, of the grass there
 flat out vec2 among_grass;  // that grass's leaf area; how many of its leaves the sun's light meets, of those that stand above
 
 const float ON_EDGE = 0.5;  // beyond it, a vertex is on a ribbon's edge: bytes have no 0
-
-const float FADES = 2.0;  // pixels from which on a stem's edges fade
 
 // Which way a vertex lies from its stem's middle, which is there.
 vec3 aside_of(vec3 middle_at) {
@@ -57,8 +57,11 @@ void main() {
     vec4 projected = clip * vec4(middle_at, 1.0);
     float pixel_at = THINNEST * max(projected.w, AWAY) / pixels_a_metre(), half_width = scale * stem.w;
     thick = min(half_width / pixel_at, 1.0);
+#ifdef SOFT
+    thick *= solid_from < OPAQUE ? step(1.0, thick) : 1.0;
+#endif
     thick *= mix(1.0, smoothstep(THINS.x, THINS.y, thick), foliage) * (1.0 - smoothstep(GOES, 1.0, gone));
-    fading.x = smoothstep(pixel_at, FADES * pixel_at, half_width);
+    fading.x = smoothstep(FADES.x * pixel_at, FADES.y * pixel_at, half_width);
     float ends = max(half_width, pixel_at) + fading.x * pixel_at, corners = 1.0 + (1.0 - rounds) * fading.x * (2.0 * side.w - 1.0);
     fading.y = corners;
     seen_at = middle_at + ends * corners * facing;
