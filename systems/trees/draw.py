@@ -26,7 +26,7 @@ from .motion import PERIOD
 from .programs import Programs
 from .shade import ShadeMap
 from .standing import LEAFY, PLACED, SHOWN, TOLD, Standing, columns_of, shown, shows
-from .twig import LEAF_PIXELS
+from .twig import BEHIND, LEAF_PIXELS
 from .wood import AWAY, OPAQUE, SOLID, SWAYS, THINNEST
 
 EVERY_LEAF = -2.0, -1.0
@@ -152,6 +152,7 @@ class TreePart(Part):
         self._numbers = {
             "leaf_pixels": EVERY_LEAF if self.every_leaf else LEAF_PIXELS,
             "moment": (viewer.time % PERIOD,),
+            "behind": (0.0 if self.every_leaf else BEHIND,),
             "middle": tuple(((viewer.centre + 0.5) * patch).tolist()),
         }
         assert self._shade is not None

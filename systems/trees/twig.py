@@ -29,6 +29,9 @@ LEAST_KEPT = 0.04
 LEAF_PIXELS = 14.0, 22.0
 """Length of a leaf from which on twigs begin to be drawn leaf by leaf, and from which all are [pixels]."""
 
+BEHIND = 1.5
+"""How far behind them leaves must have nothing for their soft edges to be drawn [m]: others are of their colour."""
+
 SHOOTS_OFF, SHOOTS_LONG = 0.85, 0.62
 """Angle of side shoots from their twig [rad]; length of the longest, of the twig's."""
 
