@@ -12,6 +12,8 @@ from tallgrass.engine.camera import Camera
 from tallgrass.systems.light.repeating import LITTER_SIDE
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import draw_truth, patch_distances
+from tallgrass.systems.show.strips import textures
+from tallgrass.systems.show.strips.pages import SPARE, WHOLE
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.testing import LITTLE, Stage
 
@@ -27,6 +29,7 @@ quality: high
 NEAR = Camera((0.3, 1.7, 0.0), 0.0, np.radians(-8.0), np.radians(20.0))
 ABOVE = Camera((0.3, 9.0, 0.0), 0.0, np.radians(-24.0), np.radians(16.0))
 FAR = Camera((0.3, 6.0, 100.0), 0.0, np.radians(-3.75), np.radians(4.5))
+BELOW = Camera((100.4, 6.85, -28.1), 0.0, np.radians(-5.0), np.radians(42.0))
 LOW = Camera((0.3, 4.0, 100.0), 0.0, np.radians(-9.0), np.radians(9.0))
 
 
@@ -59,6 +62,18 @@ def test_g4_grass_has_about_as_much_contrast_as_all_its_blades(
     assert flat > 0.65
     assert 0.85 < usual < 1.2
     assert rough < 1.6
+
+
+@pytest.mark.slow
+def test_a_strip_shows_nothing_of_the_picture_beside_its_own(
+    room: Stage, load: Load, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """From afar, below a crest, dark roots of the pictures beside them hung over strips."""
+    seen = []
+    for spare in (SPARE, 3 * WHOLE):
+        monkeypatch.setattr(textures, "SPARE", spare)
+        seen.append(room.shot(load("meadow", preset="high", lod="strips"), BELOW))
+    assert np.abs(seen[0] - seen[1]).max() < 40.0
 
 
 def test_the_ground_shows_no_lattice_from_above(room: Stage, load: Load) -> None:

@@ -170,8 +170,9 @@ class StripPainter:
         tell_stacks(made, self.rings)
         tell_sizes(made, held.forms)
         tell_all(made, "pictures", held.pictures)
-        for name, value in (("most", self.most), ("turns", held.turns), ("atlas_rows", float(held.atlas.height))):
-            tell(made, name, value)
+        tell(made, "most", self.most)
+        tell(made, "turns", held.turns)
+        tell(made, "page_size", float(held.atlas.width), float(held.atlas.height))
 
     @property
     def most(self) -> int:

@@ -9,6 +9,11 @@ WHOLE = 16
 """Pictures begin at multiples of so many texels, so that texels of the finest mip-maps are of one picture alone. Others
 show several, which are of one kind."""
 
+SPARE = 4
+"""Texels around what is painted that are empty: there the edges of blades are seen, and no other picture's."""
+
+GLSL = {"WHOLE": float(WHOLE), "SPARE": float(SPARE)}
+
 ROWS, MOST_PAGES = 512, 256
 """Texels up, of a page: so much is sent to a graphics card at a time. And pages: OpenGL promises no more."""
 

@@ -5,13 +5,14 @@
 #include "lib/received.glsl"
 #include "lib/stack.glsl"
 #include "systems/show/strips/draw.py"
+#include "systems/show/strips/pages.py"
 #include "systems/show/strips/sublevel.py"
 
 uniform usampler2D strips;  // by place in the queue: the polygon strip that is drawn
 uniform sampler2D extents;  // by column and picture: where paint begins and ends across the column, and up to where; its page;
                             // in the last one where the picture begins on its page, across and up, and how far it reaches
 uniform int first;
-uniform float atlas_rows;   // texels up, of each page
+uniform vec2 page_size;     // texels across and up, of each page
 uniform int most;           // numbers of polygon strips that are set aside for a patch
 
 uniform int turns;          // strips that may stand in one place
@@ -129,12 +130,27 @@ vec4 on_edge(Column column, Edge edge, float t, float sections) {
     return vec4(there, spine.y / (OF(crown, column.kind) * lodged(edge.bend)));
 }
 
+// Where a picture may begin or end that is painted from `begins`, or to `ends`, of `side` texels: where a texel of its mip-map is
+// so large, what is looked up farther out is mixed with the picture beside it, which has dark roots at its edge [texel].
+float alone_after(float begins, float texel) {
+    return min(max(floor((begins + 1.0 - SPARE) / WHOLE), 0.0) * WHOLE + 0.5 * texel, begins);
+}
+
+float alone_before(float ends, float side, float texel) {
+    return max(ceil(min(ends - 1.0 + SPARE, side) / WHOLE) * WHOLE - 0.5 * texel, ends);
+}
+
 // Where a vertex is on its column, across and up: nothing is drawn where nothing is painted, and a strip ends a pixel beyond its
-// paint. A metre is so many pixels long there, and the column so many metres broad.
-vec2 corner_of(Column column, vec4 extent, float pixels, float broad) {
-    float beside = 1.0 / (pixels * broad), above = 1.0 / (pixels * sizes[column.form].y);
-    float across = (gl_VertexID & 1) == 1 ? min(extent.y + beside, 1.0) : max(extent.x - beside, 0.0);
-    return vec2(across, min(float(gl_VertexID / 2) / float(stacks[column.ring].y), min(extent.z + above, 1.0)));
+// paint, or where the next picture begins. A pixel is so large in widths of the column and in heights; `side` texels are in it, and
+// what is looked up is of this level of their mip-maps.
+vec2 corner_of(Column column, vec4 extent, vec2 pixel, float level, vec2 side) {
+    float texel = clamp(exp2(ceil(level)), 1.0, WHOLE), before = float(column.number) * side.x;
+    float left = column.number == 0 ? alone_after(extent.x * side.x, texel) / side.x : 0.0;
+    bool is_last = column.number + 1 == stacks[column.ring].x;
+    float right = is_last ? (alone_before(before + extent.y * side.x, before + side.x, texel) - before) / side.x : 1.0;
+    float across = (gl_VertexID & 1) == 1 ? min(extent.y + pixel.x, min(right, 1.0)) : max(extent.x - pixel.x, left);
+    float up = min(alone_before(extent.z * side.y, side.y, texel) / side.y, 1.0);
+    return vec2(across, min(float(gl_VertexID / 2) / float(stacks[column.ring].y), min(extent.z + pixel.y, up)));
 }
 
 // What all of a column's fragments have in common of its pigment: what faces the eye is seen most.
@@ -232,7 +248,15 @@ void main() {
     vec4 extent = texelFetch(extents, ivec2(column.number, column.picture), 0);
     vec4 picture = texelFetch(extents, ivec2(textureSize(extents, 0).x - 1, column.picture), 0);
     float pixels = pixels_at(middle), sections = float(fine.y), tall = sizes[column.form].y;
-    vec2 corner = corner_of(column, extent, pixels, distance(a.foot.xz, b.foot.xz));
+    vec2 side = picture.zw * page_size / vec2(float(fine.x), 1.0);
+    float texels = side.y / (tall * apart_at(middle, run, top + vec3(back.x, 0.0, back.y)));
+    float boosts = boosted(k, run, middle, top, back), level = log2(texels) - SHARPER;
+#ifdef HEADS
+    heads = heads_boosted(k, run, middle, top, back);
+    level += log2(heads / boosts);  // what covers more than it is painted has to spread
+#endif
+    vec2 pixel = 1.0 / (pixels * vec2(distance(a.foot.xz, b.foot.xz), tall));
+    vec2 corner = corner_of(column, extent, pixel, level, side);
     vec4 point = mix(on_edge(column, a, corner.y, sections), on_edge(column, b, corner.y, sections), corner.x);
     gl_Position = clip * vec4(point.xyz, 1.0);
     vec2 at = picture.xy + vec2((float(column.number) + corner.x) / float(fine.x), corner.y) * picture.zw;
@@ -255,12 +279,6 @@ void main() {
     light = veiled(light, middle);
 #ifdef SHADED
     spot = vec4(point.xyz, suns);
-#endif
-    float texels = picture.w * atlas_rows / (tall * apart_at(middle, run, top + vec3(back.x, 0.0, back.y)));
-    float boosts = boosted(k, run, middle, top, back), level = log2(texels) - SHARPER;
-#ifdef HEADS
-    heads = heads_boosted(k, run, middle, top, back);
-    level += log2(heads / boosts);  // what covers more than it is painted has to spread
 #endif
     lit = bundled(light, vec3(extent.w, level, boosts));
     dye(column, run, middle, top, 1.0 - lodged(bend), lies.slow);

@@ -11,10 +11,7 @@ from ....components.arrays import Bytes, Mask
 from ....engine.gl.mipmaps import levels, mipmapping
 from ...grow.record import Growth
 from .grow import Strips, strips_of
-from .pages import WHOLE, Pages, packed
-
-SPARE = 4
-"""Texels around what is painted that are empty: there the edges of blades are seen, and no other picture's."""
+from .pages import SPARE, WHOLE, Pages, packed
 
 
 @dataclass(frozen=True, slots=True, eq=False)
