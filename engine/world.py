@@ -157,14 +157,14 @@ class World:
                 found.append((entity, one, two))
         return sorted(found, key=itemgetter(0))
 
-    def stands(self, entity: int, pose: Pose, what: str) -> bool:
-        """Return whether an entity's pose is somewhere; where it is not, say once `what` is left out meanwhile."""
-        if is_somewhere(pose):
+    def stands(self, entity: int, pose: Pose | None, what: str) -> bool:
+        """Return whether an entity has a pose that is somewhere; where not, say once `what` is left out meanwhile."""
+        if pose is not None and is_somewhere(pose):
             return True
         if entity not in self._told:
             self._told.add(entity)
             due = "x, y, z [m] and yaw [rad] are finite numbers"
-            log.warning("%s of entity %d is left out while it has %s: %s", what, entity, pose, due)
+            log.warning("%s of entity %d is left out while it has %s: %s", what, entity, pose or "no Pose", due)
         return False
 
     def _owner(self, entity: int) -> object | None:

@@ -119,6 +119,8 @@ class Pressers(Feature):
         """Take note of where all pressers are at `time` [s], and return what has been trodden."""
         self._go(time)
         found = self._world.both(Presser, Pose)
+        if len(found) < len(self._world.rows(Presser)):
+            self._miss()
         if not found and not self._scenes.who and not self._games.who and not self.trodden:
             return self.trodden
         wearing = [row for row in found if row[1].wear and row[0] not in self._declared and is_somewhere(row[2])]
@@ -130,6 +132,12 @@ class Pressers(Feature):
         if self._come(scenes, rows[is_scenes], time) or is_new:
             self.trodden = self._memory.at(time)
         return self.trodden
+
+    def _miss(self) -> None:
+        """Say of whom nobody knows where they press."""
+        for entity, _ in self._world.all(Presser):
+            if self._world.find(entity, Pose) is None:
+                self._world.stands(entity, None, "the presser")
 
     def _standing(self, found: list[tuple[int, Presser, Pose]]) -> tuple[list[Who], Doubles]:
         """Return who of those that press is anywhere, and where they are and look (x, z, yaw), shape (n, 3)."""

@@ -36,15 +36,16 @@ def test_d2_a_pose_that_is_nowhere_leaves_out_its_entity_until_it_has_another_an
 ) -> None:
     where, calm = [(0.0, 0.5)], prairie.wind_at([(0.0, 0.5)])
     wind = esper.create_entity(WindSource(Blast(), "lost"), pose)
-    presser = esper.create_entity(Presser(radius=0.8), pose)
+    presser, bare = esper.create_entity(Presser(radius=0.8), pose), esper.create_entity(Presser())
     for _ in range(3):
         prairie.advance(0.1)
         watch(prairie)
         np.testing.assert_array_equal(prairie.wind_at(where), calm)
         np.testing.assert_array_equal(prairie.bent_at(where), calm)
-    due = f"is left out while it has {pose}: x, y, z [m] and yaw [rad] are finite numbers"
-    both = (f"presser of entity {presser}", f"wind of entity {wind}")
-    assert sorted(caplog.messages) == [f"the {what} {due}" for what in both]
+    due = "x, y, z [m] and yaw [rad] are finite numbers"
+    pressers = (f"presser of entity {presser}", pose), (f"presser of entity {bare}", "no Pose")
+    lost = (*pressers, (f"wind of entity {wind}", pose))
+    assert sorted(caplog.messages) == [f"the {what} is left out while it has {have}: {due}" for what, have in lost]
     esper.add_component(wind, Pose())
     assert prairie.wind_at(where).any()
     esper.add_component(wind, Pose(50.0, 0.0))
