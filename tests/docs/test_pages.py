@@ -178,7 +178,7 @@ def follow(page: str, folder: Path, python: Python, little_grass: str, display: 
         if not opens_a_window(name)
     ],
 )
-def test_what_a_page_tells_to_do_works(page: str, tmp_path: Path, python: Python, little_grass: str) -> None:
+def test_n9_what_a_page_tells_to_do_works(page: str, tmp_path: Path, python: Python, little_grass: str) -> None:
     follow(page, tmp_path, python, little_grass)
 
 
@@ -217,7 +217,7 @@ def test_the_problem_that_the_first_scene_makes_is_told_in_its_words(tmp_path: P
     assert said in (done.stdout + done.stderr).splitlines()
 
 
-def test_the_test_of_a_games_own_system_has_fifteen_lines_or_fewer() -> None:
+def test_n10_the_test_of_a_games_own_system_has_fifteen_lines_or_fewer() -> None:
     files: dict[str | None, str] = {block["file"]: block["text"] for block in blocks("testing.md")}
     written = [line for line in files["test_moths.py"].splitlines() if line.strip()]
     assert len(written) <= 15

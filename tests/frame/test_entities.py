@@ -159,7 +159,7 @@ def test_d2_a_patch_taken_away_leaves_ground_and_comes_back(
     np.testing.assert_array_equal(easel.shot(prairie, ABOVE), before)
 
 
-def test_d3_the_system_lod_may_be_a_games_own(prairie: Prairie, easel: Stage) -> None:
+def test_n10_the_system_lod_may_be_a_games_own(prairie: Prairie, easel: Stage) -> None:
     before = settled(prairie, easel)
 
     def stripes() -> None:
@@ -214,7 +214,7 @@ def test_d3_drawing_is_a_system_that_a_game_may_order_its_own_around_and_leave_o
     np.testing.assert_array_equal(easel.shot(prairie, ABOVE), whole)
 
 
-def test_d6_a_system_between_wind_and_drawing_is_seen(prairie: Prairie, easel: Stage) -> None:
+def test_n10_a_system_between_wind_and_drawing_is_seen(prairie: Prairie, easel: Stage) -> None:
     before = settled(prairie, easel)
 
     def comb() -> None:

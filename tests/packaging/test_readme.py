@@ -60,7 +60,7 @@ def test_the_winds_that_a_game_sets_off_are_felt() -> None:
     prairie.release()
 
 
-def test_the_system_that_a_game_adds_bends_the_grass() -> None:
+def test_n10_the_system_that_a_game_adds_bends_the_grass() -> None:
     told: dict[str, Any] = {}
     with private_world():
         exec(SYSTEM, told)  # noqa: S102 - it is our own page

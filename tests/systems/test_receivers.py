@@ -222,7 +222,7 @@ def test_d2_what_is_written_anew_in_every_frame_stands_in_every_frame(world: Wor
             assert (receivers.message == game.wind).all(), "a game reads what the wind says"
 
 
-def test_d2_what_a_system_after_the_wind_writes_stands_in_that_frame_alone(world: World, game: Game) -> None:
+def test_n10_what_a_system_after_the_wind_writes_stands_in_that_frame_alone(world: World, game: Game) -> None:
     game.frame()
     read: list[Floats] = []
     receivers = of(world, "blades")[0][1]

@@ -183,7 +183,7 @@ def test_what_is_no_camera_and_no_size_is_refused_in_a_sentence(prairie: Prairie
         Stage(None, (0, 90))  # type: ignore[arg-type]
 
 
-def test_one_system_runs_and_no_other(prairie: Prairie) -> None:
+def test_n10_one_system_runs_and_no_other(prairie: Prairie) -> None:
     watch(prairie)
     step(prairie, "plant")
     assert not receivers_of(prairie).message.any()
