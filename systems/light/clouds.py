@@ -1,7 +1,8 @@
 """Clouds: a layer of them that drifts, higher the denser its map is; how they look, and what they leave of light.
 
-They are seen in slices, one above another. Each hides what is behind it the more, the denser it is, and is lit the
-less, the denser the map is there and a little way toward the sun. `sky.frag` draws what this module means.
+They are seen in slices, one above another: their bases, which are grey, their sides, and their tops, which the sun
+lights. Each hides what is behind it the more, the denser it is, and is lit the less, the denser the map is there.
+`sky.frag` draws what this module means.
 """
 
 from dataclasses import dataclass
@@ -17,11 +18,11 @@ CLOUDS_AT = 450.0
 BENT = 0.12
 """How they bend down: at this sine of elevation a level layer of them would be half as far off as without."""
 
-SLICES, RISE = 2, 90.0
-"""Slices that they are seen in, and how far one is above another [m]."""
+RISE = 160.0
+"""How far their tops are above their bases [m]; the third slice is half-way."""
 
 STEP = 0.12
-"""How much denser the map is where a cloud is a slice higher, of its range from 0 to 1."""
+"""How much denser the map is where a cloud is as high as that, of its range from 0 to 1."""
 
 HIDES = 0.22
 """How much denser the map is than at the edge of a slice where that hides all; as x grows to it, (1 - (x / HIDES)^2)^2
@@ -30,18 +31,21 @@ of what is behind is seen: so edges begin softly."""
 SOFT = 0.05
 """How much thinner the map may be at an edge than where clouds would begin if edges were hard."""
 
-LIT, SHADES, DEEPER = 0.8, 1.1, 0.5
+LIT, DEEPER = (0.68, 0.9, 1.06), (0.9, 0.7, 0.7)
 """How much of the sun's light comes to a slice is the square of the first, less the second for each 1 that the map is
-denser than its edge a little way toward the sun, and less the third for each 1 that it is denser there."""
+denser there than at its edge: of the lowest to the highest."""
+
+SIDES = 0.0, 0.4, 0.3
+"""How much more, for each 1 that the map is denser than behind: that side is turned to the eye, and up."""
 
 SUNLIT, SILVER = 0.95, 0.8
 """What a slice sends of the sun's light that comes to it; and of what goes through it, straight ahead of the sun."""
 
 UNDER = 0.27, 0.3
-"""What the lowest slice sends in full shade: of the sun's light on level ground above, and of the sky's."""
+"""What clouds send in full shade, before that: of the sun's light on level ground above, and of the sky's."""
 
-HIGHER = 0.5
-"""How much more of that each slice sends than the one below it."""
+HIGHER = 1.0, 1.25, 1.5
+"""How many times as much of that each slice sends, from the lowest to the highest."""
 
 PALE, DARK = 1.3, 0.6
 """How much of that it sends where the map is 0, and how much less where it is 1: thick clouds are darker beneath."""
@@ -54,12 +58,13 @@ OVERCAST, SOON = 0.35, 8.0
 
 GLSL = {
     "CLOUDS_AT": CLOUDS_AT, "CLOUDS_BENT": BENT, "CLOUD_RISE": RISE / CLOUDS_AT, "CLOUD_STEP": STEP,
-    "CLOUD_HIDES": HIDES, "CLOUD_LIT": LIT, "CLOUD_SHADES": SHADES, "CLOUD_DEEPER": DEEPER, "CLOUD_SUNLIT": SUNLIT,
+    "CLOUD_HIDES": HIDES, "CLOUD_LIT": LIT, "CLOUD_DEEPER": DEEPER, "CLOUD_SIDES": SIDES, "CLOUD_SUNLIT": SUNLIT,
     "CLOUD_SILVER": SILVER, "CLOUD_HIGHER": HIGHER, "CLOUD_PALE": PALE, "CLOUD_DARK": DARK, "CLOUD_SENDS": SENDS,
 }  # fmt: skip
 
 _RANKS = (np.arange(256) + 0.5) / 256.0
-_HEIGHTS = np.arange(SLICES)[:, None]
+_HEIGHTS = np.array([0.0, 0.5, 1.0])[:, None]
+_LIT, _DEEPER, _HIGHER = (np.array(each)[:, None] for each in (LIT, DEEPER, HIGHER))
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +103,7 @@ def clouds_of(cover: float, /) -> Clouds:
     open_ = (1.0 - np.clip(above / HIDES, 0.0, 1.0) ** 2) ** 2
     before = np.cumprod(np.vstack([np.ones_like(_RANKS), open_]), axis=0)
     shows = before[:-1] * (1.0 - open_)
-    sunlit = SUNLIT * np.clip(LIT - (SHADES + DEEPER) * above, 0.0, 1.0) ** 2
-    shaded = (1.0 + HIGHER * _HEIGHTS) * (PALE - DARK * _RANKS)
+    sunlit = SUNLIT * np.clip(_LIT - _DEEPER * above, 0.0, 1.0) ** 2
+    shaded = _HIGHER * (PALE - DARK * _RANKS)
     hides, sun, sky = (float(each.sum(axis=0).mean()) for each in (shows, shows * sunlit, shows * shaded))
-    return Clouds(edge, hides, sun, sky, least + (1.0 - least) * float(before[-1].mean()))
+    return Clouds(edge, hides, sun, sky, least + (1.0 - least) * float((open_[0] * open_[-1]).mean()))

@@ -11,23 +11,25 @@ const vec2 AUREOLE = vec2(0.35, 900.0);  // radiance of the aureole about it, of
 const float GREYS = 255.0;  // steps that a picture has from black to white
 const vec3 GRIT = vec3(0.06711056, 0.00583715, 52.9829189);  // interleaved gradient noise (Jimenez, Next Generation Post Processing, 2014)
 
-in vec3 clouding;
-flat in vec2 sunward;
+in vec4 clouding;
 
-const vec2 SLICE = vec2(0.0, 1.0);
-const float BLUR = 2.0;  // by how many levels coarser shade is looked for
+const vec3 SLICE = vec3(0.0, 0.5, 1.0);  // how high the slices are of clouds: their bases, sides and tops
+
+// How dense the map of clouds is at a place of it.
+float dense_at(vec2 at) {
+    return textureLod(repeating, at, clouding.z).r;
+}
 
 // Clouds in a direction: how much is seen past them, and what they send of the sun's light, and of light in full shade.
 vec3 clouds_in(vec3 toward) {
     vec2 along = clouds_toward(toward), at = clouds_over(eye.xz) + along;
-    float level = clouding.z, shade = textureLod(repeating, at + sunward, level + BLUR).r;
-    vec2 dense = vec2(textureLod(repeating, at, level).r, textureLod(repeating, at + along * CLOUD_RISE, level).r);
-    vec2 edge = cloud_edge + CLOUD_STEP * SLICE, deep = dense - edge, through = past_slice(deep);
-    vec2 sunny = clamp(CLOUD_LIT + CLOUD_SHADES * (edge - shade) - CLOUD_DEEPER * deep, 0.0, 1.0);
-    vec2 shows = vec2(1.0, through.x) * (clouding.y - clouding.y * through);
-    float lit = dot(shows, CLOUD_SUNLIT * sunny * sunny + CLOUD_SILVER * clouding.x * through);
-    float shaded = dot(shows, 1.0 + CLOUD_HIGHER * SLICE) * (CLOUD_PALE - CLOUD_DARK * dense.x);
-    return vec3(1.0 - shows.x - shows.y, lit, shaded);
+    vec2 sides = at + along * (0.5 * CLOUD_RISE), tops = at + along * CLOUD_RISE;
+    vec3 dense = vec3(dense_at(at), dense_at(sides), dense_at(tops)), deep = dense - cloud_edge - CLOUD_STEP * SLICE;
+    vec3 past = vec3(past_slice(deep.xy), past_slice(deep.yz).y), shows = vec3(1.0, past.x, past.x * past.y) * (clouding.y - clouding.y * past);
+    vec3 sunny = clamp(CLOUD_LIT - CLOUD_DEEPER * deep + CLOUD_SIDES * (dense.y - dense.z - clouding.w), 0.0, 1.0);
+    float lit = dot(shows, CLOUD_SUNLIT * sunny * sunny + CLOUD_SILVER * clouding.x * past);
+    float shaded = dot(shows, CLOUD_HIGHER) * (CLOUD_PALE - CLOUD_DARK * dense.x);
+    return vec3(1.0 - shows.x - shows.y - shows.z, lit, shaded);
 }
 
 // What the sun itself and the air about it send, of its light, by the cosine of the angle to it.

@@ -5,10 +5,11 @@ uniform sampler2D sky;  // by azimuth from the sun, from 0 to pi, and by the roo
 
 out vec3 ray;
 out vec3 light;
-out vec3 clouding;  // how bright their edges are ahead of the sun; how far they are out of the haze; level of their map
-flat out vec2 sunward;  // how far toward the sun their shade is looked for, in sides of their square
+// Of clouds, how bright their edges are ahead of the sun; how far they are out of the haze; level of their map; and how much of
+// their sides, by density of the map, is on the one that is turned away from the sun.
+out vec4 clouding;
 
-const float SUNWARD = 90.0, STEEPEST = 0.35;  // that in metres overhead; sine of the sun's elevation that counts at least
+const float TURNED = 0.3;  // that, right ahead of the sun
 const vec2 FADES = vec2(-0.02, 0.14);  // sines of elevations between which clouds come out of the haze
 const float FINEST = 0.35;  // sine of the elevation below which their map is read more coarsely
 
@@ -29,9 +30,8 @@ void main() {
     float c = dot(toward.xz, toward_sun) * inversesqrt(dot(toward.xz, toward.xz) + LEAST_LENGTH);
     vec2 size = vec2(textureSize(sky, 0)), at = vec2(angle_of(clamp(c, -1.0, 1.0)) / PI, sqrt(max(toward.y, 0.0)));
     light = textureLod(sky, (at * (size - 1.0) + 0.5) / size, 0.0).rgb;
-    sunward = sun.xz * (SUNWARD / CLOUDS_SIDE / max(sun.y, STEEPEST));
     float ahead = 0.5 + 0.5 * dot(toward, sun), silver = ahead * ahead * ahead;
     silver *= silver;
-    clouding = vec3(silver * silver, smoothstep(FADES.x, FADES.y, toward.y), log2(FINEST / clamp(toward.y, FADES.x, FINEST)));
+    clouding = vec4(silver * silver, smoothstep(FADES.x, FADES.y, toward.y), log2(FINEST / clamp(toward.y, FADES.x, FINEST)), TURNED * ahead);
     gl_Position = vec4(corner, depth_ends.y, 1.0);
 }

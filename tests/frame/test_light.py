@@ -224,7 +224,7 @@ def test_f10_the_sun_is_hidden_where_a_cloud_casts_its_shadow(ctx: moderngl.Cont
     disc, lit = (np.array(seen) / due).T
     assert disc.min() < 0.35
     assert disc.max() > 0.9
-    assert np.corrcoef(disc, lit)[0, 1] > 0.9
+    assert np.corrcoef(disc, lit)[0, 1] > 0.85  # the sides of clouds hide it a little before their bases do
 
 
 def test_a_night_is_dark_and_not_black(room: Stage, load: Load) -> None:
