@@ -123,12 +123,12 @@ HABITS: Mapping[HabitName, Habit] = {
         leaves=("#4d6e28", "#9ab44e"), height=(10.0, 16.0),
     ),
     "pine": Habit(
-        slender=0.026, bare=0.42, crown=(0.72, 1.0, 0.98, 0.86, 0.68, 0.36), straight=0.88, whorled=4,
-        limbs=Shoots(40.0, 0.29, (1.5, 0.75), 0.045, 0.09),
-        branches=Shoots(4.6, 0.42, (0.95, 0.8), 0.07, 0.08),
-        twigs=Shoots(7.0, 0.42, (0.75, 0.5), 0.12, 0.05),
-        leaf=Leaf(NEEDLES, 0.085, 0.085, 48, 4, 0.75, 0.24), bark="#7b6151", rough=0.7,
-        leaves=("#283f2a", "#55703f"), height=(12.0, 18.0),
+        slender=0.026, bare=0.34, crown=(0.8, 1.0, 0.9, 0.74, 0.55, 0.34, 0.1), straight=0.93, whorled=5,
+        limbs=Shoots(45.0, 0.27, (1.62, 0.7), 0.05, 0.07),
+        branches=Shoots(5.2, 0.42, (0.95, 0.7), 0.04, 0.06),
+        twigs=Shoots(6.0, 0.55, (0.7, 0.5), 0.1, 0.04),
+        leaf=Leaf(NEEDLES, 0.11, 0.06, 48, 3, 0.6, 0.24), bark="#7b6151", rough=0.7,
+        leaves=("#223329", "#4f6349"), height=(12.0, 18.0),
     ),
     "poplar": Habit(
         slender=0.026, bare=0.05, crown=(0.72, 1.0, 1.0, 0.92, 0.8, 0.62), straight=0.97, whorled=1,

@@ -36,8 +36,8 @@ const vec2 FOOT = vec2(0.1, 1.2);  // between which ways along a stem its foot e
 const vec2 SPOTS = vec2(9.0, 5.0);  // how many of these there are on a metre around and along it
 const vec2 SPOT = vec2(0.28, 0.5);  // noise between which a spot begins
 const float BAND_TONE = 0.42;  // how bright bands and spots are, of the bark
-const vec2 SOILED = vec2(0.6, 2.2);  // heights between which soil and moss on bark end, of the grass's, and with noise of it
-const float SOIL_TONE = 0.55;  // how bright bark is below them, of what it is
+const vec2 SOILED = vec2(0.3, 2.8);  // heights between which soil and moss on bark end, of the grass's, and with noise of it
+const float SOIL_TONE = 0.62;  // how bright bark is below them, of what it is
 const vec2 FINEST_BARK = vec2(1.5, 18.0);  // all this is seen where a pixel is under 1/36 m of bark, and none of it over 1/12
 
 const float SHARPER_BY = -1.5;  // level of noise: bands and furrows are where it is highest, and a mean would have none
