@@ -147,8 +147,8 @@ HABITS: Mapping[HabitName, Habit] = {
         leaves=("#55703a", "#a5b478"), height=(9.0, 13.0),
     ),
     "hawthorn": Habit(
-        slender=0.035, bare=0.04, crown=(0.85, 1.0, 1.0, 0.95, 0.82, 0.6), straight=0.35, whorled=1,
-        limbs=Shoots(26.0, 0.66, (1.25, 0.45), 0.04, 0.16),
+        slender=0.035, bare=0.01, crown=(1.0, 1.0, 0.98, 0.9, 0.75, 0.5), straight=0.35, whorled=1,
+        limbs=Shoots(26.0, 0.82, (1.5, 0.6), 0.02, 0.16),
         branches=Shoots(7.0, 0.5, (0.95, 0.75), 0.03, 0.18),
         twigs=Shoots(11.0, 0.36, (0.9, 0.7), 0.03, 0.14),
         leaf=Leaf(LOBED, 0.055, 0.046, 30, 5, 0.9, 0.6), bark="#5c5347", rough=0.6,
