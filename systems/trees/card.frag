@@ -7,18 +7,18 @@
 in vec2 on;
 flat in vec4 from_sun;
 flat in vec3 from_eye;
-flat in vec3 sunlit;
+flat in vec3 direct;
+flat in vec3 strewn;
 flat in vec3 skylit;
 flat in vec3 hazy;
-flat in vec3 strewn;
 
 out vec4 pixel;
 
 void main() {
     Pictured leaf = pictured(on);
     must_cover(leaf.cover);
-    vec3 normal = normalize(leaf.lies);
-    float lit = dot(normal, from_sun.xyz) * -sign(dot(normal, from_eye));
-    Light light = Light(sunlit * leaf_sends(lit, strewn), skylit, hazy, 0.0, 0.0, vec2(0.0));
+    float lit = dot(leaf.lies, from_sun.xyz) * inversesqrt(max(dot(leaf.lies, leaf.lies), LEAST_SQUARE));
+    lit = dot(leaf.lies, from_eye) < 0.0 ? lit : -lit;
+    Light light = Light(strewn + direct * through_leaf(lit), skylit, hazy, 0.0, 0.0, vec2(0.0));
     pixel = drawn(shade(Surface(pigment_of(leaf.tone * from_sun.w, leaf.wood), 1.0, AMONG_LEAVES), light), leaf.cover);
 }

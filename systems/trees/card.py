@@ -77,7 +77,7 @@ class ModelOnCard:
         """What is made out of the trees of each stream once a tree, by the stream's id."""
         self.placed = {name: np.zeros(0, PLACED) for name in self.streams}
         """Where the trees of each stream stand."""
-        self.hung = {name: Stream(ctx, HUNG) for name in CARDS}
+        self.hung = {name: Stream(ctx, HUNG) for name in (*CARDS, LEAVES)}
         """What is made out of each twig of their trees once a twig."""
         self.most = dict.fromkeys(self.streams, 0)
         """Twigs that any tree of a stream draws."""

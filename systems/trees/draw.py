@@ -23,7 +23,7 @@ from .group import Group
 from .kind import KindOnCard
 from .model import Model
 from .motion import PERIOD
-from .programs import Programs
+from .programs import HANG, HANG_LEAVES, STAND, Programs
 from .shade import ShadeMap
 from .standing import LEAFY, PLACED, SHOWN, TOLD, Standing, columns_of, shown, shows
 from .twig import BEHIND, LEAF_PIXELS
@@ -269,7 +269,7 @@ class TreePart(Part):
         assert self._placed is not None
         assert self._stood is not None
         if self._placed.count:
-            array = programs.made("stand", self._placed)
+            array = programs.made(STAND, self._placed)
             tell_asked(array.program, self._numbers)
             array.transform(self._stood.buffer, moderngl.POINTS, vertices=self._placed.count)
             calls = 1
@@ -287,11 +287,12 @@ class TreePart(Part):
     def _hang(self, kind: KindOnCard, model: ModelOnCard, programs: Programs) -> int:
         """Make out of each twig what is the same all over its card; return the number of draw calls."""
         calls = 0
-        for name in CARDS:
+        for name in (*CARDS, LEAVES):
             stream, hung, most = model.streams[name], model.hung[name], model.most[name]
             hung.room(stream.count * most)
             if hung.count:
-                array = programs.made("hang", stream, model.told[id(stream)])
+                made = HANG_LEAVES if name == LEAVES else HANG
+                array = programs.made(made, stream, model.told[id(stream)])
                 kind.tell(array.program, model, self._numbers, {"whole": (name == CARDS[0],)})
                 array.transform(hung.buffer, moderngl.POINTS, vertices=most, instances=stream.count)
                 calls += 1
@@ -345,11 +346,11 @@ class TreePart(Part):
             for model in kind.models:
                 for sort, name, first, vertices in (
                     *((WOOD, name, *_wood(model, name, soft=soft, whole=all_wood)) for name in WOODS),
-                    (LEAVES, LEAVES, 0, QUAD * kind.habit.leaf.quads * model.most[LEAVES]),
+                    (LEAVES, LEAVES, 0, QUAD * kind.habit.leaf.quads),
                     *((NEAR, name, 0, len(kind.outlines[_roughly(name)])) for name in CARDS),
                     (FAR, FAR, 0, QUAD),
                 ):
-                    stream = model.hung[name] if sort == NEAR else model.streams[name]
+                    stream = model.hung[name] if sort in (NEAR, LEAVES) else model.streams[name]
                     if stream.count and vertices > 0:
                         corners = kind.outlines[_roughly(name)] if sort == NEAR else []
                         array = programs.array(sort, stream, model, soft=soft)

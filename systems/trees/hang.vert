@@ -1,4 +1,4 @@
-// What is the same all over a twig's card: where it hangs in the wind, and what light comes to it.
+// What is the same all over a twig, on its card or with LEAVES leaf by leaf: where it hangs in the wind, what light comes to it.
 #include "systems/trees/twig.glsl"
 #include "systems/trees/hung.glsl"
 
@@ -20,6 +20,19 @@ int next_twig() {
     return along_x ? both % ORDERS : both / ORDERS;
 }
 
+#ifdef LEAVES
+in float first;  // the twig that is drawn, or the first of those
+const bool LEAF_BY_LEAF = true;
+
+void tell_leaves(int number, Twig one, vec3 aside, float turns) {
+    vec3 along = turned(one.along);
+    Light light = light_in_crown(hung_at.xyz + 0.5 * hung_at.w * along, one.shading, 1.0);
+    vec3 below = sky_on(vec3(0.0), from_below(), sky_through(one.shading, foliage), -1.0) * tint * (1.0 - misty.a);
+    pack(HungLeaves(along, aside, light.sun, light.sky, below, light.haze, turns, number), hung_axes, hung_light, hung_haze);
+}
+#else
+const bool LEAF_BY_LEAF = false;
+
 void tell(vec3 along, vec3 aside, vec3 facing, float tone, Light light) {
     along = packed_axis(along);
     aside = packed_axis(aside);
@@ -29,9 +42,14 @@ void tell(vec3 along, vec3 aside, vec3 facing, float tone, Light light) {
     hung_light = uvec4(two(vec2(facing.z, 0.5 * tone)), two(from_sun.xy), two(vec2(from_sun.z, from_sky.x)), two(from_sky.yz));
     hung_haze = uvec2(two(haze.xy), two(vec2(haze.z, 0.0)));
 }
+#endif
 
 void main() {
+#ifdef LEAVES
+    int number = int(first + 0.5) + gl_VertexID;
+#else
     int number = next_twig();
+#endif
     Twig one = twig_of(number);
     vec4 chance = random(number, 0, 3);
     float size = size_of((float(number) + 0.5) / float(twigs));
@@ -39,15 +57,21 @@ void main() {
     hung_at = vec4(root, 0.0);
     hung_axes = hung_light = uvec4(0u);
     hung_haze = uvec2(0u);
-    if (size <= 0.0 || chance.w < leaf_by_leaf(one.foot))
+    if (size <= 0.0 || (chance.w < leaf_by_leaf(one.foot)) != LEAF_BY_LEAF)
         return;
-    one.face = face_of(one);
+    if (!LEAF_BY_LEAF)
+        one.face = face_of(one);
     vec3 aside = cross(one.along, one.face);
     float turns = flutter(chance), length_of = size * one.span;
     one.foot -= 0.5 * max(length_of - one.span, 0.0) * one.along;  // it is larger about its middle: a crown stays as wide
-    vec3 facing = turned_by(one, one.face, aside, turns), along = turned(one.along + fluttered(one, aside, turns));
     hung_at = vec4(swayed(one.foot, one.pivot, one.limb, one.hertz, message), scale * length_of);
+#ifdef LEAVES
+    tell_leaves(number, one, turned(aside), turns);
+#else
+    vec3 facing = normalize(turned(one.face + turned_by(one.along, aside, turns)));
+    vec3 along = turned(one.along + fluttered(one.face, aside, turns));
     vec3 middle = hung_at.xyz + 0.5 * hung_at.w * along;
     Light light = light_in_crown(middle, one.shading, facing.y * sign(dot(facing, eye - middle)));
     tell(along, turned(aside), facing, CARD_TONES.x + CARD_TONES.y * chance.z, light);
+#endif
 }

@@ -29,3 +29,32 @@ vec3 packed_light(vec3 light) {
 vec3 light_of(vec3 told) {
     return told * told * BRIGHTEST;
 }
+
+// What is the same all over a twig whose leaves are drawn each by itself.
+struct HungLeaves {
+    vec3 along;
+    vec3 aside;
+    vec3 sun;     // light on it, of the sun; on what looks up, and on what looks down; and haze before it
+    vec3 above;
+    vec3 below;
+    vec3 haze;
+    float turns;  // by how much of an angle leaves are turned just now [rad]
+    int number;   // of the twig
+};
+
+void pack(HungLeaves told, out uvec4 axes, out uvec4 light, out uvec2 haze) {
+    vec3 along = packed_axis(told.along), aside = packed_axis(told.aside);
+    vec3 from_sun = packed_light(told.sun), above = packed_light(told.above), below = packed_light(told.below), before = packed_light(told.haze);
+    vec2 own = vec2(packed_axis(vec3(told.turns)).x, float(told.number) / IN_HALF);
+    axes = uvec4(two(along.xy), two(vec2(along.z, aside.x)), two(aside.yz), two(own));
+    light = uvec4(two(from_sun.xy), two(vec2(from_sun.z, above.x)), two(above.yz), two(below.xy));
+    haze = uvec2(two(vec2(below.z, before.x)), two(before.yz));
+}
+
+HungLeaves hung_leaves(uvec4 axes, uvec4 light, uvec2 haze) {
+    vec2 second = two_of(axes.y), sixth = two_of(light.y), ninth = two_of(haze.x), own = two_of(axes.w);
+    vec3 along = axis_of(vec3(two_of(axes.x), second.x)), aside = axis_of(vec3(second.y, two_of(axes.z)));
+    vec3 above = light_of(vec3(sixth.y, two_of(light.z))), below = light_of(vec3(two_of(light.w), ninth.x));
+    vec3 from_sun = light_of(vec3(two_of(light.x), sixth.x)), before = light_of(vec3(ninth.y, two_of(haze.y)));
+    return HungLeaves(along, aside, from_sun, above, below, before, axis_of(vec3(own.x)).x, int(own.y * IN_HALF + 0.5));
+}

@@ -2,13 +2,10 @@
 #include "lib/least.glsl"
 #include "systems/trees/habit.py"
 #include "systems/trees/leaf_sends.glsl"
+#include "systems/trees/pigment.glsl"
 #include "systems/trees/shown.glsl"
 
 uniform int form;
-uniform vec3 dark;   // pigments: of leaves, and of bark
-uniform vec3 bright;
-uniform vec3 bark;
-uniform float rough; // how deeply bark is furrowed; below 0 it has bands across
 
 // Outlines: powers of the way from the foot and of that from the tip; how broad a leaf is, of its quad.
 const vec3 OVATE_OUTLINE = vec3(0.55, 0.8, 1.95), LOBED_OUTLINE = vec3(0.55, 0.35, 1.38);
@@ -51,15 +48,4 @@ float leaf_cover(vec2 on) {
     if (form == NEEDLES)
         return needles_cover(on);
     return sharpened(half_width(clamp(on.y, LEAST_PART, 1.0 - LEAST_PART)) - abs(on.x), 0.0, LEAST_WIDTH);
-}
-
-const float FURROWED_MEAN = 0.925, BANDED_MEAN = 0.88;  // how bright bark is with what it has on it, of its ground, in the mean
-
-float bark_mean() {
-    return rough < 0.0 ? BANDED_MEAN : mix(1.0, FURROWED_MEAN, rough);
-}
-
-// The pigment of leaves, dark to bright, or of bark.
-vec3 pigment_of(float tone, float wood) {
-    return mix(mix(dark, bright, tone), bark * bark_mean(), wood);
 }

@@ -9,11 +9,15 @@ vec3 strewn_send(vec3 ray) {
     return back * sqrt(back) + against * sqrt(against) * LEAF_THROUGH;
 }
 
+// Light that so falls on the side of a leaf which the eye sees, or below 0 through it from the other one.
+vec3 through_leaf(float lit) {
+    return max(lit, 0.0) + max(-lit, 0.0) * LEAF_THROUGH;
+}
+
 // What leaves send to the eye of the sun's light that so falls on the side which it sees, below 0 on the other one; and what such
 // send that face all ways.
 vec3 leaf_sends(float lit, vec3 strewn) {
-    vec3 one = SENDS * (max(lit, 0.0) + max(-lit, 0.0) * LEAF_THROUGH);
-    return mix(one, strewn, STREWN);
+    return (1.0 - STREWN) * SENDS * through_leaf(lit) + STREWN * strewn;
 }
 
 // What leaves with this face send to the eye of the sun's light.

@@ -11,25 +11,32 @@ from ..frame.block import FrameBlock, joined
 from .card import CAST, FAR, LEAVES, NEAR, PICTURED, WOOD, ModelOnCard
 from .grow import MOST_TWIGS
 from .habit import HABITS
+from .standing import HUNG
 
 SORTS: Mapping[str, tuple[str, str, Mapping[str, str | int]]] = {
     NEAR: ("card", "card", {}),
     PICTURED: ("twig", "twig", {}),
-    LEAVES: ("twig", "twig", {"LEAVES": 1, "STANDS": 1}),
+    LEAVES: ("twig", "twig", {"LEAVES": 1}),
     WOOD: ("wood", "wood", {"STANDS": 1}),
     FAR: ("far", "far", {"STANDS": 1}),
     CAST: ("far", "far", {"CAST": 1}),
 }
 """By what is drawn: vertex and fragment shader, and what they are told."""
 
-MADE: Mapping[str, tuple[str, ...]] = {
-    "stand": ("told", "open", "veil", "stands_in"),
-    "hang": ("hung_at", "hung_axes", "hung_light", "hung_haze"),
-}
-"""By what is made out once a tree, or once a twig of it: what is written of it."""
+STAND, HANG, HANG_LEAVES = "stand", "hang", "hang leaves"
+"""What is made out: once a tree, once a twig on its card, and once a twig leaf by leaf."""
 
-MOST_QUADS = MOST_TWIGS * max(habit.leaf.quads for habit in HABITS.values())
-"""Quads that a tree is drawn with at most: of twigs leaf by leaf."""
+_HUNG = HUNG.names or ()
+
+MADE: Mapping[str, tuple[str, tuple[str, ...], Mapping[str, str | int]]] = {
+    STAND: ("stand", ("told", "open", "veil", "stands_in"), {}),
+    HANG: ("hang", _HUNG, {"STANDS": 1}),
+    HANG_LEAVES: ("hang", _HUNG, {"STANDS": 1, "LEAVES": 1}),
+}
+"""By that: the shader, what it writes, and what it is told."""
+
+MOST_QUADS = max(MOST_TWIGS, *(habit.leaf.quads for habit in HABITS.values()))
+"""Quads that are drawn at most of a tree or a twig: its twigs on cards as they are baked, or its leaves."""
 
 
 class Programs:
@@ -67,9 +74,9 @@ class Programs:
         if key not in self._arrays:
             program = self._makers.get(what)
             if program is None:
-                shader = f"systems/trees/{what}.vert"
-                defines = {} if told is None else {"STANDS": 1}
-                program = joined(self._ctx, self._block, self._units, shader, None, defines, varyings=MADE[what])
+                name, written, defines = MADE[what]
+                shader = f"systems/trees/{name}.vert"
+                program = joined(self._ctx, self._block, self._units, shader, None, defines, varyings=written)
                 self._makers[what] = program
             each = "/v" if told is None else "/i"
             streams = [one.binding(program, each=each) for one in (stream, told) if one is not None]

@@ -33,10 +33,15 @@ void must_cover(float cover) {
 #endif
 }
 
-vec4 drawn(vec3 radiance, float cover) {
+// What is drawn of a colour as it is shown.
+vec4 covered(vec3 shown, float cover) {
 #ifdef SOFT
-    return vec4(shown_of(radiance), 1.0) * cover;
+    return vec4(shown, 1.0) * cover;
 #else
-    return vec4(shown_of(radiance), 1.0);
+    return vec4(shown, 1.0);
 #endif
+}
+
+vec4 drawn(vec3 radiance, float cover) {
+    return covered(shown_of(radiance), cover);
 }

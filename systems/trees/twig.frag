@@ -1,28 +1,19 @@
+// Twigs, each as all of its leaves with LEAVES, and else on its card.
 #include "lib/light.glsl"
 #include "systems/trees/leaf.glsl"
 #include "systems/trees/shown.glsl"
 #include "systems/trees/pictured.glsl"
 
 in vec2 on;
+#ifdef BAKED
 in vec3 facing;
-in vec3 seen_at;
-in vec3 sunlit;
-in vec3 skylit;
-in vec3 hazy;
 in vec4 inside;
 flat in vec4 across_card;
 flat in vec3 along_card;
 
-#ifdef BAKED
 layout(location = 0) out vec4 pixel;
 layout(location = 1) out vec4 second;
-#else
-out vec4 pixel;
-#endif
 
-const float VEIN = 0.05, RIBBED = 0.8;  // how broad a leaf's midrib is, and how much of its tone others have
-
-#ifdef BAKED
 const vec4 BAYER = vec4(0.125, 0.625, 0.875, 0.375);  // thresholds of two by two pixels, which are one in the end
 const float APART = 7.0;  // how many times as much as their tones twigs' thresholds differ
 
@@ -35,35 +26,38 @@ float threshold() {
     return fract(BAYER[2 * pixel_at.y + pixel_at.x] + APART * across_card.w);
 #endif
 }
+
+const float RIBBED = 0.8;  // as twig.vert has it
+#else
+in float covers;
+flat in vec3 shown;
+flat in vec3 ribbed;
+
+out vec4 pixel;
 #endif
 
+const float VEIN = 0.05;  // how broad a leaf's midrib is
+
 void main() {
-    float tone, wood = 0.0, cover;
-    vec3 normal = normalize(facing);
+    float beside = smoothstep(0.0, VEIN, abs(on.x));
 #ifdef LEAVES
     float leaf = leaf_cover(on);  // asked by all pixels: it looks at their neighbours
-    cover = inside.y > 0.5 ? inside.z : leaf;  // stems are green, as the darkest of leaves
-    tone = inside.x * mix(1.0, RIBBED, 1.0 - smoothstep(0.0, VEIN, abs(on.x)));
-#else
-    Pictured leaf = pictured(on);
-    cover = leaf.cover;
-    tone = leaf.tone * across_card.w;
-    wood = leaf.wood;
-    normal = normalize(leaf.lies.x * across_card.xyz + leaf.lies.y * along_card + leaf.lies.z * normal);
 #endif
 #ifdef BAKED
+#ifdef LEAVES
+    float cover = inside.y > 0.5 ? inside.z : leaf, tone = inside.x * mix(RIBBED, 1.0, beside), wood = 0.0;
+    second = vec4(0.5 + 0.5 * normalize(facing), 1.0);
+#else
+    Pictured seen = pictured(on);
+    float cover = seen.cover, tone = seen.tone * across_card.w, wood = seen.wood;
+    second = packed_shading(inside);
+#endif
     if (cover <= threshold())
         discard;
     pixel = vec4(clamp(tone, 0.0, 1.0), wood, 0.0, 1.0);
-#ifdef LEAVES
-    second = vec4(0.5 + 0.5 * normal, 1.0);
 #else
-    second = packed_shading(inside);
-#endif
-#else
+    float cover = covers < 0.0 ? leaf : covers;
     must_cover(cover);
-    vec3 ray = normalize(seen_at - eye);
-    Light light = Light(sunlit * leaf_sends(normal, ray), skylit, hazy, 0.0, 0.0, vec2(0.0));
-    pixel = drawn(shade(Surface(pigment_of(tone, wood), 1.0, AMONG_LEAVES), light), cover);
+    pixel = covered(mix(ribbed, shown, beside), cover);
 #endif
 }

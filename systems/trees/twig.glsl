@@ -58,12 +58,12 @@ float flutter(vec4 chance) {
 }
 
 // How far that moves what hangs on a twig at its tip, of its length.
-vec3 fluttered(Twig twig, vec3 aside, float turns) {
-    return turns * (FLUTTERS.x * twig.face + FLUTTERS.y * aside);
+vec3 fluttered(vec3 face, vec3 aside, float turns) {
+    return turns * (FLUTTERS.x * face + FLUTTERS.y * aside);
 }
 
-// Which way a face looks that its leaves have, in the world.
-vec3 turned_by(Twig twig, vec3 normal, vec3 aside, float turns) {
-    return normalize(turned(normal + turns * (aside + 0.5 * twig.along)));
+// By how much that turns a face that its leaves have.
+vec3 turned_by(vec3 along, vec3 aside, float turns) {
+    return turns * (aside + 0.5 * along);
 }
 #endif

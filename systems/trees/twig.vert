@@ -1,25 +1,32 @@
-// The twigs of trees. With LEAVES each is all of its leaves. With BAKED one is drawn as it will be read from a texture, and else
-// it is the card that shows it. What is not a vertex buffer's is made out from the vertex's number.
+// The twigs of trees: each as all of its leaves with LEAVES, and else on the card that shows it. With BAKED they are drawn as they
+// will be read from a texture. What is not a vertex buffer's is made out from the vertex's number.
 #include "systems/trees/twig.glsl"
 #ifndef BAKED
 #include "systems/trees/behind.glsl"
+#include "systems/trees/hung.glsl"
+#include "systems/trees/leaf_sends.glsl"
+#include "systems/trees/pigment.glsl"
+
+in vec4 hung_at;      // as hang.vert has it
+in uvec4 hung_axes;
+in uvec4 hung_light;
+in uvec2 hung_haze;
 #endif
 
 uniform int leaf_count;  // leaves of a twig
 uniform int shoots;      // of a twig: itself, and those on its sides
-#ifdef LEAVES
-in float first;          // the twig that is drawn, or the first of those
-#endif
 
 out vec2 on;
+#ifdef BAKED
 out vec3 facing;
-out vec3 seen_at;
-out vec3 sunlit;
-out vec3 skylit;
-out vec3 hazy;
-out vec4 inside;  // what leaves meet of light; or tone, 1 on a stem, and what that covers
+out vec4 inside;  // what leaves meet of light; or tone, and 1 on a stem
 flat out vec4 across_card; // which way the card's own x goes, in the world; its tone
 flat out vec3 along_card;
+#else
+out float covers;      // of a pixel, on a stem; below 0 on a leaf
+flat out vec3 shown;   // its colour
+flat out vec3 ribbed;  // that of its midrib
+#endif
 
 const float STEM = 0.006;  // half the width of a side shoot at its foot, of its twig's length
 const float STEM_TAPERS = 0.6, STEM_OF_TWIG = 1.6;  // how much narrower its tip is; how many times as wide the twig itself is
@@ -31,6 +38,7 @@ const float LEAVES_AROUND = 1.4;  // how far around it leaves are from its left 
 const float NODS = 0.35, TILTED = 0.6;  // how far leaves hang; how far they are turned about their stalks
 const vec2 LEAF_SIZES = vec2(0.75, 0.45);  // the least size of a leaf, of its kind's, and how much more it may be
 const float STALK = 0.12;  // of a leaf, of its length
+const float RIBBED = 0.8;  // how much of its tone a leaf's midrib has
 const vec2 LEAF_TONES = vec2(0.25, 0.75);  // the least tone of a leaf, and how much more it may be
 
 // A side shoot of a twig: sine and cosine of its angle; where it stands, and how long it is. The first is the twig itself.
@@ -80,103 +88,70 @@ vec3 stem_corner(int twig, int shoot, vec2 corner, float wide) {
     return vec3(stands.y * own.x + stands.x * own.y, stands.z + stands.y * own.y - stands.x * own.x, 0.0);
 }
 
-#ifndef BAKED
-// Half a pixel at a twig, of its length: narrower stems are drawn so wide, and cover less.
-float half_pixel(Twig twig) {
-    return 0.5 * distance(eye, root + scale * turned(twig.foot)) / (pixels_a_metre() * scale * twig.span);
-}
-#endif
-
-void leave_out() {
-    gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
-    on = vec2(0.0);
-    facing = seen_at = sunlit = skylit = hazy = along_card = vec3(0.0);
-    inside = across_card = vec4(0.0);
-}
-
 vec2 corner_of(int vertex) {
     return vec2(vertex % 2 == 1 ? 1.0 : -1.0, vertex % 4 > 1 ? 1.0 : 0.0);
 }
 
-// A corner of a leaf or a stem of a twig, or of its card, in its axes [of its usual length]; `inside` and `normal` follow from it.
-vec3 corner_on(Twig twig, int number, int leaf, float size, vec2 corner, out vec3 normal) {
-    normal = vec3(0.0, 0.0, 1.0);
-#ifdef LEAVES
+// A corner of a leaf or a stem of a twig, in its axes [of its usual length], no stem narrower than so much. `told` is its tone, 1 on
+// a stem, and how much of its width that has.
+vec3 corner_on(int twig, int leaf, vec2 corner, float narrowest, out vec3 normal, out vec3 told) {
     if (leaf < leaf_count) {
-        inside = vec4(LEAF_TONES.x + LEAF_TONES.y * random(number, leaf, 4).x, 0.0, 1.0, 0.0);
-        return leaf_corner(number, leaf, corner, normal);
+        told = vec3(LEAF_TONES.x + LEAF_TONES.y * random(twig, leaf, 4).x, 0.0, 1.0);
+        return leaf_corner(twig, leaf, corner, normal);
     }
-    float wide = stem_width(leaf - leaf_count, corner.y), widened = wide;
-#ifndef BAKED
-    widened = max(wide, half_pixel(twig) / size);
-#endif
-    inside = vec4(0.0, 1.0, wide / widened, 0.0);
-    return stem_corner(number, leaf - leaf_count, corner, widened);
-#else
-    inside = twig.shading;
-    return vec3(corner.x * card.x, mix(card.y, card.z, corner.y), 0.0);
-#endif
+    float wide = stem_width(leaf - leaf_count, corner.y), widened = max(wide, narrowest);
+    normal = vec3(0.0, 0.0, 1.0);
+    told = vec3(0.0, 1.0, wide / widened);
+    return stem_corner(twig, leaf - leaf_count, corner, widened);
 }
 
 #ifdef BAKED
-void stand(vec3 place) {
-    seen_at = place;
-    sunlit = skylit = hazy = vec3(0.0);
-    gl_Position = baked * vec4(place, 1.0);
-}
-#else
-// Stand in the wind and in the light; `own` is from the twig's foot, `high_up` how far along it [of its usual length].
-void stand(Twig twig, vec3 own, vec3 aside, float length_of, float high_up, vec4 chance) {
-    float turns = flutter(chance);
-    own += high_up * length_of * fluttered(twig, aside, turns);
-    facing = turned_by(twig, facing, aside, turns);
-    seen_at = swayed(twig.foot, twig.pivot, twig.limb, twig.hertz, message) + scale * turned(own);
-    Light light = light_in_crown(seen_at, twig.shading, facing.y * sign(dot(facing, eye - seen_at)));
-    sunlit = light.sun;
-    skylit = light.sky;
-    hazy = light.haze;
-    gl_Position = stood(seen_at);
-}
-#endif
-
 void main() {
-    int number = gl_VertexID / 4, each = 1;
+    int number = gl_VertexID / 4;
+    vec3 shape, normal = vec3(0.0, 0.0, 1.0);
+    on = corner_of(gl_VertexID);
 #ifdef LEAVES
-    each = leaf_count + shoots;
-#endif
-    int twig = number / each;
-#ifdef LEAVES
-    twig += int(first + 0.5);
-#endif
-    Twig one = twig_of(twig);
-    vec4 chance = random(twig, 0, 3);
-    float size = size_of((float(twig) + 0.5) / float(twigs));
-#if defined(BAKED) && defined(LEAVES)
-    size = 1.0;
-    one = Twig(vec3(0.0), usual, vec3(0.0, 1.0, 0.0), 0.0, vec3(0.0, 0.0, 1.0), 1.0, vec3(0.0), 0.0, vec4(0.0));
-#endif
-    bool apart = true;
-#ifndef BAKED
-    apart = chance.w < leaf_by_leaf(one.foot);
-#endif
-    if (size <= 0.0 || !apart) {
-        leave_out();
-        return;
-    }
-    vec3 normal, shape = corner_on(one, twig, number % each, size, on = corner_of(gl_VertexID), normal);
-#ifndef LEAVES
+    vec3 told;
+    Twig one = Twig(vec3(0.0), usual, vec3(0.0, 1.0, 0.0), 0.0, vec3(0.0, 0.0, 1.0), 1.0, vec3(0.0), 0.0, vec4(0.0));
+    shape = corner_on(0, number, on, 0.0, normal, told);
+    inside = vec4(told, 0.0);
+    float size = 1.0, tone = 1.0;
+#else
+    Twig one = twig_of(number);
+    float size = size_of((float(number) + 0.5) / float(twigs)), tone = CARD_TONES.x + CARD_TONES.y * random(number, 0, 3).z;
+    shape = vec3(on.x * card.x, mix(card.y, card.z, on.y), 0.0);
+    inside = one.shading;
     one.face = face_of(one);
 #endif
     vec3 aside = cross(one.along, one.face);
     float length_of = size * one.span;
     one.foot -= 0.5 * max(length_of - one.span, 0.0) * one.along;  // it is larger about its middle: a crown stays as wide
-    vec3 own = length_of * (shape.x * aside + shape.y * one.along + shape.z * one.face);
     facing = normal.x * aside + normal.y * one.along + normal.z * one.face;
-#ifdef BAKED
-    stand(one.foot + own);
-#else
-    stand(one, own, aside, length_of, shape.y, chance);
-#endif
+    across_card = vec4(turned(aside), tone);
     along_card = turned(one.along);
-    across_card = vec4(turned(aside), CARD_TONES.x + CARD_TONES.y * chance.z);
+    gl_Position = baked * vec4(one.foot + length_of * (shape.x * aside + shape.y * one.along + shape.z * one.face), 1.0);
+    if (size <= 0.0)
+        gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
 }
+#else
+// Half a pixel at a twig, of its length: narrower stems are drawn so wide, and cover less.
+float half_pixel() {
+    return 0.5 * distance(eye, hung_at.xyz) / (pixels_a_metre() * hung_at.w);
+}
+
+void main() {
+    HungLeaves hung = hung_leaves(hung_axes, hung_light, hung_haze);
+    vec3 normal, told, face = cross(hung.aside, hung.along);
+    on = corner_of(gl_VertexID);
+    vec3 shape = corner_on(hung.number, gl_VertexID / 4, on, half_pixel(), normal, told);
+    vec3 own = shape.x * hung.aside + shape.y * hung.along + shape.z * face + shape.y * fluttered(face, hung.aside, hung.turns);
+    vec3 facing = normalize(normal.x * hung.aside + normal.y * hung.along + normal.z * face + turned_by(hung.along, hung.aside, hung.turns));
+    vec3 ray = normalize(hung_at.xyz - eye);
+    vec3 sky = mix(hung.below, hung.above, 0.5 - 0.5 * facing.y * sign(dot(facing, ray)));
+    Light light = Light(hung.sun * leaf_sends(facing, ray), sky, hung.haze, 0.0, 0.0, vec2(0.0));
+    covers = told.y > 0.5 ? told.z : -1.0;
+    shown = shown_of(shade(Surface(pigment_of(told.x, 0.0), 1.0, AMONG_LEAVES), light));  // stems are green, as the darkest of leaves
+    ribbed = shown_of(shade(Surface(pigment_of(RIBBED * told.x, 0.0), 1.0, AMONG_LEAVES), light));
+    gl_Position = hung_at.w > 0.0 ? stood(hung_at.xyz + hung_at.w * own) : vec4(0.0, 0.0, 2.0, 1.0);
+}
+#endif
