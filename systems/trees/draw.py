@@ -18,12 +18,26 @@ from ..space.frustum import beyond
 from ..space.grown import Grown
 from ..wind.blow import mean_wind
 from ..wind.mean import MeanWind
-from .card import CARDS, CAST, FAR, LEAVES, NEAR, QUAD, WOOD, WOODS, ModelOnCard, Numbers, drawn_of
+from .card import (
+    CARDS,
+    CAST,
+    FAR,
+    LEAVES,
+    NEAR,
+    QUAD,
+    SMALL,
+    SMALL_CARDS,
+    WOOD,
+    WOODS,
+    ModelOnCard,
+    Numbers,
+    drawn_of,
+)  # fmt: skip
 from .group import Group
 from .kind import KindOnCard
 from .model import Model
 from .motion import PERIOD
-from .programs import HANG, HANG_LEAVES, STAND, Programs
+from .programs import HANG, HANG_LEAVES, HANG_SMALL, STAND, Programs
 from .shade import ShadeMap
 from .standing import LEAFY, PLACED, SHOWN, TOLD, Standing, columns_of, shown, shows
 from .twig import BEHIND, LEAF_PIXELS
@@ -291,7 +305,7 @@ class TreePart(Part):
             stream, hung, most = model.streams[name], model.hung[name], model.most[name]
             hung.room(stream.count * most)
             if hung.count:
-                made = HANG_LEAVES if name == LEAVES else HANG
+                made = HANG_LEAVES if name == LEAVES else HANG_SMALL if name in SMALL_CARDS else HANG
                 array = programs.made(made, stream, model.told[id(stream)])
                 kind.tell(array.program, model, self._numbers, {"whole": (name == CARDS[0],)})
                 array.transform(hung.buffer, moderngl.POINTS, vertices=most, instances=stream.count)
@@ -333,9 +347,9 @@ class TreePart(Part):
                 last = array.program, model
                 kind.tell(array.program, model, self._numbers, wood=call.sort == WOOD)
             tell(array.program, "solid_from", call.solid_from)
-            if call.sort == NEAR:
+            if call.corners:
                 tell_all(array.program, "corners", call.corners)
-            form = moderngl.TRIANGLE_STRIP if call.sort == NEAR else moderngl.TRIANGLES
+            form = moderngl.TRIANGLE_STRIP if call.corners else moderngl.TRIANGLES
             array.render(form, first=call.first, vertices=call.vertices, instances=call.instances)
         return len(self._calls[key])
 
@@ -347,15 +361,15 @@ class TreePart(Part):
                 for sort, name, first, vertices in (
                     *((WOOD, name, *_wood(model, name, soft=soft, whole=all_wood)) for name in WOODS),
                     (LEAVES, LEAVES, 0, QUAD * kind.habit.leaf.quads),
-                    *((NEAR, name, 0, len(kind.outlines[_roughly(name)])) for name in CARDS),
+                    *((SMALL if name in SMALL_CARDS else NEAR, name, 0, len(kind.outlines[name in SMALL_CARDS])) for name in CARDS),
                     (FAR, FAR, 0, QUAD),
                 ):
-                    stream = model.hung[name] if sort in (NEAR, LEAVES) else model.streams[name]
+                    stream = model.hung.get(name, model.streams[name])
                     if stream.count and vertices > 0:
-                        corners = kind.outlines[_roughly(name)] if sort == NEAR else []
+                        corners = kind.outlines[name in SMALL_CARDS] if name in CARDS else []
                         array = programs.array(sort, stream, model, soft=soft)
                         nearest = 0.0 if soft else self._nearest(model.placed[name])
-                        hard = all_wood or sort == NEAR or (sort == WOOD and model.wood[name].hard)
+                        hard = all_wood or name in CARDS or (sort == WOOD and model.wood[name].hard)
                         solid_from = SOLID if hard else OPAQUE
                         of = kind, model
                         calls.append(Call(nearest, sort, of, array, first, vertices, stream.count, corners, solid_from))
@@ -394,11 +408,6 @@ def leaf_by_leaf(trees: NDArray[np.void] | np.void, twigs: NDArray[np.intp] | in
         rows[name] = trees[name]
     rows["first"] = twigs
     return rows
-
-
-def _roughly(cards: str) -> bool:
-    """Return whether a stream's cards are so small that their outline has four corners."""
-    return cards in CARDS[2:]
 
 
 def _wood(model: ModelOnCard, name: str, *, soft: bool, whole: bool) -> tuple[int, int]:

@@ -1,6 +1,9 @@
-// What is the same all over a twig, on its card or with LEAVES leaf by leaf: where it hangs in the wind, what light comes to it.
+// What is the same all over a twig, on its card, which with SMALL is lit as a whole, or with LEAVES leaf by leaf: where it
+// hangs in the wind, what light comes to it.
 #include "systems/trees/twig.glsl"
 #include "systems/trees/hung.glsl"
+#include "systems/trees/leaf_sends.glsl"
+#include "systems/trees/pigment.glsl"
 
 out vec4 hung_at;        // its foot [m]; how long it is, 0 where it is left out [m]
 flat out uvec4 hung_axes;
@@ -33,15 +36,40 @@ void tell_leaves(int number, Twig one, vec3 aside, float turns) {
 #else
 const bool LEAF_BY_LEAF = false;
 
-void tell(vec3 along, vec3 aside, vec3 facing, float tone, Light light) {
+void tell(vec3 along, vec3 aside, vec3 facing, float tone, vec3 first_light, vec3 second_light, vec3 third_light) {
     along = packed_axis(along);
     aside = packed_axis(aside);
     facing = packed_axis(facing);
-    vec3 from_sun = packed_light(light.sun), from_sky = packed_light(light.sky), haze = packed_light(light.haze);
+    first_light = packed_light(first_light);
+    second_light = packed_light(second_light);
+    third_light = packed_light(third_light);
     hung_axes = uvec4(two(along.xy), two(vec2(along.z, aside.x)), two(aside.yz), two(facing.xy));
-    hung_light = uvec4(two(vec2(facing.z, 0.5 * tone)), two(from_sun.xy), two(vec2(from_sun.z, from_sky.x)), two(from_sky.yz));
-    hung_haze = uvec2(two(haze.xy), two(vec2(haze.z, 0.0)));
+    hung_light = uvec4(two(vec2(facing.z, 0.5 * tone)), two(first_light.xy), two(vec2(first_light.z, second_light.x)), two(second_light.yz));
+    hung_haze = uvec2(two(third_light.xy), two(vec2(third_light.z, 0.0)));
 }
+
+#ifdef SMALL
+uniform sampler2DArray tree_cards;  // as pictured.glsl has it
+
+const int SPOTS = 4;  // of a card across and up, at which is asked how its leaves lie
+const float SMALL_LEVEL = 4.0;  // level of its picture there
+
+// What all its leaves together send to the eye of the sun's light; `own` has its axes.
+vec3 all_send(mat3 own, vec3 ray) {
+    vec4 sum = vec4(0.0);
+    for (int spot = 0; spot < SPOTS * SPOTS; spot++) {
+        vec2 at = (vec2(spot % SPOTS, spot / SPOTS) + 0.5) / float(SPOTS);
+        vec4 lie = textureLod(tree_cards, vec3(at, 1.0), SMALL_LEVEL);
+        vec3 normal = 2.0 * lie.rgb - lie.a;
+        sum += lie.a * vec4(leaf_sends(own * (normal * inversesqrt(max(dot(normal, normal), LEAST_SQUARE))), ray), 1.0);
+    }
+    return sum.rgb / max(sum.a, LEAST_PART);
+}
+
+vec3 shows(float tone, float wood, Light light) {
+    return shown_of(shade(Surface(pigment_of(tone, wood), 1.0, AMONG_LEAVES), light));
+}
+#endif
 #endif
 
 void main() {
@@ -72,6 +100,13 @@ void main() {
     vec3 along = turned(one.along + fluttered(one.face, aside, turns));
     vec3 middle = hung_at.xyz + 0.5 * hung_at.w * along;
     Light light = light_in_crown(middle, one.shading, facing.y * sign(dot(facing, eye - middle)));
-    tell(along, turned(aside), facing, CARD_TONES.x + CARD_TONES.y * chance.z, light);
+    float tone = CARD_TONES.x + CARD_TONES.y * chance.z;
+    aside = turned(aside);
+#ifdef SMALL
+    light.sun *= all_send(mat3(aside, along, facing), normalize(middle - eye));
+    tell(along, aside, facing, tone, shows(0.0, 0.0, light), shows(tone, 0.0, light), shows(0.0, 1.0, light));
+#else
+    tell(along, aside, facing, tone, light.sun, light.sky, light.haze);
+#endif
 #endif
 }
