@@ -18,9 +18,9 @@ from .wood import Parts, parts
 Numbers = Mapping[str, tuple[float, ...]]
 """What programs are told, by name."""
 
-NEAR, SMALL, FAR, LEAVES, WOOD, CAST, PICTURED = "near", "small", "far", "leaves", "wood", "cast", "pictured"
-"""What is drawn of trees: twigs on their cards, and on small ones, pictures far off, leaf by leaf, wood; and into maps
-of their shade, and twigs on their cards into those pictures."""
+NEAR, FAR, LEAVES, WOOD, CAST, PICTURED = "near", "far", "leaves", "wood", "cast", "pictured"
+"""What is drawn of trees: twigs on their cards, pictures far off, leaf by leaf, wood; and into maps of their shade, and
+twigs on their cards into those pictures."""
 
 QUAD = 6
 """Vertices of a quad, as two triangles."""
@@ -39,7 +39,7 @@ WOODS = tuple(f"{WOOD}{number}" for number in range(len(RUNS) + 1))
 """The streams of those."""
 
 SMALL_CARDS = CARDS[2:]
-"""Those whose cards are so small that each is lit as a whole, and that their outline has four corners."""
+"""Those whose cards are so small that their outline has four corners: triangles of small cards are edges."""
 
 
 def drawn_of(twigs: int, share: float, /) -> int:

@@ -18,26 +18,12 @@ from ..space.frustum import beyond
 from ..space.grown import Grown
 from ..wind.blow import mean_wind
 from ..wind.mean import MeanWind
-from .card import (
-    CARDS,
-    CAST,
-    FAR,
-    LEAVES,
-    NEAR,
-    QUAD,
-    SMALL,
-    SMALL_CARDS,
-    WOOD,
-    WOODS,
-    ModelOnCard,
-    Numbers,
-    drawn_of,
-)  # fmt: skip
+from .card import CARDS, CAST, FAR, LEAVES, NEAR, QUAD, SMALL_CARDS, WOOD, WOODS, ModelOnCard, Numbers, drawn_of
 from .group import Group
 from .kind import KindOnCard
 from .model import Model
 from .motion import PERIOD
-from .programs import HANG, HANG_LEAVES, HANG_SMALL, STAND, Programs
+from .programs import HANG, HANG_LEAVES, STAND, Programs
 from .shade import ShadeMap
 from .standing import LEAFY, PLACED, SHOWN, TOLD, Standing, columns_of, shown, shows
 from .twig import BEHIND, LEAF_PIXELS
@@ -305,7 +291,7 @@ class TreePart(Part):
             stream, hung, most = model.streams[name], model.hung[name], model.most[name]
             hung.room(stream.count * most)
             if hung.count:
-                made = HANG_LEAVES if name == LEAVES else HANG_SMALL if name in SMALL_CARDS else HANG
+                made = HANG_LEAVES if name == LEAVES else HANG
                 array = programs.made(made, stream, model.told[id(stream)])
                 kind.tell(array.program, model, self._numbers, {"whole": (name == CARDS[0],)})
                 array.transform(hung.buffer, moderngl.POINTS, vertices=most, instances=stream.count)
@@ -361,7 +347,7 @@ class TreePart(Part):
                 for sort, name, first, vertices in (
                     *((WOOD, name, *_wood(model, name, soft=soft, whole=all_wood)) for name in WOODS),
                     (LEAVES, LEAVES, 0, QUAD * kind.habit.leaf.quads),
-                    *((SMALL if name in SMALL_CARDS else NEAR, name, 0, len(kind.outlines[name in SMALL_CARDS])) for name in CARDS),
+                    *((NEAR, name, 0, len(kind.outlines[name in SMALL_CARDS])) for name in CARDS),
                     (FAR, FAR, 0, QUAD),
                 ):
                     stream = model.hung.get(name, model.streams[name])

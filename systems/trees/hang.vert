@@ -1,5 +1,4 @@
-// What is the same all over a twig, on its card, which with SMALL is lit as a whole, or with LEAVES leaf by leaf: where it
-// hangs in the wind, what light comes to it.
+// What is the same all over a twig, on its card or with LEAVES leaf by leaf: where it hangs in the wind, and what light comes to it.
 #include "systems/trees/twig.glsl"
 #include "systems/trees/hung.glsl"
 #include "systems/trees/leaf_sends.glsl"
@@ -36,40 +35,47 @@ void tell_leaves(int number, Twig one, vec3 aside, float turns) {
 #else
 const bool LEAF_BY_LEAF = false;
 
-void tell(vec3 along, vec3 aside, vec3 facing, float tone, vec3 first_light, vec3 second_light, vec3 third_light) {
-    along = packed_axis(along);
-    aside = packed_axis(aside);
-    facing = packed_axis(facing);
-    first_light = packed_light(first_light);
-    second_light = packed_light(second_light);
-    third_light = packed_light(third_light);
-    hung_axes = uvec4(two(along.xy), two(vec2(along.z, aside.x)), two(aside.yz), two(facing.xy));
-    hung_light = uvec4(two(vec2(facing.z, 0.5 * tone)), two(first_light.xy), two(vec2(first_light.z, second_light.x)), two(second_light.yz));
-    hung_haze = uvec2(two(third_light.xy), two(vec2(third_light.z, 0.0)));
-}
-
-#ifdef SMALL
 uniform sampler2DArray tree_cards;  // as pictured.glsl has it
 
 const int SPOTS = 4;  // of a card across and up, at which is asked how its leaves lie
-const float SMALL_LEVEL = 4.0;  // level of its picture there
+const float SPOT_LEVEL = 4.0;  // level of its picture there
+const float CURVES = 0.5;  // power of radiance by which its colour goes, about
 
-// What all its leaves together send to the eye of the sun's light; `own` has its axes.
-vec3 all_send(mat3 own, vec3 ray) {
-    vec4 sum = vec4(0.0);
+// How a card's leaves lie: what they send to the eye of the sun's light, and which way they face, in the mean.
+void lie_on_card(mat3 own, vec3 ray, out vec3 sends, out vec3 faces) {
+    float cover = LEAST_PART;
+    sends = faces = vec3(0.0);
     for (int spot = 0; spot < SPOTS * SPOTS; spot++) {
         vec2 at = (vec2(spot % SPOTS, spot / SPOTS) + 0.5) / float(SPOTS);
-        vec4 lie = textureLod(tree_cards, vec3(at, 1.0), SMALL_LEVEL);
+        vec4 lie = textureLod(tree_cards, vec3(at, 1.0), SPOT_LEVEL);
         vec3 normal = 2.0 * lie.rgb - lie.a;
-        sum += lie.a * vec4(leaf_sends(own * (normal * inversesqrt(max(dot(normal, normal), LEAST_SQUARE))), ray), 1.0);
+        cover += lie.a;
+        faces += normal;
+        sends += lie.a * leaf_sends(own * (normal * inversesqrt(max(dot(normal, normal), LEAST_SQUARE))), ray);
     }
-    return sum.rgb / max(sum.a, LEAST_PART);
+    faces /= cover;
+    sends /= cover;
 }
 
 vec3 shows(float tone, float wood, Light light) {
     return shown_of(shade(Surface(pigment_of(tone, wood), 1.0, AMONG_LEAVES), light));
 }
-#endif
+
+void tell_card(vec3 along, vec3 aside, vec3 facing, float tone, Light light) {
+    mat3 own = mat3(aside, along, facing);
+    vec3 sends, faces, ray = normalize(hung_at.xyz + 0.5 * hung_at.w * along - eye);
+    lie_on_card(own, ray, sends, faces);
+    // What a face sends more as it turns to the sun, of all that is sent.
+    float lit = dot(own * faces, sun) * -sign(dot(own * faces, ray));
+    vec3 turned_to = (lit < 0.0 ? -LEAF_THROUGH : vec3(1.0)) * light.sun * ((1.0 - STREWN) * SENDS);
+    light.sun *= sends;
+    vec3 pigment = pigment_of(0.5, 0.0), albedo = pigment * pigment;
+    float steep = CURVES * brightness(albedo * turned_to) / max(brightness(albedo * (light.sun + light.sky) + light.haze), DARKEST);
+    vec3 towards = transpose(own) * sun * (steep * -sign(dot(own * faces, ray)));
+    vec4 relief = vec4(towards, 1.0 - dot(towards, faces));
+    HungCard told = HungCard(along, aside, relief, shows(0.0, 0.0, light), shows(tone, 0.0, light), shows(0.0, 1.0, light));
+    pack(told, hung_axes, hung_light, hung_haze);
+}
 #endif
 
 void main() {
@@ -100,13 +106,6 @@ void main() {
     vec3 along = turned(one.along + fluttered(one.face, aside, turns));
     vec3 middle = hung_at.xyz + 0.5 * hung_at.w * along;
     Light light = light_in_crown(middle, one.shading, facing.y * sign(dot(facing, eye - middle)));
-    float tone = CARD_TONES.x + CARD_TONES.y * chance.z;
-    aside = turned(aside);
-#ifdef SMALL
-    light.sun *= all_send(mat3(aside, along, facing), normalize(middle - eye));
-    tell(along, aside, facing, tone, shows(0.0, 0.0, light), shows(tone, 0.0, light), shows(0.0, 1.0, light));
-#else
-    tell(along, aside, facing, tone, light.sun, light.sky, light.haze);
-#endif
+    tell_card(along, turned(aside), facing, CARD_TONES.x + CARD_TONES.y * chance.z, light);
 #endif
 }

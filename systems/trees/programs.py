@@ -8,14 +8,13 @@ from numpy.typing import NDArray
 
 from ...engine.gl.stream import Stream, release_all
 from ..frame.block import FrameBlock, joined
-from .card import CAST, FAR, LEAVES, NEAR, PICTURED, SMALL, WOOD, ModelOnCard
+from .card import CAST, FAR, LEAVES, NEAR, PICTURED, WOOD, ModelOnCard
 from .grow import MOST_TWIGS
 from .habit import HABITS
 from .standing import HUNG
 
 SORTS: Mapping[str, tuple[str, str, Mapping[str, str | int]]] = {
     NEAR: ("card", "card", {}),
-    SMALL: ("card", "card", {"SMALL": 1}),
     PICTURED: ("twig", "twig", {}),
     LEAVES: ("twig", "twig", {"LEAVES": 1}),
     WOOD: ("wood", "wood", {"STANDS": 1}),
@@ -24,15 +23,14 @@ SORTS: Mapping[str, tuple[str, str, Mapping[str, str | int]]] = {
 }
 """By what is drawn: vertex and fragment shader, and what they are told."""
 
-STAND, HANG, HANG_SMALL, HANG_LEAVES = "stand", "hang", "hang small", "hang leaves"
-"""What is made out: once a tree, once a twig on its card or on a small one, and once a twig leaf by leaf."""
+STAND, HANG, HANG_LEAVES = "stand", "hang", "hang leaves"
+"""What is made out: once a tree, once a twig on its card, and once a twig leaf by leaf."""
 
 _HUNG = HUNG.names or ()
 
 MADE: Mapping[str, tuple[str, tuple[str, ...], Mapping[str, str | int]]] = {
     STAND: ("stand", ("told", "open", "veil", "stands_in"), {}),
     HANG: ("hang", _HUNG, {"STANDS": 1}),
-    HANG_SMALL: ("hang", _HUNG, {"STANDS": 1, "SMALL": 1}),
     HANG_LEAVES: ("hang", _HUNG, {"STANDS": 1, "LEAVES": 1}),
 }
 """By that: the shader, what it writes, and what it is told."""
@@ -67,7 +65,7 @@ class Programs:
                     contents.insert(0, model.bark(program))
                     indices = model.triangles
             whole = [each for each in contents if len(each) > 2]
-            self._arrays[key] = self._ctx.vertex_array(program, whole, index_buffer=None if sort in (NEAR, SMALL) else indices)
+            self._arrays[key] = self._ctx.vertex_array(program, whole, index_buffer=None if sort == NEAR else indices)
         return self._arrays[key]
 
     def made(self, what: str, stream: Stream, told: Stream | None = None) -> moderngl.VertexArray:
