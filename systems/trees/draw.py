@@ -8,26 +8,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
-from ...components.viewer import Viewer
 from ...engine.gl.shaders import tell, tell_all, tell_asked
 from ...engine.gl.stream import Stream, release_all
 from ..around.outlook import Outlook
 from ..frame.block import FrameBlock
 from ..frame.feature import Heard, Part
-from ..space.frustum import beyond
 from ..space.grown import Grown
 from ..wind.blow import mean_wind
 from ..wind.mean import MeanWind
-from .card import CARDS, CAST, FAR, LEAVES, NEAR, QUAD, SMALL_CARDS, WOOD, WOODS, ModelOnCard, Numbers, drawn_of
+from .card import CARDS, CAST, FAR, LEAVES, NEAR, QUAD, SMALL_CARDS, WOOD, WOODS, ModelOnCard, Numbers
 from .group import Group
 from .kind import KindOnCard
-from .model import Model
+from .leafy import leaf_by_leaf, leafy
 from .motion import PERIOD
 from .programs import HANG, HANG_LEAVES, STAND, Programs
 from .shade import ShadeMap
-from .standing import LEAFY, PLACED, SHOWN, TOLD, Standing, columns_of, shown, shows
+from .standing import LEAFY, PLACED, TOLD, Standing, columns_of, shown, shows
 from .twig import BEHIND, LEAF_PIXELS
-from .wood import AWAY, OPAQUE, SOLID, SWAYS, THINNEST
+from .wood import AWAY, OPAQUE, SOLID, SWAYS, THINNEST, nearest_ahead
 
 EVERY_LEAF = -2.0, -1.0
 """What is told in place of `LEAF_PIXELS` where all twigs are drawn leaf by leaf."""
@@ -244,16 +242,15 @@ class TreePart(Part):
         told["shows"] = shows(rows["ring"], np.hypot(middle[:, 0] - eye[0], middle[:, 2] - eye[2]))
         near, far = told["gone"] < 1.0, told["gone"] > 0.0
         large = focal * scale * kind.habit.leaf.length / LEAF_PIXELS[0]
-        leafy = large > off - scale * ball
+        large_leaves = large > off - scale * ball
         if self.every_leaf:
             twigs = leaf_by_leaf(told[near], 0)
         else:
             twigs = np.concatenate([
                 np.zeros(0, LEAFY),
-                *(_leafy(grown, told[number], outlook.viewer, large[number]) for number in np.flatnonzero(leafy)),
+                *(leafy(grown, told[number], outlook.viewer, large[number]) for number in np.flatnonzero(large_leaves)),
             ])  # fmt: skip
-        reach = (1.0 + SWAYS) * ball * scale * np.linalg.norm(clip[3, :3])
-        ahead = middle @ clip[3, :3] + clip[3, 3] - reach
+        ahead = nearest_ahead(clip, middle, eye, (1.0 + SWAYS) * scale[:, None] * (ball, grown.radius))
         wide = THINNEST * np.maximum(ahead, AWAY) / (focal * scale)
         model.write(told[near], wide[near], twigs, told[far][::-1])
         if self.every_leaf:
@@ -345,9 +342,9 @@ class TreePart(Part):
         for kind in self._kinds:
             for model in kind.models:
                 for sort, name, first, vertices in (
-                    *((WOOD, name, *_wood(model, name, soft=soft, whole=all_wood)) for name in WOODS),
                     (LEAVES, LEAVES, 0, QUAD * kind.habit.leaf.quads),
                     *((NEAR, name, 0, len(kind.outlines[name in SMALL_CARDS])) for name in CARDS),
+                    *((WOOD, name, *_wood(model, name, soft=soft, whole=all_wood)) for name in WOODS),
                     (FAR, FAR, 0, QUAD),
                 ):
                     stream = model.hung.get(name, model.streams[name])
@@ -373,27 +370,6 @@ class TreePart(Part):
         for each in (self._shade, self._placed, self._stood):
             if each is not None:
                 each.release()
-
-
-def _leafy(model: Model, told: np.void, viewer: Viewer, within: float) -> NDArray[np.void]:
-    """Return the twigs of a tree, a record of `SHOWN`, that are so near [m], and in the picture, records of `LEAFY`."""
-    (cosine, sine), scale = told["turn"].tolist(), float(told["scale"])
-    x, y, z = model.twigs["foot"].astype(np.float64).T
-    foot = scale * np.stack([cosine * x - sine * z, y, sine * x + cosine * z], axis=1) + told["root"]
-    off = np.linalg.norm(foot - viewer.eye, axis=1)
-    near = np.argsort(off)[: int((off < within).sum())]
-    near = near[near < drawn_of(len(model.twigs), float(told["keep"] * (1.0 - told["gone"]) * told["foliage"]))]
-    reach = scale * (2.0 * model.habit.twigs.length + SWAYS * model.height)
-    return leaf_by_leaf(told, near[beyond(foot[near], viewer.sides) <= reach])
-
-
-def leaf_by_leaf(trees: NDArray[np.void] | np.void, twigs: NDArray[np.intp] | int) -> NDArray[np.void]:
-    """Return twigs of trees, by their numbers, as records of `LEAFY`."""
-    rows = np.zeros(np.broadcast_shapes(np.shape(trees), np.shape(twigs)), LEAFY)
-    for name in SHOWN.names or ():
-        rows[name] = trees[name]
-    rows["first"] = twigs
-    return rows
 
 
 def _wood(model: ModelOnCard, name: str, *, soft: bool, whole: bool) -> tuple[int, int]:

@@ -33,6 +33,9 @@ LEAFY = 0.95
 GOES = 0.75
 """Share of its twigs left to what is drawn of it far off from which on its wood goes."""
 
+FLAT = 1e-9
+"""Determinant below which a matrix shows no perspective."""
+
 SWAYS = 0.1
 """How much nearer or farther off the wind sways what is a tree's, of its reach."""
 
@@ -53,6 +56,21 @@ class Parts(NamedTuple):
 
     hard: bool = False
     """Whether thin ones that cover half of a pixel count as covering all of it: leaves hide their edges."""
+
+
+def nearest_ahead(clip: Doubles, middle: Doubles, eye: Doubles, reach: Doubles, /) -> Doubles:
+    """Return how far ahead of the eye what is seen of trees lies at least, shape (n,) [m].
+
+    `reach` is how far each goes from its middle, and how far aside (n, 2) [m]: no part of it is nearer than that leaves
+    over of its distance along the ground, nor farther from straight ahead than a picture's corner.
+    """
+    ahead = middle @ clip[3, :3] + clip[3, 3] - reach[:, 0] * np.linalg.norm(clip[3, :3])
+    rows = clip[[0, 1, 3], :3]
+    if abs(np.linalg.det(rows)) < FLAT:
+        return np.asarray(ahead)
+    corners = np.linalg.solve(rows, np.array([[-1.0, 1.0, -1.0, 1.0], [-1.0, -1.0, 1.0, 1.0], [1.0] * 4]))
+    off = np.hypot(middle[:, 0] - eye[0], middle[:, 2] - eye[2]) - reach[:, 1]
+    return np.asarray(np.maximum(ahead, off / np.linalg.norm(corners, axis=0).max()))
 
 
 def parts(radii: Doubles, wide: Doubles, rows: NDArray[np.void], /) -> Parts:
