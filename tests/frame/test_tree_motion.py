@@ -72,9 +72,9 @@ def test_w4_an_oak_in_a_breeze_swings_with_the_frequencies_of_trunks_limbs_and_l
         shown = rows["hung_at"][:, 3] > 0.0
         foot.append(rows["hung_at"][shown, :3].astype(np.float64))
         told = rows["hung_axes"][shown]
-        axes.append(np.stack([told[:, 3] & 0xFFFF, told[:, 3] >> 16], axis=1) / 65535.0)
+        axes.append(np.stack([told[:, 0] & 0xFFFF, told[:, 0] >> 16], axis=1) / 65535.0)
         prairie.advance(1.0 / RATE)
-    places, facing = np.stack(foot), np.stack(axes)
+    places, along = np.stack(foot), np.stack(axes)
     assert places.shape[1] > 200
     whole = places.mean(axis=1)[:, ::2]  # the crown in the mean: limbs swing each in their own time
     hertz, share = power(whole)
@@ -83,7 +83,7 @@ def test_w4_an_oak_in_a_breeze_swings_with_the_frequencies_of_trunks_limbs_and_l
     limbs = (hertz > 0.8) & (hertz < 3.4)
     assert share[limbs].sum() > 0.5
     assert share[hertz > 3.4].sum() < 0.05
-    hertz, share = power(facing.reshape(COUNT, -1))
+    hertz, share = power(along.reshape(COUNT, -1))
     assert share[(hertz > 2.6) & (hertz < 11.2)].sum() > 0.9
 
 
