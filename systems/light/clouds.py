@@ -31,7 +31,7 @@ of what is behind is seen: so edges begin softly."""
 SOFT = 0.05
 """How much thinner the map may be at an edge than where clouds would begin if edges were hard."""
 
-LIT, DEEPER = (0.68, 0.9, 1.06), (0.9, 0.7, 0.7)
+LIT, DEEPER = (0.74, 0.9, 1.06), (0.75, 0.7, 0.7)
 """How much of the sun's light comes to a slice is the square of the first, less the second for each 1 that the map is
 denser there than at its edge: of the lowest to the highest."""
 
