@@ -163,8 +163,8 @@ def tell(program: moderngl.Program, name: str, *value: float) -> None:
             told[1].value = value if len(value) > 1 else value[0]
 
 
-def tell_asked(program: moderngl.Program, *numbers: Mapping[str, tuple[float, ...]]) -> None:
-    """Tell a program those of some numbers and vectors, by their names, that it asks for."""
+def tell_asked(program: moderngl.Program, *numbers: Mapping[str, tuple[float, ...]]) -> frozenset[str]:
+    """Tell a program those of some numbers and vectors that it asks for, and return all names it asks for."""
     asked = program.extra.get(ALL)
     if asked is None:
         uniforms = frozenset(name for name in program if isinstance(program[name], moderngl.Uniform))
@@ -172,6 +172,7 @@ def tell_asked(program: moderngl.Program, *numbers: Mapping[str, tuple[float, ..
     for each in numbers:
         for name in asked[0] & each.keys():
             tell(program, name, *each[name])
+    return frozenset(asked[0])
 
 
 def _asked(program: moderngl.Program, name: str) -> list[Any]:

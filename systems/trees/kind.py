@@ -119,12 +119,12 @@ class KindOnCard:
 
     def tell(self, program: moderngl.Program, model: ModelOnCard, *numbers: Numbers, wood: bool = False) -> None:
         """Tell a program of the kind, a model, and what else it is to know; bind what it reads, or what wood does."""
-        tell_asked(program, self._numbers, model.numbers, *numbers)
-        model.twigs.texture.use(self.units["tree_twigs"])
-        if wood or self.card is not None:
-            (self.bark if wood or self.card is None else self.card).use(self.units["tree_cards"])
-        if model.far is not None:
-            model.far.use(self.units["tree_far"])
+        asked = tell_asked(program, self._numbers, model.numbers, *numbers)
+        cards = self.bark if wood else self.card
+        reads = {"tree_twigs": model.twigs.texture, "tree_cards": cards, "tree_far": model.far}
+        for name in asked & reads.keys():
+            if (texture := reads[name]) is not None:
+                texture.use(self.units[name])
 
     def release(self) -> None:
         """Give everything back."""

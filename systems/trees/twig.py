@@ -29,7 +29,7 @@ LEAST_KEPT = 0.04
 LEAF_PIXELS = 14.0, 22.0
 """Length of a leaf from which on twigs begin to be drawn leaf by leaf, and from which all are [pixels]."""
 
-BEHIND = 3.0
+BEHIND = 1.5
 """How far behind them leaves must have nothing for their soft edges to be drawn [m]: others are of their colour."""
 
 SHOOTS_OFF, SHOOTS_LONG = 0.85, 0.62
