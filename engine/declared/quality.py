@@ -66,6 +66,9 @@ class Quality(Declaration):
     carpet: int = Field(default=128, ge=8, le=1024)
     """Texels along a side of a carpet image."""
 
+    coarse: bool = False
+    """Whether the carpet is drawn with one image of each kind, and the mean of the ground between: at half the cost."""
+
     pixels: float = Field(default=1.0, ge=0.25, le=1.0)
     """Part of the picture's width and height that is drawn; below 1 it is scaled up afterwards."""
 
@@ -90,6 +93,7 @@ def _quality(
     strip_rings: list[tuple[int, int, int, int, float]],
     carpet_to: int,
     *,
+    coarse: bool = False,
     pixels: float = 1.0,
 ) -> Quality:
     return Quality(
@@ -100,19 +104,20 @@ def _quality(
             for to, strips, columns, sections, texel in strip_rings
         ],
         carpet_to=carpet_to,
+        coarse=coarse,
         pixels=pixels,
     )
 
 
-_LOW = 160, [(1, 3), (8, 3)], [(8, 3, 1, 2, 0.012), (16, 2, 1, 1, 0.012)], 32
+_LOW = 100, [(1, 3), (8, 3)], [(11, 2, 1, 1, 0.012)], 32
 
 HALF = 0.5
 """Part of the pixels, across and up, of `minimal`: a quarter of them all."""
 
 PRESETS: dict[str, Quality] = {
-    "minimal": _quality(*_LOW, pixels=HALF),
-    "low": _quality(*_LOW),
-    "medium": _quality(320, [(1, 4), (6, 4)], [(6, 5, 1, 2, 0.012), (6, 4, 1, 2, 0.01), (16, 2, 1, 1, 0.012)], 36),
+    "minimal": _quality(*_LOW, coarse=True, pixels=HALF),
+    "low": _quality(*_LOW, coarse=True),
+    "medium": _quality(320, [(1, 4), (6, 4)], [(6, 4, 1, 2, 0.012), (16, 2, 1, 1, 0.012)], 36, coarse=True),
     "high": _quality(
         500,
         [(1, 8), (6, 5)],

@@ -6,6 +6,10 @@
 #include "systems/show/carpet/met.glsl"
 #include "systems/show/carpet/reading.glsl"
 #include "systems/show/carpet/floor.glsl"
+#ifdef COARSE
+#include "lib/tone.glsl"
+#include "systems/show/carpet/among.glsl"
+#endif
 
 // No more than 60 numbers are sure to come through: with many kinds, pixels work out themselves what FEW kinds bring along.
 #if KINDS > 4
@@ -42,13 +46,22 @@ BROUGHT ByKind riper;   // by kind: how much more of its heads than an image sho
 #endif
 FEW float stands;         // how high the grass stands, of its height at rest
 FEW float strips_before;  // how much strips show of what lines of sight come through above the carpet
+#ifdef COARSE
+out vec2 blown;           // how far leaves are moved [m]
+out float on_level;       // slope on level ground of a line of sight that goes as far through the grass
+out float amid;           // how much of the grass is seen among strips
+out vec4 lies_at;         // places along blades and heights are taken to be so much, and by so much more for each of their images
+#else
 FEW float sways;          // how far leaves sway, of the wind's message [m]
 FEW vec2 slow;            // slow noises of the pigment, where leaves are seen
+#endif
 OF_SOIL float elevation;  // of elevation_seen
+#ifndef COARSE
 OF_SOIL vec3 sunlit;      // radiance of the soil without any grass: of the sun's light,
 OF_SOIL vec3 skylit;      // and of the sky's
 OF_SOIL float soil_way;   // how many leaves the sun's light meets
 OF_SOIL vec3 lush;        // pigment of the understorey, of that of the ground between
+#endif
 
 const float UNEVENNESS = 0.4;  // of the grass's height
 const vec4 UNEVEN_WAVES = vec4(5.3, 4.7, 0.2, 0.7);  // [1/m], along x, along z, and across the latter; phase
@@ -69,18 +82,40 @@ void hand_on(Laid laid) {
     stands = laid.stands;
 }
 
+#ifdef COARSE
+// Where leaves are met that stand among strips, over a crest and in the wind, of where images show them.
+void see_among(float slope, vec2 bent) {
+    vec2 among = vec2(1.0);
+    if (carpet < 1.0)
+        among = among_strips(come_through(place.xz, max(slope, TINY), carpet, tall, stands).y, on_level, carpet, stands, dense);
+    float shallow = shallower(deepest(slope, crest, tall * stands), on_level, carpet, crest, stands, dense);
+#ifndef HEADS
+    bent *= higher(on_level, dense);
+#endif
+    amid = among.x;
+    lies_at = vec4((1.0 - shallow) * bent, among.y * shallow * bent);
+}
+#endif
+
 // The light on what is met.
-void light_up(float slope, float on_level, ByKind grows, vec2 message) {
+void light_up(float slope, float on, ByKind grows, vec2 message) {
     vec3 there = seen_at(place, slope, tall, dense);
     vec2 messages[KINDS];
     for (int kind = 0; kind < KINDS; kind++)
         messages[kind] = message;
-    Canopy canopy = canopy_lit(met, slope, on_level, there, lie_at(there.xz), messages);
+    Canopy canopy = canopy_lit(met, slope, on, there, lie_at(there.xz), messages);
 #ifndef HEADS  // among plants in flower, grass is as bright as its images show it
-    canopy.bent.y *= tips_met(met, grows, on_level);
+    canopy.bent.y *= tips_met(met, grows, on);
+#endif
+#ifdef COARSE
+    vec3 fresh = stretch(slow_seen(there, slope, tall));
+    canopy.light.sun *= fresh * fresh;  // a factor of the pigment, whose square is what is sent
+    canopy.light.sky *= fresh * fresh;
+    see_among(slope, canopy.bent.yz);
+#else
+    slow = slow_seen(there, slope, tall);
 #endif
     lit = bundled(veiled(canopy.light, place), canopy.bent);
-    slow = slow_seen(there, slope, tall);
 }
 
 #ifndef EDGED
@@ -89,11 +124,16 @@ void light_soil(vec3 ground, Laid laid) {
     Lie lies = lie_at(ground.xz);
     ByKind grows = grown_at(ground.xz, laid);
     Soil soil = soil_lit(ground, lies, grows, 1.0 - haze_at(place));
+#ifdef COARSE
+    vec3 pigment = lying_pigment(textureLod(repeating, vec2(0.5), COARSEST).gb, understorey_of(lies, grows));
+    soil_seen = shown_of(soil.seen * pigment * pigment + lit[2].rgb);
+#else
     soil_seen = soil.seen;
     sunlit = soil.sunlit;
     skylit = soil.skylit;
     soil_way = soil.way;
     lush = understorey_of(lies, grows);
+#endif
 }
 #endif
 
@@ -109,14 +149,21 @@ void main() {
     hand_on(laid);
     float slope = viewing_slope(rise, place), from_above = max(slope, FLATTEST);
     strips_before = come_through(place.xz, from_above, carpet, tall, stands).x;
-    float on_level = max(level_slope(max(slope, 0.0), crest, carpet, tall, stands), FLATTEST);
+#ifndef COARSE
+    float on_level;
+#endif
+    on_level = max(level_slope(max(slope, 0.0), crest, carpet, tall, stands), FLATTEST);
     ByKind ripe;
     met = shared_out(kinds_met(laid.grows, on_level, laid.left, left_by_strips(1.0 - strips_before, carpet), ripe), laid.grows, on_level);
 #ifdef HEADS
     riper = ripe;
 #endif
     elevation = elevation_seen(on_level, dense);
+#ifdef COARSE
+    blown = sways_by(met, laid.message) * laid.message;
+#else
     sways = sways_by(met, laid.message);
+#endif
     light_up(slope, on_level, laid.grows, laid.message);
 #ifndef EDGED
     light_soil(seen_behind(place, laid.ground, from_above), laid);

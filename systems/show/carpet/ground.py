@@ -14,11 +14,11 @@ from ....engine.gl.rasteriser import anisotropy
 from ....engine.gl.shaders import Texts
 from ....engine.gl.shelf import Shelves
 from ....engine.gl.stream import release_all
-from ...frame.block import FrameBlock, joined
-from .layer import BARE, EDGED, EDGED_CARPET, EVEN, GroundShelf, Layer
+from ...frame.block import EVERYWHERE, FrameBlock, joined
+from .layer import BARE, EDGED, EDGED_CARPET, EVEN, UNDER, GroundShelf, Layer
 from .stock import CarpetStock
 from .textures import image_count
-from .tiles import TILE, tile_grid
+from .tiles import GRID, TILE, tile_grid
 
 Defines = dict[str, str | int]
 """What a program is told."""
@@ -32,6 +32,12 @@ OUTLINE = 0.88
 APART = 1e-6
 """How much farther what lies under the carpet is taken to be, of the depths that there are: kilometres away these are
 too coarse to part the two."""
+
+MOST_COARSE = 4
+"""Kinds of grass that there are at most for a coarse carpet: of more, corners cannot bring all along that it needs."""
+
+COARSER = 2
+"""How many times as far apart the points of the mesh are where it is coarse."""
 
 PUSHED = 2.0 * APART
 """The same of ground that is drawn before any grass."""
@@ -54,13 +60,15 @@ class GroundPainter:
         *,
         side: int,
         seed: int,
+        coarse: bool = False,
     ) -> None:
         self.stock, self._block = stock, block
         self._came: tuple[float, ...] = ()
         self._raised = RAISED, OUTLINE
         self.units, self._side = units, side
         self._ctx, self.rims = ctx, ctx.texture((1, 1), 1, dtype="f4")
-        corners, indices = tile_grid()
+        self._wider = COARSER if coarse else 1
+        corners, indices = tile_grid(GRID // self._wider)
         self.grid = ctx.buffer(corners), ctx.buffer(indices)
         self.shelves = Shelves(partial(GroundShelf, ctx, side))
         self.bare: list[Layer] = []
@@ -73,6 +81,7 @@ class GroundPainter:
         """The carpet in shadow maps."""
         self.is_trodden = False
         """Whether anybody treads the grass, or has: then pixels of the carpet ask for that, which costs."""
+        self._is_coarse = coarse and len(stock.before.crown) <= MOST_COARSE
         self._lay_out(seed)
 
     def _lay_out(self, seed: int) -> None:
@@ -97,8 +106,11 @@ class GroundPainter:
             (self.edged, "carpet", known | trodden | {"EDGED": 1}),
             (self.casting, "cast", {}),
         ]
-        for among, name, defines in wanted:
+        for among, name, told in wanted:
+            defines = told | {"WIDER": self._wider}
             vertex, fragment = f"systems/show/carpet/{name}.vert", f"systems/show/carpet/{name}.frag"
+            if self._is_coarse and among is self.carpet and not among:
+                defines, fragment = defines | {"COARSE": 1}, "systems/show/carpet/coarse.frag"
             make = partial(joined, ctx, self._block, self.units, vertex, fragment, defines)
             texts = partial(self._block.texts, vertex, fragment, defines)
             among.append(Layer(make, texts, self.shelves, self.grid))
@@ -137,6 +149,12 @@ class GroundPainter:
         return bool(record["maps_shown"] or record["shades_grid"][3] or self._block.earth)
 
     @property
+    def _is_odd(self) -> bool:
+        """Whether the carpet ends with the terrain, or lies on a game's own ground: the coarse one cannot."""
+        record = self._block.record[0]
+        return self._is_coarse and bool(record["over_hosts"] or record["mesh_high"][0] < EVERYWHERE)
+
+    @property
     def _is_lamplit(self) -> bool:
         """Whether lamps shine: then pixels of the carpet ask for their light."""
         return bool(self._block.record["lamps_grid"][0, 3])
@@ -144,7 +162,8 @@ class GroundPainter:
     def write(self, tiles: Sequence[NDArray[np.void]]) -> None:
         """Send the tiles, as `by_layer` parts them."""
         shelf = self.shelves.now
-        for stream, some in zip(shelf.streams, tiles, strict=True):
+        bare, even, *edged = tiles
+        for stream, some in zip(shelf.streams, (bare[::-1], even, *edged, even[::-1]), strict=True):
             stream.write(some)
         shelf.tiles = tiles
 
@@ -160,7 +179,7 @@ class GroundPainter:
         """Have something to draw for each program."""
         self.is_trodden, shelf = True, self.shelves.now
         shelf.tiles = None
-        for stream in shelf.streams[EDGED:]:
+        for stream in shelf.streams[EDGED : EDGED_CARPET + 1]:
             if not stream.count:
                 stream.write(np.zeros(1, TILE))
 
@@ -221,13 +240,13 @@ class GroundPainter:
     def draw_under(self) -> int:
         """Draw what lies under the carpet; return the number of draw calls."""
         self.use()
-        return self.under[self.is_trodden].draw(EVEN) + self.edged[1].draw(EDGED_CARPET)
+        return self.under[self.is_trodden].draw(UNDER) + self.edged[1].draw(EDGED_CARPET)
 
     def draw_carpet(self, part: int = WHOLE) -> int:
         """Draw the carpet, or a part of it: its outlines let through what is behind; return the draw calls."""
         self.use()
         rare = self._is_rare or self.is_trodden or any(self._came)
-        even = self.carpet[3 if rare else 2 if self._is_lamplit else self._is_cut]
+        even = self.carpet[3 if rare else 2 if self._is_lamplit or self._is_odd else self._is_cut]
         return even.draw(EVEN, part=part) + self.edged[2].draw(EDGED_CARPET, part=part)
 
     def cast(self, light: tuple[float, float, float], /) -> int:

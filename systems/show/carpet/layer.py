@@ -9,8 +9,11 @@ from ....engine.gl.shelf import Shelves
 from ....engine.gl.stream import Stream, release_all
 from .tiles import TILE
 
-BARE, EVEN, EDGED, EDGED_CARPET = STREAMS = range(4)
-"""What tiles are parted into, as `by_layer` has them."""
+BARE, EVEN, EDGED, EDGED_CARPET, UNDER = STREAMS = range(5)
+"""What tiles are parted into, as `by_layer` has them, and once more those of the even carpet: near to far.
+
+So are bare ones. They are opaque: what the nearer ones hide costs nothing.
+"""
 
 
 class GroundShelf:

@@ -54,7 +54,7 @@ STEP = 0.4
 class CarpetPainter(RepresentationPainter):
     """Draws the ground and the carpet on it."""
 
-    def __init__(self, canvas: Canvas, stock: CarpetStock, ground: Ground, side: int) -> None:
+    def __init__(self, canvas: Canvas, stock: CarpetStock, ground: Ground, side: int, *, coarse: bool = False) -> None:
         self._ground, self._spacing = ground, finest_spacing(ground.terrain, ground.patch)
         self._whole_to = canvas.reach[-2] - int(border_of(canvas.reach[-2])) - 1
         self._units = canvas.units
@@ -70,7 +70,9 @@ class CarpetPainter(RepresentationPainter):
         self._deep = False
         """Whether it writes depth only where it covers at least half a pixel."""
         self._heard: tuple[NDArray[np.int32], int, CarpetKept] | None = None
-        self.ground = GroundPainter(canvas.ctx, canvas.block, stock, canvas.units, side=side, seed=canvas.seed)
+        self.ground = GroundPainter(
+            canvas.ctx, canvas.block, stock, canvas.units, side=side, seed=canvas.seed, coarse=coarse
+        )
 
     def texts(self) -> Iterator[Texts]:
         """Return what the programs that are not there yet are made of."""

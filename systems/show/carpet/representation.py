@@ -106,4 +106,4 @@ class CarpetRepresentation(Representation):
 
     def painter(self, canvas: Canvas, /) -> CarpetPainter:
         """Return a painter of ground and carpet."""
-        return CarpetPainter(canvas, self.stock, self.ground, 2 * canvas.reach[-1] + 1)
+        return CarpetPainter(canvas, self.stock, self.ground, 2 * canvas.reach[-1] + 1, coarse=self.quality.coarse)

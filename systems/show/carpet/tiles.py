@@ -121,12 +121,15 @@ def _nearest(corners: Tiles, side: float, place: tuple[float, float]) -> Tiles:
     return away
 
 
-def tile_grid() -> tuple[NDArray[np.float32], NDArray[np.int32]]:
-    """Return a tile's grid points (n, 2), and the corners of its triangles among them, (m, 6)."""
-    line = np.arange(GRID + 1)
+def tile_grid(quads: int = GRID, /) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+    """Return a tile's grid points (n, 2), and the corners of its triangles among them, (m, 6).
+
+    Along a side there are so many `quads`.
+    """
+    line = np.arange(quads + 1)
     corners = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2).astype(np.float32)
-    first = (np.arange(GRID)[:, None] * (GRID + 1) + np.arange(GRID)).reshape(-1, 1)
-    quad = np.array([0, GRID + 1, 1, 1, GRID + 1, GRID + 2])
+    first = (np.arange(quads)[:, None] * (quads + 1) + np.arange(quads)).reshape(-1, 1)
+    quad = np.array([0, quads + 1, 1, 1, quads + 1, quads + 2])
     return corners, (first + quad).astype(np.int32)
 
 

@@ -1,0 +1,137 @@
+// The carpet as cheaper presets have it where nothing is cut, trodden or lit by lamps: one image of each kind, one light for all of
+// them, and of the ground between no more than the mean. Corners of the mesh make out the rest that carpet.frag does by pixel.
+#define PIXELS_ASK
+#include "lib/light.glsl"
+#include "lib/tone.glsl"
+#include "systems/show/carpet/among.glsl"
+#include "systems/show/carpet/outline.glsl"
+#include "systems/show/carpet/texel.glsl"
+
+in vec3 place;
+in float carpet;
+in vec2 rise;
+in float crest;
+in float past;
+in float tall;
+in float dense;
+in ByKind met;
+in vec3 soil_seen;  // as it is shown
+in mat4 lit;
+#ifdef HEADS
+in ByKind riper;
+#endif
+in float stands;
+in vec2 blown;
+in float on_level;
+in float amid;
+in vec4 lies_at;
+in float elevation;
+
+out vec4 pixel;
+
+uniform int part;  // what is drawn: 0, all of it; 1, where it covers at least half a pixel; 2, the rest
+const float HALF = 0.5;
+const float LEAST_COVER = 0.05;  // what is seen of grass over a crest stands for all of it where it covers so much at least
+const vec2 ENDS = vec2(0.5, 1.5);  // how deep lines of sight come, of the carpet's share, where grass behind is seen, and ground
+const int ROWS = 40503;  // by which cells are numbered, row after row
+const float CONTRAST = 1.3;  // of what is seen of several kinds, which are lit as one: they are as far from their mean as if each were lit
+const float BITS = 16.0;  // of what is drawn for a patch, in each half
+
+// Where one image shows what a line of sight meets, which of each kind's that is, and how.
+struct Look {
+    vec2 at;
+    int image;
+    ivec2 between;  // the images of both slopes
+    float level;
+    float grain;   // how far what is read is from its mean, of how far it is in images
+};
+
+// How far what is read at a level is from its mean, where a pixel is so broad [m].
+float grain_seen(float level, float across) {
+    float steep = smoothstep(STEEP.x, STEEP.y, on_level), filtered = clamp(level + FILTERED - log2(SHARP), 0.0, 1.0);
+    float far = inversesqrt(1.0 + across / (FEATURE * max(tall, LOWEST_GRASS)));
+    return CONTRAST * mix(far * mix(1.0, GRAIN, filtered), mix(1.0, GRAIN_ABOVE.x, filtered), steep);
+}
+
+// Of the images of two slopes a patch shows either, the more often the nearer it is.
+Look look_along(vec2 heading) {
+    float patches = 1.0 / patch_side;
+    vec2 at = place.xz * patches, cell = floor(at), here = fract(at) - blown * patches - 0.5;
+    uint drawn = scramble(uint(int(cell.x) * ROWS + int(cell.y) ^ stock.y));
+    float upper = float(drawn >> UPPER_HALF);
+    int low = min(int(elevation), SLOPES - 2), slope = min(int(elevation + upper * exp2(-BITS)), low + 1), side = int(drawn >> UPPER_HALF) & (HEADINGS - 1);
+    int model = int((float(drawn & 65535u) + 0.5) * (float(stock.x) * exp2(-BITS)));
+    float longer = slopes[slope] / max(on_level, FLATTEST);
+    float along = dot(here, heading) * (1.0 - longer) / longer * (1.0 - smoothstep(ROOTS_SEEN.x, ROOTS_SEEN.y, on_level));
+    vec2 beside = vec2(-heading.y, heading.x);
+    float across = max(abs(dot(dFdx(place.xz), beside)), abs(dot(dFdy(place.xz), beside)));
+    float level = log2(max(across * patches, THINNEST_PIXEL) * (SHARP * float(textureSize(images, 0).x)));
+    ivec3 image = (model * SLOPES + ivec3(low, low + 1, slope)) * HEADINGS + side;
+    return Look(rotated(here + heading * along, turned(heading, side)) + 0.5, image.z, image.xy, level, grain_seen(level, across));
+}
+
+// What is met of all kinds: pigment and height, each of so much grass; and how much taller it is than the mean.
+struct Grass {
+    vec3 pigment;
+    float height;
+    float covers;
+    float taller;
+};
+
+void add_kind(inout Grass sum, int kind, Look look, vec2 facing) {
+    float part = OF(met, kind), from = OF(first, kind);
+    int coarsest = int(log2(float(textureSize(images, 0).x)) + 0.5);
+    vec4 low = layer_mean(images, int(from) + look.between.x, coarsest), high = layer_mean(images, int(from) + look.between.y, coarsest);
+    vec4 mean = mix(low, high, fract(elevation)), own = look.image == look.between.x ? low : high;
+    vec4 image = max(mean + (layer_at(images, vec3(look.at, from + float(look.image)), look.level) - own) * look.grain, 0.0);
+    float covers = image.a;
+    vec3 shown = min(image.rgb / max(image.a, LEAST_TEXEL), 1.0);
+    vec2 at = lies_at.xy + lies_at.zw * shown.rg;
+#ifdef HEADS
+    float ripe = OF(riper, kind);
+    at.x += ripe * (ripe > 0.0 ? 1.0 - at.x : at.x);
+    covers = OF(bears, kind) > 0.0 ? image.a / max(mean.a, LEAST_MEAN) : covers;
+#endif
+    covers = part * min(covers, 1.0);
+    sum.pigment += covers * pigment_at(kind, at.x) * grain_at(kind, facing * (2.0 * shown.b - 1.0));
+    sum.height += covers * at.y * OF(tops, kind);
+    sum.covers += covers;
+    sum.taller += part * (shown.g * mean.a / max(mean.g, LEAST_TEXEL) - 1.0);
+}
+
+Grass grass_seen(vec2 heading) {
+    Look look = look_along(heading);
+    Grass sum = Grass(vec3(0.0), 0.0, 0.0, 0.0);
+    for (int kind = 0; kind < KINDS; kind++)
+        if (OF(met, kind) > LEAST_MET)
+            add_kind(sum, kind, look, doubled(heading));
+    float all = 1.0 / max(sum.covers, LEAST_TEXEL);
+    return Grass(sum.pigment * all, sum.height * all, sum.covers, sum.taller);
+}
+
+// How much of what is behind an outline the grass hides, that of a crest or of a rim, where lines of sight come so deep.
+float hides_behind(float slope, float deep, float stands_out) {
+    float leaves = past < NO_RIM ? RIM * sqrt(stands_out) * past * past : CREST * stands_out * deep * deep / max(slope, TINY);
+    return mix(1.0, 1.0 - comes_through(dense * leaves), min(tall / (2.0 * LOWEST_GRASS), 1.0));
+}
+
+void main() {
+    float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / patch_side))) : 0.0, covered = 1.0;
+    vec3 color = soil_seen;
+    if (share > 0.0) {
+        Grass grass = grass_seen(heading_to(place.xz));
+        Light light = unbundled(lit);
+        if (any_casters())
+            light = shaded(light, past_casters(place), 1.0);
+        vec3 leaves = shown_of(shade(leaf_at(grass.pigment, grass.height), light));
+        float slope = max(viewing_slope(rise, place), 0.0), deep = deepest(slope, crest, tall * stands);
+        float covers = amid * mix(min(grass.covers / LEAST_COVER, 1.0), grass.covers, smoothstep(ENDS.x * share, ENDS.y * share, deep));
+        color = color * max(1.0 - covers, 0.0) + leaves * covers;
+        covered = mix(1.0, hides_behind(slope, deep, standing_out(grass.taller, share)), min(share / SHOWN_FROM, 1.0));
+    }
+    if (covered < max(NOTHING, STANDING * (1.0 - share)))
+        discard;
+    pixel = vec4(color, 1.0) * covered;
+    if (part != 0 && pixel.a < HALF == (part == 1))
+        discard;
+}
