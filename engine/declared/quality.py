@@ -67,7 +67,8 @@ class Quality(Declaration):
     """Texels along a side of a carpet image."""
 
     coarse: bool = False
-    """Whether the carpet is drawn with one image of each kind, and the mean of the ground between: at half the cost."""
+    """Whether the carpet has one image of each kind and the mean of the ground between, and the ground's mesh half as
+    many points along a side: at about half the cost. With more than four kinds, only the mesh is coarser."""
 
     pixels: float = Field(default=1.0, ge=0.25, le=1.0)
     """Part of the picture's width and height that is drawn; below 1 it is scaled up afterwards."""
@@ -109,14 +110,12 @@ def _quality(
     )
 
 
-_LOW = 100, [(1, 3), (8, 3)], [(11, 2, 1, 1, 0.012)], 32
-
 HALF = 0.5
 """Part of the pixels, across and up, of `minimal`: a quarter of them all."""
 
 PRESETS: dict[str, Quality] = {
-    "minimal": _quality(*_LOW, coarse=True, pixels=HALF),
-    "low": _quality(*_LOW, coarse=True),
+    "minimal": _quality(100, [(1, 3), (7, 3)], [(12, 2, 1, 1, 0.012)], 32, coarse=True, pixels=HALF),
+    "low": _quality(160, [(1, 3), (8, 3)], [(12, 2, 1, 1, 0.012)], 32, coarse=True),
     "medium": _quality(320, [(1, 4), (6, 4)], [(6, 4, 1, 2, 0.012), (16, 2, 1, 1, 0.012)], 36, coarse=True),
     "high": _quality(
         500,

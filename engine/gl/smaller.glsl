@@ -33,7 +33,7 @@ bool has_host(float depth) {
 // Within how many of the host's pixels one texel's colour goes over into the next one's. Evenly, over a whole texel, a quarter of the
 // contrast would be lost, and a cubic takes three samples and is no nearer to the truth (FLIP, half the pixels across); within one,
 // texels would be squares.
-const float GOES_OVER = 1.15;
+const float GOES_OVER = 1.1;
 
 // Filtered up.
 vec4 sharp(vec2 place) {

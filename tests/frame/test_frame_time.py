@@ -112,7 +112,10 @@ def test_n11_with_fewer_pixels_colours_and_depth_are_the_same_but_for_their_deta
 
 
 @pytest.mark.slow
-def test_minimal_shows_what_low_does_with_a_quarter_of_the_pixels(stage: Stage, load: Load, at: At) -> None:
+def test_minimal_draws_a_quarter_of_the_pixels(
+    stage: Stage, load: Load, at: At, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(PRESETS, "low", PRESETS["minimal"].model_copy(update={"pixels": 1.0}))
     at(PRESETS["minimal"].pixels, 1.0)
     held = shown(stage, load(preset="low"))[0]
     at(1.0, 1.0)

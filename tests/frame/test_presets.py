@@ -129,7 +129,7 @@ def test_r1_the_image_of_a_wide_enough_plain_has_the_papers_number_of_blades(pre
     assert seen("wide plain", preset)["in view"] == pytest.approx(PAPER[preset][3], rel=0.15)
 
 
-@pytest.mark.parametrize(("own", "farther"), [("low", 8), ("medium", 4), ("high", 0)])
+@pytest.mark.parametrize(("own", "farther"), [("low", 4), ("medium", 4), ("high", 0)])
 def test_r1_the_presets_that_people_use_have_the_papers_blades_and_their_strips_end_where_it_says_or_farther(
     own: str, farther: int
 ) -> None:

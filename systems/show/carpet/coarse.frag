@@ -36,6 +36,7 @@ const vec2 ENDS = vec2(0.5, 1.5);  // how deep lines of sight come, of the carpe
 const int ROWS = 40503;  // by which cells are numbered, row after row
 const float CONTRAST = 1.3;  // of what is seen of several kinds, which are lit as one: they are as far from their mean as if each were lit
 const float BITS = 16.0;  // of what is drawn for a patch, in each half
+const uint LOWER_HALF = 0xFFFFu;
 
 // Where one image shows what a line of sight meets, which of each kind's that is, and how.
 struct Look {
@@ -60,7 +61,7 @@ Look look_along(vec2 heading) {
     uint drawn = scramble(uint(int(cell.x) * ROWS + int(cell.y) ^ stock.y));
     float upper = float(drawn >> UPPER_HALF);
     int low = min(int(elevation), SLOPES - 2), slope = min(int(elevation + upper * exp2(-BITS)), low + 1), side = int(drawn >> UPPER_HALF) & (HEADINGS - 1);
-    int model = int((float(drawn & 65535u) + 0.5) * (float(stock.x) * exp2(-BITS)));
+    int model = int((float(drawn & LOWER_HALF) + 0.5) * (float(stock.x) * exp2(-BITS)));
     float longer = slopes[slope] / max(on_level, FLATTEST);
     float along = dot(here, heading) * (1.0 - longer) / longer * (1.0 - smoothstep(ROOTS_SEEN.x, ROOTS_SEEN.y, on_level));
     vec2 beside = vec2(-heading.y, heading.x);

@@ -18,7 +18,7 @@ from ...frame.block import EVERYWHERE, FrameBlock, joined
 from .layer import BARE, EDGED, EDGED_CARPET, EVEN, UNDER, GroundShelf, Layer
 from .stock import CarpetStock
 from .textures import image_count
-from .tiles import GRID, TILE, tile_grid
+from .tiles import TILE, tile_grid
 
 Defines = dict[str, str | int]
 """What a program is told."""
@@ -67,9 +67,8 @@ class GroundPainter:
         self._raised = RAISED, OUTLINE
         self.units, self._side = units, side
         self._ctx, self.rims = ctx, ctx.texture((1, 1), 1, dtype="f4")
-        self._wider = COARSER if coarse else 1
-        corners, indices = tile_grid(GRID // self._wider)
-        self.grid = ctx.buffer(corners), ctx.buffer(indices)
+        self._coarser = COARSER if coarse else 1
+        self.grid = ctx.buffer(tile_grid()[0]), *(ctx.buffer(tile_grid(wider)[1]) for wider in (1, COARSER))
         self.shelves = Shelves(partial(GroundShelf, ctx, side))
         self.bare: list[Layer] = []
         self.under: list[Layer] = []
@@ -106,13 +105,12 @@ class GroundPainter:
             (self.edged, "carpet", known | trodden | {"EDGED": 1}),
             (self.casting, "cast", {}),
         ]
-        for among, name, told in wanted:
-            defines = told | {"WIDER": self._wider}
-            vertex, fragment = f"systems/show/carpet/{name}.vert", f"systems/show/carpet/{name}.frag"
-            if self._is_coarse and among is self.carpet and not among:
-                defines, fragment = defines | {"COARSE": 1}, "systems/show/carpet/coarse.frag"
-            make = partial(joined, ctx, self._block, self.units, vertex, fragment, defines)
-            texts = partial(self._block.texts, vertex, fragment, defines)
+        for among, name, defines in wanted:
+            simple = self._is_coarse and among is self.carpet and not among
+            files = f"systems/show/carpet/{name}.vert", f"systems/show/carpet/{'coarse' if simple else name}.frag"
+            told = defines | {"COARSE": 1} if simple else defines
+            make = partial(joined, ctx, self._block, self.units, *files, told)
+            texts = partial(self._block.texts, *files, told)
             among.append(Layer(make, texts, self.shelves, self.grid))
         self.restock(stock)
 
@@ -221,7 +219,9 @@ class GroundPainter:
 
     def use(self) -> None:
         """Bind what all of it reads."""
-        self.shelves.now.shares.use(self.units["shares"])
+        shelf, on_hosts = self.shelves.now, bool(self._block.record["over_hosts"][0])
+        shelf.wider = 1 if on_hosts else self._coarser  # it has to lie on the game's ground
+        shelf.shares.use(self.units["shares"])
         self.rims.use(self.units["rims"])
         if self._block.earth:
             gl = functions_of(self._ctx)

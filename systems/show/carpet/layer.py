@@ -23,8 +23,10 @@ class GroundShelf:
         self.streams = tuple(Stream(ctx, TILE) for _ in STREAMS)
         self.shares = ctx.texture((side, side), 1, alignment=1)
         self.shares.filter = (moderngl.NEAREST, moderngl.NEAREST)
-        self.arrays: dict[tuple[Layer, int], moderngl.VertexArray] = {}
-        """What draws the tiles of a stream as a layer does, once it is asked for."""
+        self.arrays: dict[tuple[Layer, int, int], moderngl.VertexArray] = {}
+        """What draws the tiles of a stream as a layer does, with corners so far apart, once it is asked for."""
+        self.wider = 1
+        """How many times as far apart points of the mesh are as tiles say."""
         self.tiles: object = None
         self.shown: object = None
         """What was sent last."""
@@ -42,7 +44,7 @@ class Layer:
         make: Callable[[], moderngl.Program],
         texts: Callable[[], Texts],
         shelves: Shelves[GroundShelf],
-        grid: tuple[moderngl.Buffer, moderngl.Buffer],
+        grid: tuple[moderngl.Buffer, ...],
     ) -> None:
         self._make, self.texts, self._shelves, self._grid = make, texts, shelves, grid
         self._told: dict[str, object] = {}
@@ -63,14 +65,14 @@ class Layer:
             self._untold = {}
         return self.made
 
-    def _array(self, stream: int) -> moderngl.VertexArray:
+    def _array(self, stream: int, wider: int) -> moderngl.VertexArray:
         """Return what draws those tiles of the viewer that looks."""
         shelf, program = self._shelves.now, self.program
-        if (self, stream) not in shelf.arrays:
-            corners, indices = self._grid
+        if (self, stream, wider) not in shelf.arrays:
+            corners, indices = self._grid[0], self._grid[wider]
             contents = [(corners, "2f", "corner"), shelf.streams[stream].binding(program)]
-            shelf.arrays[self, stream] = program.ctx.vertex_array(program, contents, index_buffer=indices)
-        return shelf.arrays[self, stream]
+            shelf.arrays[self, stream, wider] = program.ctx.vertex_array(program, contents, index_buffer=indices)
+        return shelf.arrays[self, stream, wider]
 
     def know(self, told: Mapping[str, object]) -> None:
         """Tell the program what it asks for of this once it draws."""
@@ -80,10 +82,11 @@ class Layer:
 
     def draw(self, stream: int, **told: float) -> int:
         """Draw the tiles of a stream, if there are any, by a program that is told this; return the draw calls."""
-        count = self._shelves.now.streams[stream].count
+        shelf = self._shelves.now
+        count = shelf.streams[stream].count
         if not count:
             return 0
-        for name, value in told.items():
+        for name, value in (*told.items(), ("wider", shelf.wider)):
             tell(self.program, name, value)
-        self._array(stream).render(moderngl.TRIANGLES, instances=count)
+        self._array(stream, shelf.wider).render(moderngl.TRIANGLES, instances=count)
         return 1

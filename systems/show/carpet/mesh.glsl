@@ -3,16 +3,14 @@
 #include "lib/terrain.glsl"
 #include "systems/show/carpet/rims.py"
 
-in vec2 corner;  // of the grid, from 0 on
+in vec2 corner;  // of the grid, 0 .. GRID
 in vec4 tile;    // x, z [m]; spacing [m]; distance at which the next coarser spacing has taken over [m], below 0 that from rims alone
 
 uniform sampler2D rims;  // over the terrain: how far the next rim of a cliff is [m]
 
 const float SLIDES = 0.75;  // part of that distance from which on the grid slides
 
-#ifndef WIDER
-#define WIDER 1  // how many times as far apart grid points are, and as few, as tiles say
-#endif
+uniform float wider = 1.0;  // how many times as far apart grid points are as a tile says, of which there are as many fewer
 
 float spaced;  // how far apart grid points are there [m]: the same from both sides where tiles meet, as what it makes out
 
@@ -37,12 +35,12 @@ vec2 on_samples(vec2 at) {
 }
 
 vec2 on_mesh() {
-    float wide = tile.z * float(WIDER);
-    vec2 at = tile.xy + corner * wide;
+    float wide = tile.z * wider;
+    vec2 at = tile.xy + corner * tile.z;
     float from_rim = rim_at(at);
     float slide = clamp((far_off(at, from_rim) / abs(tile.w) - SLIDES) / (1.0 - SLIDES), 0.0, 1.0);
     spaced = wide * (1.0 + slide);
-    at -= fract(corner * 0.5) * 2.0 * wide * slide;
+    at -= fract(corner * 0.5 / wider) * 2.0 * wide * slide;
     if (from_rim < ON_RIM.y * terrain_cell) {
         from_rim = rim_at(at);
         at = mix(on_samples(at), at, smoothstep(ON_RIM.x, ON_RIM.y, from_rim / terrain_cell));

@@ -121,15 +121,15 @@ def _nearest(corners: Tiles, side: float, place: tuple[float, float]) -> Tiles:
     return away
 
 
-def tile_grid(quads: int = GRID, /) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+def tile_grid(wider: int = 1, /) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
     """Return a tile's grid points (n, 2), and the corners of its triangles among them, (m, 6).
 
-    Along a side there are so many `quads`.
+    Corners are `wider` grid points apart.
     """
-    line = np.arange(quads + 1)
+    line, quads = np.arange(GRID + 1), np.arange(0, GRID, wider)
     corners = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2).astype(np.float32)
-    first = (np.arange(quads)[:, None] * (quads + 1) + np.arange(quads)).reshape(-1, 1)
-    quad = np.array([0, quads + 1, 1, 1, quads + 1, quads + 2])
+    first, up = (quads[:, None] * (GRID + 1) + quads).reshape(-1, 1), wider * (GRID + 1)
+    quad = np.array([0, up, wider, wider, up, up + wider])
     return corners, (first + quad).astype(np.int32)
 
 
