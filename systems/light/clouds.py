@@ -53,7 +53,7 @@ PALE, DARK = 1.3, 0.6
 SENDS = 0.35
 """What a lone cloud that hides the sun sends on of its light; where there are more, it is in the sky's."""
 
-OVERCAST, SOON = 0.35, 8.0
+OVERCAST, SOON = 0.6, 8.0
 """How dense the thinnest place of an overcast is, and by which power of the cover that comes."""
 
 GLSL = {
