@@ -214,7 +214,7 @@ grass: { prairie: { height: [0.4, 0.7], width: 0.014, blades: 40 } }
 wind: [{ kind: breeze, direction: 70, strength: 0.3 }]
 light: { ground: "#d9c48f" }
 camera: { position: [0, 60], eye: 2.0, pitch: -3, view: 30 }
-quality: low
+quality: high
 """
     room = Room(ctx, (960, 540))
     prairie = load(sparse, lod="carpet")

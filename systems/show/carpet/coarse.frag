@@ -1,9 +1,10 @@
 // The carpet as cheaper presets have it where nothing is cut, trodden or lit by lamps: one image of each kind, one light for all of
-// them, and of the ground between no more than the mean. Corners of the mesh make out the rest that carpet.frag does by pixel.
+// them, and of the ground between how bright litter is. Corners of the mesh make out the rest that carpet.frag does by pixel.
 #define PIXELS_ASK
 #include "lib/light.glsl"
 #include "lib/tone.glsl"
 #include "systems/show/carpet/among.glsl"
+#include "systems/show/carpet/lying.glsl"
 #include "systems/show/carpet/outline.glsl"
 #include "systems/show/carpet/texel.glsl"
 
@@ -116,9 +117,14 @@ float hides_behind(float slope, float deep, float stands_out) {
     return mix(1.0, 1.0 - comes_through(dense * leaves), min(tall / (2.0 * LOWEST_GRASS), 1.0));
 }
 
+// How much brighter the ground's litter is there than in the mean, as it is shown where so much of it is to be seen.
+float litter_seen(float bare) {
+    return lying_seen(place.xz, bare).x / max(textureLod(repeating, vec2(0.5), COARSEST).g, LEAST_TEXEL);
+}
+
 void main() {
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / patch_side))) : 0.0, covered = 1.0;
-    vec3 color = soil_seen;
+    vec3 color = soil_seen * litter_seen(share > 0.0 ? 0.0 : 1.0);
     if (share > 0.0) {
         Grass grass = grass_seen(heading_to(place.xz));
         Light light = unbundled(lit);
