@@ -107,6 +107,16 @@ def test_f4_a_way_shows_on_every_representation_where_it_is_and_nowhere_else(
     assert changed[int(below) :].max() == 0.0
 
 
+def test_x5_a_coarse_carpet_stays_one_when_somebody_walks_elsewhere(stage: Stage, load: Load, camera: Aim) -> None:
+    prairie = load(LITTLE + "  coarse: true\n", lod="carpet")
+    before = stage.shot(prairie, camera())
+    walker = esper.create_entity(Presser(radius=0.2), Pose(0.0, 29.0))  # behind the camera
+    prairie.advance(1e-4)
+    after = stage.shot(prairie, camera())
+    esper.delete_entity(walker, immediate=True)
+    assert np.abs(after - before).max() <= 4.0
+
+
 def test_n5_a_film_that_begins_in_the_middle_shows_the_same_trodden_grass(
     stage: Stage, load: Load, camera: Aim, runners: list[int]
 ) -> None:

@@ -1,5 +1,5 @@
-// The carpet as cheaper presets have it where nothing is cut, trodden or lit by lamps: one image of each kind, one light for all of
-// them, and of the ground between how bright litter is. Corners of the mesh make out the rest that carpet.frag does by pixel.
+// The carpet as cheaper presets have it where no lamps shine: one image of each kind, one light for all of them, and of the ground
+// between how bright litter is. Corners of the mesh make out the rest that carpet.frag does by pixel.
 #define PIXELS_ASK
 #include "lib/light.glsl"
 #include "lib/tone.glsl"

@@ -73,7 +73,8 @@ class GroundPainter:
         self.bare: list[Layer] = []
         self.under: list[Layer] = []
         self.carpet: list[Layer] = []
-        """For what is usual, uncut and cut; for lamps beside that; and for all that there may be."""
+        """For what is usual, uncut and cut, or where it is coarse for what is usual and for all that this can show; for
+        lamps beside what is usual; and for all that there may be."""
         self.edged: list[Layer] = []
         """What is drawn where grass ends or is cut: ground, what lies under the carpet, and the carpet."""
         self.casting: list[Layer] = []
@@ -96,17 +97,18 @@ class GroundPainter:
         cuts: list[Defines] = [{"CUT": 0}, {"CUT": 1}]
         trodden: Defines = {"TRODDEN": 1}
         known = heads | stacked | litter
+        firsts = (plain | cuts[0], trodden) if self._is_coarse else tuple(plain | cut for cut in cuts)
         wanted: list[tuple[list[Layer], str, Defines]] = [
             *((self.bare, "ground", litter | each) for each in (*(usual | cut for cut in cuts), trodden)),
             *((self.under, "under", heads | each) for each in ({}, trodden)),
-            *((self.carpet, "carpet", known | each) for each in (*(plain | cut for cut in cuts), usual, trodden)),
+            *((self.carpet, "carpet", known | each) for each in (*firsts, usual, trodden)),
             (self.edged, "ground", litter | trodden | {"EDGED": 1}),
             (self.edged, "under", heads | trodden | {"EDGED": 1}),
             (self.edged, "carpet", known | trodden | {"EDGED": 1}),
             (self.casting, "cast", {}),
         ]
         for among, name, defines in wanted:
-            simple = self._is_coarse and among is self.carpet and not among
+            simple = self._is_coarse and among is self.carpet and len(among) < len(firsts)
             files = f"systems/show/carpet/{name}.vert", f"systems/show/carpet/{'coarse' if simple else name}.frag"
             told = defines | {"COARSE": 1} if simple else defines
             make = partial(joined, ctx, self._block, self.units, *files, told)
@@ -150,7 +152,9 @@ class GroundPainter:
     def _is_odd(self) -> bool:
         """Whether the carpet ends with the terrain, or lies on a game's own ground: the coarse one cannot."""
         record = self._block.record[0]
-        return self._is_coarse and bool(record["over_hosts"] or record["mesh_high"][0] < EVERYWHERE)
+        return self._is_coarse and bool(
+            record["over_hosts"] or self._block.earth or record["mesh_high"][0] < EVERYWHERE
+        )
 
     @property
     def _is_lamplit(self) -> bool:
@@ -245,8 +249,11 @@ class GroundPainter:
     def draw_carpet(self, part: int = WHOLE) -> int:
         """Draw the carpet, or a part of it: its outlines let through what is behind; return the draw calls."""
         self.use()
-        rare = self._is_rare or self.is_trodden or any(self._came)
-        even = self.carpet[3 if rare else 2 if self._is_lamplit or self._is_odd else self._is_cut]
+        rare, whole = self._is_rare or self.is_trodden, any(self._came) or self._is_lamplit or self._is_odd
+        if self._is_coarse and not whole:
+            even = self.carpet[rare or self._is_cut]
+        else:
+            even = self.carpet[3 if rare or any(self._came) else 2 if whole else self._is_cut]
         return even.draw(EVEN, part=part) + self.edged[2].draw(EDGED_CARPET, part=part)
 
     def cast(self, light: tuple[float, float, float], /) -> int:
