@@ -18,8 +18,8 @@ CLOUDS_AT = 450.0
 BENT = 0.12
 """How they bend down: at this sine of elevation a level layer of them would be half as far off as without."""
 
-RISE = 160.0
-"""How far their tops are above their bases [m]; the third slice is half-way."""
+RISE, SLICES = 160.0, (0.0, 0.5, 1.0)
+"""How far their tops are above their bases [m]; and how high the slices are, of that: bases, sides and tops."""
 
 STEP = 0.12
 """How much denser the map is where a cloud is as high as that, of its range from 0 to 1."""
@@ -58,12 +58,13 @@ OVERCAST, SOON = 0.6, 8.0
 
 GLSL = {
     "CLOUDS_AT": CLOUDS_AT, "CLOUDS_BENT": BENT, "CLOUD_RISE": RISE / CLOUDS_AT, "CLOUD_STEP": STEP,
+    "CLOUD_SLICES": SLICES,
     "CLOUD_HIDES": HIDES, "CLOUD_LIT": LIT, "CLOUD_DEEPER": DEEPER, "CLOUD_SIDES": SIDES, "CLOUD_SUNLIT": SUNLIT,
     "CLOUD_SILVER": SILVER, "CLOUD_HIGHER": HIGHER, "CLOUD_PALE": PALE, "CLOUD_DARK": DARK, "CLOUD_SENDS": SENDS,
 }  # fmt: skip
 
 _RANKS = (np.arange(256) + 0.5) / 256.0
-_HEIGHTS = np.array([0.0, 0.5, 1.0])[:, None]
+_HEIGHTS = np.array(SLICES)[:, None]
 _LIT, _DEEPER, _HIGHER = (np.array(each)[:, None] for each in (LIT, DEEPER, HIGHER))
 
 

@@ -13,8 +13,6 @@ const vec3 GRIT = vec3(0.06711056, 0.00583715, 52.9829189);  // interleaved grad
 
 in vec4 clouding;
 
-const vec3 SLICE = vec3(0.0, 0.5, 1.0);  // how high the slices are of clouds: their bases, sides and tops
-
 // How dense the map of clouds is at a place of it.
 float dense_at(vec2 at) {
     return textureLod(repeating, at, clouding.z).r;
@@ -23,8 +21,8 @@ float dense_at(vec2 at) {
 // Clouds in a direction: how much is seen past them, and what they send of the sun's light, and of light in full shade.
 vec3 clouds_in(vec3 toward) {
     vec2 along = clouds_toward(toward), at = clouds_over(eye.xz) + along;
-    vec2 sides = at + along * (0.5 * CLOUD_RISE), tops = at + along * CLOUD_RISE;
-    vec3 dense = vec3(dense_at(at), dense_at(sides), dense_at(tops)), deep = dense - cloud_edge - CLOUD_STEP * SLICE;
+    vec2 sides = at + along * (CLOUD_SLICES.y * CLOUD_RISE), tops = at + along * CLOUD_RISE;
+    vec3 dense = vec3(dense_at(at), dense_at(sides), dense_at(tops)), deep = dense - cloud_edge - CLOUD_STEP * CLOUD_SLICES;
     vec3 past = vec3(past_slice(deep.xy), past_slice(deep.yz).y), shows = vec3(1.0, past.x, past.x * past.y) * (clouding.y - clouding.y * past);
     vec3 sunny = clamp(CLOUD_LIT - CLOUD_DEEPER * deep + CLOUD_SIDES * (dense.y - dense.z - clouding.w), 0.0, 1.0);
     float lit = dot(shows, CLOUD_SUNLIT * sunny * sunny + CLOUD_SILVER * clouding.x * past);

@@ -49,7 +49,6 @@ OF_SOIL vec3 lush;
 out vec4 pixel;
 
 uniform int part;         // what is drawn: 0, all of it; 1, where it covers at least half a pixel; 2, the rest
-const float HALF = 0.5;
 
 #include "systems/show/carpet/shown.glsl"
 #ifdef TRODDEN

@@ -31,9 +31,6 @@ in float elevation;
 out vec4 pixel;
 
 uniform int part;  // what is drawn: 0, all of it; 1, where it covers at least half a pixel; 2, the rest
-const float HALF = 0.5;
-const float LEAST_COVER = 0.05;  // what is seen of grass over a crest stands for all of it where it covers so much at least
-const vec2 ENDS = vec2(0.5, 1.5);  // how deep lines of sight come, of the carpet's share, where grass behind is seen, and ground
 const int ROWS = 40503;  // by which cells are numbered, row after row
 const float CONTRAST = 1.3;  // of what is seen of several kinds, which are lit as one: they are as far from their mean as if each were lit
 const float BITS = 16.0;  // of what is drawn for a patch, in each half

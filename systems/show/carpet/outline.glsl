@@ -7,6 +7,9 @@ const vec2 SPIKES_FROM = vec2(0.8, 1.0);  // shares of the carpet from which on 
 const float SHOWN_FROM = 1.0 / 3.0;  // share from which on an outline hides nothing more of its own grass
 const float STANDING = 0.9;  // how much it covers at least of what is behind, where strips have just begun to give way
 const float NOTHING = 0.004;  // a pixel that covers less shows nothing, in 8 bits
+const float LEAST_COVER = 0.05;  // what is seen of grass over a crest stands for all of it where it covers so much at least
+const vec2 ENDS = vec2(0.5, 1.5);  // how deep lines of sight come, of the carpet's share, where grass behind is seen, and ground
+const float HALF = 0.5;
 const float WHOLE = 0.999;    // and one that covers more all
 
 // How much of what is behind an outline the grass hides. A line of sight that passes `deep` below the top of the grass,

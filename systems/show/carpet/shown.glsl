@@ -10,8 +10,6 @@ const float LEAST_USUAL = 0.02;  // mean coverage of heads that what is met of t
 #endif
 
 const float STUBBLE = 1.5;  // how unevenly stubble stands, for how unevenly the grass did
-const float LEAST_COVER = 0.05;  // what is seen of grass over a crest stands for all of it where it covers so much at least
-const vec2 ENDS = vec2(0.5, 1.5);  // how deep lines of sight come, of the carpet's share, where grass behind is seen, and ground
 
 // How a pixel sees the grass of all kinds.
 struct View {
