@@ -94,6 +94,7 @@ class Painter(Holding):
 
     def write(self, outlook: Outlook) -> None:
         """Send what a viewer is shown."""
+        self.record["beside_sun"] = 0.0
         for part in self._doing["send"]:
             part.send(outlook, self.record)
         counts = {name: painter.receivers(outlook) for name, painter in self.painters.items()}

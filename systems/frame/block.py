@@ -73,7 +73,7 @@ FRAME = np.dtype(
         ("posture_links", "f4"), ("posture_rows", "f4"), ("posture_variants", "f4"),  # the last of each kind
         ("over_hosts", "f4"),  # 1 where grass is laid over ground that is the game's own
         ("lamplight", "f4"),  # as `exposure`, of what lamps send
-        ("padding", "V4"),
+        ("beside_sun", "f4"),  # 1 where anything shines beside sun and sky
         ("mesh_low", "2f4"), ("mesh_high", "2f4"), ("pad_f", "V8"),  # x, z [m]: no ground is drawn beyond
         ("lamps_grid", "4f4"),  # cells that lamps shine on: corner (x, z) [m]; cells a metre; along a side, 0 for none
         ("shades_grid", "4f4"),  # the same, of cells that lie in the shadow of shades

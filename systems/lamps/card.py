@@ -142,7 +142,7 @@ class LampPart(Part):
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
         """Pretend that there are lamps: what draws for shades is what draws for shadow maps."""
-        record["lamps_grid"] = 0.0, 0.0, 1.0, 1.0
+        record["lamps_grid"], record["beside_sun"] = (0.0, 0.0, 1.0, 1.0), 1.0
 
     def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
         """Send those that reach what a viewer sees, lamps as bright as the picture is exposed."""
@@ -160,6 +160,7 @@ class LampPart(Part):
         told[:, 1, :3] *= record["lamplight"][0]
         place = told[:, 0, ::2]
         record["lamps_grid"] = self._write(told, listed(place, place, told[:, 0, 3] ** -0.5), 0)
+        record["beside_sun"] = 1.0
 
     def _send_shades(self, outlook: Outlook, record: NDArray[np.void]) -> None:
         shades, lowest = self._shades()

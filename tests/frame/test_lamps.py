@@ -109,6 +109,8 @@ def test_a_lamp_goes_where_its_pose_goes_and_out_with_its_entity(stage: Stage, l
     assert left[:, :half].mean() > 2.0 * left[:, half:].mean() > 0.0
     assert right[:, half:].mean() > 2.0 * right[:, :half].mean() > 0.0
     assert (stage.shot(prairie, aim) == dark).all()
+    assert prairie.painter is not None
+    assert not prairie.painter.record["beside_sun"].any()  # then nobody looks for any
 
 
 def test_a_scene_declares_lamps_at_heights_above_the_ground(stage: Stage, load: Load, camera: Aim) -> None:

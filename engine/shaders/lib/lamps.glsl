@@ -4,18 +4,19 @@
 const float DARKEST = 1e-9;  // radiance that divides another at least
 const float NEAREST_LAMP = 0.1;  // distance from a lamp that counts at least [m]
 
-// What a lamp sends to a place.
+// What a light sends to a place.
 struct Shine {
     vec3 light;  // radiance of a white leaf that faces all ways
     vec3 from;   // the direction that it comes from
 };
 
-// Whether there are any, anywhere: else nobody need look. Programs that are made for none are told so by LAMPLESS.
+// Whether anything shines beside sun and sky: else nobody need look. Programs that are made for nothing such are told so by
+// LAMPLESS.
 bool any_lamps() {
 #ifdef LAMPLESS
     return false;
 #else
-    return lamps_grid.w > 0.0;
+    return beside_sun > 0.0;
 #endif
 }
 

@@ -7,7 +7,7 @@
 //    `bundled` and `unbundled` bring a light through stages, as a mat4 with three numbers of one's own beside it.
 //    Where it is asked for coarsely, a shader that defines PIXELS_ASK leaves lamps and shadow maps to whoever asks more finely.
 // 2. Once a fragment: fill a `Surface` and ask `shade`, which gives radiance; `shown_of` of lib/tone.glsl is the last step.
-// A new light is a term of `light_at`, a new shadow one of `sun_seen` (lib/shadows.glsl), what lies on surfaces (snow, water)
+// A new light is an `add_light` in `lamps_at`, a new shadow one of `sun_seen` (lib/shadows.glsl), what lies on surfaces (snow, water)
 // a change of the `Surface` at the head of `shade`: all representations get it.
 #include "lib/canopy.glsl"
 #include "lib/haze.glsl"
@@ -100,21 +100,23 @@ Light with_lamps(Light light, vec4 sent) {
     return light;
 }
 
-// What lamps send of their light at a place of the ground, and how many leaves that meets in the mean.
+// Add what a light sends to the eye by way of a surface, and how many leaves it meets, for as bright as that is.
+void add_light(inout vec4 sent, Shine light, vec3 place, Sender sender) {
+    float high = max(dot(sender.normal, light.from), 0.0);
+    vec3 more = light.light * response_of(sender, place, light.from, high).sun;
+    sent += vec4(more, brightness(more) * sun_way(listed_kind(sender.kind), high));
+}
+
+// What lamps send of their light at a place of the ground, and how many leaves that meets in the mean. This is the list of all
+// lights beside sun and sky: each is an `add_light`, and the block's `beside_sun` is 1 where it shines.
 vec4 lamps_at(vec3 place, Sender sender) {
-    vec3 sum = vec3(0.0);
-    float ways = 0.0;
+    vec4 sent = vec4(0.0);
     if (sender.kind != FACE)
         place.y += LIT_AT * OF(crown, listed_kind(sender.kind)) * lodged(sender.bend);
     ivec2 listed = lamps_about(place.xz);
-    for (int number = listed.x; number < listed.y; number++) {
-        Shine lamp = lamp_at(number, place);
-        float high = max(dot(sender.normal, lamp.from), 0.0);
-        vec3 sent = lamp.light * response_of(sender, place, lamp.from, high).sun;
-        sum += sent;
-        ways += brightness(sent) * sun_way(listed_kind(sender.kind), high);
-    }
-    return vec4(sum, ways / max(brightness(sum), DARKEST));
+    for (int number = listed.x; number < listed.y; number++)
+        add_light(sent, lamp_at(number, place), place, sender);
+    return vec4(sent.rgb, sent.w / max(brightness(sent.rgb), DARKEST));
 }
 
 // The light at a place with that of lamps; `suns` is the sun's part of it.
@@ -132,7 +134,7 @@ Light shaded(Light light, float seen, float suns) {
 }
 
 // The light at a place that a surface sends to the eye, where the sun's elevation has the sine `high` and so much of it is
-// seen. This is the list of all lights.
+// seen: that of sun and sky, and of what `lamps_at` lists.
 Light light_at(vec3 place, Sender sender, float high, float seen) {
     Response response = response_of(sender, place, sun, high);
     vec3 from_sun = sunlight * response.sun * seen;

@@ -158,8 +158,8 @@ class GroundPainter:
 
     @property
     def _is_lamplit(self) -> bool:
-        """Whether lamps shine: then pixels of the carpet ask for their light."""
-        return bool(self._block.record["lamps_grid"][0, 3])
+        """Whether anything shines beside sun and sky: then pixels of the carpet ask for its light."""
+        return bool(self._block.record["beside_sun"][0])
 
     def write(self, tiles: Sequence[NDArray[np.void]]) -> None:
         """Send the tiles, as `by_layer` parts them."""
