@@ -177,20 +177,16 @@ class Holding:
                 painter.restock()
             self.air.regrow(site.growths)
             return
-        self._give_up()
-        release_all(*self.painters.values(), self.air)
+        self._let_go()
         self.block.defines, self.painters, self.air = staged.defines, staged.painters, staged.air
 
     def _growing(self, site: Site, defines: dict[str, str | int]) -> Iterator[None]:
         """Bring the grass into GL, a representation at a time."""
-        self._give_up()
-        if self.painters:
-            release_all(*self.painters.values(), self.air)
+        self._let_go()
         self.block.defines = defines
         self.air = CardWinds(self.ctx, UNITS, site.growths)
         canvas = self._canvas(site, self.air)
         is_ahead, is_beside = AHEAD and self.quarantine.live, makes_beside(self.ctx)
-        self.painters = {}
         for each in site.representations:
             self.painters[each.name] = made = each.painter(canvas)
             yield
@@ -203,6 +199,12 @@ class Holding:
         """Make no more of what no frame has drawn with."""
         self._beside.release()
         self._later = iter(())
+
+    def _let_go(self) -> None:
+        """Give back all that draws grass: there is none before the first frame, nor where that failed."""
+        self._give_up()
+        grass, self.painters = [*self.painters.values()], {}
+        release_all(*grass, *([vars(self).pop("air")] if "air" in vars(self) else []))
 
     def _making_later(self, site: Site) -> Iterator[None]:
         """Have the driver make what no frame has drawn with yet, and then make it, which takes a moment by then.
@@ -229,6 +231,6 @@ class Holding:
 
     def release(self) -> None:
         """Give everything back to the context."""
-        self._give_up()
-        release_all(*self.painters.values(), *self.parts, self.air, self.received, self.block)
+        self._let_go()
+        release_all(*self.parts, self.received, self.block)
         release_all(*([] if self._staged is None else [self._staged]))

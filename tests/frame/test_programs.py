@@ -15,7 +15,9 @@ from tallgrass.engine.camera import Camera
 from tallgrass.engine.gl import beside
 from tallgrass.engine.gl.beside import Beside
 from tallgrass.engine.gl.shaders import Texts
+from tallgrass.systems.light.draw import LightPart
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.show.strips.painter import StripsPainter
 from tallgrass.testing import LITTLE
 
 Stage = Any
@@ -122,6 +124,20 @@ def test_a_card_makes_beside_the_frames_what_the_first_does_not_draw_with(
 
 
 @pytest.mark.usefixtures("ahead")
+@pytest.mark.parametrize("fails", [LightPart, StripsPainter])
+def test_a_first_frame_that_fails_says_why_and_leaves_nothing_that_cannot_be_released(
+    stage: Stage, load: Load, monkeypatch: pytest.MonkeyPatch, fails: type
+) -> None:
+    def settle(*_: object) -> None:
+        raise RuntimeError("the driver refuses this")
+
+    prairie = load(CALM, live=False)
+    monkeypatch.setattr(fails, "settle", settle)
+    with pytest.raises(RuntimeError, match="the driver refuses this"):
+        stage.shot(prairie)
+    prairie.release()
+
+
 def test_a_game_that_prepares_with_a_card_waits_for_each_program_in_a_step(asked: list[str], load: Load) -> None:
     steps = list(load(CALM).preparing())
     assert len(asked) > 5
