@@ -21,7 +21,7 @@ from .group import Group
 from .kind import KindOnCard
 from .leafy import leaf_by_leaf, leafy
 from .motion import PERIOD
-from .programs import HANG, HANG_LEAVES, STAND, Programs
+from .programs import HANG, HANG_LEAVES, HARD, SAMPLED, SOFT, STAND, Programs
 from .shade import ShadeMap
 from .standing import LEAFY, PLACED, TOLD, Standing, columns_of, shown, shows
 from .twig import BEHIND, LEAF_PIXELS
@@ -70,20 +70,22 @@ class TreePart(Part):
         self._shade: ShadeMap | None = None
         self._outlook: Outlook | None = None
         self._numbers: Numbers = {}
-        self._chosen = self._rehearses = False
+        self._chosen: float | None = None
+        self._rehearses = False
         self._chosen_by: object = None
         self._groups: dict[tuple[int, int], Group] = {}
         self._grouped: Standing | None = None
         """The trees of each model by its kind's number and its own, and of which frame they are."""
-        self._calls: dict[tuple[bool, bool], list[Call]] = {}
-        """What is drawn, until something else is chosen: soft edges or not, with all wood or not."""
+        self._calls: dict[tuple[str, bool], list[Call]] = {}
+        """What is drawn, until something else is chosen: with which edges, with all wood or not."""
         self._placed: Stream | None = None
         """All trees of all streams, one stream after another; and what is made out of them."""
         self._stood: Stream | None = None
         self._air: Heard | None = None
         self._wind: MeanWind | None = None
-        self.every_leaf = False
-        """Whether all trees are drawn leaf by leaf, as a reference has them."""
+        self.leaves_from: float | None = None
+        """Height from which all trees are drawn leaf by leaf [pixels], as a reference has them, and lower ones as they
+        are far off; None where that is for the size of their leaves to say."""
         self.held = False
         """Whether as much of each is shown as in the last frame where this was not so, wherever the viewer is."""
         self.hidden = False
@@ -148,14 +150,14 @@ class TreePart(Part):
         viewer = self._outlook.viewer
         patch = float(self._block.record["patch_side"][0])
         self._numbers = {
-            "leaf_pixels": EVERY_LEAF if self.every_leaf else LEAF_PIXELS,
+            "leaf_pixels": LEAF_PIXELS if self.leaves_from is None else EVERY_LEAF,
             "moment": (viewer.time % PERIOD,),
-            "behind": (0.0 if self.every_leaf else BEHIND,),
+            "behind": (BEHIND,),
             "middle": tuple(((viewer.centre + 0.5) * patch).tolist()),
         }
         assert self._shade is not None
         calls = self._shade.prepare(self._kinds, programs, self._shading(), self._numbers)
-        self._chosen = self.every_leaf
+        self._chosen = self.leaves_from
         self._choose(self._standing(), self._outlook)
         if self._rehearses:
             self._rehearses, self._chosen_by = False, None
@@ -181,9 +183,9 @@ class TreePart(Part):
         """Send what is drawn of each tree, unless that is what was sent last."""
         record, viewer = self._block.record[0], outlook.viewer
         seen = record["clip"].tobytes(), float(record["half_screen"][1]), viewer.eye, viewer.sides.tobytes()
-        if self._chosen_by == (standing, *seen, self.every_leaf, self.held):
+        if self._chosen_by == (standing, *seen, self.leaves_from, self.held):
             return
-        self._chosen_by = standing, *seen, self.every_leaf, self.held
+        self._chosen_by = standing, *seen, self.leaves_from, self.held
         if not self.held:
             self._from = np.array(viewer.eye)
         clip = record["clip"].reshape(4, 4).T.astype(np.float64)
@@ -234,8 +236,8 @@ class TreePart(Part):
         rows, scale, middle = group.rows[seen], group.scale[seen], group.middle[seen]
         chosen = np.linalg.norm(middle - self._from, axis=1) if self.held else off
         pixels = focal * rows["height"] / np.maximum(chosen, NEAREST)
-        if self.every_leaf:
-            pixels = np.full(len(rows), ANY_HEIGHT)
+        if self.leaves_from is not None:
+            pixels = np.where(pixels < self.leaves_from, 0.0, ANY_HEIGHT)
         pixels[rows["ring"] > 1] = 0.0
         told = shown(rows, pixels, grown.height, kind.declared.variety)
         told["columns"] = columns_of(rows, scale * grown.radius)
@@ -243,7 +245,7 @@ class TreePart(Part):
         near, far = told["gone"] < 1.0, told["gone"] > 0.0
         large = focal * scale * kind.habit.leaf.length / LEAF_PIXELS[0]
         large_leaves = large > off - scale * ball
-        if self.every_leaf:
+        if self.leaves_from is not None:
             twigs = leaf_by_leaf(told[near], 0)
         else:
             twigs = np.concatenate([
@@ -253,7 +255,7 @@ class TreePart(Part):
         ahead = nearest_ahead(clip, middle, eye, (1.0 + SWAYS) * scale[:, None] * (ball, grown.radius))
         wide = THINNEST * np.maximum(ahead, AWAY) / (focal * scale)
         model.write(told[near], wide[near], twigs, told[far][::-1])
-        if self.every_leaf:
+        if self.leaves_from is not None:
             model.most[LEAVES] = len(grown.twigs)
 
     def breathe(self, air: Heard, /) -> int:
@@ -297,15 +299,15 @@ class TreePart(Part):
 
     def draw_solid(self) -> int:
         """Draw all that covers pixels wholly."""
-        if self._kinds and self._air is not None and self._chosen != self.every_leaf:
+        if self._kinds and self._air is not None and (self._chosen, self.leaves_from) != (None, None):
             self.prepare()
             self.breathe(self._air)
-        return self._draw(soft=False)
+        return self._draw(HARD)
 
     def cast(self, light: tuple[float, float, float], /) -> int:
         """Write the depth of all that covers most of a texel of a shadow map."""
         del light
-        return self._draw(soft=False, all_wood=True)
+        return self._draw(HARD, all_wood=True)
 
     def draw_soft(self) -> int:
         """Draw their soft edges."""
@@ -313,16 +315,16 @@ class TreePart(Part):
             return 0
         target = self._ctx.fbo
         target.depth_mask = False
-        calls = self._draw(soft=True)
+        calls = self._draw(SOFT)
         target.depth_mask = True
         return calls
 
-    def _draw(self, *, soft: bool, all_wood: bool = False) -> int:
+    def _draw(self, edges: str, *, all_wood: bool = False) -> int:
         if not self._kinds or self._programs is None or self.hidden:
             return 0
-        key = soft, all_wood
+        key = edges, all_wood
         if key not in self._calls:
-            self._calls[key] = self._listed(self._programs, soft=soft, all_wood=all_wood)
+            self._calls[key] = self._listed(self._programs, edges, all_wood=all_wood)
         last: tuple[moderngl.Program, ModelOnCard] | None = None
         for call in self._calls[key]:
             array, (kind, model) = call.array, call.of
@@ -336,21 +338,22 @@ class TreePart(Part):
             array.render(form, first=call.first, vertices=call.vertices, instances=call.instances)
         return len(self._calls[key])
 
-    def _listed(self, programs: Programs, *, soft: bool, all_wood: bool) -> list[Call]:
+    def _listed(self, programs: Programs, edges: str, *, all_wood: bool) -> list[Call]:
         """Return what is drawn: what is solid from near to far, as it hides what is drawn after it."""
         calls = list[Call]()
+        soft, sampled = edges == SOFT, self.leaves_from is not None
         for kind in self._kinds:
             for model in kind.models:
                 for sort, name, first, vertices in (
                     (LEAVES, LEAVES, 0, QUAD * kind.habit.leaf.quads),
                     *((NEAR, name, 0, len(kind.outlines[name in SMALL_CARDS])) for name in CARDS),
-                    *((WOOD, name, *_wood(model, name, soft=soft, whole=all_wood)) for name in WOODS),
+                    *((WOOD, name, *_wood(model, name, soft=soft, whole=all_wood or sampled)) for name in WOODS),
                     (FAR, FAR, 0, QUAD),
                 ):
                     stream = model.hung.get(name, model.streams[name])
-                    if stream.count and vertices > 0:
+                    if stream.count and vertices > 0 and not (soft and sampled and sort != FAR):
                         corners = kind.outlines[name in SMALL_CARDS] if name in CARDS else []
-                        array = programs.array(sort, stream, model, soft=soft)
+                        array = programs.array(sort, stream, model, edges=SAMPLED if sampled and sort != FAR else edges)
                         nearest = 0.0 if soft else self._nearest(model.placed[name])
                         hard = all_wood or name in CARDS or (sort == WOOD and model.wood[name].hard)
                         solid_from = SOLID if hard else OPAQUE

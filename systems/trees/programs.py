@@ -23,6 +23,10 @@ SORTS: Mapping[str, tuple[str, str, Mapping[str, str | int]]] = {
 }
 """By what is drawn: vertex and fragment shader, and what they are told."""
 
+HARD, SOFT, SAMPLED = "HARD", "SOFT", "SAMPLED"
+"""Which way pixels are drawn that are covered in part, as shaders are told: those that are covered nearly wholly, as
+opaque; the others, blended; or all of them, opaque in as many samples of a pixel as are covered."""
+
 STAND, HANG, HANG_LEAVES = "stand", "hang", "hang leaves"
 """What is made out: once a tree, once a twig on its card, and once a twig leaf by leaf."""
 
@@ -45,18 +49,18 @@ class Programs:
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int]) -> None:
         self._ctx, self._block, self._units = ctx, block, units
         self.made_of = dict(block.defines)
-        self._programs: dict[tuple[str, bool, bool], moderngl.Program] = {}
+        self._programs: dict[tuple[str, str, bool], moderngl.Program] = {}
         self._makers: dict[str, moderngl.Program] = {}
-        self._arrays: dict[tuple[int, str, bool, bool], moderngl.VertexArray] = {}
+        self._arrays: dict[tuple[int, str, str, bool], moderngl.VertexArray] = {}
         self._quads = ctx.buffer(_quads())
 
     def array(
-        self, sort: str, stream: Stream, model: ModelOnCard | None = None, /, *, soft: bool = False, baked: bool = False
+        self, sort: str, stream: Stream, model: ModelOnCard | None = None, /, *, edges: str = HARD, baked: bool = False
     ) -> moderngl.VertexArray:  # fmt: skip
-        """Return what draws trees of a stream: solid parts or soft edges, or as they are baked; `WOOD` is a model's."""
-        key = id(stream), sort, soft, baked
+        """Return what draws trees of a stream: with such edges, or as they are baked; `WOOD` is a model's."""
+        key = id(stream), sort, edges, baked
         if key not in self._arrays:
-            program, indices = self._program(sort, soft=soft, baked=baked), self._quads
+            program, indices = self._program(sort, edges=edges, baked=baked), self._quads
             contents = [stream.binding(program)]
             if model is not None:
                 if not baked and (told := model.told.get(id(stream))) is not None:
@@ -70,7 +74,7 @@ class Programs:
 
     def made(self, what: str, stream: Stream, told: Stream | None = None) -> moderngl.VertexArray:
         """Return what makes out what `MADE` has of each tree of a stream, or with `told` of each of its twigs."""
-        key = id(stream), what, False, False
+        key = id(stream), what, HARD, False
         if key not in self._arrays:
             program = self._makers.get(what)
             if program is None:
@@ -83,12 +87,11 @@ class Programs:
             self._arrays[key] = self._ctx.vertex_array(program, streams)
         return self._arrays[key]
 
-    def _program(self, sort: str, *, soft: bool, baked: bool) -> moderngl.Program:
-        key = sort, soft, baked
+    def _program(self, sort: str, *, edges: str, baked: bool) -> moderngl.Program:
+        key = sort, edges, baked
         if key not in self._programs:
             vertex, fragment, told = SORTS[sort]
-            more: dict[str, str | int] = {"SOFT": 1} if soft else {}
-            told = {**told, **more} if not baked else {**{k: v for k, v in told.items() if k != "STANDS"}, "BAKED": 1}
+            told = {**told, edges: 1} if not baked else {**{k: v for k, v in told.items() if k != "STANDS"}, "BAKED": 1}
             names = f"systems/trees/{vertex}.vert", f"systems/trees/{fragment}.frag"
             self._programs[key] = joined(self._ctx, self._block, self._units, *names, told)
         return self._programs[key]

@@ -14,16 +14,14 @@ flat in vec3 along_card;
 layout(location = 0) out vec4 pixel;
 layout(location = 1) out vec4 second;
 
-const vec4 BAYER = vec4(0.125, 0.625, 0.875, 0.375);  // thresholds of two by two pixels, which are one in the end
 const float APART = 7.0;  // how many times as much as their tones twigs' thresholds differ
 
-// Coverage from which on a pixel is drawn: those of a texel have different ones, and each twig has its own order of them.
+// Coverage from which on a pixel is drawn, as two by two pixels are one in the end.
 float threshold() {
 #ifdef LEAVES
     return 0.5;
 #else
-    ivec2 pixel_at = ivec2(gl_FragCoord.xy) & 1;
-    return fract(BAYER[2 * pixel_at.y + pixel_at.x] + APART * across_card.w);
+    return threshold_of(APART * across_card.w);
 #endif
 }
 
