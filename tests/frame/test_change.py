@@ -120,7 +120,7 @@ def test_x1_a_viewer_who_leaps_far_finds_everything_settled(stage: Stage, prairi
     np.testing.assert_array_equal(stage.shot(prairie, camera(-20.0, 1.7, -9.0, pitch=-10, yaw=150)), leapt)
 
 
-def test_x5_between_sub_levels_of_strips_each_blade_goes_over_within_several_frames(
+def test_f1_between_sub_levels_of_strips_each_blade_goes_over_within_several_frames(
     stage: Stage, load: Load, camera: Aim
 ) -> None:
     coarser = "{ to: 9, strips: 2, columns: 1, sections: 2, texel: 0.08 }]"

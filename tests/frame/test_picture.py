@@ -8,7 +8,7 @@ import pytest
 
 from tallgrass.engine.camera import Camera, view_of
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.reference import carpet_painter
+from tallgrass.systems.reference import carpet_painter, draw_reference
 from tallgrass.systems.show.blades.plant import standing_blades
 from tallgrass.systems.show.blades.pool import BladesKept
 from tallgrass.systems.show.blades.representation import BladeRepresentation
@@ -52,6 +52,19 @@ light: { elevation: 90 }
 """
     + QUALITY
 )
+HILLY = (
+    """\
+tallgrass: 2
+terrain: { noise: hills, seed: 3, size: [60, 60], scale: 12, feature: 30 }
+grass:
+  white: { height: [0.4, 0.6], width: 0.03, root: "#c0c0c0", tip: "#ffffff", lean: 0.2 }
+light: { zenith: "#000000", horizon: "#000000", haze: 1000000, ground: "#000000" }
+"""
+    + QUALITY
+)
+SQUARE = 10
+"""Pixels of a side of the squares that pictures are compared by."""
+
 LONE = """\
 tallgrass: 2
 terrain: { noise: hills, seed: 3, size: [80, 80], scale: 12, feature: 30 }
@@ -163,6 +176,20 @@ def test_each_representation_draws_something_else(stage: Stage, load: Load) -> N
     for number, one in enumerate(pictures):
         for other in pictures[number + 1 :]:
             assert np.abs(one - other).mean() > 0.1
+
+
+@pytest.mark.parametrize("lod", ["blades", "strips", "carpet"])
+def test_t1_on_hillsides_grass_stands_where_every_blade_does(stage: Stage, load: Load, camera: Aim, lod: str) -> None:
+    prairie = load(HILLY, lod=lod)
+    aim = camera(0.0, float(prairie.height_at([(0.0, 25.0)])[0]) + 2.0, 25.0, pitch=-6.0)
+    picture = stage.shot(prairie, aim)
+    every = draw_reference(prairie, *stage.matrices(aim), stage.size, samples=2).astype(np.float64)
+    width, height = (size // SQUARE * SQUARE for size in stage.size)
+    shown, due = (
+        each[:height, :width].reshape(height // SQUARE, SQUARE, width // SQUARE, SQUARE, 3).mean(axis=(1, 3, 4))
+        for each in (picture, every)
+    )
+    assert np.abs(shown - due).mean() < 0.1 * due.mean()
 
 
 def test_t1_blades_grow_out_of_the_ground_and_do_not_float(stage: Stage, load: Load, camera: Aim) -> None:

@@ -107,7 +107,7 @@ def test_f4_a_way_shows_on_every_representation_where_it_is_and_nowhere_else(
     assert changed[int(below) :].max() == 0.0
 
 
-def test_x5_a_coarse_carpet_stays_one_when_somebody_walks_elsewhere(stage: Stage, load: Load, camera: Aim) -> None:
+def test_n3_a_coarse_carpet_stays_one_when_somebody_walks_elsewhere(stage: Stage, load: Load, camera: Aim) -> None:
     prairie = load(LITTLE + "  coarse: true\n", lod="carpet")
     aim = camera(0.0, 6.0, 24.0, pitch=-12)
     before = stage.shot(prairie, aim)

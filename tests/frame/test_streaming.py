@@ -1,4 +1,4 @@
-"""Ground that streams from a function of places, as it is seen (V11, X5, P5)."""
+"""Ground that streams from a function of places, as it is seen (N5, N11, T1)."""
 
 from collections.abc import Iterator
 from threading import Event
@@ -57,14 +57,14 @@ def at(prairie: Prairie, place: tuple[float, float], *, pitch: float = -10.0, ya
     return looking(place[0], height + 2.5, place[1], yaw=yaw, pitch=pitch)
 
 
-def test_v11_a_place_looks_alike_for_who_comes_there_and_who_begins_there(stage: Stage, prairies: Any) -> None:
+def test_n5_a_place_looks_alike_for_who_comes_there_and_who_begins_there(stage: Stage, prairies: Any) -> None:
     gone, there = prairies(live=False), prairies(AWAY, live=False)
     stage.shot(gone, at(gone, (0.0, 0.0)))
     np.testing.assert_array_equal(stage.shot(gone, at(gone, AWAY)), stage.shot(there, at(there, AWAY)))
 
 
 @pytest.mark.slow
-def test_x5_what_a_game_has_done_is_there_when_one_comes_back_and_in_states(stage: Stage, prairies: Any) -> None:
+def test_d6_what_a_game_has_done_is_there_when_one_comes_back_and_in_states(stage: Stage, prairies: Any) -> None:
     played, untouched = prairies(AWAY, live=False), prairies(AWAY, live=False)
     camera = at(played, AWAY)
     before = stage.shot(untouched, camera)
@@ -85,7 +85,7 @@ def test_x5_what_a_game_has_done_is_there_when_one_comes_back_and_in_states(stag
 
 
 @pytest.mark.slow
-def test_p5_no_frame_waits_while_ground_ahead_is_made_and_shadows_follow_it(
+def test_n11_no_frame_waits_while_ground_ahead_is_made_and_shadows_follow_it(
     stage: Stage, prairies: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     walker, goal, may_come = prairies(window=1024.0), (112.0, 0.0), Event()
@@ -112,14 +112,14 @@ def test_p5_no_frame_waits_while_ground_ahead_is_made_and_shadows_follow_it(
     assert walker.site.ground.terrain.changes.leaps == 0
 
 
-def test_p5_who_jumps_far_sees_the_ground_there_at_once(stage: Stage, prairies: Any) -> None:
+def test_t1_who_jumps_far_sees_the_ground_there_at_once(stage: Stage, prairies: Any) -> None:
     jumped, there = prairies(), prairies(AWAY)
     stage.shot(jumped, at(jumped, (0.0, 0.0)))
     np.testing.assert_allclose(stage.shot(jumped, at(jumped, AWAY)), stage.shot(there, at(there, AWAY)), atol=2.0)
     assert jumped.site.ground.terrain.changes.leaps == 1
 
 
-def test_v11_a_forest_is_the_same_for_who_comes_there_and_who_begins_there(stage: Stage, prairies: Any) -> None:
+def test_n5_a_forest_is_the_same_for_who_comes_there_and_who_begins_there(stage: Stage, prairies: Any) -> None:
     seen = []
     for way in ([(0.0, 0.0), AWAY], [AWAY]):
         with private_world():
@@ -133,7 +133,7 @@ def test_v11_a_forest_is_the_same_for_who_comes_there_and_who_begins_there(stage
     assert np.array_equal(root, seen[1]["root"])
 
 
-def test_v11_what_needs_an_edge_is_refused_in_a_sentence() -> None:
+def test_d6_what_needs_an_edge_is_refused_in_a_sentence() -> None:
     ground: dict[str, Any] = {"heights": dunes, "window": 1024.0}
     scene: dict[str, Any] = {"tallgrass": 2, "terrain": ground, "grass": {"tall": {}}}
     density = np.ones((4, 4), np.float32)

@@ -1,5 +1,6 @@
 """The package list is written by hand, so it is compared with the folders."""
 
+import re
 import tomllib
 from fnmatch import fnmatch
 from pathlib import Path
@@ -58,3 +59,13 @@ def test_every_pattern_of_shipped_files_is_of_a_listed_package() -> None:
 
 def test_no_test_folder_is_a_package() -> None:
     assert list((ROOT / "tests").rglob("__init__.py")) == []
+
+
+def test_every_row_code_in_the_name_of_a_test_is_told() -> None:
+    told = set(re.findall(r"^\| ([A-Z]\d+) \|", (ROOT / "tests" / "README.md").read_text("utf-8"), re.MULTILINE))
+    names = [
+        name
+        for file in (ROOT / "tests").rglob("test_*.py")
+        for name in re.findall(r"^def test_([a-z]\d+)_", file.read_text("utf-8"), re.MULTILINE)
+    ]
+    assert {name.upper() for name in names} == told

@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tallgrass.components.arrays import Floats
+from tallgrass.components.pose import Pose
 from tallgrass.components.wind import Extent, Grass, WindPrimitive, WindSource
 from tallgrass.engine.scene import SceneError, parse_scene
 from tallgrass.systems.wind.blast import Blast, Shape
@@ -163,6 +164,25 @@ def test_w5_a_wind_costs_what_it_covers(answer: Answer, monkeypatch: pytest.Monk
     asked, quarantine, heard = Asked(monkeypatch, type(wind)), Quarantine(), receivers(answer)
     hear(blowing([WindSource(wind, "here")], quarantine, time=1.0, seed=1), heard, quarantine, time=1.0, seed=1)
     assert 0 < sum(len(place) for place in asked.masks) < 0.1 * len(heard.place)
+
+
+@pytest.mark.parametrize(
+    "wind", [Gust(hold=0.3, tail=0.3, width=8.0), Whirlwind(radius=3.0, position=[3, 2]), Blast(position=[3, 2])]
+)
+def test_w5_receivers_on_patches_that_a_wind_misses_are_not_looked_at(
+    answer: Answer, monkeypatch: pytest.MonkeyPatch, wind: WindPrimitive
+) -> None:
+    looked, plain, quarantine, heard = list[int](), Pose.inside, Quarantine(), receivers(answer, each=100)
+
+    def inside(pose: Pose, place: Floats, /) -> Floats:
+        looked.append(len(place))
+        return plain(pose, place)
+
+    monkeypatch.setattr(Pose, "inside", inside)
+    hear(blowing([WindSource(wind, "here")], quarantine, time=1.0, seed=1), heard, quarantine, time=1.0, seed=1)
+    patches, places = looked
+    assert patches == len(heard.middle)
+    assert 0 < places < 0.2 * len(heard.place)
 
 
 @given(ended, times, seeds)
