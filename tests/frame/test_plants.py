@@ -3,12 +3,14 @@
 from collections.abc import Callable
 from typing import Any
 
+import moderngl
 import numpy as np
 import pytest
 
-from tallgrass.engine.camera import Camera
+from tallgrass.engine.camera import Camera, view_of
 from tallgrass.systems.grow import organs
 from tallgrass.systems.grow.bend import spine
+from tallgrass.systems.grow.organs import width_along
 from tallgrass.systems.grow.record import Blades, Growth
 from tallgrass.systems.light.materials import pigment
 from tallgrass.systems.prairie import Prairie
@@ -16,14 +18,13 @@ from tallgrass.systems.reference import draw_reference
 from tallgrass.systems.show.blades import representation
 from tallgrass.systems.show.blades.draw import RIBBON
 from tallgrass.systems.show.blades.painter import BladesPainter
-from tallgrass.systems.show.blades.plant import standing_blades
+from tallgrass.systems.show.blades.plant import record_of, standing_blades
 from tallgrass.systems.show.blades.representation import BladeRepresentation
 from tallgrass.systems.show.blades.shown import BladesShown
-from tallgrass.testing import LITTLE
+from tallgrass.testing import LITTLE, Stage
 
 Load = Callable[..., Prairie]
 Aim = Callable[..., Camera]
-Stage = Any
 
 GARDEN = LITTLE.replace(
     LITTLE[LITTLE.index("\ngrass:") + 1 : LITTLE.index("camera:")],
@@ -109,6 +110,31 @@ def test_f3_each_organ_is_drawn_where_numpy_has_it_and_with_its_own_pigment(stag
                 np.testing.assert_allclose(ratio, 1.0, atol=1e-3)
         first += count
     assert met >= {organs.BLADE, organs.STEM, organs.LEAF, organs.PETAL, organs.EYE, organs.BUD, *TOOTHED}
+
+
+def test_f3_each_organ_is_as_broad_along_itself_as_numpy_has_it(ctx: moderngl.Context, garden: Prairie) -> None:
+    room, aim, each = Stage(ctx, (120, 200)), Camera((0.0, 0.25, 6.0), 0.0, 0.0, np.radians(5.0)), []
+    room.shot(garden, aim)
+    assert garden.painter is not None
+    painter = garden.painter.blade_painter(32)
+    for organ in (None, organs.STEM, organs.LEAF, organs.PETAL, organs.EYE):
+        one = np.zeros(0 if organ is None else 1, record_of(garden.site.growths))
+        one["kind"], one["organ"], one["height"], one["width"] = 1, organ or 0, 0.4, 0.2
+        one["facing"] = 0.0, 1.0
+        painter.write(one, np.zeros((len(one), 2), np.float32))
+        room.begin()
+        garden.painter.draw(view_of(*room.matrices(aim)), blades=[painter])
+        each.append((organ, room.read()))
+    painter.release()
+    room.release()
+    (_, bare), *grown = each
+    for organ, picture in grown:
+        broad = (np.abs(picture - bare).max(axis=2) > 3.0).sum(axis=1)
+        rows = np.flatnonzero(broad)
+        place = 1.0 - (np.arange(len(rows)) + 0.5) / len(rows)
+        due = width_along(np.array([organ]), place)[0]
+        assert len(rows) > 100
+        np.testing.assert_allclose(broad[rows] / broad.max(), due / due.max(), atol=0.05)
 
 
 def foot_of(records: Any, growth: Growth, message: Any) -> Any:
