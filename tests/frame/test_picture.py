@@ -183,7 +183,8 @@ def test_t1_on_hillsides_grass_stands_where_every_blade_does(stage: Stage, load:
     prairie = load(HILLY, lod=lod)
     aim = camera(0.0, float(prairie.height_at([(0.0, 25.0)])[0]) + 2.0, 25.0, pitch=-6.0)
     picture = stage.shot(prairie, aim)
-    every = draw_reference(prairie, *stage.matrices(aim), stage.size, samples=2).astype(np.float64)
+    view, projection = stage.matrices(aim)
+    every = draw_reference(prairie, view, projection, stage.size, samples=2).astype(np.float64)
     width, height = (size // SQUARE * SQUARE for size in stage.size)
     shown, due = (
         each[:height, :width].reshape(height // SQUARE, SQUARE, width // SQUARE, SQUARE, 3).mean(axis=(1, 3, 4))
