@@ -23,6 +23,7 @@ Load = Callable[..., Prairie]
 Aim = Callable[..., Camera]
 OnCard = Callable[[Prairie], list[tuple[Receiving, Floats]]]
 
+FLAT = LITTLE.replace("scale: 4", "scale: 0")
 CLOSE = 1e-5
 """By how much a message on the graphics card may differ from that of numpy where only pressers act."""
 
@@ -105,6 +106,25 @@ def test_f4_a_way_shows_on_every_representation_where_it_is_and_nowhere_else(
     near = changed[int(row) - 8 : int(row) + 3]
     assert (near > 0.02 * pictures[0].max()).mean() > 0.02
     assert changed[int(below) :].max() == 0.0
+
+
+@pytest.mark.parametrize("lod", ["blades", "strips", "carpet"])
+def test_f4_where_somebody_went_away_from_the_eye_grass_is_brighter_than_where_they_came(
+    stage: Stage, load: Load, camera: Aim, lod: str
+) -> None:
+    prairie, aim, ways = load(FLAT, lod=lod), camera(0.0, 4.0, 20.0, pitch=-12, view=40), []
+    before = prairie.state()
+    for yaw in (0.0, np.pi):
+        prairie.restore(before)
+        walker = esper.create_entity(Presser(radius=1.5), Pose(0.0, 500.0))
+        for far in np.linspace(8.0, -8.0, 33):
+            esper.add_component(walker, Pose(0.0, far * np.cos(yaw), yaw))
+            prairie.bent_at([(0.0, 0.0)])
+            prairie.advance(0.1)
+        esper.delete_entity(walker, immediate=True)
+        place = np.abs(stage.ground(aim, 0.2))
+        ways.append(stage.shot(prairie, aim)[(place[..., 0] < 1.0) & (place[..., 1] < 6.0)].mean())
+    assert ways[0] > 1.025 * ways[1]
 
 
 def test_n3_a_coarse_carpet_stays_one_when_somebody_walks_elsewhere(stage: Stage, load: Load, camera: Aim) -> None:

@@ -167,3 +167,23 @@ def test_d6_a_leaf_that_stands_straight_before_the_sun_sends_light_that_is_a_num
     sent = probe(STRAIGHT, rows, record, {}, 4)
     assert np.isfinite(sent).all()
     assert (sent[:, :2] > 0.0).all()
+
+
+BENT = """#include "lib/surface.glsl"
+in vec4 row;
+out vec4 told;
+void main() {
+    Response sent = leaf_response(0, row.xy, eye + vec3(0.0, -1.0, -7.0), vec3(0.0, 1.0, 0.0), 1.0);
+    told = vec4(sent.sun.r, sent.sky.r, sent.gloss, 1.0);
+}"""
+
+
+def test_f6_grass_that_lies_shows_its_faces_to_the_sky_and_most_to_an_eye_that_it_leans_away_from(probe: Probe) -> None:
+    record, rows = np.zeros(1, FRAME), np.zeros((4, 4), np.float32)
+    record["eye"], record["kinds"]["through"] = (3.0, 1.7, 5.0), 0.5
+    rows[1:, :2] = [(0.8, 0.0), (0.0, -0.8), (0.0, 0.8)]
+    for sent in probe(BENT, rows, record, {}, 4).T[:2]:
+        upright, aside, away, towards = sent
+        assert aside > 1.05 * upright
+        assert away > 1.05 * aside
+        assert towards < 0.95 * aside
