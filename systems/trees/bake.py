@@ -83,6 +83,12 @@ def _halved(values: Floats) -> Floats:
     )
 
 
+def whole_cover(made: list[Bytes], /) -> Bytes:
+    """Return how much of it any picture of a tree from all around covers, shape (rows, columns)."""
+    columns, rows, side = PICTURES
+    return np.asarray(made[0][0, ..., 3].reshape(rows, side, columns, side).max(axis=(0, 2)))
+
+
 def from_around(number: int, middle: float, half: float, /) -> Doubles:
     """Return the matrix (4, 4) that shows a tree from one of its sides: a square of half a side about a height [m]."""
     azimuth, up = 2.0 * np.pi * (number % COLUMNS) / COLUMNS, FIRST_ROW + EACH_ROW * (number // COLUMNS)

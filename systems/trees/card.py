@@ -11,6 +11,7 @@ from ...engine.gl.records import Records
 from ...engine.gl.stream import Stream, release_all
 from .bark import RUNS, SENT, sent
 from .model import Model
+from .outline import BOX, pairs
 from .standing import COLUMN, HUNG, LEAFY, PLACED, SHOWN, TOLD
 from .twig import RANKS, ROW, TWIG
 from .wood import Parts, parts
@@ -21,6 +22,9 @@ Numbers = Mapping[str, tuple[float, ...]]
 NEAR, FAR, LEAVES, WOOD, CAST, PICTURED = "near", "far", "leaves", "wood", "cast", "pictured"
 """What is drawn of trees: twigs on their cards, pictures far off, leaf by leaf, wood; and into maps of their shade, and
 twigs on their cards into those pictures."""
+
+BACK = "back"
+"""The stream of those pictures from far to near, as soft edges are blended: that of `FAR` is from near to far."""
 
 QUAD = 6
 """Vertices of a quad, as two triangles."""
@@ -74,7 +78,7 @@ class ModelOnCard:
         ] = 1.0
         self._alone["turn"] = 1.0, 0.0
         self.bare.write(self._alone)
-        self.streams = {name: Stream(ctx, SHOWN) for name in (*WOODS, FAR, *CARDS)}
+        self.streams = {name: Stream(ctx, SHOWN) for name in (*WOODS, FAR, BACK, *CARDS)}
         self.streams[LEAVES] = Stream(ctx, LEAFY)
         self.told = {id(each): Stream(ctx, TOLD) for each in self.streams.values()}
         """What is made out of the trees of each stream once a tree, by the stream's id."""
@@ -87,6 +91,8 @@ class ModelOnCard:
         self.wood = dict.fromkeys(WOODS, Parts(0, 0))
         """Triangles that the trees of a stream of wood draw."""
         self.far: moderngl.TextureArray | None = None
+        self.outline = pairs(BOX)
+        """Corners about what its pictures show."""
 
     def bark(self, program: moderngl.Program) -> tuple[moderngl.Buffer | str, ...]:
         """Return the vertices of its wood, as a vertex array takes them: those fields that a program has."""
@@ -110,6 +116,7 @@ class ModelOnCard:
             if len(rows):
                 self.wood[name] = parts(self.model.wood[number].radii, wide[run == number], rows)
         self._send(FAR, far)
+        self._send(BACK, far[::-1])
         self._send(LEAVES, leafy)
         self.most[LEAVES] = 1
         drawn = near["keep"] * (1.0 - near["gone"])

@@ -16,7 +16,7 @@ from ..frame.feature import Heard, Part
 from ..space.grown import Grown
 from ..wind.blow import mean_wind
 from ..wind.mean import MeanWind
-from .card import CARDS, CAST, FAR, LEAVES, NEAR, QUAD, SMALL_CARDS, WOOD, WOODS, ModelOnCard, Numbers
+from .card import BACK, CARDS, CAST, FAR, LEAVES, NEAR, QUAD, SMALL_CARDS, WOOD, WOODS, ModelOnCard, Numbers
 from .group import Group
 from .kind import KindOnCard
 from .leafy import leaf_by_leaf, leafy
@@ -254,7 +254,7 @@ class TreePart(Part):
             ])  # fmt: skip
         ahead = nearest_ahead(clip, middle, eye, (1.0 + SWAYS) * scale[:, None] * (ball, grown.radius))
         wide = THINNEST * np.maximum(ahead, AWAY) / (focal * scale)
-        model.write(told[near], wide[near], twigs, told[far][::-1])
+        model.write(told[near], wide[near], twigs, told[far])
         if self.leaves_from is not None:
             model.most[LEAVES] = len(grown.twigs)
 
@@ -348,11 +348,13 @@ class TreePart(Part):
                     (LEAVES, LEAVES, 0, QUAD * kind.habit.leaf.quads),
                     *((NEAR, name, 0, len(kind.outlines[name in SMALL_CARDS])) for name in CARDS),
                     *((WOOD, name, *_wood(model, name, soft=soft, whole=all_wood or sampled)) for name in WOODS),
-                    (FAR, FAR, 0, QUAD),
+                    (FAR, BACK if soft else FAR, 0, len(model.outline)),
                 ):
                     stream = model.hung.get(name, model.streams[name])
                     if stream.count and vertices > 0 and not (soft and sampled and sort != FAR):
-                        corners = kind.outlines[name in SMALL_CARDS] if name in CARDS else []
+                        corners = model.outline if sort == FAR else []
+                        if name in CARDS:
+                            corners = kind.outlines[name in SMALL_CARDS]
                         array = programs.array(sort, stream, model, edges=SAMPLED if sampled and sort != FAR else edges)
                         nearest = 0.0 if soft else self._nearest(model.placed[name])
                         hard = all_wood or name in CARDS or (sort == WOOD and model.wood[name].hard)

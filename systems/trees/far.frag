@@ -15,6 +15,7 @@ flat in vec4 rows_of;
 flat in vec2 mixed;
 flat in vec4 sun_own;
 flat in vec4 sunlit;
+flat in vec3 sunlit_wood;
 flat in vec3 skylit;
 flat in vec3 hazy;
 flat in vec3 below;
@@ -29,29 +30,28 @@ flat in vec2 foot;
 
 out vec4 pixel;
 
-const float FINER_BY = -0.6;  // level of a picture: it is read between texels, which blurs it
 const vec2 SHIMMER_HERTZ = vec2(1.7, 1.3);  // how fast limbs swing, along and across a picture [Hz]
 const float SHIMMER_TURNS = 15.0;  // how much their swing changes over a crown [rad]
 const float SHIMMER = 0.12;  // how far they seem to swing, of how far they do, of a picture
 const float HIDES_MOST = 0.96;  // of the sun's light, where leaves cover a texel wholly
 const float COMES = 1.5;  // how much sooner it is all there than twigs are left to it
-const float UPRIGHT_SENDS = 0.25;  // what an upright stem sends of level light from behind the eye, of what faces it, over half a turn [1/rad]
 const float FACES_UP = 0.5;  // how far up what is seen of a crown looks, -1 to 1; wood, which is upright, does not
 
 vec2 tile_at(vec2 number, vec2 at) {
     return (number + at) / vec2(COLUMNS, ROWS);
 }
 
-// Where many stand side by side, pixels on either side of an edge are far apart on the picture.
-vec4 picture_at(vec3 place) {
-    return row_told.x > 1.0 ? textureLod(tree_far, place, row_told.z) : texture(tree_far, place, FINER_BY);
-}
-
-vec4 row_texel(float row, vec2 at, float layer) {
-    vec4 texel = vec4(0.0);
-    if (mixed.x < 1.0)
-        texel = (1.0 - mixed.x) * picture_at(vec3(tile_at(vec2(rows_of.x, row), at), layer));
-    return mixed.x > 0.0 ? texel + mixed.x * picture_at(vec3(tile_at(vec2(rows_of.z, row), at), layer)) : texel;
+// What the pictures show together that are mixed, two in a row: with most trees, it is one of them alone.
+void mix_pictures(vec2 at, out vec4 texel, out vec4 shading) {
+    ivec2 first = ivec2(greaterThanEqual(mixed, vec2(1.0))), last = ivec2(greaterThan(mixed, vec2(0.0)));
+    texel = shading = vec4(0.0);
+    for (int row = first.y; row <= last.y; row++)
+        for (int column = first.x; column <= last.x; column++) {
+            vec2 place = tile_at(vec2(column == 0 ? rows_of.x : rows_of.z, row == 0 ? rows_of.y : rows_of.w), at);
+            float part = (column == 0 ? 1.0 - mixed.x : mixed.x) * (row == 0 ? 1.0 - mixed.y : mixed.y);
+            texel += part * textureLod(tree_far, vec3(place, 0.0), row_told.z);
+            shading += part * textureLod(tree_far, vec3(place, 1.0), row_told.z);
+        }
 }
 
 const vec3 APART = vec3(0.618, 0.755, 0.57);  // how far trees of a row are apart by their numbers: in height, place, and side
@@ -68,17 +68,6 @@ vec2 on_own(vec2 at) {
     return vec2(0.5 + aside, at.y * (LOWER.x + LOWER.y * own.x));
 }
 
-vec4 mixed_texel(vec2 at, float layer) {
-    vec4 texel = mixed.y < 1.0 ? row_texel(rows_of.y, at, layer) : vec4(0.0);
-    return mixed.y > 0.0 ? mix(texel, row_texel(rows_of.w, at, layer), mixed.y) : texel;
-}
-
-// What white wood sends to the eye of the sun's light: the mean over the side of an upright stem that is seen.
-float wood_sends(vec3 ray) {
-    float level = length(sun.xz), apart = acos(clamp(-dot(ray.xz, sun.xz) / max(length(ray.xz) * level, LEAST_PART), -1.0, 1.0));
-    return SENDS * level * UPRIGHT_SENDS * (sin(apart) + (PI - apart) * cos(apart));
-}
-
 void main() {
     vec2 at = on_own(0.5 + 0.5 * on);
 #ifndef CAST
@@ -88,7 +77,8 @@ void main() {
     at.x += bends.x * (high - cantilever(high));
 #endif
     at = clamp(at, TILE_EDGE, 1.0 - TILE_EDGE);
-    vec4 texel = mixed_texel(at, 0.0);
+    vec4 texel, shading;
+    mix_pictures(at, texel, shading);
 #ifdef CAST
     texel *= float(max(abs(on.x), abs(on.y)) < 1.0);
     float leaves = -log(1.0 - HIDES_MOST * texel.a) * mix(1.0, sun_own.w, 1.0 - texel.g);
@@ -99,13 +89,11 @@ void main() {
     float wood = texel.g / max(texel.a, LEAST_COVER);
     texel *= mix(sun_own.w, 1.0, wood);
     float cover = texel.a * clamp(sunlit.a * COMES, 0.0, 1.0);
-    vec4 shading = unpacked_shading(mixed_texel(at, 1.0) / max(texel.a, LEAST_COVER));
     must_cover(cover);
+    shading = unpacked_shading(shading / max(texel.a, LEAST_COVER));
     float seen = through_crown(shading, sun_own.xyz, sun_own.w);
-    vec3 ray = normalize(seen_at - eye);
-    vec3 sends = mix(strewn_send(ray), vec3(wood_sends(ray)), wood);
     vec3 sky = sky_on(skylit, below, sky_through(shading, sun_own.w), FACES_UP * (1.0 - wood));
-    Light light = Light(sunlit.rgb * (seen * sends), sky, hazy, 0.0, 0.0, vec2(0.0));
+    Light light = Light(mix(sunlit.rgb, sunlit_wood, wood) * seen, sky, hazy, 0.0, 0.0, vec2(0.0));
     vec3 pigment = pigment_of(texel.r / max(texel.a, LEAST_COVER), wood);
     pixel = drawn(shade(Surface(pigment, 1.0, AMONG_LEAVES), light), cover);
 #endif

@@ -17,7 +17,10 @@ FINER = 2
 TILE_EDGE = 0.5 / SIDE
 """What of a picture is its neighbours' at its edge."""
 
+FINER_BY = -0.6
+"""Level at which one is shown, from that of its pixels: it is read between texels, which blurs it."""
+
 GLSL = {
     "COLUMNS": COLUMNS, "ROWS": ROWS, "FIRST_ROW": FIRST_ROW, "EACH_ROW": EACH_ROW, "TILE_EDGE": TILE_EDGE,
-    "SIDE": SIDE,
+    "SIDE": SIDE, "FINER_BY": FINER_BY,
 }  # fmt: skip

@@ -11,13 +11,13 @@ from ...engine.gl.mipmaps import mipmapped
 from ...engine.gl.shaders import tell_asked
 from ...engine.gl.stream import release_all
 from ..light.materials import pigment
-from .bake import CARD, PICTURES, filtered, from_around, on_card, pictures
+from .bake import CARD, PICTURES, filtered, from_around, on_card, pictures, whole_cover
 from .card import FEWER, LEAVES, PICTURED, QUAD, WOOD, ModelOnCard, Numbers
 from .habit import HABITS
 from .kept import keep_pictures, kept_pictures, kind_key
 from .model import models_of
 from .noise import bark_noise
-from .outline import BOX, outline, roughly
+from .outline import BOX, outline, pairs, roughly
 from .programs import Programs
 from .twig import SHOOTS_LONG
 
@@ -65,6 +65,7 @@ class KindOnCard:
         self._use(found[0])
         for model, picture in zip(self.models, found[1:], strict=True):
             model.far = filtered(self.ctx, picture)
+            model.outline = pairs(outline(whole_cover(picture)))
 
     def _use(self, twig: list[Bytes]) -> None:
         """Show twigs as in this picture."""
@@ -86,7 +87,7 @@ class KindOnCard:
         return pictures(self.ctx, 1, 1, CARD, draw_twig)
 
     def _draw_as(self, corners: Doubles) -> None:
-        self.outlines = [[(x, y) for x, y in each.tolist()] for each in (corners, roughly(corners))]
+        self.outlines = [pairs(each) for each in (corners, roughly(corners))]
 
     def _model_picture(self, programs: Programs, model: ModelOnCard) -> list[Bytes]:
         """Return the pictures of a model from all around."""

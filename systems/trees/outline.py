@@ -44,6 +44,11 @@ def outline(cover: Bytes, /) -> Doubles:
     return found if _goes_round(found) else BOX
 
 
+def pairs(corners: Doubles, /) -> list[tuple[float, float]]:
+    """Return corners as shaders are told them."""
+    return [(x, y) for x, y in corners.tolist()]
+
+
 def roughly(corners: Doubles, /) -> Doubles:
     """Return four corners about those of an outline, left and right in turn: triangles of small cards are edges."""
     low, high = corners[:, 1].min(), corners[:, 1].max()

@@ -69,7 +69,9 @@ class Programs:
                     contents.insert(0, model.bark(program))
                     indices = model.triangles
             whole = [each for each in contents if len(each) > 2]
-            self._arrays[key] = self._ctx.vertex_array(program, whole, index_buffer=None if sort == NEAR else indices)
+            self._arrays[key] = self._ctx.vertex_array(
+                program, whole, index_buffer=None if sort in (NEAR, FAR) else indices
+            )
         return self._arrays[key]
 
     def made(self, what: str, stream: Stream, told: Stream | None = None) -> moderngl.VertexArray:

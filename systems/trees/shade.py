@@ -28,7 +28,7 @@ SIDES = 96.0, 800.0, 1024.0
 """How far each reaches from edge to edge [m]."""
 
 GLSL = {
-    "SHADE_MAPS": float(len(SIDES)), "A_TURN": tau,
+    "SHADE_MAPS": float(len(SIDES)), "SHADE_SIDE": float(SIDE), "A_TURN": tau,
     "SHADE_LEANS": TRUNK_LEANS, "SHADE_SWINGS": TRUNK_SWINGS, "SHADE_TONES_APART": TONES_APART,
 }  # fmt: skip
 

@@ -102,7 +102,7 @@ Light light_in_crown(vec3 place, vec4 shading, float up) {
 #else
     float seen = past * through_crown(shading, turned_back(sun), foliage);
     if (seen > FAINTEST_SUN)
-        seen *= past_trees(place, OWN_CROWN * tall * scale);
+        seen *= past_trees_beyond(place, OWN_CROWN * tall * scale);
     Light light = light_at(place, Sender(FACE, vec2(0.0), vec3(0.0, 1.0, 0.0), 1.0), 1.0, seen);
     light.sky = sky_on(light.sky, from_below(), sky_through(shading, foliage), up);
     light.sun *= tint * (1.0 - misty.a);

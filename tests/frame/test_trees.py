@@ -17,6 +17,7 @@ from tallgrass.engine.camera import Camera
 from tallgrass.systems.reference import draw_reference
 from tallgrass.systems.trees import bake, card, going, kind, standing
 from tallgrass.systems.trees.draw import TreePart
+from tallgrass.systems.trees.outline import BOX, pairs
 from tallgrass.systems.trees.shade import ShadeMap
 from tallgrass.systems.trees.wood import Parts
 from tallgrass.testing import Stage, little_prairie, looking, private_world
@@ -205,6 +206,31 @@ def test_n3_held_a_tree_is_shown_as_in_the_frame_before_from_wherever_it_is_seen
         assert np.array_equal(told(), before)
     shot(stage, prairie, nearer)
     assert (told() > before).all()
+
+
+@pytest.mark.parametrize("off", [25.0, 70.0, 200.0])
+def test_far_off_nothing_of_it_lies_beyond_its_outline(
+    stage: Stage, prairie: Prairie, plant: Callable[..., int], off: float
+) -> None:
+    camera, seen = looking(0.0, 1.7, off, pitch=2.0, view=20.0), list[Picture]()
+    bare = shot(stage, prairie, camera)
+    plant(0.0, 0.0)
+    assert prairie.painter is not None
+    part = vars(prairie.painter.part(TreePart))
+    (ash,) = part["_kinds"]
+    shot(stage, prairie, camera)  # its pictures are there
+    kept = [each.outline for each in ash.models]
+    assert all(np.ptp(np.array(each)[:, 0]) < 1.6 for each in kept)  # a birch is narrower than it is high
+    for outlines in (kept, [pairs(BOX)] * len(kept)):
+        for model, outline in zip(ash.models, outlines, strict=True):
+            model.outline = outline
+        part["_calls"].clear()
+        seen.append(shot(stage, prairie, camera))
+    for model, outline in zip(ash.models, kept, strict=True):
+        model.outline = outline
+    part["_calls"].clear()
+    assert changed(seen[0], bare) > 0.0
+    assert np.abs(seen[0] - seen[1]).max() <= 1.0
 
 
 @pytest.mark.parametrize("away", [0.0, -12.0])

@@ -122,7 +122,7 @@ float past_shade(mat3x4 told, vec3 place) {
 float past_casters(vec3 place) {
     float seen = 1.0;
 #if defined(TREES) && !defined(OF_TREES)  // those ask for others by themselves
-    seen = past_trees(place, 0.0);
+    seen = past_trees_beyond(place, 0.0);
 #endif
 #ifndef PLAIN
     ivec2 listed_here = shades_grid.w > 0.0 ? listed_about(shades_grid, SHADES_FROM, place.xz) : ivec2(0);

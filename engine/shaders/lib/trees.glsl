@@ -25,25 +25,38 @@ vec3 shade_sways(vec3 place) {
     return vec3(aside.x, 0.0, aside.y);
 }
 
-vec2 shade_in(vec2 at, float tile) {
-    return textureLod(tree_shade, vec2((clamp(at.x, TILE_SPAN.x, TILE_SPAN.y) + tile) / SHADE_MAPS, at.y), 0.0).rg;
+vec2 on_maps(vec2 at, float map) {
+    return vec2((clamp(at.x, TILE_SPAN.x, TILE_SPAN.y) + map) / SHADE_MAPS, at.y);
 }
 
-// Of the leaves on the sun's ray past a place, those that stand before it, farther on than `beyond` [m].
-float leaves_before(vec3 place, float beyond) {
-    vec3 calm = place - shade_sways(place);
-    vec2 at = vec2(dot(calm, trees_across), dot(calm, trees_up));
-    vec2 near_at = (at - trees_middle.xy) / trees_sides.x, far_at = (at - trees_middle.zw) / trees_sides.y;
-    float near_out = max(abs(near_at.x), abs(near_at.y)), far_out = max(abs(far_at.x), abs(far_at.y));
-    vec2 met = near_out < MAP_RIM ? shade_in(0.5 + near_at, 0.0) : far_out < MAP_RIM ? shade_in(0.5 + far_at, 1.0) : vec2(0.0);
-    float mean = met.y / max(met.x, LEAST_PART), own = dot(place, sun) + beyond;
-    float fades = near_out < MAP_RIM ? 1.0 : 1.0 - smoothstep(MAP_RIM - RIM_FADES, MAP_RIM, far_out);
-    return met.x * fades * smoothstep(STANDS_BEFORE.x, STANDS_BEFORE.y, mean - own);
+vec2 shade_in(vec2 at, float map) {
+    return textureLod(tree_shade, on_maps(at, map), 0.0).rg;
+}
+
+// Where the maps tell of the sun's ray past a place (x, y), and how far along it the place is [m]. In `counts` is how much that does;
+// it is told of a place, for it and all near by, and so is which of the maps tells of them.
+vec3 on_ray(vec3 place, vec3 about, out float counts) {
+    vec3 sways = shade_sways(about), calm = place - sways, middle = about - sways;
+    vec2 at = vec2(dot(calm, trees_across), dot(calm, trees_up)), middle_at = vec2(dot(middle, trees_across), dot(middle, trees_up));
+    vec2 near_out = abs(middle_at - trees_middle.xy) / trees_sides.x, far_out = abs(middle_at - trees_middle.zw) / trees_sides.y;
+    bool near = max(near_out.x, near_out.y) < MAP_RIM;
+    counts = near ? 1.0 : 1.0 - smoothstep(MAP_RIM - RIM_FADES, MAP_RIM, max(far_out.x, far_out.y));
+    at = near ? (at - trees_middle.xy) / trees_sides.x : (at - trees_middle.zw) / trees_sides.y;
+    return vec3(on_maps(0.5 + at, near ? 0.0 : 1.0), dot(place, sun));
+}
+
+// How much of the sun is seen past trees that stand before a place that `on_ray` gave.
+float past_trees(vec3 ray, float counts) {
+    vec2 met = textureLod(tree_shade, ray.xy, 0.0).rg;
+    float mean = met.y / max(met.x, LEAST_PART);
+    return comes_through(met.x * counts * smoothstep(STANDS_BEFORE.x, STANDS_BEFORE.y, mean - ray.z));
 }
 
 // How much of the sun is seen past trees, but for a crown that the place is in and that goes on so far towards it [m].
-float past_trees(vec3 place, float beyond) {
-    return comes_through(leaves_before(place, beyond));
+float past_trees_beyond(vec3 place, float beyond) {
+    float counts;
+    vec3 ray = on_ray(place, place, counts);
+    return past_trees(vec3(ray.xy, ray.z + beyond), counts);
 }
 
 // How many leaves are met above a place of the ground, over all the sky that is seen from it.

@@ -44,6 +44,7 @@ OF_SOIL float elevation;
 OF_SOIL vec3 sunlit;
 OF_SOIL vec3 skylit;
 OF_SOIL float soil_way;
+OF_SOIL float soil_through;
 OF_SOIL vec3 lush;
 
 out vec4 pixel;
@@ -77,6 +78,7 @@ void work_out_soil() {
     sunlit = soil.sunlit;
     skylit = soil.skylit;
     soil_way = soil.way;
+    soil_through = soil.through;
 }
 #endif
 
@@ -206,7 +208,7 @@ void main() {
 #endif
     vec3 pigment = pigment_lying(place.xz, comes_through(dense / max(slope, LOWEST)), lush, left);
     vec3 ground = met_at(0.0, slope);
-    vec3 soil_light = soil_between(Soil(soil_seen, sunlit, skylit, soil_way), ground, left);
+    vec3 soil_light = soil_between(Soil(soil_seen, sunlit, skylit, soil_way, soil_through), ground, left);
     vec3 color = shown_of(soil_light * pigment * pigment + lit[2].rgb);
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / patch_side))) : 0.0, cover = 0.0;
     if (over_hosts > 0.0)

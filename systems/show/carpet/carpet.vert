@@ -60,6 +60,7 @@ OF_SOIL float elevation;  // of elevation_seen
 OF_SOIL vec3 sunlit;      // radiance of the soil without any grass: of the sun's light,
 OF_SOIL vec3 skylit;      // and of the sky's
 OF_SOIL float soil_way;   // how many leaves the sun's light meets
+OF_SOIL float soil_through; // how much of it comes through the grass
 OF_SOIL vec3 lush;        // pigment of the understorey, of that of the ground between
 #endif
 
@@ -132,6 +133,7 @@ void light_soil(vec3 ground, Laid laid) {
     sunlit = soil.sunlit;
     skylit = soil.skylit;
     soil_way = soil.way;
+    soil_through = soil.through;
     lush = understorey_of(lies, grows);
 #endif
 }

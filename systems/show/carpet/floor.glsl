@@ -7,11 +7,13 @@ struct Soil {
     vec3 sunlit;
     vec3 skylit;
     float way;    // how many leaves the sun's light meets, of those seen from the side
+    float through; // how much of the sun's light comes through the grass
 };
 
 Soil soil_lit(vec3 place, Lie lies, ByKind grows, float clear) {
     Surface surface = soil_at(lies, grows);
-    Light light = light_on_soil(place, lies, total(areas(grows)));
+    float leaves = total(areas(grows));
+    Light light = light_on_soil(place, lies, leaves);
     vec3 seen = shade(surface, light);
     light.leaves = vec2(0.0);
     vec3 both = shade(surface, light);
@@ -22,5 +24,5 @@ Soil soil_lit(vec3 place, Lie lies, ByKind grows, float clear) {
         light.sky = vec3(0.0);
         sky = both - shade(surface, light);
     }
-    return Soil(seen * clear, (both - sky) * clear, sky * clear, light.way);
+    return Soil(seen * clear, (both - sky) * clear, sky * clear, light.way, comes_through(light.way * leaves));
 }

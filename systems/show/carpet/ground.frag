@@ -11,6 +11,7 @@ in vec3 soil_seen;
 in vec3 sunlit;
 in vec3 skylit;
 in float soil_way;
+in float soil_through;
 in vec3 lush;
 #endif
 
@@ -23,7 +24,7 @@ void main() {
     Soil soil = soil_lit(place, lies, grows, 1.0 - haze_at(place));
     vec3 lush = understorey_of(lies, grows);
 #else
-    Soil soil = Soil(soil_seen, sunlit, skylit, soil_way);
+    Soil soil = Soil(soil_seen, sunlit, skylit, soil_way, soil_through);
 #endif
     float left = left_seen(place.xz);
     vec3 pigment = pigment_lying(place.xz, 1.0, lush, left);

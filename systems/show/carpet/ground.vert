@@ -13,6 +13,7 @@ out vec3 soil_seen;  // its radiance, without haze
 out vec3 sunlit;     // that of the sun's light without any grass,
 out vec3 skylit;     // and of the sky's
 out float soil_way;  // how many leaves the sun's light meets
+out float soil_through; // how much of it comes through the grass
 out vec3 lush;       // pigment of the understorey, of that of the ground between
 #endif
 
@@ -28,6 +29,7 @@ void main() {
     sunlit = ground.sunlit;
     skylit = ground.skylit;
     soil_way = ground.way;
+    soil_through = ground.through;
     lush = understorey_of(lies, grows);
 #endif
     gl_Position = clip * vec4(place, 1.0);

@@ -12,6 +12,10 @@ float left_seen(vec2 at) {
 
 // The radiance of the soil where grass is left to stand so high [m].
 vec3 soil_between(Soil soil, vec3 at, float left) {
+#ifdef TREES
+    if (!anything_is_cut())
+        return soil.seen - soil.sunlit * (soil.through * (1.0 - past_casters(at)));
+#endif
     if (!anything_is_cut() && !any_casters())
         return soil.seen;
     float seen = any_casters() ? past_casters(at) : 1.0;

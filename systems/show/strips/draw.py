@@ -220,7 +220,7 @@ class StripPainter:
         shelf.strips.texture.use(self.units["strips"])
         frame = self._block.record[0]
         is_cut = bool(frame["anything_cut"])
-        casts = frame["maps_shown"] > 0.0 or frame["shades_grid"][3] > 0.0 or "TREES" in self._block.defines
+        casts = frame["maps_shown"] > 0.0 or frame["shades_grid"][3] > 0.0
         is_shaded = bool(frame["bodies"]["radius"].any() or casts)
         rare = 0 if deep else 2 if is_cut else int(is_shaded)
         array = self.array(2 * rare + thin if thin < 2 else len(DEEP if deep else SORTS) - 1, deep=deep)

@@ -10,6 +10,10 @@ flat PASSED mat4 lit;       // light on it, bundled; beside it its page, level o
 PASSED vec4 spot;           // place (x, y, z) [m]; the sun's part of the light that is not the sky's
 flat PASSED vec4 shadow;    // of a body: the square of how near the sun's ray comes to it, by powers of `on.z`; how soft its edge is
 #endif
+#if defined(TREES) && !defined(SHADED)
+PASSED vec4 spot;           // where it is on the sun's ray past trees, as `on_ray` has it; the sun's part of the light
+flat PASSED float counts;   // how much these do
+#endif
 #ifdef HEADS
 flat PASSED float heads;    // factor on the coverage of heads
 #endif

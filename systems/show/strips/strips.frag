@@ -1,4 +1,4 @@
-// With THIN, blades are drawn by rank, and with EDGED density has edges. With SHADED bodies and shadow maps cast shadows, and
+// With THIN, blades are drawn by rank, and with EDGED density has edges. With SHADED bodies, shades and shadow maps cast shadows, and
 // with CUT some grass is cut: those are programs of their own, as fragments would pay half as much again for what is rare. With
 // DEEP, only depth is written.
 #include "lib/light.glsl"
@@ -73,6 +73,8 @@ void main() {
     if (any_casters())
         seen *= past_casters(spot.xyz);
     light = shaded(light, seen, spot.w);
+#elif defined(TREES)
+    light = shaded(light, past_trees(spot.xyz, counts), spot.w);
 #endif
 #ifdef CUT
     if (cut.w > 0.5) {

@@ -279,6 +279,8 @@ void main() {
     light = veiled(light, middle);
 #ifdef SHADED
     spot = vec4(point.xyz, suns);
+#elif defined(TREES)
+    spot = vec4(on_ray(point.xyz, rooted, counts), suns);
 #endif
     lit = bundled(light, vec3(extent.w, level, boosts));
     dye(column, run, middle, top, 1.0 - lodged(bend), lies.slow);
