@@ -50,6 +50,7 @@ FEW float strips_before;  // how much strips show of what lines of sight come th
 out vec2 blown;           // how far leaves are moved [m]
 out float on_level;       // slope on level ground of a line of sight that goes as far through the grass
 out float amid;           // how much of the grass is seen among strips
+out vec3 soil_shaded;     // the soil where nothing is seen of the sun, as it is shown
 out vec4 lies_at;         // places along blades and heights are taken to be so much, and by so much more for each of their images
 #else
 FEW float sways;          // how far leaves sway, of the wind's message [m]
@@ -127,7 +128,9 @@ void light_soil(vec3 ground, Laid laid) {
     Soil soil = soil_lit(ground, lies, grows, 1.0 - haze_at(place));
 #ifdef COARSE
     vec3 pigment = lying_pigment(textureLod(repeating, vec2(0.5), COARSEST).gb, understorey_of(lies, grows));
+    vec3 skylit = soil.skylit * comes_through(OPEN_SKY * total(areas(grows)));
     soil_seen = shown_of(soil.seen * pigment * pigment + lit[2].rgb);
+    soil_shaded = shown_of(skylit * pigment * pigment + lit[2].rgb);
 #else
     soil_seen = soil.seen;
     sunlit = soil.sunlit;

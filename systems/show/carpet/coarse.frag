@@ -17,6 +17,7 @@ in float tall;
 in float dense;
 in ByKind met;
 in vec3 soil_seen;  // as it is shown
+in vec3 soil_shaded;
 in mat4 lit;
 #ifdef HEADS
 in ByKind riper;
@@ -121,12 +122,13 @@ float litter_seen(float bare) {
 
 void main() {
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / patch_side))) : 0.0, covered = 1.0;
-    vec3 color = soil_seen * litter_seen(share > 0.0 ? 0.0 : 1.0);
+    float sunny = any_casters() ? past_casters(place) : 1.0;
+    vec3 color = (any_casters() ? mix(soil_shaded, soil_seen, sunny) : soil_seen) * litter_seen(share > 0.0 ? 0.0 : 1.0);
     if (share > 0.0) {
         Grass grass = grass_seen(heading_to(place.xz));
         Light light = unbundled(lit);
         if (any_casters())
-            light = shaded(light, past_casters(place), 1.0);
+            light = shaded(light, sunny, 1.0);
         vec3 leaves = shown_of(shade(leaf_at(grass.pigment, grass.height), light));
         float slope = max(viewing_slope(rise, place), 0.0), deep = deepest(slope, crest, tall * stands);
         float covers = amid * mix(min(grass.covers / LEAST_COVER, 1.0), grass.covers, smoothstep(ENDS.x * share, ENDS.y * share, deep));
