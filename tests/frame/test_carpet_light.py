@@ -100,8 +100,10 @@ def test_f2_from_a_slant_the_carpet_tells_which_way_grass_leans_as_blades_do(roo
     np.testing.assert_allclose(ratios[1], ratios[0], rtol=0.05)
 
 
-def test_f6_leaves_of_the_carpet_go_where_the_wind_bends_them(room: Stage, prairie: Prairie) -> None:
+@pytest.mark.parametrize("text", [CALM, CALM + "  coarse: true\n"], ids=["whole", "coarse"])
+def test_f6_leaves_of_the_carpet_go_where_the_wind_bends_them(room: Stage, load: Load, text: str) -> None:
     """From above, where north is up and the wind goes east; what lies on the ground stays."""
+    prairie = load(text, lod="carpet")
     above = Camera((0.3, 20.0, 0.2), 0.0, -np.pi / 2.0, np.radians(8.0))
     calm, metre = luma(room.shot(prairie, above)), room.size[1] / (2.0 * 20.0 * np.tan(np.radians(4.0)))
     wind = prairie.add(Breeze(direction=90.0, strength=0.6, gustiness=0.0, swing=0.0), pose=Pose())

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass import Lamp, Pose
+from tallgrass import Lamp, Pose, Shade
 from tallgrass.engine.camera import Camera, view_of
 from tallgrass.systems.lamps.card import MOST, seen, stand
 from tallgrass.systems.light.color import shown_as
@@ -95,6 +95,36 @@ def test_light_of_a_lamp_falls_off_by_the_inverse_square_and_ends_at_its_range(
     assert high > 0.005
     assert higher == pytest.approx(high, rel=0.1)
     assert abs(at(15.0, 14.0)) < 1e-4
+
+
+def test_a_spot_light_shines_within_its_cone_as_others_do_and_not_beyond(
+    stage: Stage, prairies: dict[str, Prairie]
+) -> None:
+    shot, away = partial(stage.shot, prairies["carpet"], CAMERA), np.linalg.norm(stage.ground(CAMERA, 0.35), axis=-1)
+    pose = Pose(0.0, 0.0, y=4.35)
+    all_ways = lamplight(shot, Lamp(candela=4000.0), pose).sum(axis=2)
+    spot = lamplight(shot, Lamp(candela=4000.0, cone=np.arctan(0.75), pitch=-np.pi / 2), pose).sum(axis=2)
+    middle, edge, beyond = away < 1.2, (away > 2.3) & (away < 2.8), (away > 3.5) & (away < 6.0)
+    assert all_ways[beyond].mean() > 0.2 * all_ways[middle].mean()
+    assert spot[middle].mean() == pytest.approx(all_ways[middle].mean(), rel=0.03)
+    assert 0.05 * all_ways[edge].mean() < spot[edge].mean() < 0.6 * all_ways[edge].mean()
+    assert spot[beyond].mean() < 0.02 * all_ways[middle].mean()
+
+
+@pytest.mark.parametrize("lod", ["blades", "strips", "carpet"])
+def test_f10_a_lamp_shines_as_brightly_where_the_sun_is_hidden(
+    stage: Stage, prairies: dict[str, Prairie], lod: str
+) -> None:
+    prairie, lamp = prairies[lod], LAMPS["all ways"]
+    shot, away = partial(stage.shot, prairie, CAMERA), np.linalg.norm(stage.ground(CAMERA, 0.35), axis=-1)
+    open_to_sun = lamplight(shot, *lamp)
+    x, y, z = (40.0 * along for along in prairie.sun.direction)
+    shade = esper.create_entity(Shade((x, y, z), 12.0))
+    in_shade = lamplight(shot, *lamp)
+    esper.delete_entity(shade, immediate=True)
+    lit = away < 5.0
+    # Beside the sun's, its light takes the mean of both ways through the leaves.
+    assert in_shade[lit].mean() == pytest.approx(open_to_sun[lit].mean(), rel=0.2)
 
 
 def test_a_lamp_goes_where_its_pose_goes_and_out_with_its_entity(stage: Stage, load: Load, camera: Aim) -> None:

@@ -14,6 +14,7 @@ import pytest
 from PIL import Image
 
 from tallgrass.components.pose import Pose
+from tallgrass.components.wind import WindSource
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.scene import SceneError
 from tallgrass.systems.land.part import LandPart
@@ -235,6 +236,20 @@ def test_n7_winds_that_did_not_change_keep_their_name_wherever_they_stand(edited
     edited.edit()
     assert names() == before
     np.testing.assert_array_equal(prairie.wind_at(place, 7.5), felt)
+
+
+def test_n7_winds_that_did_not_change_stay_the_entities_that_a_game_knows(edited: Edited) -> None:
+    prairie = edited.prairie
+
+    def entities() -> dict[str, int]:
+        return {source.name: entity for entity, source in prairie.world.all(WindSource)}
+
+    before = entities()
+    edited.edit(("speed: 9", "speed: 8"), ("seed: 5", "seed: 6"))
+    assert entities() == before
+    edited.edit(("  - { kind: breeze, strength: 0.4 }\n", ""))
+    assert len(entities()) == len(before) - 1
+    assert entities().items() < before.items()
 
 
 def test_n7_winds_that_a_game_added_blow_on(edited: Edited) -> None:

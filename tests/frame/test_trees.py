@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass import Pose, Prairie, Tree
+from tallgrass import Lamp, Pose, Prairie, Tree
 from tallgrass.app.bench.steps import held
 from tallgrass.components.arrays import Bytes
 from tallgrass.engine.camera import Camera
@@ -38,6 +38,7 @@ quality:
   carpet: 32
 """
 AHEAD = looking(0.0, 1.7, 12.0, pitch=14.0, view=57.0)
+UP = looking(0.0, 1.7, 6.0, pitch=36.0, view=57.0)
 DOWN = looking(0.0, 14.0, 14.0, pitch=-43.0, view=52.0)
 Picture = NDArray[np.float64]
 
@@ -141,6 +142,30 @@ def test_its_shadow_falls_away_from_the_sun_and_the_grass_below_is_darker(
     assert (dark < 0.75).mean() > 0.02
     assert min(left, right) < 0.99
     assert (dark > 1.15).mean() < 0.01
+
+
+@pytest.mark.parametrize("leaves_from", [None, 0.0], ids=["cards", "leaves"])
+def test_f5_light_falls_on_the_side_of_a_crown_that_it_comes_from(
+    ctx: moderngl.Context,
+    prairie: Prairie,
+    plant: Callable[..., int],
+    monkeypatch: pytest.MonkeyPatch,
+    leaves_from: float | None,
+) -> None:
+    stage = Stage(ctx, (320, 240))
+    bare = shot(stage, prairie, UP)
+    assert prairie.painter is not None
+    monkeypatch.setattr(prairie.painter.part(TreePart), "leaves_from", leaves_from)
+    plant(0.0, 0.0)
+    in_sun = shot(stage, prairie, UP)
+    lamp = esper.create_entity(Lamp("#ffffff", 4e6, 30.0), Pose(-4.0, 1.0, y=6.0))
+    with_lamp = shot(stage, prairie, UP)
+    esper.delete_entity(lamp, immediate=True)
+    crown = np.abs(in_sun - bare).max(axis=-1) > 12.0
+    left, right = np.arange(320) < 156, np.arange(320) >= 164
+    by_sun, by_lamp = ([each[crown & side].mean() for side in (left, right)] for each in (in_sun, with_lamp - in_sun))
+    assert by_sun[1] > 1.12 * by_sun[0]
+    assert by_lamp[0] > 1.4 * by_lamp[1]
 
 
 def test_far_off_it_looks_as_it_does_near_by(
