@@ -3,6 +3,7 @@
 import logging
 from collections.abc import Callable, Iterator
 from ctypes import c_int
+from dataclasses import replace
 from typing import Any
 
 import esper
@@ -11,7 +12,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass import Shade, ShadowMap
+from tallgrass import Lod, Shade, ShadowMap
 from tallgrass.engine.camera import Camera, view_of
 from tallgrass.engine.gl.functions import NUMBERS, functions_of
 from tallgrass.engine.gl.units import BORROWED
@@ -263,6 +264,42 @@ def test_of_several_maps_the_first_counts_that_a_place_lies_in(
     assert (stage.shot(prairie, CAMERA) == second).all()
     prairie.shadows([])
     clear.release()
+
+
+def test_what_is_no_farther_towards_the_sun_than_a_maps_bias_casts_no_shadow(
+    stage: Stage, prairies: dict[str, Prairie], box: ShadowMap
+) -> None:
+    prairie, pictures = prairies["carpet"], []
+    for shadows in ([], [box], [replace(box, bias=10.0)]):
+        prairie.shadows(shadows)
+        pictures.append(stage.shot(prairie, CAMERA))
+    prairie.shadows([])
+    lit, dark, past = pictures
+    assert np.abs(dark - lit).max() > 30.0
+    assert np.abs(past - lit).max() <= 1.0
+
+
+def test_n12_blades_on_their_way_to_strips_lie_in_shadow_as_those_that_stand(
+    ctx: moderngl.Context, stage: Stage, night: ShadowMap
+) -> None:
+    prairie, aim, darker = Prairie.load(SCENE, ctx=ctx, live=False), Camera((0.0, 2.0, 6.0), 0.0, -0.5, 0.6), []
+    stage.shot(prairie, aim)
+    outlook = prairie.viewers["main"]
+    for hold in (None, "strips"):
+        for entity in filter(None, outlook.patches.entity[outlook.patches.shown].tolist()):
+            esper.component_for_entity(entity, Lod).hold = hold
+        stage.shot(prairie, aim)
+        prairie.advance(0.6)
+        lit = stage.shot(prairie, aim)
+        prairie.shadows([night])
+        darker.append(stage.shot(prairie, aim).mean() / lit.mean())
+        prairie.shadows([])
+    assert outlook.appearance is not None
+    moved = outlook.appearance.morph[outlook.patches.shown & (outlook.appearance.morph > 0.0)]
+    assert len(moved) > 4
+    assert 0.3 < moved.min() <= moved.max() < 1.0
+    assert darker[1] == pytest.approx(darker[0], abs=0.03)
+    prairie.release()
 
 
 def test_a_map_whose_texture_was_released_is_named_once_and_drawn_without(

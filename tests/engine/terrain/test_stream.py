@@ -1,4 +1,4 @@
-"""Ground that streams from a function of places (V11, X5)."""
+"""Ground that streams from a function of places (T1, D6)."""
 
 import logging
 from pathlib import Path

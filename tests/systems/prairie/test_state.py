@@ -221,6 +221,7 @@ def signed(body: bytes) -> bytes:
 @pytest.mark.parametrize("keys", [{"terrain": {"size": [60, 50]}}, {"wind": []}, {"pressers": []}])
 def test_a_state_of_another_scene_is_refused_and_nothing_changes(played: Prairie, keys: dict[str, Any]) -> None:
     other = Prairie.load(SCENE | keys)
+    other.set_heights((0.0, 0.0), np.full((3, 3), 9.0))
     refused(played, other.state(), r"^this state is of another scene, or of this one before its ground")
     other.release()
 
