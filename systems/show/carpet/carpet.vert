@@ -9,6 +9,7 @@
 #ifdef COARSE
 #include "lib/tone.glsl"
 #include "systems/show/carpet/among.glsl"
+#include "systems/show/carpet/texel.glsl"
 #endif
 
 // No more than 60 numbers are sure to come through: with many kinds, pixels work out themselves what FEW kinds bring along.
@@ -49,9 +50,9 @@ FEW float strips_before;  // how much strips show of what lines of sight come th
 #ifdef COARSE
 out vec2 blown;           // how far leaves are moved [m]
 out float on_level;       // slope on level ground of a line of sight that goes as far through the grass
-out float amid;           // how much of the grass is seen among strips
+out float on_strips;      // root of the leaf area on strips above it, of the grass's: that falls off more evenly
 out vec3 soil_shaded;     // the soil where nothing is seen of the sun, as it is shown
-out vec4 lies_at;         // places along blades and heights are taken to be so much, and by so much more for each of their images
+out vec4 lies_at;         // places along blades and heights at the top of the grass, and by how much less they are at its bottom
 #else
 FEW float sways;          // how far leaves sway, of the wind's message [m]
 FEW vec2 slow;            // slow noises of the pigment, where leaves are seen
@@ -87,15 +88,26 @@ void hand_on(Laid laid) {
 #ifdef COARSE
 // Where leaves are met that stand among strips, over a crest and in the wind, of where images show them.
 void see_among(float slope, vec2 bent) {
-    vec2 among = vec2(1.0);
-    if (carpet < 1.0)
-        among = among_strips(come_through(place.xz, max(slope, TINY), carpet, tall, stands).y, on_level, carpet, stands, dense);
-    float shallow = shallower(deepest(slope, crest, tall * stands), on_level, carpet, crest, stands, dense);
+    on_strips = sqrt(come_through(place.xz, max(slope, TINY), carpet, tall, stands).y);
 #ifndef HEADS
     bent *= higher(on_level, dense);
 #endif
-    amid = among.x;
-    lies_at = vec4((1.0 - shallow) * bent, among.y * shallow * bent);
+    lies_at = vec4(bent, bent * shallower(deepest(slope, crest, tall * stands), on_level, carpet, crest, stands, dense));
+}
+
+// As much more of each kind as grass hides, seen at this slope, than images do in the mean. Heads stand scattered, and hide nothing.
+ByKind filled_up(ByKind covers) {
+    int low = min(int(elevation), SLOPES - 2), coarsest = int(log2(float(textureSize(images, 0).x)) + 0.5);
+    for (int kind = 0; kind < KINDS; kind++) {
+#ifdef HEADS
+        if (OF(bears, kind) > 0.0)
+            continue;
+#endif
+        int layer = int(OF(first, kind)) + low * HEADINGS;
+        float lower = layer_mean(images, layer, coarsest).a, steeper = layer_mean(images, layer + HEADINGS, coarsest).a;
+        OF(covers, kind) *= filled(steeper, low, on_level, mix(lower, steeper, elevation - float(low)));
+    }
+    return covers;
 }
 #endif
 
@@ -114,6 +126,7 @@ void light_up(float slope, float on, ByKind grows, vec2 message) {
     canopy.light.sun *= fresh * fresh;  // a factor of the pigment, whose square is what is sent
     canopy.light.sky *= fresh * fresh;
     see_among(slope, canopy.bent.yz);
+    canopy.bent.x = comes_through(canopy.bent.x);
 #else
     slow = slow_seen(there, slope, tall);
 #endif
@@ -170,6 +183,9 @@ void main() {
     sways = sways_by(met, laid.message);
 #endif
     light_up(slope, on_level, laid.grows, laid.message);
+#ifdef COARSE
+    met = filled_up(met);
+#endif
 #ifndef EDGED
     light_soil(seen_behind(place, laid.ground, from_above), laid);
 #endif

@@ -25,7 +25,7 @@ in ByKind riper;
 in float stands;
 in vec2 blown;
 in float on_level;
-in float amid;
+in float on_strips;
 in vec4 lies_at;
 in float elevation;
 
@@ -42,6 +42,7 @@ struct Look {
     vec2 at;
     int image;
     ivec2 between;  // the images of both slopes
+    float next;    // how far the line of sight is on the way from the first to the second
     float level;
     float grain;   // how far what is read is from its mean, of how far it is in images
 };
@@ -67,7 +68,7 @@ Look look_along(vec2 heading) {
     float across = max(abs(dot(dFdx(place.xz), beside)), abs(dot(dFdy(place.xz), beside)));
     float level = log2(max(across * patches, THINNEST_PIXEL) * (SHARP * float(textureSize(images, 0).x)));
     ivec3 image = (model * SLOPES + ivec3(low, low + 1, slope)) * HEADINGS + side;
-    return Look(rotated(here + heading * along, turned(heading, side)) + 0.5, image.z, image.xy, level, grain_seen(level, across));
+    return Look(rotated(here + heading * along, turned(heading, side)) + 0.5, image.z, image.xy, elevation - float(low), level, grain_seen(level, across));
 }
 
 // What is met of all kinds: pigment and height, each of so much grass; and how much taller it is than the mean.
@@ -78,35 +79,36 @@ struct Grass {
     float taller;
 };
 
-void add_kind(inout Grass sum, int kind, Look look, vec2 facing) {
+// `high` is how high they are met among strips, of how high without any.
+void add_kind(inout Grass sum, int kind, Look look, vec2 facing, float high) {
     float part = OF(met, kind), from = OF(first, kind);
     int coarsest = int(log2(float(textureSize(images, 0).x)) + 0.5);
-    vec4 low = layer_mean(images, int(from) + look.between.x, coarsest), high = layer_mean(images, int(from) + look.between.y, coarsest);
-    vec4 mean = mix(low, high, fract(elevation)), own = look.image == look.between.x ? low : high;
+    vec4 lower = layer_mean(images, int(from) + look.between.x, coarsest), steeper = layer_mean(images, int(from) + look.between.y, coarsest);
+    vec4 mean = mix(lower, steeper, look.next), own = look.image == look.between.x ? lower : steeper;
     vec4 image = max(mean + (layer_at(images, vec3(look.at, from + float(look.image)), look.level) - own) * look.grain, 0.0);
-    float covers = image.a;
+    float covers = max(1.0 - (1.0 - min(image.a, 1.0)) * told_beside(lit).x, 0.0);
     vec3 shown = min(image.rgb / max(image.a, LEAST_TEXEL), 1.0);
-    vec2 at = lies_at.xy + lies_at.zw * shown.rg;
+    vec2 at = lies_at.xy - lies_at.zw * (1.0 - high * shown.rg);
 #ifdef HEADS
     float ripe = OF(riper, kind);
     at.x += ripe * (ripe > 0.0 ? 1.0 - at.x : at.x);
-    covers = OF(bears, kind) > 0.0 ? image.a / max(mean.a, LEAST_MEAN) : covers;
+    covers = OF(bears, kind) > 0.0 ? min(image.a / max(mean.a, LEAST_MEAN), 1.0) : covers;
 #endif
-    covers = part * min(covers, 1.0);
+    covers *= part;
     sum.pigment += covers * pigment_at(kind, at.x) * grain_at(kind, facing * (2.0 * shown.b - 1.0));
     sum.height += covers * at.y * OF(tops, kind);
     sum.covers += covers;
     sum.taller += part * (shown.g * mean.a / max(mean.g, LEAST_TEXEL) - 1.0);
 }
 
-Grass grass_seen(vec2 heading) {
+Grass grass_seen(vec2 heading, float high) {
     Look look = look_along(heading);
     Grass sum = Grass(vec3(0.0), 0.0, 0.0, 0.0);
     for (int kind = 0; kind < KINDS; kind++)
         if (OF(met, kind) > LEAST_MET)
-            add_kind(sum, kind, look, doubled(heading));
+            add_kind(sum, kind, look, doubled(heading), high);
     float all = 1.0 / max(sum.covers, LEAST_TEXEL);
-    return Grass(sum.pigment * all, sum.height * all, sum.covers, sum.taller);
+    return Grass(sum.pigment * all, sum.height * all, min(sum.covers, 1.0), sum.taller);
 }
 
 // How much of what is behind an outline the grass hides, that of a crest or of a rim, where lines of sight come so deep.
@@ -125,14 +127,15 @@ void main() {
     float sunny = any_casters() ? past_casters(place) : 1.0;
     vec3 color = (any_casters() ? mix(soil_shaded, soil_seen, sunny) : soil_seen) * litter_seen(share > 0.0 ? 0.0 : 1.0);
     if (share > 0.0) {
-        Grass grass = grass_seen(heading_to(place.xz));
+        vec2 among = on_strips > 0.0 ? among_strips(on_strips * on_strips, on_level, carpet, stands, dense) : vec2(1.0);
+        Grass grass = grass_seen(heading_to(place.xz), among.y);
         Light light = unbundled(lit);
         if (any_casters())
             light = shaded(light, sunny, 1.0);
         vec3 leaves = shown_of(shade(leaf_at(grass.pigment, grass.height), light));
         float slope = max(viewing_slope(rise, place), 0.0), deep = deepest(slope, crest, tall * stands);
-        float covers = amid * mix(min(grass.covers / LEAST_COVER, 1.0), grass.covers, smoothstep(ENDS.x * share, ENDS.y * share, deep));
-        color = color * max(1.0 - covers, 0.0) + leaves * covers;
+        float covers = among.x * mix(min(grass.covers / LEAST_COVER, 1.0), grass.covers, smoothstep(ENDS.x * share, ENDS.y * share, deep));
+        color = color * (1.0 - covers) + leaves * covers;
         covered = mix(1.0, hides_behind(slope, deep, standing_out(grass.taller, share)), min(share / SHOWN_FROM, 1.0));
     }
     if (covered < max(NOTHING, STANDING * (1.0 - share)))

@@ -138,6 +138,11 @@ class GroundPainter:
             layer.know({name: value})
 
     @property
+    def is_wide(self) -> bool:
+        """Whether points of its mesh are farther apart than tiles say."""
+        return self._coarser > 1
+
+    @property
     def _is_cut(self) -> bool:
         """Whether any grass has been cut: pixels that need not ask for that are cheaper."""
         return bool(self._block.record["anything_cut"][0])

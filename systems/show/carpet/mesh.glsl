@@ -2,6 +2,7 @@
 // fineness meet without cracks. One instance is one tile.
 #include "lib/terrain.glsl"
 #include "systems/show/carpet/rims.py"
+#include "systems/show/carpet/tiles.py"
 
 in vec2 corner;  // of the grid, 0 .. GRID
 in vec4 tile;    // x, z [m]; spacing [m]; distance at which the next coarser spacing has taken over [m], below 0 that from rims alone
@@ -9,6 +10,7 @@ in vec4 tile;    // x, z [m]; spacing [m]; distance at which the next coarser sp
 uniform sampler2D rims;  // over the terrain: how far the next rim of a cliff is [m]
 
 const float SLIDES = 0.75;  // part of that distance from which on the grid slides
+const float SLIDES_FIRST = 0.6;  // part of it from which on that of a quarter of a tile slides into the grid of whole ones
 
 uniform float wider = 1.0;  // how many times as far apart grid points are as a tile says, of which there are as many fewer
 
@@ -22,10 +24,20 @@ float rim_at(vec2 at) {
     return max(textureLod(rims, (inside - terrain_origin) / terrain_size, 0.0).r, distance(at, inside));
 }
 
-// How far off a place counts as: at rims, from which grass stands out against the sky, as nearer than it is.
-float far_off(vec2 at, float from_rim) {
-    float away = distance(at, eye.xz), at_rim = (NEARER * away + from_rim) / (1.0 + NEARER);
-    return tile.w < 0.0 ? at_rim : min(away, at_rim);
+// How far off a place is, and how far off it counts as at rims, from which grass stands out against the sky: as nearer than it is.
+vec2 far_off(vec2 at, float from_rim) {
+    float away = distance(at, eye.xz);
+    return vec2(away, (NEARER * away + from_rim) / (1.0 + NEARER));
+}
+
+// How far the grid has slid into the next coarser one, and from that into the next after it: only that of a quarter of a tile
+// does, which is finer than others that are as near. Towards a rim, where tiles are finer, it lies as others do.
+vec2 slid(vec2 far) {
+    float slide = clamp(((tile.w < 0.0 ? far.y : min(far.x, far.y)) - SLIDES) / (1.0 - SLIDES), 0.0, 1.0);
+    if (tile.w < PARTED * tile.z)
+        return vec2(slide, 0.0);
+    float at_rim = 1.0 - clamp((far.y - SLIDES) / (1.0 - SLIDES), 0.0, 1.0);
+    return vec2(max(clamp((far.x - SLIDES_FIRST) / (SLIDES - SLIDES_FIRST), 0.0, 1.0), at_rim), slide);
 }
 
 // The nearest place on the terrain's samples, where that is near enough for the next grid point to reach all others.
@@ -38,9 +50,9 @@ vec2 on_mesh() {
     float wide = tile.z * wider;
     vec2 at = tile.xy + corner * tile.z;
     float from_rim = rim_at(at);
-    float slide = clamp((far_off(at, from_rim) / abs(tile.w) - SLIDES) / (1.0 - SLIDES), 0.0, 1.0);
-    spaced = wide * (1.0 + slide);
-    at -= fract(corner * 0.5 / wider) * 2.0 * wide * slide;
+    vec2 slide = slid(far_off(at, from_rim) / abs(tile.w)), pair = 0.5 / wider * corner;
+    spaced = wide * (1.0 + slide.x) * (1.0 + slide.y);
+    at -= wide * (2.0 * slide.x * fract(pair) + 4.0 * slide.y * fract(0.5 * floor(pair)));
     if (from_rim < ON_RIM.y * terrain_cell) {
         from_rim = rim_at(at);
         at = mix(on_samples(at), at, smoothstep(ON_RIM.x, ON_RIM.y, from_rim / terrain_cell));

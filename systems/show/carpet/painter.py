@@ -214,7 +214,15 @@ class CarpetPainter(RepresentationPainter):
         step, terrain = STEP * self._spacing * GRID, self._ground.terrain
         place = round(viewer.eye[0] / step) * step, round(viewer.eye[2] / step) * step
         rims = self._rims if self._rims.any else None
-        make = partial(tiles_around, terrain, place, spacing=self._spacing, about=step * HALF_DIAGONAL, rims=rims)
+        make = partial(
+            tiles_around,
+            terrain,
+            place,
+            spacing=self._spacing,
+            about=step * HALF_DIAGONAL,
+            rims=rims,
+            parted=self.ground.is_wide,
+        )
         return self._around.of(viewer.name, (self._ground, place, *self._windows), make)
 
     @property

@@ -20,8 +20,8 @@ struct Texel {
 // How much more grass hides, seen at a slope between those of two images, than the mean of both: by the optical depth that the
 // steeper one shows it to have, which goes by the reciprocal of the slope. What is seen straight from above is taken for the
 // steepest image.
-float filled(float steeper, Reading read, float slope, float mean) {
-    float longer = slopes[read.elevation + 1] / clamp(slope, FLATTEST, slopes[SLOPES - 1]);
+float filled(float steeper, int elevation, float slope, float mean) {
+    float longer = slopes[elevation + 1] / clamp(slope, FLATTEST, slopes[SLOPES - 1]);
     return (1.0 - pow(max(1.0 - steeper, HIDES_ALL), longer)) / max(mean, LEAST_MEAN);
 }
 
@@ -33,7 +33,7 @@ Texel texel_from(float layer, Patch own, Reading read, float on_level, float gra
     vec4 mean_high = layer_mean(images, int(next), coarsest);
     vec4 mean = mix(layer_mean(images, int(layer), coarsest), mean_high, read.next);
     vec4 low = layer_at(images, vec3(read.low, layer), read.level), high = layer_at(images, vec3(read.high, next), read.level);
-    float fill = filled(mean_high.a, read, on_level, mean.a);
+    float fill = filled(mean_high.a, read.elevation, on_level, mean.a);
     vec4 image = (mean + (mix(low, high, read.next) - mean) * grain) * fill;
     image.a = clamp(image.a, 0.0, 1.0);
     image.rgb = clamp(image.rgb, 0.0, image.a);

@@ -24,15 +24,26 @@ SPREAD = 6.0
 """Distance at which a spacing gives way to the next, in tile sides: the farthest corner of a tile of twice the side
 that is split must lie inside it."""
 
+GLSL = {"PARTED": 1.5 * SPREAD * GRID}
+"""How far tiles reach at least, of their spacing, that are a quarter of one."""
+
 
 def tiles_around(
-    terrain: Terrain, place: tuple[float, float], /, *, spacing: float, about: float = 0.0, rims: Rims | None = None
+    terrain: Terrain,
+    place: tuple[float, float],
+    /,
+    *,
+    spacing: float,
+    about: float = 0.0,
+    rims: Rims | None = None,
+    parted: bool = False,
 ) -> Tiles:
     """Return the tiles that cover a terrain and what lies `BEYOND`, for who is near a place (x, z) [m], shape (n, 4).
 
     "Near" is at most `about` [m] away, which may be a third of the finest tiles' side. A tile of `GRID` quads is split
     in four while it is nearer than `SPREAD` sides of its quarters, down to `spacing` [m] between grid points. At `rims`
     tiles count as nearer, and are split as often as it takes for each cell of the terrain. A row is what `TILE` says.
+    With `parted`, the finest that no rim asks for come as four each, of half their spacing, which reach as far as they.
     """
     more = 0 if rims is None else max(int(np.ceil(np.log2(spacing / terrain.cell))), 0)
     side = spacing * GRID
@@ -51,10 +62,23 @@ def tiles_around(
             near = np.minimum(near, rims.near_to(corners + 0.5 * side, np.array(place)) - reach)
         split = (near < SPREAD * side / 2) if level > -more else np.zeros(len(corners), np.bool_)
         kept, far = corners[~split], SPREAD * side * (1.0 if level >= 0 else -1.0)
-        done.append(np.column_stack([kept, np.full(len(kept), side / GRID), np.full(len(kept), far)]))
+        if parted and level == 0:
+            done.append(_rows(_in_four(kept, side), side / 2.0, far))
+        else:
+            done.append(_rows(kept, side, far))
+        corners = _in_four(corners[split], side)
         side /= 2.0
-        corners = (corners[split][:, None, :] + side * np.array([[0, 0], [1, 0], [0, 1], [1, 1]])).reshape(-1, 2)
     return np.concatenate(done)
+
+
+def _rows(corners: Tiles, side: float, far: float) -> Tiles:
+    """Return what `TILE` says of tiles with these corners (n, 2), of a side [m], shape (n, 4)."""
+    return np.column_stack([corners, np.full(len(corners), side / GRID), np.full(len(corners), far)])
+
+
+def _in_four(corners: Tiles, side: float) -> Tiles:
+    """Return the corners of the quarters (4 n, 2) of tiles with these corners (n, 2), of a side [m]."""
+    return (corners[:, None, :] + 0.5 * side * np.array([[0, 0], [1, 0], [0, 1], [1, 1]])).reshape(-1, 2)
 
 
 def tiles_seen(tiles: Tiles, eye: tuple[float, float, float], cone: tuple[float, float], /) -> NDArray[np.void]:

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.engine.gl.shaders import program
+from tallgrass.engine.gl.shaders import program, tell
 from tallgrass.engine.gl.stream import release_all
 from tallgrass.engine.terrain.part import Part
 from tallgrass.engine.terrain.record import Terrain
@@ -86,6 +86,18 @@ def test_tiles_are_fine_near_the_viewer_and_coarser_with_distance(eye: tuple[flo
     assert (tiles[:, 2] <= np.maximum(nearest / 20.0, SPACING)).all()
 
 
+def test_the_finest_tiles_may_come_in_four_that_cover_the_same_ground() -> None:
+    eye = (3.0, 1.7, 4.0)
+    whole, parted = (tiles_around(WIDE, (eye[0], eye[2]), spacing=SPACING, parted=each) for each in (False, True))
+    finest = whole[:, 2] == SPACING
+    assert len(parted) == len(whole) + 3 * finest.sum()
+    fine = parted[:, 2] == SPACING / 2
+    assert fine.sum() == 4 * finest.sum() > 0
+    assert set(parted[fine, 3]) == set(whole[finest, 3])
+    place = np.random.default_rng(0).uniform(-290, 290, (400, 2)) * (1.0, 0.6)
+    assert (covering(tiles_seen(parted, eye, ALL_ROUND), place) == 1).all()
+
+
 def test_t5_tiles_come_from_far_to_near() -> None:
     eye = (3.0, 1.7, 4.0)
     tiles = ground_tiles(WIDE, eye, ALL_ROUND, spacing=SPACING)["tile"].astype(float)
@@ -153,7 +165,7 @@ def test_no_tile_is_within_a_negative_reach() -> None:
 
 @pytest.fixture
 def corners(ctx: moderngl.Context, laid: Laid, record_of: RecordOf) -> Iterator[Corners]:
-    """Where the graphics card puts the grid points of tiles (n,), shape (n, GRID + 1, GRID + 1, 3)."""
+    """Where the graphics card puts the grid points of tiles (n,), shape (n, GRID + 1, GRID + 1, 3), or of wider grids."""
     site = laid()
     record = record_of(site)
     textures: dict[str, moderngl.Texture | moderngl.TextureArray] = {
@@ -168,8 +180,9 @@ def corners(ctx: moderngl.Context, laid: Laid, record_of: RecordOf) -> Iterator[
     grid = ctx.buffer(np.stack(np.meshgrid(line, line), -1).reshape(-1, 2))
 
     def place(
-        tiles: NDArray[np.void], eye: tuple[float, float, float], rims: Rims | None = None
+        tiles: NDArray[np.void], eye: tuple[float, float, float], rims: Rims | None = None, wider: int = 1
     ) -> NDArray[np.float32]:
+        tell(made, "wider", float(wider))
         if rims is not None:
             textures["rims"].release()
             textures["rims"] = ctx.texture(rims.far.shape[::-1], 1, rims.far.tobytes(), dtype="f4")
@@ -186,7 +199,7 @@ def corners(ctx: moderngl.Context, laid: Laid, record_of: RecordOf) -> Iterator[
         array.transform(result, moderngl.POINTS, vertices=points, instances=len(tiles))
         found = np.frombuffer(result.read(), np.float32).reshape(len(tiles), GRID + 1, GRID + 1, 3)
         release_all(array, rows, result)
-        return found
+        return found[:, ::wider, ::wider]
 
     yield place
     release_all(made, grid, block, *textures.values())
@@ -197,16 +210,17 @@ def borders(points: NDArray[np.float32]) -> list[NDArray[np.float32]]:
     return [points[0], points[-1], points[:, 0], points[:, -1]]
 
 
+@pytest.mark.parametrize("coarse", [False, True])
 @pytest.mark.parametrize(
     ("eye", "off"), [((0.3, 3.0, 0.7), 0.0), ((-31.0, 3.0, 17.0), 0.33), ((7.77, 3.0, -22.2), -0.33)]
 )
 def test_t1_tiles_of_different_fineness_meet_without_cracks_for_all_who_stand_about_there(
-    corners: Corners, hills: Terrain, eye: tuple[float, float, float], off: float
+    corners: Corners, hills: Terrain, eye: tuple[float, float, float], off: float, coarse: bool
 ) -> None:
-    around = tiles_around(hills, (eye[0] + off, eye[2]), spacing=0.125, about=abs(off))
+    around = tiles_around(hills, (eye[0] + off, eye[2]), spacing=0.125, about=abs(off), parted=coarse)
     tiles = tiles_seen(around, eye, ALL_ROUND)
     assert len(set(tiles["tile"][:, 2].tolist())) >= 4
-    points = corners(tiles, eye)
+    points = corners(tiles, eye, wider=1 + coarse)
     everything = np.unique(np.round(np.concatenate([np.concatenate(borders(tile)) for tile in points]), 3), axis=0)
     checked = 0
     for tile in points:
@@ -232,16 +246,18 @@ def cliff(hills: Terrain) -> Rims:
     return rims
 
 
+@pytest.mark.parametrize("parted", [False, True])
 @pytest.mark.parametrize("eye", [(0.3, 3.0, 0.7), (-31.0, 3.0, 17.0), (7.77, 3.0, -22.2)])
 def test_t1_tiles_meet_without_cracks_at_rims_of_cliffs_where_they_are_finer(
-    corners: Corners, hills: Terrain, cliff: Rims, eye: tuple[float, float, float]
+    corners: Corners, hills: Terrain, cliff: Rims, eye: tuple[float, float, float], parted: bool
 ) -> None:
     spacing = 2.5
-    tiles = ground_tiles(hills, eye, ALL_ROUND, spacing=spacing, rims=cliff)
+    around = tiles_around(hills, (eye[0], eye[2]), spacing=spacing, rims=cliff, parted=parted)
+    tiles = tiles_seen(around, eye, ALL_ROUND)
     assert tiles["tile"][:, 2].min() <= hills.cell < spacing
     assert len(tiles) < 4 * len(ground_tiles(hills, eye, ALL_ROUND, spacing=spacing))
     ways: dict[tuple[tuple[float, ...], ...], int] = {}
-    for tile in corners(tiles, eye, cliff):
+    for tile in corners(tiles, eye, cliff, 1 + parted):
         for edge in borders(tile):
             at = np.round(edge[:, ::2].astype(float), 2) + 0.0
             for one, other in zip(map(tuple, at), map(tuple, at[1:]), strict=False):
