@@ -165,7 +165,7 @@ def test_no_tile_is_within_a_negative_reach() -> None:
 
 @pytest.fixture
 def corners(ctx: moderngl.Context, laid: Laid, record_of: RecordOf) -> Iterator[Corners]:
-    """Where the graphics card puts the grid points of tiles (n,), shape (n, GRID + 1, GRID + 1, 3), or of wider grids."""
+    """Where the graphics card puts the grid points of tiles (n,), shape (n, GRID + 1, GRID + 1, 3)."""
     site = laid()
     record = record_of(site)
     textures: dict[str, moderngl.Texture | moderngl.TextureArray] = {
@@ -215,7 +215,7 @@ def borders(points: NDArray[np.float32]) -> list[NDArray[np.float32]]:
     ("eye", "off"), [((0.3, 3.0, 0.7), 0.0), ((-31.0, 3.0, 17.0), 0.33), ((7.77, 3.0, -22.2), -0.33)]
 )
 def test_t1_tiles_of_different_fineness_meet_without_cracks_for_all_who_stand_about_there(
-    corners: Corners, hills: Terrain, eye: tuple[float, float, float], off: float, coarse: bool
+    corners: Corners, hills: Terrain, eye: tuple[float, float, float], off: float, *, coarse: bool
 ) -> None:
     around = tiles_around(hills, (eye[0] + off, eye[2]), spacing=0.125, about=abs(off), parted=coarse)
     tiles = tiles_seen(around, eye, ALL_ROUND)
@@ -249,7 +249,7 @@ def cliff(hills: Terrain) -> Rims:
 @pytest.mark.parametrize("parted", [False, True])
 @pytest.mark.parametrize("eye", [(0.3, 3.0, 0.7), (-31.0, 3.0, 17.0), (7.77, 3.0, -22.2)])
 def test_t1_tiles_meet_without_cracks_at_rims_of_cliffs_where_they_are_finer(
-    corners: Corners, hills: Terrain, cliff: Rims, eye: tuple[float, float, float], parted: bool
+    corners: Corners, hills: Terrain, cliff: Rims, eye: tuple[float, float, float], *, parted: bool
 ) -> None:
     spacing = 2.5
     around = tiles_around(hills, (eye[0], eye[2]), spacing=spacing, rims=cliff, parted=parted)
