@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass import Lamp, Pose, Prairie, Tree
+from tallgrass import Lamp, Pose, Prairie, Shade, Tree
 from tallgrass.app.bench.steps import held
 from tallgrass.components.arrays import Bytes
 from tallgrass.engine.camera import Camera
@@ -166,6 +166,24 @@ def test_f5_light_falls_on_the_side_of_a_crown_that_it_comes_from(
     by_sun, by_lamp = ([each[crown & side].mean() for side in (left, right)] for each in (in_sun, with_lamp - in_sun))
     assert by_sun[1] > 1.12 * by_sun[0]
     assert by_lamp[0] > 1.4 * by_lamp[1]
+
+
+@pytest.mark.parametrize("far", [6.0, 40.0])
+def test_f10_a_tree_is_darker_in_the_shade_of_a_games_own_thing(
+    stage: Stage, prairie: Prairie, plant: Callable[..., int], far: float
+) -> None:
+    aim = looking(0.0, 4.0, far, pitch=2.0, view=np.degrees(2.0 * np.arctan(4.0 / far)))
+    bare = shot(stage, prairie, aim)
+    plant(0.0, 0.0)
+    lit = shot(stage, prairie, aim)
+    x, y, z = (40.0 * along for along in prairie.sun.direction)
+    shade = esper.create_entity(Shade((x, y + 5.0, z), 15.0))
+    dark = shot(stage, prairie, aim)
+    esper.delete_entity(shade, immediate=True)
+    crown = np.abs(lit - bare).max(axis=-1) > 12.0
+    crown[60:] = False
+    assert crown.sum() > 500
+    assert dark[crown].mean() < 0.85 * lit[crown].mean()
 
 
 def test_far_off_it_looks_as_it_does_near_by(
