@@ -175,6 +175,39 @@ def tell_asked(program: moderngl.Program, *numbers: Mapping[str, tuple[float, ..
     return frozenset(asked[0])
 
 
+Due = list[tuple[list[Any], object, bytes]]
+"""What a program is to be told: what it was told last and the uniform; what it is told, and that in bytes."""
+
+
+def due(program: moderngl.Program, *numbers: Mapping[str, tuple[float, ...]]) -> Due:
+    """Tell a program those of some numbers and vectors that it asks for, and return them for `tell_due`.
+
+    So they are looked for and packed once.
+    """
+    found = Due()
+    for each in numbers:
+        for name in sorted(tell_asked(program) & each.keys()):
+            tell(program, name, *each[name])
+            told = program.extra[name]
+            found.append((told, each[name], told[1].read()))
+    return found
+
+
+def due_all(program: moderngl.Program, name: str, values: Sequence[tuple[float, ...]]) -> Due:
+    """Tell a program an array of vectors, and return it likewise."""
+    tell_all(program, name, values)
+    told = program.extra[name]
+    return [] if told[1] is None else [(told, values, told[1].read())]
+
+
+def tell_due(numbers: Due) -> None:
+    """Tell a program what it was not told the same before."""
+    for told, value, packed in numbers:
+        if told[0] != value:
+            told[0] = value
+            told[1].write(packed)
+
+
 def _asked(program: moderngl.Program, name: str) -> list[Any]:
     """Return what a program was told last by a name, nothing yet, and what takes it, if it asks."""
     asked = program.get(name, None)  # `in` would go through all of its names

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
-from ...engine.gl.shaders import tell, tell_all, tell_asked
+from ...engine.gl.shaders import Due, due, due_all, tell_asked, tell_due
 from ...engine.gl.stream import Stream, release_all
 from ..around.outlook import Outlook
 from ..frame.block import FrameBlock
@@ -49,11 +49,11 @@ class Call(NamedTuple):
     first: int
     vertices: int
     instances: int
-    corners: list[tuple[float, float]]
-    """Of the outline of cards."""
+    form: int
+    """How vertices make triangles."""
 
-    solid_from: float
-    """Coverage from which on it is opaque."""
+    due: Due
+    """What its program is told of it: the corners of an outline, and the coverage from which on it is opaque."""
 
 
 class TreePart(Part):
@@ -331,11 +331,8 @@ class TreePart(Part):
             if last is None or last[0] is not array.program or last[1] is not model:
                 last = array.program, model
                 kind.tell(array.program, model, self._numbers, wood=call.sort == WOOD)
-            tell(array.program, "solid_from", call.solid_from)
-            if call.corners:
-                tell_all(array.program, "corners", call.corners)
-            form = moderngl.TRIANGLE_STRIP if call.corners else moderngl.TRIANGLES
-            array.render(form, first=call.first, vertices=call.vertices, instances=call.instances)
+            tell_due(call.due)
+            array.render(call.form, first=call.first, vertices=call.vertices, instances=call.instances)
         return len(self._calls[key])
 
     def _listed(self, programs: Programs, edges: str, *, all_wood: bool) -> list[Call]:
@@ -358,9 +355,9 @@ class TreePart(Part):
                         array = programs.array(sort, stream, model, edges=SAMPLED if sampled and sort != FAR else edges)
                         nearest = 0.0 if soft else self._nearest(model.placed[name])
                         hard = all_wood or name in CARDS or (sort == WOOD and model.wood[name].hard)
-                        solid_from = SOLID if hard else OPAQUE
-                        of = kind, model
-                        calls.append(Call(nearest, sort, of, array, first, vertices, stream.count, corners, solid_from))
+                        told, of = _told(array.program, corners, SOLID if hard else OPAQUE), (kind, model)
+                        form = moderngl.TRIANGLE_STRIP if corners else moderngl.TRIANGLES
+                        calls.append(Call(nearest, sort, of, array, first, vertices, stream.count, form, told))
         return sorted(calls, key=lambda call: call.nearest)
 
     def _nearest(self, placed: NDArray[np.void]) -> float:
@@ -375,6 +372,12 @@ class TreePart(Part):
         for each in (self._shade, self._placed, self._stood):
             if each is not None:
                 each.release()
+
+
+def _told(program: moderngl.Program, corners: list[tuple[float, float]], solid_from: float) -> Due:
+    """Return what a program is told of a call: if it has an outline, its corners, and how much of a pixel is opaque."""
+    told = due(program, {"solid_from": (solid_from,)})
+    return told + due_all(program, "corners", corners) if corners else told
 
 
 def _wood(model: ModelOnCard, name: str, *, soft: bool, whole: bool) -> tuple[int, int]:

@@ -103,7 +103,10 @@ class Trees(Feature):
             self.wild.follow(viewer, eye)
         changes = self._grown.ground.terrain.changes.count
         seen = (trees := self._world.rows(Tree)), self._world.rows(Pose) if trees else []
-        before, self._seen = self._seen, seen  # of equal lists the new ones: they are the same ones again in the next frame
+        before, self._seen = (
+            self._seen,
+            seen,
+        )  # of equal lists the new ones: they are the same ones again in the next frame
         if seen != before or changes != self._heights:
             self._heights = changes
             self._look(time)

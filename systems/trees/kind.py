@@ -8,7 +8,7 @@ import numpy as np
 from ...components.arrays import Bytes, Doubles
 from ...engine.declared.tree import TreeKind
 from ...engine.gl.mipmaps import mipmapped
-from ...engine.gl.shaders import tell_asked
+from ...engine.gl.shaders import due, tell_asked, tell_due
 from ...engine.gl.stream import release_all
 from ..light.materials import pigment
 from .bake import CARD, PICTURES, filtered, from_around, on_card, pictures, whole_cover
@@ -120,12 +120,17 @@ class KindOnCard:
 
     def tell(self, program: moderngl.Program, model: ModelOnCard, *numbers: Numbers, wood: bool = False) -> None:
         """Tell a program of the kind, a model, and what else it is to know; bind what it reads, or what wood does."""
-        asked = tell_asked(program, self._numbers, model.numbers, *numbers)
-        cards = self.bark if wood else self.card
-        reads = {"tree_twigs": model.twigs.texture, "tree_cards": cards, "tree_far": model.far}
-        for name in asked & reads.keys():
-            if (texture := reads[name]) is not None:
-                texture.use(self.units[name])
+        key = id(model)
+        if key not in program.extra:  # the model is kept with it: so no other one is taken for it
+            program.extra[key] = model, due(program, self._numbers, model.numbers)
+        tell_due(program.extra[key][1])
+        asked = tell_asked(program, *numbers)
+        if "tree_twigs" in asked:
+            model.twigs.texture.use(self.units["tree_twigs"])
+        if "tree_far" in asked and model.far is not None:
+            model.far.use(self.units["tree_far"])
+        if "tree_cards" in asked and (cards := self.bark if wood else self.card) is not None:
+            cards.use(self.units["tree_cards"])
 
     def release(self) -> None:
         """Give everything back."""

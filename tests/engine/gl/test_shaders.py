@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from tallgrass.engine.gl import shaders
 from tallgrass.engine.gl.emit import emitted
-from tallgrass.engine.gl.shaders import ShaderError, compose, locate, program
+from tallgrass.engine.gl.shaders import ShaderError, compose, due, due_all, locate, program, tell_due
 
 ROOT = Path(str(files("tallgrass")))
 STAGES = sorted(
@@ -258,3 +258,26 @@ def test_functions_of_shaders_are_read_at_one_glance() -> None:
         if lines > most.get(function, 50)
     ]
     assert long == []
+
+
+def test_numbers_that_are_due_are_told_again_once_others_were_told(ctx: moderngl.Context) -> None:
+    text = "#version 330\nuniform float high; uniform vec2 at[2]; void main() { gl_Position = vec4(high, at[1], 1.0); }"
+    made = ctx.program(vertex_shader=text)
+    made.extra = {}
+    high_told, at_told = made.get("high", None), made.get("at", None)
+    assert isinstance(high_told, moderngl.Uniform)
+    assert isinstance(at_told, moderngl.Uniform)
+    numbers = [
+        [*due(made, {"high": (high,), "unasked": (0.0,)}), *due_all(made, "at", [(0.0, 0.0), (high, 2.0)])]
+        for high in (1.0, 3.0)
+    ]
+    for each, high in zip(numbers, (1.0, 3.0), strict=True):
+        tell_due(each)
+        assert high_told.value == high
+        assert list(at_told.value)[1] == (high, 2.0)
+        high_told.value = 7.0  # it was told, so it is not told the same again
+        tell_due(each)
+        assert high_told.value == 7.0
+    tell_due(numbers[0])
+    assert high_told.value == 1.0
+    made.release()
