@@ -5,6 +5,7 @@
 #include "systems/trees/pictured.glsl"
 
 in vec2 on;
+flat in float picture;
 flat in vec4 relief;
 flat in vec3 darkest;
 flat in vec3 brightest;
@@ -13,7 +14,7 @@ flat in vec3 barked;
 out vec4 pixel;
 
 void main() {
-    Pictured leaf = pictured(on);
+    Pictured leaf = pictured(on, picture);
     must_cover(leaf.cover);
     float brighter = dot(leaf.lies, relief.xyz) + relief.w;
     pixel = covered(max(brighter, 0.0) * mix(mix(darkest, brightest, leaf.tone), barked, leaf.wood), leaf.cover);

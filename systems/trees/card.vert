@@ -14,6 +14,7 @@ uniform vec2 corners[OUTLINE];  // of its outline, left and right in turn: acros
 uniform vec4 card;              // as twig.glsl has it
 
 out vec2 on;
+flat out float picture;   // which one its card shows
 flat out vec4 relief;     // by how much it is brighter where leaves lie that way, in the card's own axes, and anyway
 flat out vec3 darkest;    // the colours of what it shows: of its darkest and brightest leaves, and of its bark
 flat out vec3 brightest;
@@ -22,6 +23,7 @@ flat out vec3 barked;
 void main() {
     on = corners[gl_VertexID];
     HungCard hung = hung_card(hung_axes, hung_light, hung_haze);
+    picture = hung.picture;
     relief = hung.relief;
     darkest = hung.darkest;
     brightest = hung.brightest;

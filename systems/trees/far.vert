@@ -82,6 +82,17 @@ void choose(vec3 from) {
     mixed = smoothstep(MIXES.x, MIXES.y, part);
 }
 
+#ifndef CAST
+// Where a corner is in the picture that lies so far under the ground. Its crown is nearer to the eye than the square, whose lower part
+// the ground would hide from above: so is the depth of that corner, as far as over the ground, or the crown's front.
+vec4 over_ground(float under, float front) {
+    vec4 at = clip * vec4(seen_at, 1.0);
+    vec3 ray = normalize(eye - seen_at);
+    vec4 nearer = clip * vec4(seen_at + ray * clamp(under / max(ray.y, LEAST_PART), 0.0, front), 1.0);
+    return vec4(at.xy, nearer.z / nearer.w * at.w, at.w);
+}
+#endif
+
 void main() {
     vec3 middle_of = root + vec3(0.0, scale * ball.x, 0.0), to = eye - middle_of;
 #ifdef CAST
@@ -123,6 +134,7 @@ void main() {
         gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
         return;
     }
+    float under = root.y - seen_at.y;
     if (columns > 1.0)
         seen_at.y += height_at(seen_at.xz) - root.y;  // a row of trees goes up and down with the ground
     vec2 aside = trunk_sways(message);
@@ -137,6 +149,6 @@ void main() {
     skylit = light.sky;
     hazy = light.haze;
     below = from_below() * (1.0 - haze_at(middle_of));
-    gl_Position = clip * vec4(seen_at, 1.0);
+    gl_Position = over_ground(under, half_side);
 #endif
 }

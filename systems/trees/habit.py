@@ -1,7 +1,7 @@
 """Habits: the proportions by which trees of a sort grow, after Weber and Penn."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi, sqrt
 
 from ...engine.declared.tree import HabitName
@@ -56,6 +56,15 @@ class Leaf:
     def quads(self) -> int:
         """Quads that a twig is drawn with, leaf by leaf: of its leaves, and of its shoots' stems."""
         return self.count + self.shoots
+
+    def finer(self, times: float) -> "Leaf":
+        """Return leaves so many times as small, on as many more shoots, each of which bears as many more of them.
+
+        What has no side shoots hangs: there are as many more shoots as leaves, one below the other.
+        """
+        shoots = round(self.shoots * times) if self.shoots > 1 else round(times * times)
+        count = round(self.count * times * times / shoots) * shoots
+        return replace(self, length=self.length / times, width=self.width / times, count=count, shoots=shoots)
 
 
 @dataclass(frozen=True, slots=True)

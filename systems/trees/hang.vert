@@ -1,6 +1,7 @@
 // What is the same all over a twig, on its card or with LEAVES leaf by leaf: where it hangs in the wind, and what light comes to it.
 #include "systems/trees/twig.glsl"
 #include "systems/trees/hung.glsl"
+#include "systems/trees/lies.py"
 #include "systems/trees/leaf_sends.glsl"
 #include "systems/trees/pigment.glsl"
 
@@ -26,55 +27,69 @@ int next_twig() {
 in float first;  // the twig that is drawn, or the first of those
 const bool LEAF_BY_LEAF = true;
 
-void tell_leaves(int number, Twig one, vec3 aside, float turns) {
-    vec3 along = turned(one.along);
-    Light light = light_in_crown(hung_at.xyz + 0.5 * hung_at.w * along, one.shading, 1.0);
-    vec3 below = sky_on(vec3(0.0), from_below(), sky_through(one.shading, foliage), -1.0) * tint * (1.0 - misty.a);
-    pack(HungLeaves(along, aside, light.sun, light.sky, below, light.haze, turns, number), hung_axes, hung_light, hung_haze);
+void tell_leaves(int number, vec3 along, vec3 aside, float turns, Light above, vec3 below) {
+    pack(HungLeaves(along, aside, above.sun, above.sky, below, above.haze, turns, number), hung_axes, hung_light, hung_haze);
 }
 #else
 const bool LEAF_BY_LEAF = false;
 
-uniform sampler2DArray tree_cards;  // as pictured.glsl has it
+uniform vec4 lies[LIES];  // as lies.py has it
 
-const int SPOTS = 4;  // of a card across and up, at which is asked how its leaves lie
-const float SPOT_LEVEL = 4.0;  // level of its picture there
-const float CURVES = 0.5;  // power of radiance by which its colour goes, about
+// What is seen of a twig's leaves, of which each lies another way.
+struct Seen {
+    vec3 sends;     // of the sun's light, in the mean
+    float up;       // how far up they look, in the mean
+    float darker;   // the mean of their colours as shown, of that of their mean radiance: a dark and a bright leaf together are darker
+    float turns;    // how much brighter those are that turn to the sun as its card does, by how far they do
+    vec3 faces;     // which way they lie in its picture, in the mean
+};
 
-// How a card's leaves lie: what they send to the eye of the sun's light, and which way they face, in the mean.
-void lie_on_card(mat3 own, vec3 ray, out vec3 sends, out vec3 faces) {
-    float cover = LEAST_PART;
-    sends = faces = vec3(0.0);
-    for (int spot = 0; spot < SPOTS * SPOTS; spot++) {
-        vec2 at = (vec2(spot % SPOTS, spot / SPOTS) + 0.5) / float(SPOTS);
-        vec4 lie = textureLod(tree_cards, vec3(at, 1.0), SPOT_LEVEL);
-        vec3 normal = 2.0 * lie.rgb - lie.a;
-        cover += lie.a;
-        faces += normal;
-        sends += lie.a * leaf_sends(own * (normal * inversesqrt(max(dot(normal, normal), LEAST_SQUARE))), ray);
+// Those of a card that lies so, under this light on what looks up and on what looks down.
+Seen seen_on_card(mat3 own, vec3 ray, Light above, vec3 below) {
+    vec3 to_sun = sun * own, to_eye = -ray * own, strewn = strewn_send(ray), pigment = pigment_of(0.5, 0.0), albedo = pigment * pigment;
+    float side = to_eye.z < 0.0 ? -1.0 : 1.0, shown = LEAST_PART, pictured = LEAST_PART, root_of = 0.0;
+    Seen seen = Seen(vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0));
+    vec2 mean = vec2(0.0), spread = vec2(0.0);
+    for (int each = 0; each < LIES; each++) {
+        vec3 normal = lies[each].xyz;
+        float to = dot(normal, to_eye), lit = dot(normal, to_sun), shows = lies[each].w * abs(to), part = lies[each].w * normal.z;
+        vec3 sends = leaf_sends(lit * sign(to), strewn);
+        float up = (own * normal).y * sign(to);
+        float bright = sqrt(brightness(albedo * (above.sun * sends + mix(below, above.sky, 0.5 + 0.5 * up)) + above.haze));
+        shown += shows;
+        seen.sends += shows * sends;
+        seen.up += shows * up;
+        root_of += shows * bright;
+        pictured += part;
+        seen.faces += part * normal;
+        mean += part * vec2(side * lit, bright);
+        spread += part * side * lit * vec2(side * lit, bright);
     }
-    faces /= cover;
-    sends /= cover;
+    seen.sends /= shown;
+    seen.up /= shown;
+    seen.faces /= pictured;
+    mean /= pictured;
+    spread = spread / pictured - mean.x * mean;
+    seen.turns = spread.y / (max(spread.x, LEAST_PART) * max(mean.y, LEAST_PART));
+    vec3 all = albedo * (above.sun * seen.sends + mix(below, above.sky, 0.5 + 0.5 * seen.up)) + above.haze;
+    seen.darker = root_of / (shown * sqrt(max(brightness(all), DARKEST)));
+    return seen;
 }
 
 vec3 shows(float tone, float wood, Light light) {
     return shown_of(shade(Surface(pigment_of(tone, wood), 1.0, AMONG_LEAVES), light));
 }
 
-void tell_card(vec3 along, vec3 aside, vec3 facing, float tone, Light light) {
+void tell_card(vec3 along, vec3 aside, vec3 facing, vec4 chance, Light light, vec3 below) {
     mat3 own = mat3(aside, along, facing);
-    vec3 sends, faces, ray = normalize(hung_at.xyz + 0.5 * hung_at.w * along - eye);
-    lie_on_card(own, ray, sends, faces);
-    // What a face sends more as it turns to the sun, of all that is sent.
-    float lit = dot(own * faces, sun) * -sign(dot(own * faces, ray));
-    vec3 turned_to = (lit < 0.0 ? -LEAF_THROUGH : vec3(1.0)) * light.sun * ((1.0 - STREWN) * SENDS);
-    light.sun *= sends;
-    vec3 pigment = pigment_of(0.5, 0.0), albedo = pigment * pigment;
-    float steep = CURVES * brightness(albedo * turned_to) / max(brightness(albedo * (light.sun + light.sky) + light.haze), DARKEST);
-    vec3 towards = transpose(own) * sun * (steep * -sign(dot(own * faces, ray)));
-    vec4 relief = vec4(towards, 1.0 - dot(towards, faces));
-    HungCard told = HungCard(along, aside, relief, shows(0.0, 0.0, light), shows(tone, 0.0, light), shows(0.0, 1.0, light));
-    pack(told, hung_axes, hung_light, hung_haze);
+    vec3 ray = normalize(hung_at.xyz + 0.5 * hung_at.w * along - eye);
+    Seen seen = seen_on_card(own, ray, light, below);
+    light.sun *= seen.sends;
+    light.sky = mix(below, light.sky, 0.5 + 0.5 * seen.up);
+    vec3 towards = sun * own * (dot(facing, ray) > 0.0 ? -seen.turns : seen.turns);
+    vec4 relief = seen.darker * vec4(towards, 1.0 - dot(towards, seen.faces));
+    vec3 brightest = shows(CARD_TONES.x + CARD_TONES.y * chance.z, 0.0, light);
+    pack(HungCard(along, aside, relief, shows(0.0, 0.0, light), brightest, shows(0.0, 1.0, light), picture_of(chance.y)), hung_axes, hung_light, hung_haze);
 }
 #endif
 
@@ -99,13 +114,13 @@ void main() {
     float turns = flutter(chance), length_of = size * one.span;
     one.foot -= 0.5 * max(length_of - one.span, 0.0) * one.along;  // it is larger about its middle: a crown stays as wide
     hung_at = vec4(swayed(one.foot, one.pivot, one.limb, one.hertz, message), scale * length_of);
-#ifdef LEAVES
-    tell_leaves(number, one, turned(aside), turns);
-#else
     vec3 facing = normalize(turned(one.face + turned_by(one.along, aside, turns)));
-    vec3 along = turned(one.along + fluttered(one.face, aside, turns));
-    vec3 middle = hung_at.xyz + 0.5 * hung_at.w * along;
-    Light light = light_in_crown(middle, one.shading, facing.y * sign(dot(facing, eye - middle)));
-    tell_card(along, turned(aside), facing, CARD_TONES.x + CARD_TONES.y * chance.z, light);
+    vec3 along = turned(LEAF_BY_LEAF ? one.along : one.along + fluttered(one.face, aside, turns));
+    Light above = light_in_crown(hung_at.xyz + 0.5 * hung_at.w * along, one.shading, 1.0);
+    vec3 below = sky_on(vec3(0.0), from_below(), sky_through(one.shading, foliage), -1.0) * tint * (1.0 - misty.a);
+#ifdef LEAVES
+    tell_leaves(number, along, turned(aside), turns, above, below);
+#else
+    tell_card(along, turned(aside), facing, chance, above, below);
 #endif
 }

@@ -23,6 +23,7 @@ from ...engine.kept import (
     write_whole,
 )  # fmt: skip
 from .bake import CARD, LEVELS, PICTURES
+from .twig import PICTURES as OF_TWIGS
 
 SUFFIX = ".trees"
 
@@ -30,7 +31,7 @@ MOST = 24
 """Files that are kept: a kind of tree each, and some megabytes."""
 
 Picture = list[Bytes]
-"""Two layers (2, rows, columns, 4) at each of their `LEVELS`, the finest first."""
+"""Layers (n, rows, columns, 4) at each of their `LEVELS`, the finest first."""
 
 
 def kind_key(habit: str, seed: int, renderer: str, /) -> str:
@@ -40,7 +41,7 @@ def kind_key(habit: str, seed: int, renderer: str, /) -> str:
 
 
 def kept_pictures(key: str, models: int, /) -> list[Picture] | None:
-    """Return a twig's picture and those of a kind's models, as they were kept; None where they are not, or broken."""
+    """Return a twig's pictures and those of a kind's models, as they were kept; None where they are not, or broken."""
     folder = cache_folder()
     if folder is None:
         return None
@@ -76,9 +77,9 @@ def keep_pictures(key: str, pictures: list[Picture], /) -> None:
 
 
 def _fits(picture: Picture, *, of_twig: bool) -> bool:
-    columns, rows, side = (1, 1, CARD) if of_twig else PICTURES
+    layers, columns, rows, side = (2 * OF_TWIGS, 1, 1, CARD) if of_twig else (2, *PICTURES)
     return all(
-        each.dtype == np.uint8 and each.shape == (2, rows * side >> level, columns * side >> level, 4)
+        each.dtype == np.uint8 and each.shape == (layers, rows * side >> level, columns * side >> level, 4)
         for level, each in enumerate(picture)
     )
 

@@ -8,25 +8,27 @@ import numpy as np
 from ...components.arrays import Bytes, Doubles
 from ...engine.declared.tree import TreeKind
 from ...engine.gl.mipmaps import mipmapped
-from ...engine.gl.shaders import due, tell_asked, tell_due
+from ...engine.gl.shaders import due, tell_all, tell_asked, tell_due
 from ...engine.gl.stream import release_all
 from ..light.materials import pigment
 from .bake import CARD, PICTURES, filtered, from_around, on_card, pictures, whole_cover
 from .card import FEWER, LEAVES, PICTURED, QUAD, WOOD, ModelOnCard, Numbers
-from .habit import HABITS
+from .habit import HABITS, Leaf
 from .kept import keep_pictures, kept_pictures, kind_key
+from .lies import lies_of
 from .model import models_of
 from .noise import bark_noise
 from .outline import BOX, outline, pairs, roughly
 from .programs import Programs
-from .twig import SHOOTS_LONG
+from .twig import FINER_EACH, HANGING_OFF, SHOOTS_LONG, SHOOTS_OFF
+from .twig import PICTURES as OF_TWIGS
 
 ASIDE, TURNED, BACK, ON = 0.95, 0.25, 0.3, 1.2
 """How far leaves reach from their twig, of their length: aside, by the sine of their angle and so much more, as that
 differs; back from its foot, and on from its tip."""
 
-SHOOTS_ASIDE = 0.7
-"""How far side shoots reach aside, of the length of the longest."""
+SHOOTS_ASIDE, HANGING_ASIDE = 0.7, 0.35
+"""How far side shoots reach aside, of the length of the longest; and shoots that hang side by side."""
 
 DARKER = 0.62
 """Pigment of a kind's darkest leaves, of its brightest, where a scene has one colour for both."""
@@ -43,12 +45,13 @@ class KindOnCard:
         self.card: moderngl.TextureArray | None = None
         self.outlines: list[list[tuple[float, float]]] = []
         """Corners about what its card shows: of the largest cards, and of others."""
+        self._lies: list[tuple[float, float, float, float]] = []
         self._draw_as(BOX)
         self.bark = mipmapped(ctx, bark_noise())
         self.bark.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
         leaf, usual = self.habit.leaf, self.habit.twigs.length
         wide = ASIDE * leaf.length * (np.sin(leaf.angle) + TURNED)
-        wide += SHOOTS_LONG * usual * SHOOTS_ASIDE if leaf.shoots > 1 else 0.0
+        wide += SHOOTS_LONG * usual * (SHOOTS_ASIDE if leaf.shoots > 1 else HANGING_ASIDE)
         self.reach = wide / usual, -BACK * leaf.length / usual, 1.0 + ON * leaf.length / usual
         self._numbers = self._told()
 
@@ -57,7 +60,7 @@ class KindOnCard:
         key = kind_key(self.declared.habit, self._seed, self.ctx.info["GL_RENDERER"])
         found = kept_pictures(key, len(self.models))
         if found is None:
-            found = [self._twig_picture(programs)]
+            found = [self._twig_pictures(programs)]
             for model in self.models:
                 self._use(found[0])
                 found.append(self._model_picture(programs, model))
@@ -71,18 +74,26 @@ class KindOnCard:
         """Show twigs as in this picture."""
         if self.card is None:
             self.card = filtered(self.ctx, twig)
-            self._draw_as(outline(twig[0][0, ..., 3]))
+            self._draw_as(outline(twig[0][::2, ..., 3].max(axis=0)))
+            self._lies = lies_of(twig[0][:2])
 
-    def _twig_picture(self, programs: Programs) -> list[Bytes]:
-        """Return the picture of its twig; a depth test is set meanwhile."""
+    def _twig_pictures(self, programs: Programs) -> list[Bytes]:
+        """Return the pictures of its twig, with ever more and smaller leaves; a depth test is set meanwhile."""
+        each = [self._twig_picture(programs, FINER_EACH**number) for number in range(OF_TWIGS)]
+        return [np.concatenate(layers) for layers in zip(*each, strict=True)]
+
+    def _twig_picture(self, programs: Programs, finer: float) -> list[Bytes]:
+        """Return its picture with leaves so many times as small, and as many more as cover as much."""
         twig = programs.array(LEAVES, self.models[0].bare, baked=True)
-        matrix = on_card(self.reach, self.habit.twigs.length)
+        matrix, leaf = on_card(self.reach, self.habit.twigs.length), self.habit.leaf.finer(finer)
+        off = SHOOTS_OFF if self.habit.leaf.shoots > 1 else HANGING_OFF
+        numbers = {**_leaves(leaf, self.habit.twigs.length), "finer": (finer,), "shoots_off": (off,)}
 
         def draw_twig(number: int) -> None:
             del number
-            self.tell(twig.program, self.models[0], {})
+            self.tell(twig.program, self.models[0], numbers)
             _matrix(twig.program, matrix)
-            twig.render(moderngl.TRIANGLES, vertices=QUAD * self.habit.leaf.quads, instances=1)
+            twig.render(moderngl.TRIANGLES, vertices=QUAD * leaf.quads, instances=1)
 
         return pictures(self.ctx, 1, 1, CARD, draw_twig)
 
@@ -112,8 +123,8 @@ class KindOnCard:
         dark, bright = habit.leaves if declared.leaf is None else (declared.leaf, declared.leaf)
         darker = DARKER if declared.leaf is not None else 1.0
         return {
-            "usual": (usual,), "card": (*self.reach, 0.0), "leaf_count": (leaf.count,), "shoots": (leaf.shoots,),
-            "form": (leaf.form,), "leaf_shape": (leaf.length / usual, 0.5 * leaf.width / usual, leaf.angle),
+            "usual": (usual,), "card": (*self.reach, 0.0), "form": (leaf.form,), **_leaves(leaf, usual),
+            "finer": (1.0,), "shoots_off": (SHOOTS_OFF,),
             "dark": tuple((darker * pigment(dark)).tolist()), "bright": tuple(pigment(bright).tolist()),
             "bark": tuple(pigment(declared.bark or habit.bark).tolist()), "rough": (habit.rough,),
         }  # fmt: skip
@@ -125,6 +136,8 @@ class KindOnCard:
             program.extra[key] = model, due(program, self._numbers, model.numbers)
         tell_due(program.extra[key][1])
         asked = tell_asked(program, *numbers)
+        if "lies" in asked:
+            tell_all(program, "lies", self._lies)
         if "tree_twigs" in asked:
             model.twigs.texture.use(self.units["tree_twigs"])
         if "tree_far" in asked and model.far is not None:
@@ -137,6 +150,12 @@ class KindOnCard:
         release_all(*self.models, self.bark)
         if self.card is not None:
             self.card.release()
+
+
+def _leaves(leaf: Leaf, usual: float) -> Numbers:
+    """Return what programs are told of a twig's leaves, where twigs are usually so long [m]."""
+    shape = leaf.length / usual, 0.5 * leaf.width / usual, leaf.angle
+    return {"leaf_count": (leaf.count,), "shoots": (leaf.shoots,), "leaf_shape": shape}
 
 
 def _matrix(program: moderngl.Program, matrix: Doubles) -> None:

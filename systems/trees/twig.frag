@@ -8,23 +8,13 @@ in vec2 on;
 #ifdef BAKED
 in vec3 facing;
 in vec4 inside;
-flat in vec4 across_card;
-flat in vec3 along_card;
+flat in float tone;
+flat in float picture;
 
 layout(location = 0) out vec4 pixel;
 layout(location = 1) out vec4 second;
 
-const float APART = 7.0;  // how many times as much as their tones twigs' thresholds differ
-
-// Coverage from which on a pixel is drawn, as two by two pixels are one in the end.
-float threshold() {
-#ifdef LEAVES
-    return 0.5;
-#else
-    return threshold_of(APART * across_card.w);
-#endif
-}
-
+const float APART = 7.0;  // how many times as much as what tells leaves and twigs apart their thresholds differ
 const float RIBBED = 0.8;  // as twig.vert has it
 #else
 in float covers;
@@ -43,16 +33,16 @@ void main() {
 #endif
 #ifdef BAKED
 #ifdef LEAVES
-    float cover = inside.y > 0.5 ? inside.z : leaf, tone = inside.x * mix(RIBBED, 1.0, beside), wood = 0.0;
+    float cover = inside.y > 0.5 ? inside.z : leaf, shows = inside.x * mix(RIBBED, 1.0, beside), wood = 0.0;
     second = vec4(0.5 + 0.5 * normalize(facing), 1.0);
 #else
-    Pictured seen = pictured(on);
-    float cover = seen.cover, tone = seen.tone * across_card.w, wood = seen.wood;
+    Pictured seen = pictured(on, picture);
+    float cover = seen.cover, shows = seen.tone * tone, wood = seen.wood;
     second = packed_shading(inside);
 #endif
-    if (cover <= threshold())
+    if (cover <= threshold_of(APART * (tone + inside.x)))
         discard;
-    pixel = vec4(clamp(tone, 0.0, 1.0), wood, 0.0, 1.0);
+    pixel = vec4(clamp(shows, 0.0, 1.0), wood, 0.0, 1.0);
 #else
     float cover = covers < 0.0 ? leaf : covers;
     must_cover(cover);

@@ -18,7 +18,7 @@ uniform vec2 leaf_pixels; // length of a leaf from which on twigs begin to be dr
 const uvec4 BYTES_AT = uvec4(0u, 8u, 16u, 24u);  // bits before the bytes of a number
 const float ASKEW = 0.01;  // keeps two directions from being one
 const vec2 FLUTTERS = vec2(0.4, 0.25);  // how far what hangs on a twig is moved out of its face and aside, of how far leaves turn
-const vec2 CARD_TONES = vec2(0.7, 0.6);  // the least tone of a card, and how much more it may be
+const vec2 CARD_TONES = vec2(0.9, 0.2);  // the least tone of a card, and how much more it may be
 const float NEAREST_TWIG = 0.1;  // how far off a twig counts as at least [m]
 
 // Four numbers from 0 to 1 that a leaf of a twig has.
@@ -30,6 +30,12 @@ vec4 random(int twig, int leaf, int number) {
 float size_of(float rank) {
     float shown = min(keep * (1.0 - gone), 1.0) * foliage;
     return clamp((shown - rank) * RANKS + 0.5, 0.0, 1.0) * inversesqrt(max(keep, LEAST_KEPT));
+}
+
+// Which picture its card shows: where it is larger than it has grown, one with more and smaller leaves.
+float picture_of(float chance) {
+    float larger = -0.5 * log(max(keep, LEAST_KEPT)) / log(FINER_EACH);
+    return clamp(floor(larger + chance), 0.0, float(PICTURES) - 1.0);
 }
 
 // Which way a twig's card faces: needles stand all around theirs, so that turns to the eye.

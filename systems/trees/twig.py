@@ -35,9 +35,16 @@ BEHIND = 1.5
 SHOOTS_OFF, SHOOTS_LONG = 0.85, 0.62
 """Angle of side shoots from their twig [rad]; length of the longest, of the twig's."""
 
+HANGING_OFF = 0.3
+"""That angle of twigs that hang side by side, where a card stands for several of those without side shoots [rad]."""
+
+PICTURES, FINER_EACH = 3, 1.6
+"""Pictures of a twig's card, and how many times as small leaves are on each as on the one before: so many more of them
+as there is room for. A card that stands for several twigs shows their leaves, not larger ones."""
+
 GLSL = looked_up("Twig", TWIG, "tree_twigs", ROW) + emitted(
     {
         "ORDERS": ORDERS, "RANKS": RANKS, "LEAST_KEPT": LEAST_KEPT,
-        "SHOOTS_OFF": SHOOTS_OFF, "SHOOTS_LONG": SHOOTS_LONG,
+        "SHOOTS_LONG": SHOOTS_LONG, "PICTURES": PICTURES, "FINER_EACH": FINER_EACH,
     }
 )  # fmt: skip

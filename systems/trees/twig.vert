@@ -15,13 +15,15 @@ in uvec2 hung_haze;
 
 uniform int leaf_count;  // leaves of a twig
 uniform int shoots;      // of a twig: itself, and those on its sides
+uniform float shoots_off; // angle of those from it [rad]
+uniform float finer;     // how many times as small leaves and stems are as those of a twig
 
 out vec2 on;
 #ifdef BAKED
 out vec3 facing;
 out vec4 inside;  // what leaves meet of light; or tone, and 1 on a stem
-flat out vec4 across_card; // which way the card's own x goes, in the world; its tone
-flat out vec3 along_card;
+flat out float tone;
+flat out float picture;  // which one the card shows
 #else
 out float covers;      // of a pixel, on a stem; below 0 on a leaf
 flat out vec3 shown;   // its colour
@@ -46,7 +48,7 @@ vec4 shoot_at(int twig, int shoot) {
     if (shoot == 0)
         return vec4(0.0, 1.0, 0.0, 1.0);
     float part = float(shoot) / float(shoots), side = shoot % 2 == 0 ? -1.0 : 1.0;
-    float angle = side * SHOOTS_OFF * (ANGLES.x + ANGLES.y * random(twig, shoot, 1).x);
+    float angle = side * shoots_off * (ANGLES.x + ANGLES.y * random(twig, shoot, 1).x);
     return vec4(sin(angle), cos(angle), SHOOTS_UP_TO * part, SHOOTS_LONG * (1.0 - SHOOTS_SHORTEN * part));
 }
 
@@ -78,7 +80,7 @@ vec3 leaf_corner(int twig, int leaf, vec2 corner, out vec3 normal) {
 
 // Half the width of the stem of one of its shoots, at a part of its length [of the twig's usual length].
 float stem_width(int shoot, float along) {
-    return STEM * (1.0 - STEM_TAPERS * along) * (shoot == 0 ? STEM_OF_TWIG : 1.0);
+    return STEM / finer * (1.0 - STEM_TAPERS * along) * (shoot == 0 ? STEM_OF_TWIG : 1.0);
 }
 
 // A corner of such a stem, so wide.
@@ -115,10 +117,15 @@ void main() {
     Twig one = Twig(vec3(0.0), usual, vec3(0.0, 1.0, 0.0), 0.0, vec3(0.0, 0.0, 1.0), 1.0, vec3(0.0), 0.0, vec4(0.0));
     shape = corner_on(0, number, on, 0.0, normal, told);
     inside = vec4(told, 0.0);
-    float size = 1.0, tone = 1.0;
+    float size = 1.0;
+    tone = 1.0;
+    picture = 0.0;
 #else
     Twig one = twig_of(number);
-    float size = size_of((float(number) + 0.5) / float(twigs)), tone = CARD_TONES.x + CARD_TONES.y * random(number, 0, 3).z;
+    vec4 chance = random(number, 0, 3);
+    float size = size_of((float(number) + 0.5) / float(twigs));
+    tone = CARD_TONES.x + CARD_TONES.y * chance.z;
+    picture = picture_of(chance.y);
     shape = vec3(on.x * card.x, mix(card.y, card.z, on.y), 0.0);
     inside = one.shading;
     one.face = face_of(one);
@@ -127,8 +134,6 @@ void main() {
     float length_of = size * one.span;
     one.foot -= 0.5 * max(length_of - one.span, 0.0) * one.along;  // it is larger about its middle: a crown stays as wide
     facing = normal.x * aside + normal.y * one.along + normal.z * one.face;
-    across_card = vec4(turned(aside), tone);
-    along_card = turned(one.along);
     gl_Position = baked * vec4(one.foot + length_of * (shape.x * aside + shape.y * one.along + shape.z * one.face), 1.0);
     if (size <= 0.0)
         gl_Position = vec4(0.0, 0.0, 2.0, 1.0);

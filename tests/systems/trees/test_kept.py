@@ -9,14 +9,15 @@ from tallgrass.engine.kept import tell_nothing_is_kept
 from tallgrass.systems.trees import kept
 from tallgrass.systems.trees.bake import CARD, LEVELS, PICTURES
 from tallgrass.systems.trees.kept import SUFFIX, Picture, keep_pictures, kept_pictures, kind_key
+from tallgrass.systems.trees.twig import PICTURES as OF_TWIGS
 
 KEY = kind_key("oak", 3, "a card")
 
 
-def picture(columns: int, rows: int, side: int) -> Picture:
+def picture(columns: int, rows: int, side: int, layers: int = 2) -> Picture:
     draw = np.random.default_rng(side)
     sizes = [(rows * side >> level, columns * side >> level) for level in range(LEVELS)]
-    return [np.tile(draw.integers(0, 255, 4, np.uint8), (2, *size, 1)) for size in sizes]
+    return [np.tile(draw.integers(0, 255, 4, np.uint8), (layers, *size, 1)) for size in sizes]
 
 
 @pytest.fixture
@@ -26,7 +27,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_they_come_back_as_they_were_kept_and_for_nothing_else(folder: Path) -> None:
-    pictures = [picture(1, 1, CARD), picture(*PICTURES)]
+    pictures = [picture(1, 1, CARD, layers=2 * OF_TWIGS), picture(*PICTURES)]
     keep_pictures(KEY, pictures)
     found = kept_pictures(KEY, 1)
     assert found is not None
@@ -40,13 +41,13 @@ def test_they_come_back_as_they_were_kept_and_for_nothing_else(folder: Path) -> 
 
 
 def test_a_file_that_is_broken_or_does_not_fit_counts_as_none(folder: Path) -> None:
-    keep_pictures(KEY, [picture(1, 1, CARD), picture(*PICTURES)])
+    keep_pictures(KEY, [picture(1, 1, CARD, layers=2 * OF_TWIGS), picture(*PICTURES)])
     path = folder / (KEY + SUFFIX)
     whole = path.read_bytes()
     for broken in (whole[:-1], b"", whole[:40] + bytes([whole[40] ^ 1]) + whole[41:]):
         path.write_bytes(broken)
         assert kept_pictures(KEY, 1) is None
-    keep_pictures(KEY, [picture(1, 1, CARD // 2), picture(*PICTURES)])
+    keep_pictures(KEY, [picture(1, 1, CARD // 2, layers=2 * OF_TWIGS), picture(*PICTURES)])
     assert kept_pictures(KEY, 1) is None
 
 

@@ -1,0 +1,50 @@
+"""How the leaves of a twig lie, told in few directions."""
+
+import numpy as np
+
+from ...components.arrays import Bytes, Doubles
+
+AROUND, TILTS = 8, 2
+"""Directions around the middle of a card, and how steep ones there are."""
+
+LIES = AROUND * TILTS
+"""Directions in all."""
+
+SHOWN = 128
+"""Coverage from which on a texel tells how a leaf lies, of 255: fainter ones have it in too few bits."""
+
+STEEPEST = 0.2
+"""Part of a leaf that is seen at least, where it stands nearly edge-on: one texel is not to count for all."""
+
+GLSL = {"LIES": LIES}
+
+
+def lies_of(picture: Bytes, /) -> list[tuple[float, float, float, float]]:
+    """Return directions that a twig's leaves face on its card (across, along, out), and the part of its leaf area each.
+
+    `picture` (2, n, n, 4) is that of a card, as `smaller` returns it. Leaves are parted by where they face around the
+    middle, and those of each part halved by how steep they are.
+    """
+    texels = picture.astype(np.float64).reshape(2, -1, 4)
+    own = texels[1, texels[0, :, 3] >= SHOWN]
+    normal = 2.0 * own[:, :3] - own[:, 3:]
+    normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1.0)
+    area = 1.0 / np.maximum(normal[:, 2], STEEPEST)  # of what is seen of it
+    part = ((np.arctan2(normal[:, 1], normal[:, 0]) / (2.0 * np.pi) + 0.5) * AROUND).astype(np.intp) % AROUND
+    found = np.zeros((LIES, 4))
+    found[:, 2] = 1.0
+    for number in range(AROUND):
+        inside = np.flatnonzero(part == number)
+        steep = inside[np.argsort(normal[inside, 2])]
+        halves = np.searchsorted(np.cumsum(area[steep]), 0.5 * area[steep].sum())
+        for tilt, some in enumerate((steep[:halves], steep[halves:])):
+            if len(some):
+                found[TILTS * number + tilt] = *_mean(normal[some], area[some]), area[some].sum()
+    found[:, 3] /= max(found[:, 3].sum(), 1.0)
+    return [(x, y, z, share) for x, y, z, share in found.tolist()]
+
+
+def _mean(normal: Doubles, area: Doubles) -> Doubles:
+    """Return the direction (3,) that faces (n, 3) have in the mean."""
+    mean = (normal * area[:, None]).sum(axis=0)
+    return np.asarray(mean / np.linalg.norm(mean))

@@ -1,0 +1,114 @@
+"""What cards show of twigs: as many leaves as they stand for, each as large as it has grown, and as light (F3, F4)."""
+
+from collections.abc import Iterator
+
+import moderngl
+import numpy as np
+import pytest
+
+from tallgrass import Prairie
+from tallgrass.components.arrays import Bytes
+from tallgrass.systems.reference import draw_reference, without_trees
+from tallgrass.systems.trees import standing
+from tallgrass.systems.trees.bake import CARD
+from tallgrass.systems.trees.draw import TreePart
+from tallgrass.systems.trees.lies import lies_of
+from tallgrass.systems.trees.twig import PICTURES
+from tallgrass.testing import Stage, little_prairie, looking, private_world
+
+SCENE = """\
+tallgrass: 2
+seed: 5
+terrain: { noise: flat, size: [80, 80] }
+grass: { turf: { height: [0.05, 0.08], width: 0.02, blades: 30, place: none } }
+trees:
+  oak: { habit: oak }
+  willow: { habit: willow }
+  thorn: { habit: hawthorn, positions: [[0, 0]] }
+light: { azimuth: 130, elevation: 40, haze: 1e6, clouds: 0 }
+quality:
+  models: 1
+  blade_rings: [{ to: 1, segments: 2 }]
+  strip_rings: [{ to: 3, strips: 2, columns: 1, sections: 1, texel: 0.03 }]
+  carpet_to: 12
+  carpet: 32
+"""
+SIZE = 96
+ABOVE = looking(0.0, 24.0, 24.0, pitch=-43.0, view=11.0)
+
+
+@pytest.fixture(scope="module")
+def stage(ctx: moderngl.Context) -> Stage:
+    return Stage(ctx, (SIZE, SIZE))
+
+
+@pytest.fixture(scope="module")
+def prairie(ctx: moderngl.Context, stage: Stage) -> Iterator[Prairie]:
+    with private_world(), little_prairie(scene=SCENE, ctx=ctx) as made:
+        stage.shot(made, ABOVE)
+        yield made
+
+
+def cards(prairie: Prairie) -> dict[str, Bytes]:
+    """Return the pictures of each kind's twigs, (PICTURES, 2, rows, columns, 4)."""
+    assert prairie.painter is not None
+    kinds = vars(prairie.painter.part(TreePart))["_kinds"]
+    each = {kind.declared.habit: kind.card for kind in kinds}
+    return {
+        name: np.frombuffer(card.read(), np.uint8).reshape(PICTURES, 2, CARD, CARD, 4)
+        for name, card in each.items() if card is not None
+    }  # fmt: skip
+
+
+def test_a_card_that_stands_for_several_twigs_shows_more_leaves_and_not_larger_ones(prairie: Prairie) -> None:
+    for pictures in cards(prairie).values():
+        covered = pictures[:, 0, ..., 3] > 127
+        covers = covered.mean(axis=(1, 2))
+        edges = (covered[:, 1:] != covered[:, :-1]).sum(axis=(1, 2)) / covered.sum(axis=(1, 2))
+        assert covers[1:] == pytest.approx(covers[0], rel=0.25)
+        assert (edges[1:] / edges[:-1]).min() > 1.2  # leaves lie over one another, which hides edges
+
+
+def test_how_leaves_lie_is_told_in_few_directions() -> None:
+    draw = np.random.default_rng(4)
+    normal = draw.normal(0.0, (0.3, 0.2, 0.2), (64 * 64, 3)) + np.array([0.1, 0.0, 1.0])
+    normal[:, 2] = np.abs(normal[:, 2])
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    picture = np.full((2, 64, 64, 4), 255, np.uint8)
+    picture[1, ..., :3] = np.round(127.5 + 127.5 * normal).reshape(64, 64, 3)
+    picture[:, :32, :5] = 0  # where nothing is
+    told = np.array(lies_of(picture))
+    area = 1.0 / normal[:, 2]
+    assert told[:, 3].sum() == pytest.approx(1.0)
+    for to in ((0.0, 0.0, 1.0), (0.6, 0.0, 0.8), (1.0, 0.0, 0.0), (0.0, -0.6, 0.8)):
+        faces = (area * np.abs(normal @ to)).sum() / area.sum()
+        assert (told[:, 3] * np.abs(told[:, :3] @ to)).sum() == pytest.approx(faces, abs=0.02)
+
+
+def test_from_above_the_ground_hides_nothing_of_a_tree_and_it_is_as_bright_as_with_every_leaf(
+    stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As a picture, whose square reaches under the ground."""
+    monkeypatch.setattr(standing, "GONE", 1e5)
+    monkeypatch.setattr(standing, "BEGINS", 2e5)
+    stage.shot(prairie, looking(9.0, 24.0, 24.0))
+    drawn = stage.shot(prairie, ABOVE)
+    truth = draw_reference(prairie, *stage.matrices(ABOVE), (SIZE, SIZE)).astype(np.float64)
+    with without_trees(prairie):
+        bare = stage.shot(prairie, ABOVE)
+    covers, true = (np.abs(each - bare).max(axis=-1) > 12.0 for each in (drawn, truth))
+    lowest = np.flatnonzero(true.any(axis=1)).max()
+    front = slice(lowest - SIZE // 6, lowest)
+    assert covers[front].sum() == pytest.approx(true[front].sum(), rel=0.35)
+    both = covers & true
+    assert drawn[both].mean() == pytest.approx(truth[both].mean(), rel=0.12)
+
+
+def test_a_reference_is_as_bright_with_few_samples_as_with_many(stage: Stage, prairie: Prairie) -> None:
+    """Leaves are smaller than a sample there, and none may show through others that are before it."""
+    stage.shot(prairie, ABOVE)
+    seen = [draw_reference(prairie, *stage.matrices(ABOVE), (SIZE, SIZE), samples=each) for each in (2, 8)]
+    with without_trees(prairie):
+        bare = stage.shot(prairie, ABOVE)
+    crown = np.abs(seen[1] - bare).max(axis=-1) > 12.0
+    assert seen[0][crown].mean() == pytest.approx(seen[1][crown].mean(), rel=0.02)
