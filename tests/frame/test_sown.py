@@ -65,6 +65,19 @@ def test_f4_a_kind_that_is_placed_nowhere_stands_where_it_is_sown(load: Load) ->
 
 
 @pytest.mark.parametrize("lod", KEPT)
+def test_f4_on_a_road_no_wider_than_half_a_patch_stands_nothing(
+    stage: Stage, load: Load, camera: Aim, lod: str
+) -> None:
+    white = FLAT + 'light: { ground: "#000000", zenith: "#404040", horizon: "#404040" }\n'
+    prairie, aim = load(white, lod=lod), camera(0.0, 9.0, 14.0, pitch=-32)
+    prairie.clear(Road(((0.0, -20.0), (0.0, 20.0)), 1.5))
+    shown, place = stage.shot(prairie, aim).mean(axis=2), stage.ground(aim)
+    ahead = np.abs(place[..., 1] + 4.0) < 5.0
+    on, beside = ahead & (np.abs(place[..., 0]) < 0.3), ahead & (np.abs(place[..., 0] - 4.0) < 1.5)
+    assert shown[on].mean() < 0.3 * shown[beside].mean()
+
+
+@pytest.mark.parametrize("lod", KEPT)
 def test_f4_where_all_is_cleared_stands_nothing(stage: Stage, load: Load, camera: Aim, lod: str) -> None:
     prairie, aim = load(FLAT + "parts: [sky, ground, grass]\n", lod=lod), camera(0.0, 0.3, 20.0)
     stage.shot(prairie, aim)

@@ -144,6 +144,16 @@ def test_its_shadow_falls_away_from_the_sun_and_the_grass_below_is_darker(
     assert (dark > 1.15).mean() < 0.01
 
 
+def test_its_shadow_is_seen_from_afar_too(stage: Stage, prairie: Prairie, plant: Callable[..., int]) -> None:
+    aim = looking(-30.0, 30.0, 65.0, pitch=-18.0, view=14.0)  # so far off that the map of what is near ends before
+    bare = shot(stage, prairie, aim)
+    plant(-20.0, -30.0, height=12.0)
+    ground = stage.ground(aim)
+    under = (np.abs(ground[..., 0] + 30.0) < 2.5) & (np.abs(ground[..., 1] + 30.0) < 2.0)
+    assert under.sum() > 50
+    assert shot(stage, prairie, aim)[under].mean() < 0.85 * bare[under].mean()
+
+
 @pytest.mark.parametrize("leaves_from", [None, 0.0], ids=["cards", "leaves"])
 def test_f5_light_falls_on_the_side_of_a_crown_that_it_comes_from(
     ctx: moderngl.Context,

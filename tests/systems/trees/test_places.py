@@ -125,6 +125,7 @@ def test_of_a_large_forest_trees_near_viewers_are_entities_and_those_farther_off
         trees.step("main", (900.0, 2.0, 0.0), time=0.0)
         moved = {(pose.x, pose.z) for _, (_, pose) in esper.get_components(Tree, Pose)}
         assert moved & near == {(0.0, 0.0)}
+        assert trees.shading is trees.standing, "none was felled"
         trees.step("main", (0.0, 2.0, 0.0), time=0.0)
         assert {(pose.x, pose.z) for _, (_, pose) in esper.get_components(Tree, Pose)} == near
 
