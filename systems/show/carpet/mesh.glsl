@@ -52,7 +52,7 @@ vec2 on_mesh() {
     float from_rim = rim_at(at);
     vec2 slide = slid(far_off(at, from_rim) / abs(tile.w)), pair = 0.5 / wider * corner;
     spaced = wide * (1.0 + slide.x) * (1.0 + slide.y);
-    at -= wide * (2.0 * slide.x * fract(pair) + 4.0 * slide.y * fract(0.5 * floor(pair)));
+    at -= 2.0 * wide * (slide.x * fract(pair) + 2.0 * slide.y * fract(0.5 * floor(pair)));
     if (from_rim < ON_RIM.y * terrain_cell) {
         from_rim = rim_at(at);
         at = mix(on_samples(at), at, smoothstep(ON_RIM.x, ON_RIM.y, from_rim / terrain_cell));
