@@ -67,8 +67,8 @@ class Quality(Declaration):
     """Texels along a side of a carpet image."""
 
     coarse: bool = False
-    """Whether the carpet has one image of each kind, and the ground's mesh half as many points along a side: at about
-    half the cost. With more than four kinds, only the mesh is coarser."""
+    """Whether the carpet has one image of each kind, and the ground's mesh far off half as many points along a side: at
+    about two thirds of the cost. With more than four kinds, only the mesh is coarser."""
 
     pixels: float = Field(default=1.0, ge=0.25, le=1.0)
     """Part of the picture's width and height that is drawn; below 1 it is scaled up afterwards."""

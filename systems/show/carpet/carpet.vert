@@ -51,7 +51,7 @@ FEW float strips_before;  // how much strips show of what lines of sight come th
 out vec2 blown;           // how far leaves are moved [m]
 out float on_level;       // slope on level ground of a line of sight that goes as far through the grass
 out float on_strips;      // root of the leaf area on strips above it, of the grass's: that falls off more evenly
-out vec3 soil_shaded;     // the soil where nothing is seen of the sun, as it is shown
+out vec3 soil_shaded;     // the soil where nothing is seen of the sun, as it is shown, for litter whose brightness is 1
 out vec4 lies_at;         // places along blades and heights at the top of the grass, and by how much less they are at its bottom
 #else
 FEW float sways;          // how far leaves sway, of the wind's message [m]
@@ -140,10 +140,11 @@ void light_soil(vec3 ground, Laid laid) {
     ByKind grows = grown_at(ground.xz, laid);
     Soil soil = soil_lit(ground, lies, grows, 1.0 - haze_at(place));
 #ifdef COARSE
-    vec3 pigment = lying_pigment(textureLod(repeating, vec2(0.5), COARSEST).gb, understorey_of(lies, grows));
+    vec2 usual = textureLod(repeating, vec2(0.5), COARSEST).gb;
+    vec3 pigment = lying_pigment(usual, understorey_of(lies, grows));
     vec3 skylit = soil.skylit * comes_through(OPEN_SKY * total(areas(grows)));
-    soil_seen = shown_of(soil.seen * pigment * pigment + lit[2].rgb);
-    soil_shaded = shown_of(skylit * pigment * pigment + lit[2].rgb);
+    soil_seen = shown_of(soil.seen * pigment * pigment + lit[2].rgb) / max(usual.x, LEAST_TEXEL);
+    soil_shaded = shown_of(skylit * pigment * pigment + lit[2].rgb) / max(usual.x, LEAST_TEXEL);
 #else
     soil_seen = soil.seen;
     sunlit = soil.sunlit;

@@ -16,7 +16,7 @@ in float past;
 in float tall;
 in float dense;
 in ByKind met;
-in vec3 soil_seen;  // as it is shown
+in vec3 soil_seen;  // as it is shown, for litter whose brightness is 1
 in vec3 soil_shaded;
 in mat4 lit;
 #ifdef HEADS
@@ -117,23 +117,20 @@ float hides_behind(float slope, float deep, float stands_out) {
     return mix(1.0, 1.0 - comes_through(dense * leaves), min(tall / (2.0 * LOWEST_GRASS), 1.0));
 }
 
-// How much brighter the ground's litter is there than in the mean, as it is shown where so much of it is to be seen.
-float litter_seen(float bare) {
-    return lying_seen(place.xz, bare).x / max(textureLod(repeating, vec2(0.5), COARSEST).g, LEAST_TEXEL);
-}
-
 void main() {
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / patch_side))) : 0.0, covered = 1.0;
     float sunny = any_casters() ? past_casters(place) : 1.0;
-    vec3 color = (any_casters() ? mix(soil_shaded, soil_seen, sunny) : soil_seen) * litter_seen(share > 0.0 ? 0.0 : 1.0);
+    vec3 color = (any_casters() ? mix(soil_shaded, soil_seen, sunny) : soil_seen) * lying_seen(place.xz, share > 0.0 ? 0.0 : 1.0).x;
     if (share > 0.0) {
+        vec3 ray = place - eye;
+        float nearness = inversesqrt(max(dot(ray.xz, ray.xz), TINY * TINY)), slope = max((dot(rise, ray.xz) - ray.y) * nearness, 0.0);
         vec2 among = on_strips > 0.0 ? among_strips(on_strips * on_strips, on_level, carpet, stands, dense) : vec2(1.0);
-        Grass grass = grass_seen(heading_to(place.xz), among.y);
+        Grass grass = grass_seen(ray.xz * nearness, among.y);
         Light light = unbundled(lit);
         if (any_casters())
             light = shaded(light, sunny, 1.0);
         vec3 leaves = shown_of(shade(leaf_at(grass.pigment, grass.height), light));
-        float slope = max(viewing_slope(rise, place), 0.0), deep = deepest(slope, crest, tall * stands);
+        float deep = deepest(slope, crest, tall * stands);
         float covers = among.x * mix(min(grass.covers / LEAST_COVER, 1.0), grass.covers, smoothstep(ENDS.x * share, ENDS.y * share, deep));
         color = color * (1.0 - covers) + leaves * covers;
         covered = mix(1.0, hides_behind(slope, deep, standing_out(grass.taller, share)), min(share / SHOWN_FROM, 1.0));
