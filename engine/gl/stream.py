@@ -43,16 +43,17 @@ class Stream:
         """Replace the contents by `rows`, shape (n,)."""
         self.room(len(rows))
         if self.count:
+            self.buffer.orphan()  # what is drawn still keeps what was written before
             self.buffer.write(np.ascontiguousarray(rows))
 
     def room(self, count: int) -> None:
-        """Make room for `count` records, whose contents are anything until they are written."""
+        """Make room for `count` records, whose contents are anything until they are written.
+
+        A graphics card that writes them itself does so in its turn: nothing needs to be kept from before.
+        """
         self.count = count
-        size = count * self.record.itemsize
-        if size > self.buffer.size:
+        if count * self.record.itemsize > self.buffer.size:
             self.buffer.orphan(count * 3 // 2 * self.record.itemsize)  # whole ones: transform feedback asks for that
-        elif size:
-            self.buffer.orphan()
 
     def binding(self, program: moderngl.Program, *, each: str = "/i") -> tuple[moderngl.Buffer | str, ...]:
         """Return the stream as a vertex array's content; fields the program drops are skipped over.
