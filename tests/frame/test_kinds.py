@@ -205,6 +205,7 @@ def test_kinds_that_grow_nowhere_change_nothing(ctx: moderngl.Context, stage: St
     assert np.quantile(difference, 0.99) < 2.0
 
 
+@pytest.mark.slow
 def test_n7_a_scene_may_come_to_have_nine_kinds_and_have_few_again(
     ctx: moderngl.Context, stage: Stage, camera: Aim, scene: Path
 ) -> None:

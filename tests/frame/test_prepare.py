@@ -163,6 +163,7 @@ def test_what_was_prepared_draws_what_is_drawn_without(stage: Stage, load: Load,
         np.testing.assert_allclose(pictures[1], pictures[0], atol=1.0)
 
 
+@pytest.mark.slow
 def test_it_may_come_before_the_first_frame_between_frames_and_twice(
     stage: Stage, load: Load, camera: Aim, made: list[str]
 ) -> None:

@@ -119,6 +119,7 @@ def test_t1_who_jumps_far_sees_the_ground_there_at_once(stage: Stage, prairies: 
     assert jumped.site.ground.terrain.changes.leaps == 1
 
 
+@pytest.mark.slow
 def test_n5_a_forest_is_the_same_for_who_comes_there_and_who_begins_there(stage: Stage, prairies: Any) -> None:
     seen = []
     for way in ([(0.0, 0.0), AWAY], [AWAY]):

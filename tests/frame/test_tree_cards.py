@@ -60,6 +60,7 @@ def cards(prairie: Prairie) -> dict[str, Bytes]:
     }  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_card_that_stands_for_several_twigs_shows_more_leaves_and_not_larger_ones(prairie: Prairie) -> None:
     for pictures in cards(prairie).values():
         covered = pictures[:, 0, ..., 3] > 127
@@ -85,6 +86,7 @@ def test_how_leaves_lie_is_told_in_few_directions() -> None:
         assert (told[:, 3] * np.abs(told[:, :3] @ to)).sum() == pytest.approx(faces, abs=0.02)
 
 
+@pytest.mark.slow
 def test_from_above_the_ground_hides_nothing_of_a_tree_and_it_is_as_bright_as_with_every_leaf(
     stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -104,6 +106,7 @@ def test_from_above_the_ground_hides_nothing_of_a_tree_and_it_is_as_bright_as_wi
     assert drawn[both].mean() == pytest.approx(truth[both].mean(), rel=0.12)
 
 
+@pytest.mark.slow
 def test_a_reference_is_as_bright_with_few_samples_as_with_many(stage: Stage, prairie: Prairie) -> None:
     """Leaves are smaller than a sample there, and none may show through others that are before it."""
     stage.shot(prairie, ABOVE)

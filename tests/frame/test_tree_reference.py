@@ -21,8 +21,8 @@ seed: 5
 terrain: { noise: flat, size: [120, 120] }
 grass: { turf: { height: [0.05, 0.1], width: 0.02, blades: 20 } }
 trees:
-  thorn: { habit: hawthorn, height: [4, 4], positions: [[0, 0]] }
   screen: { habit: birch, height: [12, 12], leaf: "#a02020", rows: [[[-20, -30], [20, -30]]], spacing: 4 }
+  thorn: { habit: hawthorn, height: [4, 4], positions: [[0, 0]] }
 light: { azimuth: 90, elevation: 40, haze: 1e6 }
 quality:
   models: 1
@@ -68,6 +68,7 @@ def test_n3_in_a_reference_leaves_hide_trees_behind_them_however_small_they_are(
     assert (crown > 20.0).mean() < 0.1
 
 
+@pytest.mark.slow
 def test_n3_a_tile_of_a_reference_shows_what_the_whole_does_whichever_was_drawn_before(
     stage: Stage, prairie: Prairie
 ) -> None:
