@@ -45,6 +45,7 @@ def lies_of(picture: Bytes, /) -> list[tuple[float, float, float, float]]:
 
 
 def _mean(normal: Doubles, area: Doubles) -> Doubles:
-    """Return the direction (3,) that faces (n, 3) have in the mean."""
+    """Return the direction (3,) that faces (n, 3) have in the mean; out of the card where they have none."""
     mean = (normal * area[:, None]).sum(axis=0)
-    return np.asarray(mean / np.linalg.norm(mean))
+    length = np.linalg.norm(mean)
+    return np.asarray(mean / length if length > 0.0 else (0.0, 0.0, 1.0))

@@ -86,6 +86,14 @@ def test_how_leaves_lie_is_told_in_few_directions() -> None:
         assert (told[:, 3] * np.abs(told[:, :3] @ to)).sum() == pytest.approx(faces, abs=0.02)
 
 
+def test_leaves_that_face_nowhere_are_told_to_face_out_of_the_card() -> None:
+    nowhere = np.zeros((2, 8, 8, 4), np.uint8)
+    nowhere[0] = 255  # leaves, of which the other layer says nothing
+    told = np.array(lies_of(nowhere))
+    assert np.isfinite(told).all()
+    np.testing.assert_array_equal(told[:, :3], np.tile([0.0, 0.0, 1.0], (len(told), 1)))
+
+
 @pytest.mark.slow
 def test_from_above_the_ground_hides_nothing_of_a_tree_and_it_is_as_bright_as_with_every_leaf(
     stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
