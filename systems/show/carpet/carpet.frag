@@ -27,6 +27,7 @@ BROUGHT vec3 place;
 in float carpet;
 OF_SLOPE vec2 rise;
 in float crest;
+in float lowered;
 in float past;
 BROUGHT float tall;
 BROUGHT float dense;
@@ -113,7 +114,8 @@ Canopy canopy_here(Sight sight) {
 // What the carpet shows: of grass and of the ground between, as much as there is of each, as of blades in front of it; and how
 // much more leaves are met of plants that stand out of it. `cover` is how much of it is grass.
 vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
-    Patch own = patch_at(place.xz, sways, stands);
+    vec2 shown_at = shows_at(place.xz, sight.heading, lowered, sight.slope);
+    Patch own = patch_at(shown_at, sways, stands);
     Canopy canopy = canopy_here(sight);
     own.blown.xy += canopy.sways;
     vec2 among = vec2(1.0);
@@ -136,7 +138,7 @@ vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
 #if KINDS > 4 || defined(EDGED)
     elevation = elevation_seen(sight.on_level, dense);
 #endif
-    Reading read = reading(own, sight, place.xz, tall, elevation);
+    Reading read = reading(own, sight, shown_at, tall, elevation);
     float taller, grain = grain_of(read, sight, tall, stands, own.blown.z);
     vec4 sum = kinds_seen(own, read, sight, grain, view, taller);
     // Who sees past grass over a crest sees no ground there, but the grass behind. A game's own ground may lie lower.

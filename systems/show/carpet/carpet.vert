@@ -36,6 +36,7 @@ BROUGHT vec3 place;
 out float carpet;    // how much of what is seen is carpet's
 OF_SLOPE vec2 rise;  // of the ground, along x and z
 out float crest;     // how fast the rise falls off along the line of sight [1/m]
+out float lowered;   // how much lower the carpet lies than where no strips stand [m]
 out float past;      // what it meets that passes over a rim, as past_rim has it
 BROUGHT float tall;     // height of the carpet [m]
 BROUGHT float dense;    // leaf area seen from the side, of the ground's area
@@ -80,6 +81,7 @@ void hand_on(Laid laid) {
     rise = laid.rise;
     crest = laid.crest;
     past = laid.past;
+    lowered = laid.lowered;
     tall = laid.tall;
     dense = laid.dense;
     stands = laid.stands;
@@ -159,7 +161,9 @@ void light_soil(vec3 ground, Laid laid) {
 void main() {
     place = on_ground(on_mesh());
     Laid laid = laid_on(place);
-    place.y += laid.share * (1.0 - laid.share) * laid.tall * uneven(place.xz);
+    float moved = laid.share * (1.0 - laid.share) * laid.tall * uneven(place.xz);
+    place.y += moved;
+    laid.lowered -= moved;
 #ifdef EDGED
     over = place;
     lies_over = place.y - laid.ground;

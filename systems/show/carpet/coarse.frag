@@ -12,6 +12,7 @@ in vec3 place;
 in float carpet;
 in vec2 rise;
 in float crest;
+in float lowered;
 in float past;
 in float tall;
 in float dense;
@@ -55,9 +56,9 @@ float grain_seen(float level, float across) {
 }
 
 // Of the images of two slopes a patch shows either, the more often the nearer it is.
-Look look_along(vec2 heading) {
+Look look_along(vec2 heading, float from_above) {
     float patches = 1.0 / patch_side;
-    vec2 at = place.xz * patches, cell = floor(at), here = fract(at) - blown * patches - 0.5;
+    vec2 at = patches * shows_at(place.xz, heading, lowered, from_above), cell = floor(at), here = fract(at) - blown * patches - 0.5;
     uint drawn = scramble(uint(int(cell.x) * ROWS + int(cell.y) ^ stock.y));
     float upper = float(drawn >> UPPER_HALF);
     int low = min(int(elevation), SLOPES - 2), slope = min(int(elevation + upper * exp2(-BITS)), low + 1), side = int(drawn >> UPPER_HALF) & (HEADINGS - 1);
@@ -101,8 +102,8 @@ void add_kind(inout Grass sum, int kind, Look look, vec2 facing, float high) {
     sum.taller += part * (shown.g * mean.a / max(mean.g, LEAST_TEXEL) - 1.0);
 }
 
-Grass grass_seen(vec2 heading, float high) {
-    Look look = look_along(heading);
+Grass grass_seen(vec2 heading, float slope, float high) {
+    Look look = look_along(heading, slope);
     Grass sum = Grass(vec3(0.0), 0.0, 0.0, 0.0);
     for (int kind = 0; kind < KINDS; kind++)
         if (OF(met, kind) > LEAST_MET)
@@ -126,7 +127,7 @@ void main() {
         vec3 ray = place - eye;
         float nearness = inversesqrt(max(dot(ray.xz, ray.xz), TINY * TINY)), slope = max((dot(rise, ray.xz) - ray.y) * nearness, 0.0);
         vec2 among = on_strips > 0.0 ? among_strips(on_strips * on_strips, on_level, carpet, stands, dense) : vec2(1.0);
-        Grass grass = grass_seen(ray.xz * nearness, among.y);
+        Grass grass = grass_seen(ray.xz * nearness, slope, among.y);
         Light light = unbundled(lit);
         if (any_casters())
             light = shaded(light, sunny, 1.0);

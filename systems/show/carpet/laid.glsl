@@ -25,6 +25,7 @@ struct Laid {
     float left;    // up to which height it is left to stand [m]
     float tall;    // height of the carpet [m]
     float lies;    // what is left of that where grass is trodden
+    float lowered; // how much lower it lies than where no strips stand [m]
     float dense;   // leaf area seen from the side, of the ground's area
     vec2 rise;     // of the ground, along x and z
     float crest;   // how fast the rise falls off along the line of sight [1/m]
@@ -145,7 +146,9 @@ Laid laid_on(inout vec3 place) {
     float lifts = lifted(deep, laid.crest, laid.stands);
     float at_rim = lifted(0.0, BULGES, laid.stands);
     laid.past = past_rim(place + vec3(0.0, high * (at_rim - 1.0), 0.0), laid.ground, laid.tall * laid.stands / RAISED);
-    place.y += high * ((laid.past < NO_RIM ? at_rim : lifts) - 1.0);
+    lifts = laid.past < NO_RIM ? at_rim : lifts;
+    place.y += high * (lifts - 1.0);
+    laid.lowered = (1.0 - laid.share) * laid.tall * laid.lies * lifts;
     laid.slope = viewing_slope(laid.rise, place);
     return laid;
 }
