@@ -208,8 +208,8 @@ void main() {
     float slope = viewing_slope(rise, place), left = left_seen(place.xz), ahead = rises_ahead(place.xz, tall);
     work_out(slope);
 #endif
-    vec3 pigment = pigment_lying(place.xz, comes_through(dense / max(slope, LOWEST)), lush, left);
     vec3 ground = met_at(0.0, slope);
+    vec3 pigment = pigment_lying(ground.xz, comes_through(dense / max(slope, LOWEST)), lush, left);
     vec3 soil_light = soil_between(Soil(soil_seen, sunlit, skylit, soil_way, soil_through), ground, left);
     vec3 color = shown_of(soil_light * pigment * pigment + lit[2].rgb);
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / patch_side))) : 0.0, cover = 0.0;

@@ -122,12 +122,13 @@ void main() {
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / patch_side))) : 0.0, covered = 1.0;
     float sunny = any_casters() ? past_casters(place) : 1.0;
     vec3 soil = any_casters() ? mix(soil_shaded, soil_seen, sunny) : soil_seen;
-    vec3 color = soil * lying_seen(place.xz, share > 0.0 ? 0.0 : 1.0).x;
+    vec3 ray = place - eye;
+    float nearness = inversesqrt(max(dot(ray.xz, ray.xz), TINY * TINY)), slope = max((dot(rise, ray.xz) - ray.y) * nearness, 0.0);
+    vec2 heading = ray.xz * nearness;
+    vec3 color = soil * lying_seen(shows_at(place.xz, heading, -carpet * tall, slope), share > 0.0 ? 0.0 : 1.0).x;
     if (share > 0.0) {
-        vec3 ray = place - eye;
-        float nearness = inversesqrt(max(dot(ray.xz, ray.xz), TINY * TINY)), slope = max((dot(rise, ray.xz) - ray.y) * nearness, 0.0);
         vec2 among = on_strips > 0.0 ? among_strips(on_strips * on_strips, on_level, carpet, stands, dense) : vec2(1.0);
-        Grass grass = grass_seen(ray.xz * nearness, slope, among.y);
+        Grass grass = grass_seen(heading, slope, among.y);
         Light light = unbundled(lit);
         if (any_casters())
             light = shaded(light, sunny, 1.0);
