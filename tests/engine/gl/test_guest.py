@@ -40,6 +40,7 @@ def host(ctx: moderngl.Context) -> Iterator[moderngl.Framebuffer]:
     color, depth = ctx.texture(SIZE, 4), ctx.depth_renderbuffer(SIZE)
     target = ctx.framebuffer([color], depth)
     target.use()
+    ctx.enable_only(moderngl.NOTHING)
     target.clear(depth=1.0)
     yield target
     ctx.enable_only(moderngl.NOTHING)
