@@ -83,10 +83,11 @@ def _halved(values: Floats) -> Floats:
     )
 
 
-def whole_cover(made: list[Bytes], /) -> Bytes:
-    """Return how much of it any picture of a tree from all around covers, shape (rows, columns)."""
+def covers(made: list[Bytes], /) -> Bytes:
+    """Return how much of it each picture of a tree from all around covers, shape (pictures, rows, columns)."""
     columns, rows, side = PICTURES
-    return np.asarray(made[0][0, ..., 3].reshape(rows, side, columns, side).max(axis=(0, 2)))
+    texels = made[0][0, ..., 3].reshape(rows, side, columns, side)
+    return np.asarray(texels.transpose(0, 2, 1, 3).reshape(rows * columns, side, side))
 
 
 def from_around(number: int, middle: float, half: float, /) -> Doubles:

@@ -11,7 +11,7 @@ from ...engine.gl.records import Records
 from ...engine.gl.stream import Stream, release_all
 from .bark import RUNS, SENT, sent
 from .model import Model
-from .outline import BOX, pairs
+from .outline import Around
 from .standing import COLUMN, HUNG, LEAFY, PLACED, SHOWN, TOLD
 from .twig import RANKS, ROW, TWIG
 from .wood import Parts, parts
@@ -91,7 +91,7 @@ class ModelOnCard:
         self.wood = dict.fromkeys(WOODS, Parts(0, 0))
         """Triangles that the trees of a stream of wood draw."""
         self.far: moderngl.TextureArray | None = None
-        self.outline = pairs(BOX)
+        self.around = Around((), [])
         """Corners about what its pictures show."""
 
     def bark(self, program: moderngl.Program) -> tuple[moderngl.Buffer | str, ...]:

@@ -21,6 +21,7 @@ from .group import Group
 from .kind import KindOnCard
 from .leafy import leaf_by_leaf, leafy
 from .motion import PERIOD
+from .outline import CORNERS, Around
 from .programs import HANG, HANG_LEAVES, HARD, SAMPLED, SOFT, STAND, Programs
 from .shade import ShadeMap
 from .standing import LEAFY, PLACED, TOLD, Standing, columns_of, shown, shows
@@ -345,18 +346,18 @@ class TreePart(Part):
                     (LEAVES, LEAVES, 0, QUAD * kind.habit.leaf.quads),
                     *((NEAR, name, 0, len(kind.outlines[name in SMALL_CARDS])) for name in CARDS),
                     *((WOOD, name, *_wood(model, name, soft=soft, whole=all_wood or sampled)) for name in WOODS),
-                    (FAR, BACK if soft else FAR, 0, len(model.outline)),
+                    (FAR, BACK if soft else FAR, 0, 2 * CORNERS),
                 ):
                     stream = model.hung.get(name, model.streams[name])
                     if stream.count and vertices > 0 and not (soft and sampled and sort != FAR):
-                        corners = model.outline if sort == FAR else []
-                        if name in CARDS:
-                            corners = kind.outlines[name in SMALL_CARDS]
+                        corners = kind.outlines[name in SMALL_CARDS] if name in CARDS else []
                         array = programs.array(sort, stream, model, edges=SAMPLED if sampled and sort != FAR else edges)
                         nearest = 0.0 if soft else self._nearest(model.placed[name])
                         hard = all_wood or name in CARDS or (sort == WOOD and model.wood[name].hard)
                         told, of = _told(array.program, corners, SOLID if hard else OPAQUE), (kind, model)
-                        form = moderngl.TRIANGLE_STRIP if corners else moderngl.TRIANGLES
+                        if sort == FAR:
+                            told += _told_around(array.program, model.around)
+                        form = moderngl.TRIANGLE_STRIP if name in CARDS or sort == FAR else moderngl.TRIANGLES
                         calls.append(Call(nearest, sort, of, array, first, vertices, stream.count, form, told))
         return sorted(calls, key=lambda call: call.nearest)
 
@@ -378,6 +379,11 @@ def _told(program: moderngl.Program, corners: list[tuple[float, float]], solid_f
     """Return what a program is told of a call: if it has an outline, its corners, and how much of a pixel is opaque."""
     told = due(program, {"solid_from": (solid_from,)})
     return told + due_all(program, "corners", corners) if corners else told
+
+
+def _told_around(program: moderngl.Program, around: Around) -> Due:
+    """Return what a program is told of corners about a model's pictures."""
+    return due(program, {"high": around.high}) + due_all(program, "reaches", around.reaches)
 
 
 def _wood(model: ModelOnCard, name: str, *, soft: bool, whole: bool) -> tuple[int, int]:

@@ -11,14 +11,14 @@ from ...engine.gl.mipmaps import mipmapped
 from ...engine.gl.shaders import due, tell_all, tell_asked, tell_due
 from ...engine.gl.stream import release_all
 from ..light.materials import pigment
-from .bake import CARD, PICTURES, filtered, from_around, on_card, pictures, whole_cover
+from .bake import CARD, PICTURES, covers, filtered, from_around, on_card, pictures
 from .card import FEWER, LEAVES, PICTURED, QUAD, WOOD, ModelOnCard, Numbers
 from .habit import HABITS, Leaf
 from .kept import keep_pictures, kept_pictures, kind_key
 from .lies import lies_of
 from .model import models_of
 from .noise import bark_noise
-from .outline import BOX, outline, pairs, roughly
+from .outline import BOX, around, outline, pairs, roughly
 from .programs import Programs
 from .twig import FINER_EACH, HANGING_OFF, SHOOTS_LONG, SHOOTS_OFF
 from .twig import PICTURES as OF_TWIGS
@@ -68,7 +68,7 @@ class KindOnCard:
         self._use(found[0])
         for model, picture in zip(self.models, found[1:], strict=True):
             model.far = filtered(self.ctx, picture)
-            model.outline = pairs(outline(whole_cover(picture)))
+            model.around = around(covers(picture))
 
     def _use(self, twig: list[Bytes]) -> None:
         """Show twigs as in this picture."""

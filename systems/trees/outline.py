@@ -1,6 +1,7 @@
 """The outline of a twig's card: less of it is drawn where it has no leaves (Persson, Graphics Gems for Games, 2009)."""
 
 from itertools import combinations
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,10 +22,77 @@ TRIED = 14
 ROWS = 80
 """Rows of texels that are looked at."""
 
+LEAST_WEIGHT = 1e-3
+"""Weight of a corner in a row that it is moved for at least."""
+
+SWEEPS = 4
+"""How often corners of a tree's pictures are moved in, one after another: more changes little."""
+
 BOX = np.stack([np.tile([-1.0, 1.0], CORNERS), np.repeat(np.linspace(0.0, 1.0, CORNERS), 2)], axis=1)
 """The whole of a card."""
 
 GLSL = {"OUTLINE": 2 * CORNERS}
+
+
+class Around(NamedTuple):
+    """Corners about what each of a tree's pictures shows, as shaders are told them: all lie at the same heights."""
+
+    high: tuple[float, ...]
+    """How high they are, -1 to 1, from foot to top."""
+
+    reaches: list[tuple[float, ...]]
+    """How far out they are [half sides]: of each picture to the left, and then to the right."""
+
+
+def around(covers: Bytes, /) -> Around:
+    """Return corners about what pictures (n, side, side) of a tree cover, with about as little area as they can have.
+
+    Where several are mixed, the farthest of their corners lie about all of them, as the heights are the same.
+    """
+    side, count = covers.shape[1], len(covers)
+    covered = covers > FAINTEST
+    if not covered.any():
+        return Around(tuple(np.linspace(-1.0, 1.0, CORNERS).tolist()), [(1.0,) * CORNERS] * (2 * count))
+    rows, reach = _reaches(covered)
+    least, best, found = np.inf, np.zeros(CORNERS), np.zeros((2 * count, CORNERS))
+    for between in combinations(np.linspace(rows[0], rows[-1], TRIED)[1:-1].tolist(), CORNERS - 2):
+        high = np.array([rows[0], *between, rows[-1]])
+        lines = _drawn_in(rows, reach, high)
+        area = float(((lines[:, 1:] + lines[:, :-1]) * np.diff(high)).sum())
+        if area < least:
+            least, best, found = area, high, lines
+    told = np.minimum(found / (0.5 * side), 1.0)
+    return Around(tuple((2.0 * best / side - 1.0).tolist()), [tuple(each) for each in told.tolist()])
+
+
+def _reaches(covered: Mask) -> tuple[Doubles, Doubles]:
+    """Return edges of rows (m,) about what any picture covers, and how far out each goes there, (2 n, m) [texels].
+
+    It goes to the left and the right of the middle, at least not at all.
+    """
+    side, there = covered.shape[1], np.flatnonzero(covered.any(axis=(0, 2)))
+    edges = np.unique(np.linspace(max(there[0] - AROUND, 0), min(there[-1] + 1 + AROUND, side), ROWS).astype(np.intp))
+    each = np.stack([covered[..., ::-1], covered], axis=1).reshape(-1, side, side)
+    last = np.where(each.any(axis=2), side - each[..., ::-1].argmax(axis=2) + AROUND, 0)
+    near = [slice(max(edge - 2 * AROUND, 0), min(edge + 2 * AROUND, side)) for edge in edges]
+    reach = np.stack([last[:, part].max(axis=1) for part in near], axis=1) - 0.5 * side
+    return edges.astype(np.float64), np.maximum(reach, 0.0)
+
+
+def _drawn_in(rows: Doubles, reach: Doubles, high: Doubles) -> Doubles:
+    """Return lines (n, CORNERS) over heights, nowhere within `reach` (n, m) of rows: corners are moved in in turn."""
+    part = np.clip(np.searchsorted(high, rows, side="right") - 1, 0, CORNERS - 2)
+    share = (rows - high[part]) / np.diff(high)[part]
+    lines = np.repeat(reach.max(axis=1, keepdims=True), CORNERS, axis=1)
+    for corner in SWEEPS * (*range(CORNERS),):
+        needed = np.zeros(len(reach))
+        for piece, weight, other in (corner, 1.0 - share, corner + 1), (corner - 1, share, corner - 1):
+            own = (part == piece) & (weight > LEAST_WEIGHT)
+            if own.any():
+                beside = lines[:, other, None] * (1.0 - weight[own])
+                needed = np.maximum(needed, ((reach[:, own] - beside) / weight[own]).max(axis=1))
+        lines[:, corner] = np.minimum(lines[:, corner], needed)
+    return lines
 
 
 def outline(cover: Bytes, /) -> Doubles:

@@ -2,23 +2,14 @@
 // it, and blended over that and all else where it covers less; or with SAMPLED, and as textures have it, opaque in as many samples of
 // a pixel as it covers.
 
+#include "systems/trees/packed.glsl"
 #include "systems/trees/wood.py"
 
 const float LEAST_COVER = 0.01;  // coverage that divides what is multiplied by it at least
-const vec2 SHADING = vec2(3.0, 6.0);  // by how much of light's way in the crown textures' bytes count, to either side and in all
 
 // The coverage of what lies within an edge, which is a pixel wide however large it is; `least` is how fast it changes at least.
 float sharpened(float cover, float edge, float least) {
     return clamp((cover - edge) / max(fwidth(cover), least) + 0.5, 0.0, 1.0);
-}
-
-// How many leaves light meets, as pictures have it.
-vec4 packed_shading(vec4 shading) {
-    return clamp(vec4(0.5 + 0.5 * shading.xyz / SHADING.x, shading.w / SHADING.y), 0.0, 1.0);
-}
-
-vec4 unpacked_shading(vec4 texel) {
-    return vec4((2.0 * texel.xyz - 1.0) * SHADING.x, texel.w * SHADING.y);
 }
 
 uniform float solid_from;  // coverage from which on what is there is opaque
