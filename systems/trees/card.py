@@ -23,6 +23,9 @@ NEAR, FAR, LEAVES, WOOD, CAST, PICTURED = "near", "far", "leaves", "wood", "cast
 """What is drawn of trees: twigs on their cards, pictures far off, leaf by leaf, wood; and into maps of their shade, and
 twigs on their cards into those pictures."""
 
+IN_ROWS = "in rows"
+"""Pictures far off where some show rows of trees, of a large forest."""
+
 BACK = "back"
 """The stream of those pictures from far to near, as soft edges are blended: that of `FAR` is from near to far."""
 

@@ -16,7 +16,7 @@ from ..frame.feature import Heard, Part
 from ..space.grown import Grown
 from ..wind.blow import mean_wind
 from ..wind.mean import MeanWind
-from .card import BACK, CARDS, CAST, FAR, LEAVES, NEAR, QUAD, SMALL_CARDS, WOOD, WOODS, ModelOnCard, Numbers
+from .card import BACK, CARDS, CAST, FAR, IN_ROWS, LEAVES, NEAR, QUAD, SMALL_CARDS, WOOD, WOODS, ModelOnCard, Numbers
 from .group import Group
 from .kind import KindOnCard
 from .leafy import leaf_by_leaf, leafy
@@ -340,6 +340,7 @@ class TreePart(Part):
         """Return what is drawn: what is solid from near to far, as it hides what is drawn after it."""
         calls = list[Call]()
         soft, sampled = edges == SOFT, self.leaves_from is not None
+        of_far = IN_ROWS if self._standing().in_rows else FAR
         for kind in self._kinds:
             for model in kind.models:
                 for sort, name, first, vertices in (
@@ -351,7 +352,8 @@ class TreePart(Part):
                     stream = model.hung.get(name, model.streams[name])
                     if stream.count and vertices > 0 and not (soft and sampled and sort != FAR):
                         corners = kind.outlines[name in SMALL_CARDS] if name in CARDS else []
-                        array = programs.array(sort, stream, model, edges=SAMPLED if sampled and sort != FAR else edges)
+                        drawn_as, sampling = (of_far, edges) if sort == FAR else (sort, SAMPLED if sampled else edges)
+                        array = programs.array(drawn_as, stream, model, edges=sampling)
                         nearest = 0.0 if soft else self._nearest(model.placed[name])
                         hard = all_wood or name in CARDS or (sort == WOOD and model.wood[name].hard)
                         told, of = _told(array.program, corners, SOLID if hard else OPAQUE), (kind, model)

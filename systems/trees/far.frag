@@ -46,6 +46,7 @@ void mix_pictures(vec2 at, out vec4 texel, out vec4 shading) {
         }
 }
 
+#ifdef IN_ROWS
 const vec3 APART = vec3(0.618, 0.755, 0.57);  // how far trees of a row are apart by their numbers: in height, place, and side
 const vec3 ROWS_APART = vec3(7.0, 11.0, 13.0);  // and rows, by what tells them from others
 const vec2 LOWER = vec2(1.0, 0.35);  // how many times as high a picture is as one of its trees, and how much more it may be
@@ -59,6 +60,11 @@ vec2 on_own(vec2 at) {
     float aside = (fract(along) - 0.5) * row_told.y * (own.z > 0.5 ? 1.0 : -1.0);
     return vec2(0.5 + aside, at.y * (LOWER.x + LOWER.y * own.x));
 }
+#else
+vec2 on_own(vec2 at) {
+    return at;
+}
+#endif
 
 #ifdef CAST
 void main() {

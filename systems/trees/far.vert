@@ -65,13 +65,18 @@ float reach_of(ivec4 pictures, int side, int corner) {
     return max(lower, max(reaches[2 * pictures.z + side], reaches[2 * pictures.w + side]))[corner];
 }
 
-// A corner of its outline, where a pixel is so many texels: as far out as what is there may spread. Rows of trees have none.
+const float SPREADS = 2.0;  // texels of a coarser picture that what is there spreads over, and as many pixels
+const float LEANS_OFF = 0.2;  // how far a bent trunk is from a line to its top, of how far that is aside: most at 0.42 of its height
+
+// A corner of its outline, where a pixel is so many texels: as far out as what is there may spread, and the wind moves it. Rows of
+// trees have none.
 vec2 corner_here(ivec4 pictures, float texels) {
     int side = gl_VertexID % 2, corner = gl_VertexID / 2;
     vec2 to = vec2(side == 1 ? 1.0 : -1.0, corner == 0 ? -1.0 : corner < OUTLINE / 2 - 1 ? 0.0 : 1.0);
     if (columns > 1.0)
         return vec2(to.x, corner == 0 ? -1.0 : 1.0);
-    return vec2(to.x * reach_of(pictures, side, corner), high[corner]) + to * (2.0 * texels / float(SIDE));
+    float moved = told.y + LEANS_OFF * abs(told.z);
+    return vec2(to.x * (reach_of(pictures, side, corner) + 2.0 * moved), high[corner]) + to * (SPREADS * 2.0 * texels / float(SIDE));
 }
 
 // What white wood sends to the eye of the sun's light: the mean over the side of an upright stem that is seen.
@@ -138,6 +143,12 @@ void main() {
     ivec4 pictures = choose(turned_back(to));
     vec3 across = normalize(abs(to.y) > OVERHEAD ? vec3(turn.x, 0.0, turn.y) : vec3(to.z, 0.0, -to.x)), up = cross(to, across);
     float half_side = scale * ball.y, texels = float(SIDE) * pixel_at(middle_of) / (2.0 * half_side);
+    told = vec4(phase, 0.0, 0.0, max(log2(max(texels, LEAST_PART)) + (columns > 1.0 ? 0.0 : FINER_BY), 0.0));
+#ifndef CAST
+    vec2 aside = trunk_sways(message);
+    told.y = SHIMMER * LIMB_SWINGS * length(message);
+    told.z = columns > 1.0 ? 0.0 : 0.5 * dot(aside, across.xz) * tall * scale / half_side;
+#endif
     on = vec3(corner_here(pictures, max(texels, 1.0)), 0.0);
     if (columns > 1.0) {
         float askew = ASKEW_ROWS * (phase - 0.5);
@@ -146,7 +157,6 @@ void main() {
     float half_wide = columns > 1.0 ? 0.5 * columns * column * scale : half_side;
     vec3 seen_at = middle_of + half_wide * on.x * across + half_side * on.y * up;
     row_told = vec2(columns, 0.5 * column / ball.y);
-    told = vec4(phase, 0.0, 0.0, max(log2(max(texels, LEAST_PART)) + (columns > 1.0 ? 0.0 : FINER_BY), 0.0));
 #ifdef CAST
     cast_at(middle_of, across, up, half_side);
 #else
@@ -157,9 +167,6 @@ void main() {
     float under = root.y - seen_at.y;
     if (columns > 1.0)
         seen_at.y += height_at(seen_at.xz) - root.y;  // a row of trees goes up and down with the ground
-    vec2 aside = trunk_sways(message);
-    told.y = SHIMMER * LIMB_SWINGS * length(message);
-    told.z = columns > 1.0 ? 0.0 : 0.5 * dot(aside, across.xz) * tall * scale / half_side;
     on.z = (seen_at.y - root.y) / (tall * scale);
     seen_at.xz += aside * (seen_at.y - root.y);  // its corners go along a line, and pixels from that to the trunk's
     light_up(middle_of, -to);

@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
 from ..space.frustum import beyond
-from .model import Model
+from .model import MARGIN, Model
 from .standing import WIDEST
 from .wood import SWAYS
 
@@ -23,12 +23,14 @@ class Group:
         self.middle: Doubles = rows["root"].astype(np.float64)
         """The middle of each [m], shape (n, 3)."""
         self.middle[:, 1] += self.scale * model.middle
-        aside = np.where(rows["ring"] > 1, WIDEST, 0.0)
-        self._reach = aside + (1.0 + SWAYS) * float(np.hypot(model.half, model.radius)) * self.scale
+        beside, sways = np.where(rows["ring"] > 1, WIDEST, 0.0), (1.0 + SWAYS) * self.scale
+        self._high, self._aside = (beside + sways * MARGIN * each for each in (model.middle, model.radius))
+        """How far each reaches up and down from its middle, and aside [m], shape (n,)."""
+        reach = np.hypot(self._high, self._aside)
         first = np.arange(0, len(rows), TOGETHER)
         if len(rows):
-            low = np.minimum.reduceat(self.middle - self._reach[:, None], first)
-            high = np.maximum.reduceat(self.middle + self._reach[:, None], first)
+            low = np.minimum.reduceat(self.middle - reach[:, None], first)
+            high = np.maximum.reduceat(self.middle + reach[:, None], first)
             self._balls = 0.5 * (low + high), 0.5 * np.linalg.norm(high - low, axis=1)
 
     def seen(self, sides: Doubles, /) -> NDArray[np.intp]:
@@ -37,4 +39,6 @@ class Group:
             return np.zeros(0, np.intp)
         middle, radius = self._balls
         some = np.flatnonzero(np.repeat(beyond(middle, sides) <= radius, TOGETHER)[: len(self.rows)])
-        return np.asarray(some[beyond(self.middle[some], sides) <= self._reach[some]])
+        inside = self.middle[some] @ sides[:, :3].T + sides[:, 3]
+        reach = np.outer(self._high[some], np.abs(sides[:, 1])) + np.outer(self._aside[some], np.hypot(*sides[:, :3:2].T))
+        return np.asarray(some[(inside >= -reach).all(axis=1)])

@@ -22,6 +22,9 @@ TRIED = 14
 ROWS = 80
 """Rows of texels that are looked at."""
 
+CLOSE = 2
+"""As many of a tree's pictures: shaders add what coarser ones spread."""
+
 LEAST_WEIGHT = 1e-3
 """Weight of a corner in a row that it is moved for at least."""
 
@@ -71,10 +74,10 @@ def _reaches(covered: Mask) -> tuple[Doubles, Doubles]:
     It goes to the left and the right of the middle, at least not at all.
     """
     side, there = covered.shape[1], np.flatnonzero(covered.any(axis=(0, 2)))
-    edges = np.unique(np.linspace(max(there[0] - AROUND, 0), min(there[-1] + 1 + AROUND, side), ROWS).astype(np.intp))
+    edges = np.unique(np.linspace(max(there[0] - CLOSE, 0), min(there[-1] + 1 + CLOSE, side), ROWS).astype(np.intp))
     each = np.stack([covered[..., ::-1], covered], axis=1).reshape(-1, side, side)
-    last = np.where(each.any(axis=2), side - each[..., ::-1].argmax(axis=2) + AROUND, 0)
-    near = [slice(max(edge - 2 * AROUND, 0), min(edge + 2 * AROUND, side)) for edge in edges]
+    last = np.where(each.any(axis=2), side - each[..., ::-1].argmax(axis=2) + CLOSE, 0)
+    near = [slice(max(edge - 2 * CLOSE, 0), min(edge + 2 * CLOSE, side)) for edge in edges]
     reach = np.stack([last[:, part].max(axis=1) for part in near], axis=1) - 0.5 * side
     return edges.astype(np.float64), np.maximum(reach, 0.0)
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ...engine.gl.stream import Stream, release_all
 from ..frame.block import FrameBlock, joined
-from .card import CAST, FAR, LEAVES, NEAR, PICTURED, WOOD, ModelOnCard
+from .card import CAST, FAR, IN_ROWS, LEAVES, NEAR, PICTURED, WOOD, ModelOnCard
 from .grow import MOST_TWIGS
 from .habit import HABITS
 from .standing import HUNG
@@ -19,6 +19,7 @@ SORTS: Mapping[str, tuple[str, str, Mapping[str, str | int]]] = {
     LEAVES: ("twig", "twig", {"LEAVES": 1}),
     WOOD: ("wood", "wood", {"STANDS": 1}),
     FAR: ("far", "far", {"STANDS": 1}),
+    IN_ROWS: ("far", "far", {"STANDS": 1, "IN_ROWS": 1}),
     CAST: ("far", "far", {"CAST": 1}),
 }
 """By what is drawn: vertex and fragment shader, and what they are told."""
@@ -70,7 +71,7 @@ class Programs:
                     indices = model.triangles
             whole = [each for each in contents if len(each) > 2]
             self._arrays[key] = self._ctx.vertex_array(
-                program, whole, index_buffer=None if sort in (NEAR, FAR) else indices
+                program, whole, index_buffer=None if sort in (NEAR, FAR, IN_ROWS) else indices
             )
         return self._arrays[key]
 

@@ -75,6 +75,7 @@ class Standing:
 
     _sorted: list[NDArray[np.void]] = field(default_factory=list, init=False)
     _usual: list[float] = field(default_factory=list, init=False)
+    _rings: list[int] = field(default_factory=list, init=False)
 
     @property
     def usual(self) -> tuple[float, float]:
@@ -84,6 +85,13 @@ class Standing:
             self._usual.extend(float(np.median(each)) if len(each) else 0.0 for each in both)
         high, low = self._usual
         return high, low
+
+    @property
+    def in_rows(self) -> bool:
+        """Whether some stand for rows of trees."""
+        if not self._rings:
+            self._rings.append(int(self.rows["ring"].max(initial=0)))
+        return self._rings[0] > 1
 
     def of(self, kind: int, model: int, /) -> NDArray[np.void]:
         """Return those of a model of a kind, by their numbers, records of `STANDING`."""

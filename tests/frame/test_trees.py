@@ -17,7 +17,7 @@ from tallgrass.engine.camera import Camera
 from tallgrass.systems.reference import draw_reference
 from tallgrass.systems.trees import bake, card, going, kind, standing
 from tallgrass.systems.trees.draw import TreePart
-from tallgrass.systems.trees.outline import BOX, pairs
+from tallgrass.systems.trees.outline import CORNERS, Around
 from tallgrass.systems.trees.shade import ShadeMap
 from tallgrass.systems.trees.wood import Parts
 from tallgrass.testing import Stage, little_prairie, looking, private_world
@@ -272,15 +272,15 @@ def test_far_off_nothing_of_it_lies_beyond_its_outline(
     part = vars(prairie.painter.part(TreePart))
     (ash,) = part["_kinds"]
     shot(stage, prairie, camera)  # its pictures are there
-    kept = [each.outline for each in ash.models]
-    assert all(np.ptp(np.array(each)[:, 0]) < 1.6 for each in kept)  # a birch is narrower than it is high
-    for outlines in (kept, [pairs(BOX)] * len(kept)):
+    kept = [each.around for each in ash.models]
+    assert all(np.mean(each.reaches) < 0.6 for each in kept)  # a birch is narrower than it is high
+    for outlines in (kept, [Around((-1.0, -0.3, 0.3, 1.0), [(1.0,) * CORNERS] * len(kept[0].reaches))] * len(kept)):
         for model, outline in zip(ash.models, outlines, strict=True):
-            model.outline = outline
+            model.around = outline
         part["_calls"].clear()
         seen.append(shot(stage, prairie, camera))
     for model, outline in zip(ash.models, kept, strict=True):
-        model.outline = outline
+        model.around = outline
     part["_calls"].clear()
     assert changed(seen[0], bare) > 0.0
     assert np.abs(seen[0] - seen[1]).max() <= 1.0
