@@ -40,5 +40,7 @@ class Group:
         middle, radius = self._balls
         some = np.flatnonzero(np.repeat(beyond(middle, sides) <= radius, TOGETHER)[: len(self.rows)])
         inside = self.middle[some] @ sides[:, :3].T + sides[:, 3]
-        reach = np.outer(self._high[some], np.abs(sides[:, 1])) + np.outer(self._aside[some], np.hypot(*sides[:, :3:2].T))
+        reach = np.outer(self._high[some], np.abs(sides[:, 1])) + np.outer(
+            self._aside[some], np.hypot(*sides[:, :3:2].T)
+        )
         return np.asarray(some[(inside >= -reach).all(axis=1)])

@@ -1,0 +1,67 @@
+"""What is drawn of trees no farther than they go: corners about their pictures, and trees beside a picture (F3)."""
+
+import numpy as np
+import pytest
+
+from tallgrass.components.arrays import Bytes, Doubles
+from tallgrass.engine.camera import View, projection_matrix, view_matrix
+from tallgrass.systems.space.frustum import picture_sides
+from tallgrass.systems.trees.group import Group
+from tallgrass.systems.trees.model import Model, models_of
+from tallgrass.systems.trees.outline import CORNERS, Around, around
+from tallgrass.systems.trees.standing import STANDING
+from tallgrass.testing import looking
+
+SIDE, ASPECT = 96, 16.0 / 9.0
+
+
+def crowns(aside: Doubles) -> Bytes:
+    """Return pictures of round crowns so far from the middle, the one larger than the other [texels]."""
+    up, across = np.mgrid[0:SIDE, 0:SIDE] - 0.5 * SIDE
+    wide = 20.0 + 0.3 * np.abs(aside)[:, None, None]
+    covered = ((across - aside[:, None, None]) / wide) ** 2 + (up / 36.0) ** 2 < 1.0
+    return np.where(covered, 255, 0).astype(np.uint8)
+
+
+def spans(corners: Around, picture: int) -> tuple[Doubles, Doubles]:
+    """Return from where to where its corners' lines go in each row of texels."""
+    high, rows = 0.5 * SIDE * (np.array(corners.high) + 1.0), np.arange(SIDE) + 0.5
+    left, right = (0.5 * SIDE * np.interp(rows, high, corners.reaches[2 * picture + side]) for side in (0, 1))
+    return 0.5 * SIDE - left, 0.5 * SIDE + right
+
+
+def test_all_that_a_picture_of_a_tree_covers_lies_within_its_corners_and_little_else() -> None:
+    pictures = crowns(np.array([-12.0, 0.0, 9.0]))
+    corners = around(pictures)
+    assert len(corners.reaches) == 2 * len(pictures)
+    for number, picture in enumerate(pictures > 0):
+        left, right = spans(corners, number)
+        texels = np.arange(SIDE)
+        within = (texels >= left[:, None] - 1e-6) & (texels + 1.0 <= right[:, None] + 1e-6)
+        assert not (picture & ~within).any()
+        assert picture.sum() > 0.66 * (right - left)[picture.any(axis=1)].sum()
+
+
+def test_about_a_picture_that_covers_nothing_the_whole_of_it_is_drawn() -> None:
+    empty = around(np.zeros((2, SIDE, SIDE), np.uint8))
+    assert (empty.high[0], empty.high[-1]) == (-1.0, 1.0)
+    assert empty.reaches == [(1.0,) * CORNERS] * 4
+
+
+@pytest.fixture(scope="module")
+def poplar() -> Model:
+    return models_of("poplar", 5)[0]
+
+
+@pytest.mark.parametrize("off", [20.0, 60.0])
+def test_a_slender_tree_is_in_a_picture_as_soon_as_its_crown_is_and_no_sooner(poplar: Model, off: float) -> None:
+    camera = looking(0.0, 10.0, off, pitch=0.0, view=60.0)
+    sides = picture_sides(View(view_matrix(camera), projection_matrix(camera.view, ASPECT)))
+    rows = np.zeros(200, STANDING)
+    rows["root"][:, 0], rows["height"] = np.linspace(0.0, 2.5 * off, len(rows)), poplar.height
+    seen = np.zeros(len(rows), bool)
+    seen[Group(rows, poplar).seen(sides)] = True
+    edge = off * np.tan(np.radians(30.0)) * ASPECT
+    x, crown = rows["root"][:, 0], poplar.radius / np.cos(np.arctan(edge / off))
+    assert seen[x < edge + crown].all()
+    assert not seen[x > edge + 1.3 * crown].any()
