@@ -1,7 +1,6 @@
 """The carpet of cheaper presets is like the whole one, in the shade and where the ground shows (G5, N12)."""
 
 from collections.abc import Callable
-from functools import partial
 
 import esper
 import moderngl
@@ -12,7 +11,6 @@ from numpy.typing import NDArray
 from tallgrass import Shade
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.show.carpet import painter
 from tallgrass.testing import Stage
 
 Load = Callable[..., Prairie]
@@ -63,18 +61,3 @@ def test_g5_between_sparse_grass_litter_shows_on_coarse_ground_too(room: Stage, 
 
     whole, coarse = (grain(room.shot(prairie, CAMERA)) for prairie in both(load, 4))
     assert 0.2 * whole < coarse < 1.2 * whole
-
-
-def test_x4_while_the_carpet_rises_what_it_shows_stays_where_it_is(
-    room: Stage, load: Load, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Its grass, and the litter between: at this angle it rises by three rows of pixels."""
-    low = Camera((0.0, 1.5, 20.0), 0.0, -0.1, np.radians(20.0))
-    seen = []
-    for share in (102, 204):
-        lying = partial(np.full, fill_value=share, dtype=np.uint8)
-        monkeypatch.setattr(painter, "_shares", lambda patches, _, lying=lying: lying(len(patches.alive)))
-        pictures = [room.shot(prairie, low)[70:].mean(axis=2) for prairie in both(load, 400)]
-        seen.append([(picture - picture.mean(axis=1, keepdims=True)).ravel() for picture in pictures])
-    for whole_or_coarse in zip(*seen, strict=True):
-        assert np.corrcoef(*whole_or_coarse)[0, 1] > 0.7

@@ -36,7 +36,6 @@ BROUGHT vec3 place;
 out float carpet;    // how much of what is seen is carpet's
 OF_SLOPE vec2 rise;  // of the ground, along x and z
 out float crest;     // how fast the rise falls off along the line of sight [1/m]
-out float lowered;   // how much lower the carpet lies than where no strips stand [m]
 out float past;      // what it meets that passes over a rim, as past_rim has it
 BROUGHT float tall;     // height of the carpet [m]
 BROUGHT float dense;    // leaf area seen from the side, of the ground's area
@@ -55,6 +54,7 @@ out float on_strips;      // root of the leaf area on strips above it, of the gr
 out vec3 soil_shaded;     // the soil where nothing is seen of the sun, as it is shown, for litter whose brightness is 1
 out vec4 lies_at;         // places along blades and heights at the top of the grass, and by how much less they are at its bottom
 #else
+out float lowered;        // how much lower the carpet lies than where no strips stand [m]
 FEW float sways;          // how far leaves sway, of the wind's message [m]
 FEW vec2 slow;            // slow noises of the pigment, where leaves are seen
 #endif
@@ -81,7 +81,9 @@ void hand_on(Laid laid) {
     rise = laid.rise;
     crest = laid.crest;
     past = laid.past;
+#ifndef COARSE
     lowered = laid.lowered;
+#endif
     tall = laid.tall;
     dense = laid.dense;
     stands = laid.stands;

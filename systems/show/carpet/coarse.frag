@@ -12,7 +12,6 @@ in vec3 place;
 in float carpet;
 in vec2 rise;
 in float crest;
-in float lowered;
 in float past;
 in float tall;
 in float dense;
@@ -56,9 +55,9 @@ float grain_seen(float level, float across) {
 }
 
 // Of the images of two slopes a patch shows either, the more often the nearer it is.
-Look look_along(vec2 heading, float from_above) {
+Look look_along(vec2 heading) {
     float patches = 1.0 / patch_side;
-    vec2 at = patches * shows_at(place.xz, heading, lowered, from_above), cell = floor(at), here = fract(at) - blown * patches - 0.5;
+    vec2 at = place.xz * patches, cell = floor(at), here = fract(at) - blown * patches - 0.5;
     uint drawn = scramble(uint(int(cell.x) * ROWS + int(cell.y) ^ stock.y));
     float upper = float(drawn >> UPPER_HALF);
     int low = min(int(elevation), SLOPES - 2), slope = min(int(elevation + upper * exp2(-BITS)), low + 1), side = int(drawn >> UPPER_HALF) & (HEADINGS - 1);
@@ -102,8 +101,8 @@ void add_kind(inout Grass sum, int kind, Look look, vec2 facing, float high) {
     sum.taller += part * (shown.g * mean.a / max(mean.g, LEAST_TEXEL) - 1.0);
 }
 
-Grass grass_seen(vec2 heading, float slope, float high) {
-    Look look = look_along(heading, slope);
+Grass grass_seen(vec2 heading, float high) {
+    Look look = look_along(heading);
     Grass sum = Grass(vec3(0.0), 0.0, 0.0, 0.0);
     for (int kind = 0; kind < KINDS; kind++)
         if (OF(met, kind) > LEAST_MET)
@@ -122,13 +121,12 @@ void main() {
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / patch_side))) : 0.0, covered = 1.0;
     float sunny = any_casters() ? past_casters(place) : 1.0;
     vec3 soil = any_casters() ? mix(soil_shaded, soil_seen, sunny) : soil_seen;
-    vec3 ray = place - eye;
-    float nearness = inversesqrt(max(dot(ray.xz, ray.xz), TINY * TINY)), slope = max((dot(rise, ray.xz) - ray.y) * nearness, 0.0);
-    vec2 heading = ray.xz * nearness;
-    vec3 color = soil * lying_seen(shows_at(place.xz, heading, -carpet * tall, slope), share > 0.0 ? 0.0 : 1.0).x;
+    vec3 color = soil * lying_seen(place.xz, share > 0.0 ? 0.0 : 1.0).x;
     if (share > 0.0) {
+        vec3 ray = place - eye;
+        float nearness = inversesqrt(max(dot(ray.xz, ray.xz), TINY * TINY)), slope = max((dot(rise, ray.xz) - ray.y) * nearness, 0.0);
         vec2 among = on_strips > 0.0 ? among_strips(on_strips * on_strips, on_level, carpet, stands, dense) : vec2(1.0);
-        Grass grass = grass_seen(heading, slope, among.y);
+        Grass grass = grass_seen(ray.xz * nearness, among.y);
         Light light = unbundled(lit);
         if (any_casters())
             light = shaded(light, sunny, 1.0);

@@ -79,7 +79,7 @@ float along_ground(float slope, float tall) {
 // Where images are read for a place of the carpet, which lies so much lower than where no strips stand [m]: where its line of
 // sight is as high as that. While the carpet rises where strips give way, what it shows stays where it is.
 vec2 shows_at(vec2 place, vec2 heading, float lowered, float slope) {
-    return place - heading * clamp(lowered / max(slope, LOWEST), -FARTHEST_SEEN, FARTHEST_SEEN);
+    return place - heading * min(lowered / max(slope, LOWEST), FARTHEST_SEEN);
 }
 
 // Where a line of sight through a place is that has gone on so far over the ground [m].
