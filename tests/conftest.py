@@ -62,30 +62,7 @@ QUICK = "test_drawing_twice_at_the_same_time_gives_the_same_picture"
 SLOW_FOLDERS = "app", "docs", "examples", "hosts", "packaging"
 """Of what is drawn, all that a quick run has; and the folders of `tests` that it leaves out."""
 
-PARENT = """
-import json, os, runpy, sys
-
-import tallgrass.systems.holding, tallgrass.systems.prairie, tallgrass.testing
-
-tallgrass.systems.holding.AHEAD = False
-for line in sys.stdin:
-    told = json.loads(line)
-    child = os.fork()
-    if not child:
-        break
-    print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), flush=True)
-else:
-    sys.exit()
-os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
-os.dup2(os.open(told["output"], os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600), 1)
-os.dup2(1, 2)
-os.chdir(told["folder"])
-os.environ.update(told["place"])
-sys.argv, sys.path[0] = [told["program"], *told["arguments"]], os.path.dirname(os.path.abspath(told["program"]))
-if told["before"]:
-    exec(told["before"])
-runpy.run_path(told["program"], run_name="__main__")
-"""
+PARENT = Path(__file__).with_name("parent_program.py")
 """Has imported all that programs import, and becomes one each time that it is told of one."""
 
 LITTLE_GRASS = """
@@ -334,7 +311,7 @@ def python(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Python]:
     `place` is set in its environment; `before` is run first. Nothing is imported anew that every program imports.
     """
     output = tmp_path_factory.mktemp("python") / "output"
-    command = [sys.executable, "-W", "error", "-W", "ignore:This process:DeprecationWarning", "-c", PARENT]
+    command = [sys.executable, "-W", "error", "-W", "ignore:This process:DeprecationWarning", str(PARENT)]
     ours = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
     with subprocess.Popen(command, env=ours, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as parent:
         assert parent.stdin is not None
