@@ -2,7 +2,7 @@
 
 import logging
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from ctypes import c_float, c_int
 from dataclasses import dataclass
 
@@ -11,6 +11,7 @@ import moderngl
 from .functions import NUMBERS, functions_of
 from .guest import aside, colourless, depth_ends, farthest_depth, let_pass
 from .outputs import has_depth
+from .question import Question
 from .shaders import program
 from .stream import release_all
 from .units import UNITS
@@ -27,10 +28,10 @@ MOST_SIZES = 4
 PLACES = dict(zip(("before", "picture", "deep"), UNITS[-3:], strict=True))
 """Texture units: the last, as what stands there is bound anew whenever it is read."""
 
-PASSES = {"bring": "1", "fit": ">", "deepen": "<", "enlarge": "<=", "lay": "1"}
-"""What is done, and by which test of depth: to bring the host's depth over; to blend the picture over what the host has
-drawn, and write its depth there; to write both where it has drawn nothing. The second is as far away as can be. Or,
-where nothing else has depth, to lay the picture over all."""
+PASSES = {"find": ">", "bring": "1", "fit": ">", "deepen": "<", "enlarge": "<=", "lay": "1"}
+"""What is done, and by which test of depth: to find out whether the host has drawn anything; to bring its depth over;
+to blend the picture over what it has drawn, and write its depth there; to write both where it has drawn nothing. The
+first and the third are as far away as can be. Or, where nothing else has depth, to lay the picture over all."""
 
 
 def smaller_size(size: Size, scale: float, /) -> Size:
@@ -84,6 +85,7 @@ class Smaller:
         self._programs: dict[str, moderngl.Program] = {}
         self._passes: dict[str, moderngl.VertexArray] = {}
         self._buffers: dict[tuple[Size, Size], Buffers] = {}
+        self._has_host = Question(ctx)
         self._told: set[str] = set()
 
     @contextmanager
@@ -103,6 +105,8 @@ class Smaller:
             return
         x, y, width, height = host.viewport
         buffers = self._room((width, height), smaller_size((width, height), scale))
+        if not is_alone:
+            self._find(host, buffers)
         with aside(self._ctx, host, alike=True):
             if not is_alone:
                 self._read(buffers)
@@ -113,7 +117,7 @@ class Smaller:
             buffers.target.use()
             self._clear()
             if not is_alone:
-                with colourless(buffers.target):
+                with self._where_host(host), colourless(buffers.target):
                     self._do("bring")
             yield buffers.target
         self._enlarge(host, buffers, is_whole=is_whole, is_alone=is_alone)
@@ -128,12 +132,27 @@ class Smaller:
             host.depth_mask = True
             return
         self._tell({"whole": is_whole, "corner": (x, y)})
-        self._do("fit", blending=OVER, everywhere=not is_whole)
-        host.depth_mask = True
-        with colourless(host):
-            self._do("deepen")
+        with self._where_host(host) if is_whole else nullcontext():
+            self._do("fit", blending=OVER, everywhere=not is_whole)
+            host.depth_mask = True
+            with colourless(host):
+                self._do("deepen")
         if is_whole:
             self._do("enlarge")
+
+    def _find(self, host: moderngl.Framebuffer, buffers: Buffers) -> None:
+        """Let the card find out whether the host has drawn anything with depth: mostly it has not."""
+        cut = host.scissor
+        host.scissor, host.depth_mask = None, False  # type: ignore[assignment]
+        self._read(buffers)
+        with colourless(host), self._has_host.asking():
+            self._do("find")
+        host.scissor = cut if cut != (0, 0, *host.size) else None  # type: ignore[assignment]
+        host.depth_mask = True
+
+    def _where_host(self, host: moderngl.Framebuffer) -> AbstractContextManager[None]:
+        """Leave out what is drawn meanwhile if it has not; where nothing is shown, drivers are to get ready for it."""
+        return self._has_host.if_so() if all(host.scissor[2:]) else nullcontext()
 
     def _read(self, buffers: Buffers) -> None:
         """Let the passes read these."""
@@ -143,7 +162,7 @@ class Smaller:
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(*self._passes.values(), *self._programs.values(), *self._buffers.values())
+        release_all(*self._passes.values(), *self._programs.values(), *self._buffers.values(), self._has_host)
 
     def _clear(self) -> None:
         """Clear what is drawn into: by calls that leave the values alone which a host clears with."""

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from tallgrass.engine.gl import rasteriser
 from tallgrass.engine.gl.guest import guest
 from tallgrass.engine.gl.smaller import MOST_SIZES, Smaller, smaller_size
 from tallgrass.engine.gl.stream import release_all
@@ -148,6 +149,34 @@ def test_n11_where_nothing_else_has_depth_the_hosts_is_neither_read_nor_written(
         assert (upper[:, : SIZE[0] // 2] == (0, 255, 0, 255)).all()
         assert (upper[:, SIZE[0] // 2 :] == 0).all()
     np.testing.assert_array_equal(host.depths(), before)
+
+
+@pytest.mark.parametrize(("drawn", "passes"), [(False, 2), (True, 5)], ids=["nothing", "something"])
+def test_n11_a_card_brings_nothing_over_and_fits_nothing_where_the_host_has_drawn_nothing(
+    ctx: moderngl.Context, host: Host, smaller: Smaller, fill: Fill, monkeypatch: pytest.MonkeyPatch, *, drawn: bool,
+    passes: int,
+) -> None:  # fmt: skip
+    monkeypatch.setenv(rasteriser.AS_CARD, "1")
+    if drawn:
+        fill(GREEN, (0.9, 0.9, 1.0, 1.0), depth=0.8)
+    host.target.scissor = 0, 0, 10, 10  # which that is beside
+    host.target.use()
+    counted = ctx.query(primitives=True)
+    with guest(ctx) as target, counted, smaller.instead_of(target, 0.5):
+        pass
+    assert counted.primitives == passes
+
+
+def test_n11_where_nothing_is_shown_all_passes_are_done_so_that_drivers_get_ready(
+    ctx: moderngl.Context, host: Host, smaller: Smaller, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(rasteriser.AS_CARD, "1")
+    counted = ctx.query(primitives=True)
+    with guest(ctx) as target, counted:
+        target.scissor = 0, 0, 0, 0
+        with smaller.instead_of(target, 0.5):
+            pass
+    assert counted.primitives == 5
 
 
 def test_n11_it_keeps_to_the_hosts_viewport_scissor_and_colours(
