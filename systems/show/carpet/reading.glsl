@@ -57,8 +57,8 @@ Patch patch_at(vec2 at, float sways, float stands) {
 // The rotation that turns the line of sight into the heading of the images that are taken: of four headings, one on each
 // patch. So blades are drawn out along the line of sight, from wherever they are seen.
 vec2 turned(vec2 heading, int side) {
-    vec2 image = side == 0 ? vec2(0.0, -1.0) : side == 1 ? vec2(1.0, 0.0) : side == 2 ? vec2(0.0, 1.0) : vec2(-1.0, 0.0);
-    return vec2(dot(image, heading), image.y * heading.x - image.x * heading.y);
+    vec2 image = (side & 1) == 0 ? -heading.yx : vec2(heading.x, -heading.y);
+    return side < 2 ? image : -image;
 }
 
 vec2 rotated(vec2 v, vec2 by) {
