@@ -1,4 +1,4 @@
-"""Questions that the graphics card answers to itself: what depends on one is drawn or left out, and nobody waits for it."""
+"""Questions that a graphics card answers itself: what depends on one is drawn or left out, and no program waits."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager

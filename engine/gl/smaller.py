@@ -28,7 +28,7 @@ MOST_SIZES = 4
 PLACES = dict(zip(("before", "picture", "deep"), UNITS[-3:], strict=True))
 """Texture units: the last, as what stands there is bound anew whenever it is read."""
 
-PASSES = {"find": ">", "bring": "1", "fit": ">", "deepen": "<", "enlarge": "<=", "lay": "1"}
+PASSES = {"find": ">", "bring": "1", "fit": ">", "deepen": "<", "enlarge": "1", "lay": "1"}
 """What is done, and by which test of depth: to find out whether the host has drawn anything; to bring its depth over;
 to blend the picture over what it has drawn, and write its depth there; to write both where it has drawn nothing. The
 first and the third are as far away as can be. Or, where nothing else has depth, to lay the picture over all."""
