@@ -8,12 +8,12 @@ const float LEAST_TURN = 0.05;  // slope by which it comes to the ground, or lea
 // [m]: how deep it comes below that top, of its height, times the root of its way through grass one metre deep [m]. Leaf area is
 // met by the square of this. It grows evenly along the mesh before the rim. At least NO_RIM where there is none.
 float past_rim(vec3 place, float ground, float top) {
-    if (rim_at(place.xz) > ON_RIM.y * terrain_cell)
-        return 2.0 * NO_RIM;
+    // Far from any rim it looks nowhere. That is a loop of no turns: software goes through all that a branch leaves out.
+    int looks = rim_at(place.xz) > ON_RIM.y * terrain_cell ? 0 : LOOKS;
     vec2 way = heading_to(place.xz);
     float away = distance(place.xz, eye.xz), step = max(terrain_cell, spaced), at = 0.0, high = ground;
     float steepest = (high - eye.y) / away;
-    for (int look = 1; look <= LOOKS; look++) {
+    for (int look = 1; look <= looks; look++) {
         float on = APART_BY * step * float(look), there = height_at(place.xz + way * on), rises = (there - eye.y) / (away + on);
         if (rises > steepest) {
             steepest = rises;
@@ -23,7 +23,7 @@ float past_rim(vec3 place, float ground, float top) {
     }
     float before = (high - height_at(place.xz + way * (at - step))) / step - steepest;
     float behind = (high - height_at(place.xz + way * (at + 2.0 * step))) / (2.0 * step) + steepest;
-    if (behind < 0.0)
+    if (looks == 0 || behind < 0.0)
         return 2.0 * NO_RIM;
     if (before < 0.0)  // it comes from beneath, through what is seen of the grass before
         return 0.0;
