@@ -28,7 +28,7 @@ class TreeKind(Declaration):
     """How it grows: as an oak, birch, pine, poplar, willow or hawthorn, the last of which is a bush."""
 
     height: Annotated[Pair, rising("height must be [lowest, highest]", LOWEST, HIGHEST)] | None = None
-    """Lowest and highest tree [m]; without it, what suits the habit."""
+    """Lowest and highest grown tree [m]; without it, what suits the habit."""
 
     foliage: float = Field(default=1.0, gt=0.0, le=1.0)
     """How many of its leaves it has, as a part of all: fewer in autumn, or where it ails."""
@@ -42,6 +42,9 @@ class TreeKind(Declaration):
     variety: float = Field(default=0.12, ge=0.0, le=0.6)
     """How far trees differ in brightness and hue from one another, as a fraction."""
 
+    young: float = Field(default=0.3, ge=0.0, le=1.0)
+    """How many of its trees of `density` are still growing, as a part of all: they are of all ages, and of all heights."""
+
     positions: list[Pair] = Field(default=[], max_length=MOST)
     """Where single trees stand, ground positions (x, z) [m]."""
 
@@ -50,6 +53,10 @@ class TreeKind(Declaration):
 
     spacing: float = Field(default=6.0, ge=0.3, le=1000.0)
     """Distance from tree to tree in a row, and the least distance among those of `density` [m]."""
+
+    uneven: float = Field(default=0.0, ge=0.0, le=1.0)
+    """How unevenly trees stand along rows: with 1, some are as far from where `spacing` has them as the next one, and
+    one in eight is missing."""
 
     density: float = Field(default=0.0, ge=0.0, le=5000.0)
     """How many trees a hectare has besides, as far as there is room."""

@@ -6,7 +6,7 @@
 #include "systems/trees/motion.py"
 #include "systems/trees/shown.glsl"
 
-uniform sampler2DArray tree_far;  // tone, wood, nothing, cover; then by how many leaves light has met, by direction and in all
+uniform sampler2DArray tree_far;  // tone, wood, how thick that is, cover; then by how many leaves light has met, by direction and in all
 uniform float moment;
 
 in vec3 on;            // where on its picture, -1 to 1; and how high over its foot, of its height
@@ -19,7 +19,7 @@ flat in vec3 foot;
 #else
 flat in vec4 meets;
 flat in vec4 sunlit;
-flat in vec3 wooden;
+flat in vec4 wooden;
 flat in vec3 skylit;
 flat in vec3 below;
 flat in vec3 hazy;
@@ -96,7 +96,8 @@ void main() {
     shading *= whole;
     float seen = comes_through(sun_meets(shading, meets)), open = comes_through(sky_meets(shading, meets));
     vec3 sky = sky_on(skylit, below, open, FACES_UP * (1.0 - wood));
-    Light light = Light((sunlit.rgb + wooden * wood) * seen, sky, hazy, 0.0, 0.0, vec2(0.0));
-    pixel = drawn(shade(Surface(pigment_of(texel.r * whole, wood), 1.0, AMONG_LEAVES), light), cover);
+    Light light = Light((sunlit.rgb + wooden.rgb * wood) * seen, sky, hazy, 0.0, 0.0, vec2(0.0));
+    float aged = aged_at(wooden.a * texel.b / max(texel.g, LEAST_COVER));
+    pixel = drawn(shade(Surface(pigment_of(texel.r * whole, wood, aged), 1.0, AMONG_LEAVES), light), cover);
 }
 #endif

@@ -20,7 +20,10 @@ TILE_EDGE = 0.5 / SIDE
 FINER_BY = -0.6
 """Level at which one is shown, from that of its pixels: it is read between texels, which blurs it."""
 
+THICKEST = 0.6
+"""Radius of a stem that a picture's texel of 255 stands for [m]."""
+
 GLSL = {
     "COLUMNS": COLUMNS, "ROWS": ROWS, "FIRST_ROW": FIRST_ROW, "EACH_ROW": EACH_ROW, "TILE_EDGE": TILE_EDGE,
-    "SIDE": SIDE, "FINER_BY": FINER_BY,
+    "SIDE": SIDE, "FINER_BY": FINER_BY, "THICKEST": THICKEST,
 }  # fmt: skip

@@ -25,7 +25,7 @@ uniform vec4 reaches[2 * COLUMNS * ROWS];  // by picture: how far out they are l
 
 flat out vec4 meets;   // by how much of what pictures tell of light's way its leaves meet, along its axes and in all
 flat out vec4 sunlit;  // what its leaves send of the sun's light; how many of them are still to be seen
-flat out vec3 wooden;  // how much more its wood sends of that
+flat out vec4 wooden;  // how much more its wood sends of that; how thick THICKEST is, of it [m]
 flat out vec3 skylit;
 flat out vec3 below;
 flat out vec3 hazy;
@@ -115,7 +115,7 @@ void light_up(vec3 middle_of, vec3 ray) {
     Light light = light_in_crown(middle_of, vec4(0.0), 1.0);
     meets = meets_by(turned_back(sun), foliage);
     sunlit = vec4(light.sun * strewn_send(ray), clamp(gone * shows * COMES, 0.0, 1.0));
-    wooden = light.sun * wood_sends(ray) - sunlit.rgb;
+    wooden = vec4(light.sun * wood_sends(ray) - sunlit.rgb, THICKEST * scale);
     skylit = light.sky;
     hazy = light.haze;
     below = from_below() * (1.0 - haze_at(middle_of));

@@ -87,9 +87,10 @@ class Trees(Feature):
         self._unknown.clear()
         fixed = list[Floats]()
         for name, kind in scene.trees.items():
-            place = placed(kind, terrain, np.concatenate([NOBODY, *fixed]))
+            seed = scene.seed + len(fixed)
+            place = placed(kind, terrain, np.concatenate([NOBODY, *fixed]), seed=seed)
             fixed.append(place)
-            self._seedlings += _seedlings(name, kind, place, seed=scene.seed + len(fixed) - 1)
+            self._seedlings += _seedlings(name, kind, place, seed=seed)
         forest = Forest(self._grown, fixed)
         if forest.is_large:
             self.wild = Wild(self._world, forest, list(scene.trees), live=self._live)

@@ -13,6 +13,7 @@ from ...engine.noise import noise_table, smooth_noise
 from ...engine.random import hash3, stream, unit
 from ...engine.terrain.sample import height_at, natural_at, slope_at
 from ..space.grown import Grown
+from .ages import grown_to
 from .habit import HABITS
 from .place import stands
 from .scatter import SQUARE, Scatter, Squares, apart
@@ -199,7 +200,8 @@ class Forest:
         rows["root"][:, 1] = height_at(self._grown.ground.terrain, place)
         own = hash3(seed, *(np.ascontiguousarray(each).view(np.int32) for each in place.T))
         low, high = kind.height or HABITS[kind.habit].height
-        rows["height"] = np.clip(low + (high - low) * unit(stream(own, 5)), LOWEST, HIGHEST)
+        tall = low + (high - low) * unit(stream(own, 5)).astype(np.float64)
+        rows["height"] = np.clip(tall * grown_to(kind.young, unit(stream(own, 7))), LOWEST, HIGHEST)
         rows["yaw"] = np.pi * (2.0 * unit(stream(own, 6)) - 1.0)
         rows["foliage"], rows["kind"], rows["ring"] = kind.foliage, number, level + 1
         tell_apart(rows)

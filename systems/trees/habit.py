@@ -90,8 +90,11 @@ class Habit:
     branches: Shoots
     twigs: Shoots
     leaf: Leaf
-    bark: str
-    """Colour (sRGB)."""
+    bark: tuple[str, str]
+    """Colour of young bark, on thin stems, and of old (sRGB)."""
+
+    ripens: tuple[float, float]
+    """Radius of a stem on which bark begins to be as on old ones, and on which it is [m]."""
 
     rough: float
     """How deeply the bark is furrowed, 0 to 1; below 0 it is smooth with dark bands across, as of birches."""
@@ -120,7 +123,7 @@ HABITS: Mapping[HabitName, Habit] = {
         limbs=Shoots(24.0, 0.74, (1.4, 0.5), 0.03, 0.19),
         branches=Shoots(3.6, 0.52, (0.95, 0.7), 0.04, 0.2),
         twigs=Shoots(5.2, 0.72, (0.9, 0.7), 0.03, 0.1),
-        leaf=Leaf(LOBED, 0.125, 0.075, 35, 5, 0.9, 0.62), bark="#5d5346", rough=0.9,
+        leaf=Leaf(LOBED, 0.125, 0.075, 35, 5, 0.9, 0.62), bark=("#6f6a58", "#625a4e"), ripens=(0.03, 0.14), rough=0.9,
         leaves=("#3d5623", "#84a044"), height=(11.0, 16.0),
     ),
     "birch": Habit(
@@ -128,7 +131,7 @@ HABITS: Mapping[HabitName, Habit] = {
         limbs=Shoots(38.0, 0.28, (1.0, 0.5), 0.03, 0.06),
         branches=Shoots(4.4, 0.46, (0.85, 0.7), -0.06, 0.08),
         twigs=Shoots(9.0, 0.55, (0.8, 0.6), -0.25, 0.05),
-        leaf=Leaf(OVATE, 0.06, 0.05, 33, 3, 0.95, 0.64), bark="#d8d3c8", rough=-1.0,
+        leaf=Leaf(OVATE, 0.06, 0.05, 33, 3, 0.95, 0.64), bark=("#6d5547", "#d8d3c8"), ripens=(0.018, 0.06), rough=-1.0,
         leaves=("#4d6e28", "#9ab44e"), height=(10.0, 16.0),
     ),
     "pine": Habit(
@@ -136,7 +139,7 @@ HABITS: Mapping[HabitName, Habit] = {
         limbs=Shoots(45.0, 0.27, (1.62, 0.7), 0.05, 0.07),
         branches=Shoots(5.2, 0.42, (0.95, 0.7), 0.04, 0.06),
         twigs=Shoots(6.0, 0.55, (0.7, 0.5), 0.1, 0.04),
-        leaf=Leaf(NEEDLES, 0.11, 0.06, 48, 3, 0.6, 0.24), bark="#7b6151", rough=0.7,
+        leaf=Leaf(NEEDLES, 0.11, 0.06, 48, 3, 0.6, 0.24), bark=("#936d52", "#6c6259"), ripens=(0.07, 0.15), rough=0.7,
         leaves=("#223329", "#4f6349"), height=(12.0, 18.0),
     ),
     "poplar": Habit(
@@ -144,7 +147,7 @@ HABITS: Mapping[HabitName, Habit] = {
         limbs=Shoots(62.0, 0.21, (0.56, 0.3), 0.085, 0.05),
         branches=Shoots(4.6, 0.42, (0.65, 0.5), 0.09, 0.06),
         twigs=Shoots(6.0, 0.5, (0.7, 0.55), 0.06, 0.05),
-        leaf=Leaf(DELTOID, 0.068, 0.064, 24, 3, 0.9, 0.58), bark="#6f6a5e", rough=0.6,
+        leaf=Leaf(DELTOID, 0.068, 0.064, 24, 3, 0.9, 0.58), bark=("#86826f", "#67635a"), ripens=(0.04, 0.14), rough=0.6,
         leaves=("#3c5a22", "#85a046"), height=(15.0, 22.0),
     ),
     "willow": Habit(
@@ -152,7 +155,7 @@ HABITS: Mapping[HabitName, Habit] = {
         limbs=Shoots(20.0, 0.58, (1.05, 0.4), 0.05, 0.12),
         branches=Shoots(4.2, 0.62, (0.9, 0.7), -0.24, 0.08),
         twigs=Shoots(7.0, 0.95, (0.8, 0.5), -0.6, 0.04),
-        leaf=Leaf(LANCE, 0.13, 0.028, 40, 1, 0.55, 0.6), bark="#6b6152", rough=0.85,
+        leaf=Leaf(LANCE, 0.13, 0.028, 40, 1, 0.55, 0.6), bark=("#80794f", "#716b60"), ripens=(0.02, 0.1), rough=0.85,
         leaves=("#55703a", "#a5b478"), height=(9.0, 13.0),
     ),
     "hawthorn": Habit(
@@ -160,7 +163,7 @@ HABITS: Mapping[HabitName, Habit] = {
         limbs=Shoots(26.0, 0.82, (1.5, 0.6), 0.02, 0.16),
         branches=Shoots(7.0, 0.5, (0.95, 0.75), 0.03, 0.18),
         twigs=Shoots(11.0, 0.36, (0.9, 0.7), 0.03, 0.14),
-        leaf=Leaf(LOBED, 0.055, 0.046, 30, 5, 0.9, 0.6), bark="#5c5347", rough=0.6,
+        leaf=Leaf(LOBED, 0.055, 0.046, 30, 5, 0.9, 0.6), bark=("#665a4a", "#635c53"), ripens=(0.015, 0.06), rough=0.6,
         leaves=("#3c5a24", "#7f9c42"), height=(3.0, 4.6),
     ),
 }  # fmt: skip

@@ -46,7 +46,7 @@ struct Seen {
 
 // Those of a card that lies so, under this light on what looks up and on what looks down.
 Seen seen_on_card(mat3 own, vec3 ray, Light above, vec3 below) {
-    vec3 to_sun = sun * own, to_eye = -ray * own, strewn = strewn_send(ray), pigment = pigment_of(0.5, 0.0), albedo = pigment * pigment;
+    vec3 to_sun = sun * own, to_eye = -ray * own, strewn = strewn_send(ray), pigment = pigment_of(0.5, 0.0, 0.0), albedo = pigment * pigment;
     float side = to_eye.z < 0.0 ? -1.0 : 1.0, shown = LEAST_PART, pictured = LEAST_PART, root_of = 0.0;
     Seen seen = Seen(vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0));
     vec2 mean = vec2(0.0), spread = vec2(0.0);
@@ -77,7 +77,7 @@ Seen seen_on_card(mat3 own, vec3 ray, Light above, vec3 below) {
 }
 
 vec3 shows(float tone, float wood, Light light) {
-    return shown_of(shade(Surface(pigment_of(tone, wood), 1.0, AMONG_LEAVES), light));
+    return shown_of(shade(Surface(pigment_of(tone, wood, 0.0), 1.0, AMONG_LEAVES), light));
 }
 
 void tell_card(vec3 along, vec3 aside, vec3 facing, vec4 chance, Light light, vec3 below) {

@@ -121,12 +121,13 @@ class KindOnCard:
         habit, declared = self.habit, self.declared
         leaf, usual = habit.leaf, habit.twigs.length
         dark, bright = habit.leaves if declared.leaf is None else (declared.leaf, declared.leaf)
+        young, old = (tuple(pigment(declared.bark or each).tolist()) for each in habit.bark)
         darker = DARKER if declared.leaf is not None else 1.0
         return {
             "usual": (usual,), "card": (*self.reach, 0.0), "form": (leaf.form,), **_leaves(leaf, usual),
             "finer": (1.0,), "shoots_off": (SHOOTS_OFF,),
             "dark": tuple((darker * pigment(dark)).tolist()), "bright": tuple(pigment(bright).tolist()),
-            "bark": tuple(pigment(declared.bark or habit.bark).tolist()), "rough": (habit.rough,),
+            "young_bark": young, "bark": old, "ripens": habit.ripens, "rough": (habit.rough,),
         }  # fmt: skip
 
     def tell(self, program: moderngl.Program, model: ModelOnCard, *numbers: Numbers, wood: bool = False) -> None:

@@ -9,16 +9,24 @@ from ...engine.declared.tree import MOST, TreeKind
 from ...engine.terrain.record import Terrain
 from ...engine.terrain.sample import hole_at
 
+ASIDE, ASIDE_MOST = 0.3, 0.4
+"""How far trees of an uneven row stand aside at most, of their distance, and in all [m]."""
+
+MISSING = 0.125
+"""How many are missing of those of a row as uneven as can be."""
+
 LEAST = 0.5
 """Distance from tree to tree at least [m], where they are not to be nearer."""
 
 
-def placed(kind: TreeKind, terrain: Terrain, taken: Floats, /) -> Floats:
+def placed(kind: TreeKind, terrain: Terrain, taken: Floats, /, *, seed: int) -> Floats:
     """Return the ground positions (n, 2) [m] of a kind's single trees; none stands on another of them or of `taken`.
 
     Places off the terrain and over its holes are left out.
     """
-    chosen = [np.array(kind.positions, np.float32).reshape(-1, 2), *(_along(row, kind.spacing) for row in kind.rows)]
+    draw = np.random.default_rng((seed, 48))
+    rows = [_along(row, kind.spacing, kind.uneven, draw) for row in kind.rows]
+    chosen = [np.array(kind.positions, np.float32).reshape(-1, 2), *rows]
     fixed = np.concatenate(chosen)
     return _apart(fixed[stands(terrain, fixed)], min(kind.spacing, 1.0) * LEAST, taken)
 
@@ -29,13 +37,20 @@ def stands(terrain: Terrain, place: Floats, /) -> Mask:
     return np.asarray((beside <= 0.0).all(axis=1) & ~hole_at(terrain, place))
 
 
-def _along(row: Sequence[Sequence[float]], spacing: float) -> Floats:
-    """Return places along a line, evenly, at its first and its last, and so far apart [m]."""
+def _along(row: Sequence[Sequence[float]], spacing: float, uneven: float, draw: np.random.Generator) -> Floats:
+    """Return places along a line, from its first to its last, so far apart [m], evenly or not."""
     line = np.array(row, np.float64)
     run = np.append(0.0, np.hypot(*np.diff(line, axis=0).T).cumsum())
     count = min(max(round(run[-1] / spacing), 1) + 1, MOST)
-    at = np.linspace(0.0, run[-1], count)
-    return np.stack([np.interp(at, run, line[:, axis]) for axis in (0, 1)], axis=1).astype(np.float32)
+    at, aside = np.linspace(0.0, run[-1], count), np.zeros((count, 2))
+    if uneven > 0.0:
+        each = uneven * run[-1] / max(count - 1, 1)
+        at = (at + each * draw.uniform(-0.5, 0.5, count)).clip(0.0, run[-1])
+        aside = min(ASIDE * each, ASIDE_MOST) * draw.uniform(-1.0, 1.0, (count, 2))
+        kept = draw.random(count) >= MISSING * uneven
+        at, aside = at[kept], aside[kept]
+    place = np.stack([np.interp(at, run, line[:, axis]) for axis in (0, 1)], axis=1)
+    return np.asarray(place + aside, np.float32)
 
 
 def _apart(place: Floats, least: float, taken: Floats) -> Floats:

@@ -15,6 +15,7 @@ in float thick;
 in vec4 inside;
 in float rounds;
 in vec2 fading;
+in float aged;
 in float stands;
 flat in vec2 among_grass;
 
@@ -46,7 +47,7 @@ float noise(vec2 at) {
     return texture(tree_cards, vec3(at * (1.0 / NOISE_CELLS), 0.0), SHARPER_BY).r;
 }
 
-// The bark's pigment there, of its own: furrows along the stem, or dark bands across it.
+// The bark's pigment there, of its own: furrows along an old stem, or dark bands across it.
 float bark_at(vec2 on, float fades) {
     bool banded = rough < 0.0;
     float broad = noise(on * (banded ? vec2(BANDED.z) : vec2(WINDINGS)));
@@ -55,7 +56,8 @@ float bark_at(vec2 on, float fades) {
     float foot = (1.0 - smoothstep(FOOT.x, FOOT.y, on.y)) * smoothstep(SPOT.x, SPOT.y, fine);
     float furrowed = RIDGES.x + RIDGES.y * (DEEP * first + (1.0 - DEEP) * fine);
     float soiled = mix(SOIL_TONE, 1.0, smoothstep(SOILED.x, SOILED.y, stands + broad - 0.5));
-    return soiled * mix(bark_mean(), banded ? mix(1.0, BAND_TONE, max(band, foot)) : mix(1.0, furrowed, rough), fades);
+    float old = mix(bark_mean(), banded ? mix(1.0, BAND_TONE, max(band, foot)) : mix(1.0, furrowed, rough), fades);
+    return soiled * mix(1.0, old, aged);
 }
 
 // How much of a pixel a stem covers that fades out towards its edges: they are as far aside as it is thick.
@@ -66,7 +68,7 @@ float edge_cover(vec3 ray) {
 
 void main() {
 #ifdef BAKED
-    pixel = vec4(0.5, 1.0, 0.0, 1.0);
+    pixel = vec4(0.5, 1.0, aged, 1.0);
     second = packed_shading(inside);
 #else
     float fades = clamp(FINEST_BARK.x - FINEST_BARK.y * max(fwidth(on_skin.x), fwidth(on_skin.y)), 0.0, 1.0);
@@ -76,6 +78,6 @@ void main() {
     must_cover(cover);
     vec3 normal = normalize(facing - ray * (rounds * sqrt(max(1.0 - dot(facing, facing), 0.0))));
     Light light = Light(sunlit * (SENDS * max(dot(normal, sun), 0.0)), skylit, hazy, 0.0, among_grass.y, vec2(0.0, among_grass.x));
-    pixel = drawn(shade(Surface(bark * worn, stands, 0.0), light), cover);
+    pixel = drawn(shade(Surface(mix(young_bark, bark, aged) * worn, stands, 0.0), light), cover);
 #endif
 }

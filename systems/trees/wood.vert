@@ -1,6 +1,8 @@
 // Trunks, limbs and branches. None is drawn narrower than a pixel: what is thinner covers as much less of that. Others are drawn a
 // pixel broader than they are, over which their edges fade.
 #include "systems/trees/tree.glsl"
+#include "systems/trees/far.py"
+#include "systems/trees/pigment.glsl"
 #include "systems/trees/wood.py"
 
 in vec4 stem;     // of the model: the stem's middle; its radius [m]
@@ -26,6 +28,7 @@ out float thick;  // coverage
 out vec4 inside;
 out float rounds; // how much it is a ribbon, which looks as if it were round
 out vec2 fading;  // how much its edges fade; how far out they are, of where they would end
+out float aged;   // how old its bark is, 0 to 1; or how thick the stem is, of THICKEST
 out float stands; // how high over the ground, of the grass there
 flat out vec2 among_grass;  // that grass's leaf area; how many of its leaves the sun's light meets, of those that stand above
 
@@ -47,6 +50,7 @@ void main() {
     rounds = 0.0;
     seen_at = stem.xyz + stem.w * facing;
     thick = stands = 1.0;
+    aged = stem.w / THICKEST;
     fading = vec2(0.0, 1.0);
     among_grass = vec2(0.0);
     sunlit = skylit = hazy = vec3(0.0);
@@ -57,6 +61,7 @@ void main() {
     vec4 projected = clip * vec4(middle_at, 1.0);
     float pixel_at = THINNEST * max(projected.w, AWAY) / pixels_a_metre(), half_width = scale * stem.w;
     thick = min(half_width / pixel_at, 1.0);
+    aged = aged_at(half_width);
 #ifdef SOFT
     thick *= solid_from < OPAQUE ? step(1.0, thick) : 1.0;
 #endif

@@ -312,6 +312,25 @@ def test_it_sways_in_the_wind_and_stands_still_where_time_does(
     assert changed(before[:60], shot(stage, prairie, AHEAD)[:60]) > 0.01
 
 
+def test_thin_stems_have_young_bark_and_thick_ones_old_near_and_far(
+    stage: Stage, prairie: Prairie, plant: Callable[..., int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for gone in (1.0, 1e5):  # as wood, and as a picture
+        monkeypatch.setattr(standing, "GONE", gone)
+        monkeypatch.setattr(standing, "BEGINS", 2.0 * gone)
+        bright = []
+        for size in (0.25, 1.0):  # a birch is brown, until its trunk is thick and white
+            camera = looking(0.0, 2.5 * size, 12.0 * size, pitch=14.0, view=57.0)
+            bare = shot(stage, prairie, camera)
+            tree = plant(0.0, 0.0, height=9.0 * size, foliage=0.0)
+            seen = shot(stage, prairie, camera)[94:106, 78:82]
+            esper.delete_entity(tree, immediate=True)
+            trunk = np.abs(seen - bare[94:106, 78:82]).max(axis=-1) > 25.0
+            assert trunk.sum() > 16
+            bright.append(seen[trunk].mean())
+        assert bright[1] > 1.5 * bright[0]
+
+
 def test_bare_trees_have_bark_alone(stage: Stage, prairie: Prairie, plant: Callable[..., int]) -> None:
     bare = shot(stage, prairie, AHEAD)
     tree = plant(0.0, 0.0)

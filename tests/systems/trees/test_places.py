@@ -13,6 +13,7 @@ from tallgrass import Pose, Prairie, Tree
 from tallgrass.engine.declared.tree import TreeKind
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.systems.features import one
+from tallgrass.systems.trees.ages import SEEDLING, SOON, grown_to
 from tallgrass.systems.trees.feature import Trees
 from tallgrass.systems.trees.forest import Forest
 from tallgrass.systems.trees.place import placed
@@ -69,13 +70,42 @@ def test_groves_leave_open_ground_between_them() -> None:
 
 
 def test_a_row_has_trees_from_end_to_end_so_far_apart() -> None:
-    place = placed(kind(rows=[[[-40.0, 0.0], [40.0, 0.0]]], spacing=8.0), FLAT, NOBODY)
+    place = placed(kind(rows=[[[-40.0, 0.0], [40.0, 0.0]]], spacing=8.0), FLAT, NOBODY, seed=1)
     assert place.tolist() == [[x, 0.0] for x in np.linspace(-40.0, 40.0, 11)]
+
+
+def test_an_uneven_row_has_gaps_and_no_rhythm_and_stays_on_its_line() -> None:
+    row = {"rows": [[[-90.0, 0.0], [90.0, 0.0]]], "spacing": 1.0}
+    place = placed(kind(**row, uneven=1.0), FLAT, NOBODY, seed=1)
+    assert 0.7 * 181 < len(place) < 0.95 * 181
+    assert np.abs(place[:, 1]).max() < 0.5
+    apart = np.diff(np.sort(place[:, 0]))
+    assert apart.max() > 1.8
+    assert apart.std() > 0.25
+    assert not np.array_equal(place, placed(kind(**row, uneven=1.0), FLAT, NOBODY, seed=2))
+
+
+def test_trees_of_density_are_of_all_ages_and_few_of_rows_and_places() -> None:
+    high: Any = kind(density=100.0, spacing=2.0, height=[10.0, 12.0], young=0.5)
+    rows = Forest(grown(birch=high), [NOBODY]).all()["height"]
+    assert (rows < 10.0).mean() == pytest.approx(0.5, abs=0.1)
+    assert rows.min() < 2.5
+    assert rows.max() > 11.5
+    even = Forest(grown(birch=high.model_copy(update={"young": 0.0})), [NOBODY]).all()["height"]
+    assert even.min() >= 10.0
+
+
+def test_trunks_of_young_trees_are_the_more_the_thinner() -> None:
+    high = grown_to(1.0, np.linspace(0.0, 1.0, 1000, endpoint=False))
+    thick = -np.log1p(-(high - SEEDLING) / (1.0 - SEEDLING) * -np.expm1(-SOON)) / SOON  # of a grown one's
+    counts = np.histogram(thick, 5, (0.0, 1.0))[0]
+    assert counts[:-1] / counts[1:] == pytest.approx(1.35, rel=0.03)
+    assert (grown_to(0.0, np.array([0.0, 0.5])) == 1.0).all()
 
 
 def test_nothing_stands_off_the_terrain_in_another_tree_on_cliffs_or_where_its_grass_does_not_grow() -> None:
     outside = kind(positions=[[0.0, 0.0], [0.1, 0.0], [300.0, 0.0]])
-    assert placed(outside, FLAT, NOBODY).tolist() == [[0.0, 0.0]]
+    assert placed(outside, FLAT, NOBODY, seed=1).tolist() == [[0.0, 0.0]]
     assert abs(sown(density=60.0, spacing=4.0)).max() <= 100.0
     assert 0.0 > sown(density=60.0, spacing=4.0, among="turf")[:, 0].min() > -60.0  # its map begins half-way
     steep = Terrain(np.tile(np.maximum(np.arange(201) - 100.0, 0.0), (201, 1)).astype(np.float32), 1.0)
