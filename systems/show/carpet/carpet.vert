@@ -161,7 +161,11 @@ void light_soil(vec3 ground, Laid laid) {
 #endif
 
 void main() {
+#ifdef EDGED
+    place = on_ground(on_mesh_at(above_border()));
+#else
     place = on_ground(on_mesh());
+#endif
     Laid laid = laid_on(place);
     float moved = laid.share * (1.0 - laid.share) * laid.tall * uneven(place.xz);
     place.y += moved;
@@ -170,6 +174,7 @@ void main() {
     over = place;
     lies_over = place.y - laid.ground;
     raises = lies_over / max(laid.tall, LOWEST_GRASS);
+    over.y -= hangs() ? lies_over : 0.0;
 #endif
     hand_on(laid);
     float slope = viewing_slope(rise, place), from_above = max(slope, FLATTEST);
@@ -196,7 +201,12 @@ void main() {
 #ifndef EDGED
     light_soil(seen_behind(place, laid.ground, from_above), laid);
 #endif
+#ifdef EDGED
+    lies_over *= float(!hangs());
+    gl_Position = clip * vec4(over, 1.0);
+#else
     gl_Position = clip * vec4(place, 1.0);
+#endif
 #ifndef EDGED  // where pixels make out how far off grass is
     if (over_hosts > 0.0) {
         vec4 before = clip * vec4(before_hosts(place, place.y - laid.ground, slope), 1.0);

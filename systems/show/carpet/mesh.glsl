@@ -12,6 +12,8 @@ uniform sampler2D rims;  // over the terrain: how far the next rim of a cliff is
 const float SLIDES = 0.75;  // part of that distance from which on the grid slides
 const float SLIDES_FIRST = 0.6;  // part of it from which on that of a quarter of a tile slides into the grid of whole ones
 
+const float HANGS = 1.5;  // cells of a tile between its border and what is not next to it
+
 uniform float wider = 1.0;  // how many times as far apart grid points are as a tile says, of which there are as many fewer
 
 float spaced;  // how far apart grid points are there [m]: the same from both sides where tiles meet, as what it makes out
@@ -46,7 +48,7 @@ vec2 on_samples(vec2 at) {
     return at + off * vec2(lessThanEqual(abs(off), vec2(0.5 * spaced)));
 }
 
-vec2 on_mesh() {
+vec2 on_mesh_at(vec2 corner) {
     float wide = tile.z * wider;
     vec2 at = tile.xy + corner * tile.z;
     float from_rim = rim_at(at);
@@ -58,6 +60,21 @@ vec2 on_mesh() {
         at = mix(on_samples(at), at, smoothstep(ON_RIM.x, ON_RIM.y, from_rim / terrain_cell));
     }
     return clamp(at, mesh_low, mesh_high);
+}
+
+vec2 on_mesh() {
+    return on_mesh_at(corner);
+}
+
+// The sheet of a tile may lie higher than that of the next one, so its border hangs down to the ground: else one would look in under
+// it. Grid points next to those on the border lie there, too, and stay above.
+vec2 above_border() {
+    vec2 low = vec2(lessThan(corner, vec2(HANGS * wider))), high = vec2(greaterThan(corner, vec2(GRID - HANGS * wider)));
+    return mix(corner * (1.0 - low), vec2(GRID), high);
+}
+
+bool hangs() {
+    return min(min(corner.x, corner.y), GRID - max(corner.x, corner.y)) < HANGS - 1.0;
 }
 
 vec3 on_ground(vec2 at) {

@@ -24,7 +24,7 @@ SPREAD = 6.0
 """Distance at which a spacing gives way to the next, in tile sides: the farthest corner of a tile of twice the side
 that is split must lie inside it."""
 
-GLSL = {"PARTED": 1.5 * SPREAD * GRID}
+GLSL = {"PARTED": 1.5 * SPREAD * GRID, "GRID": float(GRID)}
 """How far tiles reach at least, of their spacing, that are a quarter of one."""
 
 
