@@ -43,7 +43,7 @@ class TreeKind(Declaration):
     """How far trees differ in brightness and hue from one another, as a fraction."""
 
     young: float = Field(default=0.3, ge=0.0, le=1.0)
-    """How many of its trees of `density` are still growing, as a part of all: they are of all ages, and of all heights."""
+    """How many of its trees of `density` still grow, as a part of all: they are of all ages, and so of all heights."""
 
     positions: list[Pair] = Field(default=[], max_length=MOST)
     """Where single trees stand, ground positions (x, z) [m]."""

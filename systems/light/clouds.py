@@ -38,6 +38,10 @@ denser there than at its edge: of the lowest to the highest."""
 SIDES = 0.0, 0.4, 0.3
 """How much more, for each 1 that the map is denser than behind: that side is turned to the eye, and up."""
 
+ASIDE, SHADES, MOTTLED = 34.0, (0.3, 0.7, 0.7), 0.6
+"""How far from it, towards the sun, is what shades a cloud's side [m]; how much less of the sun's light comes to each
+slice for each 1 that the map is denser there; and how much denser undersides look for that."""
+
 SUNLIT, SILVER = 0.95, 0.8
 """What a slice sends of the sun's light that comes to it; and of what goes through it, straight ahead of the sun."""
 
@@ -59,7 +63,7 @@ OVERCAST, SOON = 0.6, 8.0
 GLSL = {
     "CLOUDS_AT": CLOUDS_AT, "CLOUDS_BENT": BENT, "CLOUD_RISE": RISE / CLOUDS_AT, "CLOUD_STEP": STEP,
     "CLOUD_SLICES": SLICES,
-    "CLOUD_HIDES": HIDES, "CLOUD_LIT": LIT, "CLOUD_DEEPER": DEEPER, "CLOUD_SIDES": SIDES, "CLOUD_SUNLIT": SUNLIT,
+    "CLOUD_HIDES": HIDES, "CLOUD_LIT": LIT, "CLOUD_DEEPER": DEEPER, "CLOUD_SIDES": SIDES, "CLOUD_ASIDE": ASIDE, "CLOUD_SHADES": SHADES, "CLOUD_MOTTLED": MOTTLED, "CLOUD_OVERCAST": OVERCAST, "CLOUD_SUNLIT": SUNLIT,
     "CLOUD_SILVER": SILVER, "CLOUD_HIGHER": HIGHER, "CLOUD_PALE": PALE, "CLOUD_DARK": DARK, "CLOUD_SENDS": SENDS,
 }  # fmt: skip
 

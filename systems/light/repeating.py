@@ -7,7 +7,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Doubles
+from ...components.arrays import Doubles, Floats
 from ...components.wind import WindPrimitive
 from ...engine.gl.mipmaps import mipmapped_image
 from ...engine.gl.rasteriser import anisotropy
@@ -41,6 +41,14 @@ _REMEMBERED = 4
 CLOUDS_SIDE = 1300.0
 """Side of the square that repeats [m]."""
 
+BROADEST, FALLS, FINEST = 2.5, 2.0, 120.0
+"""Waves of the broadest part of clouds on that; power of the waves by which finer parts are weaker; and the finest."""
+
+BILLOWS, FINER, WEAKER = 10, 4, 0.7
+"""Billows of the broadest sort in a row, and how many sorts there are, each twice as fine and half as high as the one
+before; how high they are together, of what they stand out from (Worley, A Cellular Texture Basis Function, 1996; on
+clouds, Schneider and Vos, The Real-time Volumetric Cloudscapes of Horizon: Zero Dawn, 2015)."""
+
 GLSL = {"CLOUDS_SIDE": CLOUDS_SIDE, "LITTER_SIDE": LITTER_SIDE, "LITTER_ONE": LITTER_ONE}
 
 FASTER = 1.5
@@ -62,12 +70,30 @@ def cloud_map(*, seed: int) -> NDArray[np.uint8]:
     random = np.random.default_rng([seed, 0x636C6F75])
     wave = np.fft.fftfreq(SIDE, 1.0 / SIDE)
     size = np.hypot(wave[:, None], wave[None])
-    amplitude = np.where(size > 0.0, np.maximum(size, 2.5) ** -1.75, 0.0) * np.exp(-((size / 120.0) ** 2))
+    amplitude = np.where(size > 0.0, np.maximum(size, BROADEST) ** -FALLS, 0.0) * np.exp(-((size / FINEST) ** 2))
     spectrum = amplitude * np.exp(2j * np.pi * random.random((SIDE, SIDE)))
-    field = np.fft.ifft2(spectrum).real
+    broad = np.fft.ifft2(spectrum).real
+    billows = sum(2.0**-number * _billows(BILLOWS << number, random) for number in range(FINER))
+    field = broad / broad.std() + WEAKER * billows / np.std(billows)
     rank = np.empty(field.size)
     rank[np.argsort(field, axis=None, kind="stable")] = np.arange(field.size) / field.size
     return np.asarray(np.floor(rank * 256.0), np.uint8).reshape(SIDE, SIDE)
+
+
+def _billows(count: int, random: np.random.Generator) -> Floats:
+    """Return how near each texel is to the next of points, one in each of so many squares in a row: rounded heaps.
+
+    It is 0 in a point, and falls by 1 for a square's side, shape (SIDE, SIDE); it repeats.
+    """
+    own, at = random.random((count, count, 2), np.float32), (np.arange(SIDE, dtype=np.float32) + 0.5) * count / SIDE
+    cell = at.astype(np.int32)
+    nearest = np.full((SIDE, SIDE), np.inf, np.float32)
+    for down in (-1, 0, 1):
+        for right in (-1, 0, 1):
+            of = own[np.ix_((cell + down) % count, (cell + right) % count)]
+            off = of[..., 0] + (cell + down - at)[:, None], of[..., 1] + (cell + right - at)
+            np.minimum(nearest, off[0] ** 2 + off[1] ** 2, out=nearest)
+    return -np.sqrt(nearest)
 
 
 def litter_map(*, seed: int) -> Doubles:

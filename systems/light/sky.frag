@@ -12,6 +12,7 @@ const float GREYS = 255.0;  // steps that a picture has from black to white
 const vec3 GRIT = vec3(0.06711056, 0.00583715, 52.9829189);  // interleaved gradient noise (Jimenez, Next Generation Post Processing, 2014)
 
 in vec4 clouding;
+flat in vec3 shaded_from;
 
 // How dense the map of clouds is at a place of it.
 float dense_at(vec2 at) {
@@ -24,9 +25,10 @@ vec3 clouds_in(vec3 toward) {
     vec2 sides = at + along * (CLOUD_SLICES.y * CLOUD_RISE), tops = at + along * CLOUD_RISE;
     vec3 dense = vec3(dense_at(at), dense_at(sides), dense_at(tops)), deep = dense - cloud_edge - CLOUD_STEP * CLOUD_SLICES;
     vec3 past = vec3(past_slice(deep.xy), past_slice(deep.yz).y), shows = vec3(1.0, past.x, past.x * past.y) * (clouding.y - clouding.y * past);
-    vec3 sunny = clamp(CLOUD_LIT - CLOUD_DEEPER * deep + CLOUD_SIDES * (dense.y - dense.z - clouding.w), 0.0, 1.0);
+    float shades = shaded_from.z * (dense_at(sides + shaded_from.xy) - dense.y);
+    vec3 sunny = clamp(CLOUD_LIT - CLOUD_DEEPER * deep + CLOUD_SIDES * (dense.y - dense.z - clouding.w) - CLOUD_SHADES * shades, 0.0, 1.0);
     float lit = dot(shows, CLOUD_SUNLIT * sunny * sunny + CLOUD_SILVER * clouding.x * past);
-    float shaded = dot(shows, CLOUD_HIGHER) * (CLOUD_PALE - CLOUD_DARK * dense.x);
+    float shaded = dot(shows, CLOUD_HIGHER) * (CLOUD_PALE - CLOUD_DARK * (dense.x + CLOUD_MOTTLED * shades));
     return vec3(1.0 - shows.x - shows.y - shows.z, lit, shaded);
 }
 

@@ -1,4 +1,5 @@
 // The sky over the whole picture, in rows of squares: between their corners its colour hardly bends.
+#include "lib/clouds.glsl"
 #include "lib/light.glsl"
 
 uniform sampler2D sky;  // by azimuth from the sun, from 0 to pi, and by the root of the elevation's sine
@@ -8,6 +9,10 @@ out vec3 light;
 // Of clouds, how bright their edges are ahead of the sun; how far they are out of the haze; level of their map; and how much of
 // their sides, by density of the map, is on the one that is turned away from the sun.
 out vec4 clouding;
+
+// How far aside from a cloud lies what shades it, towards the sun, in sides of their square; how much it does: not under an overcast,
+// which has no sides.
+flat out vec3 shaded_from;
 
 const float TURNED = 0.3;  // that, right ahead of the sun
 const vec2 FADES = vec2(-0.02, 0.14);  // sines of elevations between which clouds come out of the haze
@@ -33,5 +38,6 @@ void main() {
     float ahead = 0.5 + 0.5 * dot(toward, sun), silver = ahead * ahead * ahead;
     silver *= silver;
     clouding = vec4(silver * silver, smoothstep(FADES.x, FADES.y, toward.y), log2(FINEST / clamp(toward.y, FADES.x, FINEST)), TURNED * ahead);
+    shaded_from = vec3(CLOUD_ASIDE / CLOUDS_SIDE * toward_sun, clamp(1.0 + cloud_edge / CLOUD_OVERCAST, 0.0, 1.0));
     gl_Position = vec4(corner, depth_ends.y, 1.0);
 }

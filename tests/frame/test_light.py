@@ -182,9 +182,9 @@ def test_clouds_cast_shadows_that_drift_with_the_breeze(room: Stage, load: Load)
     assert max(means) - min(means) > 0.05
 
 
-def sky_over(room: Stage, load: Load, clouds: float, *, up: float = UP) -> Picture:
+def sky_over(room: Stage, load: Load, clouds: float, *, up: float = UP, azimuth: float = 90.0) -> Picture:
     """What is seen of the sky over a noon, by rows from the top, shape (n, 3)."""
-    prairie = load(SCENE + NOON.replace("60 }", f"60, clouds: {clouds} }}"))
+    prairie = load(SCENE + f"light: {{ azimuth: {azimuth}, elevation: 60, clouds: {clouds} }}")
     return room.shot(prairie, Camera((0.0, 2.0, 0.0), 0.0, up, np.radians(50.0))).reshape(-1, 3)
 
 
@@ -193,6 +193,18 @@ def test_f5_an_overcast_sky_is_grey_all_over_down_to_the_horizon(room: Stage, lo
         sky, clear = sky_over(room, load, 1.0, up=up), sky_over(room, load, 0.0, up=up)
         assert np.ptp(sky, axis=1).max() < 0.35 * np.ptp(clear, axis=1).max()
         assert np.ptp(bright(sky[None])) < 70.0
+
+
+def test_f5_clouds_are_brighter_on_the_side_of_the_sun(room: Stage, load: Load) -> None:
+    """Where a cloud thins out towards the sun, to the right, it is brighter than with the sun on its left."""
+    right, left = (
+        bright(sky_over(room, load, 0.5, up=1.3, azimuth=side).reshape(*room.size[::-1], 3)) for side in (90.0, -90.0)
+    )
+    way = 8  # pixels
+    thins = (right + left)[:, : -2 * way] - (right + left)[:, 2 * way :]
+    brighter = (right - left)[:, way:-way]
+    brighter -= brighter.mean(axis=0)  # about the sun all the sky is
+    assert np.corrcoef(thins.ravel(), brighter.ravel())[0, 1] > 0.15
 
 
 def test_f5_under_an_overcast_sky_nothing_casts_a_shadow(room: Stage, load: Load) -> None:

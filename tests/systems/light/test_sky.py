@@ -12,6 +12,7 @@ from tallgrass.engine.declared.light import Light
 from tallgrass.systems.light.air import EYE, GROUND, from_all_sides, seen, sunlight
 from tallgrass.systems.light.color import display, luminance
 from tallgrass.systems.light.daylight import daylight
+from tallgrass.systems.light.repeating import SIDE, cloud_map
 from tallgrass.systems.light.sky import BRIGHTER, COLUMNS, NIGHT, ROWS, SUN, Sky, clear_air, scattered, sky_of
 from tallgrass.systems.light.sun import sun_at, to_sun, transmitted
 
@@ -140,3 +141,12 @@ def test_nights_and_dusks_can_be_seen() -> None:
     dusk, night = (daylight(Light(hour=hour)) for hour in (20.3, 1.0))
     assert 0.0 < luminance(night.down) < luminance(dusk.down) < luminance(daylight(Light(hour=12.0)).down)
     assert display(night.sky.map[-1, 0]).max() > 0.12
+
+
+def test_clouds_are_of_heaps_and_as_many_as_a_scene_says() -> None:
+    dense = cloud_map(seed=3).astype(np.float64)
+    assert np.bincount(dense.astype(int).ravel(), minlength=256).tolist() == [SIDE * SIDE // 256] * 256
+    apart = 4  # texels: 10 m
+    around = sum(np.roll(dense, way * apart, axis) for way in (-1, 1) for axis in (0, 1)) / 4.0
+    half = (dense > 60.0) & (dense < 200.0)
+    assert (around - dense)[half].std() > 6.0  # 3.5 without heaps
