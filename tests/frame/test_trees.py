@@ -283,7 +283,7 @@ def test_far_off_nothing_of_it_lies_beyond_its_outline(
         model.around = outline
     part["_calls"].clear()
     assert changed(seen[0], bare) > 0.0
-    assert np.abs(seen[0] - seen[1]).max() <= 1.0
+    assert np.abs(seen[0] - seen[1]).max() <= 2.0  # of 255: a dark twig that hardly covers anything
 
 
 @pytest.mark.parametrize("away", [0.0, -12.0])
