@@ -44,7 +44,7 @@ CLOUDS_SIDE = 1300.0
 BROADEST, FALLS, FINEST = 2.5, 2.0, 120.0
 """Waves of the broadest part of clouds on that; power of the waves by which finer parts are weaker; and the finest."""
 
-BILLOWS, FINER, WEAKER = 10, 4, 0.7
+BILLOWS, FINER, WEAKER = 8, 4, 0.5
 """Billows of the broadest sort in a row, and how many sorts there are, each twice as fine and half as high as the one
 before; how high they are together, of what they stand out from (Worley, A Cellular Texture Basis Function, 1996; on
 clouds, Schneider and Vos, The Real-time Volumetric Cloudscapes of Horizon: Zero Dawn, 2015)."""
