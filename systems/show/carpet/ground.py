@@ -18,7 +18,7 @@ from ...frame.block import EVERYWHERE, FrameBlock, joined
 from .layer import BARE, EDGED, EDGED_CARPET, EVEN, UNDER, GroundShelf, Layer
 from .stock import CarpetStock
 from .textures import image_count
-from .tiles import TILE, tile_grid
+from .tiles import TILE, hanging_grid, tile_grid
 
 Defines = dict[str, str | int]
 """What a program is told."""
@@ -69,6 +69,10 @@ class GroundPainter:
         self._ctx, self.rims = ctx, ctx.texture((1, 1), 1, dtype="f4")
         self._coarser = COARSER if coarse else 1
         self.grid = ctx.buffer(tile_grid()[0]), *(ctx.buffer(tile_grid(wider)[1]) for wider in (1, COARSER))
+        self.hanging = (
+            ctx.buffer(hanging_grid()[0]),
+            *(ctx.buffer(hanging_grid(wider)[1]) for wider in (1, COARSER)),
+        )
         self.shelves = Shelves(partial(GroundShelf, ctx, side))
         self.bare: list[Layer] = []
         self.under: list[Layer] = []
@@ -113,7 +117,8 @@ class GroundPainter:
             told = defines | {"COARSE": 1} if simple else defines
             make = partial(joined, ctx, self._block, self.units, *files, told)
             texts = partial(self._block.texts, *files, told)
-            among.append(Layer(make, texts, self.shelves, self.grid))
+            hangs = among is self.edged and name == "carpet"
+            among.append(Layer(make, texts, self.shelves, self.hanging if hangs else self.grid))
         self.restock(stock)
 
     def texts(self) -> Iterator[Texts]:
@@ -271,4 +276,4 @@ class GroundPainter:
     def release(self) -> None:
         """Give everything back."""
         release_all(*(layer.made for layer in self._layers if layer.made is not None))
-        release_all(self.shelves, *self.grid, self.rims)
+        release_all(self.shelves, *self.grid, *self.hanging, self.rims)

@@ -12,8 +12,6 @@ uniform sampler2D rims;  // over the terrain: how far the next rim of a cliff is
 const float SLIDES = 0.75;  // part of that distance from which on the grid slides
 const float SLIDES_FIRST = 0.6;  // part of it from which on that of a quarter of a tile slides into the grid of whole ones
 
-const float HANGS = 1.5;  // cells of a tile between its border and what is not next to it
-
 uniform float wider = 1.0;  // how many times as far apart grid points are as a tile says, of which there are as many fewer
 
 float spaced;  // how far apart grid points are there [m]: the same from both sides where tiles meet, as what it makes out
@@ -67,14 +65,13 @@ vec2 on_mesh() {
 }
 
 // The sheet of a tile may lie higher than that of the next one, so its border hangs down to the ground: else one would look in under
-// it. Grid points next to those on the border lie there, too, and stay above.
+// it. Corners beyond the grid are the lower ends of that.
 vec2 above_border() {
-    vec2 low = vec2(lessThan(corner, vec2(HANGS * wider))), high = vec2(greaterThan(corner, vec2(GRID - HANGS * wider)));
-    return mix(corner * (1.0 - low), vec2(GRID), high);
+    return clamp(corner, vec2(0.0), vec2(GRID));
 }
 
 bool hangs() {
-    return min(min(corner.x, corner.y), GRID - max(corner.x, corner.y)) < HANGS - 1.0;
+    return corner != above_border();
 }
 
 vec3 on_ground(vec2 at) {

@@ -157,6 +157,22 @@ def tile_grid(wider: int = 1, /) -> tuple[NDArray[np.float32], NDArray[np.int32]
     return corners, (first + quad).astype(np.int32)
 
 
+def hanging_grid(wider: int = 1, /) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+    """Return the same with a border that hangs down: its lower corners lie beyond the grid."""
+    corners, quads = tile_grid(wider)
+    line = np.arange(GRID + 1)
+    border, below = list[NDArray[np.intp]](), list[NDArray[np.intp]]()
+    for axis in (0, 1):
+        for end, beyond in ((0, -1), (GRID, GRID + 1)):
+            for found, across in ((border, end), (below, beyond)):
+                found.append(np.insert(line[:, None], 1 - axis, across, axis=1))
+    lower = len(corners) + (GRID + 1) * np.arange(4)[:, None] + np.arange(0, GRID, wider)
+    upper = [each[:-1:wider] @ (1, GRID + 1) for each in border]
+    step = np.array([1, 1, GRID + 1, GRID + 1])[:, None] * wider
+    hangs = np.stack([upper, lower, upper + step, upper + step, lower, lower + wider], axis=-1).reshape(-1, 6)
+    return np.concatenate([corners, *below]).astype(np.float32), np.concatenate([quads, hangs]).astype(np.int32)
+
+
 def by_layer(tiles: NDArray[np.void], laid: Mask, edged: Mask, /) -> list[NDArray[np.void]]:
     """Return which tiles (n,) each layer draws, by where carpet may lie and where grass ends or is cut, (n,) each.
 
