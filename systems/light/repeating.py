@@ -85,15 +85,15 @@ def _billows(count: int, random: np.random.Generator) -> Floats:
 
     It is 0 in a point, and falls by 1 for a square's side, shape (SIDE, SIDE); it repeats.
     """
-    own, at = random.random((count, count, 2), np.float32), (np.arange(SIDE, dtype=np.float32) + 0.5) * count / SIDE
-    cell = at.astype(np.int32)
-    nearest = np.full((SIDE, SIDE), np.inf, np.float32)
+    own, side = random.random((count, count, 2), np.float32), SIDE // count
+    at = (np.arange(side, dtype=np.float32) + 0.5) / side
+    nearest = np.full((count, side, count, side), np.inf, np.float32)
     for down in (-1, 0, 1):
         for right in (-1, 0, 1):
-            of = own[np.ix_((cell + down) % count, (cell + right) % count)]
-            off = of[..., 0] + (cell + down - at)[:, None], of[..., 1] + (cell + right - at)
-            np.minimum(nearest, off[0] ** 2 + off[1] ** 2, out=nearest)
-    return -np.sqrt(nearest)
+            off = np.roll(own, (-down, -right), (0, 1)) + np.array([down, right], np.float32)
+            square = (off[..., None] - at) ** 2  # down, and to the right: squares, with the texels along a side of each
+            np.minimum(nearest, square[:, :, 0].transpose(0, 2, 1)[..., None] + square[:, None, :, 1], out=nearest)
+    return -np.sqrt(nearest.reshape(SIDE, SIDE))
 
 
 def litter_map(*, seed: int) -> Doubles:
