@@ -73,7 +73,13 @@ def hills(load: Load) -> Prairie:
 
 
 @pytest.mark.parametrize(
-    ("up", "pitch"), [(12.0, -90.0), (30.0, -60.0), pytest.param(60.0, -30.0, marks=pytest.mark.slow), (60.0, -90.0)]
+    ("up", "pitch"),
+    [
+        pytest.param(12.0, -90.0, marks=pytest.mark.slow),
+        (30.0, -60.0),
+        pytest.param(60.0, -30.0, marks=pytest.mark.slow),
+        (60.0, -90.0),
+    ],
 )
 def test_f2_from_above_it_is_the_same_grass_without_rows(
     hills: Prairie, narrow: Stage, up: float, pitch: float
