@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from ctypes import c_uint
+from ctypes import c_int, c_uint
 
 import moderngl
 
@@ -13,16 +13,22 @@ from .rasteriser import draws_in_software
 class Question:
     """Whether any pixel of what was drawn last while `asking` has passed its tests of depth.
 
-    A card holds up what is drawn `if_so` until it knows. A processor that draws goes on without it, and draws that too.
+    A card holds up what is drawn `if_so` until it knows. A processor that draws goes on without it, and draws that too;
+    so does a card that counts for the host meanwhile, as it answers one such question at a time.
     """
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self._ctx, self._gl = ctx, functions_of(ctx)
         self._query = (c_uint * 1)()
+        self._is_asked = False
 
     @contextmanager
     def asking(self) -> Iterator[None]:
         """Ask it of what is drawn meanwhile."""
+        self._is_asked = not self._counts_for_host()
+        if not self._is_asked:
+            yield
+            return
         if not self._query[0]:
             self._gl.glGenQueries(1, self._query)
         self._gl.glBeginQuery(NUMBERS["ANY_SAMPLES_PASSED"], self._query[0])
@@ -34,12 +40,23 @@ class Question:
     @contextmanager
     def if_so(self) -> Iterator[None]:
         """Draw what is drawn meanwhile only if so."""
+        if not self._is_asked:
+            yield
+            return
         waits = "QUERY_NO_WAIT" if draws_in_software(self._ctx) else "QUERY_WAIT"
         self._gl.glBeginConditionalRender(self._query[0], NUMBERS[waits])
         try:
             yield
         finally:
             self._gl.glEndConditionalRender()
+
+    def _counts_for_host(self) -> bool:
+        own = (c_int * 1)()
+        for counted in ("ANY_SAMPLES_PASSED", "SAMPLES_PASSED"):
+            self._gl.glGetQueryiv(NUMBERS[counted], NUMBERS["CURRENT_QUERY"], own)
+            if own[0]:
+                return True
+        return False
 
     def release(self) -> None:
         """Give it back."""

@@ -209,6 +209,20 @@ def test_n11_what_the_host_draws_next_looks_as_if_nothing_had_been_there(
     np.testing.assert_array_equal(host.picture(), alone)
 
 
+@pytest.mark.parametrize("counted", ["samples", "any_samples"])
+def test_n11_a_host_may_count_meanwhile_which_pixels_pass(
+    ctx: moderngl.Context, host: Host, smaller: Smaller, fill: Fill, counted: str
+) -> None:
+    fill(GREEN, LEFT, depth=-0.5)
+    query = ctx.query(samples=counted == "samples", any_samples=counted == "any_samples")
+    with query, guest(ctx) as target, smaller.instead_of(target, 0.5):
+        fill(RED, depth=0.5)
+    assert ctx.error == "GL_NO_ERROR"
+    assert counted == "any_samples" or query.samples > 0
+    assert (host.picture()[:, 2:18] == (0, 255, 0, 255)).all()
+    assert (host.picture()[:, 22:] == (255, 0, 0, 255)).all()
+
+
 def test_at_full_scale_the_hosts_framebuffer_is_given_itself(
     ctx: moderngl.Context, host: Host, smaller: Smaller
 ) -> None:
