@@ -45,6 +45,14 @@ grass:
   poppy: { plant: flower, plants: 50, height: [0.45, 0.65], tip: "#dd2a12", head: { petals: 5, size: [0.07, 0.1] } }
 quality: low
 """
+QUALITY = """\
+quality:
+  models: 2
+  blade_rings: [{ to: 1, segments: 2 }]
+  strip_rings: [{ to: 2, strips: 2, texel: 0.05 }]
+  carpet_to: 16
+  carpet: 128
+"""
 MEADOW = (
     LITTLE.replace(
         LITTLE[LITTLE.index("\ngrass:") + 1 : LITTLE.index("camera:")],
@@ -208,3 +216,15 @@ def test_f3_florets_far_off_are_drawn_without_their_teeth(
     toothed = stage.shot(load(HEATH, lod="blades"), aim)
     monkeypatch.setattr(representation, "any_teeth", lambda _: False)
     np.testing.assert_array_equal(stage.shot(load(HEATH, lod="blades"), aim), toothed)
+
+
+def test_f3_far_off_flowers_are_as_faint_as_those_of_the_reference(stage: Stage, load: Load, camera: Aim) -> None:
+    pasture = FIELD.replace("[0.4, 0.6]", "[0.1, 0.2], blades: 200").replace(
+        "plants: 50, height: [0.45, 0.65]", "plants: 8"
+    )
+    prairie = load(pasture.replace("quality: low", QUALITY), lod="carpet")
+    aim, middle = camera(0.0, 6.0, 59.0, pitch=-4.3, view=20), stage.size[1] // 2
+    pictures = stage.shot(prairie, aim), draw_reference(prairie, *stage.matrices(aim), stage.size, samples=3)
+    far = slice(middle - 6, middle + 6)  # 60 to 115 m off
+    drawn, true = (np.percentile(each[far, :, 0].astype(float) - each[far, :, 2], [50, 99.7]) for each in pictures)
+    assert drawn[1] - drawn[0] < 1.15 * (true[1] - true[0])

@@ -69,6 +69,10 @@ vec4 lamps_seen(Sight sight) {
 
 // The display colour of a kind, and its coverage; `taller` is how much higher what is seen is than the mean, of that.
 vec4 kind_seen(int kind, Patch own, Reading read, Sight sight, float grain, View view, out float taller) {
+#ifdef HEADS
+    if (OF(bears, kind) > 0.0)
+        read.level += coarser_heads(read.across * patch_side, sight.slope);
+#endif
     Texel texel = texel_of(kind, own, read, sight.on_level, grain);
     Light light = view.light;
     float usual_height = texel.height / (1.0 + texel.taller) * OF(tops, kind);

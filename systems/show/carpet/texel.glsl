@@ -25,6 +25,16 @@ float filled(float steeper, int elevation, float slope, float mean) {
     return (1.0 - pow(max(1.0 - steeper, HIDES_ALL), longer)) / max(mean, LEAST_MEAN);
 }
 
+#ifdef HEADS
+const float HEAD_HIGH = 0.06;  // how high a head is, about [m]
+
+// How much coarser images of heads are read than of leaves, in levels. A pixel is a stripe of ground, by the reciprocal of the
+// slope as long as it is broad, and leaves are drawn out as far. Heads are not: a pixel so broad [m] takes in several.
+float coarser_heads(float across, float slope) {
+    return 0.5 * log2(max(min(1.0 + across / HEAD_HIGH, 1.0 / max(slope, LOWEST)), 1.0));
+}
+#endif
+
 // The texel of images from a layer on, whose grain is so far from the mean, of how far it is in images.
 Texel texel_from(float layer, Patch own, Reading read, float on_level, float grain) {
     int coarsest = int(log2(float(textureSize(images, 0).x)) + 0.5);
