@@ -17,6 +17,7 @@
 in vec3 over;
 in float lies_over;
 in float raises;
+in float hung;
 #else
 #define BROUGHT in
 #define OF_SOIL FEW
@@ -171,6 +172,8 @@ float comes_to_grass(out float left) {
     Way way = way_from(over, lies_over, raises, viewing_slope(rise, over), crest);
     bool aside;
     float at = enters(way, aside);
+    if (hung > 0.0 && at <= 0.0)  // it stands as high on both sides: the tile before shows it
+        at = -1.0;
     place = farther(over, max(at, 0.0));
     grown = grows_at(place.xz);
     left = left_here(place.xz);

@@ -26,6 +26,7 @@
 out vec3 over;       // place on the mesh, which is raised to the carpet of whole grass,
 out float lies_over;      // how high that is over the ground [m],
 out float raises;      // and of how high the carpet is on level ground
+out float hung;        // how far it hangs down there from the border of its tile, of how high that lies
 #else
 #define BROUGHT out
 #define OF_SOIL FEW
@@ -174,7 +175,8 @@ void main() {
     over = place;
     lies_over = place.y - laid.ground;
     raises = lies_over / max(laid.tall, LOWEST_GRASS);
-    over.y -= hangs() ? lies_over : 0.0;
+    hung = hangs(over.xz);
+    over.y -= hung * lies_over;
 #endif
     hand_on(laid);
     float slope = viewing_slope(rise, place), from_above = max(slope, FLATTEST);
@@ -202,7 +204,7 @@ void main() {
     light_soil(seen_behind(place, laid.ground, from_above), laid);
 #endif
 #ifdef EDGED
-    lies_over *= float(!hangs());
+    lies_over *= 1.0 - hung;
     gl_Position = clip * vec4(over, 1.0);
 #else
     gl_Position = clip * vec4(place, 1.0);

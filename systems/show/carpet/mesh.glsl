@@ -70,8 +70,13 @@ vec2 above_border() {
     return clamp(corner, vec2(0.0), vec2(GRID));
 }
 
-bool hangs() {
-    return corner != above_border();
+// How far a corner hangs down, of how high the sheet lies: on sides of the tile that face the eye. It begins just under the
+// border, for pixels on that to be the sheet's.
+const float JUST_UNDER = 0.05;
+
+float hangs(vec2 at) {
+    vec2 off = corner - above_border();
+    return dot(off, eye.xz - at) <= 0.0 ? 0.0 : dot(off, off) < 1.0 ? JUST_UNDER : 1.0;
 }
 
 vec3 on_ground(vec2 at) {

@@ -160,17 +160,14 @@ def tile_grid(wider: int = 1, /) -> tuple[NDArray[np.float32], NDArray[np.int32]
 def hanging_grid(wider: int = 1, /) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
     """Return the same with a border that hangs down: its lower corners lie beyond the grid."""
     corners, quads = tile_grid(wider)
-    line = np.arange(GRID + 1)
-    border, below = list[NDArray[np.intp]](), list[NDArray[np.intp]]()
-    for axis in (0, 1):
-        for end, beyond in ((0, -1), (GRID, GRID + 1)):
-            for found, across in ((border, end), (below, beyond)):
-                found.append(np.insert(line[:, None], 1 - axis, across, axis=1))
-    lower = len(corners) + (GRID + 1) * np.arange(4)[:, None] + np.arange(0, GRID, wider)
-    upper = [each[:-1:wider] @ (1, GRID + 1) for each in border]
-    step = np.array([1, 1, GRID + 1, GRID + 1])[:, None] * wider
-    hangs = np.stack([upper, lower, upper + step, upper + step, lower, lower + wider], axis=-1).reshape(-1, 6)
-    return np.concatenate([corners, *below]).astype(np.float32), np.concatenate([quads, hangs]).astype(np.int32)
+    line, beyond = np.arange(GRID + 1.0), list[NDArray[np.float32]]()
+    for off in (0.5, 1.0):  # just under the border, and on the ground
+        for axis in (0, 1):
+            beyond += [np.insert(line[:, None], 1 - axis, end, axis=1).astype(np.float32) for end in (-off, GRID + off)]
+    upper = len(corners) + (GRID + 1) * np.arange(4)[:, None] + np.arange(0, GRID, wider)
+    lower = upper + 4 * (GRID + 1)
+    hangs = np.stack([upper, lower, upper + wider, upper + wider, lower, lower + wider], axis=-1).reshape(-1, 6)
+    return np.concatenate([corners, *beyond]).astype(np.float32), np.concatenate([quads, hangs]).astype(np.int32)
 
 
 def by_layer(tiles: NDArray[np.void], laid: Mask, edged: Mask, /) -> list[NDArray[np.void]]:
