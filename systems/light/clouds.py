@@ -54,6 +54,12 @@ HIGHER = 1.0, 1.25, 1.5
 PALE, DARK = 1.3, 0.6
 """How much of that it sends where the map is 0, and how much less where it is 1: thick clouds are darker beneath."""
 
+AIR = 0.12
+"""The part of a clear sky's light that comes from air below the clouds: it is seen before them where the sun shines in.
+
+Of molecules up to a mean height of 8 km 0.055 lie so low, of aerosols up to 1.2 km 0.31; three quarters of the light
+come from the first in usual air (Preetham, Shirley and Smits, 1999, turbidity 3)."""
+
 SENDS = 0.35
 """What a lone cloud that hides the sun sends on of its light; where there are more, it is in the sky's."""
 
@@ -66,7 +72,8 @@ GLSL = {
     "CLOUD_HIDES": HIDES, "CLOUD_LIT": LIT, "CLOUD_DEEPER": DEEPER, "CLOUD_SIDES": SIDES,
     "CLOUD_ASIDE": ASIDE, "CLOUD_SHADES": SHADES, "CLOUD_MOTTLED": MOTTLED, "CLOUD_OVERCAST": OVERCAST,
     "CLOUD_SUNLIT": SUNLIT,
-    "CLOUD_SILVER": SILVER, "CLOUD_HIGHER": HIGHER, "CLOUD_PALE": PALE, "CLOUD_DARK": DARK, "CLOUD_SENDS": SENDS,
+    "CLOUD_SILVER": SILVER, "CLOUD_HIGHER": HIGHER, "CLOUD_PALE": PALE, "CLOUD_DARK": DARK,
+    "CLOUD_SENDS": SENDS, "CLOUD_AIR": AIR,
 }  # fmt: skip
 
 _RANKS = (np.arange(256) + 0.5) / 256.0

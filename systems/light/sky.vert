@@ -15,7 +15,7 @@ out vec4 clouding;
 flat out vec3 shaded_from;
 
 const float TURNED = 0.3;  // that, right ahead of the sun
-const vec2 FADES = vec2(-0.02, 0.14);  // sines of elevations between which clouds come out of the haze
+const vec2 FADES = vec2(-0.02, 0.14);  // sines of elevations between which clouds come out of the haze at the horizon
 const float FINEST = 0.35;  // sine of the elevation below which their map is read more coarsely
 
 const float PI = 3.14159;
@@ -37,7 +37,8 @@ void main() {
     light = textureLod(sky, (at * (size - 1.0) + 0.5) / size, 0.0).rgb;
     float ahead = 0.5 + 0.5 * dot(toward, sun), silver = ahead * ahead * ahead;
     silver *= silver;
-    clouding = vec4(silver * silver, smoothstep(FADES.x, FADES.y, toward.y), log2(FINEST / clamp(toward.y, FADES.x, FINEST)), TURNED * ahead);
     shaded_from = vec3(CLOUD_ASIDE / CLOUDS_SIDE * toward_sun, clamp(1.0 + cloud_edge / CLOUD_OVERCAST, 0.0, 1.0));
+    float out_of_haze = smoothstep(FADES.x, FADES.y, toward.y) * (1.0 - CLOUD_AIR * shaded_from.z);
+    clouding = vec4(silver * silver, out_of_haze, log2(FINEST / clamp(toward.y, FADES.x, FINEST)), TURNED * ahead);
     gl_Position = vec4(corner, depth_ends.y, 1.0);
 }
