@@ -355,7 +355,7 @@ class TreePart(Part):
                         drawn_as, sampling = (of_far, edges) if sort == FAR else (sort, SAMPLED if sampled else edges)
                         array = programs.array(drawn_as, stream, model, edges=sampling)
                         nearest = 0.0 if soft else self._nearest(model.placed[name])
-                        hard = all_wood or name in CARDS or (sort == WOOD and model.wood[name].hard)
+                        hard = all_wood or name in CARDS
                         told, of = _told(array.program, corners, SOLID if hard else OPAQUE), (kind, model)
                         if sort == FAR:
                             told += _told_around(array.program, model.around)

@@ -43,22 +43,35 @@ const vec2 FINEST_BARK = vec2(1.5, 18.0);  // all this is seen where a pixel is 
 
 const float SHARPER_BY = -1.5;  // level of noise: bands and furrows are where it is highest, and a mean would have none
 
+// How much of bark is left of soil and moss where it stands so high.
+float soiled_at(float height) {
+    return mix(SOIL_TONE, 1.0, smoothstep(SOILED.x, SOILED.y, height));
+}
+
+#ifdef SOFT
+// The bark's pigment in the mean: what is drawn in part are thin stems, and edges a pixel wide.
+float bark_there() {
+    return soiled_at(stands) * mix(1.0, bark_mean(), aged);
+}
+#else
 float noise(vec2 at) {
     return texture(tree_cards, vec3(at * (1.0 / NOISE_CELLS), 0.0), SHARPER_BY).r;
 }
 
 // The bark's pigment there, of its own: furrows along an old stem, or dark bands across it.
-float bark_at(vec2 on, float fades) {
+float bark_there() {
+    float fades = clamp(FINEST_BARK.x - FINEST_BARK.y * max(fwidth(on_skin.x), fwidth(on_skin.y)), 0.0, 1.0);
     bool banded = rough < 0.0;
-    float broad = noise(on * (banded ? vec2(BANDED.z) : vec2(WINDINGS)));
-    float first = noise(banded ? on * BANDS : on * FURROWS + 2.0 * broad), fine = noise(on * (banded ? SPOTS : FURROWS * FINER));
+    float broad = noise(on_skin * (banded ? vec2(BANDED.z) : vec2(WINDINGS)));
+    float first = noise(banded ? on_skin * BANDS : on_skin * FURROWS + 2.0 * broad);
+    float fine = noise(on_skin * (banded ? SPOTS : FURROWS * FINER));
     float band = smoothstep(BAND.x, BAND.y, first * (BANDED.x + BANDED.y * broad));
-    float foot = (1.0 - smoothstep(FOOT.x, FOOT.y, on.y)) * smoothstep(SPOT.x, SPOT.y, fine);
+    float foot = (1.0 - smoothstep(FOOT.x, FOOT.y, on_skin.y)) * smoothstep(SPOT.x, SPOT.y, fine);
     float furrowed = RIDGES.x + RIDGES.y * (DEEP * first + (1.0 - DEEP) * fine);
-    float soiled = mix(SOIL_TONE, 1.0, smoothstep(SOILED.x, SOILED.y, stands + broad - 0.5));
     float old = mix(bark_mean(), banded ? mix(1.0, BAND_TONE, max(band, foot)) : mix(1.0, furrowed, rough), fades);
-    return soiled * mix(1.0, old, aged);
+    return soiled_at(stands + broad - 0.5) * mix(1.0, old, aged);
 }
+#endif
 
 // How much of a pixel a stem covers that fades out towards its edges: they are as far aside as it is thick.
 float edge_cover(vec3 ray) {
@@ -71,8 +84,7 @@ void main() {
     pixel = vec4(0.5, 1.0, aged, 1.0);
     second = packed_shading(inside);
 #else
-    float fades = clamp(FINEST_BARK.x - FINEST_BARK.y * max(fwidth(on_skin.x), fwidth(on_skin.y)), 0.0, 1.0);
-    float worn = bark_at(on_skin, fades);
+    float worn = bark_there();
     vec3 ray = normalize(seen_at - eye);
     float cover = thick * edge_cover(ray);
     must_cover(cover);

@@ -11,7 +11,7 @@ OPAQUE, FAINTEST = 0.8, 0.02
 """Coverage of a pixel from which on what is there is opaque, and below which it is left out."""
 
 SOLID = 0.58
-"""Coverage from which on that is so of twigs on cards and of wood among leaves, and of all of a tree in a shadow map.
+"""Coverage from which on that is so of twigs on cards, and of all of a tree in a shadow map.
 
 From a half on, as much would be opaque as is covered in the mean, and soft edges of what sticks out would come
 besides.
@@ -31,7 +31,7 @@ FADES = 2.0, 4.0
 """Width from which on a stem's edges begin to fade, and from which on they do so over a whole pixel [pixels]."""
 
 LEAFY = 0.95
-"""Share of its leaves from which on a tree's thin stems are left out or have hard edges."""
+"""Share of its leaves from which on a tree's thin stems are left out."""
 
 GOES = 0.75
 """Share of its twigs left to what is drawn of it far off from which on its wood goes."""
@@ -56,9 +56,6 @@ class Parts(NamedTuple):
 
     soft: int
     """So many first ones cover some pixels in part, at their edges."""
-
-    hard: bool = False
-    """Whether thin ones that cover half of a pixel count as covering all of it: leaves hide their edges."""
 
 
 def nearest_ahead(clip: Doubles, middle: Doubles, eye: Doubles, reach: Doubles, /) -> Doubles:
@@ -87,6 +84,4 @@ def parts(radii: Doubles, wide: Doubles, rows: NDArray[np.void], /) -> Parts:
         return len(radii) - int(np.searchsorted(radii, radius))
 
     nearest, leafy = float(wide.min()), float(rows["foliage"].min()) >= LEAFY
-    if leafy:
-        return Parts(so_thick(SOLID * nearest), so_thick(FADES[0] * nearest), hard=True)
-    return Parts(so_thick(OPAQUE * nearest), len(radii))
+    return Parts(so_thick(OPAQUE * nearest), so_thick(THINS[0] * nearest) if leafy else len(radii))

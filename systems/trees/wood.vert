@@ -14,8 +14,6 @@ in vec4 shading;  // what light meets on its way
 
 #ifdef BAKED
 uniform mat4 baked;
-#else
-uniform float solid_from;
 #endif
 
 out vec2 on_skin;
@@ -62,9 +60,6 @@ void main() {
     float pixel_at = THINNEST * max(projected.w, AWAY) / pixels_a_metre(), half_width = scale * stem.w;
     thick = min(half_width / pixel_at, 1.0);
     aged = aged_at(half_width);
-#ifdef SOFT
-    thick *= solid_from < OPAQUE ? step(1.0, thick) : 1.0;
-#endif
     thick *= mix(1.0, smoothstep(THINS.x, THINS.y, thick), foliage) * (1.0 - smoothstep(GOES, 1.0, gone));
     fading.x = smoothstep(FADES.x * pixel_at, FADES.y * pixel_at, half_width);
     float ends = max(half_width, pixel_at) + fading.x * pixel_at, corners = 1.0 + (1.0 - rounds) * fading.x * (2.0 * side.w - 1.0);

@@ -295,7 +295,7 @@ def test_wood_that_is_left_out_of_a_pass_would_cover_no_pixel_in_it(
     seen = []
     for whole in (False, True):
         if whole:
-            monkeypatch.setattr(card, "parts", lambda radii, *_: Parts(len(radii), len(radii), hard=True))
+            monkeypatch.setattr(card, "parts", lambda radii, *_: Parts(len(radii), len(radii)))
         tree = plant(0.0, away)
         seen.append(shot(stage, prairie, AHEAD))
         esper.delete_entity(tree, immediate=True)
