@@ -95,6 +95,7 @@ class Painter(Holding):
     def write(self, outlook: Outlook) -> None:
         """Send what a viewer is shown."""
         self.record["beside_sun"] = 0.0
+        self.record["anything_open"] = _is_open(outlook, self.site)
         for part in self._doing["send"]:
             part.send(outlook, self.record)
         counts = {name: painter.receivers(outlook) for name, painter in self.painters.items()}
@@ -251,6 +252,13 @@ class Painter(Holding):
         """Give everything back to the context."""
         super().release()
         release_all(self.smaller, self.stopwatch)
+
+
+def _is_open(outlook: Outlook, site: Site | None) -> bool:
+    """Return whether grass is missing that is dense on the map: over holes, or where a game has cleared patches."""
+    patches = outlook.patches
+    has_holes = site is not None and site.ground.terrain.holes is not None
+    return has_holes or bool((patches.alive & ~patches.grows).any())
 
 
 def _receivers(outlook: Outlook, site: Site) -> ReceiverArrays:

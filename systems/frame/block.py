@@ -53,7 +53,7 @@ FRAME = np.dtype(
         ("clip", "16f4"),  # world to clip space
         # Along the line of sight at a corner of the picture, each from -1 to 1: ahead, more across, and more up.
         ("ray_ahead", "3f4"), ("anything_sown", "f4"),  # 1 where a game has sown or cleared anything
-        ("ray_across", "3f4"), ("pad_b", "V4"),
+        ("ray_across", "3f4"), ("anything_open", "f4"),  # 1 where grass is missing that is dense on the map
         ("ray_up", "3f4"), ("anything_cut", "f4"),  # 1 where any grass has been cut
         ("eye", "3f4"), ("writes_raw", "f4"),  # [m]; 1 where raw radiance is written
         # Direction to the sun; radiance in the picture, of that of the scene, where the sun before the air sends `SUN`.

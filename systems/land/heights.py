@@ -18,7 +18,7 @@ PIECE = 1 << 20
 
 
 class Heights:
-    """A texture of one terrain's heights, for exact fetches."""
+    """A texture of one terrain's heights: most fetch its texels, and it is smooth for who asks about."""
 
     def __init__(self, ctx: moderngl.Context, terrain: Terrain) -> None:
         self.ctx, self.terrain = ctx, terrain
@@ -32,7 +32,7 @@ class Heights:
     def _made(self, heights: NDArray[np.uint32] | None) -> moderngl.Texture:
         rows, columns = self.terrain.heights.shape
         texture = self.ctx.texture((columns, rows), 1, heights, dtype="f4")
-        texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
         return texture
 
     @property

@@ -5,6 +5,7 @@
 #include "lib/received.glsl"
 #include "lib/stack.glsl"
 #include "systems/show/strips/draw.py"
+#include "systems/show/hidden.glsl"
 #include "systems/show/strips/pages.py"
 #include "systems/show/strips/sublevel.py"
 
@@ -140,17 +141,27 @@ float alone_before(float ends, float side, float texel) {
     return max(ceil(min(ends - 1.0 + SPARE, side) / WHOLE) * WHOLE - 0.5 * texel, ends);
 }
 
-// Where a vertex is on its column, across and up: nothing is drawn where nothing is painted, and a strip ends a pixel beyond its
-// paint, or where the next picture begins. A pixel is so large in widths of the column and in heights; `side` texels are in it, and
-// what is looked up is of this level of their mip-maps.
-vec2 corner_of(Column column, vec4 extent, vec2 pixel, float level, vec2 side) {
+// The part of an edge that nobody sees, from its root on.
+float hidden_of(Column column, Edge edge) {
+#if defined(DEEP) || defined(EDGED)
+    return 0.0;
+#else
+    float tall = sizes[column.form].y * column.stood.growth;
+    return hidden_to(edge.rooted, tall, lodged(edge.bend)) / max(tall, LOWEST_CROWN);
+#endif
+}
+
+// Where a vertex is on its column, across and up: nothing is drawn where nothing is painted or seen, and a strip ends a pixel beyond
+// its paint, or where the next picture begins. A pixel is so large in widths of the column and in heights; `side` texels are in it,
+// and what is looked up is of this level of their mip-maps.
+vec2 corner_of(Column column, vec4 extent, vec2 pixel, float level, vec2 side, float hidden) {
     float texel = clamp(exp2(ceil(level)), 1.0, WHOLE), before = float(column.number) * side.x;
     float left = column.number == 0 ? alone_after(extent.x * side.x, texel) / side.x : 0.0;
     bool is_last = column.number + 1 == stacks[column.ring].x;
     float right = is_last ? (alone_before(before + extent.y * side.x, before + side.x, texel) - before) / side.x : 1.0;
     float across = (gl_VertexID & 1) == 1 ? min(extent.y + pixel.x, min(right, 1.0)) : max(extent.x - pixel.x, left);
     float up = min(alone_before(extent.z * side.y, side.y, texel) / side.y, 1.0);
-    return vec2(across, min(float(gl_VertexID / 2) / float(stacks[column.ring].y), min(extent.z + pixel.y, up)));
+    return vec2(across, min(max(float(gl_VertexID / 2) / float(stacks[column.ring].y), hidden), min(extent.z + pixel.y, up)));
 }
 
 // What all of a column's fragments have in common of its pigment: what faces the eye is seen most.
@@ -256,7 +267,10 @@ void main() {
     level += log2(heads / boosts);  // what covers more than it is painted has to spread
 #endif
     vec2 pixel = 1.0 / (pixels * vec2(distance(a.foot.xz, b.foot.xz), tall));
-    vec2 corner = corner_of(column, extent, pixel, level, side);
+    Edge own = a;
+    if ((gl_VertexID & 1) == 1)
+        own = b;
+    vec2 corner = corner_of(column, extent, pixel, level, side, hidden_of(column, own));
     vec4 point = mix(on_edge(column, a, corner.y, sections), on_edge(column, b, corner.y, sections), corner.x);
     gl_Position = clip * vec4(point.xyz, 1.0);
     vec2 at = picture.xy + vec2((float(column.number) + corner.x) / float(fine.x), corner.y) * picture.zw;

@@ -1,0 +1,71 @@
+"""What grass hides of strips is not drawn, and is drawn where something before it is gone (G5)."""
+
+from collections.abc import Callable
+
+import esper
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass import Patch
+from tallgrass.engine.camera import Camera
+from tallgrass.systems import painter
+from tallgrass.systems.prairie import Prairie
+from tallgrass.testing import Stage
+
+Load = Callable[..., Prairie]
+
+SCENE = """\
+tallgrass: 2
+terrain: { size: [80, 80], noise: flat }
+grass: { turf: { height: [0.5, 0.7], width: 0.03, blades: 700 } }
+quality:
+  models: 2
+  blade_rings: [{ to: 1, segments: 2 }]
+  strip_rings: [{ to: 12, strips: 3, texel: 0.02 }]
+  carpet_to: 16
+  carpet: 64
+"""
+CAMERA = Camera((0.0, 1.1, 20.0), 0.0, -0.1, np.radians(30.0))
+
+
+def drawn(stage: Stage, prairie: Prairie) -> tuple[NDArray[np.float64], int]:
+    """The picture, and how many samples were drawn."""
+    stage.shot(prairie, CAMERA)
+    query = stage.ctx.query(samples=True)
+    with query:
+        picture = stage.shot(prairie, CAMERA)
+    return picture, query.samples
+
+
+@pytest.fixture(scope="module")
+def room(ctx: moderngl.Context) -> Stage:
+    return Stage(ctx, (240, 120))
+
+
+def test_g5_what_leaves_hide_of_strips_costs_nothing_and_nobody_misses_it(
+    room: Stage, load: Load, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    prairie = load(SCENE, lod="strips")
+    seen, few = drawn(room, prairie)
+    monkeypatch.setattr(painter, "_is_open", lambda *_: True)
+    due, all_ = drawn(room, prairie)
+    assert few < 0.9 * all_
+    assert np.abs(seen - due).mean() < 0.2
+    assert np.quantile(np.abs(seen - due), 0.999) < 8.0
+
+
+def test_n3_strips_stand_whole_as_soon_as_a_patch_is_cleared(
+    room: Stage, load: Load, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    prairie = load(SCENE, lod="strips")
+    before = drawn(room, prairie)[1]
+    cleared = next(each for _, each in esper.get_component(Patch) if each.cell == (0, 0))
+    cleared.grows = False
+    bare = drawn(room, prairie)[1]
+    with monkeypatch.context() as patched:
+        patched.setattr(painter, "_is_open", lambda *_: True)
+        assert drawn(room, prairie)[1] == bare
+    cleared.grows = True
+    assert drawn(room, prairie)[1] == before < bare
