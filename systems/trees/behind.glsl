@@ -9,3 +9,14 @@ vec4 stood(vec3 place) {
 #endif
     return at;
 }
+
+// How much deeper, of the usual depths, lie the soft edges of what is drawn as it is: what is opaque there hides what would be
+// left out of them, before pixels are asked. It is a few steps of 24 bits.
+const float JUST_BEHIND = 4e-7;
+
+vec4 just_behind(vec4 at) {
+#ifdef SOFT
+    at.z += farther_by(JUST_BEHIND) * at.w;
+#endif
+    return at;
+}

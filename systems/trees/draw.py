@@ -1,14 +1,13 @@
 """Drawing trees: what of each is shown, and in what order; and the maps of what they leave of the light."""
 
 from collections.abc import Callable, Mapping
-from typing import NamedTuple
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
-from ...engine.gl.shaders import Due, due, due_all, tell_asked, tell_due
+from ...engine.gl.shaders import tell_asked, tell_due
 from ...engine.gl.stream import Stream, release_all
 from ..around.outlook import Outlook
 from ..frame.block import FrameBlock
@@ -16,12 +15,13 @@ from ..frame.feature import Heard, Part
 from ..space.grown import Grown
 from ..wind.blow import mean_wind
 from ..wind.mean import MeanWind
+from .call import Call, in_turn, part_of_wood, told_of_call
 from .card import BACK, CARDS, CAST, FAR, IN_ROWS, LEAVES, NEAR, QUAD, SMALL_CARDS, WOOD, WOODS, ModelOnCard, Numbers
 from .group import Group
 from .kind import KindOnCard
 from .leafy import leaf_by_leaf, leafy
 from .motion import PERIOD
-from .outline import CORNERS, Around
+from .outline import CORNERS
 from .programs import HANG, HANG_LEAVES, HARD, SAMPLED, SOFT, STAND, Programs
 from .shade import ShadeMap
 from .standing import LEAFY, PLACED, TOLD, Standing, columns_of, shown, shows
@@ -36,25 +36,6 @@ NEAREST = 0.1
 
 ANY_HEIGHT = 1e6
 """Height in the picture at which a tree is drawn with all that it has [pixels]."""
-
-
-class Call(NamedTuple):
-    """One draw call of trees of a model."""
-
-    nearest: float
-    """How far off its nearest tree is [m]; 0 where it is of soft edges."""
-
-    sort: str
-    of: tuple[KindOnCard, ModelOnCard]
-    array: moderngl.VertexArray
-    first: int
-    vertices: int
-    instances: int
-    form: int
-    """How vertices make triangles."""
-
-    due: Due
-    """What its program is told of it: the corners of an outline, and the coverage from which on it is opaque."""
 
 
 class TreePart(Part):
@@ -326,14 +307,13 @@ class TreePart(Part):
         key = edges, all_wood
         if key not in self._calls:
             self._calls[key] = self._listed(self._programs, edges, all_wood=all_wood)
-        last: tuple[moderngl.Program, ModelOnCard] | None = None
         for call in self._calls[key]:
-            array, (kind, model) = call.array, call.of
-            if last is None or last[0] is not array.program or last[1] is not model:
-                last = array.program, model
-                kind.tell(array.program, model, self._numbers, wood=call.sort == WOOD)
+            if call.begins:
+                tell_asked(call.array.program, self._numbers)
             tell_due(call.due)
-            array.render(call.form, first=call.first, vertices=call.vertices, instances=call.instances)
+            for read in call.reads:
+                read.texture.use(read.unit)
+            call.array.render(call.form, first=call.first, vertices=call.vertices, instances=call.instances)
         return len(self._calls[key])
 
     def _listed(self, programs: Programs, edges: str, *, all_wood: bool) -> list[Call]:
@@ -346,7 +326,7 @@ class TreePart(Part):
                 for sort, name, first, vertices in (
                     (LEAVES, LEAVES, 0, QUAD * kind.habit.leaf.quads),
                     *((NEAR, name, 0, len(kind.outlines[name in SMALL_CARDS])) for name in CARDS),
-                    *((WOOD, name, *_wood(model, name, soft=soft, whole=all_wood or sampled)) for name in WOODS),
+                    *((WOOD, name, *part_of_wood(model, name, soft=soft, whole=all_wood or sampled)) for name in WOODS),
                     (FAR, BACK if soft else FAR, 0, 2 * CORNERS),
                 ):
                     stream = model.hung.get(name, model.streams[name])
@@ -355,13 +335,13 @@ class TreePart(Part):
                         drawn_as, sampling = (of_far, edges) if sort == FAR else (sort, SAMPLED if sampled else edges)
                         array = programs.array(drawn_as, stream, model, edges=sampling)
                         nearest = 0.0 if soft else self._nearest(model.placed[name])
-                        hard = all_wood or name in CARDS
-                        told, of = _told(array.program, corners, SOLID if hard else OPAQUE), (kind, model)
-                        if sort == FAR:
-                            told += _told_around(array.program, model.around)
+                        hard, around = all_wood or name in CARDS, model.around if sort == FAR else None
+                        told = kind.due(array.program, model)
+                        told = told + told_of_call(array.program, corners, around, SOLID if hard else OPAQUE)
+                        reads = kind.reads(array.program, model, wood=sort == WOOD)
                         form = moderngl.TRIANGLE_STRIP if name in CARDS or sort == FAR else moderngl.TRIANGLES
-                        calls.append(Call(nearest, sort, of, array, first, vertices, stream.count, form, told))
-        return sorted(calls, key=lambda call: call.nearest)
+                        calls.append(Call(nearest, array, first, vertices, stream.count, form, told, reads))
+        return in_turn(sorted(calls, key=lambda call: call.nearest))
 
     def _nearest(self, placed: NDArray[np.void]) -> float:
         assert self._outlook is not None
@@ -375,21 +355,3 @@ class TreePart(Part):
         for each in (self._shade, self._placed, self._stood):
             if each is not None:
                 each.release()
-
-
-def _told(program: moderngl.Program, corners: list[tuple[float, float]], solid_from: float) -> Due:
-    """Return what a program is told of a call: if it has an outline, its corners, and how much of a pixel is opaque."""
-    told = due(program, {"solid_from": (solid_from,)})
-    return told + due_all(program, "corners", corners) if corners else told
-
-
-def _told_around(program: moderngl.Program, around: Around) -> Due:
-    """Return what a program is told of corners about a model's pictures."""
-    return due(program, {"high": around.high}) + due_all(program, "reaches", around.reaches)
-
-
-def _wood(model: ModelOnCard, name: str, *, soft: bool, whole: bool) -> tuple[int, int]:
-    """Return from which vertex on, and how many, are drawn of the wood of a stream's trees."""
-    drawn, count = model.wood[name], len(model.model.wood[WOODS.index(name)].triangles)
-    end = count if whole else drawn.soft if soft else drawn.solid
-    return 3 * model.first_of[name], 3 * end

@@ -2,6 +2,7 @@
 // map of what trees leave of its light.
 #include "systems/trees/tree.glsl"
 #include "systems/trees/leaf_sends.glsl"
+#include "systems/trees/behind.glsl"
 #include "systems/trees/far.py"
 #include "systems/trees/packed.glsl"
 #include "systems/trees/outline.py"
@@ -10,8 +11,6 @@
 in float columns;   // of a forest far off, how many trees stand side by side in its place
 in float shows;     // how much of it is shown
 
-uniform float column; // of its model: from one of those to the next [m]
-uniform vec2 ball;  // of its model: how high its middle is, and half the side of its pictures [m]
 #ifdef CAST
 uniform vec4 tile;  // of the map: middle (across, up) [m], half the side [m], which one it is
 uniform vec3 lawn_shade; // of its model: how far it shades grass [m]; leaves that light meets, times area [m²]; at its foot
@@ -170,6 +169,6 @@ void main() {
     on.z = (seen_at.y - root.y) / (tall * scale);
     seen_at.xz += aside * (seen_at.y - root.y);  // its corners go along a line, and pixels from that to the trunk's
     light_up(middle_of, -to);
-    gl_Position = over_ground(seen_at, under, half_side);
+    gl_Position = just_behind(over_ground(seen_at, under, half_side));
 #endif
 }

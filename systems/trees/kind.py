@@ -1,6 +1,7 @@
 """A kind of tree as one GL context holds it: its twig's card, and its models with their pictures from all around."""
 
 from collections.abc import Mapping
+from typing import NamedTuple
 
 import moderngl
 import numpy as np
@@ -8,9 +9,10 @@ import numpy as np
 from ...components.arrays import Bytes, Doubles
 from ...engine.declared.tree import TreeKind
 from ...engine.gl.mipmaps import mipmapped
-from ...engine.gl.shaders import due, tell_all, tell_asked, tell_due
+from ...engine.gl.shaders import Due, due, due_all, tell_asked, tell_due
 from ...engine.gl.stream import release_all
 from ..light.materials import pigment
+from . import told as told_of
 from .bake import CARD, PICTURES, covers, filtered, from_around, on_card, pictures
 from .card import FEWER, LEAVES, PICTURED, QUAD, WOOD, ModelOnCard, Numbers
 from .habit import HABITS, Leaf
@@ -34,6 +36,13 @@ DARKER = 0.62
 """Pigment of a kind's darkest leaves, of its brightest, where a scene has one colour for both."""
 
 
+class Read(NamedTuple):
+    """A texture that is read, and its unit."""
+
+    texture: moderngl.Texture | moderngl.TextureArray
+    unit: int
+
+
 class KindOnCard:
     """What is drawn of a kind of tree."""
 
@@ -54,6 +63,7 @@ class KindOnCard:
         wide += SHOOTS_LONG * usual * (SHOOTS_ASIDE if leaf.shoots > 1 else HANGING_ASIDE)
         self.reach = wide / usual, -BACK * leaf.length / usual, 1.0 + ON * leaf.length / usual
         self._numbers = self._told()
+        self._told_of = {id(each): told_of.vectors({**self._numbers, **each.numbers}) for each in self.models}
 
     def bake(self, programs: Programs) -> None:
         """Draw its twig, and then its models from all around, unless that was done in a run before."""
@@ -122,29 +132,40 @@ class KindOnCard:
         leaf, usual = habit.leaf, habit.twigs.length
         dark, bright = habit.leaves if declared.leaf is None else (declared.leaf, declared.leaf)
         young, old = (tuple(pigment(declared.bark or each).tolist()) for each in habit.bark)
-        darker = DARKER if declared.leaf is not None else 1.0
+        darker, (begins, ends) = DARKER if declared.leaf is not None else 1.0, habit.ripens
         return {
             "usual": (usual,), "card": (*self.reach, 0.0), "form": (leaf.form,), **_leaves(leaf, usual),
             "finer": (1.0,), "shoots_off": (SHOOTS_OFF,),
             "dark": tuple((darker * pigment(dark)).tolist()), "bright": tuple(pigment(bright).tolist()),
-            "young_bark": young, "bark": old, "ripens": habit.ripens, "rough": (habit.rough,),
+            "young_bark": young, "bark": old, "ripens": (begins, 1.0 / (ends - begins)), "rough": (habit.rough,),
         }  # fmt: skip
 
-    def tell(self, program: moderngl.Program, model: ModelOnCard, *numbers: Numbers, wood: bool = False) -> None:
-        """Tell a program of the kind, a model, and what else it is to know; bind what it reads, or what wood does."""
+    def tell(self, program: moderngl.Program, model: ModelOnCard, *numbers: Numbers) -> None:
+        """Tell a program of the kind, a model, and what else it is to know; bind what it reads."""
+        tell_due(self.due(program, model))
+        tell_asked(program, *numbers)
+        for read in self.reads(program, model):
+            read.texture.use(read.unit)
+
+    def due(self, program: moderngl.Program, model: ModelOnCard) -> Due:
+        """Return what a program is told of the kind and a model."""
         key = id(model)
         if key not in program.extra:  # the model is kept with it: so no other one is taken for it
-            program.extra[key] = model, due(program, self._numbers, model.numbers)
-        tell_due(program.extra[key][1])
-        asked = tell_asked(program, *numbers)
-        if "lies" in asked:
-            tell_all(program, "lies", self._lies)
-        if "tree_twigs" in asked:
-            model.twigs.texture.use(self.units["tree_twigs"])
-        if "tree_far" in asked and model.far is not None:
-            model.far.use(self.units["tree_far"])
-        if "tree_cards" in asked and (cards := self.bark if wood else self.card) is not None:
-            cards.use(self.units["tree_cards"])
+            told = due(program, self._numbers, model.numbers)
+            told += due_all(program, told_of.NAME, self._told_of[key]) + due_all(program, "lies", self._lies)
+            program.extra[key] = model, told
+        found: Due = program.extra[key][1]
+        return found
+
+    def reads(self, program: moderngl.Program, model: ModelOnCard, *, wood: bool = False) -> list[Read]:
+        """Return what a program reads of the kind and a model, or what one of wood does."""
+        cards = self.bark if wood else self.card
+        textures = {"tree_twigs": model.twigs.texture, "tree_far": model.far, "tree_cards": cards}
+        asked = tell_asked(program)
+        return [
+            Read(texture, self.units[name])
+            for name, texture in textures.items() if texture is not None and name in asked
+        ]  # fmt: skip
 
     def release(self) -> None:
         """Give everything back."""

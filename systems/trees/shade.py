@@ -88,7 +88,7 @@ class ShadeMap:
             self._due.append(((standing, tuple(middle), tuple(self._sun)), (float(at[0]), float(at[1]))))
         row["trees_across"], row["trees_up"] = self._axes
         row["trees_middle"] = *self._due[0][1], *self._due[1][1]
-        row["trees_sky"], row["trees_sides"] = (*self._due[2][1], SIDES[2]), SIDES[:2]
+        row["trees_sky"], row["trees_spans"] = (*self._due[2][1], 1.0 / SIDES[2]), (1.0 / SIDES[0], 1.0 / SIDES[1])
 
     def use(self) -> None:
         """Bind them for this frame."""

@@ -3,6 +3,7 @@
 #include "lib/light.glsl"
 #include "systems/trees/crown.glsl"
 #include "systems/trees/motion.py"
+#include "systems/trees/told.py"
 
 in vec3 root;     // where it stands [m]
 in float scale;   // how much larger it is than its model
@@ -25,9 +26,7 @@ const vec4 misty = vec4(0.0);
 const vec2 lawn = vec2(1.0, 0.0);
 #endif
 
-uniform float tall;         // of its model [m]
-uniform float trunk_hertz;  // of its model
-uniform float moment;       // time, within PERIOD [s]
+uniform float moment;  // time, within PERIOD [s]
 
 const vec3 TRUNK_ASIDE = vec3(0.5, TRUNK_ACROSS, 0.37);  // across the wind: how far it swings and how fast, of along it; turns apart
 const vec3 LIMB_ASIDE = vec3(0.7, LIMB_ACROSS, 1.7);  // the same of limbs; how many times as far they are apart

@@ -1,6 +1,7 @@
 // Trunks, limbs and branches. None is drawn narrower than a pixel: what is thinner covers as much less of that. Others are drawn a
 // pixel broader than they are, over which their edges fade.
 #include "systems/trees/tree.glsl"
+#include "systems/trees/behind.glsl"
 #include "systems/trees/far.py"
 #include "systems/trees/pigment.glsl"
 #include "systems/trees/wood.py"
@@ -71,6 +72,6 @@ void main() {
     sunlit = light.sun;
     skylit = light.sky;
     hazy = light.haze;
-    gl_Position = clip * vec4(seen_at, 1.0);
+    gl_Position = just_behind(clip * vec4(seen_at, 1.0));
 #endif
 }

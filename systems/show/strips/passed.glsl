@@ -11,8 +11,8 @@ PASSED vec4 spot;           // place (x, y, z) [m]; the sun's part of the light 
 flat PASSED vec4 shadow;    // of a body: the square of how near the sun's ray comes to it, by powers of `on.z`; how soft its edge is
 #endif
 #if defined(TREES) && !defined(SHADED)
-PASSED vec4 spot;           // where it is on the sun's ray past trees, as `on_ray` has it; the sun's part of the light
-flat PASSED float counts;   // how much these do
+PASSED vec2 spot;           // where the maps tell of the sun's ray past trees
+flat PASSED vec2 past;      // how much they do of what stands before the column; the sun's part of the light
 #endif
 #ifdef HEADS
 flat PASSED float heads;    // factor on the coverage of heads

@@ -74,7 +74,7 @@ void main() {
         seen *= past_casters(spot.xyz);
     light = shaded(light, seen, spot.w);
 #elif defined(TREES)
-    light = shaded(light, past_trees(spot.xyz, counts), spot.w);
+    light = shaded(light, past_trees_before(spot, past.x), past.y);
 #endif
 #ifdef CUT
     if (cut.w > 0.5) {

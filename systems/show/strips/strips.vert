@@ -294,7 +294,9 @@ void main() {
 #ifdef SHADED
     spot = vec4(point.xyz, suns);
 #elif defined(TREES)
-    spot = vec4(on_ray(point.xyz, rooted, counts), suns);
+    float counts;
+    spot = on_ray(point.xyz, rooted, counts).xy;
+    past = vec2(counts * stands_before(on_ray(rooted, rooted, counts)), suns);
 #endif
     lit = bundled(light, vec3(extent.w, level, boosts));
     dye(column, run, middle, top, 1.0 - lodged(bend), lies.slow);

@@ -1,0 +1,68 @@
+"""Draw calls of trees, and what each must be told and must read that those before it do not."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import moderngl
+
+from ...engine.gl.shaders import Due, due, due_all
+from .card import WOODS, ModelOnCard
+from .kind import Read
+from .outline import Around
+
+
+class Call(NamedTuple):
+    """One draw call of trees of a model."""
+
+    nearest: float
+    """How far off its nearest tree is [m]; 0 where it is of soft edges."""
+
+    array: moderngl.VertexArray
+    first: int
+    vertices: int
+    instances: int
+    form: int
+    """How vertices make triangles."""
+
+    due: Due
+    """What its program is told of its kind, its model and of itself."""
+
+    reads: Sequence[Read]
+    """What it reads."""
+
+    begins: bool = False
+    """Whether it is the first one with its program."""
+
+
+def in_turn(calls: Sequence[Call], /) -> list[Call]:
+    """Return calls that are drawn one after another: each is told, and binds, only what is not so by those before it."""
+    told, bound = dict[int, tuple[object]](), dict[int, Read]()
+    programs, found = set[int](), list[Call]()
+    for call in calls:
+        due_now = [each for each in call.due if told.get(id(each[0])) != (each[1],)]
+        told.update((id(each[0]), (each[1],)) for each in call.due)
+        reads = [each for each in call.reads if bound.get(each.unit) != each]
+        bound.update((each.unit, each) for each in reads)
+        program = id(call.array.program)
+        found.append(call._replace(due=due_now, reads=reads, begins=program not in programs))
+        programs.add(program)
+    return found
+
+
+def told_of_call(
+    program: moderngl.Program, corners: list[tuple[float, float]], around: Around | None, solid_from: float
+) -> Due:
+    """Return what a program is told of a call: how much of a pixel is opaque, and the corners of outlines, if it has."""
+    told = due(program, {"solid_from": (solid_from,)})
+    if corners:
+        told += due_all(program, "corners", corners)
+    if around is not None:
+        told += due(program, {"high": around.high}) + due_all(program, "reaches", around.reaches)
+    return told
+
+
+def part_of_wood(model: ModelOnCard, name: str, *, soft: bool, whole: bool) -> tuple[int, int]:
+    """Return from which vertex on, and how many, are drawn of the wood of a stream's trees."""
+    drawn, count = model.wood[name], len(model.model.wood[WOODS.index(name)].triangles)
+    end = count if whole else drawn.soft if soft else drawn.solid
+    return 3 * model.first_of[name], 3 * end

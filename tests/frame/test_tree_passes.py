@@ -1,0 +1,94 @@
+"""What each pass of trees draws, and what its calls are told (F3, N6)."""
+
+from collections.abc import Iterator
+
+import moderngl
+import numpy as np
+import pytest
+
+from tallgrass import Prairie
+from tallgrass.systems.trees import draw
+from tallgrass.systems.trees.draw import TreePart
+from tallgrass.testing import Stage, little_prairie, looking, private_world
+
+SCENE = """\
+tallgrass: 2
+seed: 5
+terrain: { noise: flat, size: [80, 80] }
+grass: { turf: { height: [0.05, 0.08], width: 0.02, blades: 30, place: none } }
+trees:
+  thorn: { habit: hawthorn, positions: [[0, 0], [6, -2], [-7, -3]] }
+  birch: { habit: birch, positions: [[3, -8], [-4, -9]] }
+light: { azimuth: 130, elevation: 40, haze: 1e6, clouds: 0 }
+quality:
+  models: 1
+  blade_rings: [{ to: 1, segments: 2 }]
+  strip_rings: [{ to: 3, strips: 2, columns: 1, sections: 1, texel: 0.03 }]
+  carpet_to: 12
+  carpet: 32
+"""
+SIZE = 96
+FAR_OFF = looking(0.0, 2.0, 34.0, pitch=3.0, view=20.0)
+NOTHING_IS_OPAQUE = 2.0
+
+
+@pytest.fixture(scope="module")
+def stage(ctx: moderngl.Context) -> Stage:
+    return Stage(ctx, (SIZE, SIZE))
+
+
+@pytest.fixture(scope="module")
+def prairie(ctx: moderngl.Context, stage: Stage) -> Iterator[Prairie]:
+    with private_world(), little_prairie(scene=SCENE, ctx=ctx) as made:
+        stage.shot(made, FAR_OFF)
+        yield made
+
+
+def asked_for(
+    stage: Stage, prairie: Prairie, ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch, opaque_from: float
+) -> int:
+    """Return of how many pixels soft edges are asked for, as all of them are drawn where nothing of them is opaque."""
+    assert prairie.painter is not None
+    part, query = prairie.painter.part(TreePart), ctx.query(samples=True)
+
+    def draw_soft() -> int:
+        with monkeypatch.context() as meanwhile, query:
+            for name in "OPAQUE", "SOLID":
+                meanwhile.setattr(draw, name, NOTHING_IS_OPAQUE)
+            vars(part)["_calls"].clear()
+            return TreePart.draw_soft(part)
+
+    with monkeypatch.context() as meanwhile:
+        for name in "OPAQUE", "SOLID":
+            meanwhile.setattr(draw, name, opaque_from)
+        meanwhile.setattr(part, "draw_soft", draw_soft)
+        vars(part)["_calls"].clear()
+        stage.shot(prairie, FAR_OFF)
+    vars(part)["_calls"].clear()
+    return int(query.samples)
+
+
+def test_n6_where_a_far_tree_is_opaque_nobody_asks_for_its_soft_edges(
+    stage: Stage, prairie: Prairie, ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    everything = asked_for(stage, prairie, ctx, monkeypatch, NOTHING_IS_OPAQUE)
+    edges = asked_for(stage, prairie, ctx, monkeypatch, draw.OPAQUE)
+    assert 0 < edges < 0.8 * everything
+
+
+def test_what_is_told_only_once_is_what_each_call_would_be_told(
+    stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Calls leave out what those before them have told and bound."""
+    first = stage.shot(prairie, FAR_OFF)
+    assert prairie.painter is not None
+    calls = vars(prairie.painter.part(TreePart))["_calls"]
+
+    def all_of(some: list[draw.Call]) -> list[draw.Call]:
+        return [each._replace(begins=True) for each in some]
+
+    fewer = sum(len(each.due) + len(each.reads) for some in calls.values() for each in some)
+    monkeypatch.setattr(draw, "in_turn", all_of)
+    calls.clear()
+    np.testing.assert_array_equal(stage.shot(prairie, FAR_OFF), first)
+    assert 0 < fewer < sum(len(each.due) + len(each.reads) for some in calls.values() for each in some)
