@@ -91,8 +91,8 @@ FRAME = np.dtype(
         ("came", f"({GROUPS},4)f4"),  # how many of its plants have become what it is to be, where it is to be another
         ("thins", f"({GROUPS},4)f4"),  # how much it thins out by such a rise
         ("bears", f"({GROUPS},4)f4"),  # 1 where it bears heads
-        # The maps of what trees leave of the light: which way they go across and up; how much of those of the sun a metre
-        # is; their middles, near by and far off; middle of that of the sky, and how much of it a metre is.
+        # The maps of what trees leave of the light: which way they go across and up; how much of those of the sun a
+        # metre is; their middles, near by and far off; middle of that of the sky, and how much of it a metre is.
         ("trees_across", "3f4"), ("pad_c", "V4"), ("trees_up", "3f4"), ("pad_d", "V4"),
         ("trees_middle", "4f4"), ("trees_sky", "3f4"), ("pad_e", "V4"), ("trees_spans", "2f4"),
         ("depth_ends", "2f4"),  # of clip space: how deep its near and its far end is

@@ -35,7 +35,7 @@ class Call(NamedTuple):
 
 
 def in_turn(calls: Sequence[Call], /) -> list[Call]:
-    """Return calls that are drawn one after another: each is told, and binds, only what is not so by those before it."""
+    """Return calls that are drawn one after another: each is told and binds only what is not so by those before it."""
     told, bound = dict[int, tuple[object]](), dict[int, Read]()
     programs, found = set[int](), list[Call]()
     for call in calls:
@@ -52,7 +52,7 @@ def in_turn(calls: Sequence[Call], /) -> list[Call]:
 def told_of_call(
     program: moderngl.Program, corners: list[tuple[float, float]], around: Around | None, solid_from: float
 ) -> Due:
-    """Return what a program is told of a call: how much of a pixel is opaque, and the corners of outlines, if it has."""
+    """Return what a program is told of a call: how much of a pixel is opaque, and the corners of an outline, if any."""
     told = due(program, {"solid_from": (solid_from,)})
     if corners:
         told += due_all(program, "corners", corners)

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from tallgrass import Prairie
-from tallgrass.systems.trees import draw
+from tallgrass.systems.trees.call import Call
 from tallgrass.systems.trees.draw import TreePart
+from tallgrass.systems.trees.wood import OPAQUE
 from tallgrass.testing import Stage, little_prairie, looking, private_world
 
 SCENE = """\
@@ -53,14 +54,12 @@ def asked_for(
 
     def draw_soft() -> int:
         with monkeypatch.context() as meanwhile, query:
-            for name in "OPAQUE", "SOLID":
-                meanwhile.setattr(draw, name, NOTHING_IS_OPAQUE)
+            meanwhile.setattr("tallgrass.systems.trees.draw.OPAQUE", NOTHING_IS_OPAQUE)
             vars(part)["_calls"].clear()
             return TreePart.draw_soft(part)
 
     with monkeypatch.context() as meanwhile:
-        for name in "OPAQUE", "SOLID":
-            meanwhile.setattr(draw, name, opaque_from)
+        meanwhile.setattr("tallgrass.systems.trees.draw.OPAQUE", opaque_from)
         meanwhile.setattr(part, "draw_soft", draw_soft)
         vars(part)["_calls"].clear()
         stage.shot(prairie, FAR_OFF)
@@ -72,7 +71,7 @@ def test_n6_where_a_far_tree_is_opaque_nobody_asks_for_its_soft_edges(
     stage: Stage, prairie: Prairie, ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     everything = asked_for(stage, prairie, ctx, monkeypatch, NOTHING_IS_OPAQUE)
-    edges = asked_for(stage, prairie, ctx, monkeypatch, draw.OPAQUE)
+    edges = asked_for(stage, prairie, ctx, monkeypatch, OPAQUE)
     assert 0 < edges < 0.8 * everything
 
 
@@ -84,11 +83,11 @@ def test_what_is_told_only_once_is_what_each_call_would_be_told(
     assert prairie.painter is not None
     calls = vars(prairie.painter.part(TreePart))["_calls"]
 
-    def all_of(some: list[draw.Call]) -> list[draw.Call]:
+    def all_of(some: list[Call]) -> list[Call]:
         return [each._replace(begins=True) for each in some]
 
     fewer = sum(len(each.due) + len(each.reads) for some in calls.values() for each in some)
-    monkeypatch.setattr(draw, "in_turn", all_of)
+    monkeypatch.setattr("tallgrass.systems.trees.draw.in_turn", all_of)
     calls.clear()
     np.testing.assert_array_equal(stage.shot(prairie, FAR_OFF), first)
     assert 0 < fewer < sum(len(each.due) + len(each.reads) for some in calls.values() for each in some)
