@@ -45,7 +45,7 @@ vec3 on_ray(vec3 place, vec3 about, out float counts) {
     counts = 1.0 - smoothstep(MAP_RIM - RIM_FADES, MAP_RIM, max(far_out.x, far_out.y) * trees_spans.y);
     bool near = max(near_out.x, near_out.y) * trees_spans.x < MAP_RIM;
     vec2 at = near ? (calm - trees_middle.xy) * trees_spans.x : (calm - trees_middle.zw) * trees_spans.y;
-    return vec3((at.x + (near ? 0.5 : 1.5)) * (1.0 / SHADE_MAPS), at.y + 0.5, dot(place, sun));
+    return vec3((at.x + 0.5 + (near ? 0.0 : 1.0)) * (1.0 / SHADE_MAPS), at.y + 0.5, dot(place, sun));
 }
 
 // How much of the sun is seen past trees that stand before a place that `on_ray` gave.

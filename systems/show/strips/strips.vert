@@ -199,6 +199,15 @@ int shading(vec3 a, vec3 b) {
 }
 #endif
 
+#if defined(TREES) && !defined(SHADED)
+// Where maps of trees tell of a place on a column that is rooted so, and how much that counts; of lights, the sun's part.
+void tell_shade(vec3 place, vec3 rooted, float suns) {
+    float counts;
+    spot = on_ray(place, rooted, counts).xy;
+    past = vec2(counts * stands_before(on_ray(rooted, rooted, counts)), suns);
+}
+#endif
+
 #ifdef CUT
 const float UNCUT = 0.999;  // grass that is left to stand so high, of the tallest, is not cut
 
@@ -294,9 +303,7 @@ void main() {
 #ifdef SHADED
     spot = vec4(point.xyz, suns);
 #elif defined(TREES)
-    float counts;
-    spot = on_ray(point.xyz, rooted, counts).xy;
-    past = vec2(counts * stands_before(on_ray(rooted, rooted, counts)), suns);
+    tell_shade(point.xyz, rooted, suns);
 #endif
     lit = bundled(light, vec3(extent.w, level, boosts));
     dye(column, run, middle, top, 1.0 - lodged(bend), lies.slow);
