@@ -74,7 +74,8 @@ FRAME = np.dtype(
         ("over_hosts", "f4"),  # 1 where grass is laid over ground that is the game's own
         ("lamplight", "f4"),  # as `exposure`, of what lamps send
         ("beside_sun", "f4"),  # 1 where anything shines beside sun and sky
-        ("mesh_low", "2f4"), ("mesh_high", "2f4"), ("pad_f", "V8"),  # x, z [m]: no ground is drawn beyond
+        ("mesh_low", "2f4"), ("mesh_high", "2f4"),  # x, z [m]: no ground is drawn beyond
+        ("patches_a_metre", "f4"), ("windows_a_patch", "f4"),  # inverse of a patch's side, of the carpet's window
         ("lamps_grid", "4f4"),  # cells that lamps shine on: corner (x, z) [m]; cells a metre; along a side, 0 for none
         ("shades_grid", "4f4"),  # the same, of cells that lie in the shadow of shades
         # Where the carpet's shares are told: the viewer's cell; half the window's side; how much it shows beyond that.

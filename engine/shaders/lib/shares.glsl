@@ -8,5 +8,5 @@ float share_at(ivec2 cell) {
         vec2 inside = abs((vec2(cell) + 0.5) * patch_side - terrain_origin - 0.5 * terrain_size) - 0.5 * terrain_size;
         return max(inside.x, inside.y) > 0.0 ? 1.0 : carpet_window.w;
     }
-    return textureLod(shares, (vec2(cell) + 0.5) / vec2(textureSize(shares, 0)), 0.0).r;
+    return textureLod(shares, (vec2(cell) + 0.5) * windows_a_patch, 0.0).r;
 }

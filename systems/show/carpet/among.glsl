@@ -12,12 +12,12 @@ const float LEAST_STRIPS = 1e-3;  // leaf area on strips that counts at least
 // would stop.
 vec2 among_strips(float on_strips, float slope, float share, float stands, float dense) {
     slope = max(slope, LOWEST);
-    float leaves = dense / slope, out_of_it = max(1.0 - RAISED * share / stands, 0.0);
-    vec2 depth = depth_met(max(dense, THINNEST) / (slope * vec3(1.0, 1.0 / max(on_strips, LEAST_STRIPS), 1.0))).xy;
+    float longer = 1.0 / slope, leaves = dense * longer, out_of_it = max(1.0 - RAISED * share / stands, 0.0);
+    vec2 depth = depth_met(max(dense, THINNEST) * longer * vec3(1.0, max(on_strips, LEAST_STRIPS), 1.0)).xy;
     vec2 hides = 1.0 - comes_through(leaves * vec2(1.0, on_strips));
-    float own = (hides.x * depth.x - hides.y * out_of_it * depth.y) / max(hides.x - hides.y, TINY);
+    float own = hides.x * depth.x - hides.y * out_of_it * depth.y, behind = max(hides.x - hides.y, TINY);
     float part = (1.0 - comes_through(leaves * (1.0 - on_strips))) / max(hides.x, TINY);
-    return vec2(part, clamp((1.0 - own) / (1.0 - depth.x), 0.0, 1.0));
+    return vec2(part, clamp((behind - own) / (behind - behind * depth.x), 0.0, 1.0));
 }
 
 // How high leaves are that are seen, of how high the flattest image shows them: flatter lines of sight meet tips alone.

@@ -215,7 +215,7 @@ void main() {
     vec3 pigment = pigment_lying(ground.xz, comes_through(dense / max(slope, LOWEST)), lush, left);
     vec3 soil_light = soil_between(Soil(soil_seen, sunlit, skylit, soil_way, soil_through), ground, left);
     vec3 color = shown_of(soil_light * pigment * pigment + lit[2].rgb);
-    float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / patch_side))) : 0.0, cover = 0.0;
+    float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz * patches_a_metre))) : 0.0, cover = 0.0;
     if (over_hosts > 0.0)
         color = vec3(0.0);  // the game's ground is seen there
     float top = slope + carpet * ahead, hides = min(share / SHOWN_FROM, 1.0);

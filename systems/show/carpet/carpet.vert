@@ -102,14 +102,14 @@ void see_among(float slope, vec2 bent) {
 
 // As much more of each kind as grass hides, seen at this slope, than images do in the mean. Heads stand scattered, and hide nothing.
 ByKind filled_up(ByKind covers) {
-    int low = min(int(elevation), SLOPES - 2), coarsest = int(log2(float(textureSize(images, 0).x)) + 0.5);
+    int low = min(int(elevation), SLOPES - 2);
     for (int kind = 0; kind < KINDS; kind++) {
 #ifdef HEADS
         if (OF(bears, kind) > 0.0)
             continue;
 #endif
         int layer = int(OF(first, kind)) + low * HEADINGS;
-        float lower = layer_mean(images, layer, coarsest).a, steeper = layer_mean(images, layer + HEADINGS, coarsest).a;
+        float lower = layer_mean(images, layer, stock.z).a, steeper = layer_mean(images, layer + HEADINGS, stock.z).a;
         OF(covers, kind) *= filled(steeper, low, on_level, mix(lower, steeper, elevation - float(low)));
     }
     return covers;

@@ -56,17 +56,16 @@ float grain_seen(float level, float across) {
 
 // Of the images of two slopes a patch shows either, the more often the nearer it is.
 Look look_along(vec2 heading) {
-    float patches = 1.0 / patch_side;
-    vec2 at = place.xz * patches, cell = floor(at), here = fract(at) - blown * patches - 0.5;
+    vec2 at = place.xz * patches_a_metre, cell = floor(at), here = fract(at) - blown * patches_a_metre - 0.5;
     uint drawn = scramble(uint(int(cell.x) * ROWS + int(cell.y) ^ stock.y));
     float upper = float(drawn >> UPPER_HALF);
     int low = min(int(elevation), SLOPES - 2), slope = min(int(elevation + upper * exp2(-BITS)), low + 1), side = int(drawn >> UPPER_HALF) & (HEADINGS - 1);
     int model = int((float(drawn & LOWER_HALF) + 0.5) * (float(stock.x) * exp2(-BITS)));
-    float longer = slopes[slope] / max(on_level, FLATTEST);
-    float along = dot(here, heading) * (1.0 - longer) / longer * (1.0 - smoothstep(ROOTS_SEEN.x, ROOTS_SEEN.y, on_level));
+    float longer = max(on_level, FLATTEST) / slopes[slope] - 1.0;
+    float along = dot(here, heading) * longer * (1.0 - smoothstep(ROOTS_SEEN.x, ROOTS_SEEN.y, on_level));
     vec2 beside = vec2(-heading.y, heading.x);
     float across = max(abs(dot(dFdx(place.xz), beside)), abs(dot(dFdy(place.xz), beside)));
-    float level = log2(max(across * patches, THINNEST_PIXEL) * (SHARP * float(textureSize(images, 0).x)));
+    float level = log2(max(across * patches_a_metre, THINNEST_PIXEL) * (SHARP * float(textureSize(images, 0).x)));
     ivec3 image = (model * SLOPES + ivec3(low, low + 1, slope)) * HEADINGS + side;
     return Look(rotated(here + heading * along, turned(heading, side)) + 0.5, image.z, image.xy, elevation - float(low), level, grain_seen(level, across));
 }
@@ -82,8 +81,7 @@ struct Grass {
 // `high` is how high they are met among strips, of how high without any.
 void add_kind(inout Grass sum, int kind, Look look, vec2 facing, float high) {
     float part = OF(met, kind), from = OF(first, kind);
-    int coarsest = int(log2(float(textureSize(images, 0).x)) + 0.5);
-    vec4 lower = layer_mean(images, int(from) + look.between.x, coarsest), steeper = layer_mean(images, int(from) + look.between.y, coarsest);
+    vec4 lower = layer_mean(images, int(from) + look.between.x, stock.z), steeper = layer_mean(images, int(from) + look.between.y, stock.z);
     vec4 mean = mix(lower, steeper, look.next), own = look.image == look.between.x ? lower : steeper;
     vec4 image = max(mean + (layer_at(images, vec3(look.at, from + float(look.image)), look.level) - own) * look.grain, 0.0);
     float covers = max(1.0 - (1.0 - min(image.a, 1.0)) * told_beside(lit).x, 0.0);
@@ -118,7 +116,7 @@ float hides_behind(float slope, float deep, float stands_out) {
 }
 
 void main() {
-    float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz / patch_side))) : 0.0, covered = 1.0;
+    float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz * patches_a_metre))) : 0.0, covered = 1.0;
     float sunny = any_casters() ? past_casters(place) : 1.0;
     vec3 soil = any_casters() ? mix(soil_shaded, soil_seen, sunny) : soil_seen;
     vec3 color = soil * lying_seen(place.xz, share > 0.0 ? 0.0 : 1.0).x;

@@ -230,6 +230,7 @@ class GroundPainter:
     def look_from(self, centre: NDArray[np.int32], *, beyond: float) -> None:
         """Take over the viewer's cell, and how much carpet shows `beyond` the patches around it."""
         self._block.record["carpet_window"] = *centre, self._side // 2, beyond
+        self._block.record["windows_a_patch"] = 1.0 / self._side
 
     def use(self) -> None:
         """Bind what all of it reads."""

@@ -36,7 +36,7 @@ struct Laid {
 };
 
 float lowest_share(vec2 place) {
-    ivec2 low = ivec2(floor((place - EDGE) / patch_side)), high = ivec2(floor((place + EDGE) / patch_side));
+    ivec2 low = ivec2(floor((place - EDGE) * patches_a_metre)), high = ivec2(floor((place + EDGE) * patches_a_metre));
     return min(min(share_at(low), share_at(high)), min(share_at(ivec2(low.x, high.y)), share_at(ivec2(high.x, low.y))));
 }
 

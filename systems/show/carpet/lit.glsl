@@ -37,10 +37,9 @@ vec2 slow_seen(vec3 there, float slope, float tall) {
 
 // The wind's message; far off, where nobody asks for it, the mean of those nearer by.
 vec2 message_at(vec2 at) {
-    float side = float(textureSize(air, 0).x) * patch_side;
-    vec2 apart = abs(at - (carpet_window.xy + 0.5) * patch_side);
-    float far = smoothstep(FAR_AIR.x, FAR_AIR.y, max(apart.x, apart.y) / side);
-    return mix(textureLod(air, at / side, 0.0).xy, texelFetch(mean_air, ivec2(0), 0).xy, far);
+    vec2 on = at * (patches_a_metre * windows_a_patch), apart = abs(on - (carpet_window.xy + 0.5) * windows_a_patch);
+    float far = smoothstep(FAR_AIR.x, FAR_AIR.y, max(apart.x, apart.y));
+    return mix(textureLod(air, on, 0.0).xy, texelFetch(mean_air, ivec2(0), 0).xy, far);
 }
 
 // The light there on each kind as its message has bent it, in the mean of all that are met.

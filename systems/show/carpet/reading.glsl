@@ -7,7 +7,7 @@ uniform sampler2DArray images;  // place along the blade, height, twice the azim
 uniform float slopes[SLOPES];   // their viewing slopes
 uniform ByKind first;           // by kind: first layer of the images
 uniform ByKind coming;          // the same of what it is to be
-uniform ivec2 stock;            // patch models; seed
+uniform ivec3 stock;            // patch models; seed; coarsest level of the images
 
 const float SHARP = 0.6;        // size of what is taken from the images for a pixel, of the pixel's own: filtering takes more
 const vec2 LONGEST = vec2(0.25, 1.0);  // how much finer that is over a crest: at most, and at least
@@ -48,7 +48,7 @@ float sways_by(ByKind met, vec2 message) {
 // The patch of a place whose leaves sway so far, of the wind's message [m], and stand so high, of their height at rest. It is
 // one wind for all of a patch: images that are sheared here and there otherwise would curl.
 Patch patch_at(vec2 at, float sways, float stands) {
-    ivec2 cell = ivec2(floor(at / patch_side));
+    ivec2 cell = ivec2(floor(at * patches_a_metre));
     uint drawn = hash3(stock.y, cell.x, cell.y);
     vec2 message = message_at((vec2(cell) + 0.5) * patch_side);
     return Patch(cell, int(drawn % uint(stock.x)), int(drawn >> UPPER_HALF) & (HEADINGS - 1), vec3(sways * message, stands));
@@ -116,13 +116,13 @@ Reading reading(Patch own, Sight sight, vec2 at, float tall, float elevation) {
     int low = min(int(elevation), SLOPES - 2);
     vec2 turn = turned(sight.heading, own.side);
     vec2 leans = sheared(own.blown, sight.on_level, tall), beside = vec2(-sight.heading.y, sight.heading.x);
-    vec2 here = leant_back((at - own.blown.xy) / patch_side - vec2(own.cell) - 0.5, sight.heading, leans);
+    vec2 here = leant_back((at - own.blown.xy) * patches_a_metre - vec2(own.cell) - 0.5, sight.heading, leans);
     // From the side blades are drawn out along the line of sight as they are seen, and not as at the slopes of the images.
     vec2 longer = max(sight.on_level, FLATTEST) / vec2(slopes[low], slopes[low + 1]) - 1.0;
     longer *= dot(here, sight.heading) * (1.0 - smoothstep(ROOTS_SEEN.x, ROOTS_SEEN.y, sight.on_level));
     // From a low angle a pixel is a long stripe of ground, but blades are drawn out as far: what counts is how broad it is
     // across them.
-    vec2 dx = leant_back(sight.dx, sight.heading, leans) / patch_side, dy = leant_back(sight.dy, sight.heading, leans) / patch_side;
+    vec2 dx = leant_back(sight.dx, sight.heading, leans) * patches_a_metre, dy = leant_back(sight.dy, sight.heading, leans) * patches_a_metre;
     float across = max(max(abs(dot(dx, beside)), abs(dot(dy, beside))), THINNEST_PIXEL);
     // Over a crest a line of sight meets plants one by one, as on level ground.
     float finer = SHARP * clamp(sight.slope / sight.on_level, LONGEST.x, LONGEST.y);

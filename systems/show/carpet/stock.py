@@ -94,7 +94,8 @@ class CarpetStock:
 
     def layers(self, seed: int, /) -> dict[str, object]:
         """Return what programs are told of where images are; `seed` is the scene's."""
-        slopes = carpet_of(self.forms[0].growth.models[0]).slope
+        one = carpet_of(self.forms[0].growth.models[0])
+        slopes, coarsest = one.slope, (one.texels.shape[-2] - 1).bit_length()
         kinds, at = len(self.before.height), 0
         first = [0.0] * (2 * kinds)
         for form in self.forms:
@@ -104,7 +105,7 @@ class CarpetStock:
             "slopes": slopes.tolist(),
             "first": by_kind(first[:kinds]),
             "coming": by_kind(first[kinds:]),
-            "stock": (len(self.forms[0].growth.models), seed),
+            "stock": (len(self.forms[0].growth.models), seed, coarsest),
         }
 
     def _at(self, name: str, came: Sequence[float]) -> Floats:

@@ -37,11 +37,10 @@ float coarser_heads(float across, float slope) {
 
 // The texel of images from a layer on, whose grain is so far from the mean, of how far it is in images.
 Texel texel_from(float layer, Patch own, Reading read, float on_level, float grain) {
-    int coarsest = int(log2(float(textureSize(images, 0).x)) + 0.5);
     layer += float((own.model * SLOPES + read.elevation) * HEADINGS + own.side);
     float next = layer + float(HEADINGS);
-    vec4 mean_high = layer_mean(images, int(next), coarsest);
-    vec4 mean = mix(layer_mean(images, int(layer), coarsest), mean_high, read.next);
+    vec4 mean_high = layer_mean(images, int(next), stock.z);
+    vec4 mean = mix(layer_mean(images, int(layer), stock.z), mean_high, read.next);
     vec4 low = layer_at(images, vec3(read.low, layer), read.level), high = layer_at(images, vec3(read.high, next), read.level);
     float fill = filled(mean_high.a, read.elevation, on_level, mean.a);
     vec4 image = (mean + (mix(low, high, read.next) - mean) * grain) * fill;
