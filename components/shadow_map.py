@@ -38,10 +38,15 @@ class ShadowMap:
 
 
 def texture_number(texture: object, /) -> int:
-    """Return a texture's number in GL; raises TypeError for what is no depth texture."""
-    number = next((found for name in ("glo", "id") if (found := getattr(texture, name, None)) is not None), texture)
+    """Return a texture's number in GL; raises TypeError for what is no depth texture.
+
+    `glGenTextures` of pyglet gives a number as a `c_uint`.
+    """
+    number = next((found for name in ("glo", "id", "value") if (found := getattr(texture, name, None)) is not None), texture)
     if not isinstance(number, int) or isinstance(number, bool) or number < 1:
-        raise TypeError(f"a shadow map's texture is a depth texture of moderngl or pyglet, not {shortened(texture)}")
+        raise TypeError(
+            f"a shadow map's texture is a depth texture of moderngl or pyglet, or its GL number, not {shortened(texture)}"
+        )
     if getattr(texture, "depth", True) is False or type(texture).__name__ in {
         "TextureArray",
         "TextureCube",

@@ -13,7 +13,7 @@ import esper
 
 from ..components.pose import Pose
 from ..components.resident import Resident
-from .handed import NUMBERS, is_somewhere
+from .handed import FARTHEST, NUMBERS, is_somewhere
 
 Component = TypeVar("Component")
 Other = TypeVar("Other")
@@ -163,7 +163,7 @@ class World:
             return True
         if entity not in self._told:
             self._told.add(entity)
-            due = "x, y, z [m] and yaw [rad] are finite numbers"
+            due = f"x, y, z [m] and yaw [rad] are finite numbers, at most {FARTHEST:.0e} either way"
             log.warning("%s of entity %d is left out while it has %s: %s", what, entity, pose or "no Pose", due)
         return False
 

@@ -171,7 +171,7 @@ class State(Declaration):
 
     treading: SavedTreading
     felled: list[int] = Field(default=[])
-    """Which of the scene's own trees are gone, by their numbers."""
+    """Which of the scene's own trees are gone, or have become others among `things`, by their numbers."""
 
     wild_felled: list[tuple[int, int, int]] = Field(default=[])
     """And which of a forest that is too large for numbers: each by its square's, and its own on that."""

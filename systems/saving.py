@@ -146,6 +146,8 @@ class Saving:
     def _bring(self, state: State, made: "_Made") -> dict[int, int]:
         self.winds.pass_to(state.time)
         entities = self._bring_winds(state, made)
+        trees = {each.entity for each in state.things if each.kind == "tree"}
+        self.trees.fell(state.felled, state.wild_felled, trees)
         there = {(each.entity, each.kind) for each in self._things()}
         for each, component in zip(state.things, made.things, strict=True):
             entity = entities.get(each.entity, each.entity if (each.entity, each.kind) in there else None)
@@ -158,7 +160,6 @@ class Saving:
             entities[each.entity] = entity
         self.pressers.resume(made.treading, entities)
         self.clearings.resume(made.cleared)
-        self.trees.fell(state.felled, state.wild_felled)
         self.shining.resume(state.light, since=state.light_since, time=state.time, way=state.light_way)
         return entities
 

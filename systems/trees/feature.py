@@ -164,25 +164,42 @@ class Trees(Feature):
         return False
 
     def planted(self) -> set[int]:
-        """Return the entities of the scene's own trees."""
-        return {*self.entities, *(self.wild.entities if self.wild is not None else ())}
+        """Return the entities of the scene's own trees that are as they were planted."""
+        own = {entity for number, entity in enumerate(self.entities) if self._is_as_planted(number)}
+        return own | (self.wild.entities if self.wild is not None else set())
 
     def felled(self) -> list[int]:
-        """Return which of the scene's own trees are gone, by their numbers."""
-        there = {entity for entity, _ in self._world.all(Tree)}
-        return [number for number, entity in enumerate(self.entities) if entity not in there]
+        """Return which of the scene's own trees are gone, or have become others, by their numbers."""
+        return [number for number in range(len(self.entities)) if not self._is_as_planted(number)]
 
-    def fell(self, numbers: list[int], wild: list[Felled], /) -> None:
-        """Let these be gone of the scene's own, and all others stand where they were planted."""
+    def _is_as_planted(self, number: int) -> bool:
+        entity, find = self.entities[number], self._world.find
+        return self._world.has(entity) and (find(entity, Tree), find(entity, Pose)) == self._seedlings[number]
+
+    def fell(self, numbers: list[int], wild: list[Felled], kept: set[int], /) -> None:
+        """Let these be gone of the scene's own, and all others stand where they were planted.
+
+        Those that a game has made others stay where they are among the entities `kept`.
+        """
         self._rows, self._there = self._rows[:0], []  # what a saved game has not is not felled now
         self._going.forget()
         if self.wild is not None:
-            self.wild.fell(wild)
-        gone, wanted = set(self.felled()), set(numbers)
-        for number in wanted - gone:
-            self._world.delete(self.entities[number])
-        for number in sorted(gone - wanted):
-            self.entities[number] = self._world.create(*self._seedlings[number])
+            self.wild.fell(wild, kept)
+        others, wanted = set(self.felled()), set(numbers)
+        for number in wanted:
+            entity = self.entities[number]
+            if self._world.has(entity) and not (number in others and entity in kept):
+                self._world.delete(entity)
+        for number in others - wanted:
+            self._plant_again(number)
+
+    def _plant_again(self, number: int) -> None:
+        entity, seedling = self.entities[number], self._seedlings[number]
+        if self._world.has(entity):
+            for part in seedling:
+                self._world.add(entity, part)
+        else:
+            self.entities[number] = self._world.create(*seedling)
 
     def release(self) -> None:
         """Let nothing grow any more."""

@@ -134,15 +134,16 @@ class Wild:
             self._note(square)
         return sorted((*square, number) for square, gone in self._forest.gone.items() for number in gone)
 
-    def fell(self, trees: Iterable[Felled], /) -> None:
-        """Let these be gone, and all others stand where they were planted."""
+    def fell(self, trees: Iterable[Felled], kept: set[int], /) -> None:
+        """Let these be gone, and all others stand where they were planted; of changed ones those `kept` stay."""
         self.clear()
         self._forest.gone.clear()
         for i, j, number in trees:
             self._forest.gone.setdefault((i, j), set()).add(number)
         for entity, (i, j, number) in [*self._changed.items()]:
-            if number not in self._forest.gone.get((i, j), set()):  # it stands as it was planted
-                self._world.delete(entity)
+            if number not in self._forest.gone.get((i, j), set()) or entity not in kept:
+                if self._world.has(entity):
+                    self._world.delete(entity)
                 del self._changed[entity]
 
     def clear(self) -> None:

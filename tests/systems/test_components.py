@@ -42,7 +42,7 @@ def test_d2_a_pose_that_is_nowhere_leaves_out_its_entity_until_it_has_another_an
         watch(prairie)
         np.testing.assert_array_equal(prairie.wind_at(where), calm)
         np.testing.assert_array_equal(prairie.bent_at(where), calm)
-    due = "x, y, z [m] and yaw [rad] are finite numbers"
+    due = "x, y, z [m] and yaw [rad] are finite numbers, at most 1e+06 either way"
     pressers = (f"presser of entity {presser}", pose), (f"presser of entity {bare}", "no Pose")
     lost = (*pressers, (f"wind of entity {wind}", pose))
     assert sorted(caplog.messages) == [f"the {what} is left out while it has {have}: {due}" for what, have in lost]

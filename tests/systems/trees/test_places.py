@@ -221,6 +221,34 @@ def test_a_state_says_which_are_felled_and_brings_others_back() -> None:
         assert [5.0, 5.0] in standing(prairie)
 
 
+def test_a_state_keeps_trees_of_the_scene_that_a_game_has_changed() -> None:
+    def foliages() -> list[float]:
+        return sorted(tree.foliage for _, tree in esper.get_component(Tree))
+
+    with little_prairie(scene=WOOD) as prairie:
+        whole = prairie.state()
+        first, second, third = (entity for entity, _ in esper.get_component(Tree))
+        esper.add_component(first, Tree("oak", foliage=0.0))
+        esper.add_component(second, Pose(4.0, 4.0))
+        winter = prairie.state()
+        prairie.restore(winter)
+        assert foliages() == [0.0, 1.0, 1.0]
+        assert len(standing(prairie)) == 3
+        esper.delete_entity(third, immediate=True)
+        bare = prairie.state()
+        prairie.restore(whole)
+        assert foliages() == [1.0, 1.0, 1.0]
+        assert len(standing(prairie)) == 3
+        *_, (last, _) = esper.get_component(Tree)
+        esper.add_component(last, Tree("oak", 3.0))
+        prairie.restore(bare)  # where that one is gone
+        assert foliages() == [0.0, 1.0]
+    with little_prairie(scene=WOOD) as prairie:
+        prairie.restore(winter)
+        assert foliages() == [0.0, 1.0, 1.0]
+        assert [4.0, 4.0] in standing(prairie)
+
+
 def test_a_scene_read_again_keeps_its_trees_unless_they_are_others() -> None:
     with little_prairie(scene=WOOD) as prairie:
         (first, _), *_ = esper.get_component(Tree)
