@@ -42,10 +42,12 @@ def texture_number(texture: object, /) -> int:
 
     `glGenTextures` of pyglet gives a number as a `c_uint`.
     """
-    number = next((found for name in ("glo", "id", "value") if (found := getattr(texture, name, None)) is not None), texture)
+    held = (getattr(texture, name, None) for name in ("glo", "id", "value"))
+    number = next((found for found in held if found is not None), texture)
     if not isinstance(number, int) or isinstance(number, bool) or number < 1:
         raise TypeError(
-            f"a shadow map's texture is a depth texture of moderngl or pyglet, or its GL number, not {shortened(texture)}"
+            "a shadow map's texture is a depth texture of moderngl or pyglet, or its number in GL, "
+            f"not {shortened(texture)}"
         )
     if getattr(texture, "depth", True) is False or type(texture).__name__ in {
         "TextureArray",

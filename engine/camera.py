@@ -244,8 +244,8 @@ def view_of(view: object, projection: object, origin: Place = (0.0, 0.0, 0.0)) -
 
     Each is a 4x4 array, or pyglet's `Mat4`, whose 16 numbers run column by column. `origin` is where the scene's is in
     the world of `view` [m]; what is far away from both cancels out in double precision. Raises ValueError for anything
-    that has not 16 finite numbers or has no inverse, for an eye beyond a million kilometres, and for two matrices that
-    come to more together than single precision holds.
+    that has not 16 finite numbers or has no inverse, for a view with perspective, for an eye beyond a million
+    kilometres, and for two matrices that come to more together than single precision holds.
     """
     one, other = _matrix(view, "view"), _matrix(projection, "projection")
     if any(origin):
@@ -266,10 +266,18 @@ def as_origin(place: object, /) -> Place:
     return x, y, z
 
 
+NO_PERSPECTIVE = 1e-3
+"""How much single precision may leave in the last row of a view matrix, where 0 is due."""
+
+
 @lru_cache(maxsize=16)
 def _usable(view: bytes, projection: bytes) -> View:
     """Return the view of two matrices, row by row: who looks as before has the same one."""
     seen = View(*(np.frombuffer(each, np.float32).reshape(4, 4) for each in (view, projection)))
+    if np.abs(seen.view[3, :3]).max() > NO_PERSPECTIVE:
+        raise ValueError(
+            "the view matrix has perspective: give the view first, with a last row of 0 0 0 1, then the projection"
+        )
     if not seen.is_usable:
         _must_be_usable(seen)
     return seen

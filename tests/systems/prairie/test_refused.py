@@ -9,6 +9,7 @@ import esper
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from pyglet.math import Mat4
 
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import WindSource
@@ -105,11 +106,17 @@ BAD: list[tuple[object, str]] = [
     [
         (GOOD * 1e30, GOOD * 1e30, "^the view and the projection matrix come to more together than single precision"),
         (GOOD * 1e-25, GOOD * 1e-25, "^the view and the projection matrix come to more together than single precision"),
+        (Mat4.perspective_projection(1.0, 0.1, 100.0), GOOD, "^the view matrix has perspective: give the view first"),
+        (
+            GOOD + np.eye(4, k=-3) * 9.0,
+            GOOD,
+            "^the view matrix has perspective: .* a last row of 0 0 0 1",
+        ),  # transposed
         (GOOD + np.eye(4, k=3) * 1e30, GOOD, r"^the view matrix has its eye beyond 1e\+09 m$"),
     ],
 )
 def test_matrices_that_lead_out_of_the_world_are_refused_in_a_sentence(
-    prairie: Prairie, view: NDArray[np.float64], projection: NDArray[np.float64], sentence: str
+    prairie: Prairie, view: NDArray[np.float64] | Mat4, projection: NDArray[np.float64], sentence: str
 ) -> None:
     with pytest.raises(ValueError, match=sentence):
         prairie.draw(view, projection)
