@@ -45,9 +45,6 @@ CARDS = tuple(f"{NEAR}{number}" for number in range(len(SHARES) + 1))
 WOODS = tuple(f"{WOOD}{number}" for number in range(len(RUNS) + 1))
 """The streams of those."""
 
-SMALL_CARDS = CARDS[2:]
-"""Those whose cards are so small that their outline has four corners: triangles of small cards are edges."""
-
 
 def drawn_of(twigs: int, share: float, /) -> int:
     """Return how many of a tree's twigs are drawn where such a share of them is to be seen."""

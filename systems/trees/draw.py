@@ -16,7 +16,7 @@ from ..space.grown import Grown
 from ..wind.blow import mean_wind
 from ..wind.mean import MeanWind
 from .call import Call, in_turn, part_of_wood, told_of_call
-from .card import BACK, CARDS, CAST, FAR, IN_ROWS, LEAVES, NEAR, QUAD, SMALL_CARDS, WOOD, WOODS, ModelOnCard, Numbers
+from .card import BACK, CARDS, CAST, FAR, IN_ROWS, LEAVES, NEAR, QUAD, WOOD, WOODS, ModelOnCard, Numbers
 from .group import Group
 from .kind import KindOnCard
 from .leafy import leaf_by_leaf, leafy
@@ -325,13 +325,13 @@ class TreePart(Part):
             for model in kind.models:
                 for sort, name, first, vertices in (
                     (LEAVES, LEAVES, 0, QUAD * kind.habit.leaf.quads),
-                    *((NEAR, name, 0, len(kind.outlines[name in SMALL_CARDS])) for name in CARDS),
+                    *((NEAR, name, 0, len(kind.outline)) for name in CARDS),
                     *((WOOD, name, *part_of_wood(model, name, soft=soft, whole=all_wood or sampled)) for name in WOODS),
                     (FAR, BACK if soft else FAR, 0, 2 * CORNERS),
                 ):
                     stream = model.hung.get(name, model.streams[name])
                     if stream.count and vertices > 0 and not (soft and sampled and sort != FAR):
-                        corners = kind.outlines[name in SMALL_CARDS] if name in CARDS else []
+                        corners = kind.outline if name in CARDS else []
                         drawn_as, sampling = (of_far, edges) if sort == FAR else (sort, SAMPLED if sampled else edges)
                         array = programs.array(drawn_as, stream, model, edges=sampling)
                         nearest = 0.0 if soft else self._nearest(model.placed[name])

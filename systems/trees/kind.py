@@ -20,7 +20,7 @@ from .kept import keep_pictures, kept_pictures, kind_key
 from .lies import lies_of
 from .model import models_of
 from .noise import bark_noise
-from .outline import BOX, around, outline, pairs, roughly
+from .outline import BOX, around, outline, pairs
 from .programs import Programs
 from .twig import FINER_EACH, HANGING_OFF, SHOOTS_LONG, SHOOTS_OFF
 from .twig import PICTURES as OF_TWIGS
@@ -52,10 +52,9 @@ class KindOnCard:
         self._seed = seed
         self.models = [ModelOnCard(ctx, each) for each in models_of(declared.habit, seed)]
         self.card: moderngl.TextureArray | None = None
-        self.outlines: list[list[tuple[float, float]]] = []
-        """Corners about what its card shows: of the largest cards, and of others."""
+        self.outline = pairs(BOX)
+        """Corners about what its card shows."""
         self._lies: list[tuple[float, float, float, float]] = []
-        self._draw_as(BOX)
         self.bark = mipmapped(ctx, bark_noise())
         self.bark.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
         leaf, usual = self.habit.leaf, self.habit.twigs.length
@@ -84,7 +83,7 @@ class KindOnCard:
         """Show twigs as in this picture."""
         if self.card is None:
             self.card = filtered(self.ctx, twig)
-            self._draw_as(outline(twig[0][::2, ..., 3].max(axis=0)))
+            self.outline = pairs(outline(twig[0][::2, ..., 3].max(axis=0)))
             self._lies = lies_of(twig[0][:2])
 
     def _twig_pictures(self, programs: Programs) -> list[Bytes]:
@@ -106,9 +105,6 @@ class KindOnCard:
             twig.render(moderngl.TRIANGLES, vertices=QUAD * leaf.quads, instances=1)
 
         return pictures(self.ctx, 1, 1, CARD, draw_twig)
-
-    def _draw_as(self, corners: Doubles) -> None:
-        self.outlines = [pairs(each) for each in (corners, roughly(corners))]
 
     def _model_picture(self, programs: Programs, model: ModelOnCard) -> list[Bytes]:
         """Return the pictures of a model from all around."""

@@ -120,21 +120,6 @@ def pairs(corners: Doubles, /) -> list[tuple[float, float]]:
     return [(x, y) for x, y in corners.tolist()]
 
 
-def roughly(corners: Doubles, /) -> Doubles:
-    """Return four corners about those of an outline, left and right in turn: triangles of small cards are edges."""
-    low, high = corners[:, 1].min(), corners[:, 1].max()
-    sides = []
-    for turned, points in ((-1.0, corners[::2]), (1.0, corners[1::2])):
-        reach, share = turned * points[:, 0], (points[:, 1] - low) / (high - low)
-        feet = np.linspace(reach[0], reach.max(), TRIED)
-        tips = ((reach - feet[:, None] * (1.0 - share)) / np.maximum(share, 1e-3))[:, 1:].max(axis=1)
-        best = int((feet + tips).argmin())
-        sides.append(turned * np.array([feet[best], tips[best]]))
-    return np.asarray(
-        np.clip(np.stack([np.stack(sides, axis=1).reshape(-1), [low, low, high, high]], axis=1), (-1.0, 0.0), 1.0)
-    )
-
-
 def _spans(covered: Mask) -> tuple[Doubles, Doubles, Doubles]:
     """Return edges of rows about what is covered, and from where to where it goes there [texels]."""
     side, any_there = len(covered), covered.any(axis=1)

@@ -58,18 +58,29 @@ float noise(vec2 at) {
     return texture(tree_cards, vec3(at * (1.0 / NOISE_CELLS), 0.0), SHARPER_BY).r;
 }
 
+// How bright bark is with dark bands across its stem, of its ground.
+float banded_at(vec2 on, float broad) {
+    float band = smoothstep(BAND.x, BAND.y, noise(on * BANDS) * (BANDED.x + BANDED.y * broad));
+    float foot = (1.0 - smoothstep(FOOT.x, FOOT.y, on.y)) * smoothstep(SPOT.x, SPOT.y, noise(on * SPOTS));
+    return mix(1.0, BAND_TONE, max(band, foot));
+}
+
+// And with furrows along it.
+float furrowed_at(vec2 on, float broad) {
+    float furrows = noise(on * FURROWS + 2.0 * broad), cracks = noise(on * (FURROWS * FINER));
+    return mix(1.0, RIDGES.x + RIDGES.y * (DEEP * furrows + (1.0 - DEEP) * cracks), rough);
+}
+
 // The bark's pigment there, of its own: furrows along an old stem, or dark bands across it.
 float bark_there() {
     float fades = clamp(FINEST_BARK.x - FINEST_BARK.y * max(fwidth(on_skin.x), fwidth(on_skin.y)), 0.0, 1.0);
     bool banded = rough < 0.0;
-    float broad = noise(on_skin * (banded ? vec2(BANDED.z) : vec2(WINDINGS)));
-    float first = noise(banded ? on_skin * BANDS : on_skin * FURROWS + 2.0 * broad);
-    float fine = noise(on_skin * (banded ? SPOTS : FURROWS * FINER));
-    float band = smoothstep(BAND.x, BAND.y, first * (BANDED.x + BANDED.y * broad));
-    float foot = (1.0 - smoothstep(FOOT.x, FOOT.y, on_skin.y)) * smoothstep(SPOT.x, SPOT.y, fine);
-    float furrowed = RIDGES.x + RIDGES.y * (DEEP * first + (1.0 - DEEP) * fine);
-    float old = mix(bark_mean(), banded ? mix(1.0, BAND_TONE, max(band, foot)) : mix(1.0, furrowed, rough), fades);
-    return soiled_at(stands + broad - 0.5) * mix(1.0, old, aged);
+    float broad = noise(on_skin * (banded ? BANDED.z : WINDINGS)), old;
+    if (banded)
+        old = banded_at(on_skin, broad);
+    else
+        old = furrowed_at(on_skin, broad);
+    return soiled_at(stands + broad - 0.5) * mix(1.0, mix(bark_mean(), old, fades), aged);
 }
 #endif
 
