@@ -228,11 +228,13 @@ def refuse(why: str, /) -> NoReturn:
 
 
 def mark_of(site: Site, ground: str, /) -> str:
-    """Return what tells a scene from others whose states are no use to it: all but camera, light and quality.
+    """Return what tells a scene from others whose states are no use to it.
 
-    `ground` is the mark of its ground.
+    That is all but camera, light, quality and the colours of trees. `ground` is the mark of its ground.
     """
-    told = json.loads(site.scene.model_dump_json(exclude={"camera", "light", "quality"}))
+    trees = {name: kind.uncoloured for name, kind in site.scene.trees.items()}
+    scene = site.scene.model_copy(update={"trees": trees})
+    told = json.loads(scene.model_dump_json(exclude={"camera", "light", "quality"}))
     if not told["trees"]:  # states of scenes that could not have any are of these
         del told["trees"]
     text = json.dumps([told, site.quality.patch, ground], sort_keys=True)

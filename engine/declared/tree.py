@@ -16,6 +16,9 @@ LOWEST, HIGHEST = 0.5, 60.0
 MOST = 20_000
 """Trees of a kind in a scene at most."""
 
+COLOURS = "leaf", "bark", "variety"
+"""Keys that may change while trees stand."""
+
 
 class TreeKind(Declaration):
     """A kind of tree or bush: how it grows, and where.
@@ -69,6 +72,11 @@ class TreeKind(Declaration):
 
     slope: float = Field(default=40.0, ge=0.0, le=90.0)
     """Steepest slope that trees of `density` stand on [degrees]."""
+
+    @property
+    def uncoloured(self) -> "TreeKind":
+        """The kind but for its colours: what stands where, and how high."""
+        return self.model_copy(update={name: type(self).model_fields[name].default for name in COLOURS})
 
     @model_validator(mode="after")
     def _stands_apart(self) -> "TreeKind":

@@ -65,6 +65,10 @@ class ShadowPart(Part):
         ]
         self._bound: list[tuple[ShadowMap, bool]] = []
         """Each with whether its depth is reversed."""
+        self._none = ctx.depth_texture((1, 1))
+        self._most = 0
+        """How many there have been. Where there are fewer now, as by night, `_none` stands in for the others: drivers
+        compile programs anew where what they may read as a shadow map is another sort of texture."""
         self._told: set[int] = set()
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
@@ -76,6 +80,7 @@ class ShadowPart(Part):
         del outlook
         sun = np.asarray(record["sun"][0], np.float64)
         self._bound = [(each, nears(each.matrix, sun)) for each in self._shadows.maps if self._is_there(each)]
+        self._most = max(self._most, len(self._bound))
         record["maps_shown"] = len(self._bound)
         for into, (each, _) in zip(record["maps"][0], self._bound, strict=False):
             into["clip_of"], into["bias"] = unturned_clip(each.matrix).T.reshape(16), each.bias
@@ -93,10 +98,13 @@ class ShadowPart(Part):
         for unit, (each, is_reversed) in zip(BORROWED, self._bound, strict=False):
             borrow(unit, texture_number(each.texture))
             self._samplers[is_reversed].use(unit)
+        for unit in BORROWED[len(self._bound) : self._most]:
+            borrow(unit, self._none.glo)
+            self._samplers[False].use(unit)
 
     def release(self) -> None:
         """Give the samplers back."""
-        for each in self._samplers:
+        for each in (*self._samplers, self._none):
             each.release()
 
 

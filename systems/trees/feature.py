@@ -224,7 +224,8 @@ def _seedlings(name: str, kind: TreeKind, place: Floats, *, seed: int) -> list[S
 
 
 def _made_of(grown: Grown) -> tuple[object, ...]:
-    return grown.scene.trees, grown.scene.seed, grown.ground.terrain, grown.ground.density
+    kinds = {name: kind.uncoloured for name, kind in grown.scene.trees.items()}
+    return list(kinds.items()), grown.scene.seed, grown.ground.terrain, grown.ground.density
 
 
 def _boxes(discs: Doubles) -> Doubles:

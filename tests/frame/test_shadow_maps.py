@@ -13,11 +13,13 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass import Lod, Shade, ShadowMap
+from tallgrass.components.shadow_map import texture_number
 from tallgrass.engine.camera import Camera, view_of
 from tallgrass.engine.gl.functions import NUMBERS, functions_of
 from tallgrass.engine.gl.units import BORROWED
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import EveryBlade, cells_in_picture, cells_within
+from tallgrass.systems.shadows import feature
 from tallgrass.systems.space.cone import view_cone
 from tallgrass.testing import LITTLE, Stage
 
@@ -245,6 +247,22 @@ def test_maps_are_bound_where_a_host_has_textures_of_its_own_and_these_are_there
     finally:
         prairies["strips"].shadows([])
         own.release()
+
+
+def test_where_there_are_no_maps_any_more_programs_find_depth_textures_as_before(
+    stage: Stage, prairies: dict[str, Prairie], box: ShadowMap, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bound = dict[int, int]()
+    monkeypatch.setattr(feature, "borrow", bound.__setitem__)
+    prairies["strips"].shadows([box, box])
+    stage.shot(prairies["strips"], CAMERA)
+    units = {*bound}
+    assert len(units) >= 2
+    prairies["strips"].shadows([])
+    bound.clear()
+    stage.shot(prairies["strips"], CAMERA)
+    assert bound.keys() == units
+    assert texture_number(box.texture) not in bound.values()
 
 
 def test_of_several_maps_the_first_counts_that_a_place_lies_in(

@@ -256,6 +256,11 @@ def test_a_scene_read_again_keeps_its_trees_unless_they_are_others() -> None:
         values = prairie.scene.model_dump(mode="json")
         prairie.reload(values | {"mixing": "weight"})
         assert len(standing(prairie)) == 2
+        summer = prairie.state()
+        autumn = {name: kind | {"leaf": "#c86a1e"} for name, kind in values["trees"].items()}
+        prairie.reload(values | {"mixing": "weight", "trees": autumn})  # what is felled stays so
+        assert len(standing(prairie)) == 2
+        prairie.restore(summer)
         prairie.reload(values | {"trees": {"oak": {"habit": "oak", "positions": [[5.0, 5.0]]}}})
         assert standing(prairie) == [[5.0, 5.0]]
 
