@@ -104,8 +104,9 @@ class ShadowPart(Part):
 
     def release(self) -> None:
         """Give the samplers back."""
-        for each in (*self._samplers, self._none):
+        for each in self._samplers:
             each.release()
+        self._none.release()
 
 
 def nears(matrix: Doubles, sun: Doubles, /) -> bool:
