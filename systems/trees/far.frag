@@ -90,8 +90,9 @@ vec2 blown_from(vec2 at) {
 void main() {
     vec4 texel, shading;
     mix_pictures(blown_from(on_own(0.5 + 0.5 * on.xy)), texel, shading);
-    float whole = 1.0 / max(texel.a, LEAST_COVER), wood = texel.g * whole;
-    float cover = texel.a * sunlit.a * mix(foliage_of(meets), 1.0, wood);
+    float whole = 1.0 / max(texel.a, LEAST_COVER), wood = texel.g * whole, left = mix(foliage_of(meets), 1.0, wood);
+    float cover = texel.a * sunlit.a * left;
+    wood /= max(left, LEAST_COVER);  // of what is left with fewer leaves
     must_cover(cover);
     shading *= whole;
     float seen = comes_through(sun_meets(shading, meets)), open = comes_through(sky_meets(shading, meets));

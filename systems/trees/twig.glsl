@@ -29,7 +29,8 @@ vec4 random(int twig, int leaf, int number) {
 // How large a twig is drawn: 0 where it is left out.
 float size_of(float rank) {
     float shown = min(keep * (1.0 - gone), 1.0) * foliage;
-    return clamp((shown - rank) * RANKS + 0.5, 0.0, 1.0) * inversesqrt(max(keep, LEAST_KEPT));
+    float dwindles = clamp((shown - rank) * RANKS + 0.5, 0.0, 1.0) * min(foliage * RANKS, 1.0);  // without leaves, none is left
+    return dwindles * inversesqrt(max(keep, LEAST_KEPT));
 }
 
 // Which picture its card shows: where it is larger than it has grown, one with more and smaller leaves.
