@@ -1,14 +1,16 @@
 """Drawing what trees are drawn with: a twig on its card, and a whole tree from all around."""
 
 from collections.abc import Callable
+from math import ceil
 
 import moderngl
 import numpy as np
+from numpy.typing import NDArray
 
 from ...components.arrays import Bytes, Doubles, Floats
 from ...engine.gl.mipmaps import mipmapped
 from ...engine.gl.stream import release_all
-from .far import COLUMNS, EACH_ROW, FINER, FIRST_ROW, ROWS, SIDE
+from .far import COARSER, COLUMNS, EACH_ROW, FINER, FIRST_ROW, ROWS, TALL
 
 CARD = 256
 """Pixels of a twig's card across and up."""
@@ -17,22 +19,28 @@ LEVELS = 5
 """Sizes of a picture that are kept, each half the one before: coarser ones would mix neighbours."""
 
 DEPTHS = 4.0, 2.0
-"""How far the pictures of a tree and of a twig go to the front and back: half sides, and usual lengths."""
+"""How far the pictures of a tree and of a twig go to the front and back: of half their height, and usual lengths."""
 
-PICTURES = COLUMNS, ROWS, SIDE
-"""Of a tree from all around: side by side, in rows, and pixels of one across and up."""
+WHOLE = 1 << (LEVELS - 1)
+"""Texels in a row that the coarsest picture has one of."""
 
 Draw = Callable[[int], None]
 """Draws the picture of a number into the viewport that is set."""
 
 
-def pictures(ctx: moderngl.Context, columns: int, rows: int, side: int, draw: Draw, /) -> list[Bytes]:
-    """Return pictures drawn side by side in rows, of `side` pixels each, as `smaller` has them.
+def wide_of(breadth: float, /) -> int:
+    """Return the texels across of a tree's pictures where it is so broad, of their height."""
+    return -(-ceil(TALL * breadth) // WHOLE) * WHOLE
 
-    What two outputs have are two layers of them.
+
+def pictures(ctx: moderngl.Context, columns: int, rows: int, wide: int, tall: int, draw: Draw, /) -> Floats:
+    """Return pictures drawn side by side in rows, each of `wide` by `tall` texels; two outputs are two layers.
+
+    They have shape (2, rows, columns, 4), and are premultiplied by the last channel of the first layer, the coverage:
+    each texel is the mean of what it shows [bytes].
     """
-    fine = side * FINER
-    size, before = (columns * fine, rows * fine), ctx.fbo
+    fine = wide * FINER, tall * FINER
+    size, before = (columns * fine[0], rows * fine[1]), ctx.fbo
     colors = [ctx.texture(size, 4) for _ in range(2)]
     depth = ctx.depth_renderbuffer(size)
     target = ctx.framebuffer(colors, depth)
@@ -41,14 +49,17 @@ def pictures(ctx: moderngl.Context, columns: int, rows: int, side: int, draw: Dr
         target.clear()
         ctx.enable_only(moderngl.DEPTH_TEST)
         for number in range(columns * rows):
-            target.viewport = number % columns * fine, number // columns * fine, fine, fine
+            target.viewport = number % columns * fine[0], number // columns * fine[1], *fine
             draw(number)
         ctx.enable_only(moderngl.NOTHING)
         texels = np.stack([np.frombuffer(each.read(), np.uint8).reshape(size[1], size[0], 4) for each in colors])
     finally:
         before.use()  # what is bound when it is released is bound again later
         release_all(target, depth, *colors)
-    return smaller(texels)
+    values = _halved(texels)  # what is not covered is 0 in both
+    for _ in range(FINER.bit_length() - 2):
+        values = _halved(values)
+    return values
 
 
 def filtered(ctx: moderngl.Context, made: list[Bytes], /) -> moderngl.TextureArray:
@@ -59,44 +70,67 @@ def filtered(ctx: moderngl.Context, made: list[Bytes], /) -> moderngl.TextureArr
     return texture
 
 
-def smaller(texels: Bytes, /) -> list[Bytes]:
-    """Return two layers (2, rows, columns, 4) of what was drawn, `FINER` times too large, at `LEVELS` sizes.
-
-    Texels are premultiplied by the last channel of the first layer, the coverage: each is the mean of what it shows.
-    """
-    values = texels.astype(np.float32)
-    values[1] *= np.float32(1.0 / 255.0) * values[0, ..., 3:]
-    for _ in range(FINER.bit_length() - 1):
-        values = _halved(values)
+def smaller(values: Floats, levels: int = LEVELS, /) -> list[Bytes]:
+    """Return layers (n, rows, columns, 4) at so many sizes."""
     found = []
-    for _ in range(LEVELS):
+    for _ in range(levels):
         found.append(np.ascontiguousarray(np.round(values).astype(np.uint8)))
         values = _halved(values)
     return found
 
 
-def _halved(values: Floats) -> Floats:
-    quarter = np.float32(0.25)
-    return np.asarray(
-        quarter * (values[:, ::2, ::2] + values[:, 1::2, ::2] + values[:, ::2, 1::2] + values[:, 1::2, 1::2]),
-        np.float32,
-    )
+def spread(values: Floats, cover: Floats, levels: int, /) -> list[Bytes]:
+    """Return a layer (1, rows, columns, 4) that is premultiplied by a coverage (rows, columns), each without it.
+
+    Where nothing is covered it has what is about that, so that texels can be read between. It has so many sizes.
+    """
+    both = np.concatenate([values, cover[..., None]], axis=-1)[None]
+    each = [both]
+    for _ in range(levels - 1):
+        each.append(_halved(each[-1]))
+    found = list[Floats]()
+    for one in reversed(each):
+        there = one[..., 4:] > 0.0
+        own = 255.0 * one[..., :4] / np.where(there, one[..., 4:], 1.0)
+        around = (
+            found[-1].repeat(2, axis=1).repeat(2, axis=2) if found else np.full_like(own, own[there[..., 0]].mean())
+        )
+        found.append(np.where(there, own, around))
+    return [np.ascontiguousarray(np.round(one).astype(np.uint8)) for one in reversed(found)]
 
 
-def covers(made: list[Bytes], /) -> Bytes:
-    """Return how much of it each picture of a tree from all around covers, shape (pictures, rows, columns)."""
-    columns, rows, side = PICTURES
-    texels = made[0][0, ..., 3].reshape(rows, side, columns, side)
-    return np.asarray(texels.transpose(0, 2, 1, 3).reshape(rows * columns, side, side))
+def of_tree(values: Floats, /) -> tuple[list[Bytes], list[Bytes]]:
+    """Return what pictures of a tree show, and how light has come to that."""
+    coarser = values
+    for _ in range(COARSER.bit_length() - 1):
+        coarser = _halved(coarser)
+    return smaller(values[:1]), spread(coarser[1], coarser[0, ..., 3], LEVELS - COARSER.bit_length() + 1)
 
 
-def from_around(number: int, middle: float, half: float, /) -> Doubles:
-    """Return the matrix (4, 4) that shows a tree from one of its sides: a square of half a side about a height [m]."""
+def _halved(values: NDArray[np.generic]) -> Floats:
+    wide = np.uint16 if values.dtype == np.uint8 else np.float32
+    rows = np.add(values[:, ::2], values[:, 1::2], dtype=wide)
+    pairs = rows.reshape(*rows.shape[:2], -1, 2, rows.shape[-1])  # faster than every other column
+    return np.asarray(np.float32(0.25) * np.add(pairs[..., 0, :], pairs[..., 1, :], dtype=np.float32))
+
+
+def covers(texels: Bytes, wide: int, /) -> Bytes:
+    """Return how much of it each picture of a tree from all around covers, shape (pictures, TALL, wide)."""
+    cover = texels[0, ..., 3].reshape(ROWS, TALL, COLUMNS, wide)
+    return np.asarray(cover.transpose(0, 2, 1, 3).reshape(ROWS * COLUMNS, TALL, wide))
+
+
+def from_around(number: int, middle: float, half: float, slim: float, /) -> Doubles:
+    """Return the matrix (4, 4) that shows a tree from one of its sides, half so high about a height [m].
+
+    It is `slim` times as high as wide.
+    """
     azimuth, up = 2.0 * np.pi * (number % COLUMNS) / COLUMNS, FIRST_ROW + EACH_ROW * (number // COLUMNS)
     to = np.array([np.cos(up) * np.sin(azimuth), np.sin(up), np.cos(up) * np.cos(azimuth)])
     across = np.array([np.cos(azimuth), 0.0, -np.sin(azimuth)])
     shown = np.eye(4)
     shown[:3, :3] = np.stack([across, np.cross(to, across), -to]) / half
+    shown[0, :3] *= slim
     shown[2, :3] /= DEPTHS[0]
     shown[:3, 3] = -shown[:3, :3] @ (0.0, middle, 0.0)
     return shown

@@ -10,6 +10,7 @@ from ...components.arrays import Doubles
 from ...engine.gl.records import Records
 from ...engine.gl.stream import Stream, release_all
 from .bark import RUNS, SENT, sent
+from .lies import Lies
 from .model import Model
 from .outline import Around
 from .standing import COLUMN, HUNG, LEAFY, PLACED, SHOWN, TOLD
@@ -31,9 +32,6 @@ BACK = "back"
 
 QUAD = 6
 """Vertices of a quad, as two triangles."""
-
-FEWER = 0.5
-"""Share of its twigs that a tree's pictures show, as much larger: in so few pixels, more would look the same."""
 
 SHARES = 2 / 3, 1 / 3, 1 / 6
 """Shares of its twigs between which trees have their cards drawn together: as many of each as of any of them."""
@@ -59,7 +57,7 @@ class ModelOnCard:
         self.model = model
         self.numbers: Numbers = {
             "tall": (model.height,), "trunk_hertz": (model.hertz,), "twigs": (len(model.twigs),),
-            "ball": (model.middle, model.half), "lawn_shade": model.shade,
+            "ball": (model.middle, model.half), "slim": (model.slim,), "lawn_shade": model.shade,
             "column": (COLUMN * model.radius,),
         }  # fmt: skip
         """What programs are told of it."""
@@ -72,10 +70,8 @@ class ModelOnCard:
         """The first of those that each stream of wood draws."""
         self.bare = Stream(ctx, LEAFY)
         self._alone = np.zeros(1, LEAFY)
-        self._alone["keep"] = FEWER
-        self._alone["columns"] = self._alone["shows"] = self._alone["scale"] = self._alone["foliage"] = self._alone[
-            "tint"
-        ] = 1.0
+        for name in ("keep", "columns", "shows", "scale", "foliage", "tint"):
+            self._alone[name] = 1.0
         self._alone["turn"] = 1.0, 0.0
         self.bare.write(self._alone)
         self.streams = {name: Stream(ctx, SHOWN) for name in (*WOODS, FAR, BACK, *CARDS)}
@@ -91,6 +87,10 @@ class ModelOnCard:
         self.wood = dict.fromkeys(WOODS, Parts(0, 0))
         """Triangles that the trees of a stream of wood draw."""
         self.far: moderngl.TextureArray | None = None
+        """Its pictures from all around: what they show, and how light has come to that."""
+        self.met: moderngl.TextureArray | None = None
+        self.lies = Lies()
+        """How its leaves lie."""
         self.around = Around((), [])
         """Corners about what its pictures show."""
 
@@ -150,5 +150,4 @@ class ModelOnCard:
         """Give everything back."""
         release_all(self.twigs, self.vertices, self.triangles, self.bare)
         release_all(*self.streams.values(), *self.told.values(), *self.hung.values())
-        if self.far is not None:
-            self.far.release()
+        release_all(*(each for each in (self.far, self.met) if each is not None))

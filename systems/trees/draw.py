@@ -26,7 +26,7 @@ from .programs import HANG, HANG_LEAVES, HARD, SAMPLED, SOFT, STAND, Programs
 from .shade import ShadeMap
 from .standing import LEAFY, PLACED, TOLD, Standing, columns_of, shown, shows
 from .twig import BEHIND, LEAF_PIXELS
-from .wood import AWAY, OPAQUE, SOLID, SWAYS, THINNEST, nearest_ahead
+from .wood import AWAY, CLOSED, OPAQUE, SOLID, SWAYS, THINNEST, nearest_ahead
 
 EVERY_LEAF = -2.0, -1.0
 """What is told in place of `LEAF_PIXELS` where all twigs are drawn leaf by leaf."""
@@ -336,8 +336,9 @@ class TreePart(Part):
                         array = programs.array(drawn_as, stream, model, edges=sampling)
                         nearest = 0.0 if soft else self._nearest(model.placed[name])
                         hard, around = all_wood or name in CARDS, model.around if sort == FAR else None
+                        opaque = SOLID if hard else CLOSED if sort == FAR else OPAQUE
                         told = kind.due(array.program, model)
-                        told = told + told_of_call(array.program, corners, around, SOLID if hard else OPAQUE)
+                        told = told + told_of_call(array.program, corners, around, opaque)
                         reads = kind.reads(array.program, model, wood=sort == WOOD)
                         form = moderngl.TRIANGLE_STRIP if name in CARDS or sort == FAR else moderngl.TRIANGLES
                         calls.append(Call(nearest, array, first, vertices, stream.count, form, told, reads))

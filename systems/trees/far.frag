@@ -6,10 +6,12 @@
 #include "systems/trees/motion.py"
 #include "systems/trees/shown.glsl"
 
-uniform sampler2DArray tree_far;  // tone, wood, how thick that is, cover; then by how many leaves light has met, by direction and in all
+uniform sampler2DArray tree_far;  // tone, wood, how thick that is, cover
+uniform sampler2DArray tree_met;  // how many leaves light has met, by direction and in all, with larger texels
 uniform float moment;
+uniform float slim;    // as far.vert has it
 
-in vec3 on;            // where on its picture, -1 to 1; and how high over its foot, of its height
+in vec3 on;            // as far.vert has it
 flat in vec4 tiles;
 flat in vec2 mixed;
 flat in vec2 row_told;
@@ -20,7 +22,7 @@ flat in vec3 foot;
 flat in vec4 meets;
 flat in vec4 sunlit;
 flat in vec4 wooden;
-flat in vec3 skylit;
+flat in vec4 skylit;
 flat in vec3 below;
 flat in vec3 hazy;
 #endif
@@ -31,19 +33,32 @@ out vec4 pixel;
 const vec2 SHIMMER_HERTZ = vec2(1.7, 1.3);  // how fast limbs swing, along and across a picture [Hz]
 const float SHIMMER_TURNS = 15.0;  // how much their swing changes over a crown [rad]
 const float HIDES_MOST = 0.96;  // of the sun's light, where leaves cover a texel wholly
-const float FACES_UP = 0.5;  // how far up what is seen of a crown looks, -1 to 1; wood, which is upright, does not
 
-// What the pictures show together that are mixed, two in a row: with most trees, it is one of them alone.
-void mix_pictures(vec2 at, out vec4 texel, out vec4 shading) {
-    ivec2 first = ivec2(greaterThanEqual(mixed, vec2(1.0))), last = ivec2(greaterThan(mixed, vec2(0.0)));
+const float COARSER_BY = log2(float(COARSER));
+
+// What the pictures show together that are mixed by these parts, two in a row: in most places, it is one of them alone.
+void mix_pictures(vec2 at, vec2 parts, out vec4 texel, out vec4 shading) {
+    ivec2 first = ivec2(greaterThanEqual(parts, vec2(1.0))), last = ivec2(greaterThan(parts, vec2(0.0)));
     texel = shading = vec4(0.0);
     for (int row = first.y; row <= last.y; row++)
         for (int column = first.x; column <= last.x; column++) {
             vec2 place = vec2(column == 0 ? tiles.x : tiles.z, row == 0 ? tiles.y : tiles.w) + at / vec2(COLUMNS, ROWS);
-            float part = (column == 0 ? 1.0 - mixed.x : mixed.x) * (row == 0 ? 1.0 - mixed.y : mixed.y);
-            texel += part * textureLod(tree_far, vec3(place, 0.0), told.w);
-            shading += part * textureLod(tree_far, vec3(place, 1.0), told.w);
+            float part = (column == 0 ? 1.0 - parts.x : parts.x) * (row == 0 ? 1.0 - parts.y : parts.y);
+            vec4 shows = part * textureLod(tree_far, vec3(place, 0.0), told.w);
+            texel += shows;
+            shading += shows.a * textureLod(tree_met, vec3(place, 0.0), max(told.w - COARSER_BY, 0.0));
         }
+}
+
+// Where on it that is, each way from 0 to 1.
+vec2 on_picture() {
+    return 0.5 + 0.5 * vec2(slim, 1.0) * on.xy;
+}
+
+// A place on one that is nowhere its neighbours'.
+vec2 within(vec2 at) {
+    vec2 edge = vec2(slim, 1.0) * TILE_EDGE;
+    return clamp(at, edge, 1.0 - edge);
 }
 
 #ifdef IN_ROWS
@@ -52,29 +67,29 @@ const vec3 ROWS_APART = vec3(7.0, 11.0, 13.0);  // and rows, by what tells them 
 const vec2 LOWER = vec2(1.0, 0.35);  // how many times as high a picture is as one of its trees, and how much more it may be
 
 // Where a pixel is on the picture of its tree, of those that stand side by side.
-vec2 on_own(vec2 at) {
+vec2 on_own() {
     if (row_told.x <= 1.0)
-        return at;
+        return on_picture();
+    vec2 at = 0.5 + 0.5 * on.xy;
     float along = at.x * row_told.x, number = floor(along);
     vec3 own = fract(number * APART + told.x * ROWS_APART);
     float aside = (fract(along) - 0.5) * row_told.y * (own.z > 0.5 ? 1.0 : -1.0);
     return vec2(0.5 + aside, at.y * (LOWER.x + LOWER.y * own.x));
 }
 #else
-vec2 on_own(vec2 at) {
-    return at;
+vec2 on_own() {
+    return on_picture();
 }
 #endif
 
 #ifdef CAST
 void main() {
-    vec2 at = clamp(0.5 + 0.5 * on.xy, TILE_EDGE, 1.0 - TILE_EDGE);
     vec4 texel, shading;
-    mix_pictures(at, texel, shading);
-    texel *= float(max(abs(on.x), abs(on.y)) < 1.0);
+    mix_pictures(within(on_picture()), mixed, texel, shading);
+    texel *= float(max(slim * abs(on.x), abs(on.y)) < 1.0);
     float leaves = -log(1.0 - HIDES_MOST * texel.a) * mix(1.0, foot.z, 1.0 - texel.g);
-    vec2 within = max(1.0 - dot(on.xy, on.xy) / vec2(shades.x * shades.x, foot.x * foot.x), 0.0);
-    float above = dot(vec2(shades.y, foot.y), within * within);
+    vec2 inner = max(1.0 - dot(on.xy, on.xy) / vec2(shades.x * shades.x, foot.x * foot.x), 0.0);
+    float above = dot(vec2(shades.y, foot.y), inner * inner);
     pixel = vec4(leaves, mix(leaves * shades.w, above, shades.z), 0.0, 0.0);
 }
 #else
@@ -82,21 +97,31 @@ void main() {
 vec2 blown_from(vec2 at) {
     vec2 waves = sin(AROUND * (SHIMMER_HERTZ * moment + told.x) + SHIMMER_TURNS * at.yx + vec2(0.0, 1.0));
     float high = clamp(on.z, 0.0, 1.0);
-    at += told.y * waves * at.y;
-    at.x += told.z * (high - cantilever(high));
-    return clamp(at, TILE_EDGE, 1.0 - TILE_EDGE);
+    at += vec2(slim, 1.0) * (told.y * at.y * waves + vec2(told.z * (high - cantilever(high)), 0.0));
+    return within(at);
+}
+
+const mat2 CLUMPS = mat2(197.0, 121.0, -137.0, 203.0), OTHER_CLUMPS = mat2(103.0, -219.0, 179.0, 119.0);  // waves over a picture's height, four ways [rad]
+const float GIVES_WAY = 0.25;  // part of the way from one picture to the next on which a clump of leaves gives way to another
+
+// How much of the second picture a place shows: clumps of leaves give way one after another, as two views blended are a blur.
+vec2 clump_by_clump(vec2 at) {
+    vec2 own = at * vec2(1.0 / slim, 1.0), turn = 0.5 + 0.5 * (0.5 * (sin(CLUMPS * own) + sin(OTHER_CLUMPS * own)));
+    float way = GIVES_WAY * exp2(told.w);  // where a pixel is many of them, they are blended after all
+    return clamp(((1.0 + way) * mixed - turn) / way, 0.0, 1.0);
 }
 
 void main() {
     vec4 texel, shading;
-    mix_pictures(blown_from(on_own(0.5 + 0.5 * on.xy)), texel, shading);
+    vec2 at = blown_from(on_own());
+    mix_pictures(at, clump_by_clump(at), texel, shading);
     float whole = 1.0 / max(texel.a, LEAST_COVER), wood = texel.g * whole, left = mix(foliage_of(meets), 1.0, wood);
     float cover = texel.a * sunlit.a * left;
     wood /= max(left, LEAST_COVER);  // of what is left with fewer leaves
     must_cover(cover);
     shading *= whole;
     float seen = comes_through(sun_meets(shading, meets)), open = comes_through(sky_meets(shading, meets));
-    vec3 sky = sky_on(skylit, below, open, FACES_UP * (1.0 - wood));
+    vec3 sky = sky_on(skylit.rgb, below, open, skylit.a * (1.0 - wood));
     Light light = Light((sunlit.rgb + wooden.rgb * wood) * seen, sky, hazy, 0.0, 0.0, vec2(0.0));
     float aged = aged_at(wooden.a * texel.b / max(texel.g, LEAST_COVER));
     pixel = drawn(shade(Surface(pigment_of(texel.r * whole, wood, aged), 1.0, AMONG_LEAVES), light), cover);

@@ -1,4 +1,4 @@
-// A tree far off: a square that faces the eye, and shows it as its model is seen from there. With CAST it faces the sun, for the
+// A tree far off: a picture that faces the eye, and shows it as its model is seen from there. With CAST it faces the sun, for the
 // map of what trees leave of its light.
 #include "systems/trees/tree.glsl"
 #include "systems/trees/leaf_sends.glsl"
@@ -7,30 +7,34 @@
 #include "systems/trees/packed.glsl"
 #include "systems/trees/outline.py"
 #include "systems/trees/shade.py"
+#ifndef CAST
+#include "systems/trees/lying.glsl"
+#endif
 
 in float columns;   // of a forest far off, how many trees stand side by side in its place
 in float shows;     // how much of it is shown
 
+uniform float slim; // how many times as high as wide its model's pictures are
 #ifdef CAST
 uniform vec4 tile;  // of the map: middle (across, up) [m], half the side [m], which one it is
 uniform vec3 lawn_shade; // of its model: how far it shades grass [m]; leaves that light meets, times area [m²]; at its foot
 
-flat out vec4 shades;  // how far it shades the grass, of the half side; leaves met in the middle; 1 in the map from above; how far
+flat out vec4 shades;  // how far it shades the grass, of that half; leaves met in the middle; 1 in the map from above; how far
                        // it is along the sun's rays [m]
 flat out vec3 foot;    // how far its foot does; leaves met there; how many of its leaves it has
 #else
 uniform vec4 high;     // of the corners about what its pictures show: how high they are, -1 to 1, from its foot to its top
-uniform vec4 reaches[2 * COLUMNS * ROWS];  // by picture: how far out they are left and right, of half a side
+uniform vec4 reaches[2 * COLUMNS * ROWS];  // by picture: how far out they are left and right, of half their height
 
 flat out vec4 meets;   // by how much of what pictures tell of light's way its leaves meet, along its axes and in all
 flat out vec4 sunlit;  // what its leaves send of the sun's light; how many of them are still to be seen
 flat out vec4 wooden;  // how much more its wood sends of that; how thick THICKEST is, of it [m]
-flat out vec3 skylit;
+flat out vec4 skylit;  // the sky's light; and how far up what is seen of its leaves looks, -1 to 1
 flat out vec3 below;
 flat out vec3 hazy;
 #endif
 
-out vec3 on;           // where on its picture, -1 to 1; and how high over its foot, of its height
+out vec3 on;           // where on its picture, of half its height, or across a row; and how high over its foot, of the tree's height
 flat out vec4 tiles;   // where on their texture the pictures begin that are mixed, the first and the second
 flat out vec2 mixed;   // how much of the second
 flat out vec4 told;    // what tells it from others; how far its limbs seem to swing, and how far aside its top is, of its picture; its level
@@ -41,6 +45,7 @@ const float ASKEW_ROWS = 2.0;  // by how much of an angle rows of trees are turn
 const float OVERHEAD = 0.999;  // sine of the elevation from which on a tree counts as seen from straight above
 
 const float SHIMMER = 0.12;  // how far its limbs seem to swing, of how far they do, of a picture
+const float CAST_COARSER = 0.6;  // levels more for the map, which is read between texels: the mean of many leaves and none shades too much
 const float COMES = 1.5;  // how much sooner it is all there than twigs are left to it
 const float UPRIGHT_SENDS = 0.25;  // what an upright stem sends of level light from behind the eye, of what faces it, over half a turn [1/rad]
 
@@ -75,7 +80,7 @@ vec2 corner_here(ivec4 pictures, float texels) {
     if (columns > 1.0)
         return vec2(to.x, corner == 0 ? -1.0 : 1.0);
     float moved = told.y + LEANS_OFF * abs(told.z);
-    return vec2(to.x * (reach_of(pictures, side, corner) + 2.0 * moved), high[corner]) + to * (SPREADS * 2.0 * texels / float(SIDE));
+    return vec2(to.x * (reach_of(pictures, side, corner) + 2.0 * moved), high[corner]) + to * (SPREADS * 2.0 * texels / float(TALL));
 }
 
 // What white wood sends to the eye of the sun's light: the mean over the side of an upright stem that is seen.
@@ -113,21 +118,22 @@ vec4 over_ground(vec3 seen_at, float under, float front) {
 void light_up(vec3 middle_of, vec3 ray) {
     Light light = light_in_crown(middle_of, vec4(0.0), 1.0);
     meets = meets_by(turned_back(sun), foliage);
-    sunlit = vec4(light.sun * strewn_send(ray), clamp(gone * shows * COMES, 0.0, 1.0));
-    wooden = vec4(light.sun * wood_sends(ray) - sunlit.rgb, THICKEST * scale);
-    skylit = light.sky;
-    hazy = light.haze;
     below = from_below() * (1.0 - haze_at(middle_of));
+    Seen seen = seen_of(mat3(turned(vec3(1.0, 0.0, 0.0)), vec3(0.0, 1.0, 0.0), turned(vec3(0.0, 0.0, 1.0))), ray, light, below);
+    sunlit = vec4(light.sun * seen.sends, clamp(gone * shows * COMES, 0.0, 1.0));
+    wooden = vec4(light.sun * wood_sends(ray) - sunlit.rgb, THICKEST * scale);
+    skylit = vec4(light.sky, seen.up);
+    hazy = light.haze;
 }
 #else
 // Where it lies in the map.
-void cast_at(vec3 middle_of, vec3 across, vec3 up, float half_side) {
+void cast_at(vec3 middle_of, vec3 across, vec3 up, float half_tall) {
     bool from_above = tile.w > 1.0;
     float reach = max(scale * lawn_shade.x, LEAST_SHADE);
-    shades = vec4(reach / half_side, foliage * lawn_shade.y * scale * scale / (reach * reach), float(from_above), dot(middle_of, sun));
-    foot = vec3(TRUNK_FOOT / half_side, foliage * min(lawn_shade.z * scale, FOOT_MEETS_MOST), foliage);
+    shades = vec4(reach / half_tall, foliage * lawn_shade.y * scale * scale / (reach * reach), float(from_above), dot(middle_of, sun));
+    foot = vec3(TRUNK_FOOT / half_tall, foliage * min(lawn_shade.z * scale, FOOT_MEETS_MOST), foliage);
     on *= from_above ? max(shades.x, 1.0) : 1.0;  // grass is shaded beyond the picture, too
-    vec3 seen_at = middle_of + half_side * (on.x * across + on.y * up);
+    vec3 seen_at = middle_of + half_tall * (on.x * across + on.y * up);
     vec3 right = from_above ? vec3(1.0, 0.0, 0.0) : trees_across, over = from_above ? vec3(0.0, 0.0, 1.0) : trees_up;
     gl_Position = vec4((vec2(dot(seen_at, right), dot(seen_at, over)) - tile.xy) / tile.z, 0.0, 1.0);
 }
@@ -141,23 +147,25 @@ void main() {
     to = normalize(to);
     ivec4 pictures = choose(turned_back(to));
     vec3 across = normalize(abs(to.y) > OVERHEAD ? vec3(turn.x, 0.0, turn.y) : vec3(to.z, 0.0, -to.x)), up = cross(to, across);
-    float half_side = scale * ball.y, texels = float(SIDE) * pixel_at(middle_of) / (2.0 * half_side);
+    float half_tall = scale * ball.y, texels = float(TALL) * pixel_at(middle_of) / (2.0 * half_tall);
     told = vec4(phase, 0.0, 0.0, max(log2(max(texels, LEAST_PART)) + (columns > 1.0 ? 0.0 : FINER_BY), 0.0));
-#ifndef CAST
+#ifdef CAST
+    told.w += CAST_COARSER;
+#else
     vec2 aside = trunk_sways(message);
     told.y = SHIMMER * LIMB_SWINGS * length(message);
-    told.z = columns > 1.0 ? 0.0 : 0.5 * dot(aside, across.xz) * tall * scale / half_side;
+    told.z = columns > 1.0 ? 0.0 : 0.5 * dot(aside, across.xz) * tall * scale / half_tall;
 #endif
     on = vec3(corner_here(pictures, max(texels, 1.0)), 0.0);
     if (columns > 1.0) {
         float askew = ASKEW_ROWS * (phase - 0.5);
         across = cos(askew) * across + sin(askew) * cross(across, vec3(0.0, 1.0, 0.0));
     }
-    float half_wide = columns > 1.0 ? 0.5 * columns * column * scale : half_side;
-    vec3 seen_at = middle_of + half_wide * on.x * across + half_side * on.y * up;
-    row_told = vec2(columns, 0.5 * column / ball.y);
+    float half_wide = columns > 1.0 ? 0.5 * columns * column * scale : half_tall;
+    vec3 seen_at = middle_of + half_wide * on.x * across + half_tall * on.y * up;
+    row_told = vec2(columns, 0.5 * slim * column / ball.y);
 #ifdef CAST
-    cast_at(middle_of, across, up, half_side);
+    cast_at(middle_of, across, up, half_tall);
 #else
     if (gone * shows <= 0.0) {
         gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
@@ -169,6 +177,6 @@ void main() {
     on.z = (seen_at.y - root.y) / (tall * scale);
     seen_at.xz += aside * (seen_at.y - root.y);  // its corners go along a line, and pixels from that to the trunk's
     light_up(middle_of, -to);
-    gl_Position = just_behind(over_ground(seen_at, under, half_side));
+    gl_Position = just_behind(over_ground(seen_at, under, half_tall));
 #endif
 }

@@ -38,7 +38,7 @@ log = logging.getLogger("tallgrass")
 class Trees(Feature):
     """The entities of one world that have a `Tree` and a `Pose`; those of the scene are made here."""
 
-    own = ("tree_twigs", "tree_cards", "tree_far", "tree_air", "tree_mean")
+    own = ("tree_twigs", "tree_cards", "tree_far", "tree_met", "tree_air", "tree_mean")
 
     def __init__(self, world: World, grown: Grown, *, live: bool) -> None:
         self._world, self._grown, self._live = world, grown, live

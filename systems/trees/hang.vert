@@ -1,7 +1,6 @@
 // What is the same all over a twig, on its card or with LEAVES leaf by leaf: where it hangs in the wind, and what light comes to it.
 #include "systems/trees/twig.glsl"
 #include "systems/trees/hung.glsl"
-#include "systems/trees/lies.py"
 #include "systems/trees/leaf_sends.glsl"
 #include "systems/trees/pigment.glsl"
 
@@ -31,50 +30,9 @@ void tell_leaves(int number, vec3 along, vec3 aside, float turns, Light above, v
     pack(HungLeaves(along, aside, above.sun, above.sky, below, above.haze, turns, number), hung_axes, hung_light, hung_haze);
 }
 #else
+#include "systems/trees/lying.glsl"
+
 const bool LEAF_BY_LEAF = false;
-
-uniform vec4 lies[LIES];  // as lies.py has it
-
-// What is seen of a twig's leaves, of which each lies another way.
-struct Seen {
-    vec3 sends;     // of the sun's light, in the mean
-    float up;       // how far up they look, in the mean
-    float darker;   // the mean of their colours as shown, of that of their mean radiance: a dark and a bright leaf together are darker
-    float turns;    // how much brighter those are that turn to the sun as its card does, by how far they do
-    vec3 faces;     // which way they lie in its picture, in the mean
-};
-
-// Those of a card that lies so, under this light on what looks up and on what looks down.
-Seen seen_on_card(mat3 own, vec3 ray, Light above, vec3 below) {
-    vec3 to_sun = sun * own, to_eye = -ray * own, strewn = strewn_send(ray), pigment = pigment_of(0.5, 0.0, 0.0), albedo = pigment * pigment;
-    float side = to_eye.z < 0.0 ? -1.0 : 1.0, shown = LEAST_PART, pictured = LEAST_PART, root_of = 0.0;
-    Seen seen = Seen(vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0));
-    vec2 mean = vec2(0.0), spread = vec2(0.0);
-    for (int each = 0; each < LIES; each++) {
-        vec3 normal = lies[each].xyz;
-        float to = dot(normal, to_eye), lit = dot(normal, to_sun), shows = lies[each].w * abs(to), part = lies[each].w * normal.z;
-        vec3 sends = leaf_sends(lit * sign(to), strewn);
-        float up = (own * normal).y * sign(to);
-        float bright = sqrt(brightness(albedo * (above.sun * sends + mix(below, above.sky, 0.5 + 0.5 * up)) + above.haze));
-        shown += shows;
-        seen.sends += shows * sends;
-        seen.up += shows * up;
-        root_of += shows * bright;
-        pictured += part;
-        seen.faces += part * normal;
-        mean += part * vec2(side * lit, bright);
-        spread += part * side * lit * vec2(side * lit, bright);
-    }
-    seen.sends /= shown;
-    seen.up /= shown;
-    seen.faces /= pictured;
-    mean /= pictured;
-    spread = spread / pictured - mean.x * mean;
-    seen.turns = spread.y / (max(spread.x, LEAST_PART) * max(mean.y, LEAST_PART));
-    vec3 all = albedo * (above.sun * seen.sends + mix(below, above.sky, 0.5 + 0.5 * seen.up)) + above.haze;
-    seen.darker = root_of / (shown * sqrt(max(brightness(all), DARKEST)));
-    return seen;
-}
 
 vec3 shows(float tone, float wood, Light light) {
     return shown_of(shade(Surface(pigment_of(tone, wood, 0.0), 1.0, AMONG_LEAVES), light));
@@ -83,7 +41,7 @@ vec3 shows(float tone, float wood, Light light) {
 void tell_card(vec3 along, vec3 aside, vec3 facing, vec4 chance, Light light, vec3 below) {
     mat3 own = mat3(aside, along, facing);
     vec3 ray = normalize(hung_at.xyz + 0.5 * hung_at.w * along - eye);
-    Seen seen = seen_on_card(own, ray, light, below);
+    Seen seen = seen_of(own, ray, light, below);
     light.sun *= seen.sends;
     light.sky = mix(below, light.sky, 0.5 + 0.5 * seen.up);
     vec3 towards = sun * own * (dot(facing, ray) > 0.0 ? -seen.turns : seen.turns);

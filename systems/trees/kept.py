@@ -22,7 +22,8 @@ from ...engine.kept import (
     tell_nothing_is_kept,
     write_whole,
 )  # fmt: skip
-from .bake import CARD, LEVELS, PICTURES
+from .bake import CARD, LEVELS
+from .far import COARSER, COLUMNS, ROWS, TALL
 from .twig import PICTURES as OF_TWIGS
 
 SUFFIX = ".trees"
@@ -31,7 +32,7 @@ MOST = 24
 """Files that are kept: a kind of tree each, and some megabytes."""
 
 Picture = list[Bytes]
-"""Layers (n, rows, columns, 4) at each of their `LEVELS`, the finest first."""
+"""Layers (n, rows, columns, 4) at each of their sizes, the finest first."""
 
 
 def kind_key(habit: str, seed: int, renderer: str, /) -> str:
@@ -40,8 +41,11 @@ def kind_key(habit: str, seed: int, renderer: str, /) -> str:
     return blake2b(json.dumps(depends, sort_keys=True).encode(), digest_size=20).hexdigest()
 
 
-def kept_pictures(key: str, models: int, /) -> list[Picture] | None:
-    """Return a twig's pictures and those of a kind's models, as they were kept; None where they are not, or broken."""
+def kept_pictures(key: str, wide: list[int], /) -> list[Picture] | None:
+    """Return a twig's pictures and those of a kind's models, as they were kept; None where they are not, or broken.
+
+    Of each model there are two, as `of_tree` has them; they are so many texels `wide`.
+    """
     folder = cache_folder()
     if folder is None:
         return None
@@ -52,8 +56,12 @@ def kept_pictures(key: str, models: int, /) -> list[Picture] | None:
         if data[:DIGEST] != checksum(told, key):
             return None
         with np.load(io.BytesIO(told), allow_pickle=False) as archive:
-            found = [[archive[f"{one}.{level}"] for level in range(LEVELS)] for one in range(models + 1)]
-        if all(_fits(picture, of_twig=not number) for number, picture in enumerate(found)):
+            sizes = sizes_of(wide)
+            found = [[archive[f"{one}.{level}"] for level in range(len(each))] for one, each in enumerate(sizes)]
+        if all(
+            texels.dtype == np.uint8 and texels.shape == size
+            for picture, each in zip(found, sizes, strict=True) for texels, size in zip(picture, each, strict=True)
+        ):  # fmt: skip
             mark_used(path)
             return found
     return None
@@ -76,12 +84,15 @@ def keep_pictures(key: str, pictures: list[Picture], /) -> None:
         tell_nothing_is_kept(str(folder), error.strerror or "it cannot be written to")
 
 
-def _fits(picture: Picture, *, of_twig: bool) -> bool:
-    layers, columns, rows, side = (2 * OF_TWIGS, 1, 1, CARD) if of_twig else (2, *PICTURES)
-    return all(
-        each.dtype == np.uint8 and each.shape == (layers, rows * side >> level, columns * side >> level, 4)
-        for level, each in enumerate(picture)
-    )
+def sizes_of(wide: list[int], /) -> list[list[tuple[int, int, int, int]]]:
+    """Return the shapes of all pictures of a kind, at each of their sizes."""
+    coarser = COARSER.bit_length() - 1
+    each = [(2 * OF_TWIGS, CARD, CARD, range(LEVELS))]
+    for one in wide:
+        each += [(1, ROWS * TALL, COLUMNS * one, levels) for levels in (range(LEVELS), range(coarser, LEVELS))]
+    return [
+        [(layers, rows >> level, columns >> level, 4) for level in levels] for layers, rows, columns, levels in each
+    ]
 
 
 @cache

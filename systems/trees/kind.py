@@ -13,11 +13,12 @@ from ...engine.gl.shaders import Due, due, due_all, tell_asked, tell_due
 from ...engine.gl.stream import release_all
 from ..light.materials import pigment
 from . import told as told_of
-from .bake import CARD, PICTURES, covers, filtered, from_around, on_card, pictures
-from .card import FEWER, LEAVES, PICTURED, QUAD, WOOD, ModelOnCard, Numbers
-from .habit import HABITS, Leaf
+from .bake import CARD, covers, filtered, from_around, of_tree, on_card, pictures, smaller
+from .card import LEAVES, PICTURED, QUAD, WOOD, ModelOnCard, Numbers
+from .far import COLUMNS, ROWS, TALL
+from .habit import HABITS, NEEDLES, Leaf
 from .kept import keep_pictures, kept_pictures, kind_key
-from .lies import lies_of
+from .lies import Lies, lies_of, lies_on
 from .model import models_of
 from .noise import bark_noise
 from .outline import BOX, around, outline, pairs
@@ -54,7 +55,7 @@ class KindOnCard:
         self.card: moderngl.TextureArray | None = None
         self.outline = pairs(BOX)
         """Corners about what its card shows."""
-        self._lies: list[tuple[float, float, float, float]] = []
+        self._lies = Lies()
         self.bark = mipmapped(ctx, bark_noise())
         self.bark.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
         leaf, usual = self.habit.leaf, self.habit.twigs.length
@@ -67,17 +68,19 @@ class KindOnCard:
     def bake(self, programs: Programs) -> None:
         """Draw its twig, and then its models from all around, unless that was done in a run before."""
         key = kind_key(self.declared.habit, self._seed, self.ctx.info["GL_RENDERER"])
-        found = kept_pictures(key, len(self.models))
+        wide = [model.model.wide for model in self.models]
+        found = kept_pictures(key, wide)
         if found is None:
             found = [self._twig_pictures(programs)]
             for model in self.models:
                 self._use(found[0])
-                found.append(self._model_picture(programs, model))
+                found += self._model_pictures(programs, model)
             keep_pictures(key, found)
         self._use(found[0])
-        for model, picture in zip(self.models, found[1:], strict=True):
-            model.far = filtered(self.ctx, picture)
-            model.around = around(covers(picture))
+        for model, shows, met in zip(self.models, found[1::2], found[2::2], strict=True):
+            model.far, model.met = filtered(self.ctx, shows), filtered(self.ctx, met)
+            model.lies = lies_on(model.model.twigs, self._lies, turn=self.habit.leaf.form == NEEDLES)
+            model.around = around(covers(shows[0], model.model.wide))
 
     def _use(self, twig: list[Bytes]) -> None:
         """Show twigs as in this picture."""
@@ -104,23 +107,23 @@ class KindOnCard:
             _matrix(twig.program, matrix)
             twig.render(moderngl.TRIANGLES, vertices=QUAD * leaf.quads, instances=1)
 
-        return pictures(self.ctx, 1, 1, CARD, draw_twig)
+        return smaller(pictures(self.ctx, 1, 1, CARD, CARD, draw_twig))
 
-    def _model_picture(self, programs: Programs, model: ModelOnCard) -> list[Bytes]:
-        """Return the pictures of a model from all around."""
+    def _model_pictures(self, programs: Programs, model: ModelOnCard) -> tuple[list[Bytes], list[Bytes]]:
+        """Return the pictures of a model from all around, and how light has come to what they show."""
         wood, cards = (programs.array(sort, model.bare, model, baked=True) for sort in (WOOD, PICTURED))
 
         def draw_tree(number: int) -> None:
-            matrix = from_around(number, model.model.middle, model.model.half)
+            matrix = from_around(number, model.model.middle, model.model.half, model.model.slim)
             for array, count in (
                 (wood, 3 * len(model.model.wood[0].triangles)),
-                (cards, round(QUAD * FEWER * len(model.model.twigs))),
+                (cards, QUAD * len(model.model.twigs)),
             ):
                 self.tell(array.program, model, {})
                 _matrix(array.program, matrix)
                 array.render(moderngl.TRIANGLES, vertices=count, instances=1)
 
-        return pictures(self.ctx, *PICTURES, draw_tree)
+        return of_tree(pictures(self.ctx, COLUMNS, ROWS, model.model.wide, TALL, draw_tree))
 
     def _told(self) -> Numbers:
         """Return what programs are told of the kind, whichever of its models they draw."""
@@ -148,7 +151,8 @@ class KindOnCard:
         key = id(model)
         if key not in program.extra:  # the model is kept with it: so no other one is taken for it
             told = due(program, self._numbers, model.numbers)
-            told += due_all(program, told_of.NAME, self._told_of[key]) + due_all(program, "lies", self._lies)
+            lies = model.lies if "tree_far" in tell_asked(program) else self._lies
+            told += due_all(program, told_of.NAME, self._told_of[key]) + due_all(program, "lies", lies)
             program.extra[key] = model, told
         found: Due = program.extra[key][1]
         return found
@@ -156,7 +160,12 @@ class KindOnCard:
     def reads(self, program: moderngl.Program, model: ModelOnCard, *, wood: bool = False) -> list[Read]:
         """Return what a program reads of the kind and a model, or what one of wood does."""
         cards = self.bark if wood else self.card
-        textures = {"tree_twigs": model.twigs.texture, "tree_far": model.far, "tree_cards": cards}
+        textures = {
+            "tree_twigs": model.twigs.texture,
+            "tree_far": model.far,
+            "tree_met": model.met,
+            "tree_cards": cards,
+        }
         asked = tell_asked(program)
         return [
             Read(texture, self.units[name])

@@ -8,8 +8,10 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
 from ...engine.declared.tree import HabitName
+from .bake import wide_of
 from .bark import Wood, bark_of
 from .crown import leaf_area, shade_of, shading
+from .far import TALL
 from .grow import Tree, grown
 from .habit import HABITS, Habit
 from .motion import limb_hertz, trunk_hertz
@@ -19,7 +21,7 @@ MODELS = 2
 """Trees that are grown of a kind: each stands for many, turned and scaled."""
 
 MARGIN = 1.04
-"""Half the side of a tree's pictures, of how far its twigs reach: leaves go beyond those."""
+"""Half the breadth and height of a tree's pictures, of how far its twigs reach: leaves go beyond those."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,7 +45,10 @@ class Model:
     """Height of the middle of its pictures from all around [m]."""
 
     half: float
-    """Half the side of those [m]."""
+    """Half the height of those [m]."""
+
+    wide: int
+    """Texels of each across, as large as those up."""
 
     radius: float
     """How far its crown reaches from the trunk [m]."""
@@ -53,6 +58,11 @@ class Model:
 
     leaf_area: float
     """Of all its leaves, one side [m²]."""
+
+    @property
+    def slim(self) -> float:
+        """How many times as high as wide its pictures are."""
+        return TALL / self.wide
 
     @property
     def shade(self) -> tuple[float, float, float]:
@@ -76,8 +86,9 @@ def _model(habit: Habit, height: float, *, seed: int) -> Model:
     ends = tree.twigs.foot + tree.twigs.length[:, None] * tree.twigs.along
     radius = float(np.hypot(ends[:, 0], ends[:, 2]).max())
     top = float(ends[:, 1].max())
+    half = MARGIN * max(0.5 * top, radius)  # from above it is as high as it is broad
     return Model(
-        habit, height, twigs, vertices, wood, 0.5 * top, MARGIN * max(0.5 * top, radius), radius,
+        habit, height, twigs, vertices, wood, 0.5 * top, half, wide_of(MARGIN * radius / half), radius,
         trunk_hertz(height, habit.slender * height), float(area.sum()),
     )  # fmt: skip
 

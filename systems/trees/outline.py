@@ -44,18 +44,18 @@ class Around(NamedTuple):
     """How high they are, -1 to 1, from foot to top."""
 
     reaches: list[tuple[float, ...]]
-    """How far out they are [half sides]: of each picture to the left, and then to the right."""
+    """How far out they are [of half their height]: of each picture to the left, and then to the right."""
 
 
 def around(covers: Bytes, /) -> Around:
-    """Return corners about what pictures (n, side, side) of a tree cover, with about as little area as they can have.
+    """Return corners about what pictures (n, tall, wide) of a tree cover, with about as little area as they can have.
 
     Where several are mixed, the farthest of their corners lie about all of them, as the heights are the same.
     """
-    side, count = covers.shape[1], len(covers)
+    count, tall, wide = covers.shape
     covered = covers > FAINTEST
     if not covered.any():
-        return Around(tuple(np.linspace(-1.0, 1.0, CORNERS).tolist()), [(1.0,) * CORNERS] * (2 * count))
+        return Around(tuple(np.linspace(-1.0, 1.0, CORNERS).tolist()), [(wide / tall,) * CORNERS] * (2 * count))
     rows, reach = _reaches(covered)
     least, best, found = np.inf, np.zeros(CORNERS), np.zeros((2 * count, CORNERS))
     for between in combinations(np.linspace(rows[0], rows[-1], TRIED)[1:-1].tolist(), CORNERS - 2):
@@ -64,8 +64,8 @@ def around(covers: Bytes, /) -> Around:
         area = float(((lines[:, 1:] + lines[:, :-1]) * np.diff(high)).sum())
         if area < least:
             least, best, found = area, high, lines
-    told = np.minimum(found / (0.5 * side), 1.0)
-    return Around(tuple((2.0 * best / side - 1.0).tolist()), [tuple(each) for each in told.tolist()])
+    told = np.minimum(found, 0.5 * wide) / (0.5 * tall)
+    return Around(tuple((2.0 * best / tall - 1.0).tolist()), [tuple(each) for each in told.tolist()])
 
 
 def _reaches(covered: Mask) -> tuple[Doubles, Doubles]:
@@ -73,12 +73,12 @@ def _reaches(covered: Mask) -> tuple[Doubles, Doubles]:
 
     It goes to the left and the right of the middle, at least not at all.
     """
-    side, there = covered.shape[1], np.flatnonzero(covered.any(axis=(0, 2)))
-    edges = np.unique(np.linspace(max(there[0] - CLOSE, 0), min(there[-1] + 1 + CLOSE, side), ROWS).astype(np.intp))
-    each = np.stack([covered[..., ::-1], covered], axis=1).reshape(-1, side, side)
-    last = np.where(each.any(axis=2), side - each[..., ::-1].argmax(axis=2) + CLOSE, 0)
-    near = [slice(max(edge - 2 * CLOSE, 0), min(edge + 2 * CLOSE, side)) for edge in edges]
-    reach = np.stack([last[:, part].max(axis=1) for part in near], axis=1) - 0.5 * side
+    (_, tall, wide), there = covered.shape, np.flatnonzero(covered.any(axis=(0, 2)))
+    edges = np.unique(np.linspace(max(there[0] - CLOSE, 0), min(there[-1] + 1 + CLOSE, tall), ROWS).astype(np.intp))
+    each = np.stack([covered[..., ::-1], covered], axis=1).reshape(-1, tall, wide)
+    last = np.where(each.any(axis=2), wide - each[..., ::-1].argmax(axis=2) + CLOSE, 0)
+    near = [slice(max(edge - 2 * CLOSE, 0), min(edge + 2 * CLOSE, tall)) for edge in edges]
+    reach = np.stack([last[:, part].max(axis=1) for part in near], axis=1) - 0.5 * wide
     return edges.astype(np.float64), np.maximum(reach, 0.0)
 
 

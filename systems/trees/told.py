@@ -11,7 +11,7 @@ MODEL = np.dtype(
         ("bark", "3f4"), ("rough", "f4"),  # pigment of old bark; how deeply it is furrowed, below 0 it has bands across
         ("young_bark", "3f4"), ("column", "f4"),  # in a row of trees, from one to the next [m]
         # Radius of a stem on which bark begins to be as on old ones [m], and 1 by how much thicker those are on which
-        # it is [1/m]; how high the middle of its pictures is, and half their side [m].
+        # it is [1/m]; how high the middle of its pictures is, and half their height [m].
         ("ripens", "2f4"), ("ball", "2f4"),
     ]
 )  # fmt: skip

@@ -18,6 +18,10 @@ besides.
 
 Soft parts are drawn from near to far: fainter ones let little of what is behind come to the front."""
 
+CLOSED = 0.9
+"""Coverage from which on that is so of pictures of trees far off: most of a sparse crown covers a little less, and as
+opaque would hide up to a tenth too much of the sky."""
+
 THINNEST = 0.5
 """Half the width that a stem has at least [pixels]."""
 

@@ -7,22 +7,24 @@ import numpy as np
 import pytest
 
 from tallgrass import Prairie
+from tallgrass.app.bench.trees import Behind, trees_told
 from tallgrass.components.arrays import Bytes
-from tallgrass.systems.reference import draw_reference, without_trees
+from tallgrass.systems.reference import draw_reference, draw_truth, without_trees
 from tallgrass.systems.trees import standing
 from tallgrass.systems.trees.bake import CARD
+from tallgrass.systems.trees.card import CARDS, FAR
 from tallgrass.systems.trees.draw import TreePart
-from tallgrass.systems.trees.lies import lies_of
+from tallgrass.systems.trees.lies import LIES, Lies, lies_of
 from tallgrass.systems.trees.twig import PICTURES
 from tallgrass.testing import Stage, little_prairie, looking, private_world
 
 SCENE = """\
 tallgrass: 2
 seed: 5
-terrain: { noise: flat, size: [80, 80] }
+terrain: { noise: flat, size: [180, 180] }
 grass: { turf: { height: [0.05, 0.08], width: 0.02, blades: 30, place: none } }
 trees:
-  oak: { habit: oak }
+  oak: { habit: oak, positions: [[30, 0]] }
   willow: { habit: willow }
   thorn: { habit: hawthorn, positions: [[0, 0]] }
 light: { azimuth: 130, elevation: 40, haze: 1e6, clouds: 0 }
@@ -123,3 +125,43 @@ def test_a_reference_is_as_bright_with_few_samples_as_with_many(stage: Stage, pr
         bare = stage.shot(prairie, ABOVE)
     crown = np.abs(seen[1] - bare).max(axis=-1) > 12.0
     assert seen[0][crown].mean() == pytest.approx(seen[1][crown].mean(), rel=0.02)
+
+
+def test_a_pictures_outline_is_as_rough_as_with_every_leaf(stage: Stage, prairie: Prairie) -> None:
+    """Of an oak so high in the picture as no tree is that is all drawn so."""
+    aim = looking(30.0, 1.7, 80.0, pitch=4.5, view=7.1)
+    with without_trees(prairie):
+        bare = stage.shot(prairie, aim).astype(np.uint8)
+    drawn = stage.shot(prairie, aim).astype(np.uint8)
+    assert prairie.painter is not None
+    oak, *_ = vars(prairie.painter.part(TreePart))["_kinds"]
+    assert sum(each.streams[FAR].count for each in oak.models) == 1
+    assert not any(each.streams[name].count for each in oak.models for name in CARDS)
+    truth = draw_truth(prairie, *stage.matrices(aim), (SIZE, SIZE))
+    hidden = np.abs(truth.picture.astype(np.int32) - bare).max(axis=-1) > 12
+    told = trees_told(drawn, truth, Behind(bare, np.ones_like(hidden), hidden))
+    assert told is not None
+    assert float(str(told["roughness_ratio"])) > 0.75
+
+
+def test_far_off_level_leaves_let_the_sun_through_to_who_looks_up_at_them(stage: Stage, prairie: Prairie) -> None:
+    aim, blue = looking(30.0, 1.7, 80.0, pitch=4.5, view=7.1), []
+    stage.shot(prairie, aim)
+    assert prairie.painter is not None
+    part = vars(prairie.painter.part(TreePart))
+    oak, programs = part["_kinds"][0], vars(part["_programs"])["_programs"].values()
+    kept = [each.lies for each in oak.models]
+
+    def let_lie(all_lies: list[Lies]) -> None:
+        for model, lies in zip(oak.models, all_lies, strict=True):
+            model.lies = lies
+            for program in programs:
+                program.extra.pop(id(model), None)
+        part["_calls"].clear()
+
+    for lies in ([(0.0, 1.0, 0.0, 1.0)], [(1.0, 0.0, 0.0, 0.5), (0.0, 0.0, 1.0, 0.5)]):
+        let_lie([lies + [(0.0, 1.0, 0.0, 0.0)] * (LIES - len(lies))] * len(kept))
+        seen = stage.shot(prairie, aim)[30:60, 30:60].mean(axis=(0, 1))
+        blue.append(seen[2] / seen[1])
+    let_lie(kept)
+    assert blue[0] < 0.9 * blue[1]  # what comes through is yellow

@@ -9,7 +9,7 @@ import pytest
 from tallgrass import Prairie
 from tallgrass.systems.trees.call import Call
 from tallgrass.systems.trees.draw import TreePart
-from tallgrass.systems.trees.wood import OPAQUE
+from tallgrass.systems.trees.wood import CLOSED
 from tallgrass.testing import Stage, little_prairie, looking, private_world
 
 SCENE = """\
@@ -54,12 +54,12 @@ def asked_for(
 
     def draw_soft() -> int:
         with monkeypatch.context() as meanwhile, query:
-            meanwhile.setattr("tallgrass.systems.trees.draw.OPAQUE", NOTHING_IS_OPAQUE)
+            meanwhile.setattr("tallgrass.systems.trees.draw.CLOSED", NOTHING_IS_OPAQUE)
             vars(part)["_calls"].clear()
             return TreePart.draw_soft(part)
 
     with monkeypatch.context() as meanwhile:
-        meanwhile.setattr("tallgrass.systems.trees.draw.OPAQUE", opaque_from)
+        meanwhile.setattr("tallgrass.systems.trees.draw.CLOSED", opaque_from)
         meanwhile.setattr(part, "draw_soft", draw_soft)
         vars(part)["_calls"].clear()
         stage.shot(prairie, FAR_OFF)
@@ -71,7 +71,7 @@ def test_n6_where_a_far_tree_is_opaque_nobody_asks_for_its_soft_edges(
     stage: Stage, prairie: Prairie, ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     everything = asked_for(stage, prairie, ctx, monkeypatch, NOTHING_IS_OPAQUE)
-    edges = asked_for(stage, prairie, ctx, monkeypatch, OPAQUE)
+    edges = asked_for(stage, prairie, ctx, monkeypatch, CLOSED)
     assert 0 < edges < 0.8 * everything
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from tallgrass import Lamp, Pose, Prairie, Shade, Tree
 from tallgrass.app.bench.steps import held
-from tallgrass.components.arrays import Bytes
+from tallgrass.components.arrays import Floats
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.reference import draw_reference
 from tallgrass.systems.trees import bake, card, going, kind, standing
@@ -104,7 +104,7 @@ def test_it_writes_depth_where_it_hides_what_is_behind(
     plant(0.0, 0.0)
     shot(stage, prairie, AHEAD)
     near = stage.depth()[20:60, 60:100] < 1.0
-    assert near.mean() > 0.15
+    assert near.mean() > 0.08  # of a birch, which is sparse
 
 
 def test_it_is_in_a_games_own_shadow_map(stage: Stage, prairie: Prairie, plant: Callable[..., int]) -> None:
@@ -398,7 +398,7 @@ def test_a_later_run_draws_no_pictures_and_looks_the_same_to_the_bit(
     made, seen = [0], []
     pictures = bake.pictures
 
-    def counted(*told: Any) -> list[Bytes]:
+    def counted(*told: Any) -> Floats:
         made[0] += 1
         return pictures(*told)
 

@@ -7,17 +7,18 @@ import pytest
 
 from tallgrass.engine.kept import tell_nothing_is_kept
 from tallgrass.systems.trees import kept
-from tallgrass.systems.trees.bake import CARD, LEVELS, PICTURES
-from tallgrass.systems.trees.kept import SUFFIX, Picture, keep_pictures, kept_pictures, kind_key
-from tallgrass.systems.trees.twig import PICTURES as OF_TWIGS
+from tallgrass.systems.trees.kept import SUFFIX, Picture, keep_pictures, kept_pictures, kind_key, sizes_of
 
 KEY = kind_key("oak", 3, "a card")
 
 
-def picture(columns: int, rows: int, side: int, layers: int = 2) -> Picture:
-    draw = np.random.default_rng(side)
-    sizes = [(rows * side >> level, columns * side >> level) for level in range(LEVELS)]
-    return [np.tile(draw.integers(0, 255, 4, np.uint8), (layers, *size, 1)) for size in sizes]
+WIDE = [48]
+"""Texels of the pictures of a model."""
+
+
+def pictures() -> list[Picture]:
+    draw = np.random.default_rng(3)
+    return [[np.tile(draw.integers(0, 255, 4, np.uint8), (*size[:3], 1)) for size in each] for each in sizes_of(WIDE)]
 
 
 @pytest.fixture
@@ -27,28 +28,28 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_they_come_back_as_they_were_kept_and_for_nothing_else(folder: Path) -> None:
-    pictures = [picture(1, 1, CARD, layers=2 * OF_TWIGS), picture(*PICTURES)]
-    keep_pictures(KEY, pictures)
-    found = kept_pictures(KEY, 1)
+    made = pictures()
+    keep_pictures(KEY, made)
+    found = kept_pictures(KEY, WIDE)
     assert found is not None
-    for one, other in zip(found, pictures, strict=True):
+    for one, other in zip(found, made, strict=True):
         assert all(np.array_equal(*each) for each in zip(one, other, strict=True))
     others = kind_key("oak", 4, "a card"), kind_key("birch", 3, "a card"), kind_key("oak", 3, "another")
     assert len({KEY, *others}) == 4
-    assert all(kept_pictures(key, 1) is None for key in others)
-    assert kept_pictures(KEY, 2) is None
+    assert all(kept_pictures(key, WIDE) is None for key in others)
+    assert kept_pictures(KEY, 2 * WIDE) is None
     assert len(list(folder.iterdir())) == 1
 
 
 def test_a_file_that_is_broken_or_does_not_fit_counts_as_none(folder: Path) -> None:
-    keep_pictures(KEY, [picture(1, 1, CARD, layers=2 * OF_TWIGS), picture(*PICTURES)])
+    keep_pictures(KEY, pictures())
     path = folder / (KEY + SUFFIX)
     whole = path.read_bytes()
     for broken in (whole[:-1], b"", whole[:40] + bytes([whole[40] ^ 1]) + whole[41:]):
         path.write_bytes(broken)
-        assert kept_pictures(KEY, 1) is None
-    keep_pictures(KEY, [picture(1, 1, CARD // 2, layers=2 * OF_TWIGS), picture(*PICTURES)])
-    assert kept_pictures(KEY, 1) is None
+        assert kept_pictures(KEY, WIDE) is None
+    keep_pictures(KEY, pictures())
+    assert kept_pictures(KEY, [64]) is None
 
 
 def test_where_nothing_can_be_written_that_is_said_once(
@@ -58,8 +59,8 @@ def test_where_nothing_can_be_written_that_is_said_once(
     monkeypatch.setenv("TALLGRASS_CACHE", str(tmp_path / "file"))
     tell_nothing_is_kept.cache_clear()
     for _ in range(2):
-        keep_pictures(KEY, [picture(1, 1, CARD)])
-        assert kept_pictures(KEY, 0) is None
+        keep_pictures(KEY, pictures())
+        assert kept_pictures(KEY, WIDE) is None
     assert len(caplog.records) == 1
     assert "TALLGRASS_CACHE" in caplog.text
 
@@ -67,5 +68,5 @@ def test_where_nothing_can_be_written_that_is_said_once(
 def test_no_more_files_are_kept_than_there_is_room_for(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(kept, "MOST", 2)
     for seed in range(4):
-        keep_pictures(kind_key("oak", seed, "a card"), [picture(1, 1, CARD)])
+        keep_pictures(kind_key("oak", seed, "a card"), pictures()[:1])
     assert len(list(folder.glob("*" + SUFFIX))) == 2

@@ -12,12 +12,12 @@ from tallgrass.systems.trees.outline import CORNERS, Around, around
 from tallgrass.systems.trees.standing import STANDING
 from tallgrass.testing import looking
 
-SIDE, ASPECT = 96, 16.0 / 9.0
+SIDE, SLIM, ASPECT = 96, 80, 16.0 / 9.0
 
 
 def crowns(aside: Doubles) -> Bytes:
-    """Return pictures of round crowns so far from the middle, the one larger than the other [texels]."""
-    up, across = np.mgrid[0:SIDE, 0:SIDE] - 0.5 * SIDE
+    """Return slender pictures of round crowns so far from the middle, the one larger than the other [texels]."""
+    up, across = np.mgrid[0:SIDE, 0:SLIM] - 0.5 * np.array([SIDE, SLIM])[:, None, None]
     wide = 20.0 + 0.3 * np.abs(aside)[:, None, None]
     covered = ((across - aside[:, None, None]) / wide) ** 2 + (up / 36.0) ** 2 < 1.0
     return np.where(covered, 255, 0).astype(np.uint8)
@@ -27,7 +27,7 @@ def spans(corners: Around, picture: int) -> tuple[Doubles, Doubles]:
     """Return from where to where its corners' lines go in each row of texels."""
     high, rows = 0.5 * SIDE * (np.array(corners.high) + 1.0), np.arange(SIDE) + 0.5
     left, right = (0.5 * SIDE * np.interp(rows, high, corners.reaches[2 * picture + side]) for side in (0, 1))
-    return 0.5 * SIDE - left, 0.5 * SIDE + right
+    return 0.5 * SLIM - left, 0.5 * SLIM + right
 
 
 def test_all_that_a_picture_of_a_tree_covers_lies_within_its_corners_and_little_else() -> None:
@@ -36,16 +36,16 @@ def test_all_that_a_picture_of_a_tree_covers_lies_within_its_corners_and_little_
     assert len(corners.reaches) == 2 * len(pictures)
     for number, picture in enumerate(pictures > 0):
         left, right = spans(corners, number)
-        texels = np.arange(SIDE)
+        texels = np.arange(SLIM)
         within = (texels >= left[:, None] - 1e-6) & (texels + 1.0 <= right[:, None] + 1e-6)
         assert not (picture & ~within).any()
         assert picture.sum() > 0.66 * (right - left)[picture.any(axis=1)].sum()
 
 
 def test_about_a_picture_that_covers_nothing_the_whole_of_it_is_drawn() -> None:
-    empty = around(np.zeros((2, SIDE, SIDE), np.uint8))
+    empty = around(np.zeros((2, SIDE, SLIM), np.uint8))
     assert (empty.high[0], empty.high[-1]) == (-1.0, 1.0)
-    assert empty.reaches == [(1.0,) * CORNERS] * 4
+    assert empty.reaches == [(SLIM / SIDE,) * CORNERS] * 4
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,39 @@
+"""Pictures of trees: as broad as the tree, and how light has come to what they show (F3)."""
+
+import numpy as np
+import pytest
+
+from tallgrass.systems.trees.bake import WHOLE, of_tree, spread, wide_of
+from tallgrass.systems.trees.far import COARSER, TALL
+
+
+@pytest.mark.parametrize("breadth", [0.07, 0.31, 0.8, 1.0])
+def test_a_picture_is_hardly_broader_than_what_it_shows(breadth: float) -> None:
+    wide = wide_of(breadth)
+    assert wide % WHOLE == 0
+    assert 0 <= wide - TALL * breadth < WHOLE
+
+
+def test_how_light_has_come_is_the_mean_of_what_is_covered_and_goes_on_where_nothing_is() -> None:
+    draw = np.random.default_rng(2)
+    cover = np.where(draw.uniform(size=(32, 48)) < 0.3, 255.0, 0.0).astype(np.float32)
+    cover[:, 16:] = 0.0
+    light = np.full((32, 48, 4), 90.0, np.float32)
+    light[:16] = 200.0
+    levels = spread(light * (cover / 255.0)[..., None], cover, 3)
+    assert [each.shape for each in levels] == [(1, 32 >> level, 48 >> level, 4) for level in range(3)]
+    for level, each in enumerate(levels):
+        edge = 16 >> level
+        assert (each[0, :edge, :edge] == 200).all()
+        assert (each[0, edge:, :edge] == 90).all()
+    assert ((levels[0] >= 90) & (levels[0] <= 200)).all()
+
+
+def test_of_a_tree_texels_are_larger_that_tell_how_light_has_come() -> None:
+    values = np.full((2, 64, 96, 4), 255.0, np.float32)
+    values[1] = 80.0
+    shows, met = of_tree(values)
+    assert met[0].shape == (1, 64 // COARSER, 96 // COARSER, 4)
+    assert met[-1].shape == shows[-1].shape
+    assert all((each == 255).all() for each in shows)
+    assert all((each == 80).all() for each in met)

@@ -1,0 +1,45 @@
+"""How a tree's leaves lie, from how those of its twigs' cards do (F3)."""
+
+import numpy as np
+import pytest
+
+from tallgrass.components.arrays import Doubles
+from tallgrass.systems.trees.lies import LIES, lies_on
+from tallgrass.systems.trees.twig import TWIG
+
+
+def told(along: Doubles, face: Doubles, card: list[tuple[float, float, float, float]], *, turn: bool) -> Doubles:
+    twigs = np.zeros(len(along), TWIG)
+    twigs["along"], twigs["face"], twigs["span"] = along, face, 0.7
+    found = np.array(lies_on(twigs, card, turn=turn))
+    assert found.shape == (LIES, 4)
+    assert found[:, 3].sum() == pytest.approx(1.0)
+    return found
+
+
+def test_level_leaves_of_level_twigs_face_up() -> None:
+    around = np.linspace(0.0, 2.0 * np.pi, 60, endpoint=False)
+    along = np.stack([np.cos(around), 0.0 * around, np.sin(around)], axis=1)
+    found = told(along, np.tile([0.0, 1.0, 0.0], (60, 1)), [(0.0, 0.0, 1.0, 0.5), (0.0, 0.0, 1.0, 0.5)], turn=False)
+    seen = found[found[:, 3] > 0.0]
+    np.testing.assert_allclose(seen[:, 1], 1.0, atol=1e-6)
+
+
+@pytest.mark.parametrize("to", [(0.0, 1.0, 0.0), (1.0, 0.0, 0.0), (0.6, 0.0, 0.8)])
+def test_from_any_side_as_much_is_seen_of_them_as_of_all_leaves(to: tuple[float, float, float]) -> None:
+    draw = np.random.default_rng(6)
+    face = draw.normal((0.0, 1.0, 0.0), (0.3, 0.1, 0.3), (400, 3))
+    along = np.cross(face, draw.normal(size=(400, 3)))
+    face, along = (each / np.linalg.norm(each, axis=1, keepdims=True) for each in (face, along))
+    card = [(0.4, 0.0, 0.9165, 0.7), (-0.3, 0.2, 0.9327, 0.3)]
+    found, aside = told(along, face, card, turn=False), np.cross(along, face)
+    every = sum(share * np.abs((x * aside + y * along + z * face) @ to).mean() for x, y, z, share in card)
+    assert (found[:, 3] * np.abs(found[:, :3] @ to)).sum() == pytest.approx(every, abs=0.03)
+
+
+def test_needles_face_all_ways_around_their_twig() -> None:
+    up, level = np.tile([0.0, 1.0, 0.0], (8, 1)), np.tile([1.0, 0.0, 0.0], (8, 1))
+    found = told(up, level, [(0.0, 0.0, 1.0, 1.0)], turn=True)
+    seen = found[found[:, 3] > 0.0]
+    assert np.abs(seen[:, 1]).max() < 1e-6
+    assert (seen[:, 3] * np.abs(seen[:, 0])).sum() == pytest.approx((seen[:, 3] * np.abs(seen[:, 2])).sum(), abs=0.05)
