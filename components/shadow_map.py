@@ -38,12 +38,8 @@ class ShadowMap:
 
 
 def texture_number(texture: object, /) -> int:
-    """Return a texture's number in GL; raises TypeError for what is no depth texture.
-
-    `glGenTextures` of pyglet gives a number as a `c_uint`.
-    """
-    held = (getattr(texture, name, None) for name in ("glo", "id", "value"))
-    number = next((found for found in held if found is not None), texture)
+    """Return a texture's number in GL; raises TypeError for what is no depth texture."""
+    number = held_number(texture)
     if not isinstance(number, int) or isinstance(number, bool) or number < 1:
         raise TypeError(
             "a shadow map's texture is a depth texture of moderngl or pyglet, or its number in GL, "
@@ -58,6 +54,12 @@ def texture_number(texture: object, /) -> int:
             f"a shadow map's texture is a 2D depth texture, not one of colours or layers: {shortened(texture)}"
         )
     return number
+
+
+def held_number(texture: object, /) -> object:
+    """Return the number that a texture of moderngl or pyglet holds, or a `c_uint`; anything else as it is."""
+    held = (getattr(texture, name, None) for name in ("glo", "id", "value"))
+    return next((found for found in held if found is not None), texture)
 
 
 def _matrix(matrix: object) -> Doubles:

@@ -55,6 +55,10 @@ def kept(ctx: moderngl.Context | None) -> Iterator[State]:
         return
     if ctx is None:
         _must_have_window()
+    elif isinstance(ctx.mglo, moderngl.InvalidObject):
+        raise RuntimeError(
+            "the moderngl context of this prairie was released: load the prairie again, with another one"
+        )
     gl = current_functions() if ctx is None else functions_of(ctx)
     unit = SCRATCH_UNIT if ctx is None else ctx.default_texture_unit
     _kept.append(State(gl, limits_of(gl), unit))

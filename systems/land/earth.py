@@ -10,6 +10,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.shadow_map import held_number
 from ...engine.gl.functions import functions_of
 from ...engine.handed import NUMBERS
 from ..frame.block import FrameBlock
@@ -76,7 +77,7 @@ class EarthPart(Part):
 
 def number_of(texture: object, /) -> int:
     """Return a texture's number in GL; raises TypeError for what is no 2D texture."""
-    number = next((found for name in ("glo", "id") if (found := getattr(texture, name, None)) is not None), texture)
+    number = held_number(texture)
     is_other = type(texture).__name__ in {"TextureArray", "TextureCube", "Texture3D"}
     if not isinstance(number, int) or isinstance(number, bool) or number < 1 or is_other:
         raise TypeError(

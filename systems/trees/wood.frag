@@ -74,12 +74,8 @@ float furrowed_at(vec2 on, float broad) {
 // The bark's pigment there, of its own: furrows along an old stem, or dark bands across it.
 float bark_there() {
     float fades = clamp(FINEST_BARK.x - FINEST_BARK.y * max(fwidth(on_skin.x), fwidth(on_skin.y)), 0.0, 1.0);
-    bool banded = rough < 0.0;
-    float broad = noise(on_skin * (banded ? BANDED.z : WINDINGS)), old;
-    if (banded)
-        old = banded_at(on_skin, broad);
-    else
-        old = furrowed_at(on_skin, broad);
+    float broad = noise(on_skin * (rough < 0.0 ? BANDED.z : WINDINGS));
+    float old = rough < 0.0 ? banded_at(on_skin, broad) : furrowed_at(on_skin, broad);
     return soiled_at(stands + broad - 0.5) * mix(1.0, mix(bark_mean(), old, fades), aged);
 }
 #endif

@@ -3,6 +3,7 @@
 import sys
 from collections.abc import Callable, Iterator
 from ctypes import addressof, c_int, c_int64
+from types import SimpleNamespace
 from typing import Any
 
 import moderngl
@@ -358,3 +359,9 @@ def test_d6_pyglet_is_never_loaded_for_a_host_that_does_without(
     with guest(ctx) as target:
         assert target.glo == host.glo
     assert not any(name.split(".")[0] == "pyglet" for name in sys.modules)
+
+
+def test_n4_a_context_that_was_released_is_refused_in_a_sentence() -> None:
+    released: Any = SimpleNamespace(mglo=moderngl.InvalidObject())
+    with pytest.raises(RuntimeError, match=r"^the moderngl context of this prairie was released"), kept(released):
+        pass
