@@ -70,9 +70,9 @@ vec2 above_border() {
     return clamp(corner, vec2(0.0), vec2(GRID));
 }
 
-// How far a corner hangs down, of how high the sheet lies: on sides of the tile that face the eye. It begins just under the
-// border, for pixels on that to be the sheet's.
-const float JUST_UNDER = 0.05;
+// How far a corner hangs down, of how high the sheet lies: on sides of the tile that face the eye. It tells what hangs down from
+// the sheet that it begins just under the border, so little that no ground is seen between.
+const float JUST_UNDER = 0.001;
 
 float hangs(vec2 at) {
     vec2 off = corner - above_border();

@@ -24,6 +24,9 @@ SPREAD = 6.0
 """Distance at which a spacing gives way to the next, in tile sides: the farthest corner of a tile of twice the side
 that is split must lie inside it."""
 
+OUTWARD = np.array([False, True, True, False])
+"""Of the sides of a border, to low z, high z, low x and high x: whether triangles down from it look out of the tile."""
+
 GLSL = {"PARTED": 1.5 * SPREAD * GRID, "GRID": float(GRID)}
 """How far tiles reach at least, of their spacing, that are a quarter of one."""
 
@@ -166,7 +169,8 @@ def hanging_grid(wider: int = 1, /) -> tuple[NDArray[np.float32], NDArray[np.int
             beyond += [np.insert(line[:, None], 1 - axis, end, axis=1).astype(np.float32) for end in (-off, GRID + off)]
     upper = len(corners) + (GRID + 1) * np.arange(4)[:, None] + np.arange(0, GRID, wider)
     lower = upper + 4 * (GRID + 1)
-    hangs = np.stack([upper, lower, upper + wider, upper + wider, lower, lower + wider], axis=-1).reshape(-1, 6)
+    first, other = np.where(OUTWARD[:, None], upper, lower), np.where(OUTWARD[:, None], lower, upper)
+    hangs = np.stack([first, other, first + wider, first + wider, other, other + wider], axis=-1).reshape(-1, 6)
     return np.concatenate([corners, *beyond]).astype(np.float32), np.concatenate([quads, hangs]).astype(np.int32)
 
 
