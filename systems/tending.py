@@ -131,6 +131,10 @@ class Tending(Answering):
         out of range, TypeError for anything but a name, RuntimeError after `release`.
         """
         self._must_be_there("change a kind")
+        if name in self.scene.trees and name not in self.scene.grass:
+            raise ValueError(
+                f"'{name}' are trees: give each another Tree, or reload the scene with another leaf or bark"
+            )
         if self.scene.number_of(name) is None:
             raise TypeError(f"what changes is the name of a kind, not {name!r}")
         self._seasons.change(name, keys, over=over, time=self.time)

@@ -1,6 +1,7 @@
 """A game's own ground as a texture: between plants, under the carpet, and where nothing grows (T1)."""
 
 from collections.abc import Callable, Iterator
+from ctypes import c_uint
 from typing import Any
 
 import moderngl
@@ -109,3 +110,9 @@ def test_a_released_texture_is_named_once_and_the_scenes_own_ground_is_drawn(
 def test_what_is_no_texture_is_refused_in_a_sentence(load: Load, texture: Any, side: Any, error: Any) -> None:
     with pytest.raises(error, match=r"^a ground's texture "):
         load(STILL).ground_texture(texture, side=side)
+
+
+def test_a_number_may_be_as_pyglets_functions_give_it(load: Load) -> None:
+    prairie = load(STILL)
+    prairie.ground_texture(c_uint(3))
+    prairie.ground_texture(None)

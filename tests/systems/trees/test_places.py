@@ -204,6 +204,11 @@ def test_trees_are_entities_that_a_game_reads_fells_moves_and_plants() -> None:
         assert standing(prairie) == [[-9.0, 3.0], [0.0, 12.0], [2.0, 0.0]]
 
 
+def test_a_kind_of_trees_is_no_grass_to_be_changed() -> None:
+    with little_prairie(scene=WOOD) as prairie, pytest.raises(ValueError, match=r"^'oak' are trees: give each another"):
+        prairie.change_kind("oak", tip="#c86a1e")
+
+
 def test_a_state_says_which_are_felled_and_brings_others_back() -> None:
     with little_prairie(scene=WOOD) as prairie:
         whole = prairie.state()
