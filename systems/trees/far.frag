@@ -101,13 +101,14 @@ vec2 blown_from(vec2 at) {
     return within(at);
 }
 
-const mat2 CLUMPS = mat2(197.0, 121.0, -137.0, 203.0), OTHER_CLUMPS = mat2(103.0, -219.0, 179.0, 119.0);  // waves over a picture's height, four ways [rad]
+const mat2 CLUMPS = mat2(197.0, 121.0, -137.0, 203.0);  // waves over a picture's height, two ways [rad]
 const float GIVES_WAY = 0.25;  // part of the way from one picture to the next on which a clump of leaves gives way to another
+const float BLENDS = 2.0;      // how many times as much more that is on each level, until a pixel is many clumps
 
 // How much of the second picture a place shows: clumps of leaves give way one after another, as two views blended are a blur.
 vec2 clump_by_clump(vec2 at) {
-    vec2 own = at * vec2(1.0 / slim, 1.0), turn = 0.5 + 0.5 * (0.5 * (sin(CLUMPS * own) + sin(OTHER_CLUMPS * own)));
-    float way = GIVES_WAY * exp2(told.w);  // where a pixel is many of them, they are blended after all
+    vec2 waves = sin(CLUMPS * (at * vec2(1.0 / slim, 1.0)));
+    float turn = 0.5 + 0.5 * (0.5 * (waves.x + waves.y)), way = GIVES_WAY + GIVES_WAY * BLENDS * told.w;
     return clamp(((1.0 + way) * mixed - turn) / way, 0.0, 1.0);
 }
 
