@@ -101,6 +101,21 @@ def test_f4_below_a_felled_tree_grass_comes_back_into_the_sun_by_and_by(stage: S
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("prairie", ["strips"], indirect=True)
+def test_f4_grass_on_strips_lies_in_a_trees_shade(
+    stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(TreePart, "draw_solid", lambda _: 0)
+    monkeypatch.setattr(TreePart, "draw_soft", lambda _: 0)
+    in_the_sun = shot(stage, prairie)[..., 1]
+    tree = esper.create_entity(Tree("oak", 12.0), Pose(7.0, 0.0))  # towards the sun
+    shaded = shot(stage, prairie)[..., 1]
+    esper.delete_entity(tree, immediate=True)
+    green = in_the_sun > np.median(in_the_sun)
+    assert shaded[green].mean() < 0.8 * in_the_sun[green].mean()
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("prairie", ["blades", "strips", "carpet"], indirect=True)
 def test_f4_more_soil_is_seen_below_a_tree_in_every_representation_and_less_once_it_is_felled(
     stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
