@@ -41,11 +41,6 @@ float swing(float hertz, float own) {
     return 0.5 * (waves.x + waves.y);
 }
 
-// Pixels up the picture that a metre takes a metre off.
-float pixels_a_metre() {
-    return half_screen.y * length(vec3(clip[0].y, clip[1].y, clip[2].y));
-}
-
 vec3 turned(vec3 own) {
     return vec3(turn.x * own.x - turn.y * own.z, own.y, turn.y * own.x + turn.x * own.z);
 }

@@ -3,6 +3,11 @@
 #include "lib/kinds.glsl"
 #include "lib/least.glsl"
 
+// Pixels up the picture that a metre takes a metre off.
+float pixels_a_metre() {
+    return half_screen.y * length(vec3(clip[0].y, clip[1].y, clip[2].y));
+}
+
 // How much is to be added to depth in clip space, of that of the usual one, to lie so much farther off.
 float farther_by(float depth) {
     return 0.5 * (depth_ends.y - depth_ends.x) * depth;

@@ -24,7 +24,7 @@ Plot plot_on(vec2 place) {
 
 // How much of what would grow there the ground leaves to four kinds, which may be too steep, or a hole, or below trees.
 vec4 left_by_ground(vec2 place, int group) {
-    vec4 left = is_hole(place) ? vec4(0.0) : vec4(1.0);
+    vec4 left = anything_open > 0.5 && is_hole(place) ? vec4(0.0) : vec4(1.0);
 #ifdef SLOPED
     left *= clamp((steepest[group] - length(rise_at(place))) * thins[group], 0.0, 1.0);
 #endif

@@ -14,6 +14,5 @@ const float TEETH_OF[ORGANS] = TEETH;
 
 // How much is seen of so many teeth along a ribbon of some length [m] at a place.
 float teeth_seen(float along, float teeth, vec3 place) {
-    float magnified = half_screen.y * length(vec3(clip[0].y, clip[1].y, clip[2].y));
-    return teeth > 0.0 ? smoothstep(TEETH_FROM, TEETH_ALL, magnified * along / teeth / max(distance(place, eye), TEETH_NEAREST)) : 0.0;
+    return teeth > 0.0 ? smoothstep(TEETH_FROM, TEETH_ALL, pixels_a_metre() * along / teeth / max(distance(place, eye), TEETH_NEAREST)) : 0.0;
 }

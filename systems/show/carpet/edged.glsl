@@ -38,11 +38,13 @@ struct Way {
     float raises;  // and of how high the carpet is on level ground
     float slope;   // of the line of sight to the ground
     float crest;   // how fast the rise of the ground falls off along it [1/m]
+    float pixels;  // how high whole grass is in the picture: so many places on the way are told apart
 };
 
 Way way_from(vec3 place, float high, float raises, float slope, float crest) {
     vec3 ray = place - eye;
-    return Way(place, heading_to(place.xz), -ray.y / max(length(ray.xz), TINY), high - place.y + height_at(place.xz), high, raises, slope, crest);
+    float pixels = ceil(high * pixels_a_metre() / length(ray)), ground = high - place.y + height_near(place.xz);
+    return Way(place, heading_to(place.xz), -ray.y / max(length(ray.xz), TINY), ground, high, raises, slope, crest, pixels);
 }
 
 // How far over the ground it goes on until it comes to that, or is past where it comes nearest to it over a crest [m].
@@ -54,7 +56,7 @@ float to_ground(Way way) {
 // How high it is over the ground, so far on [m].
 float over_ground(Way way, float at) {
     vec2 there = way.from.xz + way.heading * at;
-    return way.from.y - way.falls * at - height_at(there) + way.ground;
+    return way.from.y - way.falls * at - height_near(there) + way.ground;
 }
 
 // How far it is below the top of the grass, so far over the ground [m]; below 0 over it, and where none stands.
@@ -66,7 +68,7 @@ float below_top(Way way, float at) {
 
 // How far over the ground it goes on until it comes to grass [m], below 0 where it comes to none; whether it does so from the side.
 float enters(Way way, out bool aside) {
-    float most = min(to_ground(way), FARTHEST_ENTERED), step = most / clamp(ceil(most / SHORTEST_STEP), 1.0, STEPS);
+    float most = min(to_ground(way), FARTHEST_ENTERED), step = most / clamp(min(ceil(most / SHORTEST_STEP), way.pixels), 1.0, STEPS);
     float at = 0.0, below, number = 0.0, high = way.high;
     while ((below = below_top(way, at)) < 0.0) {
         if (++number > MOST_STEPS || at >= FARTHEST_ENTERED || high <= 0.0 || high >= OUT_OF_IT * way.high)
@@ -91,15 +93,16 @@ float enters(Way way, out bool aside) {
 }
 
 const float NEARLY_HALF = 0.49;  // of a step: so the last place looked at is still above the ground
-const float PARTS = 6.0;  // places looked at on the way through grass, up to where it comes out
+const float FEWEST_PARTS = 2.0, PARTS = 6.0;  // places looked at on the way through grass, up to where it comes out, far off and near by
 const float LEAVES_ENOUGH = 3.0;  // leaves that a line of sight meets until nothing is seen behind them
 
 // How much is hidden of what lies behind grass that a line of sight has come to: less where it comes out again before it is
 // stopped. It has met the leaves above the height where it comes out, of those that are left.
 float hidden_behind(Way way, float at, bool aside, ByKind area, float left) {
     float slope = max(way.slope, FLATTEST), enters_at = over_ground(way, at), none = leaves_above(left, area);
-    float before = aside ? leaves_above(min(enters_at, left), area) : none, step = enters_at / (slope * PARTS + TINY);
-    for (float part = 1.0; part <= PARTS; part += 1.0) {
+    float parts = clamp(way.pixels, FEWEST_PARTS, PARTS), step = enters_at / (slope * parts + TINY);
+    float before = aside ? leaves_above(min(enters_at, left), area) : none;
+    for (float part = 1.0; part <= parts; part += 1.0) {
         float there = at + step * (part - 0.5), met = (leaves_above(min(over_ground(way, there), left), area) - before) / slope;
         if (met > LEAVES_ENOUGH)
             return 1.0;

@@ -80,7 +80,7 @@ class GroundPainter:
         """For what is usual, uncut and cut, or where it is coarse for what is usual and for all that this can show; for
         lamps beside what is usual; and for all that there may be."""
         self.edged: list[Layer] = []
-        """What is drawn where grass ends or is cut: ground, what lies under the carpet, and the carpet."""
+        """What is drawn where grass ends or is cut: ground, what lies under the carpet, and the carpet, also trodden."""
         self.casting: list[Layer] = []
         """The carpet in shadow maps."""
         self.is_trodden = False
@@ -108,7 +108,7 @@ class GroundPainter:
             *((self.carpet, "carpet", known | each) for each in (*firsts, usual, trodden)),
             (self.edged, "ground", litter | trodden | {"EDGED": 1}),
             (self.edged, "under", heads | trodden | {"EDGED": 1}),
-            (self.edged, "carpet", known | trodden | {"EDGED": 1}),
+            *((self.edged, "carpet", known | each | {"EDGED": 1}) for each in ({}, trodden)),
             (self.casting, "cast", {}),
         ]
         for among, name, defines in wanted:
@@ -265,7 +265,7 @@ class GroundPainter:
             even = self.carpet[rare or self._is_cut]
         else:
             even = self.carpet[3 if rare or any(self._came) else 2 if whole else self._is_cut]
-        return even.draw(EVEN, part=part) + self.edged[2].draw(EDGED_CARPET, part=part)
+        return even.draw(EVEN, part=part) + self.edged[2 + self.is_trodden].draw(EDGED_CARPET, part=part)
 
     def cast(self, light: tuple[float, float, float], /) -> int:
         """Write the depth at which grass of the carpet stops light from a place [m]; return the draw calls."""
