@@ -80,7 +80,7 @@ class GroundPainter:
         """For what is usual, uncut and cut, or where it is coarse for what is usual and for all that this can show; for
         lamps beside what is usual; and for all that there may be."""
         self.edged: list[Layer] = []
-        """What is drawn where grass ends or is cut: ground, what lies under the carpet, and the carpet, also trodden."""
+        """What is drawn where grass ends or is cut: ground, what lies under the carpet, and that, also trodden."""
         self.casting: list[Layer] = []
         """The carpet in shadow maps."""
         self.is_trodden = False
