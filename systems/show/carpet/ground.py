@@ -83,7 +83,7 @@ class GroundPainter:
         """What is drawn where grass ends or is cut: ground, what lies under the carpet, and that, also trodden."""
         self.casting: list[Layer] = []
         """The carpet in shadow maps."""
-        self.is_trodden = False
+        self.is_trodden = self._rehearses = False
         """Whether anybody treads the grass, or has: then pixels of the carpet ask for that, which costs."""
         self._is_coarse = coarse and len(stock.before.crown) <= MOST_COARSE
         self._lay_out(seed)
@@ -187,9 +187,14 @@ class GroundPainter:
             self.rims.repeat_x = self.rims.repeat_y = False
         self.rims.write(np.ascontiguousarray(far))
 
+    def tread(self, *, is_trodden: bool) -> None:
+        """Take over whether anybody treads the grass, or has, in what is drawn next."""
+        self.is_trodden, self._rehearses = is_trodden, False
+
     def rehearse(self) -> None:
         """Have something to draw for each program."""
-        self.is_trodden, shelf = True, self.shelves.now
+        self.is_trodden = self._rehearses = True
+        shelf = self.shelves.now
         shelf.tiles = None
         for stream in shelf.streams[EDGED : EDGED_CARPET + 1]:
             if not stream.count:
@@ -265,7 +270,8 @@ class GroundPainter:
             even = self.carpet[rare or self._is_cut]
         else:
             even = self.carpet[3 if rare or any(self._came) else 2 if whole else self._is_cut]
-        return even.draw(EVEN, part=part) + self.edged[2 + self.is_trodden].draw(EDGED_CARPET, part=part)
+        edged = self.edged[2:] if self._rehearses else [self.edged[2 + self.is_trodden]]
+        return even.draw(EVEN, part=part) + sum(layer.draw(EDGED_CARPET, part=part) for layer in edged)
 
     def cast(self, light: tuple[float, float, float], /) -> int:
         """Write the depth at which grass of the carpet stops light from a place [m]; return the draw calls."""

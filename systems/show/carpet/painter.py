@@ -132,7 +132,7 @@ class CarpetPainter(RepresentationPainter):
         """Send the tiles of the ground, and how much carpet lies on each patch; it has no blades."""
         assert outlook.appearance is not None
         self.lay(outlook, outlook.appearance.cover[-1])
-        self.ground.is_trodden = bool(outlook.noted(Trodden, UNTRODDEN))
+        self.ground.tread(is_trodden=bool(outlook.noted(Trodden, UNTRODDEN)))
         self._heard = outlook.viewer.centre, first["carpet"][0], outlook.keeps(CarpetKept)
         return 0
 

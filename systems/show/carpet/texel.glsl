@@ -64,14 +64,9 @@ Texel texel_of(int kind, Patch own, Reading read, float on_level, float grain) {
     return texel_from(OF(first, kind), own, read, on_level, grain);
 #else
     float part = OF(came, kind);
-    Texel texel = Texel(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-    for (int form = part < 1.0 ? 0 : 1; form < (part > 0.0 ? 2 : 1); form++) {
-        Texel one = texel_from(form == 0 ? OF(first, kind) : OF(coming, kind), own, read, on_level, grain);
-        if (form == 1 && part < 1.0)
-            texel = together(texel, one, part);
-        else
-            texel = one;
-    }
+    Texel texel = texel_from(part < 1.0 ? OF(first, kind) : OF(coming, kind), own, read, on_level, grain);
+    if (part > 0.0 && part < 1.0)
+        texel = together(texel, texel_from(OF(coming, kind), own, read, on_level, grain), part);
     return texel;
 #endif
 }
