@@ -196,7 +196,8 @@ void meet(float slope, float left) {
 
 void main() {
 #ifdef EDGED
-    float left, hidden = comes_to_grass(left);
+    float left;
+    float hidden = comes_to_grass(left);
     vec2 dx = dFdx(over.xz), dy = dFdy(over.xz);
     float slope = viewing_slope(rise, place), ahead = 0.0;
     work_out(slope);
