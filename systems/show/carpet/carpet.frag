@@ -166,9 +166,8 @@ float before_rim(float slope) {
 }
 
 #ifdef EDGED
-// Where the line of sight comes to grass, from the mesh on, is the place of the pixel; how much that hides of what is behind,
-// and up to where it is left to stand [m].
-float comes_to_grass(out float left) {
+// Where the line of sight comes to grass, from the mesh on, is the place of the pixel; how much that hides of what is behind.
+float comes_to_grass() {
     Way way = way_from(over, lies_over, raises, viewing_slope(rise, over), crest);
     bool aside;
     float at = enters(way, aside);
@@ -176,7 +175,7 @@ float comes_to_grass(out float left) {
         at = -1.0;
     place = farther(over, max(at, 0.0));
     grown = grows_at(place.xz);
-    left = left_here(place.xz);
+    float left = left_here(place.xz);
     tall = carpet_high(grown, left);
     dense = weighed(grown, areas(leaves_left(left)));
     return at < 0.0 ? 0.0 : hidden_behind(way, at, aside, areas(grown), left);
@@ -196,8 +195,7 @@ void meet(float slope, float left) {
 
 void main() {
 #ifdef EDGED
-    float left;
-    float hidden = comes_to_grass(left);
+    float hidden = comes_to_grass(), left = left_here(place.xz);
     vec2 dx = dFdx(over.xz), dy = dFdy(over.xz);
     float slope = viewing_slope(rise, place), ahead = 0.0;
     work_out(slope);

@@ -80,11 +80,14 @@ class GroundPainter:
         """For what is usual, uncut and cut, or where it is coarse for what is usual and for all that this can show; for
         lamps beside what is usual; and for all that there may be."""
         self.edged: list[Layer] = []
-        """What is drawn where grass ends or is cut: ground, what lies under the carpet, and that, also trodden."""
+        """What is drawn where grass ends or is cut: ground, what lies under the carpet, and the carpet where nobody
+        treads it and where somebody may."""
         self.casting: list[Layer] = []
         """The carpet in shadow maps."""
-        self.is_trodden = self._rehearses = False
+        self.is_trodden = False
         """Whether anybody treads the grass, or has: then pixels of the carpet ask for that, which costs."""
+        self._rehearses = False
+        """Whether every program is drawn with that may come."""
         self._is_coarse = coarse and len(stock.before.crown) <= MOST_COARSE
         self._lay_out(seed)
 
