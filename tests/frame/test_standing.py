@@ -1,10 +1,11 @@
 """A frame in which nothing has changed but the time costs the processor little: calls are counted (N2)."""
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import esper
+import pytest
 
 from tallgrass.components.patch import Patch
 from tallgrass.engine.camera import Camera
@@ -44,6 +45,16 @@ CALLS = 1650, 2350
 
 LAST = 5
 """Of which so many are counted, and the least counts: in any one, Python may tidy up after others."""
+
+
+@pytest.fixture(autouse=True)
+def _alone() -> Iterator[None]:
+    """Entities of other tests' prairies would be asked, one call each, whether they are this one's."""
+    before = esper.current_world
+    esper.switch_world("standing")
+    yield
+    esper.switch_world(before)
+    esper.delete_world("standing")
 
 
 def calls(stage: Stage, prairie: Prairie, camera: Camera) -> int:
