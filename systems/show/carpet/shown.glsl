@@ -84,7 +84,7 @@ vec4 kind_seen(int kind, Patch own, Reading read, Sight sight, float grain, View
         light = with_lamps(light, view.lamps);
     float bent = max(1.0 - (1.0 - texel.covers) * comes_through(view.bent.x), 0.0);
 #ifdef HEADS
-    float ripe = OF(riper, kind);
+    float ripe = figure_of(riper, kind);
     texel.place += ripe * (ripe > 0.0 ? 1.0 - texel.place : texel.place);
     // What stands scattered among others has what is met of it where it stands, and nothing between.
     texel.covers = OF(bears, kind) > 0.0 ? texel.covers / max(texel.usual, LEAST_USUAL) : bent;
@@ -103,8 +103,9 @@ vec4 kinds_seen(Patch own, Reading read, Sight sight, float grain, View view, ou
     float higher = 0.0, one;
     int kind = next_kind(met, LEAST_MET, 0);
     if (kind < KINDS) do {
-        sum += OF(met, kind) * kind_seen(kind, own, read, sight, grain, view, one);
-        higher += OF(met, kind) * one;
+        float part = figure_of(met, kind);
+        sum += part * kind_seen(kind, own, read, sight, grain, view, one);
+        higher += part * one;
         kind = next_kind(met, LEAST_MET, kind + 1);
     } while (kind < KINDS);
     taller = higher / max(total(met), LEAST_TEXEL);
