@@ -76,6 +76,7 @@ class Prairie(Tending):
         must_be_a(Transitions, transitions, "transitions are made as Transitions()")
         if ctx is not None:
             must_be_a(moderngl.Context, ctx, "ctx is a moderngl context")
+        self.governor = Governor(hold)  # before there are any entities: it may be refused
         site = found_site(loaded, preset=preset, lod=lod, transitions=transitions)
         super().__init__(site, World(self.advance), live=live)
         self._stepping, self._looking = (doing(Feature, name, self.features) for name in ("step", "look"))
@@ -84,8 +85,7 @@ class Prairie(Tending):
         self._seasons = Seasons(loaded.scene)
         self._ripening, self._streaming = Ripening(self._seasons, live=live), Streaming(live=live)
         self.lod: LodName = lod
-        self.statistics, self.governor = Statistics(blades_field=site.blades), Governor(hold)
-        self.systems = Schedule(live=live)
+        self.statistics, self.systems = Statistics(blades_field=site.blades), Schedule(live=live)
         screen = Screen(ctx, self.features, self.winds, linear=linear)
         self._saving = Saving(
             self.world, self.winds, self.pressers, self._mown, self.clearings, self._shining, one(Trees, self.features),
@@ -385,8 +385,8 @@ class Prairie(Tending):
 
     def _go_with(self, viewer: str, seen: View) -> None:
         """Let features and ground that streams go with the viewers, one of whom has come to where it sees from."""
-        others = [outlook.viewer.eye for outlook in self.viewers.values() if outlook.viewer.name != viewer]
-        self._streaming.follow(self.site.ground.terrain, [seen.eye, *others])
+        others = [outlook.viewer for outlook in self.viewers.values() if outlook.viewer.name != viewer]
+        self._streaming.follow(self.site.ground.terrain, seen.eye, others, time=self.time)
         for feature in self._stepping:
             feature.step(viewer, seen.eye, time=self.time)
 

@@ -1,9 +1,10 @@
 """Ground that streams: its window goes with those who look."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 
+from ..components.viewer import Viewer
 from ..engine.terrain.blocks import Blocks, Numbers
 from ..engine.terrain.record import Terrain
 from ..engine.terrain.stream import paste, window_of
@@ -11,6 +12,14 @@ from .show.carpet.found import Found
 
 GOES, WAITS = 0.75, 2.0
 """How far off the middle of the window viewers come before it goes on, and before a frame waits for it [steps]."""
+
+APART = 0.25
+"""How far off the middle of all viewers one is shown ground at most, of the window's width."""
+
+LATELY = 1.0
+"""How long ago others have looked at most for the window to go with them [s]: nobody closes a map or a mirror."""
+
+Eye = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -31,13 +40,20 @@ class Streaming:
         self._asked: _Asked | None = None
         self._hands: ThreadPoolExecutor | None = None
 
-    def follow(self, terrain: Terrain, eyes: Sequence[tuple[float, float, float]], /) -> None:
-        """Let a terrain be the window about the middle of all eyes (x, y, z) [m], if it streams."""
+    def follow(self, terrain: Terrain, eye: Eye, others: Iterable[Viewer], /, *, time: float) -> None:
+        """Let a terrain be the window about the middle of all who look, if it streams.
+
+        Who looks now sees from `eye` (x, y, z) [m]. Others who are too far off do not count: they may have been left
+        where they were, or come after in the same frame.
+        """
         blocks = terrain.blocks
         if blocks is None:
             return
+        eyes = [eye, *(other.eye for other in others if abs(time - other.time) <= LATELY)]
         middle = [0.5 * (min(each) + max(each)) for each in zip(*eyes, strict=True)]
-        place = middle[0], middle[2]
+        most = APART * blocks.cells * blocks.cell
+        x, _, z = middle if max(abs(middle[0] - eye[0]), abs(middle[2] - eye[2])) <= most else eye
+        place = x, z
         off = self._off(terrain, blocks, place)
         if off <= GOES:
             self._asked = None

@@ -12,6 +12,7 @@ from .current import current_functions, is_own, own_context
 from .functions import functions_of
 from .host import State, has_windows, is_hidden, loaded_gl, pyglet_context
 from .limits import limits_of
+from .outputs import is_of_another_sort
 from .units import SCRATCH_UNIT
 
 _kept: list[State] = []
@@ -95,7 +96,7 @@ def arrive(ctx: moderngl.Context) -> None:
     Whenever it makes one, it binds again what it knows of; of a host that does not draw with it, that is an old one,
     which the host may have deleted.
     """
-    _host_framebuffer(ctx, ctx.detect_framebuffer()).use()
+    _host_framebuffer(ctx, _bound(ctx)).use()
 
 
 @contextmanager
@@ -108,7 +109,7 @@ def guest(ctx: moderngl.Context, seen: View | None = None) -> Iterator[moderngl.
     point 0, nor the texture units before `FIRST_UNIT`.
     """
     with kept(ctx) as state:
-        target = ctx.detect_framebuffer()
+        target = _bound(ctx)
         with _remembered(ctx, target, state):
             state.look(is_reversed=seen is not None and is_reversed(seen))
             _begin(ctx, target, state)
@@ -182,6 +183,18 @@ def _remembered(ctx: moderngl.Context, target: moderngl.Framebuffer, state: Stat
         host.use()
         ctx.enable_only(state.flags)
         ctx.front_face, ctx.cull_face, ctx.wireframe = before
+
+
+def _bound(ctx: moderngl.Context) -> moderngl.Framebuffer:
+    """Return the framebuffer that the host has bound.
+
+    moderngl binds its colours as a 2D texture to ask for their size. Where they have several samples or layers, that
+    leaves an error of GL, which the host would take for its own.
+    """
+    found = ctx.detect_framebuffer()
+    if found.glo and is_of_another_sort(functions_of(ctx)):
+        _ = ctx.error
+    return found
 
 
 def _host_framebuffer(ctx: moderngl.Context, target: moderngl.Framebuffer) -> moderngl.Framebuffer:

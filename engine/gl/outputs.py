@@ -47,6 +47,15 @@ def has_depth(gl: Functions, framebuffer: int, /) -> bool:
     return _attached(gl, "DEPTH_ATTACHMENT" if framebuffer else "DEPTH")
 
 
+def is_of_another_sort(gl: Functions, /) -> bool:
+    """Return whether the first colours of a host's framebuffer are a texture that could not be bound just now as 2D."""
+    if _asked(gl, "COLOR_ATTACHMENT0", "FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE") != NUMBERS["TEXTURE"]:
+        return False
+    bound = (c_int * 1)()
+    gl.glGetIntegerv(NUMBERS["TEXTURE_BINDING_2D"], bound)
+    return bound[0] != _asked(gl, "COLOR_ATTACHMENT0", "FRAMEBUFFER_ATTACHMENT_OBJECT_NAME")
+
+
 def _drawn(gl: Functions) -> list[int]:
     """Return the attachment of each output."""
     found, first = (c_int * COUNT)(), NUMBERS["DRAW_BUFFER0"]
@@ -62,10 +71,13 @@ def _has_second(gl: Functions) -> bool:
 
 
 def _attached(gl: Functions, name: str) -> bool:
+    return _asked(gl, name, "FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE") != NUMBERS["NONE"]
+
+
+def _asked(gl: Functions, name: str, question: str) -> int:
     found = (c_int * 1)()
-    question = NUMBERS["FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE"]
-    gl.glGetFramebufferAttachmentParameteriv(NUMBERS["DRAW_FRAMEBUFFER"], NUMBERS[name], question, found)
-    return found[0] != NUMBERS["NONE"]
+    gl.glGetFramebufferAttachmentParameteriv(NUMBERS["DRAW_FRAMEBUFFER"], NUMBERS[name], NUMBERS[question], found)
+    return found[0]
 
 
 def _mask(gl: Functions, output: int) -> tuple[int, ...]:

@@ -131,8 +131,9 @@ class ShadeMap:
             for model_number, model in enumerate(kind.models):
                 own = standing.of(kind_number, model_number)
                 own = own[own["ring"] < 2]  # what is farther off shades nothing that is seen to be shaded
-                stream = self._streams.setdefault(id(model), Stream(self._ctx, SHOWN))
-                stream.write(shown(own, np.zeros(len(own)), model.model.height, 0.0))
+                if id(model) not in self._streams:
+                    self._streams[id(model)] = Stream(self._ctx, SHOWN)
+                self._streams[id(model)].write(shown(own, np.zeros(len(own)), model.model.height, 0.0))
 
     def release(self) -> None:
         """Give everything back."""

@@ -35,6 +35,22 @@ in vec2 at;
 out vec4 pixel;
 void main() { pixel = texture(picture, at); }"""
 
+FAR_FLOWERS = """\
+tallgrass: 2
+terrain: { noise: rolling, size: [60, 200], scale: 10, feature: 60, seed: 1 }
+grass:
+  tall: { root: "#000000", tip: "#ff2010", height: [0.4, 0.8], width: 0.03 }
+  poppy: { plant: flower, root: "#000000", tip: "#ff0000", head: { size: [0.1, 0.2] } }
+light: { azimuth: 180, elevation: 30 }
+quality:
+  models: 1
+  blades: 300
+  blade_rings: [{ to: 1, segments: 3 }]
+  strip_rings: [{ to: 3, strips: 2, columns: 1, sections: 1, texel: 0.08 }]
+  carpet_to: 40
+  carpet: 16
+"""
+
 
 class Overlay:
     """What a host draws over a prairie: a textured square, its uniform block at binding 0, its texture on unit 0."""
@@ -157,6 +173,27 @@ def test_d6_a_prairie_draws_into_the_framebuffer_that_is_bound_and_no_other(
     data = np.frombuffer(other.read(components=3, alignment=1), np.uint8).reshape(90, 160, 3)[::-1]
     np.testing.assert_array_equal(data, expected)
     for thing in (other, color, depth):
+        thing.release()
+
+
+def test_d6_into_textures_of_several_samples_it_draws_what_is_in_range_and_leaves_no_error(
+    ctx: moderngl.Context, stage: Stage, load: Load, camera: Aim
+) -> None:
+    prairie = load(FAR_FLOWERS, lod="blades", linear=True)
+    aim = camera(-18.0, float(prairie.height_at([(-18.0, 90.0)])[0]) + 1.2, 90.0, pitch=-1)
+    texture, deep = ctx.texture(stage.size, 4, samples=4, dtype="f2"), ctx.depth_texture(stage.size, samples=4)
+    several, colours = ctx.framebuffer([texture], deep), ctx.texture(stage.size, 4, dtype="f2")
+    plain = ctx.framebuffer([colours])
+    several.use()
+    several.clear(depth=1.0)
+    assert ctx.error == "GL_NO_ERROR"
+    prairie.draw(*stage.matrices(aim), parts=("grass",))
+    assert ctx.error == "GL_NO_ERROR"
+    ctx.copy_framebuffer(plain, several)
+    told = np.frombuffer(plain.read(components=3, dtype="f2"), np.float16)
+    assert told.max() > 1.0
+    assert told.min() == 0.0, "a sample beyond a blade's edge had a colour that the blade has nowhere"
+    for thing in (several, plain, texture, deep, colours):
         thing.release()
 
 

@@ -1,5 +1,6 @@
 """Trees in the picture: near and far, in the wind, in the light, and gone when they are felled (F3, F5, F10)."""
 
+import gc
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -129,6 +130,25 @@ def test_nothing_is_made_on_a_frame_once_a_game_has_prepared(ctx: moderngl.Conte
         shot(stage, prepared, AHEAD)
         assert vars(prepared.painter.part(TreePart))["_programs"] is programs
         assert vars(programs)["_programs"] == made
+
+
+def test_a_tree_that_is_planted_leaves_nothing_behind_in_gl(
+    ctx: moderngl.Context, stage: Stage, prairie: Prairie, plant: Callable[..., int]
+) -> None:
+    shot(stage, prairie, AHEAD)
+    gc.collect()  # what other tests have left
+    before, ctx.gc_mode = ctx.gc_mode, "context_gc"
+    ctx.objects.clear()
+    try:
+        plant(0.0, 0.0)
+        shot(stage, prairie, AHEAD)
+        plant(2.0, 0.0)
+        shot(stage, prairie, AHEAD)
+        gc.collect()
+        assert [thing for thing in ctx.objects if not isinstance(thing, moderngl.InvalidObject)] == []
+    finally:
+        ctx.gc_mode = before
+        ctx.objects.clear()
 
 
 def test_its_shadow_falls_away_from_the_sun_and_the_grass_below_is_darker(

@@ -1,7 +1,7 @@
-in vec3 color;
+centroid in vec3 color;  // of several samples a pixel, one beyond a ribbon's edge would have any colour
 flat in float shown;
 #ifdef FOLDS
-in vec3 keel;  // how much brighter the face to the right of a fold is than both
+centroid in vec3 keel;  // how much brighter the face to the right of a fold is than both
 #endif
 #ifdef TOOTHED
 #include "systems/show/blades/teeth.glsl"

@@ -21,10 +21,10 @@ in vec4 base;
 in vec4 painted;
 #endif
 
-out vec3 color;
+centroid out vec3 color;
 flat out float shown;
 #ifdef FOLDS
-out vec3 keel;  // how much brighter the face to the right of a fold is than both
+centroid out vec3 keel;  // how much brighter the face to the right of a fold is than both
 #endif
 #ifdef TOOTHED
 #include "systems/show/blades/teeth.glsl"

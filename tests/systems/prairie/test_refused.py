@@ -53,11 +53,15 @@ def test_a_bad_time_is_refused_in_a_sentence_and_no_wind_is_blamed_for_it(prairi
     [
         ({"preset": "hgih"}, r"^unknown preset 'hgih'; there are minimal, low, medium, high, "),
         ({"lod": "voxels"}, r"^unknown representation 'voxels'; there are auto, blades, strips, carpet$"),
+        ({"hold": -1.0}, r"^a frame is held to a time above 0 s, or by None to none, not to -1.0$"),
     ],
 )
-def test_an_unknown_option_is_refused_in_a_sentence(load: Load, option: dict[str, str], sentence: str) -> None:
+def test_an_unknown_option_is_refused_in_a_sentence_and_leaves_the_world_alone(
+    load: Load, option: dict[str, Any], sentence: str
+) -> None:
     with pytest.raises(ValueError, match=sentence):
         load(**option)
+    assert [*esper.get_entities()] == []
 
 
 @pytest.mark.parametrize(
