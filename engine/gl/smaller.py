@@ -86,7 +86,9 @@ class Smaller:
         self._passes: dict[str, moderngl.VertexArray] = {}
         self._buffers: dict[tuple[Size, Size], Buffers] = {}
         self._has_host = Question(ctx)
-        self._told: set[str] = set()
+        self._told: dict[str, object] = {}
+        """What the programs have been told last, by name."""
+        self._warned: set[str] = set()
 
     @contextmanager
     def instead_of(
@@ -184,13 +186,14 @@ class Smaller:
         for name in PASSES.keys() - self._passes.keys():
             self._programs[name] = program(self._ctx, "engine/gl/fill.vert", f"engine/gl/{name}.frag")
             self._passes[name] = self._ctx.vertex_array(self._programs[name], [])
-            self._tell(PLACES)
+            self._told.clear()
+        self._tell(PLACES)
 
     def _is_obstructed(self, host: moderngl.Framebuffer) -> bool:
         """Return whether nothing can stand in for the host's framebuffer, and tell it once."""
         obstacle = self._obstacle(host)
-        if obstacle is not None and obstacle not in self._told:
-            self._told.add(obstacle)
+        if obstacle is not None and obstacle not in self._warned:
+            self._warned.add(obstacle)
             log.warning("a framebuffer is drawn into with all its pixels, whatever it takes: it has %s", obstacle)
         return obstacle is not None
 
@@ -213,10 +216,13 @@ class Smaller:
         return found
 
     def _tell(self, values: Mapping[str, object]) -> None:
-        for each in self._programs.values():
-            for name, value in values.items():
-                if name in each:
-                    each[name] = value
+        """Tell all programs that ask for it what is another than before."""
+        for name, value in values.items():
+            if self._told.get(name) != value:
+                self._told[name] = value
+                for each in self._programs.values():
+                    if name in each:
+                        each[name] = value
 
     def _number(self, name: str) -> int:
         found = (c_int * 1)()
