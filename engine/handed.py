@@ -28,14 +28,18 @@ def as_floats(thing: object, due: str, /, *, holes: bool = False) -> NDArray[np.
     sentence: what it has to be.
     """
     try:
-        with np.errstate(over="ignore"):  # what is too large for single precision is refused as infinity
-            array = np.asarray(thing, np.float32)
+        array = thing if type(thing) is np.ndarray and thing.dtype == np.float32 else _as_singles(thing)
     except (TypeError, ValueError):
         raise ValueError(f"{due}, not {shortened(thing)}") from None
     bad = np.isinf(array) if holes else ~np.isfinite(array)
     if thing is None or bad.any():
         raise ValueError(f"{due}, not {'None' if thing is None else 'infinity' if holes else 'NaN or infinity'}")
     return array
+
+
+def _as_singles(thing: object) -> NDArray[np.float32]:
+    with np.errstate(over="ignore"):  # what is too large for single precision is refused as infinity
+        return np.asarray(thing, np.float32)
 
 
 def as_rays(origin: object, direction: object, /) -> tuple[Doubles, Doubles]:

@@ -65,10 +65,10 @@ def wander(seed: int, stream: int, steps: float, /) -> tuple[float, float, float
     table, below, right = noise_table(seed, stream), (row + 1) % PERIOD, (column + 1) % PERIOD
     # Plain numbers: for a single place, arrays take many times as long.
     corners = (row, column), (row, right), (below, column), (below, right)
-    a, b, c, d = (table[corner].tolist() for corner in corners)
-    first, second, third, fourth = (
+    a, b, c, d = [table[corner].tolist() for corner in corners]
+    first, second, third, fourth = [
         (e + s * (f - e)) + t * ((g + s * (h - g)) - (e + s * (f - e))) for e, f, g, h in zip(a, b, c, d, strict=True)
-    )
+    ]
     return first, second, third, fourth
 
 

@@ -226,9 +226,11 @@ class Schedule:
 
     def _turns(self, first: Phase, last: Phase) -> Iterator[System]:
         """Give each system of some phases that has a turn, as it stands when its turn comes."""
-        for system in self:
-            now = self._now(system)
-            if now and first <= now.phase <= last and now.enabled and now.name not in self.failures:
+        for system in tuple(self._systems.values()):
+            now = self._systems.get(system.name)  # as in `_now`: a call is saved for each system of a frame
+            if now is None or now.number != system.number or not now.enabled:
+                continue
+            if first <= now.phase <= last and now.name not in self.failures:
                 yield now
 
     def _now(self, system: System) -> System | None:
@@ -246,8 +248,8 @@ class Schedule:
             log.debug("%s", system.name, exc_info=error)
             self._leave_out(system, f"run raised {said(error)}")
         else:
-            took = perf_counter() - start
-            if self._now(system):
+            took, now = perf_counter() - start, self._systems.get(system.name)
+            if now and now.number == system.number:
                 self.milliseconds[system.name] = 1000.0 * took
                 if not system.trusted:
                     self._judge(system, took, thread_time() - spent)

@@ -132,8 +132,11 @@ class World:
         so that nothing that follows from it depends on how a set is laid out.
         """
         self._must_be_current()
+        rows = esper.get_component(kind)
+        if not rows:
+            return []
         mine, part_of, found = self._mine, esper.try_component, list[tuple[int, Component]]()
-        for row in esper.get_component(kind):
+        for row in rows:
             mark = part_of(row[0], Resident)
             if mark is None or mark.owner is mine:  # the game's, and our own
                 found.append(row)
@@ -150,8 +153,11 @@ class World:
     def both(self, kind: type[Component], other: type[Other]) -> list[tuple[int, Component, Other]]:
         """Return every entity with components of exactly these two types, in the order and as far as `all` does."""
         self._must_be_current()
+        rows = esper.get_component(kind)
+        if not rows:
+            return []
         mine, part_of, found = self._mine, esper.try_component, list[tuple[int, Component, Other]]()
-        for entity, one in esper.get_component(kind):
+        for entity, one in rows:
             two, mark = part_of(entity, other), part_of(entity, Resident)
             if two is not None and (mark is None or mark.owner is mine):
                 found.append((entity, one, two))

@@ -102,7 +102,9 @@ class Painter(Holding):
         laid = iter(self.received.lay([count for each in counts.values() for count in each]))
         self._first = {name: [next(laid) for _ in each] for name, each in counts.items()}
         self._outlook = outlook
-        self.blades = sum(painter.write(outlook, self._first) for painter in self.painters.values())
+        self.blades = 0
+        for painter in self.painters.values():
+            self.blades += painter.write(outlook, self._first)
 
     def _hear(self, target: moderngl.Framebuffer, asked: Asked) -> int:
         """Let all receivers that are seen hear the wind; return the number of draw calls."""
@@ -111,19 +113,28 @@ class Painter(Holding):
             return 0
         if "grass" not in asked.parts:
             with aside(self.ctx, target):
-                return sum(part.prepare() for part in self._doing["prepare"])
+                return self._prepare()
         scene, blown = site.scene, outlook.noted(Blown, Blown())
         to = mean_yaw(scene.wind)
         air.write(blown.winds, time=blown.at, seed=scene.seed, mixing=scene.mixing, to=to)
         air.tell(partial(_receivers, outlook, site), self.quarantine, numbers=partial(numbers_of, outlook, self._first))
         with aside(self.ctx, target):
-            calls = sum(part.prepare() for part in self._doing["prepare"])
+            calls = self._prepare()
             air.use()
-            calls += sum(painter.hear() for painter in self.painters.values())
+            for painter in self.painters.values():
+                calls += painter.hear()
             heard = self.coarsest.heard()
-            calls += sum(part.breathe(heard) for part in self._doing["breathe"])
+            for part in self._doing["breathe"]:
+                calls += part.breathe(heard)
             write_messages(self.received, outlook, self._first, site.ground)
             self.received.texture.use(UNITS["received"])
+        return calls
+
+    def _prepare(self) -> int:
+        """Draw what is read in this frame; return the number of draw calls. Here and below, generators cost a frame."""
+        calls = 0
+        for part in self._doing["prepare"]:
+            calls += part.prepare()
         return calls
 
     def draw(
@@ -213,10 +224,12 @@ class Painter(Holding):
         if "grass" in asked.parts:
             solid = self._doing["draw_solid"]
             solid = solid if asked.over_hosts else [*self.painters.values(), *solid]
-            self.draw_calls += sum(each.draw_solid() for each in solid)
+            for each in solid:
+                self.draw_calls += each.draw_solid()
         if "sky" in asked.parts:
             target.depth_mask = False
-            self.draw_calls += sum(part.draw_behind() for part in self._doing["draw_behind"])
+            for part in self._doing["draw_behind"]:
+                self.draw_calls += part.draw_behind()
 
     def _draw_carpet(self, target: moderngl.Framebuffer, view: View) -> None:
         """Draw what lies on the land."""
@@ -229,7 +242,8 @@ class Painter(Holding):
         self.draw_calls += self.coarsest.draw(target)
         self.ctx.disable(moderngl.CULL_FACE)
         target.depth_mask = True
-        self.draw_calls += sum(part.draw_soft() for part in self._doing["draw_soft"])
+        for part in self._doing["draw_soft"]:
+            self.draw_calls += part.draw_soft()
 
     def _draw_grass(self, target: moderngl.Framebuffer, *, is_deep: bool) -> None:
         """Draw what stands on the land, the coarser representations first."""

@@ -23,7 +23,7 @@ class Remembered(Generic[Made]):
         It is not made again if it was made of the same: of arrays of the same bytes, and of other things that are
         equal. With None it is always made.
         """
-        now = made_of and [part.tobytes() if isinstance(part, np.ndarray) else part for part in made_of]
+        now = made_of and [part.tobytes() if type(part) is np.ndarray else part for part in made_of]
         found = self._made.pop(viewer, None)
         if found is None or now is None or now != found[0]:
             found = now, make()

@@ -1,8 +1,8 @@
 """Outlooks: what is kept for each viewer of a prairie."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from typing import TypeVar, cast
+from typing import TypeVar
 
 import numpy as np
 
@@ -99,15 +99,21 @@ class Outlook:
 
     def noted(self, record: type[Record], default: Other, /) -> Record | Other:
         """Return what was noted last of a class, or else `default`."""
-        return cast("Record | Other", self._noted.get(record, default))
+        return self._noted.get(record, default)  # type: ignore[return-value]
 
     def keeps(self, kept: type[Record], /) -> Record:
         """Return what is kept by the representation whose stores are of a class."""
-        return _of(kept, self.kept.values())
+        for each in self.kept.values():  # quicker than `next`, as it is asked many times a frame
+            if type(each) is kept:
+                return each
+        raise LookupError(kept)
 
     def shows(self, shown: type[Record], /) -> Record:
         """Return what is shown by the representation that shows a class of things."""
-        return _of(shown, self.shown.values())
+        for each in self.shown.values():
+            if type(each) is shown:
+                return each
+        raise LookupError(shown)
 
     def unless_at_rest(
         self,
@@ -152,14 +158,6 @@ class Outlook:
             viewer.cone, viewer.sides, self.lens.zoom = view_cone(view), picture_sides(view), zoom_of(view)
         viewer.dt = 1e9 if self.drawn_at is None else time - self.drawn_at
         self.drawn_at, viewer.idles = time, self.pace.idles(viewer.dt)
-
-
-def _of(kind: type[Record], things: Iterable[object], /) -> Record:
-    """Return the first of things that is of a class: quicker than `next`, as it is asked many times a frame."""
-    for each in things:
-        if isinstance(each, kind):
-            return each
-    raise LookupError(kind)
 
 
 class Outlooks:

@@ -67,9 +67,9 @@ class Layer:
 
     def _array(self, stream: int, wider: int) -> moderngl.VertexArray:
         """Return what draws those tiles of the viewer that looks."""
-        shelf, program = self._shelves.now, self.program
+        shelf = self._shelves.now
         if (self, stream, wider) not in shelf.arrays:
-            corners, indices = self._grid[0], self._grid[wider]
+            program, corners, indices = self.program, self._grid[0], self._grid[wider]
             contents = [(corners, "2f", "corner"), shelf.streams[stream].binding(program)]
             shelf.arrays[self, stream, wider] = program.ctx.vertex_array(program, contents, index_buffer=indices)
         return shelf.arrays[self, stream, wider]
@@ -86,7 +86,8 @@ class Layer:
         count = shelf.streams[stream].count
         if not count:
             return 0
-        for name, value in (*told.items(), ("wider", shelf.wider)):
-            tell(self.program, name, value)
+        program, told["wider"] = self.program, shelf.wider
+        for name, value in told.items():
+            tell(program, name, value)
         self._array(stream, shelf.wider).render(moderngl.TRIANGLES, instances=count)
         return 1

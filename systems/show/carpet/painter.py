@@ -272,7 +272,6 @@ class CarpetPainter(RepresentationPainter):
         """Draw the carpet; return the number of draw calls."""
         target.depth_mask = True
         self.images.use(self._units["images"])
-        self.ground.use()
         self.air.use()
         self.bents.use(self._units["bents"])
         if not self._deep:
