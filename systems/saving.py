@@ -6,12 +6,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from pydantic import ValidationError
 
 from ..components.arrays import Bytes, Floats, Ints
 from ..components.course import Course
 from ..components.patch import Cell
 from ..components.pose import Pose
 from ..components.wind import WindPrimitive, WindSource, with_course
+from ..components.words import told
 from ..engine.declared.scene import Reading
 from ..engine.handed import is_somewhere
 from ..engine.plugins import wind_kinds
@@ -256,9 +258,11 @@ def _course(wind: WindPrimitive) -> SavedCourse | None:
 
 def _made(kind: str, values: dict[str, Any], kinds: Reading) -> WindPrimitive:
     try:
-        return kinds["wind"](kind).model_validate_json(json.dumps(values), context=kinds)
-    except Exception as error:  # as above; pydantic's own among them
-        raise ValueError(f"a wind of this state, a {kind}, cannot be made: {error}") from error
+        known = kinds["wind"](kind)
+        return known.model_validate_json(json.dumps(values), context=kinds)
+    except Exception as error:  # as above
+        said = told(error, known, kind) if isinstance(error, ValidationError) else error
+        raise ValueError(f"a wind of this state, a {kind}, cannot be made: {said}") from error
 
 
 def _rates(wind: WindPrimitive) -> int:

@@ -20,6 +20,7 @@ from tallgrass.components.patch import Patch
 from tallgrass.components.pose import Pose
 from tallgrass.components.presser import Presser
 from tallgrass.components.wind import WindSource
+from tallgrass.engine.plugins import wind_kinds
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.wind.blast import Blast
@@ -281,6 +282,29 @@ def test_a_wind_that_nobody_could_make_again_is_named(played: Prairie, build: Ca
     esper.create_entity(build())
     with pytest.raises(ValueError, match=r"^the wind 'odd' cannot be saved: "):
         played.state()
+
+
+def test_a_wind_whose_class_has_other_keys_by_now_is_refused_in_a_sentence(
+    played: Prairie, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Draught(Breeze):
+        """A wind as it was when the game was saved."""
+
+        kind: str = "draught"  # type: ignore[assignment]
+        power: float = 0.3
+
+    class Later(Breeze):
+        """The same wind in a later version of its package."""
+
+        kind: str = "draught"  # type: ignore[assignment]
+        force: float = 0.3
+
+    monkeypatch.setitem(wind_kinds()._classes, "draught", Draught)  # noqa: SLF001
+    played.add(Draught())
+    state = played.state()
+    monkeypatch.setitem(wind_kinds()._classes, "draught", Later)  # noqa: SLF001
+    with pytest.raises(ValueError, match=r"^a wind of this state, a draught, cannot be made: unknown key 'power'"):
+        played.restore(state)
 
 
 @pytest.fixture
