@@ -10,7 +10,7 @@ from tallgrass.engine.declared.quality import PRESETS, Quality
 from tallgrass.engine.installed import OURS
 from tallgrass.engine.plugins import wind_kinds
 from tallgrass.engine.scene import bundled_scenes
-from tallgrass.engine.scene.schema import scene_schema
+from tallgrass.engine.scene.schema import limits, scene_schema, written
 
 Schema = dict[str, Any]
 
@@ -175,27 +175,13 @@ def anchor(title: str, /) -> str:
 
 def _range(declared: Schema) -> str:
     numbers = declared.get("items", declared)
-    words = {"minimum": "at least", "exclusiveMinimum": "above", "maximum": "at most", "exclusiveMaximum": "below"}
     if numbers.get("maximum") == -numbers.get("minimum", 0.0) == EVERYWHERE:
         return ""
-    if "minimum" in numbers and "maximum" in numbers:
-        return f"{_written(numbers['minimum'])} to {_written(numbers['maximum'])}"
-    return ", ".join(f"{words[name]} {_written(numbers[name])}" for name in words if name in numbers)
+    return ", ".join(limits(numbers))
 
 
 def _written(value: object) -> str:
-    """Return a value as a scene file writes it; nothing for none."""
-    match value:
-        case None:
-            return ""
-        case bool():
-            return str(value).lower()
-        case float():
-            return format(value, ".12g")
-        case list():
-            return f"[{', '.join(map(_written, value))}]"
-        case _:
-            return str(value)
+    return "" if value is None else written(value)
 
 
 def _plants() -> str:

@@ -1,6 +1,6 @@
 """The schema of scene files, for editors: JSON Schema of draft 7, whose texts are the docstrings."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from pydantic import BaseModel
@@ -85,21 +85,21 @@ def _facts(field: Schema) -> str:
     default = field.get("default")
     facts = []
     if default not in (None, []) and not isinstance(default, dict) and "const" not in field:
-        facts.append(f"Default: {_written(default)}.")
+        facts.append(f"Default: {written(default)}.")
     for numbers in (field, *field.get("anyOf", ())):
-        facts += [f"Range: {' and '.join(_range(numbers))}."] if any(_range(numbers)) else []
+        facts += [f"Range: {' and '.join(limits(numbers))}."] if limits(numbers) else []
     return " ".join(facts)
 
 
-def _range(numbers: Schema) -> Iterator[str]:
+def limits(numbers: Schema, /) -> list[str]:
+    """Return the range that a schema has numbers in, or its ends; nothing where it has none."""
     words = {"minimum": "at least", "exclusiveMinimum": "above", "maximum": "at most", "exclusiveMaximum": "below"}
     if "minimum" in numbers and "maximum" in numbers:
-        yield f"{_written(numbers['minimum'])} to {_written(numbers['maximum'])}"
-    else:
-        yield from (f"{words[name]} {_written(numbers[name])}" for name in words if name in numbers)
+        return [f"{written(numbers['minimum'])} to {written(numbers['maximum'])}"]
+    return [f"{words[name]} {written(numbers[name])}" for name in words if name in numbers]
 
 
-def _written(value: object) -> str:
+def written(value: object, /) -> str:
     """Return a value as a scene file writes it."""
     match value:
         case bool():
@@ -107,6 +107,6 @@ def _written(value: object) -> str:
         case float():
             return format(value, ".12g")
         case list():
-            return f"[{', '.join(map(_written, value))}]"
+            return f"[{', '.join(map(written, value))}]"
         case _:
             return str(value)
