@@ -11,7 +11,7 @@ from ...engine.declared.grass import GrassKind
 from ...engine.memo import while_it_lives
 from ...engine.terrain.sample import bareness
 from ..frame.block import GROUPS
-from ..grow.organs import bears_heads
+from ..grow.headed import Headed, headed
 from ..grow.record import GIVES, Growth
 from ..grow.section import SECTIONS
 from ..light.materials import Leaves, bloom, leaves_of, let_through, pigment, understorey, undertone
@@ -21,7 +21,7 @@ from ..space.grown import Grown
 BY_KIND = "came", "crown", "leaf", "lying", "understorey", "undertone", "steepest", "thins", "bears", "give"
 """The fields of the frame's record that have a figure for each kind."""
 
-OF_KIND = "root", "gloss", "tip", "taper", "through", "bloom", "narrowed"
+OF_KIND = "root", "gloss", "tip", "taper", "through", "bloom", "narrowed", "head"
 """What is written here of each of its kinds."""
 
 
@@ -34,8 +34,8 @@ class Figures:
 
     leaves: Leaves
     bloom: float
-    bears: bool
-    """Whether it bears heads."""
+    head: Headed | None
+    """What its heads are like, if it bears any."""
 
     give: Floats
     """How far it gives way, by length of a message."""
@@ -47,7 +47,7 @@ class Figures:
             self.crown + part * (other.crown - self.crown),
             Leaves(one.side + part * (after.side - one.side), one.above + part * (after.above - one.above)),
             self.bloom + part * (other.bloom - self.bloom),
-            self.bears or other.bears,
+            self.head or other.head,
             self.give + np.float32(part) * (other.give - self.give),
         )
 
@@ -64,7 +64,7 @@ def figures_of(kind: GrassKind, growth: Growth, patch: float, /) -> Figures:
     known, key = _known(growth), (kind.taper, kind.profile, patch)
     if key not in known:
         leaves, blooms = leaves_of(kind, growth, patch), bloom(kind, growth)
-        known[key] = Figures(canopy_height(growth), leaves, blooms, bears_heads(growth), growth.postures.give)
+        known[key] = Figures(canopy_height(growth), leaves, blooms, headed(growth), growth.postures.give)
     return known[key]
 
 
@@ -99,18 +99,19 @@ def write_land(record: NDArray[np.void], grown: Grown, /) -> None:
     row["came"].reshape(-1)[: len(grown.came)] = grown.came
     give = row["give"].reshape(GROUPS, GIVES, 4)
     for index, (kind, own) in enumerate(zip(grown.scene.grass.values(), figures_on(grown), strict=True)):
-        _write_kind(row["kinds"][index], kind, own.bloom)
+        _write_kind(row["kinds"][index], kind, own)
         crown[index], leaf[index] = own.crown, own.leaves.side
         lying[index] = own.leaves.above / own.leaves.side
-        bears[index] = own.bears
+        bears[index] = own.head is not None
         low[index] = understorey(kind, own.crown)
         tipped[index] = undertone(kind, own.bloom)
         give[index // 4, :, index % 4] = own.give
 
 
-def _write_kind(row: np.void, kind: GrassKind, blooms: float) -> None:
+def _write_kind(row: np.void, kind: GrassKind, own: Figures) -> None:
     row["root"], row["gloss"] = pigment(kind.root), kind.gloss
     row["tip"], row["taper"] = pigment(kind.tip), kind.taper
-    row["through"], row["bloom"] = let_through(kind), blooms
+    row["through"], row["bloom"] = let_through(kind), own.bloom
     section = SECTIONS[kind.profile]
+    row["head"] = own.head or 0.0
     row["narrowed"] = -1.0 if section.is_round else 1.0 - section.waist

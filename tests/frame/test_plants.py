@@ -228,3 +228,16 @@ def test_f3_far_off_flowers_are_as_faint_as_those_of_the_reference(stage: Stage,
     far = slice(middle - 6, middle + 6)  # 60 to 115 m off
     drawn, true = (np.percentile(each[far, :, 0].astype(float) - each[far, :, 2], [50, 99.7]) for each in pictures)
     assert drawn[1] - drawn[0] < 1.15 * (true[1] - true[0])
+
+
+def test_f3_flowers_smaller_than_pixels_hide_as_much_as_those_of_the_reference(
+    stage: Stage, load: Load, camera: Aim
+) -> None:
+    alone = FIELD.replace("  barley: { height: [0.4, 0.6], width: 0.018 }\n", "").replace("petals: 5", "petals: 12")
+    prairie = load(alone.replace("plants: 50,", "plants: 12, leaves: 0,"), lod="blades")
+    aim = camera(0.0, 9.0, 59.0, pitch=-28, view=16)
+    pictures = stage.shot(prairie, aim), draw_reference(prairie, *stage.matrices(aim), stage.size, samples=3)
+    redder = [each[..., 0].astype(float) - each[..., 2] for each in pictures]
+    hidden, brightest = zip(*((each.mean(), np.percentile(each, 99.7)) for each in redder), strict=True)
+    assert hidden[0] - np.median(redder) == pytest.approx(hidden[1] - np.median(redder), rel=0.15)
+    assert brightest[0] == pytest.approx(brightest[1], rel=0.1)

@@ -39,6 +39,9 @@ in vec2 sways;
 #endif
 in vec2 message;
 #endif
+#ifdef ORGANS
+#include "systems/show/blades/heads.glsl"
+#endif
 #ifdef TOOTHED
 #include "systems/show/blades/teeth.glsl"
 #endif
@@ -194,6 +197,10 @@ void main() {
         stands.z += min(1.0 - cut_at(blade, top / blade.height), MOST_CUT);
     }
     lit = bundled(light, tilt);
+#if defined(ORGANS) && defined(STORED)
+    if (is_of_head(int(blade.organ)))
+        stands.w *= uncovered(kinds[k].head, foot.xyz - eye);
+#endif
 #ifdef TOOTHED
     joints.w = teeth_seen(blade.height, TEETH_OF[int(blade.organ)], foot.xyz);
 #endif

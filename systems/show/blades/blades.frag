@@ -28,6 +28,10 @@ flat in float hides;  // coverage from which on it does
 const float FAINT = 0.004;  // coverage that is left out: in bytes, it would but be rounded up
 noperspective in float aside;
 noperspective in float half_width;
+#ifdef ORGANS
+noperspective in float onward;
+flat in float half_length;
+#endif
 #endif
 
 out vec4 pixel;
@@ -44,6 +48,9 @@ void main() {
     }
 #endif
     float covered = shown * clamp(wide + 0.5 - abs(aside), 0.0, min(1.0, 2.0 * wide));
+#ifdef ORGANS
+    covered *= clamp(half_length + 0.5 - abs(onward), 0.0, min(1.0, 2.0 * half_length));
+#endif
     covered = covered < FAINT ? 0.0 : covered;
 #ifdef DEEP
     if (covered < least_cover(number, clamp(2.0 - 2.0 * half_width, 0.0, 1.0)))

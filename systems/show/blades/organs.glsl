@@ -4,6 +4,10 @@ bool is_blade(int organ) {
     return organ == BLADE_ITSELF;
 }
 
+bool is_of_head(int organ) {
+    return (OF_HEADS >> organ & 1) != 0;
+}
+
 const vec2 tones[ORGANS] = TONES;
 const float gives[ORGANS] = GIVES;
 const float widths[ORGANS * KNOTS] = WIDTHS;

@@ -34,6 +34,10 @@ out vec3 tooth;  // which of them, from the root on; from left, -1, to right, 1;
 #ifdef SOFT
 noperspective out float aside;  // from the middle line [pixel]
 noperspective out float half_width;  // of the ribbon [pixel]
+#ifdef ORGANS
+noperspective out float onward;       // from its middle [pixel]
+flat out float half_length;           // [pixel]
+#endif
 #ifdef PARTED
 flat out float hides;  // coverage from which on a pixel counts as hidden behind it
 uniform int part;      // 1: where it hides what is behind it; 2: the rest
@@ -98,24 +102,44 @@ struct Point {
 };
 
 const float NEAREST = 0.15;  // distance from the eye below which a ribbon is as wide as it is [m]
-const float UNEDGED = 8.0;  // how wide it counts there [pixel]
+const float UNEDGED = 8.0;  // how wide it counts there, and how long where its ends are not soft [pixel]
+#ifdef ORGANS
+const float SMALL = 4.0;  // length up to which parts of heads are drawn straight, and with soft ends [pixel]
+#endif
 
 #ifdef SOFT
 // Move a point aside on the screen, so that the ribbon reaches half a pixel beyond its edge.
-vec4 widened(Point point) {
+vec4 widened(Point point, float t) {
     vec4 middle = clip * vec4(point.place, 1.0);
+#ifdef ORGANS
+    onward = 0.0;
+    half_length = UNEDGED;
+#endif
     vec4 edge = clip * vec4(point.across.x, 0.0, point.across.y, 0.0);
     if (middle.w < NEAREST) {
         aside = half_width = UNEDGED;
         return middle + edge;
     }
-    vec4 ahead = clip * vec4(point.tangent, 0.0);
+    vec3 along = point.tangent;
+#ifdef ORGANS
+    bool is_small = is_of_head(int(stands.z)) && foot.w * pixels_a_metre() < SMALL * middle.w;
+    if (is_small)
+        along = posture(low.w, lie_of.xy, 1.0).place * foot.w;
+#endif
+    vec4 ahead = clip * vec4(along, 0.0);
     vec2 run = (ahead.xy * middle.w - middle.xy * ahead.w) * half_screen;
     vec2 wide = (edge.xy * middle.w - middle.xy * edge.w) * half_screen / (middle.w * middle.w);
     vec2 normal = vec2(-run.y, run.x) / max(length(run), LEAST_SQUARE);
     half_width = abs(dot(wide, normal));
     aside = (half_width + 0.5) * (gl_VertexID % 2 == 0 ? -1.0 : 1.0);
     middle.xy += normal * aside / half_screen * middle.w;
+#ifdef ORGANS
+    if (is_small) {
+        half_length = 0.5 * length(run) / (middle.w * middle.w);
+        onward = (2.0 * t - 1.0) * (half_length + 0.5);
+        middle.xy += vec2(normal.y, -normal.x) * (t - 0.5) / half_screen * middle.w;
+    }
+#endif
     return middle;
 }
 #endif
@@ -177,6 +201,9 @@ void leave_out() {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     color = vec3(0.0);
     aside = half_width = shown = 0.0;
+#ifdef ORGANS
+    onward = half_length = 0.0;
+#endif
 #ifdef TOOTHED
     tooth = vec3(0.0);
 #endif
@@ -240,7 +267,7 @@ void main() {
     number = number_at(foot.xz);
 #endif
 #ifdef SOFT
-    gl_Position = widened(point);
+    gl_Position = widened(point, t);
 #else
     gl_Position = clip * vec4(point.place.x + point.across.x, point.place.y, point.place.z + point.across.y, 1.0);
 #endif

@@ -7,6 +7,7 @@ from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.engine.declared.plant import Head
 from tallgrass.engine.declared.quality import PRESETS
 from tallgrass.systems.grow.bend import spine
+from tallgrass.systems.grow.headed import headed
 from tallgrass.systems.grow.organs import HEADS, any_heads
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.show.carpet.heads import HEIGHTS, HIGHEST, profile_of
@@ -59,3 +60,17 @@ def test_f3_petals_behind_petals_do_not_count_again() -> None:
 def test_f3_a_bush_hides_the_more_of_itself_the_more_leaves_it_has() -> None:
     few, many = (grown(plant="shrub", leaves=leaves, head={"form": "spike"}) for leaves in (1, 6))
     assert profile_of(many)[0, 0] < profile_of(few)[0, 0]
+
+
+@pytest.mark.parametrize(("petals", "layers"), [(4, (1.2, 2.2)), (24, (2.0, 4.0))])
+def test_f3_an_open_disc_is_a_disc_from_above_and_flat_from_the_side(petals: int, layers: tuple[float, float]) -> None:
+    head = Head(petals=petals, size=[0.08, 0.08], open=1.0).model_dump()
+    found = headed(grown(plant="flower", leaves=0, lean=0, head=head))
+    assert found is not None
+    assert found.above == pytest.approx(np.pi * 0.04**2, rel=0.4)
+    assert found.aside < 0.5 * found.above
+    assert layers[0] < found.layers < layers[1]
+
+
+def test_f3_what_bears_no_heads_is_told_to_bear_none() -> None:
+    assert headed(grown(blades=40)) is None
