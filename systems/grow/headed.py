@@ -49,7 +49,8 @@ def headed(growth: Growth, /) -> Headed | None:
         seen = [_seen(corners[..., axes]) for axes in ([0, 2], [0, 1], [2, 1])]
         hides += seen[0][0], 0.5 * (seen[1][0] + seen[2][0])
         covers += seen[0][1], 0.5 * (seen[1][1] + seen[2][1])
-    return Headed(*(hides / heads).tolist(), max(float(covers.sum() / hides.sum()), 1.0))
+    above, aside = (hides / heads).tolist()
+    return Headed(above, aside, max(float(covers.sum() / hides.sum()), 1.0))
 
 
 def _of_heads(blades: Blades, /) -> NDArray[np.intp]:

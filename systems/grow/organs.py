@@ -56,6 +56,9 @@ a shrub's short twig with its leaves. Both give way as what they stand on does, 
 HEADS: Final = (PETAL, EYE, BUD, RAY, TUFT, FLORETS)
 """Those that heads are made of."""
 
+AT_TIPS: Final = (PETAL, EYE, BUD, RAY)
+"""Those of them that stand on the tip of a stem, over one another."""
+
 TONES: Final = np.array([organ.tones for organ in ORGANS])
 """By organ: tone at its root and at its tip, shape (organs, 2)."""
 

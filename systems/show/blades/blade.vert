@@ -198,7 +198,7 @@ void main() {
     }
     lit = bundled(light, tilt);
 #if defined(ORGANS) && defined(STORED)
-    if (is_of_head(int(blade.organ)))
+    if (is_at_tip(int(blade.organ)))
         stands.w *= uncovered(kinds[k].head, foot.xyz - eye);
 #endif
 #ifdef TOOTHED

@@ -1,4 +1,4 @@
-// Heads as small as pixels. What they are made of hides itself; but where each of it covers a part of a pixel, blending takes it
+// Heads as small as pixels, on tips of stems. What they are made of hides itself; but where each of it covers a part of a pixel, blending takes it
 // to lie anywhere in there, and all together would hide more than the head does.
 #include "lib/frame.glsl"
 

@@ -4,8 +4,8 @@ bool is_blade(int organ) {
     return organ == BLADE_ITSELF;
 }
 
-bool is_of_head(int organ) {
-    return (OF_HEADS >> organ & 1) != 0;
+bool is_at_tip(int organ) {
+    return (AT_TIPS >> organ & 1) != 0;
 }
 
 const vec2 tones[ORGANS] = TONES;

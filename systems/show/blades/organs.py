@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ...grow.organs import BLADE, GIVES, HEADS, KNOTS, ORGANS, TEETH, TONES, WIDTHS
+from ...grow.organs import AT_TIPS, BLADE, GIVES, KNOTS, ORGANS, TEETH, TONES, WIDTHS
 from ...grow.record import Growth
 from .pool import ORGAN
 
@@ -18,7 +18,7 @@ def organ_defines(record: np.dtype[np.void], /) -> Mapping[str, str | int]:
         "ORGANS": len(ORGANS),
         "KNOTS": KNOTS,
         "BLADE_ITSELF": BLADE,
-        "OF_HEADS": sum(1 << organ for organ in HEADS),
+        "AT_TIPS": sum(1 << organ for organ in AT_TIPS),
         "TONES": _literal("vec2", [f"vec2({_listed(row)})" for row in TONES]),
         "GIVES": _literal("float", [_listed(GIVES)]),
         "WIDTHS": _literal("float", [_listed(WIDTHS.reshape(-1))]),

@@ -35,8 +35,8 @@ out vec3 tooth;  // which of them, from the root on; from left, -1, to right, 1;
 noperspective out float aside;  // from the middle line [pixel]
 noperspective out float half_width;  // of the ribbon [pixel]
 #ifdef ORGANS
-noperspective out float onward;       // from its middle [pixel]
-flat out float half_length;           // [pixel]
+noperspective out float onward;  // from its middle [pixel]
+flat out float half_length;  // [pixel]
 #endif
 #ifdef PARTED
 flat out float hides;  // coverage from which on a pixel counts as hidden behind it
@@ -104,7 +104,7 @@ struct Point {
 const float NEAREST = 0.15;  // distance from the eye below which a ribbon is as wide as it is [m]
 const float UNEDGED = 8.0;  // how wide it counts there, and how long where its ends are not soft [pixel]
 #ifdef ORGANS
-const float SMALL = 4.0;  // length up to which parts of heads are drawn straight, and with soft ends [pixel]
+const float SMALL = 4.0;  // length up to which what stands on the tip of a stem is drawn straight, and with soft ends [pixel]
 #endif
 
 #ifdef SOFT
@@ -122,7 +122,7 @@ vec4 widened(Point point, float t) {
     }
     vec3 along = point.tangent;
 #ifdef ORGANS
-    bool is_small = is_of_head(int(stands.z)) && foot.w * pixels_a_metre() < SMALL * middle.w;
+    bool is_small = is_at_tip(int(stands.z)) && foot.w * pixels_a_metre() < SMALL * middle.w;
     if (is_small)
         along = posture(low.w, lie_of.xy, 1.0).place * foot.w;
 #endif
