@@ -36,12 +36,17 @@ float coarser_heads(float across, float slope) {
 #endif
 
 // The texel of images from a layer on, whose grain is so far from the mean, of how far it is in images.
-Texel texel_from(float layer, Patch own, Reading read, float on_level, float grain) {
+Texel texel_from(float layer, int kind, Patch own, Reading read, float on_level, float grain) {
     layer += float((own.model * SLOPES + read.elevation) * HEADINGS + own.side);
     float next = layer + float(HEADINGS);
     vec4 mean_high = layer_mean(images, int(next), stock.z);
     vec4 mean = mix(layer_mean(images, int(layer), stock.z), mean_high, read.next);
     vec4 low = layer_at(images, vec3(read.low, layer), read.level), high = layer_at(images, vec3(read.high, next), read.level);
+#ifdef HEADS
+    // Between what is scattered there is nothing, which cannot be less than that: more grain would be more of it in the mean.
+    if (OF(bears, kind) > 0.0)
+        grain = mix(min(grain, 1.0), grain, mean.a);
+#endif
     float fill = filled(mean_high.a, read.elevation, on_level, mean.a);
     vec4 image = (mean + (mix(low, high, read.next) - mean) * grain) * fill;
     image.a = clamp(image.a, 0.0, 1.0);
@@ -61,12 +66,12 @@ Texel together(Texel one, Texel other, float part) {
 // The texel of a kind, and of what it is to be as far as it has become that. Programs that are made for none are told so by PLAIN.
 Texel texel_of(int kind, Patch own, Reading read, float on_level, float grain) {
 #ifdef PLAIN
-    return texel_from(OF(first, kind), own, read, on_level, grain);
+    return texel_from(OF(first, kind), kind, own, read, on_level, grain);
 #else
     float part = OF(came, kind);
-    Texel texel = texel_from(part < 1.0 ? OF(first, kind) : OF(coming, kind), own, read, on_level, grain);
+    Texel texel = texel_from(part < 1.0 ? OF(first, kind) : OF(coming, kind), kind, own, read, on_level, grain);
     if (part > 0.0 && part < 1.0)
-        texel = together(texel, texel_from(OF(coming, kind), own, read, on_level, grain), part);
+        texel = together(texel, texel_from(OF(coming, kind), kind, own, read, on_level, grain), part);
     return texel;
 #endif
 }
