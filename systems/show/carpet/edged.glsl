@@ -70,6 +70,7 @@ float below_top(Way way, float at) {
 float enters(Way way, out bool aside) {
     float most = min(to_ground(way), FARTHEST_ENTERED), step = most / clamp(min(ceil(most / SHORTEST_STEP), way.pixels), 1.0, STEPS);
     float at = 0.0, below, number = 0.0, high = way.high;
+    aside = false;
     while ((below = below_top(way, at)) < 0.0) {
         if (++number > MOST_STEPS || at >= FARTHEST_ENTERED || high <= 0.0 || high >= OUT_OF_IT * way.high)
             return -1.0;
@@ -77,7 +78,6 @@ float enters(Way way, out bool aside) {
         at += step;
         high = over_ground(way, at);
     }
-    aside = false;
     // On even grass it came from above; at an edge it comes in from the side.
     float outside = max(at - step, 0.0), above = clamp(at - below / max(way.slope, FLATTEST), outside, at);
     if (below_top(way, above) >= -ROUNDED * way.high)

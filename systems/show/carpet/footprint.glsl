@@ -1,4 +1,5 @@
 // The footprint of a pixel on the ground.
+#include "lib/least.glsl"
 
 const float STRETCH = 5.0;  // how many times longer than wide it counts as at most
 
@@ -6,5 +7,5 @@ const float STRETCH = 5.0;  // how many times longer than wide it counts as at m
 // looks there.
 float narrowed(vec2 dx, vec2 dy) {
     float one = dot(dx, dx), other = dot(dy, dy), longer = max(one, other);
-    return sqrt(max(min(one, other) / longer, 1.0 / (STRETCH * STRETCH)));
+    return sqrt(max(min(one, other) / max(longer, LEAST_SQUARE), 1.0 / (STRETCH * STRETCH)));
 }

@@ -125,7 +125,7 @@ Reading reading(Patch own, Sight sight, vec2 at, float tall, float elevation) {
     vec2 dx = leant_back(sight.dx, sight.heading, leans) * patches_a_metre, dy = leant_back(sight.dy, sight.heading, leans) * patches_a_metre;
     float across = max(max(abs(dot(dx, beside)), abs(dot(dy, beside))), THINNEST_PIXEL);
     // Over a crest a line of sight meets plants one by one, as on level ground.
-    float finer = SHARP * clamp(sight.slope / sight.on_level, LONGEST.x, LONGEST.y);
+    float finer = SHARP * clamp(sight.slope / max(sight.on_level, TINY), LONGEST.x, LONGEST.y);
     finer *= inversesqrt(max(1.0 + dot(leans, sight.heading), SHORTEST));
     float level = log2(across * finer * float(textureSize(images, 0).x));
     return Reading(low, elevation - float(low), rotated(here + sight.heading * longer.x, turn) + 0.5,
