@@ -251,15 +251,19 @@ class Plots:
         return where, self.pages[used]
 
     def resume(self, where: Ints, pages: Values, /) -> None:
-        """Be what `saved` returned of a map of as many channels; plots off the terrain are left out."""
+        """Be what `saved` returned of a map of as many channels; plots off the terrain are left out.
+
+        There are as many pages as before at least: who has made anything of those looks at each of them again.
+        """
         if not (self.any or len(where)):
             return
         count = self.count + 1
         at = where[:, :2] + (self.half[1], self.half[0])
         kept = ((at >= 0) & (at < (2 * self.half[1], 2 * self.half[0]))).all(axis=1)
-        self._index, self._free, self._alike = None, [], {}
-        self.pages, self.written = pages.copy(), np.full(len(pages), count, np.int64)
-        self._uses = np.bincount(where[kept, 2], minlength=len(pages)).astype(np.int64)
+        most = max(len(pages), len(self.written))
+        self._index, self._free, self._alike = None, [*range(len(pages), most)], {}
+        self.pages, self.written = np.append(pages, self.pages[len(pages) : most], axis=0), np.full(most, count)
+        self._uses = np.bincount(where[kept, 2], minlength=most).astype(np.int64)
         if kept.any():
             self.index[at[kept, 0], at[kept, 1]] = where[kept, 2]
             (top, left), (bottom, right) = at[kept].min(axis=0).tolist(), at[kept].max(axis=0).tolist()

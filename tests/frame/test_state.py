@@ -1,6 +1,7 @@
 """Pictures of a prairie whose time was set, and of one that was restored: those of one that came there (F4, N5)."""
 
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any
 
 import esper
@@ -68,6 +69,24 @@ def test_n5_a_restored_prairie_shows_the_same_picture_to_the_bit(stage: Stage, l
     np.testing.assert_array_equal(shown, due)
     assert np.abs(due - before).max() > 40.0
     other.release()
+
+
+def test_n5_a_state_from_before_most_of_it_was_mown_shows_the_same_in_the_prairie_that_went_on(
+    stage: Stage, load: Load, camera: Aim
+) -> None:
+    aim, played = camera(0.0, 4.0, 18.0, pitch=-18), load(SCENE, live=False)
+    states, pictures = [played.state()], [stage.shot(played, aim)]
+    for x in (-4.0, 4.0):
+        played.cut(Footprint(radius=3.0), 0.1, pose=Pose(x, 4.0))
+        states.append(played.state())
+        pictures.append(stage.shot(played, aim))
+    assert min(np.abs(after - before).max() for before, after in pairwise(pictures)) > 20.0
+    for state, due in zip(states[1::-1], pictures[1::-1], strict=True):
+        played.restore(state)
+        played.viewers.forget("main")
+        np.testing.assert_array_equal(stage.shot(played, aim), due)
+    played.clear(Footprint(radius=4.0), pose=Pose(0.0, 4.0))
+    assert np.abs(stage.shot(played, aim) - pictures[0]).max() > 40.0
 
 
 DAY = LITTLE + "light: { hour: 12, hours_per_minute: 2 }\n"
